@@ -1,1 +1,5 @@
-//! x
+//! Morphospace: the space of all forms between given forms.
+
+pub mod geometry;
+pub mod mesh;
+pub mod progress;

@@ -1,0 +1,91 @@
+//! Axis-parallel boxes.
+
+use super::DVec2;
+
+/// A closed axis-parallel box; `min` is at most `max` in both coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lower left corner.
+    pub min: DVec2,
+    /// Upper right corner.
+    pub max: DVec2,
+}
+
+impl Bounds {
+    /// The smallest box around the points; `None` for no points.
+    ///
+    /// ```
+    /// use morphospace::geometry::{Bounds, DVec2};
+    /// let b = Bounds::of([DVec2::ZERO, DVec2::new(2.0, 1.0)]).expect("two points");
+    /// assert_eq!(b.size(), DVec2::new(2.0, 1.0));
+    /// ```
+    pub fn of(points: impl IntoIterator<Item = DVec2>) -> Option<Self> {
+        let mut points = points.into_iter();
+        let first = points.next()?;
+        Some(points.fold(Self::at(first), |b, p| Self {
+            min: b.min.min(p),
+            max: b.max.max(p),
+        }))
+    }
+
+    /// The box that holds one point.
+    #[must_use]
+    pub const fn at(p: DVec2) -> Self {
+        Self { min: p, max: p }
+    }
+
+    /// Width and height.
+    #[must_use]
+    pub fn size(&self) -> DVec2 {
+        self.max - self.min
+    }
+
+    /// The midpoint.
+    #[must_use]
+    pub fn centre(&self) -> DVec2 {
+        self.min.midpoint(self.max)
+    }
+
+    /// Length of the diagonal.
+    #[must_use]
+    pub fn diameter(&self) -> f64 {
+        self.size().length()
+    }
+
+    /// The smallest box around both.
+    #[must_use]
+    pub fn union(&self, other: &Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// Grown by `by` on every side; a negative `by` shrinks to the centre at
+    /// most.
+    #[must_use]
+    pub fn padded(&self, by: f64) -> Self {
+        let centre = self.centre();
+        Self {
+            min: (self.min - by).min(centre),
+            max: (self.max + by).max(centre),
+        }
+    }
+
+    /// Whether `p` lies in the closed box.
+    #[must_use]
+    pub fn contains(&self, p: DVec2) -> bool {
+        p.cmpge(self.min).all() && p.cmple(self.max).all()
+    }
+
+    /// The corners, counter-clockwise from the lower left.
+    #[must_use]
+    pub fn corners(&self) -> [DVec2; 4] {
+        [
+            self.min,
+            DVec2::new(self.max.x, self.min.y),
+            self.max,
+            DVec2::new(self.min.x, self.max.y),
+        ]
+    }
+}

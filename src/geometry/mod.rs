@@ -1,0 +1,21 @@
+//! Points, matrices, polygons and exact predicates: the plane everything
+//! else stands in.
+//!
+//! All coordinates are `f64` and **y points up**; images and SVG are flipped
+//! where they are read and written, nowhere else. Angles are radians,
+//! counter-clockwise positive.
+
+mod bounds;
+mod polar;
+mod predicates;
+mod region;
+mod ring;
+mod similarity;
+
+pub use bounds::Bounds;
+pub use glam::{DMat2, DVec2};
+pub use polar::{Polar, SymmetricEigen};
+pub use predicates::{orient2d, twice_signed_area};
+pub use region::{FillRule, Region, Regions, RegionsError};
+pub use ring::{Ring, RingError};
+pub use similarity::{Similarity, SimilarityError};

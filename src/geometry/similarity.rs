@@ -1,0 +1,82 @@
+//! Similarities: how one design is laid over another.
+
+use super::{DMat2, DVec2};
+use serde::{Deserialize, Serialize};
+
+/// A mirror, then a scale, then a rotation about the origin, then an offset.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Similarity {
+    /// Moved by this much at the end, in the design's units.
+    pub offset: DVec2,
+    /// Enlarged by this factor; finite and positive.
+    pub scale: f64,
+    /// Turned counter-clockwise, in radians.
+    pub rotation: f64,
+    /// Left and right exchanged first.
+    pub mirror: bool,
+}
+
+/// A similarity that would not keep shapes finite.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SimilarityError {
+    /// The scale is zero, negative or not finite.
+    #[error("the scale {0} is not a positive number; give one above zero")]
+    Scale(f64),
+    /// The offset or the rotation is not finite.
+    #[error("the offset and the rotation of a placement must be finite numbers")]
+    NotFinite,
+}
+
+impl Default for Similarity {
+    fn default() -> Self {
+        Self::IDENTITY
+    }
+}
+
+impl Similarity {
+    /// Leaves everything where it is.
+    pub const IDENTITY: Self = Self {
+        offset: DVec2::ZERO,
+        scale: 1.0,
+        rotation: 0.0,
+        mirror: false,
+    };
+
+    /// Checks that the map is finite and can be inverted.
+    ///
+    /// # Errors
+    /// [`SimilarityError`] names the number that is wrong.
+    pub fn checked(self) -> Result<Self, SimilarityError> {
+        if !(self.scale.is_finite() && self.scale > 0.0) {
+            return Err(SimilarityError::Scale(self.scale));
+        }
+        if !(self.offset.is_finite() && self.rotation.is_finite()) {
+            return Err(SimilarityError::NotFinite);
+        }
+        Ok(self)
+    }
+
+    /// The linear part; its determinant is negative when mirrored.
+    #[must_use]
+    pub fn linear(&self) -> DMat2 {
+        let flip = if self.mirror { -1.0 } else { 1.0 };
+        DMat2::from_angle(self.rotation)
+            * DMat2::from_diagonal(DVec2::new(flip * self.scale, self.scale))
+    }
+
+    /// Where `p` goes.
+    ///
+    /// ```
+    /// use morphospace::geometry::{DVec2, Similarity};
+    /// let s = Similarity { scale: 2.0, offset: DVec2::X, ..Similarity::IDENTITY };
+    /// assert_eq!(s.apply(DVec2::new(1.0, 1.0)), DVec2::new(3.0, 2.0));
+    /// ```
+    #[must_use]
+    pub fn apply(&self, p: DVec2) -> DVec2 {
+        if *self == Self::IDENTITY {
+            return p; // exact, so that designs as drawn keep their last bit
+        }
+        self.linear() * p + self.offset
+    }
+}

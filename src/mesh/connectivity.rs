@@ -1,0 +1,190 @@
+//! Which faces meet at which edges: half-edges and their twins.
+//!
+//! Half-edge `3 f + k` runs from corner `k` of face `f` to the next corner.
+//! Guaranteed: an edge has one face or two, and two run it in opposite
+//! directions. Vertices where several fans of faces touch are allowed.
+
+/// Twins of the half-edges of a list of faces.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Connectivity {
+    twins: Vec<u32>,
+}
+
+/// Faces that do not meet edge to edge. Numbers start at 1 in messages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ConnectivityError {
+    /// Three faces or more at one edge.
+    #[error("more than two faces meet at the edge between vertices {} and {}; remove the extra ones", u64::from(.0[0]) + 1, u64::from(.0[1]) + 1)]
+    TooManyFaces([u32; 2]),
+    /// Two faces run their common edge in the same direction.
+    #[error("faces {} and {} are wound in opposite directions; reverse the vertices of one", .0[0] + 1, .0[1] + 1)]
+    Opposed([usize; 2]),
+}
+
+/// No half-edge: the other side of the boundary.
+const NONE: u32 = u32::MAX;
+
+fn next(h: u32) -> u32 {
+    if h % 3 == 2 { h - 2 } else { h + 1 }
+}
+
+impl Connectivity {
+    /// Pairs the half-edges, in O(n log n).
+    ///
+    /// # Errors
+    /// [`ConnectivityError`] if an edge has more than two faces, or two that
+    /// are wound in opposite directions.
+    pub fn new(faces: &[[u32; 3]]) -> Result<Self, ConnectivityError> {
+        let mut edges = sorted_edges(faces);
+        let mut twins = vec![NONE; 3 * faces.len()];
+        for run in edges.chunk_by_mut(|a, b| a.0 == b.0) {
+            match *run {
+                [_] => {}
+                [(_, forward_a, a), (_, forward_b, b)] if forward_a != forward_b => {
+                    twins[a as usize] = b;
+                    twins[b as usize] = a;
+                }
+                [(_, _, a), (_, _, b)] => {
+                    return Err(ConnectivityError::Opposed([a as usize / 3, b as usize / 3]));
+                }
+                [(edge, ..), ..] => return Err(ConnectivityError::TooManyFaces(edge)),
+                [] => unreachable!("runs are not empty"),
+            }
+        }
+        Ok(Self { twins })
+    }
+
+    /// The face across the edge from corner `k` to the next one of `face`.
+    #[must_use]
+    pub fn neighbour(&self, face: usize, k: usize) -> Option<usize> {
+        match self.twins[3 * face + k] {
+            NONE => None,
+            twin => Some(twin as usize / 3),
+        }
+    }
+
+    /// For each face the number of its dual component, counted from 0: faces
+    /// of one component are joined across edges; a common vertex alone does
+    /// not join.
+    #[must_use]
+    pub fn dual_components(&self) -> Vec<u32> {
+        let faces = self.twins.len() / 3;
+        let mut label = vec![NONE; faces];
+        let mut count = 0;
+        let mut stack = Vec::new();
+        for seed in 0..faces {
+            if label[seed] != NONE {
+                continue;
+            }
+            label[seed] = count;
+            stack.push(seed);
+            while let Some(face) = stack.pop() {
+                for other in (0..3).filter_map(|k| self.neighbour(face, k)) {
+                    if label[other] == NONE {
+                        label[other] = count;
+                        stack.push(other);
+                    }
+                }
+            }
+            count += 1;
+        }
+        label
+    }
+
+    /// The closed boundary walks as vertex indices, in the direction in which
+    /// the faces run them. A vertex where several fans touch is passed once
+    /// for each.
+    #[must_use]
+    pub fn boundary_loops(&self, faces: &[[u32; 3]]) -> Vec<Vec<u32>> {
+        let from = |h: u32| faces[h as usize / 3][h as usize % 3];
+        let mut seen = vec![false; self.twins.len()];
+        let mut loops = Vec::new();
+        for start in 0..self.twins.len() {
+            if self.twins[start] != NONE || seen[start] {
+                continue;
+            }
+            let mut walk = Vec::new();
+            let mut h = start as u32;
+            while !seen[h as usize] {
+                seen[h as usize] = true;
+                walk.push(from(h));
+                h = self.next_on_boundary(h);
+            }
+            loops.push(walk);
+        }
+        loops
+    }
+
+    /// Turns about the end of a boundary half-edge, inside its fan, to the
+    /// boundary half-edge that leaves it.
+    fn next_on_boundary(&self, h: u32) -> u32 {
+        let mut out = next(h);
+        while self.twins[out as usize] != NONE {
+            out = next(self.twins[out as usize]);
+        }
+        out
+    }
+
+    /// The pairing after every face (a, b, c) has become (a, c, b).
+    pub(crate) fn reversed(&self) -> Self {
+        // Corner k now starts the edge that used to end there: 0 → 2, 1 → 1, 2 → 0.
+        let moved = |h: u32| h - h % 3 + (2 - h % 3);
+        let mut twins = vec![NONE; self.twins.len()];
+        for (h, &twin) in self.twins.iter().enumerate() {
+            if twin != NONE {
+                twins[moved(h as u32) as usize] = moved(twin);
+            }
+        }
+        Self { twins }
+    }
+}
+
+/// (edge with the smaller vertex first, whether run that way, half-edge).
+fn sorted_edges(faces: &[[u32; 3]]) -> Vec<([u32; 2], bool, u32)> {
+    let mut edges = Vec::with_capacity(3 * faces.len());
+    for (f, face) in faces.iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (face[k], face[(k + 1) % 3]);
+            edges.push(([a.min(b), a.max(b)], a < b, (3 * f + k) as u32));
+        }
+    }
+    edges.sort_unstable();
+    edges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_triangles_have_one_loop_of_four() {
+        let faces = [[0, 1, 2], [0, 2, 3]];
+        let c = Connectivity::new(&faces).expect("manifold");
+        assert_eq!(c.boundary_loops(&faces), vec![vec![0, 1, 2, 3]]);
+        assert_eq!(c.neighbour(0, 2), Some(1));
+        assert_eq!(c.neighbour(0, 0), None);
+        assert_eq!(c.dual_components(), vec![0, 0]);
+        let flipped = [[0, 2, 1], [0, 3, 2]];
+        assert_eq!(Connectivity::new(&flipped), Ok(c.reversed()));
+    }
+
+    #[test]
+    fn a_pinch_separates_loops_and_dual_components() {
+        let faces = [[0, 1, 2], [2, 3, 4]];
+        let c = Connectivity::new(&faces).expect("manifold");
+        assert_eq!(c.boundary_loops(&faces).len(), 2);
+        assert_eq!(c.dual_components(), vec![0, 1]);
+    }
+
+    #[test]
+    fn bad_edges_are_named() {
+        assert_eq!(
+            Connectivity::new(&[[0, 1, 2], [0, 1, 3]]),
+            Err(ConnectivityError::Opposed([0, 1]))
+        );
+        assert_eq!(
+            Connectivity::new(&[[0, 1, 2], [1, 0, 3], [0, 1, 4]]),
+            Err(ConnectivityError::TooManyFaces([0, 1]))
+        );
+    }
+}
