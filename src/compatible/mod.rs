@@ -1,0 +1,257 @@
+//! Compatible triangulation: one list of faces, two embeddings.
+//!
+//! [`CompatibleMesh`] guarantees that every face is positively oriented in
+//! both embeddings, by exact predicates, so that each local map has a
+//! positive determinant. It does not promise that faces do not overlap: a
+//! spiral may lie over itself.
+
+mod elements;
+
+pub use elements::{BarElement, CompatibleError, Which};
+
+use crate::geometry::{Bounds, DVec2};
+use crate::mesh::{Connectivity, Subdivision, TooManyVertices, TriangleMesh, check_faces};
+use std::sync::Arc;
+
+/// One connectivity with its two embeddings.
+#[derive(Clone, Debug)]
+pub struct CompatibleMesh {
+    faces: Arc<[[u32; 3]]>,
+    source: Vec<DVec2>,
+    target: Vec<DVec2>,
+    /// Two-point elements: bars that lie in no panel.
+    elements: Vec<BarElement>,
+    connectivity: Connectivity,
+}
+
+impl CompatibleMesh {
+    /// Joins faces and two embeddings of their vertices, with bars that lie
+    /// in no face as further elements. Faces that are clockwise in both
+    /// embeddings are turned round.
+    ///
+    /// # Errors
+    /// [`CompatibleError`] if the embeddings differ in number, a face is not
+    /// positive in both, or a vertex is held by nothing.
+    ///
+    /// ```
+    /// use morphospace::{compatible::CompatibleMesh, geometry::DVec2};
+    /// let source = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
+    /// let target = source.iter().map(|&p| 2.0 * p).collect();
+    /// let mesh = CompatibleMesh::new(vec![[0, 1, 2]], source, target, vec![])?;
+    /// assert_eq!(mesh.faces().len(), 1);
+    /// # Ok::<(), morphospace::compatible::CompatibleError>(())
+    /// ```
+    pub fn new(
+        faces: Vec<[u32; 3]>,
+        source: Vec<DVec2>,
+        target: Vec<DVec2>,
+        elements: Vec<BarElement>,
+    ) -> Result<Self, CompatibleError> {
+        if source.len() != target.len() {
+            return Err(CompatibleError::VertexCounts([source.len(), target.len()]));
+        }
+        elements::check_points(&source, Which::Source)?;
+        elements::check_points(&target, Which::Target)?;
+        check_faces(&faces, source.len())?;
+        elements::check_elements(&elements, &source, &target)?;
+        let faces = elements::oriented(faces, &source, &target)?;
+        elements::check_held(&faces, &elements, source.len())?;
+        let connectivity = Connectivity::new(&faces).map_err(crate::mesh::MeshError::from)?;
+        Ok(Self {
+            faces: faces.into(),
+            source,
+            target,
+            elements,
+            connectivity,
+        })
+    }
+
+    /// Two meshes whose faces are the same, number by number.
+    ///
+    /// # Errors
+    /// [`CompatibleError`] names the first face that differs, or what
+    /// [`Self::new`] finds.
+    pub fn from_meshes(
+        source: &TriangleMesh,
+        target: &TriangleMesh,
+    ) -> Result<Self, CompatibleError> {
+        let (a, b) = (source.faces(), target.faces());
+        if a.len() != b.len() {
+            return Err(CompatibleError::FaceCounts([a.len(), b.len()]));
+        }
+        if let Some(face) = (0..a.len()).find(|&f| !same_face(a[f], b[f])) {
+            return Err(CompatibleError::FacesDiffer(face));
+        }
+        Self::new(
+            a.to_vec(),
+            source.positions().to_vec(),
+            target.positions().to_vec(),
+            Vec::new(),
+        )
+    }
+
+    /// Vertex indices, three a face, counter-clockwise in both embeddings.
+    #[must_use]
+    pub fn faces(&self) -> &Arc<[[u32; 3]]> {
+        &self.faces
+    }
+
+    /// The vertices in the source.
+    #[must_use]
+    pub fn source(&self) -> &[DVec2] {
+        &self.source
+    }
+
+    /// The vertices in the target.
+    #[must_use]
+    pub fn target(&self) -> &[DVec2] {
+        &self.target
+    }
+
+    /// Bars that lie in no face.
+    #[must_use]
+    pub fn elements(&self) -> &[BarElement] {
+        &self.elements
+    }
+
+    /// Which faces meet at which edges.
+    #[must_use]
+    pub fn connectivity(&self) -> &Connectivity {
+        &self.connectivity
+    }
+
+    /// The closed boundary walks of the faces, as vertex indices.
+    #[must_use]
+    pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
+        self.connectivity.boundary_loops(&self.faces)
+    }
+
+    /// The smallest box around both embeddings.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        Bounds::of(self.source.iter().chain(&self.target).copied())
+            .unwrap_or_else(|| unreachable!("a compatible mesh has vertices"))
+    }
+
+    /// The larger of the two embeddings' diameters.
+    #[must_use]
+    pub fn diameter(&self) -> f64 {
+        let of = |points: &[DVec2]| Bounds::of(points.iter().copied()).map_or(0.0, |b| b.diameter());
+        of(&self.source).max(of(&self.target))
+    }
+
+    /// The designs exchanged.
+    #[must_use]
+    pub fn swapped(&self) -> Self {
+        Self {
+            source: self.target.clone(),
+            target: self.source.clone(),
+            ..self.clone()
+        }
+    }
+
+    /// Every face split into four, `rounds` times; neither shape changes,
+    /// vertices keep their numbers and new ones follow.
+    ///
+    /// # Errors
+    /// [`TooManyVertices`] beyond the limit.
+    pub fn subdivided(&self, rounds: u32) -> Result<Self, TooManyVertices> {
+        if rounds == 0 || self.faces.is_empty() {
+            return Ok(self.clone());
+        }
+        let fine = Subdivision::new(&self.faces, self.source.len(), rounds)?;
+        let extend = |points: &[DVec2]| {
+            let mut all = points.to_vec();
+            for &[a, b] in &fine.midpoints {
+                all.push(all[a as usize].midpoint(all[b as usize]));
+            }
+            all
+        };
+        let connectivity = Connectivity::new(&fine.faces)
+            .unwrap_or_else(|_| unreachable!("splitting keeps a manifold"));
+        Ok(Self {
+            source: extend(&self.source),
+            target: extend(&self.target),
+            faces: fine.faces.into(),
+            elements: self.elements.clone(),
+            connectivity,
+        })
+    }
+}
+
+/// The same vertices in the same cyclic order.
+fn same_face(a: [u32; 3], b: [u32; 3]) -> bool {
+    (0..3).any(|k| [b[k], b[(k + 1) % 3], b[(k + 2) % 3]] == a)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> (Vec<[u32; 3]>, Vec<DVec2>) {
+        let points = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        (vec![[0, 1, 2], [0, 2, 3]], points.map(DVec2::from).to_vec())
+    }
+
+    #[test]
+    fn clockwise_in_both_is_turned_round() {
+        let (faces, points) = square();
+        let clockwise = faces.iter().map(|&[a, b, c]| [a, c, b]).collect();
+        let mesh = CompatibleMesh::new(clockwise, points.clone(), points, vec![]).expect("valid");
+        assert_eq!(mesh.boundary_loops(), vec![vec![0, 1, 2, 3]]);
+    }
+
+    #[test]
+    fn mirror_image_flipped_face_and_flat_face_are_told_apart() {
+        let (faces, points) = square();
+        let mirrored = points.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
+        assert_eq!(
+            CompatibleMesh::new(faces.clone(), points.clone(), mirrored, vec![]).map(|_| ()),
+            Err(CompatibleError::Mirrored)
+        );
+        let mut folded = points.clone();
+        folded[3] = DVec2::new(2.0, 0.0);
+        assert_eq!(
+            CompatibleMesh::new(faces.clone(), points.clone(), folded, vec![]).map(|_| ()),
+            Err(CompatibleError::Flipped(vec![1]))
+        );
+        let mut flat = points.clone();
+        flat[3] = DVec2::new(0.5, 0.5);
+        assert_eq!(
+            CompatibleMesh::new(faces, flat, points, vec![]).map(|_| ()),
+            Err(CompatibleError::Flat {
+                which: Which::Source,
+                faces: vec![1]
+            })
+        );
+    }
+
+    #[test]
+    fn a_loose_vertex_is_named() {
+        let (faces, mut points) = square();
+        points.push(DVec2::new(5.0, 5.0));
+        assert_eq!(
+            CompatibleMesh::new(faces, points.clone(), points, vec![]).map(|_| ()),
+            Err(CompatibleError::LooseVertex(4))
+        );
+    }
+
+    #[test]
+    fn subdivision_keeps_area_and_counts() {
+        let (faces, points) = square();
+        let mesh = CompatibleMesh::new(faces, points.clone(), points, vec![]).expect("valid");
+        let fine = mesh.subdivided(2).expect("small");
+        assert_eq!(fine.faces().len(), 32);
+        assert_eq!(fine.source().len(), 25);
+        let area: f64 = fine
+            .faces()
+            .iter()
+            .map(|f| {
+                let [a, b, c] = f.map(|v| fine.source()[v as usize]);
+                crate::geometry::twice_signed_area(a, b, c)
+            })
+            .sum();
+        assert!((area - 2.0).abs() < 1e-12);
+        assert!(mesh.subdivided(20).is_err());
+    }
+}

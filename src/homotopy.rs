@@ -1,0 +1,152 @@
+//! Paths of 2×2 matrices from the identity to a local map M = R(θ) S.
+//!
+//! The paper's eqs. 3 to 5. All of them start at I, end at M, and run
+//! backwards for the inverse map: M_BA(1−t) · M = M_AB(t). Angles are given,
+//! not recomputed, so that θ may exceed π where a shape turns further.
+//!
+//! [`Homotopy::at`] is the plain form, one matrix at a time; the solver
+//! evaluates the same formulas for several faces at once.
+
+use crate::geometry::{DMat2, Polar, SymmetricEigen};
+use serde::{Deserialize, Serialize};
+
+/// How the local map of a face moves from the identity to its end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Homotopy {
+    /// (1−t) I + t M (paper, eq. 3): straight vertex paths; collapses on
+    /// half turns.
+    Linear,
+    /// R(tθ) ((1−t) I + t S) (paper, eq. 4; Alexa, Cohen-Or, Levin 2000):
+    /// turns steadily, no reflection on [0, 1].
+    #[default]
+    Polar,
+    /// R(tθ) exp(t log S) (paper, eq. 5): det M(t) = (det M)^t is positive
+    /// for every t, the one for extrapolation.
+    Exponential,
+    /// ((1−t) I + t R(θ)) ((1−t) I + t S): the linear path after polar
+    /// decomposition, for the paper's figure 7b only.
+    LinearAfterPolar,
+}
+
+impl Homotopy {
+    /// All of them, in the order of the paper.
+    pub const ALL: [Self; 4] = [
+        Self::Linear,
+        Self::LinearAfterPolar,
+        Self::Polar,
+        Self::Exponential,
+    ];
+
+    /// Whether no face can turn over for t in [0, 1].
+    #[must_use]
+    pub const fn keeps_orientation(self) -> bool {
+        matches!(self, Self::Polar | Self::Exponential)
+    }
+
+    /// M(t).
+    ///
+    /// ```
+    /// use morphospace::{geometry::DMat2, homotopy::{Homotopy, LocalMap}};
+    /// let half_turn = LocalMap { angle: std::f64::consts::PI, stretch: DMat2::IDENTITY };
+    /// assert!(Homotopy::Linear.at(&half_turn, 0.5).determinant().abs() < 1e-15);
+    /// assert!((Homotopy::Polar.at(&half_turn, 0.5).determinant() - 1.0).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn at(self, map: &LocalMap, t: f64) -> DMat2 {
+        let from_identity = |m: DMat2| DMat2::IDENTITY * (1.0 - t) + m * t;
+        let turned = DMat2::from_angle(t * map.angle);
+        match self {
+            Self::Linear => from_identity(map.matrix()),
+            Self::Polar => turned * from_identity(map.stretch),
+            Self::Exponential => {
+                turned * SymmetricEigen::of(map.stretch).map(|lambda| lambda.powf(t))
+            }
+            Self::LinearAfterPolar => {
+                from_identity(DMat2::from_angle(map.angle)) * from_identity(map.stretch)
+            }
+        }
+    }
+}
+
+/// A local map by its angle, not reduced modulo 2π, and its stretch.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LocalMap {
+    /// θ in radians, any real.
+    pub angle: f64,
+    /// S, symmetric positive definite.
+    pub stretch: DMat2,
+}
+
+impl LocalMap {
+    /// Of a matrix with a positive determinant, with θ in (−π, π].
+    #[must_use]
+    pub fn of(m: DMat2) -> Self {
+        let Polar { angle, stretch } = Polar::of(m);
+        Self { angle, stretch }
+    }
+
+    /// M = R(θ) S.
+    #[must_use]
+    pub fn matrix(&self) -> DMat2 {
+        DMat2::from_angle(self.angle) * self.stretch
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::DVec2;
+    use proptest::prelude::*;
+
+    fn any_map() -> impl Strategy<Value = LocalMap> {
+        (-10.0f64..10.0, -2.0f64..2.0, 0.1f64..5.0, 0.1f64..5.0).prop_map(|(angle, phi, a, b)| {
+            let v = DMat2::from_angle(phi);
+            let stretch = v * DMat2::from_diagonal(DVec2::new(a, b)) * v.transpose();
+            LocalMap { angle, stretch }
+        })
+    }
+
+    /// The inverse map with the angle −θ: M⁻¹ = S⁻¹ R(−θ) = R(−θ) (R(θ) S⁻¹ R(−θ)).
+    fn inverse(map: &LocalMap) -> LocalMap {
+        let turn = DMat2::from_angle(map.angle);
+        LocalMap {
+            angle: -map.angle,
+            stretch: turn * map.stretch.inverse() * turn.transpose(),
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn every_path_joins_identity_and_map(map in any_map()) {
+            for homotopy in Homotopy::ALL {
+                prop_assert!(homotopy.at(&map, 0.0).abs_diff_eq(DMat2::IDENTITY, 1e-12));
+                prop_assert!(homotopy.at(&map, 1.0).abs_diff_eq(map.matrix(), 1e-12));
+            }
+        }
+
+        #[test]
+        fn the_way_back_is_the_way(map in any_map(), t in -0.5f64..1.5) {
+            for homotopy in [Homotopy::Linear, Homotopy::Polar, Homotopy::Exponential] {
+                let back = homotopy.at(&inverse(&map), 1.0 - t) * map.matrix();
+                prop_assert!(back.abs_diff_eq(homotopy.at(&map, t), 1e-10), "{homotopy:?}");
+            }
+        }
+
+        #[test]
+        fn exponential_never_reflects(map in any_map(), t in -3.0f64..4.0) {
+            let det = Homotopy::Exponential.at(&map, t).determinant();
+            let expected = map.stretch.determinant().powf(t);
+            prop_assert!((det / expected - 1.0).abs() < 1e-9);
+        }
+
+        #[test]
+        fn angles_are_linear_in_time(map in any_map(), t in 0.0f64..1.0) {
+            for homotopy in [Homotopy::Polar, Homotopy::Exponential] {
+                let found = Polar::of(homotopy.at(&map, t)).angle - t * map.angle;
+                let turns = found / std::f64::consts::TAU;
+                prop_assert!((turns - turns.round()).abs() < 1e-10);
+            }
+        }
+    }
+}

@@ -1,0 +1,357 @@
+//! Sparse symmetric positive definite systems that are factored once and
+//! solved in every frame. The only place that names `faer`.
+//!
+//! A [`Cholesky`] is made by a fill-reducing permutation (approximate minimum
+//! degree) and a simplicial or supernodal LLᵀ factorisation, whichever the
+//! operation count favours. [`Cholesky::solve_ordered`] works in elimination
+//! order, allocates nothing and cannot fail, so that callers who assemble in
+//! that order pay for no permutation. Everything runs on the calling thread:
+//! triangular solves get slower, not faster, on several.
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::sparse::linalg::SupernodalThreshold;
+use faer::sparse::linalg::cholesky::simplicial::SimplicialLltRef;
+use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMat, Triplet};
+use faer::{Conj, MatMut, Par, Side};
+
+/// A symmetric matrix under assembly: entries at equal places add up.
+#[derive(Clone, Debug)]
+pub struct SymmetricMatrix {
+    n: usize,
+    /// (row, column, value) with row ≥ column.
+    lower: Vec<Triplet<u32, u32, f64>>,
+}
+
+impl SymmetricMatrix {
+    /// The n×n zero matrix, with room for `entries` additions.
+    #[must_use]
+    pub fn zero(n: usize, entries: usize) -> Self {
+        Self {
+            n,
+            lower: Vec::with_capacity(entries),
+        }
+    }
+
+    /// How many rows and columns there are.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.n
+    }
+
+    /// Adds `value` at (i, j), and by symmetry at (j, i); once on the diagonal.
+    pub fn add(&mut self, i: u32, j: u32, value: f64) {
+        self.lower.push(Triplet::new(i.max(j), i.min(j), value));
+    }
+
+    /// The product with `x`; for tests and residuals.
+    #[must_use]
+    pub fn times(&self, x: &[f64]) -> Vec<f64> {
+        let mut y = vec![0.0; self.n];
+        for entry in &self.lower {
+            let (i, j) = (entry.row as usize, entry.col as usize);
+            y[i] += entry.val * x[j];
+            if i != j {
+                y[j] += entry.val * x[i];
+            }
+        }
+        y
+    }
+}
+
+/// Which of the two forms of factor to make.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FactorKind {
+    /// By the ratio of operations to entries.
+    #[default]
+    Automatic,
+    /// Column by column: less to read for sparse factors.
+    Simplicial,
+    /// By dense blocks of columns.
+    Supernodal,
+}
+
+impl FactorKind {
+    /// Operations per entry from which dense blocks pay. Up to a million
+    /// vertices of a planar mesh two right-hand sides were solved faster
+    /// column by column (`cargo bench --bench frame`), so the bar is high.
+    const SUPERNODAL_FROM: f64 = 1000.0;
+
+    fn threshold(self) -> SupernodalThreshold {
+        match self {
+            Self::Automatic => SupernodalThreshold(Self::SUPERNODAL_FROM),
+            Self::Simplicial => SupernodalThreshold::FORCE_SIMPLICIAL,
+            Self::Supernodal => SupernodalThreshold::FORCE_SUPERNODAL,
+        }
+    }
+}
+
+/// Why a matrix could not be factored.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum FactorError {
+    /// A pivot is zero, negative or NaN.
+    #[error(
+        "the system is not positive definite at unknown {index}; some face is too thin to compute with"
+    )]
+    NotPositiveDefinite {
+        /// The unknown, in the caller's numbering.
+        index: usize,
+    },
+    /// The factor does not fit into memory.
+    #[error("the factorisation does not fit into memory; use a coarser mesh")]
+    OutOfMemory,
+}
+
+/// A factored matrix.
+pub struct Cholesky {
+    symbolic: SymbolicCholesky<u32>,
+    values: Vec<f64>,
+    /// For each unknown its place in elimination order.
+    place: Vec<u32>,
+}
+
+/// The memory that [`Cholesky::solve_ordered`] works in.
+pub struct Workspace(MemBuffer);
+
+impl std::fmt::Debug for Cholesky {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Cholesky")
+            .field("size", &self.place.len())
+            .field("entries", &self.values.len())
+            .finish()
+    }
+}
+
+impl std::fmt::Debug for Workspace {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("Workspace")
+    }
+}
+
+impl Cholesky {
+    /// Factors the matrix: the expensive step.
+    ///
+    /// # Errors
+    /// [`FactorError`] if the matrix is not positive definite or too large.
+    ///
+    /// ```
+    /// use morphospace::linalg::{Cholesky, FactorKind, SymmetricMatrix};
+    /// let mut a = SymmetricMatrix::zero(2, 3);
+    /// a.add(0, 0, 4.0);
+    /// a.add(1, 1, 2.0);
+    /// a.add(0, 1, 1.0);
+    /// let x = Cholesky::factor(&a, FactorKind::Automatic)?.solve(&[5.0, 3.0]);
+    /// assert!((x[0] - 1.0).abs() < 1e-15 && (x[1] - 1.0).abs() < 1e-15);
+    /// # Ok::<(), morphospace::linalg::FactorError>(())
+    /// ```
+    pub fn factor(matrix: &SymmetricMatrix, kind: FactorKind) -> Result<Self, FactorError> {
+        let n = matrix.n;
+        let lower = SparseColMat::<u32, f64>::try_new_from_triplets(n, n, &matrix.lower)
+            .map_err(|_| FactorError::OutOfMemory)?;
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: kind.threshold(),
+            ..CholeskySymbolicParams::default()
+        };
+        let symbolic = factorize_symbolic_cholesky(
+            lower.symbolic(),
+            Side::Lower,
+            SymmetricOrdering::Amd,
+            params,
+        )
+        .map_err(|_| FactorError::OutOfMemory)?;
+        let place = match symbolic.perm() {
+            Some(perm) => perm.arrays().1.to_vec(),
+            None => (0..n as u32).collect(),
+        };
+        let mut factored = Self {
+            values: vec![0.0; symbolic.len_val()],
+            symbolic,
+            place,
+        };
+        factored.factor_values(&lower)?;
+        Ok(factored)
+    }
+
+    fn factor_values(&mut self, lower: &SparseColMat<u32, f64>) -> Result<(), FactorError> {
+        let request = self
+            .symbolic
+            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+        let mut memory = MemBuffer::try_new(request).map_err(|_| FactorError::OutOfMemory)?;
+        let result = self.symbolic.factorize_numeric_llt(
+            &mut self.values,
+            lower.as_ref(),
+            Side::Lower,
+            LltRegularization::default(),
+            Par::Seq,
+            MemStack::new(&mut memory),
+            Default::default(),
+        );
+        let failed_at = match result {
+            Ok(_) => self.values.iter().any(|v| !v.is_finite()).then_some(0),
+            Err(faer::sparse::linalg::LltError::Numeric(
+                faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index },
+            )) => Some(index),
+            Err(faer::sparse::linalg::LltError::Generic(_)) => {
+                return Err(FactorError::OutOfMemory);
+            }
+        };
+        match failed_at {
+            None => Ok(()),
+            Some(place) => Err(FactorError::NotPositiveDefinite {
+                index: self
+                    .place
+                    .iter()
+                    .position(|&p| p as usize == place)
+                    .unwrap_or(place),
+            }),
+        }
+    }
+
+    /// How many unknowns there are.
+    #[must_use]
+    pub fn size(&self) -> usize {
+        self.place.len()
+    }
+
+    /// Entries of the factor: what a solve has to read, twice.
+    #[must_use]
+    pub fn factor_entries(&self) -> usize {
+        self.values.len()
+    }
+
+    /// For each unknown its place in elimination order, as
+    /// [`Self::solve_ordered`] wants right-hand sides and leaves solutions.
+    #[must_use]
+    pub fn place_in_order(&self) -> &[u32] {
+        &self.place
+    }
+
+    /// Memory for [`Self::solve_ordered`] with so many right-hand sides.
+    #[must_use]
+    pub fn workspace(&self, columns: usize) -> Workspace {
+        let request = self.symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq);
+        Workspace(MemBuffer::new(request))
+    }
+
+    /// Solves in place for as many right-hand sides as fit into `rhs`, which
+    /// holds them one after the other, each in elimination order.
+    ///
+    /// # Panics
+    /// If the length of `rhs` is no multiple of [`Self::size`], or if the
+    /// workspace was made for fewer columns or for another matrix.
+    pub fn solve_ordered(&self, rhs: &mut [f64], workspace: &mut Workspace) {
+        let n = self.size();
+        if n == 0 {
+            return;
+        }
+        assert_eq!(rhs.len() % n, 0, "right-hand sides have the matrix's size");
+        let columns = rhs.len() / n;
+        let rhs = MatMut::from_column_major_slice_mut(rhs, n, columns);
+        let stack = MemStack::new(&mut workspace.0);
+        match self.symbolic.raw() {
+            SymbolicCholeskyRaw::Simplicial(symbolic) => {
+                SimplicialLltRef::new(symbolic, &self.values)
+                    .solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+            }
+            SymbolicCholeskyRaw::Supernodal(symbolic) => {
+                SupernodalLltRef::new(symbolic, &self.values)
+                    .solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+            }
+        }
+    }
+
+    /// Solves for one right-hand side in the caller's numbering; allocates.
+    ///
+    /// # Panics
+    /// If the length of `rhs` is not [`Self::size`].
+    #[must_use]
+    pub fn solve(&self, rhs: &[f64]) -> Vec<f64> {
+        assert_eq!(rhs.len(), self.size());
+        let mut ordered = vec![0.0; rhs.len()];
+        for (&place, &value) in self.place.iter().zip(rhs) {
+            ordered[place as usize] = value;
+        }
+        self.solve_ordered(&mut ordered, &mut self.workspace(1));
+        self.place.iter().map(|&p| ordered[p as usize]).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// Gaussian elimination without any cleverness.
+    fn dense_solve(a: &SymmetricMatrix, rhs: &[f64]) -> Vec<f64> {
+        let n = a.size();
+        let unit = |j: usize| (0..n).map(|i| f64::from(u8::from(i == j))).collect::<Vec<_>>();
+        let columns: Vec<Vec<f64>> = (0..n).map(|j| a.times(&unit(j))).collect();
+        let mut m: Vec<Vec<f64>> = (0..n)
+            .map(|i| columns.iter().map(|c| c[i]).chain([rhs[i]]).collect())
+            .collect();
+        for k in 0..n {
+            let pivot = m[k].clone();
+            for row in m.iter_mut().skip(k + 1) {
+                let factor = row[k] / pivot[k];
+                row.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= factor * p);
+            }
+        }
+        let mut x = vec![0.0; n];
+        for k in (0..n).rev() {
+            let sum: f64 = (k + 1..n).map(|j| m[k][j] * x[j]).sum();
+            x[k] = (m[k][n] - sum) / m[k][k];
+        }
+        x
+    }
+
+    /// A grounded Laplacian of a random graph.
+    fn laplacian(n: usize, edges: &[(usize, usize, f64)]) -> SymmetricMatrix {
+        let mut a = SymmetricMatrix::zero(n, 4 * edges.len());
+        for i in 0..n as u32 {
+            a.add(i, i, 0.1);
+        }
+        for &(i, j, w) in edges {
+            let (i, j) = ((i % n) as u32, (j % n) as u32);
+            if i != j {
+                a.add(i, i, w);
+                a.add(j, j, w);
+                a.add(i, j, -w);
+            }
+        }
+        a
+    }
+
+    proptest! {
+        #[test]
+        fn both_factors_equal_dense_elimination(
+            n in 1usize..20,
+            edges in prop::collection::vec((0usize..20, 0usize..20, 0.1f64..10.0), 0..40),
+            rhs in prop::collection::vec(-1.0f64..1.0, 20),
+        ) {
+            let a = laplacian(n, &edges);
+            let slow = dense_solve(&a, &rhs[..n]);
+            for kind in [FactorKind::Simplicial, FactorKind::Supernodal, FactorKind::Automatic] {
+                let fast = Cholesky::factor(&a, kind).expect("positive definite").solve(&rhs[..n]);
+                for (x, y) in fast.iter().zip(&slow) {
+                    prop_assert!((x - y).abs() < 1e-10, "{x} {y}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn an_indefinite_matrix_is_refused() {
+        let mut a = SymmetricMatrix::zero(2, 2);
+        a.add(0, 0, 1.0);
+        a.add(1, 1, -1.0);
+        assert_eq!(
+            Cholesky::factor(&a, FactorKind::Automatic).map(|_| ()),
+            Err(FactorError::NotPositiveDefinite { index: 1 })
+        );
+    }
+}
