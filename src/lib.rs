@@ -1,6 +1,9 @@
 //! Morphospace: the space of all forms between given forms.
 
+pub mod compatible;
 pub mod geometry;
+pub mod homotopy;
 pub mod linalg;
 pub mod mesh;
 pub mod progress;
+pub mod warp;

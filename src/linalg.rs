@@ -9,7 +9,7 @@
 //! triangular solves get slower, not faster, on several.
 
 use faer::dyn_stack::{MemBuffer, MemStack};
-use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::simplicial::SimplicialLltRef;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
@@ -192,13 +192,8 @@ impl Cholesky {
             Default::default(),
         );
         let failed_at = match result {
-            Ok(_) => self.values.iter().any(|v| !v.is_finite()).then_some(0),
-            Err(faer::sparse::linalg::LltError::Numeric(
-                faer::linalg::cholesky::llt::factor::LltError::NonPositivePivot { index },
-            )) => Some(index),
-            Err(faer::sparse::linalg::LltError::Generic(_)) => {
-                return Err(FactorError::OutOfMemory);
-            }
+            Ok(_) => None,
+            Err(LltError::NonPositivePivot { index }) => Some(index),
         };
         match failed_at {
             None => Ok(()),
@@ -234,7 +229,9 @@ impl Cholesky {
     /// Memory for [`Self::solve_ordered`] with so many right-hand sides.
     #[must_use]
     pub fn workspace(&self, columns: usize) -> Workspace {
-        let request = self.symbolic.solve_in_place_scratch::<f64>(columns, Par::Seq);
+        let request = self
+            .symbolic
+            .solve_in_place_scratch::<f64>(columns, Par::Seq);
         Workspace(MemBuffer::new(request))
     }
 
@@ -255,12 +252,20 @@ impl Cholesky {
         let stack = MemStack::new(&mut workspace.0);
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(symbolic) => {
-                SimplicialLltRef::new(symbolic, &self.values)
-                    .solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+                SimplicialLltRef::new(symbolic, &self.values).solve_in_place_with_conj(
+                    Conj::No,
+                    rhs,
+                    Par::Seq,
+                    stack,
+                );
             }
             SymbolicCholeskyRaw::Supernodal(symbolic) => {
-                SupernodalLltRef::new(symbolic, &self.values)
-                    .solve_in_place_with_conj(Conj::No, rhs, Par::Seq, stack);
+                SupernodalLltRef::new(symbolic, &self.values).solve_in_place_with_conj(
+                    Conj::No,
+                    rhs,
+                    Par::Seq,
+                    stack,
+                );
             }
         }
     }
@@ -289,7 +294,11 @@ mod tests {
     /// Gaussian elimination without any cleverness.
     fn dense_solve(a: &SymmetricMatrix, rhs: &[f64]) -> Vec<f64> {
         let n = a.size();
-        let unit = |j: usize| (0..n).map(|i| f64::from(u8::from(i == j))).collect::<Vec<_>>();
+        let unit = |j: usize| {
+            (0..n)
+                .map(|i| f64::from(u8::from(i == j)))
+                .collect::<Vec<_>>()
+        };
         let columns: Vec<Vec<f64>> = (0..n).map(|j| a.times(&unit(j))).collect();
         let mut m: Vec<Vec<f64>> = (0..n)
             .map(|i| columns.iter().map(|c| c[i]).chain([rhs[i]]).collect())
@@ -298,7 +307,9 @@ mod tests {
             let pivot = m[k].clone();
             for row in m.iter_mut().skip(k + 1) {
                 let factor = row[k] / pivot[k];
-                row.iter_mut().zip(&pivot).for_each(|(x, p)| *x -= factor * p);
+                row.iter_mut()
+                    .zip(&pivot)
+                    .for_each(|(x, p)| *x -= factor * p);
             }
         }
         let mut x = vec![0.0; n];

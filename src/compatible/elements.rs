@@ -50,7 +50,9 @@ pub enum CompatibleError {
     #[error(transparent)]
     Mesh(#[from] MeshError),
     /// All faces change sides: one design is a mirror image of the other.
-    #[error("the target is a mirror image of the source; mirror one of them (placement, mirror = true)")]
+    #[error(
+        "the target is a mirror image of the source; mirror one of them (placement, mirror = true)"
+    )]
     Mirrored,
     /// Some faces change sides.
     #[error("{}; move their vertices in one design, or mirror it if nearly all are named", list(.0, "turned over between source and target"))]
@@ -80,11 +82,19 @@ pub enum CompatibleError {
 /// "face 3 is …" or "faces 3, 4, 5 and 9 more are …".
 fn list(faces: &[usize], what: &str) -> String {
     const SHOWN: usize = 5;
-    let names: Vec<String> = faces.iter().take(SHOWN).map(|f| (f + 1).to_string()).collect();
+    let names: Vec<String> = faces
+        .iter()
+        .take(SHOWN)
+        .map(|f| (f + 1).to_string())
+        .collect();
     match faces.len() {
         1 => format!("face {} is {what}", names[0]),
         n if n <= SHOWN => format!("faces {} are {what}", names.join(", ")),
-        n => format!("faces {} and {} more are {what}", names.join(", "), n - SHOWN),
+        n => format!(
+            "faces {} and {} more are {what}",
+            names.join(", "),
+            n - SHOWN
+        ),
     }
 }
 

@@ -136,7 +136,8 @@ impl CompatibleMesh {
     /// The larger of the two embeddings' diameters.
     #[must_use]
     pub fn diameter(&self) -> f64 {
-        let of = |points: &[DVec2]| Bounds::of(points.iter().copied()).map_or(0.0, |b| b.diameter());
+        let of =
+            |points: &[DVec2]| Bounds::of(points.iter().copied()).map_or(0.0, |b| b.diameter());
         of(&self.source).max(of(&self.target))
     }
 

@@ -74,7 +74,10 @@ impl SymmetricEigen {
     pub fn map(&self, f: impl Fn(f64) -> f64) -> DMat2 {
         let (l1, l2) = (f(self.values[0]), f(self.values[1]));
         let (u, v) = (self.axis, self.axis.perp());
-        DMat2::from_cols(u * (l1 * u.x) + v * (l2 * v.x), u * (l1 * u.y) + v * (l2 * v.y))
+        DMat2::from_cols(
+            u * (l1 * u.x) + v * (l2 * v.x),
+            u * (l1 * u.y) + v * (l2 * v.y),
+        )
     }
 }
 

@@ -68,8 +68,7 @@ impl Regions {
     /// ```
     pub fn from_rings(rings: &[Vec<DVec2>], rule: FillRule) -> Result<Self, RegionsError> {
         check_finite(rings)?;
-        let bounds =
-            Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
+        let bounds = Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
         let extent = bounds.size().max_element();
         if extent <= 0.0 || !extent.is_finite() {
             return Err(RegionsError::Empty);
@@ -178,7 +177,10 @@ fn check_finite(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
 /// One cleaned shape, outer contour first; `None` for a sliver.
 fn region_from(shape: Vec<Vec<[f64; 2]>>, origin: DVec2, smallest: f64) -> Option<Region> {
     let mut rings = shape.into_iter().filter_map(|contour| {
-        let points = contour.into_iter().map(|p| DVec2::from(p) + origin).collect();
+        let points = contour
+            .into_iter()
+            .map(|p| DVec2::from(p) + origin)
+            .collect();
         Ring::new(points).ok()
     });
     let outer = oriented(rings.next()?, true);

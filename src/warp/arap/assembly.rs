@@ -1,0 +1,306 @@
+//! Local maps, weights and the matrix of the energy.
+//!
+//! W_T = w_A I one-sided; W_T = ½ (w_A I + w_B (MᵀM)⁻¹) symmetric, which
+//! makes one matrix of the energies of both directions. A bar that lies in no
+//! face is a two-point element: its local map is the similarity that takes
+//! the bar from source to target, and with area weights its energy is
+//! ½ |Δv − e(t)|², an area like length²/2 times a relative stretch squared.
+
+use super::angles::{self, choose_turns};
+use super::{ArapError, ArapOptions, Weights};
+use crate::compatible::CompatibleMesh;
+use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
+use crate::homotopy::LocalMap;
+use crate::linalg::SymmetricMatrix;
+
+/// One face: its local map and W g for its second and third vertex; the first
+/// has minus their sum.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FaceMap {
+    pub map: LocalMap,
+    /// Gradients of the hat functions of the second and third vertex.
+    pub gradients: DMat2,
+    /// W times them.
+    pub weighted: DMat2,
+}
+
+/// One bar in no face.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ElementMap {
+    pub ends: [u32; 2],
+    /// The bar's vector in the source.
+    pub vector: DVec2,
+    pub angle: f64,
+    /// Length in the target by length in the source.
+    pub stretch: f64,
+    pub stiffness: f64,
+}
+
+/// Everything that the energy is made of, independent of t.
+#[derive(Clone, Debug)]
+pub(super) struct LocalMaps {
+    pub faces: Vec<FaceMap>,
+    pub elements: Vec<ElementMap>,
+    /// How many dual components the faces have.
+    pub part_count: usize,
+    /// The rotation of the design as a whole.
+    pub whole_angle: f64,
+    /// Fixed vertex masses: the mean of the normalised lumped areas.
+    pub masses: Vec<f64>,
+}
+
+/// The weight of each face of the subdivided mesh; `None` means by area.
+pub(super) fn face_weights(
+    mesh: &CompatibleMesh,
+    weights: &Weights,
+    subdivisions: u32,
+) -> Result<Option<Vec<f64>>, ArapError> {
+    let faces = mesh.faces().len();
+    let wrong = |problem: String| Err(ArapError::Weights { faces, problem });
+    let children = 4_usize.saturating_pow(subdivisions);
+    match weights {
+        Weights::Area => Ok(None),
+        Weights::Uniform => Ok(Some(vec![1.0; 0])),
+        Weights::PerFace(each) if each.len() != faces => {
+            wrong(format!("{} were given", each.len()))
+        }
+        Weights::PerFace(each) => match each.iter().position(|w| !(w.is_finite() && *w > 0.0)) {
+            Some(bad) => wrong(format!("number {} is {}", bad + 1, each[bad])),
+            None if each.len().saturating_mul(children) > 4 * crate::mesh::MAX_VERTICES => {
+                Err(crate::mesh::TooManyVertices {
+                    rounds: subdivisions,
+                }
+                .into())
+            }
+            // Subdivision lists the children of a face one after the other.
+            None => Ok(Some(
+                each.iter()
+                    .flat_map(|&w| std::iter::repeat_n(w, children))
+                    .collect(),
+            )),
+        },
+    }
+}
+
+impl LocalMaps {
+    pub(super) fn new(
+        mesh: &CompatibleMesh,
+        weights: &Option<Vec<f64>>,
+        options: &ArapOptions,
+    ) -> Result<Self, ArapError> {
+        let areas = Areas::of(mesh);
+        let maps: Vec<DMat2> = mesh.faces().iter().map(|f| local_map(mesh, *f)).collect();
+        let polars: Vec<Polar> = maps.iter().map(|&m| Polar::of(m)).collect();
+        let mut face_angles: Vec<f64> = polars.iter().map(|p| p.angle).collect();
+        angles::make_consistent(mesh.connectivity(), &mut face_angles)?;
+        let part_of = mesh.connectivity().dual_components();
+        let masses = areas.vertex_masses(mesh);
+        let whole_angle = choose_turns(
+            &mut face_angles,
+            &areas.face_masses(),
+            &part_of,
+            best_fit_angle(mesh, &masses),
+            &options.extra_turns,
+        );
+        let faces = (0..maps.len())
+            .map(|f| {
+                let weight = |area: f64| match weights {
+                    None => area,
+                    Some(each) => each.get(f).copied().unwrap_or(1.0),
+                };
+                let sides = [weight(areas.faces[0][f]), weight(areas.faces[1][f])];
+                let w = weight_matrix(maps[f], sides, options.symmetric);
+                let gradients = gradients(corners(mesh.source(), mesh.faces()[f]));
+                let map = LocalMap {
+                    angle: face_angles[f],
+                    stretch: polars[f].stretch,
+                };
+                FaceMap {
+                    map,
+                    gradients,
+                    weighted: w * gradients,
+                }
+            })
+            .collect();
+        let by_area = weights.is_none();
+        let elements = mesh
+            .elements()
+            .iter()
+            .map(|&ends| element_map(mesh, ends, whole_angle, by_area, options.symmetric))
+            .collect();
+        Ok(Self {
+            faces,
+            elements,
+            part_count: part_of.iter().max().map_or(0, |&last| last as usize + 1),
+            whole_angle,
+            masses,
+        })
+    }
+
+    /// K, made regular by grounding one vertex of each connected component.
+    /// The right-hand sides add up to zero over a component, so that a
+    /// grounded vertex stays exactly where it is and the choice of the ground
+    /// has no influence.
+    pub(super) fn matrix(&self, mesh: &CompatibleMesh) -> SymmetricMatrix {
+        let n = mesh.source().len();
+        let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
+        let mut diagonal = vec![0.0; n];
+        for (face, map) in mesh.faces().iter().zip(&self.faces) {
+            let g = with_first(map.gradients);
+            let wg = with_first(map.weighted);
+            for i in 0..3 {
+                diagonal[face[i] as usize] += g[i].dot(wg[i]);
+                for j in 0..=i {
+                    matrix.add(face[i], face[j], g[i].dot(wg[j]));
+                }
+            }
+        }
+        for element in &self.elements {
+            let ([a, b], k) = (element.ends, element.stiffness);
+            diagonal[a as usize] += k;
+            diagonal[b as usize] += k;
+            matrix.add(a, a, k);
+            matrix.add(b, b, k);
+            matrix.add(a, b, -k);
+        }
+        let components = super::drift::components(mesh);
+        let mut grounded = vec![false; n];
+        for (v, &component) in components.iter().enumerate() {
+            if !std::mem::replace(&mut grounded[component as usize], true) {
+                matrix.add(v as u32, v as u32, diagonal[v]);
+            }
+        }
+        matrix
+    }
+}
+
+/// The gradients or weighted gradients of all three vertices.
+pub(super) fn with_first(of_second_and_third: DMat2) -> [DVec2; 3] {
+    let (second, third) = (of_second_and_third.x_axis, of_second_and_third.y_axis);
+    [-second - third, second, third]
+}
+
+fn corners(points: &[DVec2], face: [u32; 3]) -> [DVec2; 3] {
+    face.map(|v| points[v as usize])
+}
+
+fn edges([a, b, c]: [DVec2; 3]) -> DMat2 {
+    DMat2::from_cols(b - a, c - a)
+}
+
+/// Columns: the gradients of the second and third hat function, which are the
+/// rows of the inverse edge matrix.
+fn gradients(corners: [DVec2; 3]) -> DMat2 {
+    edges(corners).inverse().transpose()
+}
+
+/// M = D_Q D_P⁻¹.
+fn local_map(mesh: &CompatibleMesh, face: [u32; 3]) -> DMat2 {
+    edges(corners(mesh.target(), face)) * edges(corners(mesh.source(), face)).inverse()
+}
+
+fn weight_matrix(m: DMat2, [source, target]: [f64; 2], symmetric: bool) -> DMat2 {
+    if !symmetric {
+        return DMat2::IDENTITY * source;
+    }
+    let inverse = m.inverse();
+    (DMat2::IDENTITY * source + (inverse * inverse.transpose()) * target) * 0.5
+}
+
+fn element_map(
+    mesh: &CompatibleMesh,
+    ends: [u32; 2],
+    whole_angle: f64,
+    by_area: bool,
+    symmetric: bool,
+) -> ElementMap {
+    let along = |points: &[DVec2]| points[ends[1] as usize] - points[ends[0] as usize];
+    let (p, q) = (along(mesh.source()), along(mesh.target()));
+    let (length_p, length_q) = (p.length_squared(), q.length_squared());
+    // The weight of a side is length²/2 or 1, and the element's |Δv − e|² is
+    // divided by that side's length².
+    let side = |length: f64| if by_area { 0.5 } else { 1.0 / length };
+    let stiffness = if symmetric {
+        0.5 * (side(length_p) + side(length_q))
+    } else {
+        side(length_p)
+    };
+    ElementMap {
+        ends,
+        vector: p,
+        angle: angles::nearest(p.perp_dot(q).atan2(p.dot(q)), whole_angle),
+        stretch: (length_q / length_p).sqrt(),
+        stiffness,
+    }
+}
+
+/// Areas of faces and, as length²/2, of elements; source, then target.
+struct Areas {
+    faces: [Vec<f64>; 2],
+    elements: [Vec<f64>; 2],
+}
+
+impl Areas {
+    fn of(mesh: &CompatibleMesh) -> Self {
+        let faces = |points: &[DVec2]| {
+            let area = |f: &[u32; 3]| {
+                let [a, b, c] = corners(points, *f);
+                0.5 * twice_signed_area(a, b, c)
+            };
+            mesh.faces().iter().map(area).collect()
+        };
+        let elements = |points: &[DVec2]| {
+            let area =
+                |&[a, b]: &[u32; 2]| 0.5 * points[a as usize].distance_squared(points[b as usize]);
+            mesh.elements().iter().map(area).collect()
+        };
+        Self {
+            faces: [faces(mesh.source()), faces(mesh.target())],
+            elements: [elements(mesh.source()), elements(mesh.target())],
+        }
+    }
+
+    fn total(&self, side: usize) -> f64 {
+        self.faces[side].iter().chain(&self.elements[side]).sum()
+    }
+
+    /// The mean of both sides' shares of each face.
+    fn face_masses(&self) -> Vec<f64> {
+        let (a, b) = (self.total(0), self.total(1));
+        let sides = self.faces[0].iter().zip(&self.faces[1]);
+        sides.map(|(&p, &q)| 0.5 * (p / a + q / b)).collect()
+    }
+
+    fn vertex_masses(&self, mesh: &CompatibleMesh) -> Vec<f64> {
+        let (a, b) = (self.total(0), self.total(1));
+        let mut masses = vec![0.0; mesh.source().len()];
+        for (face, mass) in mesh.faces().iter().zip(self.face_masses()) {
+            face.iter().for_each(|&v| masses[v as usize] += mass / 3.0);
+        }
+        let sides = self.elements[0].iter().zip(&self.elements[1]);
+        for (bar, (&p, &q)) in mesh.elements().iter().zip(sides) {
+            let mass = 0.5 * (p / a + q / b);
+            bar.iter().for_each(|&v| masses[v as usize] += mass / 2.0);
+        }
+        masses
+    }
+}
+
+/// The rotation that best takes the source onto the target, in (−π, π].
+fn best_fit_angle(mesh: &CompatibleMesh, masses: &[f64]) -> f64 {
+    let centroid = |points: &[DVec2]| -> DVec2 {
+        let total: f64 = masses.iter().sum();
+        points
+            .iter()
+            .zip(masses)
+            .map(|(&p, &m)| p * (m / total))
+            .sum()
+    };
+    let (c, d) = (centroid(mesh.source()), centroid(mesh.target()));
+    let (mut sin, mut cos) = (0.0, 0.0);
+    for ((&p, &q), &m) in mesh.source().iter().zip(mesh.target()).zip(masses) {
+        sin += m * (p - c).perp_dot(q - d);
+        cos += m * (p - c).dot(q - d);
+    }
+    sin.atan2(cos)
+}

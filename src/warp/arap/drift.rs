@@ -1,0 +1,160 @@
+//! Where the connected parts are as a whole, which the energy leaves open.
+//!
+//! The design's centroid runs on a straight line C(t), and each part k moves
+//! with the whole, c_k(t) = C(t) + R(tΘ) ((1−t) d_k + t R(−Θ) e_k), with d_k
+//! and e_k its offsets in source and target. (On straight lines of their own,
+//! two parts of a design turned by π would meet.) Centroids use fixed vertex
+//! masses: an area centroid is 0/0 where a path collapses.
+
+use super::PathKind;
+use super::assembly::LocalMaps;
+use crate::compatible::CompatibleMesh;
+use crate::geometry::{DMat2, DVec2};
+
+/// The connected parts and how they drift.
+#[derive(Clone, Debug)]
+pub(super) struct Drift {
+    /// The part of each vertex.
+    component: Vec<u32>,
+    parts: Vec<Part>,
+    /// For each unknown in elimination order: part and share of its mass.
+    shares: Vec<(u32, f64)>,
+    whole_angle: f64,
+    /// The anchor's place in elimination order and its part.
+    anchor: Option<(u32, u32)>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Part {
+    /// d, the offset from the whole's centroid in the source.
+    begin: DVec2,
+    /// R(−Θ) e, the offset in the target turned back.
+    turned_end: DVec2,
+}
+
+impl Part {
+    fn at(&self, t: f64, whole_angle: f64) -> DVec2 {
+        DMat2::from_angle(t * whole_angle) * (self.begin * (1.0 - t) + self.turned_end * t)
+    }
+
+    /// How far from its straight line the part is; exactly 0 at both ends.
+    fn deviation(&self, t: f64, whole_angle: f64) -> DVec2 {
+        let straight = self.begin * (1.0 - t) + self.at(1.0, whole_angle) * t;
+        self.at(t, whole_angle) - straight
+    }
+}
+
+/// For each vertex the number of its connected component; joined by faces and
+/// by bars.
+pub(super) fn components(mesh: &CompatibleMesh) -> Vec<u32> {
+    let mut parent: Vec<u32> = (0..mesh.source().len() as u32).collect();
+    fn root(parent: &mut [u32], mut v: u32) -> u32 {
+        while parent[v as usize] != v {
+            parent[v as usize] = parent[parent[v as usize] as usize];
+            v = parent[v as usize];
+        }
+        v
+    }
+    let face_edges = mesh.faces().iter().flat_map(|&[a, b, c]| [[a, b], [a, c]]);
+    for [a, b] in face_edges.chain(mesh.elements().iter().copied()) {
+        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
+        parent[a.max(b) as usize] = a.min(b);
+    }
+    let mut number = vec![u32::MAX; parent.len()];
+    let mut count = 0;
+    (0..parent.len() as u32)
+        .map(|v| {
+            let r = root(&mut parent, v) as usize;
+            if number[r] == u32::MAX {
+                number[r] = count;
+                count += 1;
+            }
+            number[r]
+        })
+        .collect()
+}
+
+impl Drift {
+    pub(super) fn new(
+        mesh: &CompatibleMesh,
+        maps: &LocalMaps,
+        place: &[u32],
+        path: PathKind,
+    ) -> Self {
+        let component = components(mesh);
+        let count = component.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut mass = vec![0.0; count];
+        for (&part, &m) in component.iter().zip(&maps.masses) {
+            mass[part as usize] += m;
+        }
+        let mut shares = vec![(0, 0.0); place.len()];
+        let mut centres = vec![[DVec2::ZERO; 2]; count];
+        for (v, &part) in component.iter().enumerate() {
+            let share = maps.masses[v] / mass[part as usize];
+            shares[place[v] as usize] = (part, share);
+            centres[part as usize][0] += mesh.source()[v] * share;
+            centres[part as usize][1] += mesh.target()[v] * share;
+        }
+        let anchor = match path {
+            PathKind::Centroid => None,
+            PathKind::Anchor(v) => Some((place[v as usize], component[v as usize])),
+        };
+        Self {
+            parts: parts(&centres, &mass, maps.whole_angle),
+            component,
+            shares,
+            whole_angle: maps.whole_angle,
+            anchor,
+        }
+    }
+
+    /// How many connected parts there are.
+    pub(super) fn part_count(&self) -> usize {
+        self.parts.len()
+    }
+
+    /// The part of each vertex.
+    pub(super) fn components(&self) -> &[u32] {
+        &self.component
+    }
+
+    /// What has to be added to the deviations (all x, all y, in elimination
+    /// order) of each part.
+    pub(super) fn shifts(&self, t: f64, deviation: &[f64], shifts: &mut [DVec2]) {
+        let (dx, dy) = deviation.split_at(deviation.len() / 2);
+        shifts.fill(DVec2::ZERO);
+        for ((&(part, share), &x), &y) in self.shares.iter().zip(dx).zip(dy) {
+            shifts[part as usize] -= DVec2::new(x, y) * share;
+        }
+        for (shift, part) in shifts.iter_mut().zip(&self.parts) {
+            *shift += part.deviation(t, self.whole_angle);
+        }
+        if let Some((at, part)) = self.anchor {
+            let of_anchor = DVec2::new(dx[at as usize], dy[at as usize]) + shifts[part as usize];
+            shifts.iter_mut().for_each(|shift| *shift -= of_anchor);
+        }
+    }
+}
+
+fn parts(centres: &[[DVec2; 2]], mass: &[f64], whole_angle: f64) -> Vec<Part> {
+    if let [_] = centres {
+        return vec![Part::default()]; // the only part is the whole
+    }
+    let total: f64 = mass.iter().sum();
+    let centre = |side: usize| -> DVec2 {
+        let weighted = centres
+            .iter()
+            .zip(mass)
+            .map(|(c, &m)| c[side] * (m / total));
+        weighted.sum()
+    };
+    let (from, to) = (centre(0), centre(1));
+    let back = DMat2::from_angle(-whole_angle);
+    centres
+        .iter()
+        .map(|[begin, end]| Part {
+            begin: *begin - from,
+            turned_end: back * (*end - to),
+        })
+        .collect()
+}

@@ -1,0 +1,461 @@
+//! The identities of the rigidity-preserving interpolation.
+#![expect(clippy::unwrap_used, reason = "tests")]
+
+use super::*;
+use crate::geometry::{DMat2, twice_signed_area};
+use crate::homotopy::LocalMap;
+use crate::progress::Silent;
+use std::f64::consts::{PI, TAU};
+
+const TIMES: [f64; 7] = [-0.3, 0.1, 0.25, 0.5, 0.77, 0.9, 1.4];
+
+/// A strip of `2 * n` faces along (0, 0) to (length, width).
+fn strip(n: usize, length: f64, width: f64) -> (Vec<[u32; 3]>, Vec<DVec2>) {
+    let points = (0..=n)
+        .flat_map(|i| {
+            let x = length * i as f64 / n as f64;
+            [DVec2::new(x, 0.0), DVec2::new(x, width)]
+        })
+        .collect();
+    let faces = (0..n as u32)
+        .flat_map(|i| {
+            let v = 2 * i;
+            [[v, v + 2, v + 3], [v, v + 3, v + 1]]
+        })
+        .collect();
+    (faces, points)
+}
+
+/// A strip and its bent, stretched, sheared image: nothing special about it.
+fn bent_pair() -> CompatibleMesh {
+    let (faces, source) = strip(12, 6.0, 1.0);
+    let target = source
+        .iter()
+        .map(|p| {
+            let angle = 0.4 * p.x;
+            let radius = 3.0 + 1.3 * p.y + 0.1 * p.x;
+            DVec2::new(radius * angle.cos() + 5.0, radius * angle.sin() - 2.0)
+        })
+        .map(|p| DVec2::new(-p.y, p.x)) // counter-clockwise again
+        .collect::<Vec<_>>();
+    let target: Vec<_> = target.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
+    match CompatibleMesh::new(faces.clone(), source.clone(), target.clone(), vec![]) {
+        Ok(mesh) => mesh,
+        Err(_) => {
+            let mirrored = target.iter().map(|p| DVec2::new(-p.x, p.y)).collect();
+            CompatibleMesh::new(faces, source, mirrored, vec![]).unwrap()
+        }
+    }
+}
+
+/// Two strips that share nothing, and a bar that hangs on the first.
+fn parts(target_of: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
+    let (mut faces, mut source) = strip(3, 3.0, 1.0);
+    let first = source.len() as u32;
+    let (more, points) = strip(2, 2.0, 1.0);
+    faces.extend(more.iter().map(|f| f.map(|v| v + first)));
+    source.extend(points.iter().map(|p| *p + DVec2::new(5.0, 2.0)));
+    source.push(DVec2::new(-1.5, 0.5));
+    let hanging = source.len() as u32 - 1;
+    let target = source.iter().map(|&p| target_of(p)).collect();
+    CompatibleMesh::new(faces, source, target, vec![[0, hanging]]).unwrap()
+}
+
+fn film(mesh: &CompatibleMesh, options: &ArapOptions) -> impl FnMut(f64) -> Vec<DVec2> + use<> {
+    let mut placer = Arap::build(mesh, options, &Silent).unwrap().placer();
+    move |t| {
+        placer.place(t);
+        placer.placement().in_frame.clone()
+    }
+}
+
+fn largest_distance(a: &[DVec2], b: &[DVec2]) -> f64 {
+    assert_eq!(a.len(), b.len());
+    a.iter()
+        .zip(b)
+        .map(|(p, q)| p.distance(*q))
+        .fold(0.0, f64::max)
+}
+
+fn with(homotopy: Homotopy) -> ArapOptions {
+    ArapOptions {
+        homotopy,
+        ..ArapOptions::default()
+    }
+}
+
+fn all_options() -> Vec<ArapOptions> {
+    let mut all = Vec::new();
+    for homotopy in Homotopy::ALL {
+        for symmetric in [true, false] {
+            for weights in [Weights::Area, Weights::Uniform] {
+                all.push(ArapOptions {
+                    homotopy,
+                    symmetric,
+                    weights,
+                    ..ArapOptions::default()
+                });
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn ends_are_met_to_the_last_bit() {
+    for mesh in [bent_pair(), parts(|p| DMat2::from_angle(2.0) * p + p * 0.3)] {
+        for mut options in all_options() {
+            for path in [PathKind::Centroid, PathKind::Anchor(3)] {
+                options.path = path;
+                let mut at = film(&mesh, &options);
+                at(0.4); // whatever was shown before leaves no trace
+                assert_eq!(at(0.0), mesh.source(), "{options:?}");
+                assert_eq!(at(1.0), mesh.target(), "{options:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_rigid_target_moves_rigidly_also_in_several_parts() {
+    let (angle, offset) = (2.5, DVec2::new(3.0, -7.0));
+    let rigid = |t: f64| move |p: DVec2| DMat2::from_angle(t * angle) * p + offset * t;
+    let mesh = parts(rigid(1.0));
+    for homotopy in [Homotopy::Polar, Homotopy::Exponential] {
+        let mut at = film(&mesh, &with(homotopy));
+        for t in TIMES {
+            let now = at(t);
+            for (i, p) in mesh.source().iter().enumerate() {
+                for (j, q) in mesh.source().iter().enumerate().skip(i) {
+                    let error = now[i].distance(now[j]) - p.distance(*q);
+                    assert!(
+                        error.abs() < 1e-12 * mesh.diameter(),
+                        "{i} {j} at {t}: {error}"
+                    );
+                }
+            }
+            let turned = (now[1] - now[0]).perp_dot(mesh.source()[1] - mesh.source()[0]);
+            let expected = -(t * angle).sin();
+            assert!((turned - expected).abs() < 1e-11);
+        }
+    }
+}
+
+#[test]
+fn source_equal_to_target_stands_still() {
+    let (faces, points) = strip(5, 4.0, 0.7);
+    let mesh = CompatibleMesh::new(faces, points.clone(), points.clone(), vec![]).unwrap();
+    for options in all_options() {
+        let mut at = film(&mesh, &options);
+        for t in TIMES {
+            assert!(largest_distance(&at(t), &points) < 1e-13, "{options:?}");
+        }
+    }
+}
+
+#[test]
+fn swapping_plays_the_film_backwards_under_the_symmetric_energy() {
+    for mesh in [
+        bent_pair(),
+        parts(|p| DMat2::from_angle(1.0) * p * 1.2 + p.yx() * 0.2),
+    ] {
+        for options in all_options().into_iter().filter(|o| o.symmetric) {
+            if options.homotopy == Homotopy::LinearAfterPolar {
+                continue; // not its own reverse, see the homotopies' identity
+            }
+            let (mut there, mut back) = (film(&mesh, &options), film(&mesh.swapped(), &options));
+            for t in TIMES {
+                let error = largest_distance(&there(t), &back(1.0 - t)) / mesh.diameter();
+                assert!(error < 1e-12, "{options:?} at {t}: {error:e}");
+            }
+        }
+    }
+}
+
+#[test]
+fn the_one_sided_energy_is_not_symmetric() {
+    let options = ArapOptions {
+        symmetric: false,
+        ..ArapOptions::default()
+    };
+    let mesh = bent_pair();
+    let (mut there, mut back) = (film(&mesh, &options), film(&mesh.swapped(), &options));
+    let error = largest_distance(&there(0.5), &back(0.5)) / mesh.diameter();
+    assert!(error > 1e-6, "the test above could not fail: {error:e}");
+}
+
+/// E(A→B, t), straight from its definition, with w the source areas.
+fn one_sided_energy(
+    mesh: &CompatibleMesh,
+    angles: &[f64],
+    t: f64,
+    v: &[DVec2],
+    homotopy: Homotopy,
+) -> f64 {
+    mesh.faces()
+        .iter()
+        .zip(angles)
+        .map(|(face, &angle)| {
+            let edges = |points: &[DVec2]| {
+                let [a, b, c] = face.map(|i| points[i as usize]);
+                (
+                    DMat2::from_cols(b - a, c - a),
+                    0.5 * twice_signed_area(a, b, c),
+                )
+            };
+            let (d, area) = edges(mesh.source());
+            let m = edges(mesh.target()).0 * d.inverse();
+            let map = LocalMap {
+                angle,
+                stretch: DMat2::from_angle(-angle) * m,
+            };
+            let gap = edges(v).0 * d.inverse() - homotopy.at(&map, t);
+            area * (gap.x_axis.length_squared() + gap.y_axis.length_squared())
+        })
+        .sum()
+}
+
+#[test]
+fn one_matrix_is_the_two_sided_sum() {
+    let mesh = bent_pair();
+    let back = mesh.swapped();
+    for homotopy in [Homotopy::Polar, Homotopy::Exponential, Homotopy::Linear] {
+        let angles = Arap::build(&mesh, &with(homotopy), &Silent)
+            .unwrap()
+            .face_angles();
+        let reversed: Vec<f64> = angles.iter().map(|a| -a).collect();
+        let two_sided = |t: f64, v: &[DVec2]| {
+            0.5 * one_sided_energy(&mesh, &angles, t, v, homotopy)
+                + 0.5 * one_sided_energy(&back, &reversed, 1.0 - t, v, homotopy)
+        };
+        let mut at = film(&mesh, &with(homotopy));
+        for t in [0.2, 0.5, 0.9] {
+            let v = at(t);
+            let least = two_sided(t, &v);
+            // A minimum of the sum: its directional derivatives vanish. For a
+            // quadratic they are exact differences.
+            for i in 0..v.len() {
+                for step in [DVec2::X, DVec2::Y] {
+                    let (mut more, mut less) = (v.clone(), v.clone());
+                    more[i] += step;
+                    less[i] -= step;
+                    let (up, down) = (two_sided(t, &more), two_sided(t, &less));
+                    assert!(
+                        (up - down).abs() < 1e-9 * (up + down),
+                        "{homotopy:?} {t} {i}"
+                    );
+                    assert!(up > least && down > least);
+                }
+            }
+        }
+    }
+}
+
+/// A strip rolled up by so many turns, and straight.
+fn spiral(turns: f64) -> CompatibleMesh {
+    let n = 240;
+    let (faces, straight) = strip(n, 60.0, 0.5);
+    let rolled = straight
+        .iter()
+        .map(|p| {
+            // An Archimedean spiral that never touches itself.
+            let angle = turns * TAU * (p.x / 60.0);
+            DVec2::from_angle(angle) * (1.0 + 1.0 * angle / TAU - p.y + 0.5)
+        })
+        .collect();
+    CompatibleMesh::new(faces, rolled, straight, vec![]).unwrap()
+}
+
+#[test]
+fn a_spiral_uncoils_by_three_turns_without_a_fold() {
+    let mesh = spiral(3.0);
+    for homotopy in [Homotopy::Polar, Homotopy::Exponential] {
+        let arap = Arap::build(&mesh, &with(homotopy), &Silent).unwrap();
+        let angles = arap.face_angles();
+        let range = angles
+            .iter()
+            .fold((f64::MAX, f64::MIN), |(a, b), &x| (a.min(x), b.max(x)));
+        assert!(range.1 - range.0 > 0.95 * 3.0 * TAU, "{range:?}");
+        let mut at = film(&mesh, &with(homotopy));
+        for step in 0..=64 {
+            let v = at(f64::from(step) / 64.0);
+            for face in mesh.faces().iter() {
+                let [a, b, c] = face.map(|i| v[i as usize]);
+                assert!(twice_signed_area(a, b, c) > 0.0, "{homotopy:?} step {step}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_ring_wound_twice_around_its_hole_is_named() {
+    // An annulus whose target winds twice as fast: positive faces, and no
+    // consistent angles.
+    let n = 24_u32;
+    let ring = |speed: f64| -> Vec<DVec2> {
+        (0..n)
+            .flat_map(|i| {
+                let angle = speed * TAU * f64::from(i) / f64::from(n);
+                [DVec2::from_angle(angle), DVec2::from_angle(angle) * 2.0]
+            })
+            .collect()
+    };
+    let faces = (0..n)
+        .flat_map(|i| {
+            let (v, w) = (2 * i, 2 * ((i + 1) % n));
+            [[v, v + 1, w + 1], [v, w + 1, w]]
+        })
+        .collect();
+    let mesh = CompatibleMesh::new(faces, ring(1.0), ring(2.0), vec![]).unwrap();
+    let result = Arap::build(&mesh, &ArapOptions::default(), &Silent);
+    assert!(matches!(
+        result,
+        Err(ArapError::Angles(AngleError::Winding(_)))
+    ));
+}
+
+#[test]
+fn extra_turns_turn_further_and_keep_the_ends() {
+    let (faces, source) = strip(4, 4.0, 1.0);
+    let target = source.iter().map(|&p| DMat2::from_angle(1.0) * p).collect();
+    let mesh = CompatibleMesh::new(faces, source, target, vec![]).unwrap();
+    let options = ArapOptions {
+        extra_turns: vec![1],
+        ..ArapOptions::default()
+    };
+    let mut at = film(&mesh, &options);
+    assert_eq!(at(1.0), mesh.target());
+    let v = at(0.5);
+    let angle = (v[2] - v[0]).to_angle();
+    let expected = 0.5 * (1.0 + TAU); // 3.64…, seen as 3.64 − 2π
+    assert!((angle - (expected - TAU)).abs() < 1e-9, "{angle}");
+    for (p, q) in [(0, 1), (0, 8), (3, 6)] {
+        let rigid = v[p].distance(v[q]) - mesh.source()[p].distance(mesh.source()[q]);
+        assert!(rigid.abs() < 1e-9);
+    }
+}
+
+#[test]
+fn parts_turned_by_half_a_turn_do_not_meet() {
+    let mesh = parts(|p| DMat2::from_angle(PI - 1e-9) * p);
+    let mut at = film(&mesh, &ArapOptions::default());
+    let v = at(0.5);
+    let apart = v[0].distance(v[8]) - mesh.source()[0].distance(mesh.source()[8]);
+    assert!(apart.abs() < 1e-6);
+}
+
+#[test]
+fn an_anchor_runs_straight() {
+    let mesh = bent_pair();
+    let options = ArapOptions {
+        path: PathKind::Anchor(5),
+        ..ArapOptions::default()
+    };
+    let mut at = film(&mesh, &options);
+    for t in TIMES {
+        let straight = mesh.source()[5] * (1.0 - t) + mesh.target()[5] * t;
+        assert!(at(t)[5].distance(straight) < 1e-12);
+    }
+    let missing = ArapOptions {
+        path: PathKind::Anchor(999),
+        ..ArapOptions::default()
+    };
+    assert!(matches!(
+        Arap::build(&mesh, &missing, &Silent),
+        Err(ArapError::Anchor {
+            anchor: 999,
+            last: 25
+        })
+    ));
+}
+
+#[test]
+fn the_centroid_of_fixed_masses_runs_straight() {
+    let mesh = bent_pair();
+    let masses = LocalMaps::new(&mesh, &None, &ArapOptions::default())
+        .unwrap()
+        .masses;
+    let centroid = |v: &[DVec2]| -> DVec2 { v.iter().zip(&masses).map(|(&p, &m)| p * m).sum() };
+    let (from, to) = (centroid(mesh.source()), centroid(mesh.target()));
+    let mut at = film(&mesh, &ArapOptions::default());
+    for t in TIMES {
+        assert!(centroid(&at(t)).distance(from * (1.0 - t) + to * t) < 1e-12);
+    }
+}
+
+#[test]
+fn four_faces_at_a_time_equal_the_plain_homotopies() {
+    // One face alone has J = M(t) exactly, whatever the weights.
+    let source = vec![DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.3, 1.0)];
+    let target = vec![
+        DVec2::new(1.0, 1.0),
+        DVec2::new(-0.7, 0.4),
+        DVec2::new(0.5, -1.5),
+    ];
+    let mesh =
+        CompatibleMesh::new(vec![[0, 1, 2]], source.clone(), target.clone(), vec![]).unwrap();
+    let edges = |v: &[DVec2]| DMat2::from_cols(v[1] - v[0], v[2] - v[0]);
+    let map = LocalMap::of(edges(&target) * edges(&source).inverse());
+    for homotopy in Homotopy::ALL {
+        let mut at = film(&mesh, &with(homotopy));
+        for t in TIMES {
+            let found = edges(&at(t)) * edges(&source).inverse();
+            assert!(
+                found.abs_diff_eq(homotopy.at(&map, t), 1e-13),
+                "{homotopy:?} {t}"
+            );
+        }
+    }
+}
+
+#[test]
+fn weights_are_checked() {
+    let mesh = bent_pair();
+    for bad in [vec![1.0; 3], vec![0.0; 24], vec![f64::NAN; 24]] {
+        let options = ArapOptions {
+            weights: Weights::PerFace(bad),
+            ..ArapOptions::default()
+        };
+        let error = Arap::build(&mesh, &options, &Silent).unwrap_err();
+        assert!(
+            matches!(error, ArapError::Weights { faces: 24, .. }),
+            "{error}"
+        );
+    }
+    let uniform = |weights| {
+        let options = ArapOptions {
+            weights,
+            subdivisions: 1,
+            ..ArapOptions::default()
+        };
+        film(&mesh, &options)(0.5)
+    };
+    let same = largest_distance(
+        &uniform(Weights::PerFace(vec![7.0; 24])),
+        &uniform(Weights::Uniform),
+    );
+    assert!(same < 1e-12);
+}
+
+#[test]
+fn a_stiff_part_keeps_its_shape_better() {
+    let mesh = bent_pair();
+    let stiff_at = |face: usize, weight: f64| {
+        let mut weights = vec![1.0; 24];
+        weights[face] = weight;
+        let options = ArapOptions {
+            weights: Weights::PerFace(weights),
+            ..ArapOptions::default()
+        };
+        let arap = Arap::build(&mesh, &options, &Silent).unwrap();
+        let wanted = Homotopy::Polar.at(&arap.0.maps.faces[face].map, 0.5);
+        let v = film(&mesh, &options)(0.5);
+        let edges = |points: &[DVec2]| {
+            let [a, b, c] = mesh.faces()[face].map(|i| points[i as usize]);
+            DMat2::from_cols(b - a, c - a)
+        };
+        let gap = edges(&v) * edges(mesh.source()).inverse() - wanted;
+        gap.x_axis.length() + gap.y_axis.length()
+    };
+    assert!(stiff_at(9, 100.0) < 0.5 * stiff_at(9, 1.0));
+}

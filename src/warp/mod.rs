@@ -1,0 +1,57 @@
+//! Warps: where each material point is at time t. One file per row of the
+//! table of cells.
+//!
+//! A [`Warp`] is built once, and building can fail. It hands out [`Placer`]s,
+//! which own all memory a frame needs; placing allocates nothing and cannot
+//! fail. Warps know nothing of contents.
+
+pub mod arap;
+mod none;
+
+pub use arap::{Arap, ArapError, ArapOptions, PathKind, Weights};
+pub use none::Still;
+
+use crate::geometry::DVec2;
+use serde::{Deserialize, Serialize};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// Which warp: a row of the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum WarpKind {
+    /// Nothing moves.
+    None,
+    /// Rigidity-preserving interpolation of compatible triangulations.
+    Arap,
+}
+
+/// What joins warps and contents: faces, and for each vertex its place in the
+/// frame at t, in the source and in the target. All three have the same
+/// length.
+#[derive(Clone, Debug)]
+pub struct Placement {
+    /// Vertex indices, three a face; the same at every t.
+    pub faces: Arc<[[u32; 3]]>,
+    /// Where each vertex is seen at t.
+    pub in_frame: Vec<DVec2>,
+    /// The point of the source that is there.
+    pub in_source: Vec<DVec2>,
+    /// The point of the target that is there.
+    pub in_target: Vec<DVec2>,
+}
+
+/// A row of the table, ready to be played.
+pub trait Warp: Debug + Send + Sync {
+    /// A placer with memory of its own, at t = 0.
+    fn placer(&self) -> Box<dyn Placer>;
+}
+
+/// Evaluates a warp. Needs no allocation and cannot fail.
+pub trait Placer: Debug + Send + Sync {
+    /// Moves the placement to `t`; outside [0, 1] it extrapolates.
+    fn place(&mut self, t: f64);
+
+    /// The placement at the last `t`.
+    fn placement(&self) -> &Placement;
+}
