@@ -193,7 +193,8 @@ impl Cholesky {
         );
         let failed_at = match result {
             Ok(_) => None,
-            Err(LltError::NonPositivePivot { index }) => Some(index),
+            // The library counts pivots from 1.
+            Err(LltError::NonPositivePivot { index }) => Some(index.saturating_sub(1)),
         };
         match failed_at {
             None => Ok(()),

@@ -157,7 +157,7 @@ fn source_equal_to_target_stands_still() {
 fn swapping_plays_the_film_backwards_under_the_symmetric_energy() {
     for mesh in [
         bent_pair(),
-        parts(|p| DMat2::from_angle(1.0) * p * 1.2 + p.yx() * 0.2),
+        parts(|p| DMat2::from_angle(1.0) * p * 1.2 + DVec2::new(p.y, p.x) * 0.2),
     ] {
         for options in all_options().into_iter().filter(|o| o.symmetric) {
             if options.homotopy == Homotopy::LinearAfterPolar {
