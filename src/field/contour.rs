@@ -14,10 +14,10 @@
 //! the function equals the level at a sample; `Regions::from_rings` cleans
 //! that.
 
-use glam::DVec2;
 use rayon::prelude::*;
 
 use super::samples::Samples;
+use crate::geometry::DVec2;
 
 /// How far apart, in cells, the two ends of a crossing's bracket may be at the
 /// end: on a lattice of 8192 samples this is near the resolution of `f64`.

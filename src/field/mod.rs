@@ -1,9 +1,28 @@
 //! Signed distance fields: grids, masks, distance transforms, contours.
 //!
 //! A field is positive inside a design and negative outside, **in cells of its
-//! grid**: ε and the threshold of a blend mean nothing without the grid.
+//! grid**: ε and the threshold of a blend mean nothing without the grid. Two
+//! ways lead to one: the exact distance to the edges of polygons
+//! ([`DistanceField::from_regions`]), and the distance transform of a binary
+//! image in one of four metrics ([`distance_transform`]).
+//!
+//! Row 0 is the lowest row throughout.
 
+#[cfg(test)]
+mod ascii;
+mod chamfer;
 pub mod contour;
+mod distance_field;
+mod euclidean;
+mod grid;
+mod mask;
+mod polygon;
 mod samples;
+mod scan;
+mod transform;
 
+pub use distance_field::{DistanceField, FieldError};
+pub use grid::{Grid, GridError};
+pub use mask::{Mask, MaskError};
 pub use samples::{Samples, SamplesError};
+pub use transform::{DistanceTransform, Metric, distance_transform};

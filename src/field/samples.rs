@@ -4,6 +4,8 @@
 //! outside are clamped to the outermost samples. Does not guarantee smoothness:
 //! the gradient jumps from cell to cell.
 
+use super::Grid;
+
 /// A regular lattice of samples, borrowed: row-major, sample (x, y) at index
 /// `y · width + x`. Whether row 0 is the lowest or the uppermost is the
 /// caller's affair.
@@ -58,18 +60,30 @@ impl<'a> Samples<'a> {
         })
     }
 
+    /// The samples of a grid that was checked, as many values as it has cells.
+    pub(super) fn of_grid(grid: &Grid, values: &'a [f32]) -> Self {
+        Self {
+            width: grid.width as usize,
+            height: grid.height as usize,
+            values,
+        }
+    }
+
     /// Samples along a row.
+    #[must_use]
     pub fn width(&self) -> u32 {
         self.width as u32
     }
 
     /// Rows.
+    #[must_use]
     pub fn height(&self) -> u32 {
         self.height as u32
     }
 
     /// The value at (`x`, `y`) in units of samples, sample (0, 0) at (0, 0);
     /// positions outside, and NaN, are clamped to the lattice.
+    #[must_use]
     pub fn bilinear(&self, x: f64, y: f64) -> f64 {
         let (left, right, u) = bracket(x, self.width);
         let (below, above, v) = bracket(y, self.height);

@@ -1,0 +1,25 @@
+//! Masks as ASCII pictures, for tests: `#` is inside, the first line is the
+//! uppermost row.
+
+use super::Mask;
+
+/// Reads a picture with at least one `#`.
+pub(super) fn mask(picture: &str) -> Mask {
+    let rows: Vec<&str> = picture.split_whitespace().rev().collect();
+    let bits = rows.iter().flat_map(|r| r.chars().map(|c| c == '#'));
+    Mask::new(rows[0].len() as u32, rows.len() as u32, bits.collect())
+        .expect("a rectangular picture with an inside")
+}
+
+/// Draws a mask, one line a row.
+pub(super) fn text(mask: &Mask) -> String {
+    let line = |row: &[bool]| -> String {
+        let line = row.iter().map(|&b| if b { '#' } else { '.' });
+        line.chain(['\n']).collect()
+    };
+    mask.bits()
+        .chunks(mask.width() as usize)
+        .rev()
+        .map(line)
+        .collect()
+}

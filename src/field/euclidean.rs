@@ -1,0 +1,212 @@
+//! The exact signed Euclidean distance transform, in linear time.
+//!
+//! Two passes, as in Meijster, Roerdink and Hesselink 2000 and in Felzenszwalb
+//! and Huttenlocher 2012: distances along each column, then the lower envelope
+//! of parabolas along each row. Both signs come out of one sweep, because a
+//! cell needs nothing but the nearest cell of the other side. And within a run
+//! of cells of one side, nothing beyond the two cells that end it can be
+//! nearer than they are, so that each run has an envelope of its own.
+//!
+//! All squares are integers and exact; only the last root is rounded.
+
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use super::Mask;
+use crate::progress::{Cancelled, Progress, checkpoint};
+
+/// Columns that a thread sweeps at a time. Stored one strip after the other: a
+/// strip of a 2048² mask stays in the second-level cache, and a row of it is
+/// two cache lines.
+const STRIP: usize = 64;
+
+/// Rows between two looks at whether the work was cancelled.
+const ROWS: usize = 16;
+
+/// No cell of the other side in this column. Its square is above every true
+/// square and still leaves room for one more in an `i32`.
+const NONE: i16 = i16::MAX;
+
+/// Distances along the columns, kept between transforms.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Columns {
+    strips: Vec<i16>,
+}
+
+impl Columns {
+    /// Distances along the columns from each cell to the nearest of the other
+    /// side, the ring of empty cells around the mask included.
+    pub(super) fn measure(&mut self, mask: &Mask) {
+        let (width, height) = (mask.width() as usize, mask.height() as usize);
+        let strip_len = STRIP * height;
+        self.strips.resize(strip_len * width.div_ceil(STRIP), NONE);
+        self.strips
+            .par_chunks_mut(strip_len)
+            .enumerate()
+            .for_each(|(strip, out)| {
+                let from = strip * STRIP;
+                let to = width.min(from + STRIP);
+                let row = |y: usize| &mask.bits()[y * width + from..y * width + to];
+                sweep(out, (0..height).map(|y| (y, row(y))), |_, new| new);
+                sweep(out, (0..height).rev().map(|y| (y, row(y))), i16::min);
+            });
+    }
+
+    /// Signed distances of all cells, into `out` of the mask's length.
+    pub(super) fn rows(
+        &self,
+        mask: &Mask,
+        out: &mut [f32],
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
+        let (width, height) = (mask.width() as usize, mask.height() as usize);
+        let done = AtomicUsize::new(0);
+        out.par_chunks_mut(width * ROWS)
+            .enumerate()
+            .try_for_each_init(
+                || RowPass::new(width),
+                |pass, (band, out)| {
+                    let before = done.fetch_add(ROWS, Ordering::Relaxed);
+                    checkpoint(
+                        progress,
+                        "measuring distances",
+                        before as f64 / height as f64,
+                    )?;
+                    for (i, out) in out.chunks_mut(width).enumerate() {
+                        let y = band * ROWS + i;
+                        pass.read(&self.strips, y, height);
+                        pass.transform(&mask.bits()[y * width..][..width], out);
+                    }
+                    Ok(())
+                },
+            )
+    }
+}
+
+/// Counts cells since the last change of side in each column of a strip, row
+/// by row, starting from the empty ring.
+fn sweep<'a>(
+    strip: &mut [i16],
+    rows: impl Iterator<Item = (usize, &'a [bool])>,
+    merge: impl Fn(i16, i16) -> i16,
+) {
+    let mut counts = [NONE; STRIP];
+    let mut before = [0; STRIP];
+    for (y, row) in rows {
+        let out = &mut strip[y * STRIP..][..row.len()];
+        let columns = out.iter_mut().zip(row).zip(&mut counts).zip(&mut before);
+        for (((out, &inside), count), before) in columns {
+            let side = -i16::from(inside); // all bits or none
+            *count = (*count & !(side ^ *before)).saturating_add(1);
+            *before = side;
+            *out = merge(*out, *count);
+        }
+    }
+}
+
+/// A piece of a lower envelope: the parabola (x − vertex)² + height, lowest
+/// from `start` to the start of the next piece.
+#[derive(Clone, Copy, Debug)]
+struct Piece {
+    vertex: i32,
+    height: i32,
+    start: i32,
+}
+
+impl Piece {
+    fn at(&self, x: i32) -> i32 {
+        (x - self.vertex) * (x - self.vertex) + self.height
+    }
+}
+
+/// The second pass and what it needs for a row.
+struct RowPass {
+    squares: Vec<i32>,
+    envelope: Vec<Piece>,
+}
+
+impl RowPass {
+    fn new(width: usize) -> Self {
+        Self {
+            squares: vec![0; width.next_multiple_of(STRIP)],
+            envelope: Vec::with_capacity(width + 2),
+        }
+    }
+
+    /// Gathers the squared column distances of row `y` from the strips.
+    fn read(&mut self, strips: &[i16], y: usize, height: usize) {
+        for (strip, out) in self.squares.chunks_exact_mut(STRIP).enumerate() {
+            let row = &strips[(strip * height + y) * STRIP..][..STRIP];
+            for (out, &d) in out.iter_mut().zip(row) {
+                *out = i32::from(d) * i32::from(d);
+            }
+        }
+    }
+
+    fn transform(&mut self, row: &[bool], out: &mut [f32]) {
+        let mut from = 0;
+        for run in row.chunk_by(|a, b| a == b) {
+            let to = from + run.len();
+            // The ring around the mask is empty, and ends inside runs only.
+            let left = from > 0 || run[0];
+            let right = to < row.len() || run[0];
+            self.run(from, to, left, right);
+            from = to;
+        }
+        let squares = &self.squares[..row.len()];
+        for ((out, &square), &inside) in out.iter_mut().zip(squares).zip(row) {
+            let distance = (f64::from(square).sqrt() - 0.5) as f32;
+            *out = if inside { distance } else { -distance };
+        }
+    }
+
+    /// Replaces the squares of the run `from..to` by the squared distances,
+    /// with cells of the other side at its `left` and `right` end or none.
+    fn run(&mut self, from: usize, to: usize, left: bool, right: bool) {
+        let (first, end) = (from as i32, to as i32);
+        self.envelope.clear();
+        if left {
+            self.push(first - 1, 0, first, end);
+        }
+        for x in from..to {
+            self.push(x as i32, self.squares[x], first, end);
+        }
+        if right {
+            self.push(end, 0, first, end);
+        }
+        let mut end = to;
+        for piece in self.envelope.iter().rev() {
+            let start = piece.start as usize;
+            for (i, out) in self.squares[start..end].iter_mut().enumerate() {
+                *out = piece.at(piece.start + i as i32);
+            }
+            end = start;
+        }
+    }
+
+    fn push(&mut self, vertex: i32, height: i32, first: i32, end: i32) {
+        let mut piece = Piece {
+            vertex,
+            height,
+            start: first,
+        };
+        while let Some(top) = self.envelope.last() {
+            if piece.at(top.start) > top.at(top.start) {
+                piece.start = meeting(top, &piece);
+                break;
+            }
+            self.envelope.pop();
+        }
+        if piece.start < end {
+            self.envelope.push(piece);
+        }
+    }
+}
+
+/// The first cell where `right` is below `left`, which is lower at the cell
+/// where it starts, so that no number here is negative.
+fn meeting(left: &Piece, right: &Piece) -> i32 {
+    let rise = right.vertex * right.vertex + right.height - left.vertex * left.vertex - left.height;
+    let run = 2 * (right.vertex - left.vertex);
+    (rise as u32 / run as u32) as i32 + 1
+}

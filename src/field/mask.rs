@@ -1,0 +1,201 @@
+//! Binary images: which cells of a grid are inside.
+//!
+//! A cell is inside where its centre is, by non-zero winding. Guarantees: a
+//! mask has at least one inside cell, and no side above [`Grid::MAX_SIDE`].
+//! Does not guarantee: parts thinner than a cell may fall between the centres.
+
+use super::scan;
+use super::{Grid, GridError};
+use crate::geometry::Regions;
+
+/// Which cells are inside, row-major, row 0 the lowest.
+///
+/// What lies beyond the border counts as outside: a mask that is all inside is
+/// legal and has its boundary at its border.
+///
+/// ```
+/// use morphospace::field::Mask;
+///
+/// let mask = Mask::new(3, 1, vec![false, true, true])?;
+/// assert!(mask.bits()[1]);
+/// assert!(Mask::new(3, 1, vec![false; 3]).is_err());
+/// # Ok::<(), morphospace::field::MaskError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Mask {
+    width: u32,
+    height: u32,
+    bits: Vec<bool>,
+}
+
+/// Why there is no such mask.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum MaskError {
+    /// A side is 0 or above the limit.
+    #[error(
+        "a picture of {width} × {height} cells: choose 1 to {} cells for each side",
+        Grid::MAX_SIDE
+    )]
+    Size {
+        /// Cells along a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+    },
+    /// There are not as many bits as cells.
+    #[error("a picture of {width} × {height} cells needs as many bits, but {bits} were given")]
+    Length {
+        /// Cells along a row.
+        width: u32,
+        /// Rows.
+        height: u32,
+        /// Bits given.
+        bits: usize,
+    },
+    /// No cell is inside.
+    #[error("no cell is inside the design: choose another threshold, or more cells")]
+    Empty,
+    /// The grid is none.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+}
+
+impl Mask {
+    /// Reads `bits` as `height` rows of `width` cells, the lowest row first.
+    ///
+    /// # Errors
+    /// Where a side is 0 or above [`Grid::MAX_SIDE`], there are not as many
+    /// bits as cells, or none is set.
+    pub fn new(width: u32, height: u32, bits: Vec<bool>) -> Result<Self, MaskError> {
+        let sides = 1..=Grid::MAX_SIDE;
+        if !sides.contains(&width) || !sides.contains(&height) {
+            return Err(MaskError::Size { width, height });
+        }
+        if bits.len() != width as usize * height as usize {
+            let bits = bits.len();
+            return Err(MaskError::Length {
+                width,
+                height,
+                bits,
+            });
+        }
+        if !bits.contains(&true) {
+            return Err(MaskError::Empty);
+        }
+        Ok(Self {
+            width,
+            height,
+            bits,
+        })
+    }
+
+    /// The cells of `grid` whose centre is inside `regions`. Costs a step for
+    /// each row that an edge crosses, and one for each cell.
+    ///
+    /// # Errors
+    /// Where the grid is none, or no centre is inside.
+    pub fn from_regions(regions: &Regions, grid: &Grid) -> Result<Self, MaskError> {
+        grid.check()?;
+        let bits = scan::inside(&scan::edges(regions, grid), grid);
+        Self::new(grid.width, grid.height, bits)
+    }
+
+    /// Cells along a row.
+    #[must_use]
+    pub fn width(&self) -> u32 {
+        self.width
+    }
+
+    /// Rows.
+    #[must_use]
+    pub fn height(&self) -> u32 {
+        self.height
+    }
+
+    /// Cell (x, y) at index `y · width + x`; `true` is inside.
+    #[must_use]
+    pub fn bits(&self) -> &[bool] {
+        &self.bits
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::ascii::{mask, text};
+    use super::*;
+    use crate::geometry::{DVec2, FillRule};
+
+    fn regions(rings: &[&[(f64, f64)]]) -> Regions {
+        let rings: Vec<Vec<DVec2>> = rings
+            .iter()
+            .map(|ring| ring.iter().map(|&p| p.into()).collect())
+            .collect();
+        Regions::from_rings(&rings, FillRule::EvenOdd).expect("an area")
+    }
+
+    #[test]
+    fn a_frame_with_a_hole_is_rasterised_at_centres() {
+        let frame = regions(&[
+            &[(1.0, 1.0), (6.0, 1.0), (6.0, 5.0), (1.0, 5.0)],
+            &[(2.4, 2.0), (2.4, 3.4), (4.6, 3.4), (4.6, 2.0)],
+        ]);
+        let grid = Grid::new(8, 6, DVec2::ZERO, 1.0).expect("a grid");
+        let found = Mask::from_regions(&frame, &grid).expect("cells inside");
+        let expected = "
+            ........
+            .#####..
+            .#####..
+            .#...#..
+            .#####..
+            ........";
+        assert_eq!(text(&found), text(&mask(expected)));
+    }
+
+    #[test]
+    fn it_agrees_with_the_winding_number_of_each_centre() {
+        let star: Vec<(f64, f64)> = (0..11)
+            .map(|i| {
+                let angle = f64::from(i * 4) * std::f64::consts::TAU / 11.0;
+                (3.0 * angle.cos() + 0.1, 3.0 * angle.sin() - 0.2)
+            })
+            .collect();
+        let star = regions(&[&star]);
+        let grid = Grid::new(70, 50, DVec2::new(-2.0, -3.1), 0.11).expect("a grid");
+        let found = Mask::from_regions(&star, &grid).expect("cells inside");
+        for y in 0..grid.height {
+            for x in 0..grid.width {
+                let bit = found.bits()[(y * grid.width + x) as usize];
+                assert_eq!(bit, star.contains(grid.centre(x, y)), "cell ({x}, {y})");
+            }
+        }
+    }
+
+    #[test]
+    fn a_design_beyond_the_frame_fills_the_mask() {
+        let big = regions(&[&[(-9.0, -9.0), (19.0, -9.0), (19.0, 19.0), (-9.0, 19.0)]]);
+        let grid = Grid::new(4, 3, DVec2::ZERO, 1.0).expect("a grid");
+        let found = Mask::from_regions(&big, &grid).expect("cells inside");
+        assert!(found.bits().iter().all(|&b| b));
+    }
+
+    #[test]
+    fn an_empty_mask_and_wrong_sizes_are_refused() {
+        assert_eq!(Mask::new(2, 2, vec![false; 4]), Err(MaskError::Empty));
+        assert!(matches!(
+            Mask::new(2, 2, vec![true; 3]),
+            Err(MaskError::Length { bits: 3, .. })
+        ));
+        for (width, height) in [
+            (0, 1),
+            (1, 0),
+            (Grid::MAX_SIDE + 1, 1),
+            (u32::MAX, u32::MAX),
+        ] {
+            let refused = Mask::new(width, height, Vec::new());
+            assert_eq!(refused, Err(MaskError::Size { width, height }));
+        }
+        let dust = regions(&[&[(0.1, 0.1), (0.2, 0.1), (0.2, 0.2)]]);
+        let grid = Grid::new(4, 4, DVec2::ZERO, 1.0).expect("a grid");
+        assert_eq!(Mask::from_regions(&dust, &grid), Err(MaskError::Empty));
+    }
+}
