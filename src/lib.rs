@@ -1,6 +1,7 @@
 //! Morphospace: the space of all forms between given forms.
 
 pub mod compatible;
+pub mod content;
 pub mod field;
 pub mod geometry;
 pub mod homotopy;
