@@ -2,10 +2,12 @@
 
 pub mod compatible;
 pub mod content;
+pub mod design;
 pub mod field;
 pub mod geometry;
 pub mod homotopy;
 pub mod linalg;
 pub mod mesh;
 pub mod progress;
+pub mod transition;
 pub mod warp;

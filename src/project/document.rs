@@ -1,0 +1,236 @@
+//! The document itself, as it stands in the file.
+
+use super::ProjectError;
+use crate::content::ContentKind;
+use crate::design::ImportOptions;
+use crate::geometry::Similarity;
+use crate::transition::{FieldOptions, Fit, Stop, Style, Timing, TransitionSpec};
+use crate::warp::{ArapOptions, WarpKind};
+use serde::{Deserialize, Serialize};
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+/// The version that is written; older ones are read, newer ones refused.
+pub const FORMAT_VERSION: u32 = 1;
+
+/// A `.morph` document.
+///
+/// ```
+/// use morphospace::project::Project;
+/// let project = Project::parse(r#"
+/// version = 1
+/// [[designs]]
+/// path = "a.svg"
+/// [[designs]]
+/// path = "b.svg"
+/// "#)?;
+/// assert_eq!(Project::parse(&project.to_toml()?)?, project);
+/// # Ok::<(), morphospace::project::ProjectError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Project {
+    /// The version of the format.
+    pub version: u32,
+    /// What the transition is called.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// A sentence about it.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub description: String,
+    /// The row of the table; where it is not given, the method that suits the
+    /// designs is chosen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub warp: Option<WarpKind>,
+    /// The column of the table, likewise.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub content: Option<ContentKind>,
+    /// How the target is fitted to the source.
+    #[serde(default)]
+    pub fit: Fit,
+    /// Width of the bars of a truss, as a fraction of the design's diameter.
+    #[serde(default = "default_bar_width")]
+    pub bar_width: f64,
+    /// The given forms, at least two; the first two are source and target.
+    pub designs: Vec<DesignEntry>,
+    /// Options of rigid parts.
+    #[serde(default)]
+    pub arap: ArapOptions,
+    /// Options of distance fields.
+    #[serde(default)]
+    pub field: FieldOptions,
+    /// How it runs over time.
+    #[serde(default)]
+    pub timing: Timing,
+    /// How it is painted.
+    #[serde(default)]
+    pub style: Style,
+    /// Named places on the way.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub stops: Vec<Stop>,
+}
+
+/// One of the given forms.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct DesignEntry {
+    /// The file, relative to the document, with `/` between folders.
+    pub path: PathBuf,
+    /// What it is called; where it is empty, the file's name.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub name: String,
+    /// How the file is read.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub import: ImportOptions,
+    /// Where it is laid, about its own middle.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub placement: Similarity,
+}
+
+fn default_bar_width() -> f64 {
+    TransitionSpec::DEFAULT_BAR_WIDTH
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+impl DesignEntry {
+    /// A file as it is.
+    #[must_use]
+    pub fn new(path: impl Into<PathBuf>) -> Self {
+        Self {
+            path: path.into(),
+            name: String::new(),
+            import: ImportOptions::default(),
+            placement: Similarity::default(),
+        }
+    }
+}
+
+impl Project {
+    /// Two files with default options. Paths are kept as they are given.
+    #[must_use]
+    pub fn pair(source: impl Into<PathBuf>, target: impl Into<PathBuf>) -> Self {
+        let designs = vec![DesignEntry::new(source), DesignEntry::new(target)];
+        let names: Vec<_> = designs.iter().map(|d| stem(&d.path)).collect();
+        Self {
+            version: FORMAT_VERSION,
+            title: names.join(" to "),
+            description: String::new(),
+            warp: None,
+            content: None,
+            fit: Fit::default(),
+            bar_width: default_bar_width(),
+            designs,
+            arap: ArapOptions::default(),
+            field: FieldOptions::default(),
+            timing: Timing::default(),
+            style: Style::default(),
+            stops: Vec::new(),
+        }
+    }
+
+    /// Reads a document from its text.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the line of what is wrong.
+    pub fn parse(text: &str) -> Result<Self, ProjectError> {
+        let project = match toml::from_str::<Self>(text) {
+            Ok(project) => project,
+            // A newer version may well have keys that are unknown here; that
+            // it is newer is what its reader needs to hear.
+            Err(error) => {
+                return Err(match version_of(text) {
+                    Some(version) if version > FORMAT_VERSION.into() => {
+                        ProjectError::newer(text, version)
+                    }
+                    _ => ProjectError::syntax(text, &error),
+                });
+            }
+        };
+        project.check(text)?;
+        Ok(project)
+    }
+
+    fn check(&self, text: &str) -> Result<(), ProjectError> {
+        match self.version {
+            0 => return Err(ProjectError::VersionZero),
+            v if v > FORMAT_VERSION => return Err(ProjectError::newer(text, v.into())),
+            _ => {}
+        }
+        if self.designs.len() < 2 {
+            return Err(ProjectError::TooFewDesigns(self.designs.len()));
+        }
+        for entry in &self.designs {
+            entry.placement.checked()?;
+        }
+        self.field.blend.check()?;
+        self.timing.check(&self.stops)?;
+        Ok(())
+    }
+
+    /// The document as text.
+    ///
+    /// # Errors
+    /// [`ProjectError::Write`] if a number cannot be written, such as a count
+    /// beyond the range of TOML.
+    pub fn to_toml(&self) -> Result<String, ProjectError> {
+        toml::to_string_pretty(self).map_err(|error| ProjectError::Write(error.to_string()))
+    }
+
+    /// Reads a document from a file.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the file and, where there is one, the line.
+    pub fn read(path: &Path) -> Result<Self, ProjectError> {
+        let in_file = |error: ProjectError| error.in_file(path);
+        let bytes = std::fs::read(path).map_err(|e| in_file(ProjectError::Io(e.to_string())))?;
+        let text = String::from_utf8(bytes).map_err(|_| in_file(ProjectError::NotText))?;
+        Self::parse(&text).map_err(in_file)
+    }
+
+    /// Writes the document beside its final place and moves it there, so that
+    /// the old one stays whole until the new one is.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the file; the old document is untouched.
+    pub fn save_atomically(&self, path: &Path) -> Result<(), ProjectError> {
+        let text = self.to_toml()?;
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let written = tempfile::NamedTempFile::new_in(folder).and_then(|mut file| {
+            file.write_all(text.as_bytes())?;
+            file.as_file().sync_all()?;
+            keep_permissions(path, file.path())?;
+            file.persist(path).map_err(|error| error.error)?;
+            Ok(())
+        });
+        written.map_err(|error| ProjectError::Io(error.to_string()).in_file(path))
+    }
+}
+
+/// A temporary file is private; a document is as open as the one it replaces.
+fn keep_permissions(old: &Path, new: &Path) -> std::io::Result<()> {
+    if let Ok(metadata) = std::fs::metadata(old) {
+        return std::fs::set_permissions(new, metadata.permissions());
+    }
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt;
+        std::fs::set_permissions(new, std::fs::Permissions::from_mode(0o644))?;
+    }
+    Ok(())
+}
+
+fn version_of(text: &str) -> Option<u64> {
+    let table: toml::Table = text.parse().ok()?;
+    u64::try_from(table.get("version")?.as_integer()?).ok()
+}
+
+pub(super) fn stem(path: &Path) -> String {
+    let name = path.file_stem().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
+}

@@ -1,0 +1,106 @@
+//! What can be wrong with a project.
+
+use crate::content::FieldPairError;
+use crate::design::ImportError;
+use crate::geometry::SimilarityError;
+use crate::transition::{BuildError, TimingError};
+use std::path::{Path, PathBuf};
+
+/// Why a project could not be read, written or loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum ProjectError {
+    /// What is wrong, and in which file.
+    #[error("{}: {error}", file.display())]
+    InFile {
+        /// The document.
+        file: PathBuf,
+        /// What is wrong with it.
+        error: Box<ProjectError>,
+    },
+    /// The system refused.
+    #[error("the file cannot be read or written ({0}); check its name and permissions")]
+    Io(String),
+    /// The bytes are no text.
+    #[error("this is not a text file; a .morph document is TOML in UTF-8")]
+    NotText,
+    /// A key or value is wrong.
+    #[error("line {line}: {message}")]
+    Syntax {
+        /// Counted from 1.
+        line: usize,
+        /// In the parser's words, on one line.
+        message: String,
+    },
+    /// The version is from the future.
+    #[error("line {line}: the document has version {version}, this program reads up to {}; update the program", super::FORMAT_VERSION)]
+    NewerVersion {
+        /// Counted from 1.
+        line: usize,
+        /// What the document says.
+        version: u64,
+    },
+    /// There is no version 0.
+    #[error("there is no version 0 of this format; write version = {}", super::FORMAT_VERSION)]
+    VersionZero,
+    /// Fewer than two designs.
+    #[error("a transition needs two designs, the document lists {0}; add [[designs]] with a path")]
+    TooFewDesigns(usize),
+    /// A placement is no similarity.
+    #[error(transparent)]
+    Placement(#[from] SimilarityError),
+    /// ε or the threshold is out of range.
+    #[error(transparent)]
+    Blend(#[from] FieldPairError),
+    /// The timing gives no pass.
+    #[error(transparent)]
+    Timing(#[from] TimingError),
+    /// A design could not be read.
+    #[error(transparent)]
+    Import(#[from] ImportError),
+    /// The designs do not go together.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// A value cannot be written.
+    #[error("the project cannot be written ({0}); correct that value")]
+    Write(String),
+    /// No bundled project of that name.
+    #[error("the gallery has no project \"{name}\"; it has {known}")]
+    NotInGallery {
+        /// What was asked for.
+        name: String,
+        /// What there is.
+        known: String,
+    },
+}
+
+impl ProjectError {
+    pub(super) fn in_file(self, file: &Path) -> Self {
+        Self::InFile {
+            file: file.to_owned(),
+            error: Box::new(self),
+        }
+    }
+
+    pub(super) fn syntax(text: &str, error: &toml::de::Error) -> Self {
+        let message = error.message().replace('\n', "; ");
+        Self::Syntax {
+            line: error.span().map_or(1, |span| line_of(text, span.start)),
+            message: message.trim_end_matches("; ").to_owned(),
+        }
+    }
+
+    pub(super) fn newer(text: &str, version: u64) -> Self {
+        let at = text
+            .lines()
+            .position(|line| line.trim_start().starts_with("version"));
+        Self::NewerVersion {
+            line: at.map_or(1, |i| i + 1),
+            version,
+        }
+    }
+}
+
+fn line_of(text: &str, byte: usize) -> usize {
+    let before = text.as_bytes().iter().take(byte);
+    1 + before.filter(|&&b| b == b'\n').count()
+}

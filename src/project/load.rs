@@ -1,0 +1,152 @@
+//! A document together with the designs it names.
+
+use super::document::stem;
+use super::{Project, ProjectError};
+use crate::content::ContentKind;
+use crate::design::{Design, import, import_file};
+use crate::transition::{BuildError, Cell, TransitionSpec, arranged};
+use crate::warp::WarpKind;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// A project whose designs have been read.
+#[derive(Clone, Debug)]
+pub struct LoadedProject {
+    /// The document.
+    pub project: Project,
+    /// The designs as their files give them, in the document's order.
+    pub designs: Vec<Arc<Design>>,
+    /// What relative paths are relative to; `None` for a bundled project.
+    pub folder: Option<PathBuf>,
+}
+
+impl LoadedProject {
+    /// Reads a `.morph` file and its designs.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the file and the place.
+    pub fn open(path: &Path) -> Result<Self, ProjectError> {
+        let project = Project::read(path)?;
+        let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        Self::load(project, folder)
+    }
+
+    /// Reads two designs into a project with default options.
+    ///
+    /// # Errors
+    /// [`ProjectError::Import`] names the file and the place.
+    pub fn open_pair(source: &Path, target: &Path) -> Result<Self, ProjectError> {
+        Self::load(Project::pair(source, target), PathBuf::new())
+    }
+
+    /// Reads the designs of a document whose paths are relative to `folder`.
+    ///
+    /// # Errors
+    /// [`ProjectError::Import`] names the file and the place.
+    pub fn load(project: Project, folder: PathBuf) -> Result<Self, ProjectError> {
+        Self::load_by(project, Some(folder.clone()), |entry| {
+            import_file(&folder.join(&entry.path), &entry.import).map_err(ProjectError::from)
+        })
+    }
+
+    /// Reads the designs of a document from bytes that `bytes_of` finds.
+    pub(super) fn load_bundled<'a>(
+        project: Project,
+        bytes_of: impl Fn(&Path) -> Result<&'a [u8], ProjectError>,
+    ) -> Result<Self, ProjectError> {
+        Self::load_by(project, None, |entry| {
+            let bytes = bytes_of(&entry.path)?;
+            Ok(import(&stem(&entry.path), bytes, &entry.import)?)
+        })
+    }
+
+    fn load_by(
+        project: Project,
+        folder: Option<PathBuf>,
+        read: impl Fn(&super::DesignEntry) -> Result<Design, ProjectError>,
+    ) -> Result<Self, ProjectError> {
+        let designs = project
+            .designs
+            .iter()
+            .map(|entry| {
+                let mut design = read(entry)?;
+                if !entry.name.is_empty() {
+                    design.name.clone_from(&entry.name);
+                }
+                Ok(Arc::new(design))
+            })
+            .collect::<Result<Vec<_>, ProjectError>>()?;
+        Ok(Self {
+            project,
+            designs,
+            folder,
+        })
+    }
+
+    /// What the transition is called.
+    #[must_use]
+    pub fn title(&self) -> String {
+        if self.project.title.is_empty() {
+            let names: Vec<_> = self.designs.iter().map(|d| d.name.as_str()).collect();
+            names.join(" to ")
+        } else {
+            self.project.title.clone()
+        }
+    }
+
+    /// The cell that is asked for, or that suits the designs best.
+    ///
+    /// # Errors
+    /// [`BuildError::Unavailable`] if warp and content do not go together.
+    pub fn cell(&self) -> Result<Cell, BuildError> {
+        let unavailable = |error: crate::transition::NoSuchCell| {
+            BuildError::Unavailable(error.to_string())
+        };
+        let default = TransitionSpec::new(
+            Arc::clone(&self.designs[0]),
+            Arc::clone(&self.designs[1]),
+        )
+        .cell;
+        match (self.project.warp, self.project.content) {
+            (None, None) => Ok(default),
+            (Some(warp), Some(content)) => Cell::new(warp, content).map_err(unavailable),
+            (Some(warp), None) => Ok(Cell::ALL
+                .into_iter()
+                .find(|cell| cell.warp() == warp)
+                .unwrap_or(default)),
+            (None, Some(content)) => Ok(Cell::ALL
+                .into_iter()
+                .find(|cell| cell.content() == content)
+                .unwrap_or(default)),
+        }
+    }
+
+    /// Whether these designs can be seen by a cell, without building it.
+    ///
+    /// # Errors
+    /// [`BuildError::Unavailable`] with the reason, for a greyed button.
+    pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), BuildError> {
+        let cell =
+            Cell::new(warp, content).map_err(|e| BuildError::Unavailable(e.to_string()))?;
+        TransitionSpec::available(cell, &self.designs[0], &self.designs[1])
+    }
+
+    /// What the transition is to be built from.
+    ///
+    /// # Errors
+    /// [`ProjectError`] if the cell does not exist or a placement is no
+    /// similarity.
+    pub fn spec(&self) -> Result<TransitionSpec, ProjectError> {
+        let project = &self.project;
+        let places = [&project.designs[0], &project.designs[1]].map(|entry| entry.placement);
+        let [source, target] = arranged([&self.designs[0], &self.designs[1]], project.fit, places)?;
+        Ok(TransitionSpec {
+            source,
+            target,
+            cell: self.cell()?,
+            arap: project.arap.clone(),
+            field: project.field,
+            bar_width: project.bar_width,
+        })
+    }
+}

@@ -1,0 +1,99 @@
+//! How two unlike designs are laid into one frame.
+
+use crate::design::{Design, Form};
+use crate::geometry::{DVec2, Similarity, SimilarityError, twice_signed_area};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// How the target is fitted to the source, before each design's own
+/// placement.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Fit {
+    /// Coordinates as they stand in the files.
+    #[default]
+    AsDrawn,
+    /// The middles of both boxes meet.
+    Centred,
+    /// As centred, and the target enlarged to the source's area; for a truss
+    /// to its size.
+    SameArea,
+}
+
+/// Both designs laid into one frame: the target fitted to the source, then
+/// each placed about its own middle.
+///
+/// # Errors
+/// A placement that is not a similarity.
+pub fn arranged(
+    [source, target]: [&Arc<Design>; 2],
+    fit: Fit,
+    [place_source, place_target]: [Similarity; 2],
+) -> Result<[Arc<Design>; 2], SimilarityError> {
+    let to_middle = middle(source) - middle(target);
+    let fitted = match fit {
+        Fit::AsDrawn => Similarity::IDENTITY,
+        Fit::Centred => Similarity {
+            offset: to_middle,
+            ..Similarity::IDENTITY
+        },
+        Fit::SameArea => scaled_to(source, target)?,
+    };
+    let target = laid(target, fitted);
+    Ok([
+        laid(source, about(middle(source), place_source.checked()?)),
+        laid(&target, about(middle(&target), place_target.checked()?)),
+    ])
+}
+
+fn scaled_to(source: &Design, target: &Design) -> Result<Similarity, SimilarityError> {
+    let scale = (size(source) / size(target)).sqrt();
+    Similarity {
+        scale,
+        offset: middle(source) - middle(target) * scale,
+        ..Similarity::IDENTITY
+    }
+    .checked()
+}
+
+/// The placement with `centre` in the role of the origin.
+fn about(centre: DVec2, placement: Similarity) -> Similarity {
+    if placement == Similarity::IDENTITY {
+        return placement; // designs as drawn keep their last bit
+    }
+    Similarity {
+        offset: placement.offset + centre - placement.linear() * centre,
+        ..placement
+    }
+}
+
+fn laid(design: &Arc<Design>, by: Similarity) -> Arc<Design> {
+    if by == Similarity::IDENTITY {
+        Arc::clone(design)
+    } else {
+        Arc::new(design.transformed(&by))
+    }
+}
+
+fn middle(design: &Design) -> DVec2 {
+    match &design.form {
+        Form::Outline(regions) => regions.bounds().centre(),
+        Form::Mesh(mesh) => mesh.bounds().centre(),
+        Form::Truss(truss) => truss.bounds().centre(),
+    }
+}
+
+/// Area, or for a truss the square of its diameter.
+fn size(design: &Design) -> f64 {
+    match &design.form {
+        Form::Outline(regions) => regions.area(),
+        Form::Mesh(mesh) => {
+            let areas = mesh.faces().iter().map(|face| {
+                let [a, b, c] = face.map(|v| mesh.positions()[v as usize]);
+                0.5 * twice_signed_area(a, b, c).abs()
+            });
+            areas.sum()
+        }
+        Form::Truss(truss) => truss.bounds().diameter().powi(2),
+    }
+}

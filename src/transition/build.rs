@@ -1,0 +1,282 @@
+//! From two designs to a transition: everything that can fail.
+
+use super::{Cell, Inner};
+use crate::compatible::{CompatibleError, CompatibleMesh};
+use crate::content::{Content, FieldBlend, FieldPairError, FieldPair, Solid};
+use crate::design::{Design, Form};
+use crate::field::{DistanceField, FieldError, Grid, GridError, Metric};
+use crate::geometry::{Bounds, RegionsError};
+use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::warp::{Arap, ArapError, ArapOptions, Still, Warp, WarpKind};
+use serde::{Deserialize, Serialize};
+use std::sync::Arc;
+
+/// Where the boundary of a distance field runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Boundary {
+    /// Where the outline is; Euclidean only.
+    #[default]
+    Exact,
+    /// Between cells, as in the paper.
+    Binary,
+}
+
+/// Options of the distance fields.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct FieldOptions {
+    /// How distance is measured; all but the Euclidean need
+    /// [`Boundary::Binary`].
+    pub metric: Metric,
+    /// Where the boundary runs.
+    pub boundary: Boundary,
+    /// How the two fields are mixed.
+    pub blend: FieldBlend,
+    /// Cells along the longer side of the frame. Distances, ε and the
+    /// threshold count in these cells.
+    pub cells: u32,
+    /// Room around the designs, as a fraction of the longer side.
+    pub margin: f64,
+}
+
+impl Default for FieldOptions {
+    fn default() -> Self {
+        Self {
+            metric: Metric::Euclidean,
+            boundary: Boundary::default(),
+            blend: FieldBlend::default(),
+            cells: 512,
+            margin: 0.1,
+        }
+    }
+}
+
+/// Everything a transition is built from: two designs laid into one frame, a
+/// cell of the table and the options of both methods.
+#[derive(Clone, Debug)]
+pub struct TransitionSpec {
+    /// The design at t = 0.
+    pub source: Arc<Design>,
+    /// The design at t = 1.
+    pub target: Arc<Design>,
+    /// Warp and content.
+    pub cell: Cell,
+    /// Options of the rigidity-preserving interpolation.
+    pub arap: ArapOptions,
+    /// Options of the distance fields.
+    pub field: FieldOptions,
+    /// Width of the bars of a truss, as a fraction of the larger design's
+    /// diameter.
+    pub bar_width: f64,
+}
+
+/// Why a transition could not be built.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum BuildError {
+    /// The designs are of kinds that cannot be interpolated this way.
+    #[error("{0}")]
+    Unavailable(String),
+    /// The designs do not share a triangulation.
+    #[error(transparent)]
+    Compatible(#[from] CompatibleError),
+    /// The rigidity-preserving interpolation failed.
+    #[error(transparent)]
+    Arap(#[from] ArapError),
+    /// A design has no outline.
+    #[error(transparent)]
+    Outline(#[from] RegionsError),
+    /// The frame has no grid.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// A distance field could not be made.
+    #[error("{design}: {error}")]
+    Field {
+        /// Name of the design.
+        design: String,
+        /// What went wrong.
+        error: FieldError,
+    },
+    /// ε or the threshold is out of range.
+    #[error(transparent)]
+    Blend(#[from] FieldPairError),
+    /// The width of bars is no positive number.
+    #[error("the bar width {0} is not between 0 and 1; give a fraction of the design's size")]
+    BarWidth(f64),
+    /// Nobody wants the result.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl TransitionSpec {
+    /// Bars are drawn this wide, as a fraction of the diameter, where nothing
+    /// else is asked for.
+    pub const DEFAULT_BAR_WIDTH: f64 = 0.012;
+
+    /// Two designs by the method that suits them best, with default options.
+    #[must_use]
+    pub fn new(source: Arc<Design>, target: Arc<Design>) -> Self {
+        let arap = Cell::ALL[0];
+        let cell = match Self::available(arap, &source, &target) {
+            Ok(()) => arap,
+            Err(_) => Cell::ALL[1],
+        };
+        Self {
+            source,
+            target,
+            cell,
+            arap: ArapOptions::default(),
+            field: FieldOptions::default(),
+            bar_width: Self::DEFAULT_BAR_WIDTH,
+        }
+    }
+
+    /// Whether designs of these kinds can be interpolated by `cell`, without
+    /// trying.
+    ///
+    /// # Errors
+    /// [`BuildError::Unavailable`] with the reason, for a greyed button.
+    pub fn available(cell: Cell, source: &Design, target: &Design) -> Result<(), BuildError> {
+        if cell.warp() == WarpKind::None {
+            return Ok(());
+        }
+        match (&source.form, &target.form) {
+            (Form::Mesh(_), Form::Mesh(_)) | (Form::Truss(_), Form::Truss(_)) => Ok(()),
+            (Form::Outline(_), _) | (_, Form::Outline(_)) => Err(BuildError::Unavailable(
+                "rigid parts need two meshes with the same faces or two trusses with the same bars; outlines can be blended as fields".to_owned(),
+            )),
+            _ => Err(BuildError::Unavailable(
+                "a mesh and a truss have no triangles in common; blend them as fields".to_owned(),
+            )),
+        }
+    }
+}
+
+pub(super) fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildError> {
+    TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
+    if !(spec.bar_width > 0.0 && spec.bar_width <= 1.0) {
+        return Err(BuildError::BarWidth(spec.bar_width));
+    }
+    let diameter = extent(&spec.source).diameter().max(extent(&spec.target).diameter());
+    let bar_width = spec.bar_width * diameter;
+    match spec.cell.warp() {
+        WarpKind::Arap => build_arap(spec, bar_width, progress),
+        WarpKind::None => build_field(spec, bar_width, progress),
+    }
+}
+
+/// The box around the form itself, not around its picture.
+fn extent(design: &Design) -> Bounds {
+    match &design.form {
+        Form::Outline(regions) => regions.bounds(),
+        Form::Mesh(mesh) => mesh.bounds(),
+        Form::Truss(truss) => truss.bounds(),
+    }
+}
+
+fn build_arap(
+    spec: &TransitionSpec,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<Inner, BuildError> {
+    checkpoint(progress, "triangulating", 0.0)?;
+    let (mesh, bars) = match (&spec.source.form, &spec.target.form) {
+        (Form::Mesh(a), Form::Mesh(b)) => (CompatibleMesh::from_meshes(a, b)?, Vec::new()),
+        (Form::Truss(a), Form::Truss(b)) => {
+            (CompatibleMesh::from_trusses(a, b)?, a.bars().to_vec())
+        }
+        _ => unreachable!("checked by `available`"),
+    };
+    let arap = Arap::build(&mesh, &spec.arap, progress)?;
+    let loops = if bars.is_empty() {
+        arap.mesh().boundary_loops()
+    } else {
+        Vec::new()
+    };
+    let room = if bars.is_empty() { 0.0 } else { bar_width };
+    let content = Content::Solid(Solid {
+        loops,
+        bars,
+        bar_width,
+    });
+    Ok(Inner {
+        cell: spec.cell,
+        designs: [Arc::clone(&spec.source), Arc::clone(&spec.target)],
+        bounds: swept_bounds(&arap).padded(room),
+        warp: Box::new(arap.clone()),
+        arap: Some(arap),
+        content,
+        bar_width,
+    })
+}
+
+/// The box around a few frames: a part that swings may leave the ends' box.
+fn swept_bounds(arap: &Arap) -> Bounds {
+    const SAMPLES: u32 = 8;
+    let mut placer = arap.placer();
+    let mut bounds = arap.mesh().bounds();
+    for i in 1..SAMPLES {
+        placer.place(f64::from(i) / f64::from(SAMPLES));
+        if let Some(b) = Bounds::of(placer.placement().in_frame.iter().copied()) {
+            bounds = bounds.union(&b);
+        }
+    }
+    bounds
+}
+
+fn build_field(
+    spec: &TransitionSpec,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<Inner, BuildError> {
+    let frame = field_frame(spec, bar_width);
+    let grid = Grid::covering(&frame, spec.field.cells, spec.field.margin)?;
+    let source = field_of(&spec.source, spec, grid, bar_width, progress)?;
+    checkpoint(progress, "measuring distances", 0.5)?;
+    let target = field_of(&spec.target, spec, grid, bar_width, progress)?;
+    let pair = FieldPair::new(source, target, spec.field.blend)?;
+    Ok(Inner {
+        cell: spec.cell,
+        designs: [Arc::clone(&spec.source), Arc::clone(&spec.target)],
+        warp: Box::new(Still::new(grid.bounds())),
+        arap: None,
+        bounds: frame,
+        content: Content::Field(pair),
+        bar_width,
+    })
+}
+
+/// The rectangle of the fields without their margin: pictures and pages whole,
+/// meshes and trusses with the thickness of their bars.
+fn field_frame(spec: &TransitionSpec, bar_width: f64) -> Bounds {
+    let of = |design: &Design| match design.form {
+        Form::Truss(_) => design.extent.padded(0.5 * bar_width),
+        _ => design.extent.union(&extent(design)),
+    };
+    of(&spec.source).union(&of(&spec.target))
+}
+
+fn field_of(
+    design: &Design,
+    spec: &TransitionSpec,
+    grid: Grid,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<DistanceField, BuildError> {
+    let outline = design.outline(bar_width)?;
+    // The exact boundary has Euclidean distances only; the other metrics
+    // belong to the pixels of a binary picture.
+    let exact = spec.field.boundary == Boundary::Exact && spec.field.metric == Metric::Euclidean;
+    let field = if exact {
+        DistanceField::from_regions(&outline, grid, progress)
+    } else {
+        DistanceField::from_raster(&outline, grid, spec.field.metric, progress)
+    };
+    field.map_err(|error| match error {
+        FieldError::Cancelled(cancelled) => BuildError::Cancelled(cancelled),
+        error => BuildError::Field {
+            design: design.name.clone(),
+            error,
+        },
+    })
+}

@@ -1,0 +1,108 @@
+//! One moment of a transition.
+
+use super::Transition;
+use crate::content::Content;
+use crate::design::{Design, Form};
+use crate::geometry::DVec2;
+use crate::warp::{Placement, Placer};
+
+/// A transition at one t, unevaluated: a placement and a place in the mix.
+#[derive(Debug)]
+pub struct Frame {
+    transition: Transition,
+    placer: Box<dyn Placer>,
+    t: f64,
+}
+
+/// What a frame looks like, evaluated on the CPU.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Figure {
+    /// Closed polygons, to be filled together by the non-zero rule.
+    pub rings: Vec<Vec<DVec2>>,
+    /// Bars, from end to end.
+    pub bars: Vec<[DVec2; 2]>,
+    /// Width of the bars, in units of the designs.
+    pub bar_width: f64,
+}
+
+impl Frame {
+    pub(super) fn new(transition: Transition) -> Self {
+        Self {
+            placer: transition.0.warp.placer(),
+            transition,
+            t: 0.0,
+        }
+    }
+
+    /// Moves to `t` without allocating. A `t` that is not finite counts as 0.
+    pub fn seek(&mut self, t: f64) {
+        self.t = if t.is_finite() { t } else { 0.0 };
+        self.placer.place(self.t);
+    }
+
+    /// The blend parameter.
+    #[must_use]
+    pub fn t(&self) -> f64 {
+        self.t
+    }
+
+    /// Whether t lies outside [0, 1].
+    #[must_use]
+    pub fn is_extrapolated(&self) -> bool {
+        !(0.0..=1.0).contains(&self.t)
+    }
+
+    /// Where the vertices are.
+    #[must_use]
+    pub fn placement(&self) -> &Placement {
+        self.placer.placement()
+    }
+
+    /// What this is a frame of.
+    #[must_use]
+    pub fn transition(&self) -> &Transition {
+        &self.transition
+    }
+
+    /// The frame as polygons and bars.
+    #[must_use]
+    pub fn figure(&self) -> Figure {
+        match self.transition.content() {
+            Content::Solid(solid) => {
+                let places = &self.placement().in_frame;
+                Figure {
+                    rings: solid.rings_at(places),
+                    bars: solid.bars_at(places),
+                    bar_width: solid.bar_width,
+                }
+            }
+            Content::Field(pair) => Figure {
+                rings: pair.contour(self.t),
+                ..Figure::default()
+            },
+        }
+    }
+}
+
+/// A design on its own.
+pub(super) fn ghost(design: &Design, bar_width: f64) -> Figure {
+    let rings = |walks: Vec<&[DVec2]>| walks.into_iter().map(<[DVec2]>::to_vec).collect();
+    match &design.form {
+        Form::Outline(regions) => Figure {
+            rings: rings(regions.rings().map(|ring| ring.points()).collect()),
+            ..Figure::default()
+        },
+        Form::Mesh(mesh) => {
+            let at = |walk: Vec<u32>| walk.iter().map(|&v| mesh.positions()[v as usize]).collect();
+            Figure {
+                rings: mesh.boundary_loops().into_iter().map(at).collect(),
+                ..Figure::default()
+            }
+        }
+        Form::Truss(truss) => Figure {
+            rings: Vec::new(),
+            bars: truss.segments().collect(),
+            bar_width,
+        },
+    }
+}

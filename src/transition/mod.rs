@@ -1,0 +1,133 @@
+//! Transitions: a warp and a content, built from two designs, and the frames
+//! between them.
+//!
+//! Everything that can fail fails in [`Transition::build`]; a [`Frame`] then
+//! moves to any t without allocating. A frame is unevaluated: a placement and
+//! how the contents mix at t. The stage evaluates it on the GPU, export and
+//! tests on the CPU through [`Frame::figure`], so that there is one way to a
+//! frame and the two can be held against each other.
+
+mod arrange;
+mod build;
+mod cells;
+mod frame;
+mod style;
+mod timing;
+
+#[cfg(test)]
+mod tests;
+
+pub use arrange::{Fit, arranged};
+pub use build::{Boundary, BuildError, FieldOptions, TransitionSpec};
+pub use cells::{Cell, NoSuchCell};
+pub use frame::{Figure, Frame};
+pub use style::{NoColour, Rgb, Style};
+pub use timing::{Easing, PlayMode, Stop, Timing, TimingError};
+
+use crate::compatible::CompatibleMesh;
+use crate::content::Content;
+use crate::design::Design;
+use crate::geometry::Bounds;
+use crate::progress::Progress;
+use crate::warp::{Arap, Warp};
+use std::sync::Arc;
+
+/// A transition that is ready to be played. Cloning is cheap.
+///
+/// ```
+/// use morphospace::design::{ImportOptions, import};
+/// use morphospace::progress::Silent;
+/// use morphospace::transition::{Transition, TransitionSpec};
+/// use std::sync::Arc;
+///
+/// let read = |text: &str| import("t", text.as_bytes(), &ImportOptions::default()).map(Arc::new);
+/// let source = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")?;
+/// let target = read("v 0 0 0\nv 0 2 0\nv -2 0 0\nf 1 2 3\n")?;
+/// let transition = Transition::build(&TransitionSpec::new(source, target), &Silent)?;
+/// let mut frame = transition.frame(0.0);
+/// frame.seek(0.5);
+/// assert_eq!(frame.figure().rings.len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Transition(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    cell: Cell,
+    designs: [Arc<Design>; 2],
+    warp: Box<dyn Warp>,
+    arap: Option<Arap>,
+    content: Content,
+    bounds: Bounds,
+    bar_width: f64,
+}
+
+impl Transition {
+    /// Builds the cell of the table that the specification names: imports
+    /// nothing, decides everything.
+    ///
+    /// # Errors
+    /// [`BuildError`] says what does not go together, or that the work was
+    /// cancelled.
+    pub fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Self, BuildError> {
+        build::build(spec, progress).map(|inner| Self(Arc::new(inner)))
+    }
+
+    /// A frame at `t`, with memory of its own. Outside [0, 1] it
+    /// extrapolates; a `t` that is not finite counts as 0.
+    #[must_use]
+    pub fn frame(&self, t: f64) -> Frame {
+        let mut frame = Frame::new(self.clone());
+        frame.seek(t);
+        frame
+    }
+
+    /// Row and column of the table.
+    #[must_use]
+    pub fn cell(&self) -> Cell {
+        self.0.cell
+    }
+
+    /// What is seen.
+    #[must_use]
+    pub fn content(&self) -> &Content {
+        &self.0.content
+    }
+
+    /// The rigidity-preserving interpolation, where that is the warp.
+    #[must_use]
+    pub fn arap(&self) -> Option<&Arap> {
+        self.0.arap.as_ref()
+    }
+
+    /// The common triangulation, where there is one.
+    #[must_use]
+    pub fn compatible(&self) -> Option<&CompatibleMesh> {
+        self.arap().map(Arap::mesh)
+    }
+
+    /// The box that holds every frame for t in [0, 1], nearly.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        self.0.bounds
+    }
+
+    /// The designs, laid into one frame: source and target.
+    #[must_use]
+    pub fn designs(&self) -> &[Arc<Design>; 2] {
+        &self.0.designs
+    }
+
+    /// The source as it was given, for a ghost behind the frames.
+    #[must_use]
+    pub fn source_outline(&self) -> Figure {
+        frame::ghost(&self.0.designs[0], self.0.bar_width)
+    }
+
+    /// The target as it was given.
+    #[must_use]
+    pub fn target_outline(&self) -> Figure {
+        frame::ghost(&self.0.designs[1], self.0.bar_width)
+    }
+}
