@@ -6,9 +6,11 @@
 //! spiral may lie over itself.
 
 mod elements;
+mod truss;
 
 pub use elements::{BarElement, CompatibleError, Which};
 
+use crate::design::Truss;
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::{Connectivity, Subdivision, TooManyVertices, TriangleMesh, check_faces};
 use std::sync::Arc;
@@ -88,6 +90,19 @@ impl CompatibleMesh {
             target.positions().to_vec(),
             Vec::new(),
         )
+    }
+
+    /// Two trusses with the same nodes and bars: the panels between the bars
+    /// are triangulated, bars in no panel become elements.
+    ///
+    /// # Errors
+    /// [`CompatibleError::Truss`] names the first difference or the panel that
+    /// cannot be triangulated in both; otherwise what [`Self::new`] finds.
+    pub fn from_trusses(source: &Truss, target: &Truss) -> Result<Self, CompatibleError> {
+        let (faces, elements) = truss::panels(source, target)
+            .map_err(|error| CompatibleError::Truss(error.to_string()))?;
+        let (source, target) = (source.nodes().to_vec(), target.nodes().to_vec());
+        Self::new(faces, source, target, elements)
     }
 
     /// Vertex indices, three a face, counter-clockwise in both embeddings.

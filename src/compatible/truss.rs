@@ -1,0 +1,189 @@
+//! A common triangulation of two trusses with the same nodes and bars.
+//!
+//! Only what bars enclose carries faces; pockets of the outer contour stay
+//! open. The steps:
+//!
+//! 1. Bars that cross others without a node, in either design, are no
+//!    constraints. The bar with the most crossings is let go first, of equal
+//!    ones the one listed last, until no two cross. Where that does not lead
+//!    to a triangulation, all bars that cross any other are let go.
+//! 2. The remaining graph is taken apart where a single bar or a single node
+//!    holds it together. A piece of one bar is a bridge or a dangling end and
+//!    becomes a two-point element; in every other piece each face is a simple
+//!    polygon, a panel.
+//! 3. Panels are cut by diagonals so that all triangles are positive in both
+//!    designs, by exact predicates, and the smallest angle of both is as
+//!    large as can be: a dynamic program (Gilbert 1979, Klincsek 1980) in
+//!    O(n³) for a panel of n nodes.
+//! 4. Bars that were let go are carried by a panel that holds both of their
+//!    nodes; where there is none they become two-point elements.
+//!
+//! Guaranteed: exchanging the designs gives the same triangles; every node is
+//! in a face or a two-point element. Not guaranteed: a triangulation where
+//! only further points inside a panel would make one possible, and that
+//! pieces which lie inside a panel without a bar to it move with it.
+
+mod crossings;
+mod pieces;
+mod polygon;
+
+use crate::design::Truss;
+use crate::geometry::DVec2;
+use std::collections::HashMap;
+
+/// Faces, and bars that are two-point elements.
+pub(super) type Panels = (Vec<[u32; 3]>, Vec<[u32; 2]>);
+
+/// Most nodes of one panel; the program takes about a second then.
+const MAX_PANEL_NODES: usize = 1000;
+
+/// Why two trusses have no common triangulation. Nodes and bars count from 0,
+/// as in the file.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub(super) enum TrussError {
+    /// Different numbers of nodes.
+    #[error("the source truss has {} nodes and the target {}; both need the same nodes in the same order", .0[0], .0[1])]
+    NodeCounts([usize; 2]),
+    /// A bar of one design that is not in the other.
+    #[error("the bar between nodes {} and {} is only in the {only_in}; both trusses need the same bars", nodes[0], nodes[1])]
+    BarsDiffer {
+        /// Its nodes.
+        nodes: [u32; 2],
+        /// The design that has it.
+        only_in: super::Which,
+    },
+    /// Every panel is turned over.
+    #[error("the target truss is a mirror image of the source; mirror one of them (placement, mirror = true)")]
+    Mirrored,
+    /// A panel is turned over.
+    #[error("the panel of nodes {} is turned over between source and target; move its nodes in one design", listed(.0))]
+    Flipped(Vec<u32>),
+    /// No diagonals are valid in both designs.
+    #[error("the panel of nodes {} has no triangles that are valid in both designs; add a bar or a node inside it", listed(.0))]
+    NoTriangulation(Vec<u32>),
+    /// A panel of very many nodes.
+    #[error("the panel of nodes {} has {} nodes, more than {MAX_PANEL_NODES}; divide it by bars", listed(.0), .0.len())]
+    TooLarge(Vec<u32>),
+}
+
+/// "0, 4, 5 and 9 more".
+fn listed(nodes: &[u32]) -> String {
+    const SHOWN: usize = 8;
+    let names: Vec<String> = nodes.iter().take(SHOWN).map(u32::to_string).collect();
+    match nodes.len().checked_sub(SHOWN) {
+        None | Some(0) => names.join(", "),
+        Some(more) => format!("{} and {more} more", names.join(", ")),
+    }
+}
+
+/// The places of the nodes in both designs.
+#[derive(Clone, Copy)]
+struct Pair<'a> {
+    source: &'a [DVec2],
+    target: &'a [DVec2],
+}
+
+/// Triangles between the bars, positive in both designs, and the bars that
+/// are in no panel.
+///
+/// # Errors
+/// [`TrussError`] names the first difference, or the nodes of a panel that
+/// cannot be triangulated.
+pub(super) fn panels(source: &Truss, target: &Truss) -> Result<Panels, TrussError> {
+    check_same(source, target)?;
+    let pair = Pair {
+        source: source.nodes(),
+        target: target.nodes(),
+    };
+    let bars = source.bars();
+    let conflicts = crossings::in_either(bars, pair);
+    let thinned = crossings::thinned(bars.len(), &conflicts);
+    let first = with_kept(bars, pair, &thinned);
+    if first.is_ok() || conflicts.is_empty() {
+        return first;
+    }
+    let uncrossed = crossings::uncrossed(bars.len(), &conflicts);
+    with_kept(bars, pair, &uncrossed).or(first)
+}
+
+fn check_same(source: &Truss, target: &Truss) -> Result<(), TrussError> {
+    let counts = [source.nodes().len(), target.nodes().len()];
+    if counts[0] != counts[1] {
+        return Err(TrussError::NodeCounts(counts));
+    }
+    let sorted = |truss: &Truss| {
+        let mut bars: Vec<[u32; 2]> = truss.bars().iter().map(|&b| ordered(b)).collect();
+        bars.sort_unstable();
+        bars
+    };
+    let only = |of: &Truss, without: &Truss, only_in| {
+        let others = sorted(without);
+        let mut missing = of
+            .bars()
+            .iter()
+            .filter(|&&bar| others.binary_search(&ordered(bar)).is_err());
+        match missing.next() {
+            Some(&nodes) => Err(TrussError::BarsDiffer { nodes, only_in }),
+            None => Ok(()),
+        }
+    };
+    only(source, target, super::Which::Source)?;
+    only(target, source, super::Which::Target)
+}
+
+fn ordered([a, b]: [u32; 2]) -> [u32; 2] {
+    [a.min(b), a.max(b)]
+}
+
+/// The panels between the bars that are kept, triangulated.
+fn with_kept(bars: &[[u32; 2]], pair: Pair, kept: &[bool]) -> Result<Panels, TrussError> {
+    let plane: Vec<[u32; 2]> = (0..bars.len())
+        .filter(|&bar| kept[bar])
+        .map(|bar| bars[bar])
+        .collect();
+    let (cycles, mut elements) = pieces::cycles_and_bridges(&plane, pair.source);
+    check_sides(&cycles, pair)?;
+    let mut faces = Vec::new();
+    for cycle in &cycles {
+        faces.extend(triangles(cycle, pair)?);
+    }
+    let let_go = (0..bars.len()).filter(|&bar| !kept[bar]).map(|bar| bars[bar]);
+    elements.extend(outside(let_go, &cycles));
+    Ok((faces, elements))
+}
+
+/// A single panel that is turned over is reported when its turn comes.
+fn check_sides(cycles: &[Vec<u32>], pair: Pair) -> Result<(), TrussError> {
+    let turned = |cycle: &Vec<u32>| polygon::area(cycle, pair.target) < 0.0;
+    if !cycles.is_empty() && cycles.iter().all(turned) {
+        return Err(TrussError::Mirrored);
+    }
+    match cycles.iter().find(|cycle| turned(cycle)) {
+        Some(cycle) => Err(TrussError::Flipped(cycle.clone())),
+        None => Ok(()),
+    }
+}
+
+fn triangles(cycle: &[u32], pair: Pair) -> Result<Vec<[u32; 3]>, TrussError> {
+    if cycle.len() > MAX_PANEL_NODES {
+        return Err(TrussError::TooLarge(cycle.to_vec()));
+    }
+    polygon::triangulated(cycle, pair)
+        .ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
+}
+
+/// The bars whose nodes no panel has both of.
+fn outside(bars: impl Iterator<Item = [u32; 2]>, cycles: &[Vec<u32>]) -> Vec<[u32; 2]> {
+    let mut panels_of: HashMap<u32, Vec<usize>> = HashMap::new();
+    for (panel, cycle) in cycles.iter().enumerate() {
+        for &node in cycle {
+            panels_of.entry(node).or_default().push(panel);
+        }
+    }
+    let of = |node: u32| panels_of.get(&node).map_or(&[][..], Vec::as_slice);
+    bars.filter(|&[a, b]| !of(a).iter().any(|panel| of(b).contains(panel)))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,116 @@
+//! Which bars meet away from a common node, and which of them to keep.
+
+use super::Pair;
+use crate::geometry::{DVec2, orient2d};
+
+/// Pairs of bars, the smaller index first, that cross, touch or lie on each
+/// other in at least one of the designs, other than by ending at one node.
+pub(super) fn in_either(bars: &[[u32; 2]], pair: Pair) -> Vec<[usize; 2]> {
+    let mut conflicts = in_one(bars, pair.source);
+    conflicts.extend(in_one(bars, pair.target));
+    conflicts.sort_unstable();
+    conflicts.dedup();
+    conflicts
+}
+
+/// Bars sorted by their left ends, each tested against those that begin
+/// before it ends.
+fn in_one(bars: &[[u32; 2]], nodes: &[DVec2]) -> Vec<[usize; 2]> {
+    let range = |bar: usize| {
+        let [a, b] = bars[bar].map(|node| nodes[node as usize].x);
+        (a.min(b), a.max(b))
+    };
+    let mut order: Vec<usize> = (0..bars.len()).collect();
+    order.sort_by(|&i, &j| range(i).0.total_cmp(&range(j).0));
+    let mut found = Vec::new();
+    for (place, &i) in order.iter().enumerate() {
+        let right = range(i).1;
+        let rest = order[place + 1..].iter();
+        for &j in rest.take_while(|&&j| range(j).0 <= right) {
+            if meet(bars[i], bars[j], nodes) {
+                found.push([i.min(j), i.max(j)]);
+            }
+        }
+    }
+    found
+}
+
+fn meet(first: [u32; 2], second: [u32; 2], nodes: &[DVec2]) -> bool {
+    let at = |node: u32| nodes[node as usize];
+    if let Some(&shared) = first.iter().find(|node| second.contains(node)) {
+        let other = |bar: [u32; 2]| at(if bar[0] == shared { bar[1] } else { bar[0] });
+        let (n, p, q) = (at(shared), other(first), other(second));
+        return orient2d(n, p, q) == 0.0 && (p - n).dot(q - n) > 0.0;
+    }
+    let [a, b] = first.map(at);
+    let [c, d] = second.map(at);
+    let side = |p, q, r| orient2d(p, q, r).partial_cmp(&0.0);
+    let (abc, abd) = (side(a, b, c), side(a, b, d));
+    if abc == abd && abc == Some(std::cmp::Ordering::Equal) {
+        let apart = a.max(b).cmplt(c.min(d)) | c.max(d).cmplt(a.min(b));
+        return !apart.any();
+    }
+    abc != abd && side(c, d, a) != side(c, d, b)
+}
+
+/// Keeps as many bars as the greedy rule leaves: the one with the most
+/// conflicts goes first, of equal ones the last.
+pub(super) fn thinned(bars: usize, conflicts: &[[usize; 2]]) -> Vec<bool> {
+    let mut against: Vec<Vec<usize>> = vec![Vec::new(); bars];
+    for &[i, j] in conflicts {
+        against[i].push(j);
+        against[j].push(i);
+    }
+    let mut kept = vec![true; bars];
+    let mut open: Vec<usize> = against.iter().map(Vec::len).collect();
+    while let Some(worst) = (0..bars).max_by_key(|&bar| (open[bar], bar))
+        && open[worst] > 0
+    {
+        kept[worst] = false;
+        open[worst] = 0;
+        for &other in &against[worst] {
+            open[other] = open[other].saturating_sub(1);
+        }
+    }
+    kept
+}
+
+/// Keeps the bars without any conflict.
+pub(super) fn uncrossed(bars: usize, conflicts: &[[usize; 2]]) -> Vec<bool> {
+    let mut kept = vec![true; bars];
+    for &bar in conflicts.iter().flatten() {
+        kept[bar] = false;
+    }
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn bars_meet_when_they_share_a_point_that_is_no_common_node() {
+        let nodes = [(0, 0), (4, 4), (0, 4), (4, 0), (2, 2), (8, 8), (5, 5), (2, 0)]
+            .map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
+        let meets = |a, b| {
+            let (one, other) = (meet(a, b, &nodes), meet(b, a, &nodes));
+            assert_eq!(one, other);
+            one
+        };
+        assert!(meets([0, 1], [2, 3]), "crossing");
+        assert!(meets([0, 1], [4, 7]), "a node on a bar");
+        assert!(meets([0, 1], [0, 4]), "one on the other, from one node");
+        assert!(meets([0, 1], [4, 5]), "one on the other");
+        assert!(!meets([0, 1], [5, 6]), "on one line, apart");
+        assert!(!meets([0, 1], [0, 3]), "a common node");
+        assert!(!meets([0, 4], [4, 1]), "in line, a common node");
+        assert!(!meets([0, 2], [1, 3]), "parallel");
+    }
+
+    #[test]
+    fn the_bar_with_most_crossings_goes_first() {
+        assert_eq!(thinned(4, &[[0, 1], [0, 2], [0, 3]]), [false, true, true, true]);
+        assert_eq!(thinned(3, &[[0, 2]]), [true, true, false]);
+        assert_eq!(uncrossed(3, &[[0, 2]]), [false, true, false]);
+    }
+}

@@ -1,0 +1,103 @@
+//! One polygon in two embeddings, cut into triangles.
+
+use super::Pair;
+use crate::geometry::{DVec2, orient2d};
+
+/// No triangulation of a part of the polygon.
+const NONE: f64 = -1.0;
+
+/// The area of a cycle of nodes, negative when clockwise.
+pub(super) fn area(cycle: &[u32], nodes: &[DVec2]) -> f64 {
+    let at = |&node: &u32| nodes[node as usize];
+    let Some(origin) = cycle.first().map(at) else {
+        return 0.0;
+    };
+    let next = cycle.iter().cycle().skip(1);
+    let twice: f64 = cycle
+        .iter()
+        .zip(next)
+        .map(|(a, b)| (at(a) - origin).perp_dot(at(b) - origin))
+        .sum();
+    0.5 * twice
+}
+
+/// Triangles between the nodes of a counter-clockwise cycle, all positive in
+/// both designs, with the largest possible smallest angle; `None` if there
+/// are none.
+pub(super) fn triangulated(cycle: &[u32], pair: Pair) -> Option<Vec<[u32; 3]>> {
+    let table = Table::filled(cycle, pair);
+    let last = cycle.len().checked_sub(1)?;
+    let mut faces = Vec::new();
+    let mut open = vec![(0, last)];
+    while let Some((i, j)) = open.pop() {
+        if j - i < 2 {
+            continue;
+        }
+        let (worth, k) = table.cells[table.cell(i, j)];
+        if worth == NONE {
+            return None;
+        }
+        faces.push([i, k, j].map(|corner| cycle[corner]));
+        open.extend([(k, j), (i, k)]);
+    }
+    Some(faces)
+}
+
+/// For each chord i < j what the part from i to j is worth, and the third
+/// corner of the triangle at the chord.
+struct Table {
+    size: usize,
+    cells: Vec<(f64, usize)>,
+}
+
+impl Table {
+    fn filled(cycle: &[u32], pair: Pair) -> Self {
+        let size = cycle.len();
+        let mut table = Self {
+            size,
+            cells: vec![(f64::INFINITY, 0); size * size],
+        };
+        for length in 2..size {
+            for i in 0..size - length {
+                let j = i + length;
+                let cell = table.cell(i, j);
+                table.cells[cell] = table.best(cycle, pair, i, j);
+            }
+        }
+        table
+    }
+
+    fn cell(&self, i: usize, j: usize) -> usize {
+        i * self.size + j
+    }
+
+    fn best(&self, cycle: &[u32], pair: Pair, i: usize, j: usize) -> (f64, usize) {
+        let mut best = (NONE, i);
+        for k in i + 1..j {
+            let sides = self.cells[self.cell(i, k)].0.min(self.cells[self.cell(k, j)].0);
+            if sides <= best.0 {
+                continue;
+            }
+            let corners = [i, k, j].map(|corner| cycle[corner] as usize);
+            let here = worth(corners, pair.source).min(worth(corners, pair.target));
+            if sides.min(here) > best.0 {
+                best = (sides.min(here), k);
+            }
+        }
+        best
+    }
+}
+
+/// The sine of the smallest angle, [`NONE`] unless the triangle is positive.
+fn worth(corners: [usize; 3], nodes: &[DVec2]) -> f64 {
+    let [a, b, c] = corners.map(|corner| nodes[corner]);
+    let twice_area = orient2d(a, b, c);
+    if twice_area <= 0.0 {
+        return NONE;
+    }
+    let mut sides = [a.distance(b), b.distance(c), c.distance(a)];
+    sides.sort_by(f64::total_cmp);
+    let sine = twice_area / (sides[1] * sides[2]);
+    // Lengths may underflow where the exact sign does not.
+    if sine.is_finite() { sine } else { 0.0 }
+}

@@ -1,0 +1,194 @@
+use super::*;
+use crate::geometry::orient2d;
+
+fn truss(nodes: &[(f64, f64)], bars: &[[u32; 2]]) -> Truss {
+    let nodes = nodes.iter().map(|&p| p.into()).collect();
+    Truss::new(nodes, bars.to_vec()).expect("a truss")
+}
+
+fn positive(faces: &[[u32; 3]], truss: &Truss) -> bool {
+    faces.iter().all(|f| {
+        let [a, b, c] = f.map(|node| truss.nodes()[node as usize]);
+        orient2d(a, b, c) > 0.0
+    })
+}
+
+/// Both orders of the designs give the same, valid result.
+fn both_ways(source: &Truss, target: &Truss) -> Panels {
+    let found = panels(source, target).expect("panels");
+    assert!(positive(&found.0, source) && positive(&found.0, target));
+    assert_eq!(panels(target, source), Ok(found.clone()));
+    for node in 0..source.nodes().len() as u32 {
+        let in_face = found.0.iter().any(|face| face.contains(&node));
+        assert!(in_face || found.1.iter().any(|bar| bar.contains(&node)), "{node}");
+    }
+    found
+}
+
+const SQUARE: [(f64, f64); 4] = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+const RIM: [[u32; 2]; 4] = [[0, 1], [1, 2], [2, 3], [3, 0]];
+
+#[test]
+fn triangles_bridges_and_ends_are_told_apart() {
+    // Two triangles joined by a bridge, one with a dangling bar inside.
+    let nodes = [
+        (0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (1.0, 1.0),
+        (6.0, 0.0), (8.0, 0.0), (7.0, 2.0),
+    ];
+    let bars = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 4], [4, 5], [5, 6], [6, 4]];
+    let t = truss(&nodes, &bars);
+    let (faces, elements) = both_ways(&t, &t);
+    assert_eq!(faces, [[0, 1, 2], [4, 5, 6]]);
+    assert_eq!(elements, [[0, 3], [1, 4]]);
+}
+
+#[test]
+fn a_mechanism_square_gets_the_diagonal_that_is_good_in_both() {
+    let sheared = [(0.0, 0.0), (1.0, 0.0), (1.8, 0.6), (0.8, 0.6)];
+    let (faces, elements) = both_ways(&truss(&SQUARE, &RIM), &truss(&sheared, &RIM));
+    assert_eq!(faces.len(), 2);
+    assert!(faces.iter().all(|f| f.contains(&1) && f.contains(&3)));
+    assert!(elements.is_empty());
+}
+
+#[test]
+fn a_concave_panel_takes_diagonals_valid_in_both() {
+    // Concave at node 3 in the source and convex in the target: only 1–3 will do.
+    let dart = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.2, 0.8)];
+    let (faces, _) = both_ways(&truss(&dart, &RIM), &truss(&SQUARE, &RIM));
+    assert!(faces.iter().all(|f| f.contains(&1) && f.contains(&3)));
+    // Concave at neighbouring nodes: no diagonal serves both.
+    let other = [(0.0, 0.0), (2.0, 0.0), (0.8, 0.6), (0.0, 2.0)];
+    assert_eq!(
+        panels(&truss(&dart, &RIM), &truss(&other, &RIM)),
+        Err(TrussError::NoTriangulation(vec![0, 1, 2, 3]))
+    );
+}
+
+#[test]
+fn outer_pockets_stay_open() {
+    // A U of three squares' outline, with rungs.
+    let nodes = [
+        (0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (2.0, 3.0),
+        (2.0, 1.0), (1.0, 1.0), (1.0, 3.0), (0.0, 3.0),
+    ];
+    let bars = [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6], [6, 7], [7, 0]];
+    let t = truss(&nodes, &bars);
+    let (faces, _) = both_ways(&t, &t);
+    let area: f64 = faces.iter().map(|f| polygon::area(f, t.nodes())).sum();
+    assert_eq!(area, 7.0);
+}
+
+#[test]
+fn crossed_braces_keep_one_and_carry_the_other() {
+    let bars = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 2], [1, 3]];
+    let (faces, elements) = both_ways(&truss(&SQUARE, &bars), &truss(&SQUARE, &bars));
+    assert_eq!(faces, [[0, 1, 2], [0, 2, 3]]);
+    assert!(elements.is_empty());
+    // In a dart the kept brace 0–2 lies outside: both are let go, 1–3 is found.
+    let dart = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.2, 0.8)];
+    let (faces, elements) = both_ways(&truss(&SQUARE, &bars), &truss(&dart, &bars));
+    assert!(faces.iter().all(|f| f.contains(&1) && f.contains(&3)));
+    assert!(elements.is_empty());
+}
+
+#[test]
+fn crossing_bars_between_panels_become_elements() {
+    let nodes = [
+        (0.0, 0.0), (0.0, 1.0), (-1.0, 0.5),
+        (2.0, 0.0), (2.0, 1.0), (3.0, 0.5),
+    ];
+    let bars = [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 4], [1, 3]];
+    let t = truss(&nodes, &bars);
+    let (faces, elements) = both_ways(&t, &t);
+    assert_eq!(faces.len(), 2);
+    assert_eq!(elements, [[0, 4], [1, 3]]);
+}
+
+#[test]
+fn a_panel_hung_into_another_at_one_node_is_a_panel_of_its_own() {
+    let nodes = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0), (4.0, 2.0), (2.0, 4.0)];
+    let bars = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [4, 5], [5, 0]];
+    let t = truss(&nodes, &bars);
+    let (faces, elements) = both_ways(&t, &t);
+    assert_eq!(faces.len(), 3);
+    assert!(faces.contains(&[0, 4, 5]));
+    assert!(elements.is_empty());
+}
+
+#[test]
+fn differences_and_turned_panels_are_named() {
+    let square = truss(&SQUARE, &RIM);
+    let more = truss(&[SQUARE.as_slice(), &[(2.0, 2.0)]].concat(), &[RIM.as_slice(), &[[2, 4]]].concat());
+    assert_eq!(panels(&square, &more), Err(TrussError::NodeCounts([4, 5])));
+    let braced = truss(&SQUARE, &[RIM.as_slice(), &[[0, 2]]].concat());
+    let error = panels(&square, &braced).expect_err("another bar");
+    assert_eq!(error, TrussError::BarsDiffer { nodes: [0, 2], only_in: crate::compatible::Which::Target });
+    assert!(error.to_string().contains("only in the target"));
+    let reordered = truss(&SQUARE, &[[0, 3], [3, 2], [2, 1], [1, 0]]);
+    assert!(panels(&square, &reordered).is_ok());
+    let mirror = SQUARE.map(|(x, y)| (-x, y));
+    assert_eq!(panels(&square, &truss(&mirror, &RIM)), Err(TrussError::Mirrored));
+    // Node 4 swings over the edge that its triangle stands on.
+    let house = |y| {
+        let nodes = [SQUARE.as_slice(), &[(0.5, y)]].concat();
+        truss(&nodes, &[RIM.as_slice(), &[[2, 4], [3, 4]]].concat())
+    };
+    let error = panels(&house(2.0), &house(0.5)).expect_err("turned over");
+    assert_eq!(error, TrussError::Flipped(vec![2, 4, 3]));
+}
+
+/// Every triangulation of a small polygon tried.
+fn brute(cycle: &[u32], pair: Pair) -> Option<f64> {
+    if cycle.len() < 3 {
+        return Some(f64::INFINITY);
+    }
+    let last = cycle.len() - 1;
+    (1..last)
+        .filter_map(|k| {
+            let sines = sines([cycle[0], cycle[k], cycle[last]], pair)?;
+            let left = brute(&cycle[..=k], pair)?;
+            let right = brute(&cycle[k..], pair)?;
+            Some(sines.min(left).min(right))
+        })
+        .max_by(f64::total_cmp)
+}
+
+fn sines(face: [u32; 3], pair: Pair) -> Option<f64> {
+    let mut least = f64::INFINITY;
+    for nodes in [pair.source, pair.target] {
+        let [a, b, c] = face.map(|node| nodes[node as usize]);
+        for (p, q, r) in [(a, b, c), (b, c, a), (c, a, b)] {
+            if orient2d(p, q, r) <= 0.0 {
+                return None;
+            }
+            let angle = (q - p).angle_to(r - p);
+            least = least.min(angle);
+        }
+    }
+    Some(least.sin())
+}
+
+proptest::proptest! {
+    #[test]
+    fn the_program_finds_the_best_triangulation(
+        radii in proptest::collection::vec((0.2f64..1.0, 0.2f64..1.0), 3..9),
+    ) {
+        let count = radii.len();
+        let around = |pick: fn(&(f64, f64)) -> f64| -> Vec<DVec2> {
+            radii.iter().enumerate().map(|(k, r)| {
+                pick(r) * DVec2::from_angle(std::f64::consts::TAU * k as f64 / count as f64)
+            }).collect()
+        };
+        let (source, target) = (around(|r| r.0), around(|r| r.1));
+        let pair = Pair { source: &source, target: &target };
+        let cycle: Vec<u32> = (0..count as u32).collect();
+        let found = polygon::triangulated(&cycle, pair).map(|faces| {
+            faces.iter().map(|&f| sines(f, pair).unwrap_or(-1.0)).fold(f64::INFINITY, f64::min)
+        });
+        match (found, brute(&cycle, pair)) {
+            (Some(a), Some(b)) => proptest::prop_assert!((a - b).abs() < 1e-9, "{a} {b}"),
+            (a, b) => proptest::prop_assert_eq!(a.is_some(), b.is_some()),
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! Why a file did not become a design, in one sentence for its owner.
+
+use super::{
+    MAX_FILE_BYTES, ObjError, OptionsError, PictureError, SvgError, TrussInputError, UnknownFormat,
+};
+use std::io;
+
+/// A file that could not be read as a design. Its message names the file,
+/// the place and the way out.
+#[derive(Debug, thiserror::Error)]
+#[error("{file}: {problem}")]
+pub struct ImportError {
+    /// The file, as it was given.
+    pub file: String,
+    /// What is wrong with it.
+    pub problem: Problem,
+}
+
+impl ImportError {
+    pub(super) fn new(file: &str, problem: Problem) -> Self {
+        Self {
+            file: file.to_owned(),
+            problem,
+        }
+    }
+}
+
+/// What is wrong with a file.
+#[derive(Debug, thiserror::Error)]
+pub enum Problem {
+    /// There is no such file.
+    #[error("there is no such file; check the path, or choose another file")]
+    Missing,
+    /// It is a folder.
+    #[error("this is a folder; choose a file in it")]
+    Folder,
+    /// The system refuses to hand it out.
+    #[error("the file cannot be read ({0}); check that it may be opened")]
+    Unreadable(#[source] io::Error),
+    /// It holds nothing.
+    #[error("the file is empty; save it again from where it was made")]
+    Empty,
+    /// It is larger than any design should be.
+    #[error("the file has {} MiB, more than the {} MiB that are read; save a smaller version", bytes >> 20, MAX_FILE_BYTES >> 20)]
+    TooLarge {
+        /// Its size.
+        bytes: u64,
+    },
+    /// Text that is not text.
+    #[error("line {line} is not UTF-8 text; save the file with the encoding UTF-8")]
+    NotUtf8 {
+        /// The first such line, from 1.
+        line: usize,
+    },
+    /// No reader knows it.
+    #[error(transparent)]
+    Unknown(#[from] UnknownFormat),
+    /// An option is out of range.
+    #[error(transparent)]
+    Options(#[from] OptionsError),
+    /// A picture without a usable silhouette.
+    #[error(transparent)]
+    Picture(#[from] PictureError),
+    /// A drawing without a usable outline.
+    #[error(transparent)]
+    Svg(#[from] SvgError),
+    /// A mesh that is none.
+    #[error(transparent)]
+    Obj(#[from] ObjError),
+    /// A truss that is none.
+    #[error(transparent)]
+    Truss(#[from] TrussInputError),
+}
+
+impl Problem {
+    pub(super) fn from_io(error: io::Error) -> Self {
+        match error.kind() {
+            io::ErrorKind::NotFound => Self::Missing,
+            _ => Self::Unreadable(error),
+        }
+    }
+}

@@ -1,0 +1,336 @@
+//! Wavefront OBJ as a plane triangle mesh.
+//!
+//! Read are `v` and `f`; names, groups, materials, normals and texture
+//! coordinates are passed over. Vertices keep their number and order, so that
+//! two files with the same `f` lines give the same mesh: loaders that number
+//! vertices by their first use in a face, or once for each texture
+//! coordinate, do not promise that, and lose the numbers that errors need.
+//!
+//! Faces of more than three vertices must be convex enough to be cut into a
+//! fan about their first vertex; a fan is the same in any two files, a better
+//! triangulation would not be. Whether faces are oriented alike, and
+//! positively, is checked where two meshes meet.
+
+use crate::geometry::DVec2;
+use crate::mesh::{MeshError, TriangleMesh};
+
+/// Why an OBJ file is no plane mesh. Lines, vertices and faces count from 1.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ObjError {
+    /// A `v` line without two or three numbers.
+    #[error("line {line}: vertex {vertex} needs the numbers x y z; correct the line")]
+    Vertex {
+        /// The line.
+        line: usize,
+        /// The vertex.
+        vertex: usize,
+    },
+    /// NaN, infinity, or a number too large to hold.
+    #[error("line {line}: vertex {vertex} is not a finite point; correct its coordinates")]
+    NotFinite {
+        /// The line.
+        line: usize,
+        /// The vertex.
+        vertex: usize,
+    },
+    /// The vertices do not lie in one plane of constant z.
+    #[error(
+        "line {line}: vertex {vertex} has z = {z}, but vertex 1 has z = {first}; lay the mesh flat, only x and y are used"
+    )]
+    NotFlat {
+        /// The line.
+        line: usize,
+        /// The vertex.
+        vertex: usize,
+        /// Its z.
+        z: f64,
+        /// The z of the first vertex.
+        first: f64,
+    },
+    /// A face with a word that is no vertex.
+    #[error("line {line}: face {face} has \"{word}\" where a vertex number should be; correct the line")]
+    Face {
+        /// The line.
+        line: usize,
+        /// The face.
+        face: usize,
+        /// The word, cut short.
+        word: String,
+    },
+    /// A face of one or two vertices.
+    #[error("line {line}: face {face} has fewer than three vertices; remove it or complete it")]
+    TooFewCorners {
+        /// The line.
+        line: usize,
+        /// The face.
+        face: usize,
+    },
+    /// A face that names a vertex that is not there.
+    #[error("line {line}: face {face} names vertex {named}, but there are {vertices}; correct the face")]
+    OutOfRange {
+        /// The line.
+        line: usize,
+        /// The face.
+        face: usize,
+        /// The number as it stands in the file.
+        named: i64,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A face that passes a vertex twice.
+    #[error("line {line}: face {face} names vertex {vertex} twice; correct the face")]
+    Repeated {
+        /// The line.
+        line: usize,
+        /// The face.
+        face: usize,
+        /// The vertex.
+        vertex: usize,
+    },
+    /// A vertex that nothing holds.
+    #[error("vertex {0} belongs to no face; remove it, or add the face that is missing")]
+    Unused(usize),
+    /// No vertices or no faces.
+    #[error("the mesh has {vertices} vertices and {faces} faces; give at least one triangle")]
+    NoMesh {
+        /// How many vertices.
+        vertices: usize,
+        /// How many faces.
+        faces: usize,
+    },
+    /// More vertices than can be numbered.
+    #[error("the mesh has more than {} vertices; give a coarser one", u32::MAX)]
+    TooMany,
+    /// Faces that do not fit together.
+    #[error(transparent)]
+    Mesh(#[from] MeshError),
+}
+
+/// A face as it stands in the file: vertices from 0, not yet triangles.
+struct Polygon {
+    line: usize,
+    corners: Vec<i64>,
+}
+
+#[derive(Default)]
+struct Parser {
+    positions: Vec<DVec2>,
+    first_z: f64,
+    polygons: Vec<Polygon>,
+}
+
+/// Reads the text of an OBJ file.
+pub(super) fn read(text: &str) -> Result<TriangleMesh, ObjError> {
+    let mut parser = Parser::default();
+    for (line, words) in logical_lines(text) {
+        let mut words = words.split_whitespace();
+        match words.next() {
+            Some("v") => parser.vertex(line, words)?,
+            Some("f") => parser.face(line, words)?,
+            _ => {}
+        }
+    }
+    parser.finish()
+}
+
+/// Lines from 1, without comments, with those joined that end in a backslash.
+fn logical_lines(text: &str) -> impl Iterator<Item = (usize, String)> {
+    let mut lines = text.lines().zip(1..);
+    std::iter::from_fn(move || {
+        let (first, number) = lines.next()?;
+        let mut joined = without_comment(first).to_owned();
+        while joined.ends_with('\\') {
+            joined.pop();
+            let Some((more, _)) = lines.next() else { break };
+            joined.push(' ');
+            joined.push_str(without_comment(more));
+        }
+        Some((number, joined))
+    })
+}
+
+fn without_comment(line: &str) -> &str {
+    line.split('#').next().unwrap_or_default().trim_end()
+}
+
+impl Parser {
+    /// Takes `x y` or `x y z`; a weight or a colour behind them is passed over.
+    fn vertex<'a>(
+        &mut self,
+        line: usize,
+        words: impl Iterator<Item = &'a str>,
+    ) -> Result<(), ObjError> {
+        let vertex = self.positions.len() + 1;
+        let numbers: Result<Vec<f64>, _> = words.take(3).map(str::parse).collect();
+        let (p, z) = match numbers.as_deref() {
+            Ok(&[x, y, z]) => (DVec2::new(x, y), z),
+            Ok(&[x, y]) => (DVec2::new(x, y), 0.0),
+            _ => return Err(ObjError::Vertex { line, vertex }),
+        };
+        if !(p.is_finite() && z.is_finite()) {
+            return Err(ObjError::NotFinite { line, vertex });
+        }
+        self.check_flat(line, z)?;
+        self.positions.push(p);
+        Ok(())
+    }
+
+    fn check_flat(&mut self, line: usize, z: f64) -> Result<(), ObjError> {
+        if self.positions.is_empty() {
+            self.first_z = z;
+        }
+        // Exact: "ignored if constant" has no scale to measure a difference by.
+        if z == self.first_z {
+            return Ok(());
+        }
+        Err(ObjError::NotFlat {
+            line,
+            vertex: self.positions.len() + 1,
+            z,
+            first: self.first_z,
+        })
+    }
+
+    fn face<'a>(
+        &mut self,
+        line: usize,
+        words: impl Iterator<Item = &'a str>,
+    ) -> Result<(), ObjError> {
+        let face = self.polygons.len() + 1;
+        let so_far = self.positions.len() as i64;
+        let mut corners = Vec::new();
+        for word in words {
+            let number = word.split('/').next().unwrap_or_default();
+            let named: i64 = number.parse().map_err(|_| ObjError::Face {
+                line,
+                face,
+                word: word.chars().take(24).collect(),
+            })?;
+            // Negative numbers count back from the latest vertex.
+            corners.push(if named < 0 { so_far.saturating_add(named) } else { named - 1 });
+            if corners.last().is_some_and(|&c| c < 0) {
+                return Err(self.out_of_range(line, face, named));
+            }
+        }
+        if corners.len() < 3 {
+            return Err(ObjError::TooFewCorners { line, face });
+        }
+        self.polygons.push(Polygon { line, corners });
+        Ok(())
+    }
+
+    fn out_of_range(&self, line: usize, face: usize, named: i64) -> ObjError {
+        ObjError::OutOfRange {
+            line,
+            face,
+            named,
+            vertices: self.positions.len(),
+        }
+    }
+
+    fn finish(self) -> Result<TriangleMesh, ObjError> {
+        if self.positions.is_empty() || self.polygons.is_empty() {
+            return Err(ObjError::NoMesh {
+                vertices: self.positions.len(),
+                faces: self.polygons.len(),
+            });
+        }
+        if u32::try_from(self.positions.len()).is_err() {
+            return Err(ObjError::TooMany);
+        }
+        let mut faces = Vec::new();
+        let mut used = vec![false; self.positions.len()];
+        for (index, polygon) in self.polygons.iter().enumerate() {
+            self.check_corners(index + 1, polygon, &mut used)?;
+            let [first, rest @ ..] = polygon.corners.as_slice() else {
+                continue;
+            };
+            let fan = rest.windows(2).map(|w| [*first, w[0], w[1]]);
+            faces.extend(fan.map(|corners| corners.map(|c| c as u32)));
+        }
+        if let Some(unused) = used.iter().position(|&used| !used) {
+            return Err(ObjError::Unused(unused + 1));
+        }
+        Ok(TriangleMesh::new(self.positions, faces)?)
+    }
+
+    /// Corners exist and differ; marks them as used.
+    fn check_corners(
+        &self,
+        face: usize,
+        polygon: &Polygon,
+        used: &mut [bool],
+    ) -> Result<(), ObjError> {
+        let line = polygon.line;
+        for &corner in &polygon.corners {
+            let Some(mark) = used.get_mut(corner as usize) else {
+                return Err(self.out_of_range(line, face, corner.saturating_add(1)));
+            };
+            *mark = true;
+        }
+        let mut sorted = polygon.corners.clone();
+        sorted.sort_unstable();
+        match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
+            Some(pair) => Err(ObjError::Repeated {
+                line,
+                face,
+                vertex: pair[0] as usize + 1,
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_and_order_are_kept_and_quads_become_fans() {
+        let text = "# c\nmtllib x.mtl\no a\nv 0 0 5\nv 1 0 5 # right\nv 1 1 5\nv 0 1 5\n\
+                    vt 0 0\nvn 0 0 1\ng b\nusemtl m\nf 2/1/1 3//1 \\\n 4 1/1\n";
+        let mesh = read(text).expect("valid");
+        assert_eq!(mesh.positions()[1], DVec2::X);
+        assert_eq!(mesh.faces(), [[1, 2, 3], [1, 3, 0]]);
+        let relative = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n").expect("valid");
+        assert_eq!(relative.faces(), [[0, 1, 2]]);
+    }
+
+    #[test]
+    fn a_bad_line_is_named() {
+        let error = |text: &str| read(text).expect_err("bad");
+        let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+        assert_eq!(error("v 1\n"), ObjError::Vertex { line: 1, vertex: 1 });
+        for bad in ["NaN", "inf", "-inf", "1e999"] {
+            let text = format!("v 0 0 0\nv {bad} 0 0\n");
+            assert_eq!(error(&text), ObjError::NotFinite { line: 2, vertex: 2 });
+        }
+        assert!(matches!(
+            error("v 0 0 0\nv 1 0 0.1\n"),
+            ObjError::NotFlat { line: 2, vertex: 2, .. }
+        ));
+        for (face, named) in [("1 2 4", 4), ("1 2 0", 0), ("1 2 -4", -4)] {
+            assert_eq!(
+                error(&format!("{triangle}f {face}\n")),
+                ObjError::OutOfRange { line: 4, face: 1, named, vertices: 3 }
+            );
+        }
+        let huge = format!("{triangle}f 1 2 9223372036854775807\nf 1 2 -9223372036854775808");
+        assert!(matches!(error(&huge), ObjError::OutOfRange { .. }));
+        assert_eq!(
+            error(&format!("{triangle}f 1 2 2\n")),
+            ObjError::Repeated { line: 4, face: 1, vertex: 2 }
+        );
+        assert!(matches!(error(&format!("{triangle}f 1 x 2\n")), ObjError::Face { line: 4, .. }));
+        assert_eq!(
+            error(&format!("{triangle}f 1 2\n")),
+            ObjError::TooFewCorners { line: 4, face: 1 }
+        );
+        assert_eq!(error(&format!("{triangle}v 5 5 0\nf 1 2 3\n")), ObjError::Unused(4));
+        assert_eq!(error(triangle), ObjError::NoMesh { vertices: 3, faces: 0 });
+        assert!(matches!(
+            error("v 0 0\nv 1 0\nv 1 1\nv 0 1\nf 1 2 3\nf 1 4 3\nf 1 3 2\n"),
+            ObjError::Mesh(_)
+        ));
+    }
+}

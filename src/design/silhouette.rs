@@ -1,0 +1,296 @@
+//! Silhouettes out of pictures.
+//!
+//! Where a picture has pixels that are not opaque, opacity tells figure from
+//! ground. Otherwise tones are parted by Otsu's threshold (Otsu 1979, "A
+//! threshold selection method from gray-level histograms") and the side that
+//! most of the border belongs to is the ground. The boundary runs where the
+//! tone crosses the threshold between pixel centres, not along the pixels'
+//! edges, so that anti-aliasing gives sub-pixel accuracy.
+//!
+//! A pixel is one unit; the picture's lower left corner is the origin and y
+//! points up. A figure that reaches the border is closed along it.
+//!
+//! Not guaranteed: colours of equal luminance are not told apart, and the
+//! threshold is one for the whole picture.
+
+use super::{ImportOptions, simplify};
+use crate::field::{Samples, SamplesError, contour};
+use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError};
+use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
+use std::io::Cursor;
+
+/// Why a picture gives no silhouette.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// The file says that it is larger than is read.
+    #[error(
+        "the picture claims {width} × {height} pixels, more than the {} million that are read; save a smaller one",
+        MAX_PIXELS / 1_000_000
+    )]
+    TooManyPixels {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+    },
+    /// The file ends before the picture does.
+    #[error("the picture is cut off before its end; copy or save the file again")]
+    Truncated,
+    /// The decoder gives up.
+    #[error("the picture is damaged ({0}); save it again from where it was made")]
+    Damaged(#[source] ImageError),
+    /// All pixels are alike.
+    #[error("the picture has one tone only, so no figure stands out; use one with a figure on a ground")]
+    OneTone,
+    /// No pixel belongs to the figure.
+    #[error("nothing is left of the picture at threshold {threshold}; change the threshold, keep smaller specks, or invert it")]
+    Empty {
+        /// Opacity or tone at which figure and ground were parted.
+        threshold: u8,
+    },
+    /// A boundary of absurdly many points.
+    #[error("the silhouette has more than {MAX_POINTS} boundary points; leave specks out, change the threshold, or use a smaller picture")]
+    TooRagged,
+    /// The samples do not fill the picture.
+    #[error(transparent)]
+    Samples(#[from] SamplesError),
+    /// Nothing could be made of the boundary.
+    #[error(transparent)]
+    Regions(#[from] RegionsError),
+}
+
+/// Most pixels that are read: 8192 × 8192. At about 20 bytes a pixel while the
+/// silhouette is traced this is 1.3 GB.
+const MAX_PIXELS: u64 = 8192 * 8192;
+
+/// Most boundary points before simplification; a photograph of gravel, parted
+/// at its median, has about this many at 2048 × 2048.
+const MAX_POINTS: usize = 2_000_000;
+
+/// Reads a picture of a known format.
+pub(super) fn read(
+    bytes: &[u8],
+    format: ImageFormat,
+    options: &ImportOptions,
+) -> Result<(Regions, Bounds), PictureError> {
+    if format == ImageFormat::Jpeg && !jpeg_ends(bytes) {
+        return Err(PictureError::Truncated); // the decoder would fill up with grey
+    }
+    let picture = decode(bytes, format)?;
+    let (width, height) = picture.dimensions();
+    let mut figure = Figure::of(&picture, options)?;
+    drop(picture);
+    figure.remove_specks(options.specks_px as usize);
+    let size = DVec2::new(f64::from(width), f64::from(height));
+    let extent = Bounds { min: DVec2::ZERO, max: size };
+    let regions = figure.trace(options.tolerance * size.max_element())?;
+    Ok((regions, extent))
+}
+
+/// Whether the last scan of a JPEG is followed by an end marker. Inside a scan
+/// neither marker can occur, for there 0xff is escaped.
+fn jpeg_ends(bytes: &[u8]) -> bool {
+    let last = |marker: u8| bytes.windows(2).rposition(|pair| pair == [0xff, marker]);
+    last(0xd9) > last(0xda)
+}
+
+fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, PictureError> {
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(MAX_PIXELS * 8); // 16 bits in each of four channels
+    let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
+    reader.limits(limits.clone());
+    let mut decoder = reader.into_decoder().map_err(damaged)?;
+    let (width, height) = decoder.dimensions();
+    let pixels = u64::from(width) * u64::from(height);
+    if pixels > MAX_PIXELS {
+        return Err(PictureError::TooManyPixels { width, height });
+    }
+    if pixels == 0 {
+        return Err(PictureError::OneTone);
+    }
+    decoder.set_limits(limits).map_err(damaged)?;
+    let orientation = decoder.orientation().map_err(damaged)?;
+    let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
+    picture.apply_orientation(orientation);
+    Ok(picture.into_rgba8())
+}
+
+fn damaged(error: ImageError) -> PictureError {
+    match &error {
+        ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof => {
+            PictureError::Truncated
+        }
+        _ => PictureError::Damaged(error),
+    }
+}
+
+/// Samples at the pixel centres, lowest row first: positive in the figure,
+/// negative on the ground, never zero.
+struct Figure {
+    width: u32,
+    height: u32,
+    samples: Vec<f32>,
+    threshold: u8,
+}
+
+impl Figure {
+    fn of(picture: &RgbaImage, options: &ImportOptions) -> Result<Self, PictureError> {
+        let (width, height) = picture.dimensions();
+        let by_opacity = picture.pixels().any(|p| p.0[3] != u8::MAX);
+        let tones: Vec<u8> = picture
+            .rows()
+            .rev()
+            .flatten()
+            .map(|p| if by_opacity { p.0[3] } else { luminance(p.0) })
+            .collect();
+        let threshold = match options.threshold {
+            Some(threshold) => threshold,
+            None if by_opacity => 128,
+            None => otsu(&tones).ok_or(PictureError::OneTone)?,
+        };
+        let above_is_figure = by_opacity || !border_is_above(&tones, width as usize, threshold);
+        let sign = if above_is_figure == options.invert { -1.0 } else { 1.0 };
+        let level = f32::from(threshold) - 0.5; // no tone is on it
+        let samples = tones.iter().map(|&t| sign * (f32::from(t) - level)).collect();
+        Ok(Self { width, height, samples, threshold })
+    }
+
+    /// Islands of fewer pixels than `least` go over to the ground, then holes
+    /// to the figure.
+    fn remove_specks(&mut self, least: usize) {
+        if least > 1 {
+            self.remove_specks_of(1.0, least);
+            self.remove_specks_of(-1.0, least);
+        }
+    }
+
+    /// Pixels hang together along their sides. A removed pixel's sample
+    /// changes sign and keeps its size.
+    fn remove_specks_of(&mut self, sign: f32, least: usize) {
+        let mut seen = vec![false; self.samples.len()];
+        let mut piece = Vec::new();
+        for seed in 0..self.samples.len() {
+            if seen[seed] || self.samples[seed] * sign < 0.0 {
+                continue;
+            }
+            piece.clear();
+            piece.push(seed);
+            seen[seed] = true;
+            let mut next = 0;
+            while let Some(&pixel) = piece.get(next) {
+                next += 1;
+                for other in self.neighbours(pixel).into_iter().flatten() {
+                    if !seen[other] && self.samples[other] * sign > 0.0 {
+                        seen[other] = true;
+                        piece.push(other);
+                    }
+                }
+            }
+            if piece.len() < least {
+                for &pixel in &piece {
+                    self.samples[pixel] = -self.samples[pixel];
+                }
+            }
+        }
+    }
+
+    fn neighbours(&self, pixel: usize) -> [Option<usize>; 4] {
+        let width = self.width as usize;
+        let column = pixel % width;
+        [
+            (column > 0).then(|| pixel - 1),
+            (column + 1 < width).then_some(pixel + 1),
+            pixel.checked_sub(width),
+            (pixel + width < self.samples.len()).then_some(pixel + width),
+        ]
+    }
+
+    /// The boundary at level zero, simplified to within `tolerance` pixels.
+    fn trace(&self, tolerance: f64) -> Result<Regions, PictureError> {
+        let threshold = self.threshold;
+        self.check_raggedness()?;
+        let samples = Samples::new(self.width, self.height, &self.samples)?;
+        let corner_from_centre = DVec2::splat(0.5);
+        let rings: Vec<Vec<DVec2>> = contour::trace_samples(&samples, 0.0)
+            .iter()
+            .map(|ring| simplify::closed(ring, tolerance))
+            .map(|ring| ring.iter().map(|&p| p + corner_from_centre).collect())
+            .collect();
+        if rings.is_empty() {
+            return Err(PictureError::Empty { threshold });
+        }
+        // Rings do not cross, and each lies within those of the other kind.
+        Regions::from_rings(&rings, FillRule::EvenOdd).map_err(|error| match error {
+            RegionsError::Empty => PictureError::Empty { threshold },
+            RegionsError::NotFinite { .. } => error.into(),
+        })
+    }
+
+    /// Counts sign changes along rows and columns: as many as boundary points.
+    fn check_raggedness(&self) -> Result<(), PictureError> {
+        let width = self.width as usize;
+        let changes = |pair: (&f32, &f32)| (pair.0 * pair.1) < 0.0;
+        let across: usize = self
+            .samples
+            .chunks(width)
+            .map(|row| row.iter().zip(&row[1..]).filter(|&p| changes(p)).count())
+            .sum();
+        let upwards = self.samples.iter().zip(&self.samples[width..]);
+        if across + upwards.filter(|&p| changes(p)).count() > MAX_POINTS {
+            return Err(PictureError::TooRagged);
+        }
+        Ok(())
+    }
+}
+
+/// Luma of Rec. 709 on the coded values, which are what looks evenly spaced.
+fn luminance([r, g, b, _]: [u8; 4]) -> u8 {
+    let luma = 0.2126 * f32::from(r) + 0.7152 * f32::from(g) + 0.0722 * f32::from(b);
+    luma.round() as u8
+}
+
+/// The threshold that parts the tones with the largest variance between the
+/// two classes: tones below it are one class. Where a whole run of thresholds
+/// is as good, its middle, so that a black and white picture is parted at
+/// half. `None` for a single tone.
+fn otsu(tones: &[u8]) -> Option<u8> {
+    let mut histogram = [0u64; 256];
+    for &tone in tones {
+        histogram[usize::from(tone)] += 1;
+    }
+    let total = tones.len() as f64;
+    let weighted = |(tone, &n): (usize, &u64)| tone as f64 * n as f64;
+    let sum: f64 = histogram.iter().enumerate().map(weighted).sum();
+    let (mut below, mut sum_below) = (0.0, 0.0);
+    let mut best = (0.0, 0, 0); // variance, first and last threshold that have it
+    for threshold in 1..256 {
+        below += histogram[threshold - 1] as f64;
+        sum_below += weighted((threshold - 1, &histogram[threshold - 1]));
+        let apart = sum_below * total - sum * below;
+        let classes = below * (total - below);
+        let variance = if classes > 0.0 { apart * apart / classes } else { 0.0 };
+        if variance > best.0 {
+            best = (variance, threshold, threshold);
+        } else if variance == best.0 && best.0 > 0.0 && best.2 + 1 == threshold {
+            best.2 = threshold;
+        }
+    }
+    (best.0 > 0.0).then(|| (best.1 + best.2).div_ceil(2) as u8)
+}
+
+/// Whether most of the border is at or above the threshold. On a tie it is:
+/// paper is lighter than ink.
+fn border_is_above(tones: &[u8], width: usize, threshold: u8) -> bool {
+    let last_row = tones.len() - width;
+    let on_border = |i: usize| i < width || i >= last_row || i % width == 0 || (i + 1) % width == 0;
+    let border = tones.iter().enumerate().filter(|&(i, _)| on_border(i));
+    let (mut above, mut all) = (0usize, 0usize);
+    for (_, &tone) in border {
+        all += 1;
+        above += usize::from(tone >= threshold);
+    }
+    2 * above >= all
+}
+
+#[cfg(test)]
+mod tests;

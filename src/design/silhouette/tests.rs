@@ -1,0 +1,227 @@
+use super::*;
+use crate::design::{Design, Form, Problem, import};
+use image::{GrayImage, Luma, Rgba};
+
+fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
+    let mut bytes = Cursor::new(Vec::new());
+    picture
+        .into()
+        .write_to(&mut bytes, format)
+        .expect("encodes");
+    bytes.into_inner()
+}
+
+fn read_with(bytes: &[u8], options: &ImportOptions) -> Result<Design, Problem> {
+    import("picture", bytes, options).map_err(|e| e.problem)
+}
+
+fn regions(bytes: &[u8], options: &ImportOptions) -> Regions {
+    match read_with(bytes, options).expect("a silhouette").form {
+        Form::Outline(regions) => regions,
+        other => unreachable!("{other:?}"),
+    }
+}
+
+/// `#` is black, `.` white, the first line on top.
+fn ascii(art: &[&str]) -> GrayImage {
+    let (width, height) = (art[0].len() as u32, art.len() as u32);
+    GrayImage::from_fn(width, height, |x, y| {
+        let ink = art[y as usize].as_bytes()[x as usize] == b'#';
+        Luma([if ink { 0 } else { 255 }])
+    })
+}
+
+fn png(art: &[&str]) -> Vec<u8> {
+    encoded(ascii(art), ImageFormat::Png)
+}
+
+/// A disc with the exact coverage of each pixel, to 1/256, by sampling.
+fn disc(size: u32, centre: DVec2, radius: f64) -> GrayImage {
+    GrayImage::from_fn(size, size, |x, y| {
+        let inside = (0..256)
+            .filter(|k| {
+                let p = DVec2::new(
+                    f64::from(x) + (f64::from(k % 16) + 0.5) / 16.0,
+                    f64::from(y) + (f64::from(k / 16) + 0.5) / 16.0,
+                );
+                p.distance(centre) < radius
+            })
+            .count();
+        Luma([255 - inside.min(255) as u8])
+    })
+}
+
+#[test]
+fn an_antialiased_disc_is_found_to_a_tenth_of_a_pixel() {
+    let centre = DVec2::new(30.3, 28.6);
+    let bytes = encoded(disc(64, centre, 20.0), ImageFormat::Png);
+    let regions = regions(&bytes, &ImportOptions::default());
+    assert_eq!(regions.rings().count(), 1);
+    let up = DVec2::new(centre.x, 64.0 - centre.y);
+    for ring in regions.rings() {
+        for p in ring.points() {
+            assert!((p.distance(up) - 20.0).abs() < 0.1, "{p}");
+        }
+    }
+    assert!((regions.area() / (400.0 * std::f64::consts::PI) - 1.0).abs() < 2e-3);
+}
+
+#[test]
+fn y_points_up_and_a_pixel_is_a_unit() {
+    let bytes = png(&[
+        "......", //
+        ".####.", //
+        ".####.", //
+        ".##...", //
+        "......", //
+        "......",
+    ]);
+    let design = read_with(&bytes, &ImportOptions::default()).expect("silhouette");
+    assert_eq!(design.extent.size(), DVec2::splat(6.0));
+    let bounds = design.outline(0.0).expect("area").bounds();
+    assert_eq!(bounds.min, DVec2::new(1.0, 2.0));
+    assert_eq!(bounds.max, DVec2::new(5.0, 5.0));
+}
+
+#[test]
+fn every_format_gives_the_same_outline() {
+    let mut picture = image::RgbImage::from_pixel(64, 48, image::Rgb([250, 240, 230]));
+    for (x, y) in (10..40).flat_map(|x| (8..40).map(move |y| (x, y))) {
+        picture.put_pixel(x, y, image::Rgb([20, 40, 90]));
+    }
+    for format in [
+        ImageFormat::Png,
+        ImageFormat::Bmp,
+        ImageFormat::Jpeg,
+        ImageFormat::WebP,
+    ] {
+        let bytes = encoded(picture.clone(), format);
+        let area = regions(&bytes, &ImportOptions::default()).area();
+        assert!((area - 30.0 * 32.0).abs() < 4.0, "{format:?}: {area}");
+    }
+}
+
+#[test]
+fn opacity_comes_before_tone() {
+    let picture = RgbaImage::from_fn(8, 8, |x, _| {
+        // All of one tone; the right half is opaque.
+        Rgba([200, 200, 200, if x < 4 { 0 } else { 255 }])
+    });
+    let bytes = encoded(picture, ImageFormat::Png);
+    let found = regions(&bytes, &ImportOptions::default()).bounds();
+    assert_eq!(found.min, DVec2::new(4.0, 0.0));
+    assert_eq!(found.max, DVec2::new(8.0, 8.0));
+    let inverted = ImportOptions { invert: true, ..ImportOptions::default() };
+    assert_eq!(regions(&bytes, &inverted).bounds().max, DVec2::new(4.0, 8.0));
+}
+
+#[test]
+fn the_side_of_the_border_is_ground() {
+    let dark_on_light = ascii(&["....", ".##.", ".##.", "...."]);
+    let mut light_on_dark = dark_on_light.clone();
+    image::imageops::invert(&mut light_on_dark);
+    let options = ImportOptions::default();
+    let a = regions(&encoded(dark_on_light, ImageFormat::Png), &options);
+    let b = regions(&encoded(light_on_dark, ImageFormat::Png), &options);
+    assert_eq!(a, b);
+    assert!(a.contains(DVec2::splat(2.0)));
+}
+
+#[test]
+fn specks_and_pinholes_go_and_the_rest_stays() {
+    let bytes = png(&[
+        "#.........", //
+        "..........", //
+        "..######..", //
+        "..######..", //
+        "..##.###..", //
+        "..######..", //
+        "..........", //
+        "....##....", //
+        "..........", //
+        "..........",
+    ]);
+    let rings = |specks_px| {
+        let options = ImportOptions { specks_px, ..ImportOptions::default() };
+        regions(&bytes, &options).rings().count()
+    };
+    assert_eq!(rings(0), 4);
+    assert_eq!(rings(1), 4);
+    assert_eq!(rings(2), 2);
+    assert_eq!(rings(3), 1);
+    let all = ImportOptions { specks_px: 1000, ..ImportOptions::default() };
+    assert!(matches!(
+        read_with(&bytes, &all),
+        Err(Problem::Picture(PictureError::Empty { .. }))
+    ));
+}
+
+#[test]
+fn a_threshold_moves_the_boundary() {
+    let ramp = GrayImage::from_fn(64, 16, |x, _| Luma([(x * 4) as u8]));
+    let bytes = encoded(ramp, ImageFormat::Png);
+    let at = |threshold| {
+        let options = ImportOptions { threshold: Some(threshold), ..ImportOptions::default() };
+        regions(&bytes, &options).bounds()
+    };
+    // Tones 4 x at centres x + ½; 50 − ½ is crossed at x = 49.5 / 4 + ½.
+    assert!((at(50).max.x - 12.875).abs() < 1e-6, "{:?}", at(50));
+    assert!((at(200).min.x - (199.5 / 4.0 + 0.5)).abs() < 1e-6);
+}
+
+#[test]
+fn a_picture_full_of_ink_is_its_rectangle_and_one_of_none_is_an_error() {
+    let one_tone = encoded(GrayImage::from_pixel(5, 3, Luma([9])), ImageFormat::Png);
+    let options = ImportOptions::default();
+    assert!(matches!(
+        read_with(&one_tone, &options),
+        Err(Problem::Picture(PictureError::OneTone))
+    ));
+    let full = ImportOptions { threshold: Some(100), invert: true, ..options };
+    assert!((regions(&one_tone, &full).area() - 15.0).abs() < 1e-9);
+    let clear = encoded(RgbaImage::new(4, 4), ImageFormat::Png);
+    assert!(matches!(
+        read_with(&clear, &options),
+        Err(Problem::Picture(PictureError::Empty { threshold: 128 }))
+    ));
+}
+
+#[test]
+fn otsu_parts_two_tones_in_the_middle() {
+    assert_eq!(otsu(&[0, 0, 0, 255]), Some(128));
+    assert_eq!(otsu(&[10, 20]), Some(16));
+    assert_eq!(otsu(&[7; 9]), None);
+    let tones: Vec<u8> = (0..100).map(|k| if k < 70 { 40 + k % 8 } else { 180 + k % 9 }).collect();
+    assert_eq!(otsu(&tones), otsu_slow(&tones));
+}
+
+/// Every threshold tried with the definition.
+fn otsu_slow(tones: &[u8]) -> Option<u8> {
+    let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
+    let variance = |t: u8| {
+        let (low, high): (Vec<f64>, Vec<f64>) =
+            tones.iter().map(|&x| f64::from(x)).partition(|&x| x < f64::from(t));
+        if low.is_empty() || high.is_empty() {
+            return 0.0;
+        }
+        low.len() as f64 * high.len() as f64 * (mean(&low) - mean(&high)).powi(2)
+    };
+    let best = (1..=255).map(variance).fold(0.0, f64::max);
+    let good: Vec<u8> = (1..=255).filter(|&t| variance(t) > best * (1.0 - 1e-12)).collect();
+    let (first, last) = (*good.first()?, *good.last()?);
+    (best > 0.0).then(|| (u32::from(first) + u32::from(last)).div_ceil(2) as u8)
+}
+
+#[test]
+fn noise_is_refused_before_it_is_traced() {
+    let mut state = 1u32;
+    let noise = GrayImage::from_fn(2048, 1024, |_, _| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        Luma([(state >> 24) as u8])
+    });
+    let bytes = encoded(noise, ImageFormat::Bmp);
+    assert!(matches!(
+        read_with(&bytes, &ImportOptions::default()),
+        Err(Problem::Picture(PictureError::TooRagged))
+    ));
+}

@@ -1,0 +1,176 @@
+//! Which format a file has, by what is in it. The ending of its name is never
+//! looked at: a mislabelled file works where its content is good.
+
+use image::ImageFormat;
+
+/// A format that can be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// PNG, JPEG, BMP or WebP.
+    Picture(ImageFormat),
+    /// SVG as UTF-8 text.
+    Svg,
+    /// Wavefront OBJ.
+    Obj,
+    /// A truss as JSON.
+    Truss,
+}
+
+/// Content that no reader takes.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum UnknownFormat {
+    /// A known format of another kind.
+    #[error("this is {found}; {way_out}")]
+    Other {
+        /// What it is.
+        found: &'static str,
+        /// What to do.
+        way_out: &'static str,
+    },
+    /// XML with some other root.
+    #[error("this is XML without an <svg> element; save the drawing as SVG")]
+    XmlWithoutSvg,
+    /// Nothing that is known.
+    #[error(
+        "the content is of no known format; use PNG, JPEG, BMP, WebP, SVG, OBJ or a truss as JSON"
+    )]
+    Unknown,
+}
+
+/// First bytes of formats that people will try, and what to tell them.
+const OTHERS: [(&[u8], &str, &str); 11] = [
+    (b"\x1f\x8b", "a compressed file, perhaps an SVGZ", UNPACK),
+    (b"GIF8", "a GIF", PICTURE),
+    (b"II*\0", "a TIFF", PICTURE),
+    (b"MM\0*", "a TIFF", PICTURE),
+    (b"\0\0\x01\0", "an icon", PICTURE),
+    (b"8BPS", "a Photoshop file", PICTURE),
+    (b"%PDF", "a PDF", DRAWING),
+    (b"%!PS", "a PostScript file", DRAWING),
+    (b"PK\x03\x04", "an archive", UNPACK),
+    (b"\xff\xfe", "text in UTF-16", UTF8),
+    (b"\xfe\xff", "text in UTF-16", UTF8),
+];
+const PICTURE: &str = "save it as PNG";
+const DRAWING: &str = "save the drawing as plain SVG";
+const UNPACK: &str = "unpack it and open what is in it";
+const UTF8: &str = "save it with the encoding UTF-8";
+
+/// Tells the format of a file from its bytes.
+///
+/// # Errors
+/// [`UnknownFormat`] says what the content is, where that is known, and what
+/// to save it as.
+///
+/// ```
+/// use morphospace::design::{Format, sniff};
+/// assert_eq!(sniff(b"\xef\xbb\xbf<?xml version='1.0'?><svg/>"), Ok(Format::Svg));
+/// ```
+pub fn sniff(bytes: &[u8]) -> Result<Format, UnknownFormat> {
+    if let Some(format) = picture(bytes) {
+        return Ok(Format::Picture(format));
+    }
+    let other = OTHERS.iter().find(|(magic, ..)| bytes.starts_with(magic));
+    if let Some(&(_, found, way_out)) = other {
+        return Err(UnknownFormat::Other { found, way_out });
+    }
+    text_format(bytes)
+}
+
+fn picture(bytes: &[u8]) -> Option<ImageFormat> {
+    match bytes {
+        [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => Some(ImageFormat::Png),
+        [0xff, 0xd8, 0xff, ..] => Some(ImageFormat::Jpeg),
+        _ if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") => {
+            Some(ImageFormat::WebP)
+        }
+        _ if is_bmp(bytes) => Some(ImageFormat::Bmp),
+        _ => None,
+    }
+}
+
+/// `BM` alone also begins words: the size of the second header must be one of
+/// those that exist, too.
+fn is_bmp(bytes: &[u8]) -> bool {
+    let header_size = bytes.get(14..18).and_then(|b| b.try_into().ok());
+    bytes.starts_with(b"BM")
+        && header_size
+            .map(u32::from_le_bytes)
+            .is_some_and(|size| matches!(size, 12 | 16 | 40 | 52 | 56 | 64 | 108 | 124))
+}
+
+fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    match bytes.trim_ascii_start().first() {
+        Some(b'<') if has_svg_element(bytes) => Ok(Format::Svg),
+        Some(b'<') => Err(UnknownFormat::XmlWithoutSvg),
+        Some(b'{') => Ok(Format::Truss),
+        Some(_) if is_obj(bytes) => Ok(Format::Obj),
+        _ => Err(UnknownFormat::Unknown),
+    }
+}
+
+/// Whether some tag is called `svg`, with or without a namespace prefix.
+fn has_svg_element(bytes: &[u8]) -> bool {
+    let is_svg = |tag: &[u8]| {
+        let end = tag
+            .iter()
+            .position(|&b| b.is_ascii_whitespace() || b == b'>' || b == b'/')
+            .unwrap_or(tag.len());
+        tag[..end].rsplit(|&b| b == b':').next() == Some(b"svg")
+    };
+    bytes.split(|&b| b == b'<').skip(1).any(is_svg)
+}
+
+/// Whether some line holds a vertex.
+fn is_obj(bytes: &[u8]) -> bool {
+    bytes.split(|&b| b == b'\n' || b == b'\r').any(|line| {
+        let mut words = line
+            .split(u8::is_ascii_whitespace)
+            .filter(|word| !word.is_empty());
+        words.next() == Some(b"v") && words.next().is_some()
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_format_is_known_by_its_content() {
+        let cases: [(&[u8], Format); 9] = [
+            (
+                b"\x89PNG\r\n\x1a\nrest",
+                Format::Picture(ImageFormat::Png),
+            ),
+            (b"\xff\xd8\xff\xe0", Format::Picture(ImageFormat::Jpeg)),
+            (
+                b"RIFF\x01\x02\x03\x04WEBPVP8 ",
+                Format::Picture(ImageFormat::WebP),
+            ),
+            (
+                b"BM____________\x28\0\0\0",
+                Format::Picture(ImageFormat::Bmp),
+            ),
+            (b" \n<svg:svg xmlns:svg='s'/>", Format::Svg),
+            (b"<!-- a --><!DOCTYPE svg><svg>", Format::Svg),
+            (b"# a comment\r\nv 1 2 3", Format::Obj),
+            (b"o name\n  v  1 2 3", Format::Obj),
+            (b"\xef\xbb\xbf { \"nodes\": [] }", Format::Truss),
+        ];
+        for (bytes, format) in cases {
+            assert_eq!(sniff(bytes), Ok(format));
+        }
+    }
+
+    #[test]
+    fn other_content_is_refused_in_words() {
+        let words = |bytes: &[u8]| sniff(bytes).expect_err("not readable").to_string();
+        assert!(words(b"\x1f\x8b\x08rest").contains("SVGZ"));
+        assert!(words(b"GIF89a").contains("save it as PNG"));
+        assert!(words(b"\xff\xfe<\0s\0v\0g\0").contains("UTF-8"));
+        assert!(words(b"<html><body/></html>").contains("<svg>"));
+        assert!(words(b"BM, a word that is no picture").contains("no known format"));
+        assert!(words(b"   ").contains("no known format"));
+    }
+}

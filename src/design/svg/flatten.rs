@@ -1,0 +1,147 @@
+//! Paths as closed polygons.
+//!
+//! A Bézier curve cut into n pieces at equal parameters stays within
+//! d (d − 1) / (8 n²) times its largest second difference of its chords (Wang
+//! 1984), d its degree. So the number of pieces is known before the first is
+//! made, and the error is bounded, not estimated. Up to [`MAX_PIECES`]: a
+//! curve thousands of pages long is coarser.
+
+use super::SvgError;
+use crate::geometry::DVec2;
+use usvg::tiny_skia_path::{Path, PathSegment, Point};
+
+/// Most points of a drawing after flattening.
+pub(super) const MAX_POINTS: usize = 2_000_000;
+
+/// Most pieces of one curve: reached at a tolerance of 1e-7 of the page by a
+/// curve that is ten pages long.
+const MAX_PIECES: f64 = 4096.0;
+
+/// Flattens paths, counting their points.
+pub(super) struct Flattener {
+    tolerance: f64,
+    points: usize,
+}
+
+impl Flattener {
+    pub(super) fn new(tolerance: f64) -> Self {
+        Self {
+            tolerance,
+            points: 0,
+        }
+    }
+
+    /// The closed polygons of a path whose points `place` lays down. Open
+    /// pieces are closed, as filling does.
+    pub(super) fn rings(
+        &mut self,
+        path: &Path,
+        place: impl Fn(Point) -> DVec2,
+    ) -> Result<Vec<Vec<DVec2>>, SvgError> {
+        let mut rings: Vec<Vec<DVec2>> = Vec::new();
+        let mut ring: Vec<DVec2> = Vec::new();
+        for segment in path.segments() {
+            let last = ring.last().copied().unwrap_or_default();
+            match segment {
+                PathSegment::MoveTo(p) => {
+                    self.points += ring.len();
+                    rings.push(std::mem::replace(&mut ring, vec![place(p)]));
+                }
+                PathSegment::LineTo(p) => ring.push(place(p)),
+                PathSegment::QuadTo(b, c) => {
+                    let (b, c) = (place(b), place(c));
+                    let third = |q: DVec2| q + (b - q) * (2.0 / 3.0);
+                    let bend = 2.0 * (last - 2.0 * b + c).length();
+                    self.curve(&mut ring, [third(last), third(c), c], bend);
+                }
+                PathSegment::CubicTo(b, c, d) => {
+                    let [b, c, d] = [b, c, d].map(&place);
+                    let bend = (last - 2.0 * b + c).length().max((b - 2.0 * c + d).length());
+                    self.curve(&mut ring, [b, c, d], 6.0 * bend);
+                }
+                PathSegment::Close => {}
+            }
+            if self.points + ring.len() > MAX_POINTS {
+                return Err(SvgError::TooManyPoints);
+            }
+        }
+        self.points += ring.len();
+        rings.push(ring);
+        rings.retain(|ring| ring.len() >= 3);
+        Ok(rings)
+    }
+
+    /// Appends a cubic curve from the ring's last point. `bend` bounds the
+    /// length of its second derivative.
+    fn curve(&self, ring: &mut Vec<DVec2>, [b, c, d]: [DVec2; 3], bend: f64) {
+        let a = ring.last().copied().unwrap_or(b);
+        let pieces = (bend / (8.0 * self.tolerance)).sqrt().ceil();
+        let pieces = pieces.clamp(1.0, MAX_PIECES) as u32;
+        ring.extend((1..pieces).map(|k| {
+            let t = f64::from(k) / f64::from(pieces);
+            let s = 1.0 - t;
+            s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d
+        }));
+        ring.push(d);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use usvg::tiny_skia_path::PathBuilder;
+
+    fn place(p: Point) -> DVec2 {
+        DVec2::new(p.x.into(), p.y.into())
+    }
+
+    /// Largest distance of points of the quadratic curve from the polygon.
+    fn error(ring: &[DVec2], [a, b, c]: [DVec2; 3]) -> f64 {
+        let near = |p: DVec2| {
+            ring.windows(2)
+                .map(|w| {
+                    let along = w[1] - w[0];
+                    let s = (p - w[0]).dot(along) / along.length_squared();
+                    p.distance(w[0] + s.clamp(0.0, 1.0) * along)
+                })
+                .fold(f64::INFINITY, f64::min)
+        };
+        (0..=999)
+            .map(|k| f64::from(k) / 999.0)
+            .map(|t| near(a.lerp(b, t).lerp(b.lerp(c, t), t)))
+            .fold(0.0, f64::max)
+    }
+
+    #[test]
+    fn a_curve_stays_within_its_tolerance_and_is_not_much_finer() {
+        let mut builder = PathBuilder::new();
+        builder.move_to(0.0, 0.0);
+        builder.quad_to(50.0, 100.0, 100.0, 0.0);
+        let path = builder.finish().expect("a path");
+        let curve = [DVec2::ZERO, DVec2::new(50.0, 100.0), DVec2::new(100.0, 0.0)];
+        for tolerance in [1.0, 0.1, 0.01] {
+            let rings = Flattener::new(tolerance).rings(&path, place).expect("few points");
+            let error = error(&rings[0], curve);
+            assert!(error <= tolerance, "{error}");
+            assert!(error > 0.2 * tolerance, "{error}");
+        }
+    }
+
+    #[test]
+    fn open_pieces_count_and_lines_do_not() {
+        let mut builder = PathBuilder::new();
+        builder.move_to(0.0, 0.0);
+        builder.line_to(1.0, 0.0);
+        builder.move_to(0.0, 0.0);
+        builder.line_to(1.0, 0.0);
+        builder.line_to(1.0, 1.0);
+        builder.close();
+        builder.line_to(5.0, 5.0);
+        builder.line_to(6.0, 5.0);
+        let path = builder.finish().expect("a path");
+        let rings = Flattener::new(1.0).rings(&path, place).expect("few points");
+        assert_eq!(rings.len(), 2);
+        assert_eq!(rings[0].len(), 3);
+        assert_eq!(rings[1], [(0, 0), (5, 5), (6, 5)].map(|(x, y)| DVec2::new(x.into(), y.into())));
+    }
+}

@@ -1,0 +1,227 @@
+//! Drawings that would unfold without end, refused before they are unfolded.
+//!
+//! `usvg` copies what `use`, patterns, clip paths and masks refer to, and so a file of a few hundred bytes can stand for 10^10 elements. Here
+//! the elements are counted with all their copies, by one pass over the graph
+//! of references that visits every element once; nothing is copied.
+//!
+//! The count is an upper bound: what `usvg` keeps in a cache is counted as
+//! often as it is referred to. Markers and filters are not counted, for they
+//! are switched off by [`STYLE`].
+
+use super::SvgError;
+use std::collections::HashMap;
+use usvg::roxmltree::{Document, Node};
+
+/// Goes before the drawing's own style and, being important, over it. Markers
+/// and filters do not change what is filled, but could unfold without end.
+pub(super) const STYLE: &str = "* { marker: none !important; filter: none !important }";
+
+/// Most bytes of text.
+pub(super) const MAX_BYTES: usize = 64 << 20;
+/// Most XML nodes in the file, text between elements included.
+pub(super) const MAX_NODES: u32 = 2_000_000;
+/// Most elements with all copies; 200,000 paths take about a second.
+pub(super) const MAX_ELEMENTS: u64 = 200_000;
+/// Most levels, copies included. Reading recurses: a stack of 2 MiB, as
+/// threads have, holds more than twice as many, even unoptimised.
+pub(super) const MAX_DEPTH: u32 = 96;
+/// Most tests of a style rule on an element.
+const MAX_STYLE_TESTS: usize = 50_000_000;
+
+/// Checks the unfolded size and depth, references in a circle, and the cost
+/// of the style sheet.
+pub(super) fn check(document: &Document) -> Result<(), SvgError> {
+    check_depth(document)?;
+    let sheet = StyleSheet::of(document);
+    let elements = document.descendants().filter(Node::is_element).count();
+    if sheet.rules.saturating_mul(elements) > MAX_STYLE_TESTS {
+        return Err(SvgError::TooMuchStyle { elements });
+    }
+    let mut ids = HashMap::new();
+    for node in document.descendants() {
+        if let Some(id) = node.attribute("id") {
+            ids.entry(id).or_insert(node);
+        }
+    }
+    let mut counter = Counter {
+        document,
+        ids,
+        sheet,
+        states: HashMap::new(),
+    };
+    counter.unfold(document.root_element(), 0).map(|_| ())
+}
+
+fn line(document: &Document, node: Node) -> u32 {
+    document.text_pos_at(node.range().start).row
+}
+
+/// Nesting of the file as it stands, without recursion.
+fn check_depth(document: &Document) -> Result<(), SvgError> {
+    let mut depths: HashMap<_, u32> = HashMap::new();
+    for node in document.descendants().filter(Node::is_element) {
+        let above = node.parent().and_then(|p| depths.get(&p.id()));
+        let depth = above.map_or(0, |d| d + 1);
+        if depth > MAX_DEPTH {
+            let line = line(document, node);
+            return Err(SvgError::TooDeep { line });
+        }
+        depths.insert(node.id(), depth);
+    }
+    Ok(())
+}
+
+/// Which ids the style sheet makes elements refer to.
+struct StyleSheet<'d> {
+    rules: usize,
+    /// The selector's last name (a class, an element, an id) and the id.
+    references: HashMap<&'d str, Vec<&'d str>>,
+}
+
+impl<'d> StyleSheet<'d> {
+    fn of(document: &'d Document) -> Self {
+        let mut sheet = Self {
+            rules: 1, // STYLE
+            references: HashMap::new(),
+        };
+        let styles = document
+            .descendants()
+            .filter(|n| n.tag_name().name() == "style");
+        for text in styles.flat_map(|n| n.children()).filter_map(|n| n.text()) {
+            sheet.rules += text.matches(['{', ',']).count();
+            sheet.read(text);
+        }
+        sheet
+    }
+
+    fn read(&mut self, text: &'d str) {
+        for rule in text.split('}') {
+            let Some((selectors, body)) = rule.rsplit_once('{') else {
+                continue;
+            };
+            let ids: Vec<&str> = urls(body).collect();
+            if ids.is_empty() {
+                continue;
+            }
+            for selector in selectors.split(',') {
+                let name = last_name(selector);
+                self.references.entry(name).or_default().extend(&ids);
+            }
+        }
+    }
+
+    /// Ids that the sheet makes `node` refer to.
+    fn of_node<'s>(&'s self, node: Node<'s, '_>) -> impl Iterator<Item = &'d str> + 's {
+        let classes = node.attribute("class").unwrap_or_default();
+        classes
+            .split_whitespace()
+            .chain([node.tag_name().name(), "*"])
+            .chain(node.attribute("id"))
+            .filter_map(|name| self.references.get(name))
+            .flatten()
+            .copied()
+    }
+}
+
+/// The name at the end of a selector such as `g > path.thin`; `*` where there
+/// is none that could be looked up.
+fn last_name(selector: &str) -> &str {
+    let selector = selector.trim();
+    if selector.contains([':', '\\']) {
+        return "*"; // a pseudo-class or an escape: taken to hit everything
+    }
+    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '-' || !c.is_ascii();
+    let start = selector
+        .rfind(|c| !is_part(c))
+        .map_or(0, |i| i + 1);
+    match &selector[start..] {
+        "" => "*",
+        name => name,
+    }
+}
+
+/// The ids in `url(#id)`.
+fn urls(text: &str) -> impl Iterator<Item = &str> {
+    text.split("url(").skip(1).filter_map(|rest| {
+        let id = rest.split(')').next()?;
+        id.trim_matches(|c: char| c.is_whitespace() || c == '"' || c == '\'')
+            .strip_prefix('#')
+    })
+}
+
+#[derive(Clone, Copy)]
+struct Size {
+    elements: u64,
+    /// Levels below and including this one.
+    levels: u32,
+}
+
+#[derive(Clone, Copy)]
+enum State {
+    Open,
+    Done(Size),
+}
+
+struct Counter<'d, 'a> {
+    document: &'d Document<'a>,
+    ids: HashMap<&'d str, Node<'d, 'a>>,
+    sheet: StyleSheet<'d>,
+    states: HashMap<usvg::roxmltree::NodeId, State>,
+}
+
+impl<'d, 'a> Counter<'d, 'a> {
+    /// Size of an element with all that it holds and refers to. Recurses at
+    /// most [`MAX_DEPTH`] levels.
+    fn unfold(&mut self, node: Node<'d, 'a>, depth: u32) -> Result<Size, SvgError> {
+        let document = self.document;
+        let at = || line(document, node);
+        match self.states.get(&node.id()) {
+            Some(State::Open) => return Err(SvgError::Circular { line: at() }),
+            Some(State::Done(size)) if depth + size.levels > MAX_DEPTH => {
+                return Err(SvgError::TooDeep { line: at() });
+            }
+            Some(&State::Done(size)) => return Ok(size),
+            None if depth > MAX_DEPTH => return Err(SvgError::TooDeep { line: at() }),
+            None => {}
+        }
+        self.states.insert(node.id(), State::Open);
+        let mut size = Size { elements: 1, levels: 1 };
+        for part in self.parts(node) {
+            let inner = self.unfold(part, depth + 1)?;
+            size.elements = size.elements.saturating_add(inner.elements);
+            size.levels = size.levels.max(inner.levels + 1);
+        }
+        if size.elements > MAX_ELEMENTS {
+            let line = line(self.document, node);
+            return Err(SvgError::TooManyElements { line });
+        }
+        self.states.insert(node.id(), State::Done(size));
+        Ok(size)
+    }
+
+    /// The elements that an element holds and refers to.
+    fn parts(&self, node: Node<'d, 'a>) -> Vec<Node<'d, 'a>> {
+        let mut parts: Vec<_> = node.children().filter(Node::is_element).collect();
+        let unfolds_href = matches!(
+            node.tag_name().name(),
+            "use" | "pattern" | "mask" | "clipPath"
+        );
+        for attribute in node.attributes() {
+            let value = attribute.value();
+            let is_href = unfolds_href && attribute.name() == "href";
+            let direct = is_href.then(|| value.trim().strip_prefix('#')).flatten();
+            let named = direct.into_iter().chain(urls(value));
+            parts.extend(named.filter_map(|id| self.reference(id)));
+        }
+        let styled = self.sheet.of_node(node);
+        parts.extend(styled.filter_map(|id| self.reference(id)));
+        parts
+    }
+
+    /// What `id` stands for, unless it is never unfolded.
+    fn reference(&self, id: &str) -> Option<Node<'d, 'a>> {
+        let to = *self.ids.get(id)?;
+        let flat = ["linearGradient", "radialGradient", "marker", "filter"];
+        (!flat.contains(&to.tag_name().name())).then_some(to)
+    }
+}

@@ -1,0 +1,241 @@
+use super::*;
+use std::time::{Duration, Instant};
+
+const NS: &str = r#"xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink""#;
+
+fn page(body: &str) -> String {
+    format!(r#"<svg {NS} viewBox="0 0 100 100" width="100" height="100">{body}</svg>"#)
+}
+
+fn read_body(body: &str) -> Result<Regions, SvgError> {
+    read(&page(body), 1e-5).map(|(regions, _)| regions)
+}
+
+fn regions(body: &str) -> Regions {
+    read_body(body).expect("an outline")
+}
+
+fn near(found: f64, expected: f64) {
+    assert!((found - expected).abs() < 1e-3 * expected, "{found} for {expected}");
+}
+
+#[test]
+fn y_points_up_and_the_view_box_scales() {
+    let text = format!(
+        r#"<?xml version="1.0"?><svg {NS} viewBox="10 10 10 10" width="40" height="40">
+        <rect x="10" y="10" width="2" height="1"/></svg>"#
+    );
+    let (regions, page) = read(&text, 1e-3).expect("an outline");
+    assert_eq!(page.size(), DVec2::splat(40.0));
+    let bounds = regions.bounds();
+    assert!((bounds.min - DVec2::new(0.0, 36.0)).length() < 1e-5);
+    assert!((bounds.max - DVec2::new(8.0, 40.0)).length() < 1e-5);
+}
+
+#[test]
+fn circles_are_round() {
+    let disc = regions(r#"<circle cx="50" cy="50" r="40"/>"#);
+    near(disc.area(), 1600.0 * std::f64::consts::PI);
+    assert_eq!(disc.rings().count(), 1);
+}
+
+#[test]
+fn fill_rules_are_kept_apart() {
+    let star = "M0 0h40v40h-40z M10 10h20v20h-20z";
+    let body = format!(
+        r#"<path d="{star}" fill-rule="evenodd"/><path transform="translate(50 0)" d="{star}"/>"#
+    );
+    near(regions(&body).area(), 1600.0 - 400.0 + 1600.0);
+    assert_eq!(regions(&body).rings().count(), 3);
+}
+
+#[test]
+fn transforms_uses_and_overlaps_are_united() {
+    let body = r##"<defs><rect id="r" width="10" height="10"/></defs>
+        <g transform="scale(2)"><use href="#r" x="5"/><use xlink:href="#r" x="10"/></g>"##;
+    near(regions(body).area(), 600.0);
+    assert_eq!(regions(body).len(), 1);
+}
+
+#[test]
+fn white_is_paper_unless_all_is_white() {
+    let sheet = r#"<rect width="100" height="100" fill="white"/>"#;
+    let body = format!(
+        r##"{sheet}<rect width="60" height="60" fill="red"/><rect width="20" height="60" fill="#fff"/>
+        <rect width="10" height="10"/>"##
+    );
+    near(regions(&body).area(), 60.0 * 60.0 - 20.0 * 60.0 + 100.0);
+    near(regions(sheet).area(), 10_000.0);
+}
+
+#[test]
+fn clip_paths_cut() {
+    let body = r##"<clipPath id="c"><rect width="50" height="100" transform="translate(10 0)"/>
+        <rect width="10" height="10" x="90" y="90"/></clipPath>
+        <g transform="translate(5 0)" clip-path="url(#c)"><rect width="100" height="20"/></g>"##;
+    near(regions(body).area(), 50.0 * 20.0);
+    near(regions(body).bounds().min.x, 15.0);
+}
+
+#[test]
+fn what_is_not_filled_is_not_there() {
+    let nothing = [
+        "",
+        r#"<rect width="9" height="9" fill="none"/>"#,
+        r#"<rect width="9" height="9" fill-opacity="0"/>"#,
+        r#"<rect width="9" height="9" visibility="hidden"/>"#,
+        r#"<g opacity="0"><rect width="9" height="9"/></g>"#,
+        r#"<text y="20">words</text>"#,
+        r#"<image href="/etc/passwd" width="9" height="9"/>"#,
+        r#"<image href="data:image/svg+xml;base64,PHN2ZyB4bWxucz0iaHR0cDovL3d3dy53My5vcmcvMjAwMC9zdmciIHdpZHRoPSI5IiBoZWlnaHQ9IjkiPjxyZWN0IHdpZHRoPSI5IiBoZWlnaHQ9IjkiLz48L3N2Zz4=" width="9" height="9"/>"#,
+    ];
+    for body in nothing {
+        let error = read_body(body).expect_err(body);
+        assert!(matches!(error, SvgError::NothingFilled { strokes: false }), "{error}");
+    }
+    let stroke = r#"<path d="M0 0 L50 50" fill="none" stroke="black"/>"#;
+    let error = read_body(stroke).expect_err("strokes only");
+    assert!(matches!(error, SvgError::NothingFilled { strokes: true }));
+    assert!(error.to_string().contains("only strokes"));
+}
+
+#[test]
+fn a_mask_is_refused_by_name() {
+    let body = r##"<mask id="m"><rect width="9" height="9" fill="white"/></mask>
+        <rect width="50" height="50" mask="url(#m)"/>"##;
+    assert!(matches!(read_body(body), Err(SvgError::Mask(id)) if id == "m"));
+}
+
+/// `levels` groups, each made of `copies` references to the one before.
+fn bomb(levels: usize, copies: usize, link: impl Fn(usize) -> String) -> String {
+    let mut body = String::from(r#"<defs><g id="g0"><rect width="1" height="1"/></g>"#);
+    for level in 1..=levels {
+        let copied = link(level - 1).repeat(copies);
+        body += &format!(r#"<g id="g{level}">{copied}</g>"#);
+    }
+    body + &format!(r##"</defs><use href="#g{levels}"/>"##)
+}
+
+fn refused_at_once(body: &str) -> SvgError {
+    let start = Instant::now();
+    let error = read_body(body).expect_err("a bomb");
+    assert!(start.elapsed() < Duration::from_secs(5));
+    error
+}
+
+#[test]
+fn nested_use_does_not_hang() {
+    let body = bomb(12, 10, |level| format!(r##"<use xlink:href="#g{level}"/>"##));
+    assert!(matches!(refused_at_once(&body), SvgError::TooManyElements { .. }));
+    let few = bomb(3, 10, |level| format!(r##"<use xlink:href="#g{level}"/>"##));
+    near(regions(&few).area(), 1.0);
+}
+
+#[test]
+fn nested_patterns_clips_masks_and_styles_do_not_hang() {
+    let fill = |style: bool| {
+        let mut body = String::from(r#"<pattern id="p0" width="1" height="1"><path d="M0 0h1v1z"/></pattern>"#);
+        let mut sheet = String::new();
+        for level in 1..14 {
+            let inner = level - 1;
+            let paint = if style {
+                sheet += &format!("g rect.c{inner} {{ fill : url( '#p{inner}' ) }}");
+                format!(r#"class="a c{inner}""#)
+            } else {
+                format!(r#"style="fill:url(#p{inner})""#)
+            };
+            let rect = format!(r#"<rect width="1" height="1" {paint}/>"#).repeat(10);
+            body += &format!(r#"<pattern id="p{level}" width="1" height="1">{rect}</pattern>"#);
+        }
+        format!(r##"<style>{sheet}</style>{body}<rect width="9" height="9" fill="url(#p13)"/>"##)
+    };
+    assert!(matches!(refused_at_once(&fill(false)), SvgError::TooManyElements { .. }));
+    assert!(matches!(refused_at_once(&fill(true)), SvgError::TooManyElements { .. }));
+    for (element, attribute) in [("clipPath", "clip-path"), ("mask", "mask")] {
+        let mut body = format!(r#"<{element} id="e0"><path d="M0 0h1v1z"/></{element}>"#);
+        for level in 1..14 {
+            let inner = level - 1;
+            let rect = format!(r##"<rect width="9" height="9" {attribute}="url(#e{inner})"/>"##);
+            body += &format!(r#"<{element} id="e{level}">{}</{element}>"#, rect.repeat(10));
+        }
+        body += &format!(r##"<rect width="9" height="9" {attribute}="url(#e13)"/>"##);
+        assert!(matches!(refused_at_once(&body), SvgError::TooManyElements { .. }));
+    }
+}
+
+#[test]
+fn markers_are_left_out_however_they_are_set() {
+    let mut body = String::from(r#"<marker id="m0" markerWidth="3" markerHeight="3"><path d="M0 0h9v9z"/></marker>"#);
+    for level in 1..14 {
+        let inner = level - 1;
+        body += &format!(
+            r##"<marker id="m{level}" markerWidth="3" markerHeight="3"><path d="M0 0h9v9h9z{}" marker-mid="url(#m{inner})"/></marker>"##,
+            " l1 1".repeat(20)
+        );
+    }
+    let shape = |attribute: &str| {
+        format!(r##"{body}<style>.m {{ marker: url(#m13) !important }}</style>
+        <g {attribute}><path stroke="red" d="M0 0h10v10h-10z"/></g>"##)
+    };
+    for attribute in [
+        r##"marker-mid="url(#m13)""##,
+        r##"style="marker:url(#m13) !important""##,
+        r#"class="m""#,
+    ] {
+        near(regions(&shape(attribute)).area(), 100.0);
+    }
+}
+
+#[test]
+fn a_long_list_of_entities_is_refused() {
+    let mut entities = String::from("<!ENTITY e0 'x'>");
+    for level in 1..12 {
+        entities += &format!("<!ENTITY e{level} '{}'>", format!("&e{};", level - 1).repeat(10));
+    }
+    let text = format!("<!DOCTYPE svg [{entities}]><svg {NS}><title>&e11;</title></svg>");
+    assert!(matches!(read(&text, 1e-3), Err(SvgError::Xml(_))));
+}
+
+#[test]
+fn depth_is_limited_before_the_stack_ends() {
+    let nested = |levels: usize| {
+        page(&format!(
+            r#"{}<rect width="10" height="10"/>{}"#,
+            "<g transform=\"scale(1)\" opacity=\"0.5\">".repeat(levels),
+            "</g>".repeat(levels)
+        ))
+    };
+    assert!(matches!(read(&nested(20_000), 1e-3), Err(SvgError::TooDeep { .. })));
+    let chain = bomb(200, 1, |level| format!(r##"<use href="#g{level}"/>"##));
+    assert!(matches!(read_body(&chain), Err(SvgError::TooDeep { .. })));
+    // This thread has the stack of any other: half of it must do.
+    let text = nested(guard::MAX_DEPTH as usize - 1);
+    let thread = std::thread::Builder::new().stack_size(1 << 20);
+    let handle = thread.spawn(move || read(&text, 1e-3).is_ok()).expect("a thread");
+    assert!(handle.join().expect("no overflow"));
+}
+
+#[test]
+fn circles_of_references_are_named() {
+    let body = r##"<g id="a"><use href="#b"/></g><g id="b"><use href="#a"/></g>"##;
+    assert!(matches!(read_body(body), Err(SvgError::Circular { line: 1 })));
+    // A link is no copy.
+    near(regions(r##"<g id="a"><a href="#a"><rect width="9" height="9"/></a></g>"##).area(), 81.0);
+}
+
+#[test]
+fn a_style_sheet_of_many_rules_does_not_hang() {
+    let sheet: String = (0..20_000).map(|k| format!(".c{k}{{fill:red}}")).collect();
+    let body = format!("<style>{sheet}</style>{}", "<g/>".repeat(20_000));
+    assert!(matches!(refused_at_once(&body), SvgError::TooMuchStyle { .. }));
+}
+
+#[test]
+fn broken_drawings_are_errors() {
+    let truncated = page(r#"<rect width="9" height="9"/>"#);
+    assert!(matches!(read(&truncated[..truncated.len() - 4], 1e-3), Err(SvgError::Xml(_))));
+    assert!(matches!(
+        read(&format!(r#"<svg {NS} width="0" height="5"/>"#), 1e-3),
+        Err(SvgError::Svg(_))
+    ));
+}
