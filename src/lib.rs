@@ -9,5 +9,6 @@ pub mod homotopy;
 pub mod linalg;
 pub mod mesh;
 pub mod progress;
+pub mod project;
 pub mod transition;
 pub mod warp;

@@ -53,7 +53,9 @@ pub(super) enum TrussError {
         only_in: super::Which,
     },
     /// Every panel is turned over.
-    #[error("the target truss is a mirror image of the source; mirror one of them (placement, mirror = true)")]
+    #[error(
+        "the target truss is a mirror image of the source; mirror one of them (placement, mirror = true)"
+    )]
     Mirrored,
     /// A panel is turned over.
     #[error("the panel of nodes {} is turned over between source and target; move its nodes in one design", listed(.0))]
@@ -147,7 +149,9 @@ fn with_kept(bars: &[[u32; 2]], pair: Pair, kept: &[bool]) -> Result<Panels, Tru
     for cycle in &cycles {
         faces.extend(triangles(cycle, pair)?);
     }
-    let let_go = (0..bars.len()).filter(|&bar| !kept[bar]).map(|bar| bars[bar]);
+    let let_go = (0..bars.len())
+        .filter(|&bar| !kept[bar])
+        .map(|bar| bars[bar]);
     elements.extend(outside(let_go, &cycles));
     Ok((faces, elements))
 }
@@ -168,8 +172,7 @@ fn triangles(cycle: &[u32], pair: Pair) -> Result<Vec<[u32; 3]>, TrussError> {
     if cycle.len() > MAX_PANEL_NODES {
         return Err(TrussError::TooLarge(cycle.to_vec()));
     }
-    polygon::triangulated(cycle, pair)
-        .ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
+    polygon::triangulated(cycle, pair).ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
 }
 
 /// The bars whose nodes no panel has both of.

@@ -213,6 +213,9 @@ mod tests {
     fn text_that_is_not_utf8_is_named_by_its_line() {
         let bytes = b"v 0 0 0\nv 1 0 0\nv \xff 1 0\nf 1 2 3\n";
         let error = import("t.obj", bytes, &ImportOptions::default()).expect_err("bad text");
-        assert!(matches!(error.problem, Problem::NotUtf8 { line: 3 }), "{error}");
+        assert!(
+            matches!(error.problem, Problem::NotUtf8 { line: 3 }),
+            "{error}"
+        );
     }
 }

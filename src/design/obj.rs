@@ -48,7 +48,9 @@ pub enum ObjError {
         first: f64,
     },
     /// A face with a word that is no vertex.
-    #[error("line {line}: face {face} has \"{word}\" where a vertex number should be; correct the line")]
+    #[error(
+        "line {line}: face {face} has \"{word}\" where a vertex number should be; correct the line"
+    )]
     Face {
         /// The line.
         line: usize,
@@ -66,7 +68,9 @@ pub enum ObjError {
         face: usize,
     },
     /// A face that names a vertex that is not there.
-    #[error("line {line}: face {face} names vertex {named}, but there are {vertices}; correct the face")]
+    #[error(
+        "line {line}: face {face} names vertex {named}, but there are {vertices}; correct the face"
+    )]
     OutOfRange {
         /// The line.
         line: usize,
@@ -207,7 +211,11 @@ impl Parser {
                 word: word.chars().take(24).collect(),
             })?;
             // Negative numbers count back from the latest vertex.
-            corners.push(if named < 0 { so_far.saturating_add(named) } else { named - 1 });
+            corners.push(if named < 0 {
+                so_far.saturating_add(named)
+            } else {
+                named - 1
+            });
             if corners.last().is_some_and(|&c| c < 0) {
                 return Err(self.out_of_range(line, face, named));
             }
@@ -307,27 +315,52 @@ mod tests {
         }
         assert!(matches!(
             error("v 0 0 0\nv 1 0 0.1\n"),
-            ObjError::NotFlat { line: 2, vertex: 2, .. }
+            ObjError::NotFlat {
+                line: 2,
+                vertex: 2,
+                ..
+            }
         ));
         for (face, named) in [("1 2 4", 4), ("1 2 0", 0), ("1 2 -4", -4)] {
             assert_eq!(
                 error(&format!("{triangle}f {face}\n")),
-                ObjError::OutOfRange { line: 4, face: 1, named, vertices: 3 }
+                ObjError::OutOfRange {
+                    line: 4,
+                    face: 1,
+                    named,
+                    vertices: 3
+                }
             );
         }
         let huge = format!("{triangle}f 1 2 9223372036854775807\nf 1 2 -9223372036854775808");
         assert!(matches!(error(&huge), ObjError::OutOfRange { .. }));
         assert_eq!(
             error(&format!("{triangle}f 1 2 2\n")),
-            ObjError::Repeated { line: 4, face: 1, vertex: 2 }
+            ObjError::Repeated {
+                line: 4,
+                face: 1,
+                vertex: 2
+            }
         );
-        assert!(matches!(error(&format!("{triangle}f 1 x 2\n")), ObjError::Face { line: 4, .. }));
+        assert!(matches!(
+            error(&format!("{triangle}f 1 x 2\n")),
+            ObjError::Face { line: 4, .. }
+        ));
         assert_eq!(
             error(&format!("{triangle}f 1 2\n")),
             ObjError::TooFewCorners { line: 4, face: 1 }
         );
-        assert_eq!(error(&format!("{triangle}v 5 5 0\nf 1 2 3\n")), ObjError::Unused(4));
-        assert_eq!(error(triangle), ObjError::NoMesh { vertices: 3, faces: 0 });
+        assert_eq!(
+            error(&format!("{triangle}v 5 5 0\nf 1 2 3\n")),
+            ObjError::Unused(4)
+        );
+        assert_eq!(
+            error(triangle),
+            ObjError::NoMesh {
+                vertices: 3,
+                faces: 0
+            }
+        );
         assert!(matches!(
             error("v 0 0\nv 1 0\nv 1 1\nv 0 1\nf 1 2 3\nf 1 4 3\nf 1 3 2\n"),
             ObjError::Mesh(_)

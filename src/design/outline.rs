@@ -58,7 +58,11 @@ mod tests {
         assert_eq!(regions.rings().count(), 2);
         // Outer offset: area + perimeter r + π r²; inner: similar, inradius 1 less r.
         let expected = 6.0 + 12.0 * 0.1 + PI * 0.01 - 6.0 * 0.9 * 0.9;
-        assert!((regions.area() - expected).abs() < 1e-3, "{}", regions.area());
+        assert!(
+            (regions.area() - expected).abs() < 1e-3,
+            "{}",
+            regions.area()
+        );
     }
 
     #[test]

@@ -40,16 +40,22 @@ pub enum PictureError {
     #[error("the picture is damaged ({0}); save it again from where it was made")]
     Damaged(#[source] ImageError),
     /// All pixels are alike.
-    #[error("the picture has one tone only, so no figure stands out; use one with a figure on a ground")]
+    #[error(
+        "the picture has one tone only, so no figure stands out; use one with a figure on a ground"
+    )]
     OneTone,
     /// No pixel belongs to the figure.
-    #[error("nothing is left of the picture at threshold {threshold}; change the threshold, keep smaller specks, or invert it")]
+    #[error(
+        "nothing is left of the picture at threshold {threshold}; change the threshold, keep smaller specks, or invert it"
+    )]
     Empty {
         /// Opacity or tone at which figure and ground were parted.
         threshold: u8,
     },
     /// A boundary of absurdly many points.
-    #[error("the silhouette has more than {MAX_POINTS} boundary points; leave specks out, change the threshold, or use a smaller picture")]
+    #[error(
+        "the silhouette has more than {MAX_POINTS} boundary points; leave specks out, change the threshold, or use a smaller picture"
+    )]
     TooRagged,
     /// The samples do not fill the picture.
     #[error(transparent)]
@@ -82,7 +88,10 @@ pub(super) fn read(
     drop(picture);
     figure.remove_specks(options.specks_px as usize);
     let size = DVec2::new(f64::from(width), f64::from(height));
-    let extent = Bounds { min: DVec2::ZERO, max: size };
+    let extent = Bounds {
+        min: DVec2::ZERO,
+        max: size,
+    };
     let regions = figure.trace(options.tolerance * size.max_element())?;
     Ok((regions, extent))
 }
@@ -149,10 +158,22 @@ impl Figure {
             None => otsu(&tones).ok_or(PictureError::OneTone)?,
         };
         let above_is_figure = by_opacity || !border_is_above(&tones, width as usize, threshold);
-        let sign = if above_is_figure == options.invert { -1.0 } else { 1.0 };
+        let sign = if above_is_figure == options.invert {
+            -1.0
+        } else {
+            1.0
+        };
         let level = f32::from(threshold) - 0.5; // no tone is on it
-        let samples = tones.iter().map(|&t| sign * (f32::from(t) - level)).collect();
-        Ok(Self { width, height, samples, threshold })
+        let samples = tones
+            .iter()
+            .map(|&t| sign * (f32::from(t) - level))
+            .collect();
+        Ok(Self {
+            width,
+            height,
+            samples,
+            threshold,
+        })
     }
 
     /// Islands of fewer pixels than `least` go over to the ground, then holes
@@ -268,7 +289,11 @@ fn otsu(tones: &[u8]) -> Option<u8> {
         sum_below += weighted((threshold - 1, &histogram[threshold - 1]));
         let apart = sum_below * total - sum * below;
         let classes = below * (total - below);
-        let variance = if classes > 0.0 { apart * apart / classes } else { 0.0 };
+        let variance = if classes > 0.0 {
+            apart * apart / classes
+        } else {
+            0.0
+        };
         if variance > best.0 {
             best = (variance, threshold, threshold);
         } else if variance == best.0 && best.0 > 0.0 && best.2 + 1 == threshold {

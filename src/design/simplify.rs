@@ -79,7 +79,16 @@ mod tests {
 
     #[test]
     fn corners_stay_and_points_between_them_go() {
-        let square = [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
+        let square = [
+            (0, 0),
+            (1, 0),
+            (2, 0),
+            (2, 1),
+            (2, 2),
+            (1, 2),
+            (0, 2),
+            (0, 1),
+        ];
         let points = square.map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
         assert_eq!(closed(&points, 1e-9).len(), 4);
         assert_eq!(closed(&points, 0.0).len(), 4);

@@ -139,10 +139,7 @@ mod tests {
     #[test]
     fn each_format_is_known_by_its_content() {
         let cases: [(&[u8], Format); 9] = [
-            (
-                b"\x89PNG\r\n\x1a\nrest",
-                Format::Picture(ImageFormat::Png),
-            ),
+            (b"\x89PNG\r\n\x1a\nrest", Format::Picture(ImageFormat::Png)),
             (b"\xff\xd8\xff\xe0", Format::Picture(ImageFormat::Jpeg)),
             (
                 b"RIFF\x01\x02\x03\x04WEBPVP8 ",

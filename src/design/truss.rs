@@ -120,7 +120,9 @@ pub enum TrussInputError {
         rule: &'static str,
     },
     /// Something names what does not exist.
-    #[error("{what} {index} names {kind} {named}, but there are {count}, counted from 0; correct the number")]
+    #[error(
+        "{what} {index} names {kind} {named}, but there are {count}, counted from 0; correct the number"
+    )]
     OutOfRange {
         /// What names it.
         what: &'static str,
@@ -153,7 +155,9 @@ pub enum TrussInputError {
     #[error("node {0} is held by no bar; add a bar to it, or remove it")]
     Loose(usize),
     /// A list that must have one entry for each bar, or none.
-    #[error("\"{list}\" has {found} entries for {bars} bars; give one for each bar, or leave it out")]
+    #[error(
+        "\"{list}\" has {found} entries for {bars} bars; give one for each bar, or leave it out"
+    )]
     PerBar {
         /// The key.
         list: &'static str,
@@ -426,6 +430,12 @@ mod tests {
     #[test]
     fn nodes_at_one_place_give_a_bar_no_length() {
         let error = Truss::new(vec![DVec2::ONE; 2], vec![[0, 1]]).expect_err("no length");
-        assert_eq!(error, TrussInputError::NoLength { bar: 0, nodes: [0, 1] });
+        assert_eq!(
+            error,
+            TrussInputError::NoLength {
+                bar: 0,
+                nodes: [0, 1]
+            }
+        );
     }
 }

@@ -32,7 +32,10 @@ pub enum ProjectError {
         message: String,
     },
     /// The version is from the future.
-    #[error("line {line}: the document has version {version}, this program reads up to {}; update the program", super::FORMAT_VERSION)]
+    #[error(
+        "line {line}: the document has version {version}, this program reads up to {}; update the program",
+        super::FORMAT_VERSION
+    )]
     NewerVersion {
         /// Counted from 1.
         line: usize,
@@ -40,7 +43,10 @@ pub enum ProjectError {
         version: u64,
     },
     /// There is no version 0.
-    #[error("there is no version 0 of this format; write version = {}", super::FORMAT_VERSION)]
+    #[error(
+        "there is no version 0 of this format; write version = {}",
+        super::FORMAT_VERSION
+    )]
     VersionZero,
     /// Fewer than two designs.
     #[error("a transition needs two designs, the document lists {0}; add [[designs]] with a path")]

@@ -99,14 +99,10 @@ impl LoadedProject {
     /// # Errors
     /// [`BuildError::Unavailable`] if warp and content do not go together.
     pub fn cell(&self) -> Result<Cell, BuildError> {
-        let unavailable = |error: crate::transition::NoSuchCell| {
-            BuildError::Unavailable(error.to_string())
-        };
-        let default = TransitionSpec::new(
-            Arc::clone(&self.designs[0]),
-            Arc::clone(&self.designs[1]),
-        )
-        .cell;
+        let unavailable =
+            |error: crate::transition::NoSuchCell| BuildError::Unavailable(error.to_string());
+        let default =
+            TransitionSpec::new(Arc::clone(&self.designs[0]), Arc::clone(&self.designs[1])).cell;
         match (self.project.warp, self.project.content) {
             (None, None) => Ok(default),
             (Some(warp), Some(content)) => Cell::new(warp, content).map_err(unavailable),
@@ -126,8 +122,7 @@ impl LoadedProject {
     /// # Errors
     /// [`BuildError::Unavailable`] with the reason, for a greyed button.
     pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), BuildError> {
-        let cell =
-            Cell::new(warp, content).map_err(|e| BuildError::Unavailable(e.to_string()))?;
+        let cell = Cell::new(warp, content).map_err(|e| BuildError::Unavailable(e.to_string()))?;
         TransitionSpec::available(cell, &self.designs[0], &self.designs[1])
     }
 

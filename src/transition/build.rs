@@ -2,7 +2,7 @@
 
 use super::{Cell, Inner};
 use crate::compatible::{CompatibleError, CompatibleMesh};
-use crate::content::{Content, FieldBlend, FieldPairError, FieldPair, Solid};
+use crate::content::{Content, FieldBlend, FieldPair, FieldPairError, Solid};
 use crate::design::{Design, Form};
 use crate::field::{DistanceField, FieldError, Grid, GridError, Metric};
 use crate::geometry::{Bounds, RegionsError};
@@ -157,7 +157,9 @@ pub(super) fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<In
     if !(spec.bar_width > 0.0 && spec.bar_width <= 1.0) {
         return Err(BuildError::BarWidth(spec.bar_width));
     }
-    let diameter = extent(&spec.source).diameter().max(extent(&spec.target).diameter());
+    let diameter = extent(&spec.source)
+        .diameter()
+        .max(extent(&spec.target).diameter());
     let bar_width = spec.bar_width * diameter;
     match spec.cell.warp() {
         WarpKind::Arap => build_arap(spec, bar_width, progress),

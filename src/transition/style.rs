@@ -133,7 +133,15 @@ mod tests {
     fn colours_are_read_and_written() {
         assert_eq!("#2f6fb3".parse(), Ok(Rgb([0x2f, 0x6f, 0xb3])));
         assert_eq!(Rgb([1, 2, 255]).to_string(), "#0102ff");
-        for wrong in ["2f6fb3", "#2f6fb", "#2f6fb3ff", "#gg0000", "#+f6fb3", "#é0000", ""] {
+        for wrong in [
+            "2f6fb3",
+            "#2f6fb",
+            "#2f6fb3ff",
+            "#gg0000",
+            "#+f6fb3",
+            "#é0000",
+            "",
+        ] {
             assert!(wrong.parse::<Rgb>().is_err(), "{wrong}");
         }
     }
@@ -141,7 +149,12 @@ mod tests {
     #[test]
     fn ends_are_exact_and_extrapolation_stays_at_them() {
         let style = Style::default();
-        for (t, colour) in [(-1.0, style.source), (0.0, style.source), (1.0, style.target), (9.0, style.target)] {
+        for (t, colour) in [
+            (-1.0, style.source),
+            (0.0, style.source),
+            (1.0, style.target),
+            (9.0, style.target),
+        ] {
             assert_eq!(style.fill_at(t), colour);
         }
         for channel in 0..=255 {

@@ -272,7 +272,10 @@ mod tests {
             edit(&mut timing);
             timing.check(&[])
         };
-        assert_eq!(wrong(|t| t.duration_secs = 0.0), Err(TimingError::Duration(0.0)));
+        assert_eq!(
+            wrong(|t| t.duration_secs = 0.0),
+            Err(TimingError::Duration(0.0))
+        );
         assert_eq!(wrong(|t| t.hold_secs = -1.0), Err(TimingError::Hold(-1.0)));
         assert_eq!(wrong(|t| t.to = 0.0), Err(TimingError::Range(0.0, 0.0)));
         assert!(wrong(|t| t.from = f64::NAN).is_err());

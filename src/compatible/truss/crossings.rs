@@ -90,8 +90,17 @@ mod tests {
 
     #[test]
     fn bars_meet_when_they_share_a_point_that_is_no_common_node() {
-        let nodes = [(0, 0), (4, 4), (0, 4), (4, 0), (2, 2), (8, 8), (5, 5), (2, 0)]
-            .map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
+        let nodes = [
+            (0, 0),
+            (4, 4),
+            (0, 4),
+            (4, 0),
+            (2, 2),
+            (8, 8),
+            (5, 5),
+            (2, 0),
+        ]
+        .map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)));
         let meets = |a, b| {
             let (one, other) = (meet(a, b, &nodes), meet(b, a, &nodes));
             assert_eq!(one, other);
@@ -109,7 +118,10 @@ mod tests {
 
     #[test]
     fn the_bar_with_most_crossings_goes_first() {
-        assert_eq!(thinned(4, &[[0, 1], [0, 2], [0, 3]]), [false, true, true, true]);
+        assert_eq!(
+            thinned(4, &[[0, 1], [0, 2], [0, 3]]),
+            [false, true, true, true]
+        );
         assert_eq!(thinned(3, &[[0, 2]]), [true, true, false]);
         assert_eq!(uncrossed(3, &[[0, 2]]), [false, true, false]);
     }

@@ -162,8 +162,7 @@ fn successors(edges: &[[u32; 2]], nodes: &[DVec2]) -> HashMap<[u32; 2], [u32; 2]
 
 /// Exact order by angle around `centre`, counter-clockwise from the x axis.
 fn by_angle(centre: DVec2, p: DVec2, q: DVec2) -> Ordering {
-    let lower_half =
-        |r: DVec2| r.y < centre.y || (r.y == centre.y && r.x < centre.x);
+    let lower_half = |r: DVec2| r.y < centre.y || (r.y == centre.y && r.x < centre.x);
     lower_half(p)
         .cmp(&lower_half(q))
         .then_with(|| 0.0f64.total_cmp(&orient2d(centre, p, q)))

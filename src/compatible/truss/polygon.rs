@@ -74,7 +74,9 @@ impl Table {
     fn best(&self, cycle: &[u32], pair: Pair, i: usize, j: usize) -> (f64, usize) {
         let mut best = (NONE, i);
         for k in i + 1..j {
-            let sides = self.cells[self.cell(i, k)].0.min(self.cells[self.cell(k, j)].0);
+            let sides = self.cells[self.cell(i, k)]
+                .0
+                .min(self.cells[self.cell(k, j)].0);
             if sides <= best.0 {
                 continue;
             }

@@ -20,7 +20,10 @@ fn both_ways(source: &Truss, target: &Truss) -> Panels {
     assert_eq!(panels(target, source), Ok(found.clone()));
     for node in 0..source.nodes().len() as u32 {
         let in_face = found.0.iter().any(|face| face.contains(&node));
-        assert!(in_face || found.1.iter().any(|bar| bar.contains(&node)), "{node}");
+        assert!(
+            in_face || found.1.iter().any(|bar| bar.contains(&node)),
+            "{node}"
+        );
     }
     found
 }
@@ -32,10 +35,24 @@ const RIM: [[u32; 2]; 4] = [[0, 1], [1, 2], [2, 3], [3, 0]];
 fn triangles_bridges_and_ends_are_told_apart() {
     // Two triangles joined by a bridge, one with a dangling bar inside.
     let nodes = [
-        (0.0, 0.0), (4.0, 0.0), (0.0, 4.0), (1.0, 1.0),
-        (6.0, 0.0), (8.0, 0.0), (7.0, 2.0),
+        (0.0, 0.0),
+        (4.0, 0.0),
+        (0.0, 4.0),
+        (1.0, 1.0),
+        (6.0, 0.0),
+        (8.0, 0.0),
+        (7.0, 2.0),
     ];
-    let bars = [[0, 1], [1, 2], [2, 0], [0, 3], [1, 4], [4, 5], [5, 6], [6, 4]];
+    let bars = [
+        [0, 1],
+        [1, 2],
+        [2, 0],
+        [0, 3],
+        [1, 4],
+        [4, 5],
+        [5, 6],
+        [6, 4],
+    ];
     let t = truss(&nodes, &bars);
     let (faces, elements) = both_ways(&t, &t);
     assert_eq!(faces, [[0, 1, 2], [4, 5, 6]]);
@@ -69,10 +86,25 @@ fn a_concave_panel_takes_diagonals_valid_in_both() {
 fn outer_pockets_stay_open() {
     // A U of three squares' outline, with rungs.
     let nodes = [
-        (0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (2.0, 3.0),
-        (2.0, 1.0), (1.0, 1.0), (1.0, 3.0), (0.0, 3.0),
+        (0.0, 0.0),
+        (3.0, 0.0),
+        (3.0, 3.0),
+        (2.0, 3.0),
+        (2.0, 1.0),
+        (1.0, 1.0),
+        (1.0, 3.0),
+        (0.0, 3.0),
     ];
-    let bars = [[0, 1], [1, 2], [2, 3], [3, 4], [4, 5], [5, 6], [6, 7], [7, 0]];
+    let bars = [
+        [0, 1],
+        [1, 2],
+        [2, 3],
+        [3, 4],
+        [4, 5],
+        [5, 6],
+        [6, 7],
+        [7, 0],
+    ];
     let t = truss(&nodes, &bars);
     let (faces, _) = both_ways(&t, &t);
     let area: f64 = faces.iter().map(|f| polygon::area(f, t.nodes())).sum();
@@ -95,10 +127,23 @@ fn crossed_braces_keep_one_and_carry_the_other() {
 #[test]
 fn crossing_bars_between_panels_become_elements() {
     let nodes = [
-        (0.0, 0.0), (0.0, 1.0), (-1.0, 0.5),
-        (2.0, 0.0), (2.0, 1.0), (3.0, 0.5),
+        (0.0, 0.0),
+        (0.0, 1.0),
+        (-1.0, 0.5),
+        (2.0, 0.0),
+        (2.0, 1.0),
+        (3.0, 0.5),
     ];
-    let bars = [[0, 1], [1, 2], [2, 0], [3, 4], [4, 5], [5, 3], [0, 4], [1, 3]];
+    let bars = [
+        [0, 1],
+        [1, 2],
+        [2, 0],
+        [3, 4],
+        [4, 5],
+        [5, 3],
+        [0, 4],
+        [1, 3],
+    ];
     let t = truss(&nodes, &bars);
     let (faces, elements) = both_ways(&t, &t);
     assert_eq!(faces.len(), 2);
@@ -107,7 +152,14 @@ fn crossing_bars_between_panels_become_elements() {
 
 #[test]
 fn a_panel_hung_into_another_at_one_node_is_a_panel_of_its_own() {
-    let nodes = [(0.0, 0.0), (9.0, 0.0), (9.0, 9.0), (0.0, 9.0), (4.0, 2.0), (2.0, 4.0)];
+    let nodes = [
+        (0.0, 0.0),
+        (9.0, 0.0),
+        (9.0, 9.0),
+        (0.0, 9.0),
+        (4.0, 2.0),
+        (2.0, 4.0),
+    ];
     let bars = [[0, 1], [1, 2], [2, 3], [3, 0], [0, 4], [4, 5], [5, 0]];
     let t = truss(&nodes, &bars);
     let (faces, elements) = both_ways(&t, &t);
@@ -119,16 +171,28 @@ fn a_panel_hung_into_another_at_one_node_is_a_panel_of_its_own() {
 #[test]
 fn differences_and_turned_panels_are_named() {
     let square = truss(&SQUARE, &RIM);
-    let more = truss(&[SQUARE.as_slice(), &[(2.0, 2.0)]].concat(), &[RIM.as_slice(), &[[2, 4]]].concat());
+    let more = truss(
+        &[SQUARE.as_slice(), &[(2.0, 2.0)]].concat(),
+        &[RIM.as_slice(), &[[2, 4]]].concat(),
+    );
     assert_eq!(panels(&square, &more), Err(TrussError::NodeCounts([4, 5])));
     let braced = truss(&SQUARE, &[RIM.as_slice(), &[[0, 2]]].concat());
     let error = panels(&square, &braced).expect_err("another bar");
-    assert_eq!(error, TrussError::BarsDiffer { nodes: [0, 2], only_in: crate::compatible::Which::Target });
+    assert_eq!(
+        error,
+        TrussError::BarsDiffer {
+            nodes: [0, 2],
+            only_in: crate::compatible::Which::Target
+        }
+    );
     assert!(error.to_string().contains("only in the target"));
     let reordered = truss(&SQUARE, &[[0, 3], [3, 2], [2, 1], [1, 0]]);
     assert!(panels(&square, &reordered).is_ok());
     let mirror = SQUARE.map(|(x, y)| (-x, y));
-    assert_eq!(panels(&square, &truss(&mirror, &RIM)), Err(TrussError::Mirrored));
+    assert_eq!(
+        panels(&square, &truss(&mirror, &RIM)),
+        Err(TrussError::Mirrored)
+    );
     // Node 4 swings over the edge that its triangle stands on.
     let house = |y| {
         let nodes = [SQUARE.as_slice(), &[(0.5, y)]].concat();

@@ -111,8 +111,14 @@ fn opacity_comes_before_tone() {
     let found = regions(&bytes, &ImportOptions::default()).bounds();
     assert_eq!(found.min, DVec2::new(4.0, 0.0));
     assert_eq!(found.max, DVec2::new(8.0, 8.0));
-    let inverted = ImportOptions { invert: true, ..ImportOptions::default() };
-    assert_eq!(regions(&bytes, &inverted).bounds().max, DVec2::new(4.0, 8.0));
+    let inverted = ImportOptions {
+        invert: true,
+        ..ImportOptions::default()
+    };
+    assert_eq!(
+        regions(&bytes, &inverted).bounds().max,
+        DVec2::new(4.0, 8.0)
+    );
 }
 
 #[test]
@@ -142,14 +148,20 @@ fn specks_and_pinholes_go_and_the_rest_stays() {
         "..........",
     ]);
     let rings = |specks_px| {
-        let options = ImportOptions { specks_px, ..ImportOptions::default() };
+        let options = ImportOptions {
+            specks_px,
+            ..ImportOptions::default()
+        };
         regions(&bytes, &options).rings().count()
     };
     assert_eq!(rings(0), 4);
     assert_eq!(rings(1), 4);
     assert_eq!(rings(2), 2);
     assert_eq!(rings(3), 1);
-    let all = ImportOptions { specks_px: 1000, ..ImportOptions::default() };
+    let all = ImportOptions {
+        specks_px: 1000,
+        ..ImportOptions::default()
+    };
     assert!(matches!(
         read_with(&bytes, &all),
         Err(Problem::Picture(PictureError::Empty { .. }))
@@ -161,7 +173,10 @@ fn a_threshold_moves_the_boundary() {
     let ramp = GrayImage::from_fn(64, 16, |x, _| Luma([(x * 4) as u8]));
     let bytes = encoded(ramp, ImageFormat::Png);
     let at = |threshold| {
-        let options = ImportOptions { threshold: Some(threshold), ..ImportOptions::default() };
+        let options = ImportOptions {
+            threshold: Some(threshold),
+            ..ImportOptions::default()
+        };
         regions(&bytes, &options).bounds()
     };
     // Tones 4 x at centres x + ½; 50 − ½ is crossed at x = 49.5 / 4 + ½.
@@ -177,7 +192,11 @@ fn a_picture_full_of_ink_is_its_rectangle_and_one_of_none_is_an_error() {
         read_with(&one_tone, &options),
         Err(Problem::Picture(PictureError::OneTone))
     ));
-    let full = ImportOptions { threshold: Some(100), invert: true, ..options };
+    let full = ImportOptions {
+        threshold: Some(100),
+        invert: true,
+        ..options
+    };
     assert!((regions(&one_tone, &full).area() - 15.0).abs() < 1e-9);
     let clear = encoded(RgbaImage::new(4, 4), ImageFormat::Png);
     assert!(matches!(
@@ -191,7 +210,9 @@ fn otsu_parts_two_tones_in_the_middle() {
     assert_eq!(otsu(&[0, 0, 0, 255]), Some(128));
     assert_eq!(otsu(&[10, 20]), Some(16));
     assert_eq!(otsu(&[7; 9]), None);
-    let tones: Vec<u8> = (0..100).map(|k| if k < 70 { 40 + k % 8 } else { 180 + k % 9 }).collect();
+    let tones: Vec<u8> = (0..100)
+        .map(|k| if k < 70 { 40 + k % 8 } else { 180 + k % 9 })
+        .collect();
     assert_eq!(otsu(&tones), otsu_slow(&tones));
 }
 
@@ -199,15 +220,19 @@ fn otsu_parts_two_tones_in_the_middle() {
 fn otsu_slow(tones: &[u8]) -> Option<u8> {
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
     let variance = |t: u8| {
-        let (low, high): (Vec<f64>, Vec<f64>) =
-            tones.iter().map(|&x| f64::from(x)).partition(|&x| x < f64::from(t));
+        let (low, high): (Vec<f64>, Vec<f64>) = tones
+            .iter()
+            .map(|&x| f64::from(x))
+            .partition(|&x| x < f64::from(t));
         if low.is_empty() || high.is_empty() {
             return 0.0;
         }
         low.len() as f64 * high.len() as f64 * (mean(&low) - mean(&high)).powi(2)
     };
     let best = (1..=255).map(variance).fold(0.0, f64::max);
-    let good: Vec<u8> = (1..=255).filter(|&t| variance(t) > best * (1.0 - 1e-12)).collect();
+    let good: Vec<u8> = (1..=255)
+        .filter(|&t| variance(t) > best * (1.0 - 1e-12))
+        .collect();
     let (first, last) = (*good.first()?, *good.last()?);
     (best > 0.0).then(|| (u32::from(first) + u32::from(last)).div_ceil(2) as u8)
 }

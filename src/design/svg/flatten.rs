@@ -56,7 +56,9 @@ impl Flattener {
                 }
                 PathSegment::CubicTo(b, c, d) => {
                     let [b, c, d] = [b, c, d].map(&place);
-                    let bend = (last - 2.0 * b + c).length().max((b - 2.0 * c + d).length());
+                    let bend = (last - 2.0 * b + c)
+                        .length()
+                        .max((b - 2.0 * c + d).length());
                     self.curve(&mut ring, [b, c, d], 6.0 * bend);
                 }
                 PathSegment::Close => {}
@@ -120,7 +122,9 @@ mod tests {
         let path = builder.finish().expect("a path");
         let curve = [DVec2::ZERO, DVec2::new(50.0, 100.0), DVec2::new(100.0, 0.0)];
         for tolerance in [1.0, 0.1, 0.01] {
-            let rings = Flattener::new(tolerance).rings(&path, place).expect("few points");
+            let rings = Flattener::new(tolerance)
+                .rings(&path, place)
+                .expect("few points");
             let error = error(&rings[0], curve);
             assert!(error <= tolerance, "{error}");
             assert!(error > 0.2 * tolerance, "{error}");
@@ -142,6 +146,9 @@ mod tests {
         let rings = Flattener::new(1.0).rings(&path, place).expect("few points");
         assert_eq!(rings.len(), 2);
         assert_eq!(rings[0].len(), 3);
-        assert_eq!(rings[1], [(0, 0), (5, 5), (6, 5)].map(|(x, y)| DVec2::new(x.into(), y.into())));
+        assert_eq!(
+            rings[1],
+            [(0, 0), (5, 5), (6, 5)].map(|(x, y)| DVec2::new(x.into(), y.into()))
+        );
     }
 }

@@ -131,9 +131,7 @@ fn last_name(selector: &str) -> &str {
         return "*"; // a pseudo-class or an escape: taken to hit everything
     }
     let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '-' || !c.is_ascii();
-    let start = selector
-        .rfind(|c| !is_part(c))
-        .map_or(0, |i| i + 1);
+    let start = selector.rfind(|c| !is_part(c)).map_or(0, |i| i + 1);
     match &selector[start..] {
         "" => "*",
         name => name,
@@ -185,7 +183,10 @@ impl<'d, 'a> Counter<'d, 'a> {
             None => {}
         }
         self.states.insert(node.id(), State::Open);
-        let mut size = Size { elements: 1, levels: 1 };
+        let mut size = Size {
+            elements: 1,
+            levels: 1,
+        };
         for part in self.parts(node) {
             let inner = self.unfold(part, depth + 1)?;
             size.elements = size.elements.saturating_add(inner.elements);

@@ -62,19 +62,25 @@ pub enum SvgError {
         line: u32,
     },
     /// An element that is a copy of itself.
-    #[error("line {line}: an element refers to itself, over others or directly; remove the reference")]
+    #[error(
+        "line {line}: an element refers to itself, over others or directly; remove the reference"
+    )]
     Circular {
         /// Where the element stands, from 1.
         line: u32,
     },
     /// A style sheet that would be matched too often.
-    #[error("the drawing's style sheet is too long for its {elements} elements; save it with plain attributes")]
+    #[error(
+        "the drawing's style sheet is too long for its {elements} elements; save it with plain attributes"
+    )]
     TooMuchStyle {
         /// How many elements there are.
         elements: usize,
     },
     /// A mask, which has no outline.
-    #[error("the drawing uses the mask \"{0}\", which has no outline; apply it as a clip path, or remove it")]
+    #[error(
+        "the drawing uses the mask \"{0}\", which has no outline; apply it as a clip path, or remove it"
+    )]
     Mask(String),
     /// Nothing visible is filled.
     #[error(
@@ -86,7 +92,10 @@ pub enum SvgError {
         strokes: bool,
     },
     /// Curves into absurdly many points.
-    #[error("the drawing's outlines need more than {} points; simplify its paths or raise the tolerance", flatten::MAX_POINTS)]
+    #[error(
+        "the drawing's outlines need more than {} points; simplify its paths or raise the tolerance",
+        flatten::MAX_POINTS
+    )]
     TooManyPoints,
     /// Nothing is enclosed.
     #[error(transparent)]

@@ -183,9 +183,9 @@ fn is_filled(path: &Path) -> bool {
 }
 
 fn is_white(path: &Path) -> bool {
-    path.fill().is_some_and(|fill| {
-        matches!(fill.paint(), Paint::Color(c) if [c.red, c.green, c.blue] == [u8::MAX; 3])
-    })
+    path.fill().is_some_and(
+        |fill| matches!(fill.paint(), Paint::Color(c) if [c.red, c.green, c.blue] == [u8::MAX; 3]),
+    )
 }
 
 fn has_colour(group: &Group) -> bool {

@@ -16,7 +16,10 @@ fn regions(body: &str) -> Regions {
 }
 
 fn near(found: f64, expected: f64) {
-    assert!((found - expected).abs() < 1e-3 * expected, "{found} for {expected}");
+    assert!(
+        (found - expected).abs() < 1e-3 * expected,
+        "{found} for {expected}"
+    );
 }
 
 #[test]
@@ -91,7 +94,10 @@ fn what_is_not_filled_is_not_there() {
     ];
     for body in nothing {
         let error = read_body(body).expect_err(body);
-        assert!(matches!(error, SvgError::NothingFilled { strokes: false }), "{error}");
+        assert!(
+            matches!(error, SvgError::NothingFilled { strokes: false }),
+            "{error}"
+        );
     }
     let stroke = r#"<path d="M0 0 L50 50" fill="none" stroke="black"/>"#;
     let error = read_body(stroke).expect_err("strokes only");
@@ -125,8 +131,13 @@ fn refused_at_once(body: &str) -> SvgError {
 
 #[test]
 fn nested_use_does_not_hang() {
-    let body = bomb(12, 10, |level| format!(r##"<use xlink:href="#g{level}"/>"##));
-    assert!(matches!(refused_at_once(&body), SvgError::TooManyElements { .. }));
+    let body = bomb(12, 10, |level| {
+        format!(r##"<use xlink:href="#g{level}"/>"##)
+    });
+    assert!(matches!(
+        refused_at_once(&body),
+        SvgError::TooManyElements { .. }
+    ));
     let few = bomb(3, 10, |level| format!(r##"<use xlink:href="#g{level}"/>"##));
     near(regions(&few).area(), 1.0);
 }
@@ -134,7 +145,9 @@ fn nested_use_does_not_hang() {
 #[test]
 fn nested_patterns_clips_masks_and_styles_do_not_hang() {
     let fill = |style: bool| {
-        let mut body = String::from(r#"<pattern id="p0" width="1" height="1"><path d="M0 0h1v1z"/></pattern>"#);
+        let mut body = String::from(
+            r#"<pattern id="p0" width="1" height="1"><path d="M0 0h1v1z"/></pattern>"#,
+        );
         let mut sheet = String::new();
         for level in 1..14 {
             let inner = level - 1;
@@ -149,23 +162,37 @@ fn nested_patterns_clips_masks_and_styles_do_not_hang() {
         }
         format!(r##"<style>{sheet}</style>{body}<rect width="9" height="9" fill="url(#p13)"/>"##)
     };
-    assert!(matches!(refused_at_once(&fill(false)), SvgError::TooManyElements { .. }));
-    assert!(matches!(refused_at_once(&fill(true)), SvgError::TooManyElements { .. }));
+    assert!(matches!(
+        refused_at_once(&fill(false)),
+        SvgError::TooManyElements { .. }
+    ));
+    assert!(matches!(
+        refused_at_once(&fill(true)),
+        SvgError::TooManyElements { .. }
+    ));
     for (element, attribute) in [("clipPath", "clip-path"), ("mask", "mask")] {
         let mut body = format!(r#"<{element} id="e0"><path d="M0 0h1v1z"/></{element}>"#);
         for level in 1..14 {
             let inner = level - 1;
             let rect = format!(r##"<rect width="9" height="9" {attribute}="url(#e{inner})"/>"##);
-            body += &format!(r#"<{element} id="e{level}">{}</{element}>"#, rect.repeat(10));
+            body += &format!(
+                r#"<{element} id="e{level}">{}</{element}>"#,
+                rect.repeat(10)
+            );
         }
         body += &format!(r##"<rect width="9" height="9" {attribute}="url(#e13)"/>"##);
-        assert!(matches!(refused_at_once(&body), SvgError::TooManyElements { .. }));
+        assert!(matches!(
+            refused_at_once(&body),
+            SvgError::TooManyElements { .. }
+        ));
     }
 }
 
 #[test]
 fn markers_are_left_out_however_they_are_set() {
-    let mut body = String::from(r#"<marker id="m0" markerWidth="3" markerHeight="3"><path d="M0 0h9v9z"/></marker>"#);
+    let mut body = String::from(
+        r#"<marker id="m0" markerWidth="3" markerHeight="3"><path d="M0 0h9v9z"/></marker>"#,
+    );
     for level in 1..14 {
         let inner = level - 1;
         body += &format!(
@@ -174,8 +201,10 @@ fn markers_are_left_out_however_they_are_set() {
         );
     }
     let shape = |attribute: &str| {
-        format!(r##"{body}<style>.m {{ marker: url(#m13) !important }}</style>
-        <g {attribute}><path stroke="red" d="M0 0h10v10h-10z"/></g>"##)
+        format!(
+            r##"{body}<style>.m {{ marker: url(#m13) !important }}</style>
+        <g {attribute}><path stroke="red" d="M0 0h10v10h-10z"/></g>"##
+        )
     };
     for attribute in [
         r##"marker-mid="url(#m13)""##,
@@ -190,7 +219,10 @@ fn markers_are_left_out_however_they_are_set() {
 fn a_long_list_of_entities_is_refused() {
     let mut entities = String::from("<!ENTITY e0 'x'>");
     for level in 1..12 {
-        entities += &format!("<!ENTITY e{level} '{}'>", format!("&e{};", level - 1).repeat(10));
+        entities += &format!(
+            "<!ENTITY e{level} '{}'>",
+            format!("&e{};", level - 1).repeat(10)
+        );
     }
     let text = format!("<!DOCTYPE svg [{entities}]><svg {NS}><title>&e11;</title></svg>");
     assert!(matches!(read(&text, 1e-3), Err(SvgError::Xml(_))));
@@ -205,35 +237,52 @@ fn depth_is_limited_before_the_stack_ends() {
             "</g>".repeat(levels)
         ))
     };
-    assert!(matches!(read(&nested(20_000), 1e-3), Err(SvgError::TooDeep { .. })));
+    assert!(matches!(
+        read(&nested(20_000), 1e-3),
+        Err(SvgError::TooDeep { .. })
+    ));
     let chain = bomb(200, 1, |level| format!(r##"<use href="#g{level}"/>"##));
     assert!(matches!(read_body(&chain), Err(SvgError::TooDeep { .. })));
     // This thread has the stack of any other: half of it must do.
     let text = nested(guard::MAX_DEPTH as usize - 1);
     let thread = std::thread::Builder::new().stack_size(1 << 20);
-    let handle = thread.spawn(move || read(&text, 1e-3).is_ok()).expect("a thread");
+    let handle = thread
+        .spawn(move || read(&text, 1e-3).is_ok())
+        .expect("a thread");
     assert!(handle.join().expect("no overflow"));
 }
 
 #[test]
 fn circles_of_references_are_named() {
     let body = r##"<g id="a"><use href="#b"/></g><g id="b"><use href="#a"/></g>"##;
-    assert!(matches!(read_body(body), Err(SvgError::Circular { line: 1 })));
+    assert!(matches!(
+        read_body(body),
+        Err(SvgError::Circular { line: 1 })
+    ));
     // A link is no copy.
-    near(regions(r##"<g id="a"><a href="#a"><rect width="9" height="9"/></a></g>"##).area(), 81.0);
+    near(
+        regions(r##"<g id="a"><a href="#a"><rect width="9" height="9"/></a></g>"##).area(),
+        81.0,
+    );
 }
 
 #[test]
 fn a_style_sheet_of_many_rules_does_not_hang() {
     let sheet: String = (0..20_000).map(|k| format!(".c{k}{{fill:red}}")).collect();
     let body = format!("<style>{sheet}</style>{}", "<g/>".repeat(20_000));
-    assert!(matches!(refused_at_once(&body), SvgError::TooMuchStyle { .. }));
+    assert!(matches!(
+        refused_at_once(&body),
+        SvgError::TooMuchStyle { .. }
+    ));
 }
 
 #[test]
 fn broken_drawings_are_errors() {
     let truncated = page(r#"<rect width="9" height="9"/>"#);
-    assert!(matches!(read(&truncated[..truncated.len() - 4], 1e-3), Err(SvgError::Xml(_))));
+    assert!(matches!(
+        read(&truncated[..truncated.len() - 4], 1e-3),
+        Err(SvgError::Xml(_))
+    ));
     assert!(matches!(
         read(&format!(r#"<svg {NS} width="0" height="5"/>"#), 1e-3),
         Err(SvgError::Svg(_))
