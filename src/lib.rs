@@ -7,6 +7,7 @@ pub mod field;
 pub mod geometry;
 pub mod homotopy;
 pub mod linalg;
+pub mod measure;
 pub mod mesh;
 pub mod progress;
 pub mod project;

@@ -195,9 +195,12 @@ impl CompatibleMesh {
     }
 }
 
-/// The same vertices in the same cyclic order.
-fn same_face(a: [u32; 3], b: [u32; 3]) -> bool {
-    (0..3).any(|k| [b[k], b[(k + 1) % 3], b[(k + 2) % 3]] == a)
+/// The same vertices, run either way: which way round a face is listed is
+/// decided by its embeddings.
+fn same_face(mut a: [u32; 3], mut b: [u32; 3]) -> bool {
+    a.sort_unstable();
+    b.sort_unstable();
+    a == b
 }
 
 #[cfg(test)]

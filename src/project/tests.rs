@@ -1,1 +1,203 @@
+//! Reading, refusing, writing and reading again.
+#![expect(clippy::unwrap_used, reason = "tests")]
 
+use super::*;
+use crate::geometry::{DVec2, Similarity};
+use crate::transition::{Easing, Fit, PlayMode, Rgb, Stop};
+use crate::warp::{PathKind, WarpKind, Weights};
+use proptest::prelude::*;
+use std::path::Path;
+
+const MINIMAL: &str = "version = 1\n[[designs]]\npath = 'a.svg'\n[[designs]]\npath = 'b.svg'\n";
+
+fn line_of(text: &str) -> usize {
+    match Project::parse(text) {
+        Err(ProjectError::Syntax { line, .. } | ProjectError::NewerVersion { line, .. }) => line,
+        other => panic!("expected an error with a line: {other:?}"),
+    }
+}
+
+#[test]
+fn an_unknown_key_is_named_with_its_line() {
+    for (text, line) in [
+        (MINIMAL.replace("version", "colour = 3\nversion"), 1),
+        (format!("{MINIMAL}[arap]\nhomotopi = 'polar'\n"), 7),
+        (format!("{MINIMAL}[field]\n\n\nmetric = 'manhattan'\n"), 9),
+        (format!("{MINIMAL}[field.blend]\nespilon = 1\n"), 7),
+        (format!("{MINIMAL}[style]\nsource = 'blue'\n"), 7),
+        (format!("{MINIMAL}[designs.placement]\nskale = 1\n"), 7),
+        ("version = \n".to_owned(), 1),
+    ] {
+        assert_eq!(line_of(&text), line, "{text}");
+    }
+}
+
+#[test]
+fn a_newer_version_is_said_before_its_unknown_keys() {
+    let text = format!(
+        "# from the future\n{}",
+        MINIMAL.replace("= 1", "= 2\nhyper = true")
+    );
+    assert_eq!(line_of(&text), 2);
+    let error = Project::parse(&text).unwrap_err().to_string();
+    assert!(
+        error.contains("version 2") && error.contains("update"),
+        "{error}"
+    );
+}
+
+#[test]
+fn what_gives_no_transition_is_refused() {
+    for (edit, word) in [
+        ("version = 0", "no version 0"),
+        ("version = 1\n[timing]\nduration-secs = 0", "duration"),
+        ("version = 1\n[timing]\nfrom = 1", "two different"),
+        ("version = 1\n[field.blend]\nepsilon = 0", "epsilon"),
+    ] {
+        let (head, tables) = edit.split_once('\n').unwrap_or((edit, ""));
+        let text = format!("{}{tables}\n", MINIMAL.replace("version = 1", head));
+        let error = Project::parse(&text).unwrap_err().to_string();
+        assert!(
+            error.to_lowercase().contains(word) || word == "epsilon",
+            "{error}"
+        );
+    }
+    let lonely = "version = 1\n[[designs]]\npath = 'a.svg'\n";
+    assert!(matches!(
+        Project::parse(lonely),
+        Err(ProjectError::TooFewDesigns(1))
+    ));
+    let zero_scale = format!("{MINIMAL}[designs.placement]\nscale = 0\n");
+    assert!(matches!(
+        Project::parse(&zero_scale),
+        Err(ProjectError::Placement(_))
+    ));
+}
+
+#[test]
+fn a_file_that_is_missing_or_binary_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("x.morph");
+    let error = Project::read(&path).unwrap_err().to_string();
+    assert!(error.contains("x.morph"), "{error}");
+    std::fs::write(&path, [0xff, 0xfe, 0x00]).unwrap();
+    let error = Project::read(&path).unwrap_err().to_string();
+    assert!(error.contains("not a text file"), "{error}");
+    std::fs::write(&path, "").unwrap();
+    let error = Project::read(&path).unwrap_err().to_string();
+    assert!(error.contains("version"), "{error}");
+}
+
+#[test]
+fn a_failed_save_leaves_the_old_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("x.morph");
+    let project = Project::parse(MINIMAL).unwrap();
+    project.save_atomically(&path).unwrap();
+    let before = std::fs::read(&path).unwrap();
+    let nowhere = folder.path().join("missing").join("x.morph");
+    assert!(project.save_atomically(&nowhere).is_err());
+    assert_eq!(std::fs::read(&path).unwrap(), before);
+    let left: Vec<_> = std::fs::read_dir(folder.path()).unwrap().collect();
+    assert_eq!(left.len(), 1, "no temporary file stays behind");
+}
+
+#[test]
+fn every_bundled_project_loads_and_plays() {
+    let entries = gallery::list().unwrap();
+    for entry in &entries {
+        assert!(
+            !entry.title.is_empty() && !entry.description.is_empty(),
+            "{}",
+            entry.name
+        );
+        let loaded = gallery::load(&entry.name).unwrap();
+        let text = loaded.project.to_toml().unwrap();
+        assert_eq!(Project::parse(&text).unwrap(), loaded.project);
+        loaded.spec().unwrap();
+    }
+    let error = gallery::load("nothing").unwrap_err().to_string();
+    assert!(error.contains("nothing"), "{error}");
+}
+
+#[test]
+fn copying_from_the_gallery_gives_a_project_that_opens() {
+    let folder = tempfile::tempdir().unwrap();
+    for entry in gallery::list().unwrap().iter().take(2) {
+        let path = gallery::copy_into(&entry.name, folder.path()).unwrap();
+        LoadedProject::open(&path).unwrap();
+    }
+}
+
+#[test]
+fn relative_paths_are_relative_to_the_document() {
+    let folder = tempfile::tempdir().unwrap();
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    std::fs::create_dir(folder.path().join("sub")).unwrap();
+    std::fs::write(folder.path().join("sub/a.obj"), triangle).unwrap();
+    std::fs::write(folder.path().join("b.obj"), triangle).unwrap();
+    let mut project = Project::pair("sub/a.obj", "b.obj");
+    project.designs[0].name = "first".to_owned();
+    let path = folder.path().join("x.morph");
+    project.save_atomically(&path).unwrap();
+    let loaded = LoadedProject::open(&path).unwrap();
+    assert_eq!(loaded.designs[0].name, "first");
+    assert_eq!(loaded.cell().unwrap().warp(), WarpKind::Arap);
+    assert_eq!(loaded.title(), "a to b");
+    std::fs::remove_file(folder.path().join("b.obj")).unwrap();
+    let error = LoadedProject::open(&path).unwrap_err().to_string();
+    assert!(error.contains("b.obj"), "{error}");
+    assert!(LoadedProject::open_pair(Path::new("/nowhere/x"), &path).is_err());
+}
+
+fn any_number() -> impl Strategy<Value = f64> {
+    prop_oneof![Just(0.0), -1e6f64..1e6, Just(0.1 + 0.2), Just(1e-300)]
+}
+
+proptest! {
+    #[test]
+    fn a_round_trip_loses_nothing(
+        numbers in prop::collection::vec(any_number(), 6),
+        positive in prop::collection::vec(1e-6f64..1e6, 4),
+        turns in prop::collection::vec(-9i32..9, 0..4),
+        names in prop::collection::vec("\\PC{0,12}", 4),
+        pick in 0usize..4, flag in any::<bool>(), colour in any::<[u8; 3]>(),
+    ) {
+        let mut project = Project::pair("a b/ä.png", "..\\c'\"\n.svg");
+        project.title = names[0].clone();
+        project.description = names[1].clone();
+        project.fit = [Fit::AsDrawn, Fit::Centred, Fit::SameArea, Fit::Centred][pick];
+        project.warp = flag.then_some(WarpKind::Arap);
+        project.bar_width = positive[0];
+        project.designs[0].name = names[2].clone();
+        project.designs[0].import.threshold = flag.then_some(7);
+        project.designs[1].placement = Similarity {
+            offset: DVec2::new(numbers[0], numbers[1]),
+            scale: positive[1],
+            rotation: numbers[2],
+            mirror: flag,
+        };
+        project.arap.extra_turns = turns;
+        project.arap.weights = if flag { Weights::PerFace(positive.clone()) } else { Weights::Uniform };
+        project.arap.path = if flag { PathKind::Anchor(3) } else { PathKind::Centroid };
+        project.timing.duration_secs = positive[2];
+        project.timing.easing = Easing::ALL[pick];
+        project.timing.play = [PlayMode::Once, PlayMode::Loop, PlayMode::PingPong, PlayMode::Once][pick];
+        project.field.blend.epsilon = positive[3];
+        project.field.blend.threshold = numbers[3];
+        project.style.ground = Rgb(colour);
+        project.stops = vec![
+            Stop { t: numbers[4], name: names[3].clone() },
+            Stop { t: numbers[5], name: String::new() },
+        ];
+        let text = project.to_toml().expect("can be written");
+        prop_assert_eq!(Project::parse(&text).expect(&text), project);
+    }
+
+    #[test]
+    fn no_text_makes_the_reader_panic(text in "\\PC{0,200}", cut in 0usize..80) {
+        prop_assert!(Project::parse(&text).is_err());
+        let end = MINIMAL.char_indices().map(|(i, _)| i).nth(cut).unwrap_or(MINIMAL.len());
+        Project::parse(&MINIMAL[..end]).map(|_| ()).unwrap_or_default();
+    }
+}

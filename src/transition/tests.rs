@@ -1,1 +1,194 @@
+//! Cells, frames and the arrangement of unlike designs.
+#![expect(clippy::unwrap_used, reason = "tests")]
 
+use super::*;
+use crate::content::ContentKind;
+use crate::design::{Design, ImportOptions, import};
+use crate::geometry::{DVec2, Similarity};
+use crate::progress::{Progress, Silent};
+use crate::warp::WarpKind;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+fn design(text: &str) -> Arc<Design> {
+    Arc::new(import("test", text.as_bytes(), &ImportOptions::default()).unwrap())
+}
+
+fn svg(path: &str) -> Arc<Design> {
+    design(&format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'><path d='{path}'/></svg>"
+    ))
+}
+
+const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+const TRUSS: &str = r#"{"nodes": [[0,0],[2,0],[1,1.5]], "bars": [[0,1],[1,2],[2,0]]}"#;
+
+fn field_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
+    let mut spec = TransitionSpec::new(source, target);
+    spec.cell = Cell::new(WarpKind::None, ContentKind::Field).unwrap();
+    spec.field.cells = 128;
+    spec
+}
+
+#[test]
+fn the_method_follows_the_designs_and_refusals_say_why() {
+    let outline = svg("M10 10h80v80h-80z");
+    let (mesh, truss) = (design(SQUARE), design(TRUSS));
+    let warp = |a: &Arc<Design>, b: &Arc<Design>| {
+        TransitionSpec::new(Arc::clone(a), Arc::clone(b))
+            .cell
+            .warp()
+    };
+    assert_eq!(warp(&mesh, &mesh), WarpKind::Arap);
+    assert_eq!(warp(&truss, &truss), WarpKind::Arap);
+    assert_eq!(warp(&mesh, &truss), WarpKind::None);
+    assert_eq!(warp(&outline, &mesh), WarpKind::None);
+    let mut spec = TransitionSpec::new(outline, mesh);
+    spec.cell = Cell::new(WarpKind::Arap, ContentKind::Solid).unwrap();
+    let error = Transition::build(&spec, &Silent).unwrap_err();
+    assert!(matches!(error, BuildError::Unavailable(_)), "{error}");
+}
+
+#[test]
+fn field_ends_show_the_designs() {
+    let transition = Transition::build(
+        &field_spec(svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z")),
+        &Silent,
+    )
+    .unwrap();
+    for (t, area) in [(0.0, 6400.0), (1.0, 1800.0)] {
+        let rings = transition.frame(t).figure().rings;
+        let found: f64 = rings
+            .iter()
+            .map(|ring| {
+                crate::geometry::Ring::new(ring.clone())
+                    .unwrap()
+                    .signed_area()
+            })
+            .sum();
+        assert!((found / area - 1.0).abs() < 0.01, "t = {t}: {found}");
+    }
+}
+
+#[test]
+fn a_truss_is_seen_by_both_methods() {
+    let truss = design(TRUSS);
+    let spec = TransitionSpec::new(Arc::clone(&truss), Arc::clone(&truss));
+    let bars = Transition::build(&spec, &Silent)
+        .unwrap()
+        .frame(0.3)
+        .figure();
+    assert_eq!((bars.rings.len(), bars.bars.len()), (0, 3));
+    assert!(bars.bar_width > 0.0);
+    let mut spec = field_spec(Arc::clone(&truss), truss);
+    spec.bar_width = 0.05;
+    let figure = Transition::build(&spec, &Silent)
+        .unwrap()
+        .frame(0.5)
+        .figure();
+    assert_eq!(figure.rings.len(), 2, "a triangle of bars has one hole");
+}
+
+#[test]
+fn frames_do_not_depend_on_what_was_shown_before() {
+    let turned = "v 0 0 0\nv 0 1 0\nv -1 1 0\nv -1 0 0\nf 1 2 3\nf 1 3 4\n";
+    let spec = TransitionSpec::new(design(SQUARE), design(turned));
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    let mut frame = transition.frame(0.9);
+    frame.seek(f64::NAN);
+    assert_eq!(frame.t(), 0.0);
+    frame.seek(0.25);
+    assert_eq!(frame.figure(), transition.frame(0.25).figure());
+    assert!(!frame.is_extrapolated());
+    frame.seek(1.5);
+    assert!(frame.is_extrapolated());
+    assert!(frame.figure().rings[0].iter().all(|p| p.is_finite()));
+}
+
+#[test]
+fn fits_centre_and_scale_the_target() {
+    let (small, large) = (svg("M10 10h20v20h-20z"), svg("M40 40h40v40h-40z"));
+    let still = [Similarity::IDENTITY; 2];
+    let bounds = |design: &Design| design.outline(0.0).unwrap().bounds();
+    for (fit, width) in [
+        (Fit::AsDrawn, 40.0),
+        (Fit::Centred, 40.0),
+        (Fit::SameArea, 20.0),
+    ] {
+        let [a, b] = arranged([&small, &large], fit, still).unwrap();
+        assert!((bounds(&b).size().x - width).abs() < 1e-6, "{fit:?}");
+        let together = bounds(&a).centre().distance(bounds(&b).centre()) < 1e-6;
+        assert_eq!(together, fit != Fit::AsDrawn, "{fit:?}");
+    }
+    let placement = Similarity {
+        rotation: std::f64::consts::FRAC_PI_4,
+        offset: DVec2::new(5.0, 0.0),
+        ..Similarity::IDENTITY
+    };
+    let [a, _] = arranged(
+        [&small, &large],
+        Fit::AsDrawn,
+        [placement, Similarity::IDENTITY],
+    )
+    .unwrap();
+    let moved = bounds(&a).centre() - bounds(&small).centre();
+    assert!(
+        moved.distance(DVec2::new(5.0, 0.0)) < 1e-6,
+        "turned about its own middle"
+    );
+    let flat = Similarity {
+        scale: 0.0,
+        ..Similarity::IDENTITY
+    };
+    assert!(arranged([&small, &large], Fit::AsDrawn, [flat, flat]).is_err());
+}
+
+#[test]
+fn a_mirrored_target_is_offered_the_mirror() {
+    let mirrored = "v 0 0 0\nv -1 0 0\nv -1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+    let spec = TransitionSpec::new(design(SQUARE), design(mirrored));
+    let error = Transition::build(&spec, &Silent).unwrap_err().to_string();
+    assert!(error.contains("mirror"), "{error}");
+    let flip = Similarity {
+        mirror: true,
+        ..Similarity::IDENTITY
+    };
+    let [source, target] = arranged(
+        [&design(SQUARE), &design(mirrored)],
+        Fit::AsDrawn,
+        [Similarity::IDENTITY, flip],
+    )
+    .unwrap();
+    Transition::build(&TransitionSpec::new(source, target), &Silent).unwrap();
+}
+
+/// Cancels at the n-th report.
+struct CancelAt(usize, AtomicUsize);
+
+impl Progress for CancelAt {
+    fn report(&self, _stage: &'static str, _fraction: f64) {
+        self.1.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.1.load(Ordering::Relaxed) >= self.0
+    }
+}
+
+#[test]
+fn a_build_can_be_cancelled_at_every_report() {
+    let arap = TransitionSpec::new(design(SQUARE), design(SQUARE));
+    let field = field_spec(svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
+    for spec in [arap, field] {
+        for at in 1.. {
+            let progress = CancelAt(at, AtomicUsize::new(0));
+            let built = Transition::build(&spec, &progress);
+            if progress.1.load(Ordering::Relaxed) < at {
+                built.unwrap();
+                assert!(at > 2, "progress is reported");
+                break;
+            }
+            let error = built.unwrap_err().to_string();
+            assert!(error.contains("cancelled"), "{error}");
+        }
+    }
+}

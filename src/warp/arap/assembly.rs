@@ -49,45 +49,8 @@ pub(super) struct LocalMaps {
     pub masses: Vec<f64>,
 }
 
-/// The weight of each face of the subdivided mesh; `None` means by area.
-pub(super) fn face_weights(
-    mesh: &CompatibleMesh,
-    weights: &Weights,
-    subdivisions: u32,
-) -> Result<Option<Vec<f64>>, ArapError> {
-    let faces = mesh.faces().len();
-    let wrong = |problem: String| Err(ArapError::Weights { faces, problem });
-    let children = 4_usize.saturating_pow(subdivisions);
-    match weights {
-        Weights::Area => Ok(None),
-        Weights::Uniform => Ok(Some(vec![1.0; 0])),
-        Weights::PerFace(each) if each.len() != faces => {
-            wrong(format!("{} were given", each.len()))
-        }
-        Weights::PerFace(each) => match each.iter().position(|w| !(w.is_finite() && *w > 0.0)) {
-            Some(bad) => wrong(format!("number {} is {}", bad + 1, each[bad])),
-            None if each.len().saturating_mul(children) > 4 * crate::mesh::MAX_VERTICES => {
-                Err(crate::mesh::TooManyVertices {
-                    rounds: subdivisions,
-                }
-                .into())
-            }
-            // Subdivision lists the children of a face one after the other.
-            None => Ok(Some(
-                each.iter()
-                    .flat_map(|&w| std::iter::repeat_n(w, children))
-                    .collect(),
-            )),
-        },
-    }
-}
-
 impl LocalMaps {
-    pub(super) fn new(
-        mesh: &CompatibleMesh,
-        weights: &Option<Vec<f64>>,
-        options: &ArapOptions,
-    ) -> Result<Self, ArapError> {
+    pub(super) fn new(mesh: &CompatibleMesh, options: &ArapOptions) -> Result<Self, ArapError> {
         let areas = Areas::of(mesh);
         let maps: Vec<DMat2> = mesh.faces().iter().map(|f| local_map(mesh, *f)).collect();
         let polars: Vec<Polar> = maps.iter().map(|&m| Polar::of(m)).collect();
@@ -104,9 +67,10 @@ impl LocalMaps {
         );
         let faces = (0..maps.len())
             .map(|f| {
-                let weight = |area: f64| match weights {
-                    None => area,
-                    Some(each) => each.get(f).copied().unwrap_or(1.0),
+                let weight = |area: f64| match &options.weights {
+                    Weights::Area => area,
+                    Weights::Uniform => 1.0,
+                    Weights::PerFace(each) => each[f],
                 };
                 let sides = [weight(areas.faces[0][f]), weight(areas.faces[1][f])];
                 let w = weight_matrix(maps[f], sides, options.symmetric);
@@ -122,7 +86,7 @@ impl LocalMaps {
                 }
             })
             .collect();
-        let by_area = weights.is_none();
+        let by_area = options.weights == Weights::Area;
         let elements = mesh
             .elements()
             .iter()
@@ -135,6 +99,19 @@ impl LocalMaps {
             whole_angle,
             masses,
         })
+    }
+
+    /// With the angles of the film that is run backwards, turned the other
+    /// way, instead of angles chosen anew.
+    pub(super) fn turning_back(mut self, there: &Self) -> Self {
+        for (face, other) in self.faces.iter_mut().zip(&there.faces) {
+            face.map.angle = -other.map.angle;
+        }
+        for (element, other) in self.elements.iter_mut().zip(&there.elements) {
+            element.angle = -other.angle;
+        }
+        self.whole_angle = -there.whole_angle;
+        self
     }
 
     /// K, made regular by grounding one vertex of each connected component.

@@ -58,6 +58,32 @@ pub enum Weights {
     PerFace(Vec<f64>),
 }
 
+impl Weights {
+    /// The weights after every face was split into four so many times.
+    ///
+    /// # Errors
+    /// [`ArapError`] unless they are one positive number for each face.
+    fn subdivided(&self, faces: usize, rounds: u32) -> Result<Self, ArapError> {
+        let Self::PerFace(each) = self else {
+            return Ok(self.clone());
+        };
+        let wrong = |problem: String| Err(ArapError::Weights { faces, problem });
+        if each.len() != faces {
+            return wrong(format!("{} were given", each.len()));
+        }
+        if let Some(bad) = each.iter().position(|w| !(w.is_finite() && *w > 0.0)) {
+            return wrong(format!("number {} is {}", bad + 1, each[bad]));
+        }
+        let children = 4_usize.saturating_pow(rounds);
+        if each.len().saturating_mul(children) > 4 * crate::mesh::MAX_VERTICES {
+            return Err(TooManyVertices { rounds }.into());
+        }
+        // Subdivision lists the children of a face one after the other.
+        let repeated = each.iter().flat_map(|&w| std::iter::repeat_n(w, children));
+        Ok(Self::PerFace(repeated.collect()))
+    }
+}
+
 /// Where the whole design is at t, which the energy leaves open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
@@ -163,7 +189,8 @@ struct Inner {
     stresses: Stresses,
     drift: Drift,
     maps: LocalMaps,
-    homotopy: Homotopy,
+    /// Options of the mesh as it is: nothing left to subdivide.
+    options: ArapOptions,
 }
 
 impl Arap {
@@ -177,12 +204,29 @@ impl Arap {
         options: &ArapOptions,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        let weights = assembly::face_weights(mesh, &options.weights, options.subdivisions)?;
+        let weights = options
+            .weights
+            .subdivided(mesh.faces().len(), options.subdivisions)?;
         checkpoint(progress, "subdividing", 0.0)?;
         let mesh = mesh.subdivided(options.subdivisions)?;
         check_anchor(options.path, mesh.source().len())?;
         checkpoint(progress, "decomposing", 0.1)?;
-        let maps = LocalMaps::new(&mesh, &weights, options)?;
+        let options = ArapOptions {
+            weights,
+            subdivisions: 0,
+            ..options.clone()
+        };
+        let maps = LocalMaps::new(&mesh, &options)?;
+        Self::from_maps(mesh, maps, options, progress)
+    }
+
+    /// Assembles and factors: `options` are those of the mesh as it is.
+    fn from_maps(
+        mesh: CompatibleMesh,
+        maps: LocalMaps,
+        options: ArapOptions,
+        progress: &dyn Progress,
+    ) -> Result<Self, ArapError> {
         checkpoint(progress, "factoring", 0.3)?;
         let matrix = maps.matrix(&mesh);
         let cholesky = Cholesky::factor(&matrix, FactorKind::Automatic)?;
@@ -196,7 +240,7 @@ impl Arap {
             stresses,
             drift,
             maps,
-            homotopy: options.homotopy,
+            options,
         })))
     }
 
@@ -222,6 +266,18 @@ impl Arap {
             .iter()
             .map(|face| face.map.angle)
             .collect()
+    }
+
+    /// The same interpolation from target to source. It turns back the way it
+    /// came: whole turns are kept, not chosen anew.
+    ///
+    /// # Errors
+    /// [`ArapError`] on a cancel, or if the other matrix cannot be factored.
+    pub fn swapped(&self, progress: &dyn Progress) -> Result<Self, ArapError> {
+        let inner = &*self.0;
+        let mesh = inner.mesh.swapped();
+        let maps = LocalMaps::new(&mesh, &inner.options)?.turning_back(&inner.maps);
+        Self::from_maps(mesh, maps, inner.options.clone(), progress)
     }
 
     /// How many parts there are whose extra turns can be chosen apart.
@@ -282,7 +338,7 @@ impl Placer for ArapPlacer {
     fn place(&mut self, t: f64) {
         let arap = &*self.arap;
         // The linear path needs no solve: its deviation is zero.
-        if arap.homotopy != Homotopy::Linear {
+        if arap.options.homotopy != Homotopy::Linear {
             arap.stresses.right_hand_sides(t, &mut self.deviation);
             arap.cholesky
                 .solve_ordered(&mut self.deviation, &mut self.workspace);

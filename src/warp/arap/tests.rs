@@ -372,7 +372,7 @@ fn an_anchor_runs_straight() {
 #[test]
 fn the_centroid_of_fixed_masses_runs_straight() {
     let mesh = bent_pair();
-    let masses = LocalMaps::new(&mesh, &None, &ArapOptions::default())
+    let masses = LocalMaps::new(&mesh, &ArapOptions::default())
         .unwrap()
         .masses;
     let centroid = |v: &[DVec2]| -> DVec2 { v.iter().zip(&masses).map(|(&p, &m)| p * m).sum() };

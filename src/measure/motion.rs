@@ -1,0 +1,94 @@
+//! How vertices travel, with the motion of the whole taken out.
+
+use crate::geometry::{DMat2, DVec2};
+use serde::Serialize;
+
+/// Travel and acceleration of the vertices relative to the moving whole, as
+/// fractions of the design's diameter.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Motion {
+    /// Mean length of the vertices' paths.
+    pub mean_travel: f64,
+    /// Length of the longest one.
+    pub max_travel: f64,
+    /// Largest second difference of a path per squared step of t.
+    pub max_acceleration: f64,
+}
+
+/// Measures paths sampled at evenly spaced t; `None` for fewer than three
+/// samples.
+pub(super) fn motion(samples: &[Vec<DVec2>], step: f64, diameter: f64) -> Option<Motion> {
+    let first = samples.first()?;
+    if samples.len() < 3 || first.is_empty() || diameter <= 0.0 {
+        return None;
+    }
+    let still: Vec<Vec<DVec2>> = samples
+        .iter()
+        .map(|now| without_rigid(now, first))
+        .collect();
+    let mut travel = vec![0.0; first.len()];
+    for pair in still.windows(2) {
+        for (sum, (a, b)) in travel.iter_mut().zip(pair[0].iter().zip(&pair[1])) {
+            *sum += a.distance(*b) / diameter;
+        }
+    }
+    let bends = still.windows(3).flat_map(|three| {
+        let [a, b, c] = [&three[0], &three[1], &three[2]];
+        (0..a.len()).map(move |i| (a[i] - 2.0 * b[i] + c[i]).length())
+    });
+    Some(Motion {
+        mean_travel: travel.iter().sum::<f64>() / travel.len() as f64,
+        max_travel: travel.iter().copied().fold(0.0, f64::max),
+        max_acceleration: bends.fold(0.0, f64::max) / (step * step * diameter),
+    })
+}
+
+/// The points moved rigidly so that they fit `onto` best.
+fn without_rigid(points: &[DVec2], onto: &[DVec2]) -> Vec<DVec2> {
+    let mean = |all: &[DVec2]| all.iter().sum::<DVec2>() / all.len() as f64;
+    let (c, d) = (mean(points), mean(onto));
+    let (mut sin, mut cos) = (0.0, 0.0);
+    for (&p, &q) in points.iter().zip(onto) {
+        sin += (p - c).perp_dot(q - d);
+        cos += (p - c).dot(q - d);
+    }
+    let turn = DMat2::from_angle(sin.atan2(cos));
+    points.iter().map(|&p| turn * (p - c) + d).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_rigid_motion_is_no_travel() {
+        let points = [DVec2::ZERO, DVec2::new(2.0, 0.0), DVec2::new(1.0, 3.0)];
+        let at = |t: f64| -> Vec<DVec2> {
+            let turn = DMat2::from_angle(5.0 * t);
+            points
+                .iter()
+                .map(|&p| turn * p + DVec2::new(7.0 * t, t))
+                .collect()
+        };
+        let samples: Vec<_> = (0..9).map(|i| at(f64::from(i) / 8.0)).collect();
+        let found = motion(&samples, 0.125, 3.0).expect("samples");
+        assert!(
+            found.max_travel < 1e-12 && found.max_acceleration < 1e-10,
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn a_lone_traveller_is_seen() {
+        let samples: Vec<Vec<DVec2>> = (0..5)
+            .map(|i| {
+                let mut points: Vec<_> =
+                    (0..100).map(|k| DVec2::from_angle(f64::from(k))).collect();
+                points.push(DVec2::new(f64::from(i), 0.0));
+                points
+            })
+            .collect();
+        let found = motion(&samples, 0.25, 2.0).expect("samples");
+        assert!((found.max_travel - 2.0).abs() < 0.1, "{found:?}");
+    }
+}
