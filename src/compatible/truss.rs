@@ -15,8 +15,9 @@
 //!    designs, by exact predicates, and the smallest angle of both is as
 //!    large as can be: a dynamic program (Gilbert 1979, Klincsek 1980) in
 //!    O(n³) for a panel of n nodes.
-//! 4. Bars that were let go are carried by a panel that holds both of their
-//!    nodes; where there is none they become two-point elements.
+//! 4. Bars that were let go are carried along where panels that hang together
+//!    by bars hold both of their nodes; elsewhere they become two-point
+//!    elements.
 //!
 //! Guaranteed: exchanging the designs gives the same triangles; every node is
 //! in a face or a two-point element. Not guaranteed: a triangulation where
@@ -29,6 +30,7 @@ mod polygon;
 
 use crate::design::Truss;
 use crate::geometry::DVec2;
+use pieces::Pieces;
 use std::collections::HashMap;
 
 /// Faces, and bars that are two-point elements.
@@ -143,16 +145,21 @@ fn with_kept(bars: &[[u32; 2]], pair: Pair, kept: &[bool]) -> Result<Panels, Tru
         .filter(|&bar| kept[bar])
         .map(|bar| bars[bar])
         .collect();
-    let (cycles, mut elements) = pieces::cycles_and_bridges(&plane, pair.source);
-    check_sides(&cycles, pair)?;
+    let Pieces {
+        panels,
+        blocks,
+        bridges,
+    } = Pieces::of(&plane, pair.source);
+    check_sides(&panels, pair)?;
     let mut faces = Vec::new();
-    for cycle in &cycles {
-        faces.extend(triangles(cycle, pair)?);
+    for panel in &panels {
+        faces.extend(triangles(panel, pair)?);
     }
     let let_go = (0..bars.len())
         .filter(|&bar| !kept[bar])
         .map(|bar| bars[bar]);
-    elements.extend(outside(let_go, &cycles));
+    let mut elements = bridges;
+    elements.extend(outside(let_go, &blocks));
     Ok((faces, elements))
 }
 
@@ -175,16 +182,16 @@ fn triangles(cycle: &[u32], pair: Pair) -> Result<Vec<[u32; 3]>, TrussError> {
     polygon::triangulated(cycle, pair).ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
 }
 
-/// The bars whose nodes no panel has both of.
-fn outside(bars: impl Iterator<Item = [u32; 2]>, cycles: &[Vec<u32>]) -> Vec<[u32; 2]> {
-    let mut panels_of: HashMap<u32, Vec<usize>> = HashMap::new();
-    for (panel, cycle) in cycles.iter().enumerate() {
-        for &node in cycle {
-            panels_of.entry(node).or_default().push(panel);
+/// The bars whose nodes are not both in one block.
+fn outside(bars: impl Iterator<Item = [u32; 2]>, blocks: &[Vec<u32>]) -> Vec<[u32; 2]> {
+    let mut blocks_of: HashMap<u32, Vec<usize>> = HashMap::new();
+    for (block, nodes) in blocks.iter().enumerate() {
+        for &node in nodes {
+            blocks_of.entry(node).or_default().push(block);
         }
     }
-    let of = |node: u32| panels_of.get(&node).map_or(&[][..], Vec::as_slice);
-    bars.filter(|&[a, b]| !of(a).iter().any(|panel| of(b).contains(panel)))
+    let of = |node: u32| blocks_of.get(&node).map_or(&[][..], Vec::as_slice);
+    bars.filter(|&[a, b]| !of(a).iter().any(|block| of(b).contains(block)))
         .collect()
 }
 

@@ -177,7 +177,7 @@ impl Figure {
     }
 
     /// Islands of fewer pixels than `least` go over to the ground, then holes
-    /// to the figure.
+    /// to the figure. Ground that reaches the border is no hole.
     fn remove_specks(&mut self, least: usize) {
         if least > 1 {
             self.remove_specks_of(1.0, least);
@@ -207,7 +207,8 @@ impl Figure {
                     }
                 }
             }
-            if piece.len() < least {
+            let open = |&pixel: &usize| self.neighbours(pixel).contains(&None);
+            if piece.len() < least && (sign > 0.0 || !piece.iter().any(open)) {
                 for &pixel in &piece {
                     self.samples[pixel] = -self.samples[pixel];
                 }

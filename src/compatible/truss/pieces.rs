@@ -2,28 +2,39 @@
 
 use crate::geometry::{DVec2, orient2d};
 use std::cmp::Ordering;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
-/// The bounded faces, counter-clockwise from their smallest node on, and the
-/// bars that are pieces of their own. No two bars may cross.
-pub(super) fn cycles_and_bridges(
-    bars: &[[u32; 2]],
-    nodes: &[DVec2],
-) -> (Vec<Vec<u32>>, Vec<[u32; 2]>) {
-    let mut cycles = Vec::new();
-    let mut bridges = Vec::new();
-    for piece in pieces(bars, nodes.len()) {
-        match piece.as_slice() {
-            &[bar] => bridges.push(bars[bar]),
-            piece => {
-                let edges: Vec<[u32; 2]> = piece.iter().map(|&bar| bars[bar]).collect();
-                cycles.extend(bounded_faces(&edges, nodes));
+/// What a plane graph consists of.
+#[derive(Default)]
+pub(super) struct Pieces {
+    /// Bounded faces, counter-clockwise from their smallest node on.
+    pub(super) panels: Vec<Vec<u32>>,
+    /// For each piece with panels its nodes, sorted.
+    pub(super) blocks: Vec<Vec<u32>>,
+    /// Bars that are pieces of their own: bridges and dangling ends.
+    pub(super) bridges: Vec<[u32; 2]>,
+}
+
+impl Pieces {
+    /// Takes the graph apart. No two bars may cross.
+    pub(super) fn of(bars: &[[u32; 2]], nodes: &[DVec2]) -> Self {
+        let mut all = Self::default();
+        for piece in pieces(bars, nodes.len()) {
+            if let &[bar] = piece.as_slice() {
+                all.bridges.push(bars[bar]);
+                continue;
             }
+            let edges: Vec<[u32; 2]> = piece.iter().map(|&bar| bars[bar]).collect();
+            let mut block: Vec<u32> = edges.iter().flatten().copied().collect();
+            block.sort_unstable();
+            block.dedup();
+            all.blocks.push(block);
+            all.panels.extend(bounded_faces(&edges, nodes));
         }
+        all.panels.sort_unstable();
+        all.bridges.sort_unstable();
+        all
     }
-    cycles.sort_unstable();
-    bridges.sort_unstable();
-    (cycles, bridges)
 }
 
 /// A node on the path of the search.
@@ -122,12 +133,12 @@ fn bounded_faces(edges: &[[u32; 2]], nodes: &[DVec2]) -> Vec<Vec<u32>> {
     let follows = successors(edges, nodes);
     let mut starts: Vec<[u32; 2]> = follows.keys().copied().collect();
     starts.sort_unstable();
-    let mut seen = HashMap::new();
+    let mut seen = HashSet::new();
     let mut faces = Vec::new();
     for start in starts {
         let mut cycle = Vec::new();
         let mut edge = start;
-        while seen.insert(edge, ()).is_none() {
+        while seen.insert(edge) {
             cycle.push(edge[0]);
             edge = follows[&edge];
         }
