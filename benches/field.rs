@@ -1,0 +1,117 @@
+//! Distance transforms, exact polygon fields and contours.
+//!
+//! `cargo bench --no-default-features --bench field`. The masks of the signed
+//! transform are those of `benches/field_edt.py`, which times `edt.sdf` from
+//! PyPI on them, side by side.
+
+use criterion::{BenchmarkId, Criterion, Throughput};
+use morphospace::content::{FieldBlend, FieldPair};
+use morphospace::field::{DistanceField, DistanceTransform, Grid, Mask, Metric};
+use morphospace::geometry::{DVec2, FillRule, Regions};
+use morphospace::progress::Silent;
+use std::error::Error;
+use std::f64::consts::TAU;
+
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+fn main() -> Result<()> {
+    let mut criterion = Criterion::default().configure_from_args();
+    signed_transform(&mut criterion)?;
+    polygon_field(&mut criterion)?;
+    contour(&mut criterion)?;
+    criterion.final_summary();
+    Ok(())
+}
+
+/// A gear of 24 teeth with a hole.
+fn gear(side: u32) -> Result<Mask> {
+    let half = f64::from(side / 2);
+    let inside = |x: u32, y: u32| {
+        let p = DVec2::new(f64::from(x), f64::from(y)) - half;
+        let radius = p.length() / half;
+        let tooth = (24.0 * p.y.atan2(p.x)).sin() >= 0.0;
+        radius > 0.3 && radius < if tooth { 0.76 } else { 0.6 }
+    };
+    mask(side, inside)
+}
+
+/// Every other cell, at random: the most and the shortest runs.
+fn noise(side: u32) -> Result<Mask> {
+    mask(side, |x, y| {
+        let hash = (x + side * y).wrapping_mul(2_654_435_761);
+        (hash ^ (hash >> 15)).wrapping_mul(2_246_822_519) >> 31 == 1
+    })
+}
+
+fn mask(side: u32, inside: impl Fn(u32, u32) -> bool + Copy) -> Result<Mask> {
+    let bits = (0..side).flat_map(|y| (0..side).map(move |x| inside(x, y)));
+    Ok(Mask::new(side, side, bits.collect())?)
+}
+
+fn signed_transform(criterion: &mut Criterion) -> Result<()> {
+    let mut group = criterion.benchmark_group("signed_transform");
+    group.sample_size(20);
+    for side in [512, 1024, 2048] {
+        group.throughput(Throughput::Elements(u64::from(side) * u64::from(side)));
+        for (name, mask) in [("gear", gear(side)?), ("noise", noise(side)?)] {
+            for threads in [1, 2] {
+                let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
+                let pool = builder.build()?;
+                let mut transform = DistanceTransform::new();
+                let mut out = Vec::new();
+                let id = BenchmarkId::new(format!("{name}/{threads} thread"), side);
+                group.bench_function(id, |b| {
+                    b.iter(|| {
+                        pool.install(|| transform.run(&mask, Metric::Euclidean, &mut out, &Silent))
+                    });
+                });
+            }
+        }
+    }
+    for metric in [
+        Metric::CityBlock,
+        Metric::Chessboard,
+        Metric::QuasiEuclidean,
+    ] {
+        let mask = gear(1024)?;
+        let mut transform = DistanceTransform::new();
+        let mut out = Vec::new();
+        let id = BenchmarkId::new(format!("gear/{metric:?}"), 1024);
+        group.bench_function(id, |b| {
+            b.iter(|| transform.run(&mask, metric, &mut out, &Silent));
+        });
+    }
+    group.finish();
+    Ok(())
+}
+
+/// A wavy ring of so many edges.
+fn wavy(edges: u32, waves: f64) -> Result<Regions> {
+    let ring = (0..edges).map(|i| f64::from(i) * TAU / f64::from(edges));
+    let ring = ring.map(|a| DVec2::from_angle(a) * (8.0 + 2.0 * (waves * a).sin()));
+    Ok(Regions::from_rings(&[ring.collect()], FillRule::NonZero)?)
+}
+
+fn polygon_field(criterion: &mut Criterion) -> Result<()> {
+    let mut group = criterion.benchmark_group("polygon_field");
+    group.sample_size(20);
+    for (edges, waves) in [(200, 3.0), (2000, 0.0), (2000, 15.0), (20_000, 15.0)] {
+        let regions = wavy(edges, waves)?;
+        let grid = Grid::covering(&regions.bounds(), 512, 0.1)?;
+        let id = BenchmarkId::new(format!("{edges} edges, {waves} waves"), 512);
+        group.bench_function(id, |b| {
+            b.iter(|| DistanceField::from_regions(&regions, grid, &Silent));
+        });
+    }
+    group.finish();
+    Ok(())
+}
+
+fn contour(criterion: &mut Criterion) -> Result<()> {
+    let (source, target) = (wavy(2000, 5.0)?, wavy(2000, 14.0)?);
+    let grid = Grid::covering(&source.bounds().union(&target.bounds()), 512, 0.1)?;
+    let field = |regions| DistanceField::from_regions(regions, grid, &Silent);
+    let pair = FieldPair::new(field(&source)?, field(&target)?, FieldBlend::default())?;
+    criterion.bench_function("contour/512", |b| b.iter(|| pair.contour(0.4)));
+    Ok(())
+}
