@@ -49,6 +49,13 @@ impl SymmetricMatrix {
         self.lower.push(Triplet::new(i.max(j), i.min(j), value));
     }
 
+    /// What was added: row, column and value, the row at least the column.
+    pub fn entries(&self) -> impl Iterator<Item = (u32, u32, f64)> + '_ {
+        self.lower
+            .iter()
+            .map(|entry| (entry.row, entry.col, entry.val))
+    }
+
     /// The product with `x`; for tests and residuals.
     #[must_use]
     pub fn times(&self, x: &[f64]) -> Vec<f64> {

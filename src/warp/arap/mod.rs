@@ -35,7 +35,7 @@ use super::{Placement, Placer, Warp};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
 use crate::homotopy::Homotopy;
-use crate::linalg::{Cholesky, FactorError, FactorKind, Workspace};
+use crate::linalg::{Cholesky, FactorError, FactorKind, SymmetricMatrix, Workspace};
 use crate::mesh::TooManyVertices;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use assembly::LocalMaps;
@@ -248,6 +248,12 @@ impl Arap {
     #[must_use]
     pub fn mesh(&self) -> &CompatibleMesh {
         &self.0.mesh
+    }
+
+    /// The matrix of the energy, assembled anew; for measurements.
+    #[must_use]
+    pub fn system(&self) -> SymmetricMatrix {
+        self.0.maps.matrix(&self.0.mesh)
     }
 
     /// The factored matrix; for measurements.
