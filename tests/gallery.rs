@@ -1,0 +1,106 @@
+//! The bundled projects are what the gallery says of them.
+
+use morphospace::geometry::DVec2;
+use morphospace::progress::Silent;
+use morphospace::project::{LoadedProject, gallery};
+use morphospace::transition::{Figure, Transition};
+
+fn build(name: &str) -> Transition {
+    let loaded = gallery::load(name).expect(name);
+    Transition::build(&loaded.spec().expect(name), &Silent).expect(name)
+}
+
+fn at(name: &str, t: f64) -> Figure {
+    build(name).frame(t).figure()
+}
+
+fn signed_area(ring: &[DVec2]) -> f64 {
+    let next = ring.iter().cycle().skip(1);
+    ring.iter()
+        .zip(next)
+        .map(|(a, b)| a.perp_dot(*b) / 2.0)
+        .sum()
+}
+
+/// Pieces and holes of a figure; specks of less than a cell do not count.
+fn pieces_and_holes(figure: &Figure) -> (usize, usize) {
+    let areas: Vec<f64> = figure.rings.iter().map(|ring| signed_area(ring)).collect();
+    let largest = areas.iter().copied().fold(0.0, f64::max);
+    let speck = largest * 1e-4;
+    (
+        areas.iter().filter(|&&a| a > speck).count(),
+        areas.iter().filter(|&&a| a < -speck).count(),
+    )
+}
+
+#[test]
+fn every_project_has_a_title_and_a_sentence_and_opens_from_its_folder() {
+    let entries = gallery::list().expect("the list");
+    assert_eq!(entries.len(), 12);
+    for entry in entries {
+        assert!(!entry.title.is_empty(), "{}", entry.name);
+        assert!(entry.description.ends_with('.'), "{}", entry.name);
+        let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/gallery");
+        let opened = LoadedProject::open(&folder.join(format!("{}.morph", entry.name)));
+        let bundled = gallery::load(&entry.name).expect("bundled");
+        let opened = opened.expect("opened");
+        assert_eq!(opened.project, bundled.project);
+        assert_eq!(opened.designs, bundled.designs);
+    }
+}
+
+#[test]
+fn every_project_draws_something_at_every_t() {
+    for entry in gallery::list().expect("the list") {
+        let transition = build(&entry.name);
+        let mut frame = transition.frame(0.0);
+        for t in [0.0, 0.25, 0.5, 1.0] {
+            frame.seek(t);
+            let figure = frame.figure();
+            let drawn = figure.rings.len() + figure.bars.len();
+            assert!(drawn > 0, "{} at {t}", entry.name);
+        }
+    }
+}
+
+#[test]
+fn silhouettes_of_one_topology_keep_it() {
+    for t in [0.0, 0.25, 0.5, 0.75, 1.0] {
+        assert_eq!(
+            pieces_and_holes(&at("bridges", t)),
+            (1, 4),
+            "bridges at {t}"
+        );
+        assert_eq!(
+            pieces_and_holes(&at("vessels", t)),
+            (1, 1),
+            "vessels at {t}"
+        );
+    }
+}
+
+#[test]
+fn cantilevers_tear() {
+    assert_eq!(pieces_and_holes(&at("cantilevers", 0.0)), (1, 9));
+    assert_eq!(pieces_and_holes(&at("cantilevers", 1.0)), (1, 9));
+    assert!(pieces_and_holes(&at("cantilevers", 0.5)).0 > 5);
+}
+
+#[test]
+fn letters_are_a_ring_and_a_stroke() {
+    assert_eq!(pieces_and_holes(&at("letters", 0.0)), (1, 1));
+    assert_eq!(pieces_and_holes(&at("letters", 1.0)), (1, 0));
+}
+
+#[test]
+fn trusses_have_the_bars_that_are_promised() {
+    for (name, bars) in [("bracket-to-davit", 35), ("girder-to-arch", 61)] {
+        assert_eq!(at(name, 0.5).bars.len(), bars, "{name}");
+    }
+}
+
+#[test]
+fn the_stress_scene_is_as_large_as_its_title_says() {
+    let transition = build("rotor");
+    assert_eq!(transition.frame(0.5).placement().in_frame.len(), 99_025);
+}
