@@ -1,0 +1,61 @@
+# Read by run and test: what the machine must have, found or installed.
+# Nothing here is needed on macOS; there, and on Windows, cargo alone will do.
+
+say() { printf '%s\n' "$*" >&2; }
+stop() { say "$@"; exit 1; }
+
+# What builds: a linker and the C library's headers.
+BUILD_PACKAGES="gcc libc6-dev"
+# What a window wants at run time; the drivers bring a renderer in software
+# for machines without a graphics card.
+WINDOW_PACKAGES="libx11-6 libx11-xcb1 libxcb1 libxcursor1 libxi6 libxrandr2 \
+libxkbcommon0 libxkbcommon-x11-0 libwayland-client0 libvulkan1 mesa-vulkan-drivers"
+# What tests of the window want where there is no display.
+DISPLAY_PACKAGES="xvfb xauth xdotool"
+
+# require_rust [COMPONENT...]: a Rust that is new enough, with these components.
+require_rust() {
+    if ! command -v cargo >/dev/null && [ -r "$HOME/.cargo/env" ]; then
+        . "$HOME/.cargo/env"
+    fi
+    wanted=$(sed -n 's/^rust-version = "\(.*\)"$/\1/p' Cargo.toml)
+    command -v cargo >/dev/null && command -v rustc >/dev/null ||
+        stop "Rust is missing: install Rust $wanted or newer with rustup, then start this again."
+    found=$(rustc --version | awk '{ print $2 }')
+    printf '%s %s\n' "$found" "$wanted" | awk '{
+        split($1, f, "."); split($2, w, ".")
+        exit !(f[1] + 0 > w[1] + 0 || (f[1] == w[1] && f[2] + 0 >= w[2] + 0))
+    }' || stop "Rust $found is too old: Morphospace needs $wanted or newer. Run: rustup update stable"
+    for component in "$@"; do
+        cargo "${component#rust}" --version >/dev/null 2>&1 ||
+            { command -v rustup >/dev/null && rustup component add "$component" >&2; } ||
+            stop "Rust's $component is missing. Run: rustup component add $component"
+    done
+}
+
+# require_packages PACKAGE...: Debian packages, installed where that is allowed.
+require_packages() {
+    [ "$(uname -s)" = Linux ] || return 0
+    if ! command -v dpkg-query >/dev/null; then
+        say "Not a Debian or Ubuntu machine; going on without a check for: $*"
+        return 0
+    fi
+    missing=""
+    for package in "$@"; do
+        dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null | grep -q '^installed' ||
+            missing="$missing $package"
+    done
+    [ -n "$missing" ] || return 0
+    if [ "$(id -u)" -eq 0 ]; then
+        as_root="env"
+    elif command -v sudo >/dev/null && sudo -n true 2>/dev/null; then
+        as_root="sudo -n env"
+    else
+        stop "Please install what is missing, then start this again:" \
+            "sudo apt-get install$missing"
+    fi
+    say "Installing:$missing"
+    { $as_root apt-get -q update &&
+        $as_root DEBIAN_FRONTEND=noninteractive apt-get -q install -y --no-install-recommends $missing
+    } >&2 || stop "That did not work. Please install by hand:$missing"
+}
