@@ -1,0 +1,140 @@
+//! A film as an animated PNG.
+//!
+//! Guarantees: every colour and soft transparency are kept; holds are one long
+//! frame; delays are exact at whole frame rates and in milliseconds, without
+//! drift, at others. The first frame is what a reader without animation shows.
+
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use image::RgbaImage;
+use png::{BitDepth, BlendOp, ColorType, DisposeOp, Encoder, EncodingError, Writer};
+
+use crate::progress::Progress;
+
+use super::atomic::AtomicFile;
+use super::camera::Camera;
+use super::error::ExportError;
+use super::film::{Film, Run};
+use super::raster::rasterise;
+
+/// Writes the film.
+///
+/// # Errors
+/// [`ExportError`] where the file cannot be written or nobody wants it any
+/// more.
+pub fn write_apng(
+    camera: &Camera,
+    film: &Film,
+    path: &Path,
+    progress: &dyn Progress,
+) -> Result<(), ExportError> {
+    let mut file = AtomicFile::create(path)?;
+    let runs = film.runs();
+    let mut output = BufWriter::new(file.file_mut());
+    let mut writer =
+        writer(&mut output, camera, film, runs.len()).map_err(ExportError::encode(path))?;
+    camera.shoot_runs(
+        &runs,
+        progress,
+        |drawing| Ok(pixels(&rasterise(&drawing), camera.ground.is_some())),
+        |run, pixels| {
+            let (numerator, denominator) = delay(film, run);
+            let written = writer
+                .set_frame_delay(numerator, denominator)
+                .and_then(|()| writer.write_image_data(&pixels));
+            written.map_err(ExportError::encode(path))
+        },
+    )?;
+    writer.finish().map_err(ExportError::encode(path))?;
+    output.flush().map_err(ExportError::write(path))?;
+    drop(output);
+    file.commit()
+}
+
+fn writer<W: Write>(
+    output: W,
+    camera: &Camera,
+    film: &Film,
+    frames: usize,
+) -> Result<Writer<W>, EncodingError> {
+    let size = camera.view.size();
+    let mut encoder = Encoder::new(output, size.width(), size.height());
+    encoder.set_color(match camera.ground {
+        Some(_) => ColorType::Rgb,
+        None => ColorType::Rgba,
+    });
+    encoder.set_depth(BitDepth::Eight);
+    let plays = if film.repeats() { 0 } else { 1 };
+    encoder.set_animated(frames as u32, plays)?;
+    encoder.set_blend_op(BlendOp::Source)?;
+    encoder.set_dispose_op(DisposeOp::None)?;
+    encoder.write_header()
+}
+
+fn pixels(image: &RgbaImage, is_opaque: bool) -> Vec<u8> {
+    let channels = if is_opaque { 3 } else { 4 };
+    image
+        .pixels()
+        .flat_map(|pixel| pixel.0.into_iter().take(channels))
+        .collect()
+}
+
+/// Seconds as a fraction of 16-bit numbers.
+fn delay(film: &Film, run: Run) -> (u16, u16) {
+    let fps = film.fps();
+    if fps.fract() == 0.0
+        && let Ok(count) = u16::try_from(run.count)
+    {
+        return (count, fps as u16);
+    }
+    let millis = film.ticks(run, 1000.0);
+    match u16::try_from(millis) {
+        Ok(millis) => (millis, 1000),
+        Err(_) => (u16::try_from(millis / 1000).unwrap_or(u16::MAX), 1),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::testing::camera;
+    use crate::progress::Silent;
+    use std::fs::File;
+    use std::io::BufReader;
+
+    #[test]
+    fn delays_are_exact_at_whole_rates() {
+        let film = Film::evenly(0.0, 1.0, 6, 24.0).expect("a film");
+        assert!(film.runs().iter().all(|&run| delay(&film, run) == (1, 24)));
+    }
+
+    #[test]
+    fn odd_rates_do_not_drift() {
+        let film = Film::evenly(0.0, 1.0, 300, 29.97).expect("a film");
+        let runs = film.runs();
+        let millis = runs.iter().map(|&run| u32::from(delay(&film, run).0));
+        assert_eq!(millis.sum::<u32>(), 10_010);
+    }
+
+    #[test]
+    fn frames_are_those_of_the_raster() {
+        for ground in [None, Some(crate::transition::Style::default().ground)] {
+            let camera = camera(40, 30, ground);
+            let film = Film::evenly(0.0, 1.0, 4, 24.0).expect("a film");
+            let folder = tempfile::tempdir().expect("a folder");
+            let path = folder.path().join("film.apng");
+            write_apng(&camera, &film, &path, &Silent).expect("written");
+            let file = BufReader::new(File::open(path).expect("opened"));
+            let mut reader = png::Decoder::new(file).read_info().expect("a PNG");
+            let control = reader.info().animation_control().expect("animated");
+            assert_eq!((control.num_frames, control.num_plays), (4, 1));
+            for &t in film.times() {
+                let exact = pixels(&rasterise(&camera.shoot(t)), ground.is_some());
+                let mut decoded = vec![0; exact.len()];
+                reader.next_frame(&mut decoded).expect("a frame");
+                assert!(exact == decoded, "t = {t}");
+            }
+        }
+    }
+}

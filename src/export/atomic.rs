@@ -1,0 +1,109 @@
+//! Files that are there whole or not at all.
+//!
+//! A temporary file in the same folder is written and renamed at the end.
+//! Guarantees: until [`AtomicFile::commit`] the old file, if any, is untouched;
+//! dropping without it removes the temporary file. A killed process can leave
+//! the temporary file behind, never a half one under the final name. It does
+//! not wait for the disk (no fsync).
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use tempfile::NamedTempFile;
+
+use super::error::ExportError;
+
+/// A file on its way.
+#[derive(Debug)]
+pub(super) struct AtomicFile {
+    temporary: NamedTempFile,
+    path: PathBuf,
+}
+
+impl AtomicFile {
+    /// Opens a temporary file beside `path`.
+    pub(super) fn create(path: &Path) -> Result<Self, ExportError> {
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        // `make_in` with `create_new` gives the permissions that any new file
+        // has; tempfile's own would be readable by the owner alone.
+        let temporary = tempfile::Builder::new()
+            .prefix(".morphospace-")
+            .suffix(".part")
+            .make_in(folder, |temporary| File::create_new(temporary))
+            .map_err(ExportError::write(path))?;
+        Ok(Self {
+            temporary,
+            path: path.to_owned(),
+        })
+    }
+
+    /// Where the bytes go until [`Self::commit`].
+    pub(super) fn file_mut(&mut self) -> &mut File {
+        self.temporary.as_file_mut()
+    }
+
+    /// The temporary file's path, for another program to write.
+    pub(super) fn temporary_path(&self) -> &Path {
+        self.temporary.path()
+    }
+
+    /// Gives the file its name.
+    pub(super) fn commit(self) -> Result<(), ExportError> {
+        let persisted = self.temporary.persist(&self.path);
+        persisted
+            .map(drop)
+            .map_err(|e| ExportError::write(self.path)(e.error))
+    }
+}
+
+/// Writes a whole file at once.
+pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
+    let mut file = AtomicFile::create(path)?;
+    std::io::Write::write_all(file.file_mut(), bytes).map_err(ExportError::write(path))?;
+    file.commit()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+    use std::io::Write as _;
+
+    #[test]
+    fn a_dropped_file_leaves_the_old_one_and_nothing_else() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("x.png");
+        write(&path, b"old").expect("written");
+        let mut file = AtomicFile::create(&path).expect("created");
+        file.file_mut().write_all(b"ne").expect("written");
+        drop(file);
+        assert_eq!(fs::read(&path).expect("read"), b"old");
+        assert_eq!(fs::read_dir(&folder).expect("listed").count(), 1);
+        write(&path, b"new").expect("written");
+        assert_eq!(fs::read(&path).expect("read"), b"new");
+    }
+
+    #[test]
+    fn a_missing_folder_is_named() {
+        let path = Path::new("/no/such/folder/x.png");
+        let error = write(path, b"").expect_err("no folder");
+        assert!(error.to_string().contains("/no/such/folder/x.png"));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn others_may_read_what_any_new_file_lets_them() {
+        use std::os::unix::fs::PermissionsExt;
+        let folder = tempfile::tempdir().expect("a folder");
+        let mode = |name: &str| {
+            let data = fs::metadata(folder.path().join(name)).expect("metadata");
+            data.permissions().mode()
+        };
+        fs::write(folder.path().join("plain"), b"").expect("written");
+        write(&folder.path().join("atomic"), b"").expect("written");
+        assert_eq!(mode("plain"), mode("atomic"));
+    }
+}

@@ -1,0 +1,126 @@
+//! Takes pictures of a transition: one at a time, or a film over all cores.
+//!
+//! Guarantees: frames come out in order; at most [`BATCH_BYTES`] of raster
+//! pictures are in memory at once (or one frame, where that is larger); a cancel
+//! is noticed before each frame.
+
+use rayon::prelude::*;
+
+use crate::geometry::Bounds;
+use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::transition::{Rgb, Style, Transition};
+
+use super::drawing::{Drawing, View};
+use super::error::ExportError;
+use super::film::Run;
+use super::size::PixelSize;
+
+/// Memory for frames that are drawn ahead of being written, in bytes.
+pub const BATCH_BYTES: u64 = 256 << 20;
+
+/// The most frames at which [`framing`] looks.
+const FRAMING_SAMPLES: usize = 33;
+
+/// A transition, how it looks, and from where it is seen.
+#[derive(Clone, Debug)]
+pub struct Camera {
+    /// What is shown.
+    pub transition: Transition,
+    /// In which colours.
+    pub style: Style,
+    /// Which part of the plane, at which size.
+    pub view: View,
+    /// On which ground; `None` is transparent.
+    pub ground: Option<Rgb>,
+}
+
+impl Camera {
+    /// The drawing of one frame.
+    pub fn shoot(&self, t: f64) -> Drawing {
+        Drawing::of_frame(
+            &self.transition.frame(t),
+            &self.style,
+            &self.view,
+            self.ground,
+        )
+    }
+
+    /// Draws each run's frame once, makes something of it on any thread, and
+    /// hands the results over in order on this one.
+    ///
+    /// # Errors
+    /// [`ExportError::Cancelled`], or what `make` and `take` return.
+    pub fn shoot_runs<T: Send>(
+        &self,
+        runs: &[Run],
+        progress: &dyn Progress,
+        make: impl Fn(Drawing) -> Result<T, ExportError> + Sync,
+        mut take: impl FnMut(Run, T) -> Result<(), ExportError>,
+    ) -> Result<(), ExportError> {
+        let mut done = 0;
+        for batch in runs.chunks(batch_len(self.view.size())) {
+            checkpoint(progress, "drawing frames", done as f64 / runs.len() as f64)?;
+            for (run, made) in batch.iter().zip(self.shoot_batch(batch, progress, &make)?) {
+                take(*run, made)?;
+            }
+            done += batch.len();
+        }
+        checkpoint(progress, "drawing frames", 1.0)?;
+        Ok(())
+    }
+
+    fn shoot_batch<T: Send>(
+        &self,
+        batch: &[Run],
+        progress: &dyn Progress,
+        make: &(impl Fn(Drawing) -> Result<T, ExportError> + Sync),
+    ) -> Result<Vec<T>, ExportError> {
+        batch
+            .par_iter()
+            .map_init(
+                || self.transition.frame(batch[0].t),
+                |frame, run| {
+                    if progress.is_cancelled() {
+                        return Err(Cancelled.into());
+                    }
+                    frame.seek(run.t);
+                    make(Drawing::of_frame(
+                        frame,
+                        &self.style,
+                        &self.view,
+                        self.ground,
+                    ))
+                },
+            )
+            .collect()
+    }
+}
+
+/// The part of the plane that holds the transition's own bounds and every one
+/// of some frames spread evenly over `times`, so that a shape that swings wide
+/// on its way is not cut off.
+pub fn framing(transition: &Transition, times: &[f64]) -> Bounds {
+    let step = times.len().div_ceil(FRAMING_SAMPLES).max(1);
+    let sampled = times.iter().step_by(step).chain(times.last());
+    let mut frame = transition.frame(times.first().copied().unwrap_or_default());
+    let mut all = transition.bounds();
+    for &t in sampled {
+        frame.seek(t);
+        let figure = frame.figure();
+        let reach = 0.5 * figure.bar_width;
+        let on_rings = Bounds::of(figure.rings.iter().flatten().copied());
+        let on_bars = Bounds::of(figure.bars.iter().flatten().copied());
+        let on_bars = on_bars.map(|bounds| bounds.padded(reach));
+        for bounds in [on_rings, on_bars].into_iter().flatten() {
+            if bounds.min.is_finite() && bounds.max.is_finite() {
+                all = all.union(&bounds);
+            }
+        }
+    }
+    all
+}
+
+fn batch_len(size: PixelSize) -> usize {
+    let in_memory = (BATCH_BYTES / (size.pixels() * 4)).max(1);
+    (in_memory as usize).min(4 * rayon::current_num_threads())
+}

@@ -1,0 +1,364 @@
+//! The one drawing that SVG and raster pictures are made from, so that they
+//! cannot disagree.
+//!
+//! A [`Drawing`] is a short list of plain shapes in pixels, y **down**: filled
+//! outlines, round-ended bars, discs, glyph outlines and pictures. The flip
+//! from the core's upward y happens in [`View::to_px`] and nowhere else.
+//!
+//! Guarantees: solids are closed outlines filled by the nonzero rule, never
+//! triangles with hairlines between them; every coordinate is finite and at
+//! most [`MAX_COORDINATE_PX`] in size, shapes beyond that are left out.
+//! It does not clip: what lies outside the picture is cut by its reader.
+
+use std::collections::HashSet;
+
+use image::RgbaImage;
+
+use crate::geometry::{Bounds, DVec2};
+use crate::transition::{Figure, Frame, Rgb, Style};
+
+use super::size::PixelSize;
+use super::text;
+
+/// Shapes with a coordinate beyond this are not drawn: extrapolated films can
+/// leave every picture by many orders of magnitude, and 32-bit rasterisers
+/// lose all their digits out there.
+pub const MAX_COORDINATE_PX: f64 = 1.0e7;
+
+/// Radius of a joint's disc, in bar widths.
+pub const JOINT_RADIUS: f64 = 0.9;
+
+/// Radius of the lighter core of a joint, in bar widths.
+pub const JOINT_CORE_RADIUS: f64 = 0.5;
+
+/// How far a joint's core runs from the bars' colour to white.
+const JOINT_CORE_LIGHTNESS: f64 = 0.72;
+
+/// One step of an [`Outline`], in pixels, y down.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Step {
+    /// Starts a new closed contour at the point.
+    Move(DVec2),
+    /// A straight line to the point.
+    Line(DVec2),
+    /// A quadratic Bézier curve: control point, end point.
+    Quad(DVec2, DVec2),
+    /// A cubic Bézier curve: two control points, end point.
+    Cubic(DVec2, DVec2, DVec2),
+    /// Closes the contour.
+    Close,
+}
+
+/// Closed contours that are filled together by the nonzero rule.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Outline {
+    /// Contours, each from a [`Step::Move`] to a [`Step::Close`].
+    pub steps: Vec<Step>,
+}
+
+impl Outline {
+    /// Adds a closed polygon; one with a point that cannot be drawn is left out.
+    pub fn push_ring(&mut self, ring_px: impl ExactSizeIterator<Item = DVec2> + Clone) {
+        if ring_px.len() < 3 || !ring_px.clone().all(is_drawable) {
+            return;
+        }
+        let step = |(i, p)| if i == 0 { Step::Move(p) } else { Step::Line(p) };
+        self.steps.extend(ring_px.enumerate().map(step));
+        self.steps.push(Step::Close);
+    }
+}
+
+/// One shape of a [`Drawing`]; colours are opaque sRGB.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Item {
+    /// A filled outline; `label` says in words what it shows, where it is text.
+    Fill {
+        /// What is filled.
+        outline: Outline,
+        /// Its colour.
+        colour: Rgb,
+        /// The words that the outline spells, for readers that cannot see.
+        label: Option<String>,
+    },
+    /// Straight bars with round ends.
+    Bars {
+        /// End points of each bar, in pixels.
+        segments: Vec<[DVec2; 2]>,
+        /// Width in pixels.
+        width_px: f64,
+        /// Their colour.
+        colour: Rgb,
+    },
+    /// Discs of one radius.
+    Discs {
+        /// Centres in pixels.
+        centres: Vec<DVec2>,
+        /// Radius in pixels.
+        radius_px: f64,
+        /// Their colour.
+        colour: Rgb,
+    },
+    /// A picture, stretched over a rectangle.
+    Picture {
+        /// Straight (not premultiplied) alpha.
+        image: RgbaImage,
+        /// Upper left corner in pixels.
+        corner: DVec2,
+        /// Width and height in pixels.
+        size: DVec2,
+    },
+}
+
+/// A picture in shapes: what [`super::svg::to_svg`] writes and
+/// [`super::raster::rasterise`] paints.
+///
+/// ```
+/// use morphospace::export::{Drawing, PixelSize, rasterise, to_svg};
+///
+/// let drawing = Drawing::new(PixelSize::new(8, 4)?, None);
+/// assert_eq!(rasterise(&drawing).dimensions(), (8, 4));
+/// assert!(to_svg(&drawing).starts_with("<svg "));
+/// # Ok::<(), morphospace::export::SizeError>(())
+/// ```
+#[derive(Clone, Debug, PartialEq)]
+pub struct Drawing {
+    /// Size of the picture.
+    pub size: PixelSize,
+    /// The colour behind everything; `None` is transparent.
+    pub ground: Option<Rgb>,
+    /// Shapes, the lowest first.
+    pub items: Vec<Item>,
+}
+
+impl Drawing {
+    /// An empty drawing.
+    pub fn new(size: PixelSize, ground: Option<Rgb>) -> Self {
+        Self {
+            size,
+            ground,
+            items: Vec::new(),
+        }
+    }
+
+    /// A frame as it is seen through `view`, over the whole picture.
+    pub fn of_frame(frame: &Frame, style: &Style, view: &View, ground: Option<Rgb>) -> Self {
+        let mut drawing = Self::new(view.size, ground);
+        drawing.push_frame(frame, style, view);
+        drawing
+    }
+
+    /// Adds a frame as it is seen through `view`.
+    pub fn push_frame(&mut self, frame: &Frame, style: &Style, view: &View) {
+        let colour = style.fill_at(frame.t());
+        self.push_figure(&frame.figure(), colour, style.bar_joints, view);
+    }
+
+    /// Adds a figure in one colour, its joints as discs with a lighter core.
+    pub fn push_figure(&mut self, figure: &Figure, colour: Rgb, joints: bool, view: &View) {
+        self.push_rings(figure, colour, view);
+        let segments: Vec<[DVec2; 2]> = figure
+            .bars
+            .iter()
+            .map(|bar| bar.map(|p| view.to_px(p)))
+            .filter(|bar| bar.iter().copied().all(is_drawable))
+            .collect();
+        if !segments.is_empty() {
+            self.push_bars(
+                segments,
+                figure.bar_width * view.px_per_unit,
+                colour,
+                joints,
+            );
+        }
+    }
+
+    /// Adds words with the middle of their base line at `base_px`.
+    pub fn push_label(&mut self, words: &str, base_px: DVec2, height_px: f64, colour: Rgb) {
+        self.items.push(Item::Fill {
+            outline: text::centred(words, base_px, height_px),
+            colour,
+            label: Some(words.to_owned()),
+        });
+    }
+
+    fn push_rings(&mut self, figure: &Figure, colour: Rgb, view: &View) {
+        let mut outline = Outline::default();
+        for ring in &figure.rings {
+            outline.push_ring(ring.iter().map(|&p| view.to_px(p)));
+        }
+        if !outline.steps.is_empty() {
+            self.items.push(Item::Fill {
+                outline,
+                colour,
+                label: None,
+            });
+        }
+    }
+
+    fn push_bars(&mut self, segments: Vec<[DVec2; 2]>, width_px: f64, colour: Rgb, joints: bool) {
+        let centres = joints.then(|| joint_centres(&segments));
+        self.items.push(Item::Bars {
+            segments,
+            width_px,
+            colour,
+        });
+        let Some(centres) = centres else { return };
+        self.items.push(Item::Discs {
+            centres: centres.clone(),
+            radius_px: JOINT_RADIUS * width_px,
+            colour,
+        });
+        self.items.push(Item::Discs {
+            centres,
+            radius_px: JOINT_CORE_RADIUS * width_px,
+            colour: joint_core(colour),
+        });
+    }
+}
+
+/// The lighter colour of a joint's core, for bars of the given colour.
+pub fn joint_core(colour: Rgb) -> Rgb {
+    let lighter = |c: u8| f64::from(c) + (255.0 - f64::from(c)) * JOINT_CORE_LIGHTNESS;
+    let Rgb { r, g, b } = colour;
+    let [r, g, b] = [r, g, b].map(|c| lighter(c).round() as u8);
+    Rgb { r, g, b }
+}
+
+/// Where the bars meet: each end point once, in the order of the bars.
+fn joint_centres(segments: &[[DVec2; 2]]) -> Vec<DVec2> {
+    let mut seen = HashSet::new();
+    let is_new = |p: &DVec2| seen.insert([p.x.to_bits(), p.y.to_bits()]);
+    segments.iter().flatten().copied().filter(is_new).collect()
+}
+
+fn is_drawable(p: DVec2) -> bool {
+    p.is_finite() && p.abs().max_element() <= MAX_COORDINATE_PX
+}
+
+/// Which part of the plane a picture, or a cell of one, shows.
+///
+/// The whole rectangle is visible, centred, at one scale in both directions.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    size: PixelSize,
+    centre: DVec2,
+    middle_px: DVec2,
+    px_per_unit: f64,
+}
+
+impl View {
+    /// Fits `bounds` into a picture of the given size.
+    pub fn fit(bounds: Bounds, size: PixelSize) -> Self {
+        Self::fit_cell(bounds, size, DVec2::ZERO, size.as_dvec2())
+    }
+
+    /// Fits `bounds` into the cell of a picture that begins at `corner_px`.
+    pub fn fit_cell(bounds: Bounds, size: PixelSize, corner_px: DVec2, cell_px: DVec2) -> Self {
+        let ratio = cell_px / bounds.size();
+        let px_per_unit = [ratio.x, ratio.y]
+            .into_iter()
+            .filter(|r| r.is_finite() && *r > 0.0)
+            .reduce(f64::min);
+        Self {
+            size,
+            centre: bounds.centre(),
+            middle_px: corner_px + 0.5 * cell_px,
+            px_per_unit: px_per_unit.unwrap_or(1.0),
+        }
+    }
+
+    /// The picture that this is a view in.
+    pub fn size(&self) -> PixelSize {
+        self.size
+    }
+
+    /// Pixels per unit of the design.
+    pub fn px_per_unit(&self) -> f64 {
+        self.px_per_unit
+    }
+
+    /// A point of the design in pixels, y down.
+    pub fn to_px(&self, p: DVec2) -> DVec2 {
+        let from_centre = (p - self.centre) * self.px_per_unit;
+        self.middle_px + DVec2::new(from_centre.x, -from_centre.y)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const BLUE: Rgb = Rgb {
+        r: 59,
+        g: 125,
+        b: 216,
+    };
+
+    fn view() -> View {
+        let bounds = Bounds {
+            min: DVec2::new(-1.0, 0.0),
+            max: DVec2::new(3.0, 2.0),
+        };
+        View::fit(bounds, PixelSize::new(400, 400).expect("a legal size"))
+    }
+
+    #[test]
+    fn the_view_centres_and_flips_y_once() {
+        let view = view();
+        assert_eq!(view.px_per_unit(), 100.0);
+        assert_eq!(view.to_px(DVec2::new(-1.0, 0.0)), DVec2::new(0.0, 300.0));
+        assert_eq!(view.to_px(DVec2::new(3.0, 2.0)), DVec2::new(400.0, 100.0));
+    }
+
+    #[test]
+    fn a_view_of_a_point_still_shows_it_in_the_middle() {
+        let bounds = Bounds {
+            min: DVec2::splat(5.0),
+            max: DVec2::splat(5.0),
+        };
+        let view = View::fit(bounds, PixelSize::new(10, 20).expect("a legal size"));
+        assert_eq!(view.to_px(DVec2::splat(5.0)), DVec2::new(5.0, 10.0));
+    }
+
+    #[test]
+    fn bars_share_one_joint_at_a_common_node() {
+        let node = [DVec2::ZERO, DVec2::X, DVec2::Y];
+        let figure = Figure {
+            rings: vec![],
+            bars: vec![[node[0], node[1]], [node[1], node[2]], [node[2], node[0]]],
+            bar_width: 0.1,
+        };
+        let size = PixelSize::new(400, 400).expect("a legal size");
+        let mut drawing = Drawing::new(size, None);
+        drawing.push_figure(&figure, BLUE, true, &view());
+        let [
+            Item::Bars { width_px, .. },
+            Item::Discs { centres, .. },
+            Item::Discs { colour, .. },
+        ] = drawing.items.as_slice()
+        else {
+            panic!("bars, joints and cores were expected: {:?}", drawing.items);
+        };
+        assert!((width_px - 10.0).abs() < 1e-12);
+        assert_eq!(centres.len(), 3);
+        assert!(colour.r > BLUE.r && colour.g > BLUE.g && colour.b > BLUE.b);
+    }
+
+    #[test]
+    fn what_cannot_be_drawn_is_left_out() {
+        let far = DVec2::new(1e300, 0.0);
+        let nan = DVec2::new(f64::NAN, 0.0);
+        let figure = Figure {
+            rings: vec![
+                vec![DVec2::ZERO, DVec2::X, far],
+                vec![DVec2::ZERO, DVec2::X],
+                vec![DVec2::ZERO, DVec2::X, nan],
+            ],
+            bars: vec![[DVec2::ZERO, far]],
+            bar_width: 0.1,
+        };
+        let mut drawing = Drawing::new(PixelSize::new(4, 4).expect("a legal size"), None);
+        drawing.push_figure(&figure, BLUE, true, &view());
+        assert!(drawing.items.is_empty());
+    }
+}

@@ -1,0 +1,230 @@
+//! A film as an animated GIF.
+//!
+//! Guarantees: one palette for the whole film; delays in hundredths of a second
+//! whose sum is the film's length to the nearest one; holds are one long frame.
+//! Transparency in GIF is all or nothing: edges are cut at half coverage.
+
+use std::collections::HashMap;
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use gif::{DisposalMethod, Encoder, Frame, Repeat};
+use image::RgbaImage;
+
+use crate::progress::Progress;
+
+use super::atomic::AtomicFile;
+use super::camera::Camera;
+use super::error::ExportError;
+use super::film::{Film, Run};
+use super::palette::{Histogram, Palette};
+use super::raster::rasterise;
+
+/// The highest rate that readers play as written: they take a delay below two
+/// hundredths of a second for a mistake and slow it down to ten.
+pub const MAX_GIF_FPS: f64 = 50.0;
+
+const TICKS_PER_SEC: f64 = 100.0;
+
+/// Index of the transparent colour; colours take the indices below it.
+const TRANSPARENT: u8 = 255;
+
+/// The most frames whose colours make the palette.
+const PALETTE_SAMPLES: usize = 24;
+
+/// Writes the film.
+///
+/// # Errors
+/// [`ExportError`] where the rate is beyond [`MAX_GIF_FPS`], the file cannot be
+/// written, or nobody wants it any more.
+pub fn write_gif(
+    camera: &Camera,
+    film: &Film,
+    path: &Path,
+    progress: &dyn Progress,
+) -> Result<(), ExportError> {
+    if film.fps() > MAX_GIF_FPS {
+        return Err(ExportError::GifRate(film.fps()));
+    }
+    let mut file = AtomicFile::create(path)?;
+    let palette = film_palette(camera, &film.runs(), progress)?;
+    let writer = BufWriter::new(file.file_mut());
+    let mut encoder = encoder(writer, camera, film, &palette).map_err(ExportError::encode(path))?;
+    camera.shoot_runs(
+        &film.runs(),
+        progress,
+        |drawing| Ok(encoded_frame(&rasterise(&drawing), &palette)),
+        |run, mut frame| {
+            frame.delay = u16::try_from(film.ticks(run, TICKS_PER_SEC)).unwrap_or(u16::MAX);
+            let written = encoder.write_lzw_pre_encoded_frame(&frame);
+            written.map_err(ExportError::encode(path))
+        },
+    )?;
+    let mut writer = encoder.into_inner().map_err(ExportError::encode(path))?;
+    writer.flush().map_err(ExportError::write(path))?;
+    drop(writer);
+    file.commit()
+}
+
+fn encoder<W: Write>(
+    writer: W,
+    camera: &Camera,
+    film: &Film,
+    palette: &Palette,
+) -> Result<Encoder<W>, gif::EncodingError> {
+    let mut table = palette.colours().as_flattened().to_vec();
+    table.resize(3 * 256, 0);
+    let size = camera.view.size();
+    let mut encoder = Encoder::new(writer, size.width() as u16, size.height() as u16, &table)?;
+    if film.repeats() {
+        encoder.set_repeat(Repeat::Infinite)?;
+    }
+    Ok(encoder)
+}
+
+/// The colours of frames that are spread evenly over the film.
+fn film_palette(
+    camera: &Camera,
+    runs: &[Run],
+    progress: &dyn Progress,
+) -> Result<Palette, ExportError> {
+    let step = runs.len().div_ceil(PALETTE_SAMPLES).max(1);
+    let mut sampled: Vec<Run> = runs.iter().step_by(step).copied().collect();
+    sampled.extend(runs.last());
+    let mut merged = Histogram::default();
+    camera.shoot_runs(
+        &sampled,
+        progress,
+        |drawing| Ok(histogram(&rasterise(&drawing))),
+        |_, of_frame| {
+            merged = std::mem::take(&mut merged).merge(of_frame);
+            Ok(())
+        },
+    )?;
+    Ok(Palette::of(merged, usize::from(TRANSPARENT)))
+}
+
+fn histogram(image: &RgbaImage) -> Histogram {
+    let mut histogram = Histogram::default();
+    for colour in image.pixels().filter_map(|pixel| opaque(pixel.0)) {
+        histogram.add(colour);
+    }
+    histogram
+}
+
+/// The colour of a pixel that is at least half covered.
+fn opaque([r, g, b, a]: [u8; 4]) -> Option<[u8; 3]> {
+    (a >= 128).then_some([r, g, b])
+}
+
+fn encoded_frame(image: &RgbaImage, palette: &Palette) -> Frame<'static> {
+    let mut known = HashMap::new();
+    let mut index_of = |pixel: &image::Rgba<u8>| match opaque(pixel.0) {
+        None => TRANSPARENT,
+        Some(colour) => *known
+            .entry(colour)
+            .or_insert_with(|| palette.nearest(colour)),
+    };
+    let indices: Vec<u8> = image.pixels().map(&mut index_of).collect();
+    let mut frame = Frame {
+        width: image.width() as u16,
+        height: image.height() as u16,
+        dispose: DisposalMethod::Background,
+        transparent: Some(TRANSPARENT),
+        buffer: indices.into(),
+        ..Frame::default()
+    };
+    frame.make_lzw_pre_encoded();
+    frame
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::testing::camera;
+    use crate::progress::Silent;
+    use crate::transition::{PlayMode, Rgb};
+
+    const CREAM: Rgb = Rgb {
+        r: 250,
+        g: 248,
+        b: 240,
+    };
+
+    struct Decoded {
+        repeat: Repeat,
+        delays: Vec<u16>,
+        frames: Vec<RgbaImage>,
+    }
+
+    fn round_trip(camera: &Camera, film: &Film) -> Decoded {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("film.gif");
+        write_gif(camera, film, &path, &Silent).expect("written");
+        let mut options = gif::DecodeOptions::new();
+        options.set_color_output(gif::ColorOutput::RGBA);
+        let file = std::fs::File::open(path).expect("opened");
+        let mut decoder = options.read_info(file).expect("a GIF");
+        let (mut delays, mut frames) = (vec![], vec![]);
+        while let Some(frame) = decoder.read_next_frame().expect("a frame") {
+            delays.push(frame.delay);
+            let (width, height) = (u32::from(frame.width), u32::from(frame.height));
+            let pixels = frame.buffer.to_vec();
+            frames.push(RgbaImage::from_vec(width, height, pixels).expect("all pixels"));
+        }
+        Decoded {
+            repeat: decoder.repeat(),
+            delays,
+            frames,
+        }
+    }
+
+    #[test]
+    fn frames_delays_and_loops_are_those_of_the_film() {
+        let film = Film::evenly(0.0, 1.0, 7, 30.0).expect("a film");
+        let once = round_trip(&camera(40, 30, None), &film);
+        assert_eq!(once.delays, [3, 4, 3, 3, 4, 3, 3]);
+        assert_eq!(once.frames[0].dimensions(), (40, 30));
+        assert_eq!(once.repeat, Repeat::Finite(0));
+        let film = film.playing(PlayMode::PingPong);
+        let looped = round_trip(&camera(40, 30, None), &film);
+        assert_eq!(looped.frames.len(), 12);
+        assert_eq!(looped.repeat, Repeat::Infinite);
+        assert_eq!(looped.frames[1], looped.frames[11], "the way back");
+    }
+
+    #[test]
+    fn colours_stay_near_the_raster_and_the_ground_is_exact() {
+        let camera = camera(80, 60, Some(CREAM));
+        let film = Film::evenly(0.0, 1.0, 40, 25.0).expect("a film");
+        let decoded = round_trip(&camera, &film);
+        for (&t, frame) in film.times().iter().zip(&decoded.frames) {
+            let exact = rasterise(&camera.shoot(t));
+            for (a, b) in exact.pixels().zip(frame.pixels()) {
+                let worst = a.0.iter().zip(b.0).map(|(a, b)| a.abs_diff(b)).max();
+                assert!(worst <= Some(24), "{a:?} became {b:?} at t = {t}");
+            }
+            assert_eq!(frame.get_pixel(0, 0).0, [250, 248, 240, 255]);
+        }
+    }
+
+    #[test]
+    fn a_transparent_ground_stays_transparent_in_every_frame() {
+        let camera = camera(40, 30, None);
+        let film = Film::evenly(0.0, 1.0, 5, 25.0).expect("a film");
+        for (&t, frame) in film.times().iter().zip(round_trip(&camera, &film).frames) {
+            let exact = rasterise(&camera.shoot(t));
+            for (a, b) in exact.pixels().zip(frame.pixels()) {
+                assert_eq!(a.0[3] >= 128, b.0[3] == 255, "t = {t}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_rate_that_readers_would_slow_down_is_refused() {
+        let film = Film::evenly(0.0, 1.0, 5, 60.0).expect("a film");
+        let path = Path::new("/no/such/folder/film.gif");
+        let refused = write_gif(&camera(4, 3, None), &film, path, &Silent);
+        assert!(matches!(refused, Err(ExportError::GifRate(_))));
+    }
+}

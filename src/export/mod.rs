@@ -1,0 +1,95 @@
+//! Frames as files: SVG and PNG, contact sheets, numbered pictures, GIF,
+//! animated PNG and MP4. Needs no graphics card and no display.
+//!
+//! Everything goes through one [`Drawing`], so no two formats can disagree.
+//! Guarantees: files are written whole or not at all; the same transition gives
+//! the same bytes on every run (MP4 apart, which is ffmpeg's); frames are drawn
+//! on all cores and written in order. It knows nothing of windows or command
+//! lines.
+//!
+//! ```no_run
+//! use morphospace::export::{Camera, Film, PixelSize, Target, View, framing, write_film};
+//! use morphospace::progress::Silent;
+//! # fn transition() -> morphospace::transition::Transition { unreachable!() }
+//!
+//! let transition = transition();
+//! let film = Film::evenly(0.0, 1.0, 24, 24.0)?;
+//! let bounds = framing(&transition, film.times());
+//! let view = View::fit(bounds, PixelSize::of_shape(bounds, 960));
+//! let camera = Camera { transition, style: Default::default(), view, ground: None };
+//! let target = Target::of_path("film.gif".as_ref())?;
+//! write_film(&camera, &film, &target, &Silent)?;
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod apng;
+mod atomic;
+mod camera;
+mod drawing;
+mod error;
+mod film;
+mod gif;
+mod mp4;
+mod palette;
+mod png_sequence;
+mod raster;
+mod sheet;
+mod size;
+mod still;
+mod svg;
+mod target;
+#[cfg(test)]
+mod testing;
+mod text;
+
+use std::path::PathBuf;
+
+use crate::progress::Progress;
+
+pub use apng::write_apng;
+pub use camera::{BATCH_BYTES, Camera, framing};
+pub use drawing::{
+    Drawing, Item, JOINT_CORE_RADIUS, JOINT_RADIUS, MAX_COORDINATE_PX, Outline, Step, View,
+    joint_core,
+};
+pub use error::ExportError;
+pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};
+pub use gif::{MAX_GIF_FPS, write_gif};
+pub use mp4::write_mp4;
+pub use png_sequence::write_numbered;
+pub use raster::rasterise;
+pub use sheet::{SheetLayout, sheet};
+pub use size::{MAX_PIXELS, MAX_SIDE_PX, PixelSize, SizeError};
+pub use still::write_still;
+pub use svg::to_svg;
+pub use target::{FilmKind, Numbered, StillKind, Target, TargetError};
+
+/// Writes a film to wherever the target says, and returns the paths of what it
+/// wrote. A still target gets the film's first frame.
+///
+/// # Errors
+/// [`ExportError`] where something cannot be written or nobody wants it any
+/// more.
+pub fn write_film(
+    camera: &Camera,
+    film: &Film,
+    target: &Target,
+    progress: &dyn Progress,
+) -> Result<Vec<PathBuf>, ExportError> {
+    let path = match target {
+        Target::Numbered(names) => return write_numbered(camera, film, names, progress),
+        Target::Still(kind, path) => {
+            write_still(&camera.shoot(film.times()[0]), *kind, path)?;
+            path
+        }
+        Target::Film(kind, path) => {
+            match kind {
+                FilmKind::Gif => write_gif(camera, film, path, progress)?,
+                FilmKind::Apng => write_apng(camera, film, path, progress)?,
+                FilmKind::Mp4 => write_mp4(camera, film, path, progress)?,
+            }
+            path
+        }
+    };
+    Ok(vec![path.clone()])
+}

@@ -1,0 +1,154 @@
+//! A few colours that stand for many: median cut over the colours of a whole
+//! film.
+//!
+//! Follows Heckbert, "Color Image Quantization for Frame Buffer Display" (1982),
+//! but cuts the box with the largest squared error, at its mean, as later
+//! practice does. Guarantees: where the colours are few enough, each is kept
+//! exactly. One palette for all frames: a still shape never flickers. No
+//! dithering, which would crawl and swell the file.
+
+use std::collections::HashMap;
+
+/// How often each colour occurs.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Histogram(HashMap<[u8; 3], u64>);
+
+impl Histogram {
+    /// Counts a colour once more.
+    pub fn add(&mut self, colour: [u8; 3]) {
+        *self.0.entry(colour).or_default() += 1;
+    }
+
+    /// Counts all of another histogram.
+    pub fn merge(mut self, other: Self) -> Self {
+        for (colour, count) in other.0 {
+            *self.0.entry(colour).or_default() += count;
+        }
+        self
+    }
+}
+
+/// At most 256 colours and, for any colour, which of them is nearest.
+#[derive(Clone, Debug)]
+pub(super) struct Palette(Vec<[u8; 3]>);
+
+impl Palette {
+    /// At most `limit` colours that stand for those of the histogram; black
+    /// alone where it is empty.
+    pub fn of(histogram: Histogram, limit: usize) -> Self {
+        let mut colours: Vec<Counted> = histogram.0.into_iter().collect();
+        // A map has no order; sorting makes the palette the same at each run.
+        colours.sort_unstable();
+        if colours.is_empty() {
+            return Self(vec![[0; 3]]);
+        }
+        if colours.len() <= limit {
+            return Self(colours.into_iter().map(|(colour, _)| colour).collect());
+        }
+        let mut boxes = vec![ColourBox::of(colours)];
+        while boxes.len() < limit {
+            let error = |i: &usize| boxes[*i].error;
+            let worst = (0..boxes.len()).max_by(|a, b| error(a).total_cmp(&error(b)));
+            let Some((low, high)) = worst.and_then(|i| boxes.swap_remove(i).cut()) else {
+                break;
+            };
+            boxes.extend([low, high]);
+        }
+        Self(boxes.iter().map(ColourBox::mean).collect())
+    }
+
+    /// The colours.
+    pub fn colours(&self) -> &[[u8; 3]] {
+        &self.0
+    }
+
+    /// Index of the colour with the least squared distance.
+    pub fn nearest(&self, colour: [u8; 3]) -> u8 {
+        let distance = |other: &[u8; 3]| -> i32 {
+            let along = |k: usize| i32::from(colour[k]) - i32::from(other[k]);
+            (0..3).map(|k| along(k) * along(k)).sum()
+        };
+        let nearest = (0..self.0.len()).min_by_key(|&i| distance(&self.0[i]));
+        nearest.unwrap_or_default() as u8
+    }
+}
+
+type Counted = ([u8; 3], u64);
+
+/// Colours that will become one.
+#[derive(Debug)]
+struct ColourBox {
+    colours: Vec<Counted>,
+    mean: [f64; 3],
+    axis: usize,
+    error: f64,
+}
+
+impl ColourBox {
+    fn of(colours: Vec<Counted>) -> Self {
+        let total: f64 = colours.iter().map(|c| c.1 as f64).sum();
+        let mean_of = |f: &dyn Fn([u8; 3]) -> f64| {
+            colours.iter().map(|c| c.1 as f64 * f(c.0)).sum::<f64>() / total
+        };
+        let mean = [0, 1, 2].map(|k| mean_of(&|c| f64::from(c[k])));
+        let variance = [0, 1, 2].map(|k| mean_of(&|c| (f64::from(c[k]) - mean[k]).powi(2)));
+        let axis = (0..3).max_by(|&a, &b| variance[a].total_cmp(&variance[b]));
+        Self {
+            mean,
+            axis: axis.unwrap_or_default(),
+            error: total * variance.iter().sum::<f64>(),
+            colours,
+        }
+    }
+
+    /// Both sides of the mean along the widest axis; `None` for one colour.
+    fn cut(self) -> Option<(Self, Self)> {
+        let (axis, at) = (self.axis, self.mean[self.axis]);
+        let is_low = |c: &Counted| f64::from(c.0[axis]) <= at;
+        let (low, high): (Vec<_>, Vec<_>) = self.colours.into_iter().partition(is_low);
+        let both = !low.is_empty() && !high.is_empty();
+        both.then(|| (Self::of(low), Self::of(high)))
+    }
+
+    fn mean(&self) -> [u8; 3] {
+        self.mean.map(|c| c.round() as u8)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn histogram(colours: impl IntoIterator<Item = ([u8; 3], u64)>) -> Histogram {
+        Histogram(colours.into_iter().collect())
+    }
+
+    #[test]
+    fn few_colours_are_kept_exactly() {
+        let colours = (0..200u8).map(|i| ([i, 255 - i, 7], u64::from(i) + 1));
+        let palette = Palette::of(histogram(colours), 255);
+        for i in 0..200u8 {
+            let index = usize::from(palette.nearest([i, 255 - i, 7]));
+            assert_eq!(palette.colours()[index], [i, 255 - i, 7]);
+        }
+    }
+
+    #[test]
+    fn many_colours_become_the_limit_and_stay_near() {
+        let ramp = (0..=255u8).flat_map(|i| (0..8u8).map(move |j| ([i, i / 2 + 8 * j, 200], 5)));
+        let palette = Palette::of(histogram(ramp.clone()), 64);
+        assert_eq!(palette.colours().len(), 64);
+        for (colour, _) in ramp {
+            let near = palette.colours()[usize::from(palette.nearest(colour))];
+            let distance = (0..3).map(|k| colour[k].abs_diff(near[k])).max();
+            assert!(distance <= Some(16), "{colour:?} became {near:?}");
+        }
+    }
+
+    #[test]
+    fn an_empty_film_has_a_palette_and_two_colours_can_become_one() {
+        assert_eq!(Palette::of(Histogram::default(), 255).colours(), [[0; 3]]);
+        let two = histogram([([0, 0, 0], 1), ([255, 255, 255], 3)]);
+        assert_eq!(Palette::of(two, 1).colours(), [[191; 3]]);
+    }
+}

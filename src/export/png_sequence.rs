@@ -1,0 +1,123 @@
+//! A film as numbered pictures, a file a frame.
+//!
+//! Guarantees: a file's number is the frame's number within the whole film, so
+//! that parts rendered on different machines fit together; each file is there
+//! whole or not at all. Files of an earlier, longer film are left alone.
+
+use std::fs;
+use std::path::PathBuf;
+
+use crate::progress::Progress;
+
+use super::atomic;
+use super::camera::Camera;
+use super::error::ExportError;
+use super::film::Film;
+use super::still::encoded;
+use super::target::Numbered;
+
+/// Writes the frames and returns their paths in order.
+///
+/// # Errors
+/// [`ExportError`] where a file cannot be written or nobody wants them any
+/// more; the frames before it stay.
+pub fn write_numbered(
+    camera: &Camera,
+    film: &Film,
+    names: &Numbered,
+    progress: &dyn Progress,
+) -> Result<Vec<PathBuf>, ExportError> {
+    if names.makes_folder {
+        fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
+    }
+    let mut written = Vec::with_capacity(film.times().len());
+    let first = names.path(film.first_number());
+    camera.shoot_runs(
+        &film.runs(),
+        progress,
+        |drawing| encoded(&drawing, names.kind, &first),
+        |run, bytes| {
+            for number in run.first..run.first + run.count {
+                let path = names.path(number);
+                atomic::write(&path, &bytes)?;
+                written.push(path);
+            }
+            Ok(())
+        },
+    )?;
+    Ok(written)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::Target;
+    use crate::export::testing::camera;
+    use crate::progress::{Cancelled, Silent};
+    use std::path::Path;
+
+    fn names(folder: &Path, pattern: &str) -> Numbered {
+        match Target::of_path(&folder.join(pattern)) {
+            Ok(Target::Numbered(names)) => names,
+            other => panic!("{pattern}: {other:?}"),
+        }
+    }
+
+    fn listing(folder: &Path) -> Vec<(String, Vec<u8>)> {
+        let entries = fs::read_dir(folder).expect("listed").map(|entry| {
+            let path = entry.expect("an entry").path();
+            let name = path.file_name().expect("a name").to_string_lossy();
+            (name.into_owned(), fs::read(&path).expect("read"))
+        });
+        let mut files: Vec<_> = entries.collect();
+        files.sort();
+        files
+    }
+
+    #[test]
+    fn parts_make_the_same_files_as_the_whole() {
+        let (whole, split) = (tempfile::tempdir(), tempfile::tempdir());
+        let (whole, split) = (whole.expect("a folder"), split.expect("a folder"));
+        let camera = camera(20, 16, None);
+        let film = Film::evenly(0.0, 1.0, 9, 24.0).expect("a film");
+        let all = names(whole.path(), "x-###.png");
+        let written = write_numbered(&camera, &film, &all, &Silent).expect("written");
+        assert_eq!(written.len(), 9);
+        for range in [4..9, 0..4] {
+            let part = film.part(range).expect("a part");
+            let names = names(split.path(), "x-###.png");
+            write_numbered(&camera, &part, &names, &Silent).expect("written");
+        }
+        assert_eq!(listing(whole.path()), listing(split.path()));
+        assert_eq!(listing(whole.path())[8].0, "x-008.png");
+    }
+
+    #[test]
+    fn holds_fill_their_numbers_and_svg_can_be_numbered_too() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let film = Film::evenly(0.5, 0.5, 3, 24.0).expect("a film");
+        assert_eq!(film.runs().len(), 1);
+        let names = names(folder.path(), "#.svg");
+        write_numbered(&camera(20, 16, None), &film, &names, &Silent).expect("written");
+        let files = listing(folder.path());
+        assert_eq!(files.len(), 3);
+        assert!(files.iter().all(|(_, bytes)| bytes.starts_with(b"<svg ")));
+    }
+
+    #[test]
+    fn a_cancel_stops_it_and_leaves_no_half_file() {
+        struct AtOnce;
+        impl Progress for AtOnce {
+            fn report(&self, _: &'static str, _: f64) {}
+            fn is_cancelled(&self) -> bool {
+                true
+            }
+        }
+        let folder = tempfile::tempdir().expect("a folder");
+        let film = Film::evenly(0.0, 1.0, 3, 24.0).expect("a film");
+        let names = names(&folder.path().join("new"), "");
+        let cancelled = write_numbered(&camera(20, 16, None), &film, &names, &AtOnce);
+        assert!(matches!(cancelled, Err(ExportError::Cancelled(Cancelled))));
+        assert!(listing(&folder.path().join("new")).is_empty());
+    }
+}

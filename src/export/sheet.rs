@@ -1,0 +1,229 @@
+//! A contact sheet: frames side by side with their t below, as the paper's
+//! figures print them.
+//!
+//! Guarantees: one scale for all cells, frames left to right and top to bottom,
+//! a last row that is not full starts at the left. It is a [`Drawing`] like any
+//! other, so PNG and SVG show the same.
+
+use crate::geometry::{Bounds, DVec2};
+use crate::transition::{Rgb, Style, Transition};
+
+use super::drawing::{Drawing, View};
+use super::size::PixelSize;
+
+/// The longer side of a cell where the sheet's size is free, in pixels.
+const CELL_PX: u32 = 240;
+
+/// The most cells in a row where the sheet's size is free.
+const MAX_COLUMNS: usize = 6;
+
+/// Height of a label's line, in heights of a cell's picture.
+const LABEL_SHARE: f64 = 0.1;
+
+/// Gap between cells, in heights of a cell's picture.
+const GAP_SHARE: f64 = 0.06;
+
+/// Cells in columns and rows, and how large each is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SheetLayout {
+    /// Size of the whole sheet.
+    pub size: PixelSize,
+    /// Cells in a row.
+    pub columns: usize,
+    /// Rows.
+    pub rows: usize,
+}
+
+impl SheetLayout {
+    /// A layout for `count` cells that show `bounds` (both at least 1): in the
+    /// given size with the cells as large as can be, or as large as it comes,
+    /// with up to six in a row and rows of even length.
+    pub fn new(count: usize, bounds: Bounds, size: Option<PixelSize>) -> Self {
+        let count = count.max(1);
+        let cell = PixelSize::of_shape(bounds, CELL_PX).as_dvec2();
+        match size {
+            Some(size) => largest_cells(count, cell, size),
+            None => free(count, cell),
+        }
+    }
+
+    /// Corner and size of a cell's picture, and where its label's base line
+    /// has its middle.
+    fn cell(&self, index: usize, label_height: f64) -> (DVec2, DVec2, DVec2) {
+        let counts = DVec2::new(self.columns as f64, self.rows as f64);
+        let whole = self.size.as_dvec2() / counts;
+        let place = DVec2::new((index % self.columns) as f64, (index / self.columns) as f64);
+        let gap = 0.5 * GAP_SHARE * whole.y;
+        let corner = place * whole + DVec2::splat(gap);
+        let inner = whole - DVec2::new(2.0 * gap, 2.0 * gap + label_height);
+        let base = corner + DVec2::new(0.5 * inner.x, inner.y + 0.8 * label_height);
+        (corner, inner.max(DVec2::ONE), base)
+    }
+
+    fn label_height(&self) -> f64 {
+        LABEL_SHARE * f64::from(self.size.height()) / self.rows as f64
+    }
+}
+
+/// Cells of their natural size in balanced rows.
+fn free(count: usize, cell: DVec2) -> SheetLayout {
+    let rows = count.div_ceil(MAX_COLUMNS);
+    let columns = count.div_ceil(rows);
+    let share = 1.0 - LABEL_SHARE - GAP_SHARE;
+    let wanted = DVec2::new(
+        columns as f64 * (cell.x + GAP_SHARE * cell.y),
+        rows as f64 * cell.y / share,
+    );
+    let fitting = (8_192.0 / wanted.max_element()).min(1.0);
+    let [width, height] = [wanted.x, wanted.y].map(|side| (side * fitting).round() as u32);
+    let size = PixelSize::new(width.max(1), height.max(1));
+    match size {
+        Ok(size) => SheetLayout {
+            size,
+            columns,
+            rows,
+        },
+        Err(_) => largest_cells(
+            count,
+            cell,
+            PixelSize::of_shape(
+                Bounds {
+                    min: DVec2::ZERO,
+                    max: wanted,
+                },
+                8_192,
+            ),
+        ),
+    }
+}
+
+/// The number of columns at which the pictures are largest.
+fn largest_cells(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
+    let layout = |columns: usize| SheetLayout {
+        size,
+        columns,
+        rows: count.div_ceil(columns),
+    };
+    let scale = |layout: &SheetLayout| {
+        let (_, inner, _) = layout.cell(0, layout.label_height());
+        (inner / cell).min_element()
+    };
+    let better = |a: SheetLayout, b: SheetLayout| if scale(&b) > scale(&a) { b } else { a };
+    (2..=count).map(layout).fold(layout(1), better)
+}
+
+/// Draws the frames at the given values of t into one sheet.
+///
+/// `bounds` is what each cell shows, in the design's units.
+pub fn sheet(
+    transition: &Transition,
+    style: &Style,
+    times: &[f64],
+    bounds: Bounds,
+    size: Option<PixelSize>,
+    ground: Option<Rgb>,
+) -> Drawing {
+    let layout = SheetLayout::new(times.len(), bounds, size);
+    let mut drawing = Drawing::new(layout.size, ground);
+    let ink = ink_on(ground);
+    let label_height = layout.label_height();
+    let mut frame = transition.frame(times.first().copied().unwrap_or_default());
+    for (index, &t) in times.iter().enumerate() {
+        let (corner, inner, base) = layout.cell(index, label_height);
+        frame.seek(t);
+        drawing.push_frame(
+            &frame,
+            style,
+            &View::fit_cell(bounds, layout.size, corner, inner),
+        );
+        drawing.push_label(&label(t), base, 0.8 * label_height, ink);
+    }
+    drawing
+}
+
+/// `t = 0.25`: at most three decimals, no trailing zeros.
+fn label(t: f64) -> String {
+    let fixed = format!("{t:.3}");
+    let short = fixed.trim_end_matches('0').trim_end_matches('.');
+    let number = if short == "-0" { "0" } else { short };
+    format!("t = {}", number.replace('-', "\u{2212}"))
+}
+
+/// A colour for words that can be read on the ground; on a transparent one a
+/// middle grey, which shows on light and on dark.
+fn ink_on(ground: Option<Rgb>) -> Rgb {
+    let grey = |c: u8| Rgb { r: c, g: c, b: c };
+    match ground {
+        None => grey(0x80),
+        Some(Rgb { r, g, b }) => {
+            let luma = 0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b);
+            if luma > 128.0 { grey(0x20) } else { grey(0xe8) }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> Bounds {
+        Bounds {
+            min: DVec2::ZERO,
+            max: DVec2::ONE,
+        }
+    }
+
+    fn counts(layout: SheetLayout) -> (usize, usize) {
+        (layout.columns, layout.rows)
+    }
+
+    #[test]
+    fn rows_wrap_and_are_balanced() {
+        let free = |n| counts(SheetLayout::new(n, square(), None));
+        assert_eq!(free(1), (1, 1));
+        assert_eq!(free(5), (5, 1));
+        assert_eq!(free(6), (6, 1));
+        assert_eq!(free(7), (4, 2));
+        assert_eq!(free(11), (6, 2));
+        assert_eq!(free(13), (5, 3));
+    }
+
+    #[test]
+    fn a_given_size_takes_the_largest_cells() {
+        let given = |n, w, h| {
+            let size = PixelSize::new(w, h).expect("a legal size");
+            let layout = SheetLayout::new(n, square(), Some(size));
+            assert_eq!(layout.size, size);
+            counts(layout)
+        };
+        assert_eq!(given(5, 1000, 200), (5, 1));
+        assert_eq!(given(4, 400, 400), (2, 2));
+        assert_eq!(given(5, 100, 900), (1, 5));
+        assert_eq!(given(500, 1, 1), given(500, 1, 1));
+    }
+
+    #[test]
+    fn cells_do_not_overlap_and_stay_on_the_sheet() {
+        let layout = SheetLayout::new(7, square(), None);
+        let height = layout.label_height();
+        let cells: Vec<_> = (0..7).map(|i| layout.cell(i, height)).collect();
+        for (i, &(corner, inner, base)) in cells.iter().enumerate() {
+            let end = corner + inner;
+            assert!(corner.min_element() >= 0.0 && base.y > end.y);
+            assert!(end.cmple(layout.size.as_dvec2()).all());
+            for &(other, inner, _) in &cells[i + 1..] {
+                assert!(end.x <= other.x || base.y <= other.y || other.x + inner.x <= corner.x);
+            }
+        }
+    }
+
+    #[test]
+    fn labels_are_short() {
+        assert_eq!(label(0.0), "t = 0");
+        assert_eq!(label(-0.0001), "t = 0");
+        assert_eq!(label(0.25), "t = 0.25");
+        assert_eq!(label(1.0 / 3.0), "t = 0.333");
+        assert_eq!(label(-0.5), "t = \u{2212}0.5");
+        assert_eq!(label(100.0), "t = 100");
+    }
+}

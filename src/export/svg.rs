@@ -1,0 +1,347 @@
+//! A [`Drawing`] as an SVG document.
+//!
+//! Guarantees: well-formed, self-contained (no fonts, styles or links), numbers
+//! with at most three decimals, the same bytes for the same drawing.
+//! It does not keep text as text: labels are outlines with an `aria-label`.
+
+use std::fmt::{self, Write};
+
+use glam::DVec2;
+use image::ImageEncoder;
+use image::codecs::png::PngEncoder;
+
+use crate::transition::Rgb;
+
+use super::drawing::{Drawing, Item, Outline, Step};
+
+/// Writes a drawing as an SVG document.
+pub fn to_svg(drawing: &Drawing) -> String {
+    let (width, height) = (drawing.size.width(), drawing.size.height());
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n"
+    );
+    if let Some(ground) = drawing.ground {
+        svg += &format!(
+            "<rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n",
+            Hex(ground)
+        );
+    }
+    for item in &drawing.items {
+        svg += &element(item);
+        svg.push('\n');
+    }
+    svg + "</svg>\n"
+}
+
+fn element(item: &Item) -> String {
+    match item {
+        Item::Fill {
+            outline,
+            colour,
+            label,
+        } => fill(outline, *colour, label.as_deref()),
+        Item::Bars {
+            segments,
+            width_px,
+            colour,
+        } => format!(
+            "<path fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" d=\"{}\"/>",
+            Hex(*colour),
+            Number(*width_px),
+            joined(
+                segments
+                    .iter()
+                    .map(|[a, b]| format!("M{}L{}", Point(*a), Point(*b)))
+            )
+        ),
+        Item::Discs {
+            centres,
+            radius_px,
+            colour,
+        } => discs(centres, *radius_px, *colour),
+        Item::Picture {
+            image,
+            corner,
+            size,
+        } => picture(image, *corner, *size),
+    }
+}
+
+fn fill(outline: &Outline, colour: Rgb, label: Option<&str>) -> String {
+    let label = label.map_or_else(String::new, |words| {
+        format!(" role=\"img\" aria-label=\"{}\"", Escaped(words))
+    });
+    let steps = joined(outline.steps.iter().map(step));
+    format!("<path{label} fill=\"{}\" d=\"{steps}\"/>", Hex(colour))
+}
+
+fn step(step: &Step) -> String {
+    match *step {
+        Step::Move(p) => format!("M{}", Point(p)),
+        Step::Line(p) => format!("L{}", Point(p)),
+        Step::Quad(c, p) => format!("Q{} {}", Point(c), Point(p)),
+        Step::Cubic(c, d, p) => format!("C{} {} {}", Point(c), Point(d), Point(p)),
+        Step::Close => "Z".to_owned(),
+    }
+}
+
+fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
+    let circle = |c: &DVec2| {
+        format!(
+            "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
+            Number(c.x),
+            Number(c.y),
+            Number(radius_px)
+        )
+    };
+    let circles = joined(centres.iter().map(circle));
+    format!("<g fill=\"{}\">{circles}</g>", Hex(colour))
+}
+
+fn picture(image: &image::RgbaImage, corner: DVec2, size: DVec2) -> String {
+    let mut png = Vec::new();
+    let (width, height) = image.dimensions();
+    let encoded =
+        PngEncoder::new(&mut png).write_image(image, width, height, image::ColorType::Rgba8.into());
+    if encoded.is_err() {
+        return String::new();
+    }
+    format!(
+        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"/>",
+        Number(corner.x),
+        Number(corner.y),
+        Number(size.x),
+        Number(size.y),
+        base64(&png)
+    )
+}
+
+fn joined(parts: impl Iterator<Item = String>) -> String {
+    parts.fold(String::new(), |all, part| all + &part)
+}
+
+/// RFC 4648, with padding.
+fn base64(bytes: &[u8]) -> String {
+    const DIGITS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for chunk in bytes.chunks(3) {
+        let octets = [0, 1, 2].map(|i| chunk.get(i).copied().map_or(0, u32::from));
+        let bits = octets[0] << 16 | octets[1] << 8 | octets[2];
+        for digit in 0..4 {
+            let index = (bits >> (18 - 6 * digit)) & 63;
+            let is_padding = digit > chunk.len();
+            text.push(if is_padding {
+                '='
+            } else {
+                char::from(DIGITS[index as usize])
+            });
+        }
+    }
+    text
+}
+
+struct Hex(Rgb);
+
+impl fmt::Display for Hex {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Rgb { r, g, b } = self.0;
+        write!(f, "#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+/// At most three decimals, no trailing zeros, no negative zero.
+struct Number(f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let fixed = format!("{:.3}", self.0);
+        let short = fixed.trim_end_matches('0').trim_end_matches('.');
+        f.write_str(if short == "-0" { "0" } else { short })
+    }
+}
+
+struct Point(DVec2);
+
+impl fmt::Display for Point {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} {}", Number(self.0.x), Number(self.0.y))
+    }
+}
+
+/// Text that may stand in an attribute; characters that XML forbids become
+/// the replacement character.
+struct Escaped<'a>(&'a str);
+
+impl fmt::Display for Escaped<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for c in self.0.chars() {
+            match c {
+                '&' => f.write_str("&amp;")?,
+                '<' => f.write_str("&lt;")?,
+                '>' => f.write_str("&gt;")?,
+                '"' => f.write_str("&quot;")?,
+                '\t' | '\n' | '\r' => f.write_char(' ')?,
+                '\0'..'\u{20}' | '\u{fffe}' | '\u{ffff}' => f.write_char('\u{fffd}')?,
+                c => f.write_char(c)?,
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::{PixelSize, View, rasterise};
+    use crate::geometry::Bounds;
+    use crate::transition::Figure;
+    use tiny_skia::{FillRule, Paint, Pixmap};
+
+    #[test]
+    fn numbers_are_short_and_never_negative_zero() {
+        let text = |x: f64| Number(x).to_string();
+        assert_eq!(text(0.0), "0");
+        assert_eq!(text(-0.0001), "0");
+        assert_eq!(text(1.5), "1.5");
+        assert_eq!(text(-2.0), "-2");
+        assert_eq!(text(100.0), "100");
+        assert_eq!(text(0.12349), "0.123");
+    }
+
+    #[test]
+    fn base64_is_that_of_the_rfc() {
+        let pairs = [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foob", "Zm9vYg=="),
+            ("fooba", "Zm9vYmE="),
+            ("foobar", "Zm9vYmFy"),
+        ];
+        for (plain, coded) in pairs {
+            assert_eq!(base64(plain.as_bytes()), coded);
+        }
+    }
+
+    #[test]
+    fn hostile_labels_stay_in_their_attribute() {
+        let mut drawing = Drawing::new(PixelSize::new(9, 9).expect("a legal size"), None);
+        let black = Rgb { r: 0, g: 0, b: 0 };
+        drawing.push_label("\"/><x>&\u{1}\n", DVec2::ZERO, 4.0, black);
+        let svg = to_svg(&drawing);
+        assert!(svg.contains("aria-label=\"&quot;/&gt;&lt;x&gt;&amp;\u{fffd} \""));
+        assert!(!svg.contains("<x>"));
+    }
+
+    /// Reads the SVG back with another program's parser and paints its paths.
+    fn painted_by_usvg(svg: &str) -> image::RgbaImage {
+        let tree = usvg::Tree::from_str(svg, &usvg::Options::default()).expect("well-formed");
+        let size = tree.size().to_int_size();
+        let mut pixmap = Pixmap::new(size.width(), size.height()).expect("a legal size");
+        paint_group(tree.root(), &mut pixmap);
+        let pixels = pixmap.take_demultiplied();
+        image::RgbaImage::from_vec(size.width(), size.height(), pixels).expect("all pixels")
+    }
+
+    fn paint_group(group: &usvg::Group, pixmap: &mut Pixmap) {
+        for node in group.children() {
+            match node {
+                usvg::Node::Group(group) => paint_group(group, pixmap),
+                usvg::Node::Path(path) => paint_path(path, pixmap),
+                other => panic!("unexpected in this drawing: {other:?}"),
+            }
+        }
+    }
+
+    fn paint_path(path: &usvg::Path, pixmap: &mut Pixmap) {
+        let place = path.abs_transform();
+        let solid = |paint: &usvg::Paint| match paint {
+            usvg::Paint::Color(c) => {
+                let mut solid = Paint::default();
+                solid.set_color_rgba8(c.red, c.green, c.blue, 255);
+                solid
+            }
+            other => panic!("unexpected paint: {other:?}"),
+        };
+        if let Some(fill) = path.fill() {
+            assert_eq!(fill.rule(), usvg::FillRule::NonZero);
+            let paint = solid(fill.paint());
+            pixmap.fill_path(path.data(), &paint, FillRule::Winding, place, None);
+        }
+        if let Some(stroke) = path.stroke() {
+            assert_eq!(stroke.linecap(), usvg::LineCap::Round);
+            let (paint, stroke) = (solid(stroke.paint()), stroke.to_tiny_skia());
+            pixmap.stroke_path(path.data(), &paint, &stroke, place, None);
+        }
+    }
+
+    /// A square with a square hole, two bars with joints, and words.
+    fn everything(ground: Option<Rgb>) -> Drawing {
+        let ring = |a: f64, b: f64| vec![[a, a], [b, a], [b, b], [a, b]];
+        let hole: Vec<_> = ring(2.0, 4.0).into_iter().rev().collect();
+        let points = |ring: Vec<[f64; 2]>| ring.into_iter().map(DVec2::from_array).collect();
+        let corner = DVec2::new(6.0, 1.0);
+        let figure = Figure {
+            rings: vec![points(ring(1.0, 5.0)), points(hole)],
+            bars: vec![
+                [corner, DVec2::new(9.0, 5.0)],
+                [corner, DVec2::new(9.5, 1.25)],
+            ],
+            bar_width: 0.4,
+        };
+        let bounds = Bounds {
+            min: DVec2::ZERO,
+            max: DVec2::new(10.0, 6.0),
+        };
+        let view = View::fit(bounds, PixelSize::new(200, 120).expect("a legal size"));
+        let mut drawing = Drawing::new(view.size(), ground);
+        let [r, g, b] = [59, 125, 216];
+        drawing.push_figure(&figure, Rgb { r, g, b }, true, &view);
+        let black = Rgb { r: 0, g: 0, b: 0 };
+        drawing.push_label("t = 0.25", DVec2::new(150.0, 20.0), 16.0, black);
+        drawing
+    }
+
+    /// With the colour premultiplied: a barely covered pixel has none to speak of.
+    fn seen(pixel: &image::Rgba<u8>) -> [u8; 4] {
+        let [r, g, b, a] = pixel.0;
+        let times_alpha = |c: u8| (u16::from(c) * u16::from(a) / 255) as u8;
+        [times_alpha(r), times_alpha(g), times_alpha(b), a]
+    }
+
+    #[test]
+    fn svg_and_raster_agree() {
+        let [r, g, b] = [250, 248, 240];
+        for ground in [None, Some(Rgb { r, g, b })] {
+            let drawing = everything(ground);
+            let painted = rasterise(&drawing);
+            let read_back = painted_by_usvg(&to_svg(&drawing));
+            assert_eq!(painted.dimensions(), read_back.dimensions());
+            let differs = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
+                seen(a).iter().zip(seen(b)).any(|(a, b)| a.abs_diff(b) > 20)
+            };
+            let different = painted
+                .pixels()
+                .zip(read_back.pixels())
+                .filter(|&p| differs(p));
+            assert_eq!(different.count(), 0, "ground {ground:?}");
+        }
+    }
+
+    #[test]
+    fn a_solid_covers_its_area_with_its_hole_left_out() {
+        let image = rasterise(&everything(None));
+        let left_half = image.enumerate_pixels().filter(|(x, ..)| *x < 110);
+        let covered: f64 = left_half.map(|(_, _, p)| f64::from(p.0[3]) / 255.0).sum();
+        let exact = (16.0 - 4.0) * 20.0 * 20.0;
+        assert!((covered - exact).abs() < 1.0, "{covered} of {exact}");
+        assert_eq!(image.get_pixel(60, 60).0[3], 0, "the hole is open");
+        assert_eq!(image.get_pixel(30, 110).0[3], 0, "below the square");
+        assert_eq!(
+            image.get_pixel(30, 90).0,
+            [59, 125, 216, 255],
+            "y points up"
+        );
+    }
+}

@@ -1,0 +1,195 @@
+//! What a path asks for: its name tells the kind of picture or film.
+
+use std::path::{Path, PathBuf};
+
+/// Digits of the numbers in a folder of frames.
+const FOLDER_DIGITS: usize = 4;
+
+/// A format for one picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StillKind {
+    /// Pixels.
+    Png,
+    /// Shapes.
+    Svg,
+}
+
+/// A format for one file that moves.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FilmKind {
+    /// 256 colours, plays everywhere.
+    Gif,
+    /// Animated PNG: all colours and soft transparency.
+    Apng,
+    /// H.264 through ffmpeg.
+    Mp4,
+}
+
+/// Numbered pictures: `folder/prefix0007suffix`.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Numbered {
+    /// Where they lie.
+    pub folder: PathBuf,
+    /// What stands before the number.
+    pub prefix: String,
+    /// The least number of digits.
+    pub digits: usize,
+    /// What stands after the number, extension included.
+    pub suffix: String,
+    /// Their format.
+    pub kind: StillKind,
+    /// Whether the folder is made where it is missing.
+    pub makes_folder: bool,
+}
+
+impl Numbered {
+    /// The path of one frame.
+    pub fn path(&self, number: usize) -> PathBuf {
+        let (prefix, digits, suffix) = (&self.prefix, self.digits, &self.suffix);
+        self.folder
+            .join(format!("{prefix}{number:0digits$}{suffix}"))
+    }
+}
+
+/// What is written, and where.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Target {
+    /// One picture.
+    Still(StillKind, PathBuf),
+    /// One file that moves.
+    Film(FilmKind, PathBuf),
+    /// A picture a frame.
+    Numbered(Numbered),
+}
+
+/// A path that names no kind.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TargetError {
+    /// An extension that is none of ours.
+    #[error(
+        "`{}` names no kind of picture: end it in .png, .svg, .gif, .apng or .mp4, in name-####.png for numbered pictures, or in / for a folder of them",
+        .0.display()
+    )]
+    Unknown(PathBuf),
+    /// `####` in a name that is no still picture.
+    #[error(
+        "`{}` numbers its frames: end it in .png or .svg, or leave the # out",
+        .0.display()
+    )]
+    NotNumbered(PathBuf),
+}
+
+impl Target {
+    /// Reads the kind from the name: `.png`, `.svg`, `.gif`, `.apng`, `.mp4`;
+    /// `name-####.png` (or `.svg`) for numbered pictures; a folder (one that
+    /// exists, a name that ends in `/`, or one without extension) for numbered
+    /// PNGs in it.
+    ///
+    /// # Errors
+    /// [`TargetError`] where the name tells nothing.
+    pub fn of_path(path: &Path) -> Result<Self, TargetError> {
+        if is_folder(path) {
+            return Ok(Self::Numbered(in_folder(path)));
+        }
+        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+        let still = match extension.as_deref() {
+            Some("png") => Some(StillKind::Png),
+            Some("svg") => Some(StillKind::Svg),
+            _ => None,
+        };
+        let name = path.file_name().and_then(|name| name.to_str());
+        if let Some(name) = name.filter(|name| name.contains('#')) {
+            let kind = still.ok_or_else(|| TargetError::NotNumbered(path.to_owned()))?;
+            return Ok(Self::Numbered(by_pattern(path, name, kind)));
+        }
+        let film = match extension.as_deref() {
+            Some("gif") => Some(FilmKind::Gif),
+            Some("apng") => Some(FilmKind::Apng),
+            Some("mp4") => Some(FilmKind::Mp4),
+            _ => None,
+        };
+        let still = still.map(|kind| Self::Still(kind, path.to_owned()));
+        let film = film.map(|kind| Self::Film(kind, path.to_owned()));
+        let unknown = || TargetError::Unknown(path.to_owned());
+        still.or(film).ok_or_else(unknown)
+    }
+}
+
+fn is_folder(path: &Path) -> bool {
+    let text = path.to_string_lossy();
+    let name = path.file_name().map(|name| name.to_string_lossy());
+    let is_bare = path.extension().is_none() && !name.is_some_and(|name| name.contains('#'));
+    is_bare || text.ends_with(['/', std::path::MAIN_SEPARATOR]) || path.is_dir()
+}
+
+fn in_folder(path: &Path) -> Numbered {
+    Numbered {
+        folder: path.to_owned(),
+        prefix: "frame-".to_owned(),
+        digits: FOLDER_DIGITS,
+        suffix: ".png".to_owned(),
+        kind: StillKind::Png,
+        makes_folder: true,
+    }
+}
+
+/// The last run of `#` in the name is the number.
+fn by_pattern(path: &Path, name: &str, kind: StillKind) -> Numbered {
+    let end = name.rfind('#').map_or(0, |last| last + 1);
+    let before = &name[..end];
+    let prefix = before.trim_end_matches('#');
+    Numbered {
+        folder: path.parent().map(Path::to_owned).unwrap_or_default(),
+        prefix: prefix.to_owned(),
+        digits: before.len() - prefix.len(),
+        suffix: name[end..].to_owned(),
+        kind,
+        makes_folder: false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn target(path: &str) -> Result<Target, TargetError> {
+        Target::of_path(Path::new(path))
+    }
+
+    #[test]
+    fn extensions_tell_the_kind() {
+        let still = |kind, path: &str| Ok(Target::Still(kind, path.into()));
+        let film = |kind, path: &str| Ok(Target::Film(kind, path.into()));
+        assert_eq!(target("a/b.PNG"), still(StillKind::Png, "a/b.PNG"));
+        assert_eq!(target("b.svg"), still(StillKind::Svg, "b.svg"));
+        assert_eq!(target("b.gif"), film(FilmKind::Gif, "b.gif"));
+        assert_eq!(target("b.apng"), film(FilmKind::Apng, "b.apng"));
+        assert_eq!(target("b.mp4"), film(FilmKind::Mp4, "b.mp4"));
+        assert!(matches!(target("b.jpg"), Err(TargetError::Unknown(_))));
+        assert!(matches!(
+            target("b-##.gif"),
+            Err(TargetError::NotNumbered(_))
+        ));
+    }
+
+    #[test]
+    fn patterns_and_folders_number_their_files() {
+        let paths = |text: &str| match target(text) {
+            Ok(Target::Numbered(numbered)) => [7, 12345].map(|n| numbered.path(n)),
+            other => panic!("{text}: {other:?}"),
+        };
+        assert_eq!(
+            paths("o/x-###.png"),
+            ["o/x-007.png", "o/x-12345.png"].map(PathBuf::from)
+        );
+        assert_eq!(paths("#.svg"), ["7.svg", "12345.svg"].map(PathBuf::from));
+        assert_eq!(
+            paths("a#b##c.png"),
+            ["a#b07c.png", "a#b12345c.png"].map(PathBuf::from)
+        );
+        let in_folder = ["d/frame-0007.png", "d/frame-12345.png"].map(PathBuf::from);
+        assert_eq!(paths("d"), in_folder);
+        assert_eq!(paths("d/"), in_folder);
+        assert_eq!(paths("v.2/")[0], PathBuf::from("v.2/frame-0007.png"));
+    }
+}

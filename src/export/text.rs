@@ -1,0 +1,150 @@
+//! Words as glyph outlines, in the font that ships with the window's toolkit.
+//!
+//! Outlines rather than text elements: a label looks the same in every picture
+//! on every machine, whichever fonts it has.
+//!
+//! Guarantees: no failure; a character that the font lacks is drawn as its
+//! replacement box. It does not shape (no ligatures, kerning or right-to-left
+//! text): labels are short and plain.
+
+use glam::DVec2;
+use skrifa::instance::{LocationRef, Size};
+use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::{FontRef, MetadataProvider};
+
+use super::drawing::{Outline, Step};
+
+/// Words with the middle of their base line at `base_px` (y down), `height_px`
+/// high from line to line.
+pub fn centred(words: &str, base_px: DVec2, height_px: f64) -> Outline {
+    let start = base_px - DVec2::new(0.5 * width(words, height_px), 0.0);
+    let Some(font) = font() else {
+        return Outline::default();
+    };
+    let mut pen = Pen {
+        origin: start,
+        outline: Outline::default(),
+    };
+    let glyphs = font.outline_glyphs();
+    let size = Size::new(height_px as f32);
+    for (glyph_id, advance) in advances(&font, words, height_px) {
+        let settings = DrawSettings::unhinted(size, LocationRef::default());
+        let before = pen.outline.steps.len();
+        let drawn = glyphs
+            .get(glyph_id)
+            .is_some_and(|glyph| glyph.draw(settings, &mut pen).is_ok());
+        if !drawn {
+            pen.outline.steps.truncate(before);
+        }
+        pen.origin.x += advance;
+    }
+    pen.outline
+}
+
+/// How wide the words are, in pixels.
+pub fn width(words: &str, height_px: f64) -> f64 {
+    font().map_or(0.0, |font| {
+        advances(&font, words, height_px)
+            .map(|(_, advance)| advance)
+            .sum()
+    })
+}
+
+/// The font of all labels: Ubuntu Light, under the Ubuntu Font Licence.
+fn font() -> Option<FontRef<'static>> {
+    FontRef::new(epaint_default_fonts::UBUNTU_LIGHT).ok()
+}
+
+/// Each character's glyph and how far the next one stands from it.
+fn advances<'a>(
+    font: &FontRef<'a>,
+    words: &'a str,
+    height_px: f64,
+) -> impl Iterator<Item = (skrifa::GlyphId, f64)> + 'a {
+    let charmap = font.charmap();
+    let metrics = font.glyph_metrics(Size::new(height_px as f32), LocationRef::default());
+    words.chars().map(move |c| {
+        let glyph_id = charmap.map(c).unwrap_or_default();
+        let advance = metrics.advance_width(glyph_id).unwrap_or_default();
+        (glyph_id, f64::from(advance))
+    })
+}
+
+/// Collects one glyph after the other and turns the font's y downwards.
+struct Pen {
+    origin: DVec2,
+    outline: Outline,
+}
+
+impl Pen {
+    fn at(&self, x: f32, y: f32) -> DVec2 {
+        self.origin + DVec2::new(f64::from(x), -f64::from(y))
+    }
+}
+
+impl OutlinePen for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.outline.steps.push(Step::Move(self.at(x, y)));
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.outline.steps.push(Step::Line(self.at(x, y)));
+    }
+
+    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
+        let step = Step::Quad(self.at(cx, cy), self.at(x, y));
+        self.outline.steps.push(step);
+    }
+
+    fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
+        let step = Step::Cubic(self.at(cx0, cy0), self.at(cx1, cy1), self.at(x, y));
+        self.outline.steps.push(step);
+    }
+
+    fn close(&mut self) {
+        self.outline.steps.push(Step::Close);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ends(outline: &Outline) -> Vec<DVec2> {
+        let end = |step: &Step| match *step {
+            Step::Move(p) | Step::Line(p) | Step::Quad(_, p) | Step::Cubic(_, _, p) => Some(p),
+            Step::Close => None,
+        };
+        outline.steps.iter().filter_map(end).collect()
+    }
+
+    #[test]
+    fn words_stand_on_their_base_line_and_are_centred() {
+        let base = DVec2::new(100.0, 50.0);
+        let points = ends(&centred("t = 0.25", base, 20.0));
+        assert!(!points.is_empty());
+        let xs = points.iter().map(|p| p.x);
+        let (left, right) = (
+            xs.clone().fold(f64::INFINITY, f64::min),
+            xs.fold(f64::NEG_INFINITY, f64::max),
+        );
+        assert!(
+            (0.5 * (left + right) - base.x).abs() < 2.0,
+            "{left}..{right}"
+        );
+        assert!((right - left) > 40.0 && (right - left) <= width("t = 0.25", 20.0));
+        assert!(points.iter().all(|p| p.y > 30.0 && p.y < 52.0));
+    }
+
+    #[test]
+    fn twice_the_height_is_twice_the_width() {
+        let ratio = width("t = 1", 40.0) / width("t = 1", 20.0);
+        assert!((ratio - 2.0).abs() < 1e-6);
+    }
+
+    #[test]
+    fn an_unknown_character_is_a_box_and_nothing_is_nothing() {
+        assert!(!centred("\u{10ffff}", DVec2::ZERO, 20.0).steps.is_empty());
+        assert!(centred("", DVec2::ZERO, 20.0).steps.is_empty());
+    }
+}
