@@ -31,8 +31,8 @@ pub const JOINT_RADIUS: f64 = 0.9;
 /// Radius of the lighter core of a joint, in bar widths.
 pub const JOINT_CORE_RADIUS: f64 = 0.5;
 
-/// How far a joint's core runs from the bars' colour to white.
-const JOINT_CORE_LIGHTNESS: f64 = 0.72;
+/// How far a joint's core runs from the bars' colour to white, in linear light.
+const JOINT_CORE_LIGHTNESS: f64 = 0.6;
 
 /// One step of an [`Outline`], in pixels, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -150,7 +150,7 @@ impl Drawing {
     /// Adds a frame as it is seen through `view`.
     pub fn push_frame(&mut self, frame: &Frame, style: &Style, view: &View) {
         let colour = style.fill_at(frame.t());
-        self.push_figure(&frame.figure(), colour, style.bar_joints, view);
+        self.push_figure(&frame.figure(), colour, style.joints, view);
     }
 
     /// Adds a figure in one colour, its joints as discs with a lighter core.
@@ -218,10 +218,7 @@ impl Drawing {
 
 /// The lighter colour of a joint's core, for bars of the given colour.
 pub fn joint_core(colour: Rgb) -> Rgb {
-    let lighter = |c: u8| f64::from(c) + (255.0 - f64::from(c)) * JOINT_CORE_LIGHTNESS;
-    let Rgb { r, g, b } = colour;
-    let [r, g, b] = [r, g, b].map(|c| lighter(c).round() as u8);
-    Rgb { r, g, b }
+    colour.mixed(Rgb([255; 3]), JOINT_CORE_LIGHTNESS)
 }
 
 /// Where the bars meet: each end point once, in the order of the bars.
@@ -288,11 +285,7 @@ impl View {
 mod tests {
     use super::*;
 
-    const BLUE: Rgb = Rgb {
-        r: 59,
-        g: 125,
-        b: 216,
-    };
+    const BLUE: Rgb = Rgb([59, 125, 216]);
 
     fn view() -> View {
         let bounds = Bounds {
@@ -341,7 +334,7 @@ mod tests {
         };
         assert!((width_px - 10.0).abs() < 1e-12);
         assert_eq!(centres.len(), 3);
-        assert!(colour.r > BLUE.r && colour.g > BLUE.g && colour.b > BLUE.b);
+        assert!((0..3).all(|k| colour.0[k] > BLUE.0[k]));
     }
 
     #[test]

@@ -82,7 +82,7 @@ impl Film {
     /// [`FilmError`] for a rate or a length that cannot be had.
     pub fn of_timing(timing: &Timing, stops: &[Stop], fps: f64) -> Result<Self, FilmError> {
         check_rate(fps)?;
-        let pass_secs = timing.pass_secs(stops);
+        let pass_secs = timing.pass_secs();
         let steps = (pass_secs * fps).round().max(1.0);
         let steps = if steps.is_finite() {
             steps as usize

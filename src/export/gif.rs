@@ -145,11 +145,7 @@ mod tests {
     use crate::progress::Silent;
     use crate::transition::{PlayMode, Rgb};
 
-    const CREAM: Rgb = Rgb {
-        r: 250,
-        g: 248,
-        b: 240,
-    };
+    const CREAM: Rgb = Rgb([250, 248, 240]);
 
     struct Decoded {
         repeat: Repeat,

@@ -162,7 +162,7 @@ fn plain(colour: Rgb) -> Paint<'static> {
     paint
 }
 
-fn color(Rgb { r, g, b }: Rgb) -> Color {
+fn color(Rgb([r, g, b]): Rgb) -> Color {
     Color::from_rgba8(r, g, b, 255)
 }
 
@@ -184,7 +184,7 @@ mod tests {
         image.pixels().map(|p| f64::from(p.0[3]) / 255.0).sum()
     }
 
-    const RED: Rgb = Rgb { r: 200, g: 0, b: 0 };
+    const RED: Rgb = Rgb([200, 0, 0]);
 
     #[test]
     fn discs_and_bars_cover_their_areas() {
@@ -222,8 +222,7 @@ mod tests {
         let edges = image.pixels().filter(|p| (64..192).contains(&p.0[3]));
         assert!(edges.clone().count() > 10);
         assert!(edges.map(|p| p.0[0]).all(|r| r.abs_diff(200) <= 4));
-        let [r, g, b] = [1, 2, 3];
-        let plain = painted(vec![], Some(Rgb { r, g, b }));
+        let plain = painted(vec![], Some(Rgb([1, 2, 3])));
         assert!(plain.pixels().all(|p| p.0 == [1, 2, 3, 255]));
     }
 

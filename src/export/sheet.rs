@@ -152,10 +152,10 @@ fn label(t: f64) -> String {
 /// A colour for words that can be read on the ground; on a transparent one a
 /// middle grey, which shows on light and on dark.
 fn ink_on(ground: Option<Rgb>) -> Rgb {
-    let grey = |c: u8| Rgb { r: c, g: c, b: c };
+    let grey = |c: u8| Rgb([c; 3]);
     match ground {
         None => grey(0x80),
-        Some(Rgb { r, g, b }) => {
+        Some(Rgb([r, g, b])) => {
             let luma = 0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b);
             if luma > 128.0 { grey(0x20) } else { grey(0xe8) }
         }

@@ -23,7 +23,7 @@ pub fn to_svg(drawing: &Drawing) -> String {
     if let Some(ground) = drawing.ground {
         svg += &format!(
             "<rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n",
-            Hex(ground)
+            ground
         );
     }
     for item in &drawing.items {
@@ -46,7 +46,7 @@ fn element(item: &Item) -> String {
             colour,
         } => format!(
             "<path fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" d=\"{}\"/>",
-            Hex(*colour),
+            colour,
             Number(*width_px),
             joined(
                 segments
@@ -72,7 +72,7 @@ fn fill(outline: &Outline, colour: Rgb, label: Option<&str>) -> String {
         format!(" role=\"img\" aria-label=\"{}\"", Escaped(words))
     });
     let steps = joined(outline.steps.iter().map(step));
-    format!("<path{label} fill=\"{}\" d=\"{steps}\"/>", Hex(colour))
+    format!("<path{label} fill=\"{}\" d=\"{steps}\"/>", colour)
 }
 
 fn step(step: &Step) -> String {
@@ -95,7 +95,7 @@ fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
         )
     };
     let circles = joined(centres.iter().map(circle));
-    format!("<g fill=\"{}\">{circles}</g>", Hex(colour))
+    format!("<g fill=\"{}\">{circles}</g>", colour)
 }
 
 fn picture(image: &image::RgbaImage, corner: DVec2, size: DVec2) -> String {
@@ -138,15 +138,6 @@ fn base64(bytes: &[u8]) -> String {
         }
     }
     text
-}
-
-struct Hex(Rgb);
-
-impl fmt::Display for Hex {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Rgb { r, g, b } = self.0;
-        write!(f, "#{r:02x}{g:02x}{b:02x}")
-    }
 }
 
 /// At most three decimals, no trailing zeros, no negative zero.
@@ -227,7 +218,7 @@ mod tests {
     #[test]
     fn hostile_labels_stay_in_their_attribute() {
         let mut drawing = Drawing::new(PixelSize::new(9, 9).expect("a legal size"), None);
-        let black = Rgb { r: 0, g: 0, b: 0 };
+        let black = Rgb([0; 3]);
         drawing.push_label("\"/><x>&\u{1}\n", DVec2::ZERO, 4.0, black);
         let svg = to_svg(&drawing);
         assert!(svg.contains("aria-label=\"&quot;/&gt;&lt;x&gt;&amp;\u{fffd} \""));
@@ -296,9 +287,8 @@ mod tests {
         };
         let view = View::fit(bounds, PixelSize::new(200, 120).expect("a legal size"));
         let mut drawing = Drawing::new(view.size(), ground);
-        let [r, g, b] = [59, 125, 216];
-        drawing.push_figure(&figure, Rgb { r, g, b }, true, &view);
-        let black = Rgb { r: 0, g: 0, b: 0 };
+        drawing.push_figure(&figure, Rgb([59, 125, 216]), true, &view);
+        let black = Rgb([0; 3]);
         drawing.push_label("t = 0.25", DVec2::new(150.0, 20.0), 16.0, black);
         drawing
     }
@@ -312,8 +302,7 @@ mod tests {
 
     #[test]
     fn svg_and_raster_agree() {
-        let [r, g, b] = [250, 248, 240];
-        for ground in [None, Some(Rgb { r, g, b })] {
+        for ground in [None, Some(Rgb([250, 248, 240]))] {
             let drawing = everything(ground);
             let painted = rasterise(&drawing);
             let read_back = painted_by_usvg(&to_svg(&drawing));
