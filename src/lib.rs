@@ -1,8 +1,10 @@
 //! Morphospace: the space of all forms between given forms.
 
+pub mod cli;
 pub mod compatible;
 pub mod content;
 pub mod design;
+pub mod export;
 pub mod field;
 pub mod geometry;
 pub mod homotopy;

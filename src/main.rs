@@ -1,1 +1,28 @@
-fn main() {}
+//! The program: parses the command line and hands over; nothing else.
+
+use std::process::ExitCode;
+
+use morphospace::cli::{self, Launch};
+
+fn main() -> ExitCode {
+    match cli::run(std::env::args_os()) {
+        Launch::Done(code) => code,
+        Launch::Window(request) => open_window(request),
+    }
+}
+
+#[cfg(feature = "app")]
+fn open_window(request: cli::WindowRequest) -> ExitCode {
+    use morphospace::app::{AppOptions, run};
+    use std::process::Termination;
+    run(AppOptions {
+        files: request.files,
+        captures: request.captures,
+    })
+    .report()
+}
+
+#[cfg(not(feature = "app"))]
+fn open_window(_: cli::WindowRequest) -> ExitCode {
+    cli::without_window()
+}

@@ -96,9 +96,12 @@ impl Camera {
     }
 }
 
+/// Room around the shapes, as a fraction of their longer side.
+const MARGIN: f64 = 0.04;
+
 /// The part of the plane that holds the transition's own bounds and every one
 /// of some frames spread evenly over `times`, so that a shape that swings wide
-/// on its way is not cut off.
+/// on its way is not cut off; with a little room around.
 pub fn framing(transition: &Transition, times: &[f64]) -> Bounds {
     let step = times.len().div_ceil(FRAMING_SAMPLES).max(1);
     let sampled = times.iter().step_by(step).chain(times.last());
@@ -117,7 +120,7 @@ pub fn framing(transition: &Transition, times: &[f64]) -> Bounds {
             }
         }
     }
-    all
+    all.padded(MARGIN * all.size().max_element())
 }
 
 fn batch_len(size: PixelSize) -> usize {

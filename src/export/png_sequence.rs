@@ -2,7 +2,8 @@
 //!
 //! Guarantees: a file's number is the frame's number within the whole film, so
 //! that parts rendered on different machines fit together; each file is there
-//! whole or not at all. Files of an earlier, longer film are left alone.
+//! whole or not at all; their folder is made where it is missing. Files of an
+//! earlier, longer film are left alone.
 
 use std::fs;
 use std::path::PathBuf;
@@ -27,9 +28,7 @@ pub fn write_numbered(
     names: &Numbered,
     progress: &dyn Progress,
 ) -> Result<Vec<PathBuf>, ExportError> {
-    if names.makes_folder {
-        fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
-    }
+    fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
     let mut written = Vec::with_capacity(film.times().len());
     let first = names.path(film.first_number());
     camera.shoot_runs(

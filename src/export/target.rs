@@ -38,8 +38,6 @@ pub struct Numbered {
     pub suffix: String,
     /// Their format.
     pub kind: StillKind,
-    /// Whether the folder is made where it is missing.
-    pub makes_folder: bool,
 }
 
 impl Numbered {
@@ -129,7 +127,6 @@ fn in_folder(path: &Path) -> Numbered {
         digits: FOLDER_DIGITS,
         suffix: ".png".to_owned(),
         kind: StillKind::Png,
-        makes_folder: true,
     }
 }
 
@@ -144,7 +141,6 @@ fn by_pattern(path: &Path, name: &str, kind: StillKind) -> Numbered {
         digits: before.len() - prefix.len(),
         suffix: name[end..].to_owned(),
         kind,
-        makes_folder: false,
     }
 }
 

@@ -1,17 +1,17 @@
 //! A small transition for the tests of this module: a triangle that turns and
 //! grows.
 
-use crate::geometry::DVec2;
-use crate::transition::{Rgb, Style, Transition};
+use std::sync::Arc;
+
+use crate::design::{ImportOptions, import};
+use crate::progress::Silent;
+use crate::transition::{Rgb, Style, Transition, TransitionSpec};
 
 use super::{Camera, PixelSize, View, framing};
 
 /// Sees the transition at the given size.
 pub(super) fn camera(width: u32, height: u32, ground: Option<Rgb>) -> Camera {
-    let transition = Transition {
-        a: vec![DVec2::ZERO, DVec2::X, DVec2::Y],
-        b: vec![DVec2::ONE, 3.0 * DVec2::Y, DVec2::ZERO],
-    };
+    let transition = turning_triangle();
     let size = PixelSize::new(width, height).expect("a legal size");
     let view = View::fit(framing(&transition, &[0.0, 0.5, 1.0]), size);
     Camera {
@@ -20,4 +20,15 @@ pub(super) fn camera(width: u32, height: u32, ground: Option<Rgb>) -> Camera {
         view,
         ground,
     }
+}
+
+fn turning_triangle() -> Transition {
+    let read = |vertices: &str| {
+        let obj = format!("{vertices}f 1 2 3\n");
+        let design = import("triangle", obj.as_bytes(), &ImportOptions::default());
+        Arc::new(design.expect("a mesh"))
+    };
+    let source = read("v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    let target = read("v 1 1 0\nv 0 3 0\nv 0 0 0\n");
+    Transition::build(&TransitionSpec::new(source, target), &Silent).expect("a transition")
 }

@@ -41,7 +41,16 @@ pub fn list() -> Result<Vec<Entry>, ProjectError> {
 /// # Errors
 /// [`ProjectError::NotInGallery`] for another name.
 pub fn load(name: &str) -> Result<LoadedProject, ProjectError> {
-    LoadedProject::load_bundled(document(name)?, |path| {
+    load_document(document(name)?)
+}
+
+/// Reads the bundled designs that a document names: a bundled one with other
+/// options, for example.
+///
+/// # Errors
+/// [`ProjectError`] for a design that is not bundled or cannot be read.
+pub fn load_document(project: Project) -> Result<LoadedProject, ProjectError> {
+    LoadedProject::load_bundled(project, |path| {
         bytes(path).ok_or_else(|| ProjectError::Io(format!("{} is missing", path.display())))
     })
 }
@@ -74,7 +83,11 @@ fn bytes(path: &Path) -> Option<&'static [u8]> {
     FILES.get_file(path).map(include_dir::File::contents)
 }
 
-fn document(name: &str) -> Result<Project, ProjectError> {
+/// A bundled document, without its designs.
+///
+/// # Errors
+/// [`ProjectError::NotInGallery`] for another name.
+pub fn document(name: &str) -> Result<Project, ProjectError> {
     let file = format!("{name}.morph");
     let path = Path::new(&file);
     let text = FILES

@@ -1,0 +1,26 @@
+//! How a command ends when it does not end well.
+
+use std::io;
+
+/// Why a command did not do its work.
+#[derive(Debug)]
+pub(super) enum CliError {
+    /// The command was used wrongly: exit code 2.
+    Usage(String),
+    /// The work failed: exit code 1.
+    Failed(String),
+    /// Data could not be written to stdout.
+    Stdout(io::Error),
+}
+
+impl CliError {
+    /// Work that failed, told by its error and what that came from.
+    pub fn failed(error: impl std::error::Error) -> Self {
+        Self::Failed(error.to_string())
+    }
+
+    /// Wrong use, told by an error.
+    pub fn usage(error: impl std::error::Error) -> Self {
+        Self::Usage(error.to_string())
+    }
+}

@@ -1,0 +1,103 @@
+//! What to work on: a project, a bundled project, or two designs.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use clap::Args;
+
+use crate::progress::Progress;
+use crate::project::{LoadedProject, Project, ProjectError, gallery};
+use crate::transition::Transition;
+
+use super::error::CliError;
+use super::options::MethodArgs;
+
+/// Extensions of designs: one of them alone is half a pair.
+const DESIGNS: [&str; 8] = ["png", "jpg", "jpeg", "bmp", "webp", "svg", "obj", "json"];
+
+#[derive(Debug, Args)]
+pub(super) struct Inputs {
+    /// A project (.morph, or gallery:NAME), or two designs
+    #[arg(value_name = "PROJECT | A B", num_args = 1..=2, required = true)]
+    inputs: Vec<PathBuf>,
+}
+
+/// A project that is ready to be played, and how long that took.
+#[derive(Debug)]
+pub(super) struct Opened {
+    /// The project with the flags applied, and its designs.
+    pub loaded: LoadedProject,
+    /// What it shows.
+    pub transition: Transition,
+    /// For reading and importing the designs.
+    pub import_time: Duration,
+    /// For building the transition.
+    pub build_time: Duration,
+}
+
+impl Inputs {
+    /// Reads, imports, applies the flags and builds.
+    pub fn open(&self, method: &MethodArgs, progress: &dyn Progress) -> Result<Opened, CliError> {
+        let start = Instant::now();
+        let loaded = self.load(method)?;
+        let import_time = start.elapsed();
+        let spec = loaded.spec().map_err(CliError::failed)?;
+        let start = Instant::now();
+        let transition = Transition::build(&spec, progress).map_err(CliError::failed)?;
+        Ok(Opened {
+            loaded,
+            transition,
+            import_time,
+            build_time: start.elapsed(),
+        })
+    }
+}
+
+impl Inputs {
+    fn load(&self, method: &MethodArgs) -> Result<LoadedProject, CliError> {
+        match self.inputs.as_slice() {
+            [source, target] => {
+                let project = edited(Project::pair(source, target), method)?;
+                LoadedProject::load(project, PathBuf::new())
+            }
+            [project] => match gallery_name(project) {
+                Some(name) => bundled(name, method)?,
+                None => from_file(project, method)?,
+            },
+            _ => return Err(CliError::Usage("give a project or two designs".to_owned())),
+        }
+        .map_err(CliError::failed)
+    }
+}
+
+type Loaded = Result<LoadedProject, ProjectError>;
+
+fn from_file(path: &Path, method: &MethodArgs) -> Result<Loaded, CliError> {
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    if DESIGNS
+        .iter()
+        .any(|design| extension.eq_ignore_ascii_case(design))
+    {
+        let path = path.display();
+        return Err(CliError::Usage(format!(
+            "`{path}` is one design: give a second one, or a .morph project"
+        )));
+    }
+    let project = Project::read(path).map_err(CliError::failed)?;
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    Ok(LoadedProject::load(edited(project, method)?, folder))
+}
+
+fn bundled(name: &str, method: &MethodArgs) -> Result<Loaded, CliError> {
+    let project = gallery::document(name).map_err(CliError::failed)?;
+    Ok(gallery::load_document(edited(project, method)?))
+}
+
+fn edited(mut project: Project, method: &MethodArgs) -> Result<Project, CliError> {
+    method.edit(&mut project)?;
+    Ok(project)
+}
+
+fn gallery_name(path: &Path) -> Option<&str> {
+    path.to_str()?.strip_prefix("gallery:")
+}

@@ -1,0 +1,137 @@
+//! The command line: a file for each subcommand.
+//!
+//! Guarantees: stdout carries data and stderr words; the exit code is 0 for
+//! done, 1 for failed and 2 for wrong use; a reader that closes the pipe ends
+//! the program quietly. No subcommand needs a graphics card or a display; the
+//! window alone does, and is opened by `main`, not here.
+
+mod check;
+mod error;
+mod gallery;
+mod inputs;
+mod new;
+mod options;
+mod output;
+mod render;
+mod terminal;
+
+use std::ffi::OsString;
+use std::path::PathBuf;
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+use error::CliError;
+
+const EXAMPLES: &str = "\
+Examples:
+  morphospace                                   the gallery, in a window
+  morphospace a.svg b.svg                       a pair, in a window
+  morphospace render a.svg b.svg --out film.gif
+  morphospace render bridge.morph --at 0.5 --out half.svg
+  morphospace render gallery:letters --sheet 7 --out sheet.png
+  morphospace render bridge.morph --out 'frames/f-####.png' --frames-range 0..60
+  morphospace check bridge.morph --json";
+
+/// Explore the space between designs.
+#[derive(Debug, Parser)]
+#[command(
+    name = "morphospace",
+    version,
+    args_conflicts_with_subcommands = true,
+    after_help = EXAMPLES
+)]
+struct Cli {
+    /// A project (.morph), or two designs; opened in the window
+    #[arg(value_name = "FILE", num_args = 0..=2)]
+    files: Vec<PathBuf>,
+
+    /// Folder for pictures taken in the window [default: the pictures folder]
+    #[arg(long, value_name = "DIR")]
+    captures: Option<PathBuf>,
+
+    #[command(subcommand)]
+    command: Option<Command>,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Write a picture, a contact sheet, numbered pictures or a film
+    Render(Box<render::RenderArgs>),
+    /// Measure a transition: mesh, film, and the time that each stage takes
+    Check(Box<check::CheckArgs>),
+    /// Write a new project of two designs
+    New(Box<new::NewArgs>),
+    /// List the bundled projects
+    Gallery(gallery::GalleryArgs),
+}
+
+/// What the window is to open with.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct WindowRequest {
+    /// No file, a project, or two designs.
+    pub files: Vec<PathBuf>,
+    /// Where pictures go, if not into the user's pictures folder.
+    pub captures: Option<PathBuf>,
+}
+
+/// What is left to do once the command line is dealt with.
+#[derive(Debug)]
+pub enum Launch {
+    /// Open the window.
+    Window(WindowRequest),
+    /// Nothing: end with this code.
+    Done(ExitCode),
+}
+
+/// Parses the command line (program name first) and does what it says, apart
+/// from opening the window.
+pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Launch {
+    match Cli::try_parse_from(arguments) {
+        Ok(cli) => match cli.command {
+            None => Launch::Window(WindowRequest {
+                files: cli.files,
+                captures: cli.captures,
+            }),
+            Some(command) => Launch::Done(output::exit_code(execute(&command))),
+        },
+        Err(error) => Launch::Done(output::say_usage(&error)),
+    }
+}
+
+fn execute(command: &Command) -> Result<(), CliError> {
+    match command {
+        Command::Render(args) => render::run(args),
+        Command::Check(args) => check::run(args),
+        Command::New(args) => new::run(args),
+        Command::Gallery(args) => gallery::run(args),
+    }
+}
+
+/// Says that this program was built without its window; the exit code of that.
+pub fn without_window() -> ExitCode {
+    output::exit_code(Err(CliError::Usage(
+        "this build has no window: use `render`, `check`, `new` or `gallery` (see --help), or build it with `--features app`".to_owned(),
+    )))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn files_open_the_window() {
+        let launch = run(["morphospace", "a.svg", "b.svg", "--captures", "x"].map(OsString::from));
+        let Launch::Window(request) = launch else {
+            panic!("{launch:?}");
+        };
+        assert_eq!(request.files, ["a.svg", "b.svg"].map(PathBuf::from));
+        assert_eq!(request.captures, Some("x".into()));
+    }
+}

@@ -1,0 +1,119 @@
+//! `morphospace new A B --out x.morph`: a project of two designs.
+
+use std::path::{Component, Path, PathBuf};
+
+use clap::Args;
+
+use crate::project::{LoadedProject, Project};
+use crate::transition::TransitionSpec;
+
+use super::error::CliError;
+use super::options::MethodArgs;
+use super::output;
+
+#[derive(Debug, Args)]
+pub(super) struct NewArgs {
+    /// The design at t = 0
+    #[arg(value_name = "A")]
+    source: PathBuf,
+
+    /// The design at t = 1
+    #[arg(value_name = "B")]
+    target: PathBuf,
+
+    /// The project to write; designs are named relative to its folder
+    #[arg(long, value_name = "PATH.morph")]
+    out: PathBuf,
+
+    /// Write over a project that is there already
+    #[arg(long)]
+    force: bool,
+
+    #[command(flatten)]
+    method: MethodArgs,
+}
+
+pub(super) fn run(args: &NewArgs) -> Result<(), CliError> {
+    let is_project = args
+        .out
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("morph"));
+    if !is_project {
+        let path = args.out.display();
+        return Err(CliError::Usage(format!(
+            "`{path}` is no project: end --out in .morph"
+        )));
+    }
+    if args.out.exists() && !args.force {
+        let path = args.out.display();
+        return Err(CliError::Failed(format!(
+            "`{path}` is there already: choose another name, or add --force to write over it"
+        )));
+    }
+    write(args)
+}
+
+fn write(args: &NewArgs) -> Result<(), CliError> {
+    let folder = folder_of(&args.out);
+    let designs = [&args.source, &args.target].map(|path| relative(path, folder));
+    let [source, target] = designs;
+    let mut project = Project::pair(source?, target?);
+    args.method.edit(&mut project)?;
+    // A project that cannot be opened is of no use; say so now.
+    let loaded = LoadedProject::load(project, folder.to_owned()).map_err(CliError::failed)?;
+    let spec = loaded.spec().map_err(CliError::failed)?;
+    TransitionSpec::available(spec.cell, &spec.source, &spec.target).map_err(CliError::failed)?;
+    let saved = loaded.project.save_atomically(&args.out);
+    saved.map_err(CliError::failed)?;
+    output::words(&format!("wrote {}", args.out.display()));
+    Ok(())
+}
+
+fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// The way to a file from a folder; absolute where they share no root.
+fn relative(path: &Path, folder: &Path) -> Result<PathBuf, CliError> {
+    let [path, folder] = [absolute(path)?, absolute(folder)?];
+    let shared = path.components().zip(folder.components());
+    let shared = shared.take_while(|(a, b)| a == b).count();
+    if shared == 0 {
+        return Ok(path);
+    }
+    let up = folder
+        .components()
+        .skip(shared)
+        .map(|_| Component::ParentDir);
+    Ok(up.chain(path.components().skip(shared)).collect())
+}
+
+fn absolute(path: &Path) -> Result<PathBuf, CliError> {
+    path.canonicalize().map_err(|error| {
+        let path = path.display();
+        CliError::Failed(format!("`{path}`: {error}; check the name"))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::fs;
+
+    #[test]
+    fn paths_lead_from_the_project_to_the_design() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |path: &str| folder.path().join(path);
+        fs::create_dir_all(at("a/b")).expect("made");
+        fs::create_dir_all(at("c")).expect("made");
+        fs::write(at("a/x.svg"), b"").expect("written");
+        let way = |from: &str| relative(&at("a/x.svg"), &at(from)).expect("a way");
+        assert_eq!(way("a"), Path::new("x.svg"));
+        assert_eq!(way("a/b"), Path::new("../x.svg"));
+        assert_eq!(way("c"), Path::new("../a/x.svg"));
+        assert!(relative(&at("missing.svg"), &at("a")).is_err());
+    }
+}

@@ -1,0 +1,424 @@
+//! Every option of a method as a flag, shared by `render`, `check` and `new`.
+//!
+//! A flag that is not given leaves the project as it is. Names of choices are
+//! those of the project file, read by the same code.
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Args, ValueEnum};
+use serde::de::DeserializeOwned;
+
+use crate::content::{BlendSpace, ContentKind};
+use crate::field::Metric;
+use crate::homotopy::Homotopy;
+use crate::project::Project;
+use crate::transition::{Boundary, Easing, Fit, PlayMode, Rgb};
+use crate::warp::{PathKind, WarpKind, Weights};
+
+use super::error::CliError;
+
+/// The paper's two methods: cells of the table of warps and contents.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Method {
+    /// Rigid parts: meshes and trusses move as rigidly as possible
+    Arap,
+    /// Distance fields: any two outlines
+    Field,
+}
+
+impl Method {
+    fn kinds(self) -> (WarpKind, ContentKind) {
+        match self {
+            Self::Arap => (WarpKind::Arap, ContentKind::Solid),
+            Self::Field => (WarpKind::None, ContentKind::Field),
+        }
+    }
+}
+
+/// Flags that change a project.
+#[derive(Debug, Args)]
+pub(super) struct MethodArgs {
+    #[command(flatten)]
+    placing: PlacingArgs,
+    #[command(flatten)]
+    arap: ArapArgs,
+    #[command(flatten)]
+    field: FieldArgs,
+    #[command(flatten)]
+    import: ImportArgs,
+    #[command(flatten)]
+    timing: TimingArgs,
+    #[command(flatten)]
+    style: StyleArgs,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Method")]
+struct PlacingArgs {
+    /// How the designs are blended [default: what suits them]
+    #[arg(long, value_enum)]
+    method: Option<Method>,
+
+    /// How the target is laid over the source
+    #[arg(long, value_parser = named::<Fit>(&["as-drawn", "centred", "same-area"]))]
+    fit: Option<Fit>,
+
+    /// Width of a truss's bars, as a fraction of the design's diameter
+    #[arg(long, value_name = "FRACTION")]
+    bar_width: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Rigid parts (arap)")]
+struct ArapArgs {
+    /// The path of each face's local map
+    #[arg(long, value_parser = named::<Homotopy>(&["linear", "polar", "exponential", "linear-after-polar"]))]
+    homotopy: Option<Homotopy>,
+
+    /// What each face weighs: area, uniform, or numbers, one a face
+    #[arg(long, value_name = "area|uniform|W,W,...", value_parser = weights)]
+    weights: Option<Weights>,
+
+    /// The symmetric energy: swapped designs give the film backwards
+    #[arg(long, overrides_with = "one_sided")]
+    symmetric: bool,
+
+    /// The paper's energy, on the source alone
+    #[arg(long)]
+    one_sided: bool,
+
+    /// Whole extra turns of each part, in order
+    #[arg(
+        long,
+        value_name = "N,N,...",
+        value_delimiter = ',',
+        allow_hyphen_values = true
+    )]
+    extra_turns: Option<Vec<i32>>,
+
+    /// Let the centroid run straight from source to target
+    #[arg(long, conflicts_with = "anchor")]
+    centroid: bool,
+
+    /// Let this vertex (counted from 0) run straight instead of the centroid
+    #[arg(long, value_name = "VERTEX")]
+    anchor: Option<u32>,
+
+    /// How often every triangle is split into four
+    #[arg(long, value_name = "N")]
+    subdivisions: Option<u32>,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Distance fields (field)")]
+struct FieldArgs {
+    /// How distance is measured
+    #[arg(long, value_parser = named::<Metric>(&["euclidean", "city-block", "chessboard", "quasi-euclidean"]))]
+    metric: Option<Metric>,
+
+    /// Where the boundary runs: on the outline, or between cells as in the paper
+    #[arg(long, value_parser = named::<Boundary>(&["exact", "binary"]))]
+    boundary: Option<Boundary>,
+
+    /// Whether logarithms of distances are blended, or distances
+    #[arg(long, value_parser = named::<BlendSpace>(&["log", "real"]))]
+    space: Option<BlendSpace>,
+
+    /// Where the logarithm bends, in cells
+    #[arg(long, value_name = "CELLS")]
+    epsilon: Option<f64>,
+
+    /// How deep inside is drawn, in cells; below 0 thickens
+    #[arg(long, value_name = "CELLS", allow_negative_numbers = true)]
+    threshold: Option<f64>,
+
+    /// Cells along the longer side of the frame
+    #[arg(long, value_name = "N")]
+    cells: Option<u32>,
+
+    /// Room around the designs, as a fraction of the longer side
+    #[arg(long, value_name = "FRACTION")]
+    margin: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Reading designs")]
+struct ImportArgs {
+    /// The tone at which a picture's boundary runs, 1 to 255
+    #[arg(long, value_name = "TONE")]
+    image_threshold: Option<u8>,
+
+    /// Take a picture's ground for the figure
+    #[arg(long)]
+    invert: bool,
+
+    /// Leave out islands and holes of fewer pixels than this
+    #[arg(long, value_name = "PIXELS")]
+    specks: Option<u32>,
+
+    /// How far an outline may run from the exact one, as a fraction of the longer side
+    #[arg(long, value_name = "FRACTION")]
+    tolerance: Option<f64>,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Timing")]
+struct TimingArgs {
+    /// Where the film begins; below 0 and above 1 extrapolate
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    from: Option<f64>,
+
+    /// Where the film ends
+    #[arg(long, value_name = "T", allow_negative_numbers = true)]
+    to: Option<f64>,
+
+    /// Seconds of one pass, rests not counted
+    #[arg(long, value_name = "SECONDS")]
+    duration: Option<f64>,
+
+    /// Seconds of rest at each end
+    #[arg(long, value_name = "SECONDS")]
+    hold: Option<f64>,
+
+    /// How t runs between stops
+    #[arg(long, value_parser = named::<Easing>(&["linear", "smooth", "ease-in", "ease-out"]))]
+    easing: Option<Easing>,
+
+    /// What happens at the end of a pass
+    #[arg(long, value_parser = named::<PlayMode>(&["once", "loop", "ping-pong"]))]
+    play: Option<PlayMode>,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Look")]
+struct StyleArgs {
+    /// Fill at t = 0
+    #[arg(long, value_name = "#RRGGBB")]
+    source_colour: Option<Rgb>,
+
+    /// Fill at t = 1
+    #[arg(long, value_name = "#RRGGBB")]
+    target_colour: Option<Rgb>,
+
+    /// Leave a truss's joints unmarked
+    #[arg(long)]
+    no_joints: bool,
+}
+
+impl MethodArgs {
+    /// Changes what the flags name and leaves the rest.
+    pub fn edit(&self, project: &mut Project) -> Result<(), CliError> {
+        self.placing.edit(project);
+        self.arap.edit(project);
+        self.field.edit(project);
+        self.import.edit(project);
+        self.timing.edit(project);
+        self.style.edit(project);
+        project
+            .timing
+            .check(&project.stops)
+            .map_err(CliError::usage)
+    }
+}
+
+impl PlacingArgs {
+    fn edit(&self, project: &mut Project) {
+        if let Some(method) = self.method {
+            let (warp, content) = method.kinds();
+            (project.warp, project.content) = (Some(warp), Some(content));
+        }
+        set(&mut project.fit, self.fit);
+        set(&mut project.bar_width, self.bar_width);
+    }
+}
+
+impl ArapArgs {
+    fn edit(&self, project: &mut Project) {
+        let arap = &mut project.arap;
+        set(&mut arap.homotopy, self.homotopy);
+        set(&mut arap.weights, self.weights.clone());
+        set(&mut arap.symmetric, self.symmetric.then_some(true));
+        set(&mut arap.symmetric, self.one_sided.then_some(false));
+        set(&mut arap.extra_turns, self.extra_turns.clone());
+        set(&mut arap.path, self.centroid.then_some(PathKind::Centroid));
+        set(&mut arap.path, self.anchor.map(PathKind::Anchor));
+        set(&mut arap.subdivisions, self.subdivisions);
+    }
+}
+
+impl FieldArgs {
+    fn edit(&self, project: &mut Project) {
+        let field = &mut project.field;
+        set(&mut field.metric, self.metric);
+        set(&mut field.boundary, self.boundary);
+        set(&mut field.blend.space, self.space);
+        set(&mut field.blend.epsilon, self.epsilon);
+        set(&mut field.blend.threshold, self.threshold);
+        set(&mut field.cells, self.cells);
+        set(&mut field.margin, self.margin);
+    }
+}
+
+impl ImportArgs {
+    fn edit(&self, project: &mut Project) {
+        for design in &mut project.designs {
+            let import = &mut design.import;
+            set(&mut import.threshold, self.image_threshold.map(Some));
+            set(&mut import.invert, self.invert.then_some(true));
+            set(&mut import.specks_px, self.specks);
+            set(&mut import.tolerance, self.tolerance);
+        }
+    }
+}
+
+impl TimingArgs {
+    fn edit(&self, project: &mut Project) {
+        let timing = &mut project.timing;
+        set(&mut timing.from, self.from);
+        set(&mut timing.to, self.to);
+        set(&mut timing.duration_secs, self.duration);
+        set(&mut timing.hold_secs, self.hold);
+        set(&mut timing.easing, self.easing);
+        set(&mut timing.play, self.play);
+    }
+}
+
+impl StyleArgs {
+    fn edit(&self, project: &mut Project) {
+        let style = &mut project.style;
+        set(&mut style.source, self.source_colour);
+        set(&mut style.target, self.target_colour);
+        set(&mut style.joints, self.no_joints.then_some(false));
+    }
+}
+
+fn set<T>(place: &mut T, value: Option<T>) {
+    if let Some(value) = value {
+        *place = value;
+    }
+}
+
+/// A choice by the name that it has in the project file.
+fn named<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+where
+    T: DeserializeOwned + Clone + Send + Sync + 'static,
+{
+    PossibleValuesParser::new(names)
+        .try_map(|name| serde_json::from_value::<T>(serde_json::Value::String(name)))
+}
+
+fn weights(text: &str) -> Result<Weights, String> {
+    match text {
+        "area" => Ok(Weights::Area),
+        "uniform" => Ok(Weights::Uniform),
+        numbers => {
+            let each = numbers.split(',').map(|number| number.trim().parse());
+            let all: Result<Vec<f64>, _> = each.collect();
+            all.map(Weights::PerFace).map_err(|_| {
+                "write area, uniform, or numbers with commas, one for each face".to_owned()
+            })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::{CommandFactory, Parser};
+
+    #[derive(Debug, Parser)]
+    struct Alone {
+        #[command(flatten)]
+        method: MethodArgs,
+    }
+
+    fn edited(flags: &str) -> Result<Project, CliError> {
+        let words = std::iter::once("x").chain(flags.split_whitespace());
+        let alone = Alone::try_parse_from(words).map_err(CliError::usage)?;
+        let mut project = Project::pair("a.svg", "b.svg");
+        alone.method.edit(&mut project)?;
+        Ok(project)
+    }
+
+    #[test]
+    fn every_listed_name_is_one_of_the_project_file() {
+        for argument in Alone::command().get_arguments() {
+            let flag = argument.get_long().unwrap_or_default();
+            for value in argument.get_possible_values() {
+                let flags = format!("--{flag} {}", value.get_name());
+                let takes_value = argument.get_action().takes_values();
+                assert!(!takes_value || edited(&flags).is_ok(), "{flags}");
+            }
+        }
+    }
+
+    #[test]
+    fn no_flag_changes_nothing() {
+        let project = Project::pair("a.svg", "b.svg");
+        assert_eq!(edited("").expect("edited"), project);
+    }
+
+    #[test]
+    fn flags_reach_their_options() {
+        let project = edited(
+            "--method field --fit same-area --bar-width 0.02 --homotopy exponential \
+             --weights 1,2.5 --one-sided --extra-turns 0,-1 --anchor 3 --subdivisions 1 \
+             --metric chessboard --boundary binary --space real --epsilon 2 --threshold -1.5 \
+             --cells 64 --margin 0.2 --image-threshold 99 --invert --specks 4 --tolerance 0.01 \
+             --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
+             --source-colour #010203 --target-colour #040506 --no-joints",
+        )
+        .expect("edited");
+        assert_eq!(
+            (project.warp, project.content),
+            (Some(WarpKind::None), Some(ContentKind::Field))
+        );
+        assert_eq!((project.fit, project.bar_width), (Fit::SameArea, 0.02));
+        assert_eq!(project.arap.homotopy, Homotopy::Exponential);
+        assert_eq!(project.arap.weights, Weights::PerFace(vec![1.0, 2.5]));
+        assert_eq!(
+            (project.arap.symmetric, project.arap.subdivisions),
+            (false, 1)
+        );
+        assert_eq!(project.arap.extra_turns, [0, -1]);
+        assert_eq!(project.arap.path, PathKind::Anchor(3));
+        assert_eq!(project.field.metric, Metric::Chessboard);
+        assert_eq!(project.field.boundary, Boundary::Binary);
+        assert_eq!(project.field.blend.space, BlendSpace::Real);
+        assert_eq!(
+            (project.field.blend.epsilon, project.field.blend.threshold),
+            (2.0, -1.5)
+        );
+        assert_eq!((project.field.cells, project.field.margin), (64, 0.2));
+        let import = project.designs[1].import;
+        assert_eq!((import.threshold, import.invert), (Some(99), true));
+        assert_eq!((import.specks_px, import.tolerance), (4, 0.01));
+        assert_eq!((project.timing.from, project.timing.to), (-0.5, 1.5));
+        assert_eq!(
+            (project.timing.duration_secs, project.timing.hold_secs),
+            (3.0, 0.0)
+        );
+        assert_eq!(
+            (project.timing.easing, project.timing.play),
+            (Easing::EaseIn, PlayMode::Loop)
+        );
+        assert_eq!(project.style.source, Rgb([1, 2, 3]));
+        assert_eq!(
+            (project.style.target, project.style.joints),
+            (Rgb([4, 5, 6]), false)
+        );
+    }
+
+    #[test]
+    fn nonsense_is_wrong_use() {
+        for flags in [
+            "--homotopy cubic",
+            "--weights 1,x",
+            "--duration 0",
+            "--to 0",
+            "--source-colour red",
+            "--anchor 1 --centroid",
+        ] {
+            assert!(matches!(edited(flags), Err(CliError::Usage(_))), "{flags}");
+        }
+    }
+}

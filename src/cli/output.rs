@@ -1,0 +1,54 @@
+//! Data to stdout, words to stderr, and exit codes.
+
+use std::io::{self, Write};
+use std::process::ExitCode;
+
+use super::error::CliError;
+
+const FAILED: u8 = 1;
+const WRONG_USE: u8 = 2;
+
+/// Writes data to stdout.
+pub(super) fn data(text: &str) -> Result<(), CliError> {
+    let mut stdout = io::stdout().lock();
+    stdout
+        .write_all(text.as_bytes())
+        .and_then(|()| stdout.flush())
+        .map_err(CliError::Stdout)
+}
+
+/// Writes a line of words to stderr. Where even that fails, nobody listens.
+pub(super) fn words(line: &str) {
+    writeln!(io::stderr().lock(), "{line}").unwrap_or_default();
+}
+
+/// Tells how a command ended.
+pub(super) fn exit_code(result: Result<(), CliError>) -> ExitCode {
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        // A reader that had enough (`| head`) is no failure.
+        Err(CliError::Stdout(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
+            ExitCode::SUCCESS
+        }
+        Err(CliError::Stdout(error)) => failed(&format!("cannot write to stdout: {error}")),
+        Err(CliError::Failed(message)) => failed(&message),
+        Err(CliError::Usage(message)) => {
+            words(&format!("morphospace: {message}"));
+            ExitCode::from(WRONG_USE)
+        }
+    }
+}
+
+fn failed(message: &str) -> ExitCode {
+    words(&format!("morphospace: {message}"));
+    ExitCode::from(FAILED)
+}
+
+/// Shows help, version or what was wrong about the arguments.
+pub(super) fn say_usage(error: &clap::Error) -> ExitCode {
+    if error.use_stderr() {
+        words(error.render().ansi().to_string().trim_end());
+        return ExitCode::from(WRONG_USE);
+    }
+    exit_code(data(&error.render().to_string()))
+}

@@ -1,0 +1,282 @@
+//! `morphospace render`: pictures, contact sheets, numbered pictures and films.
+//!
+//! The output's name tells its kind. Numbered pictures are one pass; a GIF,
+//! animated PNG or MP4 of a ping-pong project runs back as well.
+
+use std::ops::Range;
+use std::path::PathBuf;
+
+use clap::Args;
+
+use crate::export::{
+    Camera, ExportError, Film, FilmKind, PixelSize, StillKind, Target, View, even_times, framing,
+    sheet, write_film, write_still,
+};
+use crate::progress::Progress;
+use crate::project::Project;
+use crate::transition::{PlayMode, Rgb};
+
+use super::error::CliError;
+use super::inputs::{Inputs, Opened};
+use super::options::MethodArgs;
+use super::output;
+use super::terminal::Terminal;
+
+/// The longer side of a picture of free size, in pixels.
+const LONGER_SIDE_PX: u32 = 960;
+
+/// The most cells of a contact sheet.
+const MAX_CELLS: u64 = 1_000;
+
+#[derive(Debug, Args)]
+pub(super) struct RenderArgs {
+    #[command(flatten)]
+    inputs: Inputs,
+
+    /// What to write: NAME.png or .svg (with --at or --sheet), .gif, .apng, .mp4,
+    /// name-####.png or a folder (numbered pictures)
+    #[arg(long, short, value_name = "PATH")]
+    out: PathBuf,
+
+    /// One picture, at this t
+    #[arg(long, value_name = "T", allow_negative_numbers = true, conflicts_with_all = ["sheet", "frames", "frames_range", "fps"])]
+    at: Option<f64>,
+
+    /// A contact sheet of N frames from --from to --to
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_CELLS), conflicts_with_all = ["frames", "frames_range", "fps"])]
+    sheet: Option<u64>,
+
+    /// One pass of N frames, evenly in t [default: as the project's timing has it]
+    #[arg(long, value_name = "N")]
+    frames: Option<usize>,
+
+    /// Only the frames numbered A to B-1, with the numbers that they have in the whole
+    #[arg(long, value_name = "A..B", value_parser = range)]
+    frames_range: Option<Range<usize>>,
+
+    /// Frames a second
+    #[arg(long, default_value_t = 30.0)]
+    fps: f64,
+
+    /// Size in pixels [default: the design's shape, 960 along the longer side]
+    #[arg(long, value_name = "WxH")]
+    size: Option<PixelSize>,
+
+    /// The colour behind: #rrggbb, or transparent [default: the project's]
+    #[arg(long, value_name = "COLOUR", value_parser = ground)]
+    ground: Option<Ground>,
+
+    #[command(flatten)]
+    method: MethodArgs,
+}
+
+/// What is behind the shapes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Ground {
+    Transparent,
+    Coloured(Rgb),
+}
+
+pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
+    let target = Target::of_path(&args.out).map_err(CliError::usage)?;
+    let target = job(args, target)?;
+    let terminal = Terminal::new();
+    let opened = args.inputs.open(&args.method, &terminal)?;
+    let written = match target {
+        Job::Picture(kind, path, t) => picture(args, &opened, kind, path, t),
+        Job::Sheet(kind, path, count) => contact_sheet(args, &opened, kind, path, count),
+        Job::Film(target) => film(args, &opened, target, &terminal),
+    }?;
+    drop(terminal);
+    tell(&written);
+    Ok(())
+}
+
+/// What is to be made, once the flags are seen to fit the name.
+enum Job {
+    Picture(StillKind, PathBuf, f64),
+    Sheet(StillKind, PathBuf, usize),
+    Film(Target),
+}
+
+fn job(args: &RenderArgs, target: Target) -> Result<Job, CliError> {
+    match (target, args.at, args.sheet) {
+        (_, Some(t), _) if !t.is_finite() => Err(CliError::Usage(format!(
+            "--at {t} is nowhere: t must be a finite number"
+        ))),
+        (Target::Still(kind, path), Some(t), _) => Ok(Job::Picture(kind, path, t)),
+        (Target::Still(kind, path), None, Some(count)) => {
+            Ok(Job::Sheet(kind, path, count as usize))
+        }
+        (Target::Still(_, path), None, None) => Err(CliError::Usage(format!(
+            "`{0}` is one picture: add --at T for one moment or --sheet N for a contact sheet, or write name-####.{1} for numbered pictures",
+            path.display(),
+            path.extension().unwrap_or_default().to_string_lossy(),
+        ))),
+        (target, None, None) => Ok(Job::Film(target)),
+        _ => Err(CliError::Usage(format!(
+            "--at and --sheet make one picture: end `{}` in .png or .svg",
+            args.out.display()
+        ))),
+    }
+}
+
+fn picture(
+    args: &RenderArgs,
+    opened: &Opened,
+    kind: StillKind,
+    path: PathBuf,
+    t: f64,
+) -> Result<Vec<PathBuf>, CliError> {
+    let project = &opened.loaded.project;
+    // Seen as the film is, so that pictures of one project fit together.
+    let mut times = even_times(project.timing.from, project.timing.to, 17);
+    times.push(t);
+    let camera = camera(args, opened, &times, std::convert::identity);
+    write_still(&camera.shoot(t), kind, &path).map_err(CliError::failed)?;
+    Ok(vec![path])
+}
+
+fn contact_sheet(
+    args: &RenderArgs,
+    opened: &Opened,
+    kind: StillKind,
+    path: PathBuf,
+    count: usize,
+) -> Result<Vec<PathBuf>, CliError> {
+    let project = &opened.loaded.project;
+    let times = even_times(project.timing.from, project.timing.to, count);
+    let bounds = framing(&opened.transition, &times);
+    let ground = ground_of(args, project);
+    let (transition, style) = (&opened.transition, &project.style);
+    let drawing = sheet(transition, style, &times, bounds, args.size, ground);
+    write_still(&drawing, kind, &path).map_err(CliError::failed)?;
+    Ok(vec![path])
+}
+
+fn film(
+    args: &RenderArgs,
+    opened: &Opened,
+    target: Target,
+    progress: &dyn Progress,
+) -> Result<Vec<PathBuf>, CliError> {
+    let whole = whole_film(args, &opened.loaded.project, &target)?;
+    let part = match &args.frames_range {
+        Some(range) => whole.part(range.clone()).map_err(CliError::usage)?,
+        None => whole.clone(),
+    };
+    let is_mp4 = matches!(target, Target::Film(FilmKind::Mp4, _));
+    let even = if is_mp4 {
+        PixelSize::to_even
+    } else {
+        std::convert::identity
+    };
+    let camera = camera(args, opened, whole.times(), even);
+    if args.size.is_some_and(|size| size != camera.view.size()) {
+        output::words(&format!(
+            "an MP4 has even sides: {} pixels",
+            camera.view.size()
+        ));
+    }
+    write_film(&camera, &part, &target, progress).map_err(|error| match error {
+        ExportError::GifRate(_) | ExportError::Mp4Transparent => CliError::usage(error),
+        error => CliError::failed(error),
+    })
+}
+
+fn whole_film(args: &RenderArgs, project: &Project, target: &Target) -> Result<Film, CliError> {
+    let mut timing = project.timing;
+    if matches!(target, Target::Numbered(_)) {
+        timing.play = PlayMode::Once;
+    }
+    let film = match args.frames {
+        None => Film::of_timing(&timing, &project.stops, args.fps),
+        Some(count) => Film::evenly(timing.from, timing.to, count, args.fps)
+            .map(|film| film.playing(timing.play)),
+    };
+    film.map_err(CliError::usage)
+}
+
+fn camera(
+    args: &RenderArgs,
+    opened: &Opened,
+    times: &[f64],
+    fitted: impl Fn(PixelSize) -> PixelSize,
+) -> Camera {
+    let bounds = framing(&opened.transition, times);
+    let size = args
+        .size
+        .unwrap_or_else(|| PixelSize::of_shape(bounds, LONGER_SIDE_PX));
+    Camera {
+        transition: opened.transition.clone(),
+        style: opened.loaded.project.style,
+        view: View::fit(bounds, fitted(size)),
+        ground: ground_of(args, &opened.loaded.project),
+    }
+}
+
+fn ground_of(args: &RenderArgs, project: &Project) -> Option<Rgb> {
+    match args.ground {
+        None => Some(project.style.ground),
+        Some(Ground::Transparent) => None,
+        Some(Ground::Coloured(colour)) => Some(colour),
+    }
+}
+
+fn tell(written: &[PathBuf]) {
+    match written {
+        [] => {}
+        [one] => output::words(&format!("wrote {}", one.display())),
+        [first, .., last] => output::words(&format!(
+            "wrote {} files, {} to {}",
+            written.len(),
+            first.display(),
+            last.display()
+        )),
+    }
+}
+
+fn ground(text: &str) -> Result<Ground, String> {
+    match text {
+        "transparent" => Ok(Ground::Transparent),
+        colour => match colour.parse() {
+            Ok(colour) => Ok(Ground::Coloured(colour)),
+            Err(error) => Err(format!("{error}, or transparent")),
+        },
+    }
+}
+
+fn range(text: &str) -> Result<Range<usize>, String> {
+    let wrong =
+        || format!("`{text}` is no range: write A..B with A less than B, for example 0..60");
+    let (start, end) = text.split_once("..").ok_or_else(wrong)?;
+    let number = |digits: &str| digits.parse::<usize>().map_err(|_| wrong());
+    let range = number(start)?..number(end)?;
+    if range.is_empty() {
+        Err(wrong())
+    } else {
+        Ok(range)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ranges_are_read() {
+        assert_eq!(range("0..60"), Ok(0..60));
+        for wrong in [
+            "", "5", "5..", "..5", "5..5", "6..5", "-1..5", "0..=5", "a..b",
+        ] {
+            assert!(range(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn grounds_are_read() {
+        assert_eq!(ground("transparent"), Ok(Ground::Transparent));
+        assert_eq!(ground("#010203"), Ok(Ground::Coloured(Rgb([1, 2, 3]))));
+        assert!(ground("white").is_err());
+    }
+}
