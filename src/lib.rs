@@ -15,3 +15,5 @@ pub mod progress;
 pub mod project;
 pub mod transition;
 pub mod warp;
+#[cfg(feature = "bevy")]
+pub mod stage;

@@ -1,0 +1,153 @@
+//! From two meshes to a transition, on Bevy's compute pool.
+//!
+//! Guarantees: the main thread never waits; a build whose entity or meshes are
+//! gone is cancelled and its result dropped; the old picture stays until the
+//! new transition is there, and also where it cannot be had.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use bevy::prelude::*;
+use bevy::tasks::futures::check_ready;
+use bevy::tasks::{AsyncComputeTaskPool, Task};
+
+use crate::content::Content;
+use crate::design::{Design, Form};
+use crate::mesh::TriangleMesh;
+use crate::progress::Progress;
+use crate::transition::{BuildError, Transition, TransitionSpec};
+use crate::warp::ArapOptions;
+
+use super::components::{
+    ArapSolver, Blend, BuildFailed, FieldSprite, MorphOptions, SourceMesh, StageTransition,
+    TargetMesh,
+};
+use super::parts::Undressed;
+
+/// A build that is running. Dropping it (with its entity, or for a newer one)
+/// cancels the build.
+#[derive(Component)]
+pub(super) struct Building {
+    task: Task<Result<Transition, BuildError>>,
+    wanted: Arc<Wanted>,
+}
+
+impl Drop for Building {
+    fn drop(&mut self) {
+        self.wanted.0.store(false, Ordering::Relaxed);
+    }
+}
+
+struct Wanted(AtomicBool);
+
+impl Progress for Wanted {
+    fn report(&self, _stage: &'static str, _fraction: f64) {}
+
+    fn is_cancelled(&self) -> bool {
+        !self.0.load(Ordering::Relaxed)
+    }
+}
+
+type MeshesChanged = (
+    Or<(
+        Changed<SourceMesh>,
+        Changed<TargetMesh>,
+        Changed<MorphOptions>,
+    )>,
+    Without<StageTransition>,
+);
+
+/// Starts a build wherever meshes or options are new.
+pub(super) fn start_builds(
+    mut commands: Commands,
+    changed: Query<(Entity, &SourceMesh, &TargetMesh, &MorphOptions), MeshesChanged>,
+) {
+    for (entity, source, target, options) in &changed {
+        let (source, target) = (source.0.clone(), target.0.clone());
+        let options = options.0.clone();
+        let wanted = Arc::new(Wanted(AtomicBool::new(true)));
+        let progress = Arc::clone(&wanted);
+        let task = AsyncComputeTaskPool::get()
+            .spawn(async move { build(source, target, options, &*progress) });
+        commands
+            .entity(entity)
+            .try_insert(Building { task, wanted });
+    }
+}
+
+fn build(
+    source: TriangleMesh,
+    target: TriangleMesh,
+    arap: ArapOptions,
+    progress: &dyn Progress,
+) -> Result<Transition, BuildError> {
+    let ends = [design("source", source), design("target", target)].map(Arc::new);
+    let [source, target] = ends;
+    let mut spec = TransitionSpec::new(source, target);
+    spec.arap = arap;
+    Transition::build(&spec, progress)
+}
+
+fn design(name: &str, mesh: TriangleMesh) -> Design {
+    Design {
+        name: name.to_owned(),
+        extent: mesh.bounds(),
+        form: Form::Mesh(mesh),
+    }
+}
+
+/// Takes in what has been built.
+pub(super) fn finish_builds(
+    mut commands: Commands,
+    mut building: Query<(Entity, &mut Building, &Blend)>,
+) {
+    for (entity, mut building, blend) in &mut building {
+        let Some(result) = check_ready(&mut building.task) else {
+            continue;
+        };
+        commands.entity(entity).try_remove::<Building>();
+        match result {
+            Ok(transition) => {
+                let solver = ArapSolver(transition.frame(blend.t));
+                commands
+                    .entity(entity)
+                    .try_remove::<FieldSprite>()
+                    .try_insert((solver, Undressed));
+            }
+            Err(error) => commands.trigger(BuildFailed { entity, error }),
+        }
+    }
+}
+
+/// Puts transitions on the stage that were built elsewhere.
+pub(super) fn adopt_transitions(
+    mut commands: Commands,
+    changed: Query<(Entity, &StageTransition, &Blend), Changed<StageTransition>>,
+) {
+    for (entity, StageTransition(transition), blend) in &changed {
+        let frame = transition.frame(blend.t);
+        let mut entity = commands.entity(entity);
+        entity.try_remove::<Building>().try_insert(Undressed);
+        match transition.content() {
+            Content::Solid(_) => entity
+                .try_remove::<FieldSprite>()
+                .try_insert(ArapSolver(frame)),
+            Content::Field(_) => entity
+                .try_remove::<ArapSolver>()
+                .try_insert(FieldSprite(frame)),
+        };
+        match meshes(transition) {
+            Some(meshes) => entity.try_insert(meshes),
+            None => entity.try_remove::<(SourceMesh, TargetMesh)>(),
+        };
+    }
+}
+
+/// Both ends of a transition that has triangles.
+fn meshes(transition: &Transition) -> Option<(SourceMesh, TargetMesh)> {
+    let compatible = transition.compatible()?;
+    let mesh = |positions: &[_]| TriangleMesh::new(positions.to_vec(), compatible.faces().to_vec());
+    let source = mesh(compatible.source()).ok()?;
+    let target = mesh(compatible.target()).ok()?;
+    Some((SourceMesh(source), TargetMesh(target)))
+}

@@ -1,0 +1,39 @@
+//! The camera that shows the stage.
+
+use bevy::prelude::*;
+
+use super::view::StageView;
+
+/// Marks a camera that shows what [`StageView`] says.
+///
+/// A program without it places its own camera as it likes: the plugin then
+/// leaves all cameras alone.
+#[derive(Component, Clone, Copy, Debug, Default)]
+#[require(Camera2d, Msaa::Sample4)]
+pub struct StageCamera;
+
+/// Brings stage cameras and the view into line.
+pub(super) fn apply_view(
+    mut view: ResMut<StageView>,
+    mut cameras: Query<(&Camera, &mut Transform, &mut Projection), With<StageCamera>>,
+) {
+    for (camera, mut transform, mut projection) in &mut cameras {
+        if let Some(viewport_px) = camera.logical_viewport_size()
+            && viewport_px.min_element() >= 1.0
+            && viewport_px != view.viewport_px
+        {
+            view.viewport_px = viewport_px;
+        }
+        let at = (view.centre - view.anchor()).as_vec2();
+        let translation = at.extend(transform.translation.z);
+        if transform.translation != translation {
+            transform.translation = translation;
+        }
+        let scale = view.units_per_px as f32;
+        if matches!(&*projection, Projection::Orthographic(p) if p.scale != scale)
+            && let Projection::Orthographic(orthographic) = &mut *projection
+        {
+            orthographic.scale = scale;
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! What stands on the stage: the components a program spawns and those that
+//! the plugin adds.
+//!
+//! Guarantees: removing or replacing any of them never leaves stale pictures
+//! behind. Does not guarantee a picture while a build is running: until then
+//! the entity shows what it showed before, or nothing.
+
+use bevy::prelude::*;
+
+use crate::mesh::TriangleMesh;
+use crate::transition::{BuildError, Frame, Style, Transition};
+use crate::warp::ArapOptions;
+
+/// The design at t = 0, as triangles. Together with a [`TargetMesh`] of the
+/// same faces it is all that a morphing entity needs.
+///
+/// Changing it (or the target, or the options) builds the transition anew.
+#[derive(Component, Clone, Debug)]
+#[require(Blend, MorphOptions, StageStyle, Transform, Visibility)]
+pub struct SourceMesh(pub TriangleMesh);
+
+/// The design at t = 1: the same faces as the [`SourceMesh`], in the same
+/// order, other positions.
+#[derive(Component, Clone, Debug)]
+#[require(Blend, MorphOptions, StageStyle, Transform, Visibility)]
+pub struct TargetMesh(pub TriangleMesh);
+
+/// Where the entity is in its transition: 0 is the source, 1 the target,
+/// values outside extrapolate. NaN and infinity leave the picture as it was.
+///
+/// ```
+/// use morphospace::stage::Blend;
+/// assert_eq!(Blend::default().t, 0.0);
+/// ```
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+pub struct Blend {
+    /// The blend parameter.
+    pub t: f64,
+}
+
+/// How two meshes are interpolated.
+#[derive(Component, Clone, Debug, Default)]
+pub struct MorphOptions(pub ArapOptions);
+
+/// A prefactored transition of triangles and the frame it is at: added by the
+/// plugin once the build is done, sought to [`Blend`] whenever that changes.
+#[derive(Component, Debug)]
+pub struct ArapSolver(pub(super) Frame);
+
+impl ArapSolver {
+    /// The frame that is on the stage.
+    pub fn frame(&self) -> &Frame {
+        &self.0
+    }
+}
+
+/// A transition of two distance fields and the frame it is at: a quad whose
+/// fragment shader blends both fields and draws the threshold's contour.
+#[derive(Component, Debug)]
+pub struct FieldSprite(pub(super) Frame);
+
+impl FieldSprite {
+    /// The frame that is on the stage.
+    pub fn frame(&self) -> &Frame {
+        &self.0
+    }
+}
+
+/// A transition that is built already, of any cell of the table.
+///
+/// The plugin answers with [`SourceMesh`], [`TargetMesh`] and [`ArapSolver`],
+/// or with a [`FieldSprite`]. Replacing it replaces the picture.
+#[derive(Component, Clone, Debug)]
+#[require(Blend, StageStyle, Transform, Visibility)]
+pub struct StageTransition(pub Transition);
+
+/// Colours of an entity on the stage, and what of it is shown.
+#[derive(Component, Clone, Debug, Default)]
+pub struct StageStyle {
+    /// Colours, shared with the exporters.
+    pub style: Style,
+    /// What is shown.
+    pub show: Show,
+}
+
+/// What of a transition is shown; what does not apply to it is ignored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Show {
+    /// The filled form (solids and fields).
+    pub fill: bool,
+    /// The edges of the triangulation.
+    pub wireframe: bool,
+    /// The bars and joints of a truss.
+    pub bars: bool,
+    /// Thin outlines of source and target.
+    pub ghosts: bool,
+    /// Lines of equal blended distance (fields only).
+    pub iso_lines: bool,
+    /// The blended field in two hues, warm inside and cool outside (fields only).
+    pub signed_colours: bool,
+}
+
+impl Default for Show {
+    fn default() -> Self {
+        Self {
+            fill: true,
+            wireframe: false,
+            bars: true,
+            ghosts: false,
+            iso_lines: false,
+            signed_colours: false,
+        }
+    }
+}
+
+/// Two meshes could not be made into a transition. Triggered on the entity,
+/// which keeps what it showed before.
+#[derive(EntityEvent, Debug)]
+pub struct BuildFailed {
+    /// The entity whose meshes they are.
+    pub entity: Entity,
+    /// Why, in words for a user.
+    pub error: BuildError,
+}

@@ -1,0 +1,175 @@
+//! One system writes the render mesh: wherever the frame moved.
+//!
+//! Guarantees: only vertices that are seen are written, in place, and only then
+//! is the mesh marked as changed; hidden parts are written when they are shown.
+
+use std::time::Instant;
+
+use bevy::mesh::VertexAttributeValues;
+use bevy::prelude::*;
+
+use crate::content::Content;
+use crate::export::joint_core;
+use crate::transition::{Frame, Rgb};
+
+use super::components::{ArapSolver, FieldSprite, StageStyle};
+use super::field::{FieldLook, FieldMaterial};
+use super::ink::{InkMaterial, linear};
+use super::parts::{Part, PartKind};
+use super::shapes::{Positions, write_corners, write_points};
+use super::times::FrameTimes;
+
+type PartQuery<'w, 's> = Query<
+    'w,
+    's,
+    (
+        &'static mut Part,
+        &'static mut Visibility,
+        &'static Mesh2d,
+        Option<&'static MeshMaterial2d<InkMaterial>>,
+        Option<&'static MeshMaterial2d<FieldMaterial>>,
+    ),
+>;
+
+/// A frame, or how it looks, or what shows it, is new.
+type Moved<C> = Or<(Changed<C>, Changed<StageStyle>, Changed<Children>)>;
+
+/// Writes vertices and colours of solids.
+pub(super) fn draw_solids(
+    roots: Query<(Ref<ArapSolver>, Ref<StageStyle>, &Children), Moved<ArapSolver>>,
+    mut parts: PartQuery,
+    mut meshes: ResMut<Assets<Mesh>>,
+    mut inks: ResMut<Assets<InkMaterial>>,
+    mut times: ResMut<FrameTimes>,
+) {
+    let start = Instant::now();
+    for (solver, style, children) in &roots {
+        let frame = solver.frame();
+        let moved = solver.is_changed() || style.is_changed();
+        let mut parts = parts.iter_many_mut(children);
+        while let Some((mut part, mut visibility, mesh, ink, _)) = parts.fetch_next() {
+            let shown = part.kind.is_shown(&style);
+            visibility.set_if_neq(visible(shown));
+            part.stale |= moved && !part.kind.is_still();
+            if !shown {
+                continue;
+            }
+            if let Some(ink) = ink {
+                set_colour(&mut inks, ink, part.kind.colour(frame.t(), &style));
+            }
+            if part.stale {
+                part.stale = !rewrite(&mut meshes, mesh, |positions| {
+                    part.kind.write(frame, &style, part.origin, positions);
+                });
+            }
+        }
+    }
+    if !roots.is_empty() {
+        times.draw.record(start.elapsed());
+    }
+}
+
+/// Writes the uniforms of fields.
+pub(super) fn draw_fields(
+    roots: Query<(&FieldSprite, &StageStyle, &Children), Moved<FieldSprite>>,
+    mut parts: PartQuery,
+    mut inks: ResMut<Assets<InkMaterial>>,
+    mut fields: ResMut<Assets<FieldMaterial>>,
+    mut times: ResMut<FrameTimes>,
+) {
+    let start = Instant::now();
+    for (sprite, style, children) in &roots {
+        let frame = sprite.frame();
+        let mut parts = parts.iter_many_mut(children);
+        while let Some((part, mut visibility, _, ink, field)) = parts.fetch_next() {
+            visibility.set_if_neq(visible(part.kind.is_shown(style)));
+            if let Some(ink) = ink {
+                set_colour(&mut inks, ink, part.kind.colour(frame.t(), style));
+            }
+            if let (Some(field), Content::Field(pair)) = (field, frame.transition().content()) {
+                let look = FieldLook::new(pair, frame.t(), style);
+                if fields.get(field).is_some_and(|old| old.look != look)
+                    && let Some(mut material) = fields.get_mut(field)
+                {
+                    material.look = look;
+                }
+            }
+        }
+    }
+    if !roots.is_empty() {
+        times.draw.record(start.elapsed());
+    }
+}
+
+fn visible(shown: bool) -> Visibility {
+    if shown {
+        Visibility::Inherited
+    } else {
+        Visibility::Hidden
+    }
+}
+
+fn set_colour(inks: &mut Assets<InkMaterial>, ink: &MeshMaterial2d<InkMaterial>, colour: Rgb) {
+    let colour = linear(colour);
+    if inks.get(ink).is_some_and(|old| old.colour != colour)
+        && let Some(mut material) = inks.get_mut(ink)
+    {
+        material.colour = colour;
+    }
+}
+
+/// Lets `write` change the mesh's positions; `false` if there are none.
+fn rewrite(meshes: &mut Assets<Mesh>, mesh: &Mesh2d, write: impl FnOnce(&mut Positions)) -> bool {
+    let Some(mut mesh) = meshes.get_mut(mesh) else {
+        return false;
+    };
+    match mesh.attribute_mut(Mesh::ATTRIBUTE_POSITION) {
+        Some(VertexAttributeValues::Float32x3(positions)) => {
+            write(positions);
+            true
+        }
+        _ => false,
+    }
+}
+
+impl PartKind {
+    fn is_shown(&self, StageStyle { style, show }: &StageStyle) -> bool {
+        match self {
+            Self::Faces => show.fill,
+            Self::Field => show.fill || show.iso_lines || show.signed_colours,
+            Self::Bars(_) => show.bars,
+            Self::JointCores(_) => show.bars && style.joints,
+            Self::Wire { .. } => show.wireframe,
+            Self::SourceGhost | Self::TargetGhost => show.ghosts,
+        }
+    }
+
+    fn colour(&self, t: f64, StageStyle { style, show }: &StageStyle) -> Rgb {
+        match self {
+            Self::JointCores(_) => joint_core(style.fill_at(t)),
+            Self::SourceGhost => style.source,
+            Self::TargetGhost => style.target,
+            // Wires are cut into the fill where there is one.
+            Self::Wire { on_faces: true } if show.fill => style.ground,
+            _ => style.fill_at(t),
+        }
+    }
+
+    fn write(
+        &self,
+        frame: &Frame,
+        style: &StageStyle,
+        origin: glam::DVec2,
+        positions: &mut Positions,
+    ) {
+        let placement = frame.placement();
+        let points = &placement.in_frame;
+        match self {
+            Self::Faces => write_points(points, origin, positions),
+            Self::Wire { .. } => write_corners(points, &placement.faces, origin, positions),
+            Self::Bars(bars) => bars.write(points, style.style.joints, origin, positions),
+            Self::JointCores(bars) => bars.write_cores(points, origin, positions),
+            Self::Field | Self::SourceGhost | Self::TargetGhost => {}
+        }
+    }
+}

@@ -1,0 +1,163 @@
+// Two distance fields, blended and cut at a threshold, anti-aliased at any zoom.
+//
+// `uv` runs over the samples: sample (i, j) is at (i, j), row 0 is the lowest.
+// The fields are 32-bit floats, which need not be filterable: they are
+// interpolated by hand, and L is applied afterwards, as the core does it.
+
+#import bevy_sprite::{
+    mesh2d_vertex_output::VertexOutput,
+    mesh2d_view_bindings::view,
+}
+#ifdef SRGB_OUTPUT
+#import bevy_render::color_operations::linear_to_srgb
+#endif
+#ifdef OKLAB_OUTPUT
+#import bevy_render::color_operations::linear_rgb_to_oklab
+#endif
+
+struct Field {
+    fill: vec4<f32>,
+    inside: vec4<f32>,
+    outside: vec4<f32>,
+    line: vec4<f32>,
+    t: f32,
+    epsilon: f32,
+    level: f32,
+    spacing: f32,
+    log_space: u32,
+    fill_shown: u32,
+    lines_shown: u32,
+    signed_shown: u32,
+};
+
+@group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> field: Field;
+@group(#{MATERIAL_BIND_GROUP}) @binding(1) var source: texture_2d<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(2) var target_field: texture_2d<f32>;
+
+// Distances beyond this many pixels are known to be far; nearer ones are measured.
+const NEAR_PX: f32 = 16.0;
+// Bisections of one pixel: 1/64 of a pixel is finer than 8 bits can show.
+const BISECTIONS: u32 = 6u;
+// Lines are this wide on a picture of LINE_HEIGHT pixels and grow with it.
+const LINE_PX: f32 = 1.25;
+const LINE_HEIGHT: f32 = 800.0;
+
+struct Sample {
+    value: f32,
+    gradient: vec2<f32>,
+}
+
+fn bilinear(samples: texture_2d<f32>, q: vec2<f32>) -> Sample {
+    let last = vec2<f32>(textureDimensions(samples)) - 1.0;
+    let at = clamp(q, vec2(0.0), last);
+    let low = min(floor(at), max(last - 1.0, vec2(0.0)));
+    let w = at - low;
+    let i = vec2<i32>(low);
+    let j = min(i + 1, vec2<i32>(last));
+    let f00 = textureLoad(samples, vec2(i.x, i.y), 0).x;
+    let f10 = textureLoad(samples, vec2(j.x, i.y), 0).x;
+    let f01 = textureLoad(samples, vec2(i.x, j.y), 0).x;
+    let f11 = textureLoad(samples, vec2(j.x, j.y), 0).x;
+    let bottom = mix(f00, f10, w.x);
+    let top = mix(f01, f11, w.x);
+    var out: Sample;
+    out.value = mix(bottom, top, w.y);
+    out.gradient = vec2(mix(f10 - f00, f11 - f01, w.y), top - bottom);
+    return out;
+}
+
+// L of the core's FieldBlend.
+fn spaced(x: f32) -> f32 {
+    if field.log_space == 0u { return x; }
+    return sign(x) * log(1.0 + abs(x) / field.epsilon);
+}
+
+fn spaced_slope(x: f32) -> f32 {
+    if field.log_space == 0u { return 1.0; }
+    return 1.0 / (field.epsilon + abs(x));
+}
+
+// The way back from L: a blended value as a distance in cells.
+fn in_cells(v: f32) -> f32 {
+    if field.log_space == 0u { return v; }
+    return sign(v) * field.epsilon * (exp(min(abs(v), 80.0)) - 1.0);
+}
+
+// The blend, less the level that it is cut at, and its gradient.
+fn blend(q: vec2<f32>) -> Sample {
+    let f0 = bilinear(source, q);
+    let f1 = bilinear(target_field, q);
+    let w0 = 1.0 - field.t;
+    let w1 = field.t;
+    var out: Sample;
+    out.value = w0 * spaced(f0.value) + w1 * spaced(f1.value) - field.level;
+    out.gradient = w0 * spaced_slope(f0.value) * f0.gradient
+        + w1 * spaced_slope(f1.value) * f1.gradient;
+    return out;
+}
+
+// Signed distance to the contour in pixels, exact within one pixel of it.
+// The gradient alone overrates it where L has its cusp, so the crossing is
+// looked for along the gradient.
+fn contour_px(q: vec2<f32>, here: Sample, cells_per_px: f32) -> f32 {
+    let steep = length(here.gradient);
+    let guess = here.value / max(steep * cells_per_px, 1e-20);
+    if steep < 1e-12 || abs(guess) > NEAR_PX { return clamp(guess, -NEAR_PX, NEAR_PX); }
+    let downhill = -sign(here.value) * here.gradient / steep * cells_per_px;
+    if blend(q + downhill).value * here.value > 0.0 { return sign(here.value) * max(abs(guess), 1.0); }
+    var low = 0.0;
+    var high = 1.0;
+    for (var k = 0u; k < BISECTIONS; k++) {
+        let mid = 0.5 * (low + high);
+        if blend(q + mid * downhill).value * here.value > 0.0 { low = mid; } else { high = mid; }
+    }
+    return sign(here.value) * 0.5 * (low + high);
+}
+
+fn over(top: vec4<f32>, below: vec4<f32>) -> vec4<f32> {
+    let alpha = top.a + below.a * (1.0 - top.a);
+    let rgb = top.rgb * top.a + below.rgb * below.a * (1.0 - top.a);
+    return vec4(rgb / max(alpha, 1e-6), alpha);
+}
+
+fn faded(colour: vec4<f32>, by: f32) -> vec4<f32> {
+    return vec4(colour.rgb, colour.a * by);
+}
+
+@fragment
+fn fragment(mesh: VertexOutput) -> @location(0) vec4<f32> {
+    let q = mesh.uv;
+    let cells_per_px = sqrt(0.5 * (dot(dpdx(q), dpdx(q)) + dot(dpdy(q), dpdy(q))));
+    let here = blend(q);
+    let to_contour = contour_px(q, here, cells_per_px);
+    let half_line = 0.5 * LINE_PX * max(view.viewport.w / LINE_HEIGHT, 1.0);
+    let distance = in_cells(here.value + field.level) - in_cells(field.level);
+
+    var colour = vec4(0.0);
+    if field.signed_shown != 0u {
+        let strength = 0.85 * (1.0 - exp(-abs(distance) / (4.0 * field.spacing)));
+        colour = faded(select(field.outside, field.inside, here.value >= 0.0), strength);
+    } else if field.fill_shown != 0u {
+        colour = faded(field.fill, clamp(to_contour + 0.5, 0.0, 1.0));
+    }
+    if field.lines_shown != 0u {
+        // How fast the blended distance changes from pixel to pixel.
+        let slope = length(here.gradient) * cells_per_px
+            / spaced_slope(in_cells(here.value + field.level));
+        let ring = abs(fract(distance / field.spacing - 0.5) - 0.5) * field.spacing;
+        let apart = clamp(0.5 * field.spacing / max(slope, 1e-20) - half_line, 0.0, 1.0);
+        let on = clamp(half_line + 0.5 - ring / max(slope, 1e-20), 0.0, 1.0);
+        colour = over(faded(field.line, 0.55 * apart * on), colour);
+    }
+    if field.signed_shown != 0u {
+        let on = clamp(2.0 * half_line + 0.5 - abs(to_contour), 0.0, 1.0);
+        colour = over(faded(field.line, on), colour);
+    }
+#ifdef SRGB_OUTPUT
+    colour = vec4(linear_to_srgb(colour.rgb), colour.a);
+#endif
+#ifdef OKLAB_OUTPUT
+    colour = vec4(linear_rgb_to_oklab(colour.rgb), colour.a);
+#endif
+    return colour;
+}
