@@ -1,0 +1,207 @@
+//! The stage on a graphics card against the exporters on the processor.
+//!
+//! A window is not needed, an adapter is (a software one will do). Where there
+//! is none, each test is counted as ignored and the reason is printed; with
+//! `MORPHOSPACE_REQUIRE_GPU=1` that is a failure. `MORPHOSPACE_PICTURES=DIR`
+//! keeps every pair of pictures for looking at.
+
+#[path = "gpu/scenes.rs"]
+mod scenes;
+#[path = "gpu/studio.rs"]
+mod studio;
+
+use std::process::ExitCode;
+
+use image::RgbaImage;
+use morphospace::stage::Show;
+use morphospace::transition::Rgb;
+
+use scenes::{field, solid, truss};
+use studio::{Scene, Studio};
+
+/// What the issue allows: pixels whose channels differ by more than this …
+const CHANNEL: u8 = 64;
+/// … may be at most this fraction of the picture.
+const PIXELS: f64 = 0.005;
+
+type Test = (&'static str, fn(&mut Studio));
+
+const TESTS: &[Test] = &[
+    (
+        "a_mesh_looks_the_same_on_both",
+        a_mesh_looks_the_same_on_both,
+    ),
+    (
+        "a_truss_looks_the_same_on_both",
+        a_truss_looks_the_same_on_both,
+    ),
+    ("fields_look_the_same_on_both", fields_look_the_same_on_both),
+    (
+        "a_transparent_ground_has_straight_alpha",
+        a_transparent_ground_has_straight_alpha,
+    ),
+    (
+        "far_from_zero_nothing_changes",
+        far_from_zero_nothing_changes,
+    ),
+    (
+        "every_size_is_drawn_and_others_are_refused",
+        every_size_is_drawn_and_others_are_refused,
+    ),
+    ("overlays_are_seen", overlays_are_seen),
+];
+
+fn a_mesh_looks_the_same_on_both(studio: &mut Studio) {
+    let scene = Scene::new("mesh", solid(0.0));
+    for t in [-0.25, 0.0, 0.35, 1.0] {
+        studio.compare(&scene, t);
+    }
+}
+
+fn a_truss_looks_the_same_on_both(studio: &mut Studio) {
+    let mut scene = Scene::new("truss", truss());
+    for joints in [true, false] {
+        scene.style.joints = joints;
+        for t in [0.0, 0.6] {
+            studio.compare(&scene, t);
+        }
+    }
+}
+
+fn fields_look_the_same_on_both(studio: &mut Studio) {
+    for (name, transition) in field() {
+        let scene = Scene::new(name, transition);
+        for t in [0.0, 0.3, 0.5, 1.0, 1.2] {
+            studio.compare(&scene, t);
+        }
+    }
+}
+
+fn far_from_zero_nothing_changes(studio: &mut Studio) {
+    let scene = Scene::new("far", solid(1e8));
+    studio.compare(&scene, 0.35);
+}
+
+fn a_transparent_ground_has_straight_alpha(studio: &mut Studio) {
+    let mut scene = Scene::new("transparent", truss());
+    scene.ground = None;
+    let (gpu, cpu) = studio.compare(&scene, 0.5);
+    assert!(gpu.pixels().any(|p| p[3] == 0) && gpu.pixels().any(|p| p[3] == 255));
+    // Where an edge is half covered the colour is still the bars' own.
+    let fill = scene.style.fill_at(0.5).0;
+    for (picture, name) in [(&gpu, "gpu"), (&cpu, "cpu")] {
+        let mut edges = 0;
+        for p in picture.pixels().filter(|p| (100..200).contains(&p[3])) {
+            let off = (0..3).map(|k| p[k].abs_diff(fill[k])).max();
+            edges += 1;
+            assert!(off <= Some(6), "{name}: {p:?} at an edge of {fill:?}");
+        }
+        assert!(edges > 100, "{name}: {edges} edge pixels");
+    }
+}
+
+fn every_size_is_drawn_and_others_are_refused(studio: &mut Studio) {
+    let mut scene = Scene::new("sizes", solid(0.0));
+    for size in [[1, 1], [333, 77], [3840, 2160]] {
+        scene.size = size;
+        let picture = studio.picture(&scene, 0.5).expect("a picture");
+        assert_eq!(<[u32; 2]>::from(picture.dimensions()), size);
+    }
+    for size in [[0, 5], [5, 0], [1 << 20, 5]] {
+        scene.size = size;
+        let why = studio.picture(&scene, 0.5).expect_err("no such picture");
+        assert!(why.contains("choose another size"), "{why}");
+    }
+}
+
+fn overlays_are_seen(studio: &mut Studio) {
+    let fill_only = Show {
+        bars: true,
+        ..Show::default()
+    };
+    let shows: [(&str, fn(&mut Show)); 4] = [
+        ("wireframe", |show| show.wireframe = true),
+        ("ghosts", |show| show.ghosts = true),
+        ("iso-lines", |show| show.iso_lines = true),
+        ("signed", |show| show.signed_colours = true),
+    ];
+    let (_, blended) = field().swap_remove(0);
+    for (name, switch) in shows {
+        let of_field = matches!(name, "iso-lines" | "signed");
+        let transition = if of_field {
+            blended.clone()
+        } else {
+            solid(0.0)
+        };
+        let mut scene = Scene::new(name, transition);
+        scene.show = fill_only;
+        let plain = studio.picture(&scene, 0.4).expect("a picture");
+        switch(&mut scene.show);
+        let with = studio.picture(&scene, 0.4).expect("a picture");
+        let changed = different(&plain, &with);
+        assert!(changed > 0.01, "{name} changes {changed} of the picture");
+        studio.keep(name, 0.4, &with);
+    }
+}
+
+/// The fraction of pixels that differ by more than [`CHANNEL`].
+fn different(a: &RgbaImage, b: &RgbaImage) -> f64 {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let differs = |(p, q): (&image::Rgba<u8>, &image::Rgba<u8>)| {
+        let seen = |p: &image::Rgba<u8>, k: usize| u32::from(p[k]) * u32::from(p[3]) / 255;
+        (0..3).any(|k| seen(p, k).abs_diff(seen(q, k)) > u32::from(CHANNEL))
+            || p[3].abs_diff(q[3]) > CHANNEL
+    };
+    let count = a
+        .pixels()
+        .zip(b.pixels())
+        .filter(|&pair| differs(pair))
+        .count();
+    count as f64 / f64::from(a.width() * a.height())
+}
+
+/// Whether each pixel is more like the fill than like the ground.
+fn mask(picture: &RgbaImage, fill: Rgb, ground: Option<Rgb>) -> Vec<bool> {
+    let off = |p: &image::Rgba<u8>, Rgb(c): Rgb| -> u32 {
+        (0..3).map(|k| u32::from(p[k].abs_diff(c[k])).pow(2)).sum()
+    };
+    let is_fill = |p: &image::Rgba<u8>| match ground {
+        Some(ground) => off(p, fill) < off(p, ground),
+        None => p[3] >= 128,
+    };
+    picture.pixels().map(is_fill).collect()
+}
+
+/// Every pixel of `a` whose whole neighbourhood is of one kind is of that kind
+/// in `b`, so that boundaries are at most a pixel apart.
+fn astray(a: &[bool], b: &[bool], width: u32) -> usize {
+    let width = width as usize;
+    let height = a.len() / width;
+    let alike = |x: usize, y: usize| {
+        let rows = y.saturating_sub(1)..(y + 2).min(height);
+        let columns = x.saturating_sub(1)..(x + 2).min(width);
+        rows.flat_map(|row| columns.clone().map(move |column| (row, column)))
+            .any(|(row, column)| a[row * width + column] == b[y * width + x])
+    };
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    places.filter(|&(x, y)| !alike(x, y)).count()
+}
+
+/// Holds both pictures to the promise.
+fn check(name: &str, gpu: &RgbaImage, cpu: &RgbaImage, fill: Rgb, ground: Option<Rgb>) {
+    let fraction = different(gpu, cpu);
+    assert!(
+        fraction <= PIXELS,
+        "{name}: {fraction} of the pixels differ"
+    );
+    let masks = [gpu, cpu].map(|picture| mask(picture, fill, ground));
+    assert!(masks[1].iter().any(|&m| m), "{name}: nothing to see");
+    for [a, b] in [[0, 1], [1, 0]] {
+        let far = astray(&masks[a], &masks[b], gpu.width());
+        assert_eq!(far, 0, "{name}: pixels more than one pixel off the contour");
+    }
+}
+
+fn main() -> ExitCode {
+    studio::run(TESTS)
+}

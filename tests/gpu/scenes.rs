@@ -1,0 +1,116 @@
+//! What is put before the renderers.
+
+use std::f64::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
+
+use morphospace::content::{BlendSpace, ContentKind, FieldBlend};
+use morphospace::design::{Design, Form, Truss};
+use morphospace::geometry::{DVec2, FillRule, Regions};
+use morphospace::mesh::TriangleMesh;
+use morphospace::progress::Silent;
+use morphospace::transition::{Cell, Transition, TransitionSpec};
+use morphospace::warp::WarpKind;
+
+fn design(form: Form) -> Arc<Design> {
+    let extent = match &form {
+        Form::Outline(regions) => regions.bounds(),
+        Form::Mesh(mesh) => mesh.bounds(),
+        Form::Truss(truss) => truss.bounds(),
+    };
+    let name = "scene".into();
+    Arc::new(Design { name, form, extent })
+}
+
+fn build(spec: &TransitionSpec) -> Transition {
+    Transition::build(spec, &Silent).expect("a transition")
+}
+
+/// A strip that bends into a quarter of a ring, somewhere.
+pub fn solid(offset: f64) -> Transition {
+    let bent = |p: DVec2| {
+        let angle = FRAC_PI_2 * p.x / 6.0;
+        DVec2::from_angle(FRAC_PI_2 - angle) * (2.5 + p.y)
+    };
+    let mesh = |place: &dyn Fn(DVec2) -> DVec2| {
+        let (columns, rows) = (24, 4);
+        let at = |i: u32| DVec2::new(f64::from(i / (rows + 1)), f64::from(i % (rows + 1))) / 4.0;
+        let positions = (0..(columns + 1) * (rows + 1))
+            .map(|i| place(at(i)) + DVec2::splat(offset))
+            .collect();
+        let faces = (0..columns * rows).flat_map(|i| {
+            let a = (i / rows) * (rows + 1) + i % rows;
+            let [b, c, d] = [a + rows + 1, a + rows + 2, a + 1];
+            [[a, b, c], [a, c, d]]
+        });
+        Form::Mesh(TriangleMesh::new(positions, faces.collect()).expect("a mesh"))
+    };
+    let source = design(mesh(&|p| p));
+    let target = design(mesh(&bent));
+    build(&TransitionSpec::new(source, target))
+}
+
+/// A girder whose upper chord rises into an arch.
+pub fn truss() -> Transition {
+    let panels = 6;
+    let truss = |rise: f64| {
+        let lower = (0..=panels).map(|i| DVec2::new(f64::from(i), 0.0));
+        let upper = (0..panels).map(|i| {
+            let x = f64::from(i) + 0.5;
+            let along = x / f64::from(panels);
+            DVec2::new(x, 1.0 + rise * 4.0 * along * (1.0 - along))
+        });
+        let first_upper = panels + 1;
+        let mut bars: Vec<[u32; 2]> = Vec::new();
+        for i in 0..panels {
+            let top = first_upper + i;
+            bars.extend([[i, i + 1], [i, top], [top, i + 1]]);
+            if i + 1 < panels {
+                bars.push([top, top + 1]);
+            }
+        }
+        let truss = Truss::new(lower.chain(upper).collect(), bars).expect("a truss");
+        Form::Truss(truss)
+    };
+    let mut spec = TransitionSpec::new(design(truss(0.0)), design(truss(2.0)));
+    spec.bar_width = 0.02;
+    build(&spec)
+}
+
+fn ring(centre: DVec2, radius: f64, squash: f64) -> Vec<DVec2> {
+    let corner = |i: u32| DVec2::from_angle(TAU * f64::from(i) / 96.0);
+    (0..96)
+        .map(|i| centre + corner(i) * DVec2::new(radius, radius * squash))
+        .collect()
+}
+
+/// A ring that parts into two ellipses, in each space, thin and thick ε.
+pub fn field() -> Vec<(&'static str, Transition)> {
+    let regions = |rings: &[Vec<DVec2>]| {
+        design(Form::Outline(
+            Regions::from_rings(rings, FillRule::EvenOdd).expect("regions"),
+        ))
+    };
+    let source = regions(&[ring(DVec2::ZERO, 2.0, 0.9), ring(DVec2::ZERO, 1.1, 1.0)]);
+    let target = regions(&[
+        ring(DVec2::new(-1.6, 0.3), 0.9, 1.5),
+        ring(DVec2::new(1.6, -0.3), 1.0, 0.7),
+    ]);
+    let blends = [
+        ("field-log", BlendSpace::Log, 1.0, 0.0),
+        ("field-sharp", BlendSpace::Log, 0.01, 0.0),
+        ("field-real", BlendSpace::Real, 1.0, -2.5),
+    ];
+    let cell = Cell::new(WarpKind::None, ContentKind::Field).expect("a cell");
+    let transition = |(name, space, epsilon, threshold)| {
+        let mut spec = TransitionSpec::new(source.clone(), target.clone());
+        spec.cell = cell;
+        spec.field.cells = 200;
+        spec.field.blend = FieldBlend {
+            space,
+            epsilon,
+            threshold,
+        };
+        (name, build(&spec))
+    };
+    blends.map(transition).into()
+}

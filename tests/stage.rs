@@ -1,0 +1,380 @@
+//! The stage's systems without a window and without a renderer.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use bevy::asset::AssetEvent;
+use bevy::mesh::VertexAttributeValues;
+use bevy::prelude::*;
+use morphospace::content::ContentKind;
+use morphospace::design::{Design, Form};
+use morphospace::geometry::{Bounds, DVec2};
+use morphospace::mesh::TriangleMesh;
+use morphospace::progress::Silent;
+use morphospace::stage::{
+    ArapSolver, Blend, BuildFailed, CaptureStage, FieldSprite, FrameTimes, MorphPlugin, Show,
+    SourceMesh, StageCamera, StageCaptured, StageStyle, StageTransition, StageView, TargetMesh,
+};
+use morphospace::transition::{Cell, Transition, TransitionSpec};
+use morphospace::warp::WarpKind;
+
+/// A strip of squares, each cut in two.
+fn strip(squares: u32, place: impl Fn(DVec2) -> DVec2) -> TriangleMesh {
+    let column = |i: u32| [0.0, 1.0].map(|y| place(DVec2::new(f64::from(i), y)));
+    let positions = (0..=squares).flat_map(column).collect();
+    let faces = (0..squares).flat_map(|i| {
+        let [a, b, c, d] = [2 * i, 2 * i + 2, 2 * i + 3, 2 * i + 1];
+        [[a, b, c], [a, c, d]]
+    });
+    TriangleMesh::new(positions, faces.collect()).expect("a legal mesh")
+}
+
+fn straight() -> TriangleMesh {
+    strip(4, |p| p)
+}
+
+fn turned() -> TriangleMesh {
+    strip(4, |p| DVec2::new(-p.y, p.x))
+}
+
+fn transition(offset: DVec2, cell: Cell) -> Transition {
+    let design = |mesh: TriangleMesh| {
+        Arc::new(Design {
+            name: "strip".into(),
+            extent: mesh.bounds(),
+            form: Form::Mesh(mesh),
+        })
+    };
+    let source = design(strip(4, |p| p + offset));
+    let target = design(strip(4, |p| DVec2::new(-p.y, p.x) + offset));
+    let mut spec = TransitionSpec::new(source, target);
+    spec.cell = cell;
+    spec.field.cells = 32;
+    Transition::build(&spec, &Silent).expect("a transition")
+}
+
+fn arap() -> Cell {
+    Cell::new(WarpKind::Arap, ContentKind::Solid).expect("a cell")
+}
+
+fn field() -> Cell {
+    Cell::new(WarpKind::None, ContentKind::Field).expect("a cell")
+}
+
+/// Only builds and solves.
+fn bare_app() -> App {
+    let mut app = App::new();
+    app.add_plugins((MinimalPlugins, MorphPlugin));
+    app
+}
+
+/// Draws too, into assets that no renderer takes.
+fn drawing_app() -> App {
+    let mut app = App::new();
+    app.add_plugins((MinimalPlugins, AssetPlugin::default(), MorphPlugin));
+    app
+}
+
+fn until(app: &mut App, done: impl Fn(&World) -> bool) {
+    let start = Instant::now();
+    while !done(app.world()) {
+        assert!(start.elapsed() < Duration::from_secs(60), "waited too long");
+        app.update();
+    }
+}
+
+fn has<C: Component>(entity: Entity) -> impl Fn(&World) -> bool {
+    move |world| world.get::<C>(entity).is_some()
+}
+
+fn spawn_pair(app: &mut App, t: f64) -> Entity {
+    let pair = (SourceMesh(straight()), TargetMesh(turned()), Blend { t });
+    let entity = app.world_mut().spawn(pair).id();
+    until(app, has::<ArapSolver>(entity));
+    entity
+}
+
+fn places(app: &App, entity: Entity) -> Vec<DVec2> {
+    let solver = app.world().get::<ArapSolver>(entity).expect("a solver");
+    solver.frame().placement().in_frame.clone()
+}
+
+fn meshes_of(app: &App, entity: Entity) -> Vec<(Handle<Mesh>, Visibility)> {
+    let world = app.world();
+    let children = world.get::<Children>(entity).map(|c| c.to_vec());
+    let part = |child: Entity| {
+        let mesh = world.get::<Mesh2d>(child)?.0.clone();
+        Some((mesh, *world.get::<Visibility>(child)?))
+    };
+    children
+        .unwrap_or_default()
+        .into_iter()
+        .filter_map(part)
+        .collect()
+}
+
+fn positions(app: &App, mesh: &Handle<Mesh>) -> Vec<[f32; 3]> {
+    let meshes = app.world().resource::<Assets<Mesh>>();
+    let mesh = meshes.get(mesh).expect("a mesh");
+    match mesh.attribute(Mesh::ATTRIBUTE_POSITION) {
+        Some(VertexAttributeValues::Float32x3(positions)) => positions.clone(),
+        other => panic!("positions were expected: {other:?}"),
+    }
+}
+
+#[test]
+fn two_meshes_and_a_blend_morph() {
+    let mut app = bare_app();
+    let entity = spawn_pair(&mut app, 0.0);
+    for (t, end) in [(0.0, straight()), (1.0, turned())] {
+        app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = t;
+        app.update();
+        for (p, q) in places(&app, entity).iter().zip(end.positions()) {
+            assert!((*p - *q).length() < 1e-12, "{p} is not {q} at {t}");
+        }
+    }
+    // Half way a rigid target has turned by half of it.
+    app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 0.5;
+    app.update();
+    let places = places(&app, entity);
+    let edge = places[8] - places[0];
+    assert!(
+        (edge - DVec2::splat(8.0_f64.sqrt())).length() < 1e-9,
+        "{edge}"
+    );
+    let times = app.world().resource::<FrameTimes>();
+    assert!(times.solve.median().is_some());
+}
+
+#[derive(Resource, Default)]
+struct Touched(u32);
+
+fn count_touched(changed: Query<(), Changed<ArapSolver>>, mut touched: ResMut<Touched>) {
+    touched.0 += changed.iter().count() as u32;
+}
+
+#[test]
+fn an_unmoved_or_senseless_blend_solves_nothing() {
+    let mut app = bare_app();
+    app.init_resource::<Touched>()
+        .add_systems(Last, count_touched);
+    let entity = spawn_pair(&mut app, 0.25);
+    app.update();
+    let before = places(&app, entity);
+    app.world_mut().resource_mut::<Touched>().0 = 0;
+    for t in [0.25, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = t;
+        app.update();
+    }
+    assert_eq!(app.world().resource::<Touched>().0, 0);
+    assert_eq!(places(&app, entity), before);
+    app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 0.75;
+    app.update();
+    assert_eq!(app.world().resource::<Touched>().0, 1);
+    assert_ne!(places(&app, entity), before);
+}
+
+#[derive(Resource, Default)]
+struct Failures(Vec<(Entity, String)>);
+
+fn note_failure(failed: On<BuildFailed>, mut failures: ResMut<Failures>) {
+    failures.0.push((failed.entity, failed.error.to_string()));
+}
+
+#[test]
+fn a_failed_build_names_its_entity_and_keeps_what_was_shown() {
+    let mut app = bare_app();
+    app.init_resource::<Failures>().add_observer(note_failure);
+    let good = spawn_pair(&mut app, 0.0);
+    let bad = (SourceMesh(straight()), TargetMesh(strip(3, |p| p)));
+    let bad = app.world_mut().spawn(bad).id();
+    until(&mut app, |world| !world.resource::<Failures>().0.is_empty());
+    app.world_mut()
+        .get_mut::<TargetMesh>(good)
+        .expect("a mesh")
+        .0 = strip(2, |p| p);
+    until(&mut app, |world| world.resource::<Failures>().0.len() == 2);
+    let failures = &app.world().resource::<Failures>().0;
+    assert_eq!([failures[0].0, failures[1].0], [bad, good]);
+    assert!(!failures[0].1.is_empty());
+    assert!(app.world().get::<ArapSolver>(bad).is_none());
+    assert!(app.world().get::<ArapSolver>(good).is_some());
+}
+
+#[test]
+fn entities_and_meshes_may_go_while_a_build_runs() {
+    let mut app = bare_app();
+    let long = strip(4000, |p| p);
+    let pair = (SourceMesh(long.clone()), TargetMesh(long));
+    let gone = app.world_mut().spawn(pair.clone()).id();
+    let replaced = app.world_mut().spawn(pair).id();
+    app.update();
+    app.world_mut().despawn(gone);
+    let newer = (SourceMesh(straight()), TargetMesh(turned()));
+    app.world_mut().entity_mut(replaced).insert(newer);
+    until(&mut app, has::<ArapSolver>(replaced));
+    for _ in 0..20 {
+        app.update();
+    }
+    assert_eq!(places(&app, replaced).len(), straight().positions().len());
+}
+
+#[test]
+fn a_transition_that_is_built_brings_its_components() {
+    let mut app = drawing_app();
+    let staged = StageTransition(transition(DVec2::ZERO, arap()));
+    let entity = app.world_mut().spawn((staged, Blend { t: 1.0 })).id();
+    app.update();
+    let source = app.world().get::<SourceMesh>(entity).expect("a source");
+    assert_eq!(source.0.positions(), straight().positions());
+    assert!(app.world().get::<TargetMesh>(entity).is_some());
+    let solver = app.world().get::<ArapSolver>(entity).expect("a solver");
+    assert_eq!(solver.frame().t(), 1.0);
+    let solid_parts = meshes_of(&app, entity);
+
+    let staged = StageTransition(transition(DVec2::ZERO, field()));
+    app.world_mut().entity_mut(entity).insert(staged);
+    app.update();
+    assert!(app.world().get::<SourceMesh>(entity).is_none());
+    assert!(app.world().get::<ArapSolver>(entity).is_none());
+    let sprite = app.world().get::<FieldSprite>(entity).expect("a sprite");
+    assert_eq!(sprite.frame().t(), 1.0);
+    let field_parts = meshes_of(&app, entity);
+    assert!(!field_parts.is_empty());
+    for (mesh, _) in &solid_parts {
+        assert!(field_parts.iter().all(|(other, _)| other != mesh));
+    }
+
+    app.world_mut().entity_mut(entity).remove::<FieldSprite>();
+    app.update();
+    assert!(meshes_of(&app, entity).is_empty(), "parts stayed behind");
+}
+
+#[derive(Resource, Default)]
+struct Rewritten(usize);
+
+fn count_rewritten(mut events: MessageReader<AssetEvent<Mesh>>, mut count: ResMut<Rewritten>) {
+    let modified = |event: &&AssetEvent<Mesh>| matches!(event, AssetEvent::Modified { .. });
+    count.0 += events.read().filter(modified).count();
+}
+
+#[test]
+fn meshes_are_written_only_when_the_frame_moves() {
+    let mut app = drawing_app();
+    app.init_resource::<Rewritten>()
+        .add_systems(Last, count_rewritten);
+    let entity = spawn_pair(&mut app, 0.3);
+    for _ in 0..5 {
+        app.update();
+    }
+    let fill = meshes_of(&app, entity)[0].0.clone();
+    let origin = app.world().get::<ArapSolver>(entity).expect("a solver");
+    let origin = origin.frame().transition().bounds().centre();
+    for (p, q) in positions(&app, &fill).iter().zip(places(&app, entity)) {
+        let q = q - origin;
+        let off = (f64::from(p[0]) - q.x).hypot(f64::from(p[1]) - q.y);
+        assert!(off < 1e-6, "{p:?} is not {q}");
+    }
+    app.world_mut().resource_mut::<Rewritten>().0 = 0;
+    for _ in 0..5 {
+        app.update();
+    }
+    assert_eq!(app.world().resource::<Rewritten>().0, 0);
+    app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 0.4;
+    for _ in 0..3 {
+        app.update();
+    }
+    // The fill alone: the wireframe is hidden, ghosts never move.
+    assert_eq!(app.world().resource::<Rewritten>().0, 1);
+}
+
+#[test]
+fn what_was_hidden_is_up_to_date_when_it_is_shown() {
+    let mut app = drawing_app();
+    let entity = spawn_pair(&mut app, 0.0);
+    app.update();
+    app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 1.0;
+    app.update();
+    let corners = 3 * straight().faces().len();
+    let wire = |app: &App| {
+        let mut parts = meshes_of(app, entity).into_iter();
+        let is_wire = |(mesh, _): &(Handle<Mesh>, _)| positions(app, mesh).len() == corners;
+        parts.find(is_wire).expect("a wireframe")
+    };
+    assert_eq!(wire(&app).1, Visibility::Hidden);
+    let style = StageStyle {
+        show: Show {
+            wireframe: true,
+            ..default()
+        },
+        ..default()
+    };
+    app.world_mut().entity_mut(entity).insert(style);
+    app.update();
+    let (mesh, visibility) = wire(&app);
+    assert_eq!(visibility, Visibility::Inherited);
+    // The first edge of the first face, turned by a right angle.
+    let [a, b] = [positions(&app, &mesh)[0], positions(&app, &mesh)[1]];
+    assert!((b[0] - a[0]).abs() < 1e-6 && (b[1] - a[1] - 1.0).abs() < 1e-6);
+}
+
+#[test]
+fn designs_far_from_zero_are_placed_around_the_anchor() {
+    let mut app = drawing_app();
+    let far = DVec2::new(1e9, -1e9);
+    let built = transition(far, arap());
+    let bounds = built.bounds();
+    let entity = app.world_mut().spawn(StageTransition(built)).id();
+    app.world_mut()
+        .resource_mut::<StageView>()
+        .fit(bounds, Vec2::new(800.0, 600.0));
+    let camera = app.world_mut().spawn(StageCamera).id();
+    app.update();
+    let translation = |entity: Entity| app.world().get::<Transform>(entity).map(|t| t.translation);
+    assert_eq!(translation(camera), Some(Vec3::ZERO));
+    let children = app.world().get::<Children>(entity).expect("parts");
+    let at = translation(children[0]).expect("a place");
+    assert_eq!(at.truncate(), Vec2::ZERO);
+    let corner = positions(&app, &meshes_of(&app, entity)[0].0)[0];
+    let expected = (far - bounds.centre()).as_vec2();
+    assert!((Vec2::new(corner[0], corner[1]) - expected).length() < 1e-5);
+}
+
+#[test]
+fn the_camera_follows_the_view() {
+    let mut app = bare_app();
+    let camera = app.world_mut().spawn(StageCamera).id();
+    {
+        let mut view = app.world_mut().resource_mut::<StageView>();
+        let bounds = Bounds {
+            min: DVec2::ZERO,
+            max: DVec2::new(4.0, 2.0),
+        };
+        view.fit(bounds, Vec2::new(400.0, 400.0));
+        view.pan_px(Vec2::new(-100.0, 0.0));
+    }
+    app.update();
+    let transform = app.world().get::<Transform>(camera).expect("a place");
+    assert!((transform.translation - Vec3::X).length() < 1e-6);
+    match app.world().get::<Projection>(camera) {
+        Some(Projection::Orthographic(projection)) => assert_eq!(projection.scale, 0.01),
+        other => panic!("an orthographic projection was expected: {other:?}"),
+    }
+}
+
+#[test]
+fn a_capture_without_a_renderer_is_refused_in_words() {
+    let mut app = bare_app();
+    app.world_mut().write_message(CaptureStage {
+        id: 7,
+        size_px: UVec2::splat(16),
+        ground: None,
+        view: StageView::default().visible(),
+    });
+    app.update();
+    let mut answers = app.world_mut().resource_mut::<Messages<StageCaptured>>();
+    let answers: Vec<_> = answers.drain().collect();
+    assert_eq!(answers.len(), 1);
+    assert_eq!(answers[0].id, 7);
+    assert!(answers[0].result.as_ref().is_err_and(|why| !why.is_empty()));
+}
