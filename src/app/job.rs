@@ -1,0 +1,132 @@
+//! Work beside the window: a thread that tells how far it is and can be cancelled.
+//!
+//! A thread of its own, not a place in Bevy's pool: on a machine with two cores that pool has a
+//! single worker, and a film that is being written must not keep a transition from being built.
+//! A panic in the work is an answer like any other and takes nothing else down.
+
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::sync::mpsc::{Receiver, TryRecvError, channel};
+use std::sync::{Arc, Mutex, PoisonError};
+
+use crate::progress::Progress;
+
+/// How far the work is, and whether it is still wanted.
+#[derive(Debug, Default)]
+pub struct Tracker {
+    stage: Mutex<&'static str>,
+    permille: AtomicU32,
+    cancelled: AtomicBool,
+}
+
+impl Progress for Tracker {
+    fn report(&self, stage: &'static str, fraction: f64) {
+        *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+        let permille = (fraction.clamp(0.0, 1.0) * 1000.0) as u32;
+        self.permille.store(permille, Ordering::Relaxed);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.cancelled.load(Ordering::Relaxed)
+    }
+}
+
+/// The work itself did not come back: it panicked, or no thread could be had for it.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the work on {0} broke off; this is a fault of the program, please report it")]
+pub struct Broken(&'static str);
+
+/// A piece of work that runs beside the window.
+#[derive(Debug)]
+pub struct Job<T> {
+    name: &'static str,
+    tracker: Arc<Tracker>,
+    answer: Mutex<Receiver<T>>,
+}
+
+impl<T: Send + 'static> Job<T> {
+    /// Starts the work on a thread of that name.
+    pub fn start(name: &'static str, work: impl FnOnce(&Tracker) -> T + Send + 'static) -> Self {
+        let (sender, receiver) = channel();
+        let tracker = Arc::new(Tracker::default());
+        let theirs = Arc::clone(&tracker);
+        // Where no thread can be had the sender is dropped here, and `poll` says that it broke.
+        std::thread::Builder::new()
+            .name(name.to_owned())
+            .spawn(move || {
+                // Nobody listens any more once the job was dropped; then the answer is not wanted.
+                sender.send(work(&theirs)).ok();
+            })
+            .ok();
+        Self { name, tracker, answer: Mutex::new(receiver) }
+    }
+
+    /// The answer, once, when it is there.
+    ///
+    /// # Errors
+    /// The work panicked or could not be started.
+    pub fn poll(&self) -> Option<Result<T, Broken>> {
+        let answer = self.answer.lock().unwrap_or_else(PoisonError::into_inner);
+        match answer.try_recv() {
+            Ok(answer) => Some(Ok(answer)),
+            Err(TryRecvError::Empty) => None,
+            Err(TryRecvError::Disconnected) => Some(Err(Broken(self.name))),
+        }
+    }
+
+    /// What it is at, and how far, 0 to 1.
+    #[must_use]
+    pub fn progress(&self) -> (&'static str, f64) {
+        let stage = *self.tracker.stage.lock().unwrap_or_else(PoisonError::into_inner);
+        (stage, f64::from(self.tracker.permille.load(Ordering::Relaxed)) / 1000.0)
+    }
+
+    /// Asks the work to stop; it answers when it has.
+    pub fn cancel(&self) {
+        self.tracker.cancelled.store(true, Ordering::Relaxed);
+    }
+}
+
+impl<T> Drop for Job<T> {
+    fn drop(&mut self) {
+        self.tracker.cancelled.store(true, Ordering::Relaxed);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn wait<T: Send + 'static>(job: &Job<T>) -> Result<T, Broken> {
+        loop {
+            if let Some(answer) = job.poll() {
+                return answer;
+            }
+            std::thread::yield_now();
+        }
+    }
+
+    #[test]
+    fn an_answer_comes_back() {
+        let job = Job::start("sum", |_| 1 + 1);
+        assert_eq!(wait(&job), Ok(2));
+    }
+
+    #[test]
+    fn a_panic_is_an_answer() {
+        let job: Job<()> = Job::start("fault", |_| panic!("as the test wants it"));
+        assert_eq!(wait(&job), Err(Broken("fault")));
+    }
+
+    #[test]
+    fn work_hears_that_it_is_cancelled() {
+        let job = Job::start("endless", |tracker| {
+            while !tracker.is_cancelled() {
+                tracker.report("waiting", 0.25);
+                std::thread::yield_now();
+            }
+            "heard"
+        });
+        job.cancel();
+        assert_eq!(wait(&job), Ok("heard"));
+    }
+}

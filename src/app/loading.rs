@@ -1,0 +1,144 @@
+//! What takes time: reading files and building transitions, off the main thread.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use crate::compatible::CompatibleMesh;
+use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::project::{LoadedProject, Project, ProjectError, gallery};
+use crate::transition::{BuildError, Cell, Transition};
+
+/// A project with its designs and, where it could be built, its transition.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The project and its designs.
+    pub project: LoadedProject,
+    /// What can be played.
+    pub transition: Option<Transition>,
+    /// Why there is nothing to play.
+    pub problem: Option<String>,
+    /// How many parts can turn on their own.
+    pub parts: usize,
+}
+
+/// Work to be done.
+#[derive(Clone, Debug)]
+pub enum Request {
+    /// Open a bundled project.
+    Gallery(&'static str),
+    /// Open a project file.
+    File(PathBuf),
+    /// Open two designs as a new project.
+    Pair(PathBuf, PathBuf),
+    /// Build what is open with its new settings; reads designs again where their file, or how it
+    /// is read, differs from the project given second.
+    Rebuild(LoadedProject, Project),
+}
+
+/// Why nothing could be opened.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// The project, or one of its designs.
+    #[error(transparent)]
+    Project(#[from] ProjectError),
+    /// Nobody waits for it any more.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl Request {
+    /// Does the work.
+    ///
+    /// # Errors
+    /// The project or a design cannot be read. That a transition cannot be built from them is no
+    /// error: it stands in the answer.
+    pub fn carry_out(self, progress: &dyn Progress) -> Result<Loaded, LoadError> {
+        checkpoint(progress, "Reading", 0.0)?;
+        let mut project = match self {
+            Self::Gallery(name) => gallery::load(name)?,
+            Self::File(path) => LoadedProject::open(&path)?,
+            Self::Pair(source, target) => LoadedProject::pair(&source, &target)?,
+            Self::Rebuild(loaded, staged) if reads_differently(&staged, &loaded.project) => {
+                loaded.reread()?
+            }
+            Self::Rebuild(loaded, _) => return Ok(built(loaded, progress)),
+        };
+        choose_cell(&mut project);
+        Ok(built(project, progress))
+    }
+}
+
+/// A cell that the designs can be shown by, where that of the project is not one.
+fn choose_cell(loaded: &mut LoadedProject) {
+    let (warp, content) = (loaded.project.warp, loaded.project.content);
+    if loaded.available(warp, content).is_ok() {
+        return;
+    }
+    let can = |cell: &&Cell| loaded.available(cell.warp(), cell.content()).is_ok();
+    if let Some(cell) = Cell::ALL.iter().find(can) {
+        loaded.project.warp = cell.warp();
+        loaded.project.content = cell.content();
+    }
+}
+
+fn built(project: LoadedProject, progress: &dyn Progress) -> Loaded {
+    let built = project.spec().map_err(|error| error.to_string()).and_then(|spec| {
+        Transition::build(&spec, progress).map_err(|error: BuildError| error.to_string())
+    });
+    let (transition, problem) = match built {
+        Ok(transition) => (Some(transition), None),
+        Err(problem) => (None, Some(problem)),
+    };
+    let parts = transition.as_ref().and_then(Transition::compatible).map_or(0, count_parts);
+    Loaded { project, transition, problem, parts }
+}
+
+/// The settings that a transition is built from differ.
+#[must_use]
+pub fn needs_build(staged: &Project, now: &Project) -> bool {
+    staged.designs != now.designs
+        || staged.fit != now.fit
+        || (staged.warp, staged.content) != (now.warp, now.content)
+        || staged.arap != now.arap
+        || staged.field != now.field
+        || staged.bar_width != now.bar_width
+}
+
+fn reads_differently(staged: &Project, now: &Project) -> bool {
+    let reading = |project: &Project| -> Vec<_> {
+        project.designs.iter().map(|entry| (entry.path.clone(), entry.import.clone())).collect()
+    };
+    reading(staged) != reading(now)
+}
+
+/// Parts of a mesh whose faces share edges; parts that share a vertex only turn on their own.
+fn count_parts(mesh: &CompatibleMesh) -> usize {
+    let faces = mesh.faces();
+    let mut roots: Vec<usize> = (0..faces.len()).collect();
+    let mut first_at: HashMap<[u32; 2], usize> = HashMap::new();
+    for (face, corners) in faces.iter().enumerate() {
+        for k in 0..3 {
+            let (a, b) = (corners[k], corners[(k + 1) % 3]);
+            let other = *first_at.entry([a.min(b), a.max(b)]).or_insert(face);
+            let (one, two) = (root(&mut roots, face), root(&mut roots, other));
+            roots[one.max(two)] = one.min(two);
+        }
+    }
+    (0..faces.len()).filter(|face| roots[*face] == *face).count()
+}
+
+fn root(roots: &mut [usize], mut face: usize) -> usize {
+    while roots[face] != face {
+        roots[face] = roots[roots[face]];
+        face = roots[face];
+    }
+    face
+}
+
+/// Writes a project to a path; its designs are named relative to that from then on.
+///
+/// # Errors
+/// The file cannot be written.
+pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), ProjectError> {
+    loaded.save_as(path)
+}

@@ -1,0 +1,202 @@
+//! The window: playback, panels, keys, capture.
+//!
+//! Built on the stage's plugin like any other Bevy program. Keys and panels write
+//! [`Intent`]s; the systems here act on them; panels draw what there is. [`LogicPlugin`]
+//! is everything that needs neither a window nor a graphics card, and is what the tests run.
+
+mod capture;
+mod closing;
+mod dialogs;
+mod files;
+mod intent;
+mod job;
+mod keymap;
+mod loading;
+mod notices;
+mod opening;
+mod playback;
+mod preferences;
+mod record;
+mod session;
+mod staging;
+mod thumbnails;
+mod times;
+mod ui;
+mod view;
+
+use std::path::PathBuf;
+
+use bevy::camera::CameraOutputMode;
+use bevy::camera::visibility::RenderLayers;
+use bevy::prelude::*;
+use bevy::render::render_resource::BlendState;
+use bevy::window::{ExitCondition, WindowResolution};
+use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
+
+pub use closing::Question;
+pub use files::CaptureFolder;
+pub use intent::{Answer, Intent};
+pub use keymap::{Binding, Held, KeyMap, Trigger, Typing};
+pub use notices::{Kind, Notice, Notices};
+pub use playback::Playback;
+pub use preferences::{CaptureScale, Preferences, RecordFormat, ThemeChoice};
+pub use session::Session;
+pub use staging::OnStage;
+pub use view::{KeepsFit, StageArea};
+
+use crate::project::gallery;
+use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
+
+/// What the command line hands to the window.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct AppOptions {
+    /// A project, or one or two designs; the gallery's first project where there is none.
+    pub files: Vec<PathBuf>,
+    /// The folder for pictures and films, instead of the user's pictures.
+    pub captures: Option<PathBuf>,
+}
+
+/// Opens the window and returns when it was closed.
+pub fn run(options: AppOptions) -> AppExit {
+    let AppOptions { files, captures } = options;
+    App::new()
+        .add_plugins(DefaultPlugins.set(window()))
+        .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
+        .insert_resource(CaptureFolder::choose(captures))
+        .add_systems(Startup, move |mut intents: MessageWriter<Intent>| {
+            intents.write(first(&files));
+        })
+        .run()
+}
+
+fn first(files: &[PathBuf]) -> Intent {
+    match (files, gallery::list().first()) {
+        ([], Some(entry)) => Intent::OpenGallery(entry.name.to_owned()),
+        _ => Intent::Open(files.to_vec()),
+    }
+}
+
+fn window() -> WindowPlugin {
+    WindowPlugin {
+        primary_window: Some(Window {
+            title: "Morphospace".to_owned(),
+            name: Some("morphospace".to_owned()),
+            resolution: WindowResolution::new(1280, 720),
+            resize_constraints: WindowResizeConstraints {
+                min_width: 960.0,
+                min_height: 540.0,
+                ..default()
+            },
+            ..default()
+        }),
+        exit_condition: ExitCondition::OnPrimaryClosed,
+        close_when_requested: false,
+        ..default()
+    }
+}
+
+/// Everything that needs neither a window nor a graphics card.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LogicPlugin;
+
+impl Plugin for LogicPlugin {
+    fn build(&self, app: &mut App) {
+        use MorphSystems::{Input, Playback as Play, Solve};
+        init(app);
+        app.configure_sets(Update, (Input, Play, Solve).chain())
+            .add_systems(Update, (times::record, keymap::read_keys, dialogs::read_drops).in_set(Input))
+            .add_systems(Update, act().in_set(Play))
+            .add_systems(
+                Update,
+                (staging::stage_transition, staging::stage_t, staging::stage_style)
+                    .chain()
+                    .after(Play)
+                    .before(Solve),
+            );
+    }
+}
+
+fn init(app: &mut App) {
+    app.add_message::<Intent>()
+        .add_message::<bevy::window::FileDragAndDrop>()
+        .add_message::<bevy::window::WindowCloseRequested>()
+        .init_resource::<ClearColor>()
+        .init_resource::<Session>()
+        .init_resource::<Playback>()
+        .init_resource::<Preferences>()
+        .init_resource::<KeyMap>()
+        .init_resource::<Typing>()
+        .init_resource::<Notices>()
+        .init_resource::<Question>()
+        .init_resource::<dialogs::Drop>()
+        .init_resource::<record::Recorder>()
+        .init_resource::<StageArea>()
+        .init_resource::<KeepsFit>()
+        .init_resource::<times::WholeFrame>()
+        .insert_resource(CaptureFolder::choose(None));
+}
+
+/// The systems that act on intents. The order among them is that of their answers: what is opened
+/// is taken in before it is played.
+fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
+    (
+        closing::read_close_requests,
+        view::back,
+        preferences::apply,
+        (closing::answer, closing::close, dialogs::decide).chain(),
+        (opening::open, opening::edit, opening::save, opening::poll).chain(),
+        (playback::apply, playback::advance).chain(),
+        (record::apply, record::report).chain(),
+        view::apply,
+        notices::apply,
+    )
+        .chain()
+}
+
+/// What the window adds: cameras, panels, dialogs, pictures.
+#[derive(Debug)]
+struct WindowPlugins;
+
+impl Plugin for WindowPlugins {
+    fn build(&self, app: &mut App) {
+        app.add_plugins(ui::UiPlugin)
+            .init_resource::<capture::Captures>()
+            .init_resource::<dialogs::Dialog>()
+            .init_resource::<thumbnails::Thumbnails>()
+            .add_systems(Startup, spawn_cameras)
+            .add_systems(
+                Update,
+                (
+                    (dialogs::open, dialogs::finish).chain(),
+                    view::window_mode,
+                    (view::fit, view::place_camera).chain(),
+                    thumbnails::advance,
+                )
+                    .after(MorphSystems::Playback)
+                    .before(MorphSystems::Solve),
+            )
+            .add_systems(Update, capture::ask.after(MorphSystems::Draw).before(MorphSystems::Capture))
+            .add_systems(Update, (capture::receive, capture::report).after(MorphSystems::Capture));
+    }
+}
+
+/// One camera for the stage, in its part of the window, and one above it for the panels.
+fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
+    egui.auto_create_primary_context = false;
+    commands.spawn(StageCamera);
+    commands.spawn((
+        PrimaryEguiContext,
+        Camera2d,
+        Msaa::Off,
+        RenderLayers::none(),
+        Camera {
+            order: 1,
+            output_mode: CameraOutputMode::Write {
+                blend_state: Some(BlendState::ALPHA_BLENDING),
+                clear_color: ClearColorConfig::None,
+            },
+            clear_color: ClearColorConfig::Custom(Color::NONE),
+            ..default()
+        },
+    ));
+}

@@ -1,0 +1,236 @@
+//! Opening, editing and saving: the intents that change the [`Session`].
+
+use std::path::PathBuf;
+
+use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut};
+
+use crate::app::closing::Question;
+use crate::app::dialogs::{Drop, is_project};
+use crate::app::intent::Intent;
+use crate::app::loading::Request;
+use crate::app::notices::Notices;
+use crate::app::playback::{Playback, SAME_T};
+use crate::app::session::{CONTENTS, Origin, Outcome, Session, WARPS};
+use crate::app::view::KeepsFit;
+use crate::content::ContentKind;
+use crate::design::ImportOptions;
+use crate::geometry::Similarity;
+use crate::project::{DesignEntry, Project, gallery};
+use crate::transition::{PlayMode, Stop};
+use crate::warp::WarpKind;
+
+/// Acts on the intents that open something; asks first where changes would be lost.
+pub fn open(
+    mut intents: MessageReader<Intent>,
+    mut session: ResMut<Session>,
+    mut question: ResMut<Question>,
+    mut drop: ResMut<Drop>,
+    mut notices: ResMut<Notices>,
+) {
+    for intent in intents.read() {
+        let (request, origin) = match intent {
+            Intent::OpenGallery(name) => match gallery_entry(name) {
+                Some(name) => (Request::Gallery(name), Origin::Gallery(name)),
+                None => {
+                    notices.problem(format!("There is no project “{name}” in the gallery."));
+                    continue;
+                }
+            },
+            Intent::Open(paths) => match what_to_open(paths, &session) {
+                ToOpen::Request(request, origin) => (request, origin),
+                ToOpen::Ask(path) => {
+                    drop.ask(path);
+                    continue;
+                }
+                ToOpen::Refuse(text) => {
+                    notices.problem(text);
+                    continue;
+                }
+            },
+            _ => continue,
+        };
+        if session.is_dirty() {
+            question.ask(intent.clone(), session.unsaved_text());
+        } else {
+            session.open(request, origin);
+        }
+    }
+}
+
+fn gallery_entry(name: &str) -> Option<&'static str> {
+    gallery::list().iter().find(|entry| entry.name == name).map(|entry| entry.name)
+}
+
+enum ToOpen {
+    Request(Request, Origin),
+    Ask(PathBuf),
+    Refuse(String),
+}
+
+fn what_to_open(paths: &[PathBuf], session: &Session) -> ToOpen {
+    match paths {
+        [project] if is_project(project) => {
+            let origin = Origin::File(project.clone());
+            ToOpen::Request(Request::File(project.clone()), origin)
+        }
+        [design] if session.project().is_some() => ToOpen::Ask(design.clone()),
+        [design] => {
+            ToOpen::Request(Request::Pair(design.clone(), design.clone()), Origin::Unsaved)
+        }
+        [source, target] if !is_project(source) && !is_project(target) => {
+            ToOpen::Request(Request::Pair(source.clone(), target.clone()), Origin::Unsaved)
+        }
+        _ => ToOpen::Refuse(format!(
+            "{} files cannot be opened together: open one project, or one or two designs.",
+            paths.len()
+        )),
+    }
+}
+
+/// Acts on the intents that change the open project.
+pub fn edit(
+    mut intents: MessageReader<Intent>,
+    mut session: ResMut<Session>,
+    mut notices: ResMut<Notices>,
+    playback: Res<Playback>,
+) {
+    for intent in intents.read() {
+        match intent {
+            Intent::CancelWork => session.cancel(),
+            Intent::NextMethod => match next_cell(&session) {
+                Some(cell) => change(&mut session, |project| set_cell(project, cell)),
+                None => notices.done("These designs can be shown by one method only."),
+            },
+            Intent::AddStop => add_stop(&mut session, playback.t()),
+            intent => change(&mut session, |project| apply(project, intent)),
+        }
+    }
+}
+
+fn change(session: &mut Session, edit: impl FnOnce(&mut Project)) {
+    let Some(project) = session.project() else {
+        return;
+    };
+    let mut changed = project.clone();
+    edit(&mut changed);
+    if changed != *project {
+        session.edit(changed);
+    }
+}
+
+fn apply(project: &mut Project, intent: &Intent) {
+    match intent {
+        Intent::Edit(changed) => project.clone_from(changed),
+        Intent::UseCell(warp, content) => set_cell(project, (*warp, *content)),
+        Intent::CyclePlayMode => {
+            project.timing.play = match project.timing.play {
+                PlayMode::Once => PlayMode::Loop,
+                PlayMode::Loop => PlayMode::PingPong,
+                PlayMode::PingPong => PlayMode::Once,
+            };
+        }
+        Intent::ReplaceDesign(index, path) => {
+            if let Some(entry) = project.designs.get_mut(*index) {
+                *entry = entry_of(path);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn set_cell(project: &mut Project, (warp, content): (WarpKind, ContentKind)) {
+    project.warp = warp;
+    project.content = content;
+}
+
+fn entry_of(path: &std::path::Path) -> DesignEntry {
+    let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned());
+    DesignEntry {
+        name: name.unwrap_or_default(),
+        path: std::path::absolute(path).unwrap_or_else(|_| path.to_owned()),
+        import: ImportOptions::default(),
+        placement: Similarity::IDENTITY,
+    }
+}
+
+/// The next cell of the table, after the one in use, that can be had.
+fn next_cell(session: &Session) -> Option<(WarpKind, ContentKind)> {
+    let project = session.project()?;
+    let cells: Vec<_> =
+        WARPS.into_iter().flat_map(|warp| CONTENTS.map(|content| (warp, content))).collect();
+    let here = cells.iter().position(|cell| *cell == (project.warp, project.content))?;
+    let after = cells.iter().cycle().skip(here + 1).take(cells.len() - 1);
+    after.copied().find(|(warp, content)| session.available(*warp, *content).is_ok())
+}
+
+fn add_stop(session: &mut Session, t: f64) {
+    change(session, |project| {
+        let place = project.stops.partition_point(|stop| stop.t < t - SAME_T);
+        let is_there = project.stops.get(place).is_some_and(|stop| (stop.t - t).abs() < SAME_T);
+        if !is_there {
+            let name = free_name(&project.stops);
+            project.stops.insert(place, Stop { t, name });
+        }
+    });
+}
+
+fn free_name(stops: &[Stop]) -> String {
+    let taken = |name: &String| stops.iter().any(|stop| stop.name == *name);
+    (1..=stops.len() + 1).map(|n| format!("Stop {n}")).find(|name| !taken(name)).unwrap_or_default()
+}
+
+/// Acts on the intents that save; tells what was saved, and lets go on what waited for it.
+pub fn save(
+    mut intents: MessageReader<Intent>,
+    mut session: ResMut<Session>,
+    mut question: ResMut<Question>,
+    mut notices: ResMut<Notices>,
+    mut next: MessageWriter<Intent>,
+) {
+    let mut waiting = None;
+    for intent in intents.read() {
+        let saved = match intent {
+            Intent::Save if session.path().is_some() => session.save(None),
+            Intent::SaveTo(path) => session.save(Some(path)),
+            _ => continue,
+        };
+        match saved {
+            Ok(path) => {
+                notices.done(format!("Saved {}", path.display()));
+                waiting = question.after_save();
+            }
+            Err(error) => {
+                notices.problem(error);
+                question.not_saved();
+            }
+        }
+    }
+    next.write_batch(waiting);
+}
+
+/// Takes in what was opened or built.
+pub fn poll(
+    mut session: ResMut<Session>,
+    mut notices: ResMut<Notices>,
+    mut playback: ResMut<Playback>,
+    mut keeps_fit: ResMut<KeepsFit>,
+) {
+    let outcome = session.bypass_change_detection().poll();
+    if outcome.is_some() {
+        session.set_changed();
+    }
+    match outcome {
+        None | Some(Outcome::Rebuilt) => {}
+        Some(Outcome::Failed(text)) => notices.problem(text),
+        Some(Outcome::Opened) => begin(&session, &mut playback, &mut keeps_fit),
+        Some(Outcome::OpenedWithout(text)) => {
+            notices.problem(text);
+            begin(&session, &mut playback, &mut keeps_fit);
+        }
+    }
+}
+
+fn begin(session: &Session, playback: &mut Playback, keeps_fit: &mut KeepsFit) {
+    playback.begin(session.timing());
+    keeps_fit.0 = true;
+}

@@ -1,0 +1,319 @@
+//! The project that is open and the transition on the stage.
+//!
+//! Work that takes time runs in a [`Job`]: the stage shows the old transition until the new one is
+//! ready, and keeps it where the new one cannot be had. While a build is running, newer settings
+//! wait for it to end, so that a slider that is being dragged shows its way; a build that takes
+//! long is given up for the newest settings.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use bevy::prelude::Resource;
+
+use crate::app::files::safe;
+use crate::app::job::Job;
+use crate::app::loading::{self, LoadError, Loaded, Request};
+use crate::content::ContentKind;
+use crate::design::Form;
+use crate::project::Project;
+use crate::transition::{Stop, Timing, Transition};
+use crate::warp::WarpKind;
+
+/// The rows of the table that the window shows.
+pub const WARPS: [WarpKind; 2] = [WarpKind::None, WarpKind::Arap];
+
+/// The columns of the table that the window shows.
+pub const CONTENTS: [ContentKind; 2] = [ContentKind::Solid, ContentKind::Field];
+
+/// A build that takes longer is given up when the settings change again.
+const PATIENCE: Duration = Duration::from_millis(1500);
+
+/// Where the open project comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A bundled project, by its name.
+    Gallery(&'static str),
+    /// A file.
+    File(PathBuf),
+    /// Designs that were opened together, or a project that was changed beyond its file.
+    Unsaved,
+}
+
+/// A project that is open.
+#[derive(Debug)]
+struct Open {
+    loaded: Loaded,
+    origin: Origin,
+    /// As it was opened or saved last.
+    saved: Project,
+    /// As it is on the stage.
+    staged: Project,
+}
+
+/// Work that is going on.
+#[derive(Debug)]
+struct Work {
+    job: Job<Result<Loaded, LoadError>>,
+    started: Instant,
+    kind: WorkKind,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+enum WorkKind {
+    Open(Origin),
+    Rebuild,
+}
+
+/// What [`Session::poll`] found.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Outcome {
+    /// Another project is open.
+    Opened,
+    /// Another project is open, but it has no transition; a sentence for the user tells why.
+    OpenedWithout(String),
+    /// The open project has a new transition.
+    Rebuilt,
+    /// It did not work; a sentence for the user.
+    Failed(String),
+}
+
+/// The project that is open, its transition, and the work on the next one.
+#[derive(Resource, Debug, Default)]
+pub struct Session {
+    open: Option<Open>,
+    work: Option<Work>,
+    is_stale: bool,
+}
+
+static NO_TIMING: std::sync::LazyLock<Timing> = std::sync::LazyLock::new(Timing::default);
+
+impl Session {
+    /// The open project with all its settings.
+    #[must_use]
+    pub fn project(&self) -> Option<&Project> {
+        self.open.as_ref().map(|open| &open.loaded.project.project)
+    }
+
+    /// The transition on the stage.
+    #[must_use]
+    pub fn transition(&self) -> Option<&Transition> {
+        self.open.as_ref()?.loaded.transition.as_ref()
+    }
+
+    /// How time runs.
+    #[must_use]
+    pub fn timing(&self) -> &Timing {
+        self.project().map_or(&NO_TIMING, |project| &project.timing)
+    }
+
+    /// The stops of the open project.
+    #[must_use]
+    pub fn stops(&self) -> &[Stop] {
+        self.project().map_or(&[], |project| &project.stops)
+    }
+
+    /// The file that the project is saved to.
+    #[must_use]
+    pub fn path(&self) -> Option<&Path> {
+        match &self.open.as_ref()?.origin {
+            Origin::File(path) => Some(path),
+            Origin::Gallery(_) | Origin::Unsaved => None,
+        }
+    }
+
+    /// The bundled project that is open.
+    #[must_use]
+    pub fn gallery_name(&self) -> Option<&str> {
+        match self.open.as_ref()?.origin {
+            Origin::Gallery(name) => Some(name),
+            Origin::File(_) | Origin::Unsaved => None,
+        }
+    }
+
+    /// What the open project is called.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let Some(project) = self.project() else {
+            return String::new();
+        };
+        if !project.title.is_empty() {
+            return project.title.clone();
+        }
+        match self.path().and_then(Path::file_stem) {
+            Some(stem) => stem.to_string_lossy().into_owned(),
+            None => project.designs.iter().map(|d| d.name.as_str()).collect::<Vec<_>>().join(" – "),
+        }
+    }
+
+    /// What files that belong to the project are called.
+    #[must_use]
+    pub fn file_stem(&self) -> String {
+        let stem = self.path().and_then(Path::file_stem).map(|s| s.to_string_lossy().into_owned());
+        safe(&stem.or_else(|| self.gallery_name().map(str::to_owned)).unwrap_or_else(|| self.title()))
+    }
+
+    /// There are changes that are not saved.
+    #[must_use]
+    pub fn is_dirty(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| open.loaded.project.project != open.saved)
+    }
+
+    /// What to ask about them.
+    #[must_use]
+    pub fn unsaved_text(&self) -> String {
+        format!("“{}” has changes that are not saved.", self.title())
+    }
+
+    /// Takes the changes for saved.
+    pub fn forget_changes(&mut self) {
+        if let Some(open) = &mut self.open {
+            open.saved = open.loaded.project.project.clone();
+        }
+    }
+
+    /// What is being worked on and how far it is.
+    #[must_use]
+    pub fn work(&self) -> Option<(&'static str, f64)> {
+        self.work.as_ref().map(|work| work.job.progress())
+    }
+
+    /// How long the work has been going on.
+    #[must_use]
+    pub fn work_lasts(&self) -> Duration {
+        self.work.as_ref().map_or(Duration::ZERO, |work| work.started.elapsed())
+    }
+
+    /// Whether the open designs can be shown by this cell; otherwise why not.
+    ///
+    /// # Errors
+    /// The reason, for a grey button.
+    pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), String> {
+        match &self.open {
+            Some(open) => open.loaded.project.available(warp, content),
+            None => Err("no project is open".to_owned()),
+        }
+    }
+
+    /// How many parts can turn on their own.
+    #[must_use]
+    pub fn parts(&self) -> usize {
+        self.open.as_ref().map_or(0, |open| open.loaded.parts)
+    }
+
+    /// Some design is a truss.
+    #[must_use]
+    pub fn has_bars(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| {
+            open.loaded.project.designs.iter().any(|design| matches!(design.form, Form::Truss(_)))
+        })
+    }
+
+    /// Opens something else, beside the stage.
+    pub fn open(&mut self, request: Request, origin: Origin) {
+        self.is_stale = false;
+        self.start(WorkKind::Open(origin), request);
+    }
+
+    /// Changes the settings of the open project.
+    pub fn edit(&mut self, project: Project) {
+        let Some(open) = &mut self.open else {
+            return;
+        };
+        open.loaded.project.project = project;
+        self.is_stale = loading::needs_build(&open.staged, &open.loaded.project.project);
+    }
+
+    /// Gives up the work; the settings go back to what the stage shows.
+    pub fn cancel(&mut self) {
+        let Some(work) = self.work.take() else {
+            return;
+        };
+        self.is_stale = false;
+        if let (WorkKind::Rebuild, Some(open)) = (&work.kind, &mut self.open) {
+            open.loaded.project.project = open.staged.clone();
+        }
+    }
+
+    /// Writes the project to its file, or to another, which is its file from then on.
+    ///
+    /// # Errors
+    /// A sentence for the user; the project is as it was.
+    pub fn save(&mut self, to: Option<&Path>) -> Result<PathBuf, String> {
+        let path = to.or(self.path()).map(Path::to_owned);
+        let (Some(open), Some(path)) = (&mut self.open, path) else {
+            return Err("There is no project to save.".to_owned());
+        };
+        loading::save(&mut open.loaded.project, &path).map_err(|error| error.to_string())?;
+        open.saved = open.loaded.project.project.clone();
+        open.staged.designs.clone_from(&open.saved.designs);
+        open.origin = Origin::File(path.clone());
+        Ok(path)
+    }
+
+    fn start(&mut self, kind: WorkKind, request: Request) {
+        let job = Job::start("the transition", move |progress| request.carry_out(progress));
+        self.work = Some(Work { job, started: Instant::now(), kind });
+    }
+
+    /// Takes in work that is done and starts what waits for it.
+    pub fn poll(&mut self) -> Option<Outcome> {
+        let outcome = self.take_work();
+        let is_free = match &self.work {
+            None => true,
+            Some(work) => work.kind == WorkKind::Rebuild && work.started.elapsed() > PATIENCE,
+        };
+        if self.is_stale && is_free && let Some(open) = &self.open {
+            self.is_stale = false;
+            let request = Request::Rebuild(open.loaded.project.clone(), open.staged.clone());
+            self.start(WorkKind::Rebuild, request);
+        }
+        outcome
+    }
+
+    fn take_work(&mut self) -> Option<Outcome> {
+        let answer = self.work.as_ref()?.job.poll()?;
+        let work = self.work.take()?;
+        let result = answer.map_err(|broken| broken.to_string());
+        let result = result.and_then(|done| done.map_err(|error| error.to_string()));
+        Some(match (result, work.kind) {
+            (Err(error), kind) => {
+                if kind == WorkKind::Rebuild {
+                    self.give_up_designs();
+                }
+                Outcome::Failed(error)
+            }
+            (Ok(loaded), WorkKind::Open(origin)) => self.adopt(loaded, origin),
+            (Ok(loaded), WorkKind::Rebuild) => self.restage(loaded),
+        })
+    }
+
+    fn adopt(&mut self, loaded: Loaded, origin: Origin) -> Outcome {
+        let project = loaded.project.project.clone();
+        let problem = loaded.problem.clone();
+        self.open = Some(Open { loaded, origin, saved: project.clone(), staged: project });
+        problem.map_or(Outcome::Opened, Outcome::OpenedWithout)
+    }
+
+    /// The settings may have changed again meanwhile: they stay, and so does what is on the stage
+    /// where there is nothing new. A file that cannot be read is not kept among the designs.
+    fn restage(&mut self, loaded: Loaded) -> Outcome {
+        let Some(open) = &mut self.open else {
+            return Outcome::Rebuilt;
+        };
+        if let Some(problem) = loaded.problem {
+            return Outcome::Failed(problem);
+        }
+        open.loaded.transition = loaded.transition;
+        open.loaded.parts = loaded.parts;
+        open.loaded.project.designs = loaded.project.designs;
+        open.staged = loaded.project.project;
+        Outcome::Rebuilt
+    }
+
+    fn give_up_designs(&mut self) {
+        if let Some(open) = &mut self.open {
+            open.loaded.project.project.designs.clone_from(&open.staged.designs);
+            open.loaded.project.project.fit = open.staged.fit;
+        }
+    }
+}

@@ -1,0 +1,64 @@
+//! Hands the session's transition, t and style to the stage.
+
+use bevy::prelude::*;
+
+use crate::app::playback::Playback;
+use crate::app::preferences::Preferences;
+use crate::app::session::Session;
+use crate::stage::{Blend, StageStyle, StageTransition};
+
+/// The entity that is on the stage.
+#[derive(Component, Debug)]
+pub struct OnStage;
+
+/// Puts the transition on the stage wherever it is another one.
+pub fn stage_transition(
+    mut commands: Commands,
+    session: Res<Session>,
+    playback: Res<Playback>,
+    staged: Query<(Entity, &StageTransition), With<OnStage>>,
+) {
+    if !session.is_changed() {
+        return;
+    }
+    let blend = Blend { t: playback.t() };
+    match (session.transition(), staged.single()) {
+        (Some(new), Ok((_, StageTransition(old)))) if new.is_same(old) => {}
+        (Some(new), Ok((entity, _))) => {
+            commands.entity(entity).insert((StageTransition(new.clone()), blend));
+        }
+        (Some(new), Err(_)) => {
+            commands.spawn((OnStage, StageTransition(new.clone()), blend));
+        }
+        (None, Ok((entity, _))) => commands.entity(entity).despawn(),
+        (None, Err(_)) => {}
+    }
+}
+
+/// Moves what is on the stage to t.
+pub fn stage_t(playback: Res<Playback>, mut blends: Query<&mut Blend, With<OnStage>>) {
+    for mut blend in &mut blends {
+        if blend.t != playback.t() {
+            blend.t = playback.t();
+        }
+    }
+}
+
+/// Dresses what is on the stage in the project's colours and shows what is to be shown.
+pub fn stage_style(
+    session: Res<Session>,
+    preferences: Res<Preferences>,
+    mut styles: Query<&mut StageStyle, With<OnStage>>,
+    mut ground: ResMut<ClearColor>,
+) {
+    let Some(project) = session.project() else {
+        return;
+    };
+    let [r, g, b] = project.style.ground.0;
+    ground.set_if_neq(ClearColor(Color::srgb_u8(r, g, b)));
+    for mut style in &mut styles {
+        if style.style != project.style || style.show != preferences.show {
+            *style = StageStyle { style: project.style, show: preferences.show };
+        }
+    }
+}

@@ -1,0 +1,52 @@
+//! The panel on the right: everything that can be set about the transition.
+//!
+//! Its parts change a copy of the project; where the copy came out different it is sent as one
+//! intent.
+
+use bevy_egui::egui::{self, Margin, Panel, ScrollArea, Ui};
+
+use super::theme::{GRID, Palette};
+use super::{
+    Intents, Scene, appearance_panel, designs_panel, field_panel, method_panel, warp_panel,
+};
+use crate::app::intent::Intent;
+use crate::content::ContentKind;
+use crate::warp::WarpKind;
+
+const WIDTH: f32 = 312.0;
+
+/// Draws the panel.
+pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let frame = egui::Frame::new().fill(Palette::of(root).panel).inner_margin(Margin {
+        left: 16,
+        right: 8,
+        top: 0,
+        bottom: 0,
+    });
+    Panel::right("inspector").exact_size(WIDTH).resizable(false).frame(frame).show(root, |ui| {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.set_width(WIDTH - 40.0);
+            sections(ui, scene, acts);
+            ui.add_space(2.0 * GRID);
+        });
+    });
+}
+
+fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let Some(project) = scene.session.project() else {
+        return;
+    };
+    method_panel::show(ui, scene, project, acts);
+    let mut draft = project.clone();
+    if draft.warp == WarpKind::Arap {
+        warp_panel::show(ui, scene, &mut draft.arap);
+    }
+    if draft.content == ContentKind::Field {
+        field_panel::show(ui, &mut draft.field);
+    }
+    designs_panel::show(ui, &mut draft, acts);
+    appearance_panel::show(ui, scene, &mut draft, acts);
+    if draft != *project {
+        acts.push(Intent::Edit(Box::new(draft)));
+    }
+}

@@ -1,0 +1,135 @@
+//! The table of cells: what moves, and what is seen. Cells that cannot be had are grey and say why.
+
+use bevy_egui::egui::{
+    Align2, FontId, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo,
+    WidgetType, pos2, vec2,
+};
+
+use super::theme::{GRID, Palette, RADIUS};
+use super::widgets::{hint, section};
+use super::{Intents, Scene};
+use crate::app::intent::Intent;
+use crate::app::session::{CONTENTS, WARPS};
+use crate::content::ContentKind;
+use crate::project::Project;
+use crate::warp::WarpKind;
+
+const ROW_LABEL_WIDTH: f32 = 72.0;
+const CELL_HEIGHT: f32 = 40.0;
+
+/// Draws the table and what the chosen cell does.
+pub fn show(ui: &mut Ui, scene: &Scene, project: &Project, acts: &mut Intents) {
+    section(ui, "Method", |ui| {
+        let width = (ui.available_width() - ROW_LABEL_WIDTH - GRID) / CONTENTS.len() as f32;
+        heads(ui, width);
+        ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
+        for warp in WARPS {
+            ui.horizontal(|ui| {
+                row_head(ui, warp);
+                for content in CONTENTS {
+                    cell(ui, scene, project, (warp, content), width - 4.0, acts);
+                }
+            });
+        }
+        ui.add_space(4.0);
+        hint(ui, description(project.warp, project.content));
+    });
+}
+
+fn heads(ui: &mut Ui, width: f32) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
+    let weak = Palette::of(ui).weak;
+    let font = TextStyle::Small.resolve(ui.style());
+    let mut left = rect.left() + ROW_LABEL_WIDTH + 4.0;
+    for content in CONTENTS {
+        let at = pos2(left, rect.center().y);
+        ui.painter().text(at, Align2::LEFT_CENTER, content_name(content), font.clone(), weak);
+        left += width;
+    }
+}
+
+fn row_head(ui: &mut Ui, warp: WarpKind) {
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(ROW_LABEL_WIDTH, CELL_HEIGHT), Sense::hover());
+    let (name, tip) = match warp {
+        WarpKind::None => ("Still", "Nothing moves: each point stays where it is."),
+        WarpKind::Arap => (
+            "Rigid",
+            "Each part moves as rigidly as it can: limbs turn instead of shrinking.",
+        ),
+    };
+    let font = TextStyle::Small.resolve(ui.style());
+    let weak = Palette::of(ui).weak;
+    ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, name, font, weak);
+    response.on_hover_text(tip);
+}
+
+fn content_name(content: ContentKind) -> &'static str {
+    match content {
+        ContentKind::Solid => "Solid",
+        ContentKind::Field => "Distance field",
+    }
+}
+
+fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
+    match (warp, content) {
+        (WarpKind::None, ContentKind::Solid) => "–",
+        (WarpKind::None, ContentKind::Field) => "Blend",
+        (WarpKind::Arap, ContentKind::Solid) => "Rigid parts",
+        (WarpKind::Arap, ContentKind::Field) => "Carried field",
+    }
+}
+
+fn description(warp: WarpKind, content: ContentKind) -> &'static str {
+    match (warp, content) {
+        (WarpKind::None, ContentKind::Field) => {
+            "Blends how far each point lies from the two outlines. Any shapes, with holes; \
+             parts that move grow out of each other instead of turning."
+        }
+        (WarpKind::Arap, ContentKind::Solid) => {
+            "Turns and stretches each triangle evenly and joins them again. Parts keep their \
+             form while they move; needs designs with the same triangles."
+        }
+        (WarpKind::Arap, ContentKind::Field) => "Distance fields carried by moving parts.",
+        (WarpKind::None, ContentKind::Solid) => "Nothing moves and nothing blends.",
+    }
+}
+
+fn cell(
+    ui: &mut Ui,
+    scene: &Scene,
+    project: &Project,
+    (warp, content): (WarpKind, ContentKind),
+    width: f32,
+    acts: &mut Intents,
+) {
+    let available = scene.session.available(warp, content);
+    let is_chosen = (project.warp, project.content) == (warp, content);
+    let sense = if available.is_ok() { Sense::click() } else { Sense::hover() };
+    let (rect, response) = ui.allocate_exact_size(vec2(width, CELL_HEIGHT), sense);
+    let name = cell_name(warp, content);
+    response.widget_info(|| {
+        WidgetInfo::selected(WidgetType::RadioButton, available.is_ok(), is_chosen, name)
+    });
+    paint_cell(ui, rect, name, &response, is_chosen, available.is_ok());
+    if response.clicked() && !is_chosen {
+        acts.push(Intent::UseCell(warp, content));
+    }
+    match available {
+        Ok(()) => response.on_hover_text(description(warp, content)),
+        Err(reason) => response.on_hover_text(format!("Not available: {reason}")),
+    };
+}
+
+fn paint_cell(ui: &Ui, rect: Rect, name: &str, response: &Response, chosen: bool, can: bool) {
+    let palette = Palette::of(ui);
+    let font: FontId = TextStyle::Small.resolve(ui.style());
+    let (fill, line, text) = match (can, chosen, response.hovered()) {
+        (_, true, _) => (palette.accent_ground, palette.accent, palette.text),
+        (false, ..) => (palette.panel, palette.line, palette.weak.gamma_multiply(0.6)),
+        (true, false, true) => (palette.hover, palette.line, palette.text),
+        (true, false, false) => (palette.raised, palette.raised, palette.text),
+    };
+    ui.painter().rect(rect, RADIUS, fill, Stroke::new(1.0, line), StrokeKind::Inside);
+    ui.painter().text(rect.center(), Align2::CENTER_CENTER, name, font, text);
+}

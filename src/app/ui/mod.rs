@@ -1,0 +1,160 @@
+//! What is drawn around the stage. egui is named here and in the files below, nowhere else.
+//!
+//! Panels read a [`Scene`] and push [`Intent`]s; they compute nothing and change nothing. While
+//! no text is being written egui gets no keys at all, so Space and the arrows cannot drive a
+//! widget and the playback at once.
+
+mod appearance_panel;
+mod designs_panel;
+mod field_panel;
+mod gallery_panel;
+mod help;
+mod icons;
+mod inspector;
+mod method_panel;
+mod notices;
+mod questions;
+mod stage_area;
+mod theme;
+mod timeline;
+mod times;
+mod toolbar;
+mod track;
+mod transport;
+mod warp_panel;
+mod widgets;
+mod work;
+
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::*;
+use bevy_egui::{
+    EguiContexts, EguiPlugin, EguiPreUpdateSet, EguiPrimaryContextPass, egui, input::EguiInputSet,
+};
+
+use crate::app::closing::Question;
+use crate::app::dialogs::Drop;
+use crate::app::intent::Intent;
+use crate::app::keymap::{KeyMap, Typing};
+use crate::app::notices::Notices;
+use crate::app::playback::Playback;
+use crate::app::preferences::Preferences;
+use crate::app::record::Recorder;
+use crate::app::session::Session;
+use crate::app::thumbnails::Thumbnails;
+use crate::app::times::WholeFrame;
+use crate::app::view::StageArea;
+use crate::stage::FrameTimes;
+
+/// Draws the panels with egui.
+#[derive(Debug)]
+pub struct UiPlugin;
+
+impl Plugin for UiPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_plugins(EguiPlugin::default())
+            .init_resource::<gallery_panel::Textures>()
+            .add_systems(
+                PreUpdate,
+                keep_keys_from_widgets
+                    .after(EguiInputSet::WriteEguiEvents)
+                    .before(EguiPreUpdateSet::BeginPass),
+            )
+            .add_systems(EguiPrimaryContextPass, draw);
+    }
+}
+
+/// Everything that the panels show.
+#[derive(SystemParam)]
+struct Scene<'w> {
+    session: Res<'w, Session>,
+    playback: Res<'w, Playback>,
+    preferences: Res<'w, Preferences>,
+    notices: Res<'w, Notices>,
+    thumbnails: Res<'w, Thumbnails>,
+    recorder: Res<'w, Recorder>,
+    question: Res<'w, Question>,
+    drop: Res<'w, Drop>,
+    keys: Res<'w, KeyMap>,
+    times: Res<'w, FrameTimes>,
+    whole: Res<'w, WholeFrame>,
+}
+
+/// What the user does this frame.
+type Intents = Vec<Intent>;
+
+fn keep_keys_from_widgets(
+    mut contexts: Query<&mut bevy_egui::EguiInput>,
+    typing: Res<Typing>,
+) {
+    if typing.0 {
+        return;
+    }
+    for mut input in &mut contexts {
+        input.events.retain(|event| {
+            !matches!(event, egui::Event::Key { .. } | egui::Event::Text(_))
+        });
+    }
+}
+
+fn draw(
+    mut contexts: EguiContexts,
+    scene: Scene,
+    mut textures: ResMut<gallery_panel::Textures>,
+    mut typing: ResMut<Typing>,
+    mut area: ResMut<StageArea>,
+    mut intents: MessageWriter<Intent>,
+    mut is_dressed: Local<bool>,
+) -> Result {
+    let ctx = contexts.ctx_mut()?.clone();
+    if !*is_dressed {
+        theme::install(&ctx);
+        *is_dressed = true;
+    }
+    theme::choose(&ctx, scene.preferences.theme);
+    let mut acts = Intents::new();
+    let mut root = egui::Ui::new(
+        ctx.clone(),
+        "window".into(),
+        egui::UiBuilder::new().layer_id(egui::LayerId::background()).max_rect(ctx.viewport_rect()),
+    );
+    if scene.preferences.panels {
+        panels(&mut root, &scene, &mut textures, &mut acts);
+    }
+    let stage = root.available_rect_before_wrap();
+    stage_area::show(&mut root, stage, &mut acts);
+    overlays(&ctx, &scene, stage, &mut acts);
+    area.set_if_neq(StageArea::from_points(stage.left_top(), stage.size()));
+    typing.set_if_neq(Typing(ctx.text_edit_focused()));
+    intents.write_batch(acts);
+    Ok(())
+}
+
+fn panels(
+    root: &mut egui::Ui,
+    scene: &Scene,
+    textures: &mut gallery_panel::Textures,
+    acts: &mut Intents,
+) {
+    toolbar::show(root, scene, acts);
+    timeline::show(root, scene, acts);
+    gallery_panel::show(root, scene, textures, acts);
+    inspector::show(root, scene, acts);
+}
+
+fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut Intents) {
+    work::show(ctx, scene, stage, acts);
+    notices::show(ctx, scene, stage, acts);
+    if scene.preferences.times {
+        times::show(ctx, scene, stage);
+    }
+    if scene.preferences.help {
+        help::show(ctx, scene, acts);
+    }
+    questions::show(ctx, scene, acts);
+}
+
+impl StageArea {
+    fn from_points(corner: egui::Pos2, size: egui::Vec2) -> Self {
+        Self { corner: Vec2::new(corner.x, corner.y), size: Vec2::new(size.x, size.y) }
+    }
+}

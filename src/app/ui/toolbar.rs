@@ -1,0 +1,144 @@
+//! The line at the top: whose window this is, what is open, and what can be done with it.
+
+use bevy_egui::egui::{self, Align, Color32, Layout, Margin, Panel, Rect, RichText, Ui, vec2};
+
+use super::icons::Icon;
+use super::theme::{GRID, Palette};
+use super::widgets::{choices, from_right, icon_button, icon_button_sized, row};
+use super::{Intents, Scene};
+use crate::app::intent::Intent;
+use crate::app::preferences::{CaptureScale, RecordFormat, ThemeChoice};
+
+const HEIGHT: f32 = 48.0;
+
+/// Draws the toolbar.
+pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let frame = egui::Frame::new()
+        .fill(Palette::of(root).panel)
+        .inner_margin(Margin::symmetric(16, 8));
+    Panel::top("toolbar").exact_size(HEIGHT).frame(frame).show(root, |ui| {
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            mark(ui);
+            ui.label(RichText::new("Morphospace").heading());
+            ui.add_space(2.0 * GRID);
+            title(ui, scene);
+            from_right(ui, |ui| buttons(ui, scene, acts));
+        });
+    });
+}
+
+/// The sign of the program: a disc on its way to a square.
+fn mark(ui: &mut Ui) {
+    let (rect, _) = ui.allocate_exact_size(vec2(40.0, 24.0), egui::Sense::hover());
+    let ends = [Color32::from_rgb(0x3b, 0x7d, 0xd8), Color32::from_rgb(0xe0, 0x8a, 0x2b)];
+    let steps = [(0.0, 9.0, ends[0]), (0.5, 6.0, ends[0].lerp_to_gamma(ends[1], 0.5)), (1.0, 2.0, ends[1])];
+    for (t, radius, colour) in steps {
+        let centre = rect.left_center() + vec2(9.0 + 22.0 * t, 0.0);
+        let square = Rect::from_center_size(centre, vec2(18.0, 18.0));
+        ui.painter().rect_filled(square, radius, colour.gamma_multiply(0.85));
+    }
+}
+
+fn title(ui: &mut Ui, scene: &Scene) {
+    let palette = Palette::of(ui);
+    let name = scene.session.title();
+    ui.label(RichText::new(name).color(palette.text));
+    if scene.session.is_dirty() {
+        ui.label(RichText::new("edited").small().color(palette.weak))
+            .on_hover_text("Has changes that are not saved yet. Ctrl S saves them.");
+    }
+}
+
+fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    ui.spacing_mut().item_spacing.x = 4.0;
+    if ui.button("?").on_hover_text("All keys (? or F1)").clicked() {
+        acts.push(Intent::ToggleHelp);
+    }
+    theme_button(ui, scene, acts);
+    let fit = icon_button(ui, Icon::Fit, "Show the whole transition (Z)");
+    if fit.clicked() {
+        acts.push(Intent::FitView);
+    }
+    ui.add_space(GRID);
+    capture_menu(ui, scene, acts);
+    let record = icon_button_sized(
+        ui,
+        Icon::Record,
+        "Record one pass as a film, in the background (G)",
+        vec2(32.0, 32.0),
+        Some(Palette::of(ui).problem),
+    );
+    if record.clicked() {
+        acts.push(Intent::Record);
+    }
+    let camera = icon_button(ui, Icon::Camera, "Picture of the stage (S); with the panels: Shift S");
+    if camera.clicked() {
+        acts.push(Intent::Screenshot { with_panels: false });
+    }
+    ui.add_space(GRID);
+    if icon_button(ui, Icon::Save, "Save the project (Ctrl S)").clicked() {
+        acts.push(Intent::Save);
+    }
+    let open = icon_button(ui, Icon::Open, "Open a project, or one or two designs (Ctrl O)");
+    if open.clicked() {
+        acts.push(Intent::AskOpen);
+    }
+}
+
+fn theme_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let (icon, other, tip) = match scene.preferences.theme {
+        ThemeChoice::Dark => (Icon::Sun, ThemeChoice::Light, "Light panels"),
+        ThemeChoice::Light => (Icon::Moon, ThemeChoice::Dark, "Dark panels"),
+    };
+    if icon_button(ui, icon, tip).clicked() {
+        acts.push(Intent::Theme(other));
+    }
+}
+
+fn capture_menu(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let tip = "Size, ground and kind of pictures and films";
+    let button = icon_button_sized(ui, Icon::More, tip, vec2(20.0, 32.0), None);
+    egui::Popup::menu(&button)
+        .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
+        .show(|ui| {
+            ui.set_width(328.0);
+            capture_options(ui, scene, acts);
+        });
+}
+
+fn capture_options(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let preferences = &scene.preferences;
+    let mut scale = preferences.capture_scale;
+    row(ui, "Size", "How many pixels a picture of the stage has.", |ui| {
+        choices(ui, &mut scale, &[
+            (CaptureScale::One, "1×", "As many as on screen"),
+            (CaptureScale::Two, "2×", "Twice as many along each side"),
+            (CaptureScale::FourK, "4K", "3840 along the longer side"),
+        ])
+    });
+    let mut transparent = preferences.capture_transparent;
+    row(ui, "Ground", "What lies behind the shape in pictures and films.", |ui| {
+        choices(ui, &mut transparent, &[
+            (false, "Coloured", "The ground colour of the project"),
+            (true, "Transparent", "Nothing; for placing on a page (MP4 has no transparency)"),
+        ])
+    });
+    let mut format = preferences.record_format;
+    row(ui, "Film", "The kind of file that a recording writes.", |ui| {
+        choices(ui, &mut format, &[
+            (RecordFormat::Gif, "GIF", "Plays everywhere, 256 colours"),
+            (RecordFormat::Apng, "APNG", "Full colour, plays in browsers"),
+            (RecordFormat::Mp4, "MP4", "Needs ffmpeg on this machine"),
+            (RecordFormat::Pngs, "PNGs", "A folder of numbered pictures"),
+        ])
+    });
+    if scale != preferences.capture_scale {
+        acts.push(Intent::CaptureScale(scale));
+    }
+    if transparent != preferences.capture_transparent {
+        acts.push(Intent::CaptureTransparent(transparent));
+    }
+    if format != preferences.record_format {
+        acts.push(Intent::RecordFormat(format));
+    }
+}

@@ -1,0 +1,150 @@
+//! Where the stage is seen: its place in the window, fit, pan, zoom, whole screen.
+
+use bevy::camera::Viewport;
+use bevy::prelude::*;
+use bevy::window::{MonitorSelection, PrimaryWindow, WindowMode};
+
+use crate::app::intent::Intent;
+use crate::app::preferences::Preferences;
+use crate::app::session::Session;
+use crate::geometry::Bounds;
+use crate::stage::{StageCamera, StageView};
+
+/// The part of the window that the panels leave to the stage, in logical pixels.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct StageArea {
+    /// Upper left corner, y down.
+    pub corner: Vec2,
+    /// Width and height.
+    pub size: Vec2,
+}
+
+impl Default for StageArea {
+    fn default() -> Self {
+        Self { corner: Vec2::ZERO, size: Vec2::new(1280.0, 720.0) }
+    }
+}
+
+/// The view shows the whole transition and is to go on doing so when the area changes.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KeepsFit(pub bool);
+
+impl Default for KeepsFit {
+    fn default() -> Self {
+        Self(true)
+    }
+}
+
+/// Acts on the intents that concern the view.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    mut view: ResMut<StageView>,
+    mut keeps_fit: ResMut<KeepsFit>,
+) {
+    for intent in intents.read() {
+        match intent {
+            Intent::FitView => keeps_fit.0 = true,
+            Intent::Pan(delta) => {
+                view.pan_px(*delta);
+                keeps_fit.0 = false;
+            }
+            Intent::Zoom { at, factor } => {
+                view.zoom_at(*at, f64::from(*factor));
+                keeps_fit.0 = false;
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Fits the view wherever it is to be fitted and something about it changed.
+pub fn fit(
+    session: Res<Session>,
+    area: Res<StageArea>,
+    keeps_fit: Res<KeepsFit>,
+    mut view: ResMut<StageView>,
+    mut last: Local<Option<(Bounds, Vec2)>>,
+) {
+    if !keeps_fit.0 {
+        *last = None;
+        return;
+    }
+    let Some(transition) = session.transition() else {
+        return;
+    };
+    let now = Some((transition.bounds(), area.size));
+    if *last != now {
+        view.fit(transition.bounds(), area.size);
+        *last = now;
+    }
+}
+
+/// Lets the stage's camera draw into its part of the window alone.
+pub fn place_camera(
+    area: Res<StageArea>,
+    window: Single<&Window, With<PrimaryWindow>>,
+    mut camera: Single<&mut Camera, With<StageCamera>>,
+) {
+    let viewport = viewport(*area, &window);
+    let is_same = |old: &Viewport| {
+        viewport.as_ref().is_some_and(|new| {
+            (old.physical_position, old.physical_size) == (new.physical_position, new.physical_size)
+        })
+    };
+    if !camera.viewport.as_ref().is_some_and(is_same) {
+        camera.viewport = viewport;
+    }
+}
+
+/// At least a pixel, and within the window even while it is being resized; the whole window
+/// where that cannot be.
+fn viewport(area: StageArea, window: &Window) -> Option<Viewport> {
+    let scale = window.scale_factor();
+    let whole = window.physical_size();
+    let corner = (area.corner * scale).round().as_uvec2();
+    let size = (area.size * scale).round().as_uvec2().min(whole.saturating_sub(corner));
+    (size.min_element() > 0).then(|| Viewport {
+        physical_position: corner,
+        physical_size: size,
+        ..default()
+    })
+}
+
+/// Whole screen, and the way back out of everything.
+pub fn window_mode(
+    mut intents: MessageReader<Intent>,
+    mut window: Single<&mut Window, With<PrimaryWindow>>,
+) {
+    for intent in intents.read() {
+        if *intent == Intent::ToggleFullscreen {
+            window.mode = match window.mode {
+                WindowMode::Windowed => {
+                    WindowMode::BorderlessFullscreen(MonitorSelection::Current)
+                }
+                _ => WindowMode::Windowed,
+            };
+        }
+    }
+}
+
+/// Esc: the help goes first, then what hid the panels, then the whole screen.
+pub fn back(
+    mut intents: MessageReader<Intent>,
+    mut preferences: ResMut<Preferences>,
+    mut window: Query<&mut Window, With<PrimaryWindow>>,
+) {
+    let backs = intents.read().filter(|intent| **intent == Intent::Back).count();
+    for _ in 0..backs {
+        if preferences.help {
+            preferences.help = false;
+        } else if !preferences.panels {
+            preferences.panels = true;
+        } else if let Ok(mut window) = window.single_mut()
+            && window.mode != WindowMode::Windowed
+        {
+            window.mode = WindowMode::Windowed;
+        } else if preferences.times {
+            preferences.times = false;
+        }
+    }
+}
