@@ -32,10 +32,14 @@ impl Window {
 
     fn with_gallery() -> Self {
         let mut window = Self::new();
-        let name = gallery::list().first().expect("a gallery").name;
-        window.send(Intent::OpenGallery(name.to_owned()));
+        let name = entries().remove(0);
+        window.send(Intent::OpenGallery(name));
         window.wait();
-        assert!(window.session().transition().is_some(), "{:?}", window.problems());
+        assert!(
+            window.session().transition().is_some(),
+            "{:?}",
+            window.problems()
+        );
         window
     }
 
@@ -75,7 +79,11 @@ impl Window {
 
     fn problems(&self) -> Vec<String> {
         let notices = self.0.world().resource::<Notices>().list();
-        notices.iter().filter(|n| n.kind == Kind::Problem).map(|n| n.text.clone()).collect()
+        notices
+            .iter()
+            .filter(|n| n.kind == Kind::Problem)
+            .map(|n| n.text.clone())
+            .collect()
     }
 
     fn key(&mut self, state: ButtonState, key_code: KeyCode, logical_key: Key, repeat: bool) {
@@ -112,6 +120,14 @@ impl Window {
     }
 }
 
+fn entries() -> Vec<String> {
+    gallery::list()
+        .expect("a gallery")
+        .into_iter()
+        .map(|entry| entry.name)
+        .collect()
+}
+
 fn close(a: f64, b: f64) -> bool {
     (a - b).abs() < 1e-9
 }
@@ -136,7 +152,12 @@ fn arrows_step_and_repeat_and_shift_makes_ten_of_one() {
     let mut window = Window::with_gallery();
     window.press(KeyCode::ArrowRight, Key::ArrowRight);
     assert!(close(window.t(), 0.01));
-    window.key(ButtonState::Pressed, KeyCode::ArrowRight, Key::ArrowRight, true);
+    window.key(
+        ButtonState::Pressed,
+        KeyCode::ArrowRight,
+        Key::ArrowRight,
+        true,
+    );
     assert!(close(window.t(), 0.02));
     window.press(KeyCode::ArrowLeft, Key::ArrowLeft);
     window.hold(KeyCode::ShiftLeft, Key::Shift, |window| {
@@ -168,7 +189,11 @@ fn digits_go_by_their_place_and_signs_by_what_they_print() {
     assert_eq!(window.playback().speed(), 1.0);
     // A Dvorak keyboard prints s where a US keyboard has the semicolon.
     window.type_char(KeyCode::Semicolon, "s");
-    assert!(window.messages().contains(&Intent::Screenshot { with_panels: false }));
+    assert!(
+        window
+            .messages()
+            .contains(&Intent::Screenshot { with_panels: false })
+    );
 }
 
 #[test]
@@ -202,7 +227,11 @@ fn stops_are_set_jumped_to_and_played_to() {
     window.send(Intent::Seek(0.437));
     window.type_char(KeyCode::KeyM, "m");
     window.type_char(KeyCode::KeyM, "m");
-    assert_eq!(window.session().stops().len(), before + 1, "one stop at one place");
+    assert_eq!(
+        window.session().stops().len(),
+        before + 1,
+        "one stop at one place"
+    );
     window.press(KeyCode::Home, Key::Home);
     window.press(KeyCode::ArrowUp, Key::ArrowUp);
     let first = window.t();
@@ -235,7 +264,11 @@ fn no_key_acts_while_text_is_written() {
     assert!(window.messages().is_empty());
     window.0.insert_resource(Typing(false));
     window.update();
-    assert_eq!(window.t(), window.session().timing().from, "nothing is made up for");
+    assert_eq!(
+        window.t(),
+        window.session().timing().from,
+        "nothing is made up for"
+    );
 }
 
 #[test]
@@ -243,14 +276,22 @@ fn shift_and_control_tell_the_meanings_of_s_apart() {
     let mut window = Window::with_gallery();
     window.hold(KeyCode::ShiftRight, Key::Shift, |window| {
         window.type_char(KeyCode::KeyS, "S");
-        assert!(window.messages().contains(&Intent::Screenshot { with_panels: true }));
+        assert!(
+            window
+                .messages()
+                .contains(&Intent::Screenshot { with_panels: true })
+        );
     });
     window.update();
     window.update();
     window.hold(KeyCode::ControlLeft, Key::Control, |window| {
         window.type_char(KeyCode::KeyS, "s");
         assert!(window.messages().contains(&Intent::Save));
-        assert!(!window.messages().contains(&Intent::Screenshot { with_panels: false }));
+        assert!(
+            !window
+                .messages()
+                .contains(&Intent::Screenshot { with_panels: false })
+        );
     });
 }
 
@@ -295,11 +336,18 @@ fn what_is_opened_is_on_the_stage_at_t() {
 #[test]
 fn every_gallery_project_opens() {
     let mut window = Window::new();
-    for entry in gallery::list().iter().filter(|entry| !entry.name.contains("stress")) {
-        window.send(Intent::OpenGallery(entry.name.to_owned()));
+    for name in entries()
+        .into_iter()
+        .filter(|name| !name.contains("stress"))
+    {
+        window.send(Intent::OpenGallery(name.clone()));
         window.wait();
-        assert_eq!(window.session().gallery_name(), Some(entry.name));
-        assert!(window.session().transition().is_some(), "{}: {:?}", entry.name, window.problems());
+        assert_eq!(window.session().gallery_name(), Some(name.as_str()));
+        assert!(
+            window.session().transition().is_some(),
+            "{name}: {:?}",
+            window.problems()
+        );
     }
 }
 
@@ -309,7 +357,11 @@ fn a_file_that_is_none_is_said_and_the_open_project_stays() {
     let title = window.session().title();
     window.send(Intent::Open(vec!["/nowhere/at-all.morph".into()]));
     window.wait();
-    assert!(window.problems()[0].contains("at-all.morph"), "{:?}", window.problems());
+    assert!(
+        window.problems()[0].contains("at-all.morph"),
+        "{:?}",
+        window.problems()
+    );
     assert_eq!(window.session().title(), title);
     assert!(window.session().transition().is_some());
 }
@@ -329,7 +381,9 @@ fn closing_asks_about_changes_and_only_then() {
     let mut window = Window::with_gallery();
     window.send(Intent::AddStop);
     assert!(window.session().is_dirty());
-    let request = WindowCloseRequested { window: Entity::PLACEHOLDER };
+    let request = WindowCloseRequested {
+        window: Entity::PLACEHOLDER,
+    };
     window.0.world_mut().write_message(request.clone());
     window.update();
     window.update();
@@ -351,9 +405,8 @@ fn opening_something_else_asks_about_changes() {
     let mut window = Window::with_gallery();
     let title = window.session().title();
     window.send(Intent::AddStop);
-    let other = gallery::list().last().expect("a gallery").name;
-    let other = gallery::list().iter().map(|e| e.name).find(|n| *n != other).unwrap_or(other);
-    window.send(Intent::OpenGallery(other.to_owned()));
+    let other = entries().pop().expect("a gallery");
+    window.send(Intent::OpenGallery(other));
     window.wait();
     assert_eq!(window.session().title(), title);
     assert!(window.0.world().resource::<Question>().text().is_some());
@@ -390,7 +443,11 @@ fn settings_that_change_while_a_build_runs_are_built_too() {
     window.wait();
     assert_eq!(window.session().project(), Some(&project));
     let transition = window.session().transition().expect("a transition");
-    assert_eq!((transition.cell().warp(), transition.cell().content()), (project.warp, project.content));
+    let shown = (
+        Some(transition.cell().warp()),
+        Some(transition.cell().content()),
+    );
+    assert_eq!(shown, (project.warp, project.content));
 }
 
 #[test]
@@ -404,7 +461,14 @@ fn work_that_is_cancelled_takes_its_settings_back() {
     }
     let after = window.session().project().cloned();
     let transition = window.session().transition().expect("a transition");
-    let shown = (transition.cell().warp(), transition.cell().content());
-    assert_eq!(after.as_ref().map(|p| (p.warp, p.content)), Some(shown), "stage and panel agree");
+    let shown = (
+        Some(transition.cell().warp()),
+        Some(transition.cell().content()),
+    );
+    assert_eq!(
+        after.as_ref().map(|p| (p.warp, p.content)),
+        Some(shown),
+        "stage and panel agree"
+    );
     assert!(after == before || window.session().is_dirty());
 }

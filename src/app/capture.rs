@@ -46,7 +46,9 @@ pub fn ask(
         };
         let name = format!("{}-t{:.3}", session.file_stem(), playback.t());
         if with_panels {
-            commands.spawn(Screenshot::primary_window()).observe(window_captured(name));
+            commands
+                .spawn(Screenshot::primary_window())
+                .observe(window_captured(name));
             continue;
         }
         let Some(project) = session.project() else {
@@ -77,28 +79,33 @@ fn size_px(view: &StageView, scale_factor: f32, scale: CaptureScale) -> UVec2 {
 fn window_captured(
     name: String,
 ) -> impl FnMut(On<ScreenshotCaptured>, ResMut<Captures>, ResMut<Notices>, Res<CaptureFolder>) {
-    move |captured, mut captures, mut notices, folder| {
-        match captured.image.clone().try_into_dynamic() {
-            Ok(image) => captures.write(&folder, &name, image.to_rgb8().into()),
-            Err(error) => notices.problem(format!("The picture of the window was not taken: {error}")),
-        }
+    move |captured, mut captures, mut notices, folder| match captured
+        .image
+        .clone()
+        .try_into_dynamic()
+    {
+        Ok(image) => captures.write(&folder, &name, image.to_rgb8().into()),
+        Err(error) => notices.problem(format!("The picture of the window was not taken: {error}")),
     }
 }
 
 impl Captures {
     fn write(&mut self, folder: &CaptureFolder, name: &str, image: DynamicImage) {
         let (folder, name) = (folder.0.clone(), name.to_owned());
-        self.writing.push(Job::start("a picture", move |_| save(&folder, &name, &image)));
+        self.writing.push(Job::start("a picture", move |_| {
+            save(&folder, &name, &image)
+        }));
     }
 }
 
 fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, String> {
     let (file, path) = create_new(folder, name, "png").map_err(|error| error.to_string())?;
     let mut writer = std::io::BufWriter::new(file);
-    let written = image.write_to(&mut writer, ImageFormat::Png).map_err(|e| e.to_string());
-    let flushed = written.and_then(|()| {
-        std::io::Write::flush(&mut writer).map_err(|error| error.to_string())
-    });
+    let written = image
+        .write_to(&mut writer, ImageFormat::Png)
+        .map_err(|e| e.to_string());
+    let flushed = written
+        .and_then(|()| std::io::Write::flush(&mut writer).map_err(|error| error.to_string()));
     match flushed {
         Ok(()) => Ok(path),
         Err(error) => {
@@ -133,7 +140,10 @@ pub fn report(mut captures: ResMut<Captures>, mut notices: ResMut<Notices>) {
         let Some(answer) = job.poll() else {
             return true;
         };
-        match answer.map_err(|broken| broken.to_string()).and_then(|written| written) {
+        match answer
+            .map_err(|broken| broken.to_string())
+            .and_then(|written| written)
+        {
             Ok(path) => notices.done(format!("Saved {}", path.display())),
             Err(error) => notices.problem(error),
         }

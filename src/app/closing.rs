@@ -33,7 +33,11 @@ impl Question {
 
     /// Holds an act back and asks.
     pub fn ask(&mut self, intent: Intent, text: String) {
-        self.held = Some(Held { intent, waits_for_save: false, text });
+        self.held = Some(Held {
+            intent,
+            waits_for_save: false,
+            text,
+        });
     }
 
     /// The project has just been saved: what waited for it goes on.
@@ -73,7 +77,10 @@ pub fn close(
         if session.is_dirty() {
             question.ask(Intent::Close, session.unsaved_text());
         } else if recorder.work().is_some() {
-            question.ask(Intent::Close, "A film is still being written; it would be lost.".into());
+            question.ask(
+                Intent::Close,
+                "A film is still being written; it would be lost.".into(),
+            );
         } else {
             exit.write(AppExit::Success);
         }
@@ -84,7 +91,7 @@ pub fn close(
 pub fn answer(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
-    mut recorder: ResMut<Recorder>,
+    recorder: Res<Recorder>,
     mut question: ResMut<Question>,
     mut writer: MessageWriter<Intent>,
 ) {

@@ -73,19 +73,26 @@ fn start(purpose: Purpose, session: &Session) -> Job<Vec<PathBuf>> {
     let designs = AsyncFileDialog::new();
     match purpose {
         Purpose::Open => {
-            let all: Vec<&str> = DESIGN_EXTENSIONS.into_iter().chain([PROJECT_EXTENSION]).collect();
+            let all: Vec<&str> = DESIGN_EXTENSIONS
+                .into_iter()
+                .chain([PROJECT_EXTENSION])
+                .collect();
             let asked = designs
                 .set_title("Open a project, or one or two designs")
                 .add_filter("Projects and designs", &all)
                 .pick_files();
-            Job::start("the dialog", move |_| paths(block_on(asked).unwrap_or_default()))
+            Job::start("the dialog", move |_| {
+                paths(block_on(asked).unwrap_or_default())
+            })
         }
         Purpose::Replace(_) => {
             let asked = designs
                 .set_title("Choose a design")
                 .add_filter("Designs", &DESIGN_EXTENSIONS)
                 .pick_file();
-            Job::start("the dialog", move |_| paths(block_on(asked).into_iter().collect()))
+            Job::start("the dialog", move |_| {
+                paths(block_on(asked).into_iter().collect())
+            })
         }
         Purpose::Save => {
             let asked = designs
@@ -93,7 +100,9 @@ fn start(purpose: Purpose, session: &Session) -> Job<Vec<PathBuf>> {
                 .set_file_name(format!("{}.{PROJECT_EXTENSION}", session.file_stem()))
                 .add_filter("Projects", &[PROJECT_EXTENSION])
                 .save_file();
-            Job::start("the dialog", move |_| paths(block_on(asked).into_iter().collect()))
+            Job::start("the dialog", move |_| {
+                paths(block_on(asked).into_iter().collect())
+            })
         }
     }
 }
@@ -105,7 +114,10 @@ pub fn finish(
     mut notices: ResMut<Notices>,
     mut intents: MessageWriter<Intent>,
 ) {
-    let Some((purpose, answer)) = dialog.0.as_ref().and_then(|(p, job)| Some((*p, job.poll()?)))
+    let Some((purpose, answer)) = dialog
+        .0
+        .as_ref()
+        .and_then(|(p, job)| Some((*p, job.poll()?)))
     else {
         return;
     };
@@ -130,7 +142,10 @@ pub fn finish(
 }
 
 fn with_extension(path: &Path) -> PathBuf {
-    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case(PROJECT_EXTENSION)) {
+    if path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case(PROJECT_EXTENSION))
+    {
         path.to_owned()
     } else {
         let mut name = path.as_os_str().to_owned();
@@ -171,7 +186,8 @@ impl Drop {
 /// Whether a path names a project.
 #[must_use]
 pub fn is_project(path: &Path) -> bool {
-    path.extension().is_some_and(|e| e.eq_ignore_ascii_case(PROJECT_EXTENSION))
+    path.extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case(PROJECT_EXTENSION))
 }
 
 /// Gathers dropped files and opens them together.
@@ -198,8 +214,7 @@ pub fn read_drops(
 
 /// Forgets the undecided file once it is decided.
 pub fn decide(mut intents: MessageReader<Intent>, mut state: ResMut<Drop>) {
-    let is_decided =
-        |intent: &Intent| matches!(intent, Intent::ReplaceDesign(..) | Intent::Back);
+    let is_decided = |intent: &Intent| matches!(intent, Intent::ReplaceDesign(..) | Intent::Back);
     if intents.read().any(is_decided) && state.undecided.is_some() {
         state.undecided = None;
     }

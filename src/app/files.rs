@@ -14,7 +14,11 @@ impl CaptureFolder {
     /// The folder that was asked for, or `Morphospace` among the user's pictures, or here.
     #[must_use]
     pub fn choose(asked: Option<PathBuf>) -> Self {
-        let pictures = || dirs::picture_dir().or_else(dirs::home_dir).unwrap_or_default();
+        let pictures = || {
+            dirs::picture_dir()
+                .or_else(dirs::home_dir)
+                .unwrap_or_default()
+        };
         Self(asked.unwrap_or_else(|| pictures().join("Morphospace")))
     }
 }
@@ -32,7 +36,11 @@ pub struct NewFileError {
 ///
 /// # Errors
 /// The folder cannot be made or written to.
-pub fn create_new(folder: &Path, stem: &str, extension: &str) -> Result<(File, PathBuf), NewFileError> {
+pub fn create_new(
+    folder: &Path,
+    stem: &str,
+    extension: &str,
+) -> Result<(File, PathBuf), NewFileError> {
     let create = |path: &Path| OpenOptions::new().write(true).create_new(true).open(path);
     first_free(folder, stem, &format!(".{extension}"), create)
 }
@@ -51,12 +59,18 @@ fn first_free<T>(
     suffix: &str,
     create: impl Fn(&Path) -> io::Result<T>,
 ) -> Result<(T, PathBuf), NewFileError> {
-    let failed = |path: &Path, source| NewFileError { path: path.display().to_string(), source };
+    let failed = |path: &Path, source| NewFileError {
+        path: path.display().to_string(),
+        source,
+    };
     std::fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
     let stem = safe(stem);
     for number in 1u32.. {
-        let name =
-            if number == 1 { format!("{stem}{suffix}") } else { format!("{stem}-{number}{suffix}") };
+        let name = if number == 1 {
+            format!("{stem}{suffix}")
+        } else {
+            format!("{stem}-{number}{suffix}")
+        };
         let path = folder.join(name);
         match create(&path) {
             Ok(made) => return Ok((made, path)),
@@ -70,10 +84,20 @@ fn first_free<T>(
 /// A name that every file system takes: signs that mean something to one of them become `-`.
 #[must_use]
 pub fn safe(name: &str) -> String {
-    let keep = |c: char| if c.is_alphanumeric() || "-_. ".contains(c) { c } else { '-' };
+    let keep = |c: char| {
+        if c.is_alphanumeric() || "-_. ".contains(c) {
+            c
+        } else {
+            '-'
+        }
+    };
     let kept: String = name.chars().take(80).map(keep).collect();
     let trimmed = kept.trim_matches(|c| c == '.' || c == ' ');
-    if trimmed.is_empty() { "untitled".to_owned() } else { trimmed.to_owned() }
+    if trimmed.is_empty() {
+        "untitled".to_owned()
+    } else {
+        trimmed.to_owned()
+    }
 }
 
 #[cfg(test)]
@@ -83,19 +107,26 @@ mod tests {
     #[test]
     fn nothing_is_overwritten() -> Result<(), Box<dyn std::error::Error>> {
         let folder = tempfile::tempdir()?;
-        let names: Result<Vec<_>, _> =
-            (0..3).map(|_| create_new(folder.path(), "a", "png").map(|(_, path)| path)).collect();
-        let names: Vec<_> = names?.iter().filter_map(|p| p.file_name().map(|n| n.to_owned())).collect();
+        let names: Result<Vec<_>, _> = (0..3)
+            .map(|_| create_new(folder.path(), "a", "png").map(|(_, path)| path))
+            .collect();
+        let names: Vec<_> = names?
+            .iter()
+            .filter_map(|p| p.file_name().map(|n| n.to_owned()))
+            .collect();
         assert_eq!(names, ["a.png", "a-2.png", "a-3.png"]);
         Ok(())
     }
 
     #[test]
-    fn a_folder_that_cannot_be_made_is_an_error_that_names_it() -> Result<(), Box<dyn std::error::Error>> {
+    fn a_folder_that_cannot_be_made_is_an_error_that_names_it()
+    -> Result<(), Box<dyn std::error::Error>> {
         let folder = tempfile::tempdir()?;
         let file = folder.path().join("file");
         std::fs::write(&file, "")?;
-        let error = create_new(&file.join("below"), "a", "png").err().ok_or("no error")?;
+        let error = create_new(&file.join("below"), "a", "png")
+            .err()
+            .ok_or("no error")?;
         assert!(error.to_string().contains("file"));
         Ok(())
     }

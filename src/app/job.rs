@@ -57,7 +57,11 @@ impl<T: Send + 'static> Job<T> {
                 sender.send(work(&theirs)).ok();
             })
             .ok();
-        Self { name, tracker, answer: Mutex::new(receiver) }
+        Self {
+            name,
+            tracker,
+            answer: Mutex::new(receiver),
+        }
     }
 
     /// The answer, once, when it is there.
@@ -76,8 +80,15 @@ impl<T: Send + 'static> Job<T> {
     /// What it is at, and how far, 0 to 1.
     #[must_use]
     pub fn progress(&self) -> (&'static str, f64) {
-        let stage = *self.tracker.stage.lock().unwrap_or_else(PoisonError::into_inner);
-        (stage, f64::from(self.tracker.permille.load(Ordering::Relaxed)) / 1000.0)
+        let stage = *self
+            .tracker
+            .stage
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        (
+            stage,
+            f64::from(self.tracker.permille.load(Ordering::Relaxed)) / 1000.0,
+        )
     }
 
     /// Asks the work to stop; it answers when it has.

@@ -94,9 +94,8 @@ impl KeyMap {
         if !input.state.is_pressed() {
             return None;
         }
-        let matching = |binding: &&Binding| {
-            (binding.repeats || !input.repeat) && binding.matches(input, held)
-        };
+        let matching =
+            |binding: &&Binding| (binding.repeats || !input.repeat) && binding.matches(input, held);
         let is_digit = |binding: &&Binding| matches!(binding.trigger, Trigger::Digit(_));
         self.0
             .iter()
@@ -109,8 +108,7 @@ impl KeyMap {
 
 impl Binding {
     fn matches(&self, input: &KeyboardInput, held: Held) -> bool {
-        let modifiers_match =
-            held.shift == self.shift && held.control == self.control && !held.alt;
+        let modifiers_match = held.shift == self.shift && held.control == self.control && !held.alt;
         match &self.trigger {
             Trigger::Named(key) => input.logical_key == *key && modifiers_match,
             Trigger::Letter(letter) => {
@@ -145,7 +143,10 @@ fn digit_at(code: KeyCode) -> Option<u8> {
         [KeyCode::Digit8, KeyCode::Numpad8],
         [KeyCode::Digit9, KeyCode::Numpad9],
     ];
-    (0u8..).zip(ROW).find(|(_, codes)| codes.contains(&code)).map(|(digit, _)| digit)
+    (0u8..)
+        .zip(ROW)
+        .find(|(_, codes)| codes.contains(&code))
+        .map(|(digit, _)| digit)
 }
 
 /// Turns pressed keys into intents; does nothing while a text field has the focus.
@@ -193,42 +194,90 @@ fn row(trigger: Trigger, intent: Intent, keys: &'static str, help: &'static str)
 
 impl Binding {
     fn shift(self) -> Self {
-        Self { shift: true, ..self }
+        Self {
+            shift: true,
+            ..self
+        }
     }
 
     fn control(self) -> Self {
-        Self { control: true, ..self }
+        Self {
+            control: true,
+            ..self
+        }
     }
 
     fn repeating(self) -> Self {
-        Self { repeats: true, ..self }
+        Self {
+            repeats: true,
+            ..self
+        }
     }
 }
 
 fn grouped(group: &'static str, rows: Vec<Binding>) -> Vec<Binding> {
-    rows.into_iter().map(|binding| Binding { group, ..binding }).collect()
+    rows.into_iter()
+        .map(|binding| Binding { group, ..binding })
+        .collect()
 }
 
 fn playing() -> Vec<Binding> {
     use Trigger::{Digit, Letter, Named, Sign};
     let mut rows = vec![
-        row(Named(Key::Space), Intent::TogglePlay, "Space", "Play or pause"),
-        row(Named(Key::ArrowRight), Intent::Step(1), "→  ←", "Step by one hundredth").repeating(),
+        row(
+            Named(Key::Space),
+            Intent::TogglePlay,
+            "Space",
+            "Play or pause",
+        ),
+        row(
+            Named(Key::ArrowRight),
+            Intent::Step(1),
+            "→  ←",
+            "Step by one hundredth",
+        )
+        .repeating(),
         row(Named(Key::ArrowLeft), Intent::Step(-1), "", "").repeating(),
-        row(Named(Key::ArrowRight), Intent::Step(10), "Shift →  ←", "Ten steps")
+        row(
+            Named(Key::ArrowRight),
+            Intent::Step(10),
+            "Shift →  ←",
+            "Ten steps",
+        )
+        .shift()
+        .repeating(),
+        row(Named(Key::ArrowLeft), Intent::Step(-10), "", "")
             .shift()
             .repeating(),
-        row(Named(Key::ArrowLeft), Intent::Step(-10), "", "").shift().repeating(),
-        row(Named(Key::Home), Intent::SeekStart, "Home  End", "Start and end of the pass"),
+        row(
+            Named(Key::Home),
+            Intent::SeekStart,
+            "Home  End",
+            "Start and end of the pass",
+        ),
         row(Named(Key::End), Intent::SeekEnd, "", ""),
         row(Sign(']'), Intent::Faster, "[  ]", "Slower and faster").repeating(),
         row(Sign('['), Intent::Slower, "", "").repeating(),
-        row(Named(Key::Backspace), Intent::NormalSpeed, "Backspace", "Speed 1"),
+        row(
+            Named(Key::Backspace),
+            Intent::NormalSpeed,
+            "Backspace",
+            "Speed 1",
+        ),
         row(Letter('r'), Intent::Reverse, "R", "Play the other way"),
-        row(Letter('l'), Intent::CyclePlayMode, "L", "Once, loop, ping-pong"),
+        row(
+            Letter('l'),
+            Intent::CyclePlayMode,
+            "L",
+            "Once, loop, ping-pong",
+        ),
     ];
     rows.extend((1..=9).map(|n: u8| {
-        let (keys, help) = if n == 1 { ("1 – 9", "Jump to a tenth") } else { ("", "") };
+        let (keys, help) = if n == 1 {
+            ("1 – 9", "Jump to a tenth")
+        } else {
+            ("", "")
+        };
         row(Digit(n), Intent::Seek(f64::from(n) / 10.0), keys, help)
     }));
     grouped("Play", rows)
@@ -240,10 +289,25 @@ fn stops() -> Vec<Binding> {
         "Stops and slides",
         vec![
             row(Letter('m'), Intent::AddStop, "M", "Set a stop here"),
-            row(Named(Key::ArrowUp), Intent::JumpToNextStop, "↑  ↓", "Jump to the next and previous stop"),
+            row(
+                Named(Key::ArrowUp),
+                Intent::JumpToNextStop,
+                "↑  ↓",
+                "Jump to the next and previous stop",
+            ),
             row(Named(Key::ArrowDown), Intent::JumpToPreviousStop, "", ""),
-            row(Named(Key::PageDown), Intent::PlayToNextStop, "Page Down", "Play to the next stop and wait"),
-            row(Named(Key::PageUp), Intent::PlayToPreviousStop, "Page Up", "Play back to the stop before"),
+            row(
+                Named(Key::PageDown),
+                Intent::PlayToNextStop,
+                "Page Down",
+                "Play to the next stop and wait",
+            ),
+            row(
+                Named(Key::PageUp),
+                Intent::PlayToPreviousStop,
+                "Page Up",
+                "Play back to the stop before",
+            ),
         ],
     )
 }
@@ -254,14 +318,34 @@ fn view() -> Vec<Binding> {
         "View",
         vec![
             row(Named(Key::Tab), Intent::NextMethod, "Tab", "Next method"),
-            row(Letter('z'), Intent::FitView, "Z", "Show the whole transition"),
-            row(Letter('f'), Intent::ToggleFullscreen, "F  F11", "Whole screen"),
+            row(
+                Letter('z'),
+                Intent::FitView,
+                "Z",
+                "Show the whole transition",
+            ),
+            row(
+                Letter('f'),
+                Intent::ToggleFullscreen,
+                "F  F11",
+                "Whole screen",
+            ),
             row(Named(Key::F11), Intent::ToggleFullscreen, "", ""),
-            row(Letter('h'), Intent::TogglePanels, "H", "Hide everything but the stage"),
+            row(
+                Letter('h'),
+                Intent::TogglePanels,
+                "H",
+                "Hide everything but the stage",
+            ),
             row(Named(Key::Escape), Intent::Back, "Esc", "Back"),
             row(Sign('?'), Intent::ToggleHelp, "?  F1", "This list"),
             row(Named(Key::F1), Intent::ToggleHelp, "", ""),
-            row(Named(Key::F3), Intent::ToggleTimes, "F3", "Times of a frame"),
+            row(
+                Named(Key::F3),
+                Intent::ToggleTimes,
+                "F3",
+                "Times of a frame",
+            ),
         ],
     )
 }
@@ -275,9 +359,17 @@ fn files() -> Vec<Binding> {
         vec![
             row(Letter('o'), Intent::AskOpen, "Ctrl O", "Open").control(),
             row(Letter('s'), Intent::Save, "Ctrl S", "Save").control(),
-            row(Letter('s'), Intent::SaveAs, "Ctrl Shift S", "Save as").control().shift(),
+            row(Letter('s'), Intent::SaveAs, "Ctrl Shift S", "Save as")
+                .control()
+                .shift(),
             row(Letter('s'), stage_alone, "S", "Picture of the stage"),
-            row(Letter('s'), with_panels, "Shift S", "Picture with the panels").shift(),
+            row(
+                Letter('s'),
+                with_panels,
+                "Shift S",
+                "Picture with the panels",
+            )
+            .shift(),
             row(Letter('g'), Intent::Record, "G", "Record one pass"),
         ],
     )

@@ -25,7 +25,7 @@ pub struct Loaded {
 #[derive(Clone, Debug)]
 pub enum Request {
     /// Open a bundled project.
-    Gallery(&'static str),
+    Gallery(String),
     /// Open a project file.
     File(PathBuf),
     /// Open two designs as a new project.
@@ -55,9 +55,11 @@ impl Request {
     pub fn carry_out(self, progress: &dyn Progress) -> Result<Loaded, LoadError> {
         checkpoint(progress, "Reading", 0.0)?;
         let mut project = match self {
-            Self::Gallery(name) => gallery::load(name)?,
+            Self::Gallery(name) => gallery::load(&name)?,
             Self::File(path) => LoadedProject::open(&path)?,
-            Self::Pair(source, target) => LoadedProject::pair(&source, &target)?,
+            Self::Pair(source, target) => {
+                LoadedProject::open_pair(&absolute(&source), &absolute(&target))?
+            }
             Self::Rebuild(loaded, staged) if reads_differently(&staged, &loaded.project) => {
                 loaded.reread()?
             }
@@ -68,29 +70,43 @@ impl Request {
     }
 }
 
-/// A cell that the designs can be shown by, where that of the project is not one.
+fn absolute(path: &Path) -> PathBuf {
+    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+}
+
+/// Writes down the cell that suits the designs, where the project names none that they can be
+/// shown by, so that what the panel says is what the stage shows.
 fn choose_cell(loaded: &mut LoadedProject) {
-    let (warp, content) = (loaded.project.warp, loaded.project.content);
-    if loaded.available(warp, content).is_ok() {
-        return;
-    }
-    let can = |cell: &&Cell| loaded.available(cell.warp(), cell.content()).is_ok();
-    if let Some(cell) = Cell::ALL.iter().find(can) {
-        loaded.project.warp = cell.warp();
-        loaded.project.content = cell.content();
+    let can = |cell: &Cell| loaded.available(cell.warp(), cell.content()).is_ok();
+    let asked = loaded.cell().ok().filter(can);
+    let suited = asked.or_else(|| Cell::ALL.into_iter().find(can));
+    if let Some(cell) = suited {
+        loaded.project.warp = Some(cell.warp());
+        loaded.project.content = Some(cell.content());
     }
 }
 
 fn built(project: LoadedProject, progress: &dyn Progress) -> Loaded {
-    let built = project.spec().map_err(|error| error.to_string()).and_then(|spec| {
-        Transition::build(&spec, progress).map_err(|error: BuildError| error.to_string())
-    });
+    let built = project
+        .spec()
+        .map_err(|error| error.to_string())
+        .and_then(|spec| {
+            Transition::build(&spec, progress).map_err(|error: BuildError| error.to_string())
+        });
     let (transition, problem) = match built {
         Ok(transition) => (Some(transition), None),
         Err(problem) => (None, Some(problem)),
     };
-    let parts = transition.as_ref().and_then(Transition::compatible).map_or(0, count_parts);
-    Loaded { project, transition, problem, parts }
+    let parts = transition
+        .as_ref()
+        .and_then(Transition::compatible)
+        .map_or(0, count_parts);
+    Loaded {
+        project,
+        transition,
+        problem,
+        parts,
+    }
 }
 
 /// The settings that a transition is built from differ.
@@ -106,7 +122,11 @@ pub fn needs_build(staged: &Project, now: &Project) -> bool {
 
 fn reads_differently(staged: &Project, now: &Project) -> bool {
     let reading = |project: &Project| -> Vec<_> {
-        project.designs.iter().map(|entry| (entry.path.clone(), entry.import.clone())).collect()
+        project
+            .designs
+            .iter()
+            .map(|entry| (entry.path.clone(), entry.import))
+            .collect()
     };
     reading(staged) != reading(now)
 }
@@ -124,7 +144,9 @@ fn count_parts(mesh: &CompatibleMesh) -> usize {
             roots[one.max(two)] = one.min(two);
         }
     }
-    (0..faces.len()).filter(|face| roots[*face] == *face).count()
+    (0..faces.len())
+        .filter(|face| roots[*face] == *face)
+        .count()
 }
 
 fn root(roots: &mut [usize], mut face: usize) -> usize {
@@ -133,12 +155,4 @@ fn root(roots: &mut [usize], mut face: usize) -> usize {
         face = roots[face];
     }
     face
-}
-
-/// Writes a project to a path; its designs are named relative to that from then on.
-///
-/// # Errors
-/// The file cannot be written.
-pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), ProjectError> {
-    loaded.save_as(path)
 }

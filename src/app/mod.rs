@@ -17,6 +17,7 @@ mod opening;
 mod playback;
 mod preferences;
 mod record;
+mod saving;
 mod session;
 mod staging;
 mod thumbnails;
@@ -38,13 +39,13 @@ pub use files::CaptureFolder;
 pub use intent::{Answer, Intent};
 pub use keymap::{Binding, Held, KeyMap, Trigger, Typing};
 pub use notices::{Kind, Notice, Notices};
+pub use opening::Gallery;
 pub use playback::Playback;
 pub use preferences::{CaptureScale, Preferences, RecordFormat, ThemeChoice};
 pub use session::Session;
 pub use staging::OnStage;
 pub use view::{KeepsFit, StageArea};
 
-use crate::project::gallery;
 use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
 
 /// What the command line hands to the window.
@@ -63,15 +64,18 @@ pub fn run(options: AppOptions) -> AppExit {
         .add_plugins(DefaultPlugins.set(window()))
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(CaptureFolder::choose(captures))
-        .add_systems(Startup, move |mut intents: MessageWriter<Intent>| {
-            intents.write(first(&files));
-        })
+        .add_systems(
+            Startup,
+            move |mut intents: MessageWriter<Intent>, gallery: Res<Gallery>| {
+                intents.write(first(&files, &gallery));
+            },
+        )
         .run()
 }
 
-fn first(files: &[PathBuf]) -> Intent {
-    match (files, gallery::list().first()) {
-        ([], Some(entry)) => Intent::OpenGallery(entry.name.to_owned()),
+fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
+    match (files, gallery.0.first()) {
+        ([], Some(entry)) => Intent::OpenGallery(entry.name.clone()),
         _ => Intent::Open(files.to_vec()),
     }
 }
@@ -104,11 +108,18 @@ impl Plugin for LogicPlugin {
         use MorphSystems::{Input, Playback as Play, Solve};
         init(app);
         app.configure_sets(Update, (Input, Play, Solve).chain())
-            .add_systems(Update, (times::record, keymap::read_keys, dialogs::read_drops).in_set(Input))
+            .add_systems(
+                Update,
+                (times::record, keymap::read_keys, dialogs::read_drops).in_set(Input),
+            )
             .add_systems(Update, act().in_set(Play))
             .add_systems(
                 Update,
-                (staging::stage_transition, staging::stage_t, staging::stage_style)
+                (
+                    staging::stage_transition,
+                    staging::stage_t,
+                    staging::stage_style,
+                )
                     .chain()
                     .after(Play)
                     .before(Solve),
@@ -121,6 +132,7 @@ fn init(app: &mut App) {
         .add_message::<bevy::window::FileDragAndDrop>()
         .add_message::<bevy::window::WindowCloseRequested>()
         .init_resource::<ClearColor>()
+        .init_resource::<Gallery>()
         .init_resource::<Session>()
         .init_resource::<Playback>()
         .init_resource::<Preferences>()
@@ -175,8 +187,16 @@ impl Plugin for WindowPlugins {
                     .after(MorphSystems::Playback)
                     .before(MorphSystems::Solve),
             )
-            .add_systems(Update, capture::ask.after(MorphSystems::Draw).before(MorphSystems::Capture))
-            .add_systems(Update, (capture::receive, capture::report).after(MorphSystems::Capture));
+            .add_systems(
+                Update,
+                capture::ask
+                    .after(MorphSystems::Draw)
+                    .before(MorphSystems::Capture),
+            )
+            .add_systems(
+                Update,
+                (capture::receive, capture::report).after(MorphSystems::Capture),
+            );
     }
 }
 

@@ -55,7 +55,12 @@ impl Notices {
     fn push(&mut self, kind: Kind, text: String) {
         self.list.retain(|notice| notice.text != text);
         self.next_id += 1;
-        self.list.push(Notice { id: self.next_id, kind, text, age_secs: 0.0 });
+        self.list.push(Notice {
+            id: self.next_id,
+            kind,
+            text,
+            age_secs: 0.0,
+        });
     }
 
     fn pass(&mut self, secs: f32) {

@@ -22,9 +22,16 @@ pub const SPEEDS: [f64; 10] = [0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10
 enum Motion {
     Still,
     /// Along the pass, at this second of it.
-    Pass { secs: f64 },
+    Pass {
+        secs: f64,
+    },
     /// To a stop.
-    Leg { from: f64, to: f64, elapsed: f64, secs: f64 },
+    Leg {
+        from: f64,
+        to: f64,
+        elapsed: f64,
+        secs: f64,
+    },
 }
 
 /// Where t is and how it moves.
@@ -38,7 +45,12 @@ pub struct Playback {
 
 impl Default for Playback {
     fn default() -> Self {
-        Self { t: 0.0, motion: Motion::Still, backwards: false, speed: 1.0 }
+        Self {
+            t: 0.0,
+            motion: Motion::Still,
+            backwards: false,
+            speed: 1.0,
+        }
     }
 }
 
@@ -81,7 +93,9 @@ impl Playback {
         }
         self.t = t;
         self.motion = match self.motion {
-            Motion::Pass { .. } => Motion::Pass { secs: timing.secs_at(t, stops) },
+            Motion::Pass { .. } => Motion::Pass {
+                secs: timing.secs_at(t, stops),
+            },
             Motion::Still | Motion::Leg { .. } => Motion::Still,
         };
     }
@@ -101,17 +115,36 @@ impl Playback {
         }
         let pass = timing.pass_secs();
         let secs = timing.secs_at(self.t, stops);
-        let (start, end) = if self.backwards { (pass, timing.from) } else { (0.0, timing.to) };
+        let (start, end) = if self.backwards {
+            (pass, timing.from)
+        } else {
+            (0.0, timing.to)
+        };
         let at_end = (self.t - end).abs() < SAME_T;
-        let secs = if at_end && timing.play != PlayMode::PingPong { start } else { secs };
+        let secs = if at_end && timing.play != PlayMode::PingPong {
+            start
+        } else {
+            secs
+        };
         self.motion = Motion::Pass { secs };
     }
 
     /// Plays the other way; a leg to a stop turns back to where it came from.
     pub fn reverse(&mut self) {
         self.backwards = !self.backwards;
-        if let Motion::Leg { from, to, elapsed, secs } = self.motion {
-            self.motion = Motion::Leg { from: to, to: from, elapsed: secs - elapsed, secs };
+        if let Motion::Leg {
+            from,
+            to,
+            elapsed,
+            secs,
+        } = self.motion
+        {
+            self.motion = Motion::Leg {
+                from: to,
+                to: from,
+                elapsed: secs - elapsed,
+                secs,
+            };
         }
     }
 
@@ -119,7 +152,12 @@ impl Playback {
     pub fn play_to(&mut self, to: f64, timing: &Timing) {
         let share = (to - self.t).abs() / (timing.to - timing.from).abs().max(SAME_T);
         let secs = timing.duration_secs * share;
-        self.motion = Motion::Leg { from: self.t, to, elapsed: 0.0, secs };
+        self.motion = Motion::Leg {
+            from: self.t,
+            to,
+            elapsed: 0.0,
+            secs,
+        };
     }
 
     /// The stop that slides go to from here: that after the one which t is already on its way to.
@@ -152,7 +190,12 @@ impl Playback {
         let step = dt_secs * self.speed;
         match self.motion {
             Motion::Still => {}
-            Motion::Leg { from, to, elapsed, secs } => {
+            Motion::Leg {
+                from,
+                to,
+                elapsed,
+                secs,
+            } => {
                 self.advance_leg(from, to, elapsed + step, secs, timing.easing);
             }
             Motion::Pass { secs } => {
@@ -169,12 +212,21 @@ impl Playback {
             return;
         }
         self.t = from + (to - from) * easing.apply(elapsed / secs);
-        self.motion = Motion::Leg { from, to, elapsed, secs };
+        self.motion = Motion::Leg {
+            from,
+            to,
+            elapsed,
+            secs,
+        };
     }
 
     fn advance_pass(&mut self, raw: f64, timing: &Timing, stops: &[Stop]) {
         let pass = timing.pass_secs();
-        let over = if self.backwards { raw <= 0.0 } else { raw >= pass };
+        let over = if self.backwards {
+            raw <= 0.0
+        } else {
+            raw >= pass
+        };
         let secs = match timing.play {
             _ if pass <= 0.0 => 0.0,
             PlayMode::Once => raw.clamp(0.0, pass),
@@ -192,7 +244,11 @@ impl Playback {
         };
         self.t = timing.t_at(secs, stops);
         let ends = pass <= 0.0 || (over && timing.play == PlayMode::Once);
-        self.motion = if ends { Motion::Still } else { Motion::Pass { secs } };
+        self.motion = if ends {
+            Motion::Still
+        } else {
+            Motion::Pass { secs }
+        };
     }
 }
 

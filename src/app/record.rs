@@ -53,9 +53,12 @@ pub fn apply(
                 notices.done("A film is being recorded; wait for it, or cancel it first.");
             }
             Intent::Record => {
-                if let (Some(project), Some(transition)) = (session.project(), session.transition()) {
+                if let (Some(project), Some(transition)) = (session.project(), session.transition())
+                {
                     let order = Order::new(project, transition, &preferences, &session, &folder);
-                    recorder.0 = Some(Job::start("a film", move |progress| order.carry_out(progress)));
+                    recorder.0 = Some(Job::start("a film", move |progress| {
+                        order.carry_out(progress)
+                    }));
                 }
             }
             _ => {}
@@ -69,7 +72,10 @@ pub fn report(mut recorder: ResMut<Recorder>, mut notices: ResMut<Notices>) {
         return;
     };
     recorder.0 = None;
-    match answer.map_err(|broken| broken.to_string()).and_then(|written| written) {
+    match answer
+        .map_err(|broken| broken.to_string())
+        .and_then(|written| written)
+    {
         Ok(path) => notices.done(format!("Recorded {}", path.display())),
         Err(error) => notices.problem(error),
     }
@@ -121,7 +127,8 @@ impl Order {
 
     /// One pass there; where it plays to and fro, the way back too, so that it can be looped.
     fn film(&self, target: &Target, progress: &dyn Progress) -> Result<(), String> {
-        let film = Film::of_timing(&self.project.timing, &self.project.stops, FPS).map_err(|e| e.to_string())?;
+        let film = Film::of_timing(&self.project.timing, &self.project.stops, FPS)
+            .map_err(|e| e.to_string())?;
         let bounds = framing(&self.transition, film.times());
         let size = PixelSize::of_shape(bounds, self.longer_side_px);
         let camera = Camera {
@@ -158,5 +165,9 @@ impl Order {
 }
 
 fn remove(path: &Path) {
-    if path.is_dir() { std::fs::remove_dir_all(path).ok() } else { std::fs::remove_file(path).ok() };
+    if path.is_dir() {
+        std::fs::remove_dir_all(path).ok()
+    } else {
+        std::fs::remove_file(path).ok()
+    };
 }

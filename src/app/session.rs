@@ -13,6 +13,7 @@ use bevy::prelude::Resource;
 use crate::app::files::safe;
 use crate::app::job::Job;
 use crate::app::loading::{self, LoadError, Loaded, Request};
+use crate::app::saving;
 use crate::content::ContentKind;
 use crate::design::Form;
 use crate::project::Project;
@@ -32,7 +33,7 @@ const PATIENCE: Duration = Duration::from_millis(1500);
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Origin {
     /// A bundled project, by its name.
-    Gallery(&'static str),
+    Gallery(String),
     /// A file.
     File(PathBuf),
     /// Designs that were opened together, or a project that was changed beyond its file.
@@ -124,7 +125,7 @@ impl Session {
     /// The bundled project that is open.
     #[must_use]
     pub fn gallery_name(&self) -> Option<&str> {
-        match self.open.as_ref()?.origin {
+        match &self.open.as_ref()?.origin {
             Origin::Gallery(name) => Some(name),
             Origin::File(_) | Origin::Unsaved => None,
         }
@@ -136,26 +137,35 @@ impl Session {
         let Some(project) = self.project() else {
             return String::new();
         };
-        if !project.title.is_empty() {
-            return project.title.clone();
-        }
-        match self.path().and_then(Path::file_stem) {
-            Some(stem) => stem.to_string_lossy().into_owned(),
-            None => project.designs.iter().map(|d| d.name.as_str()).collect::<Vec<_>>().join(" – "),
-        }
+        let stem = self
+            .path()
+            .and_then(Path::file_stem)
+            .filter(|_| project.title.is_empty());
+        let stem = stem.map(|stem| stem.to_string_lossy().into_owned());
+        stem.or_else(|| Some(self.open.as_ref()?.loaded.project.title()))
+            .unwrap_or_default()
     }
 
     /// What files that belong to the project are called.
     #[must_use]
     pub fn file_stem(&self) -> String {
-        let stem = self.path().and_then(Path::file_stem).map(|s| s.to_string_lossy().into_owned());
-        safe(&stem.or_else(|| self.gallery_name().map(str::to_owned)).unwrap_or_else(|| self.title()))
+        let stem = self
+            .path()
+            .and_then(Path::file_stem)
+            .map(|s| s.to_string_lossy().into_owned());
+        safe(
+            &stem
+                .or_else(|| self.gallery_name().map(str::to_owned))
+                .unwrap_or_else(|| self.title()),
+        )
     }
 
     /// There are changes that are not saved.
     #[must_use]
     pub fn is_dirty(&self) -> bool {
-        self.open.as_ref().is_some_and(|open| open.loaded.project.project != open.saved)
+        self.open
+            .as_ref()
+            .is_some_and(|open| open.loaded.project.project != open.saved)
     }
 
     /// What to ask about them.
@@ -180,7 +190,9 @@ impl Session {
     /// How long the work has been going on.
     #[must_use]
     pub fn work_lasts(&self) -> Duration {
-        self.work.as_ref().map_or(Duration::ZERO, |work| work.started.elapsed())
+        self.work
+            .as_ref()
+            .map_or(Duration::ZERO, |work| work.started.elapsed())
     }
 
     /// Whether the open designs can be shown by this cell; otherwise why not.
@@ -189,7 +201,11 @@ impl Session {
     /// The reason, for a grey button.
     pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), String> {
         match &self.open {
-            Some(open) => open.loaded.project.available(warp, content),
+            Some(open) => open
+                .loaded
+                .project
+                .available(warp, content)
+                .map_err(|error| error.to_string()),
             None => Err("no project is open".to_owned()),
         }
     }
@@ -204,7 +220,11 @@ impl Session {
     #[must_use]
     pub fn has_bars(&self) -> bool {
         self.open.as_ref().is_some_and(|open| {
-            open.loaded.project.designs.iter().any(|design| matches!(design.form, Form::Truss(_)))
+            open.loaded
+                .project
+                .designs
+                .iter()
+                .any(|design| matches!(design.form, Form::Truss(_)))
         })
     }
 
@@ -243,7 +263,7 @@ impl Session {
         let (Some(open), Some(path)) = (&mut self.open, path) else {
             return Err("There is no project to save.".to_owned());
         };
-        loading::save(&mut open.loaded.project, &path).map_err(|error| error.to_string())?;
+        saving::save(&mut open.loaded.project, &path).map_err(|error| error.to_string())?;
         open.saved = open.loaded.project.project.clone();
         open.staged.designs.clone_from(&open.saved.designs);
         open.origin = Origin::File(path.clone());
@@ -251,8 +271,14 @@ impl Session {
     }
 
     fn start(&mut self, kind: WorkKind, request: Request) {
-        let job = Job::start("the transition", move |progress| request.carry_out(progress));
-        self.work = Some(Work { job, started: Instant::now(), kind });
+        let job = Job::start("the transition", move |progress| {
+            request.carry_out(progress)
+        });
+        self.work = Some(Work {
+            job,
+            started: Instant::now(),
+            kind,
+        });
     }
 
     /// Takes in work that is done and starts what waits for it.
@@ -262,7 +288,10 @@ impl Session {
             None => true,
             Some(work) => work.kind == WorkKind::Rebuild && work.started.elapsed() > PATIENCE,
         };
-        if self.is_stale && is_free && let Some(open) = &self.open {
+        if self.is_stale
+            && is_free
+            && let Some(open) = &self.open
+        {
             self.is_stale = false;
             let request = Request::Rebuild(open.loaded.project.clone(), open.staged.clone());
             self.start(WorkKind::Rebuild, request);
@@ -290,7 +319,12 @@ impl Session {
     fn adopt(&mut self, loaded: Loaded, origin: Origin) -> Outcome {
         let project = loaded.project.project.clone();
         let problem = loaded.problem.clone();
-        self.open = Some(Open { loaded, origin, saved: project.clone(), staged: project });
+        self.open = Some(Open {
+            loaded,
+            origin,
+            saved: project.clone(),
+            staged: project,
+        });
         problem.map_or(Outcome::Opened, Outcome::OpenedWithout)
     }
 
@@ -312,7 +346,11 @@ impl Session {
 
     fn give_up_designs(&mut self) {
         if let Some(open) = &mut self.open {
-            open.loaded.project.project.designs.clone_from(&open.staged.designs);
+            open.loaded
+                .project
+                .project
+                .designs
+                .clone_from(&open.staged.designs);
             open.loaded.project.project.fit = open.staged.fit;
         }
     }

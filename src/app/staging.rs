@@ -23,9 +23,12 @@ pub fn stage_transition(
     }
     let blend = Blend { t: playback.t() };
     match (session.transition(), staged.single()) {
-        (Some(new), Ok((_, StageTransition(old)))) if new.is_same(old) => {}
+        (Some(new), Ok((_, StageTransition(old))))
+            if std::ptr::eq(new.content(), old.content()) => {}
         (Some(new), Ok((entity, _))) => {
-            commands.entity(entity).insert((StageTransition(new.clone()), blend));
+            commands
+                .entity(entity)
+                .insert((StageTransition(new.clone()), blend));
         }
         (Some(new), Err(_)) => {
             commands.spawn((OnStage, StageTransition(new.clone()), blend));
@@ -55,10 +58,16 @@ pub fn stage_style(
         return;
     };
     let [r, g, b] = project.style.ground.0;
-    ground.set_if_neq(ClearColor(Color::srgb_u8(r, g, b)));
+    let colour = Color::srgb_u8(r, g, b);
+    if ground.0 != colour {
+        ground.0 = colour;
+    }
     for mut style in &mut styles {
         if style.style != project.style || style.show != preferences.show {
-            *style = StageStyle { style: project.style, show: preferences.show };
+            *style = StageStyle {
+                style: project.style,
+                show: preferences.show,
+            };
         }
     }
 }

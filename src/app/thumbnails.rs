@@ -2,10 +2,11 @@
 
 use std::collections::{HashMap, VecDeque};
 
-use bevy::prelude::{Res, ResMut, Resource};
+use bevy::prelude::{DetectChangesMut, FromWorld, Res, ResMut, Resource, World};
 use image::RgbaImage;
 
 use crate::app::job::Job;
+use crate::app::opening::Gallery;
 use crate::app::session::Session;
 use crate::export::{Drawing, PixelSize, SizeError, View, even_times, framing, rasterise};
 use crate::geometry::DVec2;
@@ -31,15 +32,20 @@ pub enum Thumbnail {
 /// All strips that there are yet.
 #[derive(Resource, Debug)]
 pub struct Thumbnails {
-    waiting: VecDeque<&'static str>,
-    running: Option<(&'static str, Job<Option<RgbaImage>>)>,
-    done: HashMap<&'static str, Thumbnail>,
+    waiting: VecDeque<String>,
+    running: Option<(String, Job<Option<RgbaImage>>)>,
+    done: HashMap<String, Thumbnail>,
 }
 
-impl Default for Thumbnails {
-    fn default() -> Self {
-        let waiting = gallery::list().iter().map(|entry| entry.name).collect();
-        Self { waiting, running: None, done: HashMap::new() }
+impl FromWorld for Thumbnails {
+    fn from_world(world: &mut World) -> Self {
+        let entries = &world.resource::<Gallery>().0;
+        let waiting = entries.iter().map(|entry| entry.name.clone()).collect();
+        Self {
+            waiting,
+            running: None,
+            done: HashMap::new(),
+        }
     }
 }
 
@@ -54,17 +60,23 @@ impl Thumbnails {
 /// Takes in a strip that is done and starts the next, while nothing more urgent is going on.
 pub fn advance(session: Res<Session>, mut thumbnails: ResMut<Thumbnails>) {
     let thumbnails = thumbnails.bypass_change_detection();
-    if let Some((name, answer)) = thumbnails.running.as_ref().and_then(|(n, job)| Some((*n, job.poll()?)))
+    if let Some((name, answer)) = thumbnails
+        .running
+        .as_ref()
+        .and_then(|(n, job)| Some((n.clone(), job.poll()?)))
     {
         let image = answer.ok().flatten();
-        thumbnails.done.insert(name, image.map_or(Thumbnail::Failed, Thumbnail::Ready));
+        thumbnails
+            .done
+            .insert(name, image.map_or(Thumbnail::Failed, Thumbnail::Ready));
         thumbnails.running = None;
     }
     if thumbnails.running.is_none()
         && session.work().is_none()
         && let Some(name) = thumbnails.waiting.pop_front()
     {
-        let job = Job::start("a thumbnail", move |progress| strip(name, progress).ok());
+        let of = name.clone();
+        let job = Job::start("a thumbnail", move |progress| strip(&of, progress).ok());
         thumbnails.running = Some((name, job));
     }
 }
@@ -77,7 +89,11 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let spec: TransitionSpec = loaded.spec()?;
     let transition = Transition::build(&spec, progress)?;
     let timing = loaded.project.timing;
-    Ok(draw(&transition, &loaded.project.style, (timing.from, timing.to))?)
+    Ok(draw(
+        &transition,
+        &loaded.project.style,
+        (timing.from, timing.to),
+    )?)
 }
 
 fn draw(

@@ -21,7 +21,10 @@ pub struct StageArea {
 
 impl Default for StageArea {
     fn default() -> Self {
-        Self { corner: Vec2::ZERO, size: Vec2::new(1280.0, 720.0) }
+        Self {
+            corner: Vec2::ZERO,
+            size: Vec2::new(1280.0, 720.0),
+        }
     }
 }
 
@@ -102,7 +105,10 @@ fn viewport(area: StageArea, window: &Window) -> Option<Viewport> {
     let scale = window.scale_factor();
     let whole = window.physical_size();
     let corner = (area.corner * scale).round().as_uvec2();
-    let size = (area.size * scale).round().as_uvec2().min(whole.saturating_sub(corner));
+    let size = (area.size * scale)
+        .round()
+        .as_uvec2()
+        .min(whole.saturating_sub(corner));
     (size.min_element() > 0).then(|| Viewport {
         physical_position: corner,
         physical_size: size,
@@ -118,9 +124,7 @@ pub fn window_mode(
     for intent in intents.read() {
         if *intent == Intent::ToggleFullscreen {
             window.mode = match window.mode {
-                WindowMode::Windowed => {
-                    WindowMode::BorderlessFullscreen(MonitorSelection::Current)
-                }
+                WindowMode::Windowed => WindowMode::BorderlessFullscreen(MonitorSelection::Current),
                 _ => WindowMode::Windowed,
             };
         }
@@ -133,7 +137,10 @@ pub fn back(
     mut preferences: ResMut<Preferences>,
     mut window: Query<&mut Window, With<PrimaryWindow>>,
 ) {
-    let backs = intents.read().filter(|intent| **intent == Intent::Back).count();
+    let backs = intents
+        .read()
+        .filter(|intent| **intent == Intent::Back)
+        .count();
     for _ in 0..backs {
         if preferences.help {
             preferences.help = false;

@@ -79,7 +79,9 @@ fn names() -> impl Iterator<Item = &'static str> {
         .filter_map(|file| file.path().to_str()?.strip_suffix(".morph"))
 }
 
-fn bytes(path: &Path) -> Option<&'static [u8]> {
+/// The content of a bundled design, by its path in a bundled document.
+#[must_use]
+pub fn bytes(path: &Path) -> Option<&'static [u8]> {
     FILES.get_file(path).map(include_dir::File::contents)
 }
 

@@ -49,12 +49,28 @@ impl LoadedProject {
         })
     }
 
+    /// Reads the designs again, after the document has changed what they are
+    /// or how they are read.
+    ///
+    /// # Errors
+    /// [`ProjectError::Import`] names the file and the place.
+    pub fn reread(self) -> Result<Self, ProjectError> {
+        match self.folder {
+            Some(folder) => Self::load(self.project, folder),
+            None => super::gallery::load_document(self.project),
+        }
+    }
+
     /// Reads the designs of a document from bytes that `bytes_of` finds.
     pub(super) fn load_bundled<'a>(
         project: Project,
         bytes_of: impl Fn(&Path) -> Result<&'a [u8], ProjectError>,
     ) -> Result<Self, ProjectError> {
         Self::load_by(project, None, |entry| {
+            // A bundled project whose design a user has replaced by a file.
+            if entry.path.is_absolute() {
+                return Ok(import_file(&entry.path, &entry.import)?);
+            }
             let bytes = bytes_of(&entry.path)?;
             Ok(import(&stem(&entry.path), bytes, &entry.import)?)
         })

@@ -5,7 +5,6 @@ use bevy_egui::egui::{DragValue, Response, Ui};
 use super::widgets::{choice, number, row, section, toggle};
 use super::{Intents, Scene};
 use crate::app::intent::Intent;
-use crate::app::session::Session;
 use crate::content::ContentKind;
 use crate::project::Project;
 use crate::transition::Rgb;
@@ -14,22 +13,38 @@ use crate::transition::Rgb;
 pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
     section(ui, "Appearance", |ui| {
         layers(ui, scene, draft, acts);
-        colour(ui, "Source", "Colour of the shape at t = 0.", &mut draft.style.source);
-        colour(ui, "Target", "Colour of the shape at t = 1.", &mut draft.style.target);
-        colour(ui, "Ground", "Colour behind the shape, on screen and in pictures.", &mut draft.style.ground);
+        colour(
+            ui,
+            "Source",
+            "Colour of the shape at t = 0.",
+            &mut draft.style.source,
+        );
+        colour(
+            ui,
+            "Target",
+            "Colour of the shape at t = 1.",
+            &mut draft.style.target,
+        );
+        colour(
+            ui,
+            "Ground",
+            "Colour behind the shape, on screen and in pictures.",
+            &mut draft.style.ground,
+        );
         if scene.session.has_bars() {
-            bars(ui, &scene.session, draft);
+            bars(ui, draft);
         }
     });
 }
 
 fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
     let mut show = scene.preferences.show;
-    let is_field = draft.content == ContentKind::Field;
-    let mut layer = |ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool| {
+    let is_field = draft.content == Some(ContentKind::Field);
+    let layer = |ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool| {
         ui.add_enabled_ui(applies, |ui| {
             let width = (ui.available_width().min(272.0) - 8.0) / 3.0;
-            let response: Response = choice(ui, *on && applies, name, bevy_egui::egui::vec2(width, 24.0));
+            let response: Response =
+                choice(ui, *on && applies, name, bevy_egui::egui::vec2(width, 24.0));
             if response.clicked() {
                 *on = !*on;
             }
@@ -38,13 +53,49 @@ fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
     };
     ui.spacing_mut().item_spacing = bevy_egui::egui::vec2(4.0, 4.0);
     ui.columns(3, |columns| {
-        layer(&mut columns[0], &mut show.fill, "Fill", "The shape itself.", true);
-        layer(&mut columns[1], &mut show.ghosts, "Ghosts", "Thin outlines of source and target.", true);
+        layer(
+            &mut columns[0],
+            &mut show.fill,
+            "Fill",
+            "The shape itself.",
+            true,
+        );
+        layer(
+            &mut columns[1],
+            &mut show.ghosts,
+            "Ghosts",
+            "Thin outlines of source and target.",
+            true,
+        );
         let bars = scene.session.has_bars();
-        layer(&mut columns[2], &mut show.bars, "Bars", "Bars and joints of a truss.", bars && !is_field);
-        layer(&mut columns[0], &mut show.wireframe, "Wireframe", "The edges of the triangles that carry the motion.", !is_field);
-        layer(&mut columns[1], &mut show.iso_lines, "Iso-lines", "Lines of equal blended distance.", is_field);
-        layer(&mut columns[2], &mut show.signed_colours, "Signed", "The blended field in two hues: inside and outside.", is_field);
+        layer(
+            &mut columns[2],
+            &mut show.bars,
+            "Bars",
+            "Bars and joints of a truss.",
+            bars && !is_field,
+        );
+        layer(
+            &mut columns[0],
+            &mut show.wireframe,
+            "Wireframe",
+            "The edges of the triangles that carry the motion.",
+            !is_field,
+        );
+        layer(
+            &mut columns[1],
+            &mut show.iso_lines,
+            "Iso-lines",
+            "Lines of equal blended distance.",
+            is_field,
+        );
+        layer(
+            &mut columns[2],
+            &mut show.signed_colours,
+            "Signed",
+            "The blended field in two hues: inside and outside.",
+            is_field,
+        );
     });
     ui.spacing_mut().item_spacing = bevy_egui::egui::vec2(8.0, 8.0);
     if show != scene.preferences.show {
@@ -56,9 +107,21 @@ fn colour(ui: &mut Ui, label: &str, tip: &str, value: &mut Rgb) {
     row(ui, label, tip, |ui| ui.color_edit_button_srgb(&mut value.0));
 }
 
-fn bars(ui: &mut Ui, session: &Session, draft: &mut Project) {
-    let speed = session.size() / 2000.0;
-    let width = DragValue::new(&mut draft.bar_width).speed(speed).range(0.0..=session.size()).max_decimals(4);
-    number(ui, "Bar width", "Thickness of the bars, in the units of the design; also of the shape that its field is made from.", width);
-    toggle(ui, "Joints", "Draws a disc where bars meet.", &mut draft.style.joints);
+fn bars(ui: &mut Ui, draft: &mut Project) {
+    let width = DragValue::new(&mut draft.bar_width)
+        .speed(0.0002)
+        .range(0.001..=0.2)
+        .max_decimals(4);
+    number(
+        ui,
+        "Bar width",
+        "Thickness of the bars, as a part of the design's size; also of the shape that its field is made from.",
+        width,
+    );
+    toggle(
+        ui,
+        "Joints",
+        "Draws a disc where bars meet.",
+        &mut draft.style.joints,
+    );
 }

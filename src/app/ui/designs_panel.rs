@@ -5,21 +5,36 @@ use bevy_egui::egui::{Color32, DragValue, Label, RichText, Sense, Ui, vec2};
 use super::Intents;
 use super::icons::Icon;
 use super::theme::{CONTROL_HEIGHT, GRID, Palette};
-use super::widgets::{choices, from_right, icon_button_sized, number, row, section, slider, toggle};
+use super::widgets::{
+    choices, from_right, icon_button_sized, number, row, section, slider, toggle,
+};
 use crate::app::intent::Intent;
-use crate::project::{DesignEntry, Fit, Project};
-use crate::transition::Rgb;
+use crate::project::{DesignEntry, Project};
+use crate::transition::{Fit, Rgb};
 
 /// Draws both designs.
 pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
     section(ui, "Designs", |ui| {
-        row(ui, "Frame", "How unlike designs are laid over each other before anything else.", |ui| {
-            choices(ui, &mut draft.fit, &[
-                (Fit::AsDrawn, "As drawn", "Where the files have them"),
-                (Fit::Centred, "Centred", "Centre on centre, sizes as drawn"),
-                (Fit::SameArea, "Same area", "Centre on centre, scaled to one area"),
-            ])
-        });
+        row(
+            ui,
+            "Frame",
+            "How unlike designs are laid over each other before anything else.",
+            |ui| {
+                choices(
+                    ui,
+                    &mut draft.fit,
+                    &[
+                        (Fit::AsDrawn, "As drawn", "Where the files have them"),
+                        (Fit::Centred, "Centred", "Centre on centre, sizes as drawn"),
+                        (
+                            Fit::SameArea,
+                            "Same area",
+                            "Centre on centre, scaled to one area",
+                        ),
+                    ],
+                )
+            },
+        );
         let colours = [draft.style.source, draft.style.target];
         for (index, entry) in draft.designs.iter_mut().take(2).enumerate() {
             design(ui, index, colours[index], entry, acts);
@@ -50,7 +65,8 @@ fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts:
                 acts.push(Intent::AskReplace(index));
             }
             let path = entry.path.display().to_string();
-            ui.add(Label::new(&entry.name).truncate()).on_hover_text(path);
+            ui.add(Label::new(name_of(entry)).truncate())
+                .on_hover_text(path);
         });
     });
     let id = ui.id().with(("placement", index));
@@ -65,46 +81,118 @@ fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts:
     });
 }
 
+fn name_of(entry: &DesignEntry) -> String {
+    if !entry.name.is_empty() {
+        return entry.name.clone();
+    }
+    entry
+        .path
+        .file_stem()
+        .map(|stem| stem.to_string_lossy().into_owned())
+        .unwrap_or_default()
+}
+
 fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
     let place = &mut entry.placement;
-    row(ui, "Offset", "Moves this design right and up, in its own units.", |ui| {
-        let mut field = |ui: &mut Ui, value: &mut f64, prefix: &str| {
-            let drag = DragValue::new(value).speed(0.01).prefix(prefix.to_owned()).max_decimals(3);
-            ui.add_sized([76.0, CONTROL_HEIGHT], drag)
-        };
-        field(ui, &mut place.offset.x, "x ") | field(ui, &mut place.offset.y, "y ")
-    });
-    slider(ui, "Scale", "Enlarges this design about the centre.", &mut place.scale, 0.05..=20.0, true);
+    row(
+        ui,
+        "Offset",
+        "Moves this design right and up, in its own units.",
+        |ui| {
+            let field = |ui: &mut Ui, value: &mut f64, prefix: &str| {
+                let drag = DragValue::new(value)
+                    .speed(0.01)
+                    .prefix(prefix.to_owned())
+                    .max_decimals(3);
+                ui.add_sized([76.0, CONTROL_HEIGHT], drag)
+            };
+            field(ui, &mut place.offset.x, "x ") | field(ui, &mut place.offset.y, "y ")
+        },
+    );
+    slider(
+        ui,
+        "Scale",
+        "Enlarges this design about its own middle.",
+        &mut place.scale,
+        0.05..=20.0,
+        true,
+    );
     let mut degrees = place.rotation.to_degrees();
-    slider(ui, "Rotation", "Turns this design counter-clockwise, in degrees.", &mut degrees, -180.0..=180.0, false);
+    slider(
+        ui,
+        "Rotation",
+        "Turns this design counter-clockwise, in degrees.",
+        &mut degrees,
+        -180.0..=180.0,
+        false,
+    );
     if (degrees - place.rotation.to_degrees()).abs() > 1e-9 {
         place.rotation = degrees.to_radians();
     }
-    toggle(ui, "Mirror", "Exchanges left and right of this design.", &mut place.mirror);
+    toggle(
+        ui,
+        "Mirror",
+        "Exchanges left and right of this design.",
+        &mut place.mirror,
+    );
 }
 
 fn is_picture(entry: &DesignEntry) -> bool {
-    let extension = entry.path.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    ["png", "jpg", "jpeg", "bmp", "webp"].iter().any(|e| extension.eq_ignore_ascii_case(e))
+    let extension = entry
+        .path
+        .extension()
+        .and_then(|e| e.to_str())
+        .unwrap_or_default();
+    ["png", "jpg", "jpeg", "bmp", "webp"]
+        .iter()
+        .any(|e| extension.eq_ignore_ascii_case(e))
 }
 
 fn reading(ui: &mut Ui, entry: &mut DesignEntry) {
     let import = &mut entry.import;
     let mut is_automatic = import.threshold.is_none();
-    toggle(ui, "Automatic", "Finds the grey level that parts shape from ground by itself.", &mut is_automatic);
+    toggle(
+        ui,
+        "Automatic",
+        "Finds the grey level that parts shape from ground by itself.",
+        &mut is_automatic,
+    );
     match (is_automatic, import.threshold) {
         (true, _) => import.threshold = None,
         (false, None) => import.threshold = Some(128),
         (false, Some(_)) => {}
     }
     if let Some(threshold) = &mut import.threshold {
-        let drag = DragValue::new(threshold).speed(0.5);
-        number(ui, "Grey level", "Where shape ends and ground begins, 0 to 255: higher lets more in.", drag);
+        let drag = DragValue::new(threshold).speed(0.5).range(1..=255);
+        number(
+            ui,
+            "Grey level",
+            "Where shape ends and ground begins, 1 to 255: higher lets more in.",
+            drag,
+        );
     }
-    toggle(ui, "Invert", "Takes the ground for the shape.", &mut import.invert);
+    toggle(
+        ui,
+        "Invert",
+        "Takes the ground for the shape.",
+        &mut import.invert,
+    );
     let specks = DragValue::new(&mut import.specks_px).speed(0.2);
-    number(ui, "Specks", "Spots and holes of at most so many pixels are left out.", specks);
-    let tolerance = DragValue::new(&mut import.tolerance).speed(0.01).range(0.0..=10.0);
-    number(ui, "Tolerance", "How far the outline may run from the pixels: larger is smoother and has fewer corners.", tolerance);
+    number(
+        ui,
+        "Specks",
+        "Spots and holes of fewer pixels than this are left out.",
+        specks,
+    );
+    let tolerance = DragValue::new(&mut import.tolerance)
+        .speed(0.0001)
+        .range(0.0..=0.1)
+        .max_decimals(4);
+    number(
+        ui,
+        "Tolerance",
+        "How far the outline may run from the exact edge, as a part of the longer side: larger has fewer corners.",
+        tolerance,
+    );
     ui.add_space(GRID);
 }

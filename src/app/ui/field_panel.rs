@@ -8,21 +8,54 @@ use crate::field::Metric;
 use crate::transition::{Boundary, FieldOptions};
 
 const METRICS: [(Metric, &str, &str); 4] = [
-    (Metric::Euclidean, "Euclidean", "True distance: offsets are round."),
-    (Metric::QuasiEuclidean, "Quasi-Euclidean", "Along axes and diagonals: offsets are octagons."),
-    (Metric::CityBlock, "City block", "Along axes: offsets are diamonds."),
-    (Metric::Chessboard, "Chessboard", "The larger of the two: offsets are squares."),
+    (
+        Metric::Euclidean,
+        "Euclidean",
+        "True distance: offsets are round.",
+    ),
+    (
+        Metric::QuasiEuclidean,
+        "Quasi-Euclidean",
+        "Along axes and diagonals: offsets are octagons.",
+    ),
+    (
+        Metric::CityBlock,
+        "City block",
+        "Along axes: offsets are diamonds.",
+    ),
+    (
+        Metric::Chessboard,
+        "Chessboard",
+        "The larger of the two: offsets are squares.",
+    ),
 ];
 
 /// Draws the options.
 pub fn show(ui: &mut Ui, field: &mut FieldOptions) {
     section(ui, "Distance field", |ui| {
-        row(ui, "Space", "The scale on which distances are mixed.", |ui| {
-            choices(ui, &mut field.blend.space, &[
-                (BlendSpace::Log, "Logarithmic", "Near the outlines counts most: thin parts survive"),
-                (BlendSpace::Real, "Real", "Far counts as much as near: thin parts go under"),
-            ])
-        });
+        row(
+            ui,
+            "Space",
+            "The scale on which distances are mixed.",
+            |ui| {
+                choices(
+                    ui,
+                    &mut field.blend.space,
+                    &[
+                        (
+                            BlendSpace::Log,
+                            "Logarithmic",
+                            "Near the outlines counts most: thin parts survive",
+                        ),
+                        (
+                            BlendSpace::Real,
+                            "Real",
+                            "Far counts as much as near: thin parts go under",
+                        ),
+                    ],
+                )
+            },
+        );
         ui.add_enabled_ui(field.blend.space == BlendSpace::Log, |ui| {
             slider(
                 ui,
@@ -42,17 +75,26 @@ pub fn show(ui: &mut Ui, field: &mut FieldOptions) {
             -40.0..=40.0,
             false,
         );
-        row(ui, "Metric", "What distance means; it shows in the corners.", |ui| {
-            menu(ui, "metric", &mut field.metric, &METRICS)
-        });
-        row(ui, "Outline", "Where the edge of a shape lies within a cell.", |ui| {
+        row(
+            ui,
+            "Metric",
+            "What distance means; it shows in the corners.",
+            |ui| menu(ui, "metric", &mut field.metric, &METRICS),
+        );
+        let is_euclidean = field.metric == Metric::Euclidean;
+        ui.add_enabled_ui(is_euclidean, |ui| row(ui, "Outline", "Where the edge of a shape lies within a cell; metrics other than the Euclidean have it between cells.", |ui| {
             choices(ui, &mut field.boundary, &[
                 (Boundary::Exact, "Exact", "Where the drawing has it: smooth"),
                 (Boundary::Binary, "Binary", "Between cells, as the paper's tool: stepped"),
             ])
-        });
+        }));
         let cells = DragValue::new(&mut field.cells).range(32..=4096).speed(4.0);
-        number(ui, "Cells", "Cells along the longer side. More: finer detail, and ε and threshold mean smaller distances.", cells);
+        number(
+            ui,
+            "Cells",
+            "Cells along the longer side. More: finer detail, and ε and threshold mean smaller distances.",
+            cells,
+        );
         slider(
             ui,
             "Margin",

@@ -19,60 +19,78 @@ const PICTURE_HEIGHT: f32 = 72.0;
 
 /// The thumbnails that egui already has.
 #[derive(Resource, Default)]
-pub struct Textures(HashMap<&'static str, TextureHandle>);
+pub struct Textures(HashMap<String, TextureHandle>);
 
 /// Draws the gallery on the left.
 pub fn show(root: &mut Ui, scene: &Scene, textures: &mut Textures, acts: &mut Intents) {
-    let frame = egui::Frame::new().fill(Palette::of(root).panel).inner_margin(Margin {
-        left: 16,
-        right: 8,
-        top: 8,
-        bottom: 0,
-    });
-    Panel::left("gallery").exact_size(WIDTH).resizable(false).frame(frame).show(root, |ui| {
-        let weak = Palette::of(ui).weak;
-        ui.label(RichText::new("Gallery").small().strong().color(weak));
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            ui.set_width(WIDTH - 32.0);
-            for entry in gallery::list() {
-                if card(ui, scene, textures, entry).clicked() {
-                    acts.push(Intent::OpenGallery(entry.name.to_owned()));
-                }
-            }
-            ui.add_space(GRID);
+    let frame = egui::Frame::new()
+        .fill(Palette::of(root).panel)
+        .inner_margin(Margin {
+            left: 16,
+            right: 8,
+            top: 8,
+            bottom: 0,
         });
-    });
+    Panel::left("gallery")
+        .exact_size(WIDTH)
+        .resizable(false)
+        .frame(frame)
+        .show(root, |ui| {
+            let weak = Palette::of(ui).weak;
+            ui.label(RichText::new("Gallery").small().strong().color(weak));
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                ui.set_width(WIDTH - 32.0);
+                for entry in &scene.gallery.0 {
+                    if card(ui, scene, textures, entry).clicked() {
+                        acts.push(Intent::OpenGallery(entry.name.clone()));
+                    }
+                }
+                ui.add_space(GRID);
+            });
+        });
 }
 
 fn card(ui: &mut Ui, scene: &Scene, textures: &mut Textures, entry: &gallery::Entry) -> Response {
     let palette = Palette::of(ui);
     let size = vec2(ui.available_width(), PICTURE_HEIGHT + 28.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    let is_open = scene.session.gallery_name() == Some(entry.name);
+    let is_open = scene.session.gallery_name() == Some(entry.name.as_str());
     response.widget_info(|| {
-        WidgetInfo::selected(WidgetType::SelectableLabel, true, is_open, entry.title)
+        WidgetInfo::selected(WidgetType::SelectableLabel, true, is_open, &entry.title)
     });
     let (fill, line) = match (is_open, response.hovered()) {
         (true, _) => (palette.accent_ground, palette.accent),
         (false, true) => (palette.hover, palette.line),
         (false, false) => (palette.raised, Color32::TRANSPARENT),
     };
-    ui.painter().rect(rect, CARD_RADIUS, fill, Stroke::new(1.0, line), StrokeKind::Inside);
+    ui.painter().rect(
+        rect,
+        CARD_RADIUS,
+        fill,
+        Stroke::new(1.0, line),
+        StrokeKind::Inside,
+    );
     let picture = Rect::from_min_size(rect.min, vec2(rect.width(), PICTURE_HEIGHT)).shrink(4.0);
-    thumbnail(ui, scene, textures, entry.name, picture);
+    thumbnail(ui, scene, textures, &entry.name, picture);
     let text_at = pos2(rect.left() + 8.0, rect.bottom() - 15.0);
     let font = egui::TextStyle::Small.resolve(ui.style());
-    let galley = ui.painter().layout(entry.title.to_owned(), font, palette.text, rect.width());
+    let galley = ui
+        .painter()
+        .layout(entry.title.clone(), font, palette.text, rect.width());
     let clip = ui.painter().with_clip_rect(rect.shrink(4.0));
-    clip.galley(text_at - vec2(0.0, galley.size().y / 2.0), galley, palette.text);
-    response.on_hover_text(entry.description)
+    clip.galley(
+        text_at - vec2(0.0, galley.size().y / 2.0),
+        galley,
+        palette.text,
+    );
+    response.on_hover_text(&entry.description)
 }
 
-fn thumbnail(ui: &Ui, scene: &Scene, textures: &mut Textures, name: &'static str, rect: Rect) {
+fn thumbnail(ui: &Ui, scene: &Scene, textures: &mut Textures, name: &str, rect: Rect) {
     let palette = Palette::of(ui);
     match scene.thumbnails.get(name) {
         Some(Thumbnail::Ready(image)) => {
-            let texture = textures.0.entry(name).or_insert_with(|| {
+            let texture = textures.0.entry(name.to_owned()).or_insert_with(|| {
                 let size = [image.width() as usize, image.height() as usize];
                 let pixels = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
                 ui.ctx().load_texture(name, pixels, TextureOptions::LINEAR)
@@ -80,7 +98,8 @@ fn thumbnail(ui: &Ui, scene: &Scene, textures: &mut Textures, name: &'static str
             ui.painter().rect_filled(rect, RADIUS, palette.panel);
             let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
             let fitted = fit(rect, STRIP_PX.0 as f32 / STRIP_PX.1 as f32);
-            ui.painter().image(texture.id(), fitted, whole, Color32::WHITE);
+            ui.painter()
+                .image(texture.id(), fitted, whole, Color32::WHITE);
         }
         Some(Thumbnail::Failed) | None => {
             ui.painter().rect_filled(rect, RADIUS, palette.panel);

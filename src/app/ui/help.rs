@@ -76,8 +76,17 @@ fn group(ui: &mut Ui, name: &str, rows: &[&Binding]) {
 fn key_cap(ui: &Ui, rect: egui::Rect, keys: &str) {
     let palette = Palette::of(ui);
     let font = egui::TextStyle::Small.resolve(ui.style());
-    let text = ui.painter().layout_no_wrap(keys.to_owned(), font, palette.text);
+    let text = ui
+        .painter()
+        .layout_no_wrap(keys.to_owned(), font, palette.text);
     let cap = Align2::LEFT_CENTER.anchor_size(rect.left_center(), text.size() + vec2(12.0, 6.0));
-    ui.painter().rect(cap, RADIUS, palette.raised, Stroke::new(1.0, palette.line), StrokeKind::Inside);
-    ui.painter().galley(cap.min + vec2(6.0, 3.0), text, palette.text);
+    ui.painter().rect(
+        cap,
+        RADIUS,
+        palette.raised,
+        Stroke::new(1.0, palette.line),
+        StrokeKind::Inside,
+    );
+    ui.painter()
+        .galley(cap.min + vec2(6.0, 3.0), text, palette.text);
 }

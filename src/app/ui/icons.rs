@@ -49,7 +49,11 @@ pub enum Icon {
 
 /// Draws an icon into the middle of a rectangle, 16 points wide.
 pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
-    let pen = Pen { painter, centre: rect.center(), colour };
+    let pen = Pen {
+        painter,
+        centre: rect.center(),
+        colour,
+    };
     match icon {
         Icon::Play => pen.triangle(0.5, 5.0),
         Icon::PlayBackwards => pen.triangle(-0.5, -5.0),
@@ -98,21 +102,31 @@ impl Pen<'_> {
 
     fn filled(&self, points: &[(f32, f32)]) {
         let points = points.iter().map(|(x, y)| self.at(*x, *y)).collect();
-        self.painter.add(Shape::convex_polygon(points, self.colour, Stroke::NONE));
+        self.painter
+            .add(Shape::convex_polygon(points, self.colour, Stroke::NONE));
     }
 
     fn dot(&self, offset: Vec2, radius: f32) {
-        self.painter.circle_filled(self.centre + offset, radius, self.colour);
+        self.painter
+            .circle_filled(self.centre + offset, radius, self.colour);
     }
 
     fn triangle(&self, x: f32, reach: f32) {
-        self.filled(&[(x - 0.8 * reach, -5.5), (x + reach, 0.0), (x - 0.8 * reach, 5.5)]);
+        self.filled(&[
+            (x - 0.8 * reach, -5.5),
+            (x + reach, 0.0),
+            (x - 0.8 * reach, 5.5),
+        ]);
     }
 
     fn bars(&self, xs: &[f32], width: f32, half_height: f32) {
         for x in xs {
             let size = vec2(width, 2.0 * half_height);
-            self.painter.rect_filled(Rect::from_center_size(self.at(*x, 0.0), size), 1.0, self.colour);
+            self.painter.rect_filled(
+                Rect::from_center_size(self.at(*x, 0.0), size),
+                1.0,
+                self.colour,
+            );
         }
     }
 
@@ -123,7 +137,8 @@ impl Pen<'_> {
 
     fn slide(&self, side: f32) {
         self.lines(&[&[(-2.5 * side, -4.5), (2.0 * side, 0.0), (-2.5 * side, 4.5)]]);
-        self.painter.circle_filled(self.at(5.5 * side, 0.0), 1.8, self.colour);
+        self.painter
+            .circle_filled(self.at(5.5 * side, 0.0), 1.8, self.colour);
     }
 
     fn flag(&self) {
@@ -163,7 +178,8 @@ impl Pen<'_> {
             (7.0, 5.0),
             (-7.0, 5.0),
         ]]);
-        self.painter.circle_stroke(self.at(0.0, 0.8), 2.6, self.stroke());
+        self.painter
+            .circle_stroke(self.at(0.0, 0.8), 2.6, self.stroke());
     }
 
     fn moon(&self) {
@@ -209,6 +225,7 @@ impl Pen<'_> {
             &[(0.0, -6.0), (6.8, 5.5), (-6.8, 5.5), (0.0, -6.0)],
             &[(0.0, -2.0), (0.0, 1.6)],
         ]);
-        self.painter.circle_filled(pos2(self.centre.x, self.centre.y + 3.8), 0.9, self.colour);
+        self.painter
+            .circle_filled(pos2(self.centre.x, self.centre.y + 3.8), 0.9, self.colour);
     }
 }

@@ -17,19 +17,25 @@ const WIDTH: f32 = 312.0;
 
 /// Draws the panel.
 pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let frame = egui::Frame::new().fill(Palette::of(root).panel).inner_margin(Margin {
-        left: 16,
-        right: 8,
-        top: 0,
-        bottom: 0,
-    });
-    Panel::right("inspector").exact_size(WIDTH).resizable(false).frame(frame).show(root, |ui| {
-        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            ui.set_width(WIDTH - 40.0);
-            sections(ui, scene, acts);
-            ui.add_space(2.0 * GRID);
+    let frame = egui::Frame::new()
+        .fill(Palette::of(root).panel)
+        .inner_margin(Margin {
+            left: 16,
+            right: 8,
+            top: 0,
+            bottom: 0,
         });
-    });
+    Panel::right("inspector")
+        .exact_size(WIDTH)
+        .resizable(false)
+        .frame(frame)
+        .show(root, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                ui.set_width(WIDTH - 40.0);
+                sections(ui, scene, acts);
+                ui.add_space(2.0 * GRID);
+            });
+        });
 }
 
 fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
@@ -38,10 +44,10 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     };
     method_panel::show(ui, scene, project, acts);
     let mut draft = project.clone();
-    if draft.warp == WarpKind::Arap {
+    if draft.warp == Some(WarpKind::Arap) {
         warp_panel::show(ui, scene, &mut draft.arap);
     }
-    if draft.content == ContentKind::Field {
+    if draft.content == Some(ContentKind::Field) {
         field_panel::show(ui, &mut draft.field);
     }
     designs_panel::show(ui, &mut draft, acts);

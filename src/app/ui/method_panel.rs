@@ -32,7 +32,9 @@ pub fn show(ui: &mut Ui, scene: &Scene, project: &Project, acts: &mut Intents) {
             });
         }
         ui.add_space(4.0);
-        hint(ui, description(project.warp, project.content));
+        if let (Some(warp), Some(content)) = (project.warp, project.content) {
+            hint(ui, description(warp, content));
+        }
     });
 }
 
@@ -43,7 +45,13 @@ fn heads(ui: &mut Ui, width: f32) {
     let mut left = rect.left() + ROW_LABEL_WIDTH + 4.0;
     for content in CONTENTS {
         let at = pos2(left, rect.center().y);
-        ui.painter().text(at, Align2::LEFT_CENTER, content_name(content), font.clone(), weak);
+        ui.painter().text(
+            at,
+            Align2::LEFT_CENTER,
+            content_name(content),
+            font.clone(),
+            weak,
+        );
         left += width;
     }
 }
@@ -60,7 +68,8 @@ fn row_head(ui: &mut Ui, warp: WarpKind) {
     };
     let font = TextStyle::Small.resolve(ui.style());
     let weak = Palette::of(ui).weak;
-    ui.painter().text(rect.left_center(), Align2::LEFT_CENTER, name, font, weak);
+    ui.painter()
+        .text(rect.left_center(), Align2::LEFT_CENTER, name, font, weak);
     response.on_hover_text(tip);
 }
 
@@ -104,8 +113,12 @@ fn cell(
     acts: &mut Intents,
 ) {
     let available = scene.session.available(warp, content);
-    let is_chosen = (project.warp, project.content) == (warp, content);
-    let sense = if available.is_ok() { Sense::click() } else { Sense::hover() };
+    let is_chosen = (project.warp, project.content) == (Some(warp), Some(content));
+    let sense = if available.is_ok() {
+        Sense::click()
+    } else {
+        Sense::hover()
+    };
     let (rect, response) = ui.allocate_exact_size(vec2(width, CELL_HEIGHT), sense);
     let name = cell_name(warp, content);
     response.widget_info(|| {
@@ -126,10 +139,21 @@ fn paint_cell(ui: &Ui, rect: Rect, name: &str, response: &Response, chosen: bool
     let font: FontId = TextStyle::Small.resolve(ui.style());
     let (fill, line, text) = match (can, chosen, response.hovered()) {
         (_, true, _) => (palette.accent_ground, palette.accent, palette.text),
-        (false, ..) => (palette.panel, palette.line, palette.weak.gamma_multiply(0.6)),
+        (false, ..) => (
+            palette.panel,
+            palette.line,
+            palette.weak.gamma_multiply(0.6),
+        ),
         (true, false, true) => (palette.hover, palette.line, palette.text),
         (true, false, false) => (palette.raised, palette.raised, palette.text),
     };
-    ui.painter().rect(rect, RADIUS, fill, Stroke::new(1.0, line), StrokeKind::Inside);
-    ui.painter().text(rect.center(), Align2::CENTER_CENTER, name, font, text);
+    ui.painter().rect(
+        rect,
+        RADIUS,
+        fill,
+        Stroke::new(1.0, line),
+        StrokeKind::Inside,
+    );
+    ui.painter()
+        .text(rect.center(), Align2::CENTER_CENTER, name, font, text);
 }

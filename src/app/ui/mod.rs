@@ -28,7 +28,7 @@ mod work;
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 use bevy_egui::{
-    EguiContexts, EguiPlugin, EguiPreUpdateSet, EguiPrimaryContextPass, egui, input::EguiInputSet,
+    EguiContexts, EguiInputSet, EguiPlugin, EguiPreUpdateSet, EguiPrimaryContextPass, egui,
 };
 
 use crate::app::closing::Question;
@@ -36,6 +36,7 @@ use crate::app::dialogs::Drop;
 use crate::app::intent::Intent;
 use crate::app::keymap::{KeyMap, Typing};
 use crate::app::notices::Notices;
+use crate::app::opening::Gallery;
 use crate::app::playback::Playback;
 use crate::app::preferences::Preferences;
 use crate::app::record::Recorder;
@@ -67,6 +68,7 @@ impl Plugin for UiPlugin {
 #[derive(SystemParam)]
 struct Scene<'w> {
     session: Res<'w, Session>,
+    gallery: Res<'w, Gallery>,
     playback: Res<'w, Playback>,
     preferences: Res<'w, Preferences>,
     notices: Res<'w, Notices>,
@@ -82,17 +84,14 @@ struct Scene<'w> {
 /// What the user does this frame.
 type Intents = Vec<Intent>;
 
-fn keep_keys_from_widgets(
-    mut contexts: Query<&mut bevy_egui::EguiInput>,
-    typing: Res<Typing>,
-) {
+fn keep_keys_from_widgets(mut contexts: Query<&mut bevy_egui::EguiInput>, typing: Res<Typing>) {
     if typing.0 {
         return;
     }
     for mut input in &mut contexts {
-        input.events.retain(|event| {
-            !matches!(event, egui::Event::Key { .. } | egui::Event::Text(_))
-        });
+        input
+            .events
+            .retain(|event| !matches!(event, egui::Event::Key { .. } | egui::Event::Text(_)));
     }
 }
 
@@ -115,7 +114,9 @@ fn draw(
     let mut root = egui::Ui::new(
         ctx.clone(),
         "window".into(),
-        egui::UiBuilder::new().layer_id(egui::LayerId::background()).max_rect(ctx.viewport_rect()),
+        egui::UiBuilder::new()
+            .layer_id(egui::LayerId::background())
+            .max_rect(ctx.viewport_rect()),
     );
     if scene.preferences.panels {
         panels(&mut root, &scene, &mut textures, &mut acts);
@@ -155,6 +156,9 @@ fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut In
 
 impl StageArea {
     fn from_points(corner: egui::Pos2, size: egui::Vec2) -> Self {
-        Self { corner: Vec2::new(corner.x, corner.y), size: Vec2::new(size.x, size.y) }
+        Self {
+            corner: Vec2::new(corner.x, corner.y),
+            size: Vec2::new(size.x, size.y),
+        }
     }
 }

@@ -40,7 +40,12 @@ fn ask_drop(ctx: &Context, scene: &Scene, name: &str, acts: &mut Intents) {
     Modal::new(Id::new("drop")).show(ctx, |ui| {
         ui.set_width(400.0);
         ui.heading("One design");
-        ui.add(Label::new(format!("What is {name} for? Drop two files to open a new pair.")).wrap());
+        ui.add(
+            Label::new(format!(
+                "What is {name} for? Drop two files to open a new pair."
+            ))
+            .wrap(),
+        );
         answers(ui, |ui| {
             if ui.button("Use as target").clicked() {
                 acts.push(Intent::ReplaceDesign(1, path.to_owned()));

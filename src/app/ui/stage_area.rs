@@ -22,11 +22,13 @@ pub fn show(root: &mut Ui, rect: Rect, acts: &mut Intents) {
     let Some(pointer) = response.hover_pos() else {
         return;
     };
-    let factor = root.input(|input| {
-        input.zoom_delta() * (input.smooth_scroll_delta().y * ZOOM_PER_POINT).exp()
-    });
+    let factor = root
+        .input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * ZOOM_PER_POINT).exp());
     if factor != 1.0 {
         let at = pointer - rect.min;
-        acts.push(Intent::Zoom { at: Vec2::new(at.x, at.y), factor });
+        acts.push(Intent::Zoom {
+            at: Vec2::new(at.x, at.y),
+            factor,
+        });
     }
 }

@@ -102,7 +102,10 @@ pub fn choose(ctx: &egui::Context, theme: ThemeChoice) {
 }
 
 fn style(palette: Palette, base: Visuals) -> Style {
-    let mut style = Style { visuals: visuals(palette, base), ..Style::default() };
+    let mut style = Style {
+        visuals: visuals(palette, base),
+        ..Style::default()
+    };
     style.text_styles = text_styles();
     spacing(&mut style.spacing);
     style.interaction.tooltip_delay = 0.4;
@@ -118,7 +121,10 @@ fn text_styles() -> std::collections::BTreeMap<TextStyle, FontId> {
         (TextStyle::Body, proportional(14.0)),
         (TextStyle::Button, proportional(14.0)),
         (TextStyle::Small, proportional(12.5)),
-        (TextStyle::Monospace, FontId::new(13.0, FontFamily::Monospace)),
+        (
+            TextStyle::Monospace,
+            FontId::new(13.0, FontFamily::Monospace),
+        ),
     ]
     .into()
 }
@@ -166,7 +172,12 @@ fn visuals(palette: Palette, base: Visuals) -> Visuals {
 }
 
 fn shadow() -> Shadow {
-    Shadow { offset: [0, 4], blur: 16, spread: 0, color: Color32::from_black_alpha(60) }
+    Shadow {
+        offset: [0, 4],
+        blur: 16,
+        spread: 0,
+        color: Color32::from_black_alpha(60),
+    }
 }
 
 fn widget(fill: Color32, line: Color32, text: Color32) -> WidgetVisuals {
@@ -188,7 +199,11 @@ mod tests {
     fn luminance(colour: Color32) -> f64 {
         let linear = |v: u8| {
             let v = f64::from(v) / 255.0;
-            if v <= 0.040_45 { v / 12.92 } else { ((v + 0.055) / 1.055).powf(2.4) }
+            if v <= 0.040_45 {
+                v / 12.92
+            } else {
+                ((v + 0.055) / 1.055).powf(2.4)
+            }
         };
         0.2126 * linear(colour.r()) + 0.7152 * linear(colour.g()) + 0.0722 * linear(colour.b())
     }
@@ -203,7 +218,13 @@ mod tests {
     fn every_text_can_be_read_on_every_ground_that_it_stands_on() {
         for palette in [DARK, LIGHT] {
             for ground in [palette.panel, palette.window, palette.raised] {
-                for text in [palette.text, palette.weak, palette.accent, palette.amber, palette.problem] {
+                for text in [
+                    palette.text,
+                    palette.weak,
+                    palette.accent,
+                    palette.amber,
+                    palette.problem,
+                ] {
                     assert!(contrast(text, ground) >= 4.5, "{text:?} on {ground:?}");
                 }
             }

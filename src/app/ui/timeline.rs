@@ -12,16 +12,24 @@ const HEIGHT: f32 = 128.0;
 pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let frame = egui::Frame::new()
         .fill(Palette::of(root).panel)
-        .inner_margin(Margin { left: 16, right: 16, top: 8, bottom: 8 });
-    Panel::bottom("timeline").exact_size(HEIGHT).frame(frame).show(root, |ui| {
-        let Some(project) = scene.session.project() else {
-            return;
-        };
-        let mut draft = project.clone();
-        transport::show(ui, scene, &mut draft.timing, acts);
-        track::show(ui, scene, &mut draft, acts);
-        if draft != *project {
-            acts.push(Intent::Edit(Box::new(draft)));
-        }
-    });
+        .inner_margin(Margin {
+            left: 16,
+            right: 16,
+            top: 8,
+            bottom: 8,
+        });
+    Panel::bottom("timeline")
+        .exact_size(HEIGHT)
+        .frame(frame)
+        .show(root, |ui| {
+            let Some(project) = scene.session.project() else {
+                return;
+            };
+            let mut draft = project.clone();
+            transport::show(ui, scene, &mut draft.timing, acts);
+            track::show(ui, scene, &mut draft, acts);
+            if draft != *project {
+                acts.push(Intent::Edit(Box::new(draft)));
+            }
+        });
 }

@@ -16,26 +16,37 @@ pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let frame = egui::Frame::new()
         .fill(Palette::of(root).panel)
         .inner_margin(Margin::symmetric(16, 8));
-    Panel::top("toolbar").exact_size(HEIGHT).frame(frame).show(root, |ui| {
-        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-            mark(ui);
-            ui.label(RichText::new("Morphospace").heading());
-            ui.add_space(2.0 * GRID);
-            title(ui, scene);
-            from_right(ui, |ui| buttons(ui, scene, acts));
+    Panel::top("toolbar")
+        .exact_size(HEIGHT)
+        .frame(frame)
+        .show(root, |ui| {
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                mark(ui);
+                ui.label(RichText::new("Morphospace").heading());
+                ui.add_space(2.0 * GRID);
+                title(ui, scene);
+                from_right(ui, |ui| buttons(ui, scene, acts));
+            });
         });
-    });
 }
 
 /// The sign of the program: a disc on its way to a square.
 fn mark(ui: &mut Ui) {
     let (rect, _) = ui.allocate_exact_size(vec2(40.0, 24.0), egui::Sense::hover());
-    let ends = [Color32::from_rgb(0x3b, 0x7d, 0xd8), Color32::from_rgb(0xe0, 0x8a, 0x2b)];
-    let steps = [(0.0, 9.0, ends[0]), (0.5, 6.0, ends[0].lerp_to_gamma(ends[1], 0.5)), (1.0, 2.0, ends[1])];
+    let ends = [
+        Color32::from_rgb(0x3b, 0x7d, 0xd8),
+        Color32::from_rgb(0xe0, 0x8a, 0x2b),
+    ];
+    let steps = [
+        (0.0, 9.0, ends[0]),
+        (0.5, 6.0, ends[0].lerp_to_gamma(ends[1], 0.5)),
+        (1.0, 2.0, ends[1]),
+    ];
     for (t, radius, colour) in steps {
         let centre = rect.left_center() + vec2(9.0 + 22.0 * t, 0.0);
         let square = Rect::from_center_size(centre, vec2(18.0, 18.0));
-        ui.painter().rect_filled(square, radius, colour.gamma_multiply(0.85));
+        ui.painter()
+            .rect_filled(square, radius, colour.gamma_multiply(0.85));
     }
 }
 
@@ -71,7 +82,11 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     if record.clicked() {
         acts.push(Intent::Record);
     }
-    let camera = icon_button(ui, Icon::Camera, "Picture of the stage (S); with the panels: Shift S");
+    let camera = icon_button(
+        ui,
+        Icon::Camera,
+        "Picture of the stage (S); with the panels: Shift S",
+    );
     if camera.clicked() {
         acts.push(Intent::Screenshot { with_panels: false });
     }
@@ -79,7 +94,11 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     if icon_button(ui, Icon::Save, "Save the project (Ctrl S)").clicked() {
         acts.push(Intent::Save);
     }
-    let open = icon_button(ui, Icon::Open, "Open a project, or one or two designs (Ctrl O)");
+    let open = icon_button(
+        ui,
+        Icon::Open,
+        "Open a project, or one or two designs (Ctrl O)",
+    );
     if open.clicked() {
         acts.push(Intent::AskOpen);
     }
@@ -109,29 +128,60 @@ fn capture_menu(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
 fn capture_options(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let preferences = &scene.preferences;
     let mut scale = preferences.capture_scale;
-    row(ui, "Size", "How many pixels a picture of the stage has.", |ui| {
-        choices(ui, &mut scale, &[
-            (CaptureScale::One, "1×", "As many as on screen"),
-            (CaptureScale::Two, "2×", "Twice as many along each side"),
-            (CaptureScale::FourK, "4K", "3840 along the longer side"),
-        ])
-    });
+    row(
+        ui,
+        "Size",
+        "How many pixels a picture of the stage has.",
+        |ui| {
+            choices(
+                ui,
+                &mut scale,
+                &[
+                    (CaptureScale::One, "1×", "As many as on screen"),
+                    (CaptureScale::Two, "2×", "Twice as many along each side"),
+                    (CaptureScale::FourK, "4K", "3840 along the longer side"),
+                ],
+            )
+        },
+    );
     let mut transparent = preferences.capture_transparent;
-    row(ui, "Ground", "What lies behind the shape in pictures and films.", |ui| {
-        choices(ui, &mut transparent, &[
-            (false, "Coloured", "The ground colour of the project"),
-            (true, "Transparent", "Nothing; for placing on a page (MP4 has no transparency)"),
-        ])
-    });
+    row(
+        ui,
+        "Ground",
+        "What lies behind the shape in pictures and films.",
+        |ui| {
+            choices(
+                ui,
+                &mut transparent,
+                &[
+                    (false, "Coloured", "The ground colour of the project"),
+                    (
+                        true,
+                        "Transparent",
+                        "Nothing; for placing on a page (MP4 has no transparency)",
+                    ),
+                ],
+            )
+        },
+    );
     let mut format = preferences.record_format;
-    row(ui, "Film", "The kind of file that a recording writes.", |ui| {
-        choices(ui, &mut format, &[
-            (RecordFormat::Gif, "GIF", "Plays everywhere, 256 colours"),
-            (RecordFormat::Apng, "APNG", "Full colour, plays in browsers"),
-            (RecordFormat::Mp4, "MP4", "Needs ffmpeg on this machine"),
-            (RecordFormat::Pngs, "PNGs", "A folder of numbered pictures"),
-        ])
-    });
+    row(
+        ui,
+        "Film",
+        "The kind of file that a recording writes.",
+        |ui| {
+            choices(
+                ui,
+                &mut format,
+                &[
+                    (RecordFormat::Gif, "GIF", "Plays everywhere, 256 colours"),
+                    (RecordFormat::Apng, "APNG", "Full colour, plays in browsers"),
+                    (RecordFormat::Mp4, "MP4", "Needs ffmpeg on this machine"),
+                    (RecordFormat::Pngs, "PNGs", "A folder of numbered pictures"),
+                ],
+            )
+        },
+    );
     if scale != preferences.capture_scale {
         acts.push(Intent::CaptureScale(scale));
     }

@@ -32,7 +32,10 @@ struct Ruler {
 impl Ruler {
     fn new(rect: Rect, scene: &Scene, stops: &[Stop]) -> Self {
         let timing = scene.session.timing();
-        let places = stops.iter().map(|stop| stop.t).chain([timing.from, timing.to]);
+        let places = stops
+            .iter()
+            .map(|stop| stop.t)
+            .chain([timing.from, timing.to]);
         let places = places.chain([scene.playback.t()]);
         let (mut from, mut to) = (-BEYOND, 1.0 + BEYOND);
         for t in places {
@@ -40,7 +43,13 @@ impl Ruler {
             to = to.max(t);
         }
         let line = rect.shrink2(vec2(GRID, 0.0));
-        Self { left: line.left(), width: line.width(), y: rect.top() + 34.0, from, to }
+        Self {
+            left: line.left(),
+            width: line.width(),
+            y: rect.top() + 34.0,
+            from,
+            to,
+        }
     }
 
     fn x(&self, t: f64) -> f32 {
@@ -71,9 +80,13 @@ fn scrub(response: &Response, ruler: Ruler, stops: &[Stop], acts: &mut Intents) 
         return;
     };
     let places = stops.iter().map(|stop| stop.t).chain([0.0, 1.0]);
-    let near = places.map(|t| (t, (ruler.x(t) - pointer.x).abs())).filter(|(_, d)| *d < SNAP);
+    let near = places
+        .map(|t| (t, (ruler.x(t) - pointer.x).abs()))
+        .filter(|(_, d)| *d < SNAP);
     let snapped = near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(t, _)| t);
-    acts.push(Intent::Seek(snapped.unwrap_or_else(|| rounded(ruler.t(pointer.x)))));
+    acts.push(Intent::Seek(
+        snapped.unwrap_or_else(|| rounded(ruler.t(pointer.x))),
+    ));
 }
 
 /// To a thousandth, the finest that is shown.
@@ -82,17 +95,31 @@ fn rounded(t: f64) -> f64 {
 }
 
 fn font(ui: &Ui) -> FontId {
-    FontId { size: 11.5, ..TextStyle::Small.resolve(ui.style()) }
+    FontId {
+        size: 11.5,
+        ..TextStyle::Small.resolve(ui.style())
+    }
 }
 
 fn beyond(ui: &Ui, ruler: Ruler) {
     let palette = Palette::of(ui);
     for (from, to) in [(ruler.from, 0.0), (1.0, ruler.to)] {
         let (a, b) = (pos2(ruler.x(from), ruler.y), pos2(ruler.x(to), ruler.y));
-        let dashes = Shape::dashed_line(&[a, b], Stroke::new(2.0, palette.amber.gamma_multiply(0.6)), 4.0, 4.0);
+        let dashes = Shape::dashed_line(
+            &[a, b],
+            Stroke::new(2.0, palette.amber.gamma_multiply(0.6)),
+            4.0,
+            4.0,
+        );
         ui.painter().extend(dashes);
         let middle = a.lerp(b, 0.5) + vec2(0.0, 18.0);
-        ui.painter().text(middle, Align2::CENTER_CENTER, "extrapolation", font(ui), palette.amber);
+        ui.painter().text(
+            middle,
+            Align2::CENTER_CENTER,
+            "extrapolation",
+            font(ui),
+            palette.amber,
+        );
     }
 }
 
@@ -122,7 +149,8 @@ fn ticks(ui: &Ui, ruler: Ruler) {
         let is_end = tenth % 10 == 0;
         let length = if tenth % 5 == 0 { 6.0 } else { 4.0 };
         let top = ruler.y + BAR_HEIGHT / 2.0 + 3.0;
-        ui.painter().vline(x, top..=top + length, Stroke::new(1.0, palette.weak));
+        ui.painter()
+            .vline(x, top..=top + length, Stroke::new(1.0, palette.weak));
         let label = match tenth {
             0 => "0 source".to_owned(),
             10 => "1 target".to_owned(),
@@ -130,16 +158,27 @@ fn ticks(ui: &Ui, ruler: Ruler) {
         };
         let colour = if is_end { palette.text } else { palette.weak };
         let at = pos2(x, ruler.y + 20.0);
-        ui.painter().text(at, Align2::CENTER_CENTER, label, font(ui), colour);
+        ui.painter()
+            .text(at, Align2::CENTER_CENTER, label, font(ui), colour);
     }
 }
 
 fn playhead(ui: &Ui, ruler: Ruler, t: f64) {
     let palette = Palette::of(ui);
     let x = ruler.x(t);
-    let colour = if (0.0..=1.0).contains(&t) { palette.text } else { palette.amber };
-    ui.painter().vline(x, ruler.y - 12.0..=ruler.y + 12.0, Stroke::new(2.0, colour));
-    ui.painter().circle(pos2(x, ruler.y), 6.0, palette.panel, Stroke::new(2.0, colour));
+    let colour = if (0.0..=1.0).contains(&t) {
+        palette.text
+    } else {
+        palette.amber
+    };
+    ui.painter()
+        .vline(x, ruler.y - 12.0..=ruler.y + 12.0, Stroke::new(2.0, colour));
+    ui.painter().circle(
+        pos2(x, ruler.y),
+        6.0,
+        palette.panel,
+        Stroke::new(2.0, colour),
+    );
 }
 
 fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
@@ -151,7 +190,10 @@ fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
         if response.clicked() {
             acts.push(Intent::Seek(stop.t));
         }
-        if let Some(pointer) = response.interact_pointer_pos().filter(|_| response.dragged()) {
+        if let Some(pointer) = response
+            .interact_pointer_pos()
+            .filter(|_| response.dragged())
+        {
             stop.t = rounded(ruler.t(pointer.x));
         }
         let tip = format!(
@@ -174,24 +216,40 @@ fn marker(ui: &Ui, at: Pos2, id: Id, name: &str) -> Response {
     let palette = Palette::of(ui);
     let rect = Rect::from_center_size(at, vec2(16.0, 16.0));
     let response = ui.interact(rect, id, Sense::click_and_drag());
-    let colour = if response.hovered() || response.dragged() { palette.accent } else { palette.text };
-    let diamond = [vec2(0.0, -5.0), vec2(5.0, 0.0), vec2(0.0, 5.0), vec2(-5.0, 0.0)];
+    let colour = if response.hovered() || response.dragged() {
+        palette.accent
+    } else {
+        palette.text
+    };
+    let diamond = [
+        vec2(0.0, -5.0),
+        vec2(5.0, 0.0),
+        vec2(0.0, 5.0),
+        vec2(-5.0, 0.0),
+    ];
     let points = diamond.iter().map(|corner| at + *corner).collect();
-    ui.painter().add(Shape::convex_polygon(points, colour, Stroke::NONE));
+    ui.painter()
+        .add(Shape::convex_polygon(points, colour, Stroke::NONE));
     let text_at = at - vec2(0.0, 12.0);
-    ui.painter().text(text_at, Align2::CENTER_CENTER, name, font(ui), colour);
+    ui.painter()
+        .text(text_at, Align2::CENTER_CENTER, name, font(ui), colour);
     response
 }
 
 /// Whether the stop is to be deleted.
 fn stop_menu(ui: &mut Ui, stop: &mut Stop) -> bool {
     ui.set_width(184.0);
-    ui.add(egui::TextEdit::singleline(&mut stop.name).hint_text("Name").desired_width(f32::INFINITY))
-        .on_hover_text("Name of the stop");
+    ui.add(
+        egui::TextEdit::singleline(&mut stop.name)
+            .hint_text("Name")
+            .desired_width(f32::INFINITY),
+    )
+    .on_hover_text("Name of the stop");
     ui.horizontal(|ui| {
         ui.label("t");
         let number = DragValue::new(&mut stop.t).speed(0.002).max_decimals(6);
-        ui.add(number).on_hover_text("Where the stop is; outside 0 to 1 it extrapolates.");
+        ui.add(number)
+            .on_hover_text("Where the stop is; outside 0 to 1 it extrapolates.");
     });
     let is_deleted = ui.button("Delete stop").clicked();
     if is_deleted {

@@ -40,9 +40,12 @@ const HOMOTOPIES: [(Homotopy, &str, &str); 4] = [
 /// Draws the options.
 pub fn show(ui: &mut Ui, scene: &Scene, arap: &mut ArapOptions) {
     section(ui, "Motion of parts", |ui| {
-        row(ui, "Homotopy", "The path of each triangle from its first form to its last.", |ui| {
-            menu(ui, "homotopy", &mut arap.homotopy, &HOMOTOPIES)
-        });
+        row(
+            ui,
+            "Homotopy",
+            "The path of each triangle from its first form to its last.",
+            |ui| menu(ui, "homotopy", &mut arap.homotopy, &HOMOTOPIES),
+        );
         weights(ui, &mut arap.weights);
         toggle(
             ui,
@@ -53,7 +56,9 @@ pub fn show(ui: &mut Ui, scene: &Scene, arap: &mut ArapOptions) {
         );
         path(ui, &mut arap.path);
         extra_turns(ui, &mut arap.extra_turns, scene.session.parts());
-        let subdivisions = DragValue::new(&mut arap.subdivisions).range(0..=MOST_SUBDIVISIONS).speed(0.02);
+        let subdivisions = DragValue::new(&mut arap.subdivisions)
+            .range(0..=MOST_SUBDIVISIONS)
+            .speed(0.02);
         number(
             ui,
             "Subdivide",
@@ -67,11 +72,23 @@ fn weights(ui: &mut Ui, weights: &mut Weights) {
     let tip = "How much each triangle has to say. Stiffer where the weight is larger.";
     row(ui, "Weights", tip, |ui| {
         let mut options = vec![
-            (Weights::Area, "Area", "By area: fine triangles do not stiffen the shape"),
-            (Weights::Uniform, "Uniform", "All alike, as in the paper: finely divided parts are stiffer"),
+            (
+                Weights::Area,
+                "Area",
+                "By area: fine triangles do not stiffen the shape",
+            ),
+            (
+                Weights::Uniform,
+                "Uniform",
+                "All alike, as in the paper: finely divided parts are stiffer",
+            ),
         ];
         if matches!(weights, Weights::PerFace(_)) {
-            options.push((weights.clone(), "Own", "The numbers that stand in the project file"));
+            options.push((
+                weights.clone(),
+                "Own",
+                "The numbers that stand in the project file",
+            ));
         }
         choices(ui, weights, &options)
     });
@@ -80,15 +97,31 @@ fn weights(ui: &mut Ui, weights: &mut Weights) {
 fn path(ui: &mut Ui, path: &mut PathKind) {
     let tip = "Which point of the whole goes straight from its first place to its last.";
     row(ui, "Path", tip, |ui| {
-        let anchor = if let PathKind::Anchor(vertex) = *path { vertex } else { 0 };
-        let width = if matches!(path, PathKind::Anchor(_)) { 112.0 } else { ui.available_width() };
+        let anchor = if let PathKind::Anchor(vertex) = *path {
+            vertex
+        } else {
+            0
+        };
+        let width = if matches!(path, PathKind::Anchor(_)) {
+            112.0
+        } else {
+            ui.available_width()
+        };
         let chosen = ui
             .scope(|ui| {
                 ui.set_max_width(width);
-                choices(ui, path, &[
-                    (PathKind::Centroid, "Centre", "The centre of mass"),
-                    (PathKind::Anchor(anchor), "Vertex", "One vertex, by its number"),
-                ])
+                choices(
+                    ui,
+                    path,
+                    &[
+                        (PathKind::Centroid, "Centre", "The centre of mass"),
+                        (
+                            PathKind::Anchor(anchor),
+                            "Vertex",
+                            "One vertex, by its number",
+                        ),
+                    ],
+                )
             })
             .inner;
         let PathKind::Anchor(vertex) = path else {
@@ -103,18 +136,38 @@ fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
     let each = turns.len() > 1;
     if !each {
         let mut all = turns.first().copied().unwrap_or(0);
-        number(ui, "Extra turns", tip, DragValue::new(&mut all).range(-9..=9).speed(0.02));
+        number(
+            ui,
+            "Extra turns",
+            tip,
+            DragValue::new(&mut all).range(-9..=9).speed(0.02),
+        );
         if all != turns.first().copied().unwrap_or(0) {
             *turns = if all == 0 { Vec::new() } else { vec![all] };
         }
     }
-    for (part, turn) in turns.iter_mut().enumerate().take(MOST_PARTS).filter(|_| each) {
+    for (part, turn) in turns
+        .iter_mut()
+        .enumerate()
+        .take(MOST_PARTS)
+        .filter(|_| each)
+    {
         let label = format!("Turns, part {}", part + 1);
-        number(ui, &label, tip, DragValue::new(turn).range(-9..=9).speed(0.02));
+        number(
+            ui,
+            &label,
+            tip,
+            DragValue::new(turn).range(-9..=9).speed(0.02),
+        );
     }
     if parts > 1 && parts <= MOST_PARTS {
         let mut apart = each;
-        toggle(ui, "Each part", "A number of turns of its own for each part that hangs on others by points only.", &mut apart);
+        toggle(
+            ui,
+            "Each part",
+            "A number of turns of its own for each part that hangs on others by points only.",
+            &mut apart,
+        );
         if apart != each {
             let all = turns.first().copied().unwrap_or(0);
             *turns = if apart { vec![all; parts] } else { vec![all] };

@@ -20,7 +20,8 @@ pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> 
     let body = ui.vertical(body).inner;
     ui.add_space(GRID);
     let line = ui.available_rect_before_wrap();
-    ui.painter().hline(line.x_range(), line.top(), Stroke::new(1.0, palette.line));
+    ui.painter()
+        .hline(line.x_range(), line.top(), Stroke::new(1.0, palette.line));
     body
 }
 
@@ -32,7 +33,13 @@ pub fn row(ui: &mut Ui, label: &str, tip: &str, control: impl FnOnce(&mut Ui) ->
             ui.allocate_exact_size(vec2(LABEL_WIDTH, CONTROL_HEIGHT), Sense::hover());
         let colour = Palette::of(ui).weak;
         let font = egui::TextStyle::Body.resolve(ui.style());
-        ui.painter().text(rect.left_center(), egui::Align2::LEFT_CENTER, label, font, colour);
+        ui.painter().text(
+            rect.left_center(),
+            egui::Align2::LEFT_CENTER,
+            label,
+            font,
+            colour,
+        );
         response.on_hover_text(tip);
         control(ui).on_hover_text(tip).on_disabled_hover_text(tip);
     });
@@ -54,14 +61,18 @@ pub fn slider(
             .max_decimals(3);
         let number = ui.add_sized([56.0, CONTROL_HEIGHT], number);
         ui.spacing_mut().slider_width = (ui.available_width() - GRID).max(40.0);
-        let slider = Slider::new(value, range).logarithmic(logarithmic).show_value(false);
+        let slider = Slider::new(value, range)
+            .logarithmic(logarithmic)
+            .show_value(false);
         number | ui.add(slider)
     });
 }
 
 /// A row with a number alone.
 pub fn number(ui: &mut Ui, label: &str, tip: &str, value: DragValue<'_>) {
-    row(ui, label, tip, |ui| ui.add_sized([72.0, CONTROL_HEIGHT], value));
+    row(ui, label, tip, |ui| {
+        ui.add_sized([72.0, CONTROL_HEIGHT], value)
+    });
 }
 
 /// A row with a switch.
@@ -82,9 +93,19 @@ pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     let along = ui.ctx().animate_bool_responsive(response.id, is_on);
     let track = Rect::from_center_size(rect.center(), vec2(32.0, 16.0));
     let fill = if is_on { palette.accent } else { palette.hover };
-    ui.painter().rect(track, 8.0, fill, Stroke::new(1.0, palette.line), StrokeKind::Inside);
-    let knob = egui::pos2(egui::lerp(track.left() + 8.0..=track.right() - 8.0, along), track.center().y);
-    ui.painter().circle_filled(knob, 5.5, if is_on { palette.panel } else { palette.weak });
+    ui.painter().rect(
+        track,
+        8.0,
+        fill,
+        Stroke::new(1.0, palette.line),
+        StrokeKind::Inside,
+    );
+    let knob = egui::pos2(
+        egui::lerp(track.left() + 8.0..=track.right() - 8.0, along),
+        track.center().y,
+    );
+    ui.painter()
+        .circle_filled(knob, 5.5, if is_on { palette.panel } else { palette.weak });
     response
 }
 
@@ -114,9 +135,7 @@ pub fn choices<T: PartialEq + Clone>(
 pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
     let palette = Palette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-    response.widget_info(|| {
-        WidgetInfo::selected(WidgetType::SelectableLabel, true, chosen, label)
-    });
+    response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, chosen, label));
     let (fill, text) = match (chosen, response.hovered()) {
         (true, _) => (palette.accent_ground, palette.text),
         (false, true) => (palette.hover, palette.text),
@@ -124,7 +143,13 @@ pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
     };
     ui.painter().rect_filled(rect, RADIUS, fill);
     let font = egui::TextStyle::Small.resolve(ui.style());
-    ui.painter().text(rect.center(), egui::Align2::CENTER_CENTER, label, font, text);
+    ui.painter().text(
+        rect.center(),
+        egui::Align2::CENTER_CENTER,
+        label,
+        font,
+        text,
+    );
     response
 }
 
@@ -135,14 +160,18 @@ pub fn menu<T: PartialEq + Clone>(
     value: &mut T,
     options: &[(T, &str, &str)],
 ) -> Response {
-    let current = options.iter().find(|(option, ..)| option == value).map_or("", |(_, label, _)| label);
+    let current = options
+        .iter()
+        .find(|(option, ..)| option == value)
+        .map_or("", |(_, label, _)| label);
     let width = ui.available_width() - 2.0 * GRID;
     ComboBox::from_id_salt(salt)
         .width(width)
         .selected_text(current)
         .show_ui(ui, |ui| {
             for (option, label, tip) in options {
-                ui.selectable_value(value, option.clone(), *label).on_hover_text(*tip);
+                ui.selectable_value(value, option.clone(), *label)
+                    .on_hover_text(*tip);
             }
         })
         .response
@@ -167,7 +196,11 @@ pub fn icon_button_sized(
     if response.hovered() || response.is_pointer_button_down_on() {
         ui.painter().rect_filled(rect, RADIUS, palette.hover);
     }
-    let colour = colour.unwrap_or(if ui.is_enabled() { palette.text } else { palette.weak });
+    let colour = colour.unwrap_or(if ui.is_enabled() {
+        palette.text
+    } else {
+        palette.weak
+    });
     icons::paint(ui.painter(), icon, rect, colour);
     response.on_hover_text(tip).on_disabled_hover_text(tip)
 }
@@ -180,5 +213,6 @@ pub fn hint(ui: &mut Ui, text: &str) {
 
 /// Lays its content out from the right.
 pub fn from_right<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
-    ui.with_layout(Layout::right_to_left(Align::Center), content).inner
+    ui.with_layout(Layout::right_to_left(Align::Center), content)
+        .inner
 }

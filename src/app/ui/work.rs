@@ -9,7 +9,10 @@ use crate::app::intent::Intent;
 /// Draws a pill at the top of the stage for each piece of work.
 pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     let build = scene.session.work().map(|work| (work, Intent::CancelWork));
-    let film = scene.recorder.work().map(|work| (work, Intent::CancelRecording));
+    let film = scene
+        .recorder
+        .work()
+        .map(|work| (work, Intent::CancelRecording));
     let all: Vec<_> = build.into_iter().chain(film).collect();
     if all.is_empty() {
         return;
