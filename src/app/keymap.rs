@@ -10,7 +10,7 @@ use bevy::prelude::{ButtonInput, MessageReader, MessageWriter, Res, Resource};
 
 use crate::app::intent::Intent;
 
-/// A text field has the focus: keys write text and nothing else.
+/// A text field or a menu has the keyboard: keys belong to it and mean nothing here.
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Typing(pub bool);
 

@@ -30,9 +30,52 @@ pub enum Request {
     File(PathBuf),
     /// Open two designs as a new project.
     Pair(PathBuf, PathBuf),
-    /// Build what is open with its new settings; reads designs again where their file, or how it
-    /// is read, differs from the project given second.
-    Rebuild(LoadedProject, Project),
+    /// Build what is open with its new settings.
+    Rebuild(Box<Rebuild>),
+}
+
+/// A project that is open, and what of it is on the stage.
+#[derive(Clone, Debug)]
+pub struct Rebuild {
+    /// With the new settings and the old designs. Designs are read again where their file, or how
+    /// it is read, has changed.
+    pub now: LoadedProject,
+    /// The settings of what is on the stage.
+    pub staged: Project,
+    /// What is on the stage.
+    pub transition: Option<Transition>,
+}
+
+impl Rebuild {
+    fn carry_out(self, progress: &dyn Progress) -> Result<Loaded, LoadError> {
+        if let Some(transition) = self.mixed_otherwise() {
+            return Ok(Loaded {
+                project: self.now,
+                transition: Some(transition),
+                problem: None,
+                parts: 0,
+            });
+        }
+        let mut project = self.now;
+        if reads_differently(&self.staged, &project.project) {
+            project = project.reread()?;
+            choose_cell(&mut project);
+        }
+        Ok(built(project, progress))
+    }
+
+    /// Where nothing but the mixing of the fields has changed, they need not be measured again.
+    fn mixed_otherwise(&self) -> Option<Transition> {
+        let mut otherwise_same = self.staged.clone();
+        otherwise_same.field.blend = self.now.project.field.blend;
+        if needs_build(&otherwise_same, &self.now.project) {
+            return None;
+        }
+        self.transition
+            .as_ref()?
+            .with_blend(self.now.project.field.blend)
+            .ok()?
+    }
 }
 
 /// Why nothing could be opened.
@@ -60,10 +103,7 @@ impl Request {
             Self::Pair(source, target) => {
                 LoadedProject::open_pair(&absolute(&source), &absolute(&target))?
             }
-            Self::Rebuild(loaded, staged) if reads_differently(&staged, &loaded.project) => {
-                loaded.reread()?
-            }
-            Self::Rebuild(loaded, _) => return Ok(built(loaded, progress)),
+            Self::Rebuild(rebuild) => return rebuild.carry_out(progress),
         };
         choose_cell(&mut project);
         Ok(built(project, progress))

@@ -12,7 +12,7 @@ use bevy::prelude::Resource;
 
 use crate::app::files::safe;
 use crate::app::job::Job;
-use crate::app::loading::{self, LoadError, Loaded, Request};
+use crate::app::loading::{self, LoadError, Loaded, Rebuild, Request};
 use crate::app::saving;
 use crate::content::ContentKind;
 use crate::design::Form;
@@ -293,7 +293,11 @@ impl Session {
             && let Some(open) = &self.open
         {
             self.is_stale = false;
-            let request = Request::Rebuild(open.loaded.project.clone(), open.staged.clone());
+            let request = Request::Rebuild(Box::new(Rebuild {
+                now: open.loaded.project.clone(),
+                staged: open.staged.clone(),
+                transition: open.loaded.transition.clone(),
+            }));
             self.start(WorkKind::Rebuild, request);
         }
         outcome
@@ -317,6 +321,7 @@ impl Session {
     }
 
     fn adopt(&mut self, loaded: Loaded, origin: Origin) -> Outcome {
+        self.is_stale = false;
         let project = loaded.project.project.clone();
         let problem = loaded.problem.clone();
         self.open = Some(Open {

@@ -4,6 +4,8 @@ use bevy::camera::Viewport;
 use bevy::prelude::*;
 use bevy::window::{MonitorSelection, PrimaryWindow, WindowMode};
 
+use crate::app::closing::Question;
+use crate::app::dialogs::Drop;
 use crate::app::intent::Intent;
 use crate::app::preferences::Preferences;
 use crate::app::session::Session;
@@ -136,7 +138,12 @@ pub fn back(
     mut intents: MessageReader<Intent>,
     mut preferences: ResMut<Preferences>,
     mut window: Query<&mut Window, With<PrimaryWindow>>,
+    (question, drop): (Res<Question>, Res<Drop>),
 ) {
+    if question.text().is_some() || drop.undecided().is_some() {
+        intents.clear(); // Esc answers the question and nothing else.
+        return;
+    }
     let backs = intents
         .read()
         .filter(|intent| **intent == Intent::Back)

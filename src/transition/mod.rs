@@ -25,11 +25,11 @@ pub use style::{NoColour, Rgb, Style};
 pub use timing::{Easing, PlayMode, Stop, Timing, TimingError};
 
 use crate::compatible::CompatibleMesh;
-use crate::content::Content;
+use crate::content::{Content, FieldBlend, FieldPairError};
 use crate::design::Design;
 use crate::geometry::Bounds;
 use crate::progress::Progress;
-use crate::warp::{Arap, Warp};
+use crate::warp::{Arap, Still, Warp};
 use std::sync::Arc;
 
 /// A transition that is ready to be played. Cloning is cheap.
@@ -72,6 +72,28 @@ impl Transition {
     /// cancelled.
     pub fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Self, BuildError> {
         build::build(spec, progress).map(|inner| Self(Arc::new(inner)))
+    }
+
+    /// The same fields mixed in another way, without measuring them again;
+    /// `None` where there are no fields.
+    ///
+    /// # Errors
+    /// [`FieldPairError`] if ε or the threshold is out of range.
+    pub fn with_blend(&self, blend: FieldBlend) -> Result<Option<Self>, FieldPairError> {
+        let Content::Field(pair) = &self.0.content else {
+            return Ok(None);
+        };
+        let pair = pair.with_blend(blend)?;
+        let inner = Inner {
+            cell: self.0.cell,
+            designs: self.0.designs.clone(),
+            warp: Box::new(Still::new(pair.grid().bounds())),
+            arap: None,
+            bounds: self.0.bounds,
+            bar_width: self.0.bar_width,
+            content: Content::Field(pair),
+        };
+        Ok(Some(Self(Arc::new(inner))))
     }
 
     /// A frame at `t`, with memory of its own. Outside [0, 1] it

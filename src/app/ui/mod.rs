@@ -125,7 +125,9 @@ fn draw(
     stage_area::show(&mut root, stage, &mut acts);
     overlays(&ctx, &scene, stage, &mut acts);
     area.set_if_neq(StageArea::from_points(stage.left_top(), stage.size()));
-    typing.set_if_neq(Typing(ctx.text_edit_focused()));
+    typing.set_if_neq(Typing(
+        ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx),
+    ));
     intents.write_batch(acts);
     Ok(())
 }
