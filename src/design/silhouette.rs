@@ -33,6 +33,9 @@ pub enum PictureError {
         /// Pixels down.
         height: u32,
     },
+    /// A side of the picture is 0.
+    #[error("the picture has no pixels; save it again from where it was made")]
+    NoPixels,
     /// The file ends before the picture does.
     #[error("the picture is cut off before its end; copy or save the file again")]
     Truncated,
@@ -104,24 +107,36 @@ fn jpeg_ends(bytes: &[u8]) -> bool {
 }
 
 fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, PictureError> {
+    if let Some(size) = claimed_by_png(bytes, format) {
+        check_size(size)?; // the decoder looks for pixels first
+    }
     let mut limits = Limits::default();
     limits.max_alloc = Some(MAX_PIXELS * 8); // 16 bits in each of four channels
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits.clone());
     let mut decoder = reader.into_decoder().map_err(damaged)?;
-    let (width, height) = decoder.dimensions();
-    let pixels = u64::from(width) * u64::from(height);
-    if pixels > MAX_PIXELS {
-        return Err(PictureError::TooManyPixels { width, height });
-    }
-    if pixels == 0 {
-        return Err(PictureError::OneTone);
-    }
+    check_size(decoder.dimensions())?;
     decoder.set_limits(limits).map_err(damaged)?;
     let orientation = decoder.orientation().map_err(damaged)?;
     let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
     picture.apply_orientation(orientation);
     Ok(picture.into_rgba8())
+}
+
+/// Width and height from the header of a PNG, which is always in one place.
+fn claimed_by_png(bytes: &[u8], format: ImageFormat) -> Option<(u32, u32)> {
+    let number = |at: usize| Some(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
+    (format == ImageFormat::Png && bytes.get(12..16) == Some(b"IHDR"))
+        .then(|| Some((number(16)?, number(20)?)))
+        .flatten()
+}
+
+fn check_size((width, height): (u32, u32)) -> Result<(), PictureError> {
+    match u64::from(width) * u64::from(height) {
+        0 => Err(PictureError::NoPixels),
+        1..=MAX_PIXELS => Ok(()),
+        _ => Err(PictureError::TooManyPixels { width, height }),
+    }
 }
 
 fn damaged(error: ImageError) -> PictureError {
@@ -308,7 +323,9 @@ fn otsu(tones: &[u8]) -> Option<u8> {
 /// paper is lighter than ink.
 fn border_is_above(tones: &[u8], width: usize, threshold: u8) -> bool {
     let last_row = tones.len() - width;
-    let on_border = |i: usize| i < width || i >= last_row || i % width == 0 || (i + 1) % width == 0;
+    let on_border = |i: usize| {
+        i < width || i >= last_row || i.is_multiple_of(width) || (i + 1).is_multiple_of(width)
+    };
     let border = tones.iter().enumerate().filter(|&(i, _)| on_border(i));
     let (mut above, mut all) = (0usize, 0usize);
     for (_, &tone) in border {
