@@ -131,7 +131,7 @@ impl Pen<'_> {
     }
 
     fn skip(&self, side: f32) {
-        self.triangle(-1.0 * side, 4.0 * side);
+        self.triangle(-side, 4.0 * side);
         self.bars(&[5.0 * side], 2.0, 5.0);
     }
 
