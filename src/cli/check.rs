@@ -168,14 +168,51 @@ fn median(mut times: Vec<Duration>) -> Duration {
     times.get(times.len() / 2).copied().unwrap_or_default()
 }
 
-/// A line for each number, named by its place in the JSON; of the film's
-/// samples, a line each.
+/// Columns of the table of samples, and where a sample has them.
+const COLUMNS: [(&str, &str); 8] = [
+    ("t", "/t"),
+    ("area", "/area"),
+    ("perimeter", "/perimeter"),
+    ("pieces", "/pieces"),
+    ("holes", "/holes"),
+    ("crossings", "/crossings"),
+    ("folds", "/distortion/folds"),
+    ("conformal", "/distortion/conformal/worst"),
+];
+
+/// A line for each number, named by its place in the JSON; then a table of the
+/// film's samples.
 fn table(report: &Value) -> String {
     let mut rows = Vec::new();
     flatten("", report, &mut rows);
     let width = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
     let line = |(name, value): &(String, String)| format!("{name:width$}  {value}\n");
-    rows.iter().map(line).collect()
+    let numbers: String = rows.iter().map(line).collect();
+    let samples = report.pointer("/film/samples").and_then(Value::as_array);
+    format!(
+        "{numbers}\n{}",
+        samples_table(samples.map_or(&[], Vec::as_slice))
+    )
+}
+
+fn samples_table(samples: &[Value]) -> String {
+    let is_known = |place: &str| {
+        samples
+            .iter()
+            .any(|s| s.pointer(place).is_some_and(|v| !v.is_null()))
+    };
+    let columns = COLUMNS.iter().filter(|(_, place)| is_known(place));
+    let cells = |of: &dyn Fn(&(&str, &str)) -> String| -> String {
+        let cells: Vec<_> = columns
+            .clone()
+            .map(|column| format!("{:>12}", of(column)))
+            .collect();
+        cells.concat() + "\n"
+    };
+    let row =
+        |sample: &Value| cells(&|(_, place)| sample.pointer(place).map_or_else(String::new, plain));
+    let header = cells(&|(name, _)| (*name).to_owned());
+    header + &samples.iter().map(row).collect::<String>()
 }
 
 fn flatten(name: &str, value: &Value, rows: &mut Vec<(String, String)>) {
@@ -190,12 +227,10 @@ fn flatten(name: &str, value: &Value, rows: &mut Vec<(String, String)>) {
                 flatten(&below(key), value, rows);
             }
         }
+        Value::Array(_) if name == "film.samples" => {}
         Value::Array(values) if values.iter().all(Value::is_object) => {
             for (i, value) in values.iter().enumerate() {
-                let mut cells = Vec::new();
-                flatten("", value, &mut cells);
-                let cells: Vec<_> = cells.iter().map(|(k, v)| format!("{k} {v}")).collect();
-                rows.push((format!("{name} {i}"), cells.join("  ")));
+                flatten(&format!("{name}.{i}"), value, rows);
             }
         }
         Value::Array(values) => {
@@ -219,6 +254,7 @@ fn plain(value: &Value) -> String {
                 fixed.trim_end_matches('0').trim_end_matches('.').to_owned()
             }
         }
+        Value::Null => "-".to_owned(),
         value => value.to_string(),
     }
 }
@@ -232,7 +268,9 @@ mod tests {
     fn the_table_names_each_number() {
         let report = json!({
             "title": "a to b", "vertices": null, "grid": [3, 4],
-            "film": {"worst_folds": 0, "asymmetry": 1.5e-12, "samples": [{"t": 0.0, "area": 2.5}]},
+            "film": {"worst_folds": 0, "asymmetry": 1.5e-12, "samples": [
+                {"t": 0.0, "area": 2.5, "holes": null, "distortion": {"folds": 7}},
+            ]},
         });
         let table = table(&report);
         let lines: Vec<&str> = table.lines().map(str::trim_end).collect();
@@ -240,10 +278,12 @@ mod tests {
             lines,
             [
                 "film.asymmetry    1.500e-12",
-                "film.samples 0    area 2.5  t 0",
                 "film.worst folds  0",
                 "grid              3 x 4",
                 "title             a to b",
+                "",
+                "           t        area       folds",
+                "           0         2.5           7",
             ]
         );
     }

@@ -13,7 +13,7 @@ use png::{BitDepth, BlendOp, ColorType, DisposeOp, Encoder, EncodingError, Write
 use crate::progress::Progress;
 
 use super::atomic::AtomicFile;
-use super::camera::Camera;
+use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::{Film, Run};
 use super::raster::rasterise;
@@ -36,6 +36,7 @@ pub fn write_apng(
         writer(&mut output, camera, film, runs.len()).map_err(ExportError::encode(path))?;
     camera.shoot_runs(
         &runs,
+        DRAWING,
         progress,
         |drawing| Ok(pixels(&rasterise(&drawing), camera.ground.is_some())),
         |run, pixels| {

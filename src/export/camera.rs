@@ -21,6 +21,9 @@ pub const BATCH_BYTES: u64 = 256 << 20;
 /// The most frames at which [`framing`] looks.
 const FRAMING_SAMPLES: usize = 33;
 
+/// The stage of drawing a film's frames, as [`Progress`] is told.
+pub(super) const DRAWING: &str = "drawing frames";
+
 /// A transition, how it looks, and from where it is seen.
 #[derive(Clone, Debug)]
 pub struct Camera {
@@ -46,26 +49,28 @@ impl Camera {
     }
 
     /// Draws each run's frame once, makes something of it on any thread, and
-    /// hands the results over in order on this one.
+    /// hands the results over in order on this one. `stage` is what
+    /// `progress` is told.
     ///
     /// # Errors
     /// [`ExportError::Cancelled`], or what `make` and `take` return.
     pub fn shoot_runs<T: Send>(
         &self,
         runs: &[Run],
+        stage: &'static str,
         progress: &dyn Progress,
         make: impl Fn(Drawing) -> Result<T, ExportError> + Sync,
         mut take: impl FnMut(Run, T) -> Result<(), ExportError>,
     ) -> Result<(), ExportError> {
         let mut done = 0;
         for batch in runs.chunks(batch_len(self.view.size())) {
-            checkpoint(progress, "drawing frames", done as f64 / runs.len() as f64)?;
+            checkpoint(progress, stage, done as f64 / runs.len() as f64)?;
             for (run, made) in batch.iter().zip(self.shoot_batch(batch, progress, &make)?) {
                 take(*run, made)?;
             }
             done += batch.len();
         }
-        checkpoint(progress, "drawing frames", 1.0)?;
+        checkpoint(progress, stage, 1.0)?;
         Ok(())
     }
 

@@ -109,8 +109,8 @@ pub enum Item {
     },
 }
 
-/// A picture in shapes: what [`super::svg::to_svg`] writes and
-/// [`super::raster::rasterise`] paints.
+/// A picture in shapes: what [`to_svg`](crate::export::to_svg) writes and
+/// [`rasterise`](crate::export::rasterise) paints.
 ///
 /// ```
 /// use morphospace::export::{Drawing, PixelSize, rasterise, to_svg};

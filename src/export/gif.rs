@@ -14,7 +14,7 @@ use image::RgbaImage;
 use crate::progress::Progress;
 
 use super::atomic::AtomicFile;
-use super::camera::Camera;
+use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::{Film, Run};
 use super::palette::{Histogram, Palette};
@@ -52,6 +52,7 @@ pub fn write_gif(
     let mut encoder = encoder(writer, camera, film, &palette).map_err(ExportError::encode(path))?;
     camera.shoot_runs(
         &film.runs(),
+        DRAWING,
         progress,
         |drawing| Ok(encoded_frame(&rasterise(&drawing), &palette)),
         |run, mut frame| {
@@ -94,6 +95,7 @@ fn film_palette(
     let mut merged = Histogram::default();
     camera.shoot_runs(
         &sampled,
+        "choosing colours",
         progress,
         |drawing| Ok(histogram(&rasterise(&drawing))),
         |_, of_frame| {

@@ -15,7 +15,7 @@ use image::RgbaImage;
 use crate::progress::{Cancelled, Progress};
 
 use super::atomic::AtomicFile;
-use super::camera::Camera;
+use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::Film;
 use super::raster::rasterise;
@@ -40,6 +40,7 @@ pub fn write_mp4(
     let mut ffmpeg = Ffmpeg::start(camera.view.size(), film.fps(), file.temporary_path())?;
     let fed = camera.shoot_runs(
         &film.runs(),
+        DRAWING,
         progress,
         |drawing| Ok(opaque_bytes(&rasterise(&drawing))),
         |run, bytes| {

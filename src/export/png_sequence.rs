@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use crate::progress::Progress;
 
 use super::atomic;
-use super::camera::Camera;
+use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::Film;
 use super::still::encoded;
@@ -33,6 +33,7 @@ pub fn write_numbered(
     let first = names.path(film.first_number());
     camera.shoot_runs(
         &film.runs(),
+        DRAWING,
         progress,
         |drawing| encoded(&drawing, names.kind, &first),
         |run, bytes| {
