@@ -74,10 +74,15 @@ pub fn run(options: AppOptions) -> AppExit {
 }
 
 fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
-    match (files, gallery.0.first()) {
-        ([], Some(entry)) => Intent::OpenGallery(entry.name.clone()),
-        _ => Intent::Open(files.to_vec()),
-    }
+    let bundled = match files {
+        [] => gallery.0.first().map(|entry| entry.name.clone()),
+        [one] => one
+            .to_str()
+            .and_then(|name| name.strip_prefix("gallery:"))
+            .map(str::to_owned),
+        _ => None,
+    };
+    bundled.map_or_else(|| Intent::Open(files.to_vec()), Intent::OpenGallery)
 }
 
 fn window() -> WindowPlugin {

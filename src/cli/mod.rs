@@ -42,7 +42,7 @@ Examples:
     after_help = EXAMPLES
 )]
 struct Cli {
-    /// A project (.morph), or two designs; opened in the window
+    /// A project (.morph, or gallery:NAME), or two designs; opened in the window
     #[arg(value_name = "FILE", num_args = 0..=2)]
     files: Vec<PathBuf>,
 
