@@ -119,7 +119,8 @@ fn overlays_are_seen(studio: &mut Studio) {
         bars: true,
         ..Show::default()
     };
-    let shows: [(&str, fn(&mut Show)); 4] = [
+    type Switch = fn(&mut Show);
+    let shows: [(&str, Switch); 4] = [
         ("wireframe", |show| show.wireframe = true),
         ("ghosts", |show| show.ghosts = true),
         ("iso-lines", |show| show.iso_lines = true),

@@ -136,15 +136,20 @@ pub(super) fn adopt_transitions(
                 .try_remove::<ArapSolver>()
                 .try_insert(FieldSprite(frame)),
         };
-        match meshes(transition) {
+        match transition.arap().and_then(|_| meshes(transition)) {
             Some(meshes) => entity.try_insert(meshes),
             None => entity.try_remove::<(SourceMesh, TargetMesh)>(),
         };
     }
 }
 
-/// Both ends of a transition that has triangles.
+/// Both ends of a transition that has triangles: the designs themselves, or
+/// the panels between the bars of trusses.
 fn meshes(transition: &Transition) -> Option<(SourceMesh, TargetMesh)> {
+    let [source, target] = transition.designs();
+    if let (Form::Mesh(source), Form::Mesh(target)) = (&source.form, &target.form) {
+        return Some((SourceMesh(source.clone()), TargetMesh(target.clone())));
+    }
     let compatible = transition.compatible()?;
     let mesh = |positions: &[_]| TriangleMesh::new(positions.to_vec(), compatible.faces().to_vec());
     let source = mesh(compatible.source()).ok()?;

@@ -64,18 +64,23 @@ struct Capture {
     frames: u32,
 }
 
+/// What a picture is made with; all of it is missing without a renderer.
+type Graphics<'w> = (
+    Option<ResMut<'w, Assets<Image>>>,
+    Option<Res<'w, RenderDevice>>,
+    Option<Res<'w, PipelinesReady>>,
+);
+
 /// Sets up a camera for each request.
 pub(super) fn begin_captures(
     mut commands: Commands,
     mut requests: MessageReader<CaptureStage>,
     mut answers: MessageWriter<StageCaptured>,
     mut captures: ResMut<Captures>,
-    images: Option<ResMut<Assets<Image>>>,
-    device: Option<Res<RenderDevice>>,
-    ready: Option<Res<PipelinesReady>>,
+    graphics: Graphics,
     view: Res<StageView>,
 ) {
-    let (Some(mut images), Some(device), Some(ready)) = (images, device, ready) else {
+    let (Some(mut images), Some(device), Some(ready)) = graphics else {
         for request in requests.read() {
             answers.write(refused(
                 request.id,

@@ -34,9 +34,15 @@ type PartQuery<'w, 's> = Query<
 /// A frame, or how it looks, or what shows it, is new.
 type Moved<C> = Or<(Changed<C>, Changed<StageStyle>, Changed<Children>)>;
 
+type Solids = (
+    Ref<'static, ArapSolver>,
+    Ref<'static, StageStyle>,
+    &'static Children,
+);
+
 /// Writes vertices and colours of solids.
 pub(super) fn draw_solids(
-    roots: Query<(Ref<ArapSolver>, Ref<StageStyle>, &Children), Moved<ArapSolver>>,
+    roots: Query<Solids, Moved<ArapSolver>>,
     mut parts: PartQuery,
     mut meshes: ResMut<Assets<Mesh>>,
     mut inks: ResMut<Assets<InkMaterial>>,

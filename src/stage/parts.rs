@@ -219,20 +219,17 @@ impl Wardrobe<'_, '_> {
     }
 }
 
+/// An entity, what is to be shown of it, how, and the parts it has.
+type Staged = (
+    Entity,
+    Option<&'static ArapSolver>,
+    Option<&'static FieldSprite>,
+    &'static StageStyle,
+    Option<&'static Children>,
+);
+
 /// Gives new transitions their parts.
-pub(super) fn dress(
-    undressed: Query<
-        (
-            Entity,
-            Option<&ArapSolver>,
-            Option<&FieldSprite>,
-            &StageStyle,
-            Option<&Children>,
-        ),
-        With<Undressed>,
-    >,
-    mut wardrobe: Wardrobe,
-) {
+pub(super) fn dress(undressed: Query<Staged, With<Undressed>>, mut wardrobe: Wardrobe) {
     for (entity, solver, sprite, style, children) in &undressed {
         wardrobe.undress(children);
         wardrobe.commands.entity(entity).remove::<Undressed>();
