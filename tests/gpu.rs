@@ -13,6 +13,8 @@ mod studio;
 use std::process::ExitCode;
 
 use image::RgbaImage;
+use morphospace::content::Content;
+use morphospace::geometry::{Bounds, DVec2};
 use morphospace::stage::Show;
 use morphospace::transition::Rgb;
 
@@ -39,6 +41,10 @@ const TESTS: &[Test] = &[
     (
         "a_transparent_ground_has_straight_alpha",
         a_transparent_ground_has_straight_alpha,
+    ),
+    (
+        "contours_are_right_and_smooth_at_any_zoom",
+        contours_are_right_and_smooth_at_any_zoom,
     ),
     (
         "far_from_zero_nothing_changes",
@@ -73,6 +79,44 @@ fn fields_look_the_same_on_both(studio: &mut Studio) {
         let scene = Scene::new(name, transition);
         for t in [0.0, 0.3, 0.5, 1.0, 1.2] {
             studio.compare(&scene, t);
+        }
+    }
+}
+
+/// The core decides for the middle of each pixel: here the exporter's chords
+/// across a cell would be the coarser of the two.
+fn contours_are_right_and_smooth_at_any_zoom(studio: &mut Studio) {
+    for (name, transition) in field() {
+        let Content::Field(pair) = transition.content().clone() else {
+            panic!("{name} is no field");
+        };
+        let t = 0.4;
+        let on_contour = pair.contour(t)[0][0];
+        for (zoom, half) in [("near", 0.05), ("far", 40.0)] {
+            let mut scene = Scene::new(name, transition.clone());
+            scene.view = Bounds {
+                min: on_contour - half,
+                max: on_contour + half,
+            };
+            scene.size = [300, 300];
+            let picture = studio.picture(&scene, t).expect("a picture");
+            studio.keep(&format!("{name}-{zoom}"), t, &picture);
+            let pixel = 2.0 * half / 300.0;
+            let inside = |(x, y, _): (u32, u32, &image::Rgba<u8>)| {
+                let from_corner = DVec2::new(f64::from(x) + 0.5, 299.5 - f64::from(y));
+                pair.is_inside(scene.view.min + pixel * from_corner, t)
+            };
+            let exact: Vec<bool> = picture.enumerate_pixels().map(inside).collect();
+            let fill = scene.style.fill_at(t);
+            let seen = mask(&picture, fill, scene.ground);
+            assert_eq!(astray(&exact, &seen, 300), 0, "{name} {zoom}");
+            let ground = scene.style.ground.0;
+            let soft = |p: &&image::Rgba<u8>| ![fill.0, ground].contains(&[p[0], p[1], p[2]]);
+            let soft = picture.pixels().filter(soft).count();
+            assert!(
+                (20..4000).contains(&soft),
+                "{name} {zoom}: {soft} soft pixels"
+            );
         }
     }
 }

@@ -16,6 +16,7 @@ use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
 use image::RgbaImage;
 use morphospace::export::{Drawing, PixelSize, View, rasterise};
+use morphospace::geometry::Bounds;
 use morphospace::stage::{
     Blend, CaptureStage, MorphPlugin, Show, StageCaptured, StageStyle, StageTransition, StageView,
 };
@@ -31,12 +32,15 @@ pub struct Scene {
     pub show: Show,
     pub ground: Option<Rgb>,
     pub size: [u32; 2],
+    pub view: Bounds,
 }
 
 impl Scene {
     pub fn new(name: &'static str, transition: Transition) -> Self {
         let style = Style::default();
+        let bounds = transition.bounds();
         Self {
+            view: bounds.padded(0.05 * bounds.diameter()),
             name,
             transition,
             ground: Some(style.ground),
@@ -80,13 +84,9 @@ impl Studio {
     /// The scene at `t` from the stage's renderer.
     pub fn picture(&mut self, scene: &Scene, t: f64) -> Result<RgbaImage, String> {
         let world = self.app.world_mut();
-        let bounds = scene
-            .transition
-            .bounds()
-            .padded(0.05 * scene.transition.bounds().diameter());
         world
             .resource_mut::<StageView>()
-            .fit(bounds, UVec2::from(scene.size).as_vec2());
+            .fit(scene.view, UVec2::from(scene.size).as_vec2());
         let entity = world.spawn((
             StageTransition(scene.transition.clone()),
             Blend { t },
@@ -101,7 +101,7 @@ impl Studio {
             id: self.taken,
             size_px: UVec2::from(scene.size),
             ground: scene.ground,
-            view: bounds,
+            view: scene.view,
         });
         let answer = self.answer();
         self.app.world_mut().despawn(entity);
@@ -126,11 +126,7 @@ impl Studio {
     pub fn compare(&mut self, scene: &Scene, t: f64) -> (RgbaImage, RgbaImage) {
         let gpu = self.picture(scene, t).expect("a picture");
         let size = PixelSize::new(scene.size[0], scene.size[1]).expect("a size");
-        let bounds = scene
-            .transition
-            .bounds()
-            .padded(0.05 * scene.transition.bounds().diameter());
-        let view = View::fit(bounds, size);
+        let view = View::fit(scene.view, size);
         let frame = scene.transition.frame(t);
         let cpu = rasterise(&Drawing::of_frame(
             &frame,
