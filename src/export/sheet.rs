@@ -17,10 +17,14 @@ const CELL_PX: u32 = 240;
 /// The most cells in a row where the sheet's size is free.
 const MAX_COLUMNS: usize = 6;
 
-/// Height of a label's line, in heights of a cell's picture.
-const LABEL_SHARE: f64 = 0.1;
+/// Height of a label's line, in longer sides of a cell: 17 pixels at 240, so
+/// that labels of flat designs can be read as well as those of square ones.
+const LABEL_SHARE: f64 = 0.07;
 
-/// Gap between cells, in heights of a cell's picture.
+/// The most of a cell's height that a label takes.
+const MAX_LABEL_SHARE: f64 = 0.3;
+
+/// Gap between cells, in longer sides of a cell.
 const GAP_SHARE: f64 = 0.06;
 
 /// Cells in columns and rows, and how large each is.
@@ -32,6 +36,10 @@ pub struct SheetLayout {
     pub columns: usize,
     /// Rows.
     pub rows: usize,
+    /// Height of a label's line, in pixels.
+    label_px: f64,
+    /// Gap between cells, in pixels.
+    gap_px: f64,
 }
 
 impl SheetLayout {
@@ -47,65 +55,69 @@ impl SheetLayout {
         }
     }
 
+    /// So many columns and rows in a given size.
+    fn filling(size: PixelSize, columns: usize, rows: usize) -> Self {
+        let whole = size.as_dvec2() / DVec2::new(columns as f64, rows as f64);
+        let unit = whole.max_element();
+        Self {
+            size,
+            columns,
+            rows,
+            label_px: (LABEL_SHARE * unit).min(MAX_LABEL_SHARE * whole.y),
+            gap_px: (GAP_SHARE * unit).min(MAX_LABEL_SHARE * whole.min_element()),
+        }
+    }
+
     /// Corner and size of a cell's picture, and where its label's base line
     /// has its middle.
-    fn cell(&self, index: usize, label_height: f64) -> (DVec2, DVec2, DVec2) {
+    fn cell(&self, index: usize) -> (DVec2, DVec2, DVec2) {
         let counts = DVec2::new(self.columns as f64, self.rows as f64);
         let whole = self.size.as_dvec2() / counts;
         let place = DVec2::new((index % self.columns) as f64, (index / self.columns) as f64);
-        let gap = 0.5 * GAP_SHARE * whole.y;
-        let corner = place * whole + DVec2::splat(gap);
-        let inner = whole - DVec2::new(2.0 * gap, 2.0 * gap + label_height);
-        let base = corner + DVec2::new(0.5 * inner.x, inner.y + 0.8 * label_height);
+        let corner = place * whole + DVec2::splat(0.5 * self.gap_px);
+        let inner = whole - DVec2::new(self.gap_px, self.gap_px + self.label_px);
+        let base = corner + DVec2::new(0.5 * inner.x, inner.y + 0.8 * self.label_px);
         (corner, inner.max(DVec2::ONE), base)
-    }
-
-    fn label_height(&self) -> f64 {
-        LABEL_SHARE * f64::from(self.size.height()) / self.rows as f64
     }
 }
 
-/// Cells of their natural size in balanced rows.
+/// Cells of their natural size in balanced rows, on a sheet that is not too
+/// large.
 fn free(count: usize, cell: DVec2) -> SheetLayout {
+    const LONGEST_PX: f64 = 8_192.0;
     let rows = count.div_ceil(MAX_COLUMNS);
     let columns = count.div_ceil(rows);
-    let share = 1.0 - LABEL_SHARE - GAP_SHARE;
-    let wanted = DVec2::new(
-        columns as f64 * (cell.x + GAP_SHARE * cell.y),
-        rows as f64 * cell.y / share,
-    );
-    let fitting = (8_192.0 / wanted.max_element()).min(1.0);
-    let [width, height] = [wanted.x, wanted.y].map(|side| (side * fitting).round() as u32);
-    let size = PixelSize::new(width.max(1), height.max(1));
-    match size {
+    let unit = f64::from(CELL_PX);
+    let (label_px, gap_px) = (LABEL_SHARE * unit, GAP_SHARE * unit);
+    let whole = cell + DVec2::new(gap_px, gap_px + label_px);
+    let wanted = whole * DVec2::new(columns as f64, rows as f64);
+    let fitting = (LONGEST_PX / wanted.max_element()).min(1.0);
+    let [width, height] = (wanted * fitting)
+        .to_array()
+        .map(|side| side.round().max(1.0) as u32);
+    match PixelSize::new(width, height) {
         Ok(size) => SheetLayout {
             size,
             columns,
             rows,
+            label_px: label_px * fitting,
+            gap_px: gap_px * fitting,
         },
-        Err(_) => largest_cells(
-            count,
-            cell,
-            PixelSize::of_shape(
-                Bounds {
-                    min: DVec2::ZERO,
-                    max: wanted,
-                },
-                8_192,
-            ),
-        ),
+        Err(_) => {
+            let square = Bounds {
+                min: DVec2::ZERO,
+                max: DVec2::ONE,
+            };
+            SheetLayout::filling(PixelSize::of_shape(square, CELL_PX), columns, rows)
+        }
     }
 }
 
 /// The number of columns at which the pictures are largest.
 fn largest_cells(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
-    let layout = |columns: usize| SheetLayout {
-        size,
-        columns,
-        rows: count.div_ceil(columns),
-    };
+    let layout = |columns: usize| SheetLayout::filling(size, columns, count.div_ceil(columns));
     let scale = |layout: &SheetLayout| {
-        let (_, inner, _) = layout.cell(0, layout.label_height());
+        let (_, inner, _) = layout.cell(0);
         (inner / cell).min_element()
     };
     let better = |a: SheetLayout, b: SheetLayout| if scale(&b) > scale(&a) { b } else { a };
@@ -126,17 +138,16 @@ pub fn sheet(
     let layout = SheetLayout::new(times.len(), bounds, size);
     let mut drawing = Drawing::new(layout.size, ground);
     let ink = ink_on(ground);
-    let label_height = layout.label_height();
     let mut frame = transition.frame(times.first().copied().unwrap_or_default());
     for (index, &t) in times.iter().enumerate() {
-        let (corner, inner, base) = layout.cell(index, label_height);
+        let (corner, inner, base) = layout.cell(index);
         frame.seek(t);
         drawing.push_frame(
             &frame,
             style,
             &View::fit_cell(bounds, layout.size, corner, inner),
         );
-        drawing.push_label(&label(t), base, 0.8 * label_height, ink);
+        drawing.push_label(&label(t), base, 0.8 * layout.label_px, ink);
     }
     drawing
 }
@@ -205,8 +216,7 @@ mod tests {
     #[test]
     fn cells_do_not_overlap_and_stay_on_the_sheet() {
         let layout = SheetLayout::new(7, square(), None);
-        let height = layout.label_height();
-        let cells: Vec<_> = (0..7).map(|i| layout.cell(i, height)).collect();
+        let cells: Vec<_> = (0..7).map(|i| layout.cell(i)).collect();
         for (i, &(corner, inner, base)) in cells.iter().enumerate() {
             let end = corner + inner;
             assert!(corner.min_element() >= 0.0 && base.y > end.y);
@@ -215,6 +225,16 @@ mod tests {
                 assert!(end.x <= other.x || base.y <= other.y || other.x + inner.x <= corner.x);
             }
         }
+    }
+
+    #[test]
+    fn labels_of_flat_designs_are_as_large_as_of_square_ones() {
+        let flat = Bounds {
+            min: DVec2::ZERO,
+            max: DVec2::new(8.0, 1.0),
+        };
+        let label = |bounds| SheetLayout::new(5, bounds, None).label_px;
+        assert_eq!(label(flat), label(square()));
     }
 
     #[test]
