@@ -230,7 +230,15 @@ fn a_transition_that_is_built_brings_its_components() {
     assert!(app.world().get::<TargetMesh>(entity).is_some());
     let solver = app.world().get::<ArapSolver>(entity).expect("a solver");
     assert_eq!(solver.frame().t(), 1.0);
+    let first_parts = meshes_of(&app, entity);
+
+    // The next one takes the place of the first, even where it is of its kind.
+    let staged = StageTransition(transition(DVec2::ONE, arap()));
+    app.world_mut().entity_mut(entity).insert(staged);
+    app.update();
     let solid_parts = meshes_of(&app, entity);
+    assert_eq!(solid_parts.len(), first_parts.len());
+    assert!(first_parts.iter().all(|part| !solid_parts.contains(part)));
 
     let staged = StageTransition(transition(DVec2::ZERO, field()));
     app.world_mut().entity_mut(entity).insert(staged);
