@@ -31,7 +31,7 @@ fn sheet(side: u32) -> CompatibleMesh {
     let source: Vec<DVec2> = (0..side * side)
         .map(|i| DVec2::new(f64::from(i % side), f64::from(i / side)) * step)
         .collect();
-    let bent = |p: &DVec2| DVec2::from_angle(3.0 * p.x) * (1.5 - p.y) * DVec2::new(-1.0, 1.0);
+    let bent = |p: &DVec2| DVec2::from_angle(3.0 * p.x) * (1.5 - p.y);
     let target = source.iter().map(bent).collect();
     let faces = (0..(side - 1) * (side - 1))
         .flat_map(|i| {

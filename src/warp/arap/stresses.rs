@@ -1,13 +1,13 @@
 //! The right-hand side of a frame: Σ (M(t) − M_linear(t)) W g.
 //!
-//! Four faces at a time, in the layout that the loop reads. Each face keeps
-//! its angle θ and three 2×2 matrices, A and B of which W g is turned and
-//! mixed, and C, where that ends at t = 1. C is computed by the very
-//! operations of a frame, so that the difference is exactly zero at both
-//! ends. [`crate::homotopy::Homotopy::at`] is the plain form of the same
-//! formulas, and the tests hold the two together.
+//! Four faces at a time, in the layout that the loop reads; what can be
+//! computed from little is not stored, since a frame of a large mesh is bound
+//! by memory. Where M_linear(1) is needed it is computed by the operations of
+//! M(1) itself, so that the difference is exactly zero at both ends.
+//! [`crate::homotopy::Homotopy::at`] is the plain form of the same formulas,
+//! and the tests hold the two together.
 
-use super::assembly::{ElementMap, LocalMaps};
+use super::assembly::{ElementMap, FaceMap, LocalMaps};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, SymmetricEigen};
 use crate::homotopy::{Homotopy, LocalMap};
@@ -21,20 +21,22 @@ type Mat4 = [f64x4; 4];
 pub(super) struct Stresses {
     homotopy: Homotopy,
     blocks: Vec<Block>,
+    /// Exponential only: the logarithms of both stretches of each block.
+    logs: Vec<[f64x4; 2]>,
     elements: Vec<Element>,
 }
 
+/// Four faces.
 #[derive(Clone, Debug)]
 struct Block {
     angle: f64x4,
-    /// Polar: W g. Exponential: its part along the larger stretch.
-    a: Mat4,
-    /// Polar: S W g. Exponential: its part along the smaller stretch.
-    b: Mat4,
-    /// R(θ) S W g.
-    c: Mat4,
-    /// Exponential: the logarithms of both stretches.
-    logs: [f64x4; 2],
+    /// Sine and cosine of the angle.
+    turn: [f64x4; 2],
+    /// W g for the second and third corner.
+    weighted: Mat4,
+    /// A symmetric matrix that acts on W g, as xx, xy, yy. Polar: the stretch.
+    /// Exponential: the projection onto its larger axis.
+    middle: [f64x4; 3],
     /// Places of the corners in elimination order, corner by corner.
     corners: [[u32; 4]; 3],
 }
@@ -47,6 +49,32 @@ struct Element {
     places: [u32; 2],
 }
 
+/// The path of the stretch is `one` I + `middle` times the middle matrix.
+#[derive(Clone, Copy)]
+struct Mix {
+    one: f64x4,
+    middle: f64x4,
+}
+
+impl Mix {
+    /// (1−t) I + t S.
+    fn linear(t: f64) -> Self {
+        Self {
+            one: f64x4::splat(1.0 - t),
+            middle: f64x4::splat(t),
+        }
+    }
+
+    /// exp(t log S) = λ₂ᵗ I + (λ₁ᵗ − λ₂ᵗ) u uᵀ with u the larger axis.
+    fn exponential(t: f64, logs: &[f64x4; 2]) -> Self {
+        let [large, small] = logs.map(|log| (f64x4::splat(t) * log).exp());
+        Self {
+            one: small,
+            middle: large - small,
+        }
+    }
+}
+
 impl Stresses {
     pub(super) fn new(
         mesh: &CompatibleMesh,
@@ -54,23 +82,29 @@ impl Stresses {
         place: &[u32],
         homotopy: Homotopy,
     ) -> Self {
-        let faces: Vec<usize> = (0..maps.faces.len()).collect();
-        let blocks = faces
-            .chunks(4)
-            .map(|four| Block::new(four, mesh, maps, place, homotopy))
-            .collect();
-        let elements = maps
-            .elements
-            .iter()
-            .map(|&map| Element {
-                places: map.ends.map(|v| place[v as usize]),
-                map,
-            })
-            .collect();
+        let mut blocks = Vec::with_capacity(maps.faces.len().div_ceil(4));
+        let mut logs = Vec::new();
+        for (i, four) in maps.faces.chunks(4).enumerate() {
+            let corners = four.iter().enumerate().map(|(lane, _)| {
+                let face = mesh.faces()[4 * i + lane];
+                face.map(|v| place[v as usize])
+            });
+            blocks.push(Block::new(four, corners, homotopy));
+            if homotopy == Homotopy::Exponential {
+                logs.push(gather(four, |face| {
+                    SymmetricEigen::of(face.map.stretch).values.map(f64::ln)
+                }));
+            }
+        }
+        let elements = maps.elements.iter().map(|&map| Element {
+            places: map.ends.map(|v| place[v as usize]),
+            map,
+        });
         Self {
             homotopy,
             blocks,
-            elements,
+            logs,
+            elements: elements.collect(),
         }
     }
 
@@ -79,8 +113,27 @@ impl Stresses {
     pub(super) fn right_hand_sides(&self, t: f64, rhs: &mut [f64]) {
         rhs.fill(0.0);
         let (x, y) = rhs.split_at_mut(rhs.len() / 2);
-        for block in &self.blocks {
-            block.add(self.homotopy, t, x, y);
+        let (now, end) = (Mix::linear(t), Mix::linear(1.0));
+        match self.homotopy {
+            Homotopy::Linear => {}
+            Homotopy::Polar => {
+                for block in &self.blocks {
+                    block.add(t, (f64x4::splat(t) * block.angle).sin_cos(), now, end, x, y);
+                }
+            }
+            Homotopy::LinearAfterPolar => {
+                for block in &self.blocks {
+                    let [sin, cos] = block.turn;
+                    let chord = (now.middle * sin, now.one + now.middle * cos);
+                    block.add(t, chord, now, end, x, y);
+                }
+            }
+            Homotopy::Exponential => {
+                for (block, logs) in self.blocks.iter().zip(&self.logs) {
+                    let [now, end] = [t, 1.0].map(|t| Mix::exponential(t, logs));
+                    block.add(t, (f64x4::splat(t) * block.angle).sin_cos(), now, end, x, y);
+                }
+            }
         }
         for element in &self.elements {
             element.add(self.homotopy, t, x, y);
@@ -89,53 +142,45 @@ impl Stresses {
 }
 
 impl Block {
-    fn new(
-        faces: &[usize],
-        mesh: &CompatibleMesh,
-        maps: &LocalMaps,
-        place: &[u32],
-        homotopy: Homotopy,
-    ) -> Self {
+    fn new(faces: &[FaceMap], places: impl Iterator<Item = [u32; 3]>, homotopy: Homotopy) -> Self {
         // Lanes without a face keep zeros, which add nothing anywhere.
-        let mut lanes = [Lane::default(); 4];
         let mut corners = [[0; 4]; 3];
-        for (lane, &f) in faces.iter().enumerate() {
-            let face = &maps.faces[f];
-            lanes[lane] = Lane::new(&face.map, face.weighted, homotopy);
-            for (corner, &v) in corners.iter_mut().zip(&mesh.faces()[f]) {
-                corner[lane] = place[v as usize];
+        for (lane, place) in places.enumerate() {
+            for (corner, at) in corners.iter_mut().zip(place) {
+                corner[lane] = at;
             }
         }
-        let gather = |of: fn(&Lane) -> f64| f64x4::from(lanes.each_ref().map(of));
-        let mut block = Self {
-            angle: gather(|l| l.angle),
-            a: gather_matrix(&lanes, |l| l.a),
-            b: gather_matrix(&lanes, |l| l.b),
-            c: [f64x4::ZERO; 4],
-            logs: [gather(|l| l.logs[0]), gather(|l| l.logs[1])],
+        let [angle] = gather(faces, |face| [face.map.angle]);
+        let (sin, cos) = angle.sin_cos();
+        Self {
+            angle,
+            turn: [sin, cos],
+            weighted: gather(faces, |face| face.weighted.to_cols_array()),
+            middle: gather(faces, |face| {
+                let axis = SymmetricEigen::of(face.map.stretch).axis;
+                let [xx, xy, _, yy] = match homotopy {
+                    Homotopy::Exponential => DMat2::from_cols(axis * axis.x, axis * axis.y),
+                    _ => face.map.stretch,
+                }
+                .to_cols_array();
+                [xx, xy, yy]
+            }),
             corners,
-        };
-        block.c = block.posed(homotopy, 1.0);
-        block
+        }
     }
 
-    /// M(t) W g.
+    /// R S(t) W g, by the sine and cosine of R and the mix of the stretch.
     #[inline(always)]
-    fn posed(&self, homotopy: Homotopy, t: f64) -> Mat4 {
-        let (keep, t4) = (f64x4::splat(1.0 - t), f64x4::splat(t));
-        let (sin, cos) = match homotopy {
-            Homotopy::LinearAfterPolar => {
-                let (sin, cos) = self.angle.sin_cos();
-                (t4 * sin, keep + t4 * cos)
-            }
-            _ => (t4 * self.angle).sin_cos(),
+    fn posed(&self, (sin, cos): (f64x4, f64x4), mix: Mix) -> Mat4 {
+        let [x2, y2, x3, y3] = self.weighted;
+        let [xx, xy, yy] = self.middle;
+        let stretched = |x: f64x4, y: f64x4| {
+            (
+                mix.one * x + mix.middle * (xx * x + xy * y),
+                mix.one * y + mix.middle * (xy * x + yy * y),
+            )
         };
-        let (from, to) = match homotopy {
-            Homotopy::Exponential => ((t4 * self.logs[0]).exp(), (t4 * self.logs[1]).exp()),
-            _ => (keep, t4),
-        };
-        let mixed: Mat4 = std::array::from_fn(|k| from * self.a[k] + to * self.b[k]);
-        let [x2, y2, x3, y3] = mixed;
+        let ((x2, y2), (x3, y3)) = (stretched(x2, y2), stretched(x3, y3));
         [
             cos * x2 - sin * y2,
             sin * x2 + cos * y2,
@@ -144,24 +189,16 @@ impl Block {
         ]
     }
 
-    /// M_linear(t) W g.
+    /// Adds (M(t) − M_linear(t)) W g at the corners.
     #[inline(always)]
-    fn straight(&self, homotopy: Homotopy, t: f64) -> Mat4 {
-        let (keep, t4) = (f64x4::splat(1.0 - t), f64x4::splat(t));
-        std::array::from_fn(|k| {
-            let begin = match homotopy {
-                Homotopy::Exponential => self.a[k] + self.b[k],
-                _ => self.a[k],
-            };
-            keep * begin + t4 * self.c[k]
-        })
-    }
-
-    #[inline(always)]
-    fn add(&self, homotopy: Homotopy, t: f64, x: &mut [f64], y: &mut [f64]) {
-        let posed = self.posed(homotopy, t);
-        let straight = self.straight(homotopy, t);
-        let [x2, y2, x3, y3] = std::array::from_fn(|k| (posed[k] - straight[k]).to_array());
+    fn add(&self, t: f64, turn: (f64x4, f64x4), now: Mix, end: Mix, x: &mut [f64], y: &mut [f64]) {
+        let (keep, t) = (f64x4::splat(1.0 - t), f64x4::splat(t));
+        let posed = self.posed(turn, now);
+        let [sin, cos] = self.turn;
+        let whole = self.posed((sin, cos), end);
+        let [x2, y2, x3, y3] = std::array::from_fn(|k| {
+            (posed[k] - (keep * self.weighted[k] + t * whole[k])).to_array()
+        });
         for lane in 0..4 {
             let [first, second, third] = self.corners.map(|corner| corner[lane] as usize);
             x[first] -= x2[lane] + x3[lane];
@@ -174,40 +211,15 @@ impl Block {
     }
 }
 
-/// One face's part of a block.
-#[derive(Clone, Copy, Default)]
-struct Lane {
-    angle: f64,
-    a: DMat2,
-    b: DMat2,
-    logs: [f64; 2],
-}
-
-impl Lane {
-    fn new(map: &LocalMap, weighted: DMat2, homotopy: Homotopy) -> Self {
-        let angle = map.angle;
-        if homotopy != Homotopy::Exponential {
-            return Self {
-                angle,
-                a: weighted,
-                b: map.stretch * weighted,
-                logs: [0.0; 2],
-            };
-        }
-        let eigen = SymmetricEigen::of(map.stretch);
-        let along = |axis: DVec2| DMat2::from_cols(axis * axis.x, axis * axis.y) * weighted;
-        Self {
-            angle,
-            a: along(eigen.axis),
-            b: along(eigen.axis.perp()),
-            logs: eigen.values.map(f64::ln),
+/// Numbers of up to four faces side by side; zeros where there is no face.
+fn gather<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) -> [f64x4; N] {
+    let mut lanes = [[0.0; 4]; N];
+    for (lane, face) in faces.iter().enumerate() {
+        for (row, value) in lanes.iter_mut().zip(of(face)) {
+            row[lane] = value;
         }
     }
-}
-
-fn gather_matrix(lanes: &[Lane; 4], of: fn(&Lane) -> DMat2) -> Mat4 {
-    let columns = lanes.each_ref().map(|lane| of(lane).to_cols_array());
-    std::array::from_fn(|k| f64x4::from(columns.map(|c| c[k])))
+    lanes.map(f64x4::from)
 }
 
 impl Element {
