@@ -379,6 +379,7 @@ fn a_design_that_cannot_be_read_is_not_kept() {
 #[test]
 fn closing_asks_about_changes_and_only_then() {
     let mut window = Window::with_gallery();
+    window.send(Intent::Seek(0.123));
     window.send(Intent::AddStop);
     assert!(window.session().is_dirty());
     let request = WindowCloseRequested {
@@ -404,6 +405,7 @@ fn closing_asks_about_changes_and_only_then() {
 fn opening_something_else_asks_about_changes() {
     let mut window = Window::with_gallery();
     let title = window.session().title();
+    window.send(Intent::Seek(0.123));
     window.send(Intent::AddStop);
     let other = entries().pop().expect("a gallery");
     window.send(Intent::OpenGallery(other));

@@ -90,6 +90,11 @@ fn window_captured(
 }
 
 impl Captures {
+    /// A picture of the stage is awaited, or one is being written.
+    pub fn is_busy(&self) -> bool {
+        !self.names.is_empty() || !self.writing.is_empty()
+    }
+
     fn write(&mut self, folder: &CaptureFolder, name: &str, image: DynamicImage) {
         let (folder, name) = (folder.0.clone(), name.to_owned());
         self.writing.push(Job::start("a picture", move |_| {

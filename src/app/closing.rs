@@ -3,7 +3,7 @@
 //! Closing the window and opening another project go through here: [`guard`] holds them back
 //! where changes would be lost, asks, and sends them on again once it is decided.
 
-use bevy::prelude::{AppExit, MessageReader, MessageWriter, Res, ResMut, Resource};
+use bevy::prelude::{AppExit, Commands, MessageReader, MessageWriter, Res, ResMut, Resource};
 use bevy::window::WindowCloseRequested;
 
 use crate::app::intent::{Answer, Intent};
@@ -93,7 +93,7 @@ pub fn answer(
     mut session: ResMut<Session>,
     recorder: Res<Recorder>,
     mut question: ResMut<Question>,
-    mut writer: MessageWriter<Intent>,
+    mut commands: Commands,
 ) {
     let mut next = Vec::new();
     for intent in intents.read() {
@@ -117,5 +117,7 @@ pub fn answer(
             _ => {}
         }
     }
-    writer.write_batch(next);
+    for intent in next {
+        commands.write_message(intent);
+    }
 }

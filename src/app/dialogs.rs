@@ -37,6 +37,13 @@ enum Purpose {
 #[derive(Resource, Debug, Default)]
 pub struct Dialog(Option<(Purpose, Job<Vec<PathBuf>>)>);
 
+impl Dialog {
+    /// A dialog is open.
+    pub fn is_open(&self) -> bool {
+        self.0.is_some()
+    }
+}
+
 /// Opens dialogs.
 pub fn open(
     mut intents: MessageReader<Intent>,

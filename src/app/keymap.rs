@@ -233,7 +233,7 @@ fn playing() -> Vec<Binding> {
         row(
             Named(Key::ArrowRight),
             Intent::Step(1),
-            "→  ←",
+            "Right  Left",
             "Step by one hundredth",
         )
         .repeating(),
@@ -241,7 +241,7 @@ fn playing() -> Vec<Binding> {
         row(
             Named(Key::ArrowRight),
             Intent::Step(10),
-            "Shift →  ←",
+            "Shift Right  Left",
             "Ten steps",
         )
         .shift()
@@ -292,7 +292,7 @@ fn stops() -> Vec<Binding> {
             row(
                 Named(Key::ArrowUp),
                 Intent::JumpToNextStop,
-                "↑  ↓",
+                "Up  Down",
                 "Jump to the next and previous stop",
             ),
             row(Named(Key::ArrowDown), Intent::JumpToPreviousStop, "", ""),

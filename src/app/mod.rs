@@ -14,6 +14,7 @@ mod keymap;
 mod loading;
 mod notices;
 mod opening;
+mod pace;
 mod playback;
 mod preferences;
 mod record;
@@ -181,6 +182,7 @@ impl Plugin for WindowPlugins {
             .init_resource::<dialogs::Dialog>()
             .init_resource::<thumbnails::Thumbnails>()
             .add_systems(Startup, spawn_cameras)
+            .add_systems(Last, pace::keep)
             .add_systems(
                 Update,
                 (
@@ -212,7 +214,8 @@ fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
     commands.spawn((
         PrimaryEguiContext,
         Camera2d,
-        Msaa::Off,
+        // As the stage's: the cameras of one window share its depth texture.
+        Msaa::Sample4,
         RenderLayers::none(),
         Camera {
             order: 1,

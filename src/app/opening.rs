@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bevy::prelude::{DetectChangesMut, MessageReader, MessageWriter, Res, ResMut, Resource};
+use bevy::prelude::{Commands, DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
 use crate::app::closing::Question;
 use crate::app::dialogs::{Drop, is_project};
@@ -104,7 +104,11 @@ pub fn edit(
                 Some(cell) => change(&mut session, |project| set_cell(project, cell)),
                 None => notices.done("These designs can be shown by one method only."),
             },
-            Intent::AddStop => add_stop(&mut session, playback.t()),
+            Intent::AddStop => {
+                if !add_stop(&mut session, playback.t()) {
+                    notices.done("There is a stop here already.");
+                }
+            }
             intent => change(&mut session, |project| apply(project, intent)),
         }
     }
@@ -165,18 +169,22 @@ fn next_cell(session: &Session) -> Option<(WarpKind, ContentKind)> {
         .find(|(warp, content)| session.available(*warp, *content).is_ok())
 }
 
-fn add_stop(session: &mut Session, t: f64) {
+/// Whether a stop was put there; where there is one already, none is.
+fn add_stop(session: &mut Session, t: f64) -> bool {
+    let mut is_added = false;
     change(session, |project| {
         let place = project.stops.partition_point(|stop| stop.t < t - SAME_T);
-        let is_there = project
+        if project
             .stops
-            .get(place)
-            .is_some_and(|stop| (stop.t - t).abs() < SAME_T);
-        if !is_there {
+            .iter()
+            .all(|stop| (stop.t - t).abs() >= SAME_T)
+        {
             let name = free_name(&project.stops);
             project.stops.insert(place, Stop { t, name });
+            is_added = true;
         }
     });
+    is_added
 }
 
 fn free_name(stops: &[Stop]) -> String {
@@ -193,7 +201,7 @@ pub fn save(
     mut session: ResMut<Session>,
     mut question: ResMut<Question>,
     mut notices: ResMut<Notices>,
-    mut next: MessageWriter<Intent>,
+    mut commands: Commands,
 ) {
     let mut waiting = None;
     for intent in intents.read() {
@@ -213,7 +221,9 @@ pub fn save(
             }
         }
     }
-    next.write_batch(waiting);
+    if let Some(intent) = waiting {
+        commands.write_message(intent);
+    }
 }
 
 /// Takes in what was opened or built.

@@ -130,7 +130,7 @@ impl Playback {
     }
 
     /// Plays the other way; a leg to a stop turns back to where it came from.
-    pub fn reverse(&mut self) {
+    pub fn reverse(&mut self, easing: Easing) {
         self.backwards = !self.backwards;
         if let Motion::Leg {
             from,
@@ -139,10 +139,16 @@ impl Playback {
             secs,
         } = self.motion
         {
+            // Where the way back is as far along as the way there, eased as it is.
+            let there = if secs > 0.0 {
+                easing.apply(elapsed / secs)
+            } else {
+                1.0
+            };
             self.motion = Motion::Leg {
                 from: to,
                 to: from,
-                elapsed: secs - elapsed,
+                elapsed: secs * easing.inverse(1.0 - there),
                 secs,
             };
         }
@@ -290,7 +296,7 @@ impl Playback {
     pub fn act(&mut self, intent: &Intent, timing: &Timing, stops: &[Stop]) {
         match intent {
             Intent::TogglePlay => self.toggle(timing, stops),
-            Intent::Reverse => self.reverse(),
+            Intent::Reverse => self.reverse(timing.easing),
             Intent::Step(hundredths) => self.step(*hundredths),
             Intent::Seek(t) => self.seek(*t, timing, stops),
             Intent::SeekStart => self.seek(timing.from, timing, stops),
@@ -368,7 +374,7 @@ mod tests {
         playback.toggle(&timing, &[]);
         playback.advance(2.5, &timing, &[]);
         assert_eq!(playback.t(), 0.25);
-        playback.reverse();
+        playback.reverse(timing.easing);
         playback.advance(1.0, &timing, &[]);
         assert_eq!(playback.t(), 0.75);
     }
@@ -415,16 +421,21 @@ mod tests {
 
     #[test]
     fn reversing_on_the_way_to_a_stop_leads_back() {
-        let timing = timing(PlayMode::Once);
-        let mut playback = Playback::default();
-        playback.act(&Intent::PlayToNextStop, &timing, &[]);
-        playback.advance(0.5, &timing, &[]);
-        let t = playback.t();
-        playback.reverse();
-        playback.advance(0.0, &timing, &[]);
-        assert!((playback.t() - t).abs() < 1e-12, "no jump");
-        playback.advance(100.0, &timing, &[]);
-        assert_eq!(playback.t(), 0.0);
+        for easing in Easing::ALL {
+            let timing = Timing {
+                easing,
+                ..timing(PlayMode::Once)
+            };
+            let mut playback = Playback::default();
+            playback.act(&Intent::PlayToNextStop, &timing, &[]);
+            playback.advance(0.5, &timing, &[]);
+            let t = playback.t();
+            playback.reverse(easing);
+            playback.advance(0.0, &timing, &[]);
+            assert!((playback.t() - t).abs() < 1e-12, "no jump");
+            playback.advance(100.0, &timing, &[]);
+            assert_eq!(playback.t(), 0.0);
+        }
     }
 
     #[test]

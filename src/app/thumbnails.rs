@@ -50,6 +50,11 @@ impl FromWorld for Thumbnails {
 }
 
 impl Thumbnails {
+    /// A strip is being drawn, or waits to be.
+    pub fn is_busy(&self) -> bool {
+        self.running.is_some() || !self.waiting.is_empty()
+    }
+
     /// The strip of a bundled project, once it is there.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&Thumbnail> {

@@ -12,6 +12,9 @@ use crate::app::session::Session;
 use crate::geometry::Bounds;
 use crate::stage::{StageCamera, StageView};
 
+/// Room around the transition when all of it is shown, as a part of its size.
+const ROOM: f64 = 0.04;
+
 /// The part of the window that the panels leave to the stage, in logical pixels.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct StageArea {
@@ -77,9 +80,11 @@ pub fn fit(
     let Some(transition) = session.transition() else {
         return;
     };
-    let now = Some((transition.bounds(), area.size));
+    let bounds = transition.bounds();
+    let bounds = bounds.padded(ROOM * bounds.diameter());
+    let now = Some((bounds, area.size));
     if *last != now {
-        view.fit(transition.bounds(), area.size);
+        view.fit(bounds, area.size);
         *last = now;
     }
 }

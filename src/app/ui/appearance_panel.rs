@@ -42,9 +42,8 @@ fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
     let is_field = draft.content == Some(ContentKind::Field);
     let layer = |ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool| {
         ui.add_enabled_ui(applies, |ui| {
-            let width = (ui.available_width().min(272.0) - 8.0) / 3.0;
-            let response: Response =
-                choice(ui, *on && applies, name, bevy_egui::egui::vec2(width, 24.0));
+            let size = bevy_egui::egui::vec2(ui.available_width(), 24.0);
+            let response: Response = choice(ui, *on && applies, name, size);
             if response.clicked() {
                 *on = !*on;
             }

@@ -8,7 +8,7 @@ use super::{Intents, Scene};
 use crate::app::intent::Intent;
 use crate::app::keymap::Binding;
 
-const KEYS_WIDTH: f32 = 104.0;
+const KEYS_WIDTH: f32 = 120.0;
 const COLUMN_WIDTH: f32 = 376.0;
 
 /// Draws the list above everything else.

@@ -13,7 +13,7 @@ use crate::app::intent::Intent;
 use crate::content::ContentKind;
 use crate::warp::WarpKind;
 
-const WIDTH: f32 = 312.0;
+const WIDTH: f32 = 328.0;
 
 /// Draws the panel.
 pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {

@@ -3,6 +3,7 @@
 use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Ui};
 
 use super::theme::GRID;
+use super::widgets::primary_button;
 use super::{Intents, Scene};
 use crate::app::intent::{Answer, Intent};
 
@@ -21,12 +22,14 @@ fn ask_unsaved(ctx: &Context, question: &str, acts: &mut Intents) {
         ui.heading("Unsaved changes");
         ui.add(Label::new(question).wrap());
         answers(ui, |ui| {
+            if primary_button(ui, "Save").clicked() {
+                acts.push(Intent::Answer(Answer::Save));
+            }
             let mut answer = |ui: &mut Ui, text: &str, answer: Answer| {
                 if ui.button(text).clicked() {
                     acts.push(Intent::Answer(answer));
                 }
             };
-            answer(ui, "Save", Answer::Save);
             answer(ui, "Do not save", Answer::Discard);
             answer(ui, "Cancel", Answer::Stay);
         });
@@ -47,10 +50,10 @@ fn ask_drop(ctx: &Context, scene: &Scene, name: &str, acts: &mut Intents) {
             .wrap(),
         );
         answers(ui, |ui| {
-            if ui.button("Use as target").clicked() {
+            if primary_button(ui, "Use as target").clicked() {
                 acts.push(Intent::ReplaceDesign(1, path.to_owned()));
             }
-            if ui.button("Use as source").clicked() {
+            if primary_button(ui, "Use as source").clicked() {
                 acts.push(Intent::ReplaceDesign(0, path.to_owned()));
             }
             if ui.button("Cancel").clicked() {

@@ -10,7 +10,7 @@ use crate::app::ui::icons::{self, Icon};
 use crate::app::ui::theme::{CONTROL_HEIGHT, GRID, Palette, RADIUS};
 
 /// Width of the column of labels.
-const LABEL_WIDTH: f32 = 96.0;
+const LABEL_WIDTH: f32 = 88.0;
 
 /// A heading and what stands under it.
 pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> R {
@@ -164,7 +164,7 @@ pub fn menu<T: PartialEq + Clone>(
         .iter()
         .find(|(option, ..)| option == value)
         .map_or("", |(_, label, _)| label);
-    let width = ui.available_width() - 2.0 * GRID;
+    let width = ui.available_width();
     ComboBox::from_id_salt(salt)
         .width(width)
         .selected_text(current)
@@ -215,4 +215,11 @@ pub fn hint(ui: &mut Ui, text: &str) {
 pub fn from_right<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
     ui.with_layout(Layout::right_to_left(Align::Center), content)
         .inner
+}
+
+/// The button that is most likely meant.
+pub fn primary_button(ui: &mut Ui, text: &str) -> Response {
+    let palette = Palette::of(ui);
+    let text = RichText::new(text).color(palette.text);
+    ui.add(egui::Button::new(text).fill(palette.accent_ground))
 }

@@ -1,0 +1,44 @@
+//! How often the window draws: all the time while something moves, and hardly ever while nothing
+//! does, so that a talk does not drain the battery and a fan stays quiet.
+
+use std::time::Duration;
+
+use bevy::prelude::{DetectChanges, Res, ResMut};
+use bevy::winit::{UpdateMode, WinitSettings};
+
+use crate::app::capture::Captures;
+use crate::app::dialogs::Dialog;
+use crate::app::playback::Playback;
+use crate::app::preferences::Preferences;
+use crate::app::record::Recorder;
+use crate::app::session::Session;
+use crate::app::thumbnails::Thumbnails;
+
+/// While nothing moves, the window looks this often for what no event tells of.
+const IDLE: Duration = Duration::from_millis(100);
+
+/// Chooses the pace of the next frame. Keys and the pointer wake the window at any pace.
+pub fn keep(
+    (session, playback, preferences): (Res<Session>, Res<Playback>, Res<Preferences>),
+    (captures, recorder): (Res<Captures>, Res<Recorder>),
+    (thumbnails, dialog): (Res<Thumbnails>, Res<Dialog>),
+    mut settings: ResMut<WinitSettings>,
+) {
+    let is_busy = playback.is_playing()
+        || session.is_changed()
+        || session.work().is_some()
+        || captures.is_busy()
+        || recorder.work().is_some()
+        || thumbnails.is_busy()
+        || dialog.is_open()
+        || preferences.times;
+    let mode = if is_busy {
+        UpdateMode::Continuous
+    } else {
+        UpdateMode::reactive_low_power(IDLE)
+    };
+    if settings.focused_mode != mode {
+        settings.focused_mode = mode;
+        settings.unfocused_mode = mode;
+    }
+}
