@@ -5,8 +5,8 @@
 //! the number row works on a French keyboard and `[` on a German one. While a text field has the
 //! focus no key means anything here.
 
-use bevy::input::keyboard::{Key, KeyCode, KeyboardInput};
-use bevy::prelude::{ButtonInput, MessageReader, MessageWriter, Res, Resource};
+use bevy::input::keyboard::{Key, KeyCode, KeyboardFocusLost, KeyboardInput};
+use bevy::prelude::{Local, MessageReader, MessageWriter, Res, Resource};
 
 use crate::app::intent::Intent;
 
@@ -60,18 +60,17 @@ pub struct Held {
 }
 
 impl Held {
-    /// Reads the keys that are down.
-    #[must_use]
-    pub fn from_keys(keys: &ButtonInput<KeyCode>) -> Self {
-        Self {
-            shift: keys.any_pressed([KeyCode::ShiftLeft, KeyCode::ShiftRight]),
-            control: keys.any_pressed([
-                KeyCode::ControlLeft,
-                KeyCode::ControlRight,
-                KeyCode::SuperLeft,
-                KeyCode::SuperRight,
-            ]),
-            alt: keys.pressed(KeyCode::AltLeft),
+    /// Notes that a key went down or up; only modifiers matter.
+    fn note(&mut self, input: &KeyboardInput) {
+        let is_down = input.state.is_pressed();
+        match input.key_code {
+            KeyCode::ShiftLeft | KeyCode::ShiftRight => self.shift = is_down,
+            KeyCode::ControlLeft
+            | KeyCode::ControlRight
+            | KeyCode::SuperLeft
+            | KeyCode::SuperRight => self.control = is_down,
+            KeyCode::AltLeft => self.alt = is_down,
+            _ => {}
         }
     }
 }
@@ -150,20 +149,23 @@ fn digit_at(code: KeyCode) -> Option<u8> {
 }
 
 /// Turns pressed keys into intents; does nothing while a text field has the focus.
+///
+/// Which modifiers are held is read from the same messages, in their order: in a slow frame Shift
+/// may be up again before the frame that is to act on Shift+S.
 pub fn read_keys(
     mut inputs: MessageReader<KeyboardInput>,
-    keys: Res<ButtonInput<KeyCode>>,
+    mut focus_lost: MessageReader<KeyboardFocusLost>,
     map: Res<KeyMap>,
     typing: Res<Typing>,
+    mut held: Local<Held>,
     mut intents: MessageWriter<Intent>,
 ) {
-    if typing.0 {
-        inputs.clear();
-        return;
+    if focus_lost.read().count() > 0 {
+        *held = Held::default();
     }
-    let held = Held::from_keys(&keys);
     for input in inputs.read() {
-        if let Some(intent) = map.intent(input, held) {
+        held.note(input);
+        if let Some(intent) = map.intent(input, *held).filter(|_| !typing.0) {
             intents.write(intent.clone());
         }
     }

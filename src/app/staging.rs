@@ -6,6 +6,7 @@ use crate::app::playback::Playback;
 use crate::app::preferences::Preferences;
 use crate::app::session::Session;
 use crate::stage::{Blend, StageStyle, StageTransition};
+use crate::transition::Style;
 
 /// The entity that is on the stage.
 #[derive(Component, Debug)]
@@ -54,20 +55,18 @@ pub fn stage_style(
     mut styles: Query<&mut StageStyle, With<OnStage>>,
     mut ground: ResMut<ClearColor>,
 ) {
-    let Some(project) = session.project() else {
-        return;
-    };
-    let [r, g, b] = project.style.ground.0;
+    let style = session
+        .project()
+        .map_or_else(Style::default, |project| project.style);
+    let [r, g, b] = style.ground.0;
     let colour = Color::srgb_u8(r, g, b);
     if ground.0 != colour {
         ground.0 = colour;
     }
-    for mut style in &mut styles {
-        if style.style != project.style || style.show != preferences.show {
-            *style = StageStyle {
-                style: project.style,
-                show: preferences.show,
-            };
+    let show = preferences.show;
+    for mut staged in &mut styles {
+        if staged.style != style || staged.show != show {
+            *staged = StageStyle { style, show };
         }
     }
 }

@@ -122,7 +122,7 @@ fn draw(
         panels(&mut root, &scene, &mut textures, &mut acts);
     }
     let stage = root.available_rect_before_wrap();
-    stage_area::show(&mut root, stage, &mut acts);
+    stage_area::show(&mut root, &scene, stage, &mut acts);
     overlays(&ctx, &scene, stage, &mut acts);
     area.set_if_neq(StageArea::from_points(stage.left_top(), stage.size()));
     typing.set_if_neq(Typing(
