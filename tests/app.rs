@@ -8,11 +8,12 @@ use bevy::input::keyboard::{Key, KeyCode, KeyboardInput};
 use bevy::input::{ButtonState, InputPlugin};
 use bevy::prelude::*;
 use bevy::time::TimeUpdateStrategy;
-use bevy::window::WindowCloseRequested;
+use bevy::window::{FileDragAndDrop, WindowCloseRequested};
 use morphospace::app::{
     Answer, Intent, Kind, LogicPlugin, Notices, OnStage, Playback, Preferences, Question, Session,
     Typing,
 };
+use morphospace::content::{Content, ContentKind};
 use morphospace::project::gallery;
 use morphospace::stage::{Blend, MorphPlugin, StageTransition};
 use morphospace::transition::PlayMode;
@@ -473,4 +474,92 @@ fn work_that_is_cancelled_takes_its_settings_back() {
         "stage and panel agree"
     );
     assert!(after == before || window.session().is_dirty());
+}
+
+fn drop_files(window: &mut Window, paths: &[&Path]) {
+    for path in paths {
+        window
+            .0
+            .world_mut()
+            .write_message(FileDragAndDrop::DroppedFile {
+                window: Entity::PLACEHOLDER,
+                path_buf: path.to_path_buf(),
+            });
+        window.update();
+    }
+    for _ in 0..20 {
+        window.update();
+    }
+    window.wait();
+}
+
+fn write_square(folder: &Path, name: &str, side: u32) -> std::path::PathBuf {
+    let path = folder.join(name);
+    let svg = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><rect width="{side}" height="{side}"/></svg>"#
+    );
+    std::fs::write(&path, svg).expect("a file");
+    path
+}
+
+#[test]
+fn two_files_that_are_dropped_are_a_pair_and_one_is_asked_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let small = write_square(folder.path(), "small.svg", 30);
+    let large = write_square(folder.path(), "large.svg", 80);
+    let mut window = Window::with_gallery();
+    drop_files(&mut window, &[&small, &large]);
+    assert_eq!(window.problems(), Vec::<String>::new());
+    let names = |window: &Window| {
+        let designs = window.session().transition().map(|t| t.designs().clone());
+        designs.map(|[a, b]| [a.name.clone(), b.name.clone()])
+    };
+    assert_eq!(
+        names(&window),
+        Some(["small".to_owned(), "large".to_owned()])
+    );
+    drop_files(&mut window, &[&small]);
+    assert_eq!(
+        names(&window),
+        Some(["small".to_owned(), "large".to_owned()]),
+        "asks first"
+    );
+    window.send(Intent::ReplaceDesign(1, small));
+    window.wait();
+    assert_eq!(
+        names(&window),
+        Some(["small".to_owned(), "small".to_owned()])
+    );
+    assert!(window.session().is_dirty());
+}
+
+#[test]
+fn more_files_than_a_pair_are_refused() {
+    let mut window = Window::with_gallery();
+    let nowhere = Path::new("/nowhere/a.svg");
+    drop_files(&mut window, &[nowhere, nowhere, nowhere]);
+    assert_eq!(window.problems().len(), 1);
+}
+
+#[test]
+fn a_changed_blend_is_shown_without_measuring_again() {
+    let mut window = Window::with_gallery();
+    while window.session().project().and_then(|p| p.content) != Some(ContentKind::Field) {
+        window.send(Intent::NextMethod);
+        window.wait();
+    }
+    let source = |window: &Window| match window.session().transition().map(|t| t.content()) {
+        Some(Content::Field(pair)) => std::ptr::from_ref(pair.source()),
+        _ => panic!("a field is on the stage"),
+    };
+    let before = source(&window);
+    let mut project = window.session().project().cloned().expect("a project");
+    project.field.blend.threshold = 2.0;
+    window.send(Intent::Edit(Box::new(project)));
+    window.wait();
+    assert_eq!(source(&window), before);
+    let Some(Content::Field(pair)) = window.session().transition().map(|t| t.content()) else {
+        panic!("a field is on the stage");
+    };
+    assert_eq!(pair.blend().threshold, 2.0);
 }
