@@ -140,6 +140,7 @@ fn spacing(spacing: &mut egui::style::Spacing) {
     spacing.slider_rail_height = 4.0;
     spacing.tooltip_width = 320.0;
     spacing.scroll = ScrollStyle::thin();
+    spacing.scroll.fade.strength = 0.0;
 }
 
 fn visuals(palette: Palette, base: Visuals) -> Visuals {
@@ -162,7 +163,9 @@ fn visuals(palette: Palette, base: Visuals) -> Visuals {
     visuals.selection.stroke = Stroke::new(1.0, palette.accent);
     visuals.slider_trailing_fill = true;
     visuals.handle_shape = HandleShape::Circle;
-    visuals.disabled_alpha = 0.45;
+    // Half-transparent fills come out too dark on the light ground: egui's colours are
+    // premultiplied before the graphics card makes them linear. What is disabled is drawn flat.
+    visuals.disabled_alpha = 1.0;
     visuals.widgets.noninteractive = widget(palette.panel, palette.line, palette.text);
     visuals.widgets.inactive = widget(palette.raised, Color32::TRANSPARENT, palette.text);
     visuals.widgets.hovered = widget(palette.hover, palette.line, palette.text);

@@ -136,10 +136,11 @@ pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
     let palette = Palette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, chosen, label));
-    let (fill, text) = match (chosen, response.hovered()) {
-        (true, _) => (palette.accent_ground, palette.text),
-        (false, true) => (palette.hover, palette.text),
-        (false, false) => (palette.raised, palette.weak),
+    let (fill, text) = match (ui.is_enabled(), chosen, response.hovered()) {
+        (false, ..) => (palette.panel, palette.weak.gamma_multiply(0.6)),
+        (true, true, _) => (palette.accent_ground, palette.text),
+        (true, false, true) => (palette.hover, palette.text),
+        (true, false, false) => (palette.raised, palette.weak),
     };
     ui.painter().rect_filled(rect, RADIUS, fill);
     let font = egui::TextStyle::Small.resolve(ui.style());
