@@ -174,7 +174,7 @@ impl Playback {
         }
     }
 
-    /// The next faster (or slower) speed of [`SPEEDS`].
+    /// The next faster (or slower) speed of the fixed list.
     pub fn change_speed(&mut self, faster: bool) {
         let next = if faster {
             SPEEDS.iter().find(|speed| **speed > self.speed)
@@ -184,7 +184,7 @@ impl Playback {
         self.speed = next.copied().unwrap_or(self.speed);
     }
 
-    /// This speed, kept within those of [`SPEEDS`]; not a number is ignored.
+    /// This speed, kept within those of the fixed list; not a number is ignored.
     pub fn set_speed(&mut self, speed: f64) {
         if speed.is_finite() {
             self.speed = speed.clamp(SPEEDS[0], SPEEDS[SPEEDS.len() - 1]);
