@@ -78,8 +78,15 @@ pub enum BuildError {
     #[error("{0}")]
     Unavailable(String),
     /// The designs do not share a triangulation.
-    #[error(transparent)]
-    Compatible(#[from] CompatibleError),
+    #[error("{source_name} and {target_name}: {error}")]
+    Compatible {
+        /// Name of the source.
+        source_name: String,
+        /// Name of the target.
+        target_name: String,
+        /// What does not fit.
+        error: CompatibleError,
+    },
     /// The rigidity-preserving interpolation failed.
     #[error(transparent)]
     Arap(#[from] ArapError),
@@ -183,12 +190,15 @@ fn build_arap(
 ) -> Result<Inner, BuildError> {
     checkpoint(progress, "triangulating", 0.0)?;
     let (mesh, bars) = match (&spec.source.form, &spec.target.form) {
-        (Form::Mesh(a), Form::Mesh(b)) => (CompatibleMesh::from_meshes(a, b)?, Vec::new()),
-        (Form::Truss(a), Form::Truss(b)) => {
-            (CompatibleMesh::from_trusses(a, b)?, a.bars().to_vec())
-        }
+        (Form::Mesh(a), Form::Mesh(b)) => (CompatibleMesh::from_meshes(a, b), Vec::new()),
+        (Form::Truss(a), Form::Truss(b)) => (CompatibleMesh::from_trusses(a, b), a.bars().to_vec()),
         _ => unreachable!("checked by `available`"),
     };
+    let mesh = mesh.map_err(|error| BuildError::Compatible {
+        source_name: spec.source.name.clone(),
+        target_name: spec.target.name.clone(),
+        error,
+    })?;
     let arap = Arap::build(&mesh, &spec.arap, progress)?;
     let loops = if bars.is_empty() {
         arap.mesh().boundary_loops()
