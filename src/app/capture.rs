@@ -11,12 +11,13 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::window::PrimaryWindow;
 use image::{DynamicImage, ImageFormat};
 
+use crate::app::choices::CaptureScale;
 use crate::app::files::{CaptureFolder, create_new};
 use crate::app::intent::Intent;
 use crate::app::job::Job;
 use crate::app::notices::Notices;
 use crate::app::playback::Playback;
-use crate::app::preferences::{CaptureScale, Preferences};
+use crate::app::preferences::Preferences;
 use crate::app::session::Session;
 use crate::stage::{CaptureStage, StageCaptured, StageView};
 

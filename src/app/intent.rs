@@ -8,7 +8,7 @@ use std::path::PathBuf;
 
 use bevy::prelude::{Message, Vec2};
 
-use crate::app::preferences::{CaptureScale, RecordFormat, ThemeChoice};
+use crate::app::choices::{CaptureScale, RecordFormat, ThemeChoice};
 use crate::content::ContentKind;
 use crate::project::Project;
 use crate::stage::Show;

@@ -5,6 +5,7 @@
 //! is everything that needs neither a window nor a graphics card, and is what the tests run.
 
 mod capture;
+mod choices;
 mod closing;
 mod dialogs;
 mod files;
@@ -35,6 +36,7 @@ use bevy::render::render_resource::BlendState;
 use bevy::window::{ExitCondition, WindowResolution};
 use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 
+pub use choices::{CaptureScale, RecordFormat, ThemeChoice};
 pub use closing::Question;
 pub use files::CaptureFolder;
 pub use intent::{Answer, Intent};
@@ -42,7 +44,7 @@ pub use keymap::{Binding, Held, KeyMap, Trigger, Typing};
 pub use notices::{Kind, Notice, Notices};
 pub use opening::Gallery;
 pub use playback::Playback;
-pub use preferences::{CaptureScale, Preferences, RecordFormat, ThemeChoice};
+pub use preferences::Preferences;
 pub use session::Session;
 pub use staging::OnStage;
 pub use view::{KeepsFit, StageArea};

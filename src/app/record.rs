@@ -4,11 +4,12 @@ use std::path::{Path, PathBuf};
 
 use bevy::prelude::{MessageReader, Res, ResMut, Resource};
 
+use crate::app::choices::{CaptureScale, RecordFormat};
 use crate::app::files::{CaptureFolder, create_new, create_new_folder};
 use crate::app::intent::Intent;
 use crate::app::job::Job;
 use crate::app::notices::Notices;
-use crate::app::preferences::{CaptureScale, Preferences, RecordFormat};
+use crate::app::preferences::Preferences;
 use crate::app::session::Session;
 use crate::export::{
     Camera, ExportError, Film, FilmKind, PixelSize, Target, View, framing, write_film,

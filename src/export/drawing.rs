@@ -7,7 +7,7 @@
 //!
 //! Guarantees: solids are closed outlines filled by the nonzero rule, never
 //! triangles with hairlines between them; every coordinate is finite and at
-//! most [`MAX_COORDINATE_PX`] in size, shapes beyond that are left out.
+//! most [`MAX_COORDINATE_PX`](crate::export::MAX_COORDINATE_PX) in size, shapes beyond that are left out.
 //! It does not clip: what lies outside the picture is cut by its reader.
 
 use std::collections::HashSet;
@@ -17,13 +17,9 @@ use image::RgbaImage;
 use crate::geometry::{Bounds, DVec2};
 use crate::transition::{Figure, Frame, Rgb, Style};
 
+use super::outline::{Outline, is_drawable};
 use super::size::PixelSize;
 use super::text;
-
-/// Shapes with a coordinate beyond this are not drawn: extrapolated films can
-/// leave every picture by many orders of magnitude, and 32-bit rasterisers
-/// lose all their digits out there.
-pub const MAX_COORDINATE_PX: f64 = 1.0e7;
 
 /// Radius of a joint's disc, in bar widths.
 pub const JOINT_RADIUS: f64 = 0.9;
@@ -33,40 +29,6 @@ pub const JOINT_CORE_RADIUS: f64 = 0.5;
 
 /// How far a joint's core runs from the bars' colour to white, in linear light.
 const JOINT_CORE_LIGHTNESS: f64 = 0.6;
-
-/// One step of an [`Outline`], in pixels, y down.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Step {
-    /// Starts a new closed contour at the point.
-    Move(DVec2),
-    /// A straight line to the point.
-    Line(DVec2),
-    /// A quadratic Bézier curve: control point, end point.
-    Quad(DVec2, DVec2),
-    /// A cubic Bézier curve: two control points, end point.
-    Cubic(DVec2, DVec2, DVec2),
-    /// Closes the contour.
-    Close,
-}
-
-/// Closed contours that are filled together by the nonzero rule.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Outline {
-    /// Contours, each from a [`Step::Move`] to a [`Step::Close`].
-    pub steps: Vec<Step>,
-}
-
-impl Outline {
-    /// Adds a closed polygon; one with a point that cannot be drawn is left out.
-    pub fn push_ring(&mut self, ring_px: impl ExactSizeIterator<Item = DVec2> + Clone) {
-        if ring_px.len() < 3 || !ring_px.clone().all(is_drawable) {
-            return;
-        }
-        let step = |(i, p)| if i == 0 { Step::Move(p) } else { Step::Line(p) };
-        self.steps.extend(ring_px.enumerate().map(step));
-        self.steps.push(Step::Close);
-    }
-}
 
 /// One shape of a [`Drawing`]; colours are opaque sRGB.
 #[derive(Clone, Debug, PartialEq)]
@@ -226,10 +188,6 @@ fn joint_centres(segments: &[[DVec2; 2]]) -> Vec<DVec2> {
     let mut seen = HashSet::new();
     let is_new = |p: &DVec2| seen.insert([p.x.to_bits(), p.y.to_bits()]);
     segments.iter().flatten().copied().filter(is_new).collect()
-}
-
-fn is_drawable(p: DVec2) -> bool {
-    p.is_finite() && p.abs().max_element() <= MAX_COORDINATE_PX
 }
 
 /// Which part of the plane a picture, or a cell of one, shows.

@@ -30,6 +30,7 @@ mod error;
 mod film;
 mod gif;
 mod mp4;
+mod outline;
 mod palette;
 mod png_sequence;
 mod raster;
@@ -48,14 +49,12 @@ use crate::progress::Progress;
 
 pub use apng::write_apng;
 pub use camera::{BATCH_BYTES, Camera, framing};
-pub use drawing::{
-    Drawing, Item, JOINT_CORE_RADIUS, JOINT_RADIUS, MAX_COORDINATE_PX, Outline, Step, View,
-    joint_core,
-};
+pub use drawing::{Drawing, Item, JOINT_CORE_RADIUS, JOINT_RADIUS, View, joint_core};
 pub use error::ExportError;
 pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};
 pub use gif::{MAX_GIF_FPS, write_gif};
 pub use mp4::write_mp4;
+pub use outline::{MAX_COORDINATE_PX, Outline, Step};
 pub use png_sequence::write_numbered;
 pub use raster::rasterise;
 pub use sheet::{SheetLayout, sheet};

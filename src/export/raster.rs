@@ -13,7 +13,8 @@ use tiny_skia::{
 
 use crate::transition::Rgb;
 
-use super::drawing::{Drawing, Item, Outline, Step};
+use super::drawing::{Drawing, Item};
+use super::outline::{Outline, Step};
 
 /// Paints a drawing.
 pub fn rasterise(drawing: &Drawing) -> RgbaImage {

@@ -12,7 +12,8 @@ use image::codecs::png::PngEncoder;
 
 use crate::transition::Rgb;
 
-use super::drawing::{Drawing, Item, Outline, Step};
+use super::drawing::{Drawing, Item};
+use super::outline::{Outline, Step};
 
 /// Writes a drawing as an SVG document.
 pub fn to_svg(drawing: &Drawing) -> String {

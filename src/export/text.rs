@@ -12,7 +12,7 @@ use skrifa::instance::{LocationRef, Size};
 use skrifa::outline::{DrawSettings, OutlinePen};
 use skrifa::{FontRef, MetadataProvider};
 
-use super::drawing::{Outline, Step};
+use super::outline::{Outline, Step};
 
 /// Words with the middle of their base line at `base_px` (y down), `height_px`
 /// high from line to line.

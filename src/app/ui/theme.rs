@@ -9,7 +9,7 @@ use bevy_egui::egui::{
     Theme, Vec2, Visuals, style::HandleShape, style::ScrollStyle, style::WidgetVisuals,
 };
 
-use crate::app::preferences::ThemeChoice;
+use crate::app::choices::ThemeChoice;
 
 /// One step of the grid, in points.
 pub const GRID: f32 = 8.0;

@@ -6,8 +6,8 @@ use super::icons::Icon;
 use super::theme::{GRID, Palette};
 use super::widgets::{choices, from_right, icon_button, icon_button_sized, row};
 use super::{Intents, Scene};
+use crate::app::choices::{CaptureScale, RecordFormat, ThemeChoice};
 use crate::app::intent::Intent;
-use crate::app::preferences::{CaptureScale, RecordFormat, ThemeChoice};
 
 const HEIGHT: f32 = 48.0;
 
