@@ -10,18 +10,42 @@ use super::PathKind;
 use super::assembly::LocalMaps;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2};
+use std::ops::Range;
 
 /// The connected parts and how they drift.
 #[derive(Clone, Debug)]
 pub(super) struct Drift {
-    /// The part of each vertex.
-    component: Vec<u32>,
     parts: Vec<Part>,
-    /// For each unknown in elimination order: part and share of its mass.
-    shares: Vec<(u32, f64)>,
+    /// Vertices by part.
+    vertices: Vec<Run>,
+    /// Unknowns in elimination order by part.
+    unknowns: Vec<Run>,
+    /// For each unknown in elimination order its share of its part's mass.
+    shares: Vec<f64>,
     whole_angle: f64,
     /// The anchor's place in elimination order and its part.
     anchor: Option<(u32, u32)>,
+}
+
+/// Neighbours in some order that belong to the same part.
+#[derive(Clone, Debug)]
+struct Run {
+    range: Range<usize>,
+    part: usize,
+}
+
+impl Run {
+    /// All runs, given the part of each member of the order.
+    fn all(part_of: &[u32]) -> Vec<Self> {
+        let mut end = 0;
+        let runs = part_of.chunk_by(|a, b| a == b).map(|run| {
+            let range = end..end + run.len();
+            end = range.end;
+            let part = run[0] as usize;
+            Self { range, part }
+        });
+        runs.collect()
+    }
 }
 
 #[derive(Clone, Copy, Debug, Default)]
@@ -87,11 +111,13 @@ impl Drift {
         for (&part, &m) in component.iter().zip(&maps.masses) {
             mass[part as usize] += m;
         }
-        let mut shares = vec![(0, 0.0); place.len()];
+        let mut shares = vec![0.0; place.len()];
+        let mut part_of_unknown = vec![0; place.len()];
         let mut centres = vec![[DVec2::ZERO; 2]; count];
         for (v, &part) in component.iter().enumerate() {
             let share = maps.masses[v] / mass[part as usize];
-            shares[place[v] as usize] = (part, share);
+            shares[place[v] as usize] = share;
+            part_of_unknown[place[v] as usize] = part;
             centres[part as usize][0] += mesh.source()[v] * share;
             centres[part as usize][1] += mesh.target()[v] * share;
         }
@@ -101,7 +127,8 @@ impl Drift {
         };
         Self {
             parts: parts(&centres, &mass, maps.whole_angle),
-            component,
+            vertices: Run::all(&component),
+            unknowns: Run::all(&part_of_unknown),
             shares,
             whole_angle: maps.whole_angle,
             anchor,
@@ -113,9 +140,11 @@ impl Drift {
         self.parts.len()
     }
 
-    /// The part of each vertex.
-    pub(super) fn components(&self) -> &[u32] {
-        &self.component
+    /// Ranges that hold every vertex once, and the part of each range.
+    pub(super) fn runs(&self) -> impl Iterator<Item = (Range<usize>, usize)> {
+        self.vertices
+            .iter()
+            .map(|run| (run.range.clone(), run.part))
     }
 
     /// What has to be added to the deviations (all x, all y, in elimination
@@ -123,8 +152,9 @@ impl Drift {
     pub(super) fn shifts(&self, t: f64, deviation: &[f64], shifts: &mut [DVec2]) {
         let (dx, dy) = deviation.split_at(deviation.len() / 2);
         shifts.fill(DVec2::ZERO);
-        for ((&(part, share), &x), &y) in self.shares.iter().zip(dx).zip(dy) {
-            shifts[part as usize] -= DVec2::new(x, y) * share;
+        for Run { range, part } in &self.unknowns {
+            let [shares, dx, dy] = [&self.shares, dx, dy].map(|all| &all[range.clone()]);
+            shifts[*part] -= DVec2::new(dot(shares, dx), dot(shares, dy));
         }
         for (shift, part) in shifts.iter_mut().zip(&self.parts) {
             *shift += part.deviation(t, self.whole_angle);
@@ -134,6 +164,19 @@ impl Drift {
             shifts.iter_mut().for_each(|shift| *shift -= of_anchor);
         }
     }
+}
+
+/// Σ aᵢ bᵢ, in several sums at once that do not wait for each other.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<8>(), b.as_chunks::<8>());
+    let mut sums = [0.0; 8];
+    for (a, b) in a.iter().zip(b) {
+        for (sum, (a, b)) in sums.iter_mut().zip(a.iter().zip(b)) {
+            *sum += a * b;
+        }
+    }
+    let rest = a_rest.iter().zip(b_rest).map(|(a, b)| a * b);
+    sums.iter().sum::<f64>() + rest.sum::<f64>()
 }
 
 fn parts(centres: &[[DVec2; 2]], mass: &[f64], whole_angle: f64) -> Vec<Part> {

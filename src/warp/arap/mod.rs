@@ -18,12 +18,14 @@
 //!
 //! - `angles`: one consistent rotation angle for each face
 //! - `assembly`: gradients, weights and the matrix
-//! - `stresses`: the right-hand side of a frame, four faces at a time
+//! - `stresses`: the right-hand side of a frame, many faces at a time
+//! - `elementary`: sine, cosine and exponential for it
 //! - `drift`: where parts as a whole are at t
 
 mod angles;
 mod assembly;
 mod drift;
+mod elementary;
 mod stresses;
 
 #[cfg(test)]
@@ -232,7 +234,7 @@ impl Arap {
         let cholesky = Cholesky::factor(&matrix, FactorKind::Automatic)?;
         checkpoint(progress, "preparing frames", 0.9)?;
         let place = cholesky.place_in_order();
-        let stresses = Stresses::new(&mesh, &maps, place, options.homotopy);
+        let stresses = Stresses::new(&mesh, &maps, options.homotopy);
         let drift = Drift::new(&mesh, &maps, place, options.path);
         Ok(Self(Arc::new(Inner {
             mesh,
@@ -343,29 +345,31 @@ impl ArapPlacer {
 impl Placer for ArapPlacer {
     fn place(&mut self, t: f64) {
         let arap = &*self.arap;
-        // The linear path needs no solve: its deviation is zero.
-        if arap.options.homotopy != Homotopy::Linear {
-            arap.stresses.right_hand_sides(t, &mut self.deviation);
-            arap.cholesky
-                .solve_ordered(&mut self.deviation, &mut self.workspace);
-            arap.drift.shifts(t, &self.deviation, &mut self.shifts);
-        }
-        let (dx, dy) = self.deviation.split_at(arap.mesh.source().len());
+        let place = arap.cholesky.place_in_order();
         let Placement {
             in_frame,
             in_source,
             in_target,
             ..
         } = &mut self.placement;
-        let ends = in_source.iter().zip(in_target.iter());
-        let places = arap
-            .cholesky
-            .place_in_order()
-            .iter()
-            .zip(arap.drift.components());
-        for ((out, (&p, &q)), (&at, &part)) in in_frame.iter_mut().zip(ends).zip(places) {
-            let u = DVec2::new(dx[at as usize], dy[at as usize]);
-            *out = (p * (1.0 - t) + q * t) + (u + self.shifts[part as usize]);
+        // The linear path needs no solve: its deviation is zero.
+        if arap.options.homotopy != Homotopy::Linear {
+            // The forces stand where the positions will stand.
+            arap.stresses
+                .right_hand_sides(t, place, in_frame, &mut self.deviation);
+            arap.cholesky
+                .solve_ordered(&mut self.deviation, &mut self.workspace);
+            arap.drift.shifts(t, &self.deviation, &mut self.shifts);
+        }
+        let (dx, dy) = self.deviation.split_at(place.len());
+        for (run, part) in arap.drift.runs() {
+            let shift = self.shifts[part];
+            let ends = in_source[run.clone()].iter().zip(&in_target[run.clone()]);
+            let rest = in_frame[run.clone()].iter_mut().zip(&place[run]);
+            for ((&p, &q), (out, &at)) in ends.zip(rest) {
+                let u = DVec2::new(dx[at as usize], dy[at as usize]);
+                *out = (p * (1.0 - t) + q * t) + (u + shift);
+            }
         }
     }
 

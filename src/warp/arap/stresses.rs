@@ -1,162 +1,236 @@
 //! The right-hand side of a frame: Σ (M(t) − M_linear(t)) W g.
 //!
-//! Four faces at a time, in the layout that the loop reads; what can be
+//! M_linear(t) is (1−t) M(0) + t M(1), so that its sum over the faces of a
+//! vertex is on the straight line between the sums of M(0) and of M(1), which
+//! are kept. They were computed by the operations of every other frame, so
+//! that the difference is exactly zero at both ends.
+//!
+//! Many faces at a time, in the layout that the loop reads; what can be
 //! computed from little is not stored, since a frame of a large mesh is bound
-//! by memory. Where M_linear(1) is needed it is computed by the operations of
-//! M(1) itself, so that the difference is exactly zero at both ends.
+//! by memory. The loop is compiled for several widths of vectors and one is
+//! chosen at run time; the results are the same for all of them.
 //! [`crate::homotopy::Homotopy::at`] is the plain form of the same formulas,
 //! and the tests hold the two together.
 
 use super::assembly::{ElementMap, FaceMap, LocalMaps};
+use super::elementary::{exp, sin_cos};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, SymmetricEigen};
 use crate::homotopy::{Homotopy, LocalMap};
-use wide::f64x4;
+use pulp::{Arch, Simd, WithSimd};
+use std::sync::Arc;
 
-/// 2×2 matrices of four faces, column by column.
-type Mat4 = [f64x4; 4];
+/// How many faces there are in a block: whole vectors of any machine, and few
+/// enough to stay in registers and the nearest cache.
+const LANES: usize = 16;
+
+/// A number of each face of a block; zero where there is no face.
+type Row = [f64; LANES];
 
 /// Everything that a right-hand side needs, prepared.
 #[derive(Clone, Debug)]
 pub(super) struct Stresses {
     homotopy: Homotopy,
+    arch: Arch,
+    faces: Arc<[[u32; 3]]>,
     blocks: Vec<Block>,
     /// Exponential only: the logarithms of both stretches of each block.
-    logs: Vec<[f64x4; 2]>,
-    elements: Vec<Element>,
+    logs: Vec<[Row; 2]>,
+    elements: Vec<ElementMap>,
+    /// Σ M(0) W g and Σ M(1) W g of each vertex.
+    ends: Vec<[DVec2; 2]>,
 }
 
-/// Four faces.
+/// The local maps of so many faces.
 #[derive(Clone, Debug)]
 struct Block {
-    angle: f64x4,
-    /// Sine and cosine of the angle.
-    turn: [f64x4; 2],
-    /// W g for the second and third corner.
-    weighted: Mat4,
+    angle: Row,
+    /// W g for the second and third corner, column by column.
+    weighted: [Row; 4],
     /// A symmetric matrix that acts on W g, as xx, xy, yy. Polar: the stretch.
     /// Exponential: the projection onto its larger axis.
-    middle: [f64x4; 3],
-    /// Places of the corners in elimination order, corner by corner.
-    corners: [[u32; 4]; 3],
+    middle: [Row; 3],
 }
 
-/// A bar in no face.
-#[derive(Clone, Debug)]
-struct Element {
-    map: ElementMap,
-    /// Places of its ends in elimination order.
-    places: [u32; 2],
-}
-
-/// The path of the stretch is `one` I + `middle` times the middle matrix.
+/// A map on its path: the rotation by its sine and cosine, and the stretch as
+/// `one` I + `middle` times the middle matrix.
 #[derive(Clone, Copy)]
-struct Mix {
-    one: f64x4,
-    middle: f64x4,
+struct Pose {
+    sin: f64,
+    cos: f64,
+    one: f64,
+    middle: f64,
 }
 
-impl Mix {
-    /// (1−t) I + t S.
-    fn linear(t: f64) -> Self {
+impl Pose {
+    /// R(tθ) ((1−t) I + t S).
+    #[inline(always)]
+    fn polar(t: f64, angle: f64) -> Self {
+        let (sin, cos) = sin_cos(t * angle);
         Self {
-            one: f64x4::splat(1.0 - t),
-            middle: f64x4::splat(t),
+            sin,
+            cos,
+            one: 1.0 - t,
+            middle: t,
         }
     }
 
-    /// exp(t log S) = λ₂ᵗ I + (λ₁ᵗ − λ₂ᵗ) u uᵀ with u the larger axis.
-    fn exponential(t: f64, logs: &[f64x4; 2]) -> Self {
-        let [large, small] = logs.map(|log| (f64x4::splat(t) * log).exp());
+    /// ((1−t) I + t R(θ)) ((1−t) I + t S).
+    #[inline(always)]
+    fn linear_after_polar(t: f64, angle: f64) -> Self {
+        let (sin, cos) = sin_cos(angle);
         Self {
+            sin: t * sin,
+            cos: (1.0 - t) + t * cos,
+            one: 1.0 - t,
+            middle: t,
+        }
+    }
+
+    /// R(tθ) exp(t log S), which is λ₂ᵗ I + (λ₁ᵗ − λ₂ᵗ) u uᵀ with u the larger
+    /// axis.
+    #[inline(always)]
+    fn exponential(t: f64, angle: f64, [large, small]: [f64; 2]) -> Self {
+        let (sin, cos) = sin_cos(t * angle);
+        let [large, small] = [exp(t * large), exp(t * small)];
+        Self {
+            sin,
+            cos,
             one: small,
             middle: large - small,
         }
     }
+
+    /// The map of a vector, given the middle matrix.
+    #[inline(always)]
+    fn apply(self, [xx, xy, yy]: [f64; 3], x: f64, y: f64) -> DVec2 {
+        let stretched_x = self.one * x + self.middle * (xx * x + xy * y);
+        let stretched_y = self.one * y + self.middle * (xy * x + yy * y);
+        DVec2::new(
+            self.cos * stretched_x - self.sin * stretched_y,
+            self.sin * stretched_x + self.cos * stretched_y,
+        )
+    }
 }
 
 impl Stresses {
-    pub(super) fn new(
-        mesh: &CompatibleMesh,
-        maps: &LocalMaps,
-        place: &[u32],
-        homotopy: Homotopy,
-    ) -> Self {
-        let mut blocks = Vec::with_capacity(maps.faces.len().div_ceil(4));
-        let mut logs = Vec::new();
-        for (i, four) in maps.faces.chunks(4).enumerate() {
-            let corners = four.iter().enumerate().map(|(lane, _)| {
-                let face = mesh.faces()[4 * i + lane];
-                face.map(|v| place[v as usize])
-            });
-            blocks.push(Block::new(four, corners, homotopy));
-            if homotopy == Homotopy::Exponential {
-                logs.push(gather(four, |face| {
-                    SymmetricEigen::of(face.map.stretch).values.map(f64::ln)
-                }));
-            }
-        }
-        let elements = maps.elements.iter().map(|&map| Element {
-            places: map.ends.map(|v| place[v as usize]),
-            map,
-        });
-        Self {
+    pub(super) fn new(mesh: &CompatibleMesh, maps: &LocalMaps, homotopy: Homotopy) -> Self {
+        let blocks = maps.faces.chunks(LANES);
+        let logs = if homotopy == Homotopy::Exponential {
+            let of = |face: &FaceMap| SymmetricEigen::of(face.map.stretch).values.map(f64::ln);
+            blocks.clone().map(|faces| rows(faces, of)).collect()
+        } else {
+            Vec::new()
+        };
+        let mut stresses = Self {
             homotopy,
-            blocks,
+            arch: Arch::new(),
+            faces: Arc::clone(mesh.faces()),
+            blocks: blocks.map(|faces| Block::new(faces, homotopy)).collect(),
             logs,
-            elements: elements.collect(),
+            elements: maps.elements.clone(),
+            ends: Vec::new(),
+        };
+        let [begin, end] = [0.0, 1.0].map(|t| {
+            let mut forces = vec![DVec2::ZERO; mesh.source().len()];
+            stresses.forces(t, &mut forces);
+            forces
+        });
+        stresses.ends = begin.into_iter().zip(end).map(<[DVec2; 2]>::from).collect();
+        stresses
+    }
+
+    /// Writes both right-hand sides, all x and then all y, with vertex v at
+    /// `place[v]`. `forces`, one for each vertex, is memory to work in.
+    pub(super) fn right_hand_sides(
+        &self,
+        t: f64,
+        place: &[u32],
+        forces: &mut [DVec2],
+        rhs: &mut [f64],
+    ) {
+        self.forces(t, forces);
+        let (x, y) = rhs.split_at_mut(rhs.len() / 2);
+        for ((&force, &[begin, end]), &at) in forces.iter().zip(&self.ends).zip(place) {
+            let pull = force - (begin * (1.0 - t) + end * t);
+            x[at as usize] = pull.x;
+            y[at as usize] = pull.y;
         }
     }
 
-    /// Writes both right-hand sides, all x and then all y, in elimination
-    /// order.
-    pub(super) fn right_hand_sides(&self, t: f64, rhs: &mut [f64]) {
-        rhs.fill(0.0);
-        let (x, y) = rhs.split_at_mut(rhs.len() / 2);
-        let (now, end) = (Mix::linear(t), Mix::linear(1.0));
-        match self.homotopy {
-            Homotopy::Linear => {}
-            Homotopy::Polar => {
-                for block in &self.blocks {
-                    block.add(t, (f64x4::splat(t) * block.angle).sin_cos(), now, end, x, y);
-                }
-            }
-            Homotopy::LinearAfterPolar => {
-                for block in &self.blocks {
-                    let [sin, cos] = block.turn;
-                    let chord = (now.middle * sin, now.one + now.middle * cos);
-                    block.add(t, chord, now, end, x, y);
-                }
-            }
-            Homotopy::Exponential => {
-                for (block, logs) in self.blocks.iter().zip(&self.logs) {
-                    let [now, end] = [t, 1.0].map(|t| Mix::exponential(t, logs));
-                    block.add(t, (f64x4::splat(t) * block.angle).sin_cos(), now, end, x, y);
-                }
+    /// Σ M(t) W g of each vertex; zero for the linear path, which deviates
+    /// from no straight line.
+    fn forces(&self, t: f64, forces: &mut [DVec2]) {
+        forces.fill(DVec2::ZERO);
+        let stresses = self;
+        self.arch.dispatch(Pass {
+            stresses,
+            t,
+            forces: &mut *forces,
+        });
+        if self.homotopy != Homotopy::Linear {
+            for element in &self.elements {
+                element.add(self.homotopy, t, forces);
             }
         }
-        for element in &self.elements {
-            element.add(self.homotopy, t, x, y);
+    }
+
+    /// Adds the forces of all faces, with more of each block for its pose.
+    #[inline(always)]
+    fn add<More>(
+        &self,
+        forces: &mut [DVec2],
+        more: impl Iterator<Item = More>,
+        pose: impl Fn(f64, &More, usize) -> Pose,
+    ) {
+        let faces = self.faces.chunks(LANES);
+        for ((block, more), faces) in self.blocks.iter().zip(more).zip(faces) {
+            let posed = block.posed(|lane| pose(block.angle[lane], &more, lane));
+            scatter(&posed, faces, forces);
+        }
+    }
+}
+
+/// One pass over all faces, to be compiled for several widths of vectors.
+struct Pass<'a> {
+    stresses: &'a Stresses,
+    t: f64,
+    forces: &'a mut [DVec2],
+}
+
+impl WithSimd for Pass<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self {
+            stresses,
+            t,
+            forces,
+        } = self;
+        let none = std::iter::repeat(());
+        match stresses.homotopy {
+            Homotopy::Linear => {}
+            Homotopy::Polar => stresses.add(forces, none, |angle, _, _| Pose::polar(t, angle)),
+            Homotopy::LinearAfterPolar => stresses.add(forces, none, |angle, _, _| {
+                Pose::linear_after_polar(t, angle)
+            }),
+            Homotopy::Exponential => {
+                stresses.add(forces, stresses.logs.iter(), |angle, logs, lane| {
+                    Pose::exponential(t, angle, logs.map(|row| row[lane]))
+                });
+            }
         }
     }
 }
 
 impl Block {
-    fn new(faces: &[FaceMap], places: impl Iterator<Item = [u32; 3]>, homotopy: Homotopy) -> Self {
-        // Lanes without a face keep zeros, which add nothing anywhere.
-        let mut corners = [[0; 4]; 3];
-        for (lane, place) in places.enumerate() {
-            for (corner, at) in corners.iter_mut().zip(place) {
-                corner[lane] = at;
-            }
-        }
-        let [angle] = gather(faces, |face| [face.map.angle]);
-        let (sin, cos) = angle.sin_cos();
+    fn new(faces: &[FaceMap], homotopy: Homotopy) -> Self {
+        let [angle] = rows(faces, |face| [face.map.angle]);
         Self {
             angle,
-            turn: [sin, cos],
-            weighted: gather(faces, |face| face.weighted.to_cols_array()),
-            middle: gather(faces, |face| {
+            weighted: rows(faces, |face| face.weighted.to_cols_array()),
+            middle: rows(faces, |face| {
                 let axis = SymmetricEigen::of(face.map.stretch).axis;
                 let [xx, xy, _, yy] = match homotopy {
                     Homotopy::Exponential => DMat2::from_cols(axis * axis.x, axis * axis.y),
@@ -165,80 +239,62 @@ impl Block {
                 .to_cols_array();
                 [xx, xy, yy]
             }),
-            corners,
         }
     }
 
-    /// R S(t) W g, by the sine and cosine of R and the mix of the stretch.
+    /// M(t) W g for the second and third corner, column by column.
     #[inline(always)]
-    fn posed(&self, (sin, cos): (f64x4, f64x4), mix: Mix) -> Mat4 {
-        let [x2, y2, x3, y3] = self.weighted;
-        let [xx, xy, yy] = self.middle;
-        let stretched = |x: f64x4, y: f64x4| {
-            (
-                mix.one * x + mix.middle * (xx * x + xy * y),
-                mix.one * y + mix.middle * (xy * x + yy * y),
-            )
-        };
-        let ((x2, y2), (x3, y3)) = (stretched(x2, y2), stretched(x3, y3));
-        [
-            cos * x2 - sin * y2,
-            sin * x2 + cos * y2,
-            cos * x3 - sin * y3,
-            sin * x3 + cos * y3,
-        ]
-    }
-
-    /// Adds (M(t) − M_linear(t)) W g at the corners.
-    #[inline(always)]
-    fn add(&self, t: f64, turn: (f64x4, f64x4), now: Mix, end: Mix, x: &mut [f64], y: &mut [f64]) {
-        let (keep, t) = (f64x4::splat(1.0 - t), f64x4::splat(t));
-        let posed = self.posed(turn, now);
-        let [sin, cos] = self.turn;
-        let whole = self.posed((sin, cos), end);
-        let [x2, y2, x3, y3] = std::array::from_fn(|k| {
-            (posed[k] - (keep * self.weighted[k] + t * whole[k])).to_array()
+    fn posed(&self, pose: impl Fn(usize) -> Pose) -> [Row; 4] {
+        let mut posed = [[0.0; LANES]; 4];
+        (0..LANES).for_each(|lane| {
+            let pose = pose(lane);
+            let middle = self.middle.each_ref().map(|row| row[lane]);
+            for column in [0, 2] {
+                let [x, y] = [column, column + 1].map(|k| self.weighted[k][lane]);
+                let turned = pose.apply(middle, x, y);
+                posed[column][lane] = turned.x;
+                posed[column + 1][lane] = turned.y;
+            }
         });
-        for lane in 0..4 {
-            let [first, second, third] = self.corners.map(|corner| corner[lane] as usize);
-            x[first] -= x2[lane] + x3[lane];
-            y[first] -= y2[lane] + y3[lane];
-            x[second] += x2[lane];
-            y[second] += y2[lane];
-            x[third] += x3[lane];
-            y[third] += y3[lane];
-        }
+        posed
     }
 }
 
-/// Numbers of up to four faces side by side; zeros where there is no face.
-fn gather<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) -> [f64x4; N] {
-    let mut lanes = [[0.0; 4]; N];
+/// Adds what was computed for the second and third corner to them, and takes
+/// it from the first.
+#[inline(always)]
+fn scatter([x2, y2, x3, y3]: &[Row; 4], faces: &[[u32; 3]], forces: &mut [DVec2]) {
+    for (lane, face) in (0..LANES).zip(faces) {
+        let [first, second, third] = face.map(|v| v as usize);
+        let to_second = DVec2::new(x2[lane], y2[lane]);
+        let to_third = DVec2::new(x3[lane], y3[lane]);
+        forces[first] -= to_second + to_third;
+        forces[second] += to_second;
+        forces[third] += to_third;
+    }
+}
+
+/// Numbers of the faces of a block side by side.
+fn rows<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) -> [Row; N] {
+    let mut rows = [[0.0; LANES]; N];
     for (lane, face) in faces.iter().enumerate() {
-        for (row, value) in lanes.iter_mut().zip(of(face)) {
+        for (row, value) in rows.iter_mut().zip(of(face)) {
             row[lane] = value;
         }
     }
-    lanes.map(f64x4::from)
+    rows
 }
 
-impl Element {
-    /// The bar's vector at t.
-    fn posed(&self, homotopy: Homotopy, t: f64) -> DVec2 {
+impl ElementMap {
+    /// Adds the pull of the bar's vector at t.
+    fn add(&self, homotopy: Homotopy, t: f64, forces: &mut [DVec2]) {
         let map = LocalMap {
-            angle: self.map.angle,
-            stretch: DMat2::IDENTITY * self.map.stretch,
+            angle: self.angle,
+            stretch: DMat2::IDENTITY * self.stretch,
         };
-        homotopy.at(&map, t) * self.map.vector
-    }
-
-    fn add(&self, homotopy: Homotopy, t: f64, x: &mut [f64], y: &mut [f64]) {
-        let straight = self.posed(homotopy, 0.0) * (1.0 - t) + self.posed(homotopy, 1.0) * t;
-        let pull = (self.posed(homotopy, t) - straight) * self.map.stiffness;
-        let [from, to] = self.places.map(|place| place as usize);
-        x[from] -= pull.x;
-        y[from] -= pull.y;
-        x[to] += pull.x;
-        y[to] += pull.y;
+        let pull = homotopy.at(&map, t) * self.vector * self.stiffness;
+        let [from, to] = self.ends.map(|v| v as usize);
+        forces[from] -= pull;
+        forces[to] += pull;
     }
 }
