@@ -4,6 +4,7 @@
 //! for on a thread of its own.
 
 use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
 
 use bevy::ecs::system::NonSendMarker;
 use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource, Time};
@@ -12,6 +13,7 @@ use bevy::window::FileDragAndDrop;
 use rfd::{AsyncFileDialog, FileHandle};
 
 use crate::app::closing::Question;
+use crate::app::files::{CaptureFolder, create_new};
 use crate::app::intent::Intent;
 use crate::app::job::Job;
 use crate::app::notices::Notices;
@@ -19,6 +21,10 @@ use crate::app::session::Session;
 
 /// Files that are dropped together arrive one by one; so long is waited for the next.
 const GATHER_SECS: f32 = 0.15;
+
+/// A dialog that is gone after less time than this was never seen: the system has none to show.
+/// Nobody reads, decides and cancels that fast.
+const UNSEEN: Duration = Duration::from_millis(400);
 
 /// The extension of a project.
 pub const PROJECT_EXTENSION: &str = "morph";
@@ -35,7 +41,15 @@ enum Purpose {
 
 /// The dialog that is open, if any; never more than one.
 #[derive(Resource, Debug, Default)]
-pub struct Dialog(Option<(Purpose, Job<Vec<PathBuf>>)>);
+pub struct Dialog(Option<Asked>);
+
+/// A dialog that is open.
+#[derive(Debug)]
+struct Asked {
+    purpose: Purpose,
+    since: Instant,
+    answer: Job<Vec<PathBuf>>,
+}
 
 impl Dialog {
     /// A dialog is open.
@@ -60,7 +74,11 @@ pub fn open(
             _ => continue,
         };
         if dialog.0.is_none() && session.project().is_some_or_open(purpose) {
-            dialog.0 = Some((purpose, start(purpose, &session)));
+            dialog.0 = Some(Asked {
+                purpose,
+                since: Instant::now(),
+                answer: start(purpose, &session),
+            });
         }
     }
 }
@@ -120,12 +138,10 @@ pub fn finish(
     mut question: ResMut<Question>,
     mut notices: ResMut<Notices>,
     mut intents: MessageWriter<Intent>,
+    (session, folder): (Res<Session>, Res<CaptureFolder>),
 ) {
-    let Some((purpose, answer)) = dialog
-        .0
-        .as_ref()
-        .and_then(|(p, job)| Some((*p, job.poll()?)))
-    else {
+    let answered = |asked: &Asked| Some((asked.purpose, asked.since, asked.answer.poll()?));
+    let Some((purpose, since, answer)) = dialog.0.as_ref().and_then(answered) else {
         return;
     };
     dialog.0 = None;
@@ -133,8 +149,20 @@ pub fn finish(
         notices.problem(broken.to_string());
         Vec::new()
     });
+    let is_unseen = paths.is_empty() && since.elapsed() < UNSEEN;
     match (purpose, paths.first()) {
+        (Purpose::Save, None) if is_unseen => match place_without_asking(&session, &folder) {
+            Ok(path) => {
+                notices.problem(NO_DIALOG_TO_SAVE);
+                intents.write(Intent::SaveTo(path));
+            }
+            Err(error) => {
+                notices.problem(error);
+                question.not_saved();
+            }
+        },
         (Purpose::Save, None) => question.not_saved(),
+        (_, None) if is_unseen => notices.problem(NO_DIALOG_TO_OPEN),
         (_, None) => {}
         (Purpose::Save, Some(path)) => {
             intents.write(Intent::SaveTo(with_extension(path)));
@@ -146,6 +174,19 @@ pub fn finish(
             intents.write(Intent::Open(paths));
         }
     }
+}
+
+const NO_DIALOG_TO_OPEN: &str = "The system shows no file dialog (on Linux, install \
+    xdg-desktop-portal or zenity). Drop files on the window instead, or name them on the command line.";
+
+const NO_DIALOG_TO_SAVE: &str = "The system shows no file dialog (on Linux, install \
+    xdg-desktop-portal or zenity), so the project goes where pictures go.";
+
+/// A new name where pictures go, so that work can be kept even without a dialog.
+fn place_without_asking(session: &Session, folder: &CaptureFolder) -> Result<PathBuf, String> {
+    create_new(&folder.0, &session.file_stem(), PROJECT_EXTENSION)
+        .map(|(_, path)| path)
+        .map_err(|error| error.to_string())
 }
 
 fn with_extension(path: &Path) -> PathBuf {

@@ -55,6 +55,9 @@ fn card(ui: &mut Ui, scene: &Scene, textures: &mut Textures, entry: &gallery::En
     let size = vec2(ui.available_width(), PICTURE_HEIGHT + 28.0);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let is_open = scene.session.gallery_name() == Some(entry.name.as_str());
+    if is_open {
+        show_when_new(ui, &entry.name, &response);
+    }
     response.widget_info(|| {
         WidgetInfo::selected(WidgetType::SelectableLabel, true, is_open, &entry.title)
     });
@@ -84,6 +87,20 @@ fn card(ui: &mut Ui, scene: &Scene, textures: &mut Textures, entry: &gallery::En
         palette.text,
     );
     response.on_hover_text(&entry.description)
+}
+
+/// Scrolls to the card of a project that has just been opened, and then leaves the list alone.
+fn show_when_new(ui: &Ui, name: &str, card: &Response) {
+    let shown = egui::Id::new("the card that was scrolled to");
+    let is_new = ui.data_mut(|data| {
+        let last = data.get_temp_mut_or_default::<String>(shown);
+        let is_new = last != name;
+        name.clone_into(last);
+        is_new
+    });
+    if is_new {
+        card.scroll_to_me(None);
+    }
 }
 
 fn thumbnail(ui: &Ui, scene: &Scene, textures: &mut Textures, name: &str, rect: Rect) {
