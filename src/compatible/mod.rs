@@ -12,7 +12,9 @@ pub use elements::{BarElement, CompatibleError, Which};
 
 use crate::design::Truss;
 use crate::geometry::{Bounds, DVec2};
-use crate::mesh::{Connectivity, Subdivision, TooManyVertices, TriangleMesh, check_faces};
+use crate::mesh::{
+    Connectivity, Subdivision, TooManyVertices, TriangleMesh, check_faces, components,
+};
 use std::sync::Arc;
 
 /// One connectivity with its two embeddings.
@@ -139,6 +141,15 @@ impl CompatibleMesh {
     #[must_use]
     pub fn boundary_loops(&self) -> Vec<Vec<u32>> {
         self.connectivity.boundary_loops(&self.faces)
+    }
+
+    /// For each vertex the number of its connected part; faces join, and bars
+    /// do.
+    #[must_use]
+    pub fn components(&self) -> Vec<u32> {
+        let face_edges = self.faces.iter().flat_map(|&[a, b, c]| [[a, b], [a, c]]);
+        let links = face_edges.chain(self.elements.iter().copied());
+        components(self.source.len(), links)
     }
 
     /// The smallest box around both embeddings.

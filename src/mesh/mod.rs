@@ -5,9 +5,11 @@
 //! two embeddings and is checked where they meet, in
 //! [`crate::compatible::CompatibleMesh`].
 
+mod components;
 mod connectivity;
 mod subdivide;
 
+pub use components::components;
 pub use connectivity::{Connectivity, ConnectivityError};
 pub use subdivide::{MAX_VERTICES, Subdivision, TooManyVertices};
 

@@ -140,7 +140,7 @@ impl LocalMaps {
             matrix.add(b, b, k);
             matrix.add(a, b, -k);
         }
-        let components = super::drift::components(mesh);
+        let components = mesh.components();
         let mut grounded = vec![false; n];
         for (v, &component) in components.iter().enumerate() {
             if !std::mem::replace(&mut grounded[component as usize], true) {

@@ -68,36 +68,6 @@ impl Part {
     }
 }
 
-/// For each vertex the number of its connected component; joined by faces and
-/// by bars.
-pub(super) fn components(mesh: &CompatibleMesh) -> Vec<u32> {
-    let mut parent: Vec<u32> = (0..mesh.source().len() as u32).collect();
-    fn root(parent: &mut [u32], mut v: u32) -> u32 {
-        while parent[v as usize] != v {
-            parent[v as usize] = parent[parent[v as usize] as usize];
-            v = parent[v as usize];
-        }
-        v
-    }
-    let face_edges = mesh.faces().iter().flat_map(|&[a, b, c]| [[a, b], [a, c]]);
-    for [a, b] in face_edges.chain(mesh.elements().iter().copied()) {
-        let (a, b) = (root(&mut parent, a), root(&mut parent, b));
-        parent[a.max(b) as usize] = a.min(b);
-    }
-    let mut number = vec![u32::MAX; parent.len()];
-    let mut count = 0;
-    (0..parent.len() as u32)
-        .map(|v| {
-            let r = root(&mut parent, v) as usize;
-            if number[r] == u32::MAX {
-                number[r] = count;
-                count += 1;
-            }
-            number[r]
-        })
-        .collect()
-}
-
 impl Drift {
     pub(super) fn new(
         mesh: &CompatibleMesh,
@@ -105,7 +75,7 @@ impl Drift {
         place: &[u32],
         path: PathKind,
     ) -> Self {
-        let component = components(mesh);
+        let component = mesh.components();
         let count = component.iter().max().map_or(0, |&last| last as usize + 1);
         let mut mass = vec![0.0; count];
         for (&part, &m) in component.iter().zip(&maps.masses) {
