@@ -20,9 +20,9 @@ use crate::homotopy::{Homotopy, LocalMap};
 use pulp::{Arch, Simd, WithSimd};
 use std::sync::Arc;
 
-/// How many faces there are in a block: whole vectors of any machine, and few
-/// enough to stay in registers and the nearest cache.
-const LANES: usize = 16;
+/// How many faces there are in a block: a row is a line of the cache, and
+/// blocks are read from memory faster than those of 16.
+const LANES: usize = 8;
 
 /// A number of each face of a block; zero where there is no face.
 type Row = [f64; LANES];
@@ -216,7 +216,7 @@ impl WithSimd for Pass<'_> {
             }),
             Homotopy::Exponential => {
                 stresses.add(forces, stresses.logs.iter(), |angle, logs, lane| {
-                    Pose::exponential(t, angle, logs.map(|row| row[lane]))
+                    Pose::exponential(t, angle, logs.each_ref().map(|row| row[lane]))
                 });
             }
         }
@@ -313,7 +313,7 @@ mod tests {
         let target = source.iter().map(bent).collect();
         let faces = (0..14_u32).flat_map(|i| {
             let v = 2 * i;
-            [[v, v + 2, v + 3], [v, v + 3, v + 1]] // 28: one block and a part
+            [[v, v + 2, v + 3], [v, v + 3, v + 1]] // 28: three blocks and a half
         });
         let mesh = CompatibleMesh::new(faces.collect(), source, target, vec![])?;
         let maps = LocalMaps::new(&mesh, &ArapOptions::default())?;
