@@ -384,7 +384,7 @@ fn the_centroid_of_fixed_masses_runs_straight() {
 }
 
 #[test]
-fn four_faces_at_a_time_equal_the_plain_homotopies() {
+fn many_faces_at_a_time_equal_the_plain_homotopies() {
     // One face alone has J = M(t) exactly, whatever the weights.
     let source = vec![DVec2::ZERO, DVec2::new(2.0, 0.1), DVec2::new(0.3, 1.0)];
     let target = vec![
