@@ -52,6 +52,7 @@
 //! mesh                          triangles, connectivity, subdivision
 //! field                         grids, distance transforms, contours
 //! design                        the given forms and their importers
+//! correspondence                which point of one design is which of the other
 //! compatible                    one connectivity, two embeddings
 //! homotopy                      paths of 2×2 matrices
 //! warp        content           the rows and the columns of the table
@@ -76,6 +77,8 @@ pub mod mesh;
 pub mod field;
 
 pub mod design;
+
+pub mod correspondence;
 
 pub mod compatible;
 

@@ -1,0 +1,241 @@
+//! Curves by arc length, with the unwrapped direction of their tangent.
+//!
+//! A place on a [`Curve`] is the fraction of its length from the first point,
+//! in [0, 1); so it keeps its meaning when the curve is moved, turned or
+//! enlarged. Open polylines reach 1 at their last point.
+//!
+//! Turning is the mean direction after a place less the mean direction before
+//! it, both over a stated length of the curve. Means over the *unwrapped*
+//! direction know no jump at ±π, and jitter of the outline cancels in them.
+
+use crate::geometry::{Bounds, DVec2, Ring};
+use std::f64::consts::TAU;
+
+/// A polyline, closed or open, that knows its places by arc length.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    points: Vec<DVec2>,
+    closed: bool,
+    /// Place of each point, and at the end the place 1.
+    places: Vec<f64>,
+    /// Unwrapped direction of each edge, in radians.
+    directions: Vec<f64>,
+    /// Integral of the direction over the place, up to each point.
+    integral: Vec<f64>,
+    /// Direction gained in one round: 2π times the turning number.
+    round: f64,
+}
+
+/// Why points make no [`Curve`].
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CurveError {
+    /// Fewer than two different points.
+    #[error("a polyline needs at least 2 different points, this one has {0}; add points")]
+    TooFewPoints(usize),
+    /// A coordinate is NaN or infinite.
+    #[error("point {0} of the polyline is not a finite number; correct its coordinates")]
+    NotFinite(usize),
+    /// The length is no positive finite number in floating point.
+    #[error("the outline is too large or too small to be measured; scale it to an ordinary size")]
+    Size,
+}
+
+impl Curve {
+    /// A closed boundary.
+    ///
+    /// # Errors
+    /// [`CurveError::Size`] if its length overflows or underflows.
+    ///
+    /// ```
+    /// use morphospace::{correspondence::Curve, geometry::{DVec2, Ring}};
+    /// let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
+    /// let curve = Curve::closed(&Ring::new(square.to_vec())?)?;
+    /// assert_eq!(curve.point_at(0.625), DVec2::new(0.5, 1.0));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn closed(ring: &Ring) -> Result<Self, CurveError> {
+        Self::measured(ring.points().to_vec(), true)
+    }
+
+    /// An open polyline; immediate repetitions of points are left out.
+    ///
+    /// # Errors
+    /// [`CurveError`] for fewer than two different points, a coordinate that
+    /// is not finite, or a length that overflows or underflows.
+    pub fn open(points: &[DVec2]) -> Result<Self, CurveError> {
+        if let Some(bad) = points.iter().position(|p| !p.is_finite()) {
+            return Err(CurveError::NotFinite(bad));
+        }
+        let mut points = points.to_vec();
+        points.dedup();
+        if points.len() < 2 {
+            return Err(CurveError::TooFewPoints(points.len()));
+        }
+        Self::measured(points, false)
+    }
+
+    fn measured(points: Vec<DVec2>, closed: bool) -> Result<Self, CurveError> {
+        let edges = unit_edges(&points, closed).ok_or(CurveError::Size)?;
+        let mut places = vec![0.0];
+        let mut sum = 0.0;
+        for edge in &edges {
+            sum += edge.length();
+            places.push(sum);
+        }
+        if !(sum.is_finite() && sum > 0.0) {
+            return Err(CurveError::Size);
+        }
+        places.iter_mut().for_each(|place| *place /= sum);
+        let directions = unwrapped(&edges);
+        let mut integral = vec![0.0];
+        for (e, direction) in directions.iter().enumerate() {
+            integral.push(integral[e] + direction * (places[e + 1] - places[e]));
+        }
+        let (first, last) = (edges[0], edges[edges.len() - 1]);
+        let gained = directions[edges.len() - 1] + turn(last, first) - directions[0];
+        Ok(Self {
+            round: TAU * (gained / TAU).round(),
+            points,
+            closed,
+            places,
+            directions,
+            integral,
+        })
+    }
+
+    /// The points in order.
+    #[must_use]
+    pub fn points(&self) -> &[DVec2] {
+        &self.points
+    }
+
+    /// The place of each point, in order; nondecreasing.
+    #[must_use]
+    pub fn places(&self) -> &[f64] {
+        &self.places[..self.points.len()]
+    }
+
+    /// Whether the last point is joined to the first.
+    #[must_use]
+    pub fn is_closed(&self) -> bool {
+        self.closed
+    }
+
+    /// The point at a place, exact at the curve's own points. Places of closed
+    /// curves are taken modulo 1, those of open ones clamped to the ends.
+    #[must_use]
+    pub fn point_at(&self, place: f64) -> DVec2 {
+        let place = self.wrapped(place);
+        let e = self.edge_at(place);
+        let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
+        let along = (place - self.places[e]) / (self.places[e + 1] - self.places[e]);
+        if along >= 1.0 {
+            return to;
+        }
+        if along > 0.0 {
+            from.lerp(to, along)
+        } else {
+            from
+        }
+    }
+
+    /// The place nearest to `p`, the first of several: where a pin lands.
+    #[must_use]
+    pub fn nearest(&self, p: DVec2) -> f64 {
+        let mut best = (f64::INFINITY, 0.0);
+        for e in 0..self.directions.len() {
+            let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
+            let edge = to - from;
+            let along = ((p - from).dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
+            let distance = p.distance_squared(from.lerp(to, along));
+            if distance < best.0 {
+                let [start, end] = [self.places[e], self.places[e + 1]];
+                best = (distance, start + along * (end - start));
+            }
+        }
+        self.wrapped(best.1)
+    }
+
+    /// How often the tangent turns around: 1 for simple counter-clockwise
+    /// boundaries, −1 for clockwise ones.
+    pub(super) fn turning_number(&self) -> i32 {
+        (self.round / TAU).round() as i32
+    }
+
+    /// `place` in [0, 1) for closed curves, in [0, 1] for open ones.
+    pub(super) fn wrapped(&self, place: f64) -> f64 {
+        if !self.closed {
+            return place.clamp(0.0, 1.0);
+        }
+        let place = place.rem_euclid(1.0);
+        if place < 1.0 { place } else { 0.0 } // -1e-20 is rounded up to 1
+    }
+
+    /// Direction at the mean over `[from, to]`, in radians, unwrapped. Open
+    /// curves go on straight beyond their ends.
+    pub(super) fn direction(&self, from: f64, to: f64) -> f64 {
+        (self.direction_integral(to) - self.direction_integral(from)) / (to - from)
+    }
+
+    /// Mean direction over `reach` after the place less that before it.
+    pub(super) fn turning(&self, place: f64, reach: f64) -> f64 {
+        self.direction(place, place + reach) - self.direction(place - reach, place)
+    }
+
+    fn direction_integral(&self, place: f64) -> f64 {
+        let last = self.directions.len();
+        if self.closed {
+            let rounds = place.floor();
+            let rest = place - rounds;
+            let whole = rounds * self.integral[last];
+            let gained = self.round * rounds * (rest + 0.5 * (rounds - 1.0));
+            return whole + gained + self.integral_within(rest);
+        }
+        if place <= 0.0 {
+            self.directions[0] * place
+        } else if place >= 1.0 {
+            self.integral[last] + self.directions[last - 1] * (place - 1.0)
+        } else {
+            self.integral_within(place)
+        }
+    }
+
+    fn integral_within(&self, place: f64) -> f64 {
+        let e = self.edge_at(place);
+        self.integral[e] + self.directions[e] * (place - self.places[e])
+    }
+
+    /// The last edge that starts at or before the place.
+    fn edge_at(&self, place: f64) -> usize {
+        let after = self.places.partition_point(|&start| start <= place);
+        after.clamp(1, self.directions.len()) - 1
+    }
+}
+
+/// Edge vectors in units of the larger extent: neither overflows nor
+/// underflows when squared.
+fn unit_edges(points: &[DVec2], closed: bool) -> Option<Vec<DVec2>> {
+    let extent = Bounds::of(points.iter().copied())?.size().max_element();
+    if !(extent.is_finite() && extent > 0.0) {
+        return None;
+    }
+    let count = points.len() - usize::from(!closed);
+    let edge = |e: usize| (points[(e + 1) % points.len()] - points[e]) / extent;
+    Some((0..count).map(edge).collect())
+}
+
+/// The direction of each edge, each within π of the one before.
+fn unwrapped(edges: &[DVec2]) -> Vec<f64> {
+    let mut direction = edges[0].to_angle();
+    let mut directions = vec![direction];
+    for pair in edges.windows(2) {
+        direction += turn(pair[0], pair[1]);
+        directions.push(direction);
+    }
+    directions
+}
+
+/// Exterior angle in (−π, π]; 0 where an edge is nothing.
+fn turn(from: DVec2, to: DVec2) -> f64 {
+    from.perp_dot(to).atan2(from.dot(to))
+}

@@ -1,0 +1,116 @@
+//! The cheapest closed path through the torus of pairs of samples, for every
+//! starting point at once.
+//!
+//! Maes 1990, "On a cyclic string-to-string correction problem": the source is
+//! unrolled twice; a closed path is one from column k of the first row to
+//! column k + n of the last. Cheapest paths of different k need not cross, so
+//! that the path of k lies between those of a smaller and a larger one, and
+//! halving the interval of k solves all n in O(n m log n). Every closed path
+//! of unit steps visits the first row, so none is missed.
+//!
+//! Guarantees: the cost of each k is the least of all paths that start there.
+//! Among equally cheap paths the choice is deterministic, nothing more.
+
+use super::lattice::{Lattice, Route, Scratch};
+
+/// The cheapest path of each starting column 0 ≤ k < n. The lattice has
+/// 2n columns at least, a row for each target sample and the first one again.
+pub(super) fn all_starts(lattice: &Lattice, n: usize) -> Vec<Route> {
+    let mut scratch = Scratch::default();
+    let first = lattice.shortest([0, n], |_| [0, n], &mut scratch);
+    let mut routes: Vec<Option<Route>> = vec![None; n + 1];
+    routes[n] = Some(first.shifted(n));
+    routes[0] = Some(first);
+    halve(lattice, [0, n], &mut routes, &mut scratch);
+    routes.truncate(n);
+    routes.into_iter().flatten().collect()
+}
+
+/// Solves strictly between two solved starts.
+fn halve(
+    lattice: &Lattice,
+    [left, right]: [usize; 2],
+    routes: &mut [Option<Route>],
+    scratch: &mut Scratch,
+) {
+    if right - left < 2 {
+        return;
+    }
+    let middle = left.midpoint(right);
+    let n = routes.len() - 1;
+    if let (Some(low), Some(high)) = (&routes[left], &routes[right]) {
+        let window = |j: usize| [low.rows[j][0], high.rows[j][1]];
+        let found = lattice.shortest([middle, middle + n], window, scratch);
+        routes[middle] = Some(found);
+    }
+    halve(lattice, [left, middle], routes, scratch);
+    halve(lattice, [middle, right], routes, scratch);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    /// A torus of random unlikeness with uneven samples.
+    fn torus() -> impl Strategy<Value = (Lattice, usize)> {
+        (1usize..14, 1usize..14).prop_flat_map(|(n, m)| {
+            let gaps = |k| prop::collection::vec(0.1f64..1.0, k);
+            // Few values, so that ties are many.
+            let unlike = prop::collection::vec((0u8..5).prop_map(f64::from), n * m);
+            (gaps(n), gaps(m), unlike, 0.0f64..2.0)
+                .prop_map(move |(a, b, unlike, stretch)| unrolled(&a, &b, &unlike, stretch))
+        })
+    }
+
+    fn unrolled(a: &[f64], b: &[f64], unlike: &[f64], stretch: f64) -> (Lattice, usize) {
+        let (n, m) = (a.len(), b.len());
+        let row = |j: usize| (0..=2 * n).map(move |i| unlike[(j % m) * n + i % n]);
+        let lattice = Lattice {
+            source: sums(a, 2 * n),
+            target: sums(b, m),
+            unlike: (0..=m).flat_map(row).collect(),
+            stretch,
+        };
+        (lattice, n)
+    }
+
+    fn sums(gaps: &[f64], count: usize) -> Vec<f64> {
+        let mut sum = 0.0;
+        let mut places = vec![0.0];
+        for gap in gaps.iter().cycle().take(count) {
+            sum += gap;
+            places.push(sum);
+        }
+        places
+    }
+
+    proptest! {
+        #[test]
+        fn every_start_is_as_cheap_as_its_own_plain_program((lattice, n) in torus()) {
+            let routes = all_starts(&lattice, n);
+            prop_assert_eq!(routes.len(), n);
+            for (k, route) in routes.iter().enumerate() {
+                let plain = lattice.shortest([k, k + n], |_| [k, k + n], &mut Scratch::default());
+                prop_assert!((route.cost - plain.cost).abs() <= 1e-12 * (1.0 + plain.cost));
+                prop_assert_eq!(route.rows[0][0], k);
+                prop_assert_eq!(route.rows.last().map(|row| row[1]), Some(k + n));
+            }
+        }
+
+        #[test]
+        fn exchanging_the_curves_costs_the_same(
+            a in prop::collection::vec(0.1f64..1.0, 1..9),
+            b in prop::collection::vec(0.1f64..1.0, 1..9),
+            seed in prop::collection::vec(0.0f64..3.0, 64),
+        ) {
+            let (n, m) = (a.len(), b.len());
+            let at = |i: usize, j: usize| seed[8 * i + j];
+            let (there, _) = unrolled(&a, &b, &(0..n * m).map(|k| at(k % n, k / n)).collect::<Vec<_>>(), 0.5);
+            let (back, _) = unrolled(&b, &a, &(0..n * m).map(|k| at(k / m, k % m)).collect::<Vec<_>>(), 0.5);
+            let least = |routes: Vec<Route>| routes.iter().map(|r| r.cost).fold(f64::INFINITY, f64::min);
+            let (c, d) = (least(all_starts(&there, n)), least(all_starts(&back, m)));
+            prop_assert!((c - d).abs() <= 1e-12 * (1.0 + c));
+        }
+    }
+}

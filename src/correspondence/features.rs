@@ -1,0 +1,139 @@
+//! What makes two boundary points alike.
+//!
+//! Turning at three reaches compares the shape of the outline itself and does
+//! not see rotation. Where a *pose* (the rotation of one design onto the
+//! other) is known, the direction of the tangent and the place about the
+//! centre are compared too: they tell apart what bends alike, such as the
+//! fingers of a hand.
+
+use super::curve::Curve;
+use super::samples::Samples;
+use crate::geometry::DVec2;
+use std::f64::consts::PI;
+
+/// Reaches of the turning, in fractions of the length, and their weights.
+const REACHES: [(f64, f64); 3] = [(0.012, 0.25), (0.035, 0.5), (0.09, 0.75)];
+
+/// Half the stretch over which the tangent's direction is a mean.
+const TANGENT_REACH: f64 = 0.01;
+
+/// How much the direction of tangents and the place about the centre weigh.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PoseWeights {
+    tangent: f64,
+    position: f64,
+}
+
+impl PoseWeights {
+    /// For a pose that was guessed.
+    pub const FREE: Self = Self {
+        tangent: 0.5,
+        position: 0.5,
+    };
+
+    /// For a pose that the user asked for.
+    pub const FIXED: Self = Self {
+        tangent: 2.0,
+        position: 1.0,
+    };
+}
+
+/// Squared distance, in mean squared radii of the outlines, that counts half.
+const HALF_DISTANCE: f64 = 1.0;
+
+/// The features of each sample of a curve.
+#[derive(Clone, Debug)]
+pub(super) struct Features {
+    turning: Vec<[f64; REACHES.len()]>,
+    tangent: Vec<DVec2>,
+    /// About the centre, in root mean squared radii.
+    position: Vec<DVec2>,
+}
+
+impl Features {
+    pub fn of(curve: &Curve, samples: &Samples) -> Self {
+        let places = &samples.places;
+        let direction = |s: f64| curve.direction(s - TANGENT_REACH, s + TANGENT_REACH);
+        Self {
+            turning: (places.iter())
+                .map(|&s| REACHES.map(|(reach, _)| curve.turning(s, reach) / PI))
+                .collect(),
+            tangent: (places.iter())
+                .map(|&s| DVec2::from_angle(direction(s)))
+                .collect(),
+            position: centred(places.iter().map(|&s| curve.point_at(s)).collect()),
+        }
+    }
+
+    /// How strongly the outline bends about a sample, either way.
+    pub fn salience(&self, sample: usize) -> f64 {
+        self.turning[sample].iter().map(|turn| turn.abs()).sum()
+    }
+
+    pub fn position(&self, sample: usize) -> DVec2 {
+        self.position[sample]
+    }
+
+    /// How unlike the samples are, blind to rotation: at least 0, at most 1.5.
+    pub fn unlike(&self, other: &Self) -> Vec<f64> {
+        let pair = |j: usize| {
+            self.turning.iter().map(move |a| {
+                let b = &other.turning[j];
+                let terms = REACHES.iter().enumerate();
+                let term = |(k, (_, weight)): (usize, &(f64, f64))| {
+                    weight * saturated((a[k] - b[k]).powi(2), 0.5)
+                };
+                terms.map(term).sum::<f64>()
+            })
+        };
+        (0..other.turning.len()).flat_map(pair).collect()
+    }
+
+    /// `blind` and how unlike tangents and positions are once this curve is
+    /// turned by `pose`.
+    pub fn unlike_posed(
+        &self,
+        other: &Self,
+        blind: &[f64],
+        pose: f64,
+        weights: PoseWeights,
+    ) -> Vec<f64> {
+        let turn = DVec2::from_angle(pose);
+        let tangents: Vec<DVec2> = self.tangent.iter().map(|&t| turn.rotate(t)).collect();
+        let positions: Vec<DVec2> = self.position.iter().map(|&p| turn.rotate(p)).collect();
+        let n = tangents.len();
+        let posed = |(k, blind): (usize, &f64)| {
+            let (i, j) = (k % n, k / n);
+            let tangent = 0.5 * (1.0 - tangents[i].dot(other.tangent[j]));
+            let distance = positions[i].distance_squared(other.position[j]);
+            blind
+                + weights.tangent * tangent
+                + weights.position * saturated(distance, HALF_DISTANCE)
+        };
+        blind.iter().enumerate().map(posed).collect()
+    }
+}
+
+/// x / (x + half): a gross difference counts, but no more than others.
+fn saturated(x: f64, half: f64) -> f64 {
+    x / (x + half)
+}
+
+/// About the mean and in units of the root mean squared distance from it.
+fn centred(mut points: Vec<DVec2>) -> Vec<DVec2> {
+    let scale = points
+        .iter()
+        .fold(0.0, |s: f64, p| s.max(p.abs().max_element()));
+    if scale > 0.0 {
+        points.iter_mut().for_each(|p| *p /= scale);
+    }
+    let count = points.len() as f64;
+    let mean = points.iter().sum::<DVec2>() / count;
+    points.iter_mut().for_each(|p| *p -= mean);
+    let square = points.iter().map(|p| p.length_squared()).sum::<f64>() / count;
+    if square > 0.0 {
+        let radius = square.sqrt();
+        points.iter_mut().for_each(|p| *p /= radius);
+    }
+    points
+}

@@ -1,0 +1,213 @@
+//! The grid of pairs of samples, and the cheapest monotone path through it.
+//!
+//! A node (i, j) says that sample i of the source is sample j of the target. A
+//! path takes unit steps: along the source, along the target, or along both.
+//! It pays for bending (how unlike the samples are, times the length walked)
+//! and for stretching (the absolute difference of the lengths walked), as in
+//! Sebastian, Klein and Kimia 2003, "On aligning curves". Both exchange with
+//! the roles of the two curves.
+
+/// Places and unlikeness of a window of samples, counted on over the seam.
+#[derive(Clone, Debug)]
+pub(super) struct Lattice {
+    /// Places of the source's samples, ascending.
+    pub source: Vec<f64>,
+    /// Places of the target's samples, ascending.
+    pub target: Vec<f64>,
+    /// How unlike: a row for each sample of the target.
+    pub unlike: Vec<f64>,
+    /// Price of a unit of stretch.
+    pub stretch: f64,
+}
+
+/// A path: for each row the first and the last column it visits.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Route {
+    pub cost: f64,
+    pub rows: Vec<[usize; 2]>,
+}
+
+/// Buffers of the dynamic program, kept between solves.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    above: Vec<f64>,
+    here: Vec<f64>,
+    came: Vec<u8>,
+    starts: Vec<usize>,
+}
+
+const ALONG_BOTH: u8 = 0;
+const ALONG_SOURCE: u8 = 1;
+const ALONG_TARGET: u8 = 2;
+
+impl Lattice {
+    /// How unlike source sample `i` and target sample `j` are.
+    pub fn at(&self, i: usize, j: usize) -> f64 {
+        self.unlike[j * self.source.len() + i]
+    }
+
+    /// Price of the step from `(i − di, j − dj)` to `(i, j)`, di, dj ≤ 1.
+    pub fn step(&self, i: usize, j: usize, di: usize, dj: usize) -> f64 {
+        let walked_source = self.source[i] - self.source[i - di];
+        let walked_target = self.target[j] - self.target[j - dj];
+        let bend = 0.5 * (self.at(i, j) + self.at(i - di, j - dj));
+        0.5 * (walked_source + walked_target) * bend
+            + self.stretch * (walked_source - walked_target).abs()
+    }
+
+    /// The cheapest path from `start` in row 0 to `end` in the last row that
+    /// keeps to the windows of columns, both ends included and nondecreasing
+    /// from row to row. O(cells in the windows).
+    pub fn shortest(
+        &self,
+        [start, end]: [usize; 2],
+        window: impl Fn(usize) -> [usize; 2],
+        scratch: &mut Scratch,
+    ) -> Route {
+        let rows = self.target.len();
+        let window = |j: usize| clipped(window(j), start, end);
+        scratch.reset(self.source.len());
+        let mut above = [1, 0]; // empty
+        for j in 0..rows {
+            let here = window(j);
+            scratch.starts.push(scratch.came.len());
+            self.row(j, here, above, (j == 0).then_some(start), scratch);
+            above = here;
+            std::mem::swap(&mut scratch.above, &mut scratch.here);
+        }
+        let cost = scratch.above[end];
+        let rows = trace(scratch, rows, start, end, |j| window(j)[0]);
+        Route { cost, rows }
+    }
+
+    /// The costs of one row from those of the row above.
+    fn row(
+        &self,
+        j: usize,
+        [low, high]: [usize; 2],
+        above: [usize; 2],
+        start: Option<usize>,
+        scratch: &mut Scratch,
+    ) {
+        for i in low..=high {
+            let from_above = |i: usize| {
+                let inside = above[0] <= i && i <= above[1];
+                if inside {
+                    scratch.above[i]
+                } else {
+                    f64::INFINITY
+                }
+            };
+            let (mut best, mut came) = (f64::INFINITY, ALONG_BOTH);
+            if start == Some(i) {
+                best = 0.0;
+            }
+            if j > 0 && i > 0 {
+                best = from_above(i - 1) + self.step(i, j, 1, 1);
+            }
+            if i > low {
+                let cost = scratch.here[i - 1] + self.step(i, j, 1, 0);
+                if cost < best {
+                    (best, came) = (cost, ALONG_SOURCE);
+                }
+            }
+            if j > 0 {
+                let cost = from_above(i) + self.step(i, j, 0, 1);
+                if cost < best {
+                    (best, came) = (cost, ALONG_TARGET);
+                }
+            }
+            scratch.here[i] = best;
+            scratch.came.push(came);
+        }
+    }
+}
+
+impl Scratch {
+    fn reset(&mut self, width: usize) {
+        self.above.resize(width, f64::INFINITY);
+        self.here.resize(width, f64::INFINITY);
+        self.came.clear();
+        self.starts.clear();
+    }
+}
+
+fn clipped([low, high]: [usize; 2], start: usize, end: usize) -> [usize; 2] {
+    [low.max(start), high.min(end)]
+}
+
+/// The path walked back from its end.
+fn trace(
+    scratch: &Scratch,
+    count: usize,
+    start: usize,
+    end: usize,
+    low: impl Fn(usize) -> usize,
+) -> Vec<[usize; 2]> {
+    let mut rows = vec![[end, end]; count];
+    let (mut i, mut j) = (end, count - 1);
+    while (i, j) != (start, 0) {
+        match scratch.came[scratch.starts[j] + i - low(j)] {
+            ALONG_SOURCE => i -= 1,
+            came => {
+                j -= 1;
+                i -= usize::from(came == ALONG_BOTH);
+                rows[j] = [i, i];
+            }
+        }
+        rows[j][0] = i;
+    }
+    rows
+}
+
+impl Route {
+    /// The nodes in order, from the start to the end.
+    pub fn nodes(&self) -> Vec<[usize; 2]> {
+        let row = |(j, &[first, last]): (usize, &[usize; 2])| (first..=last).map(move |i| [i, j]);
+        self.rows.iter().enumerate().flat_map(row).collect()
+    }
+
+    /// The same path `by` columns on.
+    pub fn shifted(&self, by: usize) -> Self {
+        let rows = self.rows.iter().map(|&[a, b]| [a + by, b + by]).collect();
+        Self {
+            cost: self.cost,
+            rows,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cheapest_of_all_paths_of_a_small_grid_is_found() {
+        let lattice = Lattice {
+            source: vec![0.0, 0.3, 0.5, 1.0],
+            target: vec![0.0, 0.2, 1.0],
+            unlike: vec![1.0, 2.0, 0.1, 4.0, 3.0, 0.5, 0.2, 7.0, 1.0, 0.3, 9.0, 0.4],
+            stretch: 0.2,
+        };
+        let route = lattice.shortest([0, 3], |_| [0, 3], &mut Scratch::default());
+        assert!((route.cost - cheapest(&lattice, 3, 2)).abs() < 1e-15);
+        let nodes = route.nodes();
+        let price = |w: &[[usize; 2]]| {
+            let [[a, b], [i, j]] = [w[0], w[1]];
+            lattice.step(i, j, i - a, j - b)
+        };
+        let sum: f64 = nodes.windows(2).map(price).sum();
+        assert!((route.cost - sum).abs() < 1e-15);
+    }
+
+    /// All paths, one by one.
+    fn cheapest(lattice: &Lattice, i: usize, j: usize) -> f64 {
+        let mut best = if i + j == 0 { 0.0 } else { f64::INFINITY };
+        for (di, dj) in [(1, 1), (1, 0), (0, 1)] {
+            if i >= di && j >= dj {
+                best = best.min(cheapest(lattice, i - di, j - dj) + lattice.step(i, j, di, dj));
+            }
+        }
+        best
+    }
+}

@@ -1,0 +1,30 @@
+//! Which point of one design is which of the other.
+//!
+//! Parts and holes are paired by an assignment ([`pair_parts`],
+//! [`pair_holes`]), boundaries by a cyclic dynamic program over all starting
+//! points ([`match_rings`]), with pins as hard constraints. A
+//! [`BoundaryMatch`] gives both polygons the same number of corresponding
+//! vertices ([`BoundaryMatch::polygons`]).
+
+mod assignment;
+mod boundary;
+mod boundary_match;
+mod curve;
+mod cyclic;
+mod features;
+mod lattice;
+mod parts;
+mod pins;
+mod polygons;
+mod problem;
+mod refine;
+mod samples;
+#[cfg(test)]
+mod tests;
+
+pub use boundary::{MatchError, MatchOptions, match_curves, match_rings};
+pub use boundary_match::BoundaryMatch;
+pub use curve::{Curve, CurveError};
+pub use parts::{PairError, Pairing, pair_holes, pair_parts};
+pub use pins::{Pin, PinError};
+pub use polygons::{PolygonOptions, SharedPolygons};

@@ -1,0 +1,362 @@
+//! Which part of one design is which of the other, and which hole.
+//!
+//! Parts are paired by the assignment of least cost in position, size and
+//! shape, as many as there are on the side with fewer. What stays alone is
+//! born or dies. Parts clicked together stay together.
+//!
+//! Guarantees: the pairing is an optimal assignment, deterministic, and that
+//! from B to A is the same as that from A to B. Does not split one part into
+//! several.
+
+use super::assignment::assign;
+use crate::geometry::{DVec2, Region, Regions, Ring};
+use std::cmp::Ordering;
+use std::f64::consts::TAU;
+
+/// Parts, or holes, that belong together; indices in the order given.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Pairing {
+    /// `[source, target]`, ascending in the source.
+    pub pairs: Vec<[usize; 2]>,
+    /// Parts of the source alone, ascending: they die into a point.
+    pub dying: Vec<usize>,
+    /// Parts of the target alone, ascending: they are born from a point.
+    pub born: Vec<usize>,
+}
+
+/// Pairs made by hand that contradict each other.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PairError {
+    /// No such part.
+    #[error("there is no part {part} to pair, only {count}; remove this pair")]
+    NoSuchPart {
+        /// The index given.
+        part: usize,
+        /// How many there are.
+        count: usize,
+    },
+    /// A part is in two pairs.
+    #[error("part {0} is paired twice; remove one of its pairs")]
+    Twice(usize),
+}
+
+/// Weights of position, size and shape against each other.
+const POSITION: f64 = 1.0;
+const SIZE: f64 = 0.15;
+const SHAPE: f64 = 0.25;
+
+/// Pairs the regions of two designs; `fixed` pairs are kept.
+///
+/// Positions count relative to each design's own box, so that neither where
+/// the designs lie nor how large they are matters.
+///
+/// # Errors
+/// [`PairError`] if a fixed pair names no part, or a part twice.
+///
+/// ```
+/// use morphospace::correspondence::pair_parts;
+/// use morphospace::geometry::{DVec2, FillRule, Regions};
+/// let square = |x: f64| [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0), (x, 1.0)].map(DVec2::from).to_vec();
+/// let two = Regions::from_rings(&[square(0.0), square(3.0)], FillRule::NonZero)?;
+/// let one = Regions::from_rings(&[square(0.0)], FillRule::NonZero)?;
+/// let pairing = pair_parts(&two, &one, &[])?;
+/// assert_eq!((pairing.pairs.len(), pairing.dying.len()), (1, 1));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn pair_parts(
+    source: &Regions,
+    target: &Regions,
+    fixed: &[[usize; 2]],
+) -> Result<Pairing, PairError> {
+    let parts = |regions: &Regions| {
+        let bounds = regions.bounds();
+        let (origin, size) = (bounds.centre(), bounds.size().max_element());
+        let part = |r: &Region| Part::of(&r.outer, r.holes.len(), origin, size, 0.0);
+        regions.iter().map(part).collect::<Vec<_>>()
+    };
+    pair(&parts(source), &parts(target), fixed)
+}
+
+/// Pairs the holes of two regions; `fixed` pairs are kept. `rotation` turns
+/// the source onto the target: that of the match of their outer boundaries.
+///
+/// # Errors
+/// As [`pair_parts`].
+pub fn pair_holes(
+    source: &Region,
+    target: &Region,
+    rotation: f64,
+    fixed: &[[usize; 2]],
+) -> Result<Pairing, PairError> {
+    let parts = |region: &Region, turn: f64| {
+        // Measures that do not change when the region is turned.
+        let origin = moments(&region.outer).centre;
+        let size = region.outer.signed_area().abs().sqrt();
+        let part = |hole: &Ring| Part::of(hole, 0, origin, size, turn);
+        region.holes.iter().map(part).collect::<Vec<_>>()
+    };
+    // Half of the turn each: as exact one way as the other.
+    pair(
+        &parts(source, 0.5 * rotation),
+        &parts(target, -0.5 * rotation),
+        fixed,
+    )
+}
+
+/// What is compared of a part.
+#[derive(Clone, Copy, Debug)]
+struct Part {
+    /// Centre relative to the design, in its size.
+    position: DVec2,
+    /// Logarithm of the root of the area relative to the design's size.
+    log_size: f64,
+    /// 4π area / perimeter²: 1 for a circle.
+    roundness: f64,
+    /// Shorter over longer axis of inertia.
+    slenderness: f64,
+    holes: f64,
+}
+
+impl Part {
+    fn of(ring: &Ring, holes: usize, origin: DVec2, size: f64, turn: f64) -> Self {
+        let moments = moments(ring);
+        let area = ring.signed_area().abs();
+        let size = if size > 0.0 { size } else { 1.0 };
+        let round = 2.0 * TAU * area / ring.perimeter().powi(2);
+        let position = DVec2::from_angle(turn).rotate((moments.centre - origin) / size);
+        let tame = |x: f64| if x.is_finite() { x } else { 0.0 };
+        Self {
+            position: DVec2::new(tame(position.x), tame(position.y)),
+            log_size: tame(0.5 * area.max(f64::MIN_POSITIVE).ln() - size.ln()),
+            roundness: tame(round.min(1.0)),
+            slenderness: tame(moments.slenderness),
+            holes: holes as f64,
+        }
+    }
+
+    fn unlike(&self, other: &Self) -> f64 {
+        let holes = (self.holes - other.holes).abs().min(2.0);
+        POSITION * self.position.distance(other.position)
+            + SIZE * (self.log_size - other.log_size).abs()
+            + SHAPE * (self.roundness - other.roundness).abs()
+            + SHAPE * (self.slenderness - other.slenderness).abs()
+            + SHAPE * holes
+    }
+
+    fn key(&self) -> [f64; 6] {
+        let Self {
+            position: p,
+            log_size,
+            roundness,
+            slenderness,
+            holes,
+        } = *self;
+        [p.x, p.y, log_size, roundness, slenderness, holes]
+    }
+}
+
+/// Centre and slenderness of a polygon's boundary.
+struct Moments {
+    centre: DVec2,
+    slenderness: f64,
+}
+
+/// Taken along the boundary, which has length even where it has no area.
+fn moments(ring: &Ring) -> Moments {
+    let base = ring.points()[0];
+    let (mut length, mut sum) = (0.0, DVec2::ZERO);
+    for (a, b) in ring.edges() {
+        let weight = a.distance(b);
+        length += weight;
+        sum += weight * (a.midpoint(b) - base);
+    }
+    let centre = base + sum / length;
+    let (mut xx, mut xy, mut yy) = (0.0, 0.0, 0.0);
+    for (a, b) in ring.edges() {
+        let (p, weight) = (a.midpoint(b) - centre, a.distance(b));
+        xx += weight * p.x * p.x;
+        xy += weight * p.x * p.y;
+        yy += weight * p.y * p.y;
+    }
+    let (mean, radius) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
+    let ratio = ((mean - radius) / (mean + radius)).max(0.0);
+    Moments {
+        centre,
+        slenderness: ratio.sqrt(),
+    }
+}
+
+fn pair(source: &[Part], target: &[Part], fixed: &[[usize; 2]]) -> Result<Pairing, PairError> {
+    check(fixed, source.len(), target.len())?;
+    let free = |count: usize, side: usize| -> Vec<usize> {
+        (0..count)
+            .filter(|k| fixed.iter().all(|pair| pair[side] != *k))
+            .collect()
+    };
+    let (a, b) = (free(source.len(), 0), free(target.len(), 1));
+    let keys = |parts: &[Part], free: &[usize]| -> Vec<[f64; 6]> {
+        free.iter().map(|&k| parts[k].key()).collect()
+    };
+    let order = a
+        .len()
+        .cmp(&b.len())
+        .then_with(|| compare(&keys(source, &a), &keys(target, &b)));
+    let mut pairs = fixed.to_vec();
+    if order == Ordering::Greater {
+        let given = assign(b.len(), a.len(), |r, c| target[b[r]].unlike(&source[a[c]]));
+        pairs.extend(given.iter().enumerate().map(|(r, &c)| [a[c], b[r]]));
+    } else {
+        let given = assign(a.len(), b.len(), |r, c| source[a[r]].unlike(&target[b[c]]));
+        pairs.extend(given.iter().enumerate().map(|(r, &c)| [a[r], b[c]]));
+    }
+    pairs.sort_unstable();
+    pairs.dedup();
+    let alone = |count: usize, side: usize| {
+        (0..count)
+            .filter(|k| pairs.iter().all(|pair| pair[side] != *k))
+            .collect()
+    };
+    let (dying, born) = (alone(source.len(), 0), alone(target.len(), 1));
+    Ok(Pairing { pairs, dying, born })
+}
+
+fn compare(a: &[[f64; 6]], b: &[[f64; 6]]) -> Ordering {
+    let values = a.iter().flatten().zip(b.iter().flatten());
+    let different = |(a, b): (&f64, &f64)| Some(a.total_cmp(b)).filter(|o| o.is_ne());
+    values
+        .into_iter()
+        .find_map(different)
+        .unwrap_or(Ordering::Equal)
+}
+
+fn check(fixed: &[[usize; 2]], sources: usize, targets: usize) -> Result<(), PairError> {
+    for (side, count) in [sources, targets].into_iter().enumerate() {
+        let mut seen = vec![None; count];
+        for pair in fixed {
+            let part = pair[side];
+            let slot = seen
+                .get_mut(part)
+                .ok_or(PairError::NoSuchPart { part, count })?;
+            if slot.replace(pair).is_some_and(|other| other != pair) {
+                return Err(PairError::Twice(part));
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{FillRule, Similarity};
+
+    fn block(x: f64, y: f64, w: f64, h: f64) -> Vec<DVec2> {
+        [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
+            .map(DVec2::from)
+            .to_vec()
+    }
+
+    fn regions(rings: &[Vec<DVec2>]) -> Regions {
+        Regions::from_rings(rings, FillRule::EvenOdd).expect("area")
+    }
+
+    /// A plate with holes.
+    fn plate(holes: &[Vec<DVec2>]) -> Regions {
+        let mut rings = vec![block(0.0, 0.0, 10.0, 6.0)];
+        rings.extend_from_slice(holes);
+        regions(&rings)
+    }
+
+    fn swapped(pairing: &Pairing) -> Pairing {
+        let mut pairs: Vec<_> = pairing.pairs.iter().map(|&[a, b]| [b, a]).collect();
+        pairs.sort_unstable();
+        Pairing {
+            pairs,
+            dying: pairing.born.clone(),
+            born: pairing.dying.clone(),
+        }
+    }
+
+    #[test]
+    fn a_row_keeps_its_order_wherever_it_lies() {
+        let row = |k: usize| -> Vec<_> {
+            (0..k)
+                .map(|i| block(2.0 * i as f64, 0.0, 1.0, 1.5))
+                .collect()
+        };
+        let four = regions(&row(4));
+        let moved = Similarity {
+            offset: DVec2::new(70.0, -9.0),
+            scale: 5.0,
+            ..Similarity::IDENTITY
+        };
+        let centres = |r: &Regions| {
+            r.iter()
+                .map(|p| p.outer.bounds().centre().x)
+                .collect::<Vec<_>>()
+        };
+        let other = four.transformed(&moved);
+        let pairing = pair_parts(&four, &other, &[]).expect("pairs");
+        let (a, b) = (centres(&four), centres(&other));
+        assert_eq!(pairing.pairs.len(), 4);
+        for [i, j] in pairing.pairs {
+            assert!((moved.apply(DVec2::new(a[i], 0.0)).x - b[j]).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn what_stays_alone_is_reported_and_the_way_back_is_the_inverse() {
+        let three = regions(&[
+            block(0.0, 0.0, 2.0, 2.0),
+            block(5.0, 0.0, 1.0, 1.0),
+            block(9.0, 0.0, 2.0, 2.0),
+        ]);
+        let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
+        let there = pair_parts(&three, &two, &[]).expect("pairs");
+        assert_eq!(
+            (there.pairs.len(), there.dying.len(), there.born.len()),
+            (2, 1, 0)
+        );
+        let middle = three.iter().nth(there.dying[0]).expect("a part");
+        assert!((middle.outer.signed_area() - 1.0).abs() < 1e-9);
+        assert_eq!(pair_parts(&two, &three, &[]), Ok(swapped(&there)));
+    }
+
+    #[test]
+    fn holes_follow_the_turn_of_their_part() {
+        let holes = [
+            block(1.0, 1.0, 1.0, 1.0),
+            block(8.0, 1.0, 1.0, 1.0),
+            block(4.0, 4.0, 1.0, 1.0),
+        ];
+        let source = plate(&holes);
+        for rotation in [0.0, 1.0, std::f64::consts::PI, -2.0] {
+            let turn = Similarity {
+                rotation,
+                ..Similarity::IDENTITY
+            };
+            let target = source.transformed(&turn);
+            let (a, b) = (
+                source.iter().next().expect("one"),
+                target.iter().next().expect("one"),
+            );
+            let pairing = pair_holes(a, b, rotation, &[]).expect("pairs");
+            assert_eq!(pairing.pairs, vec![[0, 0], [1, 1], [2, 2]]);
+            let back = pair_holes(b, a, -rotation, &[]).expect("pairs");
+            assert_eq!(back, swapped(&pairing));
+        }
+    }
+
+    #[test]
+    fn fixed_pairs_are_kept_and_checked() {
+        let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
+        let crossed = pair_parts(&two, &two, &[[0, 1]]).expect("pairs");
+        assert_eq!(crossed.pairs, vec![[0, 1], [1, 0]]);
+        assert_eq!(
+            pair_parts(&two, &two, &[[0, 1], [0, 0]]),
+            Err(PairError::Twice(0))
+        );
+        let missing = PairError::NoSuchPart { part: 7, count: 2 };
+        assert_eq!(pair_parts(&two, &two, &[[0, 7]]), Err(missing));
+    }
+}

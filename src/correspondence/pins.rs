@@ -1,0 +1,138 @@
+//! Pins: pairs of places that the user says are the same.
+
+use super::curve::Curve;
+
+/// A place of the source and one of the target that are the same point, each
+/// as a fraction of its curve's length from the first point.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Pin {
+    /// Place on the source; see [`Curve::nearest`] for a clicked point.
+    pub source: f64,
+    /// Place on the target.
+    pub target: f64,
+}
+
+/// Pins that no continuous match can honour.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PinError {
+    /// A place is NaN or infinite.
+    #[error("pin {0} does not lie on the outline; place it anew")]
+    NotFinite(usize),
+    /// Two pins share a point of one outline but not of the other.
+    #[error("pins {0} and {1} say different things of one point; move or delete one of them")]
+    SamePoint(usize, usize),
+    /// The pins follow each other differently on the two outlines.
+    #[error(
+        "pins {0} and {1} cross: they follow each other in another order on the other outline; \
+         move or delete one of them"
+    )]
+    Crossing(usize, usize),
+    /// A pin ties an end of an open polyline to an inner point.
+    #[error("pin {0} ties an end of one polyline to an inner point of the other; delete it")]
+    End(usize),
+}
+
+impl Pin {
+    /// The pin of the match the other way.
+    #[must_use]
+    pub const fn inverse(self) -> Self {
+        Self {
+            source: self.target,
+            target: self.source,
+        }
+    }
+}
+
+/// The pins in the order of the source, places wrapped, repetitions left out.
+/// On closed curves the order of the target may start anywhere.
+pub(super) fn ordered(
+    pins: &[Pin],
+    source: &Curve,
+    target: &Curve,
+) -> Result<Vec<[f64; 2]>, PinError> {
+    let mut places = Vec::with_capacity(pins.len());
+    for (k, pin) in pins.iter().enumerate() {
+        if !(pin.source.is_finite() && pin.target.is_finite()) {
+            return Err(PinError::NotFinite(k));
+        }
+        let place = [source.wrapped(pin.source), target.wrapped(pin.target)];
+        if !source.is_closed() && is_end(place[0]) != is_end(place[1]) {
+            return Err(PinError::End(k));
+        }
+        places.push((place, k));
+    }
+    places.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    places.dedup_by_key(|(place, _)| *place);
+    check_shared(&places)?;
+    check_order(&places, source.is_closed())?;
+    Ok(places.into_iter().map(|(place, _)| place).collect())
+}
+
+fn is_end(place: f64) -> bool {
+    place <= 0.0 || place >= 1.0
+}
+
+fn check_shared(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
+    for side in 0..2 {
+        let mut sorted = pins.to_vec();
+        sorted.sort_by(|(a, _), (b, _)| a[side].total_cmp(&b[side]));
+        let shared = sorted.windows(2).find(|w| w[0].0[side] == w[1].0[side]);
+        if let Some(pair) = shared {
+            let (a, b) = (pair[0].1, pair[1].1);
+            return Err(PinError::SamePoint(a.min(b), a.max(b)));
+        }
+    }
+    Ok(())
+}
+
+/// Names a pin outside the longest series in order, and the one it crosses.
+fn check_order(pins: &[([f64; 2], usize)], closed: bool) -> Result<(), PinError> {
+    let n = pins.len();
+    let falls = |k: usize| pins[k].0[1] > pins[(k + 1) % n].0[1];
+    let ends = if closed { n } else { n.saturating_sub(1) };
+    if (0..ends).filter(|&k| falls(k)).count() <= usize::from(closed) {
+        return Ok(());
+    }
+    let starts = if closed { n } else { 1 };
+    let series = (0..starts).map(|start| rising(pins, start, closed));
+    let kept = series.max_by_key(Vec::len).unwrap_or_default();
+    let odd = (0..n).find(|k| !kept.contains(k)).unwrap_or(0);
+    let turned = |place: f64| {
+        if closed {
+            (place - pins[kept[0]].0[1]).rem_euclid(1.0)
+        } else {
+            place
+        }
+    };
+    let ahead = |k: usize| (k + n - kept[0]) % n;
+    let crossed =
+        |&&k: &&usize| (ahead(k) < ahead(odd)) != (turned(pins[k].0[1]) < turned(pins[odd].0[1]));
+    let other = kept.iter().find(crossed).copied().unwrap_or(kept[0]);
+    let (a, b) = (pins[odd].1, pins[other].1);
+    Err(PinError::Crossing(a.min(b), a.max(b)))
+}
+
+/// The longest series from `start` on that rises in the target too.
+fn rising(pins: &[([f64; 2], usize)], start: usize, closed: bool) -> Vec<usize> {
+    let n = pins.len();
+    let base = if closed { pins[start].0[1] } else { 0.0 };
+    let value = |k: usize| {
+        let place = pins[(start + k) % n].0[1] - base;
+        if closed { place.rem_euclid(1.0) } else { place }
+    };
+    let mut best: Vec<(usize, usize)> = Vec::with_capacity(n); // length, predecessor
+    for k in 0..n {
+        let before = (0..k).filter(|&b| value(b) < value(k));
+        let longest = before.max_by_key(|&b| best[b].0);
+        best.push(longest.map_or((1, k), |b| (best[b].0 + 1, b)));
+    }
+    let mut k = (0..n).max_by_key(|&k| best[k].0).unwrap_or(0);
+    let mut series = vec![(start + k) % n];
+    while best[k].1 != k {
+        k = best[k].1;
+        series.push((start + k) % n);
+    }
+    series.reverse();
+    series
+}

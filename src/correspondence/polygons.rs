@@ -1,0 +1,308 @@
+//! Two polygons with the same number of corresponding vertices.
+//!
+//! Every vertex of either curve is a vertex of both. A vertex of one curve and
+//! one of the other that lie close to the same place are taken as one,
+//! corners first: else each pair of corners, matched to within a fraction of
+//! a sample, would leave a tiny edge.
+//!
+//! Both polygons run on their curves exactly, since all of a curve's own
+//! points are kept bit by bit and what is added lies on its edges, to
+//! rounding. Whoever wants fewer vertices simplifies the curves first.
+
+use super::boundary_match::{BoundaryMatch, interpolated};
+use super::curve::Curve;
+use super::samples::corners;
+use crate::geometry::DVec2;
+
+/// How vertices are shared; lengths are fractions of the curves' length.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PolygonOptions {
+    /// Corners of the two curves nearer than this become one vertex.
+    pub snap_corners: f64,
+    /// Other vertices nearer than this become one.
+    pub snap: f64,
+    /// No two neighbours are farther apart, on the mean of the two curves;
+    /// infinite to add no vertices.
+    pub spacing: f64,
+}
+
+impl Default for PolygonOptions {
+    fn default() -> Self {
+        Self {
+            snap_corners: 0.008,
+            snap: 0.0025,
+            spacing: f64::INFINITY,
+        }
+    }
+}
+
+/// Corresponding vertices: as many in the source as in the target, no two
+/// neighbours in the same point.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SharedPolygons {
+    /// Vertices on the source.
+    pub source: Vec<DVec2>,
+    /// Vertices on the target.
+    pub target: Vec<DVec2>,
+    /// Their places, `[source, target]`.
+    pub places: Vec<[f64; 2]>,
+}
+
+/// Gap of the common parameter below which two vertices are one.
+const SAME: f64 = 1e-12;
+
+/// Most that spacing may add, whatever it says.
+const MOST_ADDED: f64 = 1e5;
+
+/// Places of the two curves that are one vertex, in the common parameter.
+type Joint = [f64; 2];
+
+/// A vertex to come: its common parameter and, where it is a curve's own
+/// point or a pin, its place.
+#[derive(Clone, Copy)]
+struct Vertex {
+    at: f64,
+    places: [Option<f64>; 2],
+}
+
+impl BoundaryMatch {
+    /// Both curves as polygons with corresponding vertices, in order. The
+    /// curves must be those that were matched.
+    #[must_use]
+    pub fn polygons(
+        &self,
+        source: &Curve,
+        target: &Curve,
+        options: &PolygonOptions,
+    ) -> SharedPolygons {
+        let curves = [source, target];
+        let common = Common::new(self, curves);
+        let all = [0, 1].map(|side| common.own(curves[side].places(), side));
+        let sharp = [0, 1].map(|side| {
+            let places: Vec<f64> = corners(curves[side]).iter().map(|c| c.0).collect();
+            common.own(&places, side)
+        });
+        let mut joints = vec![[0.0; 2], [1.0; 2]];
+        for pin in &self.pins {
+            insert(&mut joints, [0, 1].map(|s| common.parameter(pin[s], s)));
+        }
+        join(&mut joints, &sharp, options.snap_corners);
+        join(&mut joints, &all, options.snap);
+        let mut vertices: Vec<Vertex> = Vec::new();
+        for side in 0..2 {
+            let pins = self.pins.iter().map(|pin| pin[side]);
+            for place in curves[side].places().iter().copied().chain(pins) {
+                let at = warped(&joints, common.parameter(place, side), side);
+                let mut places = [None; 2];
+                places[side] = Some(place);
+                vertices.push(Vertex { at, places });
+            }
+        }
+        let vertices = spaced(merged(vertices, self.closed), options.spacing, self.closed);
+        assembled(&vertices, &joints, &common, curves)
+    }
+}
+
+/// The common parameter of both curves: the mean of the lengths walked from
+/// the first knot on, in [0, 1].
+struct Common {
+    /// `[source, parameter]` and `[target, parameter]` at the knots.
+    tables: [Vec<[f64; 2]>; 2],
+    closed: bool,
+}
+
+impl Common {
+    /// The seam lies at a knot that is a point of both curves, if there is one.
+    fn new(matched: &BoundaryMatch, curves: [&Curve; 2]) -> Self {
+        let mut knots = matched.knots.clone();
+        if matched.closed {
+            let is_own = |place: f64, c: &Curve| {
+                c.places().binary_search_by(|p| p.total_cmp(&place)).is_ok()
+            };
+            let both = |k: &[f64; 2]| is_own(k[0], curves[0]) && is_own(k[1], curves[1]);
+            let seam = knots.iter().position(both).unwrap_or(0);
+            knots.rotate_left(seam);
+            knots.push(knots[0].map(|place| place + 1.0));
+        }
+        let start = knots[0];
+        let last = knots.len() - 1;
+        for (k, knot) in knots.iter_mut().enumerate() {
+            for side in 0..2 {
+                if k < last && knot[side] < start[side] {
+                    knot[side] += 1.0;
+                }
+            }
+        }
+        let mean = |k: &[f64; 2]| 0.5 * ((k[0] - start[0]) + (k[1] - start[1]));
+        let table = |side: usize| knots.iter().map(|k| [k[side], mean(k)]).collect();
+        Self {
+            tables: [table(0), table(1)],
+            closed: matched.closed,
+        }
+    }
+
+    fn parameter(&self, place: f64, side: usize) -> f64 {
+        let first = self.tables[side][0][0];
+        let over = self.closed && place < first;
+        interpolated(
+            &self.tables[side],
+            if over { place + 1.0 } else { place },
+            0,
+        )
+    }
+
+    fn place(&self, parameter: f64, side: usize, curve: &Curve) -> f64 {
+        curve.wrapped(interpolated(&self.tables[side], parameter, 1))
+    }
+
+    /// Parameters of a curve's places, ascending.
+    fn own(&self, places: &[f64], side: usize) -> Vec<f64> {
+        let mut own: Vec<f64> = places.iter().map(|&p| self.parameter(p, side)).collect();
+        own.sort_by(f64::total_cmp);
+        own
+    }
+}
+
+/// Inserts a joint in order, unless it would cross or touch another.
+fn insert(joints: &mut Vec<Joint>, joint: Joint) {
+    let at = joints.partition_point(|j| j[0] < joint[0]);
+    let fits = |k: usize| (0..2).all(|s| joints[k - 1][s] < joint[s] && joint[s] < joints[k][s]);
+    if at > 0 && at < joints.len() && fits(at) {
+        joints.insert(at, joint);
+    }
+}
+
+/// Joins vertices that are each other's nearest, as the joints so far bend
+/// the parameter, and within `limit` and the joints on either side.
+fn join(joints: &mut Vec<Joint>, own: &[Vec<f64>; 2], limit: f64) {
+    let bent = [0, 1]
+        .map(|side| -> Vec<f64> { own[side].iter().map(|&t| warped(joints, t, side)).collect() });
+    let mut found = Vec::new();
+    for (k, &at) in bent[0].iter().enumerate() {
+        let Some(other) = nearest(&bent[1], at) else {
+            continue;
+        };
+        let mutual = nearest(&bent[0], bent[1][other]) == Some(k);
+        if mutual && (at - bent[1][other]).abs() <= limit {
+            found.push([own[0][k], own[1][other]]);
+        }
+    }
+    for joint in found {
+        insert(joints, joint);
+    }
+}
+
+/// Index of the value nearest to `at` in an ascending list, the first of two.
+fn nearest(list: &[f64], at: f64) -> Option<usize> {
+    let after = list.partition_point(|&x| x < at);
+    let candidates = after.saturating_sub(1)..(after + 1).min(list.len());
+    candidates.min_by(|&a, &b| (list[a] - at).abs().total_cmp(&(list[b] - at).abs()))
+}
+
+/// The parameter bent so that both sides of each joint fall together.
+fn warped(joints: &[Joint], parameter: f64, side: usize) -> f64 {
+    let k = joints
+        .partition_point(|j| j[side] <= parameter)
+        .clamp(1, joints.len() - 1);
+    let [from, to] = [joints[k - 1], joints[k]];
+    let along = (parameter - from[side]) / (to[side] - from[side]);
+    let mean = |j: Joint| j[0].midpoint(j[1]);
+    if along >= 1.0 {
+        mean(to)
+    } else {
+        mean(from) + along.max(0.0) * (mean(to) - mean(from))
+    }
+}
+
+/// The parameter of one side from the bent one.
+fn unwarped(joints: &[Joint], bent: f64, side: usize) -> f64 {
+    let mean = |j: &Joint| j[0].midpoint(j[1]);
+    let k = joints
+        .partition_point(|j| mean(j) <= bent)
+        .clamp(1, joints.len() - 1);
+    let [from, to] = [joints[k - 1], joints[k]];
+    let along = (bent - mean(&from)) / (mean(&to) - mean(&from));
+    from[side] + along.clamp(0.0, 1.0) * (to[side] - from[side])
+}
+
+/// In order, with vertices at the same parameter as one.
+fn merged(mut vertices: Vec<Vertex>, closed: bool) -> Vec<Vertex> {
+    if closed {
+        // The seam is one place.
+        for vertex in &mut vertices {
+            if vertex.at >= 1.0 - SAME {
+                vertex.at = 0.0;
+            }
+        }
+    }
+    vertices.sort_by(|a, b| a.at.total_cmp(&b.at));
+    let mut merged: Vec<Vertex> = Vec::with_capacity(vertices.len());
+    for vertex in vertices {
+        match merged.last_mut() {
+            Some(last) if vertex.at - last.at <= SAME => {
+                for side in 0..2 {
+                    last.places[side] = last.places[side].or(vertex.places[side]);
+                }
+            }
+            _ => merged.push(vertex),
+        }
+    }
+    merged
+}
+
+/// With even places between neighbours that are too far apart.
+fn spaced(vertices: Vec<Vertex>, spacing: f64, closed: bool) -> Vec<Vertex> {
+    let mut spaced = Vec::with_capacity(vertices.len());
+    for (k, &vertex) in vertices.iter().enumerate() {
+        spaced.push(vertex);
+        let next = match vertices.get(k + 1) {
+            Some(next) => next.at,
+            None if closed => vertices[0].at + 1.0,
+            None => break,
+        };
+        let gap = next - vertex.at;
+        let pieces = (gap / spacing).ceil().clamp(1.0, 1.0 + MOST_ADDED * gap) as u32;
+        let at = |k: u32| vertex.at + gap * f64::from(k) / f64::from(pieces);
+        let places = [None; 2];
+        spaced.extend((1..pieces).map(|k| Vertex {
+            at: at(k) % 1.0,
+            places,
+        }));
+    }
+    spaced
+}
+
+fn assembled(
+    vertices: &[Vertex],
+    joints: &[Joint],
+    common: &Common,
+    curves: [&Curve; 2],
+) -> SharedPolygons {
+    let mut shared = SharedPolygons {
+        source: Vec::with_capacity(vertices.len()),
+        target: Vec::with_capacity(vertices.len()),
+        places: Vec::with_capacity(vertices.len()),
+    };
+    for vertex in vertices {
+        let places = [0, 1].map(|side| {
+            let made = || common.place(unwarped(joints, vertex.at, side), side, curves[side]);
+            vertex.places[side].unwrap_or_else(made)
+        });
+        let (p, q) = (curves[0].point_at(places[0]), curves[1].point_at(places[1]));
+        if shared.source.last() != Some(&p) && shared.target.last() != Some(&q) {
+            shared.source.push(p);
+            shared.target.push(q);
+            shared.places.push(places);
+        }
+    }
+    while common.closed && shared.source.len() > 3 && closes_twice(&shared) {
+        shared.source.pop();
+        shared.target.pop();
+        shared.places.pop();
+    }
+    shared
+}
+
+fn closes_twice(shared: &SharedPolygons) -> bool {
+    shared.source.first() == shared.source.last() || shared.target.first() == shared.target.last()
+}

@@ -1,0 +1,187 @@
+//! A path of unit steps made a strictly monotone one with even stretch.
+//!
+//! Unit steps let one sample stand for many: a stretch of boundary without
+//! length in the other design. Here, near the path found, each step goes
+//! forward in *both* curves, and stretch is priced by (Δa − Δb)² / (Δa + Δb):
+//! as before where all is stretched into one place, cheaper the more evenly
+//! it is shared out.
+
+use super::lattice::Lattice;
+
+/// Steps in source and target samples: up to 1 : 8, without common factors.
+const STEPS: [[usize; 2]; 21] = [
+    [1, 1],
+    [1, 2],
+    [2, 1],
+    [1, 3],
+    [3, 1],
+    [2, 3],
+    [3, 2],
+    [1, 4],
+    [4, 1],
+    [3, 4],
+    [4, 3],
+    [1, 5],
+    [5, 1],
+    [2, 5],
+    [5, 2],
+    [1, 6],
+    [6, 1],
+    [1, 7],
+    [7, 1],
+    [1, 8],
+    [8, 1],
+];
+
+/// The cheapest strictly monotone path from the first to the last of `nodes`,
+/// no farther than `reach` samples from them. Where no such path exists the
+/// unit steps are taken together until they advance in both.
+pub(super) fn refine(lattice: &Lattice, nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
+    let windows = windows(nodes, reach);
+    cheapest(lattice, &windows).unwrap_or_else(|| blocks(nodes))
+}
+
+/// Unit steps taken together so that each block advances in both. The path
+/// as a whole must do so.
+pub(super) fn blocks(nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    let mut kept = vec![nodes[0]];
+    for &node in &nodes[1..] {
+        let last = kept[kept.len() - 1];
+        if node[0] > last[0] && node[1] > last[1] {
+            kept.push(node);
+        }
+    }
+    // What is left over at the end joins the last block.
+    let end = nodes.len() - 1;
+    let last = kept.len() - 1;
+    kept[last] = nodes[end];
+    kept
+}
+
+/// For each row the columns within `reach` of the path, taken as a square.
+fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
+    let [columns, rows] = nodes[nodes.len() - 1];
+    let mut first = vec![columns; rows + 1];
+    let mut last = vec![0; rows + 1];
+    for &[i, j] in nodes {
+        first[j] = first[j].min(i);
+        last[j] = last[j].max(i);
+    }
+    let window = |j: usize| {
+        let low = first[j.saturating_sub(reach)].saturating_sub(reach);
+        let high = (last[(j + reach).min(rows)] + reach).min(columns);
+        [low, high]
+    };
+    (0..=rows).map(window).collect()
+}
+
+fn cheapest(lattice: &Lattice, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> {
+    let width = lattice.source.len();
+    let mut cost = vec![f64::INFINITY; width * windows.len()];
+    let mut came = vec![usize::MAX; cost.len()];
+    cost[0] = 0.0;
+    for (j, &[low, high]) in windows.iter().enumerate() {
+        for i in low..=high {
+            if let Some((total, step)) = best_step(lattice, &cost, [i, j]) {
+                cost[j * width + i] = total;
+                came[j * width + i] = step;
+            }
+        }
+    }
+    let (mut i, mut j) = (width - 1, windows.len() - 1);
+    let mut nodes = vec![[i, j]];
+    while (i, j) != (0, 0) {
+        let [di, dj] = *STEPS.get(came[j * width + i])?;
+        (i, j) = (i - di, j - dj);
+        nodes.push([i, j]);
+    }
+    nodes.reverse();
+    Some(nodes)
+}
+
+/// The cheapest way to a node: its cost and the step, none where no step
+/// comes from a node reached.
+fn best_step(lattice: &Lattice, cost: &[f64], [i, j]: [usize; 2]) -> Option<(f64, usize)> {
+    let mut best = None;
+    for (k, &[di, dj]) in STEPS.iter().enumerate() {
+        if i < di || j < dj {
+            continue;
+        }
+        let before = cost[(j - dj) * lattice.source.len() + i - di];
+        if before.is_finite() {
+            let total = before + price(lattice, [i - di, j - dj], [di, dj]);
+            if best.is_none_or(|(least, _)| total < least) {
+                best = Some((total, k));
+            }
+        }
+    }
+    best
+}
+
+/// Bending along the straight step by the trapezoid rule, and its stretch.
+fn price(lattice: &Lattice, [i, j]: [usize; 2], [di, dj]: [usize; 2]) -> f64 {
+    let walked_source = lattice.source[i + di] - lattice.source[i];
+    let walked_target = lattice.target[j + dj] - lattice.target[j];
+    let walked = walked_source + walked_target;
+    let stretch = (walked_source - walked_target).powi(2) / walked;
+    let pieces = di.max(dj);
+    let mut bend = 0.5 * (lattice.at(i, j) + lattice.at(i + di, j + dj));
+    for k in 1..pieces {
+        bend += between(lattice, [i, j], [di * k, dj * k], pieces);
+    }
+    0.5 * walked * bend / pieces as f64 + lattice.stretch * stretch
+}
+
+/// Unlikeness at `(i, j) + (ahead / pieces)`, linear between samples.
+fn between(lattice: &Lattice, [i, j]: [usize; 2], ahead: [usize; 2], pieces: usize) -> f64 {
+    let [x, y] = ahead.map(|a| a / pieces);
+    let [u, v] = ahead.map(|a| (a % pieces) as f64 / pieces as f64);
+    let (i, j) = (i + x, j + y);
+    // One of u and v is 0: the longer side of a step goes sample by sample.
+    let next = lattice.at(i + usize::from(u > 0.0), j + usize::from(v > 0.0));
+    let part = u.max(v);
+    (1.0 - part) * lattice.at(i, j) + part * next
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Even samples and the same unlikeness everywhere.
+    fn plain(n: usize, m: usize) -> Lattice {
+        let even = |count: usize| (0..=count).map(|k| k as f64 / count as f64).collect();
+        Lattice {
+            source: even(n),
+            target: even(m),
+            unlike: vec![1.0; (n + 1) * (m + 1)],
+            stretch: 1.0,
+        }
+    }
+
+    #[test]
+    fn stretch_is_shared_out_evenly() {
+        let nodes: Vec<_> = (0..=12)
+            .map(|i| [i, 0])
+            .chain((1..=6).map(|j| [12, j]))
+            .collect();
+        let refined = refine(&plain(12, 6), &nodes, 20);
+        let expected: Vec<_> = (0..=6).map(|j| [2 * j, j]).collect();
+        assert_eq!(refined, expected);
+    }
+
+    #[test]
+    fn a_step_costs_what_its_halves_cost_where_nothing_changes() {
+        let lattice = plain(8, 8);
+        let whole = price(&lattice, [0, 0], [1, 2]) + price(&lattice, [1, 2], [1, 2]);
+        let long = 0.5 * (0.25 + 0.5) + (0.25f64 - 0.5).powi(2) / 0.75;
+        assert!((whole - long).abs() < 1e-15);
+    }
+
+    #[test]
+    fn what_no_step_can_reach_is_taken_in_blocks() {
+        let nodes: Vec<_> = (0..=40).map(|i| [i, 0]).chain([[40, 1]]).collect();
+        assert_eq!(refine(&plain(40, 1), &nodes, 3), vec![[0, 0], [40, 1]]);
+        let steps = [[0, 0], [1, 0], [2, 1], [3, 2], [3, 3], [4, 3]];
+        assert_eq!(blocks(&steps), vec![[0, 0], [2, 1], [3, 2], [4, 3]]);
+    }
+}
