@@ -6,9 +6,11 @@
 //! spiral may lie over itself.
 
 mod elements;
+mod polygons;
 mod truss;
 
 pub use elements::{BarElement, CompatibleError, Which};
+pub use polygons::{PolygonOptions, PolygonsError};
 
 use crate::design::Truss;
 use crate::geometry::{Bounds, DVec2};

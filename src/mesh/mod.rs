@@ -8,6 +8,7 @@
 mod components;
 mod connectivity;
 mod subdivide;
+pub mod triangulation;
 
 pub use components::components;
 pub use connectivity::{Connectivity, ConnectivityError};

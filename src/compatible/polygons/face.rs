@@ -1,0 +1,146 @@
+//! What one face costs in its two embeddings, with gradients.
+//!
+//! The cost is symmetric in the two designs: the squared conformal
+//! distortion of the map between them (Hormann, Greiner 2000), the squared
+//! shape of the face in each, and a little of the change of area. It grows
+//! beyond all bounds as a face flattens in either design.
+
+use crate::geometry::{DVec2, orient2d, twice_signed_area};
+
+pub(super) type Corners = [DVec2; 3];
+
+/// What the shape in each design counts against the distortion between them.
+const SHAPE: f64 = 0.05;
+/// What the change of area counts.
+const AREA: f64 = 0.02;
+
+/// A cost and its gradients by the corners in the source and in the target.
+pub(super) struct Cost {
+    pub(super) value: f64,
+    pub(super) gradients: [Corners; 2],
+}
+
+/// Squared edges over the area, 1 for an equilateral triangle; infinite for
+/// one that is not positive.
+pub(super) fn shape(p: Corners) -> f64 {
+    let det = twice_signed_area(p[0], p[1], p[2]);
+    if det > 0.0 {
+        squares(edges(p)) / (2.0 * 3f64.sqrt() * det)
+    } else {
+        f64::INFINITY
+    }
+}
+
+/// Whether a face is positive, exactly.
+pub(super) fn is_positive(p: Corners) -> bool {
+    orient2d(p[0], p[1], p[2]) > 0.0
+}
+
+/// Half of σ₁/σ₂ + σ₂/σ₁ of the map from `p` to `q`: 1 where angles are kept.
+pub(super) fn distortion(p: Corners, q: Corners) -> f64 {
+    let dets = twice_signed_area(p[0], p[1], p[2]) * twice_signed_area(q[0], q[1], q[2]);
+    dirichlet(products(edges(p)), edges(q)) / (2.0 * dets)
+}
+
+/// The cost alone; infinite where a face is not positive in both.
+pub(super) fn value(p: Corners, q: Corners) -> f64 {
+    evaluate(p, q).map_or(f64::INFINITY, |cost| cost.value)
+}
+
+/// The cost with its gradients; `None` where a face is not positive in both.
+pub(super) fn evaluate(p: Corners, q: Corners) -> Option<Cost> {
+    let det = [p, q].map(|c| twice_signed_area(c[0], c[1], c[2]));
+    if !(det[0] > 0.0 && det[1] > 0.0) {
+        return None;
+    }
+    let e = [edges(p), edges(q)];
+    let products = e.map(products);
+    let conformal = dirichlet(products[0], e[1]) / (2.0 * det[0] * det[1]);
+    let ratio = det[1] / det[0];
+    let shapes = [0, 1].map(|d| squares(e[d]) / (2.0 * 3f64.sqrt() * det[d]));
+    let mut gradients = [[DVec2::ZERO; 3]; 2];
+    for d in 0..2 {
+        let towards = if d == 0 {
+            1.0 / ratio - ratio
+        } else {
+            ratio - 1.0 / ratio
+        };
+        for k in 0..3 {
+            let [opposite, next, last] = [e[d][k], e[d][(k + 1) % 3], e[d][(k + 2) % 3]];
+            let of_det = opposite.perp() / det[d];
+            let other = products[1 - d];
+            let of_dirichlet = 2.0 * (other[(k + 1) % 3] * next - other[(k + 2) % 3] * last);
+            let of_conformal = of_dirichlet / (2.0 * det[0] * det[1]) - conformal * of_det;
+            let of_shape = 2.0 * (next - last) / (2.0 * 3f64.sqrt() * det[d]) - shapes[d] * of_det;
+            gradients[d][k] = 2.0 * conformal * of_conformal
+                + SHAPE * 2.0 * shapes[d] * of_shape
+                + AREA * 0.5 * towards * of_det;
+        }
+    }
+    let value = conformal * conformal
+        + SHAPE * (shapes[0] * shapes[0] + shapes[1] * shapes[1])
+        + AREA * 0.5 * (ratio + 1.0 / ratio);
+    value.is_finite().then_some(Cost { value, gradients })
+}
+
+/// Edge k lies opposite corner k; the three add up to zero.
+fn edges(p: Corners) -> Corners {
+    [p[2] - p[1], p[0] - p[2], p[1] - p[0]]
+}
+
+fn squares(e: Corners) -> f64 {
+    e.iter().map(|e| e.length_squared()).sum()
+}
+
+/// For each corner the product of its two edges: its cotangent times the
+/// doubled area.
+fn products(e: Corners) -> [f64; 3] {
+    [-e[1].dot(e[2]), -e[2].dot(e[0]), -e[0].dot(e[1])]
+}
+
+/// The squared Jacobian times both doubled areas, symmetric in the two.
+fn dirichlet(products: [f64; 3], e: Corners) -> f64 {
+    (0..3).map(|k| products[k] * e[k].length_squared()).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const P: Corners = [DVec2::ZERO, DVec2::new(1.0, 0.1), DVec2::new(0.3, 0.8)];
+    const Q: Corners = [
+        DVec2::new(0.1, 0.0),
+        DVec2::new(2.0, 0.4),
+        DVec2::new(0.2, 0.5),
+    ];
+
+    #[test]
+    fn distortion_agrees_with_singular_values() {
+        let stretched = P.map(|p| DVec2::new(3.0 * p.x, p.y));
+        assert!((distortion(P, stretched) - 0.5 * (3.0 + 1.0 / 3.0)).abs() < 1e-12);
+        assert!((distortion(P, Q) - distortion(Q, P)).abs() < 1e-12);
+    }
+
+    #[test]
+    fn gradients_agree_with_differences() {
+        let cost = evaluate(P, Q).expect("positive");
+        let h = 1e-6;
+        for design in 0..2 {
+            for corner in 0..3 {
+                for axis in [DVec2::X, DVec2::Y] {
+                    let moved = |by: f64| {
+                        let mut corners = [P, Q];
+                        corners[design][corner] += by * axis;
+                        value(corners[0], corners[1])
+                    };
+                    let slow = (moved(h) - moved(-h)) / (2.0 * h);
+                    let fast = cost.gradients[design][corner].dot(axis);
+                    assert!(
+                        (slow - fast).abs() < 1e-6 * (1.0 + slow.abs()),
+                        "{slow} {fast}"
+                    );
+                }
+            }
+        }
+    }
+}

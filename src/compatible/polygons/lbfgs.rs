@@ -1,0 +1,170 @@
+//! Minimisation of a smooth function by limited-memory BFGS (Liu, Nocedal
+//! 1989) with a weak Wolfe line search by bisection (Lewis, Overton 2013).
+//!
+//! The function may be infinite: such steps are shortened, so that what
+//! starts finite stays finite. Nothing is promised about how near the
+//! minimum the result is; it is never higher than the start.
+
+/// Pairs of steps and gradient changes that are remembered.
+const MEMORY: usize = 12;
+/// Least share of the predicted decrease (Armijo).
+const DECREASE: f64 = 1e-4;
+/// How much of the slope may be left (Wolfe).
+const CURVATURE: f64 = 0.9;
+/// Trials of one line search.
+const TRIALS: usize = 25;
+
+/// Moves `x` downhill by at most `rounds` steps and returns the value there.
+/// `function` gives the value and fills the gradient. Stops early when a step
+/// lowers the value by less than the share `enough`.
+pub(super) fn minimise(
+    x: &mut [f64],
+    rounds: usize,
+    enough: f64,
+    mut function: impl FnMut(&[f64], &mut [f64]) -> f64,
+) -> f64 {
+    let mut gradient = vec![0.0; x.len()];
+    let mut value = function(x, &mut gradient);
+    let mut memory: Vec<Pair> = Vec::new();
+    for _ in 0..rounds {
+        let direction = direction(&memory, &gradient);
+        let Some(found) = search(x, value, &gradient, &direction, &mut function) else {
+            break;
+        };
+        let before = value;
+        remember(&mut memory, x, &gradient, &found);
+        x.copy_from_slice(&found.x);
+        gradient = found.gradient;
+        value = found.value;
+        if before - value <= enough * before.abs() {
+            break;
+        }
+    }
+    value
+}
+
+struct Pair {
+    step: Vec<f64>,
+    change: Vec<f64>,
+    product: f64,
+}
+
+struct Found {
+    x: Vec<f64>,
+    gradient: Vec<f64>,
+    value: f64,
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+fn add_scaled(a: &mut [f64], by: f64, b: &[f64]) {
+    a.iter_mut().zip(b).for_each(|(a, b)| *a += by * b);
+}
+
+fn direction(memory: &[Pair], gradient: &[f64]) -> Vec<f64> {
+    let mut d: Vec<f64> = gradient.iter().map(|g| -g).collect();
+    let mut shares = Vec::with_capacity(memory.len());
+    for pair in memory.iter().rev() {
+        let share = dot(&pair.step, &d) / pair.product;
+        add_scaled(&mut d, -share, &pair.change);
+        shares.push(share);
+    }
+    let scale = match memory.last() {
+        Some(last) => last.product / dot(&last.change, &last.change),
+        None => 1.0 / dot(gradient, gradient).sqrt().max(1.0),
+    };
+    d.iter_mut().for_each(|d| *d *= scale);
+    for (pair, share) in memory.iter().zip(shares.iter().rev()) {
+        let back = dot(&pair.change, &d) / pair.product;
+        add_scaled(&mut d, share - back, &pair.step);
+    }
+    d
+}
+
+fn search(
+    x: &[f64],
+    value: f64,
+    gradient: &[f64],
+    direction: &[f64],
+    function: &mut impl FnMut(&[f64], &mut [f64]) -> f64,
+) -> Option<Found> {
+    let slope = dot(gradient, direction);
+    if !value.is_finite() || slope.is_nan() || slope >= 0.0 {
+        return None;
+    }
+    let (mut low, mut high, mut length) = (0.0, f64::INFINITY, 1.0);
+    let mut best: Option<Found> = None;
+    for _ in 0..TRIALS {
+        let mut trial = Found {
+            x: x.to_vec(),
+            gradient: vec![0.0; x.len()],
+            value: 0.0,
+        };
+        add_scaled(&mut trial.x, length, direction);
+        trial.value = function(&trial.x, &mut trial.gradient);
+        let descends = trial.value <= value + DECREASE * length * slope;
+        if !descends {
+            high = length;
+        } else if dot(&trial.gradient, direction) < CURVATURE * slope {
+            low = length;
+            best = Some(trial);
+        } else {
+            return Some(trial);
+        }
+        length = if high.is_finite() {
+            0.5 * (low + high)
+        } else {
+            2.0 * low
+        };
+    }
+    best
+}
+
+fn remember(memory: &mut Vec<Pair>, x: &[f64], gradient: &[f64], found: &Found) {
+    let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
+    let (step, change) = (minus(&found.x, x), minus(&found.gradient, gradient));
+    let product = dot(&step, &change);
+    if product > 1e-14 * dot(&change, &change) {
+        if memory.len() == MEMORY {
+            memory.remove(0);
+        }
+        memory.push(Pair {
+            step,
+            change,
+            product,
+        });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_curved_valley_is_followed_to_its_end() {
+        let mut x = vec![-1.2, 1.0];
+        let value = minimise(&mut x, 100, 0.0, |x, g| {
+            let (a, b) = (1.0 - x[0], x[1] - x[0] * x[0]);
+            g[0] = -2.0 * a - 400.0 * x[0] * b;
+            g[1] = 200.0 * b;
+            a * a + 100.0 * b * b
+        });
+        assert!(value < 1e-12 && (x[0] - 1.0).abs() < 1e-5, "{value} {x:?}");
+    }
+
+    #[test]
+    fn a_barrier_is_never_crossed() {
+        let mut x = vec![1e-3];
+        let value = minimise(&mut x, 100, 0.0, |x, g| {
+            g[0] = 1.0 - 1e-6 / (x[0] * x[0]);
+            if x[0] > 0.0 {
+                x[0] + 1e-6 / x[0]
+            } else {
+                f64::INFINITY
+            }
+        });
+        assert!((value - 2e-3).abs() < 1e-9 && x[0] > 0.0);
+    }
+}

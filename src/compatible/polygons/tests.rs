@@ -1,0 +1,251 @@
+//! Random simple polygons, bad matches and exact oracles.
+
+use super::*;
+use crate::geometry::{Ring, orient2d};
+use crate::progress::Silent;
+use proptest::prelude::*;
+use std::f64::consts::TAU;
+
+/// Numbers in [0, 1) that follow from a seed (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 53) as f64
+    }
+}
+
+fn polar(radius: f64, angle: f64) -> DVec2 {
+    radius * DVec2::from_angle(angle)
+}
+
+fn star(n: usize, random: &mut Random) -> Vec<DVec2> {
+    let radius = |i| polar(0.05 + random.next(), TAU * f64::from(i) / n as f64);
+    (0..n as u32).map(radius).collect()
+}
+
+/// Random points in an order without crossings, by turning pieces round.
+fn two_opt(n: usize, random: &mut Random) -> Vec<DVec2> {
+    let mut points: Vec<DVec2> = (0..n)
+        .map(|_| DVec2::new(random.next(), random.next()))
+        .collect();
+    while let Err(PolygonsError::NotSimple { edges: [i, j], .. }) =
+        simple::check(&points, Which::Source)
+    {
+        points[i + 1..=j].reverse();
+    }
+    counter_clockwise(points)
+}
+
+fn counter_clockwise(mut points: Vec<DVec2>) -> Vec<DVec2> {
+    if Ring::new(points.clone()).is_ok_and(|ring| ring.signed_area() < 0.0) {
+        points.reverse();
+    }
+    points
+}
+
+fn comb(teeth: usize, depth: f64) -> Vec<DVec2> {
+    let mut points = vec![DVec2::ZERO, DVec2::new(teeth as f64, 0.0)];
+    for tooth in (0..teeth).rev() {
+        let x = tooth as f64;
+        let tips = [(0.9, depth), (0.1, depth), (0.0, 0.1)];
+        points.extend(tips.map(|(dx, y)| DVec2::new(x + dx, y)));
+    }
+    points
+}
+
+/// A band that winds round itself.
+fn spiral(steps: usize, turns: f64) -> Vec<DVec2> {
+    let at = |i: usize, out: f64| {
+        let share = i as f64 / steps as f64;
+        polar(0.2 + turns * share + out, TAU * turns * share)
+    };
+    let outer = (0..=steps).map(|i| at(i, 0.6));
+    let inner = (0..=steps).rev().map(|i| at(i, 0.0));
+    outer.chain(inner).collect::<Vec<_>>()
+}
+
+/// A square whose sides hold points almost in line.
+fn nearly_straight(n: usize, by: f64, random: &mut Random) -> Vec<DVec2> {
+    let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
+    let mut points = Vec::new();
+    for side in 0..4 {
+        let (a, b) = (corners[side], corners[(side + 1) % 4]);
+        points.push(a);
+        for k in 1..n / 4 {
+            let out = by * (random.next() - 0.5);
+            points.push(a.lerp(b, k as f64 / (n / 4) as f64) + out * (b - a).perp());
+        }
+    }
+    points
+}
+
+/// With so many points, by halving the longest edges.
+fn with_points(mut points: Vec<DVec2>, n: usize) -> Vec<DVec2> {
+    while points.len() < n {
+        let k = points.len();
+        let length = |i: usize| points[i].distance_squared(points[(i + 1) % k]);
+        let longest = (0..k).fold(0, |best, i| if length(i) > length(best) { i } else { best });
+        let middle = points[longest].midpoint(points[(longest + 1) % k]);
+        points.insert(longest + 1, middle);
+    }
+    points
+}
+
+fn shape(kind: usize, n: usize, random: &mut Random) -> Vec<DVec2> {
+    let points = match kind {
+        0 => star(n, random),
+        1 => two_opt(n, random),
+        2 => comb(
+            3 + (6.0 * random.next()) as usize,
+            0.5 + 6.0 * random.next(),
+        ),
+        3 => counter_clockwise(spiral(n / 2 - 1, 0.3 + 2.5 * random.next())),
+        4 => nearly_straight(n, 1e-3 * random.next(), random),
+        _ => nearly_straight(n, 0.0, random),
+    };
+    with_points(points, n)
+}
+
+/// Everything that is promised, held against slow and obvious oracles.
+fn hold(mesh: &CompatibleMesh, source: &[DVec2], target: &[DVec2]) {
+    let n = source.len();
+    let mut loops = mesh.boundary_loops();
+    assert_eq!(loops.len(), 1);
+    let first = loops[0].iter().position(|&v| v == 0).expect("vertex 0");
+    loops[0].rotate_left(first);
+    assert_eq!(loops[0], (0..n as u32).collect::<Vec<_>>());
+    assert_eq!(mesh.faces().len() + n + 2, 2 * mesh.source().len());
+    for (points, polygon) in [(mesh.source(), source), (mesh.target(), target)] {
+        assert_eq!(&points[..n], polygon);
+        let mut doubled = 0.0;
+        for face in mesh.faces().iter() {
+            let [a, b, c] = face.map(|v| points[v as usize]);
+            assert!(orient2d(a, b, c) > 0.0, "{face:?}");
+            doubled += (b - a).perp_dot(c - a);
+        }
+        let area = Ring::new(polygon.to_vec()).expect("a ring").signed_area();
+        assert!(
+            (0.5 * doubled - area).abs() < 1e-9 * area,
+            "{doubled} {area}"
+        );
+    }
+}
+
+fn together(source: &[DVec2], target: &[DVec2]) -> CompatibleMesh {
+    let mesh = CompatibleMesh::from_polygons(source, target, &PolygonOptions::default(), &Silent)
+        .expect("simple polygons");
+    hold(&mesh, source, target);
+    mesh
+}
+
+fn base(source: &[DVec2], target: &[DVec2]) -> PairMesh {
+    let mesh = from_base(source, target, &PolygonOptions::default(), &Silent).expect("simple");
+    let (faces, [p, q]) = mesh.compacted();
+    hold(
+        &CompatibleMesh::new(faces, p, q, vec![]).expect("valid"),
+        source,
+        target,
+    );
+    mesh
+}
+
+fn pair(kinds: (usize, usize), n: usize, seed: u64) -> Option<[Vec<DVec2>; 2]> {
+    let mut random = Random(seed);
+    let source = shape(kinds.0, n, &mut random);
+    let n = source.len();
+    let mut target = shape(kinds.1, n, &mut random);
+    let m = target.len();
+    let source = with_points(source, m);
+    target.rotate_left((random.next() * m as f64) as usize);
+    let simple = |points| simple::check(points, Which::Source).is_ok();
+    (simple(&source) && simple(&target)).then_some([source, target])
+}
+
+proptest! {
+    #[test]
+    fn any_two_polygons_at_any_shift_are_triangulated(
+        kinds in (0usize..6, 0usize..6), n in 8usize..60, seed: u64,
+    ) {
+        let Some([source, target]) = pair(kinds, n, seed) else {
+            return Err(TestCaseError::reject("not simple"));
+        };
+        together(&source, &target);
+    }
+
+    #[test]
+    fn the_base_alone_never_fails(
+        kinds in (0usize..6, 0usize..6), n in 8usize..60, seed: u64,
+    ) {
+        let Some([source, target]) = pair(kinds, n, seed) else {
+            return Err(TestCaseError::reject("not simple"));
+        };
+        base(&source, &target);
+    }
+}
+
+#[test]
+fn equal_polygons_are_not_distorted() {
+    for kind in 0..4 {
+        let polygon = shape(kind, 40, &mut Random(7));
+        let mesh = together(&polygon, &polygon);
+        for (p, q) in mesh.source().iter().zip(mesh.target()) {
+            assert!(p.distance(*q) < 1e-9, "{kind}: {p} {q}");
+        }
+    }
+}
+
+#[test]
+fn the_same_input_gives_the_same_mesh() {
+    let [source, target] = pair((1, 2), 40, 3).expect("simple");
+    let (a, b) = (together(&source, &target), together(&source, &target));
+    assert_eq!(a.faces(), b.faces());
+    assert_eq!((a.source(), a.target()), (b.source(), b.target()));
+}
+
+#[test]
+fn a_shorter_edge_length_gives_shorter_edges() {
+    let square = shape(5, 16, &mut Random(1));
+    let fine = PolygonOptions {
+        edge_length: Some(0.05),
+    };
+    let mesh = CompatibleMesh::from_polygons(&square, &square, &fine, &Silent).expect("simple");
+    hold(&mesh, &square, &square);
+    assert!(mesh.source().len() > 2 * together(&square, &square).source().len());
+}
+
+#[test]
+fn what_cannot_be_triangulated_is_named() {
+    let square = shape(5, 8, &mut Random(1));
+    let options = PolygonOptions::default();
+    let of = |a: &[DVec2], b: &[DVec2], options| {
+        CompatibleMesh::from_polygons(a, b, options, &Silent).map(|_| ())
+    };
+    assert_eq!(
+        of(&square, &square[1..], &options),
+        Err(PolygonsError::Counts([8, 7]))
+    );
+    let mut nan = square.clone();
+    nan[3].x = f64::NAN;
+    let not_finite = PolygonsError::NotFinite {
+        which: Which::Target,
+        vertex: 3,
+    };
+    assert_eq!(of(&square, &nan, &options), Err(not_finite));
+    let reversed: Vec<DVec2> = square.iter().rev().copied().collect();
+    assert_eq!(
+        of(&reversed, &square, &options),
+        Err(PolygonsError::Clockwise(Which::Source))
+    );
+    let zero = PolygonOptions {
+        edge_length: Some(0.0),
+    };
+    assert_eq!(
+        of(&square, &square, &zero),
+        Err(PolygonsError::EdgeLength(0.0))
+    );
+}

@@ -1,0 +1,266 @@
+//! The foldover-free transfer: one polygon's refined triangulation carried
+//! to the other.
+//!
+//! The boundary goes where it must, the interior follows harmonically (Tutte
+//! 1963), and fold-overs are removed by minimising
+//! Σ area · (tr(JᵀJ) + 1 + det²) / χ(det) with a shrinking ε (Garanzha,
+//! Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, "Foldover-free maps in
+//! 50 lines of code"). It gives good angles cheaply and guarantees nothing:
+//! where folds remain there is no result.
+
+use super::lbfgs::minimise;
+use super::pair::PairMesh;
+use super::{PolygonOptions, PolygonsError, checked};
+use crate::geometry::{DMat2, DVec2, twice_signed_area};
+use crate::linalg::{Cholesky, FactorKind, SymmetricMatrix};
+use crate::mesh::triangulation::{Refinement, refined};
+use crate::progress::Progress;
+
+/// Smallest angle that the refinement works towards.
+const MIN_ANGLE: f64 = 0.4;
+/// Least ε, in units of the mean determinant.
+const LEAST_EPSILON: f64 = 1e-3;
+/// Rounds of shrinking ε, and steps in each.
+const ROUNDS: usize = 60;
+const STEPS: usize = 80;
+
+/// Both polygons' common mesh, refined in the first and carried to the
+/// second; `None` where folds remain.
+pub(super) fn transfer(
+    from: &[DVec2],
+    to: &[DVec2],
+    options: &PolygonOptions,
+    progress: &dyn Progress,
+) -> Result<Option<PairMesh>, PolygonsError> {
+    let refinement = Refinement {
+        min_angle: MIN_ANGLE,
+        max_edge: options
+            .edge_length
+            .map(|share| share * super::diameter(from)),
+        max_points: super::most_points(from.len(), options),
+        split_boundary: false,
+    };
+    let Ok(start) = refined(from, &refinement) else {
+        return Ok(None);
+    };
+    let (n, points) = (from.len(), start.points);
+    let mut mesh = PairMesh::new(n, points.clone(), points, start.faces);
+    split_chords(&mut mesh);
+    mesh.points[1] = fitted(&mesh, to);
+    if !mesh.is_valid() {
+        let Some(harmonic) = harmonic(&mesh, to) else {
+            return Ok(None);
+        };
+        mesh.points[1] = harmonic;
+    }
+    for round in 0..ROUNDS {
+        if mesh.is_valid() {
+            return Ok(Some(mesh));
+        }
+        checked(progress, "removing folds", round as f64 / ROUNDS as f64)?;
+        if !untangle(&mut mesh) {
+            break;
+        }
+    }
+    Ok(mesh.is_valid().then_some(mesh))
+}
+
+/// Splits every inner edge between two polygon vertices: the faces beside it
+/// would have no freedom.
+pub(super) fn split_chords(mesh: &mut PairMesh) {
+    let n = mesh.fixed as u32;
+    for edge in mesh.inner_edges() {
+        if edge.iter().all(|&v| v < n) {
+            // A chord too short to have a middle stays.
+            mesh.split(edge);
+        }
+    }
+}
+
+/// All vertices in the second design, inner ones by the similarity that fits
+/// the polygons best: similar polygons stay undistorted.
+fn fitted(mesh: &PairMesh, to: &[DVec2]) -> Vec<DVec2> {
+    let n = mesh.fixed;
+    let mean = |points: &[DVec2]| points.iter().sum::<DVec2>() / n as f64;
+    let (p, q) = (&mesh.points[0], to);
+    let centres = [mean(&p[..n]), mean(q)];
+    let (mut turned, mut square) = (DVec2::ZERO, 0.0);
+    for (&p, &q) in p[..n].iter().zip(q) {
+        let (p, q) = (p - centres[0], q - centres[1]);
+        turned += DVec2::new(p.dot(q), p.perp_dot(q));
+        square += p.length_squared();
+    }
+    let place = |&p: &DVec2| centres[1] + (turned / square).rotate(p - centres[0]);
+    q.iter().copied().chain(p[n..].iter().map(place)).collect()
+}
+
+/// All vertices in the second design, inner ones the mean of their
+/// neighbours.
+fn harmonic(mesh: &PairMesh, to: &[DVec2]) -> Option<Vec<DVec2>> {
+    let n = mesh.fixed;
+    let inner = mesh.points[0].len() - n;
+    let mut matrix = SymmetricMatrix::zero(inner, 8 * inner);
+    let mut rhs = [vec![0.0; inner], vec![0.0; inner]];
+    for i in 0..inner {
+        for u in mesh.neighbours((i + n) as u32) {
+            matrix.add(i as u32, i as u32, 1.0);
+            match (u as usize).checked_sub(n) {
+                Some(j) if j < i => matrix.add(i as u32, j as u32, -1.0),
+                Some(_) => {}
+                None => {
+                    rhs[0][i] += to[u as usize].x;
+                    rhs[1][i] += to[u as usize].y;
+                }
+            }
+        }
+    }
+    let factor = Cholesky::factor(&matrix, FactorKind::Automatic).ok()?;
+    let [x, y] = rhs.map(|rhs| factor.solve(&rhs));
+    let placed = x.into_iter().zip(y).map(|(x, y)| DVec2::new(x, y));
+    Some(to.iter().copied().chain(placed).collect())
+}
+
+/// A face as the energy sees it.
+struct Piece {
+    corners: [usize; 3],
+    /// From edges in the target to the Jacobian, scaled to a mean
+    /// determinant of one.
+    from_edges: DMat2,
+    share: f64,
+}
+
+impl Piece {
+    fn jacobian(&self, at: impl Fn(usize) -> DVec2) -> DMat2 {
+        let [a, b, c] = self.corners.map(at);
+        DMat2::from_cols(b - a, c - a) * self.from_edges
+    }
+}
+
+fn pieces(mesh: &PairMesh) -> Vec<Piece> {
+    let doubled = |d: usize| -> f64 {
+        let area = |f| mesh.corners(f)[d];
+        mesh.faces()
+            .map(area)
+            .map(|c| twice_signed_area(c[0], c[1], c[2]))
+            .sum()
+    };
+    let total = doubled(0);
+    let scale = (total / doubled(1)).sqrt();
+    let piece = |face: [u32; 3]| {
+        let [p, _] = mesh.corners(face);
+        let edges = DMat2::from_cols(p[1] - p[0], p[2] - p[0]);
+        Piece {
+            corners: face.map(|v| v as usize),
+            from_edges: edges.inverse() * scale,
+            share: edges.determinant() / total,
+        }
+    };
+    mesh.faces().map(piece).collect()
+}
+
+/// One round at one ε; `false` if it moved nothing.
+fn untangle(mesh: &mut PairMesh) -> bool {
+    let pieces = pieces(mesh);
+    let n = mesh.fixed;
+    let fixed = mesh.points[1][..n].to_vec();
+    let least = pieces
+        .iter()
+        .map(|piece| piece.jacobian(|v| mesh.points[1][v]).determinant())
+        .fold(f64::INFINITY, f64::min);
+    let epsilon = LEAST_EPSILON.hypot(0.2 * least.min(0.0));
+    let mut x: Vec<f64> = mesh.points[1][n..]
+        .iter()
+        .flat_map(|p| [p.x, p.y])
+        .collect();
+    let before = x.clone();
+    minimise(&mut x, STEPS, 1e-5, |x, gradient| {
+        energy(&pieces, &fixed, epsilon, x, gradient)
+    });
+    for (point, xy) in mesh.points[1][n..].iter_mut().zip(x.chunks_exact(2)) {
+        *point = DVec2::new(xy[0], xy[1]);
+    }
+    x != before
+}
+
+fn energy(pieces: &[Piece], fixed: &[DVec2], epsilon: f64, x: &[f64], gradient: &mut [f64]) -> f64 {
+    let n = fixed.len();
+    let at = |v: usize| match v.checked_sub(n) {
+        None => fixed[v],
+        Some(i) => DVec2::new(x[2 * i], x[2 * i + 1]),
+    };
+    gradient.fill(0.0);
+    let mut total = 0.0;
+    for piece in pieces {
+        let j = piece.jacobian(at);
+        let (value, by_jacobian) = density(j, epsilon);
+        total += piece.share * value;
+        let by_edges = by_jacobian * piece.from_edges.transpose() * piece.share;
+        let corners = [
+            -(by_edges.x_axis + by_edges.y_axis),
+            by_edges.x_axis,
+            by_edges.y_axis,
+        ];
+        for (v, g) in piece.corners.into_iter().zip(corners) {
+            if let Some(i) = v.checked_sub(n) {
+                gradient[2 * i] += g.x;
+                gradient[2 * i + 1] += g.y;
+            }
+        }
+    }
+    total
+}
+
+/// (tr(JᵀJ) + 1 + det²) / χ(det) and its derivative by J.
+fn density(j: DMat2, epsilon: f64) -> (f64, DMat2) {
+    let det = j.determinant();
+    let root = epsilon.hypot(det);
+    // The textbook form for both signs cancels to zero where det < 0.
+    let chi = if det > 0.0 {
+        0.5 * (det + root)
+    } else {
+        0.5 * epsilon * epsilon / (root - det)
+    };
+    let cofactor = DMat2::from_cols(
+        DVec2::new(j.y_axis.y, -j.y_axis.x),
+        DVec2::new(-j.x_axis.y, j.x_axis.x),
+    );
+    let square = j.x_axis.length_squared() + j.y_axis.length_squared();
+    let value = (square + 1.0 + det * det) / chi;
+    let by_det = (2.0 * det - value * chi / root) / chi;
+    (value, j * (2.0 / chi) + cofactor * by_det)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_density_has_its_derivative_for_both_signs() {
+        for j in [
+            DMat2::from_cols(DVec2::new(1.0, 0.2), DVec2::new(-0.3, 0.8)),
+            DMat2::from_cols(DVec2::new(1.0, 0.2), DVec2::new(0.3, -0.8)),
+        ] {
+            let (_, by_j) = density(j, 0.3);
+            let h = 1e-6;
+            for k in 0..4 {
+                let moved = |by: f64| {
+                    let mut entries = j.to_cols_array();
+                    entries[k] += by;
+                    density(DMat2::from_cols_array(&entries), 0.3).0
+                };
+                let slow = (moved(h) - moved(-h)) / (2.0 * h);
+                let fast = by_j.to_cols_array()[k];
+                assert!(
+                    (slow - fast).abs() < 1e-6 * (1.0 + slow.abs()),
+                    "{slow} {fast}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_far_negative_determinant_stays_finite() {
+        let flipped = DMat2::from_diagonal(DVec2::new(1e4, -1e4));
+        assert!(density(flipped, 1e-3).0.is_finite());
+    }
+}
