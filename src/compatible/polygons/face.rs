@@ -36,12 +36,6 @@ pub(super) fn is_positive(p: Corners) -> bool {
     orient2d(p[0], p[1], p[2]) > 0.0
 }
 
-/// Half of σ₁/σ₂ + σ₂/σ₁ of the map from `p` to `q`: 1 where angles are kept.
-pub(super) fn distortion(p: Corners, q: Corners) -> f64 {
-    let dets = twice_signed_area(p[0], p[1], p[2]) * twice_signed_area(q[0], q[1], q[2]);
-    dirichlet(products(edges(p)), edges(q)) / (2.0 * dets)
-}
-
 /// The cost alone; infinite where a face is not positive in both.
 pub(super) fn value(p: Corners, q: Corners) -> f64 {
     evaluate(p, q).map_or(f64::INFINITY, |cost| cost.value)
@@ -113,6 +107,11 @@ mod tests {
         DVec2::new(2.0, 0.4),
         DVec2::new(0.2, 0.5),
     ];
+
+    fn distortion(p: Corners, q: Corners) -> f64 {
+        let dets = twice_signed_area(p[0], p[1], p[2]) * twice_signed_area(q[0], q[1], q[2]);
+        dirichlet(products(edges(p)), edges(q)) / (2.0 * dets)
+    }
 
     #[test]
     fn distortion_agrees_with_singular_values() {

@@ -20,6 +20,7 @@ mod lbfgs;
 mod overlay;
 mod pair;
 mod quality;
+mod relax;
 mod simple;
 #[cfg(test)]
 mod tests;
@@ -212,7 +213,7 @@ fn from_base(
 /// Mean cost of the faces by their area in both designs: what one mesh is
 /// preferred to another by.
 fn badness(mesh: &PairMesh) -> f64 {
-    let weighted = quality::weighted(mesh);
+    let weighted = relax::weighted(mesh);
     weighted
         .iter()
         .map(|&(face, weight)| weight * mesh.cost(face))

@@ -90,7 +90,9 @@ fn fitted(mesh: &PairMesh, to: &[DVec2]) -> Vec<DVec2> {
         turned += DVec2::new(p.dot(q), p.perp_dot(q));
         square += p.length_squared();
     }
-    let place = |&p: &DVec2| centres[1] + (turned / square).rotate(p - centres[0]);
+    // As a change, so that equal polygons leave every bit as it is.
+    let turn = turned / square - DVec2::X;
+    let place = |&p: &DVec2| p + turn.rotate(p - centres[0]) + (centres[1] - centres[0]);
     q.iter().copied().chain(p[n..].iter().map(place)).collect()
 }
 
