@@ -99,10 +99,10 @@ impl Vertices {
         let sides = |f: [u32; 3]| [[f[0], f[1]], [f[1], f[2]], [f[2], f[0]]];
         for (design, own, other) in [(0, s, t), (1, t, s)] {
             for side in sides(own) {
-                if let Some(edge) = self.piece(design, side, other) {
-                    if !next.contains(&edge) {
-                        next.push(edge);
-                    }
+                if let Some(edge) = self.piece(design, side, other)
+                    && !next.contains(&edge)
+                {
+                    next.push(edge);
                 }
             }
         }

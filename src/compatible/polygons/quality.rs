@@ -120,11 +120,11 @@ fn collapse_all(mesh: &mut PairMesh) -> usize {
             .into_iter()
             .map(|u| (mesh.collapse_cost(v, u), u))
             .min_by(|a, b| a.0.total_cmp(&b.0));
-        if let Some((cost, onto)) = best.filter(|(cost, _)| *cost <= present) {
-            if cost.is_finite() {
-                mesh.collapse(v, onto);
-                removed += 1;
-            }
+        if let Some((cost, onto)) = best.filter(|(cost, _)| *cost <= present)
+            && cost.is_finite()
+        {
+            mesh.collapse(v, onto);
+            removed += 1;
         }
     }
     removed
@@ -177,8 +177,8 @@ fn nudge(mesh: &mut PairMesh, v: u32) {
         }
         length *= 0.25;
     }
-    for d in 0..2 {
-        mesh.points[d][v as usize] = start[d];
+    for (points, from) in mesh.points.iter_mut().zip(start) {
+        points[v as usize] = from;
     }
 }
 

@@ -102,22 +102,20 @@ fn harmonic(mesh: &PairMesh, to: &[DVec2]) -> Option<Vec<DVec2>> {
     let n = mesh.fixed;
     let inner = mesh.points[0].len() - n;
     let mut matrix = SymmetricMatrix::zero(inner, 8 * inner);
-    let mut rhs = [vec![0.0; inner], vec![0.0; inner]];
-    for i in 0..inner {
+    let mut rhs = vec![DVec2::ZERO; inner];
+    for (i, sum) in rhs.iter_mut().enumerate() {
         for u in mesh.neighbours((i + n) as u32) {
             matrix.add(i as u32, i as u32, 1.0);
             match (u as usize).checked_sub(n) {
                 Some(j) if j < i => matrix.add(i as u32, j as u32, -1.0),
                 Some(_) => {}
-                None => {
-                    rhs[0][i] += to[u as usize].x;
-                    rhs[1][i] += to[u as usize].y;
-                }
+                None => *sum += to[u as usize],
             }
         }
     }
     let factor = Cholesky::factor(&matrix, FactorKind::Automatic).ok()?;
-    let [x, y] = rhs.map(|rhs| factor.solve(&rhs));
+    let solve = |side: fn(&DVec2) -> f64| factor.solve(&rhs.iter().map(side).collect::<Vec<_>>());
+    let (x, y) = (solve(|p| p.x), solve(|p| p.y));
     let placed = x.into_iter().zip(y).map(|(x, y)| DVec2::new(x, y));
     Some(to.iter().copied().chain(placed).collect())
 }
