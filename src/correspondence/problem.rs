@@ -17,7 +17,7 @@ use crate::geometry::DVec2;
 /// rotation. The relative part settles near ties of unlike designs (a flower
 /// of six petals and another); it vanishes for a design against itself, which
 /// has to be found again however it was turned.
-const REST_RELATIVE: f64 = 0.15;
+const REST_RELATIVE: f64 = 0.05;
 const REST: f64 = 0.0005;
 
 /// Poses nearer than this count as one, in radians.
@@ -132,12 +132,11 @@ impl Problem {
 
     /// Rotations worth trying, the likeliest first, none of them near another.
     fn poses(&self, blind: &[f64]) -> Vec<f64> {
-        let mut likely: Vec<(f64, f64)> = (self.paths(blind).iter())
-            .map(|(cost, nodes)| {
-                let rotation = self.rotation(nodes);
-                (scored(*cost, rotation), rotation)
-            })
-            .collect();
+        let mut likely: Vec<(f64, f64)> = Vec::new();
+        self.visit_paths(blind, |cost, nodes| {
+            let rotation = self.rotation(&nodes());
+            likely.push((scored(cost, rotation), rotation));
+        });
         likely.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut poses: Vec<f64> = Vec::new();
         for (_, pose) in likely {
@@ -153,27 +152,34 @@ impl Problem {
 
     fn best_path(&self, unlike: Vec<f64>) -> Solution {
         let mut best: Option<Solution> = None;
-        for (cost, nodes) in self.paths(&unlike) {
+        self.visit_paths(&unlike, |cost, nodes| {
+            if best.as_ref().is_some_and(|b| cost >= b.score) {
+                return; // rotation only adds
+            }
+            let nodes = nodes();
             let rotation = self.rotation(&nodes);
             let score = scored(cost, rotation);
             if best.as_ref().is_none_or(|b| score < b.score) {
-                let unlike = Vec::new();
                 best = Some(Solution {
                     nodes,
-                    unlike,
+                    unlike: Vec::new(),
                     cost,
                     score,
                     rotation,
                 });
             }
-        }
+        });
         let best = best.unwrap_or_else(|| unreachable!("there is a path for each start"));
         Solution { unlike, ..best }
     }
 
-    /// The cheapest path of each start; the one path where pins or ends leave
-    /// no choice.
-    fn paths(&self, unlike: &[f64]) -> Vec<(f64, Vec<[usize; 2]>)> {
+    /// Visits cost and nodes of the cheapest path of each start; of the one
+    /// path where pins or ends leave no choice.
+    fn visit_paths(
+        &self,
+        unlike: &[f64],
+        mut visit: impl FnMut(f64, &dyn Fn() -> Vec<[usize; 2]>),
+    ) {
         let fixed = self.fixed_nodes();
         if let Some(&first) = fixed.first() {
             let mut nodes = vec![first];
@@ -185,15 +191,13 @@ impl Problem {
                 cost += route.cost;
                 nodes.extend(moved(&route, ends[0]).skip(1));
             }
-            return vec![(cost, nodes)];
+            return visit(cost, &|| nodes.clone());
         }
         let (n, m) = (self.source.steps(), self.target.steps());
         let lattice = self.lattice(unlike, [0, 0], [2 * n, m]);
-        let routes = all_starts(&lattice, n);
-        routes
-            .iter()
-            .map(|route| (route.cost, route.nodes()))
-            .collect()
+        for route in all_starts(&lattice, n) {
+            visit(route.cost, &|| route.nodes());
+        }
     }
 
     /// Nodes that every path visits, ascending, from a first one to its like
