@@ -18,7 +18,10 @@ mod pins;
 mod polygons;
 mod problem;
 mod refine;
+mod regions;
 mod samples;
+mod settings;
+mod side;
 #[cfg(test)]
 mod tests;
 
@@ -28,3 +31,6 @@ pub use curve::{Curve, CurveError};
 pub use parts::{PairError, Pairing, pair_holes, pair_parts};
 pub use pins::{Pin, PinError};
 pub use polygons::{PolygonOptions, SharedPolygons};
+pub use regions::{POINT_SIZE, PieceMatch, RegionMatch, RingKind, RingMatch};
+pub use settings::{HoleRule, Matching, PartRule, PointPair, RingCut};
+pub use side::Side;

@@ -79,4 +79,60 @@ impl Similarity {
         }
         self.linear() * p + self.offset
     }
+
+    /// This similarity after another, as one.
+    #[must_use]
+    pub fn after(&self, first: &Self) -> Self {
+        let turn = if self.mirror {
+            -first.rotation
+        } else {
+            first.rotation
+        };
+        Self {
+            offset: self.apply(first.offset),
+            scale: self.scale * first.scale,
+            rotation: self.rotation + turn,
+            mirror: self.mirror != first.mirror,
+        }
+    }
+
+    /// The way back.
+    #[must_use]
+    pub fn inverse(&self) -> Self {
+        let linear = Self {
+            offset: DVec2::ZERO,
+            scale: 1.0 / self.scale,
+            rotation: if self.mirror {
+                self.rotation
+            } else {
+                -self.rotation
+            },
+            mirror: self.mirror,
+        };
+        Self {
+            offset: -linear.apply(self.offset),
+            ..linear
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_after_another_and_back() {
+        let similarity = |mirror, rotation| Similarity {
+            offset: DVec2::new(3.0, -1.0),
+            scale: 2.5,
+            rotation,
+            mirror,
+        };
+        let p = DVec2::new(0.7, 1.9);
+        for (m, n) in [(false, false), (false, true), (true, false), (true, true)] {
+            let (a, b) = (similarity(m, 0.4), similarity(n, -1.1));
+            assert!((b.after(&a).apply(p) - b.apply(a.apply(p))).length() < 1e-12);
+            assert!((a.inverse().apply(a.apply(p)) - p).length() < 1e-12);
+        }
+    }
 }

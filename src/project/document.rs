@@ -1,7 +1,9 @@
 //! The document itself, as it stands in the file.
 
 use super::ProjectError;
+use crate::compatible::PolygonOptions;
 use crate::content::ContentKind;
+use crate::correspondence::Matching;
 use crate::design::ImportOptions;
 use crate::geometry::Similarity;
 use crate::transition::{FieldOptions, Fit, Stop, Style, Timing, TransitionSpec};
@@ -53,6 +55,12 @@ pub struct Project {
     pub bar_width: f64,
     /// The given forms, at least two; the first two are source and target.
     pub designs: Vec<DesignEntry>,
+    /// How outlines are matched.
+    #[serde(default, rename = "match", skip_serializing_if = "is_default")]
+    pub matching: Matching,
+    /// How matched outlines are triangulated.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub triangulation: PolygonOptions,
     /// Options of rigid parts.
     #[serde(default)]
     pub arap: ArapOptions,
@@ -123,6 +131,8 @@ impl Project {
             fit: Fit::default(),
             bar_width: default_bar_width(),
             designs,
+            matching: Matching::default(),
+            triangulation: PolygonOptions::default(),
             arap: ArapOptions::default(),
             field: FieldOptions::default(),
             timing: Timing::default(),

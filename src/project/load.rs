@@ -4,7 +4,7 @@ use super::document::stem;
 use super::{Project, ProjectError};
 use crate::content::ContentKind;
 use crate::design::{Design, import, import_file};
-use crate::transition::{BuildError, Cell, TransitionSpec, arranged};
+use crate::transition::{BuildError, Cell, TransitionSpec, arranged, arrangement};
 use crate::warp::WarpKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -150,12 +150,16 @@ impl LoadedProject {
     pub fn spec(&self) -> Result<TransitionSpec, ProjectError> {
         let project = &self.project;
         let places = [&project.designs[0], &project.designs[1]].map(|entry| entry.placement);
-        let [source, target] = arranged([&self.designs[0], &self.designs[1]], project.fit, places)?;
+        let designs = [&self.designs[0], &self.designs[1]];
+        let by = arrangement(designs, project.fit, places)?;
+        let [source, target] = arranged(designs, project.fit, places)?;
         Ok(TransitionSpec {
             source,
             target,
             cell: self.cell()?,
             arap: project.arap.clone(),
+            matching: project.matching.placed(&by),
+            triangulation: project.triangulation,
             field: project.field,
             bar_width: project.bar_width,
         })

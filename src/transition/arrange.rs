@@ -26,10 +26,23 @@ pub enum Fit {
 /// # Errors
 /// A placement that is not a similarity.
 pub fn arranged(
+    designs: [&Arc<Design>; 2],
+    fit: Fit,
+    places: [Similarity; 2],
+) -> Result<[Arc<Design>; 2], SimilarityError> {
+    let [by_source, by_target] = arrangement(designs, fit, places)?;
+    Ok([laid(designs[0], by_source), laid(designs[1], by_target)])
+}
+
+/// What lays each design into the common frame: [`arranged`] applies it.
+///
+/// # Errors
+/// A placement that is not a similarity.
+pub fn arrangement(
     [source, target]: [&Arc<Design>; 2],
     fit: Fit,
     [place_source, place_target]: [Similarity; 2],
-) -> Result<[Arc<Design>; 2], SimilarityError> {
+) -> Result<[Similarity; 2], SimilarityError> {
     let to_middle = middle(source) - middle(target);
     let fitted = match fit {
         Fit::AsDrawn => Similarity::IDENTITY,
@@ -39,10 +52,10 @@ pub fn arranged(
         },
         Fit::SameArea => scaled_to(source, target)?,
     };
-    let target = laid(target, fitted);
+    let centre = fitted.apply(middle(target));
     Ok([
-        laid(source, about(middle(source), place_source.checked()?)),
-        laid(&target, about(middle(&target), place_target.checked()?)),
+        about(middle(source), place_source.checked()?),
+        about(centre, place_target.checked()?).after(&fitted),
     ])
 }
 

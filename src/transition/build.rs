@@ -1,8 +1,9 @@
 //! From two designs to a transition: everything that can fail.
 
 use super::{Cell, Inner};
-use crate::compatible::{CompatibleError, CompatibleMesh};
+use crate::compatible::{CompatibleError, CompatibleMesh, PolygonOptions};
 use crate::content::{Content, FieldBlend, FieldPair, FieldPairError, Solid};
+use crate::correspondence::Matching;
 use crate::design::{Design, Form};
 use crate::field::{DistanceField, FieldError, Grid, GridError, Metric};
 use crate::geometry::{Bounds, RegionsError};
@@ -64,6 +65,10 @@ pub struct TransitionSpec {
     pub cell: Cell,
     /// Options of the rigidity-preserving interpolation.
     pub arap: ArapOptions,
+    /// How outlines are matched, in the coordinates of the common frame.
+    pub matching: Matching,
+    /// How matched outlines are triangulated.
+    pub triangulation: PolygonOptions,
     /// Options of the distance fields.
     pub field: FieldOptions,
     /// Width of the bars of a truss, as a fraction of the larger design's
@@ -133,6 +138,8 @@ impl TransitionSpec {
             target,
             cell,
             arap: ArapOptions::default(),
+            matching: Matching::default(),
+            triangulation: PolygonOptions::default(),
             field: FieldOptions::default(),
             bar_width: Self::DEFAULT_BAR_WIDTH,
         }

@@ -17,7 +17,7 @@ mod timing;
 #[cfg(test)]
 mod tests;
 
-pub use arrange::{Fit, arranged};
+pub use arrange::{Fit, arranged, arrangement};
 pub use build::{Boundary, BuildError, FieldOptions, TransitionSpec};
 pub use cells::{Cell, NoSuchCell};
 pub use frame::{Figure, Frame};

@@ -1,0 +1,158 @@
+//! What a person may say about a match: pins, pairs of parts, cuts, rules.
+//!
+//! Everything is said by points of the designs, never by numbers of outlines:
+//! a design that is drawn anew keeps what was said of it.
+
+use super::{MatchOptions, Side};
+use crate::geometry::{DVec2, Similarity};
+use serde::{Deserialize, Serialize};
+
+/// How two designs are matched.
+///
+/// ```
+/// use morphospace::correspondence::{HoleRule, Matching};
+/// assert_eq!(Matching::default().holes, HoleRule::Auto);
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct Matching {
+    /// Keep "up": compare directions as drawn instead of up to a rotation.
+    pub keep_up: bool,
+    /// What becomes of holes that only one design has.
+    pub holes: HoleRule,
+    /// What becomes of parts that only one design has.
+    pub parts: PartRule,
+    /// Points of the boundaries that are the same. A pin pairs the parts, and
+    /// the holes, that it lies on.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub pins: Vec<PointPair>,
+    /// Parts that are the same, each named by a point in or near it.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub links: Vec<PointPair>,
+    /// Where rings are cut open.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cuts: Vec<RingCut>,
+}
+
+/// A point of the source and one of the target, in each design's own
+/// coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct PointPair {
+    /// In the source.
+    pub source: DVec2,
+    /// In the target.
+    pub target: DVec2,
+}
+
+/// A cut that opens a ring: straight from a hole to the boundary around it.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct RingCut {
+    /// The design that is cut.
+    pub side: Side,
+    /// A point near the end on the outer boundary, or on another hole.
+    pub outer: DVec2,
+    /// A point near the end on the hole.
+    pub hole: DVec2,
+}
+
+/// What becomes of a hole without a partner.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum HoleRule {
+    /// Whichever of the two matches better.
+    #[default]
+    Auto,
+    /// The hole closes to a point, or opens from one.
+    Close,
+    /// The ring around it is cut open.
+    Cut,
+}
+
+/// What becomes of a part without a partner.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PartRule {
+    /// A single part is split into several; of several parts and several, the
+    /// odd ones are born and die.
+    #[default]
+    Auto,
+    /// The other design's part that fits best is split.
+    Split,
+    /// It is born from a point, or dies into one.
+    Alone,
+}
+
+impl PointPair {
+    /// The point of one side.
+    #[must_use]
+    pub fn of(&self, side: Side) -> DVec2 {
+        match side {
+            Side::Source => self.source,
+            Side::Target => self.target,
+        }
+    }
+
+    /// The points sent through one map each.
+    #[must_use]
+    pub fn placed(&self, [source, target]: &[Similarity; 2]) -> Self {
+        Self {
+            source: source.apply(self.source),
+            target: target.apply(self.target),
+        }
+    }
+}
+
+impl Matching {
+    /// How each pair of boundaries is matched.
+    #[must_use]
+    pub fn options(&self) -> MatchOptions {
+        MatchOptions {
+            keep_up: self.keep_up,
+            ..MatchOptions::default()
+        }
+    }
+
+    /// The same said of designs that were laid down by one similarity each.
+    #[must_use]
+    pub fn placed(&self, by: &[Similarity; 2]) -> Self {
+        let pairs = |pairs: &[PointPair]| pairs.iter().map(|p| p.placed(by)).collect();
+        let cut = |cut: &RingCut| {
+            let by = &by[cut.side.index()];
+            RingCut {
+                side: cut.side,
+                outer: by.apply(cut.outer),
+                hole: by.apply(cut.hole),
+            }
+        };
+        Self {
+            pins: pairs(&self.pins),
+            links: pairs(&self.links),
+            cuts: self.cuts.iter().map(cut).collect(),
+            ..*self
+        }
+    }
+
+    /// The same said of the designs exchanged.
+    #[must_use]
+    pub fn swapped(&self) -> Self {
+        let pairs = |pairs: &[PointPair]| {
+            let swapped = |p: &PointPair| PointPair {
+                source: p.target,
+                target: p.source,
+            };
+            pairs.iter().map(swapped).collect()
+        };
+        let cut = |cut: &RingCut| RingCut {
+            side: cut.side.other(),
+            ..*cut
+        };
+        Self {
+            pins: pairs(&self.pins),
+            links: pairs(&self.links),
+            cuts: self.cuts.iter().map(cut).collect(),
+            ..*self
+        }
+    }
+}
