@@ -4,7 +4,8 @@
 //! [`pair_holes`]), boundaries by a cyclic dynamic program over all starting
 //! points ([`match_rings`]), with pins as hard constraints. A
 //! [`BoundaryMatch`] gives both polygons the same number of corresponding
-//! vertices ([`BoundaryMatch::polygons`]).
+//! vertices ([`BoundaryMatch::polygons`]). [`match_regions`] does all of that
+//! for two designs, and gives a partner to what one of them has alone.
 
 mod assignment;
 mod boundary;
@@ -31,6 +32,8 @@ pub use curve::{Curve, CurveError};
 pub use parts::{PairError, Pairing, pair_holes, pair_parts};
 pub use pins::{Pin, PinError};
 pub use polygons::{PolygonOptions, SharedPolygons};
-pub use regions::{POINT_SIZE, PieceMatch, RegionMatch, RingKind, RingMatch};
+pub use regions::{
+    POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch, match_regions,
+};
 pub use settings::{HoleRule, Matching, PartRule, PointPair, RingCut};
 pub use side::Side;

@@ -68,13 +68,37 @@ pub fn pair_parts(
     target: &Regions,
     fixed: &[[usize; 2]],
 ) -> Result<Pairing, PairError> {
+    pair_other_parts(source, target, fixed, [&[], &[]])
+}
+
+/// The centre and the area of a region's outer boundary, relative to a
+/// design's box: what parts are first compared by.
+pub(super) fn relative_centre(region: &Region, design: &Regions) -> DVec2 {
+    let bounds = design.bounds();
+    Part::of(
+        &region.outer,
+        0,
+        bounds.centre(),
+        bounds.size().max_element(),
+        0.0,
+    )
+    .position
+}
+
+/// [`pair_parts`] of those that are not `taken`, which are in no list.
+pub(super) fn pair_other_parts(
+    source: &Regions,
+    target: &Regions,
+    fixed: &[[usize; 2]],
+    taken: [&[usize]; 2],
+) -> Result<Pairing, PairError> {
     let parts = |regions: &Regions| {
         let bounds = regions.bounds();
         let (origin, size) = (bounds.centre(), bounds.size().max_element());
         let part = |r: &Region| Part::of(&r.outer, r.holes.len(), origin, size, 0.0);
         regions.iter().map(part).collect::<Vec<_>>()
     };
-    pair(&parts(source), &parts(target), fixed)
+    pair(&parts(source), &parts(target), fixed, taken)
 }
 
 /// Pairs the holes of two regions; `fixed` pairs are kept. `rotation` turns
@@ -88,6 +112,17 @@ pub fn pair_holes(
     rotation: f64,
     fixed: &[[usize; 2]],
 ) -> Result<Pairing, PairError> {
+    pair_other_holes(source, target, rotation, fixed, [&[], &[]])
+}
+
+/// [`pair_holes`] of those that are not `taken`, which are in no list.
+pub(super) fn pair_other_holes(
+    source: &Region,
+    target: &Region,
+    rotation: f64,
+    fixed: &[[usize; 2]],
+    taken: [&[usize]; 2],
+) -> Result<Pairing, PairError> {
     let parts = |region: &Region, turn: f64| {
         // Measures that do not change when the region is turned.
         let origin = moments(&region.outer).centre;
@@ -100,6 +135,7 @@ pub fn pair_holes(
         &parts(source, 0.5 * rotation),
         &parts(target, -0.5 * rotation),
         fixed,
+        taken,
     )
 }
 
@@ -186,11 +222,16 @@ fn moments(ring: &Ring) -> Moments {
     }
 }
 
-fn pair(source: &[Part], target: &[Part], fixed: &[[usize; 2]]) -> Result<Pairing, PairError> {
+fn pair(
+    source: &[Part],
+    target: &[Part],
+    fixed: &[[usize; 2]],
+    taken: [&[usize]; 2],
+) -> Result<Pairing, PairError> {
     check(fixed, source.len(), target.len())?;
     let free = |count: usize, side: usize| -> Vec<usize> {
         (0..count)
-            .filter(|k| fixed.iter().all(|pair| pair[side] != *k))
+            .filter(|k| fixed.iter().all(|pair| pair[side] != *k) && !taken[side].contains(k))
             .collect()
     };
     let (a, b) = (free(source.len(), 0), free(target.len(), 1));
@@ -213,7 +254,7 @@ fn pair(source: &[Part], target: &[Part], fixed: &[[usize; 2]]) -> Result<Pairin
     pairs.dedup();
     let alone = |count: usize, side: usize| {
         (0..count)
-            .filter(|k| pairs.iter().all(|pair| pair[side] != *k))
+            .filter(|k| pairs.iter().all(|pair| pair[side] != *k) && !taken[side].contains(k))
             .collect()
     };
     let (dying, born) = (alone(source.len(), 0), alone(target.len(), 1));

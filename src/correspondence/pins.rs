@@ -13,23 +13,24 @@ pub struct Pin {
     pub target: f64,
 }
 
-/// Pins that no continuous match can honour.
+/// Pins that no continuous match can honour; in messages they count from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PinError {
     /// A place is NaN or infinite.
-    #[error("pin {0} does not lie on the outline; place it anew")]
+    #[error("pin {} does not lie on the outline; place it anew", .0 + 1)]
     NotFinite(usize),
     /// Two pins share a point of one outline but not of the other.
-    #[error("pins {0} and {1} say different things of one point; move or delete one of them")]
+    #[error("pins {} and {} say different things of one point; move or delete one of them", .0 + 1, .1 + 1)]
     SamePoint(usize, usize),
     /// The pins follow each other differently on the two outlines.
     #[error(
-        "pins {0} and {1} cross: they follow each other in another order on the other outline; \
-         move or delete one of them"
+        "pins {} and {} cross: they follow each other in another order on the other outline; \
+         move or delete one of them",
+        .0 + 1, .1 + 1
     )]
     Crossing(usize, usize),
     /// A pin ties an end of an open polyline to an inner point.
-    #[error("pin {0} ties an end of one polyline to an inner point of the other; delete it")]
+    #[error("pin {} ties an end of one polyline to an inner point of the other; delete it", .0 + 1)]
     End(usize),
 }
 

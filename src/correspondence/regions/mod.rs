@@ -9,10 +9,27 @@
 //!
 //! Guaranteed: corresponding rings have the same number of vertices; all
 //! points of the given outlines are vertices, bit by bit; pins are honoured
-//! exactly or refused in words. A point stands for a ring of
-//! [`POINT_SIZE`] of the design's diameter.
+//! exactly or refused in words; the match the other way is made of the same
+//! pieces. A point stands for a ring of at most [`POINT_SIZE`] of the
+//! design's diameter.
+//!
+//! Not guaranteed: that the piece split off or the place of a cut is the best
+//! of all, only of those that were tried.
 
-use crate::geometry::DVec2;
+mod closing;
+mod cut;
+mod groups;
+mod locate;
+mod piece;
+mod slits;
+mod split;
+#[cfg(test)]
+mod tests;
+mod walk;
+
+use super::{MatchError, Matching, PairError, PinError, RingCut};
+use crate::geometry::{DVec2, Regions};
+use crate::progress::{Cancelled, Progress, checkpoint};
 
 /// Diameter of the tiny ring that a hole closes to, and of the part that is
 /// born, as a share of the design's diameter: a pixel on a screen of 4,000.
@@ -36,12 +53,12 @@ pub struct PieceMatch {
     pub target_part: Option<usize>,
     /// Where rings were cut open: the ends on the outer boundary and on the
     /// hole.
-    pub cuts: Vec<super::RingCut>,
+    pub cuts: Vec<RingCut>,
     /// The rotation that lays the source's outer ring onto the target's, in
     /// radians in (−π, π].
     pub rotation: f64,
     /// How unlike the outer rings are as matched; see
-    /// [`super::BoundaryMatch::cost`].
+    /// [`super::BoundaryMatch::cost`]. 0 for what is born or dies.
     pub cost: f64,
 }
 
@@ -56,7 +73,7 @@ pub struct RingMatch {
     pub source: Vec<DVec2>,
     /// Vertices on the target.
     pub target: Vec<DVec2>,
-    /// What kind of ring it is.
+    /// What becomes of the ring.
     pub kind: RingKind,
 }
 
@@ -69,4 +86,108 @@ pub enum RingKind {
     Closes,
     /// It opens from a point in the source.
     Opens,
+}
+
+/// Why two designs were not matched. Pins are counted from 1 in messages, in
+/// the order given.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RegionMatchError {
+    /// Links or pins that contradict each other.
+    #[error(transparent)]
+    Pairs(#[from] PairError),
+    /// Pins on one boundary that contradict each other; their indices are
+    /// those of all pins.
+    #[error("{0}")]
+    Pins(PinError),
+    /// A pin, a link or a cut is not finite.
+    #[error("pin, link or cut {} is not finite; place it anew", .0 + 1)]
+    NotFinite(usize),
+    /// A pin ties a hole to an outer boundary although holes close.
+    #[error("pin {} ties a hole to an outer boundary; have the ring cut open, or delete the pin", .0 + 1)]
+    PinAcross(usize),
+    /// A cut does not run inside the ring from its hole to a boundary.
+    #[error("cut {} does not run straight inside the part; move its ends", .0 + 1)]
+    Cut(usize),
+    /// Two boundaries cannot be measured.
+    #[error(transparent)]
+    Match(#[from] MatchError),
+    /// Nobody wants the result.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// Matches two designs with all their parts and holes.
+///
+/// # Errors
+/// [`RegionMatchError`] for pins, links or cuts that contradict each other,
+/// sizes that floating point cannot measure, or if the work is cancelled.
+///
+/// ```
+/// use morphospace::correspondence::{Matching, match_regions};
+/// use morphospace::geometry::{DVec2, FillRule, Regions};
+/// use morphospace::progress::Silent;
+/// let square = |s: f64| [(-s, -s), (s, -s), (s, s), (-s, s)].map(DVec2::from).to_vec();
+/// let frame = Regions::from_rings(&[square(2.0), square(1.0)], FillRule::EvenOdd)?;
+/// let matched = match_regions(&frame, &frame, &Matching::default(), &Silent)?;
+/// assert_eq!((matched.pieces.len(), matched.pieces[0].rings.len()), (1, 2));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+pub fn match_regions(
+    source: &Regions,
+    target: &Regions,
+    wanted: &Matching,
+    progress: &dyn Progress,
+) -> Result<RegionMatch, RegionMatchError> {
+    locate::check(wanted)?;
+    let designs = [source, target];
+    let pins = locate::pins(wanted, designs);
+    let groups = groups::grouped(designs, wanted, &pins)?;
+    let mut pieces = Vec::new();
+    let count = groups.len() as f64;
+    for (k, group) in groups.iter().enumerate() {
+        checkpoint(progress, "matching", k as f64 / count)?;
+        pieces.extend(groups::pieces(designs, group, &groups, wanted, &pins)?);
+    }
+    Ok(RegionMatch { pieces })
+}
+
+impl RegionMatch {
+    /// The same match, the designs exchanged.
+    #[must_use]
+    pub fn swapped(&self) -> Self {
+        Self {
+            pieces: self.pieces.iter().map(PieceMatch::swapped).collect(),
+        }
+    }
+}
+
+impl PieceMatch {
+    fn swapped(&self) -> Self {
+        let cut = |cut: &RingCut| RingCut {
+            side: cut.side.other(),
+            ..*cut
+        };
+        Self {
+            rings: self.rings.iter().map(RingMatch::swapped).collect(),
+            source_part: self.target_part,
+            target_part: self.source_part,
+            cuts: self.cuts.iter().map(cut).collect(),
+            rotation: 0.0 - self.rotation,
+            cost: self.cost,
+        }
+    }
+}
+
+impl RingMatch {
+    fn swapped(&self) -> Self {
+        Self {
+            source: self.target.clone(),
+            target: self.source.clone(),
+            kind: match self.kind {
+                RingKind::Matched => RingKind::Matched,
+                RingKind::Closes => RingKind::Opens,
+                RingKind::Opens => RingKind::Closes,
+            },
+        }
+    }
 }

@@ -1,0 +1,136 @@
+//! The point that a hole closes to, or a part is born from.
+//!
+//! A hole's centre is carried to the other design by mean value coordinates
+//! of the matched boundary (Floater 2003; signed, as Hormann and Floater 2006
+//! use them for any polygon). Where that leaves the part, or comes near its
+//! boundary, the nearest place with room is taken.
+
+use super::POINT_SIZE;
+use super::locate::{distance_squared, rings};
+use crate::geometry::{Bounds, DVec2, Region, Ring};
+
+/// A place keeps at least this share of the best clearance there is.
+const LEAST_CLEARANCE: f64 = 0.25;
+
+/// A tiny ring takes up at most this share of its place's clearance.
+const CLEARANCE_SHARE: f64 = 0.2;
+
+/// How many places of the boundary are searched for room.
+const SEARCHED: usize = 256;
+
+/// Points of one ring on both sides, vertex by vertex.
+pub(super) struct Vertices<'a> {
+    pub(super) from: &'a [DVec2],
+    pub(super) to: &'a [DVec2],
+}
+
+/// The tiny ring, similar to `hole`, that it closes to in `part`, which it
+/// does not belong to. `outer` are the matched boundaries around both,
+/// `taken` the points that other holes close to.
+pub(super) fn point_ring(
+    hole: &Ring,
+    outer: &Vertices,
+    part: &Region,
+    taken: &[DVec2],
+    rotation: f64,
+) -> Vec<DVec2> {
+    let wanted = carried(outer, centre(hole));
+    let clear = |p: DVec2| clearance(part, taken, p);
+    let mut places: Vec<(DVec2, f64)> = places(part).map(|p| (p, clear(p))).collect();
+    if let Some(p) = wanted {
+        places.push((p, clear(p)));
+    }
+    let room = places.iter().map(|place| place.1).fold(0.0, f64::max);
+    let goal = wanted.unwrap_or_else(|| part.outer.bounds().centre());
+    let roomy = places
+        .iter()
+        .filter(|place| place.1 >= LEAST_CLEARANCE * room);
+    let nearest = roomy.min_by(|a, b| {
+        let far = |p: &DVec2| p.distance_squared(goal);
+        far(&a.0).total_cmp(&far(&b.0))
+    });
+    let (at, clearance) = nearest.copied().unwrap_or((goal, room));
+    let size = (POINT_SIZE * part.outer.bounds().diameter()).min(CLEARANCE_SHARE * clearance);
+    shrunk(hole.points(), centre(hole), at, size, rotation)
+}
+
+/// Points about `centre` made as small as `size` across, turned and put down
+/// at `at`.
+pub(super) fn shrunk(
+    points: &[DVec2],
+    centre: DVec2,
+    at: DVec2,
+    size: f64,
+    rotation: f64,
+) -> Vec<DVec2> {
+    let extent = Bounds::of(points.iter().copied()).map_or(1.0, |b| b.diameter());
+    let turn = DVec2::from_angle(rotation) * (size / extent);
+    let place = |&p: &DVec2| at + turn.rotate(p - centre);
+    points.iter().map(place).collect()
+}
+
+pub(super) fn centre(ring: &Ring) -> DVec2 {
+    let count = ring.points().len() as f64;
+    let base = ring.points()[0];
+    let sum: DVec2 = ring.points().iter().map(|&p| p - base).sum();
+    base + sum / count
+}
+
+/// Where mean value coordinates put `p`.
+fn carried(outer: &Vertices, p: DVec2) -> Option<DVec2> {
+    let n = outer.from.len();
+    let half_tangent = |k: usize| {
+        let (a, b) = (outer.from[k] - p, outer.from[(k + 1) % n] - p);
+        let (cross, dot) = (a.perp_dot(b), a.dot(b));
+        cross / (a.length() * b.length() + dot)
+    };
+    let tangents: Vec<f64> = (0..n).map(half_tangent).collect();
+    let (mut sum, mut total) = (DVec2::ZERO, 0.0);
+    for k in 0..n {
+        let weight = (tangents[(k + n - 1) % n] + tangents[k]) / outer.from[k].distance(p);
+        sum += weight * (outer.to[k] - outer.to[0]);
+        total += weight;
+    }
+    let place = outer.to[0] + sum / total;
+    place.is_finite().then_some(place)
+}
+
+/// Places inside a part, halfway from boundary to boundary.
+fn places(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
+    let count: usize = rings(part).map(|ring| ring.points().len()).sum();
+    let step = count.div_ceil(SEARCHED);
+    let edges = rings(part).flat_map(Ring::edges).step_by(step);
+    edges.filter_map(move |(a, b)| {
+        let inwards = (b - a).perp().normalize_or_zero();
+        let from = a.midpoint(b);
+        let depth = rings(part)
+            .flat_map(Ring::edges)
+            .filter(|edge| *edge != (a, b))
+            .filter_map(|edge| hit(from, inwards, edge))
+            .fold(f64::INFINITY, f64::min);
+        let place = from + 0.5 * depth * inwards;
+        (depth.is_finite() && depth > 0.0 && place.is_finite()).then_some(place)
+    })
+}
+
+/// How far along a ray an edge is met.
+fn hit(from: DVec2, direction: DVec2, (a, b): (DVec2, DVec2)) -> Option<f64> {
+    let edge = b - a;
+    let across = direction.perp_dot(edge);
+    let far = (a - from).perp_dot(edge) / across;
+    let along = (a - from).perp_dot(direction) / across;
+    (far > 0.0 && (0.0..=1.0).contains(&along)).then_some(far)
+}
+
+/// Distance to the boundary and to the points taken; 0 outside.
+fn clearance(part: &Region, taken: &[DVec2], p: DVec2) -> f64 {
+    if !super::locate::contains(part, p) {
+        return 0.0;
+    }
+    let to_rings = rings(part).map(|ring| distance_squared(ring, p));
+    let to_points = taken.iter().map(|q| q.distance_squared(p));
+    to_rings
+        .chain(to_points)
+        .fold(f64::INFINITY, f64::min)
+        .sqrt()
+}

@@ -1,0 +1,91 @@
+//! Where to cut a ring open: cuts all along it, and the one kept whose strip
+//! matches best.
+//!
+//! From each of a number of places on the walk to the nearest point of the
+//! hole, matched with few samples; the best place is sought again between its
+//! neighbours.
+
+use super::super::boundary::{MatchOptions, match_curves};
+use super::super::curve::Curve;
+use super::walk::{Slit, Walk};
+use crate::geometry::{DVec2, Ring};
+use rayon::prelude::*;
+
+/// Places of the first round, and samples of each match.
+const PLACES: u32 = 28;
+const SAMPLES: u32 = 56;
+
+/// Places of the second round, between the best one's neighbours.
+const FINE: u32 = 6;
+
+/// What a long slit costs, as a share of the walk's length.
+const LENGTH_PRICE: f64 = 0.25;
+
+/// An opened walk and how well it matches.
+#[derive(Clone, Debug)]
+pub(super) struct Opened {
+    pub(super) walk: Walk,
+    pub(super) slit: Slit,
+    /// Of a coarse match, with the price of the slit.
+    pub(super) cost: f64,
+}
+
+/// The best cut of hole `cut`, if there is any.
+pub(super) fn best(
+    walk: &Walk,
+    holes: &[&Ring],
+    cut: usize,
+    other: &Curve,
+    options: &MatchOptions,
+) -> Option<Opened> {
+    let curve = walk.curve().ok()?;
+    let trials = |places: Vec<f64>| {
+        let tried = places.into_par_iter().filter_map(|place| {
+            let slit = walk.slit_from(holes, cut, curve.point_at(place))?;
+            let cost = cost(walk, holes[cut], &slit, other, options)?;
+            Some((cost, place, slit))
+        });
+        let tried: Vec<(f64, f64, Slit)> = tried.collect();
+        tried.into_iter().min_by(|a, b| a.0.total_cmp(&b.0))
+    };
+    let spacing = 1.0 / f64::from(PLACES);
+    let coarse = trials((0..PLACES).map(|k| f64::from(k) * spacing).collect())?;
+    let between = |k: u32| (f64::from(k) + 1.0) / f64::from(FINE + 1) * 2.0 - 1.0;
+    let near = (0..FINE).map(|k| coarse.1 + between(k) * spacing);
+    let fine = trials(near.collect());
+    let (cost, _, slit) = fine.filter(|fine| fine.0 < coarse.0).unwrap_or(coarse);
+    let walk = walk.opened(holes[cut], &slit)?;
+    Some(Opened { walk, slit, cost })
+}
+
+/// The cut that was asked for.
+pub(super) fn asked(
+    walk: &Walk,
+    holes: &[&Ring],
+    cut: usize,
+    ends: [DVec2; 2],
+) -> Option<(Walk, Slit)> {
+    let slit = walk.slit(holes, cut, ends[0], ends[1])?;
+    Some((walk.opened(holes[cut], &slit)?, slit))
+}
+
+fn cost(
+    walk: &Walk,
+    hole: &Ring,
+    slit: &Slit,
+    other: &Curve,
+    options: &MatchOptions,
+) -> Option<f64> {
+    let open = walk.opened(hole, slit)?;
+    let matched = match_curves(&open.curve().ok()?, other, &[], &coarse(options)).ok()?;
+    let length = slit.ends[0].distance(slit.ends[1]) / open.ring.perimeter();
+    Some(matched.cost() + LENGTH_PRICE * length)
+}
+
+/// The same options with few samples: for trials, which compare with trials.
+pub(super) fn coarse(options: &MatchOptions) -> MatchOptions {
+    MatchOptions {
+        samples: SAMPLES,
+        ..options.clone()
+    }
+}

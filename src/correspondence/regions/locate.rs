@@ -1,0 +1,82 @@
+//! Which part and which ring of it a point of a design belongs to.
+
+use super::super::{Matching, Side};
+use super::RegionMatchError;
+use crate::geometry::{DVec2, Region, Regions, Ring};
+
+/// A ring of a design: the part, and 0 for its outer ring or 1 + k for hole k.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct RingAt {
+    pub(super) part: usize,
+    pub(super) ring: usize,
+}
+
+/// A pin with the rings it lies on, source first.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pinned {
+    /// Its number among all pins.
+    pub(super) index: usize,
+    pub(super) on: [RingAt; 2],
+    pub(super) points: [DVec2; 2],
+}
+
+/// Everything that was said is finite.
+pub(super) fn check(wanted: &Matching) -> Result<(), RegionMatchError> {
+    let pairs = wanted.pins.iter().chain(&wanted.links);
+    let cuts = wanted.cuts.iter().map(|cut| [cut.outer, cut.hole]);
+    let points = pairs.map(|pair| [pair.source, pair.target]).chain(cuts);
+    for (k, pair) in points.enumerate() {
+        if !pair.iter().all(|p| p.is_finite()) {
+            return Err(RegionMatchError::NotFinite(k));
+        }
+    }
+    Ok(())
+}
+
+/// Each pin with the rings nearest to its ends.
+pub(super) fn pins(wanted: &Matching, designs: [&Regions; 2]) -> Vec<Pinned> {
+    let located = |(index, pair): (usize, &super::super::PointPair)| {
+        let points = Side::BOTH.map(|side| pair.of(side));
+        let on = [0, 1].map(|s| nearest_ring(designs[s], points[s]));
+        Pinned { index, on, points }
+    };
+    wanted.pins.iter().enumerate().map(located).collect()
+}
+
+/// The ring that runs nearest to a point.
+pub(super) fn nearest_ring(design: &Regions, p: DVec2) -> RingAt {
+    let mut best = (f64::INFINITY, RingAt { part: 0, ring: 0 });
+    for (part, region) in design.iter().enumerate() {
+        for (ring, outline) in rings(region).enumerate() {
+            let distance = distance_squared(outline, p);
+            if distance < best.0 {
+                best = (distance, RingAt { part, ring });
+            }
+        }
+    }
+    best.1
+}
+
+/// The part that a point lies in, else the nearest.
+pub(super) fn part_at(design: &Regions, p: DVec2) -> usize {
+    let inside = design.iter().position(|region| contains(region, p));
+    inside.unwrap_or_else(|| nearest_ring(design, p).part)
+}
+
+/// The outer ring, then the holes.
+pub(super) fn rings(region: &Region) -> impl Iterator<Item = &Ring> {
+    std::iter::once(&region.outer).chain(&region.holes)
+}
+
+pub(super) fn contains(region: &Region, p: DVec2) -> bool {
+    rings(region).map(|ring| ring.winding(p)).sum::<i32>() != 0
+}
+
+pub(super) fn distance_squared(ring: &Ring, p: DVec2) -> f64 {
+    let to_edge = |(a, b): (DVec2, DVec2)| {
+        let edge = b - a;
+        let along = ((p - a).dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
+        p.distance_squared(a + along * edge)
+    };
+    ring.edges().map(to_edge).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,207 @@
+//! One part cut into as many pieces as the other design has parts.
+//!
+//! Cuts are straight, from boundary to boundary. They are ranked by how well
+//! the areas and the places of the two sides agree with what is wanted and by
+//! their length; the best few are then matched, and the best match is kept.
+//! More than two pieces are cut off one after another, along the line on
+//! which the wanted parts lie.
+
+use super::super::boundary::{MatchOptions, match_curves};
+use super::super::curve::Curve;
+use super::cut::coarse;
+use super::locate::contains;
+use super::walk::touch;
+use crate::geometry::{DVec2, Region, Ring};
+
+/// Places of the boundary between which cuts are tried.
+const PLACES: u32 = 56;
+
+/// Cuts that are matched.
+const TRIED: usize = 10;
+
+/// What areas, places and length count in the ranking; and what the ranking
+/// counts against the match.
+const AREA: f64 = 1.0;
+const PLACE: f64 = 0.6;
+const LENGTH: f64 = 0.35;
+const RANK: f64 = 0.15;
+
+/// The pieces in the order of `wanted`, or none if no straight cut is found.
+pub(super) fn split(region: &Region, wanted: &[&Region]) -> Option<Vec<Region>> {
+    let mut order: Vec<usize> = (0..wanted.len()).collect();
+    let line = line_of(wanted);
+    let along = |k: usize| middle(wanted[k]).dot(line);
+    order.sort_by(|&a, &b| along(a).total_cmp(&along(b)));
+    let mut rest = region.clone();
+    let mut pieces = vec![None; wanted.len()];
+    for step in 0..order.len() - 1 {
+        let others: Vec<&Region> = order[step + 1..].iter().map(|&k| wanted[k]).collect();
+        let [first, left] = cut_in_two(&rest, wanted[order[step]], &others)?;
+        pieces[order[step]] = Some(first);
+        rest = left;
+    }
+    pieces[order[order.len() - 1]] = Some(rest);
+    pieces.into_iter().collect()
+}
+
+/// The direction along which parts lie: from one of the two farthest apart to
+/// the other.
+fn line_of(parts: &[&Region]) -> DVec2 {
+    let mut best = DVec2::X;
+    let mut far = 0.0;
+    for (k, a) in parts.iter().enumerate() {
+        for b in &parts[k + 1..] {
+            let apart = middle(b) - middle(a);
+            if apart.length_squared() > far {
+                far = apart.length_squared();
+                best = if apart.x < 0.0 { -apart } else { apart };
+            }
+        }
+    }
+    best
+}
+
+fn middle(region: &Region) -> DVec2 {
+    region.outer.bounds().centre()
+}
+
+fn area(region: &Region) -> f64 {
+    region.outer.signed_area() + region.holes.iter().map(Ring::signed_area).sum::<f64>()
+}
+
+/// What a cut is to bring about.
+struct Goal<'a> {
+    first: &'a Region,
+    others: &'a [&'a Region],
+    share: f64,
+    /// From the first's middle to the others', in units of the root of the area.
+    apart: DVec2,
+}
+
+fn cut_in_two(region: &Region, first: &Region, others: &[&Region]) -> Option<[Region; 2]> {
+    let other_area: f64 = others.iter().map(|r| area(r)).sum();
+    let total = area(first) + other_area;
+    let weigh = |r: &&Region| middle(r) * (area(r) / other_area);
+    let middle_of_others: DVec2 = others.iter().map(weigh).sum();
+    let goal = Goal {
+        first,
+        others,
+        share: area(first) / total,
+        apart: (middle_of_others - middle(first)) / total.sqrt(),
+    };
+    let mut ranked: Vec<(f64, [Region; 2])> = Vec::new();
+    for pieces in cuts(region) {
+        let [a, b] = &pieces.1;
+        let (straight, swapped) = (rank(&goal, a, b), rank(&goal, b, a));
+        let price = LENGTH * pieces.0 / area(region).sqrt();
+        if straight <= swapped {
+            ranked.push((straight + price, pieces.1));
+        } else {
+            let [a, b] = pieces.1;
+            ranked.push((swapped + price, [b, a]));
+        }
+    }
+    ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
+    ranked.truncate(TRIED);
+    let tried = ranked.into_iter().map(|(rank, pieces)| {
+        let cost = match_cost(&goal, &pieces) + RANK * rank;
+        (cost, pieces)
+    });
+    tried
+        .min_by(|a, b| a.0.total_cmp(&b.0))
+        .map(|(_, pieces)| pieces)
+}
+
+fn rank(goal: &Goal, first: &Region, rest: &Region) -> f64 {
+    let total = area(first) + area(rest);
+    let share = area(first) / total;
+    let off = (share / goal.share).ln().abs() + ((1.0 - share) / (1.0 - goal.share)).ln().abs();
+    let apart = (middle(rest) - middle(first)) / total.sqrt();
+    AREA * off + PLACE * apart.distance(goal.apart)
+}
+
+/// How unlike the pieces are to what is wanted; only those that stand alone
+/// are matched.
+fn match_cost(goal: &Goal, [first, rest]: &[Region; 2]) -> f64 {
+    let cost = |piece: &Region, wanted: &Region| {
+        let curves = [Curve::closed(&piece.outer), Curve::closed(&wanted.outer)];
+        let [Ok(a), Ok(b)] = curves else {
+            return f64::INFINITY;
+        };
+        let options = coarse(&MatchOptions::default());
+        match_curves(&a, &b, &[], &options).map_or(f64::INFINITY, |m| m.cost())
+    };
+    let own = goal.share * cost(first, goal.first);
+    match goal.others {
+        [other] => own + (1.0 - goal.share) * cost(rest, other),
+        _ => own,
+    }
+}
+
+/// All straight cuts tried, with their lengths and the two pieces.
+fn cuts(region: &Region) -> Vec<(f64, [Region; 2])> {
+    let Ok(curve) = Curve::closed(&region.outer) else {
+        return Vec::new();
+    };
+    let place = |k: u32| f64::from(k) / f64::from(PLACES);
+    let ends: Vec<(f64, DVec2)> = (0..PLACES)
+        .map(|k| (place(k), curve.point_at(place(k))))
+        .collect();
+    let mut found = Vec::new();
+    for (k, &a) in ends.iter().enumerate() {
+        for &b in &ends[k + 1..] {
+            if let Some(pieces) = cut_between(region, &curve, a, b) {
+                found.push((a.1.distance(b.1), pieces));
+            }
+        }
+    }
+    found
+}
+
+fn cut_between(
+    region: &Region,
+    curve: &Curve,
+    (from, a): (f64, DVec2),
+    (to, b): (f64, DVec2),
+) -> Option<[Region; 2]> {
+    if !is_free(region, a, b) {
+        return None;
+    }
+    let between = |from: f64, to: f64| {
+        let inner = curve.places().iter().zip(curve.points());
+        inner.filter(move |(place, _)| from < **place && **place < to)
+    };
+    let mut near = vec![a];
+    near.extend(between(from, to).map(|(_, p)| *p));
+    near.push(b);
+    let mut far = vec![b];
+    far.extend(between(to, 2.0).map(|(_, p)| *p));
+    far.extend(between(-1.0, from).map(|(_, p)| *p));
+    far.push(a);
+    let mut pieces = [near, far].map(|points| Ring::new(points).ok());
+    let [Some(near), Some(far)] = [pieces[0].take(), pieces[1].take()] else {
+        return None;
+    };
+    let holes_in = |ring: &Ring| -> Vec<Ring> {
+        let inside = |hole: &&Ring| ring.winding(hole.points()[0]) != 0;
+        region.holes.iter().filter(inside).cloned().collect()
+    };
+    let piece = |outer: Ring| Region {
+        holes: holes_in(&outer),
+        outer,
+    };
+    let pieces = [piece(near), piece(far)];
+    pieces
+        .iter()
+        .all(|piece| area(piece) > 0.0)
+        .then_some(pieces)
+}
+
+/// Whether the open segment runs inside the region.
+fn is_free(region: &Region, a: DVec2, b: DVec2) -> bool {
+    const END_SHARE: f64 = 1e-6;
+    let short = [a.lerp(b, END_SHARE), b.lerp(a, END_SHARE)];
+    let rings = std::iter::once(&region.outer).chain(&region.holes);
+    let mut edges = rings.flat_map(Ring::edges);
+    contains(region, a.midpoint(b)) && !edges.any(|(p, q)| touch(short, [p, q]))
+}

@@ -1,0 +1,192 @@
+//! Whole designs matched: parts, holes, cuts.
+
+use super::*;
+use crate::correspondence::{HoleRule, PartRule, PointPair, Side};
+use crate::geometry::{FillRule, Ring};
+use crate::progress::Silent;
+
+fn block(x: f64, y: f64, w: f64, h: f64) -> Vec<DVec2> {
+    [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
+        .map(DVec2::from)
+        .to_vec()
+}
+
+fn design(rings: &[Vec<DVec2>]) -> Regions {
+    Regions::from_rings(rings, FillRule::EvenOdd).expect("area")
+}
+
+/// A plate with square holes at the given places.
+fn plate(holes: &[(f64, f64)]) -> Regions {
+    let mut rings = vec![block(0.0, 0.0, 10.0, 6.0)];
+    rings.extend(holes.iter().map(|&(x, y)| block(x, y, 1.5, 1.5)));
+    design(&rings)
+}
+
+fn run(a: &Regions, b: &Regions, wanted: &Matching) -> RegionMatch {
+    let matched = match_regions(a, b, wanted, &Silent).expect("matched");
+    for piece in &matched.pieces {
+        for ring in &piece.rings {
+            assert_eq!(ring.source.len(), ring.target.len());
+        }
+    }
+    matched
+}
+
+fn area(points: &[DVec2]) -> f64 {
+    Ring::new(points.to_vec()).expect("a ring").signed_area()
+}
+
+fn kinds(piece: &PieceMatch) -> Vec<RingKind> {
+    piece.rings.iter().map(|ring| ring.kind).collect()
+}
+
+#[test]
+fn equal_holes_are_matched_and_odd_ones_close() {
+    let wanted = Matching {
+        holes: HoleRule::Close,
+        ..Matching::default()
+    };
+    let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(7.0, 2.5)]));
+    let matched = run(&two, &one, &wanted);
+    let piece = &matched.pieces[0];
+    assert_eq!(
+        kinds(piece),
+        [RingKind::Matched, RingKind::Matched, RingKind::Closes]
+    );
+    let point = &piece.rings[2].target;
+    assert!(area(point) < 0.0 && area(point) > -1e-5);
+    assert!((point[0] - DVec2::new(1.75, 2.75)).length() < 1.0);
+    let back = run(&one, &two, &wanted);
+    assert_eq!(
+        kinds(&back.pieces[0]),
+        [RingKind::Matched, RingKind::Matched, RingKind::Opens]
+    );
+}
+
+#[test]
+fn a_ring_cut_open_keeps_its_area_and_its_slit_point_by_point() {
+    let ring = design(&[block(-3.0, -3.0, 6.0, 6.0), block(-2.0, -2.0, 4.0, 4.0)]);
+    let strip = design(&[block(0.0, 0.0, 20.0, 1.0)]);
+    let wanted = Matching {
+        holes: HoleRule::Cut,
+        ..Matching::default()
+    };
+    let matched = run(&ring, &strip, &wanted);
+    let piece = &matched.pieces[0];
+    assert_eq!((piece.rings.len(), piece.cuts.len()), (1, 1));
+    let walk = &piece.rings[0];
+    assert!((area(&walk.source) - 20.0).abs() < 1e-9);
+    assert!((area(&walk.target) - 20.0).abs() < 1e-9);
+    let n = walk.source.len();
+    let edges: Vec<[DVec2; 2]> = (0..n)
+        .map(|k| [walk.source[k], walk.source[(k + 1) % n]])
+        .collect();
+    let cut = piece.cuts[0];
+    let on_slit = |p: DVec2| {
+        let (a, b) = (cut.outer, cut.hole);
+        (p - a).perp_dot(b - a).abs() < 1e-9 && (p - a).dot(b - a) > -1e-9
+    };
+    let slit: Vec<_> = edges
+        .iter()
+        .filter(|e| e.iter().all(|p| on_slit(*p)))
+        .collect();
+    assert!(slit.len() >= 2);
+    for [a, b] in slit {
+        assert!(edges.contains(&[*b, *a]), "{a} {b}");
+    }
+}
+
+#[test]
+fn a_cut_that_was_asked_for_is_made_there() {
+    let ring = design(&[block(-3.0, -3.0, 6.0, 6.0), block(-2.0, -2.0, 4.0, 4.0)]);
+    let strip = design(&[block(0.0, 0.0, 20.0, 1.0)]);
+    let mut wanted = Matching::default();
+    wanted.cuts.push(RingCut {
+        side: Side::Source,
+        outer: DVec2::new(1.0, 3.4),
+        hole: DVec2::new(1.2, 1.9),
+    });
+    let piece = &run(&ring, &strip, &wanted).pieces[0];
+    assert_eq!(piece.cuts[0].outer, DVec2::new(1.0, 3.0));
+    assert!(piece.cuts[0].hole.distance(DVec2::new(1.2, 2.0)) < 1e-12);
+    wanted.cuts[0].outer = DVec2::new(1.0, -3.0);
+    let error = match_regions(&ring, &strip, &wanted, &Silent).expect_err("through the hole");
+    assert_eq!(error, RegionMatchError::Cut(0));
+}
+
+#[test]
+fn a_single_part_is_split_and_of_several_the_odd_one_is_born() {
+    let one = design(&[block(0.0, 0.0, 9.0, 1.0)]);
+    let three = design(&[
+        block(0.0, 0.0, 2.0, 1.0),
+        block(4.0, 0.0, 2.0, 1.0),
+        block(8.0, 0.0, 2.0, 1.0),
+    ]);
+    let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
+    let split = run(&one, &three, &Matching::default());
+    assert_eq!(split.pieces.len(), 3);
+    let whole: f64 = split.pieces.iter().map(|p| area(&p.rings[0].source)).sum();
+    assert!((whole - 9.0).abs() < 1e-9);
+    for piece in &split.pieces {
+        assert!((area(&piece.rings[0].source) - 3.0).abs() < 0.7);
+    }
+    let born = run(&two, &three, &Matching::default());
+    let odd: Vec<_> = born
+        .pieces
+        .iter()
+        .filter(|p| p.source_part.is_none())
+        .collect();
+    assert_eq!((born.pieces.len(), odd.len()), (3, 1));
+    let wanted = Matching {
+        parts: PartRule::Alone,
+        ..Matching::default()
+    };
+    assert_eq!(run(&one, &three, &wanted).pieces.len(), 3);
+}
+
+#[test]
+fn pins_pair_their_parts_and_links_do() {
+    let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
+    let mut wanted = Matching::default();
+    wanted.links.push(PointPair {
+        source: DVec2::new(1.0, 0.5),
+        target: DVec2::new(5.0, 0.5),
+    });
+    let parts = |matched: &RegionMatch| -> Vec<_> {
+        let both = |p: &PieceMatch| [p.source_part, p.target_part];
+        matched.pieces.iter().map(both).collect()
+    };
+    let crossed = run(&two, &two, &wanted);
+    for [a, b] in parts(&crossed) {
+        assert_ne!(a, b);
+    }
+    let pinned = Matching {
+        pins: wanted.links.drain(..).collect(),
+        ..Matching::default()
+    };
+    assert_eq!(parts(&run(&two, &two, &pinned)), parts(&crossed));
+}
+
+#[test]
+fn contradictory_pins_are_named_by_their_numbers_among_all() {
+    let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
+    let pin = |a: (f64, f64), b: (f64, f64)| PointPair {
+        source: a.into(),
+        target: b.into(),
+    };
+    let wanted = Matching {
+        pins: vec![
+            pin((0.0, 0.0), (0.0, 0.0)),
+            pin((4.0, 0.0), (4.0, 0.0)),
+            pin((5.0, 0.0), (6.0, 1.0)),
+            pin((6.0, 1.0), (5.0, 0.0)),
+        ],
+        ..Matching::default()
+    };
+    let error = match_regions(&two, &two, &wanted, &Silent).expect_err("crossing");
+    assert!(matches!(error, RegionMatchError::Pins(_)), "{error}");
+    assert!(
+        error.to_string().contains('4') || error.to_string().contains('3'),
+        "{error}"
+    );
+}

@@ -1,0 +1,187 @@
+//! Boundaries that are cut open: one closed walk around a part, along the
+//! slit to a hole, around that and back.
+
+use super::super::curve::{Curve, CurveError};
+use crate::geometry::{DVec2, Region, Ring, orient2d};
+
+/// A closed walk, and the slits it runs along there and back.
+#[derive(Clone, Debug)]
+pub(super) struct Walk {
+    pub(super) ring: Ring,
+    /// From the boundary to the hole.
+    pub(super) slits: Vec<[DVec2; 2]>,
+}
+
+/// A straight cut: where it leaves the walk and where it meets the hole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Slit {
+    /// The walk's edge it leaves from, by its first point.
+    outer_edge: usize,
+    hole_edge: usize,
+    pub(super) ends: [DVec2; 2],
+}
+
+/// How far a slit keeps from its own ends where it is tested against edges.
+const END_SHARE: f64 = 1e-6;
+
+impl Walk {
+    pub(super) fn around(region: &Region) -> Self {
+        Self {
+            ring: region.outer.clone(),
+            slits: Vec::new(),
+        }
+    }
+
+    pub(super) fn curve(&self) -> Result<Curve, CurveError> {
+        Curve::closed(&self.ring)
+    }
+
+    /// The straight cut from the walk's point nearest to `outer` to the
+    /// hole's point nearest to `hole`; none if it leaves the part, or starts
+    /// where another slit does.
+    pub(super) fn slit(
+        &self,
+        holes: &[&Ring],
+        cut: usize,
+        outer: DVec2,
+        hole: DVec2,
+    ) -> Option<Slit> {
+        let (outer_edge, a) = nearest(&self.ring, outer, |edge| !self.is_slit(edge))?;
+        let (hole_edge, b) = nearest(holes[cut], hole, |_| true)?;
+        let slit = Slit {
+            outer_edge,
+            hole_edge,
+            ends: [a, b],
+        };
+        (!self.touches_slit(a) && self.is_free(holes, &slit)).then_some(slit)
+    }
+
+    /// The cut from a place of the walk to the nearest point of the hole.
+    pub(super) fn slit_from(&self, holes: &[&Ring], cut: usize, outer: DVec2) -> Option<Slit> {
+        self.slit(holes, cut, outer, outer)
+    }
+
+    fn is_slit(&self, (a, b): (DVec2, DVec2)) -> bool {
+        let along = |s: &[DVec2; 2]| *s == [a, b] || *s == [b, a];
+        self.slits.iter().any(along)
+    }
+
+    fn touches_slit(&self, p: DVec2) -> bool {
+        self.slits.iter().flatten().any(|&end| end == p)
+    }
+
+    fn is_free(&self, holes: &[&Ring], slit: &Slit) -> bool {
+        let [a, b] = slit.ends;
+        let short = [a.lerp(b, END_SHARE), b.lerp(a, END_SHARE)];
+        let middle = a.midpoint(b);
+        let rings = || std::iter::once(&self.ring).chain(holes.iter().copied());
+        let winding: i32 = rings().map(|ring| ring.winding(middle)).sum();
+        let touched = |ring: &Ring| ring.edges().any(|(p, q)| touch(short, [p, q]));
+        short[0] != short[1] && winding == 1 && !rings().any(touched)
+    }
+
+    /// The walk that goes along the slit and around the hole as well.
+    pub(super) fn opened(&self, hole: &Ring, slit: &Slit) -> Option<Self> {
+        let [a, b] = slit.ends;
+        let mut points = around_from(&self.ring, slit.outer_edge, a);
+        points.extend(around_from(hole, slit.hole_edge, b));
+        let ring = Ring::new(points).ok()?;
+        let mut slits = self.slits.clone();
+        slits.push(slit.ends);
+        Some(Self { ring, slits })
+    }
+}
+
+/// Once around from a point on an edge back to it, that point first and last.
+fn around_from(ring: &Ring, edge: usize, from: DVec2) -> Vec<DVec2> {
+    let points = ring.points();
+    let n = points.len();
+    let mut walk = vec![from];
+    walk.extend((1..=n).map(|k| points[(edge + k) % n]));
+    walk.push(from);
+    walk.dedup();
+    walk
+}
+
+/// The edge nearest to a point, among those allowed, and the point on it.
+fn nearest(
+    ring: &Ring,
+    p: DVec2,
+    allowed: impl Fn((DVec2, DVec2)) -> bool,
+) -> Option<(usize, DVec2)> {
+    let mut best = None;
+    let mut least = f64::INFINITY;
+    for (k, (a, b)) in ring.edges().enumerate() {
+        if !allowed((a, b)) {
+            continue;
+        }
+        let along = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
+        let q = match along {
+            0.0 => a,
+            1.0 => b,
+            _ => a.lerp(b, along),
+        };
+        if p.distance_squared(q) < least {
+            least = p.distance_squared(q);
+            best = Some((k, q));
+        }
+    }
+    best
+}
+
+/// Whether two segments have a point in common, exactly.
+pub(super) fn touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
+    let (low, high) = (a.min(b), a.max(b));
+    if low.cmpgt(c.max(d)).any() || high.cmplt(c.min(d)).any() {
+        return false;
+    }
+    let sides = |p, q, r, s| orient2d(p, q, r) * orient2d(p, q, s) <= 0.0;
+    sides(a, b, c, d) && sides(c, d, a, b)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(size: f64, ccw: bool) -> Ring {
+        let s = size;
+        let points = [(-s, -s), (s, -s), (s, s), (-s, s)].map(DVec2::from);
+        let ring = Ring::new(points.to_vec()).expect("a ring");
+        if ccw { ring } else { ring.reversed() }
+    }
+
+    #[test]
+    fn a_frame_cut_open_walks_the_slit_twice() {
+        let region = Region {
+            outer: square(2.0, true),
+            holes: vec![square(1.0, false)],
+        };
+        let holes: Vec<&Ring> = region.holes.iter().collect();
+        let walk = Walk::around(&region);
+        let slit = walk.slit_from(&holes, 0, DVec2::new(0.5, -2.0));
+        let slit = slit.expect("free");
+        assert_eq!(slit.ends, [DVec2::new(0.5, -2.0), DVec2::new(0.5, -1.0)]);
+        let open = walk.opened(holes[0], &slit).expect("a walk");
+        assert_eq!(open.ring.points().len(), 12);
+        assert!((open.ring.signed_area() - 12.0).abs() < 1e-12);
+        let curve = open.curve().expect("length");
+        assert_eq!(curve.turning_number(), 1);
+    }
+
+    #[test]
+    fn a_slit_through_another_hole_is_refused() {
+        let moved = |by: f64| {
+            let points = square(0.3, false).points().to_vec();
+            let moved = points.iter().map(|p| *p + DVec2::new(by, 0.0));
+            Ring::new(moved.collect()).expect("a ring")
+        };
+        let region = Region {
+            outer: square(2.0, true),
+            holes: vec![moved(-0.5), moved(0.5)],
+        };
+        let holes: Vec<&Ring> = region.holes.iter().collect();
+        let walk = Walk::around(&region);
+        assert!(walk.slit_from(&holes, 0, DVec2::new(2.0, 0.0)).is_none());
+        assert!(walk.slit_from(&holes, 1, DVec2::new(2.0, 0.0)).is_some());
+    }
+}
