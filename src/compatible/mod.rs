@@ -6,14 +6,16 @@
 //! spiral may lie over itself.
 
 mod elements;
+mod outlines;
 mod polygons;
 mod truss;
 
 pub use elements::{BarElement, CompatibleError, Which};
+pub use outlines::OutlinesError;
 pub use polygons::{PolygonOptions, PolygonsError};
 
 use crate::design::Truss;
-use crate::geometry::{Bounds, DVec2};
+use crate::geometry::{Bounds, DMat2, DVec2};
 use crate::mesh::{
     Connectivity, Subdivision, TooManyVertices, TriangleMesh, check_faces, components,
 };
@@ -109,6 +111,22 @@ impl CompatibleMesh {
         Self::new(faces, source, target, elements)
     }
 
+    /// One connected piece with its rings.
+    ///
+    /// # Errors
+    /// [`PolygonsError`] for what is no such piece.
+    pub fn from_piece(
+        source: &[Vec<DVec2>],
+        target: &[Vec<DVec2>],
+        options: &PolygonOptions,
+        progress: &dyn crate::progress::Progress,
+    ) -> Result<Self, PolygonsError> {
+        match (source, target) {
+            ([source], [target]) => Self::from_polygons(source, target, options, progress),
+            _ => Err(PolygonsError::TooThin),
+        }
+    }
+
     /// Vertex indices, three a face, counter-clockwise in both embeddings.
     #[must_use]
     pub fn faces(&self) -> &Arc<[[u32; 3]]> {
@@ -167,6 +185,35 @@ impl CompatibleMesh {
         let of =
             |points: &[DVec2]| Bounds::of(points.iter().copied()).map_or(0.0, |b| b.diameter());
         of(&self.source).max(of(&self.target))
+    }
+
+    /// How much the map between the embeddings distorts shapes: the mean of
+    /// (σ₁/σ₂ + σ₂/σ₁)/2 over the faces, weighted by their share of the area
+    /// in both; 1 for a similarity. Without faces 1.
+    #[must_use]
+    pub fn distortion(&self) -> f64 {
+        let corners = |points: &[DVec2], face: &[u32; 3]| face.map(|v| points[v as usize]);
+        let edges = |[a, b, c]: [DVec2; 3]| DMat2::from_cols(b - a, c - a);
+        let areas = |points: &[DVec2]| -> f64 {
+            let area = |face| edges(corners(points, face)).determinant();
+            self.faces.iter().map(area).sum()
+        };
+        let totals = [areas(&self.source), areas(&self.target)];
+        let of = |face: &[u32; 3]| {
+            let (p, q) = (
+                edges(corners(&self.source, face)),
+                edges(corners(&self.target, face)),
+            );
+            let j = q * p.inverse();
+            let square = j.x_axis.length_squared() + j.y_axis.length_squared();
+            let share = p.determinant() / totals[0] + q.determinant() / totals[1];
+            0.5 * share * (0.5 * square / j.determinant())
+        };
+        if self.faces.is_empty() {
+            1.0
+        } else {
+            self.faces.iter().map(of).sum()
+        }
     }
 
     /// The designs exchanged.

@@ -18,6 +18,10 @@ use serde::{Deserialize, Serialize};
 pub struct Matching {
     /// Keep "up": compare directions as drawn instead of up to a rotation.
     pub keep_up: bool,
+    /// Price of stretch against bending, at least 0; where it is not given,
+    /// several are tried if the shapes are unlike, and the best film is kept.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub stretch: Option<f64>,
     /// What becomes of holes that only one design has.
     pub holes: HoleRule,
     /// What becomes of parts that only one design has.
@@ -108,9 +112,11 @@ impl Matching {
     /// How each pair of boundaries is matched.
     #[must_use]
     pub fn options(&self) -> MatchOptions {
+        let default = MatchOptions::default();
         MatchOptions {
             keep_up: self.keep_up,
-            ..MatchOptions::default()
+            stretch: self.stretch.unwrap_or(default.stretch),
+            ..default
         }
     }
 

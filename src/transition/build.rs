@@ -1,9 +1,9 @@
 //! From two designs to a transition: everything that can fail.
 
-use super::{Cell, Inner};
-use crate::compatible::{CompatibleError, CompatibleMesh, PolygonOptions};
+use super::{Cell, Inner, outlines};
+use crate::compatible::{CompatibleError, CompatibleMesh, OutlinesError, PolygonOptions};
 use crate::content::{Content, FieldBlend, FieldPair, FieldPairError, Solid};
-use crate::correspondence::Matching;
+use crate::correspondence::{Matching, RegionMatch, RegionMatchError};
 use crate::design::{Design, Form};
 use crate::field::{DistanceField, FieldError, Grid, GridError, Metric};
 use crate::geometry::{Bounds, RegionsError};
@@ -92,6 +92,12 @@ pub enum BuildError {
         /// What does not fit.
         error: CompatibleError,
     },
+    /// The outlines were not matched.
+    #[error(transparent)]
+    Match(#[from] RegionMatchError),
+    /// The matched outlines were not triangulated.
+    #[error(transparent)]
+    Triangulation(#[from] OutlinesError),
     /// The rigidity-preserving interpolation failed.
     #[error(transparent)]
     Arap(#[from] ArapError),
@@ -151,17 +157,9 @@ impl TransitionSpec {
     /// # Errors
     /// [`BuildError::Unavailable`] with the reason, for a greyed button.
     pub fn available(cell: Cell, source: &Design, target: &Design) -> Result<(), BuildError> {
-        if cell.warp() == WarpKind::None {
-            return Ok(());
-        }
-        match (&source.form, &target.form) {
-            (Form::Mesh(_), Form::Mesh(_)) | (Form::Truss(_), Form::Truss(_)) => Ok(()),
-            (Form::Outline(_), _) | (_, Form::Outline(_)) => Err(BuildError::Unavailable(
-                "rigid parts need two meshes with the same faces or two trusses with the same bars; outlines can be blended as fields".to_owned(),
-            )),
-            _ => Err(BuildError::Unavailable(
-                "a mesh and a truss have no triangles in common; blend them as fields".to_owned(),
-            )),
+        // Every form has an outline, so that any two go into any cell so far.
+        match (cell.warp(), &source.form, &target.form) {
+            (WarpKind::None | WarpKind::Arap, _, _) => Ok(()),
         }
     }
 }
@@ -196,17 +194,11 @@ fn build_arap(
     progress: &dyn Progress,
 ) -> Result<Inner, BuildError> {
     checkpoint(progress, "triangulating", 0.0)?;
-    let (mesh, bars) = match (&spec.source.form, &spec.target.form) {
-        (Form::Mesh(a), Form::Mesh(b)) => (CompatibleMesh::from_meshes(a, b), Vec::new()),
-        (Form::Truss(a), Form::Truss(b)) => (CompatibleMesh::from_trusses(a, b), a.bars().to_vec()),
-        _ => unreachable!("checked by `available`"),
-    };
-    let mesh = mesh.map_err(|error| BuildError::Compatible {
-        source_name: spec.source.name.clone(),
-        target_name: spec.target.name.clone(),
-        error,
-    })?;
-    let arap = Arap::build(&mesh, &spec.arap, progress)?;
+    let Common {
+        arap,
+        bars,
+        matched,
+    } = common(spec, bar_width, progress)?;
     let loops = if bars.is_empty() {
         arap.mesh().boundary_loops()
     } else {
@@ -224,8 +216,46 @@ fn build_arap(
         bounds: swept_bounds(&arap).padded(room),
         warp: Box::new(arap.clone()),
         arap: Some(arap),
+        matched,
         content,
         bar_width,
+    })
+}
+
+/// One triangulation of both designs, ready to be interpolated.
+struct Common {
+    arap: Arap,
+    bars: Vec<[u32; 2]>,
+    /// How outlines were matched; meshes and trusses bring their match along.
+    matched: Option<RegionMatch>,
+}
+
+fn common(
+    spec: &TransitionSpec,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<Common, BuildError> {
+    let (mesh, bars) = match (&spec.source.form, &spec.target.form) {
+        (Form::Mesh(a), Form::Mesh(b)) => (CompatibleMesh::from_meshes(a, b), Vec::new()),
+        (Form::Truss(a), Form::Truss(b)) => (CompatibleMesh::from_trusses(a, b), a.bars().to_vec()),
+        _ => {
+            let (matched, arap) = outlines::best(spec, bar_width, progress)?;
+            return Ok(Common {
+                arap,
+                bars: Vec::new(),
+                matched: Some(matched),
+            });
+        }
+    };
+    let mesh = mesh.map_err(|error| BuildError::Compatible {
+        source_name: spec.source.name.clone(),
+        target_name: spec.target.name.clone(),
+        error,
+    })?;
+    Ok(Common {
+        arap: Arap::build(&mesh, &spec.arap, progress)?,
+        bars,
+        matched: None,
     })
 }
 
@@ -259,6 +289,7 @@ fn build_field(
         designs: [Arc::clone(&spec.source), Arc::clone(&spec.target)],
         warp: Box::new(Still::new(grid.bounds())),
         arap: None,
+        matched: None,
         bounds: frame,
         content: Content::Field(pair),
         bar_width,

@@ -11,6 +11,7 @@ mod arrange;
 mod build;
 mod cells;
 mod frame;
+mod outlines;
 mod style;
 mod timing;
 
@@ -26,6 +27,7 @@ pub use timing::{Easing, PlayMode, Stop, Timing, TimingError};
 
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, FieldBlend, FieldPairError};
+use crate::correspondence::RegionMatch;
 use crate::design::Design;
 use crate::geometry::Bounds;
 use crate::progress::Progress;
@@ -58,6 +60,7 @@ struct Inner {
     designs: [Arc<Design>; 2],
     warp: Box<dyn Warp>,
     arap: Option<Arap>,
+    matched: Option<RegionMatch>,
     content: Content,
     bounds: Bounds,
     bar_width: f64,
@@ -89,6 +92,7 @@ impl Transition {
             designs: self.0.designs.clone(),
             warp: Box::new(Still::new(pair.grid().bounds())),
             arap: None,
+            matched: None,
             bounds: self.0.bounds,
             bar_width: self.0.bar_width,
             content: Content::Field(pair),
@@ -121,6 +125,14 @@ impl Transition {
     #[must_use]
     pub fn arap(&self) -> Option<&Arap> {
         self.0.arap.as_ref()
+    }
+
+    /// Which point of one outline is which of the other, in the coordinates
+    /// of the frame; none where the designs brought their match along or need
+    /// none.
+    #[must_use]
+    pub fn matched(&self) -> Option<&RegionMatch> {
+        self.0.matched.as_ref()
     }
 
     /// The common triangulation, where there is one.

@@ -30,22 +30,41 @@ fn field_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
 }
 
 #[test]
-fn the_method_follows_the_designs_and_refusals_say_why() {
+fn any_two_forms_become_rigid_parts() {
     let outline = svg("M10 10h80v80h-80z");
     let (mesh, truss) = (design(SQUARE), design(TRUSS));
-    let warp = |a: &Arc<Design>, b: &Arc<Design>| {
-        TransitionSpec::new(Arc::clone(a), Arc::clone(b))
-            .cell
-            .warp()
-    };
-    assert_eq!(warp(&mesh, &mesh), WarpKind::Arap);
-    assert_eq!(warp(&truss, &truss), WarpKind::Arap);
-    assert_eq!(warp(&mesh, &truss), WarpKind::None);
-    assert_eq!(warp(&outline, &mesh), WarpKind::None);
-    let mut spec = TransitionSpec::new(outline, mesh);
-    spec.cell = Cell::new(WarpKind::Arap, ContentKind::Solid).unwrap();
-    let error = Transition::build(&spec, &Silent).unwrap_err();
-    assert!(matches!(error, BuildError::Unavailable(_)), "{error}");
+    for source in [&outline, &mesh, &truss] {
+        for target in [&outline, &mesh, &truss] {
+            let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+            assert_eq!(spec.cell.warp(), WarpKind::Arap);
+            if source.name == target.name {
+                Transition::build(&spec, &Silent).unwrap();
+            }
+        }
+    }
+}
+
+#[test]
+fn outlines_as_rigid_parts_show_the_designs_at_the_ends() {
+    let (a, b) = (
+        svg("M10 10h80v80h-80z"),
+        svg("M50 20L80 80H20zM85 10h10v10h-10z"),
+    );
+    let transition = Transition::build(&TransitionSpec::new(a, b), &Silent).unwrap();
+    let matched = transition.matched().unwrap();
+    assert_eq!(matched.pieces.len(), 2);
+    for (t, area) in [(0.0, 6400.0), (1.0, 1900.0)] {
+        let rings = transition.frame(t).figure().rings;
+        let found: f64 = rings
+            .iter()
+            .map(|ring| {
+                crate::geometry::Ring::new(ring.clone())
+                    .unwrap()
+                    .signed_area()
+            })
+            .sum();
+        assert!((found - area).abs() < 1e-6 * area, "t = {t}: {found}");
+    }
 }
 
 #[test]

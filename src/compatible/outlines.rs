@@ -1,0 +1,84 @@
+//! A whole match triangulated: piece by piece, joined into one mesh.
+
+use super::{CompatibleMesh, PolygonOptions, PolygonsError};
+use crate::correspondence::{PieceMatch, RegionMatch};
+use crate::geometry::DVec2;
+use crate::progress::Progress;
+use rayon::prelude::*;
+
+/// A piece that was not triangulated.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}{error}", if *.pieces > 1 { format!("piece {} of {pieces}: ", piece + 1) } else { String::new() })]
+pub struct OutlinesError {
+    /// Its index.
+    pub piece: usize,
+    /// How many there are.
+    pub pieces: usize,
+    /// What is wrong with it.
+    pub error: PolygonsError,
+}
+
+impl CompatibleMesh {
+    /// Triangulates all pieces of a match. The vertices of each piece follow
+    /// those of the one before, its rings' vertices first and in order.
+    ///
+    /// # Errors
+    /// [`OutlinesError`] names the piece, or tells that the work was
+    /// cancelled.
+    ///
+    /// ```
+    /// use morphospace::compatible::{CompatibleMesh, PolygonOptions};
+    /// use morphospace::correspondence::{Matching, match_regions};
+    /// use morphospace::geometry::{DVec2, FillRule, Regions};
+    /// use morphospace::progress::Silent;
+    /// let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from).to_vec();
+    /// let kite = [(0.0, 0.0), (1.0, -2.0), (2.0, 0.0), (1.0, 1.0)].map(DVec2::from).to_vec();
+    /// let [a, b] = [Regions::from_rings(&[square], FillRule::NonZero)?,
+    ///               Regions::from_rings(&[kite], FillRule::NonZero)?];
+    /// let matched = match_regions(&a, &b, &Matching::default(), &Silent)?;
+    /// let mesh = CompatibleMesh::from_outlines(&matched, &PolygonOptions::default(), &Silent)?;
+    /// assert_eq!(mesh.boundary_loops().len(), 1);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn from_outlines(
+        matched: &RegionMatch,
+        options: &PolygonOptions,
+        progress: &dyn Progress,
+    ) -> Result<Self, OutlinesError> {
+        let pieces = matched.pieces.len();
+        let meshes = matched.pieces.par_iter().enumerate().map(|(piece, rings)| {
+            of_piece(rings, options, progress).map_err(|error| OutlinesError {
+                piece,
+                pieces,
+                error,
+            })
+        });
+        let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
+        Ok(joined(&meshes))
+    }
+}
+
+fn of_piece(
+    piece: &PieceMatch,
+    options: &PolygonOptions,
+    progress: &dyn Progress,
+) -> Result<CompatibleMesh, PolygonsError> {
+    let rings = |of: fn(&crate::correspondence::RingMatch) -> &Vec<DVec2>| -> Vec<Vec<DVec2>> {
+        piece.rings.iter().map(|ring| of(ring).clone()).collect()
+    };
+    let (source, target) = (rings(|ring| &ring.source), rings(|ring| &ring.target));
+    CompatibleMesh::from_piece(&source, &target, options, progress)
+}
+
+/// The meshes as one, in order.
+fn joined(meshes: &[CompatibleMesh]) -> CompatibleMesh {
+    let (mut faces, mut source, mut target) = (Vec::new(), Vec::new(), Vec::new());
+    for mesh in meshes {
+        let before = source.len() as u32;
+        faces.extend(mesh.faces.iter().map(|face| face.map(|v| v + before)));
+        source.extend_from_slice(&mesh.source);
+        target.extend_from_slice(&mesh.target);
+    }
+    CompatibleMesh::new(faces, source, target, Vec::new())
+        .unwrap_or_else(|_| unreachable!("each mesh was valid, and they share nothing"))
+}
