@@ -12,7 +12,7 @@ mod truss;
 
 pub use elements::{BarElement, CompatibleError, Which};
 pub use outlines::OutlinesError;
-pub use polygons::{PolygonOptions, PolygonsError};
+pub use polygons::{PolygonOptions, PolygonsError, RingEdge};
 
 use crate::design::Truss;
 use crate::geometry::{Bounds, DMat2, DVec2};
@@ -109,22 +109,6 @@ impl CompatibleMesh {
             .map_err(|error| CompatibleError::Truss(error.to_string()))?;
         let (source, target) = (source.nodes().to_vec(), target.nodes().to_vec());
         Self::new(faces, source, target, elements)
-    }
-
-    /// One connected piece with its rings.
-    ///
-    /// # Errors
-    /// [`PolygonsError`] for what is no such piece.
-    pub fn from_piece(
-        source: &[Vec<DVec2>],
-        target: &[Vec<DVec2>],
-        options: &PolygonOptions,
-        progress: &dyn crate::progress::Progress,
-    ) -> Result<Self, PolygonsError> {
-        match (source, target) {
-            ([source], [target]) => Self::from_polygons(source, target, options, progress),
-            _ => Err(PolygonsError::TooThin),
-        }
     }
 
     /// Vertex indices, three a face, counter-clockwise in both embeddings.

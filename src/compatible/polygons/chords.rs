@@ -8,7 +8,7 @@
 //! is all that is promised; a chord valid in both costs nothing, so that two
 //! equal polygons end without crossings.
 
-use super::simple::segments_touch;
+use super::touching::segments_touch;
 use crate::geometry::{DVec2, orient2d};
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 
@@ -30,8 +30,11 @@ pub(super) fn triangulations(
     source: &[DVec2],
     target: &[DVec2],
 ) -> Result<[Vec<[u32; 3]>; 2], TriangulationError> {
-    if source.len() > SEARCHED {
-        return Ok([constrained_delaunay(source)?, constrained_delaunay(target)?]);
+    if source.len() > SEARCHED || has_slits(source) || has_slits(target) {
+        return Ok([
+            constrained_delaunay(&[source])?,
+            constrained_delaunay(&[target])?,
+        ]);
     }
     let chords = [Chords::of(source), Chords::of(target)];
     let points = [source, target];
@@ -49,6 +52,14 @@ pub(super) fn triangulations(
         return Err(TriangulationError::NotSimple);
     }
     Ok(faces)
+}
+
+/// Whether two corners of the walk are one point.
+fn has_slits(points: &[DVec2]) -> bool {
+    // Negative zero is zero.
+    let mut sorted: Vec<DVec2> = points.iter().map(|&p| p + 0.0).collect();
+    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+    sorted.windows(2).any(|pair| pair[0] == pair[1])
 }
 
 /// Which chords lie inside a polygon.

@@ -1,10 +1,11 @@
-//! Compatible triangulation of two simple polygons with corresponding
-//! vertices.
+//! Compatible triangulation of one connected piece with corresponding
+//! boundary vertices in two designs: a simple polygon, maybe with holes, maybe
+//! cut open along slits.
 //!
 //! First the foldover-free transfer of either polygon's refined triangulation
 //! to the other ([`transfer`]): good angles, no guarantee. Where it fails in
-//! both directions, the guaranteed base ([`overlay`]), thinned out. Then
-//! quality in both designs at once ([`quality`]).
+//! both directions, the guaranteed base ([`overlay`] of discs, [`bridges`] for
+//! holes), thinned out. Then quality in both designs at once ([`quality`]).
 //!
 //! Guaranteed: every face is positive in both designs by exact predicates;
 //! the polygons' vertices come first, in order and unmoved, and their edges
@@ -14,23 +15,28 @@
 //! room for the vertices that a common triangulation needs: an error, never a
 //! wrong mesh.
 
+mod bridges;
 mod chords;
+mod error;
 mod face;
 mod lbfgs;
 mod overlay;
 mod pair;
+mod piece;
 mod quality;
 mod relax;
-mod simple;
 #[cfg(test)]
 mod tests;
+mod touching;
 mod transfer;
 
 use super::{CompatibleError, CompatibleMesh, Which};
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::triangulation::TriangulationError;
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::progress::{Progress, checkpoint};
+pub use error::{PolygonsError, RingEdge};
 use pair::PairMesh;
+use piece::Rings;
 use serde::{Deserialize, Serialize};
 
 /// How two polygons are triangulated together.
@@ -41,53 +47,6 @@ pub struct PolygonOptions {
     /// without one, faces grow from the boundary inwards, with at most two
     /// inner vertices for each of the boundary in all but hard cases.
     pub edge_length: Option<f64>,
-}
-
-/// Why two polygons were not triangulated together. Numbers in messages start
-/// at 1.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum PolygonsError {
-    /// Different numbers of points.
-    #[error("the source has {} boundary points and the target {}; match them one to one", .0[0], .0[1])]
-    Counts([usize; 2]),
-    /// Fewer than three points.
-    #[error("the outline of the {which} has {points} points; it needs at least 3")]
-    TooFewPoints {
-        /// In which design.
-        which: Which,
-        /// How many there are.
-        points: usize,
-    },
-    /// A coordinate is NaN or infinite.
-    #[error("point {} on the outline of the {which} is not finite; correct its coordinates", vertex + 1)]
-    NotFinite {
-        /// In which design.
-        which: Which,
-        /// The point.
-        vertex: usize,
-    },
-    /// Two edges touch, or two points coincide.
-    #[error("edges {} and {} on the outline of the {which} touch; repair the outline", edges[0] + 1, edges[1] + 1)]
-    NotSimple {
-        /// In which design.
-        which: Which,
-        /// The edges, each named by its first point.
-        edges: [usize; 2],
-    },
-    /// Clockwise points.
-    #[error("the outline of the {0} runs clockwise; reverse its points")]
-    Clockwise(Which),
-    /// The edge length is no positive number.
-    #[error("the edge length {0} is not a positive share of the diameter; use 0.05, say")]
-    EdgeLength(f64),
-    /// A polygon so thin that its inside holds no representable points.
-    #[error(
-        "an outline is thinner than its coordinates are exact; thicken it, or move the match of its thinnest part"
-    )]
-    TooThin,
-    /// The work was cancelled.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
 }
 
 impl From<TriangulationError> for PolygonsError {
@@ -128,44 +87,80 @@ impl CompatibleMesh {
         options: &PolygonOptions,
         progress: &dyn Progress,
     ) -> Result<Self, PolygonsError> {
+        Self::from_piece(&[source], &[target], options, progress)
+    }
+
+    /// Triangulates one connected piece in two designs together. Ring 0 is
+    /// its outer boundary, counter-clockwise, the others are its holes,
+    /// clockwise; point i of a ring is point i of that ring in the other
+    /// design. The mesh's first vertices are the rings' points, ring after
+    /// ring; inner ones follow.
+    ///
+    /// A ring may run along a slit in either design or in both, there and
+    /// back over bit-equal points, as that of a letter D cut open: both banks
+    /// are vertices of their own.
+    ///
+    /// # Errors
+    /// [`PolygonsError`] for what bounds no single piece, or if the work is
+    /// cancelled.
+    ///
+    /// ```
+    /// use morphospace::compatible::{CompatibleMesh, PolygonOptions};
+    /// use morphospace::{geometry::DVec2, progress::Silent};
+    /// let square = |r: f64| [(-r, -r), (r, -r), (r, r), (-r, r)].map(DVec2::from).to_vec();
+    /// let hole = |r: f64| square(r).into_iter().rev().collect();
+    /// let (thin, thick) = ([square(2.0), hole(1.5)], [square(2.0), hole(0.5)]);
+    /// let mesh = CompatibleMesh::from_piece(&thin, &thick, &PolygonOptions::default(), &Silent)?;
+    /// assert_eq!(mesh.boundary_loops().len(), 2);
+    /// # Ok::<(), morphospace::compatible::PolygonsError>(())
+    /// ```
+    pub fn from_piece<R: AsRef<[DVec2]>>(
+        source: &[R],
+        target: &[R],
+        options: &PolygonOptions,
+        progress: &dyn Progress,
+    ) -> Result<Self, PolygonsError> {
         check(source, target, options)?;
-        let scales = [source, target].map(to_unit);
-        let [p, q] = [(source, scales[0]), (target, scales[1])]
-            .map(|(points, scale)| points.iter().map(|&p| p * scale).collect::<Vec<_>>());
+        let given = [source, target].map(Rings::of);
+        let scales = [&given[0], &given[1]].map(|rings| to_unit(&rings.points));
+        let [p, q] = [0, 1].map(|d| given[d].scaled(scales[d]));
+        piece::check(&p, Which::Source)?;
+        piece::check(&q, Which::Target)?;
         let mesh = triangulated(&p, &q, options, progress)?;
-        let (faces, [mut in_source, mut in_target]) = mesh.compacted();
-        for (points, polygon, scale) in [
-            (&mut in_source, source, scales[0]),
-            (&mut in_target, target, scales[1]),
-        ] {
-            points.iter_mut().for_each(|p| *p /= scale);
-            points[..polygon.len()].copy_from_slice(polygon);
+        let (faces, mut points) = mesh.compacted();
+        for d in 0..2 {
+            points[d].iter_mut().for_each(|p| *p /= scales[d]);
+            points[d][..given[d].points.len()].copy_from_slice(&given[d].points);
         }
+        let [in_source, in_target] = points;
         Ok(Self::new(faces, in_source, in_target, Vec::new())?)
     }
 }
 
-fn check(
-    source: &[DVec2],
-    target: &[DVec2],
+fn check<R: AsRef<[DVec2]>>(
+    source: &[R],
+    target: &[R],
     options: &PolygonOptions,
 ) -> Result<(), PolygonsError> {
     if source.len() != target.len() {
-        return Err(PolygonsError::Counts([source.len(), target.len()]));
+        return Err(PolygonsError::Rings([source.len(), target.len()]));
     }
-    if let Some(share) = options
-        .edge_length
-        .filter(|&share| share.is_nan() || share <= 0.0)
-    {
-        return Err(PolygonsError::EdgeLength(share));
+    let lengths = |rings: &[R]| rings.iter().map(|r| r.as_ref().len()).collect::<Vec<_>>();
+    for (ring, (a, b)) in lengths(source).into_iter().zip(lengths(target)).enumerate() {
+        if a != b {
+            let points = [a, b];
+            return Err(PolygonsError::Counts { ring, points });
+        }
     }
-    simple::check(source, Which::Source)?;
-    simple::check(target, Which::Target)
+    match options.edge_length {
+        Some(share) if share.is_nan() || share <= 0.0 => Err(PolygonsError::EdgeLength(share)),
+        _ => Ok(()),
+    }
 }
 
 fn triangulated(
-    source: &[DVec2],
-    target: &[DVec2],
+    source: &Rings,
+    target: &Rings,
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PolygonsError> {
@@ -182,8 +177,8 @@ fn triangulated(
 }
 
 fn transferred(
-    from: &[DVec2],
-    to: &[DVec2],
+    from: &Rings,
+    to: &Rings,
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<Option<PairMesh>, PolygonsError> {
@@ -195,13 +190,12 @@ fn transferred(
 }
 
 fn from_base(
-    source: &[DVec2],
-    target: &[DVec2],
+    source: &Rings,
+    target: &Rings,
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PolygonsError> {
-    let triangulations = chords::triangulations(source, target)?;
-    let mut mesh = overlay::overlay(source, target, &triangulations);
+    let mut mesh = bridges::base(source, target)?;
     if !mesh.is_valid() {
         return Err(PolygonsError::TooThin);
     }

@@ -1,5 +1,7 @@
 //! Random simple polygons, bad matches and exact oracles.
 
+mod pieces;
+
 use super::*;
 use crate::geometry::{Ring, orient2d};
 use crate::progress::Silent;
@@ -33,9 +35,7 @@ fn two_opt(n: usize, random: &mut Random) -> Vec<DVec2> {
     let mut points: Vec<DVec2> = (0..n)
         .map(|_| DVec2::new(random.next(), random.next()))
         .collect();
-    while let Err(PolygonsError::NotSimple { edges: [i, j], .. }) =
-        simple::check(&points, Which::Source)
-    {
+    while let Some([i, j]) = touching::touching_edges(&[&points]) {
         points[i + 1..=j].reverse();
     }
     counter_clockwise(points)
@@ -113,22 +113,39 @@ fn shape(kind: usize, n: usize, random: &mut Random) -> Vec<DVec2> {
 
 /// Everything that is promised, held against slow and obvious oracles.
 fn hold(mesh: &CompatibleMesh, source: &[DVec2], target: &[DVec2]) {
-    let n = source.len();
+    hold_piece(mesh, &[source], &[target]);
+}
+
+fn hold_piece<R: AsRef<[DVec2]>>(mesh: &CompatibleMesh, source: &[R], target: &[R]) {
     let mut loops = mesh.boundary_loops();
-    assert_eq!(loops.len(), 1);
-    let first = loops[0].iter().position(|&v| v == 0).expect("vertex 0");
-    loops[0].rotate_left(first);
-    assert_eq!(loops[0], (0..n as u32).collect::<Vec<_>>());
-    assert_eq!(mesh.faces().len() + n + 2, 2 * mesh.source().len());
-    for (points, polygon) in [(mesh.source(), source), (mesh.target(), target)] {
-        assert_eq!(&points[..n], polygon);
+    for walk in &mut loops {
+        let first = (0..walk.len()).min_by_key(|&k| walk[k]).expect("not empty");
+        walk.rotate_left(first);
+    }
+    loops.sort_unstable();
+    let mut n = 0;
+    let ring = |ring: &R| {
+        n += ring.as_ref().len() as u32;
+        (n - ring.as_ref().len() as u32..n).collect()
+    };
+    let rings: Vec<Vec<u32>> = source.iter().map(ring).collect();
+    assert_eq!(loops, rings);
+    let (n, holes) = (n as usize, rings.len() - 1);
+    assert_eq!(
+        mesh.faces().len() + n + 2,
+        2 * (mesh.source().len() + holes)
+    );
+    for (points, rings) in [(mesh.source(), source), (mesh.target(), target)] {
+        let given: Vec<DVec2> = rings.iter().flat_map(|r| r.as_ref()).copied().collect();
+        assert_eq!(points[..n], given);
         let mut doubled = 0.0;
         for face in mesh.faces().iter() {
             let [a, b, c] = face.map(|v| points[v as usize]);
             assert!(orient2d(a, b, c) > 0.0, "{face:?}");
             doubled += (b - a).perp_dot(c - a);
         }
-        let area = Ring::new(polygon.to_vec()).expect("a ring").signed_area();
+        let ring = |r: &R| Ring::new(r.as_ref().to_vec()).expect("a ring");
+        let area: f64 = rings.iter().map(|r| ring(r).signed_area()).sum();
         assert!(
             (0.5 * doubled - area).abs() < 1e-9 * area,
             "{doubled} {area}"
@@ -144,7 +161,13 @@ fn together(source: &[DVec2], target: &[DVec2]) -> CompatibleMesh {
 }
 
 fn base(source: &[DVec2], target: &[DVec2]) -> PairMesh {
-    let mesh = from_base(source, target, &PolygonOptions::default(), &Silent).expect("simple");
+    let mesh = from_base(
+        &Rings::of(&[source]),
+        &Rings::of(&[target]),
+        &PolygonOptions::default(),
+        &Silent,
+    )
+    .expect("simple");
     let (faces, [p, q]) = mesh.compacted();
     hold(
         &CompatibleMesh::new(faces, p, q, vec![]).expect("valid"),
@@ -162,7 +185,7 @@ fn pair(kinds: (usize, usize), n: usize, seed: u64) -> Option<[Vec<DVec2>; 2]> {
     let m = target.len();
     let source = with_points(source, m);
     target.rotate_left((random.next() * m as f64) as usize);
-    let simple = |points| simple::check(points, Which::Source).is_ok();
+    let simple = |points| piece::check(&Rings::of(&[points]), Which::Source).is_ok();
     (simple(&source) && simple(&target)).then_some([source, target])
 }
 
@@ -227,12 +250,16 @@ fn what_cannot_be_triangulated_is_named() {
     };
     assert_eq!(
         of(&square, &square[1..], &options),
-        Err(PolygonsError::Counts([8, 7]))
+        Err(PolygonsError::Counts {
+            ring: 0,
+            points: [8, 7]
+        })
     );
     let mut nan = square.clone();
     nan[3].x = f64::NAN;
     let not_finite = PolygonsError::NotFinite {
         which: Which::Target,
+        ring: 0,
         vertex: 3,
     };
     assert_eq!(of(&square, &nan, &options), Err(not_finite));

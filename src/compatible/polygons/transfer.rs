@@ -10,6 +10,7 @@
 
 use super::lbfgs::minimise;
 use super::pair::PairMesh;
+use super::piece::Rings;
 use super::{PolygonOptions, PolygonsError, checked};
 use crate::geometry::{DMat2, DVec2, twice_signed_area};
 use crate::linalg::{Cholesky, FactorKind, SymmetricMatrix};
@@ -27,8 +28,8 @@ const STEPS: usize = 80;
 /// Both polygons' common mesh, refined in the first and carried to the
 /// second; `None` where folds remain.
 pub(super) fn transfer(
-    from: &[DVec2],
-    to: &[DVec2],
+    from: &Rings,
+    to: &Rings,
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<Option<PairMesh>, PolygonsError> {
@@ -36,14 +37,13 @@ pub(super) fn transfer(
         min_angle: MIN_ANGLE,
         max_edge: options
             .edge_length
-            .map(|share| share * super::diameter(from)),
-        max_points: super::most_points(from.len(), options),
-        split_boundary: false,
+            .map(|share| share * super::diameter(&from.points)),
+        max_points: super::most_points(from.points.len(), options),
     };
-    let Ok(start) = refined(from, &refinement) else {
+    let Ok(start) = refined(&from.walks(), &refinement) else {
         return Ok(None);
     };
-    let (n, points) = (from.len(), start.points);
+    let (n, points, to) = (from.points.len(), start.points, &to.points);
     let mut mesh = PairMesh::new(n, points.clone(), points, start.faces);
     split_chords(&mut mesh);
     mesh.points[1] = fitted(&mesh, to);

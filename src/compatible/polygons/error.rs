@@ -1,0 +1,99 @@
+//! Why two pieces were not triangulated together.
+
+use crate::compatible::Which;
+use crate::progress::Cancelled;
+
+/// An edge of a boundary ring, named by its first point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RingEdge {
+    /// 0 for the outer boundary, 1 for the first hole.
+    pub ring: usize,
+    /// The edge runs from this point of the ring to the next.
+    pub edge: usize,
+}
+
+impl std::fmt::Display for RingEdge {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "edge {} of {}", self.edge + 1, ring_name(self.ring))
+    }
+}
+
+fn ring_name(ring: usize) -> String {
+    match ring {
+        0 => "the outline".to_owned(),
+        hole => format!("hole {hole}"),
+    }
+}
+
+/// Why two pieces were not triangulated together. Numbers in messages start
+/// at 1.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum PolygonsError {
+    /// No outer boundary.
+    #[error("there is no outline; give at least one ring of points")]
+    NoOutline,
+    /// Different numbers of boundary rings.
+    #[error("the source has {} boundary rings and the target {}; close or cut open the holes that have no partner", .0[0], .0[1])]
+    Rings([usize; 2]),
+    /// Different numbers of points.
+    #[error("{} has {} points in the source and {} in the target; match them one to one", ring_name(*ring), points[0], points[1])]
+    Counts {
+        /// The boundary ring; 0 is the outer one.
+        ring: usize,
+        /// Its points in source and target.
+        points: [usize; 2],
+    },
+    /// Fewer than three points.
+    #[error("{} has {points} points; it needs at least 3", ring_name(*ring))]
+    TooFewPoints {
+        /// The boundary ring; 0 is the outer one.
+        ring: usize,
+        /// How many points there are.
+        points: usize,
+    },
+    /// A coordinate is NaN, infinite or out of proportion.
+    #[error("point {} of {} in the {which} is not finite or far out; correct its coordinates", vertex + 1, ring_name(*ring))]
+    NotFinite {
+        /// In which design.
+        which: Which,
+        /// The boundary ring; 0 is the outer one.
+        ring: usize,
+        /// The point in its ring.
+        vertex: usize,
+    },
+    /// Two edges touch, or points coincide, other than along a slit.
+    #[error("{} and {} touch in the {which}; repair the outline", edges[0], edges[1])]
+    NotSimple {
+        /// In which design.
+        which: Which,
+        /// The edges.
+        edges: [RingEdge; 2],
+    },
+    /// The outer boundary runs clockwise.
+    #[error("the outline of the {0} runs clockwise; reverse its points")]
+    Clockwise(Which),
+    /// A hole runs counter-clockwise.
+    #[error("hole {hole} of the {which} runs counter-clockwise; reverse its points")]
+    CounterClockwise {
+        /// In which design.
+        which: Which,
+        /// The hole, the first is 1.
+        hole: usize,
+    },
+    /// A hole is not inside the outline, or inside another hole.
+    #[error(
+        "a hole of the {0} lies outside its outline or in another hole; make it a part of its own"
+    )]
+    HoleOutside(Which),
+    /// The edge length is no positive number.
+    #[error("the edge length {0} is not a positive share of the diameter; use 0.05, say")]
+    EdgeLength(f64),
+    /// A piece so thin that its inside holds no representable points.
+    #[error(
+        "an outline is thinner than its coordinates are exact; thicken it, or move the match of its thinnest part"
+    )]
+    TooThin,
+    /// The work was cancelled.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}

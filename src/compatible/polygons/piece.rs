@@ -1,0 +1,174 @@
+//! The boundary rings of one connected piece in one design, and whether they
+//! bound one.
+
+use super::error::{PolygonsError, RingEdge};
+use super::touching::touching_edges;
+use crate::compatible::Which;
+use crate::geometry::{DVec2, twice_signed_area};
+use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
+
+/// Boundary rings, one after the other.
+#[derive(Clone, Debug)]
+pub(super) struct Rings {
+    pub(super) points: Vec<DVec2>,
+    /// How many points each ring has.
+    lengths: Vec<usize>,
+}
+
+impl Rings {
+    pub(super) fn of<R: AsRef<[DVec2]>>(rings: &[R]) -> Self {
+        Self {
+            points: rings.iter().flat_map(|r| r.as_ref()).copied().collect(),
+            lengths: rings.iter().map(|r| r.as_ref().len()).collect(),
+        }
+    }
+
+    pub(super) fn scaled(&self, by: f64) -> Self {
+        Self {
+            points: self.points.iter().map(|&p| p * by).collect(),
+            lengths: self.lengths.clone(),
+        }
+    }
+
+    /// The rings, each by its points.
+    pub(super) fn walks(&self) -> Vec<&[DVec2]> {
+        let mut rest = &self.points[..];
+        let mut walk = |&length: &usize| {
+            let (walk, after) = rest.split_at(length);
+            rest = after;
+            walk
+        };
+        self.lengths.iter().map(&mut walk).collect()
+    }
+
+    /// Where in its ring a point is.
+    pub(super) fn place(&self, mut point: usize) -> RingEdge {
+        for (ring, &length) in self.lengths.iter().enumerate() {
+            if point < length {
+                return RingEdge { ring, edge: point };
+            }
+            point -= length;
+        }
+        RingEdge { ring: 0, edge: 0 }
+    }
+}
+
+/// Whether the rings bound one piece: an outer one, counter-clockwise, and
+/// holes in it, clockwise, that touch nothing but their own slits. O(n log n)
+/// where they do.
+pub(super) fn check(rings: &Rings, which: Which) -> Result<(), PolygonsError> {
+    let walks = rings.walks();
+    if walks.is_empty() {
+        return Err(PolygonsError::NoOutline);
+    }
+    if let Some(ring) = walks.iter().position(|walk| walk.len() < 3) {
+        let points = walks[ring].len();
+        return Err(PolygonsError::TooFewPoints { ring, points });
+    }
+    if let Some(point) = rings.points.iter().position(|p| !p.is_finite()) {
+        return Err(not_finite(rings, point, which));
+    }
+    match constrained_delaunay(&walks) {
+        Ok(_) => Ok(()),
+        Err(TriangulationError::OutOfRange) => {
+            let size = |p: &DVec2| p.abs().max_element();
+            let far = (0..rings.points.len())
+                .max_by(|&a, &b| size(&rings.points[a]).total_cmp(&size(&rings.points[b])));
+            Err(not_finite(rings, far.unwrap_or(0), which))
+        }
+        Err(_) => Err(reason(rings, &walks, which)),
+    }
+}
+
+fn not_finite(rings: &Rings, point: usize, which: Which) -> PolygonsError {
+    let RingEdge { ring, edge } = rings.place(point);
+    PolygonsError::NotFinite {
+        which,
+        ring,
+        vertex: edge,
+    }
+}
+
+/// Why rings bound no piece, found the slow way.
+fn reason(rings: &Rings, walks: &[&[DVec2]], which: Which) -> PolygonsError {
+    if let Some(edges) = touching_edges(walks) {
+        let edges = edges.map(|edge| rings.place(edge));
+        return PolygonsError::NotSimple { which, edges };
+    }
+    if doubled_area(walks[0]) < 0.0 {
+        return PolygonsError::Clockwise(which);
+    }
+    match (1..walks.len()).find(|&hole| doubled_area(walks[hole]) > 0.0) {
+        Some(hole) => PolygonsError::CounterClockwise { which, hole },
+        None if walks.len() == 1 => PolygonsError::TooThin,
+        None => PolygonsError::HoleOutside(which),
+    }
+}
+
+fn doubled_area(walk: &[DVec2]) -> f64 {
+    let pairs = walk.iter().zip(walk.iter().cycle().skip(1));
+    pairs.map(|(&a, &b)| twice_signed_area(walk[0], a, b)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn verdict<const N: usize>(rings: [&[(f64, f64)]; N]) -> Result<(), PolygonsError> {
+        let rings = rings.map(|ring| ring.iter().copied().map(DVec2::from).collect::<Vec<_>>());
+        check(&Rings::of(&rings), Which::Source)
+    }
+
+    fn not_simple(edges: [(usize, usize); 2]) -> Result<(), PolygonsError> {
+        Err(PolygonsError::NotSimple {
+            which: Which::Source,
+            edges: edges.map(|(ring, edge)| RingEdge { ring, edge }),
+        })
+    }
+
+    const SQUARE: [(f64, f64); 4] = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)];
+
+    #[test]
+    fn points_on_a_straight_side_are_welcome() {
+        let square = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)];
+        assert_eq!(verdict([&square]), Ok(()));
+    }
+
+    #[test]
+    fn spikes_touches_and_wrong_direction_are_named() {
+        let spike = [(0.0, 0.0), (2.0, 0.0), (1.0, 0.0), (1.0, 1.0)];
+        assert_eq!(verdict([&spike]), not_simple([(0, 0), (0, 1)]));
+        let touch = [(0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (2.0, 0.0), (0.0, 2.0)];
+        assert_eq!(verdict([&touch]), not_simple([(0, 0), (0, 3)]));
+        let twice = [(0.0, 0.0), (4.0, 0.0), (4.0, 0.0), (0.0, 2.0)];
+        assert_eq!(verdict([&twice]), not_simple([(0, 0), (0, 1)]));
+        let clockwise = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0)];
+        assert_eq!(
+            verdict([&clockwise]),
+            Err(PolygonsError::Clockwise(Which::Source))
+        );
+    }
+
+    #[test]
+    fn holes_outside_reversed_or_touching_are_named() {
+        let inside = [(1.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
+        assert_eq!(verdict([&SQUARE, &inside]), Ok(()));
+        let outside = inside.map(|(x, y)| (x + 9.0, y));
+        let which = Which::Source;
+        assert_eq!(
+            verdict([&SQUARE, &outside]),
+            Err(PolygonsError::HoleOutside(which))
+        );
+        let reversed = [inside[2], inside[1], inside[0]];
+        assert_eq!(
+            verdict([&SQUARE, &reversed]),
+            Err(PolygonsError::CounterClockwise { which, hole: 1 })
+        );
+        let touching = inside.map(|(x, y)| (x - 1.0, y));
+        assert_eq!(verdict([&SQUARE, &touching]), not_simple([(0, 3), (1, 0)]));
+        let corner = [(0.0, 0.0), (1.0, 2.0), (2.0, 1.0)];
+        assert_eq!(verdict([&SQUARE, &corner]), not_simple([(0, 0), (1, 0)]));
+        let same = [inside; 2];
+        assert!(verdict([&SQUARE, &same[0], &same[1]]).is_err());
+    }
+}

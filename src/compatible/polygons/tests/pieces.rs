@@ -1,0 +1,211 @@
+//! Pieces with holes and slits.
+
+use super::*;
+
+type Piece = Vec<Vec<DVec2>>;
+
+/// A star-shaped ring about a centre, clockwise for a hole.
+fn ring(centre: DVec2, radius: f64, n: usize, turn: f64, random: &mut Random) -> Vec<DVec2> {
+    let at = |k: usize| {
+        let angle = turn + TAU * k as f64 / n as f64;
+        centre + polar(radius * (0.6 + 0.4 * random.next()), angle)
+    };
+    (0..n).map(at).collect()
+}
+
+fn hole(mut ring: Vec<DVec2>) -> Vec<DVec2> {
+    ring.reverse();
+    ring
+}
+
+fn circle(centre: DVec2, radius: f64, n: usize, turn: f64) -> Vec<DVec2> {
+    let at = |k: usize| centre + polar(radius, turn + TAU * k as f64 / n as f64);
+    (0..n).map(at).collect()
+}
+
+fn from_the_base(source: &Piece, target: &Piece) -> CompatibleMesh {
+    let options = PolygonOptions::default();
+    let base = from_base(&Rings::of(source), &Rings::of(target), &options, &Silent);
+    let base = base.expect("a base");
+    let (faces, [p, q]) = base.compacted();
+    CompatibleMesh::new(faces, p, q, vec![]).expect("valid")
+}
+
+/// Both ways to a mesh, and the designs exchanged.
+fn all_ways(source: &Piece, target: &Piece) {
+    let options = PolygonOptions::default();
+    for (p, q) in [(source, target), (target, source)] {
+        let mesh = CompatibleMesh::from_piece(p, q, &options, &Silent).expect("a piece");
+        hold_piece(&mesh, p, q);
+        hold_piece(&from_the_base(p, q), p, q);
+    }
+}
+
+fn annulus(turn: f64) -> Piece {
+    let outer = circle(DVec2::ZERO, 2.0, 24, 0.0);
+    vec![outer, hole(circle(DVec2::ZERO, 1.0, 16, turn))]
+}
+
+#[test]
+fn an_annulus_whose_hole_turns() {
+    for turn in [0.0, 0.5, 2.0, 3.1] {
+        all_ways(&annulus(0.0), &annulus(turn));
+    }
+}
+
+#[test]
+fn a_hole_that_closes_to_a_point() {
+    let (mut p, mut q) = (annulus(0.0), annulus(0.0));
+    for point in &mut q[1] {
+        *point = DVec2::new(0.3, 0.2) + 1e-4 * *point;
+    }
+    all_ways(&p, &q);
+    for point in &mut p[1] {
+        *point = DVec2::new(0.99, 0.0) + 0.999 * *point;
+    }
+    all_ways(&p, &q);
+}
+
+/// A letter with two holes.
+fn b(waist: f64, lean: f64) -> Piece {
+    let outer = [
+        (0.0, 0.0),
+        (3.0, 0.0),
+        (4.0, 1.0),
+        (4.0, 2.5),
+        (waist, 3.0),
+        (4.0, 3.5),
+        (3.5, 6.0),
+        (0.0, 6.0),
+        (0.0, 3.0),
+    ];
+    let low = [(1.0, 1.0), (1.0, 2.5), (2.5, 2.5), (3.0, 1.5), (2.5, 1.0)];
+    let high = [(1.0, 3.5), (1.0, 5.0), (2.5, 5.0), (2.5, 3.5)];
+    let lean = |&(x, y): &(f64, f64)| DVec2::new(x + lean * y, y);
+    let rings: [&[(f64, f64)]; 3] = [&outer, &low, &high];
+    rings.map(|ring| ring.iter().map(lean).collect()).to_vec()
+}
+
+#[test]
+fn a_letter_with_two_holes() {
+    all_ways(&b(3.8, 0.0), &b(2.8, 0.4));
+    let other = b(3.8, 0.0);
+    let exchanged = vec![
+        other[0].clone(),
+        with_points(other[2].clone(), 5),
+        other[1][..4].to_vec(),
+    ];
+    all_ways(&b(3.8, 0.0), &exchanged);
+}
+
+/// A thick letter D, cut open across its stem or its bowl, and as many
+/// points along a bent strip.
+fn d_cut_open(cut: usize) -> (Piece, Piece) {
+    let m = 16;
+    let at = |k: usize, r: f64| polar(r, TAU * ((cut + k) % m) as f64 / m as f64);
+    let slit: Vec<DVec2> = [1.75, 1.5, 1.25].map(|r| at(0, r)).to_vec();
+    let mut open: Vec<DVec2> = (0..=m).map(|k| at(k, 2.0)).collect();
+    open.extend(&slit);
+    open.extend((0..=m).rev().map(|k| at(k, 1.0)));
+    open.extend(slit.iter().rev());
+    let across = |share: f64, side: f64| {
+        let x = TAU * share;
+        DVec2::new(x, 2.0 * x.sin() + side)
+    };
+    let mut strip: Vec<DVec2> = (0..=m).map(|k| across(k as f64 / m as f64, -0.5)).collect();
+    strip.extend([-0.25, 0.0, 0.25].map(|side| across(1.0, side)));
+    strip.extend((0..=m).rev().map(|k| across(k as f64 / m as f64, 0.5)));
+    strip.extend([0.25, 0.0, -0.25].map(|side| across(0.0, side)));
+    (vec![open], vec![strip])
+}
+
+#[test]
+fn a_ring_cut_open_becomes_a_strip() {
+    for cut in [0, 5] {
+        let (d, s) = d_cut_open(cut);
+        all_ways(&d, &s);
+        all_ways(&d, &d_cut_open(cut + 3).0);
+    }
+}
+
+#[test]
+fn a_slit_with_an_end_inside_opens_to_a_notch() {
+    let slit = [
+        (0.0, 0.0),
+        (4.0, 0.0),
+        (4.0, 4.0),
+        (2.0, 4.0),
+        (2.0, 3.0),
+        (2.0, 2.0),
+        (2.0, 3.0),
+        (2.0, 4.0),
+        (0.0, 4.0),
+    ];
+    let mut notch = slit;
+    notch[3].0 = 3.0;
+    notch[4].0 = 2.5;
+    let piece = |points: [(f64, f64); 9]| vec![points.map(DVec2::from).to_vec()];
+    all_ways(&piece(slit), &piece(notch));
+}
+
+#[test]
+fn a_hole_close_to_the_boundary() {
+    let near = |x: f64| {
+        let outer = with_points(circle(DVec2::ZERO, 2.0, 12, 0.0), 40);
+        vec![outer, hole(circle(DVec2::new(x, 0.0), 0.5, 12, 0.0))]
+    };
+    for gap in [1e-2, 1e-4, 1e-7] {
+        all_ways(&near(0.0), &near(1.5 - gap));
+        all_ways(&near(gap - 1.4), &near(1.5 - gap));
+    }
+}
+
+fn random_piece(counts: &[usize], random: &mut Random) -> Piece {
+    let outer = ring(DVec2::ZERO, 4.0, counts[0], 0.0, random);
+    // Rays from the centre stay clear of the outline within 0.6 · 4 cos(π/n).
+    let places = [(0.0, 0.0), (1.2, 0.0), (0.0, 1.2), (-0.9, -0.9)];
+    let mut rings = vec![outer];
+    let first = (4.0 * random.next()) as usize;
+    for (k, &n) in counts[1..].iter().enumerate() {
+        let place = DVec2::from(places[(first + k) % 4]);
+        let size = 10f64.powf(-3.0 * random.next());
+        rings.push(hole(ring(
+            place,
+            0.5 * size,
+            n,
+            6.0 * random.next(),
+            random,
+        )));
+    }
+    rings
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+
+    #[test]
+    fn stars_with_star_shaped_holes(
+        counts in prop::collection::vec(8usize..24, 2..5), seed: u64,
+    ) {
+        let mut random = Random(seed);
+        let (p, q) = (random_piece(&counts, &mut random), random_piece(&counts, &mut random));
+        all_ways(&p, &q);
+    }
+}
+
+#[test]
+fn holes_without_a_partner_are_named() {
+    let options = PolygonOptions::default();
+    let of = |p: &[Vec<DVec2>], q: &[Vec<DVec2>]| {
+        CompatibleMesh::from_piece(p, q, &options, &Silent).map(|_| ())
+    };
+    let ring = annulus(0.0);
+    assert_eq!(of(&ring, &ring[..1]), Err(PolygonsError::Rings([2, 1])));
+    assert_eq!(of(&[], &[]), Err(PolygonsError::NoOutline));
+    let fewer = vec![ring[0].clone(), ring[1][1..].to_vec()];
+    let counts = PolygonsError::Counts {
+        ring: 1,
+        points: [16, 15],
+    };
+    assert_eq!(of(&ring, &fewer), Err(counts));
+}

@@ -1,0 +1,183 @@
+//! Delaunay refinement that splits no edge of the boundary (Chew 1993,
+//! Ruppert 1995): circumcentres of bad faces, largest circle first, unless
+//! they lie beyond the boundary or too near to it.
+
+use super::Refinement;
+use super::domain::{Delaunay, Domain};
+use crate::geometry::DVec2;
+use spade::handles::{DirectedEdgeHandle, FaceHandle, FixedVertexHandle, InnerTag};
+use spade::{Point2, Triangulation as _};
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashSet};
+
+type Edge<'a> = DirectedEdgeHandle<'a, Point2<f64>, (), spade::CdtEdge<()>, ()>;
+type Face<'a> = FaceHandle<'a, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
+
+/// Faces of less than this share of the bounding square stay as they are:
+/// below some 1e-15 the centre of the circumcircle is rounding alone.
+const SMALLEST_SHARE: f64 = 1e-14;
+
+/// A bad face: its vertices and its circumcircle.
+struct Bad {
+    radius_squared: f64,
+    vertices: [FixedVertexHandle; 3],
+    centre: DVec2,
+}
+
+impl Ord for Bad {
+    fn cmp(&self, other: &Self) -> Ordering {
+        let key = |bad: &Self| bad.vertices.map(|v| v.index());
+        let by_radius = self.radius_squared.total_cmp(&other.radius_squared);
+        by_radius.then_with(|| key(other).cmp(&key(self)))
+    }
+}
+
+impl PartialOrd for Bad {
+    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Bad {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Bad {}
+
+/// What makes a face bad.
+struct Limits {
+    /// Least squared ratio of the shortest edge to the circumradius.
+    ratio: f64,
+    area: f64,
+    least_area: f64,
+}
+
+impl Domain {
+    pub(super) fn refine(&mut self, refinement: &Refinement) {
+        let limits = self.limits(refinement);
+        let winding = self.winding();
+        let mut queue: BinaryHeap<Bad> = self
+            .delaunay
+            .inner_faces()
+            .filter(|face| winding[face.index()] == 1)
+            .filter_map(|face| limits.judge(face))
+            .collect();
+        let mut added = 0;
+        while added < refinement.max_points
+            && let Some(bad) = queue.pop()
+        {
+            let Some(vertex) = insert(&mut self.delaunay, &bad) else {
+                continue;
+            };
+            added += 1;
+            let new = self.delaunay.vertex(vertex).out_edges();
+            let faces = new.filter_map(|edge| edge.face().as_inner());
+            queue.extend(faces.filter_map(|face| limits.judge(face)));
+        }
+    }
+
+    fn limits(&self, refinement: &Refinement) -> Limits {
+        let positions = || {
+            let vertices = self.delaunay.vertices();
+            vertices.map(|v| DVec2::new(v.position().x, v.position().y))
+        };
+        let (low, high) = (
+            positions().reduce(DVec2::min),
+            positions().reduce(DVec2::max),
+        );
+        let size = high.zip(low).map_or(0.0, |(h, l)| (h - l).max_element());
+        let least_area = SMALLEST_SHARE * size * size;
+        let equilateral = |edge: f64| (0.25 * 3f64.sqrt() * edge * edge).max(least_area);
+        Limits {
+            ratio: (2.0 * refinement.min_angle.sin()).powi(2),
+            area: refinement.max_edge.map_or(f64::INFINITY, equilateral),
+            least_area,
+        }
+    }
+}
+
+impl Limits {
+    fn judge(&self, face: Face<'_>) -> Option<Bad> {
+        let area = face.area();
+        if area <= self.least_area {
+            return None;
+        }
+        let (centre, radius_squared) = face.circumcircle();
+        let shortest = face
+            .adjacent_edges()
+            .map(|edge| edge.length_2())
+            .into_iter()
+            .fold(f64::INFINITY, f64::min);
+        let bad = shortest < self.ratio * radius_squared || area > self.area;
+        bad.then(|| Bad {
+            radius_squared,
+            vertices: face.vertices().map(|v| v.fix()),
+            centre: DVec2::new(centre.x, centre.y),
+        })
+    }
+}
+
+/// Puts a vertex into a circumcentre, if the face is still there and the
+/// place is inside and no nearer to the boundary than half its edge.
+fn insert(delaunay: &mut Delaunay, bad: &Bad) -> Option<FixedVertexHandle> {
+    let [a, b, c] = bad.vertices;
+    let edge = delaunay.get_edge_from_neighbors(a, b)?;
+    let face = edge.face().as_inner()?;
+    if !face.vertices().iter().any(|v| v.fix() == c) || !is_free(face, bad.centre) {
+        return None;
+    }
+    let before = delaunay.num_vertices();
+    let place = Point2::new(bad.centre.x, bad.centre.y);
+    let vertex = delaunay.insert_with_hint(place, c).ok()?;
+    (delaunay.num_vertices() > before).then_some(vertex)
+}
+
+/// Whether no edge of the boundary that a new point's faces would meet hides
+/// the point or has it in its diametral circle.
+fn is_free(face: Face<'_>, centre: DVec2) -> bool {
+    let mut seen: HashSet<usize> = HashSet::from([face.index()]);
+    let mut open = vec![face];
+    let mut reached = false;
+    while let Some(face) = open.pop() {
+        let inside = face.adjacent_edges().iter().all(|edge| sees(*edge, centre));
+        reached |= inside;
+        for edge in face.adjacent_edges() {
+            if edge.is_constraint_edge() {
+                if encroaches(edge, centre) {
+                    return false;
+                }
+                continue;
+            }
+            if let Some(beyond) = edge.rev().face().as_inner()
+                && !seen.contains(&beyond.index())
+                && in_circle(beyond, centre)
+            {
+                seen.insert(beyond.index());
+                open.push(beyond);
+            }
+        }
+    }
+    reached
+}
+
+fn at(p: Point2<f64>) -> DVec2 {
+    DVec2::new(p.x, p.y)
+}
+
+/// Whether a point is on the face's side of an edge, or on it.
+fn sees(edge: Edge<'_>, p: DVec2) -> bool {
+    let [a, b] = edge.positions().map(at);
+    crate::geometry::orient2d(a, b, p) >= 0.0
+}
+
+fn encroaches(edge: Edge<'_>, p: DVec2) -> bool {
+    let [a, b] = edge.positions().map(at);
+    (a - p).dot(b - p) <= 0.0
+}
+
+fn in_circle(face: Face<'_>, p: DVec2) -> bool {
+    let (centre, radius_squared) = face.circumcircle();
+    p.distance_squared(at(centre)) < radius_squared
+}
