@@ -1,13 +1,18 @@
 //! A transition sampled over t.
+//!
+//! Guaranteed: every sample is a frame as it is drawn. Not guaranteed:
+//! anything between two samples. The cost is that of the frames, for rigid
+//! parts some microseconds a face and sample, for fields a contour each.
 
-use super::{Distortion, Motion, count_crossings, distortion, motion};
+use super::distortion::{Distortion, distortion};
+use super::motion::{self, Motion};
+use super::{count_crossings, excess};
 use crate::compatible::CompatibleMesh;
-use crate::content::{Content, Solid};
+use crate::content::{Content, FieldPair, Solid};
 use crate::geometry::DVec2;
-use crate::measure::distortion::singular_values;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::transition::Transition;
-use crate::warp::{Placer, Warp};
+use crate::warp::{ArapError, Warp};
 use serde::Serialize;
 
 /// What is measured at one t.
@@ -17,19 +22,32 @@ pub struct FilmSample {
     pub t: f64,
     /// Filled area, in squared units of the designs.
     pub area: f64,
-    /// Length of all boundaries.
+    /// Length of all boundaries, in units of the designs.
     pub perimeter: f64,
-    /// Separate pieces of the contour; fields only.
+    /// Separate pieces; of a solid as its boundary walks have them.
     pub pieces: Option<usize>,
-    /// Holes in them; fields only.
+    /// Holes in them, likewise.
     pub holes: Option<usize>,
-    /// Crossings of the boundary with itself; solids only.
+    /// Crossings of the boundary with itself, different rings included;
+    /// solids only.
     pub crossings: Option<usize>,
     /// Distortion against the source; meshes only.
     pub distortion: Option<Distortion>,
 }
 
 /// A whole film.
+///
+/// ```
+/// use morphospace::measure::{Quantity, film};
+/// use morphospace::{progress::Silent, project::gallery, transition::Transition};
+///
+/// let spec = gallery::load("triangle-polar")?.spec()?;
+/// let transition = Transition::build(&spec, &Silent)?;
+/// let report = film(&transition, 65, &Silent)?;
+/// assert_eq!(report.worst_folds, Some(0));
+/// assert_eq!(report.series(Quantity::Area).len(), 65);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 #[derive(Clone, Debug, Serialize)]
 pub struct FilmReport {
     /// The samples, evenly spaced over [0, 1].
@@ -38,8 +56,12 @@ pub struct FilmReport {
     pub worst_folds: Option<usize>,
     /// Where the first fold is seen.
     pub first_fold_t: Option<f64>,
+    /// The least determinant of a face at any sample, against the source.
+    pub min_det: Option<f64>,
     /// Most crossings of the boundary at any sample.
     pub worst_crossings: Option<usize>,
+    /// Where the first crossing is seen.
+    pub first_crossing_t: Option<f64>,
     /// Largest excess of a face's conformal distortion over its worse end.
     pub conformal_excess: Option<f64>,
     /// Largest excess of a face's isometric distortion over its worse end.
@@ -70,32 +92,95 @@ pub fn film(
     samples: usize,
     progress: &dyn Progress,
 ) -> Result<FilmReport, Cancelled> {
-    let samples = samples.max(2);
     let mesh = transition.compatible();
+    let sampler = Sampler::of(transition);
     let mut frame = transition.frame(0.0);
     let mut found = Vec::with_capacity(samples);
-    let mut paths = Vec::with_capacity(samples);
-    for i in 0..samples {
-        let t = i as f64 / (samples - 1) as f64;
+    let mut paths = Vec::new();
+    for t in even_steps(samples) {
         checkpoint(progress, "measuring", t)?;
         frame.seek(t);
-        found.push(match transition.content() {
-            Content::Solid(solid) => solid_sample(t, solid, mesh, &frame.placement().in_frame),
-            Content::Field(pair) => field_sample(t, &pair.contour(t)),
-        });
+        let places = &frame.placement().in_frame;
+        found.push(sampler.sample(t, places));
         if mesh.is_some() {
-            paths.push(frame.placement().in_frame.clone());
+            paths.push(places.clone());
         }
     }
-    let motion =
-        mesh.and_then(|mesh| motion::motion(&paths, 1.0 / (samples - 1) as f64, mesh.diameter()));
-    let excess = mesh.map(|mesh| excesses(mesh, &paths));
-    Ok(report(
-        found,
-        excess,
-        asymmetry(transition, &paths, progress)?,
-        motion,
-    ))
+    let step = 1.0 / (paths.len().max(2) - 1) as f64;
+    let motion = mesh.and_then(|mesh| motion::motion(&paths, step, mesh.diameter()));
+    let asymmetry = asymmetry(transition, &paths, progress)?;
+    let excess = mesh.map(|mesh| excess::of_distortion(mesh, &paths));
+    Ok(report(found, excess, asymmetry, motion))
+}
+
+/// Values of t, evenly from 0 to 1, both included: two at least.
+pub(super) fn even_steps(count: usize) -> impl Iterator<Item = f64> + Clone {
+    let last = count.max(2) - 1;
+    (0..=last).map(move |i| i as f64 / last as f64)
+}
+
+/// What a sample needs and does not change with t.
+struct Sampler<'a> {
+    content: &'a Content,
+    mesh: Option<&'a CompatibleMesh>,
+    /// Pieces and holes of a solid.
+    topology: Option<[usize; 2]>,
+}
+
+impl<'a> Sampler<'a> {
+    fn of(transition: &'a Transition) -> Self {
+        let (content, mesh) = (transition.content(), transition.compatible());
+        let topology = match (content, mesh) {
+            (Content::Solid(solid), Some(mesh)) if !solid.loops.is_empty() => {
+                let rings = solid.rings_at(mesh.source());
+                let holes = rings.iter().filter(|ring| ring_area(ring) < 0.0).count();
+                Some([rings.len() - holes, holes])
+            }
+            _ => None,
+        };
+        Self {
+            content,
+            mesh,
+            topology,
+        }
+    }
+
+    fn sample(&self, t: f64, places: &[DVec2]) -> FilmSample {
+        match self.content {
+            Content::Solid(solid) => self.of_solid(t, solid, places),
+            Content::Field(pair) => of_field(t, pair),
+        }
+    }
+
+    fn of_solid(&self, t: f64, solid: &Solid, places: &[DVec2]) -> FilmSample {
+        let rings = solid.rings_at(places);
+        let bars = solid.bars_at(places);
+        let lengths: f64 = bars.iter().map(|[a, b]| a.distance(*b)).sum();
+        FilmSample {
+            t,
+            area: rings.iter().map(|ring| ring_area(ring)).sum::<f64>() + lengths * solid.bar_width,
+            perimeter: rings_perimeter(&rings) + 2.0 * lengths,
+            pieces: self.topology.map(|[pieces, _]| pieces),
+            holes: self.topology.map(|[_, holes]| holes),
+            crossings: (!rings.is_empty()).then(|| count_crossings(&rings)),
+            distortion: self.mesh.and_then(|mesh| distortion(mesh, places)),
+        }
+    }
+}
+
+fn of_field(t: f64, pair: &FieldPair) -> FilmSample {
+    let rings = pair.contour(t);
+    let areas: Vec<f64> = rings.iter().map(|ring| ring_area(ring)).collect();
+    let holes = areas.iter().filter(|area| **area < 0.0).count();
+    FilmSample {
+        t,
+        area: areas.iter().sum(),
+        perimeter: rings_perimeter(&rings),
+        pieces: Some(rings.len() - holes),
+        holes: Some(holes),
+        crossings: None,
+        distortion: None,
+    }
 }
 
 fn report(
@@ -105,66 +190,33 @@ fn report(
     motion: Option<Motion>,
 ) -> FilmReport {
     let folds = |s: &FilmSample| s.distortion.map(|d| d.folds);
+    let crossings = |s: &FilmSample| s.crossings;
     let worst = |of: &dyn Fn(&FilmSample) -> Option<usize>| samples.iter().filter_map(of).max();
-    let beyond_ends = |of: &dyn Fn(&FilmSample) -> Option<usize>| {
-        let ends = of(samples.first()?)?.max(of(samples.last()?)?);
-        Some(worst(of)?.saturating_sub(ends))
+    let first = |of: &dyn Fn(&FilmSample) -> Option<usize>| {
+        let is_bad = |s: &&FilmSample| of(s).is_some_and(|n| n > 0);
+        samples.iter().find(is_bad).map(|s| s.t)
     };
+    let dets = samples.iter().filter_map(|s| Some(s.distortion?.min_det));
     FilmReport {
         worst_folds: worst(&folds),
-        first_fold_t: samples
-            .iter()
-            .find(|s| folds(s).is_some_and(|n| n > 0))
-            .map(|s| s.t),
-        worst_crossings: worst(&|s| s.crossings),
+        first_fold_t: first(&folds),
+        min_det: dets.reduce(f64::min),
+        worst_crossings: worst(&crossings),
+        first_crossing_t: first(&crossings),
         conformal_excess: excess.map(|e| e[0]),
         isometric_excess: excess.map(|e| e[1]),
         area_distortion_excess: excess.map(|e| e[2]),
         asymmetry,
-        area_variation_excess: variation_excess(samples.iter().map(|s| s.area)),
-        perimeter_variation_excess: variation_excess(samples.iter().map(|s| s.perimeter)),
-        pieces_excess: beyond_ends(&|s| s.pieces),
-        holes_excess: beyond_ends(&|s| s.holes),
+        area_variation_excess: excess::of_variation(samples.iter().map(|s| s.area)),
+        perimeter_variation_excess: excess::of_variation(samples.iter().map(|s| s.perimeter)),
+        pieces_excess: excess::of_count(samples.iter().map(|s| s.pieces)),
+        holes_excess: excess::of_count(samples.iter().map(|s| s.holes)),
         motion,
         samples,
     }
 }
 
-fn solid_sample(
-    t: f64,
-    solid: &Solid,
-    mesh: Option<&CompatibleMesh>,
-    places: &[DVec2],
-) -> FilmSample {
-    let rings = solid.rings_at(places);
-    let bars = solid.bars_at(places);
-    let lengths: f64 = bars.iter().map(|[a, b]| a.distance(*b)).sum();
-    FilmSample {
-        t,
-        area: rings_area(&rings) + lengths * solid.bar_width,
-        perimeter: rings_perimeter(&rings) + 2.0 * lengths,
-        pieces: None,
-        holes: None,
-        crossings: (!rings.is_empty()).then(|| count_crossings(&rings)),
-        distortion: mesh.and_then(|mesh| distortion(mesh, places)),
-    }
-}
-
-fn field_sample(t: f64, rings: &[Vec<DVec2>]) -> FilmSample {
-    let areas: Vec<f64> = rings.iter().map(|ring| ring_area(ring)).collect();
-    let holes = areas.iter().filter(|area| **area < 0.0).count();
-    FilmSample {
-        t,
-        area: areas.iter().sum(),
-        perimeter: rings_perimeter(rings),
-        pieces: Some(rings.len() - holes),
-        holes: Some(holes),
-        crossings: None,
-        distortion: None,
-    }
-}
-
-fn ring_area(ring: &[DVec2]) -> f64 {
+pub(super) fn ring_area(ring: &[DVec2]) -> f64 {
     let next = ring.iter().skip(1).chain(ring.first());
     let origin = ring.first().copied().unwrap_or_default();
     let twice: f64 = ring
@@ -175,63 +227,12 @@ fn ring_area(ring: &[DVec2]) -> f64 {
     0.5 * twice
 }
 
-fn rings_area(rings: &[Vec<DVec2>]) -> f64 {
-    rings.iter().map(|ring| ring_area(ring)).sum()
-}
-
 fn rings_perimeter(rings: &[Vec<DVec2>]) -> f64 {
     let of = |ring: &Vec<DVec2>| -> f64 {
         let next = ring.iter().skip(1).chain(ring.first());
         ring.iter().zip(next).map(|(a, b)| a.distance(*b)).sum()
     };
     rings.iter().map(of).sum()
-}
-
-/// How much a quantity runs up and down beyond what its ends need, as a
-/// fraction of the larger end.
-fn variation_excess(values: impl Iterator<Item = f64>) -> f64 {
-    let values: Vec<f64> = values.collect();
-    let (Some(first), Some(last)) = (values.first(), values.last()) else {
-        return 0.0;
-    };
-    let variation: f64 = values.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
-    let scale = first.abs().max(last.abs());
-    if scale > 0.0 {
-        ((variation - (last - first).abs()) / scale).max(0.0)
-    } else {
-        0.0
-    }
-}
-
-/// For each face, distortion in the film beyond the worse of its ends; the
-/// largest over faces and samples, conformal, isometric, by area. Distortion
-/// is relative to the source, which is 1, so that the worse end is the target.
-fn excesses(mesh: &CompatibleMesh, paths: &[Vec<DVec2>]) -> [f64; 3] {
-    use crate::geometry::DMat2;
-    let edges = |points: &[DVec2], face: &[u32; 3]| {
-        let [a, b, c] = face.map(|v| points[v as usize]);
-        DMat2::from_cols(b - a, c - a)
-    };
-    let measures = |m: DMat2| {
-        let (large, small) = singular_values(m);
-        if small <= 0.0 {
-            return [f64::INFINITY; 3];
-        }
-        let det = large * small;
-        [large / small, large.max(1.0 / small), det.max(1.0 / det)]
-    };
-    let mut worst = [0.0; 3];
-    for face in mesh.faces().iter() {
-        let inverse = edges(mesh.source(), face).inverse();
-        let ends = measures(edges(mesh.target(), face) * inverse);
-        for places in paths {
-            let now = measures(edges(places, face) * inverse);
-            for k in 0..3 {
-                worst[k] = f64::max(worst[k], now[k] - ends[k]);
-            }
-        }
-    }
-    worst
 }
 
 /// The film against the one of the exchanged designs, played backwards.
@@ -245,13 +246,13 @@ fn asymmetry(
     };
     let back = match arap.swapped(progress) {
         Ok(back) => back,
-        Err(crate::warp::ArapError::Cancelled(cancelled)) => return Err(cancelled),
+        Err(ArapError::Cancelled(cancelled)) => return Err(cancelled),
         Err(_) => return Ok(None),
     };
-    let mut placer: Box<dyn Placer> = back.placer();
+    let mut placer = back.placer();
     let mut worst = 0.0_f64;
-    for (i, there) in paths.iter().enumerate() {
-        placer.place(1.0 - i as f64 / (paths.len() - 1) as f64);
+    for (t, there) in even_steps(paths.len()).zip(paths) {
+        placer.place(1.0 - t);
         let here = &placer.placement().in_frame;
         let gaps = there.iter().zip(here).map(|(p, q)| p.distance(*q));
         worst = gaps.fold(worst, f64::max);

@@ -252,6 +252,13 @@ impl Arap {
         &self.0.mesh
     }
 
+    /// What it was built with, as of the mesh as it is: nothing is left to
+    /// subdivide.
+    #[must_use]
+    pub fn options(&self) -> &ArapOptions {
+        &self.0.options
+    }
+
     /// The matrix of the energy, assembled anew; for measurements.
     #[must_use]
     pub fn system(&self) -> SymmetricMatrix {

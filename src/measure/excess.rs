@@ -1,0 +1,77 @@
+//! What a film does beyond what its ends need.
+
+use super::distortion::{Strain, edges};
+use crate::compatible::CompatibleMesh;
+use crate::geometry::DVec2;
+
+/// How much a quantity runs up and down beyond what its ends need, as a
+/// fraction of the larger end: (Σ |Δ| − |end − end|) / max(|end|).
+pub(super) fn of_variation(values: impl Iterator<Item = f64>) -> f64 {
+    let values: Vec<f64> = values.collect();
+    let (Some(first), Some(last)) = (values.first(), values.last()) else {
+        return 0.0;
+    };
+    let variation: f64 = values.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
+    let scale = first.abs().max(last.abs());
+    if scale > 0.0 {
+        ((variation - (last - first).abs()) / scale).max(0.0)
+    } else {
+        0.0
+    }
+}
+
+/// How far a count rises above the larger of its ends; `None` where nothing
+/// was counted.
+pub(super) fn of_count(counts: impl Iterator<Item = Option<usize>>) -> Option<usize> {
+    let counts: Vec<usize> = counts.collect::<Option<_>>()?;
+    let ends = *counts.first()?.max(counts.last()?);
+    Some(counts.iter().max()?.saturating_sub(ends))
+}
+
+/// For each face, distortion in the film beyond the worse of its ends; the
+/// largest over faces and samples, conformal, isometric, by area. Distortion
+/// is relative to the source, which is 1, so that the worse end is the target.
+pub(super) fn of_distortion(mesh: &CompatibleMesh, paths: &[Vec<DVec2>]) -> [f64; 3] {
+    let mut worst = [0.0; 3];
+    for face in mesh.faces().iter() {
+        let inverse = edges(mesh.source(), face).inverse();
+        let at = |places: &[DVec2]| {
+            let strain = Strain::of(edges(places, face) * inverse);
+            [strain.conformal(), strain.isometric(), strain.area()]
+        };
+        let ends = at(mesh.target());
+        for places in paths {
+            let now = at(places);
+            for k in 0..3 {
+                worst[k] = f64::max(worst[k], now[k] - ends[k]);
+            }
+        }
+    }
+    worst
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_monotone_run_has_no_excess() {
+        assert_eq!(of_variation([1.0, 2.0, 4.0].into_iter()), 0.0);
+        assert_eq!(of_variation([4.0, 4.0, 1.0].into_iter()), 0.0);
+        assert_eq!(of_variation(std::iter::empty()), 0.0);
+    }
+
+    #[test]
+    fn a_dip_counts_down_and_up() {
+        assert_eq!(of_variation([4.0, 1.0, 4.0].into_iter()), 1.5);
+    }
+
+    #[test]
+    fn counts_are_held_against_the_larger_end() {
+        let some = |counts: &[usize]| of_count(counts.iter().map(|&c| Some(c)));
+        assert_eq!(some(&[1, 5, 3]), Some(2));
+        assert_eq!(some(&[3, 1, 2]), Some(0));
+        assert_eq!(of_count([Some(1), None].into_iter()), None);
+        assert_eq!(of_count(std::iter::empty()), None);
+    }
+}

@@ -1,0 +1,90 @@
+//! The two embeddings of a compatible mesh in numbers.
+
+use super::distortion::{Distortion, Distribution, distortion};
+use super::stretch;
+use crate::compatible::CompatibleMesh;
+use crate::geometry::DVec2;
+use serde::Serialize;
+
+/// Faces with an angle below this count as thin, in degrees.
+const THIN_DEG: f64 = 5.0;
+
+/// The two embeddings of a compatible mesh.
+#[derive(Clone, Debug, Serialize)]
+pub struct MeshReport {
+    /// How many vertices there are.
+    pub vertices: usize,
+    /// How many faces there are.
+    pub faces: usize,
+    /// How many vertices lie on the boundary.
+    pub boundary_vertices: usize,
+    /// How many lie inside: the Steiner points of a triangulated outline.
+    pub inner_vertices: usize,
+    /// Inner vertices for each one of the boundary.
+    pub steiner_per_boundary_point: f64,
+    /// The smallest angle of any face in the source, in degrees.
+    pub min_angle_source_deg: f64,
+    /// The smallest angle of any face in the target, in degrees.
+    pub min_angle_target_deg: f64,
+    /// Fraction of faces with an angle below 5° in either embedding.
+    pub thin_faces: f64,
+    /// How unevenly the boundary is stretched, by length in the source: max(k,
+    /// 1/k) for k times the loop's own stretch. 1 is even.
+    pub boundary_stretch: Distribution,
+    /// Of the map from source to target.
+    pub distortion: Distortion,
+}
+
+/// Measures a compatible mesh that has faces; `None` for bars alone.
+///
+/// ```
+/// use morphospace::{compatible::CompatibleMesh, geometry::DVec2, measure};
+/// let points = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
+/// let mesh = CompatibleMesh::new(vec![[0, 1, 2]], points.clone(), points, vec![])?;
+/// let report = measure::mesh(&mesh).expect("there is a face");
+/// assert!((report.min_angle_source_deg - 45.0).abs() < 1e-12);
+/// # Ok::<(), morphospace::compatible::CompatibleError>(())
+/// ```
+#[must_use]
+pub fn mesh(mesh: &CompatibleMesh) -> Option<MeshReport> {
+    let angles = |points: &[DVec2]| -> Vec<f64> {
+        let angle = |f: &[u32; 3]| smallest_angle(f.map(|v| points[v as usize])).to_degrees();
+        mesh.faces().iter().map(angle).collect()
+    };
+    let (source, target) = (angles(mesh.source()), angles(mesh.target()));
+    let pairs = source.iter().zip(&target);
+    let thin = pairs.filter(|(a, b)| a.min(**b) < THIN_DEG).count();
+    let least = |angles: &[f64]| angles.iter().copied().fold(f64::INFINITY, f64::min);
+    let boundary = boundary_vertices(mesh);
+    let inner = mesh.source().len() - boundary;
+    Some(MeshReport {
+        vertices: mesh.source().len(),
+        faces: mesh.faces().len(),
+        boundary_vertices: boundary,
+        inner_vertices: inner,
+        steiner_per_boundary_point: inner as f64 / boundary.max(1) as f64,
+        min_angle_source_deg: least(&source),
+        min_angle_target_deg: least(&target),
+        thin_faces: thin as f64 / mesh.faces().len() as f64,
+        boundary_stretch: stretch::distribution(mesh)?,
+        distortion: distortion(mesh, mesh.target())?,
+    })
+}
+
+/// Each once, however often the boundary passes it.
+fn boundary_vertices(mesh: &CompatibleMesh) -> usize {
+    let mut on_boundary = vec![false; mesh.source().len()];
+    for v in mesh.boundary_loops().into_iter().flatten() {
+        on_boundary[v as usize] = true;
+    }
+    on_boundary.iter().filter(|&&on| on).count()
+}
+
+/// In radians.
+pub(super) fn smallest_angle([a, b, c]: [DVec2; 3]) -> f64 {
+    let at = |p: DVec2, q: DVec2, r: DVec2| {
+        let (u, v) = (q - p, r - p);
+        u.perp_dot(v).abs().atan2(u.dot(v))
+    };
+    at(a, b, c).min(at(b, c, a)).min(at(c, a, b))
+}

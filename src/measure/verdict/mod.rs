@@ -1,0 +1,275 @@
+//! A film in words: what goes wrong, where, why, and what helps.
+//!
+//! Every cause is a measured fact about the place where the trouble is worst:
+//! an angle, a stretch of the boundary, an overlap. A remedy that changes an
+//! option was tried on the same designs at the same t, and says what it
+//! leaves; pins and edits, which cannot be tried, are named with their place.
+//! Guaranteed: what is said was seen at one of the steps. Not guaranteed:
+//! anything between two steps, or that a cause is the only one.
+//!
+//! - `scan`: at each t, how much is wrong
+//! - `cause`: the facts
+//! - `remedy`: what was tried
+//! - `words`: how it is said
+
+mod cause;
+mod remedy;
+mod scan;
+#[cfg(test)]
+mod tests;
+mod words;
+
+use super::crossings::Crossing;
+use super::film::FilmReport;
+use crate::content::{BlendSpace, Content};
+use crate::geometry::DVec2;
+use crate::homotopy::Homotopy;
+use crate::progress::{Cancelled, Progress};
+use crate::transition::{FieldOptions, Transition};
+use crate::warp::ArapOptions;
+use scan::Glance;
+use serde::Serialize;
+
+/// What is wrong with a film; see [`Self::headline`].
+///
+/// ```
+/// use morphospace::measure::Verdict;
+/// use morphospace::{progress::Silent, project::gallery, transition::Transition};
+///
+/// let spec = gallery::load("triangle-polar")?.spec()?;
+/// let verdict = Verdict::of(&Transition::build(&spec, &Silent)?, 65, &Silent)?;
+/// assert_eq!(verdict.headline(), "no folds, no crossings");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Verdict {
+    /// At how many t the film was looked at.
+    pub steps: usize,
+    /// What can be said where nothing was found.
+    pub clear: &'static str,
+    /// What was found, one of each kind of trouble, folds first.
+    pub findings: Vec<Finding>,
+}
+
+/// One kind of trouble, where it is worst.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Finding {
+    /// What is seen.
+    pub trouble: Trouble,
+    /// Where there is most of it: the t to go to.
+    pub t: f64,
+    /// The first and the last t at which it is seen.
+    pub span: [f64; 2],
+    /// Where in the frame at `t`.
+    pub place: DVec2,
+    /// What is measured there.
+    pub cause: Cause,
+    /// What to do.
+    pub remedy: Remedy,
+}
+
+/// What is seen.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Trouble {
+    /// Faces are turned over or flat.
+    Folds {
+        /// Their numbers, from 0.
+        faces: Vec<usize>,
+    },
+    /// The boundary crosses itself.
+    Crossings {
+        /// Where.
+        crossings: Vec<Crossing>,
+    },
+    /// A contour has more pieces than at either end.
+    Pieces {
+        /// How many.
+        count: usize,
+        /// How many at the larger end.
+        at_ends: usize,
+    },
+    /// A contour has more holes than at either end.
+    Holes {
+        /// How many.
+        count: usize,
+        /// How many at the larger end.
+        at_ends: usize,
+    },
+    /// Nothing is left of a contour.
+    Gone,
+}
+
+/// What is measured where the trouble is. Angles are radians.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Cause {
+    /// The local maps run straight, and flatten what turns.
+    StraightPaths {
+        /// How they run.
+        homotopy: Homotopy,
+        /// By how much the worst face turns.
+        turn: f64,
+    },
+    /// A part turns by more than half a turn against what it hangs on.
+    FarTurn {
+        /// Its number from 0, as [`ArapOptions::extra_turns`] counts, where
+        /// there are several.
+        part: Option<usize>,
+        /// By how much.
+        turn: f64,
+    },
+    /// The boundary is stretched or squeezed more than three times against
+    /// its mean.
+    UnevenMatch {
+        /// Its share of the target by its share of the source.
+        ratio: f64,
+        /// Where in the source.
+        source: DVec2,
+        /// Where in the target.
+        target: DVec2,
+    },
+    /// Neighbouring faces turn by very different angles.
+    UnlikeNeighbours {
+        /// The difference.
+        turn: f64,
+    },
+    /// Two places of the boundary run into each other.
+    PlacesMeet {
+        /// By how much each of them turns.
+        turns: [f64; 2],
+        /// Where in the source.
+        source: [DVec2; 2],
+    },
+    /// The designs hardly lie over each other.
+    LittleOverlap {
+        /// The share of the smaller that lies on the other.
+        share: f64,
+    },
+    /// Fields do not know which part becomes which.
+    BlindFields,
+    /// None of the above.
+    Unclear,
+}
+
+/// What to do.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+pub enum Remedy {
+    /// An option. It was tried.
+    Change {
+        /// Which.
+        change: Change,
+        /// How many faces, crossings, pieces or holes too many it leaves at
+        /// the worst t.
+        left: usize,
+        /// How many there are now.
+        of: usize,
+    },
+    /// A pair of points to be pinned together.
+    Pin {
+        /// Where in the source.
+        source: DVec2,
+        /// Where in the target.
+        target: DVec2,
+    },
+    /// Vertices to be moved in one of the designs.
+    MoveVertices {
+        /// Where in the source.
+        source: DVec2,
+        /// Where in the target.
+        target: DVec2,
+    },
+    /// The target to be laid over the source.
+    LayOver,
+    /// Rigid parts instead of fields.
+    RigidParts,
+}
+
+/// A change of options.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Change {
+    /// Of how the local maps move.
+    Homotopy(Homotopy),
+    /// To the symmetric energy.
+    Symmetric,
+    /// Of the whole turns of each part.
+    ExtraTurns(Vec<i32>),
+    /// Of the space in which distances are mixed.
+    Space(BlendSpace),
+}
+
+impl Change {
+    /// Makes the change in the options of a transition or project.
+    pub fn apply(&self, arap: &mut ArapOptions, field: &mut FieldOptions) {
+        match self {
+            Self::Homotopy(homotopy) => arap.homotopy = *homotopy,
+            Self::Symmetric => arap.symmetric = true,
+            Self::ExtraTurns(turns) => arap.extra_turns.clone_from(turns),
+            Self::Space(space) => field.blend.space = *space,
+        }
+    }
+}
+
+impl Verdict {
+    /// Looks at a transition at `steps` evenly spaced t, at least 2. Where
+    /// something is wrong, options are tried, each at the cost of another
+    /// look; not for more than some thousand faces.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if nobody wants the result any more.
+    pub fn of(
+        transition: &Transition,
+        steps: usize,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let glances = scan::transition(transition, steps, progress)?;
+        Self::of_glances(transition, &glances, progress)
+    }
+
+    /// The verdict on a film that has been measured already.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if nobody wants the result any more.
+    pub fn of_film(
+        transition: &Transition,
+        film: &FilmReport,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let glances: Vec<_> = film.samples.iter().map(Glance::of_sample).collect();
+        Self::of_glances(transition, &glances, progress)
+    }
+
+    fn of_glances(
+        transition: &Transition,
+        glances: &[Glance],
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let (clear, findings) = match transition.content() {
+            Content::Solid(solid) => (
+                if solid.loops.is_empty() {
+                    "no folds"
+                } else {
+                    "no folds, no crossings"
+                },
+                cause::of_solid(transition, solid, glances, progress)?,
+            ),
+            Content::Field(pair) => (
+                "no more pieces or holes than at the ends",
+                cause::of_field(transition, pair, glances, progress)?,
+            ),
+        };
+        Ok(Self {
+            steps: glances.len(),
+            clear,
+            findings,
+        })
+    }
+
+    /// Whether nothing was found.
+    #[must_use]
+    pub fn is_clear(&self) -> bool {
+        self.findings.is_empty()
+    }
+}

@@ -1,0 +1,189 @@
+//! What helps: options are tried, the rest is named.
+
+use super::cause::Scene;
+use super::scan::{self, Glance};
+use super::{Cause, Change, Finding, Remedy, Trouble};
+use crate::content::{BlendSpace, FieldPair, Solid};
+use crate::design::Form;
+use crate::homotopy::Homotopy;
+use crate::progress::{Cancelled, Progress};
+use crate::transition::{FieldOptions, Transition};
+use crate::warp::{Arap, ArapError};
+
+/// Meshes with more faces than this are not built again to try an option: a
+/// trial of so many takes about a quarter of a second.
+const MOST_FACES: usize = 20_000;
+
+/// What a person can do about a face, where no option helps: pins belong to
+/// matched outlines, meshes and trusses have vertices.
+pub(super) fn by_hand(scene: &Scene<'_>, face: usize) -> Remedy {
+    let mesh = scene.arap.mesh();
+    let [source, target] = [mesh.source(), mesh.target()].map(|p| scene.centroid(face, p));
+    Remedy::MoveVertices { source, target }
+}
+
+pub(super) fn for_overlap(is_little: bool) -> Remedy {
+    if is_little {
+        Remedy::LayOver
+    } else {
+        Remedy::RigidParts
+    }
+}
+
+/// Tries options, and turns what is done to vertices into pins where the
+/// designs are outlines.
+pub(super) fn for_rigid_parts(
+    transition: &Transition,
+    arap: &Arap,
+    solid: &Solid,
+    glances: &[Glance],
+    found: &mut [Finding],
+    progress: &dyn Progress,
+) -> Result<(), Cancelled> {
+    if found.is_empty() {
+        return Ok(());
+    }
+    let designs = transition.designs();
+    let has_pins = designs.iter().any(|d| matches!(d.form, Form::Outline(_)));
+    for finding in &mut *found {
+        if has_pins {
+            finding.remedy = pin(finding);
+        }
+    }
+    if arap.mesh().faces().len() > MOST_FACES {
+        return Ok(());
+    }
+    let now = glances;
+    for change in changes(arap, found) {
+        let Some(then) = tried(&change, arap, solid, now.len(), progress)? else {
+            continue;
+        };
+        for finding in &mut *found {
+            take_if_better(finding, &change, now, &then);
+        }
+    }
+    Ok(())
+}
+
+/// A pin where the match is uneven, or else where the trouble is.
+fn pin(finding: &Finding) -> Remedy {
+    match (&finding.cause, &finding.remedy) {
+        (&Cause::UnevenMatch { source, target, .. }, _)
+        | (_, &Remedy::MoveVertices { source, target }) => Remedy::Pin { source, target },
+        (_, other) => other.clone(),
+    }
+}
+
+/// The options that are worth a trial, the likeliest first.
+fn changes(arap: &Arap, found: &[Finding]) -> Vec<Change> {
+    let options = arap.options();
+    let mut changes = Vec::new();
+    for finding in found {
+        if let &Cause::FarTurn {
+            part: Some(part),
+            turn,
+        } = &finding.cause
+        {
+            changes.push(the_other_way(arap, part, turn));
+        }
+    }
+    for homotopy in [Homotopy::Polar, Homotopy::Exponential] {
+        if options.homotopy != homotopy {
+            changes.push(Change::Homotopy(homotopy));
+        }
+    }
+    if !options.symmetric {
+        changes.push(Change::Symmetric);
+    }
+    changes
+}
+
+/// A whole turn less for a part, so that it turns the other way.
+fn the_other_way(arap: &Arap, part: usize, turn: f64) -> Change {
+    let given = &arap.options().extra_turns;
+    let each = |p: usize| match given.as_slice() {
+        [all] => *all,
+        each => each.get(p).copied().unwrap_or(0),
+    };
+    let mut turns: Vec<i32> = (0..arap.part_count()).map(each).collect();
+    if let Some(own) = turns.get_mut(part) {
+        *own -= if turn > 0.0 { 1 } else { -1 };
+    }
+    Change::ExtraTurns(turns)
+}
+
+/// What is wrong with the change made; `None` where it cannot be made.
+fn tried(
+    change: &Change,
+    arap: &Arap,
+    solid: &Solid,
+    steps: usize,
+    progress: &dyn Progress,
+) -> Result<Option<Vec<Glance>>, Cancelled> {
+    let mut options = arap.options().clone();
+    change.apply(&mut options, &mut FieldOptions::default());
+    match Arap::build(arap.mesh(), &options, progress) {
+        Ok(other) => scan::rigid_parts(&other, solid, steps, progress).map(Some),
+        Err(ArapError::Cancelled(cancelled)) => Err(cancelled),
+        Err(_) => Ok(None),
+    }
+}
+
+/// Takes a change that leaves less of the trouble, and no more of the other,
+/// than what was found before.
+fn take_if_better(finding: &mut Finding, change: &Change, now: &[Glance], then: &[Glance]) {
+    let (own, other): (scan::Count, scan::Count) = match finding.trouble {
+        Trouble::Folds { .. } => (|g| g.folds, |g| g.crossings),
+        _ => (|g| g.crossings, |g| g.folds),
+    };
+    let of = scan::most(now, own);
+    let best = match finding.remedy {
+        Remedy::Change { left, .. } => left,
+        _ => of,
+    };
+    let left = scan::most(then, own);
+    if left < best && scan::most(then, other) <= scan::most(now, other) {
+        let change = change.clone();
+        finding.remedy = Remedy::Change { change, left, of };
+    }
+}
+
+/// Tries the other space.
+pub(super) fn for_fields(
+    transition: &Transition,
+    pair: &FieldPair,
+    steps: usize,
+    found: &mut [Finding],
+    progress: &dyn Progress,
+) -> Result<(), Cancelled> {
+    if found.is_empty() || transition.compatible().is_some() {
+        return Ok(());
+    }
+    let mut blend = *pair.blend();
+    blend.space = match blend.space {
+        BlendSpace::Log => BlendSpace::Real,
+        BlendSpace::Real => BlendSpace::Log,
+    };
+    let Ok(other) = pair.with_blend(blend) else {
+        return Ok(());
+    };
+    let then = scan::fields(&other, steps, progress)?;
+    for finding in found {
+        let (of, left) = match finding.trouble {
+            Trouble::Pieces { count, at_ends } => (
+                count - at_ends,
+                scan::most(&then, |g| g.pieces).saturating_sub(at_ends),
+            ),
+            Trouble::Holes { count, at_ends } => (
+                count - at_ends,
+                scan::most(&then, |g| g.holes).saturating_sub(at_ends),
+            ),
+            _ => (1, usize::from(then.iter().any(|g| g.pieces == 0))),
+        };
+        if left < of {
+            let change = Change::Space(blend.space);
+            finding.remedy = Remedy::Change { change, left, of };
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,114 @@
+//! How much is wrong at each t, as cheaply as it can be known.
+
+use super::super::crossings::count_crossings;
+use super::super::distortion::is_folded;
+use super::super::film::{FilmSample, even_steps, ring_area};
+use crate::content::{Content, FieldPair, Solid};
+use crate::geometry::DVec2;
+use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::transition::Transition;
+use crate::warp::{Arap, Warp};
+
+/// What is wrong at one t.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Glance {
+    pub t: f64,
+    pub folds: usize,
+    pub crossings: usize,
+    pub pieces: usize,
+    pub holes: usize,
+}
+
+/// A count of a [`Glance`].
+pub(super) type Count = fn(&Glance) -> usize;
+
+impl Glance {
+    pub fn of_sample(sample: &FilmSample) -> Self {
+        Self {
+            t: sample.t,
+            folds: sample.distortion.map_or(0, |d| d.folds),
+            crossings: sample.crossings.unwrap_or_default(),
+            pieces: sample.pieces.unwrap_or_default(),
+            holes: sample.holes.unwrap_or_default(),
+        }
+    }
+}
+
+pub(super) fn transition(
+    transition: &Transition,
+    steps: usize,
+    progress: &dyn Progress,
+) -> Result<Vec<Glance>, Cancelled> {
+    match (transition.content(), transition.arap()) {
+        (Content::Solid(solid), Some(arap)) => rigid_parts(arap, solid, steps, progress),
+        (Content::Field(pair), _) => fields(pair, steps, progress),
+        (Content::Solid(_), None) => Ok(Vec::new()),
+    }
+}
+
+pub(super) fn rigid_parts(
+    arap: &Arap,
+    solid: &Solid,
+    steps: usize,
+    progress: &dyn Progress,
+) -> Result<Vec<Glance>, Cancelled> {
+    let mut placer = arap.placer();
+    let glance = |t| {
+        checkpoint(progress, "looking for folds", t)?;
+        placer.place(t);
+        let places = &placer.placement().in_frame;
+        Ok(Glance {
+            t,
+            folds: folded(arap, places).count(),
+            crossings: count_crossings(&solid.rings_at(places)),
+            ..Glance::default()
+        })
+    };
+    even_steps(steps).map(glance).collect()
+}
+
+/// The faces that are folded at the given places.
+pub(super) fn folded<'a>(arap: &'a Arap, places: &'a [DVec2]) -> impl Iterator<Item = usize> + 'a {
+    let faces = arap.mesh().faces().iter().enumerate();
+    faces
+        .filter(|(_, face)| is_folded(places, face))
+        .map(|(f, _)| f)
+}
+
+pub(super) fn fields(
+    pair: &FieldPair,
+    steps: usize,
+    progress: &dyn Progress,
+) -> Result<Vec<Glance>, Cancelled> {
+    let glance = |t| {
+        checkpoint(progress, "looking for tears", t)?;
+        let rings = pair.contour(t);
+        let holes = rings.iter().filter(|ring| ring_area(ring) < 0.0).count();
+        Ok(Glance {
+            t,
+            pieces: rings.len() - holes,
+            holes,
+            ..Glance::default()
+        })
+    };
+    even_steps(steps).map(glance).collect()
+}
+
+/// The most of a count.
+pub(super) fn most(glances: &[Glance], of: Count) -> usize {
+    glances.iter().map(of).max().unwrap_or(0)
+}
+
+/// Where a count is beyond `allowed`: the t at which it is largest, the middle
+/// one of several, and the first and last at which it is beyond.
+pub(super) fn worst(glances: &[Glance], of: Count, allowed: usize) -> Option<(f64, [f64; 2])> {
+    let top = most(glances, of);
+    let beyond: Vec<f64> = times(glances, |g| of(g) > allowed);
+    let at_top = times(glances, |g| of(g) == top);
+    let span = [*beyond.first()?, *beyond.last()?];
+    Some((at_top[at_top.len() / 2], span))
+}
+
+pub(super) fn times(glances: &[Glance], is: impl Fn(&Glance) -> bool) -> Vec<f64> {
+    glances.iter().filter(|g| is(g)).map(|g| g.t).collect()
+}
