@@ -40,7 +40,39 @@ impl Inputs {
     pub fn open(&self, method: &MethodArgs, progress: &dyn Progress) -> Result<Opened, CliError> {
         let start = Instant::now();
         let loaded = self.load(method)?;
-        let import_time = start.elapsed();
+        Opened::build(loaded, start.elapsed(), progress)
+    }
+
+    fn load(&self, method: &MethodArgs) -> Result<LoadedProject, CliError> {
+        match self.inputs.as_slice() {
+            [source, target] => return pair(source, target, method),
+            [project] => match gallery_name(project) {
+                Some(name) => bundled(name, method)?,
+                None => from_file(project, method)?,
+            },
+            _ => return Err(CliError::Usage("give a project or two designs".to_owned())),
+        }
+        .map_err(CliError::failed)
+    }
+}
+
+impl Opened {
+    /// Reads two designs, applies the flags and builds.
+    pub fn pair(
+        [source, target]: [&Path; 2],
+        method: &MethodArgs,
+        progress: &dyn Progress,
+    ) -> Result<Self, CliError> {
+        let start = Instant::now();
+        let loaded = pair(source, target, method)?;
+        Self::build(loaded, start.elapsed(), progress)
+    }
+
+    fn build(
+        loaded: LoadedProject,
+        import_time: Duration,
+        progress: &dyn Progress,
+    ) -> Result<Self, CliError> {
         let spec = loaded.spec().map_err(CliError::failed)?;
         let start = Instant::now();
         let transition = Transition::build(&spec, progress).map_err(CliError::failed)?;
@@ -53,21 +85,9 @@ impl Inputs {
     }
 }
 
-impl Inputs {
-    fn load(&self, method: &MethodArgs) -> Result<LoadedProject, CliError> {
-        match self.inputs.as_slice() {
-            [source, target] => {
-                let project = edited(Project::pair(source, target), method)?;
-                LoadedProject::load(project, PathBuf::new())
-            }
-            [project] => match gallery_name(project) {
-                Some(name) => bundled(name, method)?,
-                None => from_file(project, method)?,
-            },
-            _ => return Err(CliError::Usage("give a project or two designs".to_owned())),
-        }
-        .map_err(CliError::failed)
-    }
+fn pair(source: &Path, target: &Path, method: &MethodArgs) -> Result<LoadedProject, CliError> {
+    let project = edited(Project::pair(source, target), method)?;
+    LoadedProject::load(project, PathBuf::new()).map_err(CliError::failed)
 }
 
 type Loaded = Result<LoadedProject, ProjectError>;

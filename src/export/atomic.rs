@@ -60,7 +60,7 @@ impl AtomicFile {
 }
 
 /// Writes a whole file at once.
-pub(super) fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
     let mut file = AtomicFile::create(path)?;
     std::io::Write::write_all(file.file_mut(), bytes).map_err(ExportError::write(path))?;
     file.commit()

@@ -31,6 +31,7 @@ mod film;
 mod gif;
 mod mp4;
 mod outline;
+mod pair_sheet;
 mod palette;
 mod png_sequence;
 mod raster;
@@ -42,6 +43,8 @@ mod target;
 #[cfg(test)]
 mod testing;
 mod text;
+
+pub(crate) use atomic::write as write_atomically;
 
 use std::path::PathBuf;
 
@@ -55,6 +58,7 @@ pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};
 pub use gif::{MAX_GIF_FPS, write_gif};
 pub use mp4::write_mp4;
 pub use outline::{MAX_COORDINATE_PX, Outline, Step};
+pub use pair_sheet::{Strip, pair_sheet};
 pub use png_sequence::write_numbered;
 pub use raster::rasterise;
 pub use sheet::{SheetLayout, sheet};

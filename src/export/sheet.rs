@@ -162,7 +162,7 @@ fn label(t: f64) -> String {
 
 /// A colour for words that can be read on the ground; on a transparent one a
 /// middle grey, which shows on light and on dark.
-fn ink_on(ground: Option<Rgb>) -> Rgb {
+pub(super) fn ink_on(ground: Option<Rgb>) -> Rgb {
     let grey = |c: u8| Rgb([c; 3]);
     match ground {
         None => grey(0x80),

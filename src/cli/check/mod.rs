@@ -1,0 +1,97 @@
+//! `morphospace check`: a transition, or a table of pairs, in numbers and in
+//! words.
+//!
+//! With `--json` one object on stdout; lengths and areas are in the units of
+//! the designs, angles in degrees (of causes in radians), times in seconds. A
+//! number that is infinite (a folded face is infinitely distorted) is `null`,
+//! as JSON has no other way.
+//!
+//! - `report`: everything that is measured of one transition
+//! - `clock`: how long each stage of building took
+//! - `text`: the report for people
+//! - `pairs`: a table of pairs, over all cores
+//! - `table`, `columns`, `summary`: what goes in, what comes out, in short
+
+mod clock;
+mod columns;
+mod pairs;
+mod report;
+mod summary;
+mod table;
+mod text;
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::error::CliError;
+use super::inputs::Inputs;
+use super::options::MethodArgs;
+use super::output;
+use super::terminal::Terminal;
+use clock::StageClock;
+use report::Report;
+
+#[derive(Debug, Args)]
+#[command(mut_arg("inputs", |inputs| inputs
+    .required(false)
+    .required_unless_present("pairs")
+    .conflicts_with("pairs")))]
+pub(super) struct CheckArgs {
+    #[command(flatten)]
+    inputs: Option<Inputs>,
+
+    /// A table of pairs instead: a CSV file with the columns source and target,
+    /// paths relative to its folder; other columns are carried along
+    #[arg(long, value_name = "FILE.csv", requires = "out")]
+    pairs: Option<PathBuf>,
+
+    /// With --pairs: where the report goes, a row for each pair
+    #[arg(long, value_name = "FILE.csv", requires = "pairs")]
+    out: Option<PathBuf>,
+
+    /// With --pairs: a contact sheet too, a strip for each pair (.png or .svg)
+    #[arg(long, value_name = "FILE.png", requires = "pairs")]
+    sheet: Option<PathBuf>,
+
+    /// With --pairs: each pair in both directions
+    #[arg(long, requires = "pairs")]
+    both: bool,
+
+    /// At how many values of t, evenly from 0 to 1, the film is measured
+    #[arg(long, value_name = "N", default_value_t = 65, value_parser = clap::value_parser!(u64).range(2..=10_000))]
+    samples: u64,
+
+    /// One JSON object instead of a table
+    #[arg(long)]
+    json: bool,
+
+    #[command(flatten)]
+    method: MethodArgs,
+}
+
+pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
+    match (&args.pairs, &args.out, &args.inputs) {
+        (Some(pairs), Some(out), _) => pairs::run(args, pairs, out),
+        (_, _, Some(inputs)) => one(args, inputs),
+        _ => Err(CliError::Usage(
+            "give a project, two designs, or a table of pairs with --pairs".to_owned(),
+        )),
+    }
+}
+
+fn one(args: &CheckArgs, inputs: &Inputs) -> Result<(), CliError> {
+    let terminal = Terminal::new();
+    let clock = StageClock::new(&terminal);
+    let opened = inputs.open(&args.method, &clock)?;
+    let stages = clock.stages();
+    let report = Report::of(&opened, stages, args.samples as usize, &terminal)?;
+    drop(terminal);
+    let text = if args.json {
+        let value = serde_json::to_value(&report).map_err(CliError::failed)?;
+        format!("{value:#}\n")
+    } else {
+        text::of(&report)
+    };
+    output::data(&text)
+}

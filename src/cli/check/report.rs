@@ -1,0 +1,199 @@
+//! Everything that is measured of one transition.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use serde::Serialize;
+
+use super::super::error::CliError;
+use super::super::inputs::Opened;
+use super::clock::{self, Stages};
+use crate::content::{Content, ContentKind};
+use crate::design::{Design, Form};
+use crate::measure::{self, FilmReport, Finding, MeshReport, Verdict};
+use crate::progress::Progress;
+use crate::transition::Transition;
+use crate::warp::WarpKind;
+
+/// Frames whose times are taken.
+const TIMED_FRAMES: usize = 15;
+
+/// Everything that is measured.
+#[derive(Debug, Serialize)]
+pub(super) struct Report {
+    pub title: String,
+    pub warp: WarpKind,
+    pub content: ContentKind,
+    pub designs: Vec<DesignReport>,
+    /// Vertices of the common triangulation.
+    pub vertices: Option<usize>,
+    /// Its faces.
+    pub faces: Option<usize>,
+    /// Width and height of the fields' grid.
+    pub grid: Option<[u32; 2]>,
+    pub seconds: Seconds,
+    pub verdict: VerdictReport,
+    pub mesh: Option<MeshReport>,
+    pub film: FilmReport,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct DesignReport {
+    pub name: String,
+    pub kind: &'static str,
+    /// Points of its outline, vertices of its mesh or nodes of its truss.
+    pub points: usize,
+}
+
+/// How long each stage took.
+#[derive(Debug, Serialize)]
+pub(super) struct Seconds {
+    /// Reading and importing the designs.
+    pub import: f64,
+    /// Matching boundaries and parts.
+    #[serde(rename = "match")]
+    pub matching: f64,
+    /// Making a common triangulation.
+    pub triangulate: f64,
+    /// Building the transition, all of it.
+    pub build: f64,
+    /// Moving a frame to another t, the median of some.
+    pub frame: f64,
+    /// Evaluating it as polygons, likewise.
+    pub figure: f64,
+    /// Measuring all that is reported here.
+    pub measure: f64,
+    /// The stages of building by name.
+    pub stages: BTreeMap<&'static str, f64>,
+}
+
+/// The verdict with its words.
+#[derive(Debug, Serialize)]
+pub(super) struct VerdictReport {
+    pub words: String,
+    pub findings: Vec<FindingReport>,
+}
+
+#[derive(Debug, Serialize)]
+pub(super) struct FindingReport {
+    pub words: String,
+    pub cause_words: String,
+    pub remedy_words: String,
+    #[serde(flatten)]
+    pub finding: Finding,
+}
+
+impl VerdictReport {
+    fn of(verdict: Verdict) -> Self {
+        let words = verdict.headline();
+        let told = |finding: Finding| FindingReport {
+            words: finding.headline(),
+            cause_words: finding.cause.to_string(),
+            remedy_words: finding.remedy.to_string(),
+            finding,
+        };
+        Self {
+            words,
+            findings: verdict.findings.into_iter().map(told).collect(),
+        }
+    }
+}
+
+impl Report {
+    pub fn of(
+        opened: &Opened,
+        stages: Stages,
+        samples: usize,
+        progress: &dyn Progress,
+    ) -> Result<Self, CliError> {
+        let transition = &opened.transition;
+        let (frame, figure) = frame_times(transition);
+        let start = Instant::now();
+        let mesh = transition.compatible();
+        let mesh_report = mesh.and_then(measure::mesh);
+        let film = measure::film(transition, samples, progress).map_err(CliError::failed)?;
+        let verdict = Verdict::of_film(transition, &film, progress).map_err(CliError::failed)?;
+        let seconds = Seconds {
+            import: opened.import_time.as_secs_f64(),
+            matching: clock::matching(&stages).as_secs_f64(),
+            triangulate: clock::triangulating(&stages).as_secs_f64(),
+            build: opened.build_time.as_secs_f64(),
+            frame: frame.as_secs_f64(),
+            figure: figure.as_secs_f64(),
+            measure: start.elapsed().as_secs_f64(),
+            stages: in_seconds(stages),
+        };
+        Ok(Self {
+            title: opened.loaded.title(),
+            warp: transition.cell().warp(),
+            content: transition.cell().content(),
+            designs: transition.designs().iter().map(of_design).collect(),
+            vertices: mesh.map(|mesh| mesh.source().len()),
+            faces: mesh.map(|mesh| mesh.faces().len()),
+            grid: match transition.content() {
+                Content::Field(pair) => Some([pair.grid().width, pair.grid().height]),
+                Content::Solid(_) => None,
+            },
+            seconds,
+            verdict: VerdictReport::of(verdict),
+            mesh: mesh_report,
+            film,
+        })
+    }
+}
+
+fn in_seconds(stages: Stages) -> BTreeMap<&'static str, f64> {
+    let stages = stages.into_iter();
+    stages
+        .map(|(stage, time)| (stage, time.as_secs_f64()))
+        .collect()
+}
+
+fn of_design(design: &Arc<Design>) -> DesignReport {
+    let (kind, points) = match &design.form {
+        Form::Outline(regions) => {
+            let points = regions.rings().map(|ring| ring.points().len()).sum();
+            ("outline", points)
+        }
+        Form::Mesh(mesh) => ("mesh", mesh.positions().len()),
+        Form::Truss(truss) => ("truss", truss.nodes().len()),
+    };
+    DesignReport {
+        name: design.name.clone(),
+        kind,
+        points,
+    }
+}
+
+/// Median times of moving a frame and of evaluating it.
+fn frame_times(transition: &Transition) -> (Duration, Duration) {
+    let mut frame = transition.frame(0.0);
+    let timed = (0..TIMED_FRAMES).map(|i| {
+        let start = Instant::now();
+        frame.seek((i as f64 + 0.5) / TIMED_FRAMES as f64);
+        let moved = start.elapsed();
+        let start = Instant::now();
+        std::hint::black_box(frame.figure());
+        (moved, start.elapsed())
+    });
+    let (frames, figures): (Vec<_>, Vec<_>) = timed.unzip();
+    (median(frames), median(figures))
+}
+
+fn median(mut times: Vec<Duration>) -> Duration {
+    times.sort_unstable();
+    times.get(times.len() / 2).copied().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_median_is_the_middle() {
+        let ms = Duration::from_millis;
+        assert_eq!(median(vec![ms(9), ms(1), ms(2)]), ms(2));
+        assert_eq!(median(vec![]), Duration::ZERO);
+    }
+}

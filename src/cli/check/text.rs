@@ -1,0 +1,289 @@
+//! The report of one transition for people: short, in aligned lines.
+//! Everything else is in the JSON.
+
+use std::fmt::Write;
+
+use super::report::{DesignReport, Report};
+use crate::content::ContentKind;
+use crate::measure::{Distribution, FilmSample, MeshReport, Quantity};
+use crate::warp::WarpKind;
+
+/// The most samples that are listed.
+const MOST_ROWS: usize = 9;
+
+/// Columns of the list of samples.
+const LISTED: [(&str, Quantity); 8] = [
+    ("area", Quantity::Area),
+    ("perimeter", Quantity::Perimeter),
+    ("pieces", Quantity::Pieces),
+    ("holes", Quantity::Holes),
+    ("crossings", Quantity::Crossings),
+    ("folds", Quantity::Folds),
+    ("conformal", Quantity::WorstConformal),
+    ("least det", Quantity::MinDet),
+];
+
+pub(super) fn of(report: &Report) -> String {
+    let mut lines = Lines::default();
+    lines.line(&report.title);
+    lines.gap();
+    method(report, &mut lines);
+    verdict(report, &mut lines);
+    if let Some(mesh) = &report.mesh {
+        distortion(report, mesh, &mut lines);
+    }
+    film(report, &mut lines);
+    lines.gap();
+    samples(&report.film.samples, &mut lines);
+    lines.gap();
+    times(report, &mut lines);
+    lines.0
+}
+
+#[derive(Default)]
+struct Lines(String);
+
+impl Lines {
+    fn line(&mut self, text: &str) {
+        self.0.push_str(text.trim_end());
+        self.0.push('\n');
+    }
+
+    fn gap(&mut self) {
+        self.0.push('\n');
+    }
+
+    fn row(&mut self, name: &str, text: &str) {
+        self.line(&format!("{name:<12} {text}"));
+    }
+}
+
+fn method(report: &Report, lines: &mut Lines) {
+    let method = match (report.warp, report.content) {
+        (WarpKind::Arap, _) => "rigid parts (arap)",
+        (_, ContentKind::Field) => "distance fields (field)",
+        (WarpKind::None, ContentKind::Solid) => "none",
+    };
+    let grid = report.grid.map(|[w, h]| format!(", {w} x {h} cells"));
+    lines.row("method", &format!("{method}{}", grid.unwrap_or_default()));
+    for (role, design) in ["source", "target"].iter().zip(&report.designs) {
+        lines.row(role, &of_design(design));
+    }
+    let Some(mesh) = &report.mesh else { return };
+    lines.row(
+        "mesh",
+        &format!(
+            "{} faces; {} vertices on the boundary, {} inside ({} for one)",
+            mesh.faces,
+            mesh.boundary_vertices,
+            mesh.inner_vertices,
+            short(mesh.steiner_per_boundary_point)
+        ),
+    );
+    lines.row(
+        "angles",
+        &format!(
+            "{:.1}\u{b0} least in the source, {:.1}\u{b0} in the target; {} of faces below 5\u{b0}",
+            mesh.min_angle_source_deg,
+            mesh.min_angle_target_deg,
+            percent(mesh.thin_faces)
+        ),
+    );
+}
+
+fn of_design(design: &DesignReport) -> String {
+    format!(
+        "{}, {} of {} points",
+        design.name, design.kind, design.points
+    )
+}
+
+fn verdict(report: &Report, lines: &mut Lines) {
+    lines.gap();
+    let findings = &report.verdict.findings;
+    if findings.is_empty() {
+        lines.row("verdict", &report.verdict.words);
+    }
+    for finding in findings {
+        let [x, y] = finding.finding.place.to_array().map(short);
+        lines.row("verdict", &format!("{}, about ({x}, {y})", finding.words));
+        lines.row("", &format!("cause: {}", finding.cause_words));
+        lines.row("", &format!("to do: {}", finding.remedy_words));
+    }
+}
+
+fn distortion(report: &Report, mesh: &MeshReport, lines: &mut Lines) {
+    lines.gap();
+    lines.line(&format!(
+        "{:<12}{:>12}{:>12}{:>12}{:>16}",
+        "at t = 1", "median", "95 %", "worst", "worse on the way"
+    ));
+    let film = &report.film;
+    let of = &mesh.distortion;
+    let rows: [(&str, &Distribution, Option<f64>); 4] = [
+        ("conformal", &of.conformal, film.conformal_excess),
+        ("isometric", &of.isometric, film.isometric_excess),
+        ("area", &of.area, film.area_distortion_excess),
+        ("stretch", &mesh.boundary_stretch, None),
+    ];
+    for (name, d, excess) in rows {
+        lines.line(&format!(
+            "{name:<12}{:>12}{:>12}{:>12}{:>16}",
+            short(d.median),
+            short(d.p95),
+            short(d.worst),
+            excess.map(short).unwrap_or_default()
+        ));
+    }
+}
+
+fn film(report: &Report, lines: &mut Lines) {
+    let film = &report.film;
+    lines.gap();
+    let seen = |count: Option<usize>, first: Option<f64>| {
+        let first = first.map(|t| format!(", the first at t = {t:.2}"));
+        count.map(|n| format!("{n}{}", first.unwrap_or_default()))
+    };
+    let motion = film.motion.as_ref();
+    let rows = [
+        ("folds", seen(film.worst_folds, film.first_fold_t)),
+        (
+            "crossings",
+            seen(film.worst_crossings, film.first_crossing_t),
+        ),
+        (
+            "symmetry",
+            film.asymmetry
+                .map(|a| format!("{} of the diameter off", short(a))),
+        ),
+        (
+            "up and down",
+            Some(format!(
+                "area {}, perimeter {} beyond what the ends need",
+                percent(film.area_variation_excess),
+                percent(film.perimeter_variation_excess)
+            )),
+        ),
+        (
+            "topology",
+            film.pieces_excess
+                .zip(film.holes_excess)
+                .map(|(pieces, holes)| {
+                    format!("{pieces} pieces and {holes} holes more than at the ends")
+                }),
+        ),
+        (
+            "motion",
+            motion.map(|m| {
+                format!(
+                    "travel {} mean, {} most; acceleration {} (diameters, rigid motion taken out)",
+                    short(m.mean_travel),
+                    short(m.max_travel),
+                    short(m.max_acceleration)
+                )
+            }),
+        ),
+    ];
+    for (name, text) in rows {
+        if let Some(text) = text {
+            lines.row(name, &text);
+        }
+    }
+}
+
+fn samples(samples: &[FilmSample], lines: &mut Lines) {
+    let known = |(_, quantity): &&(&str, Quantity)| {
+        samples.first().is_some_and(|s| quantity.at(s).is_some())
+    };
+    let columns: Vec<_> = LISTED.iter().filter(known).collect();
+    let mut header = format!("{:<12}", "t");
+    for (name, _) in &columns {
+        push_cell(&mut header, name);
+    }
+    lines.line(&header);
+    let step = (samples.len() - 1).div_ceil(MOST_ROWS - 1).max(1);
+    let last = samples.len() - 1;
+    let listed = samples.iter().enumerate();
+    for (_, sample) in listed.filter(|(i, _)| i % step == 0 || *i == last) {
+        let mut row = format!("{:<12}", short(sample.t));
+        for (_, quantity) in &columns {
+            push_cell(
+                &mut row,
+                &quantity.at(sample).map(short).unwrap_or_default(),
+            );
+        }
+        lines.line(&row);
+    }
+}
+
+fn push_cell(row: &mut String, text: &str) {
+    // Writing to a string cannot fail.
+    write!(row, "{text:>12}").unwrap_or_default();
+}
+
+fn times(report: &Report, lines: &mut Lines) {
+    let seconds = &report.seconds;
+    let all = [
+        ("import", seconds.import),
+        ("match", seconds.matching),
+        ("triangulate", seconds.triangulate),
+        ("build in all", seconds.build),
+        ("frame", seconds.frame),
+        ("figure", seconds.figure),
+        ("measure", seconds.measure),
+    ];
+    let taken = all.iter().filter(|(_, s)| *s > 0.0);
+    let words: Vec<_> = taken
+        .map(|(name, s)| format!("{name} {} ms", short(1e3 * s)))
+        .collect();
+    lines.row("time", &words.join(", "));
+}
+
+fn percent(share: f64) -> String {
+    format!("{} %", short(100.0 * share))
+}
+
+/// Four digits, as people read them.
+pub(super) fn short(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 || !x.is_finite() {
+        return format!("{x:.0}");
+    }
+    if size >= 1e7 || size < 5e-4 {
+        return format!("{x:.1e}");
+    }
+    let decimals = match size {
+        s if s >= 1000.0 => 0,
+        s if s >= 100.0 => 1,
+        s if s >= 10.0 => 2,
+        _ => 3,
+    };
+    let fixed = format!("{x:.decimals$}");
+    if fixed.contains('.') {
+        let trimmed = fixed.trim_end_matches('0').trim_end_matches('.');
+        return trimmed.to_owned();
+    }
+    fixed
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (x, text) in [
+            (0.0, "0"),
+            (1.0, "1"),
+            (1.23456, "1.235"),
+            (1200.0, "1200"),
+            (123.456, "123.5"),
+            (1.5e-12, "1.5e-12"),
+            (3.2e9, "3.2e9"),
+            (-0.5, "-0.5"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(short(x), text);
+        }
+    }
+}

@@ -1,0 +1,324 @@
+//! A contact sheet of many pairs: a strip of frames for each, its name and a
+//! few words beside it.
+//!
+//! Guarantees: names, words and frames do not overlap, whatever their length;
+//! what does not fit ends in an ellipsis; the sheet keeps within
+//! [`LONGEST_PX`] by smaller frames, then by leaving out the last strips,
+//! which it says. Strips run down in blocks that make the sheet a little wider
+//! than high.
+
+use crate::geometry::{Bounds, DVec2};
+use crate::transition::{Figure, Rgb, Style, Transition};
+
+use super::camera::framing;
+use super::drawing::{Drawing, View};
+use super::sheet::ink_on;
+use super::size::{PixelSize, SizeError};
+use super::text;
+
+/// The longer side of the largest sheet, in pixels.
+const LONGEST_PX: f64 = 8_192.0;
+
+/// Sides of a frame, in pixels: the largest with which all strips fit.
+const CELLS_PX: [f64; 4] = [104.0, 84.0, 64.0, 48.0];
+
+/// Room between frames and around a strip, in pixels.
+const GAP_PX: f64 = 8.0;
+
+/// Width of the words beside a strip, in pixels.
+const WORDS_PX: f64 = 230.0;
+
+/// Height of a line of words, in pixels.
+const LINE_PX: f64 = 16.0;
+
+/// Size of the letters in it.
+const LETTERS_PX: f64 = 13.0;
+
+/// Width by height that a sheet comes near to.
+const SHAPE: f64 = 1.4;
+
+/// What is said of something that went wrong.
+const BAD: Rgb = Rgb([0xc0, 0x3a, 0x20]);
+
+/// One pair on the sheet.
+///
+/// ```
+/// use morphospace::export::{Strip, pair_sheet};
+/// let strips = [Strip::failed("a to b", "a.svg cannot be read")];
+/// let (drawing, shown) = pair_sheet(&strips, None)?;
+/// assert_eq!(shown, 1);
+/// # Ok::<(), morphospace::export::SizeError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Strip {
+    name: String,
+    words: String,
+    is_bad: bool,
+    frames: Vec<(Figure, Rgb)>,
+    joints: bool,
+    bounds: Option<Bounds>,
+}
+
+impl Strip {
+    /// Frames of a transition at the given t, with words under its name.
+    #[must_use]
+    pub fn of(name: &str, transition: &Transition, style: &Style, times: &[f64]) -> Self {
+        let mut frame = transition.frame(0.0);
+        let mut shoot = |&t: &f64| {
+            frame.seek(t);
+            (frame.figure(), style.fill_at(t))
+        };
+        Self {
+            name: name.to_owned(),
+            words: String::new(),
+            is_bad: false,
+            frames: times.iter().map(&mut shoot).collect(),
+            joints: style.joints,
+            bounds: Some(framing(transition, times)),
+        }
+    }
+
+    /// A pair of which there are no frames, for the reason given.
+    #[must_use]
+    pub fn failed(name: &str, reason: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            words: reason.to_owned(),
+            is_bad: true,
+            frames: Vec::new(),
+            joints: false,
+            bounds: None,
+        }
+    }
+
+    /// With words under the name, marked where they tell of something bad.
+    #[must_use]
+    pub fn saying(self, words: &str, is_bad: bool) -> Self {
+        Self {
+            words: words.to_owned(),
+            is_bad,
+            ..self
+        }
+    }
+}
+
+/// Where everything is.
+#[derive(Clone, Copy, Debug)]
+struct Layout {
+    cell_px: f64,
+    columns: usize,
+    rows: usize,
+    blocks: usize,
+}
+
+impl Layout {
+    /// With the largest frames with which `strips` of them fit, or else the
+    /// smallest ones.
+    fn new(strips: usize, columns: usize) -> Self {
+        let layouts = CELLS_PX.map(|cell_px| Self::balanced(strips.max(1), columns, cell_px));
+        let fits = |layout: &&Self| layout.size().max_element() <= LONGEST_PX;
+        let fitting = layouts.iter().find(fits).copied();
+        fitting.unwrap_or_else(|| Self::fullest(columns))
+    }
+
+    fn balanced(strips: usize, columns: usize, cell_px: f64) -> Self {
+        let layout = |blocks: usize| Self {
+            cell_px,
+            columns,
+            rows: strips.div_ceil(blocks),
+            blocks,
+        };
+        let off = |layout: &Self| {
+            let size = layout.size();
+            (size.x / size.y / SHAPE).ln().abs()
+        };
+        let better = |a: Self, b: Self| if off(&b) < off(&a) { b } else { a };
+        let most = strips.min(32);
+        (2..=most).map(layout).fold(layout(1), better)
+    }
+
+    /// As many of the smallest frames as there is room for.
+    fn fullest(columns: usize) -> Self {
+        let one = Self {
+            cell_px: CELLS_PX[CELLS_PX.len() - 1],
+            columns,
+            rows: 1,
+            blocks: 1,
+        };
+        let strip = one.strip();
+        let most = |side: f64| ((LONGEST_PX - 2.0 * GAP_PX) / side).max(1.0) as usize;
+        Self {
+            rows: most(strip.y),
+            blocks: most(strip.x),
+            ..one
+        }
+    }
+
+    /// Width and height of a strip with its gap.
+    fn strip(&self) -> DVec2 {
+        let frames = self.columns as f64 * (self.cell_px + GAP_PX);
+        let lines = 4.0 * LINE_PX;
+        DVec2::new(
+            WORDS_PX + frames + 3.0 * GAP_PX,
+            self.cell_px.max(lines) + 1.5 * GAP_PX,
+        )
+    }
+
+    fn size(&self) -> DVec2 {
+        let counts = DVec2::new(self.blocks as f64, self.rows as f64);
+        self.strip() * counts + DVec2::splat(2.0 * GAP_PX)
+    }
+
+    fn capacity(&self) -> usize {
+        self.rows * self.blocks
+    }
+
+    /// The upper left corner of a strip.
+    fn corner(&self, index: usize) -> DVec2 {
+        let place = DVec2::new((index / self.rows) as f64, (index % self.rows) as f64);
+        place * self.strip() + DVec2::splat(GAP_PX)
+    }
+}
+
+/// Draws strips one below the other in as many blocks as suit. Returns the
+/// drawing and how many strips are on it: all, unless there are more than some
+/// thousand.
+///
+/// # Errors
+/// [`SizeError`] if strips have so many frames that none fits.
+pub fn pair_sheet(strips: &[Strip], ground: Option<Rgb>) -> Result<(Drawing, usize), SizeError> {
+    let columns = strips.iter().map(|s| s.frames.len()).max().unwrap_or(0);
+    let layout = Layout::new(strips.len(), columns);
+    let [width, height] = layout.size().to_array().map(|side| side.ceil() as u32);
+    let mut drawing = Drawing::new(PixelSize::new(width, height)?, ground);
+    let shown = strips.len().min(layout.capacity());
+    for (index, strip) in strips[..shown].iter().enumerate() {
+        push_strip(&mut drawing, strip, &layout, layout.corner(index));
+    }
+    Ok((drawing, shown))
+}
+
+fn push_strip(drawing: &mut Drawing, strip: &Strip, layout: &Layout, corner: DVec2) {
+    let ink = ink_on(drawing.ground);
+    let words = if strip.is_bad { BAD } else { ink };
+    let lines = ((layout.strip().y - GAP_PX) / LINE_PX) as usize;
+    let name = wrapped(&strip.name, WORDS_PX, lines.min(2));
+    let beside = if strip.frames.is_empty() {
+        Vec::new()
+    } else {
+        wrapped(&strip.words, WORDS_PX, lines - name.len())
+    };
+    push_lines(drawing, &name, corner, ink);
+    let below = corner + DVec2::new(0.0, name.len() as f64 * LINE_PX);
+    push_lines(drawing, &beside, below, words);
+    let frames = corner + DVec2::new(WORDS_PX + 2.0 * GAP_PX, 0.0);
+    match strip.bounds {
+        Some(bounds) => push_frames(drawing, strip, bounds, layout, frames),
+        None => {
+            let width = layout.strip().x - WORDS_PX - 4.0 * GAP_PX;
+            push_lines(drawing, &wrapped(&strip.words, width, lines), frames, BAD);
+        }
+    }
+}
+
+fn push_frames(
+    drawing: &mut Drawing,
+    strip: &Strip,
+    bounds: Bounds,
+    layout: &Layout,
+    corner: DVec2,
+) {
+    for (i, (figure, colour)) in strip.frames.iter().enumerate() {
+        let at = corner + DVec2::new(i as f64 * (layout.cell_px + GAP_PX), 0.0);
+        let view = View::fit_cell(bounds, drawing.size, at, DVec2::splat(layout.cell_px));
+        drawing.push_figure(figure, *colour, strip.joints, &view);
+    }
+}
+
+fn push_lines(drawing: &mut Drawing, lines: &[String], corner: DVec2, colour: Rgb) {
+    for (i, line) in lines.iter().enumerate() {
+        let middle = 0.5 * text::width(line, LETTERS_PX);
+        let base = corner + DVec2::new(middle, (i as f64 + 0.8) * LINE_PX);
+        drawing.push_label(line, base, LETTERS_PX, colour);
+    }
+}
+
+/// Words in at most so many lines of a width; what is left over becomes an
+/// ellipsis. Words that are longer than a line are broken.
+fn wrapped(words: &str, width_px: f64, most: usize) -> Vec<String> {
+    let fits = |line: &str| text::width(line, LETTERS_PX) <= width_px;
+    let mut lines: Vec<String> = Vec::new();
+    let mut line = String::new();
+    for word in words.split_whitespace() {
+        if !line.is_empty() && !fits(&format!("{line} {word}")) {
+            lines.push(std::mem::take(&mut line));
+        }
+        if !line.is_empty() {
+            line.push(' ');
+        }
+        for c in word.chars() {
+            line.push(c);
+            if !fits(&line) {
+                line.pop();
+                lines.push(std::mem::replace(&mut line, c.to_string()));
+            }
+        }
+    }
+    lines.push(line);
+    lines.retain(|line| !line.is_empty());
+    if lines.len() > most {
+        lines.truncate(most);
+        if let Some(last) = lines.last_mut() {
+            while !last.is_empty() && !fits(&format!("{last}\u{2026}")) {
+                last.pop();
+            }
+            last.push('\u{2026}');
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_wrapped_broken_and_cut() {
+        assert_eq!(wrapped("", 100.0, 3), Vec::<String>::new());
+        assert_eq!(wrapped("a  b\nc", 100.0, 3), ["a b c"]);
+        let long = "x".repeat(200);
+        let lines = wrapped(&long, 100.0, 3);
+        assert_eq!(lines.len(), 3);
+        assert!(lines[2].ends_with('\u{2026}'));
+        for line in wrapped("several words that do not fit", 60.0, 9) {
+            assert!(text::width(&line, LETTERS_PX) <= 60.0, "{line}");
+        }
+        assert_eq!(wrapped("narrow", 0.0, 2).len(), 2);
+    }
+
+    #[test]
+    fn strips_do_not_overlap_and_stay_on_the_sheet() {
+        for count in [1, 2, 7, 60, 120, 600, 100_000] {
+            let layout = Layout::new(count, 7);
+            let size = layout.size();
+            assert!(size.max_element() <= LONGEST_PX, "{count}: {size}");
+            let shown = count.min(layout.capacity());
+            assert!(shown == count || shown > 1_000, "{count}: {shown}");
+            for index in [0, shown / 2, shown - 1] {
+                let corner = layout.corner(index);
+                assert!((corner + layout.strip()).cmple(size).all(), "{count}");
+                assert!(corner.min_element() >= 0.0);
+            }
+        }
+    }
+
+    #[test]
+    fn sixty_pairs_are_a_picture_of_a_picture_s_shape() {
+        let size = Layout::new(60, 7).size();
+        let ratio = size.x / size.y;
+        assert!(
+            (0.8..2.2).contains(&ratio) && size.max_element() < 5_000.0,
+            "{size}"
+        );
+    }
+}
