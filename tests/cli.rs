@@ -287,6 +287,26 @@ fn a_new_project_is_rendered_from_anywhere() {
 }
 
 #[test]
+fn text_and_elements_are_designs_like_any_other() {
+    let shop = Workshop::new();
+    let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"40\">\
+        <rect id=\"bar\" width=\"20\" height=\"30\"/><rect x=\"30\" width=\"9\" height=\"9\"/></svg>";
+    shop.put("c.svg", svg);
+    shop.done("render glyph:D glyph:S --method field --cells 40 --at 0.5 --out ds.png");
+    assert!(shop.path("ds.png").is_file());
+    fs::create_dir_all(shop.path("deep")).expect("made");
+    shop.done("new glyph:D%40 c.svg --out deep/p.morph");
+    let text = fs::read_to_string(shop.path("deep/p.morph")).expect("read");
+    assert!(
+        text.contains("\"glyph:D%40\"") && text.contains("\"../c.svg\""),
+        "{text}"
+    );
+    shop.done("render deep/p.morph --cells 40 --at 1 --out out.svg");
+    shop.fails(2, "check glyph:D", "one design");
+    shop.fails(1, "check glyph:D glyph:\u{2603}", "U+2603");
+}
+
+#[test]
 fn the_gallery_is_listed_and_rendered() {
     let shop = Workshop::new();
     let json = shop.done("gallery --json");

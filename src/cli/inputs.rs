@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
+use crate::design::Source;
 use crate::progress::Progress;
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 use crate::transition::Transition;
@@ -13,11 +14,16 @@ use super::error::CliError;
 use super::options::MethodArgs;
 
 /// Extensions of designs: one of them alone is half a pair.
-const DESIGNS: [&str; 8] = ["png", "jpg", "jpeg", "bmp", "webp", "svg", "obj", "json"];
+const DESIGNS: [&str; 10] = [
+    "png", "jpg", "jpeg", "bmp", "webp", "svg", "obj", "json", "geojson", "dxf",
+];
 
 #[derive(Debug, Args)]
 pub(super) struct Inputs {
-    /// A project (.morph, or gallery:NAME), or two designs
+    /// A project (.morph, or gallery:NAME), or two designs: files (PNG, JPEG,
+    /// BMP, WebP, SVG, DXF, OBJ, GeoJSON, polygons or a truss as JSON), an
+    /// element of a drawing (drawing.svg#ID) or text (glyph:D, or
+    /// glyph:D@FONT.ttf)
     #[arg(value_name = "PROJECT | A B", num_args = 1..=2, required = true)]
     inputs: Vec<PathBuf>,
 }
@@ -93,11 +99,7 @@ fn pair(source: &Path, target: &Path, method: &MethodArgs) -> Result<LoadedProje
 type Loaded = Result<LoadedProject, ProjectError>;
 
 fn from_file(path: &Path, method: &MethodArgs) -> Result<Loaded, CliError> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    if DESIGNS
-        .iter()
-        .any(|design| extension.eq_ignore_ascii_case(design))
-    {
+    if is_design(path) {
         let path = path.display();
         return Err(CliError::Usage(format!(
             "`{path}` is one design: give a second one, or a .morph project"
@@ -106,6 +108,19 @@ fn from_file(path: &Path, method: &MethodArgs) -> Result<Loaded, CliError> {
     let project = Project::read(path).map_err(CliError::failed)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     Ok(LoadedProject::load(edited(project, method)?, folder))
+}
+
+fn is_design(path: &Path) -> bool {
+    let Source::File {
+        path,
+        element: None,
+    } = Source::of(path)
+    else {
+        return true;
+    };
+    let extension = path.extension().unwrap_or_default().to_string_lossy();
+    let mut designs = DESIGNS.iter();
+    designs.any(|design| extension.eq_ignore_ascii_case(design))
 }
 
 fn bundled(name: &str, method: &MethodArgs) -> Result<Loaded, CliError> {

@@ -4,6 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use clap::Args;
 
+use crate::design::Source;
 use crate::project::{LoadedProject, Project};
 use crate::transition::TransitionSpec;
 
@@ -55,7 +56,7 @@ pub(super) fn run(args: &NewArgs) -> Result<(), CliError> {
 
 fn write(args: &NewArgs) -> Result<(), CliError> {
     let folder = folder_of(&args.out);
-    let designs = [&args.source, &args.target].map(|path| relative(path, folder));
+    let designs = [&args.source, &args.target].map(|path| named_from(path, folder));
     let [source, target] = designs;
     let mut project = Project::pair(source?, target?);
     args.method.edit(&mut project)?;
@@ -74,6 +75,16 @@ fn folder_of(path: &Path) -> &Path {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
         _ => Path::new("."),
     }
+}
+
+/// A design as a project in a folder names it.
+fn named_from(path: &Path, folder: &Path) -> Result<PathBuf, CliError> {
+    let source = Source::of(path);
+    let Some(file) = source.file() else {
+        return Ok(source.to_path());
+    };
+    let file = relative(file, folder)?;
+    Ok(source.at(|_| file).to_path())
 }
 
 /// The way to a file from a folder; absolute where they share no root.
@@ -115,5 +126,9 @@ mod tests {
         assert_eq!(way("a/b"), Path::new("../x.svg"));
         assert_eq!(way("c"), Path::new("../a/x.svg"));
         assert!(relative(&at("missing.svg"), &at("a")).is_err());
+        let written = format!("{}#stalk", at("a/x.svg").display());
+        let named = |written: &str| named_from(written.as_ref(), &at("c")).expect("a name");
+        assert_eq!(named(&written), Path::new("../a/x.svg#stalk"));
+        assert_eq!(named("glyph:%40"), Path::new("glyph:%40"));
     }
 }

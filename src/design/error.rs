@@ -1,7 +1,8 @@
 //! Why a file did not become a design, in one sentence for its owner.
 
 use super::{
-    MAX_FILE_BYTES, ObjError, OptionsError, PictureError, SvgError, TrussInputError, UnknownFormat,
+    MAX_FILE_BYTES, ObjError, OptionsError, PictureError, SvgError, TextError, TrussInputError,
+    UnknownFormat,
 };
 use std::io;
 
@@ -64,6 +65,9 @@ pub enum Problem {
     /// A drawing without a usable outline.
     #[error(transparent)]
     Svg(#[from] SvgError),
+    /// Text without an outline.
+    #[error(transparent)]
+    Text(#[from] TextError),
     /// A mesh that is none.
     #[error(transparent)]
     Obj(#[from] ObjError),

@@ -11,20 +11,26 @@
 //! they meet.
 
 mod error;
+mod flatten;
+mod lettering;
 mod obj;
 mod options;
 mod outline;
 mod silhouette;
 mod simplify;
 mod sniff;
+mod source;
 mod svg;
 mod truss;
 
 pub use error::{ImportError, Problem};
+pub use flatten::TooManyPoints;
+pub use lettering::TextError;
 pub use obj::ObjError;
 pub use options::{ImportOptions, OptionsError};
 pub use silhouette::PictureError;
 pub use sniff::{Format, UnknownFormat, sniff};
+pub use source::Source;
 pub use svg::SvgError;
 pub use truss::{Load, Material, Support, Truss, TrussInputError, TrussParts};
 
@@ -114,21 +120,31 @@ pub fn import(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Desig
         .map_err(|problem| ImportError::new(name, problem))
 }
 
-/// Reads a design from a file; the design is named after the file, without
-/// its ending.
+/// Reads a design from a file, or from whatever else a path may mean: see
+/// [`Source`]. The design is named after the file, without its ending.
 ///
 /// # Errors
 /// [`ImportError`] names the file, the place in it and the way out.
 pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Design, ImportError> {
-    let name = path.file_stem().unwrap_or(path.as_os_str());
-    read_bytes(path)
-        .and_then(|bytes| read(&bytes, options))
-        .map(|(form, extent)| Design {
-            name: name.to_string_lossy().into_owned(),
-            form,
-            extent,
-        })
-        .map_err(|problem| ImportError::new(&path.display().to_string(), problem))
+    Source::of(path).import(options)
+}
+
+/// The design of a source whose file's bytes are at hand.
+fn import_parts(source: &Source, bytes: &[u8], options: &ImportOptions) -> Result<Design, Problem> {
+    let (form, extent) = match source {
+        Source::File { .. } => read(bytes, options)?,
+        Source::Text { text, font } => {
+            options.check()?;
+            let font = font.is_some().then_some(bytes);
+            let (regions, extent) = lettering::read(text, font, options.tolerance)?;
+            (Form::Outline(regions), extent)
+        }
+    };
+    Ok(Design {
+        name: source.name(),
+        form,
+        extent,
+    })
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, Problem> {

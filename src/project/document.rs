@@ -4,7 +4,7 @@ use super::ProjectError;
 use crate::compatible::PolygonOptions;
 use crate::content::ContentKind;
 use crate::correspondence::Matching;
-use crate::design::ImportOptions;
+use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;
 use crate::transition::{FieldOptions, Fit, Stop, Style, Timing, TransitionSpec};
 use crate::warp::{ArapOptions, WarpKind};
@@ -82,7 +82,8 @@ pub struct Project {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct DesignEntry {
-    /// The file, relative to the document, with `/` between folders.
+    /// The file, relative to the document, with `/` between folders; or an
+    /// element of a drawing or text, as [`Source`] has it.
     pub path: PathBuf,
     /// What it is called; where it is empty, the file's name.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -121,7 +122,7 @@ impl Project {
     #[must_use]
     pub fn pair(source: impl Into<PathBuf>, target: impl Into<PathBuf>) -> Self {
         let designs = vec![DesignEntry::new(source), DesignEntry::new(target)];
-        let names: Vec<_> = designs.iter().map(|d| stem(&d.path)).collect();
+        let names: Vec<_> = designs.iter().map(|d| Source::of(&d.path).name()).collect();
         Self {
             version: FORMAT_VERSION,
             title: names.join(" to "),
@@ -238,9 +239,4 @@ fn keep_permissions(old: &Path, new: &Path) -> std::io::Result<()> {
 fn version_of(text: &str) -> Option<u64> {
     let table: toml::Table = text.parse().ok()?;
     u64::try_from(table.get("version")?.as_integer()?).ok()
-}
-
-pub(super) fn stem(path: &Path) -> String {
-    let name = path.file_stem().unwrap_or(path.as_os_str());
-    name.to_string_lossy().into_owned()
 }

@@ -1,9 +1,8 @@
 //! A document together with the designs it names.
 
-use super::document::stem;
 use super::{Project, ProjectError};
 use crate::content::ContentKind;
-use crate::design::{Design, import, import_file};
+use crate::design::{Design, Source};
 use crate::transition::{BuildError, Cell, TransitionSpec, arranged, arrangement};
 use crate::warp::WarpKind;
 use std::path::{Path, PathBuf};
@@ -45,7 +44,7 @@ impl LoadedProject {
     /// [`ProjectError::Import`] names the file and the place.
     pub fn load(project: Project, folder: PathBuf) -> Result<Self, ProjectError> {
         Self::load_by(project, Some(folder.clone()), |entry| {
-            import_file(&folder.join(&entry.path), &entry.import).map_err(ProjectError::from)
+            Ok(Source::in_folder(&folder, &entry.path).import(&entry.import)?)
         })
     }
 
@@ -69,10 +68,11 @@ impl LoadedProject {
         Self::load_by(project, None, |entry| {
             // A bundled project whose design a user has replaced by a file.
             if entry.path.is_absolute() {
-                return Ok(import_file(&entry.path, &entry.import)?);
+                return Ok(Source::of(&entry.path).import(&entry.import)?);
             }
-            let bytes = bytes_of(&entry.path)?;
-            Ok(import(&stem(&entry.path), bytes, &entry.import)?)
+            let source = Source::parse(&entry.path, |path| bytes_of(path).is_ok());
+            let bytes = source.file().map_or(Ok(&[][..]), &bytes_of)?;
+            Ok(source.import_bytes(bytes, &entry.import)?)
         })
     }
 

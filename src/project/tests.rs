@@ -201,3 +201,29 @@ proptest! {
         Project::parse(&MINIMAL[..end]).map(|_| ()).unwrap_or_default();
     }
 }
+
+#[test]
+fn text_needs_no_file_in_a_bundled_project() {
+    let project = Project::pair("glyph:D", "glyph:form");
+    assert_eq!(project.title, "D to form");
+    let loaded = gallery::load_document(project).unwrap();
+    assert_eq!(loaded.designs[1].name, "form");
+    let missing = Project::pair("glyph:D", "glyph:S@nowhere.ttf");
+    assert!(gallery::load_document(missing).is_err());
+}
+
+#[test]
+fn the_font_of_a_text_lies_beside_the_project() {
+    let folder = tempfile::tempdir().unwrap();
+    let font = epaint_default_fonts::UBUNTU_LIGHT;
+    std::fs::write(folder.path().join("light.ttf"), font).unwrap();
+    std::fs::write(
+        folder.path().join("glyph:D"),
+        "v 0 0\nv 1 0\nv 0 1\nf 1 2 3",
+    )
+    .unwrap();
+    let project = Project::pair("glyph:D@light.ttf", "./glyph:D");
+    let loaded = LoadedProject::load(project, folder.path().to_owned()).unwrap();
+    let [thin, file] = [0, 1].map(|k| loaded.designs[k].outline(0.0).unwrap().area());
+    assert!(thin > 10_000.0 && file == 0.5, "{thin} {file}");
+}

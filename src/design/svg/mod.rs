@@ -17,10 +17,10 @@
 //! translucency short of invisible. Masks are refused. Coordinates pass
 //! through `f32`, so that outlines are good to about 1e-7 of the page.
 
-mod flatten;
 mod guard;
 mod paint;
 
+use super::flatten::TooManyPoints;
 use crate::geometry::{Bounds, DVec2, Regions, RegionsError};
 use usvg::roxmltree;
 
@@ -92,11 +92,8 @@ pub enum SvgError {
         strokes: bool,
     },
     /// Curves into absurdly many points.
-    #[error(
-        "the drawing's outlines need more than {} points; simplify its paths or raise the tolerance",
-        flatten::MAX_POINTS
-    )]
-    TooManyPoints,
+    #[error(transparent)]
+    TooManyPoints(#[from] TooManyPoints),
     /// Nothing is enclosed.
     #[error(transparent)]
     Regions(#[from] RegionsError),

@@ -2,7 +2,7 @@
 //! ink and paper, and paints in the drawing's order.
 
 use super::SvgError;
-use super::flatten::Flattener;
+use crate::design::flatten::Flattener;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError};
 use i_overlay::core::fill_rule::FillRule as OverlayFill;
 use i_overlay::core::overlay_rule::OverlayRule;

@@ -6,16 +6,22 @@
 //! made, and the error is bounded, not estimated. Up to [`MAX_PIECES`]: a
 //! curve thousands of pages long is coarser.
 
-use super::SvgError;
 use crate::geometry::DVec2;
 use usvg::tiny_skia_path::{Path, PathSegment, Point};
 
-/// Most points of a drawing after flattening.
-pub(super) const MAX_POINTS: usize = 2_000_000;
+/// Most points of a design after flattening.
+const MAX_POINTS: usize = 2_000_000;
 
 /// Most pieces of one curve: reached at a tolerance of 1e-7 of the page by a
 /// curve that is ten pages long.
 const MAX_PIECES: f64 = 4096.0;
+
+/// Curves into absurdly many points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "the outlines need more than {MAX_POINTS} points; simplify their curves or raise the tolerance"
+)]
+pub struct TooManyPoints;
 
 /// Flattens paths, counting their points.
 pub(super) struct Flattener {
@@ -37,7 +43,7 @@ impl Flattener {
         &mut self,
         path: &Path,
         place: impl Fn(Point) -> DVec2,
-    ) -> Result<Vec<Vec<DVec2>>, SvgError> {
+    ) -> Result<Vec<Vec<DVec2>>, TooManyPoints> {
         let mut rings: Vec<Vec<DVec2>> = Vec::new();
         let mut ring: Vec<DVec2> = Vec::new();
         for segment in path.segments() {
@@ -64,7 +70,7 @@ impl Flattener {
                 PathSegment::Close => {}
             }
             if self.points + ring.len() > MAX_POINTS {
-                return Err(SvgError::TooManyPoints);
+                return Err(TooManyPoints);
             }
         }
         self.points += ring.len();
