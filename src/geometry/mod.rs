@@ -9,6 +9,7 @@ mod bounds;
 mod polar;
 mod predicates;
 mod region;
+mod repair;
 mod ring;
 mod similarity;
 
@@ -17,5 +18,6 @@ pub use glam::{DMat2, DVec2};
 pub use polar::{Polar, SymmetricEigen};
 pub use predicates::{orient2d, twice_signed_area};
 pub use region::{FillRule, Region, Regions, RegionsError};
+pub use repair::Repairs;
 pub use ring::{Ring, RingError};
 pub use similarity::{Similarity, SimilarityError};

@@ -5,7 +5,7 @@
 //! (`i_overlay` on a 64-bit integer grid), which moves points by less than
 //! 1e-15 of the size. It does not simplify: a noisy outline stays noisy.
 
-use super::{Bounds, DVec2, Ring, Similarity};
+use super::{Bounds, DVec2, Repairs, Ring, Similarity};
 use i_overlay::core::fill_rule::FillRule as OverlayRule;
 use i_overlay::float::simplify::SimplifyShape;
 
@@ -68,6 +68,26 @@ impl Regions {
     /// ```
     pub fn from_rings(rings: &[Vec<DVec2>], rule: FillRule) -> Result<Self, RegionsError> {
         check_finite(rings)?;
+        Self::cleaned(rings, rule).map(|(regions, _)| regions)
+    }
+
+    /// As [`Regions::from_rings`], but an outline that is there twice counts
+    /// once, and what had to be repaired is told.
+    ///
+    /// # Errors
+    /// As [`Regions::from_rings`].
+    pub fn from_rings_reporting(
+        rings: &[Vec<DVec2>],
+        rule: FillRule,
+    ) -> Result<(Self, Repairs), RegionsError> {
+        check_finite(rings)?;
+        let (kept, found) = Repairs::find(rings);
+        let (regions, slivers) = Self::cleaned(&kept, rule)?;
+        Ok((regions, Repairs { slivers, ..found }))
+    }
+
+    /// The regions and how many slivers were left out.
+    fn cleaned(rings: &[Vec<DVec2>], rule: FillRule) -> Result<(Self, usize), RegionsError> {
         let bounds = Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
         let extent = bounds.size().max_element();
         if extent <= 0.0 || !extent.is_finite() {
@@ -80,15 +100,17 @@ impl Regions {
             .filter(|ring| ring.len() >= 3)
             .map(|ring| ring.iter().map(|&p| (p - origin).to_array()).collect())
             .collect();
-        let regions: Vec<Region> = subject
-            .simplify_shape_as::<i64>(rule.into())
+        let shapes = subject.simplify_shape_as::<i64>(rule.into());
+        let found: usize = shapes.iter().map(Vec::len).sum();
+        let regions: Vec<Region> = shapes
             .into_iter()
             .filter_map(|shape| region_from(shape, origin, smallest))
             .collect();
         if regions.is_empty() {
             return Err(RegionsError::Empty);
         }
-        Ok(Self(regions))
+        let kept: usize = regions.iter().map(|region| 1 + region.holes.len()).sum();
+        Ok((Self(regions), found - kept))
     }
 
     /// The pieces.
