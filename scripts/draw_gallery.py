@@ -350,6 +350,101 @@ def rotors(folder):
     print(f"rotors: {len(straight)} vertices, {count} after {subdivisions} subdivisions")
 
 
+def gecko(folder):
+    """One gecko, resting and running: the same limbs in two poses."""
+
+    def pose(spine, legs, toes):
+        ink = kit.Ink(640, 480, fillet=14)
+        chain = kit.spline(spine, 24)
+        # Snout, skull, neck, ribs, hips, then the tail down to its tip.
+        ink.stroke(chain, 22, 52, 64, 40, 58, 66, 56, 46, 30, 22, 15, 9)
+        for leg, foot in zip(legs, toes):
+            ink.stroke(kit.spline(leg, 12), 30, 20, 17)
+            for toe in foot:
+                ink.stroke([leg[-1], leg[-1] + toe], 14, 12)
+        return ink
+
+    def foot(angle, length=27):
+        spread = (-0.95, -0.35, 0.35, 0.95)
+        return [length * complex(math.cos(angle + a), math.sin(angle + a)) for a in spread]
+
+    resting = pose(
+        [596 + 262j, 548 + 256j, 470 + 240j, 390 + 238j, 318 + 250j, 250 + 262j, 180 + 252j]
+        + [118 + 214j, 84 + 156j, 108 + 104j, 160 + 92j],
+        [
+            [446 + 250j, 452 + 318j, 500 + 350j],
+            [446 + 230j, 430 + 166j, 468 + 126j],
+            [292 + 262j, 262 + 330j, 216 + 350j],
+            [292 + 240j, 288 + 172j, 244 + 140j],
+        ],
+        [foot(0.5), foot(-0.6), foot(2.7), foot(-2.5)],
+    )
+    running = pose(
+        [592 + 330j, 556 + 296j, 492 + 246j, 420 + 218j, 344 + 224j, 276 + 252j, 206 + 268j]
+        + [136 + 250j, 84 + 262j, 46 + 318j, 52 + 376j],
+        [
+            [462 + 242j, 400 + 304j, 420 + 366j],
+            [472 + 222j, 530 + 188j, 588 + 206j],
+            [320 + 246j, 352 + 322j, 312 + 376j],
+            [308 + 222j, 244 + 180j, 176 + 166j],
+        ],
+        [foot(1.2), foot(0.1), foot(2.0), foot(-2.9)],
+    )
+    for name, title, ink in (
+        ("gecko-resting", "Gecko, resting", resting),
+        ("gecko-running", "Gecko, running", running),
+    ):
+        kit.svg(folder / f"{name}.svg", 640, 480, title, outlines(ink, 0.35))
+
+
+def fern(folder):
+    """The crozier of a fern, coiled and unrolled."""
+
+    def frond(spine, name, title):
+        ink = kit.Ink(560, 560, fillet=6)
+        ink.stroke(spine, 44, 40, 35, 30, 25, 20, 15, 11)
+        kit.svg(folder / f"{name}.svg", 560, 560, title, outlines(ink, 0.3))
+
+    turns, middle = 2.25, 318 + 352j
+    coil = []
+    for i in range(141):
+        share = i / 140
+        angle = math.pi - turns * math.tau * share
+        radius = 158 * (1 - share) ** 0.8 + 14
+        coil.append(middle + radius * complex(math.cos(angle), math.sin(angle)))
+    stem = kit.spline([190 + 36j, 178 + 120j, 164 + 230j, coil[0]], 16)
+    frond(stem[:-1] + coil, "fern-coiled", "Fern, coiled")
+    unrolled = kit.spline([96 + 36j, 130 + 180j, 204 + 316j, 320 + 424j, 470 + 500j], 40)
+    frond(unrolled, "fern-unrolled", "Fern, unrolled")
+
+
+def spectacles(folder):
+    """Spectacles with two openings, and a moustache with none."""
+    glasses = kit.Ink(640, 300, fillet=10)
+    for middle in (196 + 148j, 444 + 148j):
+        ring = [
+            middle + complex(94 * math.cos(a), 80 * math.sin(a))
+            for a in (i * math.tau / 96 for i in range(97))
+        ]
+        glasses.stroke(ring, 24)
+    glasses.stroke(kit.spline([286 + 168j, 320 + 184j, 354 + 168j]), 24, 20, 24)
+    for side in (1, -1):
+        at = [320 + side * dx + 1j * y for dx, y in ((214, 178), (262, 194), (300, 196))]
+        glasses.stroke(kit.spline(at), 26, 22, 20)
+    moustache = kit.Ink(640, 300, fillet=14)
+    for side in (1, -1):
+        at = [
+            320 + side * dx + 1j * y
+            for dx, y in ((8, 176), (74, 172), (152, 124), (228, 118), (276, 158), (296, 214))
+        ]
+        moustache.stroke(kit.spline(at, 20), 72, 104, 92, 66, 36, 10)
+    for name, title, ink in (
+        ("spectacles", "Spectacles", glasses),
+        ("moustache", "Moustache", moustache),
+    ):
+        kit.svg(folder / f"{name}.svg", 640, 300, title, outlines(ink, 0.35))
+
+
 def after(subdivisions, vertices, faces):
     """Vertices when each face is split into four, so many times."""
     edges = len({tuple(sorted(pair)) for a, b, c in faces for pair in ((a, b), (b, c), (c, a))})
@@ -372,6 +467,9 @@ def main():
         letter_outlines,
         letters_by_hand,
         rotors,
+        gecko,
+        fern,
+        spectacles,
     ):
         draw(folder)
 

@@ -1,18 +1,24 @@
 //! What makes two boundary points alike.
 //!
-//! Turning at three reaches compares the shape of the outline itself and does
-//! not see rotation. Where a *pose* (the rotation of one design onto the
+//! Turning at three reaches and the thickness of the shape behind a point
+//! compare the shape itself and do not see rotation. Where a *pose* (the rotation of one design onto the
 //! other) is known, the direction of the tangent and the place about the
 //! centre are compared too: they tell apart what bends alike, such as the
 //! fingers of a hand.
 
 use super::curve::Curve;
 use super::samples::Samples;
+use super::thickness::log_thickness;
 use crate::geometry::DVec2;
 use std::f64::consts::PI;
 
 /// Reaches of the turning, in fractions of the length, and their weights.
 const REACHES: [(f64, f64); 3] = [(0.012, 0.25), (0.035, 0.5), (0.09, 0.75)];
+
+/// What thickness weighs, and the squared logarithm of a ratio of thicknesses
+/// that counts half: a factor of two.
+const THICKNESS: f64 = 0.6;
+const HALF_THICKNESS: f64 = 0.5;
 
 /// Half the stretch over which the tangent's direction is a mean.
 const TANGENT_REACH: f64 = 0.01;
@@ -45,6 +51,7 @@ const HALF_DISTANCE: f64 = 1.0;
 #[derive(Clone, Debug)]
 pub(super) struct Features {
     turning: Vec<[f64; REACHES.len()]>,
+    log_thickness: Vec<f64>,
     tangent: Vec<DVec2>,
     /// About the centre, in root mean squared radii.
     position: Vec<DVec2>,
@@ -54,12 +61,14 @@ impl Features {
     pub fn of(curve: &Curve, samples: &Samples) -> Self {
         let places = &samples.places;
         let direction = |s: f64| curve.direction(s - TANGENT_REACH, s + TANGENT_REACH);
+        let posed: Vec<(f64, f64)> = places.iter().map(|&s| (s, direction(s))).collect();
         Self {
+            log_thickness: log_thickness(curve, &posed),
             turning: (places.iter())
                 .map(|&s| REACHES.map(|(reach, _)| curve.turning(s, reach) / PI))
                 .collect(),
-            tangent: (places.iter())
-                .map(|&s| DVec2::from_angle(direction(s)))
+            tangent: (posed.iter())
+                .map(|&(_, direction)| DVec2::from_angle(direction))
                 .collect(),
             position: centred(places.iter().map(|&s| curve.point_at(s)).collect()),
         }
@@ -74,16 +83,18 @@ impl Features {
         self.position[sample]
     }
 
-    /// How unlike the samples are, blind to rotation: at least 0, at most 1.5.
+    /// How unlike the samples are, blind to rotation: at least 0, at most 2.1.
     pub fn unlike(&self, other: &Self) -> Vec<f64> {
         let pair = |j: usize| {
-            self.turning.iter().map(move |a| {
+            self.turning.iter().enumerate().map(move |(i, a)| {
                 let b = &other.turning[j];
+                let thicker = self.log_thickness[i] - other.log_thickness[j];
                 let terms = REACHES.iter().enumerate();
                 let term = |(k, (_, weight)): (usize, &(f64, f64))| {
                     weight * saturated((a[k] - b[k]).powi(2), 0.5)
                 };
                 terms.map(term).sum::<f64>()
+                    + THICKNESS * saturated(thicker * thicker, HALF_THICKNESS)
             })
         };
         (0..other.turning.len()).flat_map(pair).collect()

@@ -25,6 +25,7 @@ mod settings;
 mod side;
 #[cfg(test)]
 mod tests;
+mod thickness;
 
 pub use boundary::{MatchError, MatchOptions, match_curves, match_rings};
 pub use boundary_match::BoundaryMatch;

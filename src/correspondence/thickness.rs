@@ -1,0 +1,92 @@
+//! How thick a shape is behind each point of its boundary.
+//!
+//! The median length of a few rays into the shape, as in Shapira, Shamir and
+//! Cohen-Or 2008 (the shape diameter function). A limb keeps its thickness
+//! however it is bent, so that it tells where along a tail or an arm a point
+//! is, which turning and position cannot.
+//!
+//! Guaranteed: finite, and the same for the shape moved, turned or enlarged,
+//! to rounding. Open lines have no inside; theirs is the same everywhere.
+
+use super::curve::Curve;
+use crate::geometry::DVec2;
+use std::f64::consts::FRAC_PI_6;
+
+/// Rays at these multiples of 30° from the inward normal. At a tip those
+/// aslant meet its sides, so that the median is the tip's own thickness.
+const RAYS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
+
+/// Hits nearer than this share of the shape's extent are the point's own edge.
+const OWN: f64 = 1e-7;
+
+/// Logarithm of the thickness at each place, in units of the root of the
+/// area, with the mean direction of the boundary there given in radians.
+pub(super) fn log_thickness(curve: &Curve, places: &[(f64, f64)]) -> Vec<f64> {
+    let turns = curve.turning_number();
+    if !curve.is_closed() || turns == 0 {
+        return vec![0.0; places.len()];
+    }
+    let points = curve.points();
+    let size = area(points).abs().sqrt();
+    if !(size.is_finite() && size > 0.0) {
+        return vec![0.0; places.len()];
+    }
+    let side = f64::from(turns.signum());
+    let at = |&(place, direction): &(f64, f64)| {
+        let from = curve.point_at(place);
+        let mut lengths = RAYS.map(|k| {
+            let angle = direction + side * 3.0 * FRAC_PI_6 + k * FRAC_PI_6;
+            ray(points, from, DVec2::from_angle(angle), OWN * size)
+        });
+        lengths.sort_by(f64::total_cmp);
+        let median = lengths[RAYS.len() / 2].min(size);
+        (median / size).max(OWN).ln()
+    };
+    places.iter().map(at).collect()
+}
+
+/// How far a ray goes to the first edge beyond `own`; infinite if to none.
+fn ray(points: &[DVec2], from: DVec2, direction: DVec2, own: f64) -> f64 {
+    let mut nearest = f64::INFINITY;
+    let n = points.len();
+    for (k, &a) in points.iter().enumerate() {
+        let edge = points[if k + 1 < n { k + 1 } else { 0 }] - a;
+        let offset = a - from;
+        let across = direction.perp_dot(edge);
+        let along = offset.perp_dot(direction) / across;
+        if (0.0..=1.0).contains(&along) {
+            let far = offset.perp_dot(edge) / across;
+            if far > own && far < nearest {
+                nearest = far;
+            }
+        }
+    }
+    nearest
+}
+
+fn area(points: &[DVec2]) -> f64 {
+    let base = points[0];
+    let pairs = points.windows(2);
+    let twice: f64 = pairs.map(|p| (p[0] - base).perp_dot(p[1] - base)).sum();
+    0.5 * twice
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Ring;
+
+    #[test]
+    fn a_long_bar_is_as_thick_as_it_is_along_its_sides() {
+        let bar = [(0.0, 0.0), (20.0, 0.0), (20.0, 1.0), (0.0, 1.0)].map(DVec2::from);
+        for reversed in [false, true] {
+            let ring = Ring::new(bar.to_vec()).expect("a ring");
+            let ring = if reversed { ring.reversed() } else { ring };
+            let curve = Curve::closed(&ring).expect("length");
+            let place = curve.nearest(DVec2::new(10.0, 0.0));
+            let direction = if reversed { std::f64::consts::PI } else { 0.0 };
+            let found = log_thickness(&curve, &[(place, direction)])[0].exp() * 20f64.sqrt();
+            assert!((found - 1.0 / FRAC_PI_6.cos()).abs() < 1e-9, "{found}");
+        }
+    }
+}
