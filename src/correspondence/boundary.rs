@@ -35,6 +35,8 @@ pub struct MatchOptions {
     pub keep_up: bool,
     /// Price of stretch against bending, at least 0; 0.25 unless stated.
     pub stretch: f64,
+    /// Price of differing thickness, at least 0; 0.6 unless stated.
+    pub thickness: f64,
 }
 
 impl Default for MatchOptions {
@@ -43,6 +45,7 @@ impl Default for MatchOptions {
             samples: 160,
             keep_up: false,
             stretch: 0.25,
+            thickness: 0.6,
         }
     }
 }
@@ -68,6 +71,9 @@ pub enum MatchError {
     /// The price of stretch is negative or not finite.
     #[error("the price of stretch {0} is not a number of at least 0; choose one such as 0.25")]
     Stretch(f64),
+    /// The price of differing thickness is negative or not finite.
+    #[error("the price of thickness {0} is not a number of at least 0; choose one such as 0.6")]
+    Thickness(f64),
 }
 
 /// Matches two closed boundaries that run the same way around.
@@ -124,6 +130,9 @@ fn check(source: &Curve, target: &Curve, options: &MatchOptions) -> Result<(), M
     }
     if !(options.stretch.is_finite() && options.stretch >= 0.0) {
         return Err(MatchError::Stretch(options.stretch));
+    }
+    if !(options.thickness.is_finite() && options.thickness >= 0.0) {
+        return Err(MatchError::Thickness(options.thickness));
     }
     Ok(())
 }

@@ -15,9 +15,8 @@ use std::f64::consts::PI;
 /// Reaches of the turning, in fractions of the length, and their weights.
 const REACHES: [(f64, f64); 3] = [(0.012, 0.25), (0.035, 0.5), (0.09, 0.75)];
 
-/// What thickness weighs, and the squared logarithm of a ratio of thicknesses
-/// that counts half: a factor of two.
-const THICKNESS: f64 = 0.6;
+/// The squared logarithm of a ratio of thicknesses that counts half: that of
+/// a factor of two.
 const HALF_THICKNESS: f64 = 0.5;
 
 /// Half the stretch over which the tangent's direction is a mean.
@@ -83,8 +82,9 @@ impl Features {
         self.position[sample]
     }
 
-    /// How unlike the samples are, blind to rotation: at least 0, at most 2.1.
-    pub fn unlike(&self, other: &Self) -> Vec<f64> {
+    /// How unlike the samples are, blind to rotation: at least 0, at
+    /// most 1.5 and the price of differing `thickness`.
+    pub fn unlike(&self, other: &Self, thickness: f64) -> Vec<f64> {
         let pair = |j: usize| {
             self.turning.iter().enumerate().map(move |(i, a)| {
                 let b = &other.turning[j];
@@ -94,7 +94,7 @@ impl Features {
                     weight * saturated((a[k] - b[k]).powi(2), 0.5)
                 };
                 terms.map(term).sum::<f64>()
-                    + THICKNESS * saturated(thicker * thicker, HALF_THICKNESS)
+                    + thickness * saturated(thicker * thicker, HALF_THICKNESS)
             })
         };
         (0..other.turning.len()).flat_map(pair).collect()

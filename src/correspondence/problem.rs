@@ -40,6 +40,7 @@ pub(super) struct Problem {
     target_features: Features,
     pins: Vec<[f64; 2]>,
     stretch: f64,
+    thickness: f64,
     keep_up: bool,
 }
 
@@ -71,6 +72,7 @@ impl Problem {
             target: b,
             pins,
             stretch: options.stretch,
+            thickness: options.thickness,
             keep_up: options.keep_up,
         }
     }
@@ -99,7 +101,9 @@ impl Problem {
 
     /// The best path over the poses that the blind comparison suggests.
     fn posed_solution(&self) -> Solution {
-        let blind = self.source_features.unlike(&self.target_features);
+        let blind = self
+            .source_features
+            .unlike(&self.target_features, self.thickness);
         let weights = if self.keep_up {
             PoseWeights::FIXED
         } else {

@@ -22,6 +22,9 @@ pub struct Matching {
     /// several are tried if the shapes are unlike, and the best film is kept.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stretch: Option<f64>,
+    /// Price of differing thickness, at least 0; 0.6 where it is not given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f64>,
     /// What becomes of holes that only one design has.
     pub holes: HoleRule,
     /// What becomes of parts that only one design has.
@@ -116,6 +119,7 @@ impl Matching {
         MatchOptions {
             keep_up: self.keep_up,
             stretch: self.stretch.unwrap_or(default.stretch),
+            thickness: self.thickness.unwrap_or(default.thickness),
             ..default
         }
     }

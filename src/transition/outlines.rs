@@ -1,7 +1,7 @@
 //! Two outlines as rigid parts: matched, triangulated, interpolated.
 //!
 //! Where the shapes are much alike the first match is taken. Where they are
-//! not, or its film folds, matches at other prices of stretch are tried, and
+//! not, or its film folds, matches at other prices are tried, and
 //! the one whose film folds least, then distorts least, is kept: no measure
 //! of two boundaries alone tells what becomes of the inside.
 
@@ -14,11 +14,15 @@ use crate::warp::{Arap, Warp};
 use rayon::prelude::*;
 
 /// A match of at most this cost whose film does not fold is taken at once.
-/// Two poses of a thing cost up to about 0.25, unlike things 0.3 and more.
-const ALIKE: f64 = 0.28;
+/// Two poses of a thing cost up to about 0.3, unlike things 0.4 and more.
+const ALIKE: f64 = 0.34;
 
-/// Prices of stretch that are tried after the default.
-const OTHER_PRICES: [f64; 3] = [0.5, 1.0, 0.12];
+/// Prices of stretch that are tried for unlike shapes, after the default.
+const OTHER_PRICES: [f64; 2] = [0.6, 1.2];
+
+/// What is tried where all of those fold: prices without regard to
+/// thickness, which of a thick body and thin arms makes one arm the body.
+const LAST_PRICES: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 
 /// Steps of a film that is looked at for folds.
 const STEPS: u32 = 16;
@@ -41,22 +45,41 @@ pub(super) fn best(
         spec.source.outline(bar_width)?,
         spec.target.outline(bar_width)?,
     ];
-    let mut best = candidate(&outlines, &spec.matching, spec, progress)?;
-    if spec.matching.stretch.is_none() && !best.is_good() {
-        let others = OTHER_PRICES.par_iter().map(|&price| {
-            let matching = Matching {
-                stretch: Some(price),
-                ..spec.matching.clone()
-            };
-            candidate(&outlines, &matching, spec, progress)
-        });
-        for next in others.collect::<Result<Vec<_>, _>>()? {
-            if next.is_better_than(&best) {
-                best = next;
-            }
-        }
+    let first = candidate(&outlines, &spec.matching, spec, progress)?;
+    if spec.matching.stretch.is_some() || first.is_good() {
+        return Ok((first.matched, first.arap));
+    }
+    let priced = |stretch: f64, thickness: Option<f64>| Matching {
+        stretch: Some(stretch),
+        thickness,
+        ..spec.matching.clone()
+    };
+    let others = OTHER_PRICES.map(|price| priced(price, spec.matching.thickness));
+    let mut best = best_of(first, &others, &outlines, spec, progress)?;
+    if best.folds > 0 {
+        let last = LAST_PRICES.map(|price| priced(price, Some(0.0)));
+        best = best_of(best, &last, &outlines, spec, progress)?;
     }
     Ok((best.matched, best.arap))
+}
+
+/// The best of a candidate and others yet to be made.
+fn best_of(
+    mut best: Candidate,
+    others: &[Matching],
+    outlines: &[Regions; 2],
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<Candidate, BuildError> {
+    let others = others
+        .par_iter()
+        .map(|matching| candidate(outlines, matching, spec, progress));
+    for next in others.collect::<Result<Vec<_>, _>>()? {
+        if next.is_better_than(&best) {
+            best = next;
+        }
+    }
+    Ok(best)
 }
 
 fn candidate(
