@@ -35,7 +35,7 @@ pub struct MatchOptions {
     pub keep_up: bool,
     /// Price of stretch against bending, at least 0; 0.25 unless stated.
     pub stretch: f64,
-    /// Price of differing thickness, at least 0; 0.6 unless stated.
+    /// Price of differing thickness, at least 0; 1 unless stated.
     pub thickness: f64,
 }
 
@@ -45,7 +45,7 @@ impl Default for MatchOptions {
             samples: 160,
             keep_up: false,
             stretch: 0.25,
-            thickness: 0.6,
+            thickness: 1.0,
         }
     }
 }
@@ -72,7 +72,7 @@ pub enum MatchError {
     #[error("the price of stretch {0} is not a number of at least 0; choose one such as 0.25")]
     Stretch(f64),
     /// The price of differing thickness is negative or not finite.
-    #[error("the price of thickness {0} is not a number of at least 0; choose one such as 0.6")]
+    #[error("the price of thickness {0} is not a number of at least 0; choose one such as 1")]
     Thickness(f64),
 }
 

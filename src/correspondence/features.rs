@@ -12,8 +12,9 @@ use super::thickness::log_thickness;
 use crate::geometry::DVec2;
 use std::f64::consts::PI;
 
-/// Reaches of the turning, in fractions of the length, and their weights.
-const REACHES: [(f64, f64); 3] = [(0.012, 0.25), (0.035, 0.5), (0.09, 0.75)];
+/// Reaches of the turning, in fractions of the length, and their weights. The
+/// long reach weighs little: a tail that curls the other way is still a tail.
+const REACHES: [(f64, f64); 3] = [(0.012, 0.5), (0.035, 0.5), (0.09, 0.2)];
 
 /// The squared logarithm of a ratio of thicknesses that counts half: that of
 /// a factor of two.
@@ -32,8 +33,8 @@ pub(super) struct PoseWeights {
 impl PoseWeights {
     /// For a pose that was guessed.
     pub const FREE: Self = Self {
-        tangent: 0.5,
-        position: 0.5,
+        tangent: 0.25,
+        position: 0.125,
     };
 
     /// For a pose that the user asked for.
@@ -83,7 +84,7 @@ impl Features {
     }
 
     /// How unlike the samples are, blind to rotation: at least 0, at
-    /// most 1.5 and the price of differing `thickness`.
+    /// most 1.2 and the price of differing `thickness`.
     pub fn unlike(&self, other: &Self, thickness: f64) -> Vec<f64> {
         let pair = |j: usize| {
             self.turning.iter().enumerate().map(move |(i, a)| {

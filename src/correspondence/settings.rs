@@ -22,7 +22,7 @@ pub struct Matching {
     /// several are tried if the shapes are unlike, and the best film is kept.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub stretch: Option<f64>,
-    /// Price of differing thickness, at least 0; 0.6 where it is not given.
+    /// Price of differing thickness, at least 0; 1 where it is not given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
     /// What becomes of holes that only one design has.

@@ -19,8 +19,9 @@ const RAYS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
 /// Hits nearer than this share of the shape's extent are the point's own edge.
 const OWN: f64 = 1e-7;
 
-/// Logarithm of the thickness at each place, in units of the root of the
-/// area, with the mean direction of the boundary there given in radians.
+/// Logarithm of the thickness at each place, less its mean along the curve.
+/// With each place, ascending, comes the mean direction of the boundary there,
+/// in radians.
 pub(super) fn log_thickness(curve: &Curve, places: &[(f64, f64)]) -> Vec<f64> {
     let turns = curve.turning_number();
     if !curve.is_closed() || turns == 0 {
@@ -42,7 +43,24 @@ pub(super) fn log_thickness(curve: &Curve, places: &[(f64, f64)]) -> Vec<f64> {
         let median = lengths[RAYS.len() / 2].min(size);
         (median / size).max(OWN).ln()
     };
-    places.iter().map(at).collect()
+    centred(places.iter().map(at).collect(), places)
+}
+
+/// The values less their mean along the curve: a design with long limbs has a
+/// larger area for the same thickness of limbs.
+fn centred(mut values: Vec<f64>, places: &[(f64, f64)]) -> Vec<f64> {
+    let n = values.len();
+    let gap = |from: usize, to: usize| (places[to].0 - places[from].0).rem_euclid(1.0);
+    let weight = |k: usize| gap((k + n - 1) % n, k) + gap(k, (k + 1) % n);
+    let (mut sum, mut total) = (0.0, 0.0);
+    for (k, value) in values.iter().enumerate() {
+        sum += weight(k) * value;
+        total += weight(k);
+    }
+    if total > 0.0 {
+        values.iter_mut().for_each(|value| *value -= sum / total);
+    }
+    values
 }
 
 /// How far a ray goes to the first edge beyond `own`; infinite if to none.
@@ -77,16 +95,28 @@ mod tests {
     use crate::geometry::Ring;
 
     #[test]
-    fn a_long_bar_is_as_thick_as_it_is_along_its_sides() {
-        let bar = [(0.0, 0.0), (20.0, 0.0), (20.0, 1.0), (0.0, 1.0)].map(DVec2::from);
+    fn a_step_in_thickness_is_seen_from_either_side_of_the_boundary() {
+        let steps = [
+            (0.0, 0.0),
+            (20.0, 0.0),
+            (20.0, 1.0),
+            (10.0, 1.0),
+            (10.0, 2.0),
+            (0.0, 2.0),
+        ];
         for reversed in [false, true] {
-            let ring = Ring::new(bar.to_vec()).expect("a ring");
+            let ring = Ring::new(steps.map(DVec2::from).to_vec()).expect("a ring");
             let ring = if reversed { ring.reversed() } else { ring };
             let curve = Curve::closed(&ring).expect("length");
-            let place = curve.nearest(DVec2::new(10.0, 0.0));
             let direction = if reversed { std::f64::consts::PI } else { 0.0 };
-            let found = log_thickness(&curve, &[(place, direction)])[0].exp() * 20f64.sqrt();
-            assert!((found - 1.0 / FRAC_PI_6.cos()).abs() < 1e-9, "{found}");
+            let mut places = [5.0, 15.0].map(|x| (curve.nearest(DVec2::new(x, 0.0)), direction));
+            places.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let found = log_thickness(&curve, &places);
+            assert!(
+                ((found[0] - found[1]).abs() - 2f64.ln()).abs() < 1e-9,
+                "{found:?}"
+            );
+            assert!((found[0] + found[1]).abs() < 1e-9, "{found:?}");
         }
     }
 }
