@@ -49,32 +49,51 @@ pub(super) fn evaluate(p: Corners, q: Corners) -> Option<Cost> {
     }
     let e = [edges(p), edges(q)];
     let products = e.map(products);
-    let conformal = dirichlet(products[0], e[1]) / (2.0 * det[0] * det[1]);
-    let ratio = det[1] / det[0];
-    let shapes = [0, 1].map(|d| squares(e[d]) / (2.0 * 3f64.sqrt() * det[d]));
+    let inverse = det.map(|det| 1.0 / det);
+    let both = 0.5 * inverse[0] * inverse[1];
+    let conformal = dirichlet(products[0], e[1]) * both;
+    let ratios = [det[0] * inverse[1], det[1] * inverse[0]];
     let mut gradients = [[DVec2::ZERO; 3]; 2];
+    let mut shapes = [0.0; 2];
     for d in 0..2 {
-        let towards = if d == 0 {
-            1.0 / ratio - ratio
-        } else {
-            ratio - 1.0 / ratio
-        };
+        let equilateral = inverse[d] / (2.0 * 3f64.sqrt());
+        shapes[d] = squares(e[d]) * equilateral;
+        let by_det = -2.0 * conformal * conformal - 2.0 * SHAPE * shapes[d] * shapes[d]
+            + AREA * 0.5 * (ratios[d] - ratios[1 - d]);
+        let by_det = by_det * inverse[d];
+        let (by_dirichlet, by_squares) = (
+            4.0 * conformal * both,
+            4.0 * SHAPE * shapes[d] * equilateral,
+        );
+        let pulls = products[1 - d].map(|product| by_dirichlet * product + by_squares);
         for k in 0..3 {
-            let [opposite, next, last] = [e[d][k], e[d][(k + 1) % 3], e[d][(k + 2) % 3]];
-            let of_det = opposite.perp() / det[d];
-            let other = products[1 - d];
-            let of_dirichlet = 2.0 * (other[(k + 1) % 3] * next - other[(k + 2) % 3] * last);
-            let of_conformal = of_dirichlet / (2.0 * det[0] * det[1]) - conformal * of_det;
-            let of_shape = 2.0 * (next - last) / (2.0 * 3f64.sqrt() * det[d]) - shapes[d] * of_det;
-            gradients[d][k] = 2.0 * conformal * of_conformal
-                + SHAPE * 2.0 * shapes[d] * of_shape
-                + AREA * 0.5 * towards * of_det;
+            let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            gradients[d][k] =
+                pulls[next] * e[d][next] - pulls[last] * e[d][last] + by_det * e[d][k].perp();
         }
     }
     let value = conformal * conformal
         + SHAPE * (shapes[0] * shapes[0] + shapes[1] * shapes[1])
-        + AREA * 0.5 * (ratio + 1.0 / ratio);
+        + AREA * 0.5 * (ratios[0] + ratios[1]);
     value.is_finite().then_some(Cost { value, gradients })
+}
+
+/// The second derivative of the cost by each design's edges, where areas and
+/// the other design are kept: a stiffness for each edge. That of one edge may
+/// be negative, that of the face is not.
+pub(super) fn stiffness(p: Corners, q: Corners) -> [[f64; 3]; 2] {
+    let det = [p, q].map(|c| twice_signed_area(c[0], c[1], c[2]));
+    let e = [edges(p), edges(q)];
+    let products = e.map(products);
+    let conformal = dirichlet(products[0], e[1]) / (2.0 * det[0] * det[1]);
+    [0, 1].map(|d| {
+        let equilateral = 2.0 * 3f64.sqrt() * det[d];
+        let shape = squares(e[d]) / equilateral;
+        let of_edge = |product: f64| {
+            4.0 * conformal * product / (2.0 * det[0] * det[1]) + 4.0 * SHAPE * shape / equilateral
+        };
+        products[1 - d].map(of_edge)
+    })
 }
 
 /// Edge k lies opposite corner k; the three add up to zero.

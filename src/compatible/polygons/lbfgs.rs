@@ -15,24 +15,26 @@ const CURVATURE: f64 = 0.9;
 const TRIALS: usize = 25;
 
 /// Moves `x` downhill by at most `rounds` steps and returns the value there.
-/// `function` gives the value and fills the gradient. Stops early when a step
-/// lowers the value by less than the share `enough`.
+/// `function` gives the value and fills the gradient; `precondition` applies
+/// an approximate inverse of its second derivative in place. Stops early when
+/// a step lowers the value by less than the share `enough`.
 pub(super) fn minimise(
     x: &mut [f64],
     rounds: usize,
     enough: f64,
+    mut precondition: impl FnMut(&mut [f64]),
     mut function: impl FnMut(&[f64], &mut [f64]) -> f64,
 ) -> f64 {
     let mut gradient = vec![0.0; x.len()];
     let mut value = function(x, &mut gradient);
     let mut memory: Vec<Pair> = Vec::new();
     for _ in 0..rounds {
-        let direction = direction(&memory, &gradient);
+        let direction = direction(&memory, &gradient, &mut precondition);
         let Some(found) = search(x, value, &gradient, &direction, &mut function) else {
             break;
         };
         let before = value;
-        remember(&mut memory, x, &gradient, &found);
+        remember(&mut memory, x, &gradient, &found, &mut precondition);
         x.copy_from_slice(&found.x);
         gradient = found.gradient;
         value = found.value;
@@ -47,6 +49,8 @@ struct Pair {
     step: Vec<f64>,
     change: Vec<f64>,
     product: f64,
+    /// What the preconditioner is off by along this step.
+    scale: f64,
 }
 
 struct Found {
@@ -63,7 +67,11 @@ fn add_scaled(a: &mut [f64], by: f64, b: &[f64]) {
     a.iter_mut().zip(b).for_each(|(a, b)| *a += by * b);
 }
 
-fn direction(memory: &[Pair], gradient: &[f64]) -> Vec<f64> {
+fn direction(
+    memory: &[Pair],
+    gradient: &[f64],
+    precondition: &mut impl FnMut(&mut [f64]),
+) -> Vec<f64> {
     let mut d: Vec<f64> = gradient.iter().map(|g| -g).collect();
     let mut shares = Vec::with_capacity(memory.len());
     for pair in memory.iter().rev() {
@@ -71,10 +79,8 @@ fn direction(memory: &[Pair], gradient: &[f64]) -> Vec<f64> {
         add_scaled(&mut d, -share, &pair.change);
         shares.push(share);
     }
-    let scale = match memory.last() {
-        Some(last) => last.product / dot(&last.change, &last.change),
-        None => 1.0 / dot(gradient, gradient).sqrt().max(1.0),
-    };
+    precondition(&mut d);
+    let scale = memory.last().map_or(1.0, |last| last.scale);
     d.iter_mut().for_each(|d| *d *= scale);
     for (pair, share) in memory.iter().zip(shares.iter().rev()) {
         let back = dot(&pair.change, &d) / pair.product;
@@ -122,7 +128,13 @@ fn search(
     best
 }
 
-fn remember(memory: &mut Vec<Pair>, x: &[f64], gradient: &[f64], found: &Found) {
+fn remember(
+    memory: &mut Vec<Pair>,
+    x: &[f64],
+    gradient: &[f64],
+    found: &Found,
+    precondition: &mut impl FnMut(&mut [f64]),
+) {
     let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
     let (step, change) = (minus(&found.x, x), minus(&found.gradient, gradient));
     let product = dot(&step, &change);
@@ -130,7 +142,10 @@ fn remember(memory: &mut Vec<Pair>, x: &[f64], gradient: &[f64], found: &Found) 
         if memory.len() == MEMORY {
             memory.remove(0);
         }
+        let mut answer = change.clone();
+        precondition(&mut answer);
         memory.push(Pair {
+            scale: product / dot(&change, &answer),
             step,
             change,
             product,
@@ -145,26 +160,38 @@ mod tests {
     #[test]
     fn a_curved_valley_is_followed_to_its_end() {
         let mut x = vec![-1.2, 1.0];
-        let value = minimise(&mut x, 100, 0.0, |x, g| {
-            let (a, b) = (1.0 - x[0], x[1] - x[0] * x[0]);
-            g[0] = -2.0 * a - 400.0 * x[0] * b;
-            g[1] = 200.0 * b;
-            a * a + 100.0 * b * b
-        });
+        let value = minimise(
+            &mut x,
+            100,
+            0.0,
+            |_| (),
+            |x, g| {
+                let (a, b) = (1.0 - x[0], x[1] - x[0] * x[0]);
+                g[0] = -2.0 * a - 400.0 * x[0] * b;
+                g[1] = 200.0 * b;
+                a * a + 100.0 * b * b
+            },
+        );
         assert!(value < 1e-12 && (x[0] - 1.0).abs() < 1e-5, "{value} {x:?}");
     }
 
     #[test]
     fn a_barrier_is_never_crossed() {
         let mut x = vec![1e-3];
-        let value = minimise(&mut x, 100, 0.0, |x, g| {
-            g[0] = 1.0 - 1e-6 / (x[0] * x[0]);
-            if x[0] > 0.0 {
-                x[0] + 1e-6 / x[0]
-            } else {
-                f64::INFINITY
-            }
-        });
+        let value = minimise(
+            &mut x,
+            100,
+            0.0,
+            |_| (),
+            |x, g| {
+                g[0] = 1.0 - 1e-6 / (x[0] * x[0]);
+                if x[0] > 0.0 {
+                    x[0] + 1e-6 / x[0]
+                } else {
+                    f64::INFINITY
+                }
+            },
+        );
         assert!((value - 2e-3).abs() < 1e-9 && x[0] > 0.0);
     }
 }

@@ -25,6 +25,7 @@ mod pair;
 mod piece;
 mod quality;
 mod relax;
+mod springs;
 #[cfg(test)]
 mod tests;
 mod touching;

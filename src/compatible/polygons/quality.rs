@@ -13,6 +13,8 @@ use std::collections::HashSet;
 
 /// Rounds of flips and moves.
 const ROUNDS: usize = 5;
+/// Steps of the moves in each round.
+const STEPS: usize = 60;
 /// Faces that cost more are split while there is room.
 const COSTLY: f64 = 6.0;
 /// A vertex goes if no face around it then costs more than this.
@@ -35,7 +37,7 @@ pub(super) fn improve(
             split_costly(mesh, options);
         }
         flip_all(mesh);
-        relax(mesh);
+        relax(mesh, STEPS);
     }
     Ok(())
 }

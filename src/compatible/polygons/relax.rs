@@ -7,84 +7,97 @@
 use super::face;
 use super::lbfgs::minimise;
 use super::pair::PairMesh;
+use super::springs::Springs;
 use crate::geometry::{DVec2, twice_signed_area};
 
-/// Most steps of the minimisation.
-const STEPS: usize = 60;
-
-/// What the minimisation over all movable vertices needs to know.
+/// What the minimisation over all movable vertices needs to know. Unknowns
+/// are displacements: source x, source y, target x, target y.
 struct Relaxation {
     /// Faces with their weights.
     faces: Vec<([u32; 3], f64)>,
-    /// For each vertex its place among the unknowns.
-    unknown: Vec<Option<usize>>,
+    movable: Vec<u32>,
     start: [Vec<DVec2>; 2],
-    /// Units of the unknowns of each vertex in each design.
-    units: [Vec<f64>; 2],
+    /// Scratch: the vertices and the cost's gradients by them.
+    at: [Vec<DVec2>; 2],
+    gradients: [Vec<DVec2>; 2],
 }
 
 impl Relaxation {
     fn of(mesh: &PairMesh) -> Self {
-        let faces = weighted(mesh);
-        let vertices = mesh.points[0].len();
-        let mut unknown = vec![None; vertices];
-        for (i, v) in mesh.steiner().enumerate() {
-            unknown[v as usize] = Some(i);
-        }
-        let mut weight = vec![0.0; vertices];
-        let mut shortest = [vec![f64::INFINITY; vertices], vec![f64::INFINITY; vertices]];
-        for &(face, share) in &faces {
-            for k in 0..3 {
-                let [a, b] = [face[k] as usize, face[(k + 1) % 3] as usize];
-                weight[a] += share;
-                for (d, shortest) in shortest.iter_mut().enumerate() {
-                    let length = mesh.points[d][a].distance(mesh.points[d][b]);
-                    shortest[a] = shortest[a].min(length);
-                    shortest[b] = shortest[b].min(length);
-                }
-            }
-        }
-        let units = shortest.map(|s| s.iter().zip(&weight).map(|(s, w)| s / w.sqrt()).collect());
+        let zero = vec![DVec2::ZERO; mesh.points[0].len()];
         Self {
-            faces,
-            unknown,
+            faces: weighted(mesh),
+            movable: mesh.steiner().collect(),
             start: mesh.points.clone(),
-            units,
+            at: mesh.points.clone(),
+            gradients: [zero.clone(), zero],
         }
     }
 
-    fn at(&self, design: usize, v: u32, x: &[f64]) -> DVec2 {
-        let start = self.start[design][v as usize];
-        match self.unknown[v as usize] {
-            None => start,
-            Some(i) => {
-                let k = 4 * i + 2 * design;
-                start + self.units[design][v as usize] * DVec2::new(x[k], x[k + 1])
+    /// Puts the vertices where displacements bring them.
+    fn place(&mut self, x: &[f64]) {
+        let n = self.movable.len();
+        for d in 0..2 {
+            let (along_x, along_y) = x[2 * d * n..2 * (d + 1) * n].split_at(n);
+            for (i, &v) in self.movable.iter().enumerate() {
+                let by = DVec2::new(along_x[i], along_y[i]);
+                self.at[d][v as usize] = self.start[d][v as usize] + by;
             }
         }
     }
 
-    fn energy(&self, x: &[f64], gradient: &mut [f64]) -> f64 {
-        gradient.fill(0.0);
+    fn energy(&mut self, x: &[f64], gradient: &mut [f64]) -> f64 {
+        self.place(x);
+        for gradients in &mut self.gradients {
+            gradients.fill(DVec2::ZERO);
+        }
         let mut total = 0.0;
         for &(face, weight) in &self.faces {
-            let [p, q] = [0, 1].map(|d| face.map(|v| self.at(d, v, x)));
+            let [p, q] = [0, 1].map(|d| face.map(|v| self.at[d][v as usize]));
             let Some(cost) = face::evaluate(p, q) else {
                 return f64::INFINITY;
             };
             total += weight * cost.value;
-            for (k, &v) in face.iter().enumerate() {
-                let Some(i) = self.unknown[v as usize] else {
-                    continue;
-                };
-                for d in 0..2 {
-                    let g = weight * self.units[d][v as usize] * cost.gradients[d][k];
-                    gradient[4 * i + 2 * d] += g.x;
-                    gradient[4 * i + 2 * d + 1] += g.y;
+            for d in 0..2 {
+                for (k, &v) in face.iter().enumerate() {
+                    self.gradients[d][v as usize] += weight * cost.gradients[d][k];
                 }
             }
         }
+        let n = self.movable.len();
+        for d in 0..2 {
+            for (i, &v) in self.movable.iter().enumerate() {
+                let g = self.gradients[d][v as usize];
+                gradient[2 * d * n + i] = g.x;
+                gradient[(2 * d + 1) * n + i] = g.y;
+            }
+        }
         total
+    }
+
+    /// The curvature of the cost where areas are kept, as springs in each
+    /// design.
+    fn springs(&self) -> Option<[Springs; 2]> {
+        let mut unknown = vec![None; self.start[0].len()];
+        for (i, &v) in self.movable.iter().enumerate() {
+            unknown[v as usize] = Some(i as u32);
+        }
+        let of = |d: usize| {
+            let springs = self.faces.iter().flat_map(|&(face, weight)| {
+                let [p, q] = [0, 1].map(|d| face.map(|v| self.start[d][v as usize]));
+                let stiffness = face::stiffness(p, q)[d];
+                (0..3).map(move |k| {
+                    (
+                        [face[(k + 1) % 3], face[(k + 2) % 3]],
+                        weight * stiffness[k],
+                    )
+                })
+            });
+            let ends =
+                |(ends, stiffness): ([u32; 2], f64)| (ends.map(|v| unknown[v as usize]), stiffness);
+            Springs::new(self.movable.len(), springs.map(ends)).ok()
+        };
+        Some([of(0)?, of(1)?])
     }
 }
 
@@ -108,20 +121,24 @@ pub(super) fn weighted(mesh: &PairMesh) -> Vec<([u32; 3], f64)> {
     mesh.faces().map(|face| (face, weight(face))).collect()
 }
 
-/// All movable vertices moved together; given up if rounding leaves a face
-/// that is not exactly positive.
-pub(super) fn relax(mesh: &mut PairMesh) {
-    let relaxation = Relaxation::of(mesh);
-    let mut x = vec![0.0; 4 * mesh.steiner().count()];
-    minimise(&mut x, STEPS, 1e-5, |x, gradient| {
+/// All movable vertices moved together by at most `steps` steps; given up if
+/// rounding leaves a face that is not exactly positive.
+pub(super) fn relax(mesh: &mut PairMesh, steps: usize) {
+    let mut relaxation = Relaxation::of(mesh);
+    let Some([mut source, mut target]) = relaxation.springs() else {
+        return;
+    };
+    let n = relaxation.movable.len();
+    let mut x = vec![0.0; 4 * n];
+    let precondition = |forces: &mut [f64]| {
+        source.solve(&mut forces[..2 * n]);
+        target.solve(&mut forces[2 * n..]);
+    };
+    minimise(&mut x, steps, 1e-5, precondition, |x, gradient| {
         relaxation.energy(x, gradient)
     });
-    let before = mesh.points.clone();
-    for v in mesh.steiner() {
-        for d in 0..2 {
-            mesh.points[d][v as usize] = relaxation.at(d, v, &x);
-        }
-    }
+    relaxation.place(&x);
+    let before = std::mem::replace(&mut mesh.points, relaxation.at);
     if !mesh.is_valid() {
         mesh.points = before;
     }

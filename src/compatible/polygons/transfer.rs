@@ -11,6 +11,7 @@
 use super::lbfgs::minimise;
 use super::pair::PairMesh;
 use super::piece::Rings;
+use super::springs::Springs;
 use super::{PolygonOptions, PolygonsError, checked};
 use crate::geometry::{DMat2, DVec2, twice_signed_area};
 use crate::linalg::{Cholesky, FactorKind, SymmetricMatrix};
@@ -23,7 +24,7 @@ const MIN_ANGLE: f64 = 0.4;
 const LEAST_EPSILON: f64 = 1e-3;
 /// Rounds of shrinking ε, and steps in each.
 const ROUNDS: usize = 60;
-const STEPS: usize = 80;
+const STEPS: usize = 30;
 
 /// Both polygons' common mesh, refined in the first and carried to the
 /// second; `None` where folds remain.
@@ -162,31 +163,59 @@ fn pieces(mesh: &PairMesh) -> Vec<Piece> {
 fn untangle(mesh: &mut PairMesh) -> bool {
     let pieces = pieces(mesh);
     let n = mesh.fixed;
-    let fixed = mesh.points[1][..n].to_vec();
+    let start = mesh.points[1].clone();
     let least = pieces
         .iter()
-        .map(|piece| piece.jacobian(|v| mesh.points[1][v]).determinant())
+        .map(|piece| piece.jacobian(|v| start[v]).determinant())
         .fold(f64::INFINITY, f64::min);
     let epsilon = LEAST_EPSILON.hypot(0.2 * least.min(0.0));
-    let mut x: Vec<f64> = mesh.points[1][n..]
-        .iter()
-        .flat_map(|p| [p.x, p.y])
-        .collect();
-    let before = x.clone();
-    minimise(&mut x, STEPS, 1e-5, |x, gradient| {
-        energy(&pieces, &fixed, epsilon, x, gradient)
+    let Some(mut springs) = springs(&pieces, start.len(), n) else {
+        return false;
+    };
+    let mut x = vec![0.0; 2 * (start.len() - n)];
+    let precondition = |forces: &mut [f64]| springs.solve(forces);
+    minimise(&mut x, STEPS, 1e-5, precondition, |x, gradient| {
+        energy(&pieces, &start, n, epsilon, x, gradient)
     });
-    for (point, xy) in mesh.points[1][n..].iter_mut().zip(x.chunks_exact(2)) {
-        *point = DVec2::new(xy[0], xy[1]);
+    let (along_x, along_y) = x.split_at(start.len() - n);
+    for (i, point) in mesh.points[1][n..].iter_mut().enumerate() {
+        *point += DVec2::new(along_x[i], along_y[i]);
     }
-    x != before
+    mesh.points[1] != start
 }
 
-fn energy(pieces: &[Piece], fixed: &[DVec2], epsilon: f64, x: &[f64], gradient: &mut [f64]) -> f64 {
-    let n = fixed.len();
-    let at = |v: usize| match v.checked_sub(n) {
-        None => fixed[v],
-        Some(i) => DVec2::new(x[2 * i], x[2 * i + 1]),
+/// The curvature of the energy near no distortion, up to a factor.
+fn springs(pieces: &[Piece], vertices: usize, fixed: usize) -> Option<Springs> {
+    let springs = pieces.iter().flat_map(|piece| {
+        let weight = 2.0 * piece.share;
+        // |J|² is a sum over edges of the corners' cotangents.
+        let m = piece.from_edges * piece.from_edges.transpose();
+        let (ab, ac, bc) = (
+            m.x_axis.x + m.y_axis.x,
+            m.y_axis.y + m.y_axis.x,
+            -m.y_axis.x,
+        );
+        let [a, b, c] = piece.corners;
+        [([a, b], ab), ([a, c], ac), ([b, c], bc)].map(|(ends, s)| {
+            let unknown = |v: usize| v.checked_sub(fixed).map(|i| i as u32);
+            (ends.map(unknown), weight * s)
+        })
+    });
+    Springs::new(vertices - fixed, springs).ok()
+}
+
+fn energy(
+    pieces: &[Piece],
+    start: &[DVec2],
+    fixed: usize,
+    epsilon: f64,
+    x: &[f64],
+    gradient: &mut [f64],
+) -> f64 {
+    let n = start.len() - fixed;
+    let at = |v: usize| match v.checked_sub(fixed) {
+        None => start[v],
+        Some(i) => start[v] + DVec2::new(x[i], x[n + i]),
     };
     gradient.fill(0.0);
     let mut total = 0.0;
@@ -201,25 +230,31 @@ fn energy(pieces: &[Piece], fixed: &[DVec2], epsilon: f64, x: &[f64], gradient: 
             by_edges.y_axis,
         ];
         for (v, g) in piece.corners.into_iter().zip(corners) {
-            if let Some(i) = v.checked_sub(n) {
-                gradient[2 * i] += g.x;
-                gradient[2 * i + 1] += g.y;
+            if let Some(i) = v.checked_sub(fixed) {
+                gradient[i] += g.x;
+                gradient[n + i] += g.y;
             }
         }
     }
     total
 }
 
-/// (tr(JᵀJ) + 1 + det²) / χ(det) and its derivative by J.
-fn density(j: DMat2, epsilon: f64) -> (f64, DMat2) {
-    let det = j.determinant();
-    let root = epsilon.hypot(det);
+/// (det + √(ε² + det²)) / 2: positive for either sign.
+fn chi(det: f64, epsilon: f64) -> f64 {
+    let root = (epsilon * epsilon + det * det).sqrt();
     // The textbook form for both signs cancels to zero where det < 0.
-    let chi = if det > 0.0 {
+    if det > 0.0 {
         0.5 * (det + root)
     } else {
         0.5 * epsilon * epsilon / (root - det)
-    };
+    }
+}
+
+/// (tr(JᵀJ) + 1 + det²) / χ(det) and its derivative by J.
+fn density(j: DMat2, epsilon: f64) -> (f64, DMat2) {
+    let det = j.determinant();
+    let root = (epsilon * epsilon + det * det).sqrt();
+    let chi = chi(det, epsilon);
     let cofactor = DMat2::from_cols(
         DVec2::new(j.y_axis.y, -j.y_axis.x),
         DVec2::new(-j.x_axis.y, j.x_axis.x),
