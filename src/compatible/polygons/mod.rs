@@ -171,12 +171,15 @@ fn triangulated(
         .into_iter()
         .flatten()
         .min_by(|a, b| badness(a).total_cmp(&badness(b)));
-    match best {
-        Some(mesh) => Ok(mesh),
-        None => from_base(source, target, options, progress),
-    }
+    let mut mesh = match best {
+        Some(mesh) => mesh,
+        None => from_base(source, target, progress)?,
+    };
+    quality::improve(&mut mesh, options, progress)?;
+    Ok(mesh)
 }
 
+/// Improved just so far that both directions can be compared.
 fn transferred(
     from: &Rings,
     to: &Rings,
@@ -185,7 +188,7 @@ fn transferred(
 ) -> Result<Option<PairMesh>, PolygonsError> {
     let mut mesh = transfer::transfer(from, to, options, progress)?;
     if let Some(mesh) = &mut mesh {
-        quality::improve(mesh, options, progress)?;
+        quality::settle(mesh);
     }
     Ok(mesh)
 }
@@ -193,7 +196,6 @@ fn transferred(
 fn from_base(
     source: &Rings,
     target: &Rings,
-    options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PolygonsError> {
     let mut mesh = bridges::base(source, target)?;
@@ -201,7 +203,6 @@ fn from_base(
         return Err(PolygonsError::TooThin);
     }
     quality::thin_out(&mut mesh, progress)?;
-    quality::improve(&mut mesh, options, progress)?;
     Ok(mesh)
 }
 

@@ -13,6 +13,8 @@ use std::collections::HashSet;
 
 /// Rounds of flips and moves.
 const ROUNDS: usize = 5;
+/// Steps of the moves before two meshes are compared.
+const FIRST_STEPS: usize = 20;
 /// Steps of the moves in each round.
 const STEPS: usize = 60;
 /// Faces that cost more are split while there is room.
@@ -40,6 +42,12 @@ pub(super) fn improve(
         relax(mesh, STEPS);
     }
     Ok(())
+}
+
+/// One round, without new vertices.
+pub(super) fn settle(mesh: &mut PairMesh) {
+    flip_all(mesh);
+    relax(mesh, FIRST_STEPS);
 }
 
 /// Splits the worst faces: more freedom where it is needed. Splitting many

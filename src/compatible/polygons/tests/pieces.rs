@@ -24,8 +24,7 @@ fn circle(centre: DVec2, radius: f64, n: usize, turn: f64) -> Vec<DVec2> {
 }
 
 fn from_the_base(source: &Piece, target: &Piece) -> CompatibleMesh {
-    let options = PolygonOptions::default();
-    let base = from_base(&Rings::of(source), &Rings::of(target), &options, &Silent);
+    let base = from_base(&Rings::of(source), &Rings::of(target), &Silent);
     let base = base.expect("a base");
     let (faces, [p, q]) = base.compacted();
     CompatibleMesh::new(faces, p, q, vec![]).expect("valid")
