@@ -9,7 +9,8 @@
 //!
 //! Guaranteed: every face is positive in both designs by exact predicates;
 //! the polygons' vertices come first, in order and unmoved, and their edges
-//! are edges of the mesh; the same input gives the same mesh. Not guaranteed:
+//! are edges of the mesh; the same input gives the same mesh, and the designs
+//! exchanged give the mesh with its embeddings exchanged, bit by bit. Not guaranteed:
 //! any angle or any distortion, which the match between the two decides.
 //! Polygons thinner than the last digits of their coordinates may leave no
 //! room for the vertices that a common triangulation needs: an error, never a
@@ -127,7 +128,11 @@ impl CompatibleMesh {
         let [p, q] = [0, 1].map(|d| given[d].scaled(scales[d]));
         piece::check(&p, Which::Source)?;
         piece::check(&q, Which::Target)?;
-        let mesh = triangulated(&p, &q, options, progress)?;
+        let mesh = if goes_first(&p, &q) {
+            triangulated(&p, &q, options, progress)?
+        } else {
+            triangulated(&q, &p, options, progress)?.swapped()
+        };
         let (faces, mut points) = mesh.compacted();
         for d in 0..2 {
             points[d].iter_mut().for_each(|p| *p /= scales[d]);
@@ -157,6 +162,20 @@ fn check<R: AsRef<[DVec2]>>(
         Some(share) if share.is_nan() || share <= 0.0 => Err(PolygonsError::EdgeLength(share)),
         _ => Ok(()),
     }
+}
+
+/// A total order, so that a pair is solved in one order whichever way it is
+/// asked for.
+fn goes_first(a: &Rings, b: &Rings) -> bool {
+    let coordinates = |rings: &Rings| -> Vec<f64> {
+        let points = rings.points.iter();
+        points.flat_map(|p| (*p + 0.0).to_array()).collect()
+    };
+    let (a, b) = (coordinates(a), coordinates(b));
+    let order = a.iter().zip(&b).map(|(a, b)| a.total_cmp(b));
+    order
+        .fold(std::cmp::Ordering::Equal, |so_far, next| so_far.then(next))
+        .is_le()
 }
 
 fn triangulated(

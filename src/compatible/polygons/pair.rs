@@ -68,6 +68,12 @@ impl PairMesh {
         self.faces().all(|face| self.is_valid_face(face))
     }
 
+    /// How many faces are not positive in both.
+    pub(super) fn folds(&self) -> usize {
+        let folded = |face: &[u32; 3]| !self.is_valid_face(*face);
+        self.faces().filter(folded).count()
+    }
+
     /// What a face costs; infinite if it is not positive in both.
     pub(super) fn cost(&self, face: [u32; 3]) -> f64 {
         let [p, q] = self.corners(face);

@@ -231,6 +231,18 @@ fn the_same_input_gives_the_same_mesh() {
 }
 
 #[test]
+fn designs_exchanged_give_the_mesh_exchanged() {
+    for (kinds, seed) in [((1, 2), 3), ((0, 3), 5), ((3, 2), 8)] {
+        let [source, target] = pair(kinds, 40, seed).expect("simple");
+        let there = together(&source, &target);
+        let back = together(&target, &source);
+        assert_eq!(there.faces(), back.faces());
+        assert_eq!(there.source(), back.target());
+        assert_eq!(there.target(), back.source());
+    }
+}
+
+#[test]
 fn a_shorter_edge_length_gives_shorter_edges() {
     let square = shape(5, 16, &mut Random(1));
     let fine = PolygonOptions {

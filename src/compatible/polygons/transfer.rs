@@ -24,6 +24,8 @@ const MIN_ANGLE: f64 = 0.4;
 const LEAST_EPSILON: f64 = 1e-3;
 /// Rounds of shrinking ε, and steps in each.
 const ROUNDS: usize = 60;
+/// Rounds without fewer folds after which it is given up.
+const PATIENCE: usize = 6;
 const STEPS: usize = 30;
 
 /// Both polygons' common mesh, refined in the first and carried to the
@@ -54,12 +56,17 @@ pub(super) fn transfer(
         };
         mesh.points[1] = harmonic;
     }
+    let mut fewest = usize::MAX;
+    let mut since = 0;
     for round in 0..ROUNDS {
-        if mesh.is_valid() {
+        let folds = mesh.folds();
+        if folds == 0 {
             return Ok(Some(mesh));
         }
+        since = if folds < fewest { 0 } else { since + 1 };
+        fewest = fewest.min(folds);
         checked(progress, "removing folds", round as f64 / ROUNDS as f64)?;
-        if !untangle(&mut mesh) {
+        if since >= PATIENCE || !untangle(&mut mesh) {
             break;
         }
     }
