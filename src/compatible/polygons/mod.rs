@@ -18,6 +18,7 @@
 
 mod bridges;
 mod chords;
+mod coarsen;
 mod error;
 mod face;
 mod lbfgs;
@@ -40,6 +41,9 @@ pub use error::{PolygonsError, RingEdge};
 use pair::PairMesh;
 use piece::Rings;
 use serde::{Deserialize, Serialize};
+
+/// With more boundary points the base is made of what a front leaves.
+const FEW: usize = 200;
 
 /// How two polygons are triangulated together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
@@ -217,12 +221,34 @@ fn from_base(
     target: &Rings,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PolygonsError> {
-    let mut mesh = bridges::base(source, target)?;
+    let mut mesh = if source.points.len() > FEW {
+        coarse_base(source, target)?
+    } else {
+        bridges::base(source, target)?
+    };
     if !mesh.is_valid() {
         return Err(PolygonsError::TooThin);
     }
     quality::thin_out(&mut mesh, progress)?;
     Ok(mesh)
+}
+
+/// The base of what a front leaves, and the faces behind the front.
+fn coarse_base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsError> {
+    let coarse = coarsen::coarsened(source, target, FEW / 2);
+    let mut core = bridges::base(&coarse.core(0), &coarse.core(1))?;
+    let front: Vec<u32> = coarse.rings.concat();
+    let inner = coarse.points[0].len();
+    let number = |v: u32| match (v as usize).checked_sub(front.len()) {
+        None => front[v as usize],
+        Some(i) => (inner + i) as u32,
+    };
+    let mut faces = coarse.faces;
+    faces.extend(core.faces().map(|face| face.map(number)));
+    let [mut p, mut q] = coarse.points;
+    p.extend(core.points[0].drain(front.len()..));
+    q.extend(core.points[1].drain(front.len()..));
+    Ok(PairMesh::new(source.points.len(), p, q, faces))
 }
 
 /// Mean cost of the faces by their area in both designs: what one mesh is
