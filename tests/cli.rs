@@ -1,6 +1,7 @@
 //! Drives the built program: each kind of output on small sizes, and what goes
 //! wrong. Needs no graphics card and no display.
 
+use std::collections::HashMap;
 use std::fs;
 use std::io::BufReader;
 use std::path::{Path, PathBuf};
@@ -258,7 +259,17 @@ fn a_check_is_one_json_object() {
     for stage in ["import", "build", "frame"] {
         assert!(report["seconds"][stage].as_f64() > Some(0.0), "{stage}");
     }
-    let json = shop.done("check a.svg b.svg --cells 64 --samples 3 --json");
+    for measure in [
+        "asymmetry",
+        "conformal_excess",
+        "worst_crossings",
+        "min_det",
+    ] {
+        assert!(report["film"][measure].is_number(), "{measure}");
+    }
+    assert_eq!(report["verdict"]["words"], "no folds, no crossings");
+    assert_eq!(report["mesh"]["steiner_per_boundary_point"], 0.0);
+    let json = shop.done("check a.svg b.svg --method field --cells 64 --samples 3 --json");
     let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
     assert_eq!(
         (&report["content"], &report["mesh"]),
@@ -266,7 +277,10 @@ fn a_check_is_one_json_object() {
     );
     assert_eq!(report["grid"][0], 64);
     let table = shop.done("check a.obj b.obj --samples 5");
-    assert!(table.lines().any(|line| line.starts_with("seconds.build ")));
+    assert!(table.lines().any(|line| line.starts_with("time  ")));
+    let verdict = "verdict      no folds, no crossings";
+    assert!(table.lines().any(|line| line == verdict), "{table}");
+    assert!(table.lines().count() < 40 && table.lines().all(|line| line.len() < 120));
 }
 
 #[test]
@@ -406,6 +420,182 @@ fn help_and_version_are_data() {
     assert!(shop.done("--version").starts_with("morphospace "));
     assert!(shop.done("--help").contains("Examples:"));
     assert!(shop.done("render --help").contains("--frames-range"));
+}
+
+#[test]
+fn a_verdict_names_t_cause_and_remedy() {
+    let shop = Workshop::new();
+    shop.put(
+        "turned.obj",
+        "v 0 0 0\nv -1 0 0\nv -1 -3 0\nv 0 -3 0\nf 1 2 3\nf 1 3 4\n",
+    );
+    let table = shop.done("check a.obj turned.obj --homotopy linear");
+    for words in [
+        "2 faces fold at t = 0.38, about (",
+        "cause: straight",
+        "polar homotopy",
+    ] {
+        assert!(table.contains(words), "{words}: {table}");
+    }
+    let json = shop.done("check a.obj turned.obj --homotopy linear --json");
+    let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let finding = &report["verdict"]["findings"][0];
+    assert_eq!(finding["trouble"]["kind"], "folds");
+    assert_eq!(finding["cause"]["kind"], "straight-paths");
+    assert_eq!(finding["remedy"]["left"], 0);
+    assert!(finding["t"].is_number() && finding["place"][1].is_number());
+}
+
+/// A report's rows by the names of its columns.
+fn rows(path: &Path) -> Vec<HashMap<String, String>> {
+    let mut reader = csv::Reader::from_path(path).expect("a report");
+    let rows = reader.deserialize();
+    rows.map(|row| row.expect("a row")).collect()
+}
+
+#[test]
+fn a_table_of_pairs_gives_a_row_each() {
+    let shop = Workshop::new();
+    fs::create_dir(shop.path("sub")).expect("made");
+    let table =
+        "\u{feff}kind,source,target\n\"a, \"\"b\"\"\",../a.obj,../b.obj\nfield,../a.svg,../b.obj\n";
+    shop.put("sub/pairs.csv", table);
+    let line =
+        "check --pairs sub/pairs.csv --out report.csv --sheet sheet.png --cells 48 --samples 5";
+    let summary = shop.done(line);
+    assert!(summary.starts_with("pairs  "), "{summary}");
+    let found = rows(&shop.path("report.csv"));
+    assert_eq!(found.len(), 2);
+    assert_eq!(found[0]["kind"], "a, \"b\"");
+    for row in &found {
+        assert_eq!(
+            (row["status"].as_str(), row["samples"].as_str()),
+            ("ok", "5")
+        );
+        assert!(row["build_s"].parse::<f64>().expect("seconds") > 0.0);
+    }
+    assert_eq!(
+        (found[0]["method"].as_str(), found[1]["method"].as_str()),
+        ("arap", "field")
+    );
+    assert_eq!(
+        (found[0]["faces"].as_str(), found[1]["faces"].as_str()),
+        ("2", "")
+    );
+    assert!(found[0]["match_and_triangulate_s"].parse::<f64>().is_ok());
+    assert_eq!(found[1]["grid_width_cells"], "48");
+    assert!(image(&shop.path("sheet.png")).width() > 600);
+    // Written over, and in both directions.
+    let json = shop.done(&format!("{line} --both --json"));
+    let summary: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(
+        (&summary["pairs"], &summary["failures"]),
+        (&4.into(), &0.into())
+    );
+    let found = rows(&shop.path("report.csv"));
+    let directions: Vec<_> = found.iter().map(|row| row["direction"].as_str()).collect();
+    assert_eq!(directions, ["forward", "backward", "forward", "backward"]);
+    let [there, back] = [&found[0], &found[1]].map(|row| &row["conformal_worst"]);
+    let [there, back] = [there, back].map(|x| x.parse::<f64>().expect("a number"));
+    assert!((there / back - 1.0).abs() < 1e-9, "{there} {back}");
+    assert_eq!(shop.names(".").len(), 7, "no temporary file is left");
+}
+
+#[test]
+fn a_table_goes_on_past_failures() {
+    let shop = Workshop::new();
+    shop.put("bad.obj", "v 0 0 0\nf 1 2 3\n");
+    shop.put(
+        "pairs.csv",
+        "source,target,kind\nnone.obj,a.obj,1\na.obj,bad.obj,2\na.obj,b.obj\n,b.obj,4\na.obj,.,5\na.obj,b.obj,6\n",
+    );
+    let output = shop.run("check --pairs pairs.csv --out r.csv --sheet s.svg --samples 3");
+    let said = words(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(
+        said.contains("5 of 6 pairs failed, the first in line 2"),
+        "{said}"
+    );
+    assert!(!said.contains("panicked"), "{said}");
+    assert!(String::from_utf8_lossy(&output.stdout).contains("failures"));
+    let found = rows(&shop.path("r.csv"));
+    let status: Vec<_> = found.iter().map(|row| row["status"].as_str()).collect();
+    for (status, said) in status
+        .iter()
+        .zip(["none.obj", "bad.obj", "2 cells", "empty", ""])
+    {
+        assert!(status.contains(said) && *status != "ok", "{status}");
+    }
+    assert_eq!(status[5], "ok");
+    assert_eq!(
+        (found[0]["kind"].as_str(), found[2]["kind"].as_str()),
+        ("1", "")
+    );
+    let svg = fs::read_to_string(shop.path("s.svg")).expect("a sheet");
+    assert!(svg.contains("failed") && svg.contains("a to b"));
+}
+
+#[test]
+fn hostile_tables_are_refused_in_words() {
+    let shop = Workshop::new();
+    let go = |name: &str| format!("check --pairs {name} --out out.csv");
+    shop.fails(1, &go("missing.csv"), "missing.csv");
+    shop.fails(1, &go("."), "cannot be read");
+    for (text, said) in [
+        ("", "empty"),
+        ("source,target\n", "no pairs"),
+        ("source,kind\na,b\n", "no column `target`"),
+        ("source;target\na;b\n", "separate columns by commas"),
+        (
+            "source,target,target\na,b,c\n",
+            "two columns are called `target`",
+        ),
+        ("source,target,faces\na,b,c\n", "`faces`"),
+        ("\"source,target\na,b\n", "no column"),
+    ] {
+        shop.put("t.csv", text);
+        shop.fails(1, &go("t.csv"), said);
+    }
+    fs::write(shop.path("t.csv"), b"\xff\xfes\0o\0u\0").expect("written");
+    shop.fails(1, &go("t.csv"), "UTF-8");
+    fs::write(shop.path("t.csv"), b"source,target\n\xff.obj,a.obj\n").expect("written");
+    let output = shop.run(&go("t.csv"));
+    assert_eq!(output.status.code(), Some(1), "{}", words(&output));
+    let report = fs::read(shop.path("out.csv")).expect("a report");
+    assert!(
+        report.windows(5).any(|w| w == b"\xff.obj"),
+        "carried along as it is"
+    );
+}
+
+#[test]
+fn tables_are_used_rightly_or_not_at_all() {
+    let shop = Workshop::new();
+    shop.put("t.csv", "source,target\na.obj,b.obj\n");
+    shop.fails(2, "check", "PROJECT");
+    shop.fails(2, "check --pairs t.csv", "--out");
+    shop.fails(2, "check a.obj b.obj --out x.csv", "--pairs");
+    shop.fails(2, "check a.obj b.obj --both", "--pairs");
+    shop.fails(2, "check a.obj b.obj --pairs t.csv --out x.csv", "--pairs");
+    shop.fails(2, "check --pairs t.csv --out t.csv", "the table itself");
+    shop.fails(2, "check --pairs t.csv --out ./t.csv", "the table itself");
+    shop.fails(
+        2,
+        "check --pairs t.csv --out x.csv --sheet x.gif",
+        ".png or .svg",
+    );
+    shop.fails(
+        2,
+        "check --pairs t.csv --out x.svg --sheet x.svg",
+        "two names",
+    );
+    shop.fails(1, "check --pairs t.csv --out none/x.csv", "none/x.csv");
+    shop.fails(
+        1,
+        "check --pairs t.csv --out x.csv --sheet none/x.png",
+        "none/x.png",
+    );
+    assert_eq!(shop.names(".").len(), 5, "nothing was written");
 }
 
 #[cfg(unix)]

@@ -31,7 +31,8 @@ Examples:
   morphospace render bridge.morph --at 0.5 --out half.svg
   morphospace render gallery:letters --sheet 7 --out sheet.png
   morphospace render bridge.morph --out 'frames/f-####.png' --frames-range 0..60
-  morphospace check bridge.morph --json";
+  morphospace check bridge.morph --json
+  morphospace check --pairs pairs.csv --out report.csv --sheet sheet.png";
 
 /// Explore the space between designs.
 #[derive(Debug, Parser)]

@@ -34,6 +34,10 @@ const LINE_PX: f64 = 16.0;
 /// Size of the letters in it.
 const LETTERS_PX: f64 = 13.0;
 
+/// Room for so many frames is there at least, for the words of pairs that
+/// have none.
+const FEWEST_COLUMNS: usize = 5;
+
 /// Width by height that a sheet comes near to.
 const SHAPE: f64 = 1.4;
 
@@ -159,7 +163,7 @@ impl Layout {
         let frames = self.columns as f64 * (self.cell_px + GAP_PX);
         let lines = 4.0 * LINE_PX;
         DVec2::new(
-            WORDS_PX + frames + 3.0 * GAP_PX,
+            WORDS_PX + frames + 6.0 * GAP_PX,
             self.cell_px.max(lines) + 1.5 * GAP_PX,
         )
     }
@@ -187,7 +191,8 @@ impl Layout {
 /// # Errors
 /// [`SizeError`] if strips have so many frames that none fits.
 pub fn pair_sheet(strips: &[Strip], ground: Option<Rgb>) -> Result<(Drawing, usize), SizeError> {
-    let columns = strips.iter().map(|s| s.frames.len()).max().unwrap_or(0);
+    let frames = strips.iter().map(|s| s.frames.len());
+    let columns = frames.max().unwrap_or(0).max(FEWEST_COLUMNS);
     let layout = Layout::new(strips.len(), columns);
     let [width, height] = layout.size().to_array().map(|side| side.ceil() as u32);
     let mut drawing = Drawing::new(PixelSize::new(width, height)?, ground);
@@ -215,7 +220,7 @@ fn push_strip(drawing: &mut Drawing, strip: &Strip, layout: &Layout, corner: DVe
     match strip.bounds {
         Some(bounds) => push_frames(drawing, strip, bounds, layout, frames),
         None => {
-            let width = layout.strip().x - WORDS_PX - 4.0 * GAP_PX;
+            let width = layout.columns as f64 * (layout.cell_px + GAP_PX);
             push_lines(drawing, &wrapped(&strip.words, width, lines), frames, BAD);
         }
     }

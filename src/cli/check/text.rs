@@ -115,7 +115,7 @@ fn verdict(report: &Report, lines: &mut Lines) {
 fn distortion(report: &Report, mesh: &MeshReport, lines: &mut Lines) {
     lines.gap();
     lines.line(&format!(
-        "{:<12}{:>12}{:>12}{:>12}{:>16}",
+        "{:<12}{:>12}{:>12}{:>12}{:>20}",
         "at t = 1", "median", "95 %", "worst", "worse on the way"
     ));
     let film = &report.film;
@@ -128,7 +128,7 @@ fn distortion(report: &Report, mesh: &MeshReport, lines: &mut Lines) {
     ];
     for (name, d, excess) in rows {
         lines.line(&format!(
-            "{name:<12}{:>12}{:>12}{:>12}{:>16}",
+            "{name:<12}{:>12}{:>12}{:>12}{:>20}",
             short(d.median),
             short(d.p95),
             short(d.worst),
@@ -168,6 +168,7 @@ fn film(report: &Report, lines: &mut Lines) {
             "topology",
             film.pieces_excess
                 .zip(film.holes_excess)
+                .filter(|_| report.content == ContentKind::Field)
                 .map(|(pieces, holes)| {
                     format!("{pieces} pieces and {holes} holes more than at the ends")
                 }),
@@ -249,7 +250,7 @@ pub(super) fn short(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {
         return format!("{x:.0}");
     }
-    if size >= 1e7 || size < 5e-4 {
+    if !(5e-4..1e7).contains(&size) {
         return format!("{x:.1e}");
     }
     let decimals = match size {

@@ -36,7 +36,7 @@ pub(super) struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    fn new(transition: &Transition, arap: &'a Arap, solid: &'a Solid, t: f64) -> Self {
+    pub fn new(transition: &Transition, arap: &'a Arap, solid: &'a Solid, t: f64) -> Self {
         Self {
             arap,
             solid,
@@ -196,16 +196,21 @@ fn straight_paths(scene: &Scene<'_>, face: usize, t: f64) -> Option<Cause> {
     })
 }
 
-/// The part of a face turns by more than half a turn against a part that it
-/// hangs on.
+/// The part of a face and one that it hangs on turn by more than half a turn
+/// against each other; named is that which turns further.
 fn far_turn_of_part(scene: &Scene<'_>, face: usize) -> Option<Cause> {
     let part = scene.part_of[face];
     let mean = |p: u32| scene.mean_angle(|f| scene.part_of[f] == p);
     let own = mean(part)?;
-    let turns = scene.neighbouring_parts(part).into_iter();
-    let turn = turns
-        .filter_map(|other| Some(own - mean(other)?))
-        .max_by(|a, b| a.abs().total_cmp(&b.abs()))?;
+    let others = scene.neighbouring_parts(part).into_iter();
+    let (other, angle) = others
+        .filter_map(|other| Some((other, mean(other)?)))
+        .max_by(|a, b| (a.1 - own).abs().total_cmp(&(b.1 - own).abs()))?;
+    let (part, turn) = if angle.abs() > own.abs() {
+        (other, angle - own)
+    } else {
+        (part, own - angle)
+    };
     (turn.abs() > PI).then_some(Cause::FarTurn {
         part: Some(part as usize),
         turn,
@@ -213,13 +218,13 @@ fn far_turn_of_part(scene: &Scene<'_>, face: usize) -> Option<Cause> {
 }
 
 /// A face turns by more than half a turn against the whole.
-fn far_turn(scene: &Scene<'_>, face: usize) -> Option<Cause> {
+pub(super) fn far_turn(scene: &Scene<'_>, face: usize) -> Option<Cause> {
     let turn = scene.angles[face] - scene.mean_angle(|_| true)?;
     (turn.abs() > PI).then_some(Cause::FarTurn { part: None, turn })
 }
 
 /// The boundary near a face is stretched unevenly.
-fn uneven_match(scene: &Scene<'_>, face: usize) -> Option<Cause> {
+pub(super) fn uneven_match(scene: &Scene<'_>, face: usize) -> Option<Cause> {
     /// How far from the face the boundary may be, by its diameter.
     const NEAR: f64 = 0.1;
     let mesh = scene.arap.mesh();
@@ -238,7 +243,7 @@ fn uneven_match(scene: &Scene<'_>, face: usize) -> Option<Cause> {
 }
 
 /// The largest difference of angles across an edge of one of the faces.
-fn unlike_neighbours(scene: &Scene<'_>, faces: &[usize]) -> Option<Cause> {
+pub(super) fn unlike_neighbours(scene: &Scene<'_>, faces: &[usize]) -> Option<Cause> {
     let connectivity = scene.arap.mesh().connectivity();
     let across = |f: usize| (0..3).filter_map(move |k| Some((f, connectivity.neighbour(f, k)?)));
     let turn = faces
@@ -275,22 +280,25 @@ pub(super) fn of_field(
             found.push(field_finding(pair, Trouble::Gone, t, [begin, end]));
         }
     }
-    let kinds: [(scan::Count, fn(usize, usize) -> Trouble); 2] = [
-        (
-            |g| g.pieces,
-            |count, at_ends| Trouble::Pieces { count, at_ends },
-        ),
-        (
-            |g| g.holes,
-            |count, at_ends| Trouble::Holes { count, at_ends },
-        ),
-    ];
-    for (of, trouble) in kinds {
-        let at_ends = ends(of);
-        if let Some((t, span)) = scan::worst(glances, of, at_ends) {
-            let trouble = trouble(scan::most(glances, of), at_ends);
-            found.push(field_finding(pair, trouble, t, span));
-        }
+    let at_ends = ends(|g| g.pieces);
+    if let Some((t, span)) = scan::worst(glances, |g| g.pieces, at_ends) {
+        let count = scan::most(glances, |g| g.pieces);
+        found.push(field_finding(
+            pair,
+            Trouble::Pieces { count, at_ends },
+            t,
+            span,
+        ));
+    }
+    let at_ends = ends(|g| g.holes);
+    if let Some((t, span)) = scan::worst(glances, |g| g.holes, at_ends) {
+        let count = scan::most(glances, |g| g.holes);
+        found.push(field_finding(
+            pair,
+            Trouble::Holes { count, at_ends },
+            t,
+            span,
+        ));
     }
     remedy::for_fields(transition, pair, glances.len(), &mut found, progress)?;
     Ok(found)

@@ -1,1 +1,319 @@
+//! Films that go wrong by construction, and one cause after the other.
 
+use super::cause::{self, Scene};
+use super::*;
+use crate::content::Content;
+use crate::design::{ImportOptions, import};
+use crate::geometry::DMat2;
+use crate::measure::film;
+use crate::measure::tests::{sheet, transition};
+use crate::progress::Silent;
+use crate::transition::TransitionSpec;
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+const STEPS: usize = 65;
+const STEP: f64 = 1.0 / 64.0;
+
+fn verdict(transition: &Transition) -> Verdict {
+    let verdict = Verdict::of(transition, STEPS, &Silent).expect("not cancelled");
+    let report = film(transition, STEPS, &Silent).expect("not cancelled");
+    let of_film = Verdict::of_film(transition, &report, &Silent).expect("not cancelled");
+    assert_eq!(verdict, of_film, "two ways to one verdict");
+    verdict
+}
+
+fn with(homotopy: Homotopy) -> ArapOptions {
+    ArapOptions {
+        homotopy,
+        ..ArapOptions::default()
+    }
+}
+
+/// Half a turn with a stretch: on straight paths det M(t) = (1−2t)(1−4t).
+fn half_turn(homotopy: Homotopy) -> Transition {
+    let (faces, source) = sheet(4, 2);
+    let map = DMat2::from_angle(PI) * DMat2::from_diagonal(DVec2::new(1.0, 3.0));
+    let target: Vec<_> = source.iter().map(|&p| map * p).collect();
+    transition(&faces, &source, &target, with(homotopy))
+}
+
+#[test]
+fn straight_paths_fold_where_the_determinant_is_negative() {
+    let found = verdict(&half_turn(Homotopy::Linear));
+    let finding = &found.findings[0];
+    assert!(matches!(&finding.trouble, Trouble::Folds { faces } if faces.len() == 16));
+    let [first, last] = finding.span;
+    assert!((first - 0.25).abs() <= STEP && (last - 0.5).abs() <= STEP);
+    assert!((finding.t - 0.375).abs() <= STEP, "{}", finding.t);
+    assert!(
+        matches!(finding.cause, Cause::StraightPaths { turn, .. } if (turn.abs() - PI).abs() < 1e-9)
+    );
+    let Remedy::Change {
+        change,
+        left: 0,
+        of: 16,
+    } = &finding.remedy
+    else {
+        panic!("{:?}", finding.remedy);
+    };
+    assert_eq!(*change, Change::Homotopy(Homotopy::Polar));
+    assert_eq!(finding.headline(), "16 faces fold at t = 0.38");
+    assert!(found.headline().starts_with("16 faces fold at t = 0.38"));
+    assert!(finding.cause.to_string().contains("180°"));
+    // What was tried is what then happens.
+    assert!(verdict(&half_turn(Homotopy::Polar)).is_clear());
+}
+
+/// Two triangles on a hinge, at rest but for whole turns.
+fn hinge(extra_turns: Vec<i32>) -> Transition {
+    let points = [
+        (0.0, 0.0),
+        (3.0, -1.0),
+        (3.0, 1.0),
+        (-2.0, 1.0),
+        (-2.0, -1.0),
+    ];
+    let points = points.map(DVec2::from);
+    let options = ArapOptions {
+        extra_turns,
+        ..ArapOptions::default()
+    };
+    transition(&[[0, 1, 2], [0, 3, 4]], &points, &points, options)
+}
+
+#[test]
+fn a_part_that_turns_too_far_is_turned_the_other_way() {
+    assert!(verdict(&hinge(vec![])).is_clear());
+    for turns in [1, -1] {
+        let found = verdict(&hinge(vec![0, turns]));
+        let finding = &found.findings[0];
+        assert!(
+            matches!(finding.trouble, Trouble::Crossings { .. }),
+            "{found:?}"
+        );
+        let Cause::FarTurn {
+            part: Some(1),
+            turn,
+        } = finding.cause
+        else {
+            panic!("{:?}", finding.cause);
+        };
+        assert!((turn - 2.0 * PI * f64::from(turns)).abs() < 1e-9);
+        let Remedy::Change {
+            change, left: 0, ..
+        } = &finding.remedy
+        else {
+            panic!("{:?}", finding.remedy);
+        };
+        assert_eq!(*change, Change::ExtraTurns(vec![0, 0]));
+        assert!(found.headline().starts_with("the boundary crosses itself"));
+        assert!(finding.place.length() < 4.0);
+    }
+}
+
+/// A band whose curvature runs evenly from `begin` to `end` turns a length.
+fn band(begin: f64, end: f64) -> Vec<DVec2> {
+    const N: u32 = 60;
+    let (mut angle, mut at) = (0.0_f64, DVec2::ZERO);
+    let mut rows = [Vec::new(), Vec::new()];
+    for i in 0..=N {
+        let s = f64::from(i) / f64::from(N);
+        for (row, side) in rows.iter_mut().zip([-1.0, 1.0]) {
+            row.push(at + 0.004 * side * DVec2::from_angle(angle).perp());
+        }
+        angle += 2.0 * PI * (begin + (end - begin) * s) / f64::from(N);
+        at += DVec2::from_angle(angle) / f64::from(N);
+    }
+    rows.concat()
+}
+
+/// A spiral that is coiled up from its other end: in between it is a circle
+/// run through more than once.
+fn recoiled() -> Transition {
+    let (faces, _) = sheet(60, 1);
+    let (source, target) = (band(0.2, 2.6), band(2.6, 0.2));
+    transition(&faces, &source, &target, ArapOptions::default())
+}
+
+#[test]
+fn limbs_that_run_into_each_other_are_seen_from_both_sides() {
+    let transition = recoiled();
+    let found = verdict(&transition);
+    let finding = &found.findings[0];
+    let Trouble::Crossings { crossings } = &finding.trouble else {
+        panic!("{found:?}");
+    };
+    assert_eq!(finding.place, crossings[0].place);
+    assert!((finding.t - 0.5).abs() < 0.25, "{}", finding.t);
+    let Cause::PlacesMeet { turns: [a, b], .. } = finding.cause else {
+        panic!("{:?}", finding.cause);
+    };
+    assert!((a - b).abs() > 0.5, "{a} {b}");
+    assert!(matches!(
+        finding.remedy,
+        Remedy::MoveVertices { .. } | Remedy::Change { .. }
+    ));
+}
+
+fn scene(transition: &Transition, test: impl FnOnce(&Scene<'_>)) {
+    let (Some(arap), Content::Solid(solid)) = (transition.arap(), transition.content()) else {
+        panic!("rigid parts");
+    };
+    test(&Scene::new(transition, arap, solid, 0.5));
+}
+
+#[test]
+fn a_far_turn_within_one_part_is_measured_against_the_whole() {
+    let (faces, _) = sheet(60, 1);
+    let uncoiled = transition(
+        &faces,
+        &band(1.5, 2.5),
+        &band(0.0, 0.0),
+        with(Homotopy::Polar),
+    );
+    scene(&uncoiled, |scene| {
+        // The faces at the ends turn by about a whole turn against the middle.
+        let Some(Cause::FarTurn { part: None, turn }) = cause::far_turn(scene, 0) else {
+            panic!("{:?}", cause::far_turn(scene, 0));
+        };
+        assert!(turn.abs() > PI);
+        assert_eq!(cause::far_turn(scene, 60), None);
+    });
+}
+
+#[test]
+fn a_squeezed_boundary_is_named_where_it_is() {
+    let (faces, source) = sheet(40, 1);
+    // The middle tenth of the lower side becomes five times shorter.
+    let squeeze = |x: f64| match x {
+        x if x < 18.0 => x * 19.6 / 18.0,
+        x if x < 22.0 => 19.6 + (x - 18.0) * 0.2,
+        x => 20.4 + (x - 22.0) * 19.6 / 18.0,
+    };
+    let moved = |p: &DVec2| {
+        if p.y == 0.0 {
+            DVec2::new(squeeze(p.x), 0.0)
+        } else {
+            *p
+        }
+    };
+    let target: Vec<_> = source.iter().map(moved).collect();
+    let squeezed = transition(&faces, &source, &target, ArapOptions::default());
+    scene(&squeezed, |scene| {
+        let Some(Cause::UnevenMatch {
+            ratio,
+            source,
+            target,
+        }) = cause::uneven_match(scene, 40)
+        else {
+            panic!("no cause");
+        };
+        assert!(ratio < 1.0 / 3.0, "{ratio}");
+        assert!((source - DVec2::new(20.0, 0.0)).abs().max_element() <= 2.0);
+        assert!((target - DVec2::new(20.0, 0.0)).abs().max_element() <= 0.4);
+        assert_eq!(cause::uneven_match(scene, 0), None, "far from it");
+        let words = Cause::UnevenMatch {
+            ratio: 0.25,
+            source,
+            target,
+        }
+        .to_string();
+        assert!(words.contains("4.0 times shorter"), "{words}");
+    });
+}
+
+#[test]
+fn neighbours_that_turn_apart_are_named() {
+    // A square that is sheared far to one side above and to the other below.
+    let (faces, source) = sheet(1, 2);
+    let shear = |p: &DVec2| DVec2::new(p.x + 6.0 * (p.y - 1.0).abs(), p.y);
+    let target: Vec<_> = source.iter().map(shear).collect();
+    let sheared = transition(&faces, &source, &target, ArapOptions::default());
+    scene(&sheared, |scene| {
+        let Some(Cause::UnlikeNeighbours { turn }) = cause::unlike_neighbours(scene, &[1]) else {
+            panic!("no cause");
+        };
+        // A shear by s turns by atan(s / 2), here both ways.
+        assert!((turn - 2.0 * 3f64.atan()).abs() < 1e-9, "{turn}");
+    });
+}
+
+fn fields(source: &str, target: &str) -> Transition {
+    let read = |shapes: &str| {
+        let svg = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"60\">{shapes}</svg>"
+        );
+        Arc::new(import("drawing", svg.as_bytes(), &ImportOptions::default()).expect("a drawing"))
+    };
+    let mut spec = TransitionSpec::new(read(source), read(target));
+    spec.cell = crate::transition::Cell::ALL[1];
+    spec.field.cells = 96;
+    Transition::build(&spec, &Silent).expect("a transition")
+}
+
+fn rect(x: u32, y: u32, width: u32, height: u32) -> String {
+    format!("<rect x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\"/>")
+}
+
+#[test]
+fn fields_that_do_not_overlap_leave_nothing() {
+    let found = verdict(&fields(&rect(5, 20, 20, 20), &rect(75, 20, 20, 20)));
+    let finding = &found.findings[0];
+    assert_eq!(finding.trouble, Trouble::Gone);
+    assert_eq!(finding.cause, Cause::LittleOverlap { share: 0.0 });
+    assert_eq!(finding.remedy, Remedy::LayOver);
+    assert_eq!(
+        found.headline(),
+        format!("nothing is left at t = {:.2}", finding.t)
+    );
+}
+
+#[test]
+fn fields_that_lose_a_bridge_fall_apart() {
+    let blobs = rect(5, 10, 30, 40) + &rect(65, 10, 30, 40);
+    let above = blobs.clone() + &rect(30, 12, 40, 6);
+    let below = blobs + &rect(30, 42, 40, 6);
+    let found = verdict(&fields(&above, &below));
+    let finding = &found.findings[0];
+    assert_eq!(
+        finding.trouble,
+        Trouble::Pieces {
+            count: 2,
+            at_ends: 1
+        }
+    );
+    assert_eq!(finding.cause, Cause::BlindFields);
+    assert_eq!(finding.remedy, Remedy::RigidParts);
+    assert!((finding.t - 0.5).abs() < 0.2);
+    assert!(
+        found
+            .headline()
+            .starts_with("2 pieces instead of 1 at t = 0.")
+    );
+}
+
+#[test]
+fn fields_that_keep_their_pieces_are_clear() {
+    let found = verdict(&fields(&rect(10, 10, 40, 40), &rect(15, 10, 50, 40)));
+    assert_eq!(found.headline(), "no more pieces or holes than at the ends");
+}
+
+#[test]
+fn a_change_is_made_in_the_options() {
+    let (mut arap, mut field) = (ArapOptions::default(), FieldOptions::default());
+    arap.symmetric = false;
+    for change in [
+        Change::Homotopy(Homotopy::Exponential),
+        Change::Symmetric,
+        Change::ExtraTurns(vec![0, -1]),
+        Change::Space(BlendSpace::Real),
+    ] {
+        change.apply(&mut arap, &mut field);
+        assert!(!change.to_string().is_empty());
+    }
+    assert_eq!(arap.homotopy, Homotopy::Exponential);
+    assert!(arap.symmetric);
+    assert_eq!(arap.extra_turns, [0, -1]);
+    assert_eq!(field.blend.space, BlendSpace::Real);
+}
