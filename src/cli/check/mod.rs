@@ -73,6 +73,12 @@ pub(super) struct CheckArgs {
 pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
     match (&args.pairs, &args.out, &args.inputs) {
         (Some(pairs), Some(out), _) => pairs::run(args, pairs, out),
+        // The parser lets these pass where --pairs is at odds with the inputs.
+        (None, ..) if args.out.is_some() || args.sheet.is_some() || args.both => {
+            Err(CliError::Usage(
+                "--out, --sheet and --both go with a table: give it with --pairs".to_owned(),
+            ))
+        }
         (_, _, Some(inputs)) => one(args, inputs),
         _ => Err(CliError::Usage(
             "give a project, two designs, or a table of pairs with --pairs".to_owned(),

@@ -224,20 +224,24 @@ fn push_cell(row: &mut String, text: &str) {
 
 fn times(report: &Report, lines: &mut Lines) {
     let seconds = &report.seconds;
-    let all = [
+    let once = [
         ("import", seconds.import),
         ("match", seconds.matching),
         ("triangulate", seconds.triangulate),
         ("build in all", seconds.build),
+    ];
+    let often = [
         ("frame", seconds.frame),
         ("figure", seconds.figure),
         ("measure", seconds.measure),
     ];
-    let taken = all.iter().filter(|(_, s)| *s > 0.0);
-    let words: Vec<_> = taken
-        .map(|(name, s)| format!("{name} {} ms", short(1e3 * s)))
-        .collect();
-    lines.row("time", &words.join(", "));
+    for (name, times) in [("time", once.as_slice()), ("", often.as_slice())] {
+        let taken = times.iter().filter(|(_, s)| *s > 0.0);
+        let words: Vec<_> = taken
+            .map(|(name, s)| format!("{name} {} ms", short(1e3 * s)))
+            .collect();
+        lines.row(name, &words.join(", "));
+    }
 }
 
 fn percent(share: f64) -> String {
