@@ -43,6 +43,7 @@ fn transition(offset: DVec2, cell: Cell) -> Transition {
             name: "strip".into(),
             extent: mesh.bounds(),
             form: Form::Mesh(mesh),
+            notes: Vec::new(),
         })
     };
     let source = design(strip(4, |p| p + offset));

@@ -158,6 +158,10 @@ struct ImportArgs {
     /// How far an outline may run from the exact one, as a fraction of the longer side
     #[arg(long, value_name = "FRACTION")]
     tolerance: Option<f64>,
+
+    /// Take a drawing's strokes for shapes
+    #[arg(long)]
+    strokes: bool,
 }
 
 #[derive(Debug, Args)]
@@ -266,6 +270,7 @@ impl ImportArgs {
             set(&mut import.invert, self.invert.then_some(true));
             set(&mut import.specks_px, self.specks);
             set(&mut import.tolerance, self.tolerance);
+            set(&mut import.strokes, self.strokes.then_some(true));
         }
     }
 }
@@ -363,7 +368,7 @@ mod tests {
             "--method field --fit same-area --bar-width 0.02 --homotopy exponential \
              --weights 1,2.5 --one-sided --extra-turns 0,-1 --anchor 3 --subdivisions 1 \
              --metric chessboard --boundary binary --space real --epsilon 2 --threshold -1.5 \
-             --cells 64 --margin 0.2 --image-threshold 99 --invert --specks 4 --tolerance 0.01 \
+             --cells 64 --margin 0.2 --image-threshold 99 --invert --specks 4 --tolerance 0.01 --strokes \
              --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
              --source-colour #010203 --target-colour #040506 --no-joints",
         )
@@ -392,6 +397,7 @@ mod tests {
         let import = project.designs[1].import;
         assert_eq!((import.threshold, import.invert), (Some(99), true));
         assert_eq!((import.specks_px, import.tolerance), (4, 0.01));
+        assert!(import.strokes);
         assert_eq!((project.timing.from, project.timing.to), (-0.5, 1.5));
         assert_eq!(
             (project.timing.duration_secs, project.timing.hold_secs),

@@ -53,6 +53,12 @@ pub enum Problem {
         /// The first such line, from 1.
         line: usize,
     },
+    /// An element is asked for of what is no drawing.
+    #[error("only an SVG drawing has elements to choose by an id; leave out #{id}")]
+    NoElements {
+        /// The id.
+        id: String,
+    },
     /// No reader knows it.
     #[error(transparent)]
     Unknown(#[from] UnknownFormat),

@@ -13,6 +13,7 @@
 mod error;
 mod flatten;
 mod lettering;
+mod note;
 mod obj;
 mod options;
 mod outline;
@@ -26,6 +27,7 @@ mod truss;
 pub use error::{ImportError, Problem};
 pub use flatten::TooManyPoints;
 pub use lettering::TextError;
+pub use note::ImportNote;
 pub use obj::ObjError;
 pub use options::{ImportOptions, OptionsError};
 pub use silhouette::PictureError;
@@ -46,8 +48,10 @@ pub struct Design {
     /// The form itself, y up.
     pub form: Form,
     /// The rectangle of the picture or the page, its lower left corner at the
-    /// origin, or the box around a mesh or a truss.
+    /// origin, or the box around a mesh, a truss or an element of a drawing.
     pub extent: Bounds,
+    /// What was repaired or left out while it was read.
+    pub notes: Vec<ImportNote>,
 }
 
 /// What a design consists of.
@@ -75,6 +79,7 @@ impl Design {
                 Form::Truss(truss) => Form::Truss(truss.transformed(by)),
             },
             extent: Bounds::of(corners).unwrap_or(self.extent),
+            notes: self.notes.clone(),
         }
     }
 
@@ -111,12 +116,8 @@ pub const MAX_FILE_BYTES: u64 = 256 << 20;
 /// # Ok::<(), morphospace::design::ImportError>(())
 /// ```
 pub fn import(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Design, ImportError> {
-    read(bytes, options)
-        .map(|(form, extent)| Design {
-            name: name.to_owned(),
-            form,
-            extent,
-        })
+    read(bytes, None, options)
+        .map(|drawn| drawn.named(name.to_owned()))
         .map_err(|problem| ImportError::new(name, problem))
 }
 
@@ -131,20 +132,59 @@ pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Design, Impor
 
 /// The design of a source whose file's bytes are at hand.
 fn import_parts(source: &Source, bytes: &[u8], options: &ImportOptions) -> Result<Design, Problem> {
-    let (form, extent) = match source {
-        Source::File { .. } => read(bytes, options)?,
+    let drawn = match source {
+        Source::File { element, .. } => read(bytes, element.as_deref(), options)?,
         Source::Text { text, font } => {
             options.check()?;
             let font = font.is_some().then_some(bytes);
             let (regions, extent) = lettering::read(text, font, options.tolerance)?;
-            (Form::Outline(regions), extent)
+            Drawn::plain(Form::Outline(regions), extent)
         }
     };
-    Ok(Design {
-        name: source.name(),
-        form,
-        extent,
-    })
+    Ok(drawn.named(source.name()))
+}
+
+/// Outlines as a reader gives them.
+struct Outlines {
+    regions: Regions,
+    extent: Bounds,
+    notes: Vec<ImportNote>,
+}
+
+/// A design without a name.
+struct Drawn {
+    form: Form,
+    extent: Bounds,
+    notes: Vec<ImportNote>,
+}
+
+impl Drawn {
+    fn plain(form: Form, extent: Bounds) -> Self {
+        Self {
+            form,
+            extent,
+            notes: Vec::new(),
+        }
+    }
+
+    fn named(self, name: String) -> Design {
+        Design {
+            name,
+            form: self.form,
+            extent: self.extent,
+            notes: self.notes,
+        }
+    }
+}
+
+impl From<Outlines> for Drawn {
+    fn from(outlines: Outlines) -> Self {
+        Self {
+            form: Form::Outline(outlines.regions),
+            extent: outlines.extent,
+            notes: outlines.notes,
+        }
+    }
 }
 
 fn read_bytes(path: &Path) -> Result<Vec<u8>, Problem> {
@@ -160,7 +200,8 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, Problem> {
     std::fs::read(path).map_err(Problem::from_io)
 }
 
-fn read(bytes: &[u8], options: &ImportOptions) -> Result<(Form, Bounds), Problem> {
+/// Reads a file, or the element of it with an id.
+fn read(bytes: &[u8], element: Option<&str>, options: &ImportOptions) -> Result<Drawn, Problem> {
     options.check()?;
     if bytes.is_empty() {
         return Err(Problem::Empty);
@@ -170,24 +211,25 @@ fn read(bytes: &[u8], options: &ImportOptions) -> Result<(Form, Bounds), Problem
             bytes: bytes.len() as u64,
         });
     }
-    Ok(match sniff(bytes)? {
+    let format = sniff(bytes)?;
+    if let (Some(id), true) = (element, format != Format::Svg) {
+        return Err(Problem::NoElements { id: id.to_owned() });
+    }
+    Ok(match format {
         Format::Picture(format) => {
             let (regions, extent) = silhouette::read(bytes, format, options)?;
-            (Form::Outline(regions), extent)
+            Drawn::plain(Form::Outline(regions), extent)
         }
-        Format::Svg => {
-            let (regions, extent) = svg::read(text(bytes)?, options.tolerance)?;
-            (Form::Outline(regions), extent)
-        }
+        Format::Svg => svg::read(text(bytes)?, element, options)?.into(),
         Format::Obj => {
             let mesh = obj::read(text(bytes)?)?;
             let extent = mesh.bounds();
-            (Form::Mesh(mesh), extent)
+            Drawn::plain(Form::Mesh(mesh), extent)
         }
         Format::Truss => {
             let truss = Truss::from_json(text(bytes)?)?;
             let extent = truss.bounds();
-            (Form::Truss(truss), extent)
+            Drawn::plain(Form::Truss(truss), extent)
         }
     })
 }

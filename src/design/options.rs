@@ -18,6 +18,9 @@ pub struct ImportOptions {
     /// How far the outline may run from the exact boundary, as a fraction of
     /// the longer side of the picture or the page: 0 to 0.1.
     pub tolerance: f64,
+    /// Takes the strokes of a drawing for shapes: what they cover is filled.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub strokes: bool,
 }
 
 /// An option that is out of its range.
@@ -38,6 +41,7 @@ impl Default for ImportOptions {
             invert: false,
             specks_px: 0,
             tolerance: Self::DEFAULT_TOLERANCE,
+            strokes: false,
         }
     }
 }

@@ -93,6 +93,7 @@ fn design(name: &str, mesh: TriangleMesh) -> Design {
         name: name.to_owned(),
         extent: mesh.bounds(),
         form: Form::Mesh(mesh),
+        notes: Vec::new(),
     }
 }
 

@@ -18,7 +18,12 @@ fn design(form: Form) -> Arc<Design> {
         Form::Truss(truss) => truss.bounds(),
     };
     let name = "scene".into();
-    Arc::new(Design { name, form, extent })
+    Arc::new(Design {
+        name,
+        form,
+        extent,
+        notes: Vec::new(),
+    })
 }
 
 fn build(spec: &TransitionSpec) -> Transition {

@@ -44,6 +44,8 @@ pub(super) struct DesignReport {
     pub kind: &'static str,
     /// Points of its outline, vertices of its mesh or nodes of its truss.
     pub points: usize,
+    /// What was repaired or left out while it was read.
+    pub notes: Vec<String>,
 }
 
 /// How long each stage took.
@@ -163,6 +165,7 @@ fn of_design(design: &Arc<Design>) -> DesignReport {
         name: design.name.clone(),
         kind,
         points,
+        notes: design.notes.iter().map(ToString::to_string).collect(),
     }
 }
 

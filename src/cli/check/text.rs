@@ -68,6 +68,9 @@ fn method(report: &Report, lines: &mut Lines) {
     lines.row("method", &format!("{method}{}", grid.unwrap_or_default()));
     for (role, design) in ["source", "target"].iter().zip(&report.designs) {
         lines.row(role, &of_design(design));
+        for note in &design.notes {
+            lines.row("", note);
+        }
     }
     let Some(mesh) = &report.mesh else { return };
     lines.row(

@@ -13,16 +13,22 @@
 //! Guaranteed: nothing is loaded from outside the file, and a file that would
 //! unfold into too many elements is refused before it is unfolded.
 //!
-//! Not read: strokes, markers, text (convert it to paths), embedded pictures, filters,
-//! translucency short of invisible. Masks are refused. Coordinates pass
+//! Strokes count where they are asked for, with their dashes, joins and ends.
+//! Of a drawing one element may be asked for by its id: what lies in it, cut by
+//! the clip paths around it, where it stands on the page.
+//!
+//! Not read: markers, text (convert it to paths), embedded pictures, filters,
+//! translucency short of invisible. Masks are refused. What was left out is
+//! told. Coordinates pass
 //! through `f32`, so that outlines are good to about 1e-7 of the page.
 
 mod guard;
 mod paint;
 
 use super::flatten::TooManyPoints;
-use crate::geometry::{Bounds, DVec2, Regions, RegionsError};
-use usvg::roxmltree;
+use super::{ImportNote, ImportOptions, Outlines};
+use crate::geometry::{Bounds, DVec2, RegionsError};
+use usvg::roxmltree::{self, Document, Node as Xml};
 
 /// Why a drawing gives no outline.
 #[derive(Debug, thiserror::Error)]
@@ -84,13 +90,29 @@ pub enum SvgError {
     Mask(String),
     /// Nothing visible is filled.
     #[error(
-        "nothing in the drawing is filled{}; fill shapes, and convert strokes and text to paths",
-        if *strokes { ", there are only strokes" } else { "" }
+        "nothing in the drawing is filled{}; fill shapes, and convert text to paths",
+        if *strokes { ", there are only strokes (set strokes = true to read them as shapes)" } else { "" }
     )]
     NothingFilled {
         /// Whether there are strokes.
         strokes: bool,
     },
+    /// No element has the id.
+    #[error(
+        "the drawing has no element with the id \"{id}\"; {}",
+        known_ids(known)
+    )]
+    NoElement {
+        /// The id that was asked for.
+        id: String,
+        /// The first ids that there are.
+        known: Vec<String>,
+    },
+    /// The element is there and draws nothing.
+    #[error(
+        "the element \"{0}\" draws nothing by itself; choose a shape, a group or a <use>, not what lies in <defs>"
+    )]
+    NotDrawn(String),
     /// Curves into absurdly many points.
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
@@ -103,21 +125,31 @@ pub enum SvgError {
 /// the `f32` coordinates.
 const MIN_TOLERANCE: f64 = 1e-7;
 
-/// Reads the text of an SVG file. `tolerance` is a fraction of the page's
-/// longer side.
-pub(super) fn read(text: &str, tolerance: f64) -> Result<(Regions, Bounds), SvgError> {
-    let tree = parse(text)?;
-    let size = DVec2::new(tree.size().width().into(), tree.size().height().into());
-    let page = Bounds {
-        min: DVec2::ZERO,
-        max: size,
-    };
-    let tolerance = tolerance.max(MIN_TOLERANCE) * size.max_element();
-    let regions = paint::regions(&tree, tolerance)?;
-    Ok((regions, page))
+/// Ids that an error names.
+const NAMED_IDS: usize = 8;
+
+fn known_ids(known: &[String]) -> String {
+    match known {
+        [] => "it has none; give the element one, or take all of the drawing".to_owned(),
+        known => format!("it has {}", known.join(", ")),
+    }
 }
 
-fn parse(text: &str) -> Result<usvg::Tree, SvgError> {
+/// What of a drawing is read, and how.
+struct Brush<'o> {
+    /// In units of the page.
+    tolerance: f64,
+    strokes: bool,
+    element: Option<&'o str>,
+}
+
+/// Reads the text of an SVG file: all of it, or the element with an id. The
+/// tolerance is a fraction of the page's longer side.
+pub(super) fn read(
+    text: &str,
+    element: Option<&str>,
+    options: &ImportOptions,
+) -> Result<Outlines, SvgError> {
     if text.len() > guard::MAX_BYTES {
         return Err(SvgError::TooLarge { bytes: text.len() });
     }
@@ -128,6 +160,76 @@ fn parse(text: &str) -> Result<usvg::Tree, SvgError> {
     };
     let document = roxmltree::Document::parse_with_options(text, xml).map_err(SvgError::Xml)?;
     guard::check(&document)?;
+    let top = match element {
+        Some(id) => element_of(&document, id)?,
+        None => document.root_element(),
+    };
+    let tree = tree_of(&document)?;
+    let size = DVec2::new(tree.size().width().into(), tree.size().height().into());
+    let brush = Brush {
+        tolerance: options.tolerance.max(MIN_TOLERANCE) * size.max_element(),
+        strokes: options.strokes,
+        element: element.filter(|_| top != document.root_element()),
+    };
+    let painted = paint::painted(&tree, &brush)?;
+    let page = Bounds {
+        min: DVec2::ZERO,
+        max: size,
+    };
+    Ok(Outlines {
+        notes: notes(&painted, top),
+        extent: match brush.element {
+            Some(_) => painted.regions.bounds(),
+            None => page,
+        },
+        regions: painted.regions,
+    })
+}
+
+fn element_of<'d, 'a>(document: &'d Document<'a>, id: &str) -> Result<Xml<'d, 'a>, SvgError> {
+    let ids = || {
+        document
+            .descendants()
+            .filter_map(|node| node.attribute("id"))
+    };
+    document
+        .descendants()
+        .find(|node| node.attribute("id") == Some(id))
+        .ok_or_else(|| SvgError::NoElement {
+            id: id.to_owned(),
+            known: ids().take(NAMED_IDS).map(str::to_owned).collect(),
+        })
+}
+
+fn notes(painted: &paint::Painted, top: Xml) -> Vec<ImportNote> {
+    let repairs = painted.repairs.iter();
+    let mut notes: Vec<_> = repairs
+        .flat_map(|(rule, found)| ImportNote::of_repairs(found, *rule))
+        .collect();
+    let named = |name: &str| {
+        let is_drawn = |node: &Xml| {
+            let hidden = ["defs", "symbol", "clipPath", "mask", "pattern", "marker"];
+            !node
+                .ancestors()
+                .any(|n| hidden.contains(&n.tag_name().name()))
+        };
+        let nodes = top.descendants().filter(|n| n.tag_name().name() == name);
+        nodes.filter(is_drawn).count()
+    };
+    let left_out = [
+        (
+            painted.strokes_left_out,
+            ImportNote::Strokes as fn(usize) -> ImportNote,
+        ),
+        (named("text"), ImportNote::Texts),
+        (named("image"), ImportNote::Pictures),
+    ];
+    let left_out = left_out.into_iter().filter(|&(count, _)| count > 0);
+    notes.extend(left_out.map(|(count, note)| note(count)));
+    notes
+}
+
+fn tree_of(document: &Document) -> Result<usvg::Tree, SvgError> {
     let options = usvg::Options {
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_data: Box::new(|_, _, _| None),
@@ -136,7 +238,7 @@ fn parse(text: &str) -> Result<usvg::Tree, SvgError> {
         style_sheet: Some(guard::STYLE.to_owned()),
         ..Default::default()
     };
-    usvg::Tree::from_xmltree(&document, &options).map_err(SvgError::Svg)
+    usvg::Tree::from_xmltree(document, &options).map_err(SvgError::Svg)
 }
 
 #[cfg(test)]

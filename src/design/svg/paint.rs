@@ -1,32 +1,75 @@
 //! What is filled in a drawing, as regions: a painter who knows two colours,
 //! ink and paper, and paints in the drawing's order.
 
-use super::SvgError;
+use super::{Brush, SvgError};
 use crate::design::flatten::Flattener;
-use crate::geometry::{DVec2, FillRule, Regions, RegionsError};
+use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
 use i_overlay::core::fill_rule::FillRule as OverlayFill;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
-use usvg::{ClipPath, Group, Node, Paint, Path, Transform};
+use usvg::{ClipPath, Group, Node, Paint, PaintOrder, Path, Stroke, Transform, tiny_skia_path};
 
 /// Polygons to be filled by winding.
 type Rings = Vec<Vec<DVec2>>;
 
-/// The regions that are filled with ink in the end.
-pub(super) fn regions(tree: &usvg::Tree, tolerance: f64) -> Result<Regions, SvgError> {
+/// What is filled with ink in the end, and what was wrong with it.
+pub(super) struct Painted {
+    pub regions: Regions,
+    /// Faults within single shapes, by the rule that resolved them.
+    pub repairs: [(FillRule, Repairs); 2],
+    /// Visible strokes of shapes without a fill that were left out.
+    pub strokes_left_out: usize,
+}
+
+/// Paints a drawing, or the element of it that is asked for.
+pub(super) fn painted(tree: &usvg::Tree, brush: &Brush) -> Result<Painted, SvgError> {
+    let mut subject = Vec::new();
+    collect_paths(tree.root(), brush.element, &mut subject);
+    let strokes_left_out = match brush.strokes {
+        true => 0,
+        false => subject
+            .iter()
+            .filter(|p| is_stroked(p) && !is_filled(p))
+            .count(),
+    };
+    if let (Some(id), true) = (brush.element, subject.is_empty()) {
+        return Err(SvgError::NotDrawn(id.to_owned()));
+    }
     let mut painter = Painter {
         height: tree.size().height().into(),
-        flattener: Flattener::new(tolerance),
-        white_is_paper: has_colour(tree.root()),
+        flattener: Flattener::new(brush.tolerance),
+        brush,
+        white_is_paper: subject.iter().any(|path| has_colour(path, brush.strokes)),
         layers: Vec::new(),
+        repairs: [FillRule::NonZero, FillRule::EvenOdd].map(|rule| (rule, Repairs::default())),
     };
-    painter.group(tree.root(), None)?;
+    painter.group(tree.root(), None, brush.element.is_none())?;
     if painter.layers.is_empty() {
-        let strokes = has_strokes(tree.root());
+        let strokes = strokes_left_out > 0;
         return Err(SvgError::NothingFilled { strokes });
     }
+    let repairs = painter.repairs;
     let ink = composed(painter.layers);
-    Ok(Regions::from_rings(&ink, FillRule::NonZero)?)
+    Ok(Painted {
+        regions: Regions::from_rings(&ink, FillRule::NonZero)?,
+        repairs,
+        strokes_left_out,
+    })
+}
+
+/// The paths of a group, or of the elements in it with an id.
+fn collect_paths<'t>(group: &'t Group, id: Option<&str>, paths: &mut Vec<&'t Path>) {
+    let wanted = |own: &str| id.is_none_or(|id| id == own);
+    for node in group.children() {
+        match node {
+            Node::Group(inner) => {
+                let below = if wanted(inner.id()) { None } else { id };
+                collect_paths(inner, below, paths);
+            }
+            Node::Path(path) if wanted(path.id()) => paths.push(path),
+            _ => {}
+        }
+    }
 }
 
 /// Neighbouring shapes that are of one colour.
@@ -35,16 +78,24 @@ struct Layer {
     rings: Rings,
 }
 
-struct Painter {
+struct Painter<'b> {
     height: f64,
     flattener: Flattener,
+    brush: &'b Brush<'b>,
     white_is_paper: bool,
     layers: Vec<Layer>,
+    repairs: [(FillRule, Repairs); 2],
 }
 
-impl Painter {
-    /// Paints a group's children, inside `clip` and the group's own.
-    fn group(&mut self, group: &Group, clip: Option<&Rings>) -> Result<(), SvgError> {
+impl Painter<'_> {
+    /// Paints a group's children, inside `clip` and the group's own; outside
+    /// of the element that is asked for only what belongs to it.
+    fn group(
+        &mut self,
+        group: &Group,
+        clip: Option<&Rings>,
+        is_within: bool,
+    ) -> Result<(), SvgError> {
         if group.opacity().get() == 0.0 {
             return Ok(());
         }
@@ -63,30 +114,40 @@ impl Painter {
         };
         let clip = own.as_ref().or(clip);
         for node in group.children() {
+            let is_within = is_within || self.brush.element == Some(node.id());
             match node {
-                Node::Group(inner) => self.group(inner, clip)?,
-                Node::Path(path) => self.path(path, clip)?,
-                Node::Image(_) | Node::Text(_) => {}
+                Node::Group(inner) => self.group(inner, clip, is_within)?,
+                Node::Path(path) if is_within => self.path(path, clip)?,
+                Node::Path(_) | Node::Image(_) | Node::Text(_) => {}
             }
         }
         Ok(())
     }
 
     fn path(&mut self, path: &Path, clip: Option<&Rings>) -> Result<(), SvgError> {
-        if !is_filled(path) {
-            return Ok(());
+        let fills_first = path.paint_order() == PaintOrder::FillAndStroke;
+        for is_fill in [fills_first, !fills_first] {
+            if is_fill && is_filled(path) {
+                let rings = self.filled(path, Transform::identity())?;
+                self.lay(rings, fill_is_white(path), clip);
+            } else if !is_fill && self.brush.strokes && is_stroked(path) {
+                let rings = self.stroked(path)?;
+                self.lay(rings, stroke_is_white(path), clip);
+            }
         }
-        let rings = self.filled(path, Transform::identity())?;
+        Ok(())
+    }
+
+    fn lay(&mut self, rings: Rings, is_white: bool, clip: Option<&Rings>) {
         let rings = match clip {
             Some(clip) => overlaid(&rings, clip, OverlayRule::Intersect),
             None => rings,
         };
-        let is_paper = self.white_is_paper && is_white(path);
+        let is_paper = self.white_is_paper && is_white;
         match self.layers.last_mut() {
             Some(layer) if layer.is_paper == is_paper => layer.rings.extend(rings),
             _ => self.layers.push(Layer { is_paper, rings }),
         }
-        Ok(())
     }
 
     /// What a clip path lets through.
@@ -129,22 +190,64 @@ impl Painter {
 
     /// The area that a path fills by its own rule, on the page, y up.
     fn filled(&mut self, path: &Path, base: Transform) -> Result<Rings, SvgError> {
-        let t = base.pre_concat(path.abs_transform());
+        let rings = self.rings(path.data(), base.pre_concat(path.abs_transform()))?;
+        let at = match path.fill().map(usvg::Fill::rule) {
+            Some(usvg::FillRule::EvenOdd) => 1,
+            _ => 0,
+        };
+        let (rule, repairs) = &mut self.repairs[at];
+        let found = Repairs::between(&rings);
+        repairs.crossings += found.crossings;
+        repairs.at_least |= found.at_least;
+        cleaned(&rings, *rule)
+    }
+
+    /// The area that a path's stroke covers, dashes, joins and ends included.
+    fn stroked(&mut self, path: &Path) -> Result<Rings, SvgError> {
+        let Some(outline) = path.stroke().and_then(|stroke| self.outlined(path, stroke)) else {
+            return Ok(Vec::new()); // of no width, or of no length
+        };
+        let rings = self.rings(&outline, path.abs_transform())?;
+        cleaned(&rings, FillRule::NonZero)
+    }
+
+    /// The stroke's outline before the path's transform.
+    fn outlined(&self, path: &Path, stroke: &Stroke) -> Option<tiny_skia_path::Path> {
+        let stroke = stroke.to_tiny_skia();
+        // The stroker's curves keep within a quarter of a pixel.
+        let (sx, sy) = path.abs_transform().get_scale();
+        let finest = 0.25 * f64::from(sx.max(sy)) / self.brush.tolerance;
+        let resolution = finest.clamp(1.0, MAX_RESOLUTION) as f32;
+        let dashed;
+        let data = match &stroke.dash {
+            Some(dash) => {
+                dashed = path.data().dash(dash, resolution)?;
+                &dashed
+            }
+            None => path.data(),
+        };
+        data.stroke(&stroke, resolution)
+    }
+
+    /// A path as polygons on the page, y up.
+    fn rings(&mut self, path: &tiny_skia_path::Path, t: Transform) -> Result<Rings, SvgError> {
         let [sx, ky, kx, sy, tx, ty] = [t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from);
         let height = self.height;
-        let rings = self.flattener.rings(path.data(), |p| {
+        Ok(self.flattener.rings(path, |p| {
             let (x, y) = (f64::from(p.x), f64::from(p.y));
             DVec2::new(sx * x + kx * y + tx, height - (ky * x + sy * y + ty))
-        })?;
-        let rule = match path.fill().map(usvg::Fill::rule) {
-            Some(usvg::FillRule::EvenOdd) => FillRule::EvenOdd,
-            _ => FillRule::NonZero,
-        };
-        match Regions::from_rings(&rings, rule) {
-            Ok(regions) => Ok(regions.rings().map(|r| r.points().to_vec()).collect()),
-            Err(RegionsError::Empty) => Ok(Vec::new()), // a filled line
-            Err(error) => Err(error.into()),
-        }
+        })?)
+    }
+}
+
+/// Pixels to a unit beyond which the stroker gains nothing in `f32`.
+const MAX_RESOLUTION: f64 = 1e6;
+
+fn cleaned(rings: &Rings, rule: FillRule) -> Result<Rings, SvgError> {
+    match Regions::from_rings(rings, rule) {
+        Ok(regions) => Ok(regions.rings().map(|r| r.points().to_vec()).collect()),
+        Err(RegionsError::Empty) => Ok(Vec::new()), // a filled line
+        Err(error) => Err(error.into()),
     }
 }
 
@@ -182,24 +285,25 @@ fn is_filled(path: &Path) -> bool {
     path.is_visible() && path.fill().is_some_and(|fill| fill.opacity().get() > 0.0)
 }
 
-fn is_white(path: &Path) -> bool {
-    path.fill().is_some_and(
-        |fill| matches!(fill.paint(), Paint::Color(c) if [c.red, c.green, c.blue] == [u8::MAX; 3]),
-    )
+fn is_stroked(path: &Path) -> bool {
+    path.is_visible()
+        && path
+            .stroke()
+            .is_some_and(|stroke| stroke.opacity().get() > 0.0)
 }
 
-fn has_colour(group: &Group) -> bool {
-    any_path(group, &|path| is_filled(path) && !is_white(path))
+fn fill_is_white(path: &Path) -> bool {
+    path.fill().is_some_and(|fill| is_white(fill.paint()))
 }
 
-fn has_strokes(group: &Group) -> bool {
-    any_path(group, &|path| path.is_visible() && path.stroke().is_some())
+fn stroke_is_white(path: &Path) -> bool {
+    path.stroke().is_some_and(|stroke| is_white(stroke.paint()))
 }
 
-fn any_path(group: &Group, test: &impl Fn(&Path) -> bool) -> bool {
-    group.children().iter().any(|node| match node {
-        Node::Group(inner) => any_path(inner, test),
-        Node::Path(path) => test(path),
-        Node::Image(_) | Node::Text(_) => false,
-    })
+fn is_white(paint: &Paint) -> bool {
+    matches!(paint, Paint::Color(c) if [c.red, c.green, c.blue] == [u8::MAX; 3])
+}
+
+fn has_colour(path: &Path, strokes: bool) -> bool {
+    is_filled(path) && !fill_is_white(path) || strokes && is_stroked(path) && !stroke_is_white(path)
 }

@@ -1,10 +1,29 @@
 use super::*;
+use crate::geometry::Regions;
 use std::time::{Duration, Instant};
 
 const NS: &str = r#"xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink""#;
 
 fn page(body: &str) -> String {
     format!(r#"<svg {NS} viewBox="0 0 100 100" width="100" height="100">{body}</svg>"#)
+}
+
+fn read(text: &str, tolerance: f64) -> Result<(Regions, Bounds), SvgError> {
+    let options = ImportOptions {
+        tolerance,
+        ..ImportOptions::default()
+    };
+    super::read(text, None, &options).map(|found| (found.regions, found.extent))
+}
+
+/// The outlines of an element with strokes, and what was told.
+fn stroked(body: &str, element: Option<&str>) -> Result<Outlines, SvgError> {
+    let options = ImportOptions {
+        tolerance: 1e-5,
+        strokes: true,
+        ..ImportOptions::default()
+    };
+    super::read(&page(body), element, &options)
 }
 
 fn read_body(body: &str) -> Result<Regions, SvgError> {
@@ -287,4 +306,119 @@ fn broken_drawings_are_errors() {
         read(&format!(r#"<svg {NS} width="0" height="5"/>"#), 1e-3),
         Err(SvgError::Svg(_))
     ));
+}
+
+#[test]
+fn strokes_are_shapes_where_they_are_asked_for() {
+    let body = r#"<path d="M10 10 H50" fill="none" stroke="black" stroke-width="4"/>
+        <rect x="10" y="50" width="20" height="20" stroke="red" stroke-width="2"/>"#;
+    near(regions(body).area(), 400.0);
+    let with = stroked(body, None).expect("an outline");
+    near(with.regions.area(), 160.0 + 22.0 * 22.0);
+    assert_eq!(with.notes, []);
+    let round = r#"<g transform="scale(2)"><path d="M10 10 h10" stroke="black" stroke-width="4"
+        stroke-linecap="round"/></g>"#;
+    let with = stroked(round, None).expect("an outline");
+    near(
+        with.regions.area(),
+        4.0 * (40.0 + 4.0 * std::f64::consts::PI),
+    );
+    let dashed = r#"<path d="M0 50 h100" stroke="black" stroke-width="2" stroke-dasharray="10"/>"#;
+    assert_eq!(stroked(dashed, None).expect("an outline").regions.len(), 5);
+    // A white stroke over a shape is a gap in it.
+    let gap =
+        r#"<rect width="60" height="60"/><path d="M0 30 h60" stroke="white" stroke-width="6"/>"#;
+    let with = stroked(gap, None).expect("an outline").regions;
+    assert_eq!(with.len(), 2);
+    near(with.area(), 60.0 * 54.0);
+}
+
+#[test]
+fn a_drawing_of_strokes_is_read_as_shapes() {
+    let body =
+        r#"<path d="M50 10 A40 40 0 1 1 49.9 10" fill="none" stroke="black" stroke-width="10"/>"#;
+    assert!(read_body(body).is_err());
+    let ring = stroked(body, None).expect("an outline").regions;
+    assert_eq!(ring.rings().count(), 1); // all but closed
+    near(ring.area(), 2.0 * std::f64::consts::PI * 40.0 * 10.0);
+}
+
+#[test]
+fn one_element_is_read_by_its_id() {
+    let body = r##"<defs><rect id="unit" width="10" height="10"/></defs>
+        <rect id="a" width="30" height="30"/>
+        <g id="b" transform="translate(40 40)"><use id="c" href="#unit" x="5"/>
+        <circle id="d" r="9" fill="white"/></g>"##;
+    let area = |id: &str| stroked(body, Some(id)).expect(id).regions.area();
+    near(area("a"), 900.0);
+    near(area("c"), 100.0);
+    near(area("d"), 81.0 * std::f64::consts::PI); // white is the figure here
+    let c = stroked(body, Some("c")).expect("an element");
+    assert!((c.extent.min - DVec2::new(45.0, 50.0)).length() < 1e-4);
+    let error = stroked(body, Some("unit")).err().expect("not drawn");
+    assert!(matches!(error, SvgError::NotDrawn(id) if id == "unit"));
+    let error = stroked(body, Some("e")).err().expect("no such element");
+    assert!(
+        error.to_string().contains("it has unit, a, b, c, d"),
+        "{error}"
+    );
+}
+
+#[test]
+fn an_element_keeps_the_clip_paths_around_it() {
+    let body = r##"<clipPath id="k"><rect width="50" height="50"/></clipPath>
+        <g clip-path="url(#k)"><rect id="a" width="90" height="10"/></g>"##;
+    near(
+        stroked(body, Some("a")).expect("a part").regions.area(),
+        500.0,
+    );
+}
+
+#[test]
+fn what_was_repaired_or_left_out_is_told() {
+    let body = r#"<path d="M0 0 L40 40 L40 0 L0 40z" fill-rule="evenodd"/>
+        <path d="M0 0 h9" stroke="red"/><text y="9">words</text><image href="a.png"/>"#;
+    let options = ImportOptions::default();
+    let found = super::read(&page(body), None, &options).expect("an outline");
+    let words: Vec<_> = found.notes.iter().map(ToString::to_string).collect();
+    assert_eq!(words.len(), 3, "{words:?}");
+    assert_eq!(
+        words[0],
+        "1 crossing of edges was resolved by the even-odd rule"
+    );
+    assert!(words[1].starts_with("1 text was left out"));
+    let clean = super::read(&page(r#"<circle cx="9" cy="9" r="5"/>"#), None, &options);
+    assert_eq!(clean.expect("a disc").notes, []);
+}
+
+#[test]
+fn a_stroke_of_countless_dashes_does_not_hang() {
+    let path =
+        r#"<path d="M0 0 h100" stroke="black" stroke-dasharray="1e-7" stroke-linecap="round"/>"#;
+    let start = Instant::now();
+    drop(stroked(&path.repeat(3), None));
+    assert!(start.elapsed() < Duration::from_secs(30));
+}
+
+/// The ways in which a drawing may name something outside of it.
+#[test]
+fn nothing_outside_the_file_is_opened() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let bait = folder.path().join("bait.svg");
+    let shape = page(r#"<rect id="r" width="90" height="90"/>"#);
+    std::fs::write(&bait, shape).expect("written");
+    let bait = bait.display();
+    for body in [
+        format!(r##"<use href="{bait}#r"/>"##),
+        format!(r##"<use href="file://{bait}#r"/>"##),
+        format!(r#"<image href="{bait}" width="90" height="90"/>"#),
+        format!(r#"<style>@import url("{bait}");</style>"#),
+        format!(r##"<rect id="own" width="9" height="9" clip-path="url({bait}#r)" fill="none"/>"##),
+    ] {
+        assert!(stroked(&body, None).is_err(), "{body}");
+    }
+    let entity = format!(
+        r#"<!DOCTYPE svg [<!ENTITY e SYSTEM "{bait}">]><svg {NS} width="9" height="9">&e;</svg>"#
+    );
+    assert!(read(&entity, 1e-3).is_err());
 }
