@@ -1,8 +1,8 @@
 //! Why a file did not become a design, in one sentence for its owner.
 
 use super::{
-    MAX_FILE_BYTES, ObjError, OptionsError, PictureError, SvgError, TextError, TrussInputError,
-    UnknownFormat,
+    MAX_FILE_BYTES, ObjError, OptionsError, PictureError, PolygonsError, SvgError, TextError,
+    TrussInputError, UnknownFormat,
 };
 use std::io;
 
@@ -74,6 +74,9 @@ pub enum Problem {
     /// Text without an outline.
     #[error(transparent)]
     Text(#[from] TextError),
+    /// JSON without usable polygons.
+    #[error(transparent)]
+    Polygons(#[from] PolygonsError),
     /// A mesh that is none.
     #[error(transparent)]
     Obj(#[from] ObjError),

@@ -17,6 +17,7 @@ mod note;
 mod obj;
 mod options;
 mod outline;
+mod polygons;
 mod silhouette;
 mod simplify;
 mod sniff;
@@ -30,6 +31,7 @@ pub use lettering::TextError;
 pub use note::ImportNote;
 pub use obj::ObjError;
 pub use options::{ImportOptions, OptionsError};
+pub use polygons::PolygonsError;
 pub use silhouette::PictureError;
 pub use sniff::{Format, UnknownFormat, sniff};
 pub use source::Source;
@@ -226,6 +228,7 @@ fn read(bytes: &[u8], element: Option<&str>, options: &ImportOptions) -> Result<
             let extent = mesh.bounds();
             Drawn::plain(Form::Mesh(mesh), extent)
         }
+        Format::Polygons => polygons::read(text(bytes)?)?.into(),
         Format::Truss => {
             let truss = Truss::from_json(text(bytes)?)?;
             let extent = truss.bounds();

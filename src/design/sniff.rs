@@ -2,6 +2,8 @@
 //! looked at: a mislabelled file works where its content is good.
 
 use image::ImageFormat;
+use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, Visitor};
+use std::fmt;
 
 /// A format that can be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,6 +14,8 @@ pub enum Format {
     Svg,
     /// Wavefront OBJ.
     Obj,
+    /// Polygons as JSON or GeoJSON.
+    Polygons,
     /// A truss as JSON.
     Truss,
 }
@@ -30,9 +34,14 @@ pub enum UnknownFormat {
     /// XML with some other root.
     #[error("this is XML without an <svg> element; save the drawing as SVG")]
     XmlWithoutSvg,
+    /// JSON of another kind.
+    #[error(
+        "this JSON is no design; give \"nodes\" and \"bars\" for a truss, \"rings\" or \"polygons\" for outlines, or GeoJSON with a \"type\""
+    )]
+    Json,
     /// Nothing that is known.
     #[error(
-        "the content is of no known format; use PNG, JPEG, BMP, WebP, SVG, OBJ or a truss as JSON"
+        "the content is of no known format; use PNG, JPEG, BMP, WebP, SVG, DXF, OBJ, GeoJSON, or polygons or a truss as JSON"
     )]
     Unknown,
 }
@@ -104,9 +113,49 @@ fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
     match bytes.trim_ascii_start().first() {
         Some(b'<') if has_svg_element(bytes) => Ok(Format::Svg),
         Some(b'<') => Err(UnknownFormat::XmlWithoutSvg),
-        Some(b'{') => Ok(Format::Truss),
+        Some(b'[') => Ok(Format::Polygons),
+        Some(b'{') => json_format(bytes),
         Some(_) if is_obj(bytes) => Ok(Format::Obj),
         _ => Err(UnknownFormat::Unknown),
+    }
+}
+
+/// What an object of JSON is, by the first member that tells. Where the text
+/// breaks off before, the truss's reader says where.
+fn json_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
+    let mut found = None;
+    let mut text = serde_json::Deserializer::from_slice(bytes);
+    let looked = text.deserialize_map(Members(&mut found));
+    match (found, looked) {
+        (Some(format), _) => Ok(format),
+        (None, Ok(())) => Err(UnknownFormat::Json),
+        (None, Err(_)) => Ok(Format::Truss),
+    }
+}
+
+/// Looks through the names of an object's members and keeps nothing else.
+struct Members<'f>(&'f mut Option<Format>);
+
+impl<'de> Visitor<'de> for Members<'_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str("an object")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut members: A) -> Result<(), A::Error> {
+        while let Some(name) = members.next_key::<String>()? {
+            *self.0 = match name.as_str() {
+                "nodes" | "bars" => Some(Format::Truss),
+                "type" | "rings" | "polygons" => Some(Format::Polygons),
+                _ => None,
+            };
+            if self.0.is_some() {
+                return Err(A::Error::custom("known"));
+            }
+            members.next_value::<IgnoredAny>()?;
+        }
+        Ok(())
     }
 }
 
@@ -138,7 +187,7 @@ mod tests {
 
     #[test]
     fn each_format_is_known_by_its_content() {
-        let cases: [(&[u8], Format); 9] = [
+        let cases: [(&[u8], Format); 14] = [
             (b"\x89PNG\r\n\x1a\nrest", Format::Picture(ImageFormat::Png)),
             (b"\xff\xd8\xff\xe0", Format::Picture(ImageFormat::Jpeg)),
             (
@@ -154,6 +203,11 @@ mod tests {
             (b"# a comment\r\nv 1 2 3", Format::Obj),
             (b"o name\n  v  1 2 3", Format::Obj),
             (b"\xef\xbb\xbf { \"nodes\": [] }", Format::Truss),
+            (b"{\"supports\": [{}], \"bars", Format::Truss),
+            (b"{\"supports\": [{}], \"bars\"", Format::Truss),
+            (b"{\"name\": {\"nodes\": 1}, \"rings\": [", Format::Polygons),
+            (b" [[0, 0]", Format::Polygons),
+            (b"{\"bbox\": [1], \"type\": \"Feature\"}", Format::Polygons),
         ];
         for (bytes, format) in cases {
             assert_eq!(sniff(bytes), Ok(format));
@@ -168,6 +222,7 @@ mod tests {
         assert!(words(b"\xff\xfe<\0s\0v\0g\0").contains("UTF-8"));
         assert!(words(b"<html><body/></html>").contains("<svg>"));
         assert!(words(b"BM, a word that is no picture").contains("no known format"));
+        assert!(words(b"{\"a\": 1}").contains("GeoJSON"));
         assert!(words(b"   ").contains("no known format"));
     }
 }

@@ -52,6 +52,20 @@ impl Repairs {
         *self == Self::default()
     }
 
+    /// The faults of this and another set of outlines together.
+    #[must_use]
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            crossings: self.crossings + other.crossings,
+            touches: self.touches + other.touches,
+            at_least: self.at_least || other.at_least,
+            duplicates: self.duplicates + other.duplicates,
+            flat: self.flat + other.flat,
+            slivers: self.slivers + other.slivers,
+            idle_points: self.idle_points + other.idle_points,
+        }
+    }
+
     /// What is wrong with rings of finite points, and the rings to be cleaned:
     /// those that enclose something, each once.
     pub(super) fn find(rings: &[Vec<DVec2>]) -> (Vec<Vec<DVec2>>, Self) {
