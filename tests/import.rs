@@ -3,8 +3,8 @@
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
 use morphospace::design::{
-    Design, Form, ImportError, ImportOptions, ObjError, PictureError, Problem, SvgError,
-    TrussInputError, UnknownFormat, import, import_file,
+    Design, DxfError, Form, ImportError, ImportOptions, ObjError, PictureError, PolygonsError,
+    Problem, Source, SvgError, TrussInputError, UnknownFormat, import, import_file,
 };
 use proptest::prelude::*;
 use std::io::Cursor;
@@ -13,6 +13,25 @@ use std::path::Path;
 const OBJ: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
 const SVG: &str = r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 20"><style>.a{fill:#123}</style><defs><path id="p" d="M1 1 C 5 1 9 5 9 9 Q 4 12 1 1 A 3 2 30 0 1 4 4 Z"/></defs><use class="a" href="#p" transform="rotate(20)"/></svg>"##;
 const TRUSS: &str = r#"{"nodes": [[0, 0], [1, 0], [0, 1]], "bars": [[0, 1], [1, 2], [2, 0]]}"#;
+
+const RINGS: &str = "[[[0,0],[4,0],[4,4],[0,4],[0,0]],[[1,1],[3,1],[3,3],[1,3]]]";
+const GEOJSON: &str = r#"{"type": "FeatureCollection", "features": [{"type": "Feature", "properties": {"a": 1}, "geometry": {"type": "MultiPolygon", "coordinates": [[[[0,0],[4,0],[0,3]]], [[[5,0,9],[6,0],[5,1.5e0]]]]}}, {"type": "Feature", "geometry": null}]}"#;
+
+/// A drawing with every kind of curve.
+fn dxf() -> String {
+    let block = "0 BLOCK 2 B 10 1 20 1 0 CIRCLE 8 0 10 1 20 1 40 2 0 ENDBLK";
+    let entities = "0 LINE 8 0 10 0 20 0 11 9 21 0 0 ARC 8 0 10 4.5 20 0 40 4.5 50 0 51 180
+        0 LWPOLYLINE 8 0 90 3 70 1 10 20 20 0 42 0.5 10 30 20 0 10 30 20 9
+        0 POLYLINE 8 0 70 1 0 VERTEX 8 0 10 40 20 0 42 -1 0 VERTEX 8 0 10 45 20 0 0 VERTEX 8 0 10 45 20 5 0 SEQEND
+        0 ELLIPSE 8 0 10 60 20 0 11 5 21 1 40 0.4 41 0 42 6.2831853
+        0 SPLINE 8 0 70 8 71 2 40 0 40 0 40 0 40 1 40 1 40 1 41 1 41 0.7 41 1 10 82 20 0 10 82 20 2 10 80 20 2
+        0 LINE 8 0 10 80 20 2 11 82 21 0 0 INSERT 8 0 2 B 10 90 20 0 41 2 50 30 70 2 71 2 44 20 45 20";
+    let section = |name: &str, pairs: &str| {
+        let pairs: Vec<_> = pairs.split_whitespace().collect();
+        format!("0\nSECTION\n2\n{name}\n{}\n0\nENDSEC\n", pairs.join("\n"))
+    };
+    section("BLOCKS", block) + &section("ENTITIES", entities) + "0\nEOF\n"
+}
 
 fn read(bytes: &[u8]) -> Result<Design, ImportError> {
     import("given", bytes, &ImportOptions::default())
@@ -47,7 +66,8 @@ const PICTURES: [ImageFormat; 4] = [
 
 /// Every kind of file, all good.
 fn good_files() -> Vec<Vec<u8>> {
-    let texts = [OBJ, SVG, TRUSS].map(|text| text.as_bytes().to_vec());
+    let dxf = dxf();
+    let texts = [OBJ, SVG, TRUSS, RINGS, GEOJSON, &dxf].map(|text| text.as_bytes().to_vec());
     PICTURES.map(picture).into_iter().chain(texts).collect()
 }
 
@@ -299,14 +319,14 @@ proptest! {
     }
 
     #[test]
-    fn random_text_never_panics(text in "[\\[\\]{}<>/ vf0-9.eE+-]{0,80}", prefix in 0usize..4) {
-        let prefix = ["", "{\"nodes\":", "<svg ", "v 0 0\nf "][prefix];
+    fn random_text_never_panics(text in "[\\[\\]{}<>/ vf0-9.eE+-]{0,80}", prefix in 0usize..6) {
+        let prefix = ["", "{\"nodes\":", "<svg ", "v 0 0\nf ", "[[", "{\"rings\":[["][prefix];
         drop(read(format!("{prefix}{text}").as_bytes()));
     }
 
     #[test]
     fn mutated_files_never_panic(
-        which in 0usize..7,
+        which in 0usize..10,
         edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6),
         cut in any::<prop::sample::Index>(),
         cuts in any::<bool>(),
@@ -324,4 +344,157 @@ proptest! {
             drop(design.outline(0.1));
         }
     }
+
+    /// Lists of numbers, wild ones among them, with the outline's own faults.
+    #[test]
+    fn polygons_of_wild_numbers_never_panic(
+        rings in proptest::collection::vec(
+            proptest::collection::vec((wild_number(), wild_number()), 0..12), 0..4),
+    ) {
+        let rings: Vec<Vec<[f64; 2]>> = rings
+            .into_iter()
+            .map(|ring| ring.into_iter().map(|(x, y)| [x, y]).collect())
+            .collect();
+        if let Ok(design) = read(serde_json::to_string(&rings).expect("text").as_bytes()) {
+            prop_assert!(design.outline(0.0).expect("area").area() > 0.0);
+        }
+    }
+
+    #[test]
+    fn drawings_of_wild_numbers_never_panic(
+        pairs in proptest::collection::vec((0usize..DXF_CODES.len(), wild_number()), 0..40),
+        kinds in proptest::collection::vec(0usize..DXF_KINDS.len(), 1..6),
+    ) {
+        let mut text = String::from("0\nSECTION\n2\nENTITIES\n");
+        let share = pairs.len() / kinds.len() + 1;
+        for (kind, pairs) in kinds.iter().zip(pairs.chunks(share)) {
+            text += &format!("0\n{}\n8\n0\n", DXF_KINDS[*kind]);
+            for (code, number) in pairs {
+                text += &format!("{}\n{number}\n", DXF_CODES[*code]);
+            }
+        }
+        drop(read((text + "0\nENDSEC\n0\nEOF\n").as_bytes()));
+    }
+
+    #[test]
+    fn any_text_is_drawn_or_refused(text in ".{0,12}") {
+        let source = Source::Text { text, font: None };
+        drop(source.import(&ImportOptions::default()));
+    }
+
+    #[test]
+    fn any_path_is_written_as_it_was_understood(path in "(glyph:)?[a-z%@#./4]{0,16}") {
+        let nothing = |_: &Path| false;
+        let source = Source::parse(path.as_ref(), nothing);
+        prop_assert_eq!(Source::parse(&source.to_path(), nothing), source);
+    }
+
+    #[test]
+    fn broken_fonts_never_panic(
+        edits in proptest::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..60),
+        near_the_start in any::<bool>(),
+        cut in any::<prop::sample::Index>(),
+        cuts in any::<bool>(),
+    ) {
+        let mut bytes = epaint_default_fonts::UBUNTU_LIGHT.to_vec();
+        let reach = if near_the_start { 2000 } else { bytes.len() };
+        for (place, byte) in edits {
+            bytes[place.index(reach)] = byte;
+        }
+        if cuts {
+            bytes.truncate(cut.index(bytes.len()));
+        }
+        let source = Source::Text { text: "Dfi 8".into(), font: Some("a.ttf".into()) };
+        drop(source.import_bytes(&bytes, &ImportOptions::default()));
+    }
+
+    #[test]
+    fn strokes_of_wild_numbers_never_panic(
+        numbers in proptest::collection::vec(wild_number(), 8),
+    ) {
+        let n = |i: usize| numbers[i];
+        let text = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 20 20"><path id="p" d="M{} {} L{} {} Q{} 3 4 5" stroke="red" stroke-width="{}" stroke-dasharray="{} {}" stroke-linejoin="round"/></svg>"#,
+            n(0), n(1), n(2), n(3), n(4), n(5), n(6), n(7)
+        );
+        let options = ImportOptions { strokes: true, ..ImportOptions::default() };
+        drop(import("given", text.as_bytes(), &options));
+    }
+}
+
+const DXF_KINDS: [&str; 8] = [
+    "LINE",
+    "ARC",
+    "CIRCLE",
+    "ELLIPSE",
+    "LWPOLYLINE",
+    "SPLINE",
+    "VERTEX",
+    "POLYLINE",
+];
+const DXF_CODES: [i32; 20] = [
+    10, 20, 30, 11, 21, 31, 38, 40, 41, 42, 50, 51, 70, 71, 72, 73, 74, 210, 220, 230,
+];
+
+/// Numbers small and ordinary, and some that are neither.
+fn wild_number() -> impl Strategy<Value = f64> {
+    prop_oneof![
+        6 => (-4i32..5).prop_map(f64::from),
+        3 => -10.0..10.0,
+        1 => prop::sample::select(vec![
+            0.0, -0.0, 1e-300, 1e-30, -1e-9, 1e9, 1e30, -1e59, 1e61, 1e300, 360.0, 2147483648.0,
+        ]),
+    ]
+}
+
+#[test]
+fn deep_and_hostile_polygons_are_refused() {
+    for text in [
+        "[".repeat(1_000_000),
+        format!("{{\"type\": {}", "{\"type\":".repeat(1_000_000)),
+        "{\"type\":\"GeometryCollection\",\"geometries\":[".repeat(10_000),
+    ] {
+        assert!(matches!(
+            problem(text.as_bytes()),
+            Problem::Polygons(PolygonsError::Json { .. })
+        ));
+    }
+    let error = read(b"{\"rings\": [[[0,0],[1,0],[\"x\",1]]]}").expect_err("no number");
+    assert_eq!(
+        error.to_string(),
+        "given: $.rings[0][2] is a text; give two numbers of at most 1e60 for a point"
+    );
+}
+
+#[test]
+fn hostile_drawings_as_dxf_are_refused() {
+    let whole = dxf();
+    assert!(matches!(
+        problem(&whole.as_bytes()[..whole.len() / 2]),
+        Problem::Dxf(DxfError::Truncated { .. } | DxfError::Code { .. })
+    ));
+    let many = format!("0\nSECTION\n2\nENTITIES\n{}", "0\nLINE\n".repeat(2_000_000));
+    assert!(matches!(
+        problem(many.as_bytes()),
+        Problem::Dxf(DxfError::TooMany)
+    ));
+}
+
+#[test]
+fn an_element_is_asked_for_of_drawings_only() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let options = ImportOptions::default();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::write(at("a.svg"), SVG.replace("<use ", "<use id=\"u\" ")).expect("written");
+    std::fs::write(at("a.obj"), OBJ).expect("written");
+    std::fs::write(at("b.svg#u"), OBJ).expect("written");
+    let design = import_file(&at("a.svg#u"), &options).expect("an element");
+    assert_eq!(design.name, "u");
+    let error = import_file(&at("a.obj#u"), &options).expect_err("no drawing");
+    assert!(matches!(error.problem, Problem::NoElements { .. }));
+    assert!(error.to_string().contains("a.obj#u: only an SVG drawing"));
+    // A file of that very name is that file.
+    assert!(import_file(&at("b.svg#u"), &options).is_ok());
+    let error = import_file(&at("c.svg#u"), &options).expect_err("no file");
+    assert!(matches!(error.problem, Problem::Missing));
 }

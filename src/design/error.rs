@@ -1,8 +1,8 @@
 //! Why a file did not become a design, in one sentence for its owner.
 
 use super::{
-    MAX_FILE_BYTES, ObjError, OptionsError, PictureError, PolygonsError, SvgError, TextError,
-    TrussInputError, UnknownFormat,
+    DxfError, MAX_FILE_BYTES, ObjError, OptionsError, PictureError, PolygonsError, SvgError,
+    TextError, TrussInputError, UnknownFormat,
 };
 use std::io;
 
@@ -71,6 +71,9 @@ pub enum Problem {
     /// A drawing without a usable outline.
     #[error(transparent)]
     Svg(#[from] SvgError),
+    /// A DXF drawing without a usable outline.
+    #[error(transparent)]
+    Dxf(#[from] DxfError),
     /// Text without an outline.
     #[error(transparent)]
     Text(#[from] TextError),

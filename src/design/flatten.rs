@@ -10,7 +10,7 @@ use crate::geometry::DVec2;
 use usvg::tiny_skia_path::{Path, PathSegment, Point};
 
 /// Most points of a design after flattening.
-const MAX_POINTS: usize = 2_000_000;
+pub(super) const MAX_POINTS: usize = 2_000_000;
 
 /// Most pieces of one curve: reached at a tolerance of 1e-7 of the page by a
 /// curve that is ten pages long.

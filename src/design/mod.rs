@@ -10,6 +10,7 @@
 //! them. Not guaranteed: that two designs go together; that is checked where
 //! they meet.
 
+mod dxf;
 mod error;
 mod flatten;
 mod lettering;
@@ -25,6 +26,7 @@ mod source;
 mod svg;
 mod truss;
 
+pub use dxf::{DxfError, Place};
 pub use error::{ImportError, Problem};
 pub use flatten::TooManyPoints;
 pub use lettering::TextError;
@@ -223,6 +225,7 @@ fn read(bytes: &[u8], element: Option<&str>, options: &ImportOptions) -> Result<
             Drawn::plain(Form::Outline(regions), extent)
         }
         Format::Svg => svg::read(text(bytes)?, element, options)?.into(),
+        Format::Dxf => dxf::read(bytes, options.tolerance)?.into(),
         Format::Obj => {
             let mesh = obj::read(text(bytes)?)?;
             let extent = mesh.bounds();

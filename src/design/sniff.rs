@@ -12,6 +12,8 @@ pub enum Format {
     Picture(ImageFormat),
     /// SVG as UTF-8 text.
     Svg,
+    /// DXF, text or binary.
+    Dxf,
     /// Wavefront OBJ.
     Obj,
     /// Polygons as JSON or GeoJSON.
@@ -83,6 +85,9 @@ pub fn sniff(bytes: &[u8]) -> Result<Format, UnknownFormat> {
     if let Some(&(_, found, way_out)) = other {
         return Err(UnknownFormat::Other { found, way_out });
     }
+    if bytes.starts_with(super::dxf::BINARY) {
+        return Ok(Format::Dxf);
+    }
     text_format(bytes)
 }
 
@@ -115,6 +120,7 @@ fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
         Some(b'<') => Err(UnknownFormat::XmlWithoutSvg),
         Some(b'[') => Ok(Format::Polygons),
         Some(b'{') => json_format(bytes),
+        Some(_) if is_dxf(bytes) => Ok(Format::Dxf),
         Some(_) if is_obj(bytes) => Ok(Format::Obj),
         _ => Err(UnknownFormat::Unknown),
     }
@@ -171,6 +177,17 @@ fn has_svg_element(bytes: &[u8]) -> bool {
     bytes.split(|&b| b == b'<').skip(1).any(is_svg)
 }
 
+/// Whether the first pair of lines, comments aside, begins a section.
+fn is_dxf(bytes: &[u8]) -> bool {
+    let mut lines = bytes.split(|&b| b == b'\n').map(<[u8]>::trim_ascii);
+    loop {
+        match (lines.next(), lines.next()) {
+            (Some(b"999"), Some(_)) => {}
+            (code, name) => return (code, name) == (Some(b"0"), Some(b"SECTION")),
+        }
+    }
+}
+
 /// Whether some line holds a vertex.
 fn is_obj(bytes: &[u8]) -> bool {
     bytes.split(|&b| b == b'\n' || b == b'\r').any(|line| {
@@ -187,7 +204,7 @@ mod tests {
 
     #[test]
     fn each_format_is_known_by_its_content() {
-        let cases: [(&[u8], Format); 14] = [
+        let cases: [(&[u8], Format); 16] = [
             (b"\x89PNG\r\n\x1a\nrest", Format::Picture(ImageFormat::Png)),
             (b"\xff\xd8\xff\xe0", Format::Picture(ImageFormat::Jpeg)),
             (
@@ -202,6 +219,8 @@ mod tests {
             (b"<!-- a --><!DOCTYPE svg><svg>", Format::Svg),
             (b"# a comment\r\nv 1 2 3", Format::Obj),
             (b"o name\n  v  1 2 3", Format::Obj),
+            (b"999\r\nby hand\r\n  0\r\nSECTION\r\n", Format::Dxf),
+            (b"AutoCAD Binary DXF\r\n\x1a\0\0", Format::Dxf),
             (b"\xef\xbb\xbf { \"nodes\": [] }", Format::Truss),
             (b"{\"supports\": [{}], \"bars", Format::Truss),
             (b"{\"supports\": [{}], \"bars\"", Format::Truss),

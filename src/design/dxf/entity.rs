@@ -1,0 +1,286 @@
+//! The objects of a drawing as curves in the plane.
+//!
+//! Objects with an extrusion direction lie in a coordinate system of their
+//! own (the "arbitrary axis algorithm" of the DXF Reference); they are seen
+//! from above, as a plan.
+
+use super::DxfError;
+use super::curve::{Arc, Curve, Spline};
+use super::pairs::{Pair, Place};
+use crate::geometry::DVec2;
+use glam::{DAffine2, DMat2, DVec3};
+use std::f64::consts::TAU;
+
+/// What an object gives.
+#[derive(Debug)]
+pub(super) enum Entity {
+    /// Curves one after the other.
+    Path { curves: Vec<Curve>, is_closed: bool },
+    /// A copy of a block, for each of the places.
+    Insert {
+        block: Vec<u8>,
+        places: Vec<DAffine2>,
+    },
+}
+
+/// Most copies of one INSERT.
+const MAX_COPIES: i64 = 10_000;
+
+/// An object's kind and its pairs.
+pub(super) struct Record<'a> {
+    pub kind: &'a [u8],
+    pub at: Place,
+    pub pairs: Vec<Pair<'a>>,
+}
+
+impl<'a> Record<'a> {
+    fn first(&self, code: i32) -> Option<&Pair<'a>> {
+        self.pairs.iter().find(|pair| pair.code == code)
+    }
+
+    pub fn real(&self, code: i32, default: f64) -> Result<f64, DxfError> {
+        self.first(code).map_or(Ok(default), Pair::real)
+    }
+
+    pub fn whole(&self, code: i32) -> Result<i64, DxfError> {
+        self.first(code).map_or(Ok(0), Pair::whole)
+    }
+
+    pub fn text(&self, code: i32) -> &'a [u8] {
+        self.first(code).map_or(b"", Pair::text)
+    }
+
+    fn point(&self, code: i32) -> Result<DVec3, DxfError> {
+        Ok(DVec3::new(
+            self.real(code, 0.0)?,
+            self.real(code + 10, 0.0)?,
+            self.real(code + 20, 0.0)?,
+        ))
+    }
+
+    /// The numbers that stand under a code, in order.
+    fn reals(&self, code: i32) -> Result<Vec<f64>, DxfError> {
+        let pairs = self.pairs.iter().filter(|pair| pair.code == code);
+        pairs.map(Pair::real).collect()
+    }
+
+    /// The points whose x stands under a code and whose y under ten more.
+    fn points(&self, code: i32) -> Result<Vec<DVec2>, DxfError> {
+        let (xs, ys) = (self.reals(code)?, self.reals(code + 10)?);
+        if xs.len() != ys.len() {
+            return Err(self.broken("a point has x and no y, or y and no x"));
+        }
+        Ok(xs.into_iter().zip(ys).map(DVec2::from).collect())
+    }
+
+    /// From the object's own plane at a height to the plan.
+    fn plan(&self, elevation: f64) -> Result<DAffine2, DxfError> {
+        let given = DVec3::new(
+            self.real(210, 0.0)?,
+            self.real(220, 0.0)?,
+            self.real(230, 1.0)?,
+        );
+        let normal = given.try_normalize().unwrap_or(DVec3::Z);
+        let near_z = normal.x.abs() < 1.0 / 64.0 && normal.y.abs() < 1.0 / 64.0;
+        let aside = if near_z { DVec3::Y } else { DVec3::Z };
+        let x_axis = aside.cross(normal).try_normalize().unwrap_or(DVec3::X);
+        let y_axis = normal.cross(x_axis);
+        Ok(DAffine2 {
+            matrix2: DMat2::from_cols(x_axis.truncate(), y_axis.truncate()),
+            translation: elevation * normal.truncate(),
+        })
+    }
+
+    fn broken(&self, what: &'static str) -> DxfError {
+        DxfError::Broken {
+            at: self.at,
+            kind: String::from_utf8_lossy(self.kind).into_owned(),
+            what,
+        }
+    }
+
+    /// The object as curves; `None` where it is of a kind without an outline.
+    /// POLYLINE needs its vertices and goes another way.
+    pub fn entity(&self) -> Result<Option<Entity>, DxfError> {
+        Ok(Some(match self.kind {
+            b"LINE" => open(Curve::Line([
+                self.point(10)?.truncate(),
+                self.point(11)?.truncate(),
+            ])),
+            b"LWPOLYLINE" => self.light_polyline()?,
+            b"CIRCLE" => self.arc(0.0, TAU)?,
+            b"ARC" => {
+                let [from, to] = [self.real(50, 0.0)?, self.real(51, 360.0)?].map(f64::to_radians);
+                self.arc(from, turn(from, to))?
+            }
+            b"ELLIPSE" => self.ellipse()?,
+            b"SPLINE" => return self.spline(),
+            b"INSERT" => self.insert()?,
+            _ => return Ok(None),
+        }))
+    }
+
+    fn light_polyline(&self) -> Result<Entity, DxfError> {
+        let mut corners: Vec<Corner> = Vec::new();
+        for pair in &self.pairs {
+            match (pair.code, corners.last_mut()) {
+                (10, _) => corners.push(Corner::at(pair.real()?, 0.0)),
+                (20, Some(corner)) => corner.point.y = pair.real()?,
+                (42, Some(corner)) => corner.bulge = pair.real()?,
+                _ => {}
+            }
+        }
+        let plan = self.plan(self.real(38, 0.0)?)?;
+        Ok(polyline(&corners, self.whole(70)? & 1 != 0, &plan))
+    }
+
+    /// A POLYLINE with its vertices; `None` for a mesh.
+    pub fn polyline(&self, vertices: &[Record]) -> Result<Option<Entity>, DxfError> {
+        let flags = self.whole(70)?;
+        if flags & (16 | 64) != 0 {
+            return Ok(None);
+        }
+        let is_in_space = flags & 8 != 0;
+        let mut corners = Vec::with_capacity(vertices.len());
+        for vertex in vertices {
+            if vertex.whole(70)? & 16 != 0 {
+                continue; // the frame of a curve that stands there fitted
+            }
+            let mut corner = Corner::at(vertex.real(10, 0.0)?, vertex.real(20, 0.0)?);
+            corner.bulge = if is_in_space {
+                0.0
+            } else {
+                vertex.real(42, 0.0)?
+            };
+            corners.push(corner);
+        }
+        let plan = match is_in_space {
+            true => DAffine2::IDENTITY,
+            false => self.plan(self.real(30, 0.0)?)?,
+        };
+        Ok(Some(polyline(&corners, flags & 1 != 0, &plan)))
+    }
+
+    fn arc(&self, from: f64, sweep: f64) -> Result<Entity, DxfError> {
+        let centre = self.point(10)?;
+        let radius = self.real(40, 0.0)?;
+        let arc = Arc {
+            centre: centre.truncate(),
+            u: DVec2::new(radius, 0.0),
+            v: DVec2::new(0.0, radius),
+            from,
+            sweep,
+        };
+        Ok(of_arc(arc, &self.plan(centre.z)?))
+    }
+
+    fn ellipse(&self) -> Result<Entity, DxfError> {
+        let (centre, major) = (self.point(10)?, self.point(11)?);
+        let normal = DVec3::new(
+            self.real(210, 0.0)?,
+            self.real(220, 0.0)?,
+            self.real(230, 1.0)?,
+        );
+        let normal = normal.try_normalize().unwrap_or(DVec3::Z);
+        let minor = self.real(40, 1.0)? * normal.cross(major);
+        let (from, to) = (self.real(41, 0.0)?, self.real(42, TAU)?);
+        let arc = Arc {
+            centre: centre.truncate(),
+            u: major.truncate(),
+            v: minor.truncate(),
+            from,
+            sweep: turn(from, to),
+        };
+        Ok(of_arc(arc, &DAffine2::IDENTITY))
+    }
+
+    /// `None` for one that is given by the points it goes through only.
+    fn spline(&self) -> Result<Option<Entity>, DxfError> {
+        let points = self.points(10)?;
+        if points.is_empty() {
+            return Ok(None);
+        }
+        let degree = usize::try_from(self.whole(71)?).unwrap_or(0);
+        let (knots, weights) = (self.reals(40)?, self.reals(41)?);
+        let spline = Spline::new(degree, knots, &points, &weights).ok_or_else(|| {
+            self.broken("its degree, knots, control points and weights do not go together")
+        })?;
+        Ok(Some(open(Curve::Spline(spline))))
+    }
+
+    fn insert(&self) -> Result<Entity, DxfError> {
+        let at = self.point(10)?;
+        let plan = self.plan(at.z)?;
+        let scale = DVec2::new(self.real(41, 1.0)?, self.real(42, 1.0)?);
+        let turned = DMat2::from_angle(self.real(50, 0.0)?.to_radians());
+        let counts = [self.whole(70)?, self.whole(71)?].map(|n| n.max(1));
+        if counts[0].saturating_mul(counts[1]) > MAX_COPIES {
+            return Err(self.broken("it stands for too many copies"));
+        }
+        let apart = DVec2::new(self.real(44, 0.0)?, self.real(45, 0.0)?);
+        let mut places = Vec::new();
+        for row in 0..counts[1] {
+            for column in 0..counts[0] {
+                let offset = turned * (apart * DVec2::new(column as f64, row as f64));
+                places.push(
+                    plan * DAffine2 {
+                        matrix2: turned * DMat2::from_diagonal(scale),
+                        translation: at.truncate() + offset,
+                    },
+                );
+            }
+        }
+        Ok(Entity::Insert {
+            block: self.text(2).to_owned(),
+            places,
+        })
+    }
+}
+
+/// The angle counter-clockwise from one direction to another, in (0, 2π].
+fn turn(from: f64, to: f64) -> f64 {
+    let sweep = (to - from).rem_euclid(TAU);
+    if sweep <= 1e-12 { TAU } else { sweep }
+}
+
+fn open(curve: Curve) -> Entity {
+    Entity::Path {
+        curves: vec![curve],
+        is_closed: false,
+    }
+}
+
+fn of_arc(arc: Arc, plan: &DAffine2) -> Entity {
+    Entity::Path {
+        is_closed: arc.is_whole(),
+        curves: vec![Curve::Arc(arc).moved(plan)],
+    }
+}
+
+struct Corner {
+    point: DVec2,
+    /// Of the side that begins here: the tangent of a quarter of its angle.
+    bulge: f64,
+}
+
+impl Corner {
+    fn at(x: f64, y: f64) -> Self {
+        Self {
+            point: DVec2::new(x, y),
+            bulge: 0.0,
+        }
+    }
+}
+
+fn polyline(corners: &[Corner], is_closed: bool, plan: &DAffine2) -> Entity {
+    let last = corners.len().saturating_sub(1);
+    let sides = if is_closed { corners.len() } else { last };
+    let side = |i: usize| {
+        let (a, b) = (&corners[i], &corners[(i + 1) % corners.len()]);
+        Curve::bulging(a.point, b.point, a.bulge).moved(plan)
+    };
+    Entity::Path {
+        curves: (0..sides).map(side).collect(),
+        is_closed,
+    }
+}

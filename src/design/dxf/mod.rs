@@ -1,0 +1,209 @@
+//! DXF drawings, text and binary, of any release, as regions.
+//!
+//! LINE, LWPOLYLINE and POLYLINE with bulges, ARC, CIRCLE, ELLIPSE, SPLINE
+//! and INSERT of blocks are read. Curves are joined end to end into rings:
+//! ends count as one where they are nearer than [`JOIN_TOLERANCE`] of the
+//! drawing's longer side. The even-odd rule says what is inside. Units are
+//! not looked at, nor is what lies on hidden layers or in the paper space.
+//! One unit of the drawing is one unit.
+//!
+//! Read by hand, as the pairs of a DXF file are simple: the `dxf` crate keeps
+//! every object with all its attributes, hundreds of bytes for each byte of a
+//! hostile file, and does not say on which line an error is.
+//!
+//! Guaranteed: no bytes make it panic or run without end; memory is bounded by
+//! some hundred bytes for each object of at most [`MAX_OBJECTS`]. Curves that
+//! do not close are left out, which is told; where more than two meet and
+//! their number is odd, which of them belong to a ring is arbitrary. Splines
+//! that are given only by the points they pass through, hatches, text and
+//! solids are left out, which is told.
+//!
+//! [`MAX_OBJECTS`]: drawing::MAX_OBJECTS
+
+mod curve;
+mod drawing;
+mod entity;
+mod join;
+mod pairs;
+
+pub(super) use pairs::BINARY;
+pub use pairs::Place;
+
+use super::flatten::{MAX_POINTS, TooManyPoints};
+use super::{ImportNote, Outlines};
+use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError};
+use curve::Curve;
+
+/// Why a drawing gives no outline.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum DxfError {
+    /// More bytes than a drawing should have.
+    #[error(
+        "the drawing has {} MiB, more than the {} MiB that are read; save only its outlines",
+        bytes >> 20,
+        MAX_BYTES >> 20
+    )]
+    TooLarge {
+        /// Its size.
+        bytes: usize,
+    },
+    /// A group code that is none.
+    #[error("{at}: there is no group code where one should be; save the drawing again as DXF")]
+    Code {
+        /// Where.
+        at: Place,
+    },
+    /// The file breaks off.
+    #[error("{at}: the file ends in the middle; save or copy it again")]
+    Truncated {
+        /// Where.
+        at: Place,
+    },
+    /// A number that is none.
+    #[error("{at}: there is no number that can be used; correct it")]
+    Number {
+        /// Where.
+        at: Place,
+    },
+    /// An object whose parts do not fit.
+    #[error("{at}: {kind} cannot be used: {what}; correct or remove it")]
+    Broken {
+        /// Where the object begins.
+        at: Place,
+        /// Its kind, as the file calls it.
+        kind: String,
+        /// What is wrong.
+        what: &'static str,
+    },
+    /// Objects, copies included, without end.
+    #[error(
+        "the drawing has more than {} objects, copies of blocks included; save only its outlines",
+        drawing::MAX_OBJECTS
+    )]
+    TooMany,
+    /// Blocks in blocks without end.
+    #[error(
+        "blocks lie in blocks more than {} levels deep, or a block in itself; explode them",
+        drawing::MAX_DEPTH
+    )]
+    TooDeep,
+    /// Curves into absurdly many points.
+    #[error(transparent)]
+    TooManyPoints(#[from] TooManyPoints),
+    /// There is nothing to read.
+    #[error("there is no line, arc or curve in the drawing{}; draw or explode the outlines", if found.is_empty() { String::new() } else { format!(", only {found}") })]
+    Nothing {
+        /// What there is instead.
+        found: String,
+    },
+    /// Curves, but no ring.
+    #[error(
+        "none of the curves close: one of {count} ends at ({}, {}) and nothing goes on there; join the curves end to end",
+        at.x, at.y
+    )]
+    Open {
+        /// How many curves there are.
+        count: usize,
+        /// A loose end.
+        at: DVec2,
+    },
+    /// Nothing is enclosed.
+    #[error(transparent)]
+    Regions(#[from] RegionsError),
+}
+
+/// Most bytes.
+const MAX_BYTES: usize = 64 << 20;
+
+/// How far ends that belong together may be apart, as a fraction of the
+/// drawing's longer side: what rounding to four digits leaves.
+pub(super) const JOIN_TOLERANCE: f64 = 1e-4;
+
+/// Smallest tolerance that is worked with, as in drawings as SVG.
+const MIN_TOLERANCE: f64 = 1e-7;
+
+/// Points of one polyline nearer than this fraction of the longer side differ
+/// by rounding: a bulge of 1e-7 makes an arc whose ends are good to 3e-10.
+const ROUNDING: f64 = 1e-9;
+
+/// Reads a DXF file. The tolerance is a fraction of the drawing's longer side.
+pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
+    if bytes.len() > MAX_BYTES {
+        return Err(DxfError::TooLarge { bytes: bytes.len() });
+    }
+    let drawing = drawing::read(bytes)?;
+    let curves = || drawing.paths.iter().flat_map(|(curves, _)| curves);
+    let hull = Bounds::of(curves().flat_map(Curve::hull));
+    let side = hull.map_or(0.0, |hull| hull.size().max_element());
+    if side <= 0.0 {
+        let kinds = drawing
+            .skipped
+            .iter()
+            .map(|(kind, n)| format!("{n} {kind}"));
+        let found = kinds.collect::<Vec<_>>().join(", ");
+        return Err(DxfError::Nothing { found });
+    }
+    let tolerance = tolerance.max(MIN_TOLERANCE) * side;
+    let (mut rings, open) = flattened(&drawing.paths, tolerance, ROUNDING * side)?;
+    let count = open.len();
+    let joined = join::joined(open, JOIN_TOLERANCE * side);
+    rings.extend(joined.rings);
+    if let (true, Some(&at)) = (rings.is_empty(), joined.loose.first()) {
+        return Err(DxfError::Open { count, at });
+    }
+    let (regions, mut repairs) = Regions::from_rings_reporting(&rings, FillRule::EvenOdd)?;
+    repairs.duplicates += joined.duplicates;
+    let mut notes = ImportNote::of_repairs(&repairs, FillRule::EvenOdd);
+    notes.extend(joined.loose.first().map(|&at| ImportNote::Open {
+        count: joined.loose.len(),
+        at,
+    }));
+    let skipped = drawing.skipped.into_iter();
+    notes.extend(skipped.map(|(kind, count)| ImportNote::Skipped { kind, count }));
+    Ok(Outlines {
+        extent: regions.bounds(),
+        regions,
+        notes,
+    })
+}
+
+type Rings = Vec<Vec<DVec2>>;
+
+/// The paths as polygons: those that close, and those that do not.
+fn flattened(
+    paths: &[(Vec<Curve>, bool)],
+    tolerance: f64,
+    rounding: f64,
+) -> Result<(Rings, Rings), DxfError> {
+    let (mut closed, mut open) = (Vec::new(), Vec::new());
+    let mut count = 0;
+    for (curves, is_closed) in paths {
+        let mut points = Vec::new();
+        for curve in curves {
+            let start = points.len();
+            curve.flatten(tolerance, &mut points);
+            // The end of an arc is computed and need not be where the next begins.
+            if start > 0 && points[start].distance(points[start - 1]) <= rounding {
+                points.remove(start);
+            }
+            if count + points.len() > MAX_POINTS {
+                return Err(TooManyPoints.into());
+            }
+        }
+        let is_back = |p: &DVec2| points[0].distance(*p) <= rounding;
+        if *is_closed && points.len() > 1 && points.last().is_some_and(is_back) {
+            points.pop();
+        }
+        count += points.len();
+        points.dedup();
+        match (*is_closed, points.len()) {
+            (_, 0 | 1) => {}
+            (true, _) => closed.push(points),
+            (false, _) => open.push(points),
+        }
+    }
+    Ok((closed, open))
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,219 @@
+//! The pairs that a DXF file consists of: a group code and a value, as two
+//! lines of text or in the binary form (Autodesk, DXF Reference).
+//!
+//! Nothing is copied: values are slices of the file.
+
+use super::DxfError;
+use std::fmt;
+
+/// What a binary file begins with.
+pub(in crate::design) const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
+
+/// Largest number: products of squares stay finite.
+const MAX_NUMBER: f64 = 1e60;
+
+/// Where something stands in the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line of text, from 1.
+    Line(usize),
+    /// A byte of a binary file, from 0.
+    Byte(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(byte) => write!(f, "byte {byte}"),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug)]
+enum Value<'a> {
+    Text(&'a [u8]),
+    Real(f64),
+    Integer(i64),
+}
+
+/// A group code and its value.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair<'a> {
+    pub code: i32,
+    pub at: Place,
+    value: Value<'a>,
+}
+
+impl<'a> Pair<'a> {
+    /// The value as text; a binary number has none.
+    pub fn text(&self) -> &'a [u8] {
+        match self.value {
+            Value::Text(text) => text,
+            _ => b"",
+        }
+    }
+
+    pub fn real(&self) -> Result<f64, DxfError> {
+        let number = match self.value {
+            Value::Real(number) => Some(number),
+            Value::Integer(number) => Some(number as f64),
+            Value::Text(text) => std::str::from_utf8(text).ok().and_then(|t| t.parse().ok()),
+        };
+        // NaN is in no range.
+        let number = number.filter(|n: &f64| n.abs() <= MAX_NUMBER);
+        number.ok_or(DxfError::Number { at: self.at })
+    }
+
+    /// The value as a whole number.
+    pub fn whole(&self) -> Result<i64, DxfError> {
+        Ok(self.real()? as i64)
+    }
+}
+
+/// Reads one pair after the other.
+pub(super) struct Pairs<'a> {
+    bytes: &'a [u8],
+    position: usize,
+    line: usize,
+    form: Form,
+}
+
+#[derive(Clone, Copy, PartialEq)]
+enum Form {
+    Text,
+    /// Group codes of one byte, or three from 255 on: up to release 12.
+    Narrow,
+    /// Group codes of two bytes.
+    Wide,
+}
+
+impl<'a> Pairs<'a> {
+    pub fn of(bytes: &'a [u8]) -> Self {
+        let bare = bytes.strip_prefix(BINARY);
+        let form = match bare {
+            None => Form::Text,
+            Some([0, 0, ..]) => Form::Wide,
+            Some(_) => Form::Narrow,
+        };
+        let start = bytes.len() - bare.map_or(bytes.len(), <[u8]>::len);
+        Self {
+            bytes,
+            position: start,
+            line: 0,
+            form,
+        }
+    }
+
+    /// The next pair; `None` where the file ends.
+    pub fn next(&mut self) -> Result<Option<Pair<'a>>, DxfError> {
+        if self.form == Form::Text {
+            return self.next_text();
+        }
+        if self.position >= self.bytes.len() {
+            return Ok(None);
+        }
+        let at = self.place();
+        let code = self.binary_code()?;
+        let value = self.binary_value(code)?;
+        Ok(Some(Pair { code, at, value }))
+    }
+
+    /// Where reading goes on.
+    pub fn place(&self) -> Place {
+        match self.form {
+            Form::Text => Place::Line(self.line + 1),
+            _ => Place::Byte(self.position),
+        }
+    }
+
+    fn next_text(&mut self) -> Result<Option<Pair<'a>>, DxfError> {
+        let at = self.place();
+        let Some(code) = self.line() else {
+            return Ok(None);
+        };
+        if code.is_empty() && self.bytes[self.position..].trim_ascii().is_empty() {
+            return Ok(None);
+        }
+        let code = std::str::from_utf8(code).ok().and_then(|t| t.parse().ok());
+        let code = code.ok_or(DxfError::Code { at })?;
+        let at = self.place();
+        let value = self.line().ok_or(DxfError::Truncated { at })?;
+        let value = Value::Text(value);
+        Ok(Some(Pair { code, at, value }))
+    }
+
+    fn line(&mut self) -> Option<&'a [u8]> {
+        let rest = &self.bytes[self.position..];
+        if rest.is_empty() {
+            return None;
+        }
+        let end = rest.iter().position(|&b| b == b'\n').unwrap_or(rest.len());
+        self.position += (end + 1).min(rest.len());
+        self.line += 1;
+        Some(rest[..end].trim_ascii())
+    }
+
+    fn binary_code(&mut self) -> Result<i32, DxfError> {
+        if self.form == Form::Narrow {
+            let [code] = self.take()?;
+            if code != 255 {
+                return Ok(code.into());
+            }
+        }
+        Ok(i16::from_le_bytes(self.take()?).into())
+    }
+
+    fn binary_value(&mut self, code: i32) -> Result<Value<'a>, DxfError> {
+        Ok(match code {
+            10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
+                Value::Real(f64::from_le_bytes(self.take()?))
+            }
+            60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => {
+                Value::Integer(i16::from_le_bytes(self.take()?).into())
+            }
+            90..=99 | 420..=429 | 440..=459 | 1071 => {
+                Value::Integer(i32::from_le_bytes(self.take()?).into())
+            }
+            160..=169 => Value::Integer(i64::from_le_bytes(self.take()?)),
+            290..=299 => Value::Integer(self.take::<1>()?[0].into()),
+            310..=319 | 1004 => {
+                let [length] = self.take()?;
+                Value::Text(self.slice(length.into())?)
+            }
+            0..=9
+            | 100..=109
+            | 300..=309
+            | 320..=369
+            | 390..=399
+            | 410..=419
+            | 430..=439
+            | 470..=481
+            | 999..=1009 => Value::Text(self.string()?),
+            _ => return Err(DxfError::Code { at: self.place() }),
+        })
+    }
+
+    /// Text up to the next zero.
+    fn string(&mut self) -> Result<&'a [u8], DxfError> {
+        let at = self.place();
+        let rest = &self.bytes[self.position..];
+        let end = rest.iter().position(|&b| b == 0);
+        let text = self.slice(end.ok_or(DxfError::Truncated { at })?)?;
+        self.position += 1;
+        Ok(text.trim_ascii())
+    }
+
+    fn take<const N: usize>(&mut self) -> Result<[u8; N], DxfError> {
+        let at = self.place();
+        let bytes = self.slice(N)?;
+        bytes.try_into().map_err(|_| DxfError::Truncated { at })
+    }
+
+    fn slice(&mut self, length: usize) -> Result<&'a [u8], DxfError> {
+        let at = self.place();
+        let slice = self.bytes.get(self.position..self.position + length);
+        self.position += length;
+        slice.ok_or(DxfError::Truncated { at })
+    }
+}

@@ -1,0 +1,240 @@
+use super::*;
+use crate::geometry::Regions;
+use std::f64::consts::PI;
+
+/// The file of pairs as text, with everything around the objects.
+fn text(sections: &[(&str, &str)]) -> String {
+    let section = |(name, pairs): &(&str, &str)| {
+        let pairs: String = pairs
+            .split_whitespace()
+            .map(|word| format!("{word}\n"))
+            .collect();
+        format!("0\nSECTION\n2\n{name}\n{pairs}0\nENDSEC\n")
+    };
+    sections.iter().map(section).collect::<String>() + "0\nEOF\n"
+}
+
+/// The same as a binary file.
+fn binary(text: &str, wide: bool) -> Vec<u8> {
+    let mut bytes = BINARY.to_vec();
+    let mut lines = text.lines();
+    while let (Some(code), Some(value)) = (lines.next(), lines.next()) {
+        let code: i16 = code.parse().expect("a code");
+        match wide {
+            true => bytes.extend(code.to_le_bytes()),
+            false => bytes.push(u8::try_from(code).expect("a narrow code")),
+        }
+        match code {
+            10..=59 | 210..=239 => {
+                let number: f64 = value.parse().expect("a number");
+                bytes.extend(number.to_le_bytes());
+            }
+            60..=79 => bytes.extend(value.parse::<i16>().expect("a number").to_le_bytes()),
+            90..=99 => bytes.extend(value.parse::<i32>().expect("a number").to_le_bytes()),
+            _ => {
+                bytes.extend(value.bytes());
+                bytes.push(0);
+            }
+        }
+    }
+    bytes
+}
+
+fn found(entities: &str) -> Result<Outlines, DxfError> {
+    read(text(&[("ENTITIES", entities)]).as_bytes(), 1e-5)
+}
+
+fn regions(entities: &str) -> Regions {
+    found(entities).expect("an outline").regions
+}
+
+fn error(entities: &str) -> String {
+    found(entities).err().expect("no outline").to_string()
+}
+
+fn near(found: f64, expected: f64) {
+    assert!(
+        (found - expected).abs() < 1e-3 * expected,
+        "{found} for {expected}"
+    );
+}
+
+const SQUARE: &str = "0 LINE 8 0 10 0 20 0 11 4 21 0 0 LINE 8 0 10 4 20 4 11 4 21 0
+    0 LINE 8 0 10 4 20 4 11 0 21 4 0 LINE 8 0 10 0 20 0 11 0 21 4";
+
+#[test]
+fn lines_are_joined_into_rings() {
+    let square = found(SQUARE).expect("a square");
+    near(square.regions.area(), 16.0);
+    assert_eq!(square.notes, []);
+    assert_eq!(square.extent.size(), DVec2::splat(4.0));
+}
+
+#[test]
+fn every_curve_is_read() {
+    let pi = PI;
+    for (entities, area) in [
+        ("0 CIRCLE 8 0 10 3 20 4 40 2", 4.0 * pi),
+        (
+            "0 ARC 8 0 10 0 20 0 40 2 50 0 51 180 0 LINE 8 0 10 -2 20 0 11 2 21 0",
+            2.0 * pi,
+        ),
+        (
+            "0 ELLIPSE 8 0 10 1 20 1 11 3 21 0 40 0.5 41 0 42 6.283185307179586",
+            4.5 * pi,
+        ),
+        (
+            "0 LWPOLYLINE 8 0 90 2 70 1 10 -1 20 0 42 1 10 1 20 0 42 1",
+            pi,
+        ),
+        (
+            "0 POLYLINE 8 0 66 1 70 1 0 VERTEX 8 0 10 0 20 0 0 VERTEX 8 0 10 4 20 0
+             0 VERTEX 8 0 10 4 20 3 0 SEQEND 8 0",
+            6.0,
+        ),
+        // A quarter of a circle as a rational spline, and two lines.
+        (
+            "0 SPLINE 8 0 70 8 71 2 72 6 73 3 40 0 40 0 40 0 40 1 40 1 40 1
+             41 1 41 0.7071067811865476 41 1 10 2 20 0 10 2 20 2 10 0 20 2
+             0 LINE 8 0 10 0 20 0 11 2 21 0 0 LINE 8 0 10 0 20 2 11 0 21 0",
+            pi,
+        ),
+        // Mirrored by its extrusion: seen from below.
+        (
+            "0 ARC 8 0 10 0 20 0 40 2 50 0 51 90 210 0 220 0 230 -1
+             0 LINE 8 0 10 0 20 0 11 -2 21 0 0 LINE 8 0 10 0 20 0 11 0 21 2",
+            pi,
+        ),
+    ] {
+        let found = found(entities).expect(entities);
+        near(found.regions.area(), area);
+        assert_eq!(found.notes, [], "{entities}");
+    }
+}
+
+#[test]
+fn rings_in_rings_are_holes() {
+    let circle = "0 CIRCLE 8 0 10 2 20 2 40 1";
+    let washer = regions(&format!("{SQUARE} {circle}"));
+    assert_eq!(washer.rings().count(), 2);
+    near(washer.area(), 16.0 - PI);
+    let twice = found(&format!("{SQUARE} {circle} {SQUARE} {circle}")).expect("an outline");
+    near(twice.regions.area(), 16.0 - PI);
+    assert_eq!(twice.notes, [ImportNote::Duplicates(5)]);
+}
+
+#[test]
+fn blocks_are_put_where_they_are_inserted() {
+    let blocks = format!(
+        "0 BLOCK 8 0 2 PART 10 2 20 2 {SQUARE} 0 ENDBLK
+         0 BLOCK 8 0 2 PAIR 10 0 20 0 0 INSERT 8 0 2 PART 10 0 20 0
+         0 INSERT 8 0 2 PART 10 20 20 0 41 -2 50 30 0 ENDBLK"
+    );
+    let entities = "0 INSERT 8 0 2 PAIR 10 100 20 0 42 3 0 INSERT 8 0 2 PART 70 2 71 2 44 10 45 10
+        0 INSERT 8 0 2 NONE";
+    let file = text(&[("BLOCKS", &blocks), ("ENTITIES", entities)]);
+    let found = read(file.as_bytes(), 1e-5).expect("copies");
+    assert_eq!(found.regions.len(), 6);
+    near(found.regions.area(), 3.0 * (16.0 + 32.0) + 4.0 * 16.0);
+    assert_eq!(found.notes.len(), 1);
+}
+
+#[test]
+fn what_is_hidden_is_not_there() {
+    let tables = "0 TABLE 2 LAYER 0 LAYER 2 off 70 0 62 -7 0 LAYER 2 ice 70 1 62 7 0 ENDTAB";
+    let entities = format!(
+        "{SQUARE} 0 CIRCLE 8 off 40 9 0 CIRCLE 8 ice 40 9 0 CIRCLE 8 0 60 1 40 9
+         0 CIRCLE 8 0 67 1 40 9"
+    );
+    let file = text(&[("TABLES", tables), ("ENTITIES", &entities)]);
+    near(
+        read(file.as_bytes(), 1e-5)
+            .expect("a square")
+            .regions
+            .area(),
+        16.0,
+    );
+}
+
+#[test]
+fn binary_files_of_both_kinds_are_read() {
+    let file = text(&[("HEADER", "9 $X 70 4"), ("ENTITIES", SQUARE)]);
+    for wide in [true, false] {
+        let found = read(&binary(&file, wide), 1e-5).expect("a square");
+        near(found.regions.area(), 16.0);
+    }
+    let whole = binary(&file, true);
+    for length in BINARY.len() + 20..whole.len() - 20 {
+        assert!(read(&whole[..length], 1e-5).is_err());
+    }
+}
+
+#[test]
+fn open_curves_and_other_objects_are_told() {
+    let found = found(&format!(
+        "{SQUARE} 0 LINE 8 0 10 4 20 4 11 9 21 9 0 MTEXT 8 0 10 0 20 0 1 words 0 HATCH 8 0"
+    ))
+    .expect("a square");
+    near(found.regions.area(), 16.0);
+    let words: Vec<_> = found.notes.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        words,
+        [
+            "1 curve that does not close was left out; close the gap at (9, 9)",
+            "1 object of the kind HATCH was left out",
+            "1 object of the kind MTEXT was left out",
+        ]
+    );
+}
+
+#[test]
+fn what_cannot_be_used_is_named_with_its_place() {
+    let lines = |text: &str| error(text);
+    assert!(lines("0 LINE 8 0 10 x 20 0").contains("line 10: there is no number"));
+    assert!(lines("0 LINE 8 0 10 nan 20 0").contains("line 10: there is no number"));
+    assert!(lines("0 LINE 8 0 10 1e300 20 0").contains("line 10: there is no number"));
+    assert!(lines("0 LINE 8 0 ten 1").contains("line 9: there is no group code"));
+    assert!(lines("0 SPLINE 8 0 71 3 10 0 20 0").contains("line 6: SPLINE cannot be used"));
+    assert!(lines("0 TEXT 8 0 1 words").contains("only 1 TEXT"));
+    assert!(lines("0 LINE 8 0 10 0 20 0 11 4 21 0").contains("none of the curves close"));
+    let whole = text(&[("ENTITIES", SQUARE)]);
+    let cut = read(&whole.as_bytes()[..200], 1e-5).err().expect("cut");
+    assert!(cut.to_string().contains("ends in the middle"), "{cut}");
+}
+
+#[test]
+fn blocks_in_themselves_and_bombs_are_refused() {
+    let own = text(&[
+        ("BLOCKS", "0 BLOCK 2 A 0 INSERT 8 0 2 A 0 ENDBLK"),
+        ("ENTITIES", "0 INSERT 8 0 2 A"),
+    ]);
+    assert_eq!(read(own.as_bytes(), 1e-5).err(), Some(DxfError::TooDeep));
+    let mut blocks = String::from("0 BLOCK 2 B0 0 ENDBLK ");
+    for level in 1..15 {
+        let copies = format!("0 INSERT 8 0 2 B{} 70 9 71 9 ", level - 1);
+        blocks += &format!("0 BLOCK 2 B{level} {copies} 0 ENDBLK ");
+    }
+    let bomb = text(&[("BLOCKS", &blocks), ("ENTITIES", "0 INSERT 8 0 2 B14")]);
+    assert_eq!(read(bomb.as_bytes(), 1e-5).err(), Some(DxfError::TooMany));
+    let wide = error("0 INSERT 8 0 2 A 70 30000 71 30000");
+    assert!(wide.contains("too many copies"), "{wide}");
+}
+
+#[test]
+fn a_curve_keeps_within_the_tolerance() {
+    for tolerance in [1e-2, 1e-3, 1e-4] {
+        let file = text(&[("ENTITIES", "0 CIRCLE 8 0 10 0 20 0 40 1")]);
+        let found = read(file.as_bytes(), tolerance).expect("a disc");
+        let ring = &found
+            .regions
+            .rings()
+            .next()
+            .expect("a ring")
+            .points()
+            .to_vec();
+        let count = ring.len();
+        let sagitta = 1.0 - (PI / count as f64).cos();
+        assert!(sagitta <= 2.0 * tolerance, "{sagitta}");
+        assert!(sagitta > 0.2 * tolerance, "{sagitta}");
+    }
+}
