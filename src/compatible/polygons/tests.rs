@@ -161,13 +161,7 @@ fn together(source: &[DVec2], target: &[DVec2]) -> CompatibleMesh {
 }
 
 fn base(source: &[DVec2], target: &[DVec2]) -> PairMesh {
-    let mesh = from_base(
-        &Rings::of(&[source]),
-        &Rings::of(&[target]),
-        &PolygonOptions::default(),
-        &Silent,
-    )
-    .expect("simple");
+    let mesh = from_base(&Rings::of(&[source]), &Rings::of(&[target]), &Silent).expect("simple");
     let (faces, [p, q]) = mesh.compacted();
     hold(
         &CompatibleMesh::new(faces, p, q, vec![]).expect("valid"),
