@@ -1,0 +1,87 @@
+//! Capital letters of the bundled font into each other, as rigid parts.
+//!
+//! All 650 ordered pairs: `cargo test --release --no-default-features --test
+//! capitals -- --include-ignored`.
+
+use morphospace::design::{Design, ImportOptions, import_file};
+use morphospace::geometry::orient2d;
+use morphospace::progress::Silent;
+use morphospace::transition::{Transition, TransitionSpec};
+use rayon::prelude::*;
+use std::path::Path;
+use std::sync::Arc;
+
+fn capitals() -> Vec<Arc<Design>> {
+    let letter = |c: char| {
+        let path = format!("glyph:{c}");
+        Arc::new(import_file(Path::new(&path), &ImportOptions::default()).expect("a letter"))
+    };
+    ('A'..='Z').map(letter).collect()
+}
+
+/// What is wrong with a pair, or nothing.
+fn fault(source: &Arc<Design>, target: &Arc<Design>) -> Option<String> {
+    let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+    let transition = match Transition::build(&spec, &Silent) {
+        Ok(transition) => transition,
+        Err(error) => return Some(error.to_string()),
+    };
+    let Some(mesh) = transition.compatible() else {
+        return Some("no mesh".to_owned());
+    };
+    for points in [mesh.source(), mesh.target()] {
+        let positive = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|v| points[v as usize]);
+            orient2d(a, b, c) > 0.0
+        };
+        if !mesh.faces().iter().all(positive) {
+            return Some("a face that is not positive".to_owned());
+        }
+    }
+    let ends = [(0.0, source), (1.0, target)].map(|(t, design)| {
+        let drawn = area(&transition.frame(t).figure().rings);
+        let given = design.outline(0.0).expect("letters have area").area();
+        (drawn / given - 1.0).abs()
+    });
+    let off = ends[0].max(ends[1]);
+    (off > 1e-4).then(|| format!("an end whose area is off by {off}"))
+}
+
+fn area(rings: &[Vec<morphospace::geometry::DVec2>]) -> f64 {
+    let of = |ring: &Vec<morphospace::geometry::DVec2>| {
+        let next = ring.iter().cycle().skip(1);
+        ring.iter()
+            .zip(next)
+            .map(|(a, b)| a.perp_dot(*b))
+            .sum::<f64>()
+            / 2.0
+    };
+    rings.iter().map(of).sum()
+}
+
+fn faults(pairs: &[(usize, usize)]) -> Vec<String> {
+    let letters = capitals();
+    let names: Vec<char> = ('A'..='Z').collect();
+    let pairs = pairs.par_iter();
+    pairs
+        .filter_map(|&(a, b)| {
+            let fault = fault(&letters[a], &letters[b])?;
+            Some(format!("{} to {}: {fault}", names[a], names[b]))
+        })
+        .collect()
+}
+
+#[test]
+fn each_capital_becomes_another_and_is_become() {
+    // Seven and 26 have no common factor: each letter is source and target once.
+    let pairs: Vec<_> = (0..26).map(|k| (k, (k + 7) % 26)).collect();
+    assert_eq!(faults(&pairs), Vec::<String>::new());
+}
+
+#[test]
+#[ignore = "650 pairs: minutes in a build without optimisation"]
+fn all_capitals_become_all_others() {
+    let all = (0..26).flat_map(|a| (0..26).map(move |b| (a, b)));
+    let pairs: Vec<_> = all.filter(|(a, b)| a != b).collect();
+    assert_eq!(faults(&pairs), Vec::<String>::new());
+}
