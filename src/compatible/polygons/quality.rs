@@ -17,6 +17,9 @@ const ROUNDS: usize = 5;
 const FIRST_STEPS: usize = 20;
 /// Steps of the moves in each round.
 const STEPS: usize = 60;
+/// Most steps times faces in each round: only meshes far larger than their
+/// boundary, from the hardest matches, feel it.
+const MOST_WORK: usize = 1_200_000;
 /// Faces that cost more are split while there is room.
 const COSTLY: f64 = 6.0;
 /// A vertex goes if no face around it then costs more than this.
@@ -30,6 +33,7 @@ pub(super) fn improve(
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<(), PolygonsError> {
+    let steps = STEPS.min(MOST_WORK / (1 + mesh.faces().count())).max(1);
     for round in 0..ROUNDS {
         checked(progress, "improving", round as f64 / ROUNDS as f64)?;
         flip_all(mesh);
@@ -39,7 +43,7 @@ pub(super) fn improve(
             split_costly(mesh, options);
         }
         flip_all(mesh);
-        relax(mesh, STEPS);
+        relax(mesh, steps);
     }
     Ok(())
 }
