@@ -318,6 +318,12 @@ fn text_and_elements_are_designs_like_any_other() {
         "{text}"
     );
     shop.done("render deep/p.morph --cells 40 --at 1 --out out.svg");
+    shop.put("bow.json", "[[0, 0], [20, 20], [20, 0], [0, 20]]");
+    let table = shop.done("check bow.json c.svg#bar --samples 2 --cells 40");
+    assert!(
+        table.contains("1 crossing of edges was resolved"),
+        "{table}"
+    );
     shop.fails(2, "check glyph:D", "one design");
     shop.fails(1, "check glyph:D glyph:\u{2603}", "U+2603");
 }

@@ -26,7 +26,7 @@ mod source;
 mod svg;
 mod truss;
 
-pub use dxf::{DxfError, Place};
+pub use dxf::{DxfError, Place as DxfPlace};
 pub use error::{ImportError, Problem};
 pub use flatten::TooManyPoints;
 pub use lettering::TextError;

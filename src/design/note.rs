@@ -84,10 +84,55 @@ impl ImportNote {
         let told = counted.into_iter().filter(|&(count, _)| count > 0);
         told.map(|(_, note)| note).collect()
     }
+
+    /// How many of what were left out, for one and for many, and what can be
+    /// done about it; `None` where something was repaired instead.
+    fn left_out(&self) -> Option<(usize, [String; 2], String)> {
+        let plain = |n: usize, one: &str, many: &str, way_out: &str| {
+            Some((n, [one.to_owned(), many.to_owned()], way_out.to_owned()))
+        };
+        match self {
+            Self::Crossings { .. } | Self::Touches { .. } => None,
+            Self::Duplicates(n) => plain(*n, "outline drawn again", "outlines drawn again", ""),
+            Self::Flat(n) => {
+                let one = "outline that encloses nothing";
+                plain(*n, one, "outlines that enclose nothing", "")
+            }
+            Self::Slivers(n) => {
+                let one = "sliver between touching edges";
+                plain(*n, one, "slivers between touching edges", "")
+            }
+            Self::IdlePoints(n) => {
+                let one = "point that repeats another or lies on a straight edge";
+                let many = "points that repeat another or lie on a straight edge";
+                plain(*n, one, many, "")
+            }
+            Self::Strokes(n) => {
+                let way_out = "; set strokes = true to read them as shapes";
+                plain(*n, "stroke", "strokes", way_out)
+            }
+            Self::Texts(n) => plain(*n, "text", "texts", "; convert text to paths"),
+            Self::Pictures(n) => plain(*n, "embedded picture", "embedded pictures", ""),
+            Self::Open { count, at } => {
+                let way_out = format!("; close the gap at ({}, {})", at.x, at.y);
+                let (one, many) = ("curve that does not close", "curves that do not close");
+                plain(*count, one, many, &way_out)
+            }
+            Self::Skipped { kind, count } => {
+                let [one, many] = ["object", "objects"].map(|w| format!("{w} of the kind {kind}"));
+                plain(*count, &one, &many, "")
+            }
+        }
+    }
 }
 
 impl fmt::Display for ImportNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((n, [one, many], way_out)) = self.left_out() {
+            let what = plural(n, &one, &many);
+            let were = plural(n, "was", "were");
+            return write!(f, "{n} {what} {were} left out{way_out}");
+        }
         match self {
             Self::Crossings {
                 count,
@@ -98,85 +143,28 @@ impl fmt::Display for ImportNote {
                     FillRule::NonZero => "the non-zero winding rule",
                     FillRule::EvenOdd => "the even-odd rule",
                 };
-                let some = number(*count, *at_least);
                 let what = plural(*count, "crossing of edges was", "crossings of edges were");
-                write!(f, "{some}{what} resolved by {rule}")
+                write!(f, "{}{count} {what} resolved by {rule}", floor(*at_least))
             }
             Self::Touches { count, at_least } => {
-                let some = number(*count, *at_least);
                 let what = plural(*count, "corner that lies", "corners that lie");
-                write!(f, "{some}{what} on another edge divided it")
-            }
-            Self::Duplicates(n) => {
-                let what = plural(*n, "outline", "outlines");
-                write!(f, "{n} {what} drawn again {} left out", was(*n))
-            }
-            Self::Flat(n) => {
-                let what = plural(*n, "outline that encloses", "outlines that enclose");
-                write!(f, "{n} {what} nothing {} left out", was(*n))
-            }
-            Self::Slivers(n) => {
-                let what = plural(*n, "sliver", "slivers");
-                write!(f, "{n} {what} between touching edges {} left out", was(*n))
-            }
-            Self::IdlePoints(n) => {
-                let what = plural(*n, "point that repeats", "points that repeat");
-                let lies = plural(*n, "lies", "lie");
                 write!(
                     f,
-                    "{n} {what} another or {lies} on a straight edge {} left out",
-                    was(*n)
+                    "{}{count} {what} on another edge divided it",
+                    floor(*at_least)
                 )
             }
-            Self::Strokes(n) => {
-                let what = plural(*n, "stroke", "strokes");
-                write!(
-                    f,
-                    "{n} {what} {} left out; set strokes = true to read them as shapes",
-                    was(*n)
-                )
-            }
-            Self::Texts(n) => {
-                let what = plural(*n, "text", "texts");
-                write!(f, "{n} {what} {} left out; convert text to paths", was(*n))
-            }
-            Self::Pictures(n) => {
-                let what = plural(*n, "picture", "pictures");
-                write!(f, "{n} {what} in the drawing {} left out", was(*n))
-            }
-            Self::Open { count, at } => {
-                let what = plural(*count, "curve that does", "curves that do");
-                write!(
-                    f,
-                    "{count} {what} not close {} left out; close the gap at ({}, {})",
-                    was(*count),
-                    at.x,
-                    at.y
-                )
-            }
-            Self::Skipped { kind, count } => {
-                let what = plural(*count, "object", "objects");
-                write!(
-                    f,
-                    "{count} {what} of the kind {kind} {} left out",
-                    was(*count)
-                )
-            }
+            _ => Ok(()),
         }
     }
 }
 
-fn number(count: usize, at_least: bool) -> String {
-    let words = if at_least { "at least " } else { "" };
-    format!("{words}{count} ")
+fn floor(at_least: bool) -> &'static str {
+    if at_least { "at least " } else { "" }
 }
 
 fn plural<'w>(count: usize, one: &'w str, many: &'w str) -> &'w str {
     if count == 1 { one } else { many }
-}
-
-fn was(count: usize) -> &'static str {
-    plural(count, "was", "were")
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! The projects that come with the program, held in the binary.
 
 use super::{LoadedProject, Project, ProjectError};
+use crate::design::Source;
 use include_dir::{Dir, include_dir};
 use std::path::Path;
 
@@ -64,8 +65,9 @@ pub fn copy_into(name: &str, folder: &Path) -> Result<std::path::PathBuf, Projec
     let io = |error: std::io::Error| ProjectError::Io(error.to_string()).in_file(folder);
     std::fs::create_dir_all(folder).map_err(io)?;
     for entry in &project.designs {
-        if let Some(content) = bytes(&entry.path) {
-            std::fs::write(folder.join(&entry.path), content).map_err(io)?;
+        let source = Source::parse(&entry.path, |path| bytes(path).is_some());
+        if let Some((file, content)) = source.file().and_then(|file| Some((file, bytes(file)?))) {
+            std::fs::write(folder.join(file), content).map_err(io)?;
         }
     }
     let path = folder.join(format!("{name}.morph"));

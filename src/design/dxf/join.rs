@@ -112,10 +112,13 @@ impl Graph {
 
     /// Walks from a curve as far as there are curves.
     fn walk(&mut self, start: usize, curves: &[Vec<DVec2>], result: &mut Joined) {
+        if self.is_used[start] {
+            return;
+        }
         let mut here = self.ends[start][0];
         let mut trail: Vec<Step> = Vec::new();
         let mut steps_from: HashMap<usize, usize> = HashMap::from([(here, 0)]);
-        let mut next = (!self.is_used[start]).then_some(start);
+        let mut next = Some(start);
         while let Some(curve) = next {
             self.is_used[curve] = true;
             let [first, last] = self.ends[curve];
