@@ -19,7 +19,8 @@ const NOT_TRIANGULATING: [&str; 5] = [
 
 /// A progress that passes everything on and looks at the clock. A stage lasts
 /// from its first report to the first of another one; what goes on before any
-/// report belongs to no stage.
+/// report belongs to no stage. Where several threads report, a time belongs to
+/// the stage that was reported last, so that the stages add up to the whole.
 pub(super) struct StageClock<'a> {
     inner: &'a dyn Progress,
     heard: Mutex<Heard>,

@@ -22,6 +22,7 @@ use super::columns::{self, Value};
 use super::report::Report;
 use super::summary::Summary;
 use super::table::{self, Row, Table};
+use crate::design::Source;
 use crate::export::{
     StillKind, Strip, Target, even_times, pair_sheet, write_atomically, write_still,
 };
@@ -201,17 +202,12 @@ fn strip(opened: &Opened, report: &Report, job: &Job<'_>) -> Strip {
         .saying(&report.verdict.words, !report.verdict.findings.is_empty())
 }
 
-/// The pair by the names of its files.
+/// The pair by the names of its designs.
 fn name(job: &Job<'_>) -> String {
-    let stem = |path: &Path| {
-        path.file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned()
-    };
+    let name = |path: &Path| Source::of(path).name();
     match &job.row.pair {
-        Ok([source, target]) if job.backward => format!("{} to {}", stem(target), stem(source)),
-        Ok([source, target]) => format!("{} to {}", stem(source), stem(target)),
+        Ok([source, target]) if job.backward => format!("{} to {}", name(target), name(source)),
+        Ok([source, target]) => format!("{} to {}", name(source), name(target)),
         Err(_) => format!("line {}", job.row.line),
     }
 }

@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 
 use super::super::error::CliError;
 use super::columns;
+use crate::design::Source;
 
 /// A table that can be worked on.
 #[derive(Debug)]
@@ -167,7 +168,7 @@ fn path(cell: &[u8], column: &str, folder: &Path) -> Result<PathBuf, String> {
             cut(text)
         ));
     }
-    Ok(folder.join(text))
+    Ok(Source::in_folder(folder, text.as_ref()).to_path())
 }
 
 #[cfg(test)]
@@ -190,6 +191,18 @@ mod tests {
         let found = pairs("kind,target,source\nx,b c.svg, a.svg\n");
         let expected = ["folder/a.svg", "folder/b c.svg"].map(str::to_owned);
         assert_eq!(found, [Ok(expected)]);
+    }
+
+    #[test]
+    fn elements_and_letters_are_designs_too() {
+        let found = pairs("source,target\nglyph:D,a.svg#leaf\nglyph:S@x.ttf,./glyph:D\n");
+        let expected = [
+            ["glyph:D", "folder/a.svg#leaf"],
+            ["glyph:S@folder/x.ttf", "folder/./glyph:D"],
+        ];
+        for (found, expected) in found.into_iter().zip(expected) {
+            assert_eq!(found, Ok(expected.map(str::to_owned)));
+        }
     }
 
     #[test]
