@@ -2,6 +2,7 @@
 //! slit to a hole, around that and back.
 
 use super::super::curve::{Curve, CurveError};
+use super::locate::distance_squared;
 use crate::geometry::{DVec2, Region, Ring, orient2d};
 
 /// A closed walk, and the slits it runs along there and back.
@@ -23,6 +24,12 @@ pub(super) struct Slit {
 
 /// How far a slit keeps from its own ends where it is tested against edges.
 const END_SHARE: f64 = 1e-6;
+
+/// Where along a slit its distance from the boundary is looked at, and what
+/// share of the way to its nearer end that has to be: a slit that all but runs
+/// along the boundary, as from the leg of an R, would touch it in the digits.
+const LOOKED_AT: [f64; 7] = [0.02, 0.1, 0.25, 0.5, 0.75, 0.9, 0.98];
+const LEAST_CLEARANCE: f64 = 0.1;
 
 impl Walk {
     pub(super) fn around(region: &Region) -> Self {
@@ -77,7 +84,15 @@ impl Walk {
         let rings = || std::iter::once(&self.ring).chain(holes.iter().copied());
         let winding: i32 = rings().map(|ring| ring.winding(middle)).sum();
         let touched = |ring: &Ring| ring.edges().any(|(p, q)| touch(short, [p, q]));
-        short[0] != short[1] && winding == 1 && !rings().any(touched)
+        let length = a.distance(b);
+        let is_clear = |&along: &f64| {
+            let least = LEAST_CLEARANCE * along.min(1.0 - along) * length;
+            rings().all(|ring| distance_squared(ring, a.lerp(b, along)) >= least * least)
+        };
+        short[0] != short[1]
+            && winding == 1
+            && !rings().any(touched)
+            && LOOKED_AT.iter().all(is_clear)
     }
 
     /// The walk that goes along the slit and around the hole as well.
@@ -183,5 +198,26 @@ mod tests {
         let walk = Walk::around(&region);
         assert!(walk.slit_from(&holes, 0, DVec2::new(2.0, 0.0)).is_none());
         assert!(walk.slit_from(&holes, 1, DVec2::new(2.0, 0.0)).is_some());
+    }
+
+    #[test]
+    fn a_slit_along_the_boundary_is_refused_however_it_is_rounded() {
+        let leg = [
+            (0.0, 0.0),
+            (4.0, 0.0),
+            (4.0, 9.0),
+            (-4.0, 9.0),
+            (-4.0, 4.0),
+            (0.0, 4.0),
+        ];
+        let region = Region {
+            outer: Ring::new(leg.map(DVec2::from).to_vec()).expect("a ring"),
+            holes: vec![],
+        };
+        let hole = [(1e-15, 6.0), (1e-15, 8.0), (2.0, 8.0), (2.0, 6.0)];
+        let hole = Ring::new(hole.map(DVec2::from).to_vec()).expect("a ring");
+        let walk = Walk::around(&region);
+        assert!(walk.slit_from(&[&hole], 0, DVec2::new(0.0, 2.0)).is_none());
+        assert!(walk.slit_from(&[&hole], 0, DVec2::new(4.0, 7.0)).is_some());
     }
 }
