@@ -413,11 +413,6 @@ fn failures_end_with_one_and_name_the_file() {
         "render a.obj b.obj --frames 2 --size 8x8 --out a.obj/f-#.png",
         "a.obj",
     );
-    shop.fails(
-        1,
-        &format!("render a.svg b.svg --method arap {at} x.png"),
-        "field",
-    );
     shop.fails(1, "check a.obj none.obj --json", "none.obj");
     assert_eq!(shop.names(".").len(), 6, "nothing was written");
 }
@@ -465,48 +460,50 @@ fn rows(path: &Path) -> Vec<HashMap<String, String>> {
 fn a_table_of_pairs_gives_a_row_each() {
     let shop = Workshop::new();
     fs::create_dir(shop.path("sub")).expect("made");
-    let table =
-        "\u{feff}kind,source,target\n\"a, \"\"b\"\"\",../a.obj,../b.obj\nfield,../a.svg,../b.obj\n";
-    shop.put("sub/pairs.csv", table);
-    let line =
-        "check --pairs sub/pairs.csv --out report.csv --sheet sheet.png --cells 48 --samples 5";
-    let summary = shop.done(line);
+    shop.put(
+        "sub/pairs.csv",
+        "\u{feff}kind,source,target\n\"a, \"\"b\"\"\",../a.obj,../b.obj\ndrawn,../a.svg,../b.svg\n",
+    );
+    let line = "check --pairs sub/pairs.csv --out report.csv --sheet sheet.png --samples 5";
+    let summary = shop.done(&format!("{line} --both"));
     assert!(summary.starts_with("pairs  "), "{summary}");
-    let found = rows(&shop.path("report.csv"));
-    assert_eq!(found.len(), 2);
-    assert_eq!(found[0]["kind"], "a, \"b\"");
-    for row in &found {
-        assert_eq!(
-            (row["status"].as_str(), row["samples"].as_str()),
-            ("ok", "5")
-        );
-        assert!(row["build_s"].parse::<f64>().expect("seconds") > 0.0);
-    }
-    assert_eq!(
-        (found[0]["method"].as_str(), found[1]["method"].as_str()),
-        ("arap", "field")
-    );
-    assert_eq!(
-        (found[0]["faces"].as_str(), found[1]["faces"].as_str()),
-        ("2", "")
-    );
-    assert!(found[0]["match_and_triangulate_s"].parse::<f64>().is_ok());
-    assert_eq!(found[1]["grid_width_cells"], "48");
-    assert!(image(&shop.path("sheet.png")).width() > 600);
-    // Written over, and in both directions.
-    let json = shop.done(&format!("{line} --both --json"));
-    let summary: serde_json::Value = serde_json::from_str(&json).expect("JSON");
-    assert_eq!(
-        (&summary["pairs"], &summary["failures"]),
-        (&4.into(), &0.into())
-    );
     let found = rows(&shop.path("report.csv"));
     let directions: Vec<_> = found.iter().map(|row| row["direction"].as_str()).collect();
     assert_eq!(directions, ["forward", "backward", "forward", "backward"]);
-    let [there, back] = [&found[0], &found[1]].map(|row| &row["conformal_worst"]);
-    let [there, back] = [there, back].map(|x| x.parse::<f64>().expect("a number"));
+    assert_eq!(found[1]["kind"], "a, \"b\"");
+    for row in &found {
+        let told = ["status", "samples", "method"].map(|column| row[column].as_str());
+        assert_eq!(told, ["ok", "5", "arap"]);
+        for column in ["build_s", "match_and_triangulate_s", "conformal_worst"] {
+            assert!(
+                row[column].parse::<f64>().expect("a number") > 0.0,
+                "{column}"
+            );
+        }
+    }
+    let worst = |row: usize| found[row]["conformal_worst"].parse::<f64>();
+    let [there, back] = [worst(0), worst(1)].map(|x| x.expect("a number"));
     assert!((there / back - 1.0).abs() < 1e-9, "{there} {back}");
+    assert!(image(&shop.path("sheet.png")).width() > 600);
     assert_eq!(shop.names(".").len(), 7, "no temporary file is left");
+}
+
+#[test]
+fn a_table_of_fields_is_written_over_the_last_one() {
+    let shop = Workshop::new();
+    shop.put("pairs.csv", "source,target\na.svg,b.obj\n");
+    shop.put("report.csv", "old");
+    let line = "check --pairs pairs.csv --out report.csv --method field --cells 48 --samples 5";
+    let json = shop.done(&format!("{line} --json"));
+    let summary: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(
+        (&summary["pairs"], &summary["failures"]),
+        (&1.into(), &0.into())
+    );
+    let found = rows(&shop.path("report.csv"));
+    let told = ["method", "faces", "grid_width_cells"].map(|column| found[0][column].as_str());
+    assert_eq!(told, ["field", "", "48"]);
+    assert_eq!(found[0]["pieces_excess"].parse::<usize>(), Ok(0));
 }
 
 #[test]
