@@ -198,7 +198,7 @@ fn what_cannot_be_used_is_named_with_its_place() {
     assert!(lines("0 TEXT 8 0 1 words").contains("only 1 TEXT"));
     assert!(lines("0 LINE 8 0 10 0 20 0 11 4 21 0").contains("none of the curves close"));
     let whole = text(&[("ENTITIES", SQUARE)]);
-    let cut = read(&whole.as_bytes()[..200], 1e-5).err().expect("cut");
+    let cut = read(&whole.as_bytes()[..100], 1e-5).err().expect("cut");
     assert!(cut.to_string().contains("ends in the middle"), "{cut}");
 }
 
