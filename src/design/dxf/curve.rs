@@ -130,8 +130,8 @@ impl Arc {
         let radius = self.u.length().hypot(self.v.length());
         let step = 2.0 * (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos();
         let pieces = (self.sweep.abs() / step.min(0.5 * PI)).ceil();
-        // An angle that rounds to nothing gives infinity, no radius NaN.
-        let pieces = pieces.max(1.0).min(MAX_ARC_PIECES) as u32;
+        // No radius and no angle would give NaN, which is 0 as a whole number.
+        let pieces = (pieces.clamp(1.0, MAX_ARC_PIECES) as u32).max(1);
         let share = |k: u32| f64::from(k) / f64::from(pieces);
         let last = if self.is_whole() { pieces - 1 } else { pieces };
         points.extend((0..=last).map(|k| self.at(share(k))));
