@@ -56,6 +56,15 @@ impl SymmetricMatrix {
             .map(|entry| (entry.row, entry.col, entry.val))
     }
 
+    /// Makes each entry of the diagonal larger by this share of itself.
+    pub fn stiffen(&mut self, share: f64) {
+        for entry in &mut self.lower {
+            if entry.row == entry.col {
+                entry.val *= 1.0 + share;
+            }
+        }
+    }
+
     /// The product with `x`; for tests and residuals.
     #[must_use]
     pub fn times(&self, x: &[f64]) -> Vec<f64> {

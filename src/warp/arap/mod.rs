@@ -230,8 +230,7 @@ impl Arap {
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         checkpoint(progress, "factoring", 0.3)?;
-        let matrix = maps.matrix(&mesh);
-        let cholesky = Cholesky::factor(&matrix, FactorKind::Automatic)?;
+        let cholesky = factored(maps.matrix(&mesh))?;
         checkpoint(progress, "preparing frames", 0.9)?;
         let place = cholesky.place_in_order();
         let stresses = Stresses::new(&mesh, &maps, options.homotopy);
@@ -383,4 +382,21 @@ impl Placer for ArapPlacer {
     fn placement(&self) -> &Placement {
         &self.placement
     }
+}
+
+/// Shares of the diagonal that are added where rounding has eaten a pivot.
+/// Faces a ten-thousandth as large as their neighbours, about a hole that
+/// closes to a point, leave pivots of the size of the last digits.
+const STIFFER: [f64; 3] = [1e-13, 1e-11, 1e-9];
+
+fn factored(mut matrix: SymmetricMatrix) -> Result<Cholesky, FactorError> {
+    let mut result = Cholesky::factor(&matrix, FactorKind::Automatic);
+    for share in STIFFER {
+        if !matches!(result, Err(FactorError::NotPositiveDefinite { .. })) {
+            break;
+        }
+        matrix.stiffen(share);
+        result = Cholesky::factor(&matrix, FactorKind::Automatic);
+    }
+    result
 }
