@@ -9,6 +9,8 @@ use std::path::PathBuf;
 use bevy::prelude::{Message, Vec2};
 
 use crate::app::choices::{CaptureScale, RecordFormat, ThemeChoice};
+use crate::app::editor::EditorAct;
+use crate::app::twin::TwinMethod;
 use crate::content::ContentKind;
 use crate::project::Project;
 use crate::stage::Show;
@@ -49,6 +51,10 @@ pub enum Intent {
     CyclePlayMode,
     /// Put a stop where t is.
     AddStop,
+    /// Take the last change of the project back.
+    Undo,
+    /// Make the change again that was taken back last.
+    Redo,
     /// Replace the project's settings; the designs stay those that are named in it.
     Edit(Box<Project>),
     /// Show the transition by this cell.
@@ -90,6 +96,14 @@ pub enum Intent {
     ToggleHelp,
     /// Show or hide the times of a frame.
     ToggleTimes,
+    /// Show or hide the measures against t.
+    TogglePlots,
+    /// Do what the verdict advises about this finding.
+    TakeAdvice(usize),
+    /// Show or hide a second method beside the stage.
+    ToggleTwin,
+    /// The method that is shown beside the stage.
+    TwinMethod(TwinMethod),
     /// Leave what was entered last: help, question, hidden panels, whole screen.
     Back,
     /// Show the whole transition.
@@ -104,6 +118,8 @@ pub enum Intent {
         /// Above 1 comes nearer.
         factor: f32,
     },
+    /// An act in the match editor.
+    Editor(EditorAct),
     /// What the stage draws.
     Show(Show),
     /// Dark, light, or as the system has it.

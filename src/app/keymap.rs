@@ -8,6 +8,7 @@
 use bevy::input::keyboard::{Key, KeyCode, KeyboardFocusLost, KeyboardInput};
 use bevy::prelude::{Local, MessageReader, MessageWriter, Res, Resource};
 
+use crate::app::editor::{Editor, EditorAct};
 use crate::app::intent::Intent;
 
 /// A text field or a menu has the keyboard: keys belong to it and mean nothing here.
@@ -38,6 +39,8 @@ pub struct Binding {
     pub control: bool,
     /// Holding the key repeats the act.
     pub repeats: bool,
+    /// The key means this while the match editor is open, and nothing otherwise.
+    pub in_editor: bool,
     /// What it means.
     pub intent: Intent,
     /// The heading that it is listed under.
@@ -87,18 +90,25 @@ impl KeyMap {
     }
 
     /// What a pressed key means, if anything. Signs win over digits: where a digit's key prints
-    /// a sign that is bound, the sign is meant.
+    /// a sign that is bound, the sign is meant. While the match is being edited its own keys win.
     #[must_use]
-    pub fn intent(&self, input: &KeyboardInput, held: Held) -> Option<&Intent> {
+    pub fn intent(&self, input: &KeyboardInput, held: Held, is_editing: bool) -> Option<&Intent> {
         if !input.state.is_pressed() {
             return None;
         }
         let matching =
             |binding: &&Binding| (binding.repeats || !input.repeat) && binding.matches(input, held);
         let is_digit = |binding: &&Binding| matches!(binding.trigger, Trigger::Digit(_));
-        self.0
+        let of_editor = self
+            .0
             .iter()
-            .filter(|binding| !is_digit(binding))
+            .filter(|binding| binding.in_editor && is_editing);
+        let of_all = self
+            .0
+            .iter()
+            .filter(|binding| !binding.in_editor && !is_digit(binding));
+        of_editor
+            .chain(of_all)
             .find(matching)
             .or_else(|| self.0.iter().filter(is_digit).find(matching))
             .map(|binding| &binding.intent)
@@ -156,7 +166,7 @@ pub fn read_keys(
     mut inputs: MessageReader<KeyboardInput>,
     mut focus_lost: MessageReader<KeyboardFocusLost>,
     map: Res<KeyMap>,
-    typing: Res<Typing>,
+    (typing, editor): (Res<Typing>, Res<Editor>),
     mut held: Local<Held>,
     mut intents: MessageWriter<Intent>,
 ) {
@@ -165,7 +175,10 @@ pub fn read_keys(
     }
     for input in inputs.read() {
         held.note(input);
-        if let Some(intent) = map.intent(input, *held).filter(|_| !typing.0) {
+        if let Some(intent) = map
+            .intent(input, *held, editor.is_open)
+            .filter(|_| !typing.0)
+        {
             intents.write(intent.clone());
         }
     }
@@ -175,6 +188,7 @@ impl Default for KeyMap {
     fn default() -> Self {
         let mut rows = playing();
         rows.extend(stops());
+        rows.extend(matching());
         rows.extend(view());
         rows.extend(files());
         Self(rows)
@@ -187,6 +201,7 @@ fn row(trigger: Trigger, intent: Intent, keys: &'static str, help: &'static str)
         shift: false,
         control: false,
         repeats: false,
+        in_editor: false,
         intent,
         group: "",
         keys,
@@ -205,6 +220,13 @@ impl Binding {
     fn control(self) -> Self {
         Self {
             control: true,
+            ..self
+        }
+    }
+
+    fn editing(self) -> Self {
+        Self {
+            in_editor: true,
             ..self
         }
     }
@@ -314,12 +336,49 @@ fn stops() -> Vec<Binding> {
     )
 }
 
+fn matching() -> Vec<Binding> {
+    use Trigger::{Letter, Named};
+    let edit = |act: EditorAct| Intent::Editor(act);
+    let remove = || edit(EditorAct::RemoveSelected);
+    grouped(
+        "Match",
+        vec![
+            row(
+                Letter('e'),
+                edit(EditorAct::Toggle),
+                "E",
+                "Edit the match: which point is which",
+            ),
+            row(
+                Named(Key::Delete),
+                remove(),
+                "Del",
+                "Delete the chosen pin or cut",
+            )
+            .editing(),
+            row(Named(Key::Backspace), remove(), "", "").editing(),
+        ],
+    )
+}
+
 fn view() -> Vec<Binding> {
     use Trigger::{Letter, Named, Sign};
     grouped(
         "View",
         vec![
             row(Named(Key::Tab), Intent::NextMethod, "Tab", "Next method"),
+            row(
+                Letter('v'),
+                Intent::ToggleTwin,
+                "V",
+                "A second method beside the stage",
+            ),
+            row(
+                Letter('p'),
+                Intent::TogglePlots,
+                "P",
+                "Plots of the measures against t",
+            ),
             row(
                 Letter('z'),
                 Intent::FitView,
@@ -373,6 +432,15 @@ fn files() -> Vec<Binding> {
             )
             .shift(),
             row(Letter('g'), Intent::Record, "G", "Record one pass"),
+            row(
+                Letter('z'),
+                Intent::Undo,
+                "Ctrl Z  Ctrl Y",
+                "Undo, redo (or Ctrl Shift Z)",
+            )
+            .control(),
+            row(Letter('z'), Intent::Redo, "", "").control().shift(),
+            row(Letter('y'), Intent::Redo, "", "").control(),
         ],
     )
 }

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use crate::compatible::CompatibleMesh;
+use crate::correspondence::{PinError, RegionMatchError};
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 use crate::transition::{BuildError, Cell, Transition};
@@ -16,9 +17,18 @@ pub struct Loaded {
     /// What can be played.
     pub transition: Option<Transition>,
     /// Why there is nothing to play.
-    pub problem: Option<String>,
+    pub problem: Option<Problem>,
     /// How many parts can turn on their own.
     pub parts: usize,
+}
+
+/// Why there is nothing to play.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Problem {
+    /// A sentence for the user.
+    pub text: String,
+    /// The pins that it comes from, by their numbers in the project.
+    pub pins: Vec<usize>,
 }
 
 /// Work to be done.
@@ -129,10 +139,11 @@ fn choose_cell(loaded: &mut LoadedProject) {
 fn built(project: LoadedProject, progress: &dyn Progress) -> Loaded {
     let built = project
         .spec()
-        .map_err(|error| error.to_string())
-        .and_then(|spec| {
-            Transition::build(&spec, progress).map_err(|error: BuildError| error.to_string())
-        });
+        .map_err(|error| Problem {
+            text: error.to_string(),
+            pins: Vec::new(),
+        })
+        .and_then(|spec| Transition::build(&spec, progress).map_err(|error| Problem::of(&error)));
     let (transition, problem) = match built {
         Ok(transition) => (Some(transition), None),
         Err(problem) => (None, Some(problem)),
@@ -149,6 +160,23 @@ fn built(project: LoadedProject, progress: &dyn Progress) -> Loaded {
     }
 }
 
+impl Problem {
+    fn of(error: &BuildError) -> Self {
+        let pins = match error {
+            BuildError::Match(RegionMatchError::Pins(error)) => match error {
+                PinError::NotFinite(a) | PinError::End(a) => vec![*a],
+                PinError::SamePoint(a, b) | PinError::Crossing(a, b) => vec![*a, *b],
+            },
+            BuildError::Match(RegionMatchError::PinAcross(a)) => vec![*a],
+            _ => Vec::new(),
+        };
+        Self {
+            text: error.to_string(),
+            pins,
+        }
+    }
+}
+
 /// The settings that a transition is built from differ.
 #[must_use]
 pub fn needs_build(staged: &Project, now: &Project) -> bool {
@@ -157,6 +185,8 @@ pub fn needs_build(staged: &Project, now: &Project) -> bool {
         || (staged.warp, staged.content) != (now.warp, now.content)
         || staged.arap != now.arap
         || staged.field != now.field
+        || staged.matching != now.matching
+        || staged.triangulation != now.triangulation
         || staged.bar_width != now.bar_width
 }
 

@@ -8,11 +8,14 @@ mod capture;
 mod choices;
 mod closing;
 mod dialogs;
+mod editor;
 mod files;
+mod history;
 mod intent;
 mod job;
 mod keymap;
 mod loading;
+mod measuring;
 mod notices;
 mod opening;
 mod pace;
@@ -24,13 +27,15 @@ mod session;
 mod staging;
 mod thumbnails;
 mod times;
+mod twin;
 mod ui;
 mod view;
 
 use std::path::PathBuf;
 
+use bevy::app::{HierarchyPropagatePlugin, PropagateSet};
 use bevy::camera::CameraOutputMode;
-use bevy::camera::visibility::RenderLayers;
+use bevy::camera::visibility::{RenderLayers, VisibilitySystems};
 use bevy::prelude::*;
 use bevy::render::render_resource::BlendState;
 use bevy::window::{ExitCondition, WindowResolution};
@@ -38,15 +43,18 @@ use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 
 pub use choices::{CaptureScale, RecordFormat, ThemeChoice};
 pub use closing::Question;
+pub use editor::{CutEnd, Editor, EditorAct, Fate, Grab, Handle, Sheet, Tool, Touch};
 pub use files::CaptureFolder;
 pub use intent::{Answer, Intent};
 pub use keymap::{Binding, Held, KeyMap, Trigger, Typing};
+pub use measuring::{Measured, Measures};
 pub use notices::{Kind, Notice, Notices};
 pub use opening::Gallery;
 pub use playback::Playback;
 pub use preferences::Preferences;
 pub use session::Session;
 pub use staging::OnStage;
+pub use twin::{OnTwin, Twin, TwinMethod};
 pub use view::{KeepsFit, StageArea};
 
 use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
@@ -118,13 +126,20 @@ impl Plugin for LogicPlugin {
         app.configure_sets(Update, (Input, Play, Solve).chain())
             .add_systems(
                 Update,
-                (times::record, keymap::read_keys, dialogs::read_drops).in_set(Input),
+                (
+                    times::record,
+                    history::note_gesture,
+                    keymap::read_keys,
+                    dialogs::read_drops,
+                )
+                    .in_set(Input),
             )
             .add_systems(Update, act().in_set(Play))
             .add_systems(
                 Update,
                 (
                     staging::stage_transition,
+                    staging::stage_twin,
                     staging::stage_t,
                     staging::stage_style,
                 )
@@ -140,12 +155,18 @@ fn init(app: &mut App) {
         .add_message::<bevy::window::FileDragAndDrop>()
         .add_message::<bevy::window::WindowCloseRequested>()
         .init_resource::<ClearColor>()
+        .init_resource::<ButtonInput<MouseButton>>()
+        .init_resource::<history::Gesture>()
         .init_resource::<Gallery>()
         .init_resource::<Session>()
         .init_resource::<Playback>()
         .init_resource::<Preferences>()
         .init_resource::<KeyMap>()
         .init_resource::<Typing>()
+        .init_resource::<Editor>()
+        .init_resource::<Sheet>()
+        .init_resource::<Measured>()
+        .init_resource::<Twin>()
         .init_resource::<Notices>()
         .init_resource::<Question>()
         .init_resource::<dialogs::Drop>()
@@ -164,7 +185,17 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         view::back,
         preferences::apply,
         (closing::answer, closing::close, dialogs::decide).chain(),
-        (opening::open, opening::edit, opening::save, opening::poll).chain(),
+        (
+            opening::open,
+            opening::edit,
+            editor::apply,
+            measuring::apply,
+            opening::save,
+            opening::poll,
+            editor::refresh,
+        )
+            .chain(),
+        (measuring::follow, twin::apply, twin::follow).chain(),
         (playback::apply, playback::advance).chain(),
         (record::apply, record::report).chain(),
         view::apply,
@@ -203,16 +234,39 @@ impl Plugin for WindowPlugins {
                     .before(MorphSystems::Capture),
             )
             .add_systems(
+                PostUpdate,
+                view::place_twin.before(TransformSystems::Propagate),
+            )
+            .add_plugins(HierarchyPropagatePlugin::<RenderLayers>::new(PostUpdate))
+            .configure_sets(
+                PostUpdate,
+                PropagateSet::<RenderLayers>::default().before(VisibilitySystems::CheckVisibility),
+            )
+            .add_systems(
                 Update,
                 (capture::receive, capture::report).after(MorphSystems::Capture),
             );
     }
 }
 
-/// One camera for the stage, in its part of the window, and one above it for the panels.
+/// One camera for the stage, in its part of the window, one for the second method beside it, and
+/// one above them for the panels.
 fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
     egui.auto_create_primary_context = false;
     commands.spawn(StageCamera);
+    commands.spawn((
+        view::TwinCamera,
+        Camera2d,
+        Msaa::Sample4,
+        staging::TWIN_LAYER,
+        Camera {
+            order: 1,
+            // The first camera has cleared the whole window.
+            clear_color: ClearColorConfig::None,
+            is_active: false,
+            ..default()
+        },
+    ));
     commands.spawn((
         PrimaryEguiContext,
         Camera2d,
@@ -220,7 +274,7 @@ fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
         Msaa::Sample4,
         RenderLayers::none(),
         Camera {
-            order: 1,
+            order: 2,
             output_mode: CameraOutputMode::Write {
                 blend_state: Some(BlendState::ALPHA_BLENDING),
                 clear_color: ClearColorConfig::None,

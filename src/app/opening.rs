@@ -6,6 +6,8 @@ use bevy::prelude::{Commands, DetectChangesMut, MessageReader, Res, ResMut, Reso
 
 use crate::app::closing::Question;
 use crate::app::dialogs::{Drop, is_project};
+use crate::app::editor::Editor;
+use crate::app::history::Gesture;
 use crate::app::intent::Intent;
 use crate::app::loading::Request;
 use crate::app::notices::Notices;
@@ -95,33 +97,57 @@ pub fn edit(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
     mut notices: ResMut<Notices>,
-    playback: Res<Playback>,
+    (playback, gesture): (Res<Playback>, Res<Gesture>),
 ) {
+    let mark = gesture.mark();
     for intent in intents.read() {
         match intent {
             Intent::CancelWork => session.cancel(),
+            Intent::Undo => {
+                let undone = session.undo();
+                tell(undone, "There is nothing to undo.", &mut notices);
+            }
+            Intent::Redo => {
+                let redone = session.redo();
+                tell(redone, "There is nothing to redo.", &mut notices);
+            }
             Intent::NextMethod => match next_cell(&session) {
-                Some(cell) => change(&mut session, |project| set_cell(project, cell)),
+                Some(cell) => change(&mut session, mark, |project| set_cell(project, cell)),
                 None => notices.done("These designs can be shown by one method only."),
             },
             Intent::AddStop => {
-                if !add_stop(&mut session, playback.t()) {
+                if !add_stop(&mut session, playback.t(), mark) {
                     notices.done("There is a stop here already.");
                 }
             }
-            intent => change(&mut session, |project| apply(project, intent)),
+            Intent::Edit(_)
+            | Intent::UseCell(..)
+            | Intent::CyclePlayMode
+            | Intent::ReplaceDesign(..) => {
+                change(&mut session, mark, |project| apply(project, intent));
+            }
+            _ => {}
         }
     }
 }
 
-fn change(session: &mut Session, edit: impl FnOnce(&mut Project)) {
+fn tell(went: Result<bool, String>, nothing: &str, notices: &mut Notices) {
+    match went {
+        Ok(true) => {}
+        Ok(false) => notices.done(nothing),
+        Err(text) => notices.problem(text),
+    }
+}
+
+/// Changes the open project; changes of one mark are one step of its history.
+pub fn change(session: &mut Session, mark: Option<u64>, edit: impl FnOnce(&mut Project)) {
     let Some(project) = session.project() else {
         return;
     };
     let mut changed = project.clone();
     edit(&mut changed);
     if changed != *project {
-        session.edit(changed);
+        session.edit(changed, mark);
     }
 }
 
@@ -139,6 +165,9 @@ fn apply(project: &mut Project, intent: &Intent) {
         Intent::ReplaceDesign(index, path) => {
             if let Some(entry) = project.designs.get_mut(*index) {
                 *entry = entry_of(path);
+                // What was said of points of the old one means nothing in the new one.
+                let matching = &mut project.matching;
+                (matching.pins, matching.links, matching.cuts) = Default::default();
             }
         }
         _ => {}
@@ -170,9 +199,9 @@ fn next_cell(session: &Session) -> Option<(WarpKind, ContentKind)> {
 }
 
 /// Whether a stop was put there; where there is one already, none is.
-fn add_stop(session: &mut Session, t: f64) -> bool {
+fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
     let mut is_added = false;
-    change(session, |project| {
+    change(session, mark, |project| {
         let place = project.stops.partition_point(|stop| stop.t < t - SAME_T);
         if project
             .stops
@@ -231,7 +260,7 @@ pub fn poll(
     mut session: ResMut<Session>,
     mut notices: ResMut<Notices>,
     mut playback: ResMut<Playback>,
-    mut keeps_fit: ResMut<KeepsFit>,
+    (mut keeps_fit, editor): (ResMut<KeepsFit>, Res<Editor>),
 ) {
     let outcome = session.bypass_change_detection().poll();
     if outcome.is_some() {
@@ -239,7 +268,9 @@ pub fn poll(
     }
     match outcome {
         None | Some(Outcome::Rebuilt) => {}
-        Some(Outcome::Failed(text)) => notices.problem(text),
+        // The match editor says it where it was caused.
+        Some(Outcome::NotRebuilt(_)) if editor.is_open => {}
+        Some(Outcome::Failed(text) | Outcome::NotRebuilt(text)) => notices.problem(text),
         Some(Outcome::Opened) => begin(&session, &mut playback, &mut keeps_fit),
         Some(Outcome::OpenedWithout(text)) => {
             notices.problem(text);

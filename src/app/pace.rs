@@ -8,11 +8,13 @@ use bevy::winit::{UpdateMode, WinitSettings};
 
 use crate::app::capture::Captures;
 use crate::app::dialogs::Dialog;
+use crate::app::measuring::Measured;
 use crate::app::playback::Playback;
 use crate::app::preferences::Preferences;
 use crate::app::record::Recorder;
 use crate::app::session::Session;
 use crate::app::thumbnails::Thumbnails;
+use crate::app::twin::Twin;
 
 /// While nothing moves, the window looks this often for what no event tells of.
 const IDLE: Duration = Duration::from_millis(100);
@@ -22,6 +24,7 @@ pub fn keep(
     (session, playback, preferences): (Res<Session>, Res<Playback>, Res<Preferences>),
     (captures, recorder): (Res<Captures>, Res<Recorder>),
     (thumbnails, dialog): (Res<Thumbnails>, Res<Dialog>),
+    (measured, twin): (Res<Measured>, Res<Twin>),
     mut settings: ResMut<WinitSettings>,
 ) {
     let is_busy = playback.is_playing()
@@ -31,6 +34,8 @@ pub fn keep(
         || recorder.work().is_some()
         || thumbnails.is_busy()
         || dialog.is_open()
+        || measured.is_busy()
+        || twin.is_busy()
         || preferences.times;
     let mode = if is_busy {
         UpdateMode::Continuous

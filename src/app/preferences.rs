@@ -19,6 +19,8 @@ pub struct Preferences {
     pub help: bool,
     /// The times of a frame are shown.
     pub times: bool,
+    /// The measures against t are shown.
+    pub plots: bool,
     /// Size of screenshots.
     pub capture_scale: CaptureScale,
     /// Screenshots and films have a transparent ground.
@@ -35,6 +37,7 @@ impl Default for Preferences {
             panels: true,
             help: false,
             times: false,
+            plots: false,
             capture_scale: CaptureScale::default(),
             capture_transparent: false,
             record_format: RecordFormat::default(),
@@ -50,6 +53,7 @@ pub fn apply(mut intents: MessageReader<Intent>, mut preferences: ResMut<Prefere
             Intent::Theme(theme) => preferences.theme = *theme,
             Intent::TogglePanels => preferences.panels = !preferences.panels,
             Intent::ToggleHelp => preferences.help = !preferences.help,
+            Intent::TogglePlots => preferences.plots = !preferences.plots,
             Intent::ToggleTimes => preferences.times = !preferences.times,
             Intent::CaptureScale(scale) => preferences.capture_scale = *scale,
             Intent::CaptureTransparent(on) => preferences.capture_transparent = *on,

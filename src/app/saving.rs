@@ -33,18 +33,31 @@ pub enum SaveError {
 pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), SaveError> {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let mut project: Project = loaded.project.clone();
-    for entry in &mut project.designs {
-        entry.path = match &loaded.folder {
-            Some(old) => relative(&folder, &old.join(&entry.path)),
-            None if entry.path.is_absolute() => relative(&folder, &entry.path),
-            None => written_beside(&folder, &entry.path)?,
-        };
-    }
+    let project = named_from(loaded.project.clone(), loaded.folder.as_deref(), &folder)?;
     project.save_atomically(&path)?;
     loaded.project = project;
     loaded.folder = Some(folder);
     Ok(())
+}
+
+/// The project with its designs named from another folder than the old one, which is none where
+/// they are bundled; those are written there.
+///
+/// # Errors
+/// A bundled design cannot be written.
+pub fn named_from(
+    mut project: Project,
+    old: Option<&Path>,
+    folder: &Path,
+) -> Result<Project, SaveError> {
+    for entry in &mut project.designs {
+        entry.path = match old {
+            Some(old) => relative(folder, &old.join(&entry.path)),
+            None if entry.path.is_absolute() => relative(folder, &entry.path),
+            None => written_beside(folder, &entry.path)?,
+        };
+    }
+    Ok(project)
 }
 
 /// Writes a bundled file into a folder; one that is there with the same content will do.

@@ -10,14 +10,16 @@ use std::time::{Duration, Instant};
 
 use bevy::prelude::Resource;
 
+use crate::app::editor::Sheet;
 use crate::app::files::safe;
+use crate::app::history::{History, Snapshot};
 use crate::app::job::Job;
-use crate::app::loading::{self, LoadError, Loaded, Rebuild, Request};
+use crate::app::loading::{self, LoadError, Loaded, Problem, Rebuild, Request};
 use crate::app::saving;
 use crate::content::ContentKind;
 use crate::design::Form;
-use crate::project::Project;
-use crate::transition::{Stop, Timing, Transition};
+use crate::project::{LoadedProject, Project};
+use crate::transition::{Stop, Timing, Transition, arrangement};
 use crate::warp::WarpKind;
 
 /// The rows of the table that the window shows.
@@ -49,6 +51,18 @@ struct Open {
     saved: Project,
     /// As it is on the stage.
     staged: Project,
+    history: History,
+    /// Why the settings, as they are now, make no transition.
+    problem: Option<Problem>,
+}
+
+impl Open {
+    fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            project: self.loaded.project.project.clone(),
+            folder: self.loaded.project.folder.clone(),
+        }
+    }
 }
 
 /// Work that is going on.
@@ -74,6 +88,8 @@ pub enum Outcome {
     OpenedWithout(String),
     /// The open project has a new transition.
     Rebuilt,
+    /// The settings make no transition, the old one stays; a sentence for the user.
+    NotRebuilt(String),
     /// It did not work; a sentence for the user.
     Failed(String),
 }
@@ -234,13 +250,126 @@ impl Session {
         self.start(WorkKind::Open(origin), request);
     }
 
-    /// Changes the settings of the open project.
-    pub fn edit(&mut self, project: Project) {
+    /// Changes the settings of the open project. Changes of one mark are one step of the history.
+    pub fn edit(&mut self, project: Project, mark: Option<u64>) {
         let Some(open) = &mut self.open else {
             return;
         };
+        let before = open.snapshot();
         open.loaded.project.project = project;
+        open.history.note(before, open.snapshot(), mark);
+        self.note_staleness();
+    }
+
+    /// There is a change to take back.
+    #[must_use]
+    pub fn can_undo(&self) -> bool {
+        self.open.as_ref().is_some_and(|o| o.history.can_undo())
+    }
+
+    /// There is a change to make again.
+    #[must_use]
+    pub fn can_redo(&self) -> bool {
+        self.open.as_ref().is_some_and(|o| o.history.can_redo())
+    }
+
+    /// Takes the last change back; `false` where there is none.
+    ///
+    /// # Errors
+    /// A sentence for the user; the project is as it was.
+    pub fn undo(&mut self) -> Result<bool, String> {
+        self.go(History::undo)
+    }
+
+    /// Makes the change again that was taken back last; `false` where there is none.
+    ///
+    /// # Errors
+    /// A sentence for the user; the project is as it was.
+    pub fn redo(&mut self) -> Result<bool, String> {
+        self.go(History::redo)
+    }
+
+    fn go(&mut self, step: impl FnOnce(&mut History) -> Option<Snapshot>) -> Result<bool, String> {
+        let Some(open) = &mut self.open else {
+            return Ok(false);
+        };
+        let Some(Snapshot { project, folder }) = step(&mut open.history) else {
+            return Ok(false);
+        };
+        open.loaded.project.project = match &open.loaded.project.folder {
+            Some(now) if folder.as_ref() != Some(now) => {
+                saving::named_from(project, folder.as_deref(), now).map_err(|e| e.to_string())?
+            }
+            _ => project,
+        };
+        self.note_staleness();
+        Ok(true)
+    }
+
+    fn note_staleness(&mut self) {
+        let Some(open) = &mut self.open else {
+            return;
+        };
         self.is_stale = loading::needs_build(&open.staged, &open.loaded.project.project);
+        if !self.is_stale && open.loaded.transition.is_some() {
+            open.problem = None;
+        }
+    }
+
+    /// The designs with the settings that the transition on the stage was built from.
+    #[must_use]
+    pub fn staged(&self) -> Option<LoadedProject> {
+        let open = self.open.as_ref()?;
+        open.loaded.transition.as_ref()?;
+        Some(LoadedProject {
+            project: open.staged.clone(),
+            ..open.loaded.project.clone()
+        })
+    }
+
+    /// Why the settings, as they are now, make no transition.
+    #[must_use]
+    pub fn problem(&self) -> Option<&str> {
+        let problem = self.open.as_ref()?.problem.as_ref()?;
+        Some(&problem.text)
+    }
+
+    /// Both designs are outlines: there is something to match.
+    #[must_use]
+    pub fn can_match(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| {
+            let pair = open.loaded.project.designs.iter().take(2);
+            pair.clone().count() == 2
+                && pair.into_iter().all(|d| matches!(d.form, Form::Outline(_)))
+        })
+    }
+
+    /// The designs of the stage side by side, and how they go together.
+    #[must_use]
+    pub fn sheet(&self) -> Sheet {
+        let Some(open) = &self.open else {
+            return Sheet::default();
+        };
+        let [source, target, ..] = open.loaded.project.designs.as_slice() else {
+            return Sheet::default();
+        };
+        let [source_entry, target_entry, ..] = open.staged.designs.as_slice() else {
+            return Sheet::default();
+        };
+        let places = [source_entry.placement, target_entry.placement];
+        let Ok(by) = arrangement([source, target], open.staged.fit, places) else {
+            return Sheet::default();
+        };
+        let matching = &open.loaded.project.project.matching;
+        let matched = self.transition().and_then(Transition::matched);
+        let faulty = open
+            .problem
+            .as_ref()
+            .map_or(&[][..], |problem| &problem.pins);
+        Sheet {
+            faulty: faulty.to_vec(),
+            ..Sheet::new([source, target], by, matching, matched)
+        }
     }
 
     /// Gives up the work; the settings go back to what the stage shows.
@@ -250,7 +379,9 @@ impl Session {
         };
         self.is_stale = false;
         if let (WorkKind::Rebuild, Some(open)) = (&work.kind, &mut self.open) {
+            let before = open.snapshot();
             open.loaded.project.project = open.staged.clone();
+            open.history.amend(before, open.snapshot());
         }
     }
 
@@ -329,8 +460,12 @@ impl Session {
             origin,
             saved: project.clone(),
             staged: project,
+            history: History::default(),
+            problem: problem.clone(),
         });
-        problem.map_or(Outcome::Opened, Outcome::OpenedWithout)
+        problem.map_or(Outcome::Opened, |problem| {
+            Outcome::OpenedWithout(problem.text)
+        })
     }
 
     /// The settings may have changed again meanwhile: they stay, and so does what is on the stage
@@ -339,8 +474,9 @@ impl Session {
         let Some(open) = &mut self.open else {
             return Outcome::Rebuilt;
         };
+        open.problem.clone_from(&loaded.problem);
         if let Some(problem) = loaded.problem {
-            return Outcome::Failed(problem);
+            return Outcome::NotRebuilt(problem.text);
         }
         open.loaded.transition = loaded.transition;
         open.loaded.parts = loaded.parts;
@@ -351,12 +487,11 @@ impl Session {
 
     fn give_up_designs(&mut self) {
         if let Some(open) = &mut self.open {
-            open.loaded
-                .project
-                .project
-                .designs
-                .clone_from(&open.staged.designs);
-            open.loaded.project.project.fit = open.staged.fit;
+            let before = open.snapshot();
+            let project = &mut open.loaded.project.project;
+            project.designs.clone_from(&open.staged.designs);
+            project.fit = open.staged.fit;
+            open.history.amend(before, open.snapshot());
         }
     }
 }

@@ -1,12 +1,18 @@
 //! Hands the session's transition, t and style to the stage.
 
+use bevy::app::Propagate;
+use bevy::camera::visibility::RenderLayers;
 use bevy::prelude::*;
 
 use crate::app::playback::Playback;
 use crate::app::preferences::Preferences;
 use crate::app::session::Session;
+use crate::app::twin::{OnTwin, Twin};
 use crate::stage::{Blend, StageStyle, StageTransition};
 use crate::transition::Style;
+
+/// The render layer of what is beside the stage.
+pub const TWIN_LAYER: RenderLayers = RenderLayers::layer(1);
 
 /// The entity that is on the stage.
 #[derive(Component, Debug)]
@@ -39,8 +45,43 @@ pub fn stage_transition(
     }
 }
 
+/// Puts the second method beside the stage wherever it is another one, and takes it away.
+pub fn stage_twin(
+    mut commands: Commands,
+    twin: Res<Twin>,
+    playback: Res<Playback>,
+    staged: Query<(Entity, &StageTransition), With<OnTwin>>,
+) {
+    if !twin.is_changed() {
+        return;
+    }
+    let blend = Blend { t: playback.t() };
+    match (twin.transition(), staged.single()) {
+        (Some(new), Ok((_, StageTransition(old))))
+            if std::ptr::eq(new.content(), old.content()) => {}
+        (Some(new), Ok((entity, _))) => {
+            commands
+                .entity(entity)
+                .insert((StageTransition(new.clone()), blend));
+        }
+        (Some(new), Err(_)) => {
+            commands.spawn((
+                OnTwin,
+                Propagate(TWIN_LAYER),
+                StageTransition(new.clone()),
+                blend,
+            ));
+        }
+        (None, Ok((entity, _))) => commands.entity(entity).despawn(),
+        (None, Err(_)) => {}
+    }
+}
+
+/// On the stage, or beside it.
+type Shown = Or<(With<OnStage>, With<OnTwin>)>;
+
 /// Moves what is on the stage to t.
-pub fn stage_t(playback: Res<Playback>, mut blends: Query<&mut Blend, With<OnStage>>) {
+pub fn stage_t(playback: Res<Playback>, mut blends: Query<&mut Blend, Shown>) {
     for mut blend in &mut blends {
         if blend.t != playback.t() {
             blend.t = playback.t();
@@ -52,7 +93,7 @@ pub fn stage_t(playback: Res<Playback>, mut blends: Query<&mut Blend, With<OnSta
 pub fn stage_style(
     session: Res<Session>,
     preferences: Res<Preferences>,
-    mut styles: Query<&mut StageStyle, With<OnStage>>,
+    mut styles: Query<&mut StageStyle, Shown>,
     mut ground: ResMut<ClearColor>,
 ) {
     let style = session

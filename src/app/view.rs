@@ -6,9 +6,11 @@ use bevy::window::{MonitorSelection, PrimaryWindow, WindowMode};
 
 use crate::app::closing::Question;
 use crate::app::dialogs::Drop;
+use crate::app::editor::Editor;
 use crate::app::intent::Intent;
 use crate::app::preferences::Preferences;
 use crate::app::session::Session;
+use crate::app::twin::Twin;
 use crate::geometry::Bounds;
 use crate::stage::{StageCamera, StageView};
 
@@ -106,6 +108,48 @@ pub fn place_camera(
     }
 }
 
+/// The camera that shows the second method.
+#[derive(Component, Debug)]
+pub struct TwinCamera;
+
+/// Lets the second camera draw beside the first, what the first one shows of the plane.
+pub fn place_twin(
+    area: Res<StageArea>,
+    twin: Res<Twin>,
+    editor: Res<Editor>,
+    window: Single<&Window, With<PrimaryWindow>>,
+    stage: Single<(&Camera, &Transform, &Projection), (With<StageCamera>, Without<TwinCamera>)>,
+    beside: Single<(&mut Camera, &mut Transform, &mut Projection), With<TwinCamera>>,
+) {
+    let (camera, transform, projection) = stage.into_inner();
+    let (mut twin_camera, mut twin_transform, mut twin_projection) = beside.into_inner();
+    let right = StageArea {
+        corner: area.corner + Vec2::new(area.size.x, 0.0),
+        ..*area
+    };
+    let viewport = viewport(right, &window).filter(|_| twin.is_shown && !editor.is_open);
+    let is_active = viewport.is_some();
+    if twin_camera.is_active != is_active {
+        twin_camera.is_active = is_active;
+    }
+    if !is_active {
+        return;
+    }
+    // As many pixels as the first one has, so that both show the same to the last one.
+    let viewport = viewport.map(|beside| Viewport {
+        physical_size: camera
+            .viewport
+            .as_ref()
+            .map_or(beside.physical_size, |first| {
+                first.physical_size.min(beside.physical_size)
+            }),
+        ..beside
+    });
+    twin_camera.viewport = viewport;
+    *twin_transform = *transform;
+    *twin_projection = projection.clone();
+}
+
 /// At least a pixel, and within the window even while it is being resized; the whole window
 /// where that cannot be.
 fn viewport(area: StageArea, window: &Window) -> Option<Viewport> {
@@ -143,6 +187,7 @@ pub fn back(
     mut intents: MessageReader<Intent>,
     mut preferences: ResMut<Preferences>,
     mut window: Query<&mut Window, With<PrimaryWindow>>,
+    (mut editor, mut twin): (ResMut<Editor>, ResMut<Twin>),
     (question, drop): (Res<Question>, Res<Drop>),
 ) {
     if question.text().is_some() || drop.undecided().is_some() {
@@ -156,6 +201,10 @@ pub fn back(
     for _ in 0..backs {
         if preferences.help {
             preferences.help = false;
+        } else if editor.bypass_change_detection().back() {
+            editor.set_changed();
+        } else if std::mem::take(&mut twin.is_shown) {
+            // The second method is gone.
         } else if !preferences.panels {
             preferences.panels = true;
         } else if let Ok(mut window) = window.single_mut()

@@ -45,6 +45,16 @@ pub enum Icon {
     Warning,
     /// A chevron down.
     More,
+    /// An arrow that turns back.
+    Undo,
+    /// An arrow that turns forward.
+    Redo,
+    /// Two dots and a line between them: what belongs together.
+    Match,
+    /// Two panes.
+    Twin,
+    /// A curve over two axes.
+    Plot,
 }
 
 /// Draws an icon into the middle of a rectangle, 16 points wide.
@@ -75,6 +85,14 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
         Icon::Tick => pen.lines(&[&[(-5.0, 0.5), (-1.5, 4.0), (5.0, -4.0)]]),
         Icon::Warning => pen.warning(),
         Icon::More => pen.lines(&[&[(-3.5, -1.5), (0.0, 2.0), (3.5, -1.5)]]),
+        Icon::Undo => pen.turn(1.0),
+        Icon::Redo => pen.turn(-1.0),
+        Icon::Match => pen.pair(),
+        Icon::Twin => pen.panes(),
+        Icon::Plot => pen.lines(&[
+            &[(-6.0, -6.0), (-6.0, 6.0), (6.5, 6.0)],
+            &[(-3.5, 2.5), (-0.5, -2.0), (2.0, 0.5), (6.0, -4.5)],
+        ]),
     }
 }
 
@@ -217,6 +235,45 @@ impl Pen<'_> {
             &[(3.0, -6.0), (6.0, -3.0), (3.0, 0.0)],
             &[(6.0, 3.5), (-6.0, 3.5)],
             &[(-3.0, 0.5), (-6.0, 3.5), (-3.0, 6.5)],
+        ]);
+    }
+
+    /// `side` is 1 for the arrow to the left.
+    fn turn(&self, side: f32) {
+        let arc: Vec<(f32, f32)> = (0..=12u8)
+            .map(|i| {
+                let angle =
+                    -std::f32::consts::FRAC_PI_2 + f32::from(i) * std::f32::consts::PI / 12.0;
+                (side * (1.5 + 4.0 * angle.cos()), 1.0 + 4.0 * angle.sin())
+            })
+            .collect();
+        let shaft = [(side * -5.5, -3.0), (side * 1.5, -3.0)];
+        let whole: Vec<(f32, f32)> = shaft.into_iter().chain(arc).collect();
+        self.lines(&[
+            &whole,
+            &[(side * 1.5, 5.0), (side * -2.0, 5.0)],
+            &[(side * -2.5, -6.0), (side * -5.5, -3.0), (side * -2.5, 0.0)],
+        ]);
+    }
+
+    fn pair(&self) {
+        self.lines(&[&[(-3.2, 2.4), (3.2, -2.4)]]);
+        for (x, y) in [(-5.0, 3.6), (5.0, -3.6)] {
+            self.painter
+                .circle_stroke(self.at(x, y), 2.4, self.stroke());
+        }
+    }
+
+    fn panes(&self) {
+        self.lines(&[
+            &[
+                (-7.0, -5.0),
+                (7.0, -5.0),
+                (7.0, 5.0),
+                (-7.0, 5.0),
+                (-7.0, -5.0),
+            ],
+            &[(0.0, -5.0), (0.0, 5.0)],
         ]);
     }
 

@@ -7,7 +7,8 @@ use bevy_egui::egui::{self, Margin, Panel, ScrollArea, Ui};
 
 use super::theme::{GRID, Palette};
 use super::{
-    Intents, Scene, appearance_panel, designs_panel, field_panel, method_panel, warp_panel,
+    Intents, Scene, appearance_panel, designs_panel, field_panel, match_panel, method_panel,
+    warp_panel,
 };
 use crate::app::intent::Intent;
 use crate::content::ContentKind;
@@ -45,6 +46,9 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     method_panel::show(ui, scene, project, acts);
     let mut draft = project.clone();
     if draft.warp == Some(WarpKind::Arap) {
+        if scene.session.can_match() {
+            match_panel::show(ui, scene, &mut draft, acts);
+        }
         warp_panel::show(ui, scene, &mut draft.arap);
     }
     if draft.content == Some(ContentKind::Field) {

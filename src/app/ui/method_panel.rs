@@ -80,7 +80,7 @@ fn content_name(content: ContentKind) -> &'static str {
     }
 }
 
-fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
+pub fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
     match (warp, content) {
         (WarpKind::None, ContentKind::Solid) => "–",
         (WarpKind::None, ContentKind::Field) => "Blend",

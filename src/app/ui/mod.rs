@@ -11,8 +11,11 @@ mod gallery_panel;
 mod help;
 mod icons;
 mod inspector;
+mod match_editor;
+mod match_panel;
 mod method_panel;
 mod notices;
+mod plots;
 mod questions;
 mod stage_area;
 mod theme;
@@ -21,6 +24,8 @@ mod times;
 mod toolbar;
 mod track;
 mod transport;
+mod twin_area;
+mod verdict;
 mod warp_panel;
 mod widgets;
 mod work;
@@ -33,8 +38,10 @@ use bevy_egui::{
 
 use crate::app::closing::Question;
 use crate::app::dialogs::Drop;
+use crate::app::editor::{Editor, Sheet};
 use crate::app::intent::Intent;
 use crate::app::keymap::{KeyMap, Typing};
+use crate::app::measuring::Measured;
 use crate::app::notices::Notices;
 use crate::app::opening::Gallery;
 use crate::app::playback::Playback;
@@ -43,8 +50,9 @@ use crate::app::record::Recorder;
 use crate::app::session::Session;
 use crate::app::thumbnails::Thumbnails;
 use crate::app::times::WholeFrame;
+use crate::app::twin::Twin;
 use crate::app::view::StageArea;
-use crate::stage::FrameTimes;
+use crate::stage::{FrameTimes, StageView};
 
 /// Draws the panels with egui.
 #[derive(Debug)]
@@ -68,6 +76,11 @@ impl Plugin for UiPlugin {
 #[derive(SystemParam)]
 struct Scene<'w> {
     session: Res<'w, Session>,
+    editor: Res<'w, Editor>,
+    sheet: Res<'w, Sheet>,
+    measured: Res<'w, Measured>,
+    twin: Res<'w, Twin>,
+    view: Res<'w, StageView>,
     gallery: Res<'w, Gallery>,
     playback: Res<'w, Playback>,
     preferences: Res<'w, Preferences>,
@@ -80,6 +93,9 @@ struct Scene<'w> {
     times: Res<'w, FrameTimes>,
     whole: Res<'w, WholeFrame>,
 }
+
+/// A window as wide as this has room for the gallery beside the match editor.
+const ROOMY: f32 = 1200.0;
 
 /// What the user does this frame.
 type Intents = Vec<Intent>;
@@ -122,14 +138,29 @@ fn draw(
         panels(&mut root, &scene, &mut textures, &mut acts);
     }
     let stage = root.available_rect_before_wrap();
-    stage_area::show(&mut root, &scene, stage, &mut acts);
+    let first = middle(&mut root, &scene, stage, &mut acts);
     overlays(&ctx, &scene, stage, &mut acts);
-    area.set_if_neq(StageArea::from_points(stage.left_top(), stage.size()));
+    area.set_if_neq(StageArea::from_points(first.left_top(), first.size()));
     typing.set_if_neq(Typing(
         ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx),
     ));
     intents.write_batch(acts);
     Ok(())
+}
+
+/// What the panels leave: the stage, a second method beside it, or the match editor. Returns the
+/// part that the stage takes.
+fn middle(root: &mut egui::Ui, scene: &Scene, stage: egui::Rect, acts: &mut Intents) -> egui::Rect {
+    if scene.editor.is_open {
+        match_editor::show(root, scene, stage, acts);
+        return stage;
+    }
+    if scene.twin.is_shown {
+        return twin_area::show(root, scene, stage, acts);
+    }
+    stage_area::show(root, scene, stage, "stage", acts);
+    verdict::mark(root, scene, stage);
+    stage
 }
 
 fn panels(
@@ -140,13 +171,28 @@ fn panels(
 ) {
     toolbar::show(root, scene, acts);
     timeline::show(root, scene, acts);
-    gallery_panel::show(root, scene, textures, acts);
+    if scene.preferences.plots {
+        plots::show(root, scene, acts);
+    }
+    // Two designs side by side need the room that the gallery takes in a small window.
+    if !scene.editor.is_open || root.available_width() >= ROOMY {
+        gallery_panel::show(root, scene, textures, acts);
+    }
     inspector::show(root, scene, acts);
 }
 
 fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut Intents) {
-    work::show(ctx, scene, stage, acts);
-    notices::show(ctx, scene, stage, acts);
+    let mut below = stage;
+    if scene.editor.is_open {
+        match_editor::overlay(ctx, scene, stage, acts);
+        below.min.y += match_editor::BAR_HEIGHT;
+    }
+    work::show(ctx, scene, below, acts);
+    if !scene.editor.is_open && scene.measured.measures().is_some() {
+        verdict::show(ctx, scene, stage, acts);
+        below.max.y -= verdict::HEIGHT;
+    }
+    notices::show(ctx, scene, below, acts);
     if scene.preferences.times {
         times::show(ctx, scene, stage);
     }

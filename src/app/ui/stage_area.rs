@@ -9,10 +9,11 @@ use crate::app::intent::Intent;
 use crate::transition::{Rgb, Style};
 
 /// One line of the wheel zooms by this exponent; eight lines make a factor of about 2.7.
-const ZOOM_PER_POINT: f32 = 0.0025;
+pub const ZOOM_PER_POINT: f32 = 0.0025;
 
-/// Turns dragging and scrolling over the stage into intents.
-pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, acts: &mut Intents) {
+/// Turns dragging and scrolling over the stage, or over what shows the same of the plane beside
+/// it, into intents.
+pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, name: &str, acts: &mut Intents) {
     if let Some(words) = empty_words(scene) {
         let ground = scene
             .session
@@ -27,7 +28,7 @@ pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, acts: &mut Intents) {
             ink_on(ground),
         );
     }
-    let response = root.interact(rect, root.id().with("stage"), Sense::click_and_drag());
+    let response = root.interact(rect, root.id().with(name), Sense::click_and_drag());
     if response.dragged() {
         let delta = response.drag_delta();
         acts.push(Intent::Pan(Vec2::new(delta.x, delta.y)));
@@ -61,7 +62,7 @@ fn empty_words(scene: &Scene) -> Option<&'static str> {
 }
 
 /// A quiet ink that can be read on a ground.
-fn ink_on(ground: Rgb) -> Color32 {
+pub fn ink_on(ground: Rgb) -> Color32 {
     let [r, g, b] = ground.to_linear();
     let is_light = 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.18;
     if is_light {

@@ -48,6 +48,8 @@ pub struct Palette {
     pub amber: Color32,
     /// Something went wrong.
     pub problem: Color32,
+    /// All is well.
+    pub good: Color32,
 }
 
 const DARK: Palette = Palette {
@@ -62,6 +64,7 @@ const DARK: Palette = Palette {
     accent_ground: Color32::from_rgb(0x2a, 0x45, 0x66),
     amber: Color32::from_rgb(0xe2, 0xb0, 0x5a),
     problem: Color32::from_rgb(0xf0, 0x8a, 0x70),
+    good: Color32::from_rgb(0x7c, 0xc4, 0x9a),
 };
 
 const LIGHT: Palette = Palette {
@@ -76,9 +79,16 @@ const LIGHT: Palette = Palette {
     accent_ground: Color32::from_rgb(0xcf, 0xdf, 0xf3),
     amber: Color32::from_rgb(0x8f, 0x5d, 0x06),
     problem: Color32::from_rgb(0xa8, 0x3a, 0x1c),
+    good: Color32::from_rgb(0x1f, 0x6b, 0x44),
 };
 
 impl Palette {
+    /// The palette for a light or a dark ground.
+    #[must_use]
+    pub const fn on(is_light: bool) -> Self {
+        if is_light { LIGHT } else { DARK }
+    }
+
     /// The palette that a piece of the window is drawn with.
     #[must_use]
     pub fn of(ui: &egui::Ui) -> Self {
@@ -227,6 +237,7 @@ mod tests {
                     palette.accent,
                     palette.amber,
                     palette.problem,
+                    palette.good,
                 ] {
                     assert!(contrast(text, ground) >= 4.5, "{text:?} on {ground:?}");
                 }

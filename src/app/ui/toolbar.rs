@@ -7,6 +7,7 @@ use super::theme::{GRID, Palette};
 use super::widgets::{choices, from_right, icon_button, icon_button_sized, row};
 use super::{Intents, Scene};
 use crate::app::choices::{CaptureScale, RecordFormat, ThemeChoice};
+use crate::app::editor::EditorAct;
 use crate::app::intent::Intent;
 
 const HEIGHT: f32 = 48.0;
@@ -71,6 +72,24 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         acts.push(Intent::FitView);
     }
     ui.add_space(GRID);
+    shown_button(
+        ui,
+        Icon::Twin,
+        "A second method beside the stage (V)",
+        scene.twin.is_shown,
+        Intent::ToggleTwin,
+        acts,
+    );
+    shown_button(
+        ui,
+        Icon::Plot,
+        "Plots of the measures against t (P)",
+        scene.preferences.plots,
+        Intent::TogglePlots,
+        acts,
+    );
+    match_button(ui, scene, acts);
+    ui.add_space(GRID);
     capture_menu(ui, scene, acts);
     let record = icon_button_sized(
         ui,
@@ -91,6 +110,8 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         acts.push(Intent::Screenshot { with_panels: false });
     }
     ui.add_space(GRID);
+    history_buttons(ui, scene, acts);
+    ui.add_space(GRID);
     if icon_button(ui, Icon::Save, "Save the project (Ctrl S)").clicked() {
         acts.push(Intent::Save);
     }
@@ -101,6 +122,63 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     );
     if open.clicked() {
         acts.push(Intent::AskOpen);
+    }
+}
+
+/// A button that shows or hides something.
+fn shown_button(
+    ui: &mut Ui,
+    icon: Icon,
+    tip: &str,
+    is_shown: bool,
+    intent: Intent,
+    acts: &mut Intents,
+) {
+    let colour = is_shown.then(|| Palette::of(ui).accent);
+    if icon_button_sized(ui, icon, tip, vec2(32.0, 32.0), colour).clicked() {
+        acts.push(intent);
+    }
+}
+
+fn match_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let can = scene.session.can_match();
+    let tip = if can {
+        "Which point is which: source and target side by side (E)"
+    } else {
+        "Not available: there is nothing to match in designs that have triangles or bars of their \
+         own"
+    };
+    let colour = scene.editor.is_open.then(|| Palette::of(ui).accent);
+    ui.add_enabled_ui(can, |ui| {
+        let button = icon_button_sized(ui, Icon::Match, tip, vec2(32.0, 32.0), colour);
+        if button.clicked() {
+            acts.push(Intent::Editor(EditorAct::Toggle));
+        }
+    });
+}
+
+/// From right to left.
+fn history_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let session = &scene.session;
+    for (icon, tip, can, intent) in [
+        (
+            Icon::Redo,
+            "Make the change again that was undone (Ctrl Shift Z or Ctrl Y)",
+            session.can_redo(),
+            Intent::Redo,
+        ),
+        (
+            Icon::Undo,
+            "Undo the last change (Ctrl Z)",
+            session.can_undo(),
+            Intent::Undo,
+        ),
+    ] {
+        ui.add_enabled_ui(can, |ui| {
+            if icon_button(ui, icon, tip).clicked() {
+                acts.push(intent);
+            }
+        });
     }
 }
 

@@ -1,14 +1,24 @@
 //! What is being worked on, how far it is, and a way to stop it.
 
+use std::time::Duration;
+
 use bevy_egui::egui::{self, Align2, Area, Context, Order, ProgressBar, Rect, RichText, Ui, vec2};
 
 use super::theme::{CARD_RADIUS, GRID, Palette};
 use super::{Intents, Scene};
 use crate::app::intent::Intent;
 
+/// What is done sooner is not worth a word: while a slider or a pin is dragged, one build follows
+/// the other.
+const PATIENCE: Duration = Duration::from_millis(300);
+
 /// Draws a pill at the top of the stage for each piece of work.
 pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
-    let build = scene.session.work().map(|work| (work, Intent::CancelWork));
+    let build = scene
+        .session
+        .work()
+        .filter(|_| scene.session.work_lasts() > PATIENCE)
+        .map(|work| (work, Intent::CancelWork));
     let film = scene
         .recorder
         .work()

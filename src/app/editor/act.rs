@@ -1,0 +1,302 @@
+//! Acts on what the hand does in the match editor.
+
+use bevy::prelude::{MessageReader, Res, ResMut, Vec2};
+
+use super::{CutEnd, Editor, EditorAct, Grab, Handle, Sheet, Tool, Touch};
+use crate::app::history::Gesture;
+use crate::app::intent::Intent;
+use crate::app::opening::change;
+use crate::app::session::Session;
+use crate::content::ContentKind;
+use crate::correspondence::{Matching, PointPair, RingCut, Side};
+use crate::geometry::DVec2;
+use crate::project::Project;
+use crate::warp::WarpKind;
+
+/// The least and the most that the view is enlarged.
+const ZOOMS: [f32; 2] = [0.2, 100.0];
+
+/// Said of a point that no pin can be set on.
+const NO_PARTNER: &str = "Nothing on the other side belongs to this boundary, so it cannot be \
+     pinned. Pin two boundaries that are matched, or pair their parts.";
+
+/// Said where nothing was matched yet.
+const NOTHING_TO_PAIR: &str = "There is no part here. Click inside a part.";
+
+/// Acts on the intents that concern the match editor.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    mut editor: ResMut<Editor>,
+    mut session: ResMut<Session>,
+    (sheet, gesture): (Res<Sheet>, Res<Gesture>),
+) {
+    for intent in intents.read() {
+        let act = match intent {
+            Intent::Editor(act) => act,
+            Intent::FitView if editor.is_open => {
+                (editor.pan, editor.zoom) = (Vec2::ZERO, 1.0);
+                continue;
+            }
+            _ => continue,
+        };
+        let mut matching = session
+            .project()
+            .map(|project| project.matching.clone())
+            .unwrap_or_default();
+        let before = matching.clone();
+        editor.act(act, &sheet, &session, &mut matching);
+        if *act == EditorAct::Toggle && editor.is_open {
+            change(&mut session, gesture.mark(), choose_rigid_parts);
+        }
+        if matching != before {
+            change(&mut session, gesture.mark(), |project| {
+                project.matching = matching;
+            });
+        }
+    }
+}
+
+/// Outlines are matched for rigid parts and for nothing else.
+fn choose_rigid_parts(project: &mut Project) {
+    if project.warp != Some(WarpKind::Arap) {
+        project.warp = Some(WarpKind::Arap);
+        project.content = Some(ContentKind::Solid);
+    }
+}
+
+impl Editor {
+    fn act(&mut self, act: &EditorAct, sheet: &Sheet, session: &Session, said: &mut Matching) {
+        match act {
+            EditorAct::Toggle => self.is_open = !self.is_open && session.can_match(),
+            EditorAct::Tool(tool) => {
+                self.tool = *tool;
+                self.first_part = None;
+            }
+            EditorAct::Snap(on) => self.snaps = *on,
+            EditorAct::Triangles(on) => self.triangles = *on,
+            EditorAct::Hover(touch) => self.hover(*touch, sheet),
+            EditorAct::Press(touch) => self.press(*touch, sheet),
+            EditorAct::Drag(touch, delta) => self.drag(*touch, *delta, sheet, said),
+            EditorAct::Release => self.grabbed = None,
+            EditorAct::Click(touch) => self.click(*touch, sheet, said),
+            EditorAct::Remove(touch) => self.remove(*touch, sheet, said),
+            EditorAct::RemoveSelected => {
+                if let Some(handle) = self.selected.take() {
+                    remove_handle(handle, sheet, said);
+                }
+            }
+            EditorAct::Clear => {
+                (said.pins, said.links, said.cuts) = Default::default();
+                self.selected = None;
+            }
+            EditorAct::Pan(delta) => self.pan += *delta,
+            EditorAct::Zoom { at, factor } => self.zoom_at(*at, *factor),
+        }
+    }
+
+    fn zoom_at(&mut self, at: Vec2, factor: f32) {
+        if !(factor.is_finite() && factor > 0.0) {
+            return;
+        }
+        let zoom = (self.zoom * factor).clamp(ZOOMS[0], ZOOMS[1]);
+        self.pan = at + (self.pan - at) * (zoom / self.zoom);
+        self.zoom = zoom;
+    }
+
+    fn hover(&mut self, touch: Option<Touch>, sheet: &Sheet) {
+        let is_pinning = self.tool == Tool::Pins;
+        self.hovered = touch.and_then(|touch| sheet.handle_at(touch));
+        self.trace = touch
+            .filter(|_| is_pinning && self.hovered.is_none())
+            .and_then(|touch| sheet.trace(touch));
+        self.part = touch
+            .filter(|_| !is_pinning)
+            .and_then(|touch| Some((touch.side, sheet.part(touch.side, touch.at, touch.reach)?)));
+    }
+
+    fn press(&mut self, touch: Touch, sheet: &Sheet) {
+        self.refusal = None;
+        let handle = sheet.handle_at(touch);
+        self.selected = handle.or(self.selected);
+        let grab = match handle {
+            None => Grab::View,
+            Some(Handle::Pin(k)) => Grab::Pin(k),
+            Some(Handle::Feature(k)) => Grab::Feature(k),
+            Some(Handle::Cut(k, end)) => match sheet.cuts[k].asked {
+                Some(asked) => Grab::Cut(asked, end),
+                None => Grab::FoundCut(k, end),
+            },
+        };
+        self.grabbed = Some((touch.side, grab));
+    }
+
+    fn drag(&mut self, touch: Touch, delta: Vec2, sheet: &Sheet, said: &mut Matching) {
+        let Some((side, grab)) = self.grabbed else {
+            return;
+        };
+        let touch = Touch { side, ..touch };
+        let grab = taken(grab, sheet, said);
+        self.grabbed = Some((side, grab));
+        match grab {
+            Grab::View => self.pan += delta,
+            Grab::Pin(k) => {
+                self.selected = Some(Handle::Pin(k));
+                if let (Some(pin), Some(to)) =
+                    (said.pins.get_mut(k), sheet.landing(touch, self.snaps))
+                {
+                    set(pin, side, sheet.own(side, to));
+                }
+            }
+            Grab::Cut(k, end) => {
+                if let (Some(cut), Some(foot)) =
+                    (said.cuts.get_mut(k), sheet.on_boundary(side, touch.at))
+                {
+                    let to = sheet.own(side, foot.point);
+                    match end {
+                        CutEnd::Outer => cut.outer = to,
+                        CutEnd::Hole => cut.hole = to,
+                    }
+                }
+            }
+            Grab::Feature(_) | Grab::FoundCut(..) => {}
+        }
+    }
+
+    fn click(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
+        self.refusal = None;
+        match (sheet.handle_at(touch), self.tool) {
+            (Some(handle), _) => self.selected = Some(handle),
+            (None, Tool::Pins) => self.add_pin(touch, sheet, said),
+            (None, Tool::Parts) => self.pair(touch, sheet, said),
+        }
+    }
+
+    fn add_pin(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
+        self.selected = None;
+        let is_near = sheet
+            .on_boundary(touch.side, touch.at)
+            .is_some_and(|foot| foot.distance <= touch.reach);
+        let Some(here) = sheet.landing(touch, self.snaps).filter(|_| is_near) else {
+            return;
+        };
+        let Some(there) = sheet.partner(touch.side, here) else {
+            self.refusal = Some(NO_PARTNER);
+            return;
+        };
+        let mut pin = PointPair {
+            source: DVec2::ZERO,
+            target: DVec2::ZERO,
+        };
+        set(&mut pin, touch.side, sheet.own(touch.side, here));
+        let other = touch.side.other();
+        set(&mut pin, other, sheet.own(other, there));
+        said.pins.push(pin);
+        self.selected = Some(Handle::Pin(said.pins.len() - 1));
+    }
+
+    fn pair(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
+        let Some(part) = sheet.part(touch.side, touch.at, touch.reach) else {
+            self.refusal = Some(NOTHING_TO_PAIR);
+            self.first_part = None;
+            return;
+        };
+        match self.first_part.take() {
+            Some((side, _, first)) if side != touch.side => {
+                let mut link = PointPair {
+                    source: DVec2::ZERO,
+                    target: DVec2::ZERO,
+                };
+                set(&mut link, side, sheet.own(side, first));
+                set(&mut link, touch.side, sheet.own(touch.side, touch.at));
+                let parts = Side::BOTH.map(|side| sheet.part(side, sheet.framed(&link, side), 0.0));
+                unlink(sheet, said, parts);
+                said.links.push(link);
+            }
+            Some((_, first, _)) if first == part => {}
+            _ => self.first_part = Some((touch.side, part, touch.at)),
+        }
+    }
+
+    fn remove(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
+        self.refusal = None;
+        if let Some(handle) = sheet.handle_at(touch) {
+            remove_handle(handle, sheet, said);
+            (self.selected, self.hovered) = (None, None);
+        } else if self.tool == Tool::Parts {
+            let mut parts = [None; 2];
+            parts[touch.side.index()] = sheet.part(touch.side, touch.at, touch.reach);
+            unlink(sheet, said, parts);
+            self.first_part = None;
+        }
+    }
+}
+
+/// What is found becomes what is asked for once the hand moves it.
+fn taken(grab: Grab, sheet: &Sheet, said: &mut Matching) -> Grab {
+    match grab {
+        Grab::Feature(k) => match sheet.features.get(k) {
+            Some(pair) => {
+                said.pins.push(PointPair {
+                    source: sheet.own(Side::Source, pair.source),
+                    target: sheet.own(Side::Target, pair.target),
+                });
+                Grab::Pin(said.pins.len() - 1)
+            }
+            None => Grab::View,
+        },
+        Grab::FoundCut(k, end) => match sheet.cuts.get(k) {
+            Some(found) => {
+                let RingCut { side, outer, hole } = found.cut;
+                let [outer, hole] = [outer, hole].map(|p| sheet.own(side, p));
+                said.cuts.push(RingCut { side, outer, hole });
+                Grab::Cut(said.cuts.len() - 1, end)
+            }
+            None => Grab::View,
+        },
+        known => known,
+    }
+}
+
+fn set(pair: &mut PointPair, side: Side, to: DVec2) {
+    match side {
+        Side::Source => pair.source = to,
+        Side::Target => pair.target = to,
+    }
+}
+
+fn remove_handle(handle: Handle, sheet: &Sheet, said: &mut Matching) {
+    match handle {
+        Handle::Pin(k) if k < said.pins.len() => {
+            said.pins.remove(k);
+        }
+        Handle::Cut(k, _) => {
+            let asked = sheet.cuts.get(k).and_then(|cut| cut.asked);
+            if let Some(k) = asked.filter(|k| *k < said.cuts.len()) {
+                said.cuts.remove(k);
+            }
+        }
+        Handle::Pin(_) | Handle::Feature(_) => {}
+    }
+}
+
+/// Drops every pair that one of these parts is in.
+fn unlink(sheet: &Sheet, said: &mut Matching, parts: [Option<usize>; 2]) {
+    said.links.retain(|link| {
+        Side::BOTH.into_iter().all(|side| {
+            let wanted = parts[side.index()];
+            wanted.is_none() || sheet.part(side, sheet.framed(link, side), 0.0) != wanted
+        })
+    });
+}
+
+impl Sheet {
+    /// A point of the frame in a design's own coordinates.
+    fn own(&self, side: Side, p: DVec2) -> DVec2 {
+        self.by[side.index()].inverse().apply(p)
+    }
+
+    /// One end of a pair of the project, in the frame.
+    fn framed(&self, pair: &PointPair, side: Side) -> DVec2 {
+        self.by[side.index()].apply(pair.of(side))
+    }
+}

@@ -1,0 +1,209 @@
+//! Small geometry of closed polylines: what is near a pointer, and how far along it lies.
+//!
+//! Rings are lists of points, closed from the last to the first. All distances are those of the
+//! frame that both designs lie in.
+
+use crate::geometry::DVec2;
+
+/// A vertex that turns by more than this, in radians, is a corner that pins snap to: curves are
+/// flattened to smaller turns.
+const CORNER: f64 = 0.44;
+
+/// A place on one of several rings.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Foot {
+    /// Which ring.
+    pub ring: usize,
+    /// The vertex that the edge starts from.
+    pub edge: usize,
+    /// How far along the edge, 0 to 1.
+    pub along: f64,
+    /// Where that is.
+    pub point: DVec2,
+    /// How far from the point that was asked about.
+    pub distance: f64,
+}
+
+/// The nearest place on any of the rings.
+pub fn nearest<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> Option<Foot> {
+    let mut best: Option<Foot> = None;
+    for (ring, points) in rings.enumerate() {
+        for edge in 0..points.len() {
+            let (a, b) = (points[edge], points[(edge + 1) % points.len()]);
+            let along = along_segment(a, b, p);
+            let point = a.lerp(b, along);
+            let distance = point.distance(p);
+            if best.is_none_or(|best| distance < best.distance) {
+                best = Some(Foot {
+                    ring,
+                    edge,
+                    along,
+                    point,
+                    distance,
+                });
+            }
+        }
+    }
+    best
+}
+
+fn along_segment(a: DVec2, b: DVec2, p: DVec2) -> f64 {
+    let edge = b - a;
+    let squared = edge.length_squared();
+    if squared > 0.0 {
+        ((p - a).dot(edge) / squared).clamp(0.0, 1.0)
+    } else {
+        0.0
+    }
+}
+
+/// Whether the rings, taken together, wind around a point an odd number of times.
+pub fn encloses<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> bool {
+    let mut crossings = 0;
+    for points in rings {
+        for (k, a) in points.iter().enumerate() {
+            let b = points[(k + 1) % points.len()];
+            if (a.y > p.y) != (b.y > p.y) {
+                let x = a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+                crossings += usize::from(x > p.x);
+            }
+        }
+    }
+    crossings % 2 == 1
+}
+
+/// Where a line across the rings at the height of `y` lies inside, from left to right.
+pub fn spans<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> Vec<[f64; 2]> {
+    let mut xs = Vec::new();
+    for points in rings {
+        for (k, a) in points.iter().enumerate() {
+            let b = points[(k + 1) % points.len()];
+            if (a.y > y) != (b.y > y) {
+                xs.push(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
+            }
+        }
+    }
+    xs.sort_by(f64::total_cmp);
+    xs.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// A point inside the rings where a word can stand: in the widest place at their middle height.
+pub fn inside(rings: &[&[DVec2]]) -> Option<DVec2> {
+    let ys = || rings.iter().flat_map(|ring| ring.iter().map(|p| p.y));
+    let low = ys().reduce(f64::min)?;
+    let high = ys().reduce(f64::max)?;
+    let widest = [0.5, 0.4, 0.6, 0.25, 0.75].into_iter().flat_map(|share| {
+        let y = low + share * (high - low);
+        let spans = spans(rings.iter().copied(), y);
+        spans
+            .into_iter()
+            .map(move |[a, b]| (b - a, 0.5 * (a + b), y))
+    });
+    let (_, x, y) = widest.max_by(|a, b| a.0.total_cmp(&b.0))?;
+    Some(DVec2::new(x, y))
+}
+
+/// The corners of a ring.
+pub fn corners(points: &[DVec2]) -> Vec<DVec2> {
+    let n = points.len();
+    (0..n)
+        .filter(|&k| {
+            let (before, here, after) = (points[(k + n - 1) % n], points[k], points[(k + 1) % n]);
+            turn(here - before, after - here).abs() > CORNER
+        })
+        .map(|k| points[k])
+        .collect()
+}
+
+/// The angle from one direction to another, in (−π, π]; 0 where one of them is none.
+pub fn turn(from: DVec2, to: DVec2) -> f64 {
+    from.perp_dot(to).atan2(from.dot(to))
+}
+
+/// How far along its ring each vertex lies, as a share of the whole, from 0 at the first, and the
+/// length of the whole.
+pub fn places(points: &[DVec2]) -> (Vec<f64>, f64) {
+    let mut places = Vec::with_capacity(points.len());
+    let mut length = 0.0;
+    for (k, p) in points.iter().enumerate() {
+        places.push(length);
+        length += p.distance(points[(k + 1) % points.len()]);
+    }
+    if length > 0.0 {
+        places.iter_mut().for_each(|place| *place /= length);
+    }
+    (places, length)
+}
+
+/// The point at a place, a share of the whole that wraps round.
+pub fn at(points: &[DVec2], places: &[f64], place: f64) -> DVec2 {
+    let place = place.rem_euclid(1.0);
+    let next = places.partition_point(|p| *p <= place);
+    let k = next.saturating_sub(1);
+    let end = places.get(next).copied().unwrap_or(1.0);
+    let gap = end - places[k];
+    let along = if gap > 0.0 {
+        (place - places[k]) / gap
+    } else {
+        0.0
+    };
+    points[k].lerp(points[(k + 1) % points.len()], along)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square() -> Vec<DVec2> {
+        [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)]
+            .map(DVec2::from)
+            .to_vec()
+    }
+
+    fn hole() -> Vec<DVec2> {
+        [(0.5, 0.5), (0.5, 1.5), (1.0, 1.5), (1.0, 0.5)]
+            .map(DVec2::from)
+            .to_vec()
+    }
+
+    #[test]
+    fn the_foot_is_the_nearest_point() {
+        let ring = square();
+        let foot = nearest([ring.as_slice()].into_iter(), DVec2::new(3.0, 0.5)).expect("a foot");
+        assert_eq!((foot.edge, foot.along, foot.distance), (1, 0.25, 1.0));
+        assert_eq!(foot.point, DVec2::new(2.0, 0.5));
+        assert_eq!(nearest([].into_iter(), DVec2::ZERO), None);
+    }
+
+    #[test]
+    fn holes_are_outside() {
+        let (ring, hole) = (square(), hole());
+        let rings = || [ring.as_slice(), hole.as_slice()].into_iter();
+        assert!(encloses(rings(), DVec2::new(0.25, 1.0)));
+        assert!(!encloses(rings(), DVec2::new(0.75, 1.0)));
+        assert!(!encloses(rings(), DVec2::new(3.0, 1.0)));
+        assert_eq!(spans(rings(), 1.0), [[0.0, 0.5], [1.0, 2.0]]);
+        let at = inside(&[&ring, &hole]).expect("a place");
+        assert!(encloses(rings(), at));
+    }
+
+    #[test]
+    fn corners_are_where_a_ring_turns() {
+        assert_eq!(corners(&square()).len(), 4);
+        let round: Vec<DVec2> = (0..64)
+            .map(|k| DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 64.0))
+            .collect();
+        assert!(corners(&round).is_empty());
+    }
+
+    #[test]
+    fn places_and_points_are_each_others_way_back() {
+        let ring = square();
+        let (places, length) = places(&ring);
+        assert_eq!(length, 8.0);
+        assert_eq!(places, [0.0, 0.25, 0.5, 0.75]);
+        assert_eq!(at(&ring, &places, 0.375), DVec2::new(2.0, 1.0));
+        assert_eq!(at(&ring, &places, -0.125), DVec2::new(0.0, 1.0));
+        assert_eq!(at(&ring, &places, 1.0), DVec2::ZERO);
+    }
+}

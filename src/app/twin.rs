@@ -1,0 +1,186 @@
+//! The twin view: the same designs at the same t by a second method, beside the first.
+//!
+//! The second transition is an entity on the stage like the first, on a render layer of its own
+//! that a camera of its own shows. It is built beside the window, from the same settings but for
+//! the method; where the stage shows that method already, it is the same transition.
+
+use bevy::prelude::{
+    Component, DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource,
+};
+
+use crate::app::intent::Intent;
+use crate::app::job::Job;
+use crate::app::session::Session;
+use crate::content::ContentKind;
+use crate::homotopy::Homotopy;
+use crate::progress::Progress;
+use crate::project::{LoadedProject, Project};
+use crate::transition::Transition;
+use crate::warp::WarpKind;
+
+/// A method that the twin view can show.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum TwinMethod {
+    /// Each vertex of the common triangulation goes straight to its place.
+    #[default]
+    Straight,
+    /// Parts move as rigidly as they can.
+    Rigid,
+    /// Distance fields are blended.
+    Field,
+}
+
+impl TwinMethod {
+    /// All of them, in the order of the list.
+    pub const ALL: [Self; 3] = [Self::Straight, Self::Rigid, Self::Field];
+
+    /// The cell of the table that it is.
+    #[must_use]
+    pub fn cell(self) -> (WarpKind, ContentKind) {
+        match self {
+            Self::Straight | Self::Rigid => (WarpKind::Arap, ContentKind::Solid),
+            Self::Field => (WarpKind::None, ContentKind::Field),
+        }
+    }
+
+    /// The settings of a project, by this method.
+    fn set(self, project: &mut Project) {
+        let (warp, content) = self.cell();
+        (project.warp, project.content) = (Some(warp), Some(content));
+        match self {
+            Self::Straight => {
+                // Linear local maps are those of straight lines, and no others: what is as rigid
+                // as possible then is the straight lines themselves.
+                project.arap.homotopy = Homotopy::Linear;
+                project.arap.extra_turns.clear();
+            }
+            Self::Rigid if project.arap.homotopy == Homotopy::Linear => {
+                project.arap.homotopy = Homotopy::Polar;
+            }
+            Self::Rigid | Self::Field => {}
+        }
+    }
+}
+
+/// What stands beside the stage.
+#[derive(Resource, Debug, Default)]
+pub struct Twin {
+    /// It is shown.
+    pub is_shown: bool,
+    /// By which method.
+    pub method: TwinMethod,
+    settings: Option<Project>,
+    job: Option<Job<Result<Transition, String>>>,
+    transition: Option<Transition>,
+    problem: Option<String>,
+}
+
+/// The entity that is beside the stage.
+#[derive(Component, Debug)]
+pub struct OnTwin;
+
+impl Twin {
+    /// What is beside the stage.
+    #[must_use]
+    pub fn transition(&self) -> Option<&Transition> {
+        self.transition.as_ref()
+    }
+
+    /// Why there is nothing beside the stage.
+    #[must_use]
+    pub fn problem(&self) -> Option<&str> {
+        self.problem.as_deref()
+    }
+
+    /// It is being built.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.job.is_some()
+    }
+
+    fn forget(&mut self) {
+        *self = Self {
+            is_shown: self.is_shown,
+            method: self.method,
+            ..Self::default()
+        };
+    }
+
+    fn follow(&mut self, session: &Session) {
+        let Some(staged) = session.staged() else {
+            self.forget();
+            return;
+        };
+        let now = staged.project.clone();
+        let mut wanted = staged;
+        self.method.set(&mut wanted.project);
+        if self.settings.as_ref() == Some(&wanted.project) {
+            return;
+        }
+        self.settings = Some(wanted.project.clone());
+        self.problem = None;
+        if wanted.project == now {
+            self.job = None;
+            self.transition = session.transition().cloned();
+        } else {
+            self.job = Some(Job::start("the second method", move |progress| {
+                built(&wanted, progress)
+            }));
+        }
+    }
+
+    /// Whether something was taken in.
+    fn take(&mut self) -> bool {
+        let Some(answer) = self.job.as_ref().and_then(Job::poll) else {
+            return false;
+        };
+        self.job = None;
+        let built = answer.map_err(|broken| broken.to_string());
+        match built.and_then(|built| built) {
+            Ok(transition) => self.transition = Some(transition),
+            Err(problem) => (self.transition, self.problem) = (None, Some(problem)),
+        }
+        true
+    }
+}
+
+fn built(project: &LoadedProject, progress: &dyn Progress) -> Result<Transition, String> {
+    let (warp, content) = (project.project.warp, project.project.content);
+    if let (Some(warp), Some(content)) = (warp, content) {
+        project
+            .available(warp, content)
+            .map_err(|error| error.to_string())?;
+    }
+    let spec = project.spec().map_err(|error| error.to_string())?;
+    Transition::build(&spec, progress).map_err(|error| error.to_string())
+}
+
+/// Acts on the intents that concern the twin view.
+pub fn apply(mut intents: MessageReader<Intent>, mut twin: ResMut<Twin>) {
+    for intent in intents.read() {
+        match intent {
+            Intent::ToggleTwin => twin.is_shown = !twin.is_shown,
+            Intent::TwinMethod(method) => twin.method = *method,
+            _ => {}
+        }
+    }
+}
+
+/// Builds what is to be beside the stage and takes it in.
+pub fn follow(session: Res<Session>, mut twin: ResMut<Twin>) {
+    let is_new = session.is_changed() || twin.is_changed();
+    let now = twin.bypass_change_detection();
+    let is_taken = now.take();
+    if !now.is_shown {
+        if now.settings.is_some() {
+            now.forget();
+            twin.set_changed();
+        }
+        return;
+    }
+    if is_new && session.work().is_none() {
+        twin.follow(&session);
+    } else if is_taken {
+        twin.set_changed();
+    }
+}

@@ -1,0 +1,76 @@
+//! The line of tools at the upper edge of the match editor.
+
+use bevy_egui::egui::{self, Align2, Area, Context, Order, Rect, vec2};
+
+use super::super::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID};
+use super::super::widgets::{choice, primary_button};
+use super::super::{Intents, Scene};
+use crate::app::editor::{EditorAct, Tool};
+use crate::app::intent::Intent;
+
+/// Its height with the space above it.
+pub const HEIGHT: f32 = 48.0;
+
+/// Draws it.
+pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
+    Area::new("match tools".into())
+        .order(Order::Middle)
+        .pivot(Align2::CENTER_TOP)
+        .fixed_pos(stage.center_top() + vec2(0.0, GRID))
+        .show(ctx, |ui| {
+            egui::Frame::window(ui.style())
+                .corner_radius(CARD_RADIUS)
+                .inner_margin(egui::Margin::symmetric(8, 6))
+                .show(ui, |ui| {
+                    ui.horizontal(|ui| {
+                        ui.spacing_mut().item_spacing.x = 4.0;
+                        tools(ui, scene, acts);
+                    });
+                });
+        });
+}
+
+fn tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
+    let editor = &scene.editor;
+    let mut act = |act: EditorAct| acts.push(Intent::Editor(act));
+    let size = vec2(52.0, CONTROL_HEIGHT);
+    let tools = [
+        (
+            Tool::Pins,
+            "Points",
+            "Say which points are the same: click a boundary to pin it, drag a point to move it.",
+        ),
+        (
+            Tool::Parts,
+            "Parts",
+            "Say which parts are the same: click a part, then its partner on the other side.",
+        ),
+    ];
+    for (tool, name, tip) in tools {
+        let response = choice(ui, editor.tool == tool, name, size);
+        if response.on_hover_text(tip).clicked() {
+            act(EditorAct::Tool(tool));
+        }
+    }
+    ui.add_space(GRID);
+    let tip = "Pins jump to corners that are near. Hold Shift to do without for a moment.";
+    if choice(ui, editor.snaps, "Snap", size)
+        .on_hover_text(tip)
+        .clicked()
+    {
+        act(EditorAct::Snap(!editor.snaps));
+    }
+    let tip = "The triangles that both designs are divided into: the same ones on either side.";
+    let size = vec2(68.0, CONTROL_HEIGHT);
+    if choice(ui, editor.triangles, "Triangles", size)
+        .on_hover_text(tip)
+        .clicked()
+    {
+        act(EditorAct::Triangles(!editor.triangles));
+    }
+    ui.add_space(GRID);
+    let tip = "Back to the stage (E or Esc). The match is kept.";
+    if primary_button(ui, "Done").on_hover_text(tip).clicked() {
+        act(EditorAct::Toggle);
+    }
+}

@@ -1,0 +1,340 @@
+//! One half of the match editor: a design, filled, with its boundary and its parts.
+
+use bevy_egui::egui::{
+    Align2, Color32, CornerRadius, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind,
+    Vec2, pos2, vec2,
+};
+
+use super::super::Scene;
+use super::super::theme::{GRID, Palette};
+use super::boundary;
+use crate::app::editor::{Editor, Fate, Sheet, SheetPiece, SheetRing, Tool, Touch, spans};
+use crate::correspondence::{RingKind, Side};
+use crate::geometry::{Bounds, DVec2};
+use crate::transition::{Rgb, Style};
+
+/// How near the pointer must come, in points.
+const REACH: f32 = 9.0;
+
+/// The share of a design's colour in its fill: the boundary's colours must stand out from it.
+const FILL: f32 = 0.28;
+
+/// Distance of the lines of a hatching, in points.
+const HATCH: f32 = 8.0;
+
+/// The colours of the editor.
+#[derive(Clone, Copy, Debug)]
+pub struct Inks {
+    /// Behind everything.
+    pub ground: Color32,
+    /// What can be read on it.
+    pub ink: Color32,
+    /// Lines that stand back.
+    pub faint: Color32,
+    /// What is chosen.
+    pub accent: Color32,
+    /// Something went wrong.
+    pub problem: Color32,
+    /// The ground is light.
+    pub is_light: bool,
+    /// Fill of source and target.
+    fills: [Color32; 2],
+}
+
+impl Inks {
+    /// The inks on a project's ground. The ground is the project's and not the panels', so the
+    /// palette is the one that goes with it.
+    pub fn new(style: &Style, ink: Color32) -> Self {
+        let colour = |Rgb([r, g, b]): Rgb| Color32::from_rgb(r, g, b);
+        let ground = colour(style.ground);
+        let is_light = ink.r() < 0x80;
+        let on_ground = Palette::on(is_light);
+        let fill = |rgb: Rgb| ground.lerp_to_gamma(colour(rgb), FILL);
+        Self {
+            ground,
+            ink,
+            faint: ground.lerp_to_gamma(ink, 0.35),
+            accent: on_ground.accent,
+            problem: on_ground.problem,
+            is_light,
+            fills: [fill(style.source), fill(style.target)],
+        }
+    }
+}
+
+/// Where one design lies in the window.
+#[derive(Clone, Debug)]
+pub struct Half {
+    /// Which design.
+    pub side: Side,
+    /// The half of the stage.
+    pub rect: Rect,
+    /// The part of it that the design is fitted into.
+    room: Rect,
+    centre: DVec2,
+    px_per_unit: f64,
+    pan: Vec2,
+}
+
+impl Half {
+    /// Fits a box into `room` and looks at it as the editor does.
+    pub fn new(side: Side, rect: Rect, room: Rect, bounds: Bounds, editor: &Editor) -> Self {
+        let size = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));
+        let fitted = (f64::from(room.width().max(1.0)) / size.x)
+            .min(f64::from(room.height().max(1.0)) / size.y);
+        Self {
+            side,
+            rect,
+            room,
+            centre: bounds.centre(),
+            px_per_unit: fitted * f64::from(editor.zoom),
+            pan: vec2(editor.pan.x, editor.pan.y),
+        }
+    }
+
+    /// The middle of what the design is fitted into, from the middle of the half.
+    pub fn room_offset(&self) -> Vec2 {
+        self.room.center() - self.rect.center()
+    }
+
+    /// The other half.
+    pub fn across(&self) -> Rect {
+        let by = match self.side {
+            Side::Source => self.rect.width(),
+            Side::Target => -self.rect.width(),
+        };
+        self.rect.translate(vec2(by, 0.0))
+    }
+
+    /// Where a point of the frame is drawn.
+    pub fn px(&self, p: DVec2) -> Pos2 {
+        let from_centre = (p - self.centre) * self.px_per_unit;
+        let offset = vec2(from_centre.x as f32, -from_centre.y as f32);
+        self.room.center() + self.pan + offset
+    }
+
+    /// What the hand points to.
+    pub fn touch(&self, at: Pos2, is_free: bool) -> Touch {
+        let offset = at - self.room.center() - self.pan;
+        let offset = DVec2::new(f64::from(offset.x), -f64::from(offset.y));
+        Touch {
+            side: self.side,
+            at: self.centre + offset / self.px_per_unit,
+            reach: f64::from(REACH) / self.px_per_unit,
+            is_free,
+        }
+    }
+
+    /// Draws the design and its match.
+    pub fn draw(&self, stage: &Painter, scene: &Scene, inks: &Inks) {
+        let painter = stage.with_clip_rect(self.rect.intersect(stage.clip_rect()));
+        let sheet = &scene.sheet;
+        self.fill(&painter, scene, inks);
+        for (k, piece) in sheet.pieces.iter().enumerate() {
+            if self.is_alone(piece) {
+                self.hatch(&painter, sheet, k, inks.faint);
+            }
+        }
+        self.boundaries(&painter, sheet, inks);
+        self.parts(&painter, scene, inks);
+        self.title(&painter, scene, inks);
+    }
+
+    fn is_alone(&self, piece: &SheetPiece) -> bool {
+        match piece.fate {
+            Fate::Paired => false,
+            Fate::Dies => self.side == Side::Source,
+            Fate::Born => self.side == Side::Target,
+        }
+    }
+
+    fn fill(&self, painter: &Painter, scene: &Scene, inks: &Inks) {
+        let compatible = scene.session.transition().and_then(|t| t.compatible());
+        let Some(mesh) = compatible.filter(|_| !scene.sheet.rings.is_empty()) else {
+            return;
+        };
+        let points = match self.side {
+            Side::Source => mesh.source(),
+            Side::Target => mesh.target(),
+        };
+        let points: Vec<Pos2> = points.iter().map(|p| self.px(*p)).collect();
+        let colour = inks.fills[self.side.index()];
+        let mut filled = Mesh::default();
+        for p in &points {
+            filled.colored_vertex(*p, colour);
+        }
+        for [a, b, c] in mesh.faces().iter() {
+            filled.add_triangle(*a, *b, *c);
+        }
+        painter.add(Shape::mesh(filled));
+        if scene.editor.triangles {
+            let stroke = Stroke::new(0.75, inks.faint);
+            for face in mesh.faces().iter() {
+                for k in 0..3 {
+                    let (a, b) = (face[k], face[(k + 1) % 3]);
+                    if a < b {
+                        painter.line_segment([points[a as usize], points[b as usize]], stroke);
+                    }
+                }
+            }
+        }
+    }
+
+    fn boundaries(&self, painter: &Painter, sheet: &Sheet, inks: &Inks) {
+        let index = self.side.index();
+        if sheet.rings.is_empty() {
+            let parts = sheet.sides.as_ref().map(|sides| &sides[index].parts);
+            for ring in parts.into_iter().flatten().flatten() {
+                let stroke = Stroke::new(2.0, inks.faint);
+                painter.add(Shape::closed_line(self.line(ring), stroke));
+            }
+        }
+        for (k, ring) in sheet.rings.iter().enumerate() {
+            let piece = sheet.pieces.get(ring.piece);
+            let is_alone = piece.is_some_and(|piece| piece.fate != Fate::Paired);
+            let points = self.line(&ring.sides[index]);
+            if ring.kind == RingKind::Matched && !is_alone {
+                boundary::stripe(painter, &points, &ring.places, k, inks.is_light);
+            } else {
+                unmatched(painter, points, inks);
+                if !is_alone {
+                    self.hole_word(painter, ring, inks);
+                }
+            }
+        }
+    }
+
+    fn line(&self, points: &[DVec2]) -> Vec<Pos2> {
+        points.iter().map(|p| self.px(*p)).collect()
+    }
+
+    /// What becomes of a hole, where it is one.
+    fn hole_word(&self, painter: &Painter, ring: &SheetRing, inks: &Inks) {
+        let word = match (ring.kind, self.side) {
+            (RingKind::Closes, Side::Source) => "closes",
+            (RingKind::Opens, Side::Target) => "opens",
+            _ => return,
+        };
+        let bounds = Rect::from_points(&self.line(&ring.sides[self.side.index()]));
+        tag(painter, bounds.center(), word, inks, false);
+    }
+
+    /// Lines across a piece that has no partner.
+    fn hatch(&self, painter: &Painter, sheet: &Sheet, piece: usize, colour: Color32) {
+        let index = self.side.index();
+        // Turned by an eighth, so that the lines run level.
+        let turned = |p: &DVec2| {
+            let p = self.px(*p);
+            DVec2::new(f64::from(p.x + p.y), f64::from(p.y - p.x))
+        };
+        let rings: Vec<Vec<DVec2>> = sheet
+            .rings
+            .iter()
+            .filter(|ring| ring.piece == piece)
+            .map(|ring| ring.sides[index].iter().map(turned).collect())
+            .collect();
+        let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
+            return;
+        };
+        let step = f64::from(HATCH) * std::f64::consts::SQRT_2;
+        let visible = self.rect.expand(HATCH);
+        let mut y = (bounds.min.y / step).ceil() * step;
+        let least = f64::from(visible.top() - visible.right());
+        y = y.max((least / step).floor() * step);
+        let most = bounds
+            .max
+            .y
+            .min(f64::from(visible.bottom() - visible.left()));
+        while y <= most {
+            for [a, b] in spans(rings.iter().map(Vec::as_slice), y) {
+                let back = |x: f64| pos2(((x - y) / 2.0) as f32, ((x + y) / 2.0) as f32);
+                painter.line_segment([back(a), back(b)], Stroke::new(1.0, colour));
+            }
+            y += step;
+        }
+    }
+
+    fn parts(&self, painter: &Painter, scene: &Scene, inks: &Inks) {
+        let (sheet, editor) = (&scene.sheet, &scene.editor);
+        let outline = |part: usize, width: f32| {
+            let parts = sheet
+                .sides
+                .as_ref()
+                .map(|sides| &sides[self.side.index()].parts);
+            for ring in parts
+                .and_then(|parts| parts.get(part))
+                .into_iter()
+                .flatten()
+            {
+                let points = ring.iter().map(|p| self.px(*p)).collect();
+                painter.add(Shape::closed_line(points, Stroke::new(width, inks.accent)));
+            }
+        };
+        if let Some((_, part)) = editor.part.filter(|(side, _)| *side == self.side) {
+            outline(part, 3.0);
+        }
+        if let Some((_, part, _)) = editor.first_part.filter(|(side, ..)| *side == self.side) {
+            outline(part, 5.0);
+        }
+        let is_plain = sheet.pieces.len() < 2 && editor.tool != Tool::Parts;
+        for piece in sheet.pieces.iter().filter(|_| !is_plain) {
+            let word = match (piece.fate, self.is_alone(piece)) {
+                (Fate::Dies, true) => format!("{} dies", piece.name),
+                (Fate::Born, true) => format!("{} is born", piece.name),
+                _ => piece.name.clone(),
+            };
+            let mut at = self.px(piece.at[self.side.index()]);
+            if piece.fate != Fate::Paired && !self.is_alone(piece) {
+                at += vec2(14.0, 0.0); // beside the point, not over it
+            }
+            tag(painter, at, &word, inks, piece.is_linked);
+        }
+    }
+
+    fn title(&self, painter: &Painter, scene: &Scene, inks: &Inks) {
+        let name = scene
+            .session
+            .transition()
+            .map(|t| t.designs()[self.side.index()].name.clone())
+            .unwrap_or_default();
+        let role = match self.side {
+            Side::Source => "Source",
+            Side::Target => "Target",
+        };
+        let at = self.rect.left_top() + vec2(2.0 * GRID, super::BAR_HEIGHT + 2.0 * GRID);
+        let font = FontId::proportional(12.5);
+        let words = format!("{role}  {name}");
+        painter.text(at, Align2::LEFT_TOP, words, font, inks.ink);
+    }
+}
+
+/// A boundary without a partner: broken, or a dot where it is a point.
+fn unmatched(painter: &Painter, mut points: Vec<Pos2>, inks: &Inks) {
+    let Some(first) = points.first().copied() else {
+        return;
+    };
+    if Rect::from_points(&points).size().max_elem() < 3.0 {
+        painter.circle_stroke(first, 4.0, Stroke::new(1.5, inks.ink));
+        return;
+    }
+    points.push(first);
+    let stroke = Stroke::new(2.0, inks.ink);
+    painter.extend(Shape::dashed_line(&points, stroke, 5.0, 4.0));
+}
+
+/// A word on a card; framed where it was said by hand.
+pub fn tag(painter: &Painter, at: Pos2, word: &str, inks: &Inks, is_said: bool) {
+    let font = FontId::proportional(12.5);
+    let galley = painter.layout_no_wrap(word.to_owned(), font, inks.ink);
+    let card = Align2::CENTER_CENTER.anchor_size(at, galley.size() + vec2(10.0, 4.0));
+    let frame = if is_said { inks.accent } else { inks.faint };
+    let width = if is_said { 2.0 } else { 1.0 };
+    painter.rect(
+        card,
+        CornerRadius::same(4),
+        inks.ground,
+        Stroke::new(width, frame),
+        StrokeKind::Inside,
+    );
+    painter.galley(card.min + vec2(5.0, 2.0), galley, inks.ink);
+}

@@ -1,0 +1,176 @@
+//! Points, cuts and what links the two halves.
+
+use bevy_egui::egui::{
+    Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2,
+};
+
+use super::super::Scene;
+use super::super::theme::GRID;
+use super::half::{Half, Inks};
+use crate::app::editor::{CutEnd, Editor, Grab, Handle, Sheet};
+use crate::correspondence::Side;
+use crate::geometry::DVec2;
+
+const PIN_RADIUS: f32 = 8.5;
+const FEATURE_RADIUS: f32 = 7.0;
+
+/// Draws all handles, and the links of those under the hand.
+pub fn draw(painter: &Painter, scene: &Scene, halves: &[Half; 2], inks: &Inks) {
+    let (sheet, editor) = (&scene.sheet, &scene.editor);
+    for half in halves {
+        let clipped = painter.with_clip_rect(half.rect.intersect(painter.clip_rect()));
+        cuts(&clipped, sheet, editor, half, inks);
+        features(&clipped, sheet, editor, half, inks);
+    }
+    link(painter, sheet, editor, halves, inks);
+    for half in halves {
+        let clipped = painter.with_clip_rect(half.rect.intersect(painter.clip_rect()));
+        pins(&clipped, scene, half, inks);
+    }
+    if let Some(problem) = scene.session.problem() {
+        problem_card(painter, scene, halves, problem, inks);
+    }
+}
+
+fn features(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &Inks) {
+    for (k, pair) in sheet.features.iter().enumerate() {
+        let handle = Handle::Feature(k);
+        let is_lit = editor.hovered == Some(handle) || editor.selected == Some(handle);
+        let colour = if is_lit {
+            inks.ink
+        } else {
+            inks.ground.lerp_to_gamma(inks.ink, 0.65)
+        };
+        let at = half.px(pair.of(half.side));
+        painter.circle(at, FEATURE_RADIUS, inks.ground, Stroke::new(1.0, colour));
+        number(painter, at, sheet.pins.len() + k + 1, colour);
+    }
+}
+
+fn pins(painter: &Painter, scene: &Scene, half: &Half, inks: &Inks) {
+    let (sheet, editor) = (&scene.sheet, &scene.editor);
+    for (k, pin) in sheet.pins.iter().enumerate() {
+        let handle = Handle::Pin(k);
+        let is_selected = editor.selected == Some(handle);
+        let is_held = matches!(editor.grabbed, Some((_, Grab::Pin(held))) if held == k);
+        let radius = if is_held || editor.hovered == Some(handle) {
+            PIN_RADIUS + 1.5
+        } else {
+            PIN_RADIUS
+        };
+        let at = half.px(pin.of(half.side));
+        let is_wrong = sheet.faulty.contains(&k);
+        let fill = match (is_wrong, is_selected) {
+            (true, _) => inks.problem,
+            (false, true) => inks.accent,
+            (false, false) => inks.ink,
+        };
+        painter.circle(at, radius, fill, Stroke::new(1.5, inks.ground));
+        number(painter, at, k + 1, inks.ground);
+    }
+}
+
+fn number(painter: &Painter, at: Pos2, number: usize, colour: Color32) {
+    let size = if number < 100 { 10.5 } else { 8.5 };
+    let font = FontId::proportional(size);
+    painter.text(at, Align2::CENTER_CENTER, number.to_string(), font, colour);
+}
+
+fn cuts(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &Inks) {
+    for (k, shown) in sheet.cuts.iter().enumerate() {
+        let cut = sheet.drawn(shown, editor.grabbed.map(|(_, grab)| grab));
+        if cut.side != half.side {
+            continue;
+        }
+        let ends = [half.px(cut.outer), half.px(cut.hole)];
+        painter.line_segment(ends, Stroke::new(4.0, inks.ground));
+        let stroke = Stroke::new(2.0, inks.accent);
+        painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 3.0));
+        for (at, end) in ends.into_iter().zip([CutEnd::Outer, CutEnd::Hole]) {
+            let handle = Handle::Cut(k, end);
+            let is_lit = editor.hovered == Some(handle) || editor.selected == Some(handle);
+            let size = if is_lit { 13.0 } else { 10.0 };
+            let fill = if shown.asked.is_some() {
+                inks.accent
+            } else {
+                inks.ground
+            };
+            painter.rect(
+                Rect::from_center_size(at, vec2(size, size)),
+                CornerRadius::same(2),
+                fill,
+                Stroke::new(2.0, inks.accent),
+                StrokeKind::Inside,
+            );
+        }
+    }
+}
+
+/// A line from one end to the other of what the hand is at, and the other end.
+fn link(painter: &Painter, sheet: &Sheet, editor: &Editor, halves: &[Half; 2], inks: &Inks) {
+    let lit = match editor.grabbed {
+        Some((_, Grab::Pin(k))) => Some(Handle::Pin(k)),
+        Some((_, Grab::Feature(k))) => Some(Handle::Feature(k)),
+        _ => editor.hovered,
+    };
+    let of_handle = |handle: Handle| -> Option<[DVec2; 2]> {
+        let [source, target] = Side::BOTH.map(|side| sheet.place(handle, side));
+        Some([source?, target?])
+    };
+    let ends = lit.and_then(of_handle);
+    let is_trace = ends.is_none();
+    let Some(ends) = ends.or(editor.trace) else {
+        return;
+    };
+    let [a, b] = [halves[0].px(ends[0]), halves[1].px(ends[1])];
+    let stroke = Stroke::new(1.25, inks.ground.lerp_to_gamma(inks.ink, 0.7));
+    painter.extend(Shape::dashed_line(&[a, b], stroke, 5.0, 4.0));
+    if is_trace {
+        for at in [a, b] {
+            painter.circle(at, 5.0, inks.ground, Stroke::new(2.0, inks.ink));
+        }
+    }
+}
+
+/// Says what is wrong, at the pin that the hand was at, or in the middle.
+fn problem_card(painter: &Painter, scene: &Scene, halves: &[Half; 2], problem: &str, inks: &Inks) {
+    const WIDTH: f32 = 240.0;
+    let editor = &scene.editor;
+    let side = editor.grabbed.map_or(Side::Source, |(side, _)| side);
+    let half = &halves[side.index()];
+    let faulty = scene.sheet.faulty.last().map(|k| Handle::Pin(*k));
+    let held = editor
+        .selected
+        .filter(|handle| matches!(handle, Handle::Pin(k) if scene.sheet.faulty.contains(k)));
+    let at = held
+        .or(faulty)
+        .or(editor.selected)
+        .and_then(|handle| scene.sheet.place(handle, side))
+        .map(|p| half.px(p) + vec2(2.0 * GRID, GRID));
+    let text = format!("{problem}. The transition stays as it was.");
+    let font = FontId::proportional(12.5);
+    let galley = painter.layout(
+        text,
+        font,
+        inks.ink,
+        WIDTH.min(half.rect.width() - 4.0 * GRID),
+    );
+    let size = galley.size() + vec2(2.0 * GRID, 1.5 * GRID);
+    let room = half.rect.shrink(GRID);
+    let room = Rect::from_min_max(
+        room.min + vec2(0.0, super::BAR_HEIGHT + GRID),
+        room.max - vec2(0.0, super::ADVICE_HEIGHT),
+    );
+    let corner = at.unwrap_or_else(|| room.left_bottom() - vec2(0.0, size.y));
+    let most = (room.max - size).max(room.min);
+    let corner = corner.clamp(room.min, most);
+    let card = Rect::from_min_size(corner, size);
+    painter.rect(
+        card,
+        CornerRadius::same(6),
+        inks.ground,
+        Stroke::new(1.5, inks.problem),
+        StrokeKind::Inside,
+    );
+    painter.galley(card.min + vec2(GRID, 0.75 * GRID), galley, inks.ink);
+}

@@ -1,0 +1,178 @@
+//! The match editor: source and target side by side in place of the stage.
+//!
+//! Drawn over the stage with egui; what the hand does becomes an [`EditorAct`] in the coordinates
+//! of the frame. Colours run along the boundary, the same on both sides, and numbers say the same
+//! again, so that nothing hangs on colour alone.
+
+mod bar;
+mod boundary;
+mod half;
+mod marks;
+
+use bevy::prelude::Vec2;
+use bevy_egui::egui::{
+    Align2, Context, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, pos2,
+    vec2,
+};
+
+use super::stage_area::{ZOOM_PER_POINT, ink_on};
+use super::theme::GRID;
+use super::{Intents, Scene};
+use crate::app::editor::{EditorAct, SheetSide, Tool};
+use crate::app::intent::Intent;
+use crate::correspondence::Side;
+use half::{Half, Inks};
+
+pub use bar::HEIGHT as BAR_HEIGHT;
+
+/// Height of the line of advice at the lower edge.
+const ADVICE_HEIGHT: f32 = 40.0;
+
+/// Draws both halves and takes the user's hand.
+pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) {
+    let Some(sides) = &scene.sheet.sides else {
+        return;
+    };
+    let inks = Inks::of(scene);
+    let painter = root.painter().with_clip_rect(stage);
+    painter.rect_filled(stage, CornerRadius::ZERO, inks.ground);
+    let halves = halves(scene, stage, sides);
+    for half in &halves {
+        half.draw(&painter, scene, &inks);
+    }
+    let middle = stage.center().x;
+    painter.vline(middle, stage.y_range(), Stroke::new(1.0, inks.faint));
+    marks::draw(&painter, scene, &halves, &inks);
+    advice(&painter, scene, stage, &inks);
+    for half in &halves {
+        let id = root.id().with(("half", half.side.index()));
+        let response = root.interact(half.rect, id, Sense::click_and_drag());
+        hand(root, scene, half, &response, acts);
+    }
+}
+
+/// Draws what lies above both halves.
+pub fn overlay(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
+    bar::show(ctx, scene, stage, acts);
+}
+
+fn halves(scene: &Scene, stage: Rect, sides: &[SheetSide; 2]) -> [Half; 2] {
+    let [left, right] = [
+        Rect::from_min_max(stage.min, pos2(stage.center().x, stage.bottom())),
+        Rect::from_min_max(pos2(stage.center().x, stage.top()), stage.max),
+    ];
+    let half = |side: Side, rect: Rect| {
+        let room = Rect::from_min_max(
+            rect.min + vec2(3.0 * GRID, BAR_HEIGHT + 4.0 * GRID),
+            rect.max - vec2(3.0 * GRID, ADVICE_HEIGHT + GRID),
+        );
+        Half::new(side, rect, room, sides[side.index()].bounds, &scene.editor)
+    };
+    [half(Side::Source, left), half(Side::Target, right)]
+}
+
+fn hand(ui: &Ui, scene: &Scene, half: &Half, response: &Response, acts: &mut Intents) {
+    let (shift, moved, origin) = ui.input(|input| {
+        let pointer = &input.pointer;
+        (
+            input.modifiers.shift,
+            pointer.is_moving(),
+            pointer.press_origin(),
+        )
+    });
+    let mut act = |act: EditorAct| acts.push(Intent::Editor(act));
+    let primary = PointerButton::Primary;
+    if response.drag_started_by(primary)
+        && let Some(origin) = origin
+    {
+        act(EditorAct::Press(half.touch(origin, shift)));
+    }
+    if let Some(pointer) = response.interact_pointer_pos() {
+        let delta = response.drag_delta();
+        let delta = Vec2::new(delta.x, delta.y);
+        if response.dragged_by(primary) && delta != Vec2::ZERO {
+            act(EditorAct::Drag(half.touch(pointer, shift), delta));
+        } else if response.dragged() && delta != Vec2::ZERO {
+            act(EditorAct::Pan(delta));
+        }
+        if response.clicked_by(primary) {
+            act(EditorAct::Click(half.touch(pointer, shift)));
+        }
+        if response.clicked_by(PointerButton::Secondary) {
+            act(EditorAct::Remove(half.touch(pointer, shift)));
+        }
+    }
+    if response.drag_stopped_by(primary) {
+        act(EditorAct::Release);
+    }
+    if let Some(pointer) = response.hover_pos() {
+        if moved && !response.dragged() {
+            act(EditorAct::Hover(Some(half.touch(pointer, shift))));
+        }
+        zoom(ui, half, pointer - half.rect.center(), &mut act);
+    } else if is_left(scene, half, response) {
+        act(EditorAct::Hover(None));
+    }
+}
+
+/// The pointer has left this half, and what was under it there is still marked.
+fn is_left(scene: &Scene, half: &Half, response: &Response) -> bool {
+    let editor = &scene.editor;
+    let is_marked = editor.hovered.is_some() || editor.trace.is_some() || editor.part.is_some();
+    let is_elsewhere = response
+        .ctx
+        .input(|input| input.pointer.hover_pos())
+        .is_none_or(|p| !half.rect.union(half.across()).contains(p));
+    is_marked && is_elsewhere && editor.grabbed.is_none()
+}
+
+fn zoom(ui: &Ui, half: &Half, from_middle: bevy_egui::egui::Vec2, act: &mut impl FnMut(EditorAct)) {
+    let factor = ui
+        .input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * ZOOM_PER_POINT).exp());
+    if factor != 1.0 {
+        let at = from_middle - half.room_offset();
+        act(EditorAct::Zoom {
+            at: Vec2::new(at.x, at.y),
+            factor,
+        });
+    }
+}
+
+/// One line on what can be done now.
+fn advice(painter: &bevy_egui::egui::Painter, scene: &Scene, stage: Rect, inks: &Inks) {
+    let editor = &scene.editor;
+    let words = match (editor.tool, editor.first_part) {
+        _ if editor.refusal.is_some() => editor.refusal.unwrap_or_default(),
+        (Tool::Pins, _) => {
+            "Click a boundary to pin it, drag a point to move it (Shift: no snapping), \
+             right-click a pin to delete it."
+        }
+        (Tool::Parts, None) => {
+            "Click a part on one side, then its partner on the other. Right-click frees a part."
+        }
+        (Tool::Parts, Some((Side::Source, ..))) => "Now click its partner in the target.",
+        (Tool::Parts, Some((Side::Target, ..))) => "Now click its partner in the source.",
+    };
+    let colour = if editor.refusal.is_some() {
+        inks.problem
+    } else {
+        inks.ink
+    };
+    let width = stage.width() - 4.0 * GRID;
+    let font = FontId::proportional(12.5);
+    let galley = painter.layout(words.to_owned(), font, colour, width);
+    let at = Align2::CENTER_BOTTOM
+        .anchor_size(stage.center_bottom() - vec2(0.0, GRID), galley.size())
+        .min;
+    painter.galley(at, galley, colour);
+}
+
+impl Inks {
+    fn of(scene: &Scene) -> Self {
+        let style = scene
+            .session
+            .project()
+            .map_or_else(Default::default, |project| project.style);
+        Self::new(&style, ink_on(style.ground))
+    }
+}
