@@ -78,9 +78,9 @@ fn said(
             });
             continue;
         };
-        for side in 0..2 {
-            if !group.parts[side].contains(&pair[side]) {
-                group.parts[side].push(pair[side]);
+        for (parts, part) in group.parts.iter_mut().zip(pair) {
+            if !parts.contains(&part) {
+                parts.push(part);
             }
         }
         let several = group.parts.iter().all(|parts| parts.len() > 1);
