@@ -130,10 +130,7 @@ impl<'a> Front<'a> {
         let mut at = turn % 3;
         let end = at + len;
         while at < end {
-            at += match self.step(at % self.len()) {
-                Some(passed) => passed,
-                None => 1,
-            };
+            at += self.step(at % self.len()).unwrap_or(1);
         }
     }
 

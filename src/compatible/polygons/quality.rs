@@ -24,6 +24,8 @@ const MOST_WORK: usize = 1_200_000;
 const COSTLY: f64 = 6.0;
 /// A vertex goes if no face around it then costs more than this.
 const GOOD: f64 = 2.0;
+/// Most faces times rounds before it is left as it is.
+const MOST_THINNED: usize = 150_000;
 /// Rounds in which the base loses its needless vertices.
 const THINNING_ROUNDS: usize = 12;
 
@@ -101,6 +103,9 @@ pub(super) fn thin_out(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(
             "simplifying",
             round as f64 / THINNING_ROUNDS as f64,
         )?;
+        if round > 1 && round * mesh.faces().count() > MOST_THINNED {
+            break;
+        }
         flip_all(mesh);
         let removed = collapse_all(mesh);
         nudge_all(mesh);

@@ -52,8 +52,22 @@ impl Domain {
             fixed,
             net,
         };
+        // A point on an edge would have cut it in two.
+        let given = |edge: &[u32; 2]| domain.net.contains_key(edge);
+        if !domain.constraints().all(|edge| given(&edge)) {
+            return Err(TriangulationError::NotSimple);
+        }
         domain.check(walks[0].as_ref().len())?;
         Ok(domain)
+    }
+
+    fn constraints(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+        let edges = self.delaunay.undirected_edges();
+        let constraints = edges.filter(|edge| edge.is_constraint_edge());
+        constraints.map(|edge| {
+            let [a, b] = edge.vertices().map(|v| v.index() as u32);
+            [a.min(b), a.max(b)]
+        })
     }
 
     /// The walks' corners, then the added points.
