@@ -32,10 +32,8 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
             if ui.button(name).on_hover_text(tip).clicked() {
                 acts.push(Intent::Editor(EditorAct::Toggle));
             }
-            let is_said = has_places(&draft.matching);
             let tip = "Deletes all pins, pairs and cuts that were set by hand; can be undone.";
-            let clear = ui.add_enabled_ui(is_said, |ui| ui.button("Clear")).inner;
-            if clear.on_hover_text(tip).clicked() {
+            if has_places(&draft.matching) && ui.button("Clear").on_hover_text(tip).clicked() {
                 acts.push(Intent::Editor(EditorAct::Clear));
             }
         });

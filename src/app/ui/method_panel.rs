@@ -97,7 +97,7 @@ fn description(warp: WarpKind, content: ContentKind) -> &'static str {
         }
         (WarpKind::Arap, ContentKind::Solid) => {
             "Turns and stretches each triangle evenly and joins them again. Parts keep their \
-             form while they move; needs designs with the same triangles."
+             form while they move; outlines are matched by themselves."
         }
         (WarpKind::Arap, ContentKind::Field) => "Distance fields carried by moving parts.",
         (WarpKind::None, ContentKind::Solid) => "Nothing moves and nothing blends.",

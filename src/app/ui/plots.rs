@@ -3,7 +3,7 @@
 use bevy_egui::egui::{
     self, Color32, Margin, Panel, PointerButton, RichText, ScrollArea, Ui, vec2,
 };
-use egui_plot::{HLine, Line, LineStyle, Plot, PlotPoints, VLine};
+use egui_plot::{AxisHints, HLine, Line, LineStyle, Plot, PlotPoints, VLine};
 
 use super::theme::{GRID, Palette};
 use super::{Intents, Scene};
@@ -52,9 +52,11 @@ fn row(ui: &mut Ui, scene: &Scene, film: &FilmReport, acts: &mut Intents) {
         .filter(|(_, series)| !series.is_empty())
         .collect();
     let gap = 2.0 * GRID;
-    let count = shown.len().max(1) as f32;
+    // As many as fit whole; the others are scrolled to.
     let width = ui.available_width();
-    let each = ((width + gap) / count - gap).max(LEAST_WIDTH.min(width));
+    let fit = ((width + gap) / (LEAST_WIDTH + gap)).floor().max(1.0);
+    let count = fit.min(shown.len().max(1) as f32);
+    let each = (width + gap) / count - gap;
     ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
         ui.horizontal_top(|ui| {
             ui.spacing_mut().item_spacing.x = gap;
@@ -87,13 +89,19 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
         .include_x(1.0)
         .set_margin_fraction(vec2(0.02, 0.08))
         .label_formatter(|_| None)
-        .y_axis_min_width(36.0);
-    let plot = least(quantity).into_iter().fold(plot, Plot::include_y);
+        .custom_x_axes(vec![AxisHints::new_x().tick_label_color(palette.weak)])
+        .custom_y_axes(vec![value_axis(quantity, palette.weak)]);
+    let on_axis = |value: f64| drawn(quantity, value);
+    let plot = least(quantity)
+        .into_iter()
+        .map(on_axis)
+        .fold(plot, Plot::include_y);
     let response = plot.show(ui, |plot| {
         if quantity == Quantity::MinDet {
             plot.hline(level(0.0, palette.problem));
         }
-        for run in runs(series) {
+        let drawn: Vec<[f64; 2]> = series.iter().map(|[t, v]| [*t, on_axis(*v)]).collect();
+        for run in runs(&drawn) {
             plot.line(
                 Line::new(quantity.label(), PlotPoints::from(run))
                     .color(palette.accent)
@@ -117,6 +125,37 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
     response
         .response
         .on_hover_text(format!("{} Click to go to a t.", meaning(quantity)));
+}
+
+/// Ratios run over many powers of ten where something is born from a point.
+fn is_ratio(quantity: Quantity) -> bool {
+    matches!(
+        quantity,
+        Quantity::WorstConformal | Quantity::WorstIsometric
+    )
+}
+
+/// A value on its axis, which for ratios is logarithmic.
+fn drawn(quantity: Quantity, value: f64) -> f64 {
+    if is_ratio(quantity) {
+        value.log10()
+    } else {
+        value
+    }
+}
+
+fn value_axis(quantity: Quantity, colour: Color32) -> AxisHints<'static> {
+    AxisHints::new_y()
+        .tick_label_color(colour)
+        .min_thickness(36.0)
+        .formatter(move |mark, _| {
+            let value = mark.value;
+            short(if is_ratio(quantity) {
+                10.0_f64.powf(value)
+            } else {
+                value
+            })
+        })
 }
 
 fn level(y: f64, colour: Color32) -> HLine {

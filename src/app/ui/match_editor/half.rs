@@ -277,17 +277,30 @@ impl Half {
             outline(part, 5.0);
         }
         let is_plain = sheet.pieces.len() < 2 && editor.tool != Tool::Parts;
-        for piece in sheet.pieces.iter().filter(|_| !is_plain) {
+        for (k, piece) in sheet.pieces.iter().enumerate() {
+            if is_plain {
+                break;
+            }
             let word = match (piece.fate, self.is_alone(piece)) {
                 (Fate::Dies, true) => format!("{} dies", piece.name),
                 (Fate::Born, true) => format!("{} is born", piece.name),
                 _ => piece.name.clone(),
             };
-            let mut at = self.px(piece.at[self.side.index()]);
-            if piece.fate != Fate::Paired && !self.is_alone(piece) {
-                at += vec2(14.0, 0.0); // beside the point, not over it
-            }
+            let at = self.px(piece.at[self.side.index()]) + self.beside(sheet, k);
             tag(painter, at, &word, inks, piece.is_linked);
+        }
+    }
+
+    /// How far from its place a name stands: above what it would cover.
+    fn beside(&self, sheet: &Sheet, piece: usize) -> Vec2 {
+        const ROOMY: f32 = 56.0;
+        let rings = sheet.rings.iter().filter(|ring| ring.piece == piece);
+        let points = rings.flat_map(|ring| self.line(&ring.sides[self.side.index()]));
+        let bounds = Rect::from_points(&points.collect::<Vec<_>>());
+        if bounds.size().max_elem() < ROOMY {
+            vec2(0.0, -bounds.height() / 2.0 - 14.0)
+        } else {
+            Vec2::ZERO
         }
     }
 

@@ -41,7 +41,8 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) {
         half.draw(&painter, scene, &inks);
     }
     let middle = stage.center().x;
-    painter.vline(middle, stage.y_range(), Stroke::new(1.0, inks.faint));
+    let between = stage.top() + BAR_HEIGHT + GRID..=stage.bottom() - ADVICE_HEIGHT;
+    painter.vline(middle, between, Stroke::new(1.0, inks.faint));
     marks::draw(&painter, scene, &halves, &inks);
     advice(&painter, scene, stage, &inks);
     for half in &halves {
@@ -76,7 +77,7 @@ fn hand(ui: &Ui, scene: &Scene, half: &Half, response: &Response, acts: &mut Int
         let pointer = &input.pointer;
         (
             input.modifiers.shift,
-            pointer.is_moving(),
+            pointer.delta() != bevy_egui::egui::Vec2::ZERO,
             pointer.press_origin(),
         )
     });
