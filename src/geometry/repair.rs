@@ -3,7 +3,7 @@
 //!
 //! Edges are compared by a sweep along x (Shamos and Hoey 1976, with a list
 //! in place of the tree) and exact predicates. The sweep has a budget of
-//! [`TESTS_PER_EDGE`] comparisons for each edge; where that is spent the
+//! 500 comparisons for each edge; where that is spent the
 //! counts are lower bounds, and [`Repairs::at_least`] says so.
 //!
 //! Not counted: edges that meet in corners of both. Outlines may touch so.
@@ -89,7 +89,7 @@ impl Repairs {
         (kept, found)
     }
 
-    /// Counts crossings and touches only, as [`Repairs::find`] does.
+    /// Counts crossings and touches only; the rings are taken as they are.
     #[must_use]
     pub fn between(rings: &[Vec<DVec2>]) -> Self {
         let mut found = Self::default();
