@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::{PinError, RegionMatchError};
+use crate::design::Source;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 use crate::transition::{BuildError, Cell, Transition};
@@ -121,7 +122,8 @@ impl Request {
 }
 
 fn absolute(path: &Path) -> PathBuf {
-    std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
+    let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    Source::of(path).at(whole).to_path()
 }
 
 /// Writes down the cell that suits the designs, where the project names none that they can be

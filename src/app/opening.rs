@@ -15,6 +15,7 @@ use crate::app::playback::{Playback, SAME_T};
 use crate::app::session::{CONTENTS, Origin, Outcome, Session, WARPS};
 use crate::app::view::KeepsFit;
 use crate::content::ContentKind;
+use crate::design::Source;
 use crate::project::{DesignEntry, Project, gallery};
 use crate::transition::{PlayMode, Stop};
 use crate::warp::WarpKind;
@@ -116,9 +117,8 @@ pub fn edit(
                 None => notices.done("These designs can be shown by one method only."),
             },
             Intent::AddStop => {
-                if !add_stop(&mut session, playback.t(), mark) {
-                    notices.done("There is a stop here already.");
-                }
+                let added = add_stop(&mut session, playback.t(), mark);
+                tell(Ok(added), "There is a stop here already.", &mut notices);
             }
             Intent::Edit(_)
             | Intent::UseCell(..)
@@ -180,7 +180,9 @@ fn set_cell(project: &mut Project, (warp, content): (WarpKind, ContentKind)) {
 }
 
 fn entry_of(path: &std::path::Path) -> DesignEntry {
-    DesignEntry::new(std::path::absolute(path).unwrap_or_else(|_| path.to_owned()))
+    let whole =
+        |file: &std::path::Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    DesignEntry::new(Source::of(path).at(whole).to_path())
 }
 
 /// The next cell of the table, after the one in use, that can be had.

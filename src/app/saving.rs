@@ -7,6 +7,7 @@ use std::io;
 use std::path::{Component, Path, PathBuf};
 
 use crate::app::files::create_new;
+use crate::design::Source;
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 
 /// Why a project was not saved.
@@ -52,7 +53,11 @@ pub fn named_from(
 ) -> Result<Project, SaveError> {
     for entry in &mut project.designs {
         entry.path = match old {
-            Some(old) => relative(folder, &old.join(&entry.path)),
+            Some(old) => Source::in_folder(old, &entry.path)
+                .at(|file| relative(folder, file))
+                .to_path(),
+            // Letters of the bundled font are at home everywhere.
+            None if Source::of(&entry.path).file().is_none() => continue,
             None if entry.path.is_absolute() => relative(folder, &entry.path),
             None => written_beside(folder, &entry.path)?,
         };

@@ -112,13 +112,16 @@ pub fn place_camera(
 #[derive(Component, Debug)]
 pub struct TwinCamera;
 
+/// What a camera looks at.
+type Seen<'w> = (&'w Camera, &'w Transform, &'w Projection);
+
 /// Lets the second camera draw beside the first, what the first one shows of the plane.
 pub fn place_twin(
     area: Res<StageArea>,
     twin: Res<Twin>,
     editor: Res<Editor>,
     window: Single<&Window, With<PrimaryWindow>>,
-    stage: Single<(&Camera, &Transform, &Projection), (With<StageCamera>, Without<TwinCamera>)>,
+    stage: Single<Seen<'static>, (With<StageCamera>, Without<TwinCamera>)>,
     beside: Single<(&mut Camera, &mut Transform, &mut Projection), With<TwinCamera>>,
 ) {
     let (camera, transform, projection) = stage.into_inner();
