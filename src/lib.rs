@@ -15,10 +15,10 @@
 //! # The way the data flows
 //!
 //! ```text
-//! files ─► Design ─► CompatibleMesh ─► Transition ─► Frame(t) ─┬─► stage (Bevy)
-//!          regions    one list of       warp×content           ├─► export: SVG, PNG, GIF, …
-//!          mesh       faces, two        prefactored            └─► measures
-//!          truss      embeddings
+//! files ─► Design ─► RegionMatch ─► CompatibleMesh ─► Transition ─► Frame(t) ─┬─► stage (Bevy)
+//!          regions    who is who     one list of       warp×content           ├─► export: SVG, …
+//!          mesh                      faces, two        prefactored            └─► measures
+//!          truss                     embeddings
 //! ```
 //!
 //! One direction, no way back. Everything that can fail fails while a
