@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{self, Align2, Context, Id, Modal, RichText, Stroke, StrokeKind, Ui, vec2};
 
-use super::theme::{CONTROL_HEIGHT, GRID, Palette, RADIUS};
+use super::theme::{GRID, Palette, RADIUS};
 use super::widgets::from_right;
 use super::{Intents, Scene};
 use crate::app::intent::Intent;
@@ -10,6 +10,9 @@ use crate::app::keymap::Binding;
 
 const KEYS_WIDTH: f32 = 120.0;
 const COLUMN_WIDTH: f32 = 376.0;
+
+/// Height of a line: all of them fit into the smallest window.
+const ROW_HEIGHT: f32 = 20.0;
 
 /// Draws the list above everything else.
 pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
@@ -64,13 +67,14 @@ fn group(ui: &mut Ui, name: &str, rows: &[&Binding]) {
     ui.label(RichText::new(name).small().strong().color(palette.weak));
     for binding in rows {
         ui.horizontal(|ui| {
-            let size = vec2(KEYS_WIDTH, CONTROL_HEIGHT);
+            ui.spacing_mut().interact_size.y = ROW_HEIGHT;
+            let size = vec2(KEYS_WIDTH, ROW_HEIGHT);
             let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
             key_cap(ui, rect, binding.keys);
             ui.label(binding.help);
         });
     }
-    ui.add_space(2.0 * GRID);
+    ui.add_space(GRID);
 }
 
 fn key_cap(ui: &Ui, rect: egui::Rect, keys: &str) {
@@ -79,7 +83,7 @@ fn key_cap(ui: &Ui, rect: egui::Rect, keys: &str) {
     let text = ui
         .painter()
         .layout_no_wrap(keys.to_owned(), font, palette.text);
-    let cap = Align2::LEFT_CENTER.anchor_size(rect.left_center(), text.size() + vec2(12.0, 6.0));
+    let cap = Align2::LEFT_CENTER.anchor_size(rect.left_center(), text.size() + vec2(12.0, 2.0));
     ui.painter().rect(
         cap,
         RADIUS,
@@ -88,5 +92,5 @@ fn key_cap(ui: &Ui, rect: egui::Rect, keys: &str) {
         StrokeKind::Inside,
     );
     ui.painter()
-        .galley(cap.min + vec2(6.0, 3.0), text, palette.text);
+        .galley(cap.min + vec2(6.0, 1.0), text, palette.text);
 }

@@ -188,9 +188,11 @@ fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut In
         below.min.y += match_editor::BAR_HEIGHT;
     }
     work::show(ctx, scene, below, acts);
-    if !scene.editor.is_open && scene.measured.measures().is_some() {
+    if scene.editor.is_open {
+        below.max.y -= match_editor::ADVICE_HEIGHT;
+    } else {
         verdict::show(ctx, scene, stage, acts);
-        below.max.y -= verdict::HEIGHT;
+        below.max.y -= verdict::height(scene);
     }
     notices::show(ctx, scene, below, acts);
     if scene.preferences.times {

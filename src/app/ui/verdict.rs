@@ -1,4 +1,4 @@
-//! The verdict on the transition: one line at the lower left of the stage, and where it points to.
+//! The verdict on the transition: a line or two at the lower left of the stage, and where it points to.
 
 use bevy_egui::egui::{
     self, Align2, Area, Context, Label, Order, Rect, RichText, Sense, Stroke, Ui, pos2, vec2,
@@ -12,13 +12,21 @@ use crate::app::intent::Intent;
 use crate::app::measuring::{Measures, is_a_click};
 use crate::measure::Finding;
 
-/// Height that the line takes at the lower edge of the stage.
-pub const HEIGHT: f32 = 40.0;
+/// Height of one line.
+const ROW_HEIGHT: f32 = 24.0;
 
 /// How near t must be for the place of a finding to be marked.
 const NEAR_T: f64 = 0.02;
 
-/// Draws the line.
+/// Height that the verdict takes at the lower edge of the stage.
+pub fn height(scene: &Scene) -> f32 {
+    scene.measured.measures().map_or(0.0, |measures| {
+        let lines = measures.verdict.findings.len().max(1);
+        3.0 * GRID + ROW_HEIGHT * lines as f32
+    })
+}
+
+/// Draws the lines.
 pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     let Some(measures) = scene.measured.measures() else {
         return;
@@ -32,59 +40,61 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
             egui::Frame::window(ui.style())
                 .corner_radius(CARD_RADIUS)
                 .inner_margin(egui::Margin::symmetric(8, 4))
-                .show(ui, |ui| line(ui, scene, measures, stage, acts));
+                .show(ui, |ui| lines(ui, scene, measures, acts));
         });
 }
 
-fn line(ui: &mut Ui, scene: &Scene, measures: &Measures, stage: Rect, acts: &mut Intents) {
-    let palette = Palette::of(ui);
+/// One line, or one for each kind of trouble.
+fn lines(ui: &mut Ui, scene: &Scene, measures: &Measures, acts: &mut Intents) {
     let verdict = &measures.verdict;
-    ui.horizontal(|ui| {
-        ui.spacing_mut().item_spacing.x = 6.0;
-        let (icon, colour) = if verdict.is_clear() {
-            (Icon::Tick, palette.good)
-        } else {
-            (Icon::Warning, palette.amber)
-        };
-        let (rect, _) = ui.allocate_exact_size(vec2(16.0, 20.0), Sense::hover());
-        icons::paint(ui.painter(), icon, rect, colour);
-        if verdict.is_clear() {
+    ui.spacing_mut().item_spacing.y = 0.0;
+    if verdict.is_clear() {
+        row(ui, true, |ui| {
             let tip = format!(
                 "Looked at {} moments from the source to the target.",
                 verdict.steps
             );
-            ui.label(RichText::new(first_upper(verdict.clear)).small())
-                .on_hover_text(tip);
-            return;
-        }
-        let room = stage.width() - 8.0 * GRID;
-        for (index, finding) in verdict.findings.iter().enumerate() {
-            one(ui, scene, (index, finding), room, acts);
-        }
+            let text = RichText::new(first_upper(verdict.clear)).small();
+            ui.label(text).on_hover_text(tip);
+        });
+    }
+    for (index, finding) in verdict.findings.iter().enumerate() {
+        row(ui, false, |ui| {
+            headline(ui, scene, finding, acts);
+            advice(ui, index, finding, acts);
+        });
+    }
+}
+
+fn row(ui: &mut Ui, is_clear: bool, content: impl FnOnce(&mut Ui)) {
+    let palette = Palette::of(ui);
+    let (icon, colour) = if is_clear {
+        (Icon::Tick, palette.good)
+    } else {
+        (Icon::Warning, palette.amber)
+    };
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        ui.set_min_height(ROW_HEIGHT);
+        let (rect, _) = ui.allocate_exact_size(vec2(16.0, 20.0), Sense::hover());
+        icons::paint(ui.painter(), icon, rect, colour);
+        content(ui);
     });
 }
 
-fn one(
-    ui: &mut Ui,
-    scene: &Scene,
-    (index, finding): (usize, &Finding),
-    room: f32,
-    acts: &mut Intents,
-) {
-    let palette = Palette::of(ui);
-    ui.set_max_width(room);
+/// What is seen; a click goes there.
+fn headline(ui: &mut Ui, scene: &Scene, finding: &Finding, acts: &mut Intents) {
     let text = RichText::new(first_upper(&finding.headline()))
         .small()
-        .color(palette.amber);
-    let response = ui.add(Label::new(text).truncate().sense(Sense::click()));
+        .color(Palette::of(ui).amber);
+    let response = ui.add(Label::new(text).sense(Sense::click()));
     if response.hovered() {
         ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
     }
-    let is_there = (scene.playback.t() - finding.t).abs() < 1e-9;
     if response.clicked() {
         acts.push(Intent::Seek(finding.t));
     }
-    let go = if is_there {
+    let go = if (scene.playback.t() - finding.t).abs() <= NEAR_T {
         "The place is marked on the stage."
     } else {
         "Click to go there."
@@ -94,18 +104,24 @@ fn one(
         finding.cause, finding.remedy
     );
     response.on_hover_text(tip);
-    if is_a_click(&finding.remedy) {
-        let tip = format!(
-            "{}. Can be undone.",
-            first_upper(&finding.remedy.to_string())
-        );
-        if ui.small_button("Fix").on_hover_text(tip).clicked() {
-            acts.push(Intent::TakeAdvice(index));
-        }
+}
+
+/// A button for what helps, where a click can do it.
+fn advice(ui: &mut Ui, index: usize, finding: &Finding, acts: &mut Intents) {
+    if !is_a_click(&finding.remedy) {
+        return;
+    }
+    let tip = format!(
+        "{}. Can be undone.",
+        first_upper(&finding.remedy.to_string())
+    );
+    if ui.small_button("Fix").on_hover_text(tip).clicked() {
+        acts.push(Intent::TakeAdvice(index));
     }
 }
 
-fn first_upper(text: &str) -> String {
+/// A sentence from words that stand within one.
+pub fn first_upper(text: &str) -> String {
     let mut chars = text.chars();
     chars
         .next()

@@ -6,6 +6,7 @@ use bevy_egui::egui::{
 
 use super::super::Scene;
 use super::super::theme::GRID;
+use super::super::verdict::first_upper;
 use super::half::{Half, Inks};
 use crate::app::editor::{CutEnd, Editor, Grab, Handle, Sheet};
 use crate::correspondence::Side;
@@ -19,8 +20,8 @@ pub fn draw(painter: &Painter, scene: &Scene, halves: &[Half; 2], inks: &Inks) {
     let (sheet, editor) = (&scene.sheet, &scene.editor);
     for half in halves {
         let clipped = painter.with_clip_rect(half.rect.intersect(painter.clip_rect()));
-        cuts(&clipped, sheet, editor, half, inks);
         features(&clipped, sheet, editor, half, inks);
+        cuts(&clipped, sheet, editor, half, inks);
     }
     link(painter, sheet, editor, halves, inks);
     for half in halves {
@@ -147,7 +148,12 @@ fn problem_card(painter: &Painter, scene: &Scene, halves: &[Half; 2], problem: &
         .or(editor.selected)
         .and_then(|handle| scene.sheet.place(handle, side))
         .map(|p| half.px(p) + vec2(2.0 * GRID, GRID));
-    let text = format!("{problem}. The transition stays as it was.");
+    let stays = if scene.session.transition().is_some() {
+        " The transition stays as it was."
+    } else {
+        ""
+    };
+    let text = format!("{}.{stays}", first_upper(problem));
     let font = FontId::proportional(12.5);
     let galley = painter.layout(
         text,

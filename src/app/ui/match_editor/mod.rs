@@ -26,7 +26,7 @@ use half::{Half, Inks};
 pub use bar::HEIGHT as BAR_HEIGHT;
 
 /// Height of the line of advice at the lower edge.
-const ADVICE_HEIGHT: f32 = 40.0;
+pub const ADVICE_HEIGHT: f32 = 40.0;
 
 /// Draws both halves and takes the user's hand.
 pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) {
