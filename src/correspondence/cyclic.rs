@@ -11,44 +11,64 @@
 //! Guarantees: the cost of each k is the least of all paths that start there.
 //! Among equally cheap paths the choice is deterministic, nothing more.
 
-use super::lattice::{Lattice, Route, Scratch};
+use super::lattice::{Prices, Route, Scratch};
+
+/// So few starts are solved on one thread.
+const FEW: usize = 16;
 
 /// The cheapest path of each starting column 0 ≤ k < n. The lattice has
 /// 2n columns at least, a row for each target sample and the first one again.
-pub(super) fn all_starts(lattice: &Lattice, n: usize) -> Vec<Route> {
-    let mut scratch = Scratch::default();
-    let first = lattice.shortest([0, n], |_| [0, n], &mut scratch);
-    let mut routes: Vec<Option<Route>> = vec![None; n + 1];
-    routes[n] = Some(first.shifted(n));
-    routes[0] = Some(first);
-    halve(lattice, [0, n], &mut routes, &mut scratch);
-    routes.truncate(n);
-    routes.into_iter().flatten().collect()
+pub(super) fn all_starts(prices: &Prices, n: usize) -> Vec<Route> {
+    let first = prices.shortest([0, n], |_| [0, n], &mut Scratch::default());
+    let mut between = vec![None; n.saturating_sub(1)];
+    let last = first.shifted(n);
+    halve(
+        prices,
+        n,
+        0,
+        [&first, &last],
+        &mut between,
+        &mut Scratch::default(),
+    );
+    let first = std::iter::once(first);
+    first.chain(between.into_iter().flatten()).collect()
 }
 
-/// Solves strictly between two solved starts.
+/// Solves the starts after `left`, strictly between two solved ones.
 fn halve(
-    lattice: &Lattice,
-    [left, right]: [usize; 2],
-    routes: &mut [Option<Route>],
+    prices: &Prices,
+    n: usize,
+    left: usize,
+    [low, high]: [&Route; 2],
+    between: &mut [Option<Route>],
     scratch: &mut Scratch,
 ) {
-    if right - left < 2 {
+    if between.is_empty() {
         return;
     }
-    let middle = left.midpoint(right);
-    let n = routes.len() - 1;
-    if let (Some(low), Some(high)) = (&routes[left], &routes[right]) {
-        let window = |j: usize| [low.rows[j][0], high.rows[j][1]];
-        let found = lattice.shortest([middle, middle + n], window, scratch);
-        routes[middle] = Some(found);
+    let half = between.len() / 2;
+    let middle = left + 1 + half;
+    let window = |j: usize| [low.rows[j][0], high.rows[j][1]];
+    let found = prices.shortest([middle, middle + n], window, scratch);
+    let (before, after) = between.split_at_mut(half);
+    if half > FEW {
+        rayon::join(
+            || halve(prices, n, left, [low, &found], before, scratch),
+            || {
+                let scratch = &mut Scratch::default();
+                halve(prices, n, middle, [&found, high], &mut after[1..], scratch);
+            },
+        );
+    } else {
+        halve(prices, n, left, [low, &found], before, scratch);
+        halve(prices, n, middle, [&found, high], &mut after[1..], scratch);
     }
-    halve(lattice, [left, middle], routes, scratch);
-    halve(lattice, [middle, right], routes, scratch);
+    after[0] = Some(found);
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::lattice::Lattice;
     use super::*;
     use proptest::prelude::*;
 
@@ -88,10 +108,10 @@ mod tests {
     proptest! {
         #[test]
         fn every_start_is_as_cheap_as_its_own_plain_program((lattice, n) in torus()) {
-            let routes = all_starts(&lattice, n);
+            let routes = all_starts(&lattice.prices(), n);
             prop_assert_eq!(routes.len(), n);
             for (k, route) in routes.iter().enumerate() {
-                let plain = lattice.shortest([k, k + n], |_| [k, k + n], &mut Scratch::default());
+                let plain = lattice.prices().shortest([k, k + n], |_| [k, k + n], &mut Scratch::default());
                 prop_assert!((route.cost - plain.cost).abs() <= 1e-12 * (1.0 + plain.cost));
                 prop_assert_eq!(route.rows[0][0], k);
                 prop_assert_eq!(route.rows.last().map(|row| row[1]), Some(k + n));
@@ -109,7 +129,7 @@ mod tests {
             let (there, _) = unrolled(&a, &b, &(0..n * m).map(|k| at(k % n, k / n)).collect::<Vec<_>>(), 0.5);
             let (back, _) = unrolled(&b, &a, &(0..n * m).map(|k| at(k / m, k % m)).collect::<Vec<_>>(), 0.5);
             let least = |routes: Vec<Route>| routes.iter().map(|r| r.cost).fold(f64::INFINITY, f64::min);
-            let (c, d) = (least(all_starts(&there, n)), least(all_starts(&back, m)));
+            let (c, d) = (least(all_starts(&there.prices(), n)), least(all_starts(&back.prices(), m)));
             prop_assert!((c - d).abs() <= 1e-12 * (1.0 + c));
         }
     }

@@ -86,19 +86,18 @@ impl Features {
     /// How unlike the samples are, blind to rotation: at least 0, at
     /// most 1.2 and the price of differing `thickness`.
     pub fn unlike(&self, other: &Self, thickness: f64) -> Vec<f64> {
-        let pair = |j: usize| {
-            self.turning.iter().enumerate().map(move |(i, a)| {
-                let b = &other.turning[j];
-                let thicker = self.log_thickness[i] - other.log_thickness[j];
-                let terms = REACHES.iter().enumerate();
-                let term = |(k, (_, weight)): (usize, &(f64, f64))| {
-                    weight * saturated((a[k] - b[k]).powi(2), 0.5)
-                };
-                terms.map(term).sum::<f64>()
-                    + thickness * saturated(thicker * thicker, HALF_THICKNESS)
-            })
-        };
-        (0..other.turning.len()).flat_map(pair).collect()
+        let mut pairs = Vec::with_capacity(self.turning.len() * other.turning.len());
+        for (b, other_thickness) in other.turning.iter().zip(&other.log_thickness) {
+            for (a, own_thickness) in self.turning.iter().zip(&self.log_thickness) {
+                let mut sum = 0.0;
+                for (k, (_, weight)) in REACHES.iter().enumerate() {
+                    sum += weight * saturated((a[k] - b[k]).powi(2), 0.5);
+                }
+                let thicker = own_thickness - other_thickness;
+                pairs.push(sum + thickness * saturated(thicker * thicker, HALF_THICKNESS));
+            }
+        }
+        pairs
     }
 
     /// `blind` and how unlike tangents and positions are once this curve is
@@ -113,16 +112,19 @@ impl Features {
         let turn = DVec2::from_angle(pose);
         let tangents: Vec<DVec2> = self.tangent.iter().map(|&t| turn.rotate(t)).collect();
         let positions: Vec<DVec2> = self.position.iter().map(|&p| turn.rotate(p)).collect();
-        let n = tangents.len();
-        let posed = |(k, blind): (usize, &f64)| {
-            let (i, j) = (k % n, k / n);
-            let tangent = 0.5 * (1.0 - tangents[i].dot(other.tangent[j]));
-            let distance = positions[i].distance_squared(other.position[j]);
-            blind
-                + weights.tangent * tangent
-                + weights.position * saturated(distance, HALF_DISTANCE)
-        };
-        blind.iter().enumerate().map(posed).collect()
+        let mut unlike = Vec::with_capacity(blind.len());
+        let rows = blind.chunks_exact(tangents.len());
+        for ((row, tangent), place) in rows.zip(&other.tangent).zip(&other.position) {
+            let mine = row.iter().zip(&tangents).zip(&positions);
+            unlike.extend(mine.map(|((blind, own), position)| {
+                let turned = 0.5 * (1.0 - own.dot(*tangent));
+                let distance = position.distance_squared(*place);
+                blind
+                    + weights.tangent * turned
+                    + weights.position * saturated(distance, HALF_DISTANCE)
+            }));
+        }
+        unlike
     }
 }
 

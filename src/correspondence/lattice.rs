@@ -20,6 +20,17 @@ pub(super) struct Lattice {
     pub stretch: f64,
 }
 
+/// What each step of a lattice costs, a row for each sample of the target:
+/// infinite where the step would come from outside.
+#[derive(Debug)]
+pub(super) struct Prices {
+    width: usize,
+    rows: usize,
+    both: Vec<f64>,
+    source: Vec<f64>,
+    target: Vec<f64>,
+}
+
 /// A path: for each row the first and the last column it visits.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Route {
@@ -47,6 +58,7 @@ impl Lattice {
     }
 
     /// Price of the step from `(i − di, j − dj)` to `(i, j)`, di, dj ≤ 1.
+    #[inline]
     pub fn step(&self, i: usize, j: usize, di: usize, dj: usize) -> f64 {
         let walked_source = self.source[i] - self.source[i - di];
         let walked_target = self.target[j] - self.target[j - dj];
@@ -55,6 +67,40 @@ impl Lattice {
             + self.stretch * (walked_source - walked_target).abs()
     }
 
+    /// The price of each step, for a search that visits them many times.
+    pub fn prices(&self) -> Prices {
+        let (width, rows) = (self.source.len(), self.target.len());
+        let mut prices = Prices {
+            width,
+            rows,
+            both: vec![f64::INFINITY; width * rows],
+            source: vec![f64::INFINITY; width * rows],
+            target: vec![f64::INFINITY; width * rows],
+        };
+        for j in 0..rows {
+            let row = j * width..(j + 1) * width;
+            let [both, source, target] = [
+                &mut prices.both[row.clone()],
+                &mut prices.source[row.clone()],
+                &mut prices.target[row],
+            ];
+            for i in 0..width {
+                if i > 0 {
+                    source[i] = self.step(i, j, 1, 0);
+                }
+                if j > 0 {
+                    target[i] = self.step(i, j, 0, 1);
+                }
+                if i > 0 && j > 0 {
+                    both[i] = self.step(i, j, 1, 1);
+                }
+            }
+        }
+        prices
+    }
+}
+
+impl Prices {
     /// The cheapest path from `start` in row 0 to `end` in the last row that
     /// keeps to the windows of columns, both ends included and nondecreasing
     /// from row to row. O(cells in the windows).
@@ -64,69 +110,68 @@ impl Lattice {
         window: impl Fn(usize) -> [usize; 2],
         scratch: &mut Scratch,
     ) -> Route {
-        let rows = self.target.len();
         let window = |j: usize| clipped(window(j), start, end);
-        scratch.reset(self.source.len());
-        let mut above = [1, 0]; // empty
-        for j in 0..rows {
+        scratch.reset(self.width);
+        // As if a row above the first led to the start, and nowhere else.
+        scratch.above[1 + start] = 0.0;
+        for j in 0..self.rows {
             let here = window(j);
             scratch.starts.push(scratch.came.len());
-            self.row(j, here, above, (j == 0).then_some(start), scratch);
-            above = here;
+            self.row(j, here, scratch);
             std::mem::swap(&mut scratch.above, &mut scratch.here);
         }
-        let cost = scratch.above[end];
-        let rows = trace(scratch, rows, start, end, |j| window(j)[0]);
+        let cost = scratch.above[1 + end];
+        let rows = trace(scratch, self.rows, start, end, |j| window(j)[0]);
         Route { cost, rows }
     }
 
     /// The costs of one row from those of the row above.
-    fn row(
-        &self,
-        j: usize,
-        [low, high]: [usize; 2],
-        above: [usize; 2],
-        start: Option<usize>,
-        scratch: &mut Scratch,
-    ) {
-        for i in low..=high {
-            let from_above = |i: usize| {
-                let inside = above[0] <= i && i <= above[1];
-                if inside {
-                    scratch.above[i]
-                } else {
-                    f64::INFINITY
-                }
+    fn row(&self, j: usize, [low, high]: [usize; 2], scratch: &mut Scratch) {
+        let (cells, count) = (j * self.width + low, high + 1 - low);
+        let Scratch {
+            above, here, came, ..
+        } = scratch;
+        // Column i is kept at 1 + i; what lies left of the window is not
+        // reached, and right of it nothing was yet.
+        here[low] = f64::INFINITY;
+        let here = &mut here[1 + low..][..count];
+        let first = came.len();
+        came.resize(first + count, ALONG_BOTH);
+        let came = &mut came[first..];
+        // From the row above: no cell waits for another.
+        let (left, straight) = (&above[low..][..count], &above[1 + low..][..count]);
+        let (both, target) = (&self.both[cells..][..count], &self.target[cells..][..count]);
+        for i in 0..count {
+            let (along_both, along_target) = if j == 0 {
+                (straight[i], f64::INFINITY)
+            } else {
+                (left[i] + both[i], straight[i] + target[i])
             };
-            let (mut best, mut came) = (f64::INFINITY, ALONG_BOTH);
-            if start == Some(i) {
-                best = 0.0;
+            let is_target = along_target < along_both;
+            here[i] = if is_target { along_target } else { along_both };
+            came[i] = if is_target { ALONG_TARGET } else { ALONG_BOTH };
+        }
+        // Along the row: each cell waits for the one before.
+        let source = &self.source[cells..][..count];
+        let mut before = f64::INFINITY;
+        for i in 0..count {
+            let cost = before + source[i];
+            let ties = cost == here[i] && came[i] == ALONG_TARGET;
+            if cost < here[i] || ties {
+                here[i] = cost;
+                came[i] = ALONG_SOURCE;
             }
-            if j > 0 && i > 0 {
-                best = from_above(i - 1) + self.step(i, j, 1, 1);
-            }
-            if i > low {
-                let cost = scratch.here[i - 1] + self.step(i, j, 1, 0);
-                if cost < best {
-                    (best, came) = (cost, ALONG_SOURCE);
-                }
-            }
-            if j > 0 {
-                let cost = from_above(i) + self.step(i, j, 0, 1);
-                if cost < best {
-                    (best, came) = (cost, ALONG_TARGET);
-                }
-            }
-            scratch.here[i] = best;
-            scratch.came.push(came);
+            before = here[i];
         }
     }
 }
 
 impl Scratch {
     fn reset(&mut self, width: usize) {
-        self.above.resize(width, f64::INFINITY);
-        self.here.resize(width, f64::INFINITY);
+        for row in [&mut self.above, &mut self.here] {
+            row.clear();
+            row.resize(1 + width, f64::INFINITY);
+        }
         self.came.clear();
         self.starts.clear();
     }
@@ -189,7 +234,8 @@ mod tests {
             unlike: vec![1.0, 2.0, 0.1, 4.0, 3.0, 0.5, 0.2, 7.0, 1.0, 0.3, 9.0, 0.4],
             stretch: 0.2,
         };
-        let route = lattice.shortest([0, 3], |_| [0, 3], &mut Scratch::default());
+        let prices = lattice.prices();
+        let route = prices.shortest([0, 3], |_| [0, 3], &mut Scratch::default());
         assert!((route.cost - cheapest(&lattice, 3, 2)).abs() < 1e-15);
         let nodes = route.nodes();
         let price = |w: &[[usize; 2]]| {

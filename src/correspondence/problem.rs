@@ -12,6 +12,7 @@ use super::lattice::{Lattice, Route, Scratch};
 use super::refine::refine;
 use super::samples::Samples;
 use crate::geometry::DVec2;
+use rayon::prelude::*;
 
 /// What turning adds to the cost, relative and absolute, times 1 − cos of the
 /// rotation. The relative part settles near ties of unlike designs (a flower
@@ -29,6 +30,15 @@ const POSES: usize = 5;
 /// How often the pose of the match found is put in and the match redone.
 const POSE_ROUNDS: usize = 3;
 
+/// With so many samples the poses are chosen among by a match of fewer.
+const MANY: u32 = 96;
+
+/// Poses whose coarse score is within this factor of the best are tried again.
+const NEAR_TIE: f64 = 1.15;
+
+/// A pose so near the rotation of its match is not put right, in radians.
+const SAME_POSE: f64 = 0.02;
+
 /// Samples by which the refined path may leave the coarse one.
 const REACH: usize = 9;
 
@@ -42,6 +52,9 @@ pub(super) struct Problem {
     stretch: f64,
     thickness: f64,
     keep_up: bool,
+    /// The same with fewer samples, to tell which poses are worth a full
+    /// search; none where the full one is small.
+    coarse: Option<Box<Self>>,
 }
 
 /// A path with the comparison it was found by.
@@ -52,6 +65,8 @@ struct Solution {
     cost: f64,
     /// The cost and what the rotation adds to it.
     score: f64,
+    /// The rotation that was assumed, and the one of the match.
+    pose: f64,
     rotation: f64,
 }
 
@@ -62,6 +77,7 @@ impl Problem {
         pins: Vec<[f64; 2]>,
         options: &MatchOptions,
     ) -> Self {
+        let all_pins = pins.clone();
         let fixed = |side: usize| pins.iter().map(|pin| pin[side]).collect::<Vec<_>>();
         let a = Samples::of(source, options.samples, &fixed(0));
         let b = Samples::of(target, options.samples, &fixed(1));
@@ -74,6 +90,14 @@ impl Problem {
             stretch: options.stretch,
             thickness: options.thickness,
             keep_up: options.keep_up,
+            coarse: (options.samples >= MANY).then(|| {
+                let samples = options.samples.div_ceil(2).min(MANY);
+                let fewer = MatchOptions {
+                    samples,
+                    ..options.clone()
+                };
+                Box::new(Self::new(source, target, all_pins, &fewer))
+            }),
         }
     }
 
@@ -99,39 +123,64 @@ impl Problem {
         }
     }
 
-    /// The best path over the poses that the blind comparison suggests.
+    /// The best path over the poses that a search through fewer samples left.
     fn posed_solution(&self) -> Solution {
         let blind = self
             .source_features
             .unlike(&self.target_features, self.thickness);
-        let weights = if self.keep_up {
-            PoseWeights::FIXED
-        } else {
-            PoseWeights::FREE
-        };
-        let posed = |pose: f64| {
-            let [a, b] = [&self.source_features, &self.target_features];
-            self.best_path(a.unlike_posed(b, &blind, pose, weights))
-        };
         if self.keep_up {
-            return posed(0.0);
+            return self.posed(&blind, 0.0, PoseWeights::FIXED);
         }
-        let mut poses = self.poses(&blind).into_iter();
-        let mut best = posed(poses.next().unwrap_or(0.0));
-        for pose in poses {
-            let next = posed(pose);
-            if next.score < best.score {
-                best = next;
-            }
-        }
+        let poses = match &self.coarse {
+            Some(coarse) => coarse.likely_poses(),
+            None => self.poses(&blind),
+        };
+        let tried = self.solutions(&blind, poses).into_iter();
+        let least = |best: Solution, next: Solution| {
+            if next.score < best.score { next } else { best }
+        };
+        let best = tried.reduce(least);
+        let mut best = best.unwrap_or_else(|| self.posed(&blind, 0.0, PoseWeights::FREE));
         for _ in 0..POSE_ROUNDS {
-            let next = posed(best.rotation);
+            if (best.rotation - best.pose).cos() > SAME_POSE.cos() {
+                break;
+            }
+            let next = self.posed(&blind, best.rotation, PoseWeights::FREE);
             if next.score >= best.score {
                 break;
             }
             best = next;
         }
         best
+    }
+
+    /// The rotation of the best match, and those of others almost as good.
+    fn likely_poses(&self) -> Vec<f64> {
+        let blind = self
+            .source_features
+            .unlike(&self.target_features, self.thickness);
+        let mut found = self.solutions(&blind, self.poses(&blind));
+        found.sort_by(|a, b| a.score.total_cmp(&b.score));
+        let most = found.first().map_or(0.0, |best| NEAR_TIE * best.score);
+        let mut poses: Vec<f64> = Vec::new();
+        for solution in found.iter().take_while(|found| found.score <= most) {
+            if poses.iter().all(|&pose| apart(pose, solution.rotation)) {
+                poses.push(solution.rotation);
+            }
+        }
+        poses
+    }
+
+    /// The best path at each of some poses.
+    fn solutions(&self, blind: &[f64], poses: Vec<f64>) -> Vec<Solution> {
+        let posed = |pose| self.posed(blind, pose, PoseWeights::FREE);
+        poses.into_par_iter().map(posed).collect()
+    }
+
+    fn posed(&self, blind: &[f64], pose: f64, weights: PoseWeights) -> Solution {
+        let [a, b] = [&self.source_features, &self.target_features];
+        let found = self.best_path(a.unlike_posed(b, blind, pose, weights));
+        Solution { pose, ..found }
     }
 
     /// Rotations worth trying, the likeliest first, none of them near another.
@@ -169,6 +218,7 @@ impl Problem {
                     unlike: Vec::new(),
                     cost,
                     score,
+                    pose: 0.0,
                     rotation,
                 });
             }
@@ -191,7 +241,11 @@ impl Problem {
             for ends in fixed.windows(2) {
                 let lattice = self.lattice(unlike, ends[0], ends[1]);
                 let width = lattice.source.len() - 1;
-                let route = lattice.shortest([0, width], |_| [0, width], &mut Scratch::default());
+                let route = (lattice.prices()).shortest(
+                    [0, width],
+                    |_| [0, width],
+                    &mut Scratch::default(),
+                );
                 cost += route.cost;
                 nodes.extend(moved(&route, ends[0]).skip(1));
             }
@@ -199,7 +253,7 @@ impl Problem {
         }
         let (n, m) = (self.source.steps(), self.target.steps());
         let lattice = self.lattice(unlike, [0, 0], [2 * n, m]);
-        for route in all_starts(&lattice, n) {
+        for route in all_starts(&lattice.prices(), n) {
             visit(route.cost, &|| route.nodes());
         }
     }
@@ -231,12 +285,16 @@ impl Problem {
     /// The window of pairs from one node to another, both included.
     fn lattice(&self, unlike: &[f64], from: [usize; 2], to: [usize; 2]) -> Lattice {
         let (n, m) = (self.source.places.len(), self.target.places.len());
-        let row = |j: usize| (from[0]..=to[0]).map(move |i| unlike[(j % m) * n + i % n]);
         let place = |samples: &Samples, k: usize| samples.unrolled(k);
+        let mut window = Vec::with_capacity((to[0] + 1 - from[0]) * (to[1] + 1 - from[1]));
+        for j in from[1]..=to[1] {
+            let round = &unlike[(j % m) * n..][..n];
+            window.extend((from[0]..=to[0]).map(|i| round[i % n]));
+        }
         Lattice {
             source: (from[0]..=to[0]).map(|i| place(&self.source, i)).collect(),
             target: (from[1]..=to[1]).map(|j| place(&self.target, j)).collect(),
-            unlike: (from[1]..=to[1]).flat_map(row).collect(),
+            unlike: window,
             stretch: self.stretch,
         }
     }

@@ -77,12 +77,13 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
 
 fn cheapest(lattice: &Lattice, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> {
     let width = lattice.source.len();
+    let steps = STEPS.map(|step| Step::new(step, width));
     let mut cost = vec![f64::INFINITY; width * windows.len()];
     let mut came = vec![usize::MAX; cost.len()];
     cost[0] = 0.0;
     for (j, &[low, high]) in windows.iter().enumerate() {
         for i in low..=high {
-            if let Some((total, step)) = best_step(lattice, &cost, [i, j]) {
+            if let Some((total, step)) = best_step(lattice, &steps, &cost, [i, j]) {
                 cost[j * width + i] = total;
                 came[j * width + i] = step;
             }
@@ -101,46 +102,76 @@ fn cheapest(lattice: &Lattice, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>
 
 /// The cheapest way to a node: its cost and the step, none where no step
 /// comes from a node reached.
-fn best_step(lattice: &Lattice, cost: &[f64], [i, j]: [usize; 2]) -> Option<(f64, usize)> {
+fn best_step(
+    lattice: &Lattice,
+    steps: &[Step],
+    cost: &[f64],
+    [i, j]: [usize; 2],
+) -> Option<(f64, usize)> {
+    let mut least = f64::INFINITY;
     let mut best = None;
-    for (k, &[di, dj]) in STEPS.iter().enumerate() {
-        if i < di || j < dj {
+    let node = j * lattice.source.len() + i;
+    for (k, step) in steps.iter().enumerate() {
+        if i < step.source || j < step.target {
             continue;
         }
-        let before = cost[(j - dj) * lattice.source.len() + i - di];
-        if before.is_finite() {
-            let total = before + price(lattice, [i - di, j - dj], [di, dj]);
-            if best.is_none_or(|(least, _)| total < least) {
-                best = Some((total, k));
-            }
+        let before = cost[node - step.back];
+        if before >= least {
+            continue; // a step costs something
+        }
+        let total = before + step.price(lattice, [i, j]);
+        if total < least {
+            (least, best) = (total, Some(k));
         }
     }
-    best
+    best.map(|step| (least, step))
 }
 
-/// Bending along the straight step by the trapezoid rule, and its stretch.
-fn price(lattice: &Lattice, [i, j]: [usize; 2], [di, dj]: [usize; 2]) -> f64 {
-    let walked_source = lattice.source[i + di] - lattice.source[i];
-    let walked_target = lattice.target[j + dj] - lattice.target[j];
-    let walked = walked_source + walked_target;
-    let stretch = (walked_source - walked_target).powi(2) / walked;
-    let pieces = di.max(dj);
-    let mut bend = 0.5 * (lattice.at(i, j) + lattice.at(i + di, j + dj));
-    for k in 1..pieces {
-        bend += between(lattice, [i, j], [di * k, dj * k], pieces);
+/// A step, and where between its ends the unlikeness is looked up.
+struct Step {
+    source: usize,
+    target: usize,
+    /// From the node at its end back to the one it comes from.
+    back: usize,
+    /// Along the longer side, sample by sample: two nodes, counted from where
+    /// the step begins, and the share of the second.
+    between: Vec<(usize, usize, f64)>,
+}
+
+impl Step {
+    /// In a lattice of so many columns.
+    fn new([source, target]: [usize; 2], width: usize) -> Self {
+        let pieces = source.max(target);
+        let between = (1..pieces).map(|k| {
+            let [x, y] = [source * k / pieces, target * k / pieces];
+            let [u, v] = [source * k % pieces, target * k % pieces];
+            // One of u and v is 0: the longer side goes sample by sample.
+            let next = y * width + x + usize::from(u > 0) + width * usize::from(v > 0);
+            (y * width + x, next, u.max(v) as f64 / pieces as f64)
+        });
+        Self {
+            source,
+            target,
+            back: target * width + source,
+            between: between.collect(),
+        }
     }
-    0.5 * walked * bend / pieces as f64 + lattice.stretch * stretch
-}
 
-/// Unlikeness at `(i, j) + (ahead / pieces)`, linear between samples.
-fn between(lattice: &Lattice, [i, j]: [usize; 2], ahead: [usize; 2], pieces: usize) -> f64 {
-    let [x, y] = ahead.map(|a| a / pieces);
-    let [u, v] = ahead.map(|a| (a % pieces) as f64 / pieces as f64);
-    let (i, j) = (i + x, j + y);
-    // One of u and v is 0: the longer side of a step goes sample by sample.
-    let next = lattice.at(i + usize::from(u > 0.0), j + usize::from(v > 0.0));
-    let part = u.max(v);
-    (1.0 - part) * lattice.at(i, j) + part * next
+    /// Bending along the straight step by the trapezoid rule, and its stretch.
+    fn price(&self, lattice: &Lattice, [i, j]: [usize; 2]) -> f64 {
+        let walked_source = lattice.source[i] - lattice.source[i - self.source];
+        let walked_target = lattice.target[j] - lattice.target[j - self.target];
+        let walked = walked_source + walked_target;
+        let stretch = (walked_source - walked_target).powi(2) / walked;
+        let end = j * lattice.source.len() + i;
+        let unlike = &lattice.unlike[end - self.back..=end];
+        let mut bend = 0.5 * (unlike[0] + unlike[self.back]);
+        for &(node, next, share) in &self.between {
+            bend += (1.0 - share) * unlike[node] + share * unlike[next];
+        }
+        let pieces = (1 + self.between.len()) as f64;
+        0.5 * walked * bend / pieces + lattice.stretch * stretch
+    }
 }
 
 #[cfg(test)]
@@ -172,7 +203,8 @@ mod tests {
     #[test]
     fn a_step_costs_what_its_halves_cost_where_nothing_changes() {
         let lattice = plain(8, 8);
-        let whole = price(&lattice, [0, 0], [1, 2]) + price(&lattice, [1, 2], [1, 2]);
+        let step = Step::new([1, 2], 9);
+        let whole = step.price(&lattice, [1, 2]) + step.price(&lattice, [2, 4]);
         let long = 0.5 * (0.25 + 0.5) + (0.25f64 - 0.5).powi(2) / 0.75;
         assert!((whole - long).abs() < 1e-15);
     }
