@@ -8,7 +8,7 @@
 use super::{BuildError, TransitionSpec};
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::{Matching, RegionMatch, match_regions};
-use crate::geometry::{Regions, orient2d};
+use crate::geometry::orient2d;
 use crate::progress::Progress;
 use crate::warp::{Arap, Warp};
 use rayon::prelude::*;
@@ -45,64 +45,77 @@ pub(super) fn best(
         spec.source.outline(bar_width)?,
         spec.target.outline(bar_width)?,
     ];
-    let first = candidate(&outlines, &spec.matching, spec, progress)?;
-    if spec.matching.stretch.is_some() || first.is_good() {
-        return Ok((first.matched, first.arap));
-    }
-    let priced = |stretch: f64, thickness: Option<f64>| Matching {
-        stretch: Some(stretch),
-        thickness,
-        ..spec.matching.clone()
+    let matched = |matching: &Matching| {
+        let [source, target] = &outlines;
+        match_regions(source, target, matching, progress)
     };
-    let others = OTHER_PRICES.map(|price| priced(price, spec.matching.thickness));
-    let mut best = best_of(first, &others, &outlines, spec, progress)?;
+    let film = |matched: RegionMatch| Candidate::new(matched, spec, progress);
+    let first = matched(&spec.matching)?;
+    let is_settled = spec.matching.stretch.is_some();
+    let is_alike = first.pieces.iter().all(|piece| piece.cost <= ALIKE);
+    let others = || {
+        let others = OTHER_PRICES.map(|price| priced(spec, price, spec.matching.thickness));
+        best_of(&others, |matching| film(matched(matching)?))
+    };
+    let mut best = if is_settled || is_alike {
+        film(first)?
+    } else {
+        let (first, others) = rayon::join(|| film(first), others);
+        first?.or(others?)
+    };
+    if is_settled || best.folds == 0 {
+        return Ok((best.matched, best.arap));
+    }
+    if is_alike {
+        best = best.or(others()?);
+    }
     if best.folds > 0 {
-        let last = LAST_PRICES.map(|price| priced(price, Some(0.0)));
-        best = best_of(best, &last, &outlines, spec, progress)?;
+        let last = LAST_PRICES.map(|price| priced(spec, price, Some(0.0)));
+        best = best.or(best_of(&last, |matching| film(matched(matching)?))?);
     }
     Ok((best.matched, best.arap))
 }
 
-/// The best of a candidate and others yet to be made.
-fn best_of(
-    mut best: Candidate,
-    others: &[Matching],
-    outlines: &[Regions; 2],
-    spec: &TransitionSpec,
-    progress: &dyn Progress,
-) -> Result<Candidate, BuildError> {
-    let others = others
-        .par_iter()
-        .map(|matching| candidate(outlines, matching, spec, progress));
-    for next in others.collect::<Result<Vec<_>, _>>()? {
-        if next.is_better_than(&best) {
-            best = next;
-        }
+/// The settings at other prices of stretch and of thickness.
+fn priced(spec: &TransitionSpec, stretch: f64, thickness: Option<f64>) -> Matching {
+    Matching {
+        stretch: Some(stretch),
+        thickness,
+        ..spec.matching.clone()
     }
-    Ok(best)
 }
 
-fn candidate(
-    [source, target]: &[Regions; 2],
-    matching: &Matching,
-    spec: &TransitionSpec,
-    progress: &dyn Progress,
-) -> Result<Candidate, BuildError> {
-    let matched = match_regions(source, target, matching, progress)?;
-    let mesh = CompatibleMesh::from_outlines(&matched, &spec.triangulation, progress)?;
-    let arap = Arap::build(&mesh, &spec.arap, progress)?;
-    Ok(Candidate {
-        folds: folds(&arap),
-        distortion: mesh.distortion(),
-        matched,
-        arap,
-    })
+/// The best of several, the first among equals; none of none.
+fn best_of(
+    matchings: &[Matching],
+    candidate: impl Fn(&Matching) -> Result<Candidate, BuildError> + Sync + Send,
+) -> Result<Option<Candidate>, BuildError> {
+    let found: Result<Vec<Candidate>, BuildError> = matchings.par_iter().map(candidate).collect();
+    Ok(found?.into_iter().reduce(|best, next| best.or(Some(next))))
 }
 
 impl Candidate {
-    fn is_good(&self) -> bool {
-        let alike = |piece: &crate::correspondence::PieceMatch| piece.cost <= ALIKE;
-        self.folds == 0 && self.matched.pieces.iter().all(alike)
+    fn new(
+        matched: RegionMatch,
+        spec: &TransitionSpec,
+        progress: &dyn Progress,
+    ) -> Result<Self, BuildError> {
+        let mesh = CompatibleMesh::from_outlines(&matched, &spec.triangulation, progress)?;
+        let arap = Arap::build(&mesh, &spec.arap, progress)?;
+        Ok(Self {
+            folds: folds(&arap),
+            distortion: mesh.distortion(),
+            matched,
+            arap,
+        })
+    }
+
+    /// The better one, this one among equals.
+    fn or(self, other: Option<Self>) -> Self {
+        match other {
+            Some(other) if other.is_better_than(&self) => other,
+            _ => self,
+        }
     }
 
     fn is_better_than(&self, other: &Self) -> bool {
