@@ -188,9 +188,11 @@ fn triangulated(
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PolygonsError> {
-    let forwards = transferred(source, target, options, progress)?;
-    let backwards = transferred(target, source, options, progress)?.map(PairMesh::swapped);
-    let best = [forwards, backwards]
+    let (forwards, backwards) = rayon::join(
+        || transferred(source, target, options, progress),
+        || transferred(target, source, options, progress),
+    );
+    let best = [forwards?, backwards?.map(PairMesh::swapped)]
         .into_iter()
         .flatten()
         .min_by(|a, b| badness(a).total_cmp(&badness(b)));

@@ -15,8 +15,10 @@ use std::collections::HashSet;
 const ROUNDS: usize = 5;
 /// Steps of the moves before two meshes are compared.
 const FIRST_STEPS: usize = 20;
-/// Steps of the moves in each round.
+/// Steps of the moves in the last round, and in those before it, after which
+/// the mesh is changed once more.
 const STEPS: usize = 60;
+const EARLY_STEPS: usize = 8;
 /// Most steps times faces in each round: only meshes far larger than their
 /// boundary, from the hardest matches, feel it.
 const MOST_WORK: usize = 1_200_000;
@@ -35,7 +37,7 @@ pub(super) fn improve(
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<(), PolygonsError> {
-    let steps = STEPS.min(MOST_WORK / (1 + mesh.faces().count())).max(1);
+    let most = (MOST_WORK / (1 + mesh.faces().count())).max(1);
     for round in 0..ROUNDS {
         checked(progress, "improving", round as f64 / ROUNDS as f64)?;
         flip_all(mesh);
@@ -45,7 +47,12 @@ pub(super) fn improve(
             split_costly(mesh, options);
         }
         flip_all(mesh);
-        relax(mesh, steps);
+        let steps = if round + 1 < ROUNDS {
+            EARLY_STEPS
+        } else {
+            STEPS
+        };
+        relax(mesh, steps.min(most));
     }
     Ok(())
 }
