@@ -58,6 +58,11 @@ pub(super) struct CheckArgs {
     #[arg(long, requires = "pairs")]
     both: bool,
 
+    /// With --pairs: one pair after the other, so that each has the machine for
+    /// itself and its times are those of the window
+    #[arg(long, requires = "pairs")]
+    one_by_one: bool,
+
     /// At how many values of t, evenly from 0 to 1, the film is measured
     #[arg(long, value_name = "N", default_value_t = 65, value_parser = clap::value_parser!(u64).range(2..=10_000))]
     samples: u64,
@@ -70,15 +75,20 @@ pub(super) struct CheckArgs {
     method: MethodArgs,
 }
 
+impl CheckArgs {
+    fn wants_a_table(&self) -> bool {
+        self.out.is_some() || self.sheet.is_some() || self.both || self.one_by_one
+    }
+}
+
 pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
     match (&args.pairs, &args.out, &args.inputs) {
         (Some(pairs), Some(out), _) => pairs::run(args, pairs, out),
         // The parser lets these pass where --pairs is at odds with the inputs.
-        (None, ..) if args.out.is_some() || args.sheet.is_some() || args.both => {
-            Err(CliError::Usage(
-                "--out, --sheet and --both go with a table: give it with --pairs".to_owned(),
-            ))
-        }
+        (None, ..) if args.wants_a_table() => Err(CliError::Usage(
+            "--out, --sheet, --both and --one-by-one go with a table: give it with --pairs"
+                .to_owned(),
+        )),
         (_, _, Some(inputs)) => one(args, inputs),
         _ => Err(CliError::Usage(
             "give a project, two designs, or a table of pairs with --pairs".to_owned(),

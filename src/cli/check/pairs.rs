@@ -136,6 +136,9 @@ fn work(args: &CheckArgs, jobs: &[Job<'_>], terminal: &Terminal) -> Vec<Done> {
         terminal.report("checking pairs", count as f64 / jobs.len() as f64);
         done
     };
+    if args.one_by_one {
+        return jobs.iter().map(one).collect();
+    }
     jobs.par_iter().with_max_len(1).map(one).collect()
 }
 
