@@ -36,5 +36,5 @@ pub use polygons::{PolygonOptions, SharedPolygons};
 pub use regions::{
     POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch, match_regions,
 };
-pub use settings::{HoleRule, Matching, PartRule, PointPair, RingCut};
+pub use settings::{HoleRule, LinePair, Matching, PartRule, PointPair, RingCut};
 pub use side::Side;

@@ -33,6 +33,10 @@ pub struct Matching {
     /// the holes, that it lies on.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub pins: Vec<PointPair>,
+    /// Lines that are the same, for warps of the plane: a nose, the edge of a
+    /// wing. Each warp reads pins and lines as it can.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lines: Vec<LinePair>,
     /// Parts that are the same, each named by a point in or near it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links: Vec<PointPair>,
@@ -50,6 +54,17 @@ pub struct PointPair {
     pub source: DVec2,
     /// In the target.
     pub target: DVec2,
+}
+
+/// A line of the source and one of the target, each from end to end, in each
+/// design's own coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct LinePair {
+    /// In the source.
+    pub source: [DVec2; 2],
+    /// In the target.
+    pub target: [DVec2; 2],
 }
 
 /// A cut that opens a ring: straight from a hole to the boundary around it.
@@ -111,6 +126,26 @@ impl PointPair {
     }
 }
 
+impl LinePair {
+    /// The line of one side.
+    #[must_use]
+    pub fn of(&self, side: Side) -> [DVec2; 2] {
+        match side {
+            Side::Source => self.source,
+            Side::Target => self.target,
+        }
+    }
+
+    /// The lines sent through one map each.
+    #[must_use]
+    pub fn placed(&self, [source, target]: &[Similarity; 2]) -> Self {
+        Self {
+            source: self.source.map(|p| source.apply(p)),
+            target: self.target.map(|p| target.apply(p)),
+        }
+    }
+}
+
 impl Matching {
     /// How each pair of boundaries is matched.
     #[must_use]
@@ -138,6 +173,7 @@ impl Matching {
         };
         Self {
             pins: pairs(&self.pins),
+            lines: self.lines.iter().map(|line| line.placed(by)).collect(),
             links: pairs(&self.links),
             cuts: self.cuts.iter().map(cut).collect(),
             ..*self
@@ -154,12 +190,17 @@ impl Matching {
             };
             pairs.iter().map(swapped).collect()
         };
+        let line = |line: &LinePair| LinePair {
+            source: line.target,
+            target: line.source,
+        };
         let cut = |cut: &RingCut| RingCut {
             side: cut.side.other(),
             ..*cut
         };
         Self {
             pins: pairs(&self.pins),
+            lines: (self.lines.iter().map(line)).collect(),
             links: pairs(&self.links),
             cuts: self.cuts.iter().map(cut).collect(),
             ..*self

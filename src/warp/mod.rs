@@ -7,9 +7,11 @@
 
 pub mod arap;
 mod none;
+mod plane;
 
 pub use arap::{Arap, ArapError, ArapOptions, PathKind, Weights};
 pub use none::Still;
+pub use plane::{OnGrid, PlaneGrid, PlaneWarp};
 
 use crate::geometry::DVec2;
 use serde::{Deserialize, Serialize};

@@ -1,0 +1,166 @@
+//! Warps of the whole plane: two maps from the frame, one into each design.
+//!
+//! Both are inverse warps: for each place of the frame they say which point of
+//! a design is seen there, so that no hole opens. They are evaluated on a grid
+//! that covers the frame and are taken as linear on its triangles.
+
+use super::{Placement, Placer, Warp};
+use crate::geometry::{Bounds, DVec2};
+use std::fmt::Debug;
+use std::sync::Arc;
+
+/// A family of warps by features: points or lines that lie somewhere between
+/// those of the source and those of the target at t.
+pub trait PlaneWarp: Debug + Send + Sync + 'static {
+    /// Memory of one frame: whatever is solved or allocated for a t.
+    type Maps: Debug + Send + Sync;
+
+    /// Memory for frames to come.
+    fn maps(&self) -> Self::Maps;
+
+    /// Where to look in the source and in the target for each place of the
+    /// frame at t. All slices have one length. Cannot fail: whatever the
+    /// features are and wherever they meet, places are finite.
+    fn look_up(
+        &self,
+        t: f64,
+        maps: &mut Self::Maps,
+        frame: &[DVec2],
+        in_source: &mut [DVec2],
+        in_target: &mut [DVec2],
+    );
+}
+
+/// A rectangle divided into columns and rows of two triangles each.
+#[derive(Clone, Debug)]
+pub struct PlaneGrid {
+    faces: Arc<[[u32; 3]]>,
+    places: Vec<DVec2>,
+}
+
+impl PlaneGrid {
+    /// `frame` in squares, about `cells` along its longer side; at least one.
+    #[must_use]
+    pub fn covering(frame: &Bounds, cells: u32) -> Self {
+        let size = frame.size();
+        let cell = size.max_element() / f64::from(cells.max(1));
+        let along = |length: f64| ((length / cell).round() as u32).clamp(1, cells.max(1));
+        Self::new(frame, along(size.x), along(size.y))
+    }
+
+    fn new(frame: &Bounds, columns: u32, rows: u32) -> Self {
+        let (low, size) = (frame.min, frame.size());
+        let place = |i: u32, j: u32| {
+            low + size
+                * DVec2::new(
+                    f64::from(i) / f64::from(columns),
+                    f64::from(j) / f64::from(rows),
+                )
+        };
+        let places = (0..=rows).flat_map(|j| (0..=columns).map(move |i| place(i, j)));
+        let cell = |i: u32, j: u32| {
+            let a = j * (columns + 1) + i;
+            let (b, d) = (a + 1, a + columns + 1);
+            let c = d + 1;
+            // Diagonals alternate, so that none of the two directions rules.
+            if (i + j) % 2 == 0 {
+                [[a, b, c], [a, c, d]]
+            } else {
+                [[a, b, d], [b, c, d]]
+            }
+        };
+        let cells = (0..rows).flat_map(|j| (0..columns).flat_map(move |i| cell(i, j)));
+        Self {
+            faces: cells.collect(),
+            places: places.collect(),
+        }
+    }
+
+    /// The corners of the cells, row by row from below.
+    #[must_use]
+    pub fn places(&self) -> &[DVec2] {
+        &self.places
+    }
+}
+
+/// A plane warp on a grid: a row of the table.
+#[derive(Debug)]
+pub struct OnGrid<W> {
+    warp: Arc<W>,
+    grid: PlaneGrid,
+}
+
+impl<W: PlaneWarp> OnGrid<W> {
+    /// The warp as it is seen in a frame.
+    pub fn new(warp: W, grid: PlaneGrid) -> Self {
+        Self {
+            warp: Arc::new(warp),
+            grid,
+        }
+    }
+}
+
+impl<W: PlaneWarp> Warp for OnGrid<W> {
+    fn placer(&self) -> Box<dyn Placer> {
+        let places = self.grid.places.clone();
+        let mut placer = GridPlacer {
+            maps: self.warp.maps(),
+            warp: Arc::clone(&self.warp),
+            placement: Placement {
+                faces: Arc::clone(&self.grid.faces),
+                in_frame: places.clone(),
+                in_source: places.clone(),
+                in_target: places,
+            },
+        };
+        placer.place(0.0);
+        Box::new(placer)
+    }
+}
+
+#[derive(Debug)]
+struct GridPlacer<W: PlaneWarp> {
+    warp: Arc<W>,
+    maps: W::Maps,
+    placement: Placement,
+}
+
+impl<W: PlaneWarp> Placer for GridPlacer<W> {
+    fn place(&mut self, t: f64) {
+        let Placement {
+            in_frame,
+            in_source,
+            in_target,
+            ..
+        } = &mut self.placement;
+        self.warp
+            .look_up(t, &mut self.maps, in_frame, in_source, in_target);
+    }
+
+    fn placement(&self) -> &Placement {
+        &self.placement
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::twice_signed_area;
+
+    #[test]
+    fn a_grid_covers_its_frame_once() {
+        let frame = Bounds {
+            min: DVec2::new(-1.0, 2.0),
+            max: DVec2::new(5.0, 4.0),
+        };
+        let grid = PlaneGrid::covering(&frame, 9);
+        assert_eq!(grid.places().len(), 10 * 4);
+        let area = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|v| grid.places()[v as usize]);
+            twice_signed_area(a, b, c)
+        };
+        let areas: Vec<f64> = grid.faces.iter().map(area).collect();
+        assert!(areas.iter().all(|&area| area > 0.0));
+        assert!((0.5 * areas.iter().sum::<f64>() - 12.0).abs() < 1e-12);
+    }
+}
