@@ -14,6 +14,7 @@
 
 mod clock;
 mod columns;
+mod histogram;
 mod pairs;
 mod report;
 mod summary;

@@ -5,6 +5,7 @@ use std::fmt::Write;
 use serde::Serialize;
 
 use super::columns::{self, Value};
+use super::histogram::Histogram;
 use super::text::short;
 
 /// Measures of which the median and the worst are told.
@@ -33,6 +34,14 @@ const TOLD: [(&str, &str); 13] = [
     ("build_s", "build in all, seconds"),
 ];
 
+/// Measures whose spread is drawn, where there are enough values for it.
+const DRAWN: [&str; 3] = [
+    "conformal_p95",
+    "conformal_worst",
+    "match_and_triangulate_s",
+];
+const ENOUGH: usize = 10;
+
 /// The whole table in short.
 #[derive(Debug, Serialize)]
 pub(super) struct Summary {
@@ -57,6 +66,8 @@ pub(super) struct Told {
     words: &'static str,
     pub median: f64,
     pub worst: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spread: Option<Histogram>,
 }
 
 impl Summary {
@@ -103,6 +114,11 @@ impl Summary {
             let (median, worst) = (short(told.median), short(told.worst));
             writeln!(text, "{:<WIDTH$}{median:>12}{worst:>12}", told.words).unwrap_or_default();
         }
+        for told in &self.measures {
+            if let Some(spread) = &told.spread {
+                write!(text, "\n{}\n{}", told.words, spread.text()).unwrap_or_default();
+            }
+        }
         text
     }
 }
@@ -128,6 +144,9 @@ fn of_column(rows: &[&[Option<Value>]], told: &(&'static str, &'static str)) -> 
         words,
         median: 0.5 * (lower + upper),
         worst: *all.last()?,
+        spread: (DRAWN.contains(&column) && all.len() >= ENOUGH)
+            .then(|| Histogram::of(&all))
+            .flatten(),
     })
 }
 
