@@ -63,7 +63,7 @@ impl PlaneGrid {
             let (b, d) = (a + 1, a + columns + 1);
             let c = d + 1;
             // Diagonals alternate, so that none of the two directions rules.
-            if (i + j) % 2 == 0 {
+            if (i + j).is_multiple_of(2) {
                 [[a, b, c], [a, c, d]]
             } else {
                 [[a, b, d], [b, c, d]]
