@@ -4,10 +4,13 @@
 //! is a warp and a content**: the warp says where each material point is at
 //! time t, the content says what is seen there.
 //!
-//! | warp ↓ · content → | solid (regions, bars) | distance field (contour) |
-//! |---|---|---|
-//! | none | – | log-space blending of signed distances |
-//! | ARAP | rigidity-preserving interpolation | – |
+//! | warp ↓ · content → | solid (regions, bars) | distance field (contour) | colours (two pictures) |
+//! |---|---|---|---|
+//! | none | – | log-space blending of signed distances | cross-dissolve |
+//! | ARAP | rigidity-preserving interpolation | fields carried by moving parts | textured morph |
+//! | pairs of lines | – | carried fields | morph |
+//! | scattered points | – | carried fields | morph |
+//! | B-spline lattices | – | carried fields | morph |
 //!
 //! What joins the two is a [`warp::Placement`]: faces, and for each vertex its
 //! place in the frame, in the source and in the target.
@@ -46,7 +49,7 @@
 //! A module uses modules above it, never below.
 //!
 //! ```text
-//! progress                      how work tells how far it is, and is cancelled
+//! progress, easing              how work tells how far it is; how a share runs
 //! geometry                      points, matrices, polygons, exact predicates
 //! linalg                        sparse positive definite systems (faer)
 //! mesh                          triangles, connectivity, subdivision
@@ -68,6 +71,7 @@
 //! Coordinates are `f64` with y up. The core keeps no global state, logs
 //! nothing and prints nothing.
 
+pub mod easing;
 pub mod progress;
 
 pub mod geometry;

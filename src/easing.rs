@@ -1,0 +1,47 @@
+//! How a share runs from 0 to 1: of a segment of time, or of a mix of colours.
+
+use serde::{Deserialize, Serialize};
+
+/// How a share runs from 0 to 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Easing {
+    /// Evenly.
+    Linear,
+    /// Slow at both ends: 3x² − 2x³.
+    #[default]
+    Smooth,
+    /// Slow at the beginning: x².
+    EaseIn,
+    /// Slow at the end: 1 − (1−x)².
+    EaseOut,
+}
+
+impl Easing {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Linear, Self::Smooth, Self::EaseIn, Self::EaseOut];
+
+    /// Maps [0, 1] onto itself, increasing.
+    #[must_use]
+    pub fn apply(self, x: f64) -> f64 {
+        match self {
+            Self::Linear => x,
+            Self::Smooth => x * x * (3.0 - 2.0 * x),
+            Self::EaseIn => x * x,
+            Self::EaseOut => x * (2.0 - x),
+        }
+    }
+
+    /// The inverse of [`Self::apply`].
+    #[must_use]
+    pub fn inverse(self, y: f64) -> f64 {
+        let y = y.clamp(0.0, 1.0);
+        match self {
+            Self::Linear => y,
+            // Smoothstep is inverted by trisecting an angle.
+            Self::Smooth => 0.5 - ((1.0 - 2.0 * y).asin() / 3.0).sin(),
+            Self::EaseIn => y.sqrt(),
+            Self::EaseOut => 1.0 - (1.0 - y).sqrt(),
+        }
+    }
+}
