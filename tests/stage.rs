@@ -43,6 +43,7 @@ fn transition(offset: DVec2, cell: Cell) -> Transition {
             name: "strip".into(),
             extent: mesh.bounds(),
             form: Form::Mesh(mesh),
+            picture: None,
             notes: Vec::new(),
         })
     };

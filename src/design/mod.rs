@@ -18,6 +18,7 @@ mod note;
 mod obj;
 mod options;
 mod outline;
+mod picture;
 mod polygons;
 mod silhouette;
 mod simplify;
@@ -33,6 +34,7 @@ pub use lettering::TextError;
 pub use note::ImportNote;
 pub use obj::ObjError;
 pub use options::{ImportOptions, OptionsError};
+pub use picture::Picture;
 pub use polygons::PolygonsError;
 pub use silhouette::PictureError;
 pub use sniff::{Format, UnknownFormat, sniff};
@@ -54,6 +56,8 @@ pub struct Design {
     /// The rectangle of the picture or the page, its lower left corner at the
     /// origin, or the box around a mesh, a truss or an element of a drawing.
     pub extent: Bounds,
+    /// The picture that it came as, if it did.
+    pub picture: Option<Picture>,
     /// What was repaired or left out while it was read.
     pub notes: Vec<ImportNote>,
 }
@@ -83,6 +87,7 @@ impl Design {
                 Form::Truss(truss) => Form::Truss(truss.transformed(by)),
             },
             extent: Bounds::of(corners).unwrap_or(self.extent),
+            picture: self.picture.as_ref().map(|picture| picture.transformed(by)),
             notes: self.notes.clone(),
         }
     }
@@ -159,6 +164,7 @@ struct Outlines {
 struct Drawn {
     form: Form,
     extent: Bounds,
+    picture: Option<Picture>,
     notes: Vec<ImportNote>,
 }
 
@@ -167,6 +173,7 @@ impl Drawn {
         Self {
             form,
             extent,
+            picture: None,
             notes: Vec::new(),
         }
     }
@@ -176,6 +183,7 @@ impl Drawn {
             name,
             form: self.form,
             extent: self.extent,
+            picture: self.picture,
             notes: self.notes,
         }
     }
@@ -184,9 +192,8 @@ impl Drawn {
 impl From<Outlines> for Drawn {
     fn from(outlines: Outlines) -> Self {
         Self {
-            form: Form::Outline(outlines.regions),
-            extent: outlines.extent,
             notes: outlines.notes,
+            ..Self::plain(Form::Outline(outlines.regions), outlines.extent)
         }
     }
 }
@@ -221,8 +228,13 @@ fn read(bytes: &[u8], element: Option<&str>, options: &ImportOptions) -> Result<
     }
     Ok(match format {
         Format::Picture(format) => {
-            let (regions, extent) = silhouette::read(bytes, format, options)?;
-            Drawn::plain(Form::Outline(regions), extent)
+            let picture = silhouette::decode(bytes, format)?;
+            let form = Form::Outline(silhouette::read(&picture, options)?);
+            let picture = Picture::new(picture);
+            Drawn {
+                picture: Some(picture.clone()),
+                ..Drawn::plain(form, picture.bounds())
+            }
         }
         Format::Svg => svg::read(text(bytes)?, element, options)?.into(),
         Format::Dxf => dxf::read(bytes, options.tolerance)?.into(),

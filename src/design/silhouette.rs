@@ -15,7 +15,7 @@
 
 use super::{ImportOptions, simplify};
 use crate::field::{Samples, SamplesError, contour};
-use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError};
+use crate::geometry::{DVec2, FillRule, Regions, RegionsError};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
 use std::io::Cursor;
 
@@ -76,27 +76,12 @@ const MAX_PIXELS: u64 = 8192 * 8192;
 /// at its median, has about this many at 2048 × 2048.
 const MAX_POINTS: usize = 2_000_000;
 
-/// Reads a picture of a known format.
-pub(super) fn read(
-    bytes: &[u8],
-    format: ImageFormat,
-    options: &ImportOptions,
-) -> Result<(Regions, Bounds), PictureError> {
-    if format == ImageFormat::Jpeg && !jpeg_ends(bytes) {
-        return Err(PictureError::Truncated); // the decoder would fill up with grey
-    }
-    let picture = decode(bytes, format)?;
+/// The silhouette that a picture shows, in pixels from its lower left corner.
+pub(super) fn read(picture: &RgbaImage, options: &ImportOptions) -> Result<Regions, PictureError> {
     let (width, height) = picture.dimensions();
-    let mut figure = Figure::of(&picture, options)?;
-    drop(picture);
+    let mut figure = Figure::of(picture, options)?;
     figure.remove_specks(options.specks_px as usize);
-    let size = DVec2::new(f64::from(width), f64::from(height));
-    let extent = Bounds {
-        min: DVec2::ZERO,
-        max: size,
-    };
-    let regions = figure.trace(options.tolerance * size.max_element())?;
-    Ok((regions, extent))
+    figure.trace(options.tolerance * f64::from(width.max(height)))
 }
 
 /// Whether the last scan of a JPEG is followed by an end marker. Inside a scan
@@ -106,7 +91,11 @@ fn jpeg_ends(bytes: &[u8]) -> bool {
     last(0xd9) > last(0xda)
 }
 
-fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, PictureError> {
+/// The pixels of a picture of a known format, turned as it says.
+pub(super) fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, PictureError> {
+    if format == ImageFormat::Jpeg && !jpeg_ends(bytes) {
+        return Err(PictureError::Truncated); // the decoder would fill up with grey
+    }
     if let Some(size) = claimed_by_png(bytes, format) {
         check_size(size)?; // the decoder looks for pixels first
     }

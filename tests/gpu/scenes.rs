@@ -22,6 +22,7 @@ fn design(form: Form) -> Arc<Design> {
         name,
         form,
         extent,
+        picture: None,
         notes: Vec::new(),
     })
 }
