@@ -1,5 +1,6 @@
 //! Sparse symmetric positive definite systems that are factored once and
-//! solved in every frame. The only place that names `faer`.
+//! solved in every frame; in `dense`, small full ones that are factored in
+//! every frame. The only place that names `faer`.
 //!
 //! A [`Cholesky`] is made by a fill-reducing permutation (approximate minimum
 //! degree) and a simplicial or supernodal LLᵀ factorisation, whichever the
@@ -7,6 +8,10 @@
 //! order, allocates nothing and cannot fail, so that callers who assemble in
 //! that order pay for no permutation. Everything runs on the calling thread:
 //! triangular solves get slower, not faster, on several.
+
+mod dense;
+
+pub use dense::DenseLu;
 
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};

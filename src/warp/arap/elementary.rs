@@ -1,21 +1,27 @@
-//! Sine, cosine and exponential without branches, so that a loop over many
-//! faces is compiled to vector instructions.
+//! Sine, cosine, exponential and logarithm without branches, so that a loop
+//! over many faces or points is compiled to vector instructions.
 //!
 //! The argument is reduced by the parts of π/2 or ln 2 (Cody and Waite,
 //! Software Manual for the Elementary Functions, 1980), then a Taylor
-//! polynomial is summed. No fused multiply-add: results are the same on every
+//! polynomial is summed; the logarithm's is that of the inverse hyperbolic
+//! tangent. No fused multiply-add: results are the same on every
 //! machine and for every width of its vectors.
 //!
 //! Guaranteed: within 2 units in the last place, sine and cosine for
-//! |x| ≤ 1e5 and the exponential for |x| ≤ 708; sin 0 = 0, cos 0 = 1 and
-//! exp 0 = 1 exactly. Not guaranteed: more than finite results for |x| up to
-//! 1e9, with an error that grows with |x|; anything for infinities and NaN.
+//! |x| ≤ 1e5, the exponential for |x| ≤ 708 and the logarithm for positive
+//! normal x; sin 0 = 0, cos 0 = 1, exp 0 = 1 and ln 1 = 0 exactly. Not
+//! guaranteed: more than finite results of sine and cosine for |x| up to 1e9,
+//! with an error that grows with |x|, and of the logarithm for zero and
+//! subnormal x; anything for infinities and NaN.
 
-use std::f64::consts::{FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_2_PI, FRAC_PI_2, LN_2, LOG2_E};
 
 /// Added and subtracted again, it rounds to an integer, which then stands in
 /// the low bits of the sum: 1.5 · 2⁵².
 const ROUNDER: f64 = 6_755_399_441_055_744.0;
+
+/// 2⁵²: its last bit is worth one.
+const TWO_TO_52: f64 = 4_503_599_627_370_496.0;
 
 /// π/2 in four parts. The first three have at most 33 bits, so that products
 /// with integers below 2²⁰ are exact; 1e5 needs the fourth where it lies
@@ -39,6 +45,21 @@ const SINE: [f64; 8] = reciprocal_factorials(3, 2, -1.0);
 const COSINE: [f64; 7] = reciprocal_factorials(4, 2, -1.0);
 /// 1/2!, 1/3!, …: the first term left out is below 1e-17 at ln 2 / 2.
 const EXPONENTIAL: [f64; 12] = reciprocal_factorials(2, 1, 1.0);
+
+/// 1/3, 1/5, 1/7, …: the first term left out is below 3e-17 of the sum where
+/// the square is largest, 0.0295.
+const LOGARITHM: [f64; 9] = {
+    let mut terms = [0.0; 9];
+    let mut k = 0;
+    while k < 9 {
+        terms[k] = 1.0 / (2 * k + 3) as f64;
+        k += 1;
+    }
+    terms
+};
+
+/// The bits below the exponent.
+const FRACTION_BITS: u64 = (1 << 52) - 1;
 
 /// The leading 33 bits of a number.
 const fn leading_bits(x: f64) -> f64 {
@@ -94,13 +115,29 @@ pub(super) fn sin_cos(x: f64) -> (f64, f64) {
 
 /// eˣ, for x beyond ±708 that of ±708.
 #[inline(always)]
-pub(super) fn exp(x: f64) -> f64 {
+pub(in crate::warp) fn exp(x: f64) -> f64 {
     let x = x.clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT);
     let rounded = x * LOG2_E + ROUNDER;
     let n = rounded - ROUNDER;
     let x = (x - n * LN_2_PARTS[0]) - n * LN_2_PARTS[1];
     let power_of_two = f64::from_bits(rounded.to_bits().wrapping_add(1023) << 52);
     (1.0 + (x + x * x * polynomial(x, &EXPONENTIAL))) * power_of_two
+}
+
+/// The natural logarithm of a positive normal number, from the fraction f + 1
+/// between √½ and √2 and the exponent: ln(1 + f) = 2 artanh(f / (2 + f)).
+#[inline(always)]
+pub(in crate::warp) fn ln(x: f64) -> f64 {
+    let half_root = FRAC_1_SQRT_2.to_bits();
+    let shifted = x.to_bits().wrapping_add(1.0_f64.to_bits() - half_root);
+    // The exponent stands in the low bits of 2⁵² + exponent.
+    let n = f64::from_bits((shifted >> 52) | TWO_TO_52.to_bits()) - (TWO_TO_52 + 1023.0);
+    let f = f64::from_bits((shifted & FRACTION_BITS) + half_root) - 1.0;
+    let s = f / (2.0 + f);
+    let square = s * s;
+    let rest = 2.0 * square * polynomial(square, &LOGARITHM);
+    // 2s is f − s f, and f is exact.
+    n * LN_2_PARTS[0] + (f - (s * (f - rest) - n * LN_2_PARTS[1]))
 }
 
 #[cfg(test)]
@@ -126,7 +163,9 @@ mod tests {
         for zero in [0.0, -0.0] {
             assert_eq!(sin_cos(zero), (0.0, 1.0));
             assert_eq!(exp(zero), 1.0);
+            assert!(ln(zero.abs()).is_finite());
         }
+        assert_eq!(ln(1.0), 0.0);
     }
 
     #[test]
@@ -167,6 +206,15 @@ mod tests {
         fn exponential_is_close_to_the_standard_one(large in -708.0f64..708.0, usual in -2.0f64..2.0) {
             for x in [large, usual] {
                 prop_assert!(ulps(exp(x), x.exp()) <= 2.0, "{x:e}");
+            }
+        }
+
+        #[test]
+        fn logarithm_is_close_to_the_standard_one(
+            exponent in -708.0f64..708.0, usual in 0.01f64..10.0, near in -1e-3f64..1e-3,
+        ) {
+            for x in [exponent.exp(), usual, 1.0 + near, 1.0 + 1e-9 * near] {
+                prop_assert!(ulps(ln(x), x.ln()) <= 2.0, "{x:e}");
             }
         }
     }

@@ -1,0 +1,128 @@
+//! Warps by scattered points and by lattices: one map on a raster, and whole
+//! frames.
+//!
+//! `cargo bench --no-default-features --bench scattered`. The points and
+//! values of the maps are those of `benches/scattered_scipy.py`, which times
+//! `scipy.interpolate.RBFInterpolator` on them, side by side.
+
+use criterion::{BenchmarkId, Criterion, Throughput};
+use morphospace::correspondence::PointPair;
+use morphospace::geometry::{Bounds, DVec2};
+use morphospace::warp::{
+    Basis, Lattice, LatticeOptions, PlaneGrid, PlaneWarp, RadialMap, Scattered, ScatteredOptions,
+};
+use std::error::Error;
+
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+const SQUARE: Bounds = Bounds {
+    min: DVec2::ZERO,
+    max: DVec2::ONE,
+};
+
+fn main() -> Result<()> {
+    let mut criterion = Criterion::default().configure_from_args();
+    maps(&mut criterion)?;
+    frames(&mut criterion)?;
+    criterion.final_summary();
+    Ok(())
+}
+
+/// Points of the additive recurrence by the plastic number.
+fn spread(count: u32, shift: f64) -> Vec<DVec2> {
+    let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
+    let point = |k| ((f64::from(k) + shift) * step).fract();
+    (1..=count).map(point).collect()
+}
+
+fn value(p: &DVec2) -> DVec2 {
+    DVec2::new((3.0 * p.x).sin() + p.y * p.y, p.x * (2.0 * p.y).cos())
+}
+
+fn with(basis: Basis) -> ScatteredOptions {
+    ScatteredOptions {
+        basis,
+        width: 0.25,
+        ..ScatteredOptions::default()
+    }
+}
+
+fn maps(criterion: &mut Criterion) -> Result<()> {
+    let raster: Vec<DVec2> = (0..512 * 512)
+        .map(|k| DVec2::new(f64::from(k % 512), f64::from(k / 512)) / 511.0)
+        .collect();
+    let mut out = raster.clone();
+    let mut group = criterion.benchmark_group("radial_map");
+    group.sample_size(10);
+    for basis in [Basis::ThinPlate, Basis::Gaussian, Basis::Multiquadric] {
+        for count in [50, 200, 500] {
+            let centres = spread(count, 0.0);
+            let values: Vec<DVec2> = centres.iter().map(value).collect();
+            let build = || RadialMap::new(&centres, &values, &with(basis), 1.0);
+            let id = |what: &str| BenchmarkId::new(format!("{basis:?}/{what}"), count);
+            group.throughput(Throughput::Elements(u64::from(count)));
+            group.bench_function(id("build"), |b| b.iter(build));
+            let map = build()?;
+            group.throughput(Throughput::Elements(512 * 512));
+            for threads in [1, 2] {
+                let pool = rayon::ThreadPoolBuilder::new()
+                    .num_threads(threads)
+                    .build()?;
+                group.bench_function(id(&format!("512x512, {threads} thread")), |b| {
+                    b.iter(|| pool.install(|| map.map_into(&raster, &mut out)));
+                });
+            }
+        }
+    }
+    group.finish();
+    Ok(())
+}
+
+/// Features that move by up to a tenth of the frame.
+fn pairs(count: u32) -> Vec<PointPair> {
+    let ends = spread(count, 0.0).into_iter().zip(spread(count, 0.3));
+    let pair = |(source, by): (DVec2, DVec2)| PointPair {
+        source,
+        target: source + 0.2 * (by - 0.5),
+    };
+    ends.map(pair).collect()
+}
+
+fn frames(criterion: &mut Criterion) -> Result<()> {
+    let mut group = criterion.benchmark_group("frame");
+    group.sample_size(10);
+    for count in [10, 50, 200, 500] {
+        for basis in [Basis::ThinPlate, Basis::Gaussian, Basis::Multiquadric] {
+            let warp = Scattered::new(&SQUARE, &pairs(count), &[], with(basis))?;
+            group.bench_function(BenchmarkId::new(format!("{basis:?}"), count), |b| {
+                b.iter(frame(&warp));
+            });
+        }
+        for fold_free in [true, false] {
+            let options = LatticeOptions {
+                fold_free,
+                ..LatticeOptions::default()
+            };
+            let name = if fold_free { "composed" } else { "summed" };
+            let warp = Lattice::new(&SQUARE, &pairs(count), &[], options)?;
+            group.bench_function(BenchmarkId::new(format!("lattice, {name}"), count), |b| {
+                b.iter(frame(&warp));
+            });
+        }
+    }
+    group.finish();
+    Ok(())
+}
+
+/// One frame of a grid of 64 × 64 cells, at another t each time.
+fn frame<W: PlaneWarp>(warp: &W) -> impl FnMut() {
+    let places = PlaneGrid::covering(&SQUARE, 64).places().to_vec();
+    let (mut source, mut target) = (places.clone(), places.clone());
+    let mut maps = warp.maps();
+    let mut step = 0;
+    move || {
+        step = (step + 37) % 100;
+        let t = f64::from(step) / 100.0;
+        warp.look_up(t, &mut maps, &places, &mut source, &mut target);
+    }
+}

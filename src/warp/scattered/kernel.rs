@@ -1,0 +1,248 @@
+//! The radial functions, many distances at a time.
+//!
+//! All take the *squared* distance, which spares a root. Each loop is
+//! compiled for several widths of vectors and one is chosen at run time; the
+//! results are the same for all.
+
+use crate::geometry::DVec2;
+use crate::warp::arap::elementary::{exp, ln};
+use pulp::{Simd, WithSimd};
+
+/// How many places are worked on at a time: their sums stay in the nearest
+/// cache. Loops over eight, known beforehand, would be unrolled before they
+/// are made into vectors.
+const LANES: usize = 64;
+
+type Row = [f64; LANES];
+
+/// A radial function φ of r² and of the centre's own radius squared.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Kernel {
+    /// r² log r.
+    ThinPlate,
+    /// exp(−rate r²).
+    Gaussian {
+        /// One over the radius squared.
+        rate: f64,
+    },
+    /// (r² + r_i²)^exponent.
+    Multiquadric {
+        /// μ.
+        exponent: f64,
+    },
+}
+
+/// One of the functions, to compile a loop for.
+trait Phi: Copy {
+    fn of(self, r2: f64, own: f64) -> f64;
+}
+
+#[derive(Clone, Copy)]
+struct ThinPlate;
+#[derive(Clone, Copy)]
+struct Gaussian(f64);
+#[derive(Clone, Copy)]
+struct Root;
+#[derive(Clone, Copy)]
+struct Power(f64);
+
+impl Phi for ThinPlate {
+    /// 0 at 0, since the logarithm is finite there.
+    #[inline(always)]
+    fn of(self, r2: f64, _: f64) -> f64 {
+        0.5 * r2 * ln(r2)
+    }
+}
+
+impl Phi for Gaussian {
+    #[inline(always)]
+    fn of(self, r2: f64, _: f64) -> f64 {
+        exp(-self.0 * r2)
+    }
+}
+
+impl Phi for Root {
+    #[inline(always)]
+    fn of(self, r2: f64, own: f64) -> f64 {
+        (r2 + own).sqrt()
+    }
+}
+
+impl Phi for Power {
+    #[inline(always)]
+    fn of(self, r2: f64, own: f64) -> f64 {
+        exp(self.0 * ln(r2 + own))
+    }
+}
+
+/// What is done with a function once it is known.
+trait Work {
+    fn run<P: Phi>(self, phi: P);
+}
+
+/// A work and its function, to be compiled for several widths of vectors.
+struct Dispatched<W>(Kernel, W);
+
+impl<W: Work> WithSimd for Dispatched<W> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        match self.0 {
+            Kernel::ThinPlate => self.1.run(ThinPlate),
+            Kernel::Gaussian { rate } => self.1.run(Gaussian(rate)),
+            Kernel::Multiquadric { exponent: 0.5 } => self.1.run(Root),
+            Kernel::Multiquadric { exponent } => self.1.run(Power(exponent)),
+        }
+    }
+}
+
+/// Where the functions sit, in coordinates of their own.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Centres {
+    pub(super) x: Vec<f64>,
+    pub(super) y: Vec<f64>,
+    /// Each centre's own radius squared.
+    pub(super) own: Vec<f64>,
+}
+
+/// φ of one centre at all centres, times `sign`.
+pub(super) fn column(
+    arch: pulp::Arch,
+    kernel: Kernel,
+    centres: &Centres,
+    of: usize,
+    sign: f64,
+    out: &mut [f64],
+) {
+    arch.dispatch(Dispatched(
+        kernel,
+        Column {
+            centres,
+            of,
+            sign,
+            out,
+        },
+    ));
+}
+
+struct Column<'a> {
+    centres: &'a Centres,
+    of: usize,
+    sign: f64,
+    out: &'a mut [f64],
+}
+
+impl Work for Column<'_> {
+    #[inline(always)]
+    fn run<P: Phi>(self, phi: P) {
+        let Centres { x, y, own } = self.centres;
+        let (x0, y0, own) = (x[self.of], y[self.of], own[self.of]);
+        for ((out, x), y) in self.out.iter_mut().zip(x).zip(y) {
+            let (dx, dy) = (x - x0, y - y0);
+            *out = self.sign * phi.of(dx * dx + dy * dy, own);
+        }
+    }
+}
+
+/// A sum of functions and an affine map, for K vectors at once.
+#[derive(Clone, Debug)]
+pub(super) struct Sum<const K: usize> {
+    pub(super) kernel: Kernel,
+    /// The centres' coordinates are (place − origin) / scale.
+    pub(super) origin: DVec2,
+    pub(super) scale: f64,
+    pub(super) centres: Centres,
+    /// Of each centre, as [x, y] of each vector.
+    pub(super) coefficients: Vec<[[f64; 2]; K]>,
+    /// Constant, and factors of both coordinates, as [x, y] of each.
+    pub(super) affine: [[[f64; 2]; 3]; K],
+}
+
+impl<const K: usize> Sum<K> {
+    /// The sum at each place, with the place itself `added` or not.
+    pub(super) fn evaluate(
+        &self,
+        arch: pulp::Arch,
+        places: &[DVec2],
+        added: bool,
+        out: [&mut [DVec2]; K],
+    ) {
+        arch.dispatch(Dispatched(
+            self.kernel,
+            Evaluation {
+                sum: self,
+                places,
+                added,
+                out,
+            },
+        ));
+    }
+
+    /// The sums at a few places, in the centres' coordinates.
+    #[inline(always)]
+    fn block<P: Phi>(&self, phi: P, x: &[f64], y: &[f64], sums: &mut [[Row; 2]; K]) {
+        let n = x.len().min(LANES);
+        let (x, y) = (&x[..n], &y[..n]);
+        for (sums, [constant, by_x, by_y]) in sums.iter_mut().zip(&self.affine) {
+            for (axis, sums) in sums.iter_mut().enumerate() {
+                for ((sum, x), y) in sums[..n].iter_mut().zip(x).zip(y) {
+                    *sum = constant[axis] + (by_x[axis] * x + by_y[axis] * y);
+                }
+            }
+        }
+        let Centres { x: xs, y: ys, own } = &self.centres;
+        let centres = xs.iter().zip(ys).zip(own).zip(&self.coefficients);
+        let mut values = [0.0; LANES];
+        let values = &mut values[..n];
+        for (((&x0, &y0), &own), coefficients) in centres {
+            for ((value, x), y) in values.iter_mut().zip(x).zip(y) {
+                let (dx, dy) = (x - x0, y - y0);
+                *value = phi.of(dx * dx + dy * dy, own);
+            }
+            for (sums, coefficients) in sums.iter_mut().zip(coefficients) {
+                for (sums, &coefficient) in sums.iter_mut().zip(coefficients) {
+                    for (sum, value) in sums[..n].iter_mut().zip(&*values) {
+                        *sum += coefficient * value;
+                    }
+                }
+            }
+        }
+    }
+}
+
+struct Evaluation<'a, const K: usize> {
+    sum: &'a Sum<K>,
+    places: &'a [DVec2],
+    added: bool,
+    out: [&'a mut [DVec2]; K],
+}
+
+impl<const K: usize> Work for Evaluation<'_, K> {
+    #[inline(always)]
+    fn run<P: Phi>(self, phi: P) {
+        let Self {
+            sum,
+            places,
+            added,
+            mut out,
+        } = self;
+        let [mut x, mut y] = [[0.0; LANES]; 2];
+        let mut sums = [[[0.0; LANES]; 2]; K];
+        for (block, places) in places.chunks(LANES).enumerate() {
+            for (lane, &place) in places.iter().enumerate() {
+                let at = (place - sum.origin) / sum.scale;
+                (x[lane], y[lane]) = (at.x, at.y);
+            }
+            let n = places.len();
+            sum.block(phi, &x[..n], &y[..n], &mut sums);
+            for (out, [x, y]) in out.iter_mut().zip(&sums) {
+                let out = &mut out[block * LANES..];
+                for (lane, (&place, out)) in places.iter().zip(out).enumerate() {
+                    let value = DVec2::new(x[lane], y[lane]);
+                    *out = if added { place + value } else { value };
+                }
+            }
+        }
+    }
+}

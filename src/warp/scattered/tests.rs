@@ -1,0 +1,410 @@
+use super::*;
+use proptest::prelude::*;
+
+type Tested = Result<(), Box<dyn std::error::Error>>;
+
+const BASES: [Basis; 3] = [Basis::ThinPlate, Basis::Gaussian, Basis::Multiquadric];
+
+const FRAME: Bounds = Bounds {
+    min: DVec2::new(-1.0, 2.0),
+    max: DVec2::new(3.0, 5.0),
+};
+
+/// Points of the additive recurrence by the plastic number, in a square.
+fn spread(count: usize, shift: f64) -> Vec<DVec2> {
+    let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
+    let point = |k| ((k as f64 + shift) * step).fract();
+    (1..=count).map(point).collect()
+}
+
+/// The values of `benches/scattered_scipy.py`.
+fn values(points: &[DVec2]) -> Vec<DVec2> {
+    let value = |p: &DVec2| DVec2::new((3.0 * p.x).sin() + p.y * p.y, p.x * (2.0 * p.y).cos());
+    points.iter().map(value).collect()
+}
+
+fn with(basis: Basis) -> ScatteredOptions {
+    ScatteredOptions {
+        basis,
+        ..ScatteredOptions::default()
+    }
+}
+
+fn pair(source: impl Into<DVec2>, target: impl Into<DVec2>) -> PointPair {
+    PointPair {
+        source: source.into(),
+        target: target.into(),
+    }
+}
+
+/// Where a warp looks at t: in the source and in the target.
+fn looks(warp: &Scattered, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
+    let [mut source, mut target] = [(); 2].map(|()| vec![DVec2::NAN; places.len()]);
+    warp.look_up(t, &mut warp.maps(), places, &mut source, &mut target);
+    [source, target]
+}
+
+#[test]
+fn values_are_those_of_scipy() -> Tested {
+    // python3 benches/scattered_scipy.py table, with SciPy 1.17.1
+    let table = include_str!("scipy.csv");
+    let kinds = [
+        (Basis::ThinPlate, 0.0),
+        (Basis::ThinPlate, 0.01),
+        (Basis::Gaussian, 0.0),
+        (Basis::Gaussian, 0.1),
+    ];
+    // The unit must make no difference but in what is relative to it.
+    for unit in [1.0, 2.5] {
+        for (column, (basis, smoothing)) in kinds.into_iter().enumerate() {
+            let plate = basis == Basis::ThinPlate;
+            let options = ScatteredOptions {
+                width: 0.25 / unit,
+                smoothing: if plate {
+                    smoothing / (unit * unit)
+                } else {
+                    smoothing
+                },
+                ..with(basis)
+            };
+            let centres = spread(12, 0.0);
+            let map = RadialMap::new(&centres, &values(&centres), &options, unit)?;
+            for line in table.lines().skip(1) {
+                let row: Vec<f64> = line.split(',').map(str::parse).collect::<Result<_, _>>()?;
+                let found = map.map(DVec2::new(row[0], row[1]));
+                let wanted = DVec2::new(row[2 + 2 * column], row[3 + 2 * column]);
+                let apart = found.distance(wanted);
+                assert!(apart < 1e-9, "{basis:?} {smoothing} {unit}: {apart:e}");
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn values_are_met_at_their_centres() -> Tested {
+    for basis in BASES {
+        for exponent in [0.5, 0.3, -0.5] {
+            let options = ScatteredOptions {
+                exponent,
+                ..with(basis)
+            };
+            for count in [1, 2, 3, 4, 40, 300] {
+                let centres = spread(count, 0.0);
+                let values = values(&centres);
+                let map = RadialMap::new(&centres, &values, &options, 1.0)?;
+                let mut found = vec![DVec2::ZERO; count];
+                map.map_into(&centres, &mut found);
+                for (found, wanted) in found.iter().zip(&values) {
+                    let apart = found.distance(*wanted);
+                    assert!(apart < 1e-9, "{basis:?} {exponent} {count}: {apart:e}");
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn affine_maps_are_reproduced() -> Tested {
+    let affine = |p: DVec2| DVec2::new(3.0 * p.x - p.y + 7.0, 0.2 * p.x + 1.5 * p.y - 2.0);
+    for basis in BASES {
+        for smoothing in [0.0, 0.1] {
+            for count in [3, 5, 60] {
+                let centres = spread(count, 0.0);
+                let values: Vec<DVec2> = centres.iter().copied().map(affine).collect();
+                let options = ScatteredOptions {
+                    smoothing,
+                    ..with(basis)
+                };
+                let map = RadialMap::new(&centres, &values, &options, 1.0)?;
+                for place in spread(50, 0.5).into_iter().map(|p| 3.0 * p - 1.0) {
+                    let apart = map.map(place).distance(affine(place));
+                    assert!(apart < 1e-9, "{basis:?} {smoothing} {count}: {apart:e}");
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn few_features_are_no_case_of_their_own() -> Tested {
+    let places = spread(30, 0.0);
+    for basis in BASES {
+        let none = Scattered::new(&FRAME, &[], &[], with(basis))?;
+        assert_eq!(looks(&none, 0.3, &places), [places.clone(), places.clone()]);
+
+        let one = [pair((0.0, 3.0), (2.0, 3.5))];
+        let one = Scattered::new(&FRAME, &one, &[], with(basis))?;
+        let [source, _] = looks(&one, 0.3, &places);
+        for (found, &place) in source.iter().zip(&places) {
+            assert!(found.distance(place - 0.3 * DVec2::new(2.0, 0.5)) < 1e-12);
+        }
+
+        // A quarter turn about the first, twice as large; three of them on a
+        // line say the same.
+        let turned = |p: DVec2| DVec2::new(0.0, 3.0) + 2.0 * (p - DVec2::new(0.0, 3.0)).perp();
+        let on_line = [0.0, 1.0, 2.5].map(|x| DVec2::new(x, 3.0 + x));
+        for points in [&on_line[..2], &on_line] {
+            let pairs: Vec<_> = points.iter().map(|&p| pair(p, turned(p))).collect();
+            let warp = Scattered::new(&FRAME, &pairs, &[], with(basis))?;
+            let [_, target] = looks(&warp, 0.0, &places);
+            for (found, &place) in target.iter().zip(&places) {
+                assert!(found.distance(turned(place)) < 1e-9, "{basis:?}");
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn both_ends_are_met_to_the_last_bit() -> Tested {
+    let places = spread(100, 0.0);
+    let ends = spread(20, 7.0).into_iter().zip(spread(20, 1.5));
+    let pairs: Vec<_> = ends.map(|(p, q)| pair(4.0 * p, 3.0 * q)).collect();
+    for basis in BASES {
+        let warp = Scattered::new(&FRAME, &pairs, &[], with(basis))?;
+        assert_eq!(looks(&warp, 0.0, &places)[0], places);
+        assert_eq!(looks(&warp, 1.0, &places)[1], places);
+    }
+    Ok(())
+}
+
+#[test]
+fn features_are_met_and_lines_count() -> Tested {
+    let line = LinePair {
+        source: [DVec2::new(-0.5, 2.5), DVec2::new(1.0, 2.5)],
+        target: [DVec2::new(0.0, 4.5), DVec2::new(1.0, 4.0)],
+    };
+    let point = pair((2.0, 4.0), (2.5, 3.0));
+    for basis in BASES {
+        let warp = Scattered::new(&FRAME, &[point], &[line], with(basis))?;
+        let on = |[a, b]: [DVec2; 2]| a.lerp(b, 0.75);
+        let features = [point, pair(on(line.source), on(line.target))];
+        for t in [0.0, 0.4, 1.0, 1.3] {
+            let at = features.map(|f| f.source * (1.0 - t) + f.target * t);
+            let [source, target] = looks(&warp, t, &at);
+            for (k, feature) in features.iter().enumerate() {
+                assert!(source[k].distance(feature.source) < 1e-9);
+                assert!(target[k].distance(feature.target) < 1e-9);
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn smoothing_misses_features_for_a_straighter_map() -> Tested {
+    let centres = spread(40, 0.0);
+    for basis in BASES {
+        let mut missed_less = 0.0;
+        for smoothing in [0.0, 1e-3, 1e-1, 1e1] {
+            let options = ScatteredOptions {
+                smoothing,
+                ..with(basis)
+            };
+            let map = RadialMap::new(&centres, &values(&centres), &options, 1.0)?;
+            let missed = |(&c, v): (&DVec2, DVec2)| map.map(c).distance_squared(v);
+            let missed: f64 = centres.iter().zip(values(&centres)).map(missed).sum();
+            assert!(smoothing == 0.0 || missed > missed_less, "{basis:?}");
+            missed_less = missed;
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn centres_at_one_place_are_their_mean() -> Tested {
+    let mut centres = spread(6, 0.0);
+    let mut values = values(&centres);
+    centres.extend([centres[2], centres[2]]);
+    values.extend([values[2] + 3.0, values[2]]);
+    for basis in BASES {
+        let map = RadialMap::new(&centres, &values, &with(basis), 1.0)?;
+        assert!(map.map(centres[2]).distance(values[2] + 1.0) < 1e-9);
+        assert!(map.map(centres[4]).distance(values[4]) < 1e-9);
+    }
+    Ok(())
+}
+
+#[test]
+fn gaussians_too_wide_for_the_last_digits_get_a_ridge() -> Tested {
+    let centres = spread(300, 0.0);
+    let wide = ScatteredOptions {
+        width: 2.0,
+        ..with(Basis::Gaussian)
+    };
+    let map = RadialMap::new(&centres, &values(&centres), &wide, 1.0)?;
+    for (&centre, value) in centres.iter().zip(values(&centres)) {
+        let missed = map.map(centre).distance(value);
+        assert!(missed < 1e-3, "{missed:e}");
+    }
+    Ok(())
+}
+
+/// The farthest that a look goes from step to step between two times.
+fn farthest_step(warp: &Scattered, [from, to]: [f64; 2], steps: u32) -> f64 {
+    let places: Vec<DVec2> = spread(200, 0.0).iter().map(|&p| 4.0 * p).collect();
+    let mut last = looks(warp, from, &places);
+    let mut farthest = 0.0_f64;
+    for step in 1..=steps {
+        let t = from + (to - from) * f64::from(step) / f64::from(steps);
+        let now = looks(warp, t, &places);
+        for (now, last) in now.iter().flatten().zip(last.iter().flatten()) {
+            farthest = farthest.max(now.distance(*last));
+        }
+        last = now;
+    }
+    farthest
+}
+
+/// A jump would stay as it is where steps get shorter.
+fn assert_no_jump(pairs: &[PointPair]) -> Tested {
+    for basis in BASES {
+        let warp = Scattered::new(&FRAME, pairs, &[], with(basis))?;
+        let [long, short] = [1000, 8000].map(|n| farthest_step(&warp, [0.45, 0.55], n));
+        assert!(short < 0.3 * long, "{basis:?}: {long} {short}");
+        assert!(short < 1.0, "{basis:?}: {short}");
+    }
+    Ok(())
+}
+
+/// Three features of which one crosses the line of the others: an affine map
+/// alone would be infinitely steep there.
+#[test]
+fn a_triangle_turns_over_without_a_jump() -> Tested {
+    assert_no_jump(&[
+        pair((0.0, 3.0), (0.0, 3.0)),
+        pair((2.0, 3.0), (2.0, 3.0)),
+        pair((1.0, 4.0), (1.2, 2.0)),
+    ])
+}
+
+#[test]
+fn features_that_exchange_places_do_so_without_a_jump() -> Tested {
+    let pairs = [
+        pair((0.0, 3.0), (2.0, 3.5)),
+        pair((2.0, 3.5), (0.0, 3.0)),
+        pair((0.0, 5.0), (0.5, 5.0)),
+        pair((2.0, 2.0), (2.0, 2.5)),
+        pair((3.0, 5.0), (3.0, 4.5)),
+    ];
+    assert_no_jump(&pairs)?;
+    assert_no_jump(&pairs[..2])
+}
+
+#[test]
+fn what_is_no_number_is_refused() {
+    let fine = pair((0.0, 0.0), (1.0, 1.0));
+    let new = |points: &[PointPair], options| Scattered::new(&FRAME, points, &[], options);
+    let bad = pair((0.0, f64::NAN), (1.0, 1.0));
+    assert_eq!(
+        new(&[fine, bad], ScatteredOptions::default()).map(|_| ()),
+        Err(FeatureError::Point(2).into())
+    );
+    let line = LinePair {
+        source: [DVec2::ZERO, DVec2::X],
+        target: [DVec2::INFINITY, DVec2::X],
+    };
+    assert_eq!(
+        Scattered::new(&FRAME, &[], &[line], ScatteredOptions::default()).map(|_| ()),
+        Err(FeatureError::Line(1).into())
+    );
+    assert_eq!(
+        new(&[fine; MAX_FEATURES + 1], ScatteredOptions::default()).map(|_| ()),
+        Err(FeatureError::TooMany { found: 513 }.into())
+    );
+    let default = ScatteredOptions::default();
+    for wrong in [
+        ScatteredOptions {
+            width: 0.0,
+            ..default
+        },
+        ScatteredOptions {
+            width: f64::NAN,
+            ..default
+        },
+        ScatteredOptions {
+            exponent: 1.0,
+            ..default
+        },
+        ScatteredOptions {
+            exponent: 0.0,
+            ..default
+        },
+        ScatteredOptions {
+            smoothing: -1.0,
+            ..default
+        },
+        ScatteredOptions {
+            smoothing: f64::INFINITY,
+            ..default
+        },
+    ] {
+        assert!(new(&[fine], wrong).is_err());
+    }
+}
+
+#[test]
+fn options_are_read_in_kebab_case() -> Tested {
+    let read: ScatteredOptions = toml::from_str("basis = 'thin-plate'\nsmoothing = 0.1")?;
+    assert_eq!(read.smoothing, 0.1);
+    assert!(toml::from_str::<ScatteredOptions>("bases = 1").is_err());
+    Ok(())
+}
+
+fn any_place() -> impl Strategy<Value = DVec2> {
+    let coordinate = || {
+        prop_oneof![
+            6 => -1.0f64..5.0,
+            2 => (0_i32..3).prop_map(f64::from),
+            1 => -1e300f64..1e300,
+            1 => Just(1.0 + 1e-9),
+        ]
+    };
+    (coordinate(), coordinate()).prop_map(|(x, y)| DVec2::new(x, y))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn every_frame_is_finite(
+        basis in prop::sample::select(&BASES[..]),
+        ends in prop::collection::vec((any_place(), any_place()), 0..12),
+        exponent in prop_oneof![-1.0f64..-0.01, 0.01f64..0.99],
+        width in 0.001f64..10.0,
+        smoothing in prop_oneof![Just(0.0), 0.0f64..2.0],
+        t in prop_oneof![Just(0.5), -0.5f64..1.5, Just(1e300), Just(f64::NAN)],
+        point_frame in any::<bool>(),
+    ) {
+        let pairs: Vec<_> = ends.iter().map(|&(p, q)| pair(p, q)).collect();
+        let options = ScatteredOptions { basis, width, exponent, smoothing };
+        let frame = if point_frame { Bounds::at(DVec2::ONE) } else { FRAME };
+        let warp = Scattered::new(&frame, &pairs, &[], options)?;
+        let places: Vec<DVec2> = spread(20, 0.0).iter().map(|&p| 4.0 * p).collect();
+        for place in looks(&warp, t, &places).into_iter().flatten() {
+            prop_assert!(place.is_finite(), "{place}");
+        }
+    }
+
+    #[test]
+    fn swapping_plays_the_film_backwards(
+        basis in prop::sample::select(&BASES[..]),
+        ends in prop::collection::vec((0.0f64..4.0, 2.0f64..5.0), 0..12),
+        t in -0.2f64..1.2,
+    ) {
+        let target = spread(ends.len(), 3.0);
+        let pairs: Vec<_> = ends.iter().zip(&target).map(|(&p, &q)| pair(p, 3.0 * q)).collect();
+        let swapped: Vec<_> = pairs.iter().map(|p| pair(p.target, p.source)).collect();
+        let warp = Scattered::new(&FRAME, &pairs, &[], with(basis))?;
+        let back = Scattered::new(&FRAME, &swapped, &[], with(basis))?;
+        let places: Vec<DVec2> = spread(20, 0.0).iter().map(|&p| 4.0 * p).collect();
+        let [source, target] = looks(&warp, t, &places);
+        let [back_source, back_target] = looks(&back, 1.0 - t, &places);
+        for (a, b) in source.iter().zip(&back_target).chain(target.iter().zip(&back_source)) {
+            prop_assert!(a.distance(*b) < 1e-6 * (1.0 + a.length()), "{a} {b}");
+        }
+    }
+}
