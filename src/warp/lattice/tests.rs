@@ -1,0 +1,308 @@
+use super::*;
+use proptest::prelude::*;
+
+type Tested = Result<(), Box<dyn std::error::Error>>;
+
+const FRAME: Bounds = Bounds {
+    min: DVec2::new(-1.0, 2.0),
+    max: DVec2::new(3.0, 5.0),
+};
+
+fn pair(source: impl Into<DVec2>, target: impl Into<DVec2>) -> PointPair {
+    PointPair {
+        source: source.into(),
+        target: target.into(),
+    }
+}
+
+/// Points of the additive recurrence by the plastic number, in the frame.
+fn spread(count: usize, shift: f64) -> Vec<DVec2> {
+    let step = DVec2::new(0.754_877_666_246_692_7, 0.569_840_290_998_053_2);
+    let point = |k| FRAME.min + FRAME.size() * ((k as f64 + shift) * step).fract();
+    (1..=count).map(point).collect()
+}
+
+fn looks(warp: &Lattice, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
+    let [mut source, mut target] = [(); 2].map(|()| vec![DVec2::NAN; places.len()]);
+    warp.look_up(t, &mut warp.maps(), places, &mut source, &mut target);
+    [source, target]
+}
+
+fn summed() -> LatticeOptions {
+    LatticeOptions {
+        fold_free: false,
+        ..LatticeOptions::default()
+    }
+}
+
+/// Features that move by up to a tenth of the frame.
+fn moderate(count: usize) -> Vec<PointPair> {
+    let ends = spread(count, 0.0).into_iter().zip(spread(count, 0.3));
+    ends.map(|(p, by)| pair(p, p + 0.1 * (by - FRAME.centre())))
+        .collect()
+}
+
+#[test]
+fn features_are_met_to_the_tolerance() -> Tested {
+    for options in [LatticeOptions::default(), summed()] {
+        for count in [1, 2, 10, 40] {
+            let pairs = moderate(count);
+            let warp = Lattice::new(&FRAME, &pairs, &[], options)?;
+            for t in [0.0, 0.3, 0.5, 1.0] {
+                let at: Vec<DVec2> = pairs.iter().map(|f| f.source.lerp(f.target, t)).collect();
+                let [source, target] = looks(&warp, t, &at);
+                let residuals = warp.residuals(t);
+                for (k, pair) in pairs.iter().enumerate() {
+                    let missed = Residual {
+                        source: source[k].distance(pair.source),
+                        target: target[k].distance(pair.target),
+                    };
+                    let most = missed.source.max(missed.target);
+                    assert!(
+                        most <= warp.tolerance(),
+                        "{options:?} {count} {t}: {most:e}"
+                    );
+                    assert!((missed.source - residuals[k].source).abs() < 1e-12);
+                    assert!((missed.target - residuals[k].target).abs() < 1e-12);
+                }
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn a_feature_crosses_the_frame() -> Tested {
+    let pairs = [
+        pair((-0.9, 2.1), (2.9, 4.9)),
+        pair((1.0, 2.1), (1.0, 2.1)),
+        pair((-0.9, 4.9), (-0.9, 4.9)),
+    ];
+    let warp = Lattice::new(&FRAME, &pairs, &[], LatticeOptions::default())?;
+    for t in [0.0, 0.2, 0.8, 1.0] {
+        for missed in warp.residuals(t) {
+            assert!(
+                missed.source.max(missed.target) <= warp.tolerance(),
+                "{missed:?}"
+            );
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn ends_are_met_to_the_last_bit_and_nothing_moves_nothing() -> Tested {
+    let places = spread(200, 0.5);
+    for options in [LatticeOptions::default(), summed()] {
+        let warp = Lattice::new(&FRAME, &moderate(30), &[], options)?;
+        assert_eq!(looks(&warp, 0.0, &places)[0], places);
+        assert_eq!(looks(&warp, 1.0, &places)[1], places);
+        let none = Lattice::new(&FRAME, &[], &[], options)?;
+        assert_eq!(looks(&none, 0.4, &places), [places.clone(), places.clone()]);
+        assert_eq!(none.residuals(0.4), []);
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_far_from_the_frame_moves_nothing_there() -> Tested {
+    let places = spread(200, 0.5);
+    let far = pair((40.0, 3.0), (41.0, 3.0));
+    let warp = Lattice::new(&FRAME, &[far], &[], LatticeOptions::default())?;
+    assert_eq!(looks(&warp, 0.5, &places)[0], places);
+    assert_eq!(warp.residuals(0.5)[0].source, 0.5);
+    Ok(())
+}
+
+#[test]
+fn features_fade_out_without_a_jump() -> Tested {
+    let places = spread(100, 0.5);
+    let at = |x: f64| -> Result<Vec<DVec2>, LatticeError> {
+        let leaving = pair((x, 3.0), (x, 4.0));
+        let staying = pair((2.5, 3.5), (2.0, 3.5));
+        let options = LatticeOptions {
+            coarsest: 1,
+            ..LatticeOptions::default()
+        };
+        let warp = Lattice::new(&FRAME, &[leaving, staying], &[], options)?;
+        Ok(looks(&warp, 0.5, &places)[0].clone())
+    };
+    let mut last = at(3.0)?;
+    for step in 1..=500 {
+        let now = at(3.0 + f64::from(step) * 0.01)?;
+        for (now, last) in now.iter().zip(&last) {
+            assert!(
+                now.distance(*last) < 0.05,
+                "{step}: {}",
+                now.distance(*last)
+            );
+        }
+        last = now;
+    }
+    Ok(())
+}
+
+/// The determinants of both maps on a fine grid that reaches beyond the frame.
+fn least_determinant(warp: &Lattice, t: f64, steps: u32) -> f64 {
+    let mut maps = warp.maps();
+    warp.build(t, &mut maps);
+    let steps = f64::from(steps);
+    let (low, size) = (FRAME.min - 2.0, FRAME.size() + 4.0);
+    let mut least = f64::INFINITY;
+    for k in 0..(steps * steps) as u32 {
+        let (i, j) = (f64::from(k) % steps, (f64::from(k) / steps).floor());
+        let place = low + size * DVec2::new(i, j) / steps;
+        for tower in &maps.towers {
+            let [total, step] = tower.determinants(place);
+            least = least
+                .min(total)
+                .min(if warp.options.fold_free { step } else { total });
+        }
+    }
+    least
+}
+
+#[test]
+fn summed_layers_fold_where_composed_ones_do_not() -> Tested {
+    let pairs = [pair((0.5, 3.5), (1.5, 3.5)), pair((1.2, 3.5), (0.8, 3.5))];
+    let folding = Lattice::new(&FRAME, &pairs, &[], summed())?;
+    assert!(least_determinant(&folding, 0.0, 150) < 0.0);
+    let composed = Lattice::new(&FRAME, &pairs, &[], LatticeOptions::default())?;
+    assert!(least_determinant(&composed, 0.0, 150) > 0.0);
+    Ok(())
+}
+
+#[test]
+fn features_that_meet_report_what_is_left() -> Tested {
+    let pairs = [pair((0.0, 3.0), (2.0, 4.0)), pair((2.0, 4.0), (0.0, 3.0))];
+    let warp = Lattice::new(&FRAME, &pairs, &[], LatticeOptions::default())?;
+    let half = 0.5 * 5.0_f64.sqrt();
+    for missed in warp.residuals(0.5) {
+        assert!((missed.source - half).abs() < 1e-9, "{missed:?}");
+        assert!((missed.target - half).abs() < 1e-9, "{missed:?}");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_out_of_range_is_refused() {
+    let new = |options| Lattice::new(&FRAME, &[], &[], options).map(|_| ());
+    let default = LatticeOptions::default();
+    assert_eq!(new(default), Ok(()));
+    let levels = LatticeOptions {
+        levels: 0,
+        ..default
+    };
+    assert_eq!(new(levels), Err(LatticeError::Levels(0)));
+    let levels = LatticeOptions {
+        levels: 10,
+        ..default
+    };
+    assert_eq!(new(levels), Err(LatticeError::Levels(10)));
+    let coarsest = LatticeOptions {
+        coarsest: 0,
+        ..default
+    };
+    assert_eq!(new(coarsest), Err(LatticeError::Coarsest(0)));
+    let finest = LatticeOptions {
+        coarsest: 8,
+        levels: 9,
+        ..default
+    };
+    assert_eq!(new(finest), Err(LatticeError::Finest(2048)));
+    for tolerance in [0.0, 1.5, f64::NAN] {
+        assert!(
+            new(LatticeOptions {
+                tolerance,
+                ..default
+            })
+            .is_err()
+        );
+    }
+    let bad = Lattice::new(&FRAME, &[pair((f64::NAN, 0.0), (0.0, 0.0))], &[], default);
+    assert_eq!(bad.map(|_| ()), Err(FeatureError::Point(1).into()));
+}
+
+#[test]
+fn options_are_read_in_kebab_case() -> Tested {
+    let read: LatticeOptions = toml::from_str("fold-free = false\ncoarsest = 2")?;
+    assert_eq!((read.fold_free, read.coarsest, read.levels), (false, 2, 5));
+    assert!(toml::from_str::<LatticeOptions>("fold_free = false").is_err());
+    Ok(())
+}
+
+fn any_place() -> impl Strategy<Value = DVec2> {
+    let coordinate = || {
+        prop_oneof![
+            8 => -1.0f64..5.0,
+            2 => (0_i32..4).prop_map(f64::from),
+            1 => -20.0f64..20.0,
+            1 => -1e300f64..1e300,
+            1 => Just(1.0 + 1e-9),
+        ]
+    };
+    (coordinate(), coordinate()).prop_map(|(x, y)| DVec2::new(x, y))
+}
+
+fn any_options() -> impl Strategy<Value = LatticeOptions> {
+    (1_u32..6, 1_u32..=8, -6.0f64..0.0).prop_map(|(levels, coarsest, tolerance)| LatticeOptions {
+        levels,
+        coarsest,
+        tolerance: 10.0_f64.powf(tolerance),
+        fold_free: true,
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+
+    #[test]
+    fn composed_layers_never_fold_nor_fail(
+        ends in prop::collection::vec((any_place(), any_place()), 0..12),
+        options in any_options(),
+        t in prop_oneof![Just(0.5), -0.5f64..1.5, Just(1e300), Just(f64::NAN)],
+    ) {
+        let pairs: Vec<_> = ends.iter().map(|&(p, q)| pair(p, q)).collect();
+        let warp = Lattice::new(&FRAME, &pairs, &[], options)?;
+        let least = least_determinant(&warp, t, 60);
+        prop_assert!(least > 0.0, "{least:e}");
+        for place in looks(&warp, t, &spread(30, 0.0)).into_iter().flatten() {
+            prop_assert!(place.is_finite());
+        }
+        prop_assert!(warp.residuals(t).iter().all(|r| r.source.is_finite()));
+    }
+
+    #[test]
+    fn summed_layers_are_finite(
+        ends in prop::collection::vec((any_place(), any_place()), 0..12),
+        options in any_options(),
+        t in prop_oneof![Just(0.5), -0.5f64..1.5, Just(1e300)],
+    ) {
+        let pairs: Vec<_> = ends.iter().map(|&(p, q)| pair(p, q)).collect();
+        let options = LatticeOptions { fold_free: false, ..options };
+        let warp = Lattice::new(&FRAME, &pairs, &[], options)?;
+        for place in looks(&warp, t, &spread(30, 0.0)).into_iter().flatten() {
+            prop_assert!(place.is_finite());
+        }
+    }
+
+    #[test]
+    fn swapping_plays_the_film_backwards(
+        ends in prop::collection::vec((0.0f64..4.0, 2.0f64..5.0), 0..12),
+        fold_free in any::<bool>(),
+        t in -0.2f64..1.2,
+    ) {
+        let target = spread(ends.len(), 3.0);
+        let pairs: Vec<_> = ends.iter().zip(&target).map(|(&p, &q)| pair(p, q)).collect();
+        let swapped: Vec<_> = pairs.iter().map(|p| pair(p.target, p.source)).collect();
+        let options = LatticeOptions { fold_free, ..LatticeOptions::default() };
+        let warp = Lattice::new(&FRAME, &pairs, &[], options)?;
+        let back = Lattice::new(&FRAME, &swapped, &[], options)?;
+        let places = spread(20, 0.0);
+        let [source, target] = looks(&warp, t, &places);
+        let [back_source, back_target] = looks(&back, 1.0 - t, &places);
+        for (a, b) in source.iter().zip(&back_target).chain(target.iter().zip(&back_source)) {
+            prop_assert!(a.distance(*b) < 1e-6, "{a} {b}");
+        }
+    }
+}
