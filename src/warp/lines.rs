@@ -1,0 +1,172 @@
+//! The warp by line features.
+//!
+//! Beier, Neely, "Feature-based image metamorphosis" (1992). A line PQ of the
+//! frame and its fellow P′Q′ of a design say of a place X, which lies u along
+//! and v across PQ (§3.1), that P′ + u P′Q′ + v n′ is seen there: u counts in
+//! lengths of the line, v in units, with its sign. Of many lines (§3.2) the
+//! weighted mean of the displacements D is taken,
+//!
+//! X′ = X + Σ w D / Σ w,  w = (lengthᵖ / (a + dist))ᵇ,
+//!
+//! where dist is that to the segment. At t the lines of the frame lie between
+//! those of the two designs (§3.3), and both designs are looked up by them.
+//!
+//! Beyond the paper, points count too: a pin is a line without direction and
+//! moves what is near it as it moves itself, with the weight of a line a
+//! tenth of the frame's diameter long. A line that shrinks to a thousandth of
+//! its fellow's length, or below, becomes such a point by and by; the paper's
+//! formula divides by that length.
+//!
+//! Guaranteed: at t = 0 every place is looked up in the source where it is,
+//! and at t = 1 in the target; a single pair of lines of one length is a rigid
+//! motion; swapping the designs plays the film backwards; finite features give
+//! finite places. Not guaranteed: that nothing folds. Lines that cross in the
+//! one design and not in the other must fold, and so may close lines that turn
+//! against each other.
+//!
+//! - `options`: the paper's constants, and what may be wrong
+//! - `between`: where a line is at t
+//! - `bundle`: lines with everything that a place needs of them
+//! - `kernel`: the sums over lines, many places at a time
+//! - `falloff`: weights; `power`: for exponents without a short formula
+//! - `map`: the map of the plane by one set of lines
+//! - `raster`: that of a picture; `interpolation`: what is far from a tile
+
+mod between;
+mod bundle;
+mod falloff;
+mod interpolation;
+mod kernel;
+mod map;
+mod options;
+mod power;
+mod raster;
+
+#[cfg(test)]
+mod tests;
+
+pub use map::{LineMap, Segment};
+pub use options::{Between, LineOptions, LinesError};
+pub use raster::Raster;
+
+use super::PlaneWarp;
+use crate::correspondence::{LinePair, PointPair};
+use crate::geometry::{Bounds, DVec2};
+use between::Moving;
+use bundle::{Bundle, Feature};
+use options::{Constants, check_points};
+use rayon::prelude::*;
+
+/// The length, in diameters of the frame, of a line that weighs as much as a
+/// pin: about that of the lines which people draw along a feature.
+const PIN_LENGTH: f64 = 0.1;
+
+/// How many places a thread takes at a time: some 0.1 ms of work.
+const CHUNK: usize = 1024;
+
+/// A warp of the plane by pairs of lines and of points.
+///
+/// ```
+/// use morphospace::correspondence::LinePair;
+/// use morphospace::geometry::{Bounds, DVec2};
+/// use morphospace::warp::{LineOptions, Lines, PlaneWarp};
+///
+/// let line = LinePair {
+///     source: [DVec2::ZERO, DVec2::X],
+///     target: [DVec2::Y, DVec2::Y + DVec2::X], // one up
+/// };
+/// let frame = Bounds { min: DVec2::NEG_ONE, max: DVec2::ONE };
+/// let lines = Lines::new(&frame, &[line], &[], &LineOptions::default())?;
+/// let mut maps = lines.maps();
+/// let [mut in_source, mut in_target] = [[DVec2::ZERO]; 2];
+/// lines.look_up(0.25, &mut maps, &[DVec2::ZERO], &mut in_source, &mut in_target);
+/// assert!(in_source[0].distance(DVec2::new(0.0, -0.25)) < 1e-15);
+/// assert!(in_target[0].distance(DVec2::new(0.0, 0.75)) < 1e-15);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Lines {
+    features: Vec<(Moving, Option<f64>)>,
+    constants: Constants,
+    between: Between,
+}
+
+/// Memory of one frame of [`Lines`]: the lines at a t.
+#[derive(Clone, Debug)]
+pub struct LinesAtT(Bundle<2>);
+
+impl Lines {
+    /// A warp by lines and pins, in the coordinates of the frame. Without any
+    /// nothing moves.
+    ///
+    /// # Errors
+    /// [`LinesError`] if a coordinate is not finite or an option out of range.
+    pub fn new(
+        frame: &Bounds,
+        lines: &[LinePair],
+        points: &[PointPair],
+        options: &LineOptions,
+    ) -> Result<Self, LinesError> {
+        let diameter = diameter(frame)?;
+        check_points(lines.iter().map(|l| [l.source, l.target]), |line| {
+            LinesError::Line { line }
+        })?;
+        check_points(points.iter().map(|p| [[p.source], [p.target]]), |pin| {
+            LinesError::Pin { pin }
+        })?;
+        let line = |line: &LinePair| Moving::new(line.source, line.target);
+        let pin = |pin: &PointPair| Moving::new([pin.source; 2], [pin.target; 2]);
+        let nominal = |moving: Moving| {
+            let length = moving.is_point().then_some(PIN_LENGTH * diameter);
+            (moving, length)
+        };
+        let moving = lines.iter().map(line).chain(points.iter().map(pin));
+        Ok(Self {
+            features: moving.map(nominal).collect(),
+            constants: options.constants(diameter)?,
+            between: options.between,
+        })
+    }
+}
+
+/// The frame's diagonal; 1 for a frame that is a point.
+fn diameter(frame: &Bounds) -> Result<f64, LinesError> {
+    let size = frame.size();
+    let diameter = size.x.hypot(size.y);
+    if !diameter.is_finite() {
+        return Err(LinesError::Frame);
+    }
+    Ok(if diameter > 0.0 { diameter } else { 1.0 })
+}
+
+impl PlaneWarp for Lines {
+    type Maps = LinesAtT;
+
+    fn maps(&self) -> LinesAtT {
+        LinesAtT(Bundle::new(self.constants, self.features.len()))
+    }
+
+    fn look_up(
+        &self,
+        t: f64,
+        maps: &mut LinesAtT,
+        frame: &[DVec2],
+        in_source: &mut [DVec2],
+        in_target: &mut [DVec2],
+    ) {
+        let bundle = &mut maps.0;
+        bundle.fill(self.features.iter().map(|(moving, nominal)| Feature {
+            in_frame: moving.at(t, self.between),
+            in_designs: [moving.source(), moving.target()],
+            nominal: *nominal,
+        }));
+        let bundle = &*bundle;
+        let designs = in_source
+            .par_chunks_mut(CHUNK)
+            .zip(in_target.par_chunks_mut(CHUNK));
+        frame
+            .par_chunks(CHUNK)
+            .zip(designs)
+            .for_each(|(frame, (source, target))| bundle.map_into(frame, [source, target]));
+    }
+}

@@ -1,0 +1,315 @@
+//! Lines of the frame, each with its fellows in some designs, and everything
+//! that a place needs of them.
+//!
+//! All coordinates and lengths are scaled by one power of two, so that the
+//! largest coordinate is about 1. That changes no digit, and leaves exponents
+//! to spare for products of many.
+
+use super::kernel::{self, BLOCK, FARTHEST, LARGEST_A, LEAST_A, Lines, Places, Row, Sums};
+use super::map::Segment;
+use super::options::Constants;
+use crate::geometry::{Bounds, DMat2, DVec2};
+use pulp::Arch;
+
+/// A line, or its fellow, shorter than this part of the other becomes a point
+/// by and by.
+const POINTLIKE: f64 = 1e-3;
+
+/// Scaled lengths below this are none: the squares of larger ones are normal.
+const NO_LENGTH: f64 = 1e-150;
+
+/// A line of the frame and its fellows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Feature<const N: usize> {
+    pub(super) in_frame: Segment,
+    pub(super) in_designs: [Segment; N],
+    /// The length by which it is weighed, if not by that of the line.
+    pub(super) nominal: Option<f64>,
+}
+
+/// c, a and b of c + a x + b y for a place (x, y), scaled.
+pub(super) type Affine = [f64; 3];
+
+/// A line as the kernel reads it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line<const N: usize> {
+    /// How far along the line a place is, from its middle.
+    pub(super) along: Affine,
+    /// How far to the left of the line it is.
+    pub(super) across: Affine,
+    /// Half the length.
+    pub(super) half: f64,
+    /// (length / greatest length)^(b p).
+    pub(super) strength: f64,
+    /// The displacement D into each design, x and y.
+    pub(super) carries: [[Affine; 2]; N],
+}
+
+/// Lines that move the plane together, into N designs.
+#[derive(Clone, Debug)]
+pub(super) struct Bundle<const N: usize> {
+    pub(super) arch: Arch,
+    constants: Constants,
+    plane: Scaled,
+    /// a, scaled.
+    a: f64,
+    lines: Vec<Line<N>>,
+}
+
+impl<const N: usize> Bundle<N> {
+    /// No lines, with memory for so many.
+    pub(super) fn new(constants: Constants, capacity: usize) -> Self {
+        Self {
+            arch: Arch::new(),
+            constants,
+            plane: Scaled::default(),
+            a: constants.a,
+            lines: Vec::with_capacity(capacity),
+        }
+    }
+
+    /// Replaces the lines. Those that overflowed on their way are left out.
+    pub(super) fn fill(&mut self, features: impl Iterator<Item = Feature<N>> + Clone) {
+        let features = features.filter(Feature::is_finite);
+        self.plane = Scaled::around(features.clone());
+        let (plane, a) = (self.plane, self.constants.a * self.plane.per_unit);
+        self.a = a.clamp(LEAST_A, LARGEST_A);
+        self.lines.clear();
+        let lines = features.map(|feature| Line::new(&plane.feature(&feature), a));
+        self.lines.extend(lines);
+        self.weigh();
+    }
+
+    /// Makes strengths of lengths, relative to the greatest.
+    fn weigh(&mut self) {
+        let lengths = self.lines.iter().map(|line| line.strength);
+        let greatest = lengths.fold(0.0, f64::max);
+        let exponent = self.constants.b * self.constants.p;
+        for line in &mut self.lines {
+            line.strength = (line.strength / greatest).min(1.0).powf(exponent);
+        }
+    }
+
+    /// The lines, scaled.
+    pub(super) fn lines(&self) -> &[Line<N>] {
+        &self.lines
+    }
+
+    /// A place as the lines know it.
+    pub(super) fn scaled(&self, place: DVec2) -> DVec2 {
+        place * self.plane.per_unit - self.plane.centre
+    }
+
+    /// Where each place is looked up in each design. All slices are as long
+    /// as `places`, or what is beyond the shortest is left as it is.
+    pub(super) fn map_into(&self, places: &[DVec2], mut designs: [&mut [DVec2]; N]) {
+        for (block, places) in places.chunks(BLOCK).enumerate() {
+            let last = places.len() - 1;
+            let block_of_places = block_of(|lane| places[lane.min(last)]);
+            let mut sums = Sums::ZERO;
+            self.add(&self.lines, &block_of_places, places.len(), &mut sums);
+            let means = self.means(&sums);
+            for (design, [dx, dy]) in designs.iter_mut().zip(&means) {
+                let design = design.iter_mut().skip(block * BLOCK);
+                for (lane, (out, &place)) in design.zip(places).enumerate() {
+                    *out = place + DVec2::new(dx[lane], dy[lane]);
+                }
+            }
+        }
+    }
+
+    /// Adds the part of some of the lines to the sums of the first `count`
+    /// places.
+    pub(super) fn add(&self, lines: &[Line<N>], xy: &[Row; 2], count: usize, sums: &mut Sums<N>) {
+        let [x, y] = xy;
+        let places = Places {
+            x: &self.plane.row(x, self.plane.centre.x),
+            y: &self.plane.row(y, self.plane.centre.y),
+            count,
+        };
+        let (a, b) = (self.a, self.constants.b);
+        kernel::add(self.arch, Lines { lines, a, b }, places, sums);
+    }
+
+    /// What is to be added to places, in each design, x and y: Σ w D / Σ w,
+    /// and nothing where there are no lines.
+    pub(super) fn means(&self, sums: &Sums<N>) -> [[Row; 2]; N] {
+        // No weight is below, but that of no lines.
+        let at_least = |weight: f64| if weight > 1e-300 { weight } else { 1e-300 };
+        let factors = sums.weight.map(|weight| at_least(weight).recip());
+        let mut means = sums.moved;
+        for row in means.as_flattened_mut() {
+            for (value, factor) in row.iter_mut().zip(&factors) {
+                *value = *value * factor * self.plane.unit;
+            }
+        }
+        means
+    }
+}
+
+/// The coordinates of so many places, x and y.
+pub(super) fn block_of(place: impl Fn(usize) -> DVec2) -> [Row; 2] {
+    let mut block = [[0.0; BLOCK]; 2];
+    let [x, y] = &mut block;
+    for (lane, (x, y)) in x.iter_mut().zip(y).enumerate() {
+        [*x, *y] = place(lane).to_array();
+    }
+    block
+}
+
+/// The plane with features about its origin, none much beyond 1.
+#[derive(Clone, Copy, Debug)]
+struct Scaled {
+    /// Units of the plane in one of the scaled plane, and its reciprocal.
+    unit: f64,
+    per_unit: f64,
+    /// What lies at the origin, in scaled coordinates.
+    centre: DVec2,
+}
+
+impl Default for Scaled {
+    fn default() -> Self {
+        Self {
+            unit: 1.0,
+            per_unit: 1.0,
+            centre: DVec2::ZERO,
+        }
+    }
+}
+
+impl Scaled {
+    fn around<const N: usize>(features: impl Iterator<Item = Feature<N>> + Clone) -> Self {
+        let points = features.flat_map(|feature| feature.points());
+        let extent = points.clone().map(|p| p.abs().max_element());
+        let unit = power_of_two_at(extent.fold(0.0, f64::max));
+        let per_unit = unit.recip();
+        let bounds = Bounds::of(points.map(|p| p * per_unit));
+        Self {
+            unit,
+            per_unit,
+            centre: bounds.map_or(DVec2::ZERO, |bounds| bounds.centre()),
+        }
+    }
+
+    fn feature<const N: usize>(&self, feature: &Feature<N>) -> Feature<N> {
+        let segment = |segment: Segment| segment.map(|p| p * self.per_unit - self.centre);
+        Feature {
+            in_frame: segment(feature.in_frame),
+            in_designs: feature.in_designs.map(segment),
+            nominal: feature.nominal.map(|length| length * self.per_unit),
+        }
+    }
+
+    /// One coordinate of the places of a block, none farther than
+    /// [`FARTHEST`].
+    fn row(&self, row: &Row, centre: f64) -> Row {
+        // What is no number becomes one, lest its neighbours suffer.
+        let at_least = |x: f64| if x > -FARTHEST { x } else { -FARTHEST };
+        let at_most = |x: f64| if x < FARTHEST { x } else { FARTHEST };
+        row.map(|value| at_most(at_least(value * self.per_unit - centre)))
+    }
+}
+
+/// The power of two at or below a magnitude; both it and its reciprocal are
+/// normal. 1 for 0.
+fn power_of_two_at(magnitude: f64) -> f64 {
+    if magnitude == 0.0 {
+        return 1.0;
+    }
+    let exponent = magnitude.to_bits() >> 52;
+    f64::from_bits(exponent.clamp(2, 2044) << 52)
+}
+
+impl<const N: usize> Feature<N> {
+    fn points(&self) -> impl Iterator<Item = DVec2> + Clone + use<N> {
+        let designs = self.in_designs.into_iter().flatten();
+        self.in_frame.into_iter().chain(designs)
+    }
+
+    fn is_finite(&self) -> bool {
+        self.points().all(DVec2::is_finite)
+    }
+}
+
+/// A segment by its middle, the vector from end to end, and its length.
+#[derive(Clone, Copy)]
+struct Middled {
+    middle: DVec2,
+    vector: DVec2,
+    length: f64,
+}
+
+impl Middled {
+    fn new([from, to]: Segment) -> Self {
+        let vector = to - from;
+        Self {
+            middle: 0.5 * (from + to),
+            vector,
+            length: vector.x.hypot(vector.y),
+        }
+    }
+}
+
+impl<const N: usize> Line<N> {
+    /// The line of a scaled feature, its strength being its length still, at
+    /// least so long as its fellows make it; `a` where none has any.
+    fn new(feature: &Feature<N>, a: f64) -> Self {
+        let frame = Middled::new(feature.in_frame);
+        let designs = feature.in_designs.map(Middled::new);
+        let lengths = designs.iter().map(|design| design.length);
+        let longest = lengths.fold(frame.length, f64::max);
+        let own = if longest > 0.0 {
+            frame.length.max(POINTLIKE * longest)
+        } else {
+            a
+        };
+        let has_length = frame.length > NO_LENGTH;
+        let direction = if has_length {
+            frame.vector / frame.length
+        } else {
+            DVec2::X
+        };
+        let seen = |by: DVec2| [-by.dot(frame.middle), by.x, by.y];
+        Self {
+            along: seen(direction),
+            across: seen(direction.perp()),
+            half: 0.5 * frame.length,
+            strength: feature.nominal.unwrap_or(own).max(f64::MIN_POSITIVE),
+            carries: designs.map(|design| carry(&frame, &design)),
+        }
+    }
+
+    /// Whether a disc of this radius sees one end, or none, from the whole of
+    /// it, and its middle is this far from the line.
+    pub(super) fn is_far(&self, middle: DVec2, radius: f64, distance: f64) -> bool {
+        let at = |[c, a, b]: Affine| c + a * middle.x + b * middle.y;
+        let beyond = at(self.along).abs() - self.half;
+        let away = beyond.max(0.0).hypot(at(self.across));
+        beyond.abs() >= radius && away >= distance && away < 0.1 * FARTHEST
+    }
+}
+
+/// D of a place as seen from a line and its fellow. All of it vanishes exactly
+/// if the two are the same.
+fn carry(frame: &Middled, design: &Middled) -> [Affine; 2] {
+    let shift = design.middle - frame.middle;
+    let [shorter, longer] = [
+        frame.length.min(design.length),
+        frame.length.max(design.length),
+    ];
+    if shorter <= NO_LENGTH {
+        return [[shift.x, 0.0, 0.0], [shift.y, 0.0, 0.0]];
+    }
+    let direction = frame.vector / frame.length;
+    let along = (design.vector - frame.vector) / frame.length;
+    let across = (design.vector / design.length - direction).perp();
+    let ratio = shorter / (POINTLIKE * longer);
+    let share = if ratio < 1.0 { ratio * ratio } else { 1.0 };
+    let matrix = DMat2::from_cols(
+        share * (along * direction.x - across * direction.y),
+        share * (along * direction.y + across * direction.x),
+    );
+    let shift = shift - matrix * frame.middle;
+    let [x, y] = [matrix.row(0), matrix.row(1)];
+    [[shift.x, x.x, x.y], [shift.y, y.x, y.y]]
+}

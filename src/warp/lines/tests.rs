@@ -1,0 +1,463 @@
+//! The identities of the warp, the formula as the paper has it as an oracle,
+//! and features that meet.
+
+use super::*;
+use proptest::prelude::*;
+use pulp::Arch;
+use std::f64::consts::PI;
+
+type Result<T = ()> = std::result::Result<T, Box<dyn std::error::Error>>;
+
+const FRAME: Bounds = Bounds {
+    min: DVec2::new(-3.0, -4.0),
+    max: DVec2::new(3.0, 4.0),
+};
+
+const BOTH: [Between; 2] = [Between::Ends, Between::MiddleAndAngle];
+
+fn line([a, b, c, d]: [DVec2; 4]) -> LinePair {
+    LinePair {
+        source: [a, b],
+        target: [c, d],
+    }
+}
+
+fn pin(source: DVec2, target: DVec2) -> PointPair {
+    PointPair { source, target }
+}
+
+fn swapped(lines: &[LinePair]) -> Vec<LinePair> {
+    let swap = |l: &LinePair| LinePair {
+        source: l.target,
+        target: l.source,
+    };
+    lines.iter().map(swap).collect()
+}
+
+/// Places all over the frame, and beyond.
+fn places() -> Vec<DVec2> {
+    (0..15 * 15)
+        .map(|i| DVec2::new(f64::from(i % 15), f64::from(i / 15)) - 7.0)
+        .collect()
+}
+
+/// In the source and in the target.
+fn looked_up(lines: &Lines, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
+    let mut found = [places.to_vec(), places.to_vec()];
+    let [source, target] = &mut found;
+    lines.look_up(t, &mut lines.maps(), places, source, target);
+    found
+}
+
+/// The paper's formula, written as the paper has it.
+fn plain(pairs: &[[Segment; 2]], a: f64, b: f64, p: f64, x: DVec2) -> DVec2 {
+    let (mut sum, mut total) = (DVec2::ZERO, 0.0);
+    for &[[start, end], [other_start, other_end]] in pairs {
+        let (along, other) = (end - start, other_end - other_start);
+        let u = (x - start).dot(along) / along.length_squared();
+        let v = (x - start).dot(along.perp()) / along.length();
+        let seen = other_start + u * other + v * other.perp() / other.length();
+        let distance = if u < 0.0 {
+            x.distance(start)
+        } else if u > 1.0 {
+            x.distance(end)
+        } else {
+            v.abs()
+        };
+        let weight = (along.length().powf(p) / (a + distance)).powf(b);
+        sum += weight * (seen - x);
+        total += weight;
+    }
+    x + sum / total
+}
+
+fn point() -> impl Strategy<Value = DVec2> {
+    (-4.0..4.0, -4.0..4.0).prop_map(|(x, y): (f64, f64)| DVec2::new(x, y))
+}
+
+fn segment() -> impl Strategy<Value = Segment> {
+    let long = |[a, b]: &Segment| a.distance(*b) > 0.1;
+    [point(), point()].prop_filter("a line", long)
+}
+
+fn pairs() -> impl Strategy<Value = Vec<[Segment; 2]>> {
+    prop::collection::vec([segment(), segment()], 1..20)
+}
+
+/// Points that often coincide, and lie on lines.
+fn corner() -> impl Strategy<Value = DVec2> {
+    (-1..2, -1..2).prop_map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)))
+}
+
+fn corners() -> impl Strategy<Value = (Vec<LinePair>, Vec<PointPair>)> {
+    let corner_line = [corner(), corner(), corner(), corner()].prop_map(line);
+    let corner_pin = (corner(), corner()).prop_map(|(a, b)| pin(a, b));
+    (
+        prop::collection::vec(corner_line, 0..6),
+        prop::collection::vec(corner_pin, 0..4),
+    )
+}
+
+fn options() -> impl Strategy<Value = LineOptions> {
+    let b = prop_oneof![Just(1.0), Just(2.0), 0.1..8.0];
+    (1e-4..0.3, b, 0.0..2.0, prop::sample::select(&BOTH)).prop_map(|(a, b, p, between)| {
+        LineOptions {
+            smoothness: a,
+            falloff: b,
+            length_exponent: p,
+            between,
+        }
+    })
+}
+
+#[test]
+fn without_features_nothing_moves() -> Result {
+    let lines = Lines::new(&FRAME, &[], &[], &LineOptions::default())?;
+    assert_eq!(looked_up(&lines, 0.3, &places()), [places(), places()]);
+    let map = LineMap::new(&[], 1.0, 2.0, 0.5)?;
+    assert_eq!(map.map(DVec2::new(2.0, -7.0)), DVec2::new(2.0, -7.0));
+    Ok(())
+}
+
+#[test]
+fn a_pair_of_one_length_is_a_rigid_motion() -> Result {
+    let turn = DVec2::from_angle(2.3);
+    let rigid = |p: DVec2| turn.rotate(p) + DVec2::new(5.0, -3.0);
+    let segment = [DVec2::new(1.0, 2.0), DVec2::new(-0.5, 2.25)];
+    let map = LineMap::new(&[[segment, segment.map(rigid)]], 0.1, 2.0, 0.5)?;
+    for p in places() {
+        assert!(map.map(p).distance(rigid(p)) < 1e-14 * 10.0);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_longer_fellow_stretches_along_and_not_across() -> Result {
+    let [from, to] = [[DVec2::ZERO, DVec2::X], [DVec2::ZERO, 3.0 * DVec2::X]];
+    let map = LineMap::new(&[[from, to]], 0.1, 2.0, 0.5)?;
+    for p in places() {
+        assert!(map.map(p).distance(DVec2::new(3.0 * p.x, p.y)) < 1e-13);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_pin_moves_everything_as_it_moves() -> Result {
+    let pins = [pin(DVec2::ONE, DVec2::new(3.0, 2.0))];
+    let lines = Lines::new(&FRAME, &[], &pins, &LineOptions::default())?;
+    let [source, target] = looked_up(&lines, 0.25, &places());
+    for (i, p) in places().into_iter().enumerate() {
+        assert!(source[i].distance(p - 0.25 * DVec2::new(2.0, 1.0)) < 1e-14);
+        assert!(target[i].distance(p + 0.75 * DVec2::new(2.0, 1.0)) < 1e-14);
+    }
+    Ok(())
+}
+
+#[test]
+fn a_pin_weighs_as_a_tenth_of_the_diameter() -> Result {
+    // Both at a distance of 1: a mean by lengths, since b p = 1.
+    let far = DVec2::X;
+    let standing = line([-far, DVec2::new(-5.0, 0.0), -far, DVec2::new(-5.0, 0.0)]);
+    let options = LineOptions::default();
+    let lines = Lines::new(&FRAME, &[standing], &[pin(far, far + DVec2::Y)], &options)?;
+    let [_, target] = looked_up(&lines, 0.0, &[DVec2::ZERO]);
+    let share = 1.0 / (1.0 + 4.0);
+    assert!(target[0].distance(share * DVec2::Y) < 1e-15);
+    Ok(())
+}
+
+#[test]
+fn a_half_turn_goes_one_way_and_keeps_its_length() {
+    for angle in [0.0, 0.5 * PI, 0.3, 2.9] {
+        let half = DVec2::from_angle(angle);
+        for noise in [0.0, 1e-13, -1e-13] {
+            let back = DVec2::from_angle(noise).rotate(half);
+            let there = Moving::new([-half, half], [back, -back]);
+            let again = Moving::new([back, -back], [-half, half]);
+            let [middle, reversed] = [&there, &again].map(|m| m.at(0.5, Between::MiddleAndAngle));
+            let [a, b] = middle;
+            assert!((a.distance(b) - 2.0).abs() < 1e-12);
+            assert!((b - a).dot(DVec2::new(0.123, 1.0)) > 0.0 || angle == 0.0 && b.y > a.y);
+            assert!(a.distance(reversed[0]) < 1e-12 && b.distance(reversed[1]) < 1e-12);
+        }
+    }
+}
+
+#[test]
+fn a_line_passes_through_a_point_without_a_jump() -> Result {
+    // Turned by π, its ends meet halfway; two others hold the plane.
+    let turning = line([-DVec2::X, DVec2::X, DVec2::X, -DVec2::X]);
+    let other = |y: f64| {
+        let [a, b] = [DVec2::new(-2.0, y), DVec2::new(2.0, y)];
+        line([a, b, a + 0.3, b + 0.3])
+    };
+    let options = LineOptions {
+        between: Between::Ends,
+        length_exponent: 0.0,
+        ..LineOptions::default()
+    };
+    let lines = Lines::new(&FRAME, &[turning, other(2.0), other(-2.0)], &[], &options)?;
+    let [before, after] = [-1e-9, 1e-9].map(|dt| looked_up(&lines, 0.5 + dt, &places()));
+    for (before, after) in before.iter().flatten().zip(after.iter().flatten()) {
+        assert!(before.distance(*after) < 1e-2, "{before} {after}");
+    }
+    Ok(())
+}
+
+#[test]
+fn what_is_wrong_is_told() {
+    let frame = &FRAME;
+    let good = line([DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE]);
+    let mut bad = good;
+    bad.target[1].y = f64::NAN;
+    let usual = LineOptions::default();
+    let error = |lines: &[LinePair], pins: &[PointPair], options: LineOptions| {
+        Lines::new(frame, lines, pins, &options).err()
+    };
+    let found = error(&[good, bad], &[], usual);
+    assert_eq!(found, Some(LinesError::Line { line: 1 }));
+    let found = error(&[good], &[pin(DVec2::INFINITY, DVec2::X)], usual);
+    assert_eq!(found, Some(LinesError::Pin { pin: 0 }));
+    for smoothness in [0.0, -1.0, f64::INFINITY] {
+        let options = LineOptions {
+            smoothness,
+            ..usual
+        };
+        let found = error(&[], &[], options);
+        assert_eq!(found, Some(LinesError::Smoothness(smoothness)));
+    }
+    for falloff in [0.0, 8.5, f64::INFINITY] {
+        let options = LineOptions { falloff, ..usual };
+        assert_eq!(error(&[], &[], options), Some(LinesError::Falloff(falloff)));
+    }
+    let options = LineOptions {
+        length_exponent: -0.5,
+        ..usual
+    };
+    assert_eq!(
+        error(&[], &[], options),
+        Some(LinesError::LengthExponent(-0.5))
+    );
+    assert!(LineMap::new(&[[bad.source, bad.target]], 1.0, 2.0, 0.5).is_err());
+}
+
+#[test]
+fn options_are_written_and_read() -> Result {
+    let options = LineOptions {
+        between: Between::Ends,
+        falloff: 1.25,
+        ..LineOptions::default()
+    };
+    let text = toml::to_string(&options)?;
+    assert!(text.contains("length-exponent = 0.5") && text.contains("\"ends\""));
+    assert_eq!(toml::from_str::<LineOptions>(&text)?, options);
+    assert_eq!(toml::from_str::<LineOptions>("")?, LineOptions::default());
+    assert!(toml::from_str::<LineOptions>("strength = 1.0").is_err());
+    Ok(())
+}
+
+#[test]
+fn exponents_of_coordinates_do_not_matter() -> Result {
+    let pairs = [
+        [[DVec2::ZERO, DVec2::X], [DVec2::Y, DVec2::ONE * 1.25]],
+        [[DVec2::Y, DVec2::NEG_X], [DVec2::Y, DVec2::NEG_ONE]],
+    ];
+    let usual = LineMap::new(&pairs, 0.125, 2.0, 0.5)?;
+    for exponent in [-1000, -333, -40, 40, 333, 1000] {
+        let scale = 2.0_f64.powi(exponent);
+        let scaled = pairs.map(|pair| pair.map(|segment| segment.map(|p| p * scale)));
+        let map = LineMap::new(&scaled, 0.125 * scale, 2.0, 0.5)?;
+        for p in places() {
+            let (found, expected) = (map.map(p * scale) / scale, usual.map(p));
+            assert!(found.distance(expected) < 1e-13, "{exponent}");
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn extreme_numbers_do_no_harm() -> Result {
+    let numbers = [0.0, 1.0, 1e-300, 1e-100, 1e100, -1e100, 1e300, -f64::MAX];
+    let points: Vec<_> = (0..64)
+        .map(|i| DVec2::new(numbers[i % 8], numbers[i / 8]))
+        .collect();
+    for at in 0..64 {
+        let four = [0, 9, 22, 35].map(|k| points[(at + k) % 64]);
+        let pins = [pin(points[(at + 7) % 64], points[(at + 40) % 64])];
+        for between in BOTH {
+            let options = LineOptions {
+                between,
+                ..LineOptions::default()
+            };
+            let lines = Lines::new(&FRAME, &[line(four)], &pins, &options)?;
+            for t in [0.0, 0.3, 1.0, 1e9] {
+                looked_up(&lines, t, &points);
+            }
+        }
+        // Ordinary features, extreme places.
+        let lines = Lines::new(
+            &FRAME,
+            &[],
+            &[pin(DVec2::ZERO, DVec2::X)],
+            &LineOptions::default(),
+        )?;
+        let moderate: Vec<_> = points
+            .iter()
+            .map(|p| p.clamp(-DVec2::splat(1e300), DVec2::splat(1e300)))
+            .collect();
+        let found = looked_up(&lines, 0.5, &moderate);
+        assert!(found.iter().flatten().all(|p| p.is_finite()));
+    }
+    Ok(())
+}
+
+#[test]
+fn a_place_that_is_no_number_leaves_its_neighbours_alone() -> Result {
+    let map = LineMap::new(
+        &[[[DVec2::ZERO, DVec2::X], [DVec2::Y, DVec2::ONE]]],
+        1.0,
+        2.0,
+        0.5,
+    )?;
+    let mut places = places();
+    let expected: Vec<_> = places.iter().map(|&p| map.map(p)).collect();
+    let mut found = places.clone();
+    places[8] = DVec2::NAN;
+    map.map_into(&places, &mut found);
+    for (i, (found, expected)) in found.iter().zip(&expected).enumerate() {
+        assert!(i == 8 || found == expected);
+    }
+    Ok(())
+}
+
+/// What a picture is, pixel by pixel.
+fn assert_like_points(map: &LineMap, raster: &Raster, pixels: usize, bound: f64) {
+    let [mut x, mut y] = [vec![0.0; pixels], vec![0.0; pixels]];
+    map.map_raster(raster, &mut x, &mut y);
+    let places: Vec<_> = (0..pixels).map(|i| raster.place(i)).collect();
+    let mut expected = places.clone();
+    map.map_into(&places, &mut expected);
+    for i in 0..pixels {
+        let error = DVec2::new(x[i], y[i]).distance(expected[i]);
+        assert!(error <= bound, "pixel {i} of {raster:?}: {error:e}");
+    }
+}
+
+#[test]
+fn pictures_of_every_shape_are_like_points() -> Result {
+    let pair = |i: u32| {
+        let at = DVec2::from_angle(2.4 * f64::from(i)) * f64::from(i);
+        let along = DVec2::from_angle(f64::from(i)) * 4.0;
+        [[at, at + along], [at.yx(), at.yx() + 1.5 * along]]
+    };
+    let pairs: Vec<_> = (0..40).map(pair).collect();
+    for (columns, pixels) in [
+        (1, 100),
+        (0, 3),
+        (33, 33 * 33),
+        (64, 64 * 70 + 5),
+        (300, 299),
+    ] {
+        for step in [DVec2::ONE, DVec2::new(0.3, -0.7), DVec2::ZERO] {
+            for b in [0.5, 1.0, 2.0, 8.0] {
+                let map = LineMap::new(&pairs, 0.01, b, 0.5)?;
+                let origin = DVec2::new(-20.0, 11.0);
+                let raster = Raster {
+                    origin,
+                    step,
+                    columns,
+                };
+                assert_like_points(&map, &raster, pixels, 1e-10);
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn slices_of_several_lengths_are_filled_as_far_as_they_go() -> Result {
+    let map = LineMap::new(&[[[DVec2::ZERO; 2], [DVec2::ONE; 2]]], 1.0, 2.0, 0.5)?;
+    let mut out = [DVec2::ZERO; 3];
+    map.map_into(&[DVec2::X], &mut out);
+    assert_eq!(out, [DVec2::X + DVec2::ONE, DVec2::ZERO, DVec2::ZERO]);
+    map.map_into(&[DVec2::X; 5], &mut out[..2]);
+    assert_eq!(out[1], out[0]);
+    let raster = Raster {
+        origin: DVec2::ZERO,
+        step: DVec2::ONE,
+        columns: 2,
+    };
+    let [mut x, mut y] = [[0.0; 5], [0.0; 3]];
+    map.map_raster(&raster, &mut x, &mut y);
+    assert_eq!((x, y), ([1.0, 2.0, 1.0, 0.0, 0.0], [1.0, 1.0, 2.0]));
+    Ok(())
+}
+
+proptest! {
+    #[test]
+    fn the_map_is_the_papers_formula(
+        pairs in pairs(), a in 1e-3..1.0, b in prop_oneof![Just(1.0), Just(2.0), 0.5..3.0],
+        p in 0.0..1.0,
+    ) {
+        let mut map = LineMap::new(&pairs, a, b, p)?;
+        for arch in [map.0.arch, Arch::Scalar] {
+            map.0.arch = arch;
+            let mut found = places();
+            map.map_into(&places(), &mut found);
+            for (found, place) in found.into_iter().zip(places()) {
+                let expected = plain(&pairs, a, b, p, place);
+                // A short line with a long fellow stretches a hundredfold.
+                prop_assert!(found.distance(expected) < 1e-10, "{place}: {found} {expected}");
+                prop_assert!(map.map(place).distance(found) < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn designs_stand_still_at_their_ends((lines, pins) in corners(), options in options()) {
+        let lines = Lines::new(&FRAME, &lines, &pins, &options)?;
+        prop_assert_eq!(&looked_up(&lines, 0.0, &places())[0], &places());
+        prop_assert_eq!(&looked_up(&lines, 1.0, &places())[1], &places());
+    }
+
+    #[test]
+    fn swapping_plays_the_film_backwards(
+        pairs in pairs(), pins in prop::collection::vec((point(), point()), 0..4),
+        options in options(), t in -0.2..1.2,
+    ) {
+        let lines: Vec<_> = pairs.iter().map(|&[source, target]| LinePair { source, target }).collect();
+        let there: Vec<_> = pins.iter().map(|&(a, b)| pin(a, b)).collect();
+        let back: Vec<_> = pins.iter().map(|&(a, b)| pin(b, a)).collect();
+        let forward = Lines::new(&FRAME, &lines, &there, &options)?;
+        let backward = Lines::new(&FRAME, &swapped(&lines), &back, &options)?;
+        let [source, target] = looked_up(&forward, t, &places());
+        let [other_source, other_target] = looked_up(&backward, 1.0 - t, &places());
+        for (a, b) in source.iter().zip(&other_target).chain(target.iter().zip(&other_source)) {
+            // Lines that almost vanish on their way lose digits.
+            prop_assert!(a.distance(*b) < 1e-7 * (1.0 + a.length()), "{a} {b}");
+        }
+    }
+
+    #[test]
+    fn features_that_meet_give_finite_places(
+        (lines, pins) in corners(), options in options(), t in -2.0..3.0,
+    ) {
+        let lines = Lines::new(&FRAME, &lines, &pins, &options)?;
+        for t in [t, 0.0, 0.25, 0.5, 1.0, 2.0] {
+            for place in looked_up(&lines, t, &places()).iter().flatten() {
+                prop_assert!(place.is_finite());
+            }
+        }
+    }
+
+    #[test]
+    fn pictures_are_like_points(pairs in pairs(), b in 0.5..3.0, dx in 0.001..0.2, dy in -0.2..0.2) {
+        let map = LineMap::new(&pairs, 0.01, b, 0.5)?;
+        let raster = Raster {
+            origin: DVec2::new(-4.0, 3.0),
+            step: DVec2::new(dx, dy),
+            columns: 70,
+        };
+        assert_like_points(&map, &raster, 70 * 40, 1e-10);
+    }
+}
