@@ -12,7 +12,7 @@ mod truss;
 
 pub use elements::{BarElement, CompatibleError, Which};
 pub use outlines::OutlinesError;
-pub use polygons::{PolygonOptions, PolygonsError, RingEdge};
+pub use polygons::{FrameError, PolygonOptions, PolygonsError, RingEdge};
 
 use crate::design::Truss;
 use crate::geometry::{Bounds, DMat2, DVec2};

@@ -11,8 +11,11 @@
 //! that a refinement reaches its angle; beside sharp corners and unsplit
 //! edges none can.
 
+mod cloud;
 mod domain;
 mod refine;
+
+pub use cloud::delaunay;
 
 use crate::geometry::DVec2;
 use domain::Domain;

@@ -46,31 +46,57 @@ pub(super) fn transfer(
     let Ok(start) = refined(&from.walks(), &refinement) else {
         return Ok(None);
     };
-    let (n, points, to) = (from.points.len(), start.points, &to.points);
+    let (n, points) = (from.points.len(), start.points);
     let mut mesh = PairMesh::new(n, points.clone(), points, start.faces);
     split_chords(&mut mesh);
-    mesh.points[1] = fitted(&mesh, to);
+    carry(&mut mesh, &to.points, progress)?;
+    Ok(mesh.is_valid().then_some(mesh))
+}
+
+/// Carries a mesh whose first vertices belong at `to` in the second design;
+/// folds may remain.
+pub(super) fn carry(
+    mesh: &mut PairMesh,
+    to: &[DVec2],
+    progress: &dyn Progress,
+) -> Result<(), PolygonsError> {
+    mesh.points[1] = fitted(mesh, to);
     if !mesh.is_valid() {
-        let Some(harmonic) = harmonic(&mesh, to) else {
-            return Ok(None);
+        let Some(harmonic) = harmonic(mesh, to) else {
+            return Ok(());
         };
         mesh.points[1] = harmonic;
     }
+    remove_folds(mesh, progress)
+}
+
+/// Carries a valid mesh on: its first vertices move to `to` in the second
+/// design, the others start from where they are; folds may remain.
+pub(super) fn carry_on(
+    mesh: &mut PairMesh,
+    to: &[DVec2],
+    progress: &dyn Progress,
+) -> Result<(), PolygonsError> {
+    mesh.points[1][..mesh.fixed].copy_from_slice(&to[..mesh.fixed]);
+    remove_folds(mesh, progress)
+}
+
+fn remove_folds(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), PolygonsError> {
     let mut fewest = usize::MAX;
     let mut since = 0;
     for round in 0..ROUNDS {
         let folds = mesh.folds();
         if folds == 0 {
-            return Ok(Some(mesh));
+            break;
         }
         since = if folds < fewest { 0 } else { since + 1 };
         fewest = fewest.min(folds);
         checked(progress, "removing folds", round as f64 / ROUNDS as f64)?;
-        if since >= PATIENCE || !untangle(&mut mesh) {
+        if since >= PATIENCE || !untangle(mesh) {
             break;
         }
     }
-    Ok(mesh.is_valid().then_some(mesh))
+    Ok(())
 }
 
 /// Splits every inner edge between two polygon vertices: the faces beside it
