@@ -12,6 +12,8 @@
 //! field; a pair has two fields on one grid and a legal blend. Does not
 //! guarantee: between the ends, a blend may tear or merge parts.
 
+mod carried;
+
 use std::sync::Arc;
 
 use crate::field::{DistanceField, Grid, contour};

@@ -1,0 +1,51 @@
+//! Distance fields that a warp has carried: pulled back into the frame.
+//!
+//! For each sample of the fields' own grid a placement says which point of the
+//! source and which of the target is there; the fields are read at those and
+//! blended as ever. Pulled-back values are no distances any more; L is applied
+//! to them as they are.
+
+use super::super::scan::scan;
+use super::FieldPair;
+use crate::field::{Samples, contour};
+use crate::geometry::DVec2;
+use crate::warp::Placement;
+
+/// What no face of the placement covers is outside, this many cells deep.
+const OUTSIDE: f64 = -1.0;
+
+impl FieldPair {
+    /// What is drawn at `t` where a warp has carried the fields, as closed
+    /// polygons in the plane: outer ones counter-clockwise, holes clockwise.
+    /// Between samples of the grid the blend is taken as bilinear, and what no
+    /// face covers as outside.
+    #[must_use]
+    pub fn contour_carried(&self, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
+        let (grid, blend) = (self.grid(), &self.blend);
+        let level = blend.level();
+        // Samples are relative to the level, so that single precision is
+        // finest where the contour runs.
+        let outside = (blend.curve(OUTSIDE + blend.threshold.min(0.0)) - level) as f32;
+        let mut samples = vec![outside; grid.cells()];
+        let (source, target) = (self.source.samples(), self.target.samples());
+        scan(
+            placement,
+            |p| grid.lattice_from_plane(p),
+            grid.width as usize,
+            &mut samples,
+            |a, b| {
+                let [a, b] = [a, b].map(|p| grid.lattice_from_plane(p));
+                let (f0, f1) = (source.bilinear(a.x, a.y), target.bilinear(b.x, b.y));
+                (blend.value(f0, f1, t) - level) as f32
+            },
+        );
+        let Ok(samples) = Samples::new(grid.width, grid.height, &samples) else {
+            return Vec::new();
+        };
+        let mut rings = contour::trace_samples(&samples, 0.0);
+        for p in rings.iter_mut().flatten() {
+            *p = grid.plane_from_lattice(*p);
+        }
+        rings
+    }
+}
