@@ -16,6 +16,7 @@
 //! Not guaranteed: that the piece split off or the place of a cut is the best
 //! of all, only of those that were tried.
 
+mod automatic;
 mod closing;
 mod cut;
 mod groups;
