@@ -8,10 +8,10 @@ use super::distortion::{Distortion, distortion};
 use super::motion::{self, Motion};
 use super::{count_crossings, excess};
 use crate::compatible::CompatibleMesh;
-use crate::content::{Content, FieldPair, Solid};
+use crate::content::{Content, Solid};
 use crate::geometry::DVec2;
 use crate::progress::{Cancelled, Progress, checkpoint};
-use crate::transition::Transition;
+use crate::transition::{Frame, Transition};
 use crate::warp::{ArapError, Warp};
 use serde::Serialize;
 
@@ -100,10 +100,9 @@ pub fn film(
     for t in even_steps(samples) {
         checkpoint(progress, "measuring", t)?;
         frame.seek(t);
-        let places = &frame.placement().in_frame;
-        found.push(sampler.sample(t, places));
+        found.push(sampler.sample(&frame));
         if mesh.is_some() {
-            paths.push(places.clone());
+            paths.push(frame.placement().in_frame.clone());
         }
     }
     let step = 1.0 / (paths.len().max(2) - 1) as f64;
@@ -145,10 +144,10 @@ impl<'a> Sampler<'a> {
         }
     }
 
-    fn sample(&self, t: f64, places: &[DVec2]) -> FilmSample {
+    fn sample(&self, frame: &Frame) -> FilmSample {
         match self.content {
-            Content::Solid(solid) => self.of_solid(t, solid, places),
-            Content::Field(pair) => of_field(t, pair),
+            Content::Solid(solid) => self.of_solid(frame.t(), solid, &frame.placement().in_frame),
+            Content::Field(_) | Content::Colours(_) => of_rings(frame.t(), &frame.figure().rings),
         }
     }
 
@@ -168,14 +167,13 @@ impl<'a> Sampler<'a> {
     }
 }
 
-fn of_field(t: f64, pair: &FieldPair) -> FilmSample {
-    let rings = pair.contour(t);
+fn of_rings(t: f64, rings: &[Vec<DVec2>]) -> FilmSample {
     let areas: Vec<f64> = rings.iter().map(|ring| ring_area(ring)).collect();
     let holes = areas.iter().filter(|area| **area < 0.0).count();
     FilmSample {
         t,
         area: areas.iter().sum(),
-        perimeter: rings_perimeter(&rings),
+        perimeter: rings_perimeter(rings),
         pieces: Some(rings.len() - holes),
         holes: Some(holes),
         crossings: None,

@@ -2,12 +2,12 @@
 
 use super::ProjectError;
 use crate::compatible::PolygonOptions;
-use crate::content::ContentKind;
+use crate::content::{ColourMix, ContentKind};
 use crate::correspondence::Matching;
 use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;
-use crate::transition::{FieldOptions, Fit, Stop, Style, Timing, TransitionSpec};
-use crate::warp::{ArapOptions, WarpKind};
+use crate::transition::{FieldOptions, Fit, PlaneOptions, Stop, Style, Timing, TransitionSpec};
+use crate::warp::{ArapOptions, LatticeOptions, LineOptions, ScatteredOptions, WarpKind};
 use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -67,6 +67,18 @@ pub struct Project {
     /// Options of distance fields.
     #[serde(default)]
     pub field: FieldOptions,
+    /// How two pictures mix.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub colours: ColourMix,
+    /// Options of the warp by lines.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub lines: LineOptions,
+    /// Options of the warp by scattered points.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub scattered: ScatteredOptions,
+    /// Options of the warp by lattices.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub lattice: LatticeOptions,
     /// How it runs over time.
     #[serde(default)]
     pub timing: Timing,
@@ -136,6 +148,10 @@ impl Project {
             triangulation: PolygonOptions::default(),
             arap: ArapOptions::default(),
             field: FieldOptions::default(),
+            colours: ColourMix::default(),
+            lines: LineOptions::default(),
+            scattered: ScatteredOptions::default(),
+            lattice: LatticeOptions::default(),
             timing: Timing::default(),
             style: Style::default(),
             stops: Vec::new(),
@@ -177,8 +193,19 @@ impl Project {
             entry.placement.checked()?;
         }
         self.field.blend.check()?;
+        self.colours.check()?;
         self.timing.check(&self.stops)?;
         Ok(())
+    }
+
+    /// The options of all warps of the plane.
+    #[must_use]
+    pub fn plane(&self) -> PlaneOptions {
+        PlaneOptions {
+            lines: self.lines,
+            scattered: self.scattered,
+            lattice: self.lattice,
+        }
     }
 
     /// The document as text.

@@ -1,6 +1,6 @@
 //! What can be wrong with a project.
 
-use crate::content::FieldPairError;
+use crate::content::{ColourMixError, FieldPairError};
 use crate::design::ImportError;
 use crate::geometry::SimilarityError;
 use crate::transition::{BuildError, TimingError};
@@ -57,6 +57,9 @@ pub enum ProjectError {
     /// ε or the threshold is out of range.
     #[error(transparent)]
     Blend(#[from] FieldPairError),
+    /// The span in which colours change is none.
+    #[error(transparent)]
+    Colours(#[from] ColourMixError),
     /// The timing gives no pass.
     #[error(transparent)]
     Timing(#[from] TimingError),

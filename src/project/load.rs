@@ -122,14 +122,22 @@ impl LoadedProject {
         match (self.project.warp, self.project.content) {
             (None, None) => Ok(default),
             (Some(warp), Some(content)) => Cell::new(warp, content).map_err(unavailable),
-            (Some(warp), None) => Ok(Cell::ALL
-                .into_iter()
-                .find(|cell| cell.warp() == warp)
-                .unwrap_or(default)),
-            (None, Some(content)) => Ok(Cell::ALL
-                .into_iter()
-                .find(|cell| cell.content() == content)
-                .unwrap_or(default)),
+            (Some(warp), None) => {
+                let photographs = default.content() == ContentKind::Colours;
+                let cells = Cell::all().filter(|cell| cell.warp() == warp);
+                let suits = |cell: &Cell| (cell.content() == ContentKind::Colours) == photographs;
+                let found = cells.clone().find(suits).or_else(|| cells.clone().next());
+                Ok(found.unwrap_or(default))
+            }
+            (None, Some(content)) => {
+                let mut cells = Cell::all().filter(|cell| cell.content() == content);
+                let found = match content {
+                    // Without pins the plane stands still.
+                    ContentKind::Field | ContentKind::Colours => cells.last(),
+                    ContentKind::Solid => cells.next(),
+                };
+                Ok(found.unwrap_or(default))
+            }
         }
     }
 
@@ -161,6 +169,8 @@ impl LoadedProject {
             matching: project.matching.placed(&by),
             triangulation: project.triangulation,
             field: project.field,
+            colours: project.colours,
+            plane: project.plane(),
             bar_width: project.bar_width,
         })
     }

@@ -1,14 +1,19 @@
 //! From two designs to a transition: everything that can fail.
 
-use super::{Cell, Inner, outlines};
-use crate::compatible::{CompatibleError, CompatibleMesh, OutlinesError, PolygonOptions};
-use crate::content::{Content, FieldBlend, FieldPair, FieldPairError, Solid};
+use super::{Cell, Inner, PlaneOptions, outlines, plane};
+use crate::compatible::{
+    CompatibleError, CompatibleMesh, FrameError, OutlinesError, PolygonOptions,
+};
+use crate::content::{
+    ColourMix, ColourMixError, Content, ContentKind, FieldBlend, FieldPair, FieldPairError,
+    PicturePair, Solid,
+};
 use crate::correspondence::{Matching, RegionMatch, RegionMatchError};
-use crate::design::{Design, Form};
+use crate::design::{Design, Form, Picture};
 use crate::field::{DistanceField, FieldError, Grid, GridError, Metric};
 use crate::geometry::{Bounds, RegionsError};
 use crate::progress::{Cancelled, Progress, checkpoint};
-use crate::warp::{Arap, ArapError, ArapOptions, Still, Warp, WarpKind};
+use crate::warp::{Arap, ArapError, ArapOptions, LatticeError, LinesError, ScatteredError, Warp};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -71,6 +76,10 @@ pub struct TransitionSpec {
     pub triangulation: PolygonOptions,
     /// Options of the distance fields.
     pub field: FieldOptions,
+    /// How two pictures mix.
+    pub colours: ColourMix,
+    /// Options of the warps of the plane.
+    pub plane: PlaneOptions,
     /// Width of the bars of a truss, as a fraction of the larger design's
     /// diameter.
     pub bar_width: f64,
@@ -118,6 +127,21 @@ pub enum BuildError {
     /// ε or the threshold is out of range.
     #[error(transparent)]
     Blend(#[from] FieldPairError),
+    /// The span in which colours change is none.
+    #[error(transparent)]
+    Colours(#[from] ColourMixError),
+    /// The frame could not be triangulated with its pins.
+    #[error(transparent)]
+    Frame(#[from] FrameError),
+    /// The warp by lines could not be made.
+    #[error(transparent)]
+    Lines(#[from] LinesError),
+    /// The warp by scattered points could not be made.
+    #[error(transparent)]
+    Scattered(#[from] ScatteredError),
+    /// The warp by lattices could not be made.
+    #[error(transparent)]
+    Lattice(#[from] LatticeError),
     /// The width of bars is no positive number.
     #[error("the bar width {0} is not between 0 and 1; give a fraction of the design's size")]
     BarWidth(f64),
@@ -134,10 +158,13 @@ impl TransitionSpec {
     /// Two designs by the method that suits them best, with default options.
     #[must_use]
     pub fn new(source: Arc<Design>, target: Arc<Design>) -> Self {
-        let arap = Cell::ALL[0];
-        let cell = match Self::available(arap, &source, &target) {
-            Ok(()) => arap,
-            Err(_) => Cell::ALL[1],
+        let are_photographs = [&source, &target]
+            .iter()
+            .all(|d| d.picture.as_ref().is_some_and(Picture::is_photograph));
+        let cell = if are_photographs {
+            Cell::CROSS_DISSOLVE
+        } else {
+            Cell::RIGID_PARTS
         };
         Self {
             source,
@@ -147,6 +174,8 @@ impl TransitionSpec {
             matching: Matching::default(),
             triangulation: PolygonOptions::default(),
             field: FieldOptions::default(),
+            colours: ColourMix::default(),
+            plane: PlaneOptions::default(),
             bar_width: Self::DEFAULT_BAR_WIDTH,
         }
     }
@@ -157,9 +186,16 @@ impl TransitionSpec {
     /// # Errors
     /// [`BuildError::Unavailable`] with the reason, for a greyed button.
     pub fn available(cell: Cell, source: &Design, target: &Design) -> Result<(), BuildError> {
-        // Every form has an outline, so that any two go into any cell so far.
-        match (cell.warp(), &source.form, &target.form) {
-            (WarpKind::None | WarpKind::Arap, _, _) => Ok(()),
+        // Every form has an outline; not every one came as a picture.
+        if cell.content() != ContentKind::Colours {
+            return Ok(());
+        }
+        match [source, target].iter().find(|d| d.picture.is_none()) {
+            None => Ok(()),
+            Some(design) => Err(BuildError::Unavailable(format!(
+                "{} has no colours: open two pictures (PNG, JPEG, BMP, WebP), or choose fields or solids",
+                design.name
+            ))),
         }
     }
 }
@@ -173,9 +209,10 @@ pub(super) fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<In
         .diameter()
         .max(extent(&spec.target).diameter());
     let bar_width = spec.bar_width * diameter;
-    match spec.cell.warp() {
-        WarpKind::Arap => build_arap(spec, bar_width, progress),
-        WarpKind::None => build_field(spec, bar_width, progress),
+    match spec.cell.content() {
+        ContentKind::Solid => build_arap(spec, bar_width, progress),
+        ContentKind::Field => build_field(spec, bar_width, progress),
+        ContentKind::Colours => build_colours(spec, progress),
     }
 }
 
@@ -214,7 +251,7 @@ fn build_arap(
         cell: spec.cell,
         designs: [Arc::clone(&spec.source), Arc::clone(&spec.target)],
         bounds: swept_bounds(&arap).padded(room),
-        warp: Box::new(arap.clone()),
+        warp: Arc::new(arap.clone()),
         arap: Some(arap),
         matched,
         content,
@@ -287,12 +324,35 @@ fn build_field(
     Ok(Inner {
         cell: spec.cell,
         designs: [Arc::clone(&spec.source), Arc::clone(&spec.target)],
-        warp: Box::new(Still::new(grid.bounds())),
+        warp: plane::warp(spec, &grid.bounds(), bar_width, progress)?,
         arap: None,
         matched: None,
         bounds: frame,
         content: Content::Field(pair),
         bar_width,
+    })
+}
+
+fn build_colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildError> {
+    checkpoint(progress, "reading colours", 0.0)?;
+    let picture = |design: &Design| {
+        let missing = || BuildError::Unavailable(format!("{} has no colours", design.name));
+        design.picture.clone().ok_or_else(missing)
+    };
+    let [source, target] = [picture(&spec.source)?, picture(&spec.target)?];
+    let bounds = source.bounds().union(&target.bounds());
+    let pair = PicturePair::new(&source, &target, spec.colours)?;
+    // The mesh reaches beyond what is shown, so that its edge is never seen.
+    let frame = bounds.padded(0.02 * bounds.diameter());
+    Ok(Inner {
+        cell: spec.cell,
+        designs: [Arc::clone(&spec.source), Arc::clone(&spec.target)],
+        warp: plane::warp(spec, &frame, 0.0, progress)?,
+        arap: None,
+        matched: None,
+        bounds,
+        content: Content::Colours(pair),
+        bar_width: 0.0,
     })
 }
 

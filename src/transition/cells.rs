@@ -18,17 +18,39 @@ pub struct NoSuchCell {
 }
 
 impl Cell {
-    /// The cells, in the order of the table.
-    pub const ALL: [Self; 2] = [
-        Self {
-            warp: WarpKind::Arap,
-            content: ContentKind::Solid,
-        },
-        Self {
-            warp: WarpKind::None,
-            content: ContentKind::Field,
-        },
-    ];
+    /// Solid parts that move as rigidly as they can.
+    pub const RIGID_PARTS: Self = Self {
+        warp: WarpKind::Arap,
+        content: ContentKind::Solid,
+    };
+
+    /// Distance fields that blend where they are.
+    pub const FIELD_BLEND: Self = Self {
+        warp: WarpKind::None,
+        content: ContentKind::Field,
+    };
+
+    /// Pictures that cross-dissolve where they are.
+    pub const CROSS_DISSOLVE: Self = Self {
+        warp: WarpKind::None,
+        content: ContentKind::Colours,
+    };
+
+    /// The cells, those that ask least of the designs last in each column.
+    pub fn all() -> impl Iterator<Item = Self> + Clone {
+        const ROWS: [WarpKind; 5] = [
+            WarpKind::Arap,
+            WarpKind::Scattered,
+            WarpKind::Lines,
+            WarpKind::Lattice,
+            WarpKind::None,
+        ];
+        let column = |content| {
+            ROWS.into_iter()
+                .filter_map(move |warp| Self::new(warp, content).ok())
+        };
+        ContentKind::ALL.into_iter().flat_map(column)
+    }
 
     /// The cell of a warp and a content.
     ///
@@ -41,16 +63,41 @@ impl Cell {
     /// assert!(Cell::new(WarpKind::None, ContentKind::Solid).is_err());
     /// ```
     pub const fn new(warp: WarpKind, content: ContentKind) -> Result<Self, NoSuchCell> {
-        match (warp, content) {
-            (WarpKind::Arap, ContentKind::Solid) | (WarpKind::None, ContentKind::Field) => {
-                Ok(Self { warp, content })
+        let reason = match (warp, content) {
+            (WarpKind::None, ContentKind::Solid) => {
+                "a solid changes by moving, so it needs a warp; choose rigid parts (arap)"
             }
-            (WarpKind::None, ContentKind::Solid) => Err(NoSuchCell {
-                reason: "a solid changes by moving, so it needs a warp; choose rigid parts (arap)",
-            }),
-            (WarpKind::Arap, ContentKind::Field) => Err(NoSuchCell {
-                reason: "fields do not travel with moving parts yet; choose the field without a warp, or solid rigid parts",
-            }),
+            (WarpKind::Lines | WarpKind::Scattered | WarpKind::Lattice, ContentKind::Solid) => {
+                "this warp says where to look in the designs, and a solid has nothing to look up; choose fields or colours, or rigid parts (arap)"
+            }
+            _ => return Ok(Self { warp, content }),
+        };
+        Err(NoSuchCell { reason })
+    }
+
+    /// What it is called, in a few words.
+    ///
+    /// ```
+    /// use morphospace::transition::Cell;
+    /// assert_eq!(Cell::RIGID_PARTS.name(), "rigid parts");
+    /// assert_eq!(Cell::all().last().map(Cell::name), Some("cross-dissolve".to_owned()));
+    /// ```
+    #[must_use]
+    pub fn name(self) -> String {
+        let by = match self.warp {
+            WarpKind::None => match self.content {
+                ContentKind::Colours => return "cross-dissolve".to_owned(),
+                ContentKind::Field | ContentKind::Solid => return "field blend".to_owned(),
+            },
+            WarpKind::Arap => "rigid parts",
+            WarpKind::Lines => "lines",
+            WarpKind::Scattered => "scattered points",
+            WarpKind::Lattice => "lattices",
+        };
+        match self.content {
+            ContentKind::Solid => by.to_owned(),
+            ContentKind::Field => format!("fields by {by}"),
+            ContentKind::Colours => format!("pictures by {by}"),
         }
     }
 
@@ -74,12 +121,12 @@ mod tests {
     #[test]
     fn the_list_is_what_the_constructor_accepts() {
         let mut found = Vec::new();
-        for warp in [WarpKind::None, WarpKind::Arap] {
-            for content in [ContentKind::Solid, ContentKind::Field] {
+        for warp in WarpKind::ALL {
+            for content in ContentKind::ALL {
                 found.extend(Cell::new(warp, content));
             }
         }
-        assert_eq!(found.len(), Cell::ALL.len());
-        assert!(Cell::ALL.iter().all(|cell| found.contains(cell)));
+        assert_eq!(found.len(), Cell::all().count());
+        assert!(Cell::all().all(|cell| found.contains(&cell)));
     }
 }

@@ -1,10 +1,11 @@
 //! One moment of a transition.
 
 use super::Transition;
-use crate::content::Content;
+use crate::content::{Content, Raster};
 use crate::design::{Design, Form};
 use crate::geometry::DVec2;
-use crate::warp::{Placement, Placer};
+use crate::warp::{Placement, Placer, WarpKind};
+use image::RgbaImage;
 
 /// A transition at one t, unevaluated: a placement and a place in the mix.
 #[derive(Debug)]
@@ -64,7 +65,8 @@ impl Frame {
         &self.transition
     }
 
-    /// The frame as polygons and bars.
+    /// The frame as polygons and bars; of pictures the rectangle that they
+    /// fill.
     #[must_use]
     pub fn figure(&self) -> Figure {
         match self.transition.content() {
@@ -77,9 +79,28 @@ impl Frame {
                 }
             }
             Content::Field(pair) => Figure {
-                rings: pair.contour(self.t),
+                rings: match self.transition.cell().warp() {
+                    WarpKind::None => pair.contour(self.t),
+                    _ => pair.contour_carried(self.placement(), self.t),
+                },
                 ..Figure::default()
             },
+            Content::Colours(pair) => Figure {
+                rings: vec![pair.window(self.t).corners().to_vec()],
+                ..Figure::default()
+            },
+        }
+    }
+}
+
+impl Frame {
+    /// The frame as pixels, where pictures are what is seen: sRGB with
+    /// straight alpha.
+    #[must_use]
+    pub fn picture(&self, raster: &Raster) -> Option<RgbaImage> {
+        match self.transition.content() {
+            Content::Colours(pair) => Some(pair.render(self.placement(), self.t, raster)),
+            Content::Solid(_) | Content::Field(_) => None,
         }
     }
 }

@@ -12,6 +12,7 @@ mod build;
 mod cells;
 mod frame;
 mod outlines;
+mod plane;
 mod style;
 mod timing;
 
@@ -22,16 +23,19 @@ pub use arrange::{Fit, arranged, arrangement};
 pub use build::{Boundary, BuildError, FieldOptions, TransitionSpec};
 pub use cells::{Cell, NoSuchCell};
 pub use frame::{Figure, Frame};
+pub use plane::PlaneOptions;
 pub use style::{NoColour, Rgb, Style};
-pub use timing::{Easing, PlayMode, Stop, Timing, TimingError};
+pub use timing::{PlayMode, Stop, Timing, TimingError};
+
+pub use crate::easing::Easing;
 
 use crate::compatible::CompatibleMesh;
-use crate::content::{Content, FieldBlend, FieldPairError};
+use crate::content::{ColourMix, ColourMixError, Content, FieldBlend, FieldPairError};
 use crate::correspondence::RegionMatch;
 use crate::design::Design;
 use crate::geometry::Bounds;
 use crate::progress::Progress;
-use crate::warp::{Arap, Still, Warp};
+use crate::warp::{Arap, Warp};
 use std::sync::Arc;
 
 /// A transition that is ready to be played. Cloning is cheap.
@@ -54,11 +58,11 @@ use std::sync::Arc;
 #[derive(Clone, Debug)]
 pub struct Transition(Arc<Inner>);
 
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Inner {
     cell: Cell,
     designs: [Arc<Design>; 2],
-    warp: Box<dyn Warp>,
+    warp: Arc<dyn Warp>,
     arap: Option<Arap>,
     matched: Option<RegionMatch>,
     content: Content,
@@ -86,18 +90,30 @@ impl Transition {
         let Content::Field(pair) = &self.0.content else {
             return Ok(None);
         };
-        let pair = pair.with_blend(blend)?;
-        let inner = Inner {
-            cell: self.0.cell,
-            designs: self.0.designs.clone(),
-            warp: Box::new(Still::new(pair.grid().bounds())),
-            arap: None,
-            matched: None,
-            bounds: self.0.bounds,
-            bar_width: self.0.bar_width,
-            content: Content::Field(pair),
+        Ok(Some(
+            self.with_content(Content::Field(pair.with_blend(blend)?)),
+        ))
+    }
+
+    /// The same pictures mixed in another way, without decoding them again;
+    /// `None` where there are no pictures.
+    ///
+    /// # Errors
+    /// [`ColourMixError`] if the span of the mix is none.
+    pub fn with_mix(&self, mix: ColourMix) -> Result<Option<Self>, ColourMixError> {
+        let Content::Colours(pair) = &self.0.content else {
+            return Ok(None);
         };
-        Ok(Some(Self(Arc::new(inner))))
+        Ok(Some(
+            self.with_content(Content::Colours(pair.with_mix(mix)?)),
+        ))
+    }
+
+    fn with_content(&self, content: Content) -> Self {
+        Self(Arc::new(Inner {
+            content,
+            ..self.0.as_ref().clone()
+        }))
     }
 
     /// A frame at `t`, with memory of its own. Outside [0, 1] it

@@ -277,13 +277,20 @@ pub(super) fn of_field(
         let gone = scan::times(glances, |g| g.pieces == 0);
         if let (Some(&begin), Some(&end)) = (gone.first(), gone.last()) {
             let t = gone[gone.len() / 2];
-            found.push(field_finding(pair, Trouble::Gone, t, [begin, end]));
+            found.push(field_finding(
+                transition,
+                pair,
+                Trouble::Gone,
+                t,
+                [begin, end],
+            ));
         }
     }
     let at_ends = ends(|g| g.pieces);
     if let Some((t, span)) = scan::worst(glances, |g| g.pieces, at_ends) {
         let count = scan::most(glances, |g| g.pieces);
         found.push(field_finding(
+            transition,
             pair,
             Trouble::Pieces { count, at_ends },
             t,
@@ -294,6 +301,7 @@ pub(super) fn of_field(
     if let Some((t, span)) = scan::worst(glances, |g| g.holes, at_ends) {
         let count = scan::most(glances, |g| g.holes);
         found.push(field_finding(
+            transition,
             pair,
             Trouble::Holes { count, at_ends },
             t,
@@ -304,10 +312,16 @@ pub(super) fn of_field(
     Ok(found)
 }
 
-fn field_finding(pair: &FieldPair, trouble: Trouble, t: f64, span: [f64; 2]) -> Finding {
+fn field_finding(
+    transition: &Transition,
+    pair: &FieldPair,
+    trouble: Trouble,
+    t: f64,
+    span: [f64; 2],
+) -> Finding {
     let share = overlap(pair);
     Finding {
-        place: place_of(pair, &trouble, t),
+        place: place_of(transition, pair, &trouble, t),
         cause: if share < LITTLE_OVERLAP {
             Cause::LittleOverlap { share }
         } else {
@@ -321,13 +335,13 @@ fn field_finding(pair: &FieldPair, trouble: Trouble, t: f64, span: [f64; 2]) -> 
 }
 
 /// The middle of the smallest piece or hole, or of the frame.
-fn place_of(pair: &FieldPair, trouble: &Trouble, t: f64) -> DVec2 {
+fn place_of(transition: &Transition, pair: &FieldPair, trouble: &Trouble, t: f64) -> DVec2 {
     let wanted = if matches!(trouble, Trouble::Holes { .. }) {
         -1.0
     } else {
         1.0
     };
-    let rings = pair.contour(t).into_iter();
+    let rings = transition.frame(t).figure().rings.into_iter();
     let sized = rings.map(|ring| (wanted * ring_area(&ring), ring));
     let smallest = sized
         .filter(|(area, _)| *area > 0.0)

@@ -259,6 +259,7 @@ impl Verdict {
                 "no more pieces or holes than at the ends",
                 cause::of_field(transition, pair, glances, progress)?,
             ),
+            Content::Colours(_) => ("two pictures", Vec::new()),
         };
         Ok(Self {
             steps: glances.len(),

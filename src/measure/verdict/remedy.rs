@@ -164,7 +164,7 @@ pub(super) fn for_fields(
         BlendSpace::Log => BlendSpace::Real,
         BlendSpace::Real => BlendSpace::Log,
     };
-    let Ok(other) = pair.with_blend(blend) else {
+    let Ok(Some(other)) = transition.with_blend(blend) else {
         return Ok(());
     };
     let then = scan::fields(&other, steps, progress)?;

@@ -3,7 +3,7 @@
 use super::super::crossings::count_crossings;
 use super::super::distortion::is_folded;
 use super::super::film::{FilmSample, even_steps, ring_area};
-use crate::content::{Content, FieldPair, Solid};
+use crate::content::{Content, Solid};
 use crate::geometry::DVec2;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::transition::Transition;
@@ -41,8 +41,8 @@ pub(super) fn transition(
 ) -> Result<Vec<Glance>, Cancelled> {
     match (transition.content(), transition.arap()) {
         (Content::Solid(solid), Some(arap)) => rigid_parts(arap, solid, steps, progress),
-        (Content::Field(pair), _) => fields(pair, steps, progress),
-        (Content::Solid(_), None) => Ok(Vec::new()),
+        (Content::Field(_), _) => fields(transition, steps, progress),
+        (Content::Solid(_), None) | (Content::Colours(_), _) => Ok(Vec::new()),
     }
 }
 
@@ -76,13 +76,15 @@ pub(super) fn folded<'a>(arap: &'a Arap, places: &'a [DVec2]) -> impl Iterator<I
 }
 
 pub(super) fn fields(
-    pair: &FieldPair,
+    transition: &Transition,
     steps: usize,
     progress: &dyn Progress,
 ) -> Result<Vec<Glance>, Cancelled> {
+    let mut frame = transition.frame(0.0);
     let glance = |t| {
         checkpoint(progress, "looking for tears", t)?;
-        let rings = pair.contour(t);
+        frame.seek(t);
+        let rings = frame.figure().rings;
         let holes = rings.iter().filter(|ring| ring_area(ring) < 0.0).count();
         Ok(Glance {
             t,

@@ -247,7 +247,7 @@ fn fields(source: &str, target: &str) -> Transition {
         Arc::new(import("drawing", svg.as_bytes(), &ImportOptions::default()).expect("a drawing"))
     };
     let mut spec = TransitionSpec::new(read(source), read(target));
-    spec.cell = crate::transition::Cell::ALL[1];
+    spec.cell = crate::transition::Cell::FIELD_BLEND;
     spec.field.cells = 96;
     Transition::build(&spec, &Silent).expect("a transition")
 }
