@@ -12,6 +12,7 @@ mod inputs;
 mod new;
 mod options;
 mod output;
+mod plane_options;
 mod render;
 mod terminal;
 

@@ -15,6 +15,7 @@ use crate::transition::{Boundary, Easing, Fit, PlayMode, Rgb};
 use crate::warp::{PathKind, WarpKind, Weights};
 
 use super::error::CliError;
+use super::plane_options::{CellArgs, ColourArgs};
 
 /// The paper's two methods: cells of the table of warps and contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -40,9 +41,13 @@ pub(super) struct MethodArgs {
     #[command(flatten)]
     placing: PlacingArgs,
     #[command(flatten)]
+    cell: CellArgs,
+    #[command(flatten)]
     arap: ArapArgs,
     #[command(flatten)]
     field: FieldArgs,
+    #[command(flatten)]
+    colours: ColourArgs,
     #[command(flatten)]
     import: ImportArgs,
     #[command(flatten)]
@@ -212,6 +217,8 @@ impl MethodArgs {
     /// Changes what the flags name and leaves the rest.
     pub fn edit(&self, project: &mut Project) -> Result<(), CliError> {
         self.placing.edit(project);
+        self.cell.edit(project);
+        self.colours.edit(project);
         self.arap.edit(project);
         self.field.edit(project);
         self.import.edit(project);
@@ -220,7 +227,8 @@ impl MethodArgs {
         project
             .timing
             .check(&project.stops)
-            .map_err(CliError::usage)
+            .map_err(CliError::usage)?;
+        project.colours.check().map_err(CliError::usage)
     }
 }
 
@@ -296,14 +304,14 @@ impl StyleArgs {
     }
 }
 
-fn set<T>(place: &mut T, value: Option<T>) {
+pub(super) fn set<T>(place: &mut T, value: Option<T>) {
     if let Some(value) = value {
         *place = value;
     }
 }
 
 /// A choice by the name that it has in the project file.
-fn named<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
+pub(super) fn named<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
 where
     T: DeserializeOwned + Clone + Send + Sync + 'static,
 {

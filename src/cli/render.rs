@@ -8,13 +8,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::content::ContentKind;
 use crate::export::{
-    Camera, ExportError, Film, FilmKind, PixelSize, StillKind, Target, View, even_times, framing,
-    sheet, write_film, write_still,
+    Camera, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View, comparison,
+    even_times, framing, sheet, write_film, write_still,
 };
 use crate::progress::Progress;
 use crate::project::Project;
-use crate::transition::{PlayMode, Rgb};
+use crate::transition::{BuildError, Cell, PlayMode, Rgb, Transition, TransitionSpec};
 
 use super::error::CliError;
 use super::inputs::{Inputs, Opened};
@@ -24,6 +25,9 @@ use super::terminal::Terminal;
 
 /// The longer side of a picture of free size, in pixels.
 const LONGER_SIDE_PX: u32 = 960;
+
+/// Columns of a comparison.
+const COMPARED: usize = 7;
 
 /// The most cells of a contact sheet.
 const MAX_CELLS: u64 = 1_000;
@@ -45,6 +49,11 @@ pub(super) struct RenderArgs {
     /// A contact sheet of N frames from --from to --to
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_CELLS), conflicts_with_all = ["frames", "frames_range", "fps"])]
     sheet: Option<u64>,
+
+    /// A contact sheet of every method that the pair can be seen by: a row for
+    /// each, the same seven t (or --sheet N) in each column
+    #[arg(long, conflicts_with_all = ["at", "frames", "frames_range", "fps", "size", "method", "warp", "content"])]
+    compare: bool,
 
     /// One pass of N frames, evenly in t [default: as the project's timing has it]
     #[arg(long, value_name = "N")]
@@ -84,6 +93,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let opened = args.inputs.open(&args.method, &terminal)?;
     let written = match target {
         Job::Picture(kind, path, t) => picture(args, &opened, kind, path, t),
+        Job::Comparison(kind, path, count) => compared(args, &opened, kind, path, count, &terminal),
         Job::Sheet(kind, path, count) => contact_sheet(args, &opened, kind, path, count),
         Job::Film(target) => film(args, &opened, target, &terminal),
     }?;
@@ -96,6 +106,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
 enum Job {
     Picture(StillKind, PathBuf, f64),
     Sheet(StillKind, PathBuf, usize),
+    Comparison(StillKind, PathBuf, usize),
     Film(Target),
 }
 
@@ -103,6 +114,15 @@ fn job(args: &RenderArgs, target: Target) -> Result<Job, CliError> {
     match (target, args.at, args.sheet) {
         (_, Some(t), _) if !t.is_finite() => Err(CliError::Usage(format!(
             "--at {t} is nowhere: t must be a finite number"
+        ))),
+        (Target::Still(kind, path), None, count) if args.compare => Ok(Job::Comparison(
+            kind,
+            path,
+            count.map_or(COMPARED, |count| count as usize),
+        )),
+        _ if args.compare => Err(CliError::Usage(format!(
+            "--compare makes one picture: end `{}` in .png or .svg",
+            args.out.display()
         ))),
         (Target::Still(kind, path), Some(t), _) => Ok(Job::Picture(kind, path, t)),
         (Target::Still(kind, path), None, Some(count)) => {
@@ -151,6 +171,39 @@ fn contact_sheet(
     let (transition, style) = (&opened.transition, &project.style);
     let drawing = sheet(transition, style, &times, bounds, args.size, ground);
     write_still(&drawing, kind, &path).map_err(CliError::failed)?;
+    Ok(vec![path])
+}
+
+fn compared(
+    args: &RenderArgs,
+    opened: &Opened,
+    kind: StillKind,
+    path: PathBuf,
+    count: usize,
+    progress: &dyn Progress,
+) -> Result<Vec<PathBuf>, CliError> {
+    let project = &opened.loaded.project;
+    let times = even_times(project.timing.from, project.timing.to, count);
+    // Silhouettes of photographs, and colours of silhouettes, say little.
+    let in_colours = opened.transition.cell().content() == ContentKind::Colours;
+    let can = |cell: &Cell| {
+        let suits = (cell.content() == ContentKind::Colours) == in_colours;
+        suits && (opened.loaded.available(cell.warp(), cell.content())).is_ok()
+    };
+    let mut rows = Vec::new();
+    for cell in Cell::all().filter(can) {
+        let spec = opened.loaded.spec().map_err(CliError::failed)?;
+        let built = Transition::build(&TransitionSpec { cell, ..spec }, progress);
+        if let Err(BuildError::Cancelled(cancelled)) = built {
+            return Err(CliError::failed(cancelled));
+        }
+        rows.push(MethodRow {
+            name: cell.name(),
+            transition: built.map_err(|error| error.to_string()),
+        });
+    }
+    let drawing = comparison(&rows, &project.style, &times, ground_of(args, project));
+    write_still(&drawing.map_err(CliError::failed)?, kind, &path).map_err(CliError::failed)?;
     Ok(vec![path])
 }
 

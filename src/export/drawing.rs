@@ -14,6 +14,7 @@ use std::collections::HashSet;
 
 use image::RgbaImage;
 
+use crate::content::{Content, Raster};
 use crate::geometry::{Bounds, DVec2};
 use crate::transition::{Figure, Frame, Rgb, Style};
 
@@ -102,6 +103,11 @@ impl Drawing {
         }
     }
 
+    /// Its size in pixels.
+    pub fn size(&self) -> PixelSize {
+        self.size
+    }
+
     /// A frame as it is seen through `view`, over the whole picture.
     pub fn of_frame(frame: &Frame, style: &Style, view: &View, ground: Option<Rgb>) -> Self {
         let mut drawing = Self::new(view.size, ground);
@@ -111,8 +117,38 @@ impl Drawing {
 
     /// Adds a frame as it is seen through `view`.
     pub fn push_frame(&mut self, frame: &Frame, style: &Style, view: &View) {
+        if matches!(frame.transition().content(), Content::Colours(_)) {
+            return self.push_colours(frame, view);
+        }
         let colour = style.fill_at(frame.t());
         self.push_figure(&frame.figure(), colour, style.joints, view);
+    }
+
+    /// Adds the pixels that the frame's pictures cover.
+    fn push_colours(&mut self, frame: &Frame, view: &View) {
+        let places = frame.figure().rings.concat();
+        let Some(covered) = Bounds::of(places.iter().map(|&p| view.to_px(p))) else {
+            return;
+        };
+        let (low, high) = (covered.min.floor(), covered.max.ceil());
+        let low = low.clamp(DVec2::ZERO, self.size.as_dvec2());
+        let high = high.clamp(low, self.size.as_dvec2());
+        let size = (high - low).to_array().map(|side| side as u32);
+        if size.contains(&0) {
+            return;
+        }
+        let raster = Raster {
+            size,
+            corner: view.to_plane(low),
+            pixel: 1.0 / view.px_per_unit,
+        };
+        if let Some(image) = frame.picture(&raster) {
+            self.items.push(Item::Picture {
+                image,
+                corner: low,
+                size: high - low,
+            });
+        }
     }
 
     /// Adds a figure in one colour, its joints as discs with a lighter core.
@@ -230,6 +266,12 @@ impl View {
     /// Pixels per unit of the design.
     pub fn px_per_unit(&self) -> f64 {
         self.px_per_unit
+    }
+
+    /// A point in pixels, y down, in the design.
+    pub fn to_plane(&self, px: DVec2) -> DVec2 {
+        let d = (px - self.middle_px) / self.px_per_unit;
+        self.centre + DVec2::new(d.x, -d.y)
     }
 
     /// A point of the design in pixels, y down.

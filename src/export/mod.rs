@@ -25,6 +25,7 @@
 mod apng;
 mod atomic;
 mod camera;
+mod comparison;
 mod drawing;
 mod error;
 mod film;
@@ -52,6 +53,7 @@ use crate::progress::Progress;
 
 pub use apng::write_apng;
 pub use camera::{BATCH_BYTES, Camera, framing};
+pub use comparison::{MethodRow, comparison};
 pub use drawing::{Drawing, Item, JOINT_CORE_RADIUS, JOINT_RADIUS, View, joint_core};
 pub use error::ExportError;
 pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};

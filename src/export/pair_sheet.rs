@@ -42,7 +42,7 @@ const FEWEST_COLUMNS: usize = 5;
 const SHAPE: f64 = 1.4;
 
 /// What is said of something that went wrong.
-const BAD: Rgb = Rgb([0xc0, 0x3a, 0x20]);
+pub(super) const BAD: Rgb = Rgb([0xc0, 0x3a, 0x20]);
 
 /// One pair on the sheet.
 ///
@@ -250,7 +250,7 @@ fn push_lines(drawing: &mut Drawing, lines: &[String], corner: DVec2, colour: Rg
 
 /// Words in at most so many lines of a width; what is left over becomes an
 /// ellipsis. Words that are longer than a line are broken.
-fn wrapped(words: &str, width_px: f64, most: usize) -> Vec<String> {
+pub(super) fn wrapped(words: &str, width_px: f64, most: usize) -> Vec<String> {
     let fits = |line: &str| text::width(line, LETTERS_PX) <= width_px;
     let mut lines: Vec<String> = Vec::new();
     let mut line = String::new();

@@ -98,7 +98,11 @@ const ALL: [Column; 53] = [
         words(match (r.warp, r.content) {
             (WarpKind::Arap, ContentKind::Solid) => "arap",
             (WarpKind::None, ContentKind::Field) => "field",
-            _ => "other",
+            (WarpKind::None, _) => "dissolve",
+            (WarpKind::Arap, _) => "arap warp",
+            (WarpKind::Lines, _) => "lines",
+            (WarpKind::Scattered, _) => "scattered",
+            (WarpKind::Lattice, _) => "lattice",
         })
     }),
     ("verdict", |r| words(&r.verdict.words)),

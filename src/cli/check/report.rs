@@ -135,7 +135,7 @@ impl Report {
             faces: mesh.map(|mesh| mesh.faces().len()),
             grid: match transition.content() {
                 Content::Field(pair) => Some([pair.grid().width, pair.grid().height]),
-                Content::Solid(_) => None,
+                Content::Solid(_) | Content::Colours(_) => None,
             },
             seconds,
             verdict: VerdictReport::of(verdict),

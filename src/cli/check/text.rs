@@ -59,11 +59,24 @@ impl Lines {
 }
 
 fn method(report: &Report, lines: &mut Lines) {
-    let method = match (report.warp, report.content) {
-        (WarpKind::Arap, _) => "rigid parts (arap)",
-        (_, ContentKind::Field) => "distance fields (field)",
-        (WarpKind::None, ContentKind::Solid) => "none",
+    let warp = match report.warp {
+        WarpKind::None => "",
+        WarpKind::Arap => "rigid parts (arap)",
+        WarpKind::Lines => "pairs of lines (lines)",
+        WarpKind::Scattered => "scattered points (scattered)",
+        WarpKind::Lattice => "B-spline lattices (lattice)",
     };
+    let content = match report.content {
+        ContentKind::Solid => "",
+        ContentKind::Field => "distance fields (field)",
+        ContentKind::Colours => "colours (colours)",
+    };
+    let joint = if warp.is_empty() || content.is_empty() {
+        ""
+    } else {
+        ", "
+    };
+    let method = format!("{warp}{joint}{content}");
     let grid = report.grid.map(|[w, h]| format!(", {w} x {h} cells"));
     lines.row("method", &format!("{method}{}", grid.unwrap_or_default()));
     for (role, design) in ["source", "target"].iter().zip(&report.designs) {

@@ -1,0 +1,111 @@
+//! A contact sheet of one pair by several methods: a row for each, the same t
+//! in each column.
+//!
+//! Guarantees: all rows show the plane at one scale; names, frames and values
+//! of t do not overlap; a method that failed has its reason in place of
+//! frames.
+
+use crate::geometry::{Bounds, DVec2};
+use crate::transition::{Rgb, Style, Transition};
+
+use super::camera::framing;
+use super::drawing::{Drawing, View};
+use super::pair_sheet::{BAD, wrapped};
+use super::sheet::ink_on;
+use super::size::{PixelSize, SizeError};
+use super::text;
+
+/// The longer side of a frame, in pixels, where there is room for it.
+const CELL_PX: f64 = 220.0;
+
+/// The longer side of the largest sheet, in pixels.
+const LONGEST_PX: f64 = 8_192.0;
+
+/// Room between frames and around them, in pixels.
+const GAP_PX: f64 = 16.0;
+
+/// Width of the names, in pixels.
+const NAMES_PX: f64 = 180.0;
+
+/// Size of letters and height of a line, in pixels.
+const LETTERS_PX: f64 = 15.0;
+const LINE_PX: f64 = 20.0;
+
+/// A method on the sheet.
+#[derive(Clone, Debug)]
+pub struct MethodRow {
+    /// What it is called.
+    pub name: String,
+    /// The pair by this method, or why there is none, in words.
+    pub transition: Result<Transition, String>,
+}
+
+/// Draws a row for each method at the given t.
+///
+/// # Errors
+/// [`SizeError`] for more frames than a sheet can have.
+pub fn comparison(
+    rows: &[MethodRow],
+    style: &Style,
+    times: &[f64],
+    ground: Option<Rgb>,
+) -> Result<Drawing, SizeError> {
+    let built = rows.iter().filter_map(|row| row.transition.as_ref().ok());
+    let bounds = built.map(|transition| framing(transition, times));
+    let bounds = bounds.reduce(|a, b| a.union(&b));
+    let cell = cell(bounds, rows.len(), times.len());
+    let step = cell + DVec2::splat(GAP_PX);
+    let corner = DVec2::new(NAMES_PX + 2.0 * GAP_PX, GAP_PX);
+    let count = DVec2::new(times.len() as f64, rows.len() as f64);
+    let size = corner + count * step + DVec2::new(0.0, LINE_PX + GAP_PX);
+    let [width, height] = size.to_array().map(|side| side.ceil() as u32);
+    let mut drawing = Drawing::new(PixelSize::new(width, height)?, ground);
+    let ink = ink_on(ground);
+    for (k, row) in rows.iter().enumerate() {
+        let left = DVec2::new(corner.x, corner.y + k as f64 * step.y);
+        let name_at = DVec2::new(GAP_PX, left.y + 0.5 * cell.y - LINE_PX);
+        push_lines(&mut drawing, &wrapped(&row.name, NAMES_PX, 3), name_at, ink);
+        match (&row.transition, bounds) {
+            (Ok(transition), Some(bounds)) => {
+                let mut frame = transition.frame(0.0);
+                for (i, &t) in times.iter().enumerate() {
+                    frame.seek(t);
+                    let at = left + DVec2::new(i as f64 * step.x, 0.0);
+                    let view = View::fit_cell(bounds, drawing.size(), at, cell);
+                    drawing.push_frame(&frame, style, &view);
+                }
+            }
+            (Err(reason), _) => {
+                let room = times.len() as f64 * step.x;
+                let at = DVec2::new(left.x, name_at.y);
+                push_lines(&mut drawing, &wrapped(reason, room, 4), at, BAD);
+            }
+            (Ok(_), None) => {}
+        }
+    }
+    let base = corner.y + count.y * step.y + LETTERS_PX;
+    for (i, t) in times.iter().enumerate() {
+        let middle = corner.x + i as f64 * step.x + 0.5 * cell.x;
+        let words = format!("t = {}", (t * 100.0).round() / 100.0);
+        drawing.push_label(&words, DVec2::new(middle, base), LETTERS_PX, ink);
+    }
+    Ok(drawing)
+}
+
+/// Width and height of a frame.
+fn cell(bounds: Option<Bounds>, rows: usize, columns: usize) -> DVec2 {
+    let size = bounds.map_or(DVec2::ONE, |bounds| bounds.size());
+    let shape = (size / size.max_element()).max(DVec2::splat(0.2));
+    let count = DVec2::new(columns.max(1) as f64, rows.max(1) as f64);
+    let room = (DVec2::splat(LONGEST_PX - NAMES_PX - 8.0 * GAP_PX) / count - GAP_PX) / shape;
+    // Rows are high enough for a name of three lines.
+    (shape * CELL_PX.min(room.min_element()).max(16.0)).max(DVec2::new(16.0, 3.0 * LINE_PX))
+}
+
+fn push_lines(drawing: &mut Drawing, lines: &[String], corner: DVec2, colour: Rgb) {
+    for (i, line) in lines.iter().enumerate() {
+        let middle = 0.5 * text::width(line, LETTERS_PX);
+        let base = corner + DVec2::new(middle, (i as f64 + 0.8) * LINE_PX);
+        drawing.push_label(line, base, LETTERS_PX, colour);
+    }
+}
