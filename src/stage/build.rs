@@ -19,8 +19,8 @@ use crate::transition::{BuildError, Transition, TransitionSpec};
 use crate::warp::ArapOptions;
 
 use super::components::{
-    ArapSolver, Blend, BuildFailed, FieldSprite, MorphOptions, SourceMesh, StageTransition,
-    TargetMesh,
+    ArapSolver, Blend, BuildFailed, FieldSprite, MorphOptions, PictureSprite, SourceMesh,
+    StageTransition, TargetMesh,
 };
 use super::parts::Undressed;
 
@@ -93,6 +93,7 @@ fn design(name: &str, mesh: TriangleMesh) -> Design {
         name: name.to_owned(),
         extent: mesh.bounds(),
         form: Form::Mesh(mesh),
+        picture: None,
         notes: Vec::new(),
     }
 }
@@ -112,7 +113,7 @@ pub(super) fn finish_builds(
                 let solver = ArapSolver(transition.frame(blend.t));
                 commands
                     .entity(entity)
-                    .try_remove::<FieldSprite>()
+                    .try_remove::<(FieldSprite, PictureSprite)>()
                     .try_insert((solver, Undressed));
             }
             Err(error) => commands.trigger(BuildFailed { entity, error }),
@@ -131,11 +132,14 @@ pub(super) fn adopt_transitions(
         entity.try_remove::<Building>().try_insert(Undressed);
         match transition.content() {
             Content::Solid(_) => entity
-                .try_remove::<FieldSprite>()
+                .try_remove::<(FieldSprite, PictureSprite)>()
                 .try_insert(ArapSolver(frame)),
             Content::Field(_) => entity
-                .try_remove::<ArapSolver>()
+                .try_remove::<(ArapSolver, PictureSprite)>()
                 .try_insert(FieldSprite(frame)),
+            Content::Colours(_) => entity
+                .try_remove::<(ArapSolver, FieldSprite)>()
+                .try_insert(PictureSprite(frame)),
         };
         match transition.arap().and_then(|_| meshes(transition)) {
             Some(meshes) => entity.try_insert(meshes),

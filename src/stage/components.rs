@@ -66,10 +66,22 @@ impl FieldSprite {
     }
 }
 
+/// A transition of two pictures and the frame it is at: a mesh whose fragment
+/// shader looks both up and mixes them.
+#[derive(Component, Debug)]
+pub struct PictureSprite(pub(super) Frame);
+
+impl PictureSprite {
+    /// The frame that is on the stage.
+    pub fn frame(&self) -> &Frame {
+        &self.0
+    }
+}
+
 /// A transition that is built already, of any cell of the table.
 ///
 /// The plugin answers with [`SourceMesh`], [`TargetMesh`] and [`ArapSolver`],
-/// or with a [`FieldSprite`]. Replacing it replaces the picture.
+/// with a [`FieldSprite`], or with a [`PictureSprite`]. Replacing it replaces the picture.
 #[derive(Component, Clone, Debug)]
 #[require(Blend, StageStyle, Transform, Visibility)]
 pub struct StageTransition(pub Transition);

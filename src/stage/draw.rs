@@ -11,8 +11,11 @@ use bevy::prelude::*;
 use crate::content::Content;
 use crate::export::joint_core;
 use crate::transition::{Frame, Rgb};
+use crate::warp::WarpKind;
 
-use super::components::{ArapSolver, FieldSprite, StageStyle};
+use super::carried;
+use super::colours::{ColourLook, ColourMaterial};
+use super::components::{ArapSolver, FieldSprite, PictureSprite, StageStyle};
 use super::field::{FieldLook, FieldMaterial};
 use super::ink::{InkMaterial, linear};
 use super::parts::{Part, PartKind};
@@ -28,6 +31,7 @@ type PartQuery<'w, 's> = Query<
         &'static Mesh2d,
         Option<&'static MeshMaterial2d<InkMaterial>>,
         Option<&'static MeshMaterial2d<FieldMaterial>>,
+        Option<&'static MeshMaterial2d<ColourMaterial>>,
     ),
 >;
 
@@ -53,7 +57,7 @@ pub(super) fn draw_solids(
         let frame = solver.frame();
         let moved = solver.is_changed() || style.is_changed();
         let mut parts = parts.iter_many_mut(children);
-        while let Some((mut part, mut visibility, mesh, ink, _)) = parts.fetch_next() {
+        while let Some((mut part, mut visibility, mesh, ink, ..)) = parts.fetch_next() {
             let shown = part.kind.is_shown(&style);
             visibility.set_if_neq(visible(shown));
             part.stale |= moved && !part.kind.is_still();
@@ -77,8 +81,9 @@ pub(super) fn draw_solids(
 
 /// Writes the uniforms of fields.
 pub(super) fn draw_fields(
-    roots: Query<(&FieldSprite, &StageStyle, &Children), Moved<FieldSprite>>,
+    roots: Query<(Ref<FieldSprite>, &StageStyle, &Children), Moved<FieldSprite>>,
     mut parts: PartQuery,
+    mut meshes: ResMut<Assets<Mesh>>,
     mut inks: ResMut<Assets<InkMaterial>>,
     mut fields: ResMut<Assets<FieldMaterial>>,
     mut times: ResMut<FrameTimes>,
@@ -87,8 +92,9 @@ pub(super) fn draw_fields(
     for (sprite, style, children) in &roots {
         let frame = sprite.frame();
         let mut parts = parts.iter_many_mut(children);
-        while let Some((part, mut visibility, _, ink, field)) = parts.fetch_next() {
+        while let Some((mut part, mut visibility, mesh, ink, field, _)) = parts.fetch_next() {
             visibility.set_if_neq(visible(part.kind.is_shown(style)));
+            carry(&mut part, sprite.is_changed(), frame, &mut meshes, mesh);
             if let Some(ink) = ink {
                 set_colour(&mut inks, ink, part.kind.colour(frame.t(), style));
             }
@@ -104,6 +110,57 @@ pub(super) fn draw_fields(
     }
     if !roots.is_empty() {
         times.draw.record(start.elapsed());
+    }
+}
+
+/// Writes the uniforms of pictures, and where a warp has put them.
+pub(super) fn draw_pictures(
+    roots: Query<(Ref<PictureSprite>, &StageStyle, &Children), Moved<PictureSprite>>,
+    mut parts: PartQuery,
+    mut meshes: ResMut<Assets<Mesh>>,
+    mut inks: ResMut<Assets<InkMaterial>>,
+    mut pictures: ResMut<Assets<ColourMaterial>>,
+    mut times: ResMut<FrameTimes>,
+) {
+    let start = Instant::now();
+    for (sprite, style, children) in &roots {
+        let frame = sprite.frame();
+        let mut parts = parts.iter_many_mut(children);
+        while let Some((mut part, mut visibility, mesh, ink, _, picture)) = parts.fetch_next() {
+            let shown = part.kind.is_shown(style);
+            visibility.set_if_neq(visible(shown));
+            carry(&mut part, sprite.is_changed(), frame, &mut meshes, mesh);
+            if let Some(ink) = ink {
+                set_colour(&mut inks, ink, part.kind.colour(frame.t(), style));
+            }
+            if let (Some(picture), Content::Colours(pair)) = (picture, frame.transition().content())
+            {
+                let look = ColourLook::new(pair, frame.t(), part.origin, shown);
+                if pictures.get(picture).is_some_and(|old| old.look != look)
+                    && let Some(mut material) = pictures.get_mut(picture)
+                {
+                    material.look = look;
+                }
+            }
+        }
+    }
+    if !roots.is_empty() {
+        times.draw.record(start.elapsed());
+    }
+}
+
+/// Writes where a warp has put the vertices of a field or a picture. Where
+/// nothing moves that is done once.
+fn carry(part: &mut Part, moved: bool, frame: &Frame, meshes: &mut Assets<Mesh>, mesh: &Mesh2d) {
+    if !matches!(part.kind, PartKind::Field | PartKind::Picture) {
+        return;
+    }
+    part.stale |= moved && frame.transition().cell().warp() != WarpKind::None;
+    if part.stale
+        && let Some(mut mesh) = meshes.get_mut(mesh)
+    {
+        carried::write(frame, part.origin, &mut mesh);
+        part.stale = false;
     }
 }
 
@@ -141,7 +198,7 @@ fn rewrite(meshes: &mut Assets<Mesh>, mesh: &Mesh2d, write: impl FnOnce(&mut Pos
 impl PartKind {
     fn is_shown(&self, StageStyle { style, show }: &StageStyle) -> bool {
         match self {
-            Self::Faces => show.fill,
+            Self::Faces | Self::Picture => show.fill,
             Self::Field => show.fill || show.iso_lines || show.signed_colours,
             Self::Bars(_) => show.bars,
             Self::JointCores(_) => show.bars && style.joints,
@@ -175,7 +232,7 @@ impl PartKind {
             Self::Wire { .. } => write_corners(points, &placement.faces, origin, positions),
             Self::Bars(bars) => bars.write(points, style.style.joints, origin, positions),
             Self::JointCores(bars) => bars.write_cores(points, origin, positions),
-            Self::Field | Self::SourceGhost | Self::TargetGhost => {}
+            Self::Field | Self::Picture | Self::SourceGhost | Self::TargetGhost => {}
         }
     }
 }

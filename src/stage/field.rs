@@ -3,7 +3,7 @@
 //!
 //! Guarantees: the shader evaluates the core's blend (bilinear between
 //! samples, L afterwards) in single precision; the contour is anti-aliased at
-//! any zoom; outside the grid nothing is drawn. Does not guarantee the core's
+//! any zoom, whatever a warp does; outside its mesh nothing is drawn. Does not guarantee the core's
 //! last digits: contours agree to a fraction of a pixel.
 
 use bevy::asset::RenderAssetUsages;
@@ -13,10 +13,9 @@ use bevy::render::render_resource::{
 };
 use bevy::shader::ShaderRef;
 use bevy::sprite_render::{AlphaMode2d, Material2d};
-use glam::DVec2;
 
 use crate::content::{BlendSpace, FieldPair};
-use crate::field::{DistanceField, Grid};
+use crate::field::DistanceField;
 
 use super::components::StageStyle;
 use super::ink::{contrasting, embedded, linear};
@@ -115,36 +114,4 @@ fn texture(field: &DistanceField) -> Image {
         TextureFormat::R32Float,
         RenderAssetUsages::RENDER_WORLD,
     )
-}
-
-/// The corners of the grid relative to an origin, lower left first and counted
-/// along x, and where they are in samples.
-pub(super) fn quad(grid: &Grid, origin: DVec2) -> ([[f32; 3]; 4], [[f32; 2]; 4]) {
-    let samples = DVec2::new(f64::from(grid.width), f64::from(grid.height));
-    let corners = [DVec2::ZERO, DVec2::X, DVec2::Y, DVec2::ONE].map(|c| c * samples);
-    let positions = corners.map(|c| {
-        let p = (grid.origin - origin + c * grid.cell).as_vec2();
-        [p.x, p.y, 0.0]
-    });
-    let in_samples = corners.map(|c| (c - 0.5).as_vec2().to_array());
-    (positions, in_samples)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn sample_centres_have_whole_coordinates() {
-        let grid = Grid {
-            width: 4,
-            height: 2,
-            origin: DVec2::new(10.0, 20.0),
-            cell: 0.5,
-        };
-        let (positions, in_samples) = quad(&grid, grid.origin);
-        assert_eq!(positions[3], [2.0, 1.0, 0.0]);
-        assert_eq!(in_samples[0], [-0.5, -0.5]);
-        assert_eq!(in_samples[3], [3.5, 1.5]);
-    }
 }

@@ -1,6 +1,7 @@
 // Two distance fields, blended and cut at a threshold, anti-aliased at any zoom.
 //
-// `uv` runs over the samples: sample (i, j) is at (i, j), row 0 is the lowest.
+// `color` says where to look in the source (xy) and in the target (zw), in
+// samples: sample (i, j) is at (i, j), row 0 is the lowest.
 // The fields are 32-bit floats, which need not be filterable: they are
 // interpolated by hand, and L is applied afterwards, as the core does it.
 
@@ -83,33 +84,53 @@ fn in_cells(v: f32) -> f32 {
     return sign(v) * field.epsilon * (exp(min(abs(v), 80.0)) - 1.0);
 }
 
-// The blend, less the level that it is cut at, and its gradient.
-fn blend(q: vec2<f32>) -> Sample {
-    let f0 = bilinear(source, q);
-    let f1 = bilinear(target_field, q);
-    let w0 = 1.0 - field.t;
-    let w1 = field.t;
+// Where a pixel looks in both fields, and how that changes to the pixels beside
+// it: right and below.
+struct Sight {
+    at: vec4<f32>,
+    right: vec4<f32>,
+    below: vec4<f32>,
+};
+
+fn moved(sight: Sight, px: vec2<f32>) -> vec4<f32> {
+    return sight.at + px.x * sight.right + px.y * sight.below;
+}
+
+// The blend, less the level that it is cut at.
+fn blend(at: vec4<f32>) -> f32 {
+    let f0 = bilinear(source, at.xy);
+    let f1 = bilinear(target_field, at.zw);
+    return (1.0 - field.t) * spaced(f0.value) + field.t * spaced(f1.value) - field.level;
+}
+
+// The same with its gradient by pixels.
+fn blend_with_gradient(sight: Sight) -> Sample {
+    let f0 = bilinear(source, sight.at.xy);
+    let f1 = bilinear(target_field, sight.at.zw);
+    let by = vec4(
+        (1.0 - field.t) * spaced_slope(f0.value) * f0.gradient,
+        field.t * spaced_slope(f1.value) * f1.gradient,
+    );
     var out: Sample;
-    out.value = w0 * spaced(f0.value) + w1 * spaced(f1.value) - field.level;
-    out.gradient = w0 * spaced_slope(f0.value) * f0.gradient
-        + w1 * spaced_slope(f1.value) * f1.gradient;
+    out.value = (1.0 - field.t) * spaced(f0.value) + field.t * spaced(f1.value) - field.level;
+    out.gradient = vec2(dot(by, sight.right), dot(by, sight.below));
     return out;
 }
 
 // Signed distance to the contour in pixels, exact within one pixel of it.
 // The gradient alone overrates it where L has its cusp, so the crossing is
 // looked for along the gradient.
-fn contour_px(q: vec2<f32>, here: Sample, cells_per_px: f32) -> f32 {
+fn contour_px(sight: Sight, here: Sample) -> f32 {
     let steep = length(here.gradient);
-    let guess = here.value / max(steep * cells_per_px, 1e-20);
+    let guess = here.value / max(steep, 1e-20);
     if steep < 1e-12 || abs(guess) > NEAR_PX { return clamp(guess, -NEAR_PX, NEAR_PX); }
-    let downhill = -sign(here.value) * here.gradient / steep * cells_per_px;
-    if blend(q + downhill).value * here.value > 0.0 { return sign(here.value) * max(abs(guess), 1.0); }
+    let downhill = -sign(here.value) * here.gradient / steep;
+    if blend(moved(sight, downhill)) * here.value > 0.0 { return sign(here.value) * max(abs(guess), 1.0); }
     var low = 0.0;
     var high = 1.0;
     for (var k = 0u; k < BISECTIONS; k++) {
         let mid = 0.5 * (low + high);
-        if blend(q + mid * downhill).value * here.value > 0.0 { low = mid; } else { high = mid; }
+        if blend(moved(sight, mid * downhill)) * here.value > 0.0 { low = mid; } else { high = mid; }
     }
     return sign(here.value) * 0.5 * (low + high);
 }
@@ -126,10 +147,14 @@ fn faded(colour: vec4<f32>, by: f32) -> vec4<f32> {
 
 @fragment
 fn fragment(mesh: VertexOutput) -> @location(0) vec4<f32> {
-    let q = mesh.uv;
-    let cells_per_px = sqrt(0.5 * (dot(dpdx(q), dpdx(q)) + dot(dpdy(q), dpdy(q))));
-    let here = blend(q);
-    let to_contour = contour_px(q, here, cells_per_px);
+    var sight: Sight;
+#ifdef VERTEX_COLORS
+    sight.at = mesh.color;
+    sight.right = dpdx(mesh.color);
+    sight.below = dpdy(mesh.color);
+#endif
+    let here = blend_with_gradient(sight);
+    let to_contour = contour_px(sight, here);
     let half_line = 0.5 * LINE_PX * max(view.viewport.w / LINE_HEIGHT, 1.0);
     let distance = in_cells(here.value + field.level) - in_cells(field.level);
 
@@ -142,8 +167,7 @@ fn fragment(mesh: VertexOutput) -> @location(0) vec4<f32> {
     }
     if field.lines_shown != 0u {
         // How fast the blended distance changes from pixel to pixel.
-        let slope = length(here.gradient) * cells_per_px
-            / spaced_slope(in_cells(here.value + field.level));
+        let slope = length(here.gradient) / spaced_slope(in_cells(here.value + field.level));
         let ring = abs(fract(distance / field.spacing - 0.5) - 0.5) * field.spacing;
         let apart = clamp(0.5 * field.spacing / max(slope, 1e-20) - half_line, 0.0, 1.0);
         let on = clamp(half_line + 0.5 - ring / max(slope, 1e-20), 0.0, 1.0);

@@ -39,6 +39,8 @@
 mod build;
 mod camera;
 mod capture;
+mod carried;
+mod colours;
 mod components;
 mod draw;
 mod field;
@@ -57,8 +59,8 @@ use bevy::sprite_render::Material2dPlugin;
 pub use camera::StageCamera;
 pub use capture::{CaptureStage, StageCaptured};
 pub use components::{
-    ArapSolver, Blend, BuildFailed, FieldSprite, MorphOptions, Show, SourceMesh, StageStyle,
-    StageTransition, TargetMesh,
+    ArapSolver, Blend, BuildFailed, FieldSprite, MorphOptions, PictureSprite, Show, SourceMesh,
+    StageStyle, StageTransition, TargetMesh,
 };
 pub use times::{Durations, FrameTimes, REMEMBERED};
 pub use view::StageView;
@@ -114,21 +116,25 @@ fn solve_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem
 fn add_drawing(app: &mut App) {
     embedded_asset!(app, "ink.wgsl");
     embedded_asset!(app, "field.wgsl");
+    embedded_asset!(app, "colours.wgsl");
     for init in [init_asset::<Mesh>, init_asset::<Image>] {
         init(app);
     }
     app.add_plugins((
         Material2dPlugin::<ink::InkMaterial>::default(),
         Material2dPlugin::<field::FieldMaterial>::default(),
+        Material2dPlugin::<colours::ColourMaterial>::default(),
     ))
     .add_observer(parts::undress::<ArapSolver>)
     .add_observer(parts::undress::<FieldSprite>)
+    .add_observer(parts::undress::<PictureSprite>)
     .add_systems(
         Update,
         (
             parts::dress,
             draw::draw_solids,
             draw::draw_fields,
+            draw::draw_pictures,
             parts::place_parts,
         )
             .chain()

@@ -10,11 +10,12 @@ use bevy::mesh::{Indices, PrimitiveTopology};
 use bevy::prelude::*;
 use glam::DVec2;
 
-use crate::content::{Content, FieldPair, Solid};
+use crate::content::{Content, FieldPair, PicturePair, Solid};
 use crate::transition::{Figure, Frame};
 
-use super::components::{ArapSolver, FieldSprite, StageStyle};
-use super::field::{FieldLook, FieldMaterial, quad};
+use super::colours::{ColourLook, ColourMaterial};
+use super::components::{ArapSolver, FieldSprite, PictureSprite, StageStyle};
+use super::field::{FieldLook, FieldMaterial};
 use super::ink::{InkKind, InkMaterial};
 use super::shapes::{BarShapes, Segments, corner_coordinates, quad_indices};
 use super::view::StageView;
@@ -39,6 +40,7 @@ pub(super) struct Part {
 pub(super) enum PartKind {
     Faces,
     Field,
+    Picture,
     Bars(BarShapes),
     JointCores(BarShapes),
     Wire {
@@ -52,13 +54,13 @@ pub(super) enum PartKind {
 impl PartKind {
     /// Its vertices never move.
     pub(super) fn is_still(&self) -> bool {
-        matches!(self, Self::Field | Self::SourceGhost | Self::TargetGhost)
+        matches!(self, Self::SourceGhost | Self::TargetGhost)
     }
 
     /// What is drawn over what.
     fn layer(&self) -> f32 {
         match self {
-            Self::Faces | Self::Field => 0.0,
+            Self::Faces | Self::Field | Self::Picture => 0.0,
             Self::Bars(_) => 0.1,
             Self::JointCores(_) => 0.2,
             Self::Wire { .. } => 0.3,
@@ -69,7 +71,7 @@ impl PartKind {
 
     fn ink(&self) -> InkKind {
         match self {
-            Self::Faces | Self::Field => InkKind::Faces,
+            Self::Faces | Self::Field | Self::Picture => InkKind::Faces,
             Self::Bars(_) | Self::JointCores(_) => InkKind::Round,
             Self::Wire { .. } => InkKind::Wire,
             Self::SourceGhost | Self::TargetGhost => InkKind::Line,
@@ -83,6 +85,7 @@ struct Shape {
     positions: Vec<[f32; 3]>,
     offsets: Option<Vec<[f32; 3]>>,
     coordinates: Option<Vec<[f32; 2]>>,
+    lookups: Option<Vec<[f32; 4]>>,
     indices: Option<Vec<u32>>,
 }
 
@@ -96,6 +99,19 @@ impl Shape {
         }
     }
 
+    /// The faces of a placement, with room for where each vertex looks.
+    fn carried(frame: &Frame) -> Self {
+        let placement = frame.placement();
+        let count = placement.in_frame.len();
+        Self {
+            positions: vec![[0.0; 3]; count],
+            coordinates: Some(vec![[0.0; 2]; count]),
+            lookups: Some(vec![[0.0; 4]; count]),
+            indices: Some(placement.faces.as_flattened().to_vec()),
+            ..default()
+        }
+    }
+
     /// The mesh stays in main memory too, to be rewritten.
     fn mesh(self) -> Mesh {
         let mut mesh = Mesh::new(PrimitiveTopology::TriangleList, default());
@@ -105,6 +121,9 @@ impl Shape {
         }
         if let Some(coordinates) = self.coordinates {
             mesh.insert_attribute(Mesh::ATTRIBUTE_UV_0, coordinates);
+        }
+        if let Some(lookups) = self.lookups {
+            mesh.insert_attribute(Mesh::ATTRIBUTE_COLOR, lookups);
         }
         if let Some(indices) = self.indices {
             mesh.insert_indices(Indices::U32(indices));
@@ -121,6 +140,7 @@ pub(super) struct Wardrobe<'w, 's> {
     images: ResMut<'w, Assets<Image>>,
     inks: ResMut<'w, Assets<InkMaterial>>,
     fields: ResMut<'w, Assets<FieldMaterial>>,
+    colours: ResMut<'w, Assets<ColourMaterial>>,
     parts: Query<'w, 's, (), With<Part>>,
 }
 
@@ -190,17 +210,25 @@ impl Wardrobe<'_, '_> {
     fn add_field(
         &mut self,
         of: Entity,
-        t: f64,
+        frame: &Frame,
         pair: &FieldPair,
         origin: DVec2,
         style: &StageStyle,
     ) {
-        let (positions, coordinates) = quad(pair.grid(), origin);
-        let shape = Shape::quads(positions.to_vec(), coordinates.to_vec());
-        let look = FieldLook::new(pair, t, style);
+        let shape = Shape::carried(frame);
+        let look = FieldLook::new(pair, frame.t(), style);
         let material = FieldMaterial::new(pair, look, &mut self.images);
         let material = self.fields.add(material);
         let part = self.add(of, PartKind::Field, origin, shape);
+        self.commands.entity(part).insert(MeshMaterial2d(material));
+    }
+
+    fn add_picture(&mut self, of: Entity, frame: &Frame, pair: &PicturePair, origin: DVec2) {
+        let shape = Shape::carried(frame);
+        let look = ColourLook::new(pair, frame.t(), origin, true);
+        let material = ColourMaterial::new(pair, look, &mut self.images);
+        let material = self.colours.add(material);
+        let part = self.add(of, PartKind::Picture, origin, shape);
         self.commands.entity(part).insert(MeshMaterial2d(material));
     }
 
@@ -224,24 +252,27 @@ type Staged = (
     Entity,
     Option<&'static ArapSolver>,
     Option<&'static FieldSprite>,
+    Option<&'static PictureSprite>,
     &'static StageStyle,
     Option<&'static Children>,
 );
 
 /// Gives new transitions their parts.
 pub(super) fn dress(undressed: Query<Staged, With<Undressed>>, mut wardrobe: Wardrobe) {
-    for (entity, solver, sprite, style, children) in &undressed {
+    for (entity, solver, sprite, picture, style, children) in &undressed {
         wardrobe.undress(children);
         wardrobe.commands.entity(entity).remove::<Undressed>();
         let frame = solver.map(ArapSolver::frame);
-        let Some(frame) = frame.or(sprite.map(FieldSprite::frame)) else {
+        let frame = frame.or(sprite.map(FieldSprite::frame));
+        let Some(frame) = frame.or(picture.map(PictureSprite::frame)) else {
             continue;
         };
         let transition = frame.transition();
         let origin = transition.bounds().centre();
         match transition.content() {
             Content::Solid(solid) => wardrobe.add_solid(entity, frame, solid, origin),
-            Content::Field(pair) => wardrobe.add_field(entity, frame.t(), pair, origin, style),
+            Content::Field(pair) => wardrobe.add_field(entity, frame, pair, origin, style),
+            Content::Colours(pair) => wardrobe.add_picture(entity, frame, pair, origin),
         }
         let ghosts = [
             (PartKind::SourceGhost, transition.source_outline()),

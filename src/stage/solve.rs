@@ -10,7 +10,7 @@ use bevy::prelude::*;
 
 use crate::transition::Frame;
 
-use super::components::{ArapSolver, Blend, FieldSprite};
+use super::components::{ArapSolver, Blend, FieldSprite, PictureSprite};
 use super::times::FrameTimes;
 
 /// A component that holds the frame on the stage.
@@ -39,10 +39,21 @@ impl HasFrame for FieldSprite {
     }
 }
 
+impl HasFrame for PictureSprite {
+    fn frame(&self) -> &Frame {
+        &self.0
+    }
+
+    fn frame_mut(&mut self) -> &mut Frame {
+        &mut self.0
+    }
+}
+
 /// Seeks every frame whose blend parameter moved.
 pub(super) fn solve_frames(
     mut solids: Query<(&Blend, &mut ArapSolver), Changed<Blend>>,
     mut fields: Query<(&Blend, &mut FieldSprite), Changed<Blend>>,
+    mut pictures: Query<(&Blend, &mut PictureSprite), Changed<Blend>>,
     mut times: ResMut<FrameTimes>,
 ) {
     let start = Instant::now();
@@ -51,6 +62,9 @@ pub(super) fn solve_frames(
         sought += u32::from(seek(blend.t, solver));
     }
     for (blend, sprite) in &mut fields {
+        sought += u32::from(seek(blend.t, sprite));
+    }
+    for (blend, sprite) in &mut pictures {
         sought += u32::from(seek(blend.t, sprite));
     }
     if sought > 0 {

@@ -1,0 +1,105 @@
+//! Colours on the GPU: both pictures as textures, cross-dissolved by the
+//! fragment shader.
+//!
+//! Guarantees: light is mixed linear and premultiplied, as the core does it; a
+//! pixel of an opaque picture seen at its own size is that pixel. Does not
+//! guarantee the core's last digits: pictures agree to about a step of 255.
+
+use bevy::asset::RenderAssetUsages;
+use bevy::image::{ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
+use bevy::prelude::*;
+use bevy::render::render_resource::{
+    AsBindGroup, Extent3d, ShaderType, TextureDimension, TextureFormat,
+};
+use bevy::shader::ShaderRef;
+use bevy::sprite_render::{AlphaMode2d, Material2d};
+use glam::DVec2;
+
+use crate::content::{Layer, PicturePair};
+
+use super::ink::embedded;
+
+/// Two pictures and how they are mixed.
+#[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
+pub(super) struct ColourMaterial {
+    #[uniform(0)]
+    pub(super) look: ColourLook,
+    #[texture(1)]
+    #[sampler(2)]
+    source: Handle<Image>,
+    #[texture(3)]
+    #[sampler(4)]
+    target: Handle<Image>,
+}
+
+/// The uniform of [`ColourMaterial`]; the same fields as in `colours.wgsl`.
+#[derive(ShaderType, Clone, Debug, PartialEq)]
+pub(super) struct ColourLook {
+    /// Least and most x and y of what is shown, relative to the part's origin.
+    window: Vec4,
+    share: f32,
+    shown: f32,
+}
+
+impl Material2d for ColourMaterial {
+    fn fragment_shader() -> ShaderRef {
+        ShaderRef::Path(embedded("colours.wgsl"))
+    }
+
+    fn alpha_mode(&self) -> AlphaMode2d {
+        AlphaMode2d::Blend
+    }
+}
+
+impl ColourMaterial {
+    pub(super) fn new(pair: &PicturePair, look: ColourLook, images: &mut Assets<Image>) -> Self {
+        let [source, target] = pair.layers();
+        Self {
+            look,
+            source: images.add(texture(source)),
+            target: images.add(texture(target)),
+        }
+    }
+}
+
+impl ColourLook {
+    pub(super) fn new(pair: &PicturePair, t: f64, origin: DVec2, shown: bool) -> Self {
+        let window = pair.window(t);
+        let (low, high) = (
+            (window.min - origin).as_vec2(),
+            (window.max - origin).as_vec2(),
+        );
+        Self {
+            window: Vec4::new(low.x, low.y, high.x, high.y),
+            share: pair.mix().share(t) as f32,
+            shown: f32::from(u8::from(shown)),
+        }
+    }
+}
+
+/// A picture with its smaller sizes, premultiplied, coded as sRGB: the card
+/// decodes before it interpolates.
+fn texture(layer: &Layer) -> Image {
+    let (width, height) = layer.picture().pixels().dimensions();
+    let (bytes, levels) = layer.texture();
+    let size = Extent3d {
+        width,
+        height,
+        depth_or_array_layers: 1,
+    };
+    let mut image = Image::new_uninit(
+        size,
+        TextureDimension::D2,
+        TextureFormat::Rgba8UnormSrgb,
+        RenderAssetUsages::RENDER_WORLD,
+    );
+    image.texture_descriptor.mip_level_count = levels;
+    image.data = Some(bytes);
+    image.sampler = ImageSampler::Descriptor(ImageSamplerDescriptor {
+        mag_filter: ImageFilterMode::Linear,
+        min_filter: ImageFilterMode::Linear,
+        mipmap_filter: ImageFilterMode::Linear,
+        ..ImageSamplerDescriptor::default()
+    });
+    image
+}

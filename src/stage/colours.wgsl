@@ -1,0 +1,53 @@
+// Two pictures, looked up where a warp says and cross-dissolved.
+//
+// `uv` is the place in the plane, relative to the part's origin; `color` says
+// where to look in the source (xy) and in the target (zw), from 0 to 1 across
+// and down. Textures are premultiplied and become linear light when read.
+
+#import bevy_sprite::mesh2d_vertex_output::VertexOutput
+#ifdef SRGB_OUTPUT
+#import bevy_render::color_operations::linear_to_srgb
+#endif
+#ifdef OKLAB_OUTPUT
+#import bevy_render::color_operations::linear_rgb_to_oklab
+#endif
+
+struct Colours {
+    window: vec4<f32>,
+    share: f32,
+    shown: f32,
+};
+
+@group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> colours: Colours;
+@group(#{MATERIAL_BIND_GROUP}) @binding(1) var source: texture_2d<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(2) var source_sampler: sampler;
+@group(#{MATERIAL_BIND_GROUP}) @binding(3) var target_picture: texture_2d<f32>;
+@group(#{MATERIAL_BIND_GROUP}) @binding(4) var target_sampler: sampler;
+
+// How much of the pixel lies in the window, along each axis.
+fn covered(at: vec2<f32>) -> f32 {
+    let pixel = max(fwidth(at), vec2(1e-20));
+    let low = clamp((at - colours.window.xy) / pixel + 0.5, vec2(0.0), vec2(1.0));
+    let high = clamp((colours.window.zw - at) / pixel + 0.5, vec2(0.0), vec2(1.0));
+    let both = max(low + high - 1.0, vec2(0.0));
+    return both.x * both.y;
+}
+
+@fragment
+fn fragment(mesh: VertexOutput) -> @location(0) vec4<f32> {
+    var light = vec4(0.0);
+#ifdef VERTEX_COLORS
+    let from_source = textureSample(source, source_sampler, mesh.color.xy);
+    let from_target = textureSample(target_picture, target_sampler, mesh.color.zw);
+    light = mix(from_source, from_target, colours.share);
+#endif
+    let alpha = light.a * covered(mesh.uv) * colours.shown;
+    var colour = vec4(light.rgb / max(light.a, 1e-6), alpha);
+#ifdef SRGB_OUTPUT
+    colour = vec4(linear_to_srgb(colour.rgb), colour.a);
+#endif
+#ifdef OKLAB_OUTPUT
+    colour = vec4(linear_rgb_to_oklab(colour.rgb), colour.a);
+#endif
+    return colour;
+}
