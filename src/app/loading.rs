@@ -131,7 +131,7 @@ fn absolute(path: &Path) -> PathBuf {
 fn choose_cell(loaded: &mut LoadedProject) {
     let can = |cell: &Cell| loaded.available(cell.warp(), cell.content()).is_ok();
     let asked = loaded.cell().ok().filter(can);
-    let suited = asked.or_else(|| Cell::ALL.into_iter().find(can));
+    let suited = asked.or_else(|| Cell::all().find(can));
     if let Some(cell) = suited {
         loaded.project.warp = Some(cell.warp());
         loaded.project.content = Some(cell.content());

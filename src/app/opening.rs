@@ -168,6 +168,7 @@ fn apply(project: &mut Project, intent: &Intent) {
                 // What was said of points of the old one means nothing in the new one.
                 let matching = &mut project.matching;
                 (matching.pins, matching.links, matching.cuts) = Default::default();
+                matching.lines.clear();
             }
         }
         _ => {}

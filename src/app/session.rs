@@ -23,10 +23,10 @@ use crate::transition::{Stop, Timing, Transition, arrangement};
 use crate::warp::WarpKind;
 
 /// The rows of the table that the window shows.
-pub const WARPS: [WarpKind; 2] = [WarpKind::None, WarpKind::Arap];
+pub const WARPS: [WarpKind; 5] = WarpKind::ALL;
 
 /// The columns of the table that the window shows.
-pub const CONTENTS: [ContentKind; 2] = [ContentKind::Solid, ContentKind::Field];
+pub const CONTENTS: [ContentKind; 3] = ContentKind::ALL;
 
 /// A build that takes longer is given up when the settings change again.
 const PATIENCE: Duration = Duration::from_millis(1500);

@@ -7,8 +7,8 @@ use bevy_egui::egui::{self, Margin, Panel, ScrollArea, Ui};
 
 use super::theme::{GRID, Palette};
 use super::{
-    Intents, Scene, appearance_panel, designs_panel, field_panel, match_panel, method_panel,
-    warp_panel,
+    Intents, Scene, appearance_panel, colours_panel, designs_panel, field_panel, lattice_panel,
+    lines_panel, match_panel, method_panel, scattered_panel, warp_panel,
 };
 use crate::app::intent::Intent;
 use crate::content::ContentKind;
@@ -51,8 +51,16 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         }
         warp_panel::show(ui, scene, &mut draft.arap);
     }
-    if draft.content == Some(ContentKind::Field) {
-        field_panel::show(ui, &mut draft.field);
+    match draft.warp {
+        Some(WarpKind::Lines) => lines_panel::show(ui, &mut draft.lines),
+        Some(WarpKind::Scattered) => scattered_panel::show(ui, &mut draft.scattered),
+        Some(WarpKind::Lattice) => lattice_panel::show(ui, &mut draft.lattice),
+        Some(WarpKind::None | WarpKind::Arap) | None => {}
+    }
+    match draft.content {
+        Some(ContentKind::Field) => field_panel::show(ui, &mut draft.field),
+        Some(ContentKind::Colours) => colours_panel::show(ui, &mut draft.colours),
+        Some(ContentKind::Solid) | None => {}
     }
     designs_panel::show(ui, &mut draft, acts);
     appearance_panel::show(ui, scene, &mut draft, acts);

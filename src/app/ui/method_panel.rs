@@ -14,8 +14,8 @@ use crate::content::ContentKind;
 use crate::project::Project;
 use crate::warp::WarpKind;
 
-const ROW_LABEL_WIDTH: f32 = 72.0;
-const CELL_HEIGHT: f32 = 40.0;
+const ROW_LABEL_WIDTH: f32 = 52.0;
+const CELL_HEIGHT: f32 = 28.0;
 
 /// Draws the table and what the chosen cell does.
 pub fn show(ui: &mut Ui, scene: &Scene, project: &Project, acts: &mut Intents) {
@@ -65,6 +65,18 @@ fn row_head(ui: &mut Ui, warp: WarpKind) {
             "Rigid",
             "Each part moves as rigidly as it can: limbs turn instead of shrinking.",
         ),
+        WarpKind::Lines => (
+            "Lines",
+            "Pairs of lines pull the plane along (Beier and Neely 1992).",
+        ),
+        WarpKind::Scattered => (
+            "Points",
+            "Pins pull the plane along, smoothly between them (radial basis functions).",
+        ),
+        WarpKind::Lattice => (
+            "Lattice",
+            "Pins bend a grid of splines, finer and finer, without folds.",
+        ),
     };
     let font = TextStyle::Small.resolve(ui.style());
     let weak = Palette::of(ui).weak;
@@ -76,7 +88,8 @@ fn row_head(ui: &mut Ui, warp: WarpKind) {
 fn content_name(content: ContentKind) -> &'static str {
     match content {
         ContentKind::Solid => "Solid",
-        ContentKind::Field => "Distance field",
+        ContentKind::Field => "Field",
+        ContentKind::Colours => "Colours",
     }
 }
 
@@ -85,7 +98,10 @@ pub fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
         (WarpKind::None, ContentKind::Solid) => "–",
         (WarpKind::None, ContentKind::Field) => "Blend",
         (WarpKind::Arap, ContentKind::Solid) => "Rigid parts",
-        (WarpKind::Arap, ContentKind::Field) => "Carried field",
+        (WarpKind::None, ContentKind::Colours) => "Dissolve",
+        (_, ContentKind::Field) => "Carried field",
+        (_, ContentKind::Colours) => "Morph",
+        (_, ContentKind::Solid) => "–",
     }
 }
 
@@ -99,8 +115,18 @@ fn description(warp: WarpKind, content: ContentKind) -> &'static str {
             "Turns and stretches each triangle evenly and joins them again. Parts keep their \
              form while they move; outlines are matched by themselves."
         }
-        (WarpKind::Arap, ContentKind::Field) => "Distance fields carried by moving parts.",
-        (WarpKind::None, ContentKind::Solid) => "Nothing moves and nothing blends.",
+        (WarpKind::None, ContentKind::Colours) => {
+            "Fades one picture into the other, in linear light. Nothing moves."
+        }
+        (_, ContentKind::Field) => {
+            "Distance fields that travel with the warp: parts move instead of dissolving. Where \
+             nothing is pinned, the outlines are matched and pinned by themselves."
+        }
+        (_, ContentKind::Colours) => {
+            "Moves what belongs together onto each other while one picture fades into the other. \
+             Set pins, or lines, on eyes, corners and edges (key E)."
+        }
+        (_, ContentKind::Solid) => "Nothing moves and nothing blends.",
     }
 }
 

@@ -5,18 +5,22 @@
 //! widget and the playback at once.
 
 mod appearance_panel;
+mod colours_panel;
 mod designs_panel;
 mod field_panel;
 mod gallery_panel;
 mod help;
 mod icons;
 mod inspector;
+mod lattice_panel;
+mod lines_panel;
 mod match_editor;
 mod match_panel;
 mod method_panel;
 mod notices;
 mod plots;
 mod questions;
+mod scattered_panel;
 mod stage_area;
 mod theme;
 mod timeline;
