@@ -368,6 +368,7 @@ impl Session {
             .map_or(&[][..], |problem| &problem.pins);
         Sheet {
             faulty: faulty.to_vec(),
+            content: open.loaded.project.project.content,
             ..Sheet::new([source, target], by, matching, matched)
         }
     }

@@ -105,7 +105,7 @@ pub struct Raster {
 
 impl Raster {
     /// Where a point of the plane is, in pixels from the upper left corner.
-    fn from_plane(&self, p: DVec2) -> DVec2 {
+    fn located(&self, p: DVec2) -> DVec2 {
         let d = (p - self.corner) / self.pixel;
         DVec2::new(d.x, -d.y)
     }
@@ -167,7 +167,7 @@ impl PicturePair {
         let [width, height] = raster.size.map(|side| side as usize);
         let mut light: Vec<Light> = vec![[0.0; 4]; width * height];
         let [source, target] = [0, 1].map(|k| self.layers[k].sampler(raster.pixel));
-        let to_lattice = |p: DVec2| raster.from_plane(p) - 0.5;
+        let to_lattice = |p: DVec2| raster.located(p) - 0.5;
         let share = self.mix.share(t) as f32;
         let only = |sampler: &Sampler, at: DVec2| sampler.at(at);
         // At the ends one of the pictures is not looked at.
@@ -182,8 +182,8 @@ impl PicturePair {
             scan(placement, to_lattice, width, &mut light, value);
         }
         let window = self.window(t);
-        let upper_left = raster.from_plane(DVec2::new(window.min.x, window.max.y));
-        let lower_right = raster.from_plane(DVec2::new(window.max.x, window.min.y));
+        let upper_left = raster.located(DVec2::new(window.min.x, window.max.y));
+        let lower_right = raster.located(DVec2::new(window.max.x, window.min.y));
         let mut out = vec![0; 4 * width * height];
         let rows = out.par_chunks_mut(4 * width.max(1));
         let lights = light.par_chunks(width.max(1));

@@ -8,7 +8,7 @@ use crate::app::intent::Intent;
 use crate::app::opening::change;
 use crate::app::session::Session;
 use crate::content::ContentKind;
-use crate::correspondence::{Matching, PointPair, RingCut, Side};
+use crate::correspondence::{LinePair, Matching, PointPair, RingCut, Side};
 use crate::geometry::DVec2;
 use crate::project::Project;
 use crate::warp::WarpKind;
@@ -46,7 +46,13 @@ pub fn apply(
         let before = matching.clone();
         editor.act(act, &sheet, &session, &mut matching);
         if *act == EditorAct::Toggle && editor.is_open {
-            change(&mut session, gesture.mark(), choose_rigid_parts);
+            change(&mut session, gesture.mark(), choose_what_moves);
+            let is_free = session
+                .project()
+                .is_some_and(|p| p.content != Some(ContentKind::Solid));
+            if editor.tool == Tool::Parts && is_free || editor.tool == Tool::Lines && !is_free {
+                editor.tool = Tool::Pins;
+            }
         }
         if matching != before {
             change(&mut session, gesture.mark(), |project| {
@@ -56,11 +62,16 @@ pub fn apply(
     }
 }
 
-/// Outlines are matched for rigid parts and for nothing else.
-fn choose_rigid_parts(project: &mut Project) {
-    if project.warp != Some(WarpKind::Arap) {
-        project.warp = Some(WarpKind::Arap);
-        project.content = Some(ContentKind::Solid);
+/// Where nothing moves there is nothing to match: outlines then become rigid parts, and pictures
+/// follow points.
+fn choose_what_moves(project: &mut Project) {
+    if project.warp == Some(WarpKind::None) {
+        let (warp, content) = match project.content {
+            Some(ContentKind::Colours) => (WarpKind::Scattered, ContentKind::Colours),
+            _ => (WarpKind::Arap, ContentKind::Solid),
+        };
+        project.warp = Some(warp);
+        project.content = Some(content);
     }
 }
 
@@ -87,6 +98,7 @@ impl Editor {
             }
             EditorAct::Clear => {
                 (said.pins, said.links, said.cuts) = Default::default();
+                said.lines.clear();
                 self.selected = None;
             }
             EditorAct::Pan(delta) => self.pan += *delta,
@@ -104,7 +116,7 @@ impl Editor {
     }
 
     fn hover(&mut self, touch: Option<Touch>, sheet: &Sheet) {
-        let is_pinning = self.tool == Tool::Pins;
+        let is_pinning = self.tool != Tool::Parts;
         self.hovered = touch.and_then(|touch| sheet.handle_at(touch));
         self.trace = touch
             .filter(|_| is_pinning && self.hovered.is_none())
@@ -119,8 +131,10 @@ impl Editor {
         let handle = sheet.handle_at(touch);
         self.selected = handle.or(self.selected);
         let grab = match handle {
+            None if self.tool == Tool::Lines && sheet.is_free() => Grab::NewLine(touch.at),
             None => Grab::View,
             Some(Handle::Pin(k)) => Grab::Pin(k),
+            Some(Handle::Line(k, end)) => Grab::Line(k, end),
             Some(Handle::Feature(k)) => Grab::Feature(k),
             Some(Handle::Cut(k, end)) => match sheet.cuts[k].asked {
                 Some(asked) => Grab::Cut(asked, end),
@@ -158,7 +172,21 @@ impl Editor {
                     }
                 }
             }
-            Grab::Feature(_) | Grab::FoundCut(..) => {}
+            Grab::Line(k, end) => {
+                self.selected = Some(Handle::Line(k, end));
+                if let Some(line) = said.lines.get_mut(k) {
+                    end_of(line, side)[end] = sheet.own(side, touch.at);
+                }
+            }
+            Grab::Stretch(k) => {
+                self.selected = Some(Handle::Line(k, 1));
+                if let Some(line) = said.lines.get_mut(k) {
+                    for side in Side::BOTH {
+                        end_of(line, side)[1] = sheet.own(side, touch.at);
+                    }
+                }
+            }
+            Grab::Feature(_) | Grab::FoundCut(..) | Grab::NewLine(_) => {}
         }
     }
 
@@ -167,6 +195,7 @@ impl Editor {
         match (sheet.handle_at(touch), self.tool) {
             (Some(handle), _) => self.selected = Some(handle),
             (None, Tool::Pins) => self.add_pin(touch, sheet, said),
+            (None, Tool::Lines) => {}
             (None, Tool::Parts) => self.pair(touch, sheet, said),
         }
     }
@@ -176,10 +205,16 @@ impl Editor {
         let is_near = sheet
             .on_boundary(touch.side, touch.at)
             .is_some_and(|foot| foot.distance <= touch.reach);
-        let Some(here) = sheet.landing(touch, self.snaps).filter(|_| is_near) else {
+        let landing = sheet.landing(touch, self.snaps);
+        let Some(here) = landing.filter(|_| is_near || sheet.is_free()) else {
             return;
         };
-        let Some(there) = sheet.partner(touch.side, here) else {
+        let partner = if sheet.is_free() {
+            Some(here)
+        } else {
+            sheet.partner(touch.side, here)
+        };
+        let Some(there) = partner else {
             self.refusal = Some(NO_PARTNER);
             return;
         };
@@ -253,7 +288,22 @@ fn taken(grab: Grab, sheet: &Sheet, said: &mut Matching) -> Grab {
             }
             None => Grab::View,
         },
+        Grab::NewLine(from) => {
+            let ends = |side: Side| [sheet.own(side, from); 2];
+            said.lines.push(LinePair {
+                source: ends(Side::Source),
+                target: ends(Side::Target),
+            });
+            Grab::Stretch(said.lines.len() - 1)
+        }
         known => known,
+    }
+}
+
+fn end_of(line: &mut LinePair, side: Side) -> &mut [DVec2; 2] {
+    match side {
+        Side::Source => &mut line.source,
+        Side::Target => &mut line.target,
     }
 }
 
@@ -275,7 +325,10 @@ fn remove_handle(handle: Handle, sheet: &Sheet, said: &mut Matching) {
                 said.cuts.remove(k);
             }
         }
-        Handle::Pin(_) | Handle::Feature(_) => {}
+        Handle::Line(k, _) if k < said.lines.len() => {
+            said.lines.remove(k);
+        }
+        Handle::Pin(_) | Handle::Feature(_) | Handle::Line(..) => {}
     }
 }
 

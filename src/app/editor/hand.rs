@@ -11,6 +11,7 @@ impl Sheet {
         match handle {
             Handle::Pin(k) => self.pins.get(k).map(|pin| pin.of(side)),
             Handle::Feature(k) => self.features.get(k).map(|pair| pair.of(side)),
+            Handle::Line(k, end) => self.lines.get(k).map(|line| line.of(side)[end]),
             Handle::Cut(k, end) => {
                 let cut = self.cuts.get(k)?.cut;
                 (cut.side == side).then_some(match end {
@@ -34,8 +35,10 @@ impl Sheet {
         let cuts = (0..self.cuts.len())
             .flat_map(|k| [Handle::Cut(k, CutEnd::Outer), Handle::Cut(k, CutEnd::Hole)]);
         let features = (0..self.features.len()).map(Handle::Feature);
+        let lines = (0..self.lines.len()).flat_map(|k| [Handle::Line(k, 0), Handle::Line(k, 1)]);
         (0..self.pins.len())
             .map(Handle::Pin)
+            .chain(lines.filter(|_| self.is_free()))
             .chain(cuts)
             .chain(features)
     }
@@ -53,18 +56,31 @@ impl Sheet {
             .map(|(_, handle)| handle)
     }
 
-    /// Where on the boundary a pin comes to lie.
+    /// Where a pin comes to lie: on the boundary, or anywhere where pins are
+    /// free.
     #[must_use]
     pub fn landing(&self, touch: Touch, snaps: bool) -> Option<DVec2> {
+        if self.in_colours() {
+            return Some(touch.at);
+        }
         let corner = (snaps && !touch.is_free)
             .then(|| self.corner(touch.side, touch.at, touch.reach))
             .flatten();
-        corner.or_else(|| Some(self.on_boundary(touch.side, touch.at)?.point))
+        let on_boundary = || {
+            let foot = self.on_boundary(touch.side, touch.at)?;
+            let is_here =
+                !self.is_free() || foot.distance <= touch.reach && snaps && !touch.is_free;
+            Some(if is_here { foot.point } else { touch.at })
+        };
+        corner.or_else(on_boundary)
     }
 
     /// The boundary under the hand and what it is matched with: source and target.
     #[must_use]
     pub fn trace(&self, touch: Touch) -> Option<[DVec2; 2]> {
+        if self.is_free() {
+            return None;
+        }
         let foot = self.on_boundary(touch.side, touch.at)?;
         let here = (foot.distance <= touch.reach).then_some(foot.point)?;
         let there = self.partner(touch.side, here)?;

@@ -78,6 +78,8 @@ pub enum Tool {
     /// Sets a pin.
     #[default]
     Pins,
+    /// Draws pairs of lines.
+    Lines,
     /// Pairs parts.
     Parts,
 }
@@ -91,6 +93,8 @@ pub enum Handle {
     Feature(usize),
     /// An end of a cut, by its number on the sheet.
     Cut(usize, CutEnd),
+    /// An end of a line, 0 or 1, by the line's number in the project.
+    Line(usize, usize),
 }
 
 /// An end of a cut.
@@ -103,7 +107,7 @@ pub enum CutEnd {
 }
 
 /// What the hand holds.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Grab {
     /// A pin, by its number in the project.
     Pin(usize),
@@ -113,6 +117,12 @@ pub enum Grab {
     FoundCut(usize, CutEnd),
     /// A cut, by its number in the project.
     Cut(usize, CutEnd),
+    /// An end of a line, by the line's number in the project.
+    Line(usize, usize),
+    /// A line that is drawn as soon as the hand moves, from here.
+    NewLine(DVec2),
+    /// The second end, on both sides, of a line that is being drawn.
+    Stretch(usize),
     /// The view.
     View,
 }
@@ -198,6 +208,7 @@ pub fn refresh(
         Handle::Pin(k) => k < sheet.pins.len(),
         Handle::Feature(k) => k < sheet.features.len(),
         Handle::Cut(k, _) => k < sheet.cuts.len(),
+        Handle::Line(k, _) => k < sheet.lines.len(),
     };
     editor.selected = editor.selected.take_if(is_there);
     editor.hovered = editor.hovered.take_if(is_there);

@@ -6,10 +6,11 @@
 use bevy::prelude::Resource;
 
 use super::{features, polyline};
+use crate::content::ContentKind;
 use crate::correspondence::{
-    Matching, PieceMatch, PointPair, RegionMatch, RingCut, RingKind, Side,
+    LinePair, Matching, PieceMatch, PointPair, RegionMatch, RingCut, RingKind, Side,
 };
-use crate::design::{Design, Form};
+use crate::design::{Design, Form, Picture};
 use crate::geometry::{Bounds, DVec2, Similarity};
 
 /// A cut that was asked for is shown by the one that came of it where the two are no farther apart
@@ -31,6 +32,10 @@ pub struct Sheet {
     pub faulty: Vec<usize>,
     /// Some points that were matched without being asked for.
     pub features: Vec<PointPair>,
+    /// Pairs of lines, as they stand in the project.
+    pub lines: Vec<LinePair>,
+    /// What is seen, and so what pins are for.
+    pub content: Option<ContentKind>,
     /// Pairs of parts that were asked for.
     pub links: Vec<PointPair>,
     /// Rings that are cut open.
@@ -48,6 +53,8 @@ pub struct SheetSide {
     pub corners: Vec<DVec2>,
     /// The box around it.
     pub bounds: Bounds,
+    /// The picture that it came as, where it lies in the frame.
+    pub picture: Option<Picture>,
 }
 
 /// One ring in both designs, vertex by vertex.
@@ -123,10 +130,27 @@ impl Sheet {
             sides: Some(sides),
             rings,
             pins: placed.pins,
+            lines: placed.lines,
+            content: None,
             links: placed.links,
             faulty: Vec::new(),
             by,
         }
+    }
+
+    /// Pins and lines may lie anywhere: they move the plane and not a boundary.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        matches!(
+            self.content,
+            Some(ContentKind::Field | ContentKind::Colours)
+        )
+    }
+
+    /// Pictures are what is seen.
+    #[must_use]
+    pub fn in_colours(&self) -> bool {
+        self.content == Some(ContentKind::Colours)
     }
 
     /// The nearest place on the boundary of one side.
@@ -235,6 +259,10 @@ fn side(design: &Design, by: &Similarity) -> Option<SheetSide> {
         parts,
         corners,
         bounds,
+        picture: design
+            .picture
+            .as_ref()
+            .map(|picture| picture.transformed(by)),
     })
 }
 

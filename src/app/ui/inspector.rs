@@ -45,10 +45,10 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     };
     method_panel::show(ui, scene, project, acts);
     let mut draft = project.clone();
+    if scene.session.can_match() && draft.warp != Some(WarpKind::None) {
+        match_panel::show(ui, scene, &mut draft, acts);
+    }
     if draft.warp == Some(WarpKind::Arap) {
-        if scene.session.can_match() {
-            match_panel::show(ui, scene, &mut draft, acts);
-        }
         warp_panel::show(ui, scene, &mut draft.arap);
     }
     match draft.warp {

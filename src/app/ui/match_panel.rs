@@ -6,6 +6,7 @@ use super::widgets::{choices, hint, row, section, slider, toggle};
 use super::{Intents, Scene};
 use crate::app::editor::EditorAct;
 use crate::app::intent::Intent;
+use crate::content::ContentKind;
 use crate::correspondence::{HoleRule, Matching, PartRule};
 use crate::project::Project;
 
@@ -14,9 +15,14 @@ const USUAL_EDGE: f64 = 0.05;
 
 /// Draws the options.
 pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
+    let is_solid = draft.content == Some(ContentKind::Solid);
     section(ui, "Match", |ui| {
-        rules(ui, &mut draft.matching);
-        density(ui, &mut draft.triangulation.edge_length);
+        if draft.content != Some(ContentKind::Colours) {
+            rules(ui, &mut draft.matching);
+        }
+        if is_solid {
+            density(ui, &mut draft.triangulation.edge_length);
+        }
         ui.add_space(4.0);
         hint(ui, &said(&draft.matching));
         ui.horizontal(|ui| {
@@ -141,12 +147,20 @@ fn density(ui: &mut Ui, edge_length: &mut Option<f64>) {
 }
 
 fn has_places(matching: &Matching) -> bool {
-    !(matching.pins.is_empty() && matching.links.is_empty() && matching.cuts.is_empty())
+    let Matching {
+        pins,
+        lines,
+        links,
+        cuts,
+        ..
+    } = matching;
+    !(pins.is_empty() && lines.is_empty() && links.is_empty() && cuts.is_empty())
 }
 
 fn said(matching: &Matching) -> String {
     if !has_places(matching) {
-        return "Matched without help. Pins, pairs of parts and cuts can be set by hand."
+        return "Nothing was set by hand yet. Outlines match themselves; pictures need pins or \
+                lines."
             .to_owned();
     }
     let count = |n: usize, one: &str, many: &str| match n {
@@ -156,6 +170,7 @@ fn said(matching: &Matching) -> String {
     };
     let all = [
         count(matching.pins.len(), "pin", "pins"),
+        count(matching.lines.len(), "line", "lines"),
         count(matching.links.len(), "pair of parts", "pairs of parts"),
         count(matching.cuts.len(), "cut", "cuts"),
     ];

@@ -124,6 +124,18 @@ pub(in crate::warp) fn exp(x: f64) -> f64 {
     (1.0 + (x + x * x * polynomial(x, &EXPONENTIAL))) * power_of_two
 }
 
+/// Σ aₖ xᵏ of [`LOGARITHM`] in pairs (Estrin 1960): Horner's rule waits for
+/// each product, and what is lost by rounding here is a thirtieth of a unit.
+#[inline(always)]
+fn logarithm_series(x: f64) -> f64 {
+    let a = &LOGARITHM;
+    let x2 = x * x;
+    let x4 = x2 * x2;
+    let low = (a[0] + a[1] * x) + x2 * (a[2] + a[3] * x);
+    let high = (a[4] + a[5] * x) + x2 * (a[6] + a[7] * x);
+    low + x4 * (high + x4 * a[8])
+}
+
 /// The natural logarithm of a positive normal number, from the fraction f + 1
 /// between √½ and √2 and the exponent: ln(1 + f) = 2 artanh(f / (2 + f)).
 #[inline(always)]
@@ -135,7 +147,7 @@ pub(in crate::warp) fn ln(x: f64) -> f64 {
     let f = f64::from_bits((shifted & FRACTION_BITS) + half_root) - 1.0;
     let s = f / (2.0 + f);
     let square = s * s;
-    let rest = 2.0 * square * polynomial(square, &LOGARITHM);
+    let rest = 2.0 * square * logarithm_series(square);
     // 2s is f − s f, and f is exact.
     n * LN_2_PARTS[0] + (f - (s * (f - rest) - n * LN_2_PARTS[1]))
 }

@@ -95,6 +95,11 @@ impl<const N: usize> Bundle<N> {
         &self.lines
     }
 
+    /// The paper's b.
+    pub(super) fn falloff(&self) -> f64 {
+        self.constants.b
+    }
+
     /// A place as the lines know it.
     pub(super) fn scaled(&self, place: DVec2) -> DVec2 {
         place * self.plane.per_unit - self.plane.centre

@@ -61,7 +61,7 @@ fn lagrange(nodes: &[f64; NODES], angles: &[f64; NODES], x: f64) -> [f64; NODES]
         return std::array::from_fn(|k| f64::from(u8::from(k == at)));
     }
     let share = |k: usize| {
-        let sign = if k % 2 == 0 { 1.0 } else { -1.0 };
+        let sign = if k.is_multiple_of(2) { 1.0 } else { -1.0 };
         sign * angles[k].sin() / (x - nodes[k])
     };
     let shares: [f64; NODES] = std::array::from_fn(share);

@@ -74,6 +74,7 @@ impl LineMap {
     /// room for in both; on all threads of the caller's rayon pool. To 1e-12
     /// of the longest displacements the same as for single places, and faster.
     pub fn map_raster(&self, raster: &Raster, out_x: &mut [f64], out_y: &mut [f64]) {
-        Painter::new(&self.0, raster).paint(out_x, out_y);
+        let room = out_x.len().min(out_y.len());
+        Painter::new(&self.0, raster).paint(&mut out_x[..room], &mut out_y[..room]);
     }
 }

@@ -348,7 +348,7 @@ fn pictures_of_every_shape_are_like_points() -> Result {
     let pair = |i: u32| {
         let at = DVec2::from_angle(2.4 * f64::from(i)) * f64::from(i);
         let along = DVec2::from_angle(f64::from(i)) * 4.0;
-        [[at, at + along], [at.yx(), at.yx() + 1.5 * along]]
+        [[at, at + along], [at.perp(), at.perp() + 1.5 * along]]
     };
     let pairs: Vec<_> = (0..40).map(pair).collect();
     for (columns, pixels) in [
@@ -387,7 +387,7 @@ fn slices_of_several_lengths_are_filled_as_far_as_they_go() -> Result {
         step: DVec2::ONE,
         columns: 2,
     };
-    let [mut x, mut y] = [[0.0; 5], [0.0; 3]];
+    let (mut x, mut y) = ([0.0; 5], [0.0; 3]);
     map.map_raster(&raster, &mut x, &mut y);
     assert_eq!((x, y), ([1.0, 2.0, 1.0, 0.0, 0.0], [1.0, 1.0, 2.0]));
     Ok(())

@@ -41,12 +41,28 @@ fn tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
             "Say which points are the same: click a boundary to pin it, drag a point to move it.",
         ),
         (
+            Tool::Lines,
+            "Lines",
+            "Say which edges are the same: draw a line along one, then drag the ends of its \
+             partner on the other side.",
+        ),
+        (
             Tool::Parts,
             "Parts",
             "Say which parts are the same: click a part, then its partner on the other side.",
         ),
     ];
+    let is_free = scene.sheet.is_free();
     for (tool, name, tip) in tools {
+        // Lines move the plane, parts are of outlines.
+        let applies = match tool {
+            Tool::Pins => true,
+            Tool::Lines => is_free,
+            Tool::Parts => !is_free,
+        };
+        if !applies {
+            continue;
+        }
         let response = choice(ui, editor.tool == tool, name, size);
         if response.on_hover_text(tip).clicked() {
             act(EditorAct::Tool(tool));

@@ -1,8 +1,11 @@
 //! One half of the match editor: a design, filled, with its boundary and its parts.
 
+use std::sync::Arc;
+
+use bevy_egui::egui::epaint::Vertex;
 use bevy_egui::egui::{
-    Align2, Color32, CornerRadius, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind,
-    Vec2, pos2, vec2,
+    Align2, Color32, ColorImage, CornerRadius, FontId, Id, Mesh, Painter, Pos2, Rect, Shape,
+    Stroke, StrokeKind, TextureHandle, TextureOptions, Vec2, pos2, vec2,
 };
 
 use super::super::Scene;
@@ -10,6 +13,7 @@ use super::super::theme::{GRID, Palette};
 use super::boundary;
 use crate::app::editor::{Editor, Fate, Sheet, SheetPiece, SheetRing, Tool, Touch, spans};
 use crate::correspondence::{RingKind, Side};
+use crate::design::Picture;
 use crate::geometry::{Bounds, DVec2};
 use crate::transition::{Rgb, Style};
 
@@ -129,6 +133,10 @@ impl Half {
     pub fn draw(&self, stage: &Painter, scene: &Scene, inks: &Inks) {
         let painter = stage.with_clip_rect(self.rect.intersect(stage.clip_rect()));
         let sheet = &scene.sheet;
+        self.picture(&painter, sheet);
+        if sheet.in_colours() {
+            return self.title(&painter, scene, inks);
+        }
         self.fill(&painter, scene, inks);
         for (k, piece) in sheet.pieces.iter().enumerate() {
             if self.is_alone(piece) {
@@ -138,6 +146,32 @@ impl Half {
         self.boundaries(&painter, sheet, inks);
         self.parts(&painter, scene, inks);
         self.title(&painter, scene, inks);
+    }
+
+    /// The picture that the design came as, where pictures are what is seen.
+    fn picture(&self, painter: &Painter, sheet: &Sheet) {
+        let sides = sheet.sides.as_ref().filter(|_| sheet.in_colours());
+        let Some(picture) = sides.and_then(|sides| sides[self.side.index()].picture.as_ref())
+        else {
+            return;
+        };
+        let texture = backdrop(painter, self.side, picture);
+        let (width, height) = picture.pixels().dimensions();
+        let corner = |x: f64, y: f64| {
+            let own = DVec2::new(x * f64::from(width), y * f64::from(height));
+            self.px(picture.place().apply(own))
+        };
+        let mut quad = Mesh::with_texture(texture.id());
+        for (x, y) in [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)] {
+            quad.vertices.push(Vertex {
+                pos: corner(x, y),
+                uv: pos2(x as f32, 1.0 - y as f32),
+                color: Color32::WHITE,
+            });
+        }
+        quad.add_triangle(0, 1, 2);
+        quad.add_triangle(0, 2, 3);
+        painter.add(Shape::mesh(quad));
     }
 
     fn is_alone(&self, piece: &SheetPiece) -> bool {
@@ -319,6 +353,32 @@ impl Half {
         let words = format!("{role}  {name}");
         painter.text(at, Align2::LEFT_TOP, words, font, inks.ink);
     }
+}
+
+/// The picture on the graphics card, kept for its side until another one is there.
+fn backdrop(painter: &Painter, side: Side, picture: &Picture) -> TextureHandle {
+    const LONGEST_PX: u32 = 1024;
+    let id = Id::new(("backdrop", side.index()));
+    let pixels = picture.pixels();
+    let key = Arc::as_ptr(pixels) as usize;
+    let ctx = painter.ctx();
+    let kept = ctx.data(|data| data.get_temp::<(usize, TextureHandle)>(id));
+    if let Some((of, texture)) = kept
+        && of == key
+    {
+        return texture;
+    }
+    let small = (pixels.width().max(pixels.height()) > LONGEST_PX).then(|| {
+        let share = f64::from(LONGEST_PX) / f64::from(pixels.width().max(pixels.height()));
+        let side = |px: u32| ((f64::from(px) * share) as u32).max(1);
+        image::imageops::thumbnail(&**pixels, side(pixels.width()), side(pixels.height()))
+    });
+    let shown = small.as_ref().unwrap_or(pixels);
+    let size = [shown.width() as usize, shown.height() as usize];
+    let colours = ColorImage::from_rgba_unmultiplied(size, shown.as_raw());
+    let texture = ctx.load_texture("a picture", colours, TextureOptions::LINEAR);
+    ctx.data_mut(|data| data.insert_temp(id, (key, texture.clone())));
+    texture
 }
 
 /// A boundary without a partner: broken, or a dot where it is a point.

@@ -22,6 +22,9 @@ pub fn draw(painter: &Painter, scene: &Scene, halves: &[Half; 2], inks: &Inks) {
         let clipped = painter.with_clip_rect(half.rect.intersect(painter.clip_rect()));
         features(&clipped, sheet, editor, half, inks);
         cuts(&clipped, sheet, editor, half, inks);
+        if sheet.is_free() {
+            lines(&clipped, sheet, editor, half, inks);
+        }
     }
     link(painter, sheet, editor, halves, inks);
     for half in halves {
@@ -71,6 +74,31 @@ fn pins(painter: &Painter, scene: &Scene, half: &Half, inks: &Inks) {
     }
 }
 
+/// Each line with a number at its middle; its first end is a disc, its second an open ring.
+fn lines(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &Inks) {
+    for (k, line) in sheet.lines.iter().enumerate() {
+        let ends = line.of(half.side).map(|p| half.px(p));
+        let is_selected = matches!(editor.selected, Some(Handle::Line(of, _)) if of == k);
+        let colour = if is_selected { inks.accent } else { inks.ink };
+        painter.line_segment(ends, Stroke::new(5.0, inks.ground));
+        painter.line_segment(ends, Stroke::new(2.0, colour));
+        for (end, at) in ends.into_iter().enumerate() {
+            let is_lit = editor.hovered == Some(Handle::Line(k, end));
+            let radius = if is_lit { 6.0 } else { 4.5 };
+            let fill = if end == 0 { colour } else { inks.ground };
+            painter.circle(at, radius, fill, Stroke::new(2.0, colour));
+        }
+        let middle = ends[0] + 0.5 * (ends[1] - ends[0]);
+        painter.circle(
+            middle,
+            FEATURE_RADIUS,
+            inks.ground,
+            Stroke::new(1.5, colour),
+        );
+        number(painter, middle, k + 1, inks.ink);
+    }
+}
+
 fn number(painter: &Painter, at: Pos2, number: usize, colour: Color32) {
     let size = if number < 100 { 10.5 } else { 8.5 };
     let font = FontId::proportional(size);
@@ -112,6 +140,8 @@ fn link(painter: &Painter, sheet: &Sheet, editor: &Editor, halves: &[Half; 2], i
     let lit = match editor.grabbed {
         Some((_, Grab::Pin(k))) => Some(Handle::Pin(k)),
         Some((_, Grab::Feature(k))) => Some(Handle::Feature(k)),
+        Some((_, Grab::Line(k, end))) => Some(Handle::Line(k, end)),
+        Some((_, Grab::Stretch(k))) => Some(Handle::Line(k, 1)),
         _ => editor.hovered,
     };
     let of_handle = |handle: Handle| -> Option<[DVec2; 2]> {

@@ -21,6 +21,7 @@ use super::{Intents, Scene};
 use crate::app::editor::{EditorAct, SheetSide, Tool};
 use crate::app::intent::Intent;
 use crate::correspondence::Side;
+use crate::design::Picture;
 use half::{Half, Inks};
 
 pub use bar::HEIGHT as BAR_HEIGHT;
@@ -67,7 +68,10 @@ fn halves(scene: &Scene, stage: Rect, sides: &[SheetSide; 2]) -> [Half; 2] {
             rect.min + vec2(3.0 * GRID, BAR_HEIGHT + 4.0 * GRID),
             rect.max - vec2(3.0 * GRID, ADVICE_HEIGHT + GRID),
         );
-        Half::new(side, rect, room, sides[side.index()].bounds, &scene.editor)
+        let design = &sides[side.index()];
+        let picture = design.picture.as_ref().filter(|_| scene.sheet.in_colours());
+        let bounds = picture.map_or(design.bounds, Picture::bounds);
+        Half::new(side, rect, room, bounds, &scene.editor)
     };
     [half(Side::Source, left), half(Side::Target, right)]
 }
@@ -144,6 +148,14 @@ fn advice(painter: &bevy_egui::egui::Painter, scene: &Scene, stage: Rect, inks: 
     let editor = &scene.editor;
     let words = match (editor.tool, editor.first_part) {
         _ if editor.refusal.is_some() => editor.refusal.unwrap_or_default(),
+        (Tool::Pins, _) if scene.sheet.is_free() => {
+            "Click anywhere to set a pin on both sides, drag it to where it belongs, right-click \
+             to delete it."
+        }
+        (Tool::Lines, _) => {
+            "Draw a line along an edge; it appears on both sides. Drag its ends to where they \
+             belong, right-click an end to delete it."
+        }
         (Tool::Pins, _) => {
             "Click a boundary to pin it, drag a point to move it (Shift: no snapping), \
              right-click a pin to delete it."
