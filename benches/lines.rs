@@ -57,6 +57,7 @@ const PIXELS: Raster = Raster {
     columns: SIDE,
 };
 
+#[expect(clippy::print_stdout, reason = "it is what the variable asks for")]
 fn compare(bytes: &[u8]) -> Result<()> {
     let expected: Vec<f64> = bytes
         .as_chunks()

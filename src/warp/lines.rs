@@ -26,7 +26,8 @@
 //!
 //! - `options`: the paper's constants, and what may be wrong
 //! - `between`: where a line is at t
-//! - `bundle`: lines with everything that a place needs of them
+//! - `line`: a line with everything that a place needs of it
+//! - `bundle`: lines together, and the places that they move
 //! - `kernel`: the sums over lines, many places at a time
 //! - `falloff`: weights; `power`: for exponents without a short formula
 //! - `map`: the map of the plane by one set of lines
@@ -37,6 +38,7 @@ mod bundle;
 mod falloff;
 mod interpolation;
 mod kernel;
+mod line;
 mod map;
 mod options;
 mod power;
@@ -53,7 +55,8 @@ use super::PlaneWarp;
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 use between::Moving;
-use bundle::{Bundle, Feature};
+use bundle::Bundle;
+use line::Feature;
 use options::{Constants, check_points};
 use rayon::prelude::*;
 

@@ -7,8 +7,8 @@
 //! on the way to it, if places are no farther than [`FARTHEST`] and a is from
 //! [`LEAST_A`] to [`LARGEST_A`].
 
-use super::bundle::{Affine, Line};
 use super::falloff::{Falloff, GROUP, Group, Inverse, Power, Square};
+use super::line::{Affine, Line};
 use pulp::{Arch, Simd, WithSimd};
 
 /// How many places there are in a block.
@@ -192,14 +192,14 @@ impl<S: Simd, const N: usize> Cell<S, N> {
         let all = |value| simd.splat_f64s(value);
         let (half, a, zero) = (all(line.half), all(a), all(0.0));
         let mut q = self.q;
-        for k in 0..GROUP {
-            let along = affine(simd, line.along, self.x[k], self.y[k]);
-            let across = affine(simd, line.across, self.x[k], self.y[k]);
+        for (q, (&x, &y)) in q.iter_mut().zip(self.x.iter().zip(&self.y)) {
+            let along = affine(simd, line.along, x, y);
+            let across = affine(simd, line.across, x, y);
             let beyond = simd.sub_f64s(simd.abs_f64s(along), half);
             let beyond = simd.max_f64s(beyond, zero);
             let squared = simd.mul_f64s(across, across);
             let squared = simd.mul_add_e_f64s(beyond, beyond, squared);
-            q[k] = simd.add_f64s(a, simd.sqrt_f64s(squared));
+            *q = simd.add_f64s(a, simd.sqrt_f64s(squared));
         }
         q
     }
@@ -208,14 +208,14 @@ impl<S: Simd, const N: usize> Cell<S, N> {
     #[inline(always)]
     fn add(&mut self, simd: S, falloff: impl Falloff, line: &Line<N>) {
         let w = falloff.weights(simd, simd.splat_f64s(line.strength), self.q);
-        for k in 0..GROUP {
-            self.weight[k] = simd.add_f64s(self.weight[k], w[k]);
+        for (sum, &w) in self.weight.iter_mut().zip(&w) {
+            *sum = simd.add_f64s(*sum, w);
         }
         for (moved, carry) in self.moved.iter_mut().zip(&line.carries) {
-            for (sum, &carry) in moved.iter_mut().zip(carry) {
-                for k in 0..GROUP {
-                    let d = affine(simd, carry, self.x[k], self.y[k]);
-                    sum[k] = simd.mul_add_e_f64s(w[k], d, sum[k]);
+            for (sums, &carry) in moved.iter_mut().zip(carry) {
+                let places = self.x.iter().zip(&self.y);
+                for ((sum, &w), (&x, &y)) in sums.iter_mut().zip(&w).zip(places) {
+                    *sum = simd.mul_add_e_f64s(w, affine(simd, carry, x, y), *sum);
                 }
             }
         }

@@ -1,8 +1,9 @@
 //! The map of the plane by one set of lines: for whole pictures and for many
 //! points, without a time.
 
-use super::bundle::{Bundle, Feature};
+use super::bundle::Bundle;
 use super::kernel::BLOCK;
+use super::line::Feature;
 use super::options::{Constants, LinesError, check_points};
 use super::raster::{Painter, Raster};
 use crate::geometry::DVec2;

@@ -6,21 +6,22 @@
 //!
 //! Guaranteed: the same as place by place, to 1e-12 of the displacements.
 
-use super::bundle::{Bundle, Line, block_of};
+use super::bundle::{Bundle, block_of};
 use super::interpolation::{Interpolation, NODES, OnTile, TILE};
 use super::kernel::{BLOCK, Row, Sums};
+use super::line::Line;
 use crate::geometry::DVec2;
 use rayon::prelude::*;
 
-/// How far a line is at least from the middle of a tile that is far of it, in
+/// How far a line that counts as far is at least from the middle of a tile, in
 /// half diagonals of the tile, for b up to 2. A function of the distance r has
 /// its singularities where r = 0, also for complex places, which on the
 /// outermost rows of the tile is 3.9 half sides from the middle: 7.7⁻¹⁶ is
 /// below 1e-14.
 const FAR: f64 = 3.5;
 
-/// What is added to it for each unit of b beyond: on forty lines, 0 raised the
-/// error tenfold a unit, from 2e-14 of the displacements at b = 2 to 2e-9 at
+/// What is added to it for each unit of b beyond: on forty lines, 0 let the
+/// error grow tenfold a unit, from 2e-14 of the displacements at b = 2 to 2e-9 at
 /// b = 8.
 const FARTHER: f64 = 0.5;
 
@@ -70,7 +71,7 @@ struct Tile {
 struct Scratch {
     /// Lines near to the tile.
     near: Vec<Line<1>>,
-    /// Lines of which it is far.
+    /// Lines far from the tile.
     far: Vec<Line<1>>,
     /// Σ w and Σ w D, x and y, of far lines on the tile.
     on_tile: [OnTile; 3],
@@ -109,7 +110,7 @@ impl<'a> Painter<'a> {
     /// Where each pixel is, as many as there is room for in both slices, which
     /// have one length; on all threads, band by band.
     pub(super) fn paint(&self, out_x: &mut [f64], out_y: &mut [f64]) {
-        let band = TILE * self.raster.columns;
+        let band = TILE.saturating_mul(self.raster.columns);
         let bands = out_x.par_chunks_mut(band).zip(out_y.par_chunks_mut(band));
         bands
             .enumerate()
@@ -122,7 +123,7 @@ impl<'a> Painter<'a> {
     fn paint_band(&self, row: usize, scratch: &mut Scratch, mut out: [&mut [f64]; 2]) {
         let columns = self.raster.columns;
         let height = out[0].len().div_ceil(columns);
-        for column in (0..columns).step_by(TILE) {
+        for column in (0..columns.min(out[0].len())).step_by(TILE) {
             let tile = Tile {
                 column,
                 row,

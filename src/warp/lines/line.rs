@@ -1,0 +1,143 @@
+//! A line of the frame with its fellows in some designs, and what a place
+//! needs of it.
+//!
+//! How far along and across a place is, and its displacement D, are affine in
+//! the place: with e the line's direction, n its normal and those of its
+//! fellow e′ and n′, D = m′ − m + ((|P′Q′| e′ / |PQ| − e) eᵀ + (n′ − n) nᵀ)
+//! (X − m) about the middles m and m′.
+//!
+//! Guaranteed: D of a line that is its own fellow is exactly 0; all numbers are
+//! finite. Beyond the paper: a line that is short against its fellow, or long,
+//! turns into a point.
+
+use super::kernel::FARTHEST;
+use super::map::Segment;
+use crate::geometry::{DMat2, DVec2};
+
+/// A line, or its fellow, shorter than this part of the other becomes a point
+/// by and by.
+const POINTLIKE: f64 = 1e-3;
+
+/// Scaled lengths below this are none: the squares of larger ones are normal.
+const NO_LENGTH: f64 = 1e-150;
+
+/// A line of the frame and its fellows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Feature<const N: usize> {
+    pub(super) in_frame: Segment,
+    pub(super) in_designs: [Segment; N],
+    /// The length by which it is weighed, if not by that of the line.
+    pub(super) nominal: Option<f64>,
+}
+
+/// c, a and b of c + a x + b y for a place (x, y), scaled.
+pub(super) type Affine = [f64; 3];
+
+/// A line as the kernel reads it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Line<const N: usize> {
+    /// How far along the line a place is, from its middle.
+    pub(super) along: Affine,
+    /// How far to the left of the line it is.
+    pub(super) across: Affine,
+    /// Half the length.
+    pub(super) half: f64,
+    /// (length / greatest length)^(b p).
+    pub(super) strength: f64,
+    /// The displacement D into each design, x and y.
+    pub(super) carries: [[Affine; 2]; N],
+}
+
+impl<const N: usize> Feature<N> {
+    pub(super) fn points(&self) -> impl Iterator<Item = DVec2> + Clone + use<N> {
+        let designs = self.in_designs.into_iter().flatten();
+        self.in_frame.into_iter().chain(designs)
+    }
+
+    pub(super) fn is_finite(&self) -> bool {
+        self.points().all(DVec2::is_finite)
+    }
+}
+
+/// A segment by its middle, the vector from end to end, and its length.
+#[derive(Clone, Copy)]
+struct Middled {
+    middle: DVec2,
+    vector: DVec2,
+    length: f64,
+}
+
+impl Middled {
+    fn new([from, to]: Segment) -> Self {
+        let vector = to - from;
+        Self {
+            middle: 0.5 * (from + to),
+            vector,
+            length: vector.x.hypot(vector.y),
+        }
+    }
+}
+
+impl<const N: usize> Line<N> {
+    /// The line of a scaled feature, its strength being its length still, at
+    /// least so long as its fellows make it; `a` where none has any.
+    pub(super) fn new(feature: &Feature<N>, a: f64) -> Self {
+        let frame = Middled::new(feature.in_frame);
+        let designs = feature.in_designs.map(Middled::new);
+        let lengths = designs.iter().map(|design| design.length);
+        let longest = lengths.fold(frame.length, f64::max);
+        let own = if longest > 0.0 {
+            frame.length.max(POINTLIKE * longest)
+        } else {
+            a
+        };
+        let has_length = frame.length > NO_LENGTH;
+        let direction = if has_length {
+            frame.vector / frame.length
+        } else {
+            DVec2::X
+        };
+        let seen = |by: DVec2| [-by.dot(frame.middle), by.x, by.y];
+        Self {
+            along: seen(direction),
+            across: seen(direction.perp()),
+            half: 0.5 * frame.length,
+            strength: feature.nominal.unwrap_or(own).max(f64::MIN_POSITIVE),
+            carries: designs.map(|design| carry(&frame, &design)),
+        }
+    }
+
+    /// Whether a disc of this radius sees one end, or none, from the whole of
+    /// it, and its middle is this far from the line.
+    pub(super) fn is_far(&self, middle: DVec2, radius: f64, distance: f64) -> bool {
+        let at = |[c, a, b]: Affine| c + a * middle.x + b * middle.y;
+        let beyond = at(self.along).abs() - self.half;
+        let away = beyond.max(0.0).hypot(at(self.across));
+        beyond.abs() >= radius && away >= distance && away < 0.1 * FARTHEST
+    }
+}
+
+/// D of a place as seen from a line and its fellow. All of it vanishes exactly
+/// if the two are the same.
+fn carry(frame: &Middled, design: &Middled) -> [Affine; 2] {
+    let shift = design.middle - frame.middle;
+    let [shorter, longer] = [
+        frame.length.min(design.length),
+        frame.length.max(design.length),
+    ];
+    if shorter <= NO_LENGTH {
+        return [[shift.x, 0.0, 0.0], [shift.y, 0.0, 0.0]];
+    }
+    let direction = frame.vector / frame.length;
+    let along = (design.vector - frame.vector) / frame.length;
+    let across = (design.vector / design.length - direction).perp();
+    let ratio = shorter / (POINTLIKE * longer);
+    let share = if ratio < 1.0 { ratio * ratio } else { 1.0 };
+    let matrix = DMat2::from_cols(
+        share * (along * direction.x - across * direction.y),
+        share * (along * direction.y + across * direction.x),
+    );
+    let shift = shift - matrix * frame.middle;
+    let [x, y] = [matrix.row(0), matrix.row(1)];
+    [[shift.x, x.x, x.y], [shift.y, y.x, y.y]]
+}
