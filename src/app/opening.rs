@@ -189,9 +189,10 @@ fn entry_of(path: &std::path::Path) -> DesignEntry {
 /// The next cell of the table, after the one in use, that can be had.
 fn next_cell(session: &Session) -> Option<(WarpKind, ContentKind)> {
     let project = session.project()?;
-    let cells: Vec<_> = WARPS
+    // All warps of what is seen first: pictures stay pictures.
+    let cells: Vec<_> = CONTENTS
         .into_iter()
-        .flat_map(|warp| CONTENTS.map(|content| (warp, content)))
+        .flat_map(|content| WARPS.map(|warp| (warp, content)))
         .collect();
     let here = (project.warp?, project.content?);
     let here = cells.iter().position(|cell| *cell == here)?;

@@ -68,6 +68,22 @@ fn tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
             act(EditorAct::Tool(tool));
         }
     }
+    if !scene.sheet.in_colours() {
+        outline_tools(ui, scene, acts);
+    }
+    ui.add_space(GRID);
+    let mut act = |act: EditorAct| acts.push(Intent::Editor(act));
+    let tip = "Back to the stage (E or Esc). The match is kept.";
+    if primary_button(ui, "Done").on_hover_text(tip).clicked() {
+        act(EditorAct::Toggle);
+    }
+}
+
+/// What only outlines have: corners, and triangles inside.
+fn outline_tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
+    let editor = &scene.editor;
+    let mut act = |act: EditorAct| acts.push(Intent::Editor(act));
+    let size = vec2(52.0, CONTROL_HEIGHT);
     ui.add_space(GRID);
     let tip = "Pins jump to corners that are near. Hold Shift to do without for a moment.";
     if choice(ui, editor.snaps, "Snap", size)
@@ -83,10 +99,5 @@ fn tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
         .clicked()
     {
         act(EditorAct::Triangles(!editor.triangles));
-    }
-    ui.add_space(GRID);
-    let tip = "Back to the stage (E or Esc). The match is kept.";
-    if primary_button(ui, "Done").on_hover_text(tip).clicked() {
-        act(EditorAct::Toggle);
     }
 }
