@@ -24,7 +24,7 @@ const OWN: Raster = Raster {
 #[test]
 fn the_ends_are_the_pictures() {
     let [a, b] = [picture(0), picture(5)];
-    let pair = PicturePair::new(&a, &b, ColourMix::default()).unwrap();
+    let pair = PicturePair::new(&a, &b, ColourMix::default()).expect("a mix");
     let placer = still(&pair);
     assert_eq!(&pair.render(placer.placement(), 0.0, &OWN), &**a.pixels());
     assert_eq!(&pair.render(placer.placement(), 1.0, &OWN), &**b.pixels());
@@ -33,7 +33,7 @@ fn the_ends_are_the_pictures() {
 #[test]
 fn in_the_middle_light_is_halved() {
     let grey = |v: u8| Picture::new(RgbaImage::from_pixel(4, 4, Rgba([v, v, v, 255])));
-    let pair = PicturePair::new(&grey(0), &grey(255), ColourMix::default()).unwrap();
+    let pair = PicturePair::new(&grey(0), &grey(255), ColourMix::default()).expect("a mix");
     let raster = Raster {
         size: [4, 4],
         corner: DVec2::new(0.0, 4.0),
@@ -47,7 +47,7 @@ fn in_the_middle_light_is_halved() {
 fn the_colour_of_what_is_transparent_does_not_bleed() {
     let red = Picture::new(RgbaImage::from_pixel(2, 2, Rgba([255, 0, 0, 255])));
     let none = Picture::new(RgbaImage::from_pixel(2, 2, Rgba([0, 255, 0, 0])));
-    let pair = PicturePair::new(&red, &none, ColourMix::default()).unwrap();
+    let pair = PicturePair::new(&red, &none, ColourMix::default()).expect("a mix");
     let raster = Raster {
         size: [2, 2],
         corner: DVec2::new(0.0, 2.0),
@@ -64,7 +64,7 @@ fn the_window_cuts_within_pixels() {
         scale: 2.0,
         ..Similarity::default()
     });
-    let pair = PicturePair::new(&white, &wide, ColourMix::default()).unwrap();
+    let pair = PicturePair::new(&white, &wide, ColourMix::default()).expect("a mix");
     let raster = Raster {
         size: [9, 9],
         corner: DVec2::new(-0.5, 8.5),
