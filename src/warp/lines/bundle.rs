@@ -4,7 +4,7 @@
 //! largest coordinate is about 1. That changes no digit, and leaves exponents
 //! to spare for products of many.
 
-use super::kernel::{self, BLOCK, FARTHEST, LARGEST_A, LEAST_A, Lines, Places, Row, Sums};
+use super::kernel::{self, BLOCK, LARGEST_A, LEAST_A, Lines, Places, Row, Sums};
 use super::line::{Feature, Line};
 use super::map::Segment;
 use super::options::Constants;
@@ -94,9 +94,11 @@ impl<const N: usize> Bundle<N> {
     pub(super) fn add(&self, lines: &[Line<N>], xy: &[Row; 2], count: usize, sums: &mut Sums<N>) {
         let [x, y] = xy;
         let places = Places {
-            x: &self.plane.row(x, self.plane.centre.x),
-            y: &self.plane.row(y, self.plane.centre.y),
+            x,
+            y,
             count,
+            per_unit: self.plane.per_unit,
+            centre: self.plane.centre,
         };
         let (a, b) = (self.a, self.constants.b);
         kernel::add(self.arch, Lines { lines, a, b }, places, sums);
@@ -105,16 +107,7 @@ impl<const N: usize> Bundle<N> {
     /// What is to be added to places, in each design, x and y: Σ w D / Σ w,
     /// and nothing where there are no lines.
     pub(super) fn means(&self, sums: &Sums<N>) -> [[Row; 2]; N] {
-        // No weight is below, but that of no lines.
-        let at_least = |weight: f64| if weight > 1e-300 { weight } else { 1e-300 };
-        let factors = sums.weight.map(|weight| at_least(weight).recip());
-        let mut means = sums.moved;
-        for row in means.as_flattened_mut() {
-            for (value, factor) in row.iter_mut().zip(&factors) {
-                *value = *value * factor * self.plane.unit;
-            }
-        }
-        means
+        kernel::means(self.arch, sums, self.plane.unit)
     }
 }
 
@@ -169,15 +162,6 @@ impl Scaled {
             in_designs: feature.in_designs.map(segment),
             nominal: feature.nominal.map(|length| length * self.per_unit),
         }
-    }
-
-    /// One coordinate of the places of a block, none farther than
-    /// [`FARTHEST`].
-    fn row(&self, row: &Row, centre: f64) -> Row {
-        // What is no number becomes one, lest its neighbours suffer.
-        let at_least = |x: f64| if x > -FARTHEST { x } else { -FARTHEST };
-        let at_most = |x: f64| if x < FARTHEST { x } else { FARTHEST };
-        row.map(|value| at_most(at_least(value * self.per_unit - centre)))
     }
 }
 

@@ -9,6 +9,7 @@
 
 use super::falloff::{Falloff, GROUP, Group, Inverse, Power, Square};
 use super::line::{Affine, Line};
+use crate::geometry::DVec2;
 use pulp::{Arch, Simd, WithSimd};
 
 /// How many places there are in a block.
@@ -57,13 +58,16 @@ pub(super) struct Lines<'a, const N: usize> {
     pub(super) b: f64,
 }
 
-/// Scaled places of a block. What stands behind the first `count` is not
-/// computed, or in vain.
+/// Places of a block. What stands behind the first `count` is not computed, or
+/// in vain.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Places<'a> {
     pub(super) x: &'a Row,
     pub(super) y: &'a Row,
     pub(super) count: usize,
+    /// Scaled is what they are times this, less the centre.
+    pub(super) per_unit: f64,
+    pub(super) centre: DVec2,
 }
 
 /// Adds the lines' part to the sums.
@@ -84,6 +88,34 @@ pub(super) fn add<const N: usize>(
     }
 }
 
+/// `unit` Σ w D / Σ w, and 0 where there are no lines.
+pub(super) fn means<const N: usize>(arch: Arch, sums: &Sums<N>, unit: f64) -> [[Row; 2]; N] {
+    let mut means = sums.moved;
+    arch.dispatch(Means(&sums.weight, &mut means, unit));
+    means
+}
+
+/// The division, to be compiled for several widths of vectors.
+struct Means<'a, const N: usize>(&'a Row, &'a mut [[Row; 2]; N], f64);
+
+impl<const N: usize> WithSimd for Means<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, _: S) {
+        let Self(weights, means, unit) = self;
+        for (lane, &weight) in weights.iter().enumerate() {
+            // No weight is below, but that of no lines.
+            let factor = 1.0 / if weight > 1e-300 { weight } else { 1e-300 };
+            for rows in means.iter_mut() {
+                for row in rows {
+                    row[lane] = row[lane] * factor * unit;
+                }
+            }
+        }
+    }
+}
+
 /// The work, to be compiled for several widths of vectors.
 struct Pass<'a, F, const N: usize>(F, (Lines<'a, N>, Places<'a>, &'a mut Sums<N>));
 
@@ -98,7 +130,7 @@ impl<F: Falloff, const N: usize> WithSimd for Pass<'_, F, N> {
         for start in (0..used).step_by(CELLS) {
             let cells = &mut cells[..CELLS.min(used - start)];
             for (k, cell) in cells.iter_mut().enumerate() {
-                cell.load(start + k, &places, sums);
+                cell.load(simd, start + k, &places, sums);
             }
             sum(simd, falloff, lines, cells);
             for (k, cell) in cells.iter().enumerate() {
@@ -165,9 +197,12 @@ impl<S: Simd, const N: usize> Cell<S, N> {
     }
 
     #[inline(always)]
-    fn load(&mut self, at: usize, places: &Places<'_>, sums: &Sums<N>) {
-        self.x = groups::<S>(places.x)[at];
-        self.y = groups::<S>(places.y)[at];
+    fn load(&mut self, simd: S, at: usize, places: &Places<'_>, sums: &Sums<N>) {
+        let Places {
+            per_unit, centre, ..
+        } = *places;
+        self.x = scaled(simd, groups::<S>(places.x)[at], per_unit, centre.x);
+        self.y = scaled(simd, groups::<S>(places.y)[at], per_unit, centre.y);
         self.weight = groups::<S>(&sums.weight)[at];
         for (moved, rows) in self.moved.iter_mut().zip(&sums.moved) {
             for (moved, row) in moved.iter_mut().zip(rows) {
@@ -220,6 +255,23 @@ impl<S: Simd, const N: usize> Cell<S, N> {
             }
         }
     }
+}
+
+/// Coordinates as the lines know them, none farther than [`FARTHEST`].
+#[inline(always)]
+fn scaled<S: Simd>(simd: S, mut group: Group<S>, per_unit: f64, centre: f64) -> Group<S> {
+    let [per_unit, centre, farthest] = [
+        simd.splat_f64s(per_unit),
+        simd.splat_f64s(centre),
+        simd.splat_f64s(FARTHEST),
+    ];
+    for value in &mut group {
+        *value = simd.sub_f64s(simd.mul_f64s(*value, per_unit), centre);
+        // In this order what is no number becomes one, lest its neighbours suffer.
+        *value = simd.max_f64s(*value, simd.neg_f64s(farthest));
+        *value = simd.min_f64s(*value, farthest);
+    }
+    group
 }
 
 /// The numbers of a row in groups of vectors.

@@ -16,14 +16,14 @@ use rayon::prelude::*;
 /// How far a line that counts as far is at least from the middle of a tile, in
 /// half diagonals of the tile, for b up to 2. A function of the distance r has
 /// its singularities where r = 0, also for complex places, which on the
-/// outermost rows of the tile is 3.9 half sides from the middle: 7.7⁻¹⁶ is
-/// below 1e-14.
-const FAR: f64 = 3.5;
+/// outermost rows of the tile is 6.1 half sides from the middle: 12⁻¹² is
+/// below 1e-12.
+const FAR: f64 = 5.0;
 
-/// What is added to it for each unit of b beyond: on forty lines, 0 let the
-/// error grow tenfold a unit, from 2e-14 of the displacements at b = 2 to 2e-9 at
-/// b = 8.
-const FARTHER: f64 = 0.5;
+/// What is added to it for each unit of b beyond, where weights fall so
+/// fast that the error would grow tenfold a unit. On forty lines it is greatest
+/// at b = 2: 3e-13 of the displacements.
+const FARTHER: f64 = 1.0;
 
 /// Interpolation pays from so many far lines on.
 const ENOUGH: usize = 8;
@@ -178,19 +178,18 @@ impl<'a> Painter<'a> {
         }
         let nodes = &self.interpolation.nodes;
         let mut values = [[[0.0; NODES]; NODES]; 3];
-        let in_block = BLOCK / NODES; // rows of nodes
-        for first in (0..NODES).step_by(in_block) {
-            let node = |lane: usize| (nodes[lane % NODES], nodes[first + lane / NODES]);
+        for start in (0..NODES * NODES).step_by(BLOCK) {
+            let count = BLOCK.min(NODES * NODES - start);
             let places = block_of(|lane| {
-                let (column, row) = node(lane);
-                self.place(tile, column, row)
+                let node = start + lane.min(count - 1);
+                self.place(tile, nodes[node % NODES], nodes[node / NODES])
             });
             *sums = Sums::ZERO;
-            self.bundle.add(far, &places, BLOCK, sums);
+            self.bundle.add(far, &places, count, sums);
             let [[dx, dy]] = &sums.moved;
             for (values, sums) in values.iter_mut().zip([&sums.weight, dx, dy]) {
-                let rows = values[first..].as_flattened_mut();
-                rows[..BLOCK].copy_from_slice(sums);
+                let values = values.as_flattened_mut();
+                values[start..start + count].copy_from_slice(&sums[..count]);
             }
         }
         for (values, tile) in values.iter().zip(on_tile) {
