@@ -14,15 +14,14 @@ mod linear;
 
 pub use layer::Layer;
 
-use super::scan::scan;
+use super::scan::{Facet, scan};
 use crate::design::Picture;
 use crate::easing::Easing;
 use crate::geometry::{Bounds, DVec2};
 use crate::warp::Placement;
 use image::RgbaImage;
 use layer::Sampler;
-use linear::{Light, encoded, mixed};
-use rayon::prelude::*;
+use linear::{Encoder, Light, mixed};
 use serde::{Deserialize, Serialize};
 
 /// How the mix of two pictures runs over t.
@@ -164,43 +163,94 @@ impl PicturePair {
     /// is. Costs a bilinear look-up in each picture for each pixel.
     #[must_use]
     pub fn render(&self, placement: &Placement, t: f64, raster: &Raster) -> RgbaImage {
-        let [width, height] = raster.size.map(|side| side as usize);
-        let mut light: Vec<Light> = vec![[0.0; 4]; width * height];
-        let [source, target] = [0, 1].map(|k| self.layers[k].sampler(raster.pixel));
-        let to_lattice = |p: DVec2| raster.located(p) - 0.5;
-        let share = self.mix.share(t) as f32;
-        let only = |sampler: &Sampler, at: DVec2| sampler.at(at);
-        // At the ends one of the pictures is not looked at.
-        if share == 0.0 {
-            let value = |at, _| only(&source, at);
-            scan(placement, to_lattice, width, &mut light, value);
-        } else if share == 1.0 {
-            let value = |_, at| only(&target, at);
-            scan(placement, to_lattice, width, &mut light, value);
+        let mut out = RgbaImage::default();
+        self.render_into(placement, t, raster, &mut out);
+        out
+    }
+
+    /// As [`render`](Self::render), into an image that is already there: one
+    /// of the same size is written over, another one is replaced.
+    pub fn render_into(&self, placement: &Placement, t: f64, raster: &Raster, out: &mut RgbaImage) {
+        let [width, height] = raster.size;
+        if out.dimensions() == (width, height) {
+            out.fill(0);
         } else {
-            let value = |a, b| mixed(source.at(a), target.at(b), share);
-            scan(placement, to_lattice, width, &mut light, value);
+            *out = RgbaImage::new(width, height);
         }
-        let window = self.window(t);
-        let upper_left = raster.located(DVec2::new(window.min.x, window.max.y));
-        let lower_right = raster.located(DVec2::new(window.max.x, window.min.y));
-        let mut out = vec![0; 4 * width * height];
-        let rows = out.par_chunks_mut(4 * width.max(1));
-        let lights = light.par_chunks(width.max(1));
-        rows.zip(lights).enumerate().for_each(|(y, (row, light))| {
-            let down = covered(y, upper_left.y, lower_right.y);
-            for (x, (pixel, light)) in row.chunks_exact_mut(4).zip(light).enumerate() {
-                let share = down * covered(x, upper_left.x, lower_right.x);
-                pixel.copy_from_slice(&encoded(light.map(|c| c * share)).0);
+        let (pixels, _) = out.as_chunks_mut::<4>();
+        let to_lattice = |p: DVec2| raster.located(p) - 0.5;
+        let paint = Paint::new(self, t, raster);
+        let filler = |facet: Facet| paint.filler(facet);
+        scan(placement, to_lattice, width as usize, pixels, filler);
+    }
+}
+
+/// Pixels that are looked up at a time, in one picture after the other.
+const CHUNK: usize = 32;
+
+/// How runs of pixels are painted.
+struct Paint<'a> {
+    layers: [Sampler<'a>; 2],
+    /// Of the target, in the mix.
+    share: f32,
+    /// Of each column and of each row, how much is shown.
+    shown: [Vec<f32>; 2],
+    encoder: Encoder,
+}
+
+impl<'a> Paint<'a> {
+    fn new(pair: &'a PicturePair, t: f64, raster: &Raster) -> Self {
+        let window = pair.window(t);
+        let low = raster.located(DVec2::new(window.min.x, window.max.y));
+        let high = raster.located(DVec2::new(window.max.x, window.min.y));
+        let shown = |count: u32, low: f64, high: f64| {
+            let pixels = 0..count;
+            pixels.map(|k| covered(k, low, high)).collect()
+        };
+        let [width, height] = raster.size;
+        Self {
+            layers: [0, 1].map(|k| pair.layers[k].sampler(raster.pixel)),
+            share: pair.mix.share(t) as f32,
+            shown: [shown(width, low.x, high.x), shown(height, low.y, high.y)],
+            encoder: Encoder::new(),
+        }
+    }
+
+    /// Writes the pixels of a face, a part of a row at a time.
+    fn filler(&self, facet: Facet) -> impl FnMut(usize, usize, &mut [[u8; 4]]) {
+        let [columns, rows] = &self.shown;
+        let reach = columns.len().max(rows.len());
+        let [source, target] = &self.layers;
+        let source = source.across(&facet.source, facet.first, reach);
+        let target = target.across(&facet.target, facet.first, reach);
+        let mut lights = [Light::ZERO; CHUNK];
+        move |x, y, pixels| {
+            let columns = columns[x..].chunks(CHUNK);
+            let starts = (x..).step_by(CHUNK);
+            for ((x, pixels), columns) in starts.zip(pixels.chunks_mut(CHUNK)).zip(columns) {
+                let lights = &mut lights[..pixels.len()];
+                // At the ends one of the pictures is not looked at.
+                if self.share == 1.0 {
+                    target.look([x, y], lights, |_, light| light);
+                } else {
+                    source.look([x, y], lights, |_, light| light);
+                }
+                if self.share > 0.0 && self.share < 1.0 {
+                    target.look([x, y], lights, |before, light| {
+                        mixed(before, light, self.share)
+                    });
+                }
+                for ((pixel, light), column) in pixels.iter_mut().zip(lights).zip(columns) {
+                    *pixel = self.encoder.encoded(*light * (rows[y] * column)).0;
+                }
             }
-        });
-        RgbaImage::from_raw(raster.size[0], raster.size[1], out).unwrap_or_default()
+        }
     }
 }
 
 /// How much of the pixel `k` lies between two edges.
-fn covered(k: usize, from: f64, to: f64) -> f32 {
-    let (low, high) = (k as f64, k as f64 + 1.0);
+fn covered(k: u32, from: f64, to: f64) -> f32 {
+    let (low, high) = (f64::from(k), f64::from(k) + 1.0);
     // What is within rounding of an edge of the pixel is on it.
     let share = high.min(to) - low.max(from);
     if share > 1.0 - 1e-9 {
@@ -210,5 +260,7 @@ fn covered(k: usize, from: f64, to: f64) -> f32 {
     }
 }
 
+#[cfg(test)]
+mod reference;
 #[cfg(test)]
 mod tests;

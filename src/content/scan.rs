@@ -17,25 +17,30 @@ const BAND: usize = 32;
 /// open gaps.
 const REACH: f64 = 1e-7;
 
-/// A face on the lattice.
+/// What the samples of one face see.
 #[derive(Clone, Copy, Debug)]
-struct Patch {
-    corners: [DVec2; 3],
-    source: Plane,
-    target: Plane,
+pub(super) struct Facet {
+    /// A sample, by column and row, that no other one of the face lies left of
+    /// or above in the rows that are worked on.
+    pub first: [usize; 2],
+    /// Which points of the source and of the target.
+    pub source: Plane,
+    pub target: Plane,
 }
 
 /// An affine map from the lattice.
 #[derive(Clone, Copy, Debug)]
-struct Plane {
-    origin: DVec2,
-    by_x: DVec2,
-    by_y: DVec2,
+pub(super) struct Plane {
+    pub origin: DVec2,
+    pub by_x: DVec2,
+    pub by_y: DVec2,
 }
 
 impl Plane {
-    fn at(&self, x: f64, y: f64) -> DVec2 {
-        self.origin + self.by_x * x + self.by_y * y
+    /// What the sample at `x` in row `y` sees.
+    #[inline]
+    pub fn at(&self, x: usize, y: usize) -> DVec2 {
+        self.origin + self.by_x * x as f64 + self.by_y * y as f64
     }
 
     /// The map that sends the corners to the values.
@@ -53,114 +58,171 @@ impl Plane {
     }
 }
 
-/// Writes `value(in source, in target)` to each sample that is covered.
+/// A face on the lattice.
+#[derive(Clone, Copy, Debug)]
+struct Patch {
+    corners: [DVec2; 3],
+    edges: [Edge; 3],
+    source: Plane,
+    target: Plane,
+}
+
+/// A side of a counter-clockwise face, which lies to its left.
+#[derive(Clone, Copy, Debug)]
+struct Edge {
+    begin: DVec2,
+    along: DVec2,
+    /// [`REACH`] times its length.
+    reach: f64,
+    /// 1 / `along.y`; `None` where it is level.
+    per_rise: Option<f64>,
+}
+
+impl Edge {
+    fn new(begin: DVec2, end: DVec2) -> Self {
+        let along = end - begin;
+        Self {
+            begin,
+            along,
+            reach: REACH * along.length(),
+            per_rise: Some(along.y.recip()).filter(|per| per.is_finite()),
+        }
+    }
+
+    /// What of a row is left of it, from column to column; none where the
+    /// first is larger.
+    fn left_of(&self, y: f64) -> [f64; 2] {
+        // Left of the edge: along.x (y - begin.y) - along.y (x - begin.x) >= 0.
+        let slack = self.along.x * (y - self.begin.y) + self.reach;
+        match self.per_rise {
+            Some(per) if per > 0.0 => [f64::NEG_INFINITY, self.begin.x + slack * per],
+            Some(per) => [self.begin.x + slack * per, f64::INFINITY],
+            None if slack < 0.0 => [f64::INFINITY, f64::NEG_INFINITY],
+            None => [f64::NEG_INFINITY, f64::INFINITY],
+        }
+    }
+}
+
+/// Has each face write its samples, in the order of the faces: `filler` is
+/// asked once for a face and some rows, and what it gives is called with
+/// column, row and what is to be written of that row from there on.
 /// `to_lattice` sends the plane to the lattice, whose sample (x, y) is at
 /// (x, y) and at `out[y * width + x]`.
-pub(super) fn scan<T: Send>(
+pub(super) fn scan<T: Send, F: FnMut(usize, usize, &mut [T])>(
     placement: &Placement,
     to_lattice: impl Fn(DVec2) -> DVec2,
     width: usize,
     out: &mut [T],
-    value: impl Fn(DVec2, DVec2) -> T + Sync,
+    filler: impl Fn(Facet) -> F + Sync,
 ) {
     if width == 0 || out.is_empty() {
         return;
     }
     let places: Vec<DVec2> = placement.in_frame.iter().map(|&p| to_lattice(p)).collect();
-    let patches: Vec<Patch> = (placement.faces.iter())
-        .filter_map(|face| patch(face, &places, placement))
-        .collect();
-    let bands = sorted(&patches, out.len() / width);
+    let bands = sorted(&placement.faces, &places, out.len() / width);
     let rows = out.par_chunks_mut(width * BAND).zip(bands);
     rows.enumerate().for_each(|(band, (rows, here))| {
-        for patch in here {
-            paint(&patches[patch as usize], band * BAND, width, rows, &value);
+        for k in here {
+            if let Some(patch) = patch(&placement.faces[k as usize], &places, placement) {
+                paint(&patch, band * BAND, width, rows, &filler);
+            }
         }
     });
 }
 
+/// `None` for a face without area.
 fn patch(face: &[u32; 3], places: &[DVec2], placement: &Placement) -> Option<Patch> {
     let of = |points: &[DVec2]| face.map(|v| points[v as usize]);
     let corners = of(places);
     let [a, b, c] = corners;
     let det = (b - a).perp_dot(c - a);
-    (det.is_normal() && corners.iter().all(|p| p.is_finite())).then(|| Patch {
+    if !det.is_normal() {
+        return None;
+    }
+    let [b, c] = if det > 0.0 { [b, c] } else { [c, b] };
+    Some(Patch {
         source: Plane::through(corners, of(&placement.in_source), det),
         target: Plane::through(corners, of(&placement.in_target), det),
-        corners: if det > 0.0 { corners } else { [a, c, b] },
+        edges: [Edge::new(a, b), Edge::new(b, c), Edge::new(c, a)],
+        corners,
     })
 }
 
-/// For each band of rows the faces that may reach it, in their order.
-fn sorted(patches: &[Patch], rows: usize) -> Vec<Vec<u32>> {
+/// For each band of rows the faces that may reach it, in their order; those
+/// that are not finite are left out.
+fn sorted(faces: &[[u32; 3]], places: &[DVec2], rows: usize) -> Vec<Vec<u32>> {
     let mut bands = vec![Vec::new(); rows.div_ceil(BAND)];
-    for (k, patch) in patches.iter().enumerate() {
-        let ys = patch.corners.map(|p| p.y);
-        let low = ys.into_iter().fold(f64::INFINITY, f64::min) - 1.0;
-        let high = ys.into_iter().fold(f64::NEG_INFINITY, f64::max) + 1.0;
-        if high < 0.0 || low > rows as f64 {
+    for (k, face) in faces.iter().enumerate() {
+        let corners = face.map(|v| places[v as usize]);
+        let [low, high] = extent(corners.map(|p| p.y));
+        let is_finite = corners.iter().all(|p| p.is_finite());
+        if !is_finite || high + 1.0 < 0.0 || low - 1.0 > rows as f64 {
             continue;
         }
-        let last = (high.min(rows as f64) as usize / BAND).min(bands.len() - 1);
-        for band in &mut bands[low.max(0.0) as usize / BAND..=last] {
+        let last = ((high + 1.0) as usize / BAND).min(bands.len() - 1);
+        for band in &mut bands[(low - 1.0).max(0.0) as usize / BAND..=last] {
             band.push(k as u32);
         }
     }
     bands
 }
 
-fn paint<T>(
+/// The least and the greatest.
+fn extent([a, b, c]: [f64; 3]) -> [f64; 2] {
+    [a.min(b).min(c), a.max(b).max(c)]
+}
+
+fn paint<T, F: FnMut(usize, usize, &mut [T])>(
     patch: &Patch,
     first_row: usize,
     width: usize,
     rows: &mut [T],
-    value: &impl Fn(DVec2, DVec2) -> T,
+    filler: &impl Fn(Facet) -> F,
 ) {
-    let ys = patch.corners.map(|p| p.y);
-    let low = ys.into_iter().fold(f64::INFINITY, f64::min) - REACH;
-    let high = ys.into_iter().fold(f64::NEG_INFINITY, f64::max) + REACH;
-    let count = rows.len() / width;
-    let begin = (low.ceil() - first_row as f64).max(0.0) as usize;
-    let end = (high.floor() - first_row as f64 + 1.0).clamp(0.0, count as f64) as usize;
-    for row in begin..end {
-        let y = (first_row + row) as f64;
-        let Some([from, to]) = span(&patch.corners, y) else {
-            continue;
-        };
-        let from = from.ceil().max(0.0);
-        let to = to.floor().min((width - 1) as f64);
-        if from > to {
-            continue;
-        }
-        for x in from as usize..=to as usize {
-            let at = x as f64;
-            rows[row * width + x] = value(patch.source.at(at, y), patch.target.at(at, y));
+    let [low, high] = extent(patch.corners.map(|p| p.y));
+    let last_row = first_row + rows.len() / width;
+    let begin = at_or_after(low - REACH).max(first_row);
+    let end = after(high + REACH).min(last_row);
+    let [left, right] = extent(patch.corners.map(|p| p.x));
+    let left = at_or_after(left - REACH);
+    if begin >= end || left >= width || right + REACH < 0.0 {
+        return;
+    }
+    let mut fill = filler(Facet {
+        first: [left, begin],
+        source: patch.source,
+        target: patch.target,
+    });
+    for y in begin..end {
+        let [from, to] = span(&patch.edges, y as f64);
+        let (x, end) = (at_or_after(from).max(left), after(to).min(width));
+        if x < end {
+            let row = (y - first_row) * width;
+            fill(x, y, &mut rows[row + x..row + end]);
         }
     }
 }
 
-/// Where a row lies in a counter-clockwise triangle.
-fn span(corners: &[DVec2; 3], y: f64) -> Option<[f64; 2]> {
-    let (mut from, mut to) = (f64::NEG_INFINITY, f64::INFINITY);
-    for k in 0..3 {
-        let (a, b) = (corners[k], corners[(k + 1) % 3]);
-        let edge = b - a;
-        // Left of the edge: edge.x (y - a.y) - edge.y (x - a.x) >= 0.
-        let slack = edge.x * (y - a.y) + REACH * edge.length();
-        if edge.y == 0.0 {
-            if slack < 0.0 {
-                return None;
-            }
-        } else {
-            let x = a.x + slack / edge.y;
-            if edge.y > 0.0 {
-                to = to.min(x);
-            } else {
-                from = from.max(x);
-            }
-        }
+/// The first whole number from `x` on that is not negative.
+fn at_or_after(x: f64) -> usize {
+    let below = x as usize;
+    below.saturating_add(usize::from((below as f64) < x))
+}
+
+/// The first whole number beyond `x` that is not negative.
+fn after(x: f64) -> usize {
+    if x < 0.0 {
+        0
+    } else {
+        (x as usize).saturating_add(1)
     }
-    (from <= to).then_some([from, to])
+}
+
+/// Where a row lies within the edges: from column to column, nowhere where the
+/// first is larger.
+fn span(edges: &[Edge; 3], y: f64) -> [f64; 2] {
+    let [a, b, c] = edges.map(|edge| edge.left_of(y));
+    [a[0].max(b[0]).max(c[0]), a[1].min(b[1]).min(c[1])]
 }
 
 #[cfg(test)]
@@ -171,6 +233,17 @@ mod tests {
     use proptest::prelude::*;
     use std::sync::Arc;
 
+    type Seen = Option<(DVec2, DVec2)>;
+
+    fn both(facet: Facet) -> impl FnMut(usize, usize, &mut [Seen]) {
+        let Facet { source, target, .. } = facet;
+        move |x, y, samples| {
+            for (k, sample) in samples.iter_mut().enumerate() {
+                *sample = Some((source.at(x + k, y), target.at(x + k, y)));
+            }
+        }
+    }
+
     #[test]
     fn a_rectangle_that_stands_still_is_itself_everywhere() {
         let frame = Bounds {
@@ -179,7 +252,7 @@ mod tests {
         };
         let still = Still::new(frame).placer();
         let mut out = vec![None; 70 * 100];
-        scan(still.placement(), |p| p, 70, &mut out, |s, t| Some((s, t)));
+        scan(still.placement(), |p| p, 70, &mut out, both);
         for (k, found) in out.iter().enumerate() {
             let here = DVec2::new((k % 70) as f64, (k / 70) as f64);
             let (source, target) = found.expect("covered");
@@ -199,7 +272,7 @@ mod tests {
                 in_target: corners.clone(),
             };
             let mut out = vec![None; 40 * 40];
-            scan(&placement, |p| p, 40, &mut out, |s, _| Some(s));
+            scan(&placement, |p| p, 40, &mut out, both);
             let [a, b, c] = [corners[0], corners[1], corners[2]];
             let det = (b - a).perp_dot(c - a);
             prop_assume!(det.abs() > 1e-3);
@@ -209,7 +282,7 @@ mod tests {
                     .map(|(u, v)| det.signum() * (v - u).perp_dot(p - u) / u.distance(v));
                 let least = sides.into_iter().fold(f64::INFINITY, f64::min);
                 if least > 1e-6 {
-                    let found = found.expect("inside");
+                    let (found, _) = found.expect("inside");
                     prop_assert!(found.distance(p) < 1e-6);
                 } else if least < -1e-3 {
                     prop_assert!(found.is_none());

@@ -1,5 +1,6 @@
 //! One of the two pictures, to be looked up anywhere in the plane.
 
+use super::super::scan::Plane;
 use super::linear::{Light, coded_premultiplied, decoded, mean, mixed};
 use crate::design::Picture;
 use crate::geometry::{Bounds, DMat2, DVec2};
@@ -23,6 +24,8 @@ pub struct Layer {
 pub(super) struct Level {
     width: usize,
     height: usize,
+    /// One pixel for each and, so that every pixel has one to its right and one
+    /// below, another row and one more.
     light: Vec<Light>,
 }
 
@@ -69,7 +72,7 @@ impl Layer {
     /// many sizes there are.
     #[must_use]
     pub fn texture(&self) -> (Vec<u8>, u32) {
-        let lights = self.levels.iter().flat_map(|level| &level.light);
+        let lights = self.levels.iter().flat_map(Level::pixels);
         let bytes = lights.flat_map(|&light| coded_premultiplied(light));
         (bytes.collect(), self.levels.len() as u32)
     }
@@ -105,52 +108,123 @@ impl Layer {
 }
 
 /// A layer at one of its sizes.
+#[derive(Clone, Copy)]
 pub(super) struct Sampler<'a> {
     level: &'a Level,
     linear: DMat2,
     offset: DVec2,
 }
 
-impl Sampler<'_> {
-    /// The light at a point of the plane, bilinear between pixel centres;
-    /// beyond the picture that of its edge.
-    #[inline]
-    pub fn at(&self, p: DVec2) -> Light {
-        let at = self.linear * p + self.offset;
-        let Level {
-            width,
-            height,
-            light,
-        } = self.level;
-        let (left, right, u) = bracket(at.x, *width);
-        let (above, below, v) = bracket(at.y, *height);
-        let row = |y: usize| {
-            let row = &light[y * width..][..*width];
-            mixed(row[left], row[right], u)
+/// Fixed point: what a step from one pixel to the next is.
+const ONE: f64 = (1u64 << 32) as f64;
+
+/// How far from a picture a place is told from others, in its pixels; beyond
+/// there is nothing but the edge. Twice as far away does not overflow.
+const FAR: f64 = (1u64 << 29) as f64;
+
+impl<'a> Sampler<'a> {
+    /// Made to be looked up where samples near `first`, up to `reach` columns
+    /// and rows further on, see it.
+    ///
+    /// Places are exact to `reach` · 2⁻³⁰ pixels where from one sample to the
+    /// next they are up to 2²⁸ / `reach` pixels apart. Longer steps, which
+    /// meet pixels that have nothing to do with each other, are shortened.
+    pub fn across(&self, plane: &Plane, first: [usize; 2], reach: usize) -> Sight<'a> {
+        let farthest = 0.5 * FAR / reach.max(1) as f64;
+        // NaN goes to 0.
+        let fixed = |at: DVec2, limit: f64| {
+            let at = at.to_array();
+            at.map(|x| (x.clamp(-limit, limit) * ONE) as i64)
         };
-        mixed(row(above), row(below), v)
+        let level = self.level;
+        let last = |count: usize| ((count - 1) as i64) << 32;
+        let start = self.linear * plane.at(first[0], first[1]) + self.offset;
+        Sight {
+            light: &level.light,
+            width: level.width,
+            last: [last(level.width), last(level.height)],
+            first,
+            start: fixed(start, FAR),
+            by_x: fixed(self.linear * plane.by_x, farthest),
+            by_y: fixed(self.linear * plane.by_y, farthest),
+        }
     }
 }
 
-/// The two pixels around `x`, and how far it is from the first to the second.
-/// What is within rounding of a pixel is on it.
+/// A picture as the samples of a face see it. Places are in fixed point: 32
+/// bits are behind the point.
+pub(super) struct Sight<'a> {
+    light: &'a [Light],
+    width: usize,
+    last: [i64; 2],
+    first: [usize; 2],
+    start: [i64; 2],
+    by_x: [i64; 2],
+    by_y: [i64; 2],
+}
+
+impl Sight<'_> {
+    /// For each of `lights` what `with` makes of it and of the light that the
+    /// samples of row `y` see from column `x` on: bilinear between pixel
+    /// centres, beyond the picture that of its edge.
+    #[inline]
+    pub fn look(
+        &self,
+        [x, y]: [usize; 2],
+        lights: &mut [Light],
+        with: impl Fn(Light, Light) -> Light,
+    ) {
+        let right = (x - self.first[0]) as i64;
+        let down = (y - self.first[1]) as i64;
+        let place = |k: usize| self.start[k] + right * self.by_x[k] + down * self.by_y[k];
+        let (mut x, mut y) = (place(0), place(1));
+        for out in lights {
+            *out = with(*out, self.at(x, y));
+            (x, y) = (x + self.by_x[0], y + self.by_x[1]);
+        }
+    }
+
+    #[inline]
+    fn at(&self, x: i64, y: i64) -> Light {
+        let (x, y) = (x.clamp(0, self.last[0]), y.clamp(0, self.last[1]));
+        let at = (y >> 32) as usize * self.width + (x >> 32) as usize;
+        let (u, v) = (behind_the_point(x), behind_the_point(y));
+        // In the last column u = 0: what is right of it does not matter. So it
+        // is with the last row.
+        let row = |at: usize| {
+            let two = &self.light[at..at + 2];
+            mixed(two[0], two[1], u)
+        };
+        mixed(row(at), row(at + self.width), v)
+    }
+}
+
+/// What a number in fixed point has over a whole one; to 24 bits.
 #[inline]
-fn bracket(x: f64, count: usize) -> (usize, usize, f32) {
-    let clamped = x.max(0.0).min((count - 1) as f64);
-    let first = clamped as usize;
-    let share = (clamped - first as f64) as f32;
-    (first, (first + 1).min(count - 1), share)
+fn behind_the_point(x: i64) -> f32 {
+    const BITS: f32 = (1 << 24) as f32;
+    ((x as u32) >> 8) as i32 as f32 * (1.0 / BITS)
 }
 
 impl Level {
+    fn new(width: usize, height: usize, mut light: Vec<Light>) -> Self {
+        light.resize(width * height + width + 1, Light::ZERO);
+        Self {
+            width,
+            height,
+            light,
+        }
+    }
+
     fn of(pixels: &RgbaImage) -> Self {
+        let (width, height) = (pixels.width() as usize, pixels.height() as usize);
         let raw = pixels.as_raw().par_chunks_exact(4);
         let light = raw.map(|p| decoded(image::Rgba([p[0], p[1], p[2], p[3]])));
-        Self {
-            width: pixels.width() as usize,
-            height: pixels.height() as usize,
-            light: light.collect(),
-        }
+        Self::new(width, height, light.collect())
+    }
+
+    fn pixels(&self) -> &[Light] {
+        &self.light[..self.width * self.height]
     }
 
     /// Half as wide and high, rounded down as graphics cards do; `None` at a
@@ -175,19 +249,33 @@ impl Level {
                 ])
             })
         };
-        Some(Self {
-            light: (0..height).flat_map(row).collect(),
-            width,
-            height,
-        })
+        let light = (0..height).flat_map(row).collect();
+        Some(Self::new(width, height, light))
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::linear::encoded;
+    use super::super::linear::Encoder;
     use super::*;
     use image::Rgba;
+
+    /// The light at one point.
+    fn at(sampler: &Sampler<'_>, first: DVec2) -> Light {
+        let plane = Plane {
+            origin: first,
+            by_x: DVec2::ZERO,
+            by_y: DVec2::ZERO,
+        };
+        let mut light = [Light::ZERO];
+        let sight = sampler.across(&plane, [0, 0], 1);
+        sight.look([0, 0], &mut light, |_, light| light);
+        light[0]
+    }
+
+    fn encoded(light: Light) -> Rgba<u8> {
+        Encoder::new().encoded(light)
+    }
 
     #[test]
     fn pixels_are_met_at_their_centres_and_edges_go_on() {
@@ -196,14 +284,13 @@ mod tests {
         let sampler = layer.sampler(1.0);
         for (x, y, pixel) in image.enumerate_pixels() {
             let centre = DVec2::new(f64::from(x) + 0.5, 3.0 - f64::from(y) - 0.5);
-            assert_eq!(encoded(sampler.at(centre)), *pixel);
+            assert_eq!(encoded(at(&sampler, centre)), *pixel);
         }
         assert_eq!(
-            encoded(sampler.at(DVec2::new(-9.0, 99.0))),
+            encoded(at(&sampler, DVec2::new(-9.0, 99.0))),
             *image.get_pixel(0, 0)
         );
-        let nowhere = sampler.at(DVec2::splat(f64::NAN));
-        assert!(nowhere.iter().all(|c| c.is_finite()));
+        assert!(at(&sampler, DVec2::splat(f64::NAN)).is_finite());
     }
 
     #[test]
@@ -214,7 +301,7 @@ mod tests {
         });
         let layer = Layer::new(&Picture::new(image));
         let sampler = layer.sampler(8.0);
-        let light = sampler.at(DVec2::new(20.3, 31.7));
-        assert!((light[0] - 0.5).abs() < 1e-6);
+        let light = at(&sampler, DVec2::new(20.3, 31.7));
+        assert!((light.x - 0.5).abs() < 1e-6);
     }
 }

@@ -3,15 +3,23 @@
 //! Guarantees: a pixel of 8 bits a channel there and back is the same pixel,
 //! except for the colour of what is wholly transparent.
 
+use glam::Vec4;
 use image::Rgba;
 use std::sync::LazyLock;
 
 /// Red, green, blue in linear light times alpha, and alpha, all in [0, 1].
-pub(super) type Light = [f32; 4];
+pub(super) type Light = Vec4;
 
 /// Steps of the way back: near black one step is a twentieth of an 8-bit
 /// step.
 const STEPS: usize = 1 << 16;
+
+/// From here on alpha counts as 1: what is opaque stays so within rounding.
+const OPAQUE: f32 = 1.0 - 1e-6;
+
+/// Added to a number below it, it leaves that number, rounded to a whole one,
+/// in the lowest bits: 2^23.
+const WHOLE: f32 = 8_388_608.0;
 
 static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
     std::array::from_fn(|k| {
@@ -25,7 +33,7 @@ static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
     })
 });
 
-static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
+static ENCODED: LazyLock<Box<[u8; STEPS]>> = LazyLock::new(|| {
     let encode = |k: usize| {
         let linear = k as f64 / (STEPS - 1) as f64;
         let encoded = if linear <= 0.003_130_8 {
@@ -35,7 +43,7 @@ static ENCODED: LazyLock<Vec<u8>> = LazyLock::new(|| {
         };
         (encoded * 255.0).round() as u8
     };
-    (0..STEPS).map(encode).collect()
+    Box::new(std::array::from_fn(encode))
 });
 
 /// The curve of IEC 61966-2-1 (sRGB), undone.
@@ -43,43 +51,59 @@ pub(super) fn decoded(pixel: Rgba<u8>) -> Light {
     let [r, g, b, a] = pixel.0;
     let alpha = f32::from(a) / 255.0;
     let light = |channel: u8| LINEAR[usize::from(channel)] * alpha;
-    [light(r), light(g), light(b), alpha]
+    Vec4::new(light(r), light(g), light(b), alpha)
 }
 
-/// Straight alpha in sRGB.
-pub(super) fn encoded(light: Light) -> Rgba<u8> {
-    let alpha = light[3];
-    if alpha <= 0.0 {
-        return Rgba([0; 4]);
+/// The way from light to straight alpha in sRGB.
+#[derive(Clone, Copy)]
+pub(super) struct Encoder(&'static [u8; STEPS]);
+
+impl Encoder {
+    pub fn new() -> Self {
+        Self(&ENCODED)
     }
-    let channel = |k: usize| {
-        let step = light[k] / alpha * (STEPS - 1) as f32 + 0.5;
-        ENCODED[(step as usize).min(STEPS - 1)] // NaN and below zero go to 0
-    };
-    let opacity = (alpha * 255.0 + 0.5) as u8;
-    Rgba([channel(0), channel(1), channel(2), opacity])
+
+    /// Straight alpha in sRGB.
+    #[inline]
+    pub fn encoded(self, light: Light) -> Rgba<u8> {
+        let alpha = light.w;
+        if alpha <= 0.0 {
+            return Rgba([0; 4]);
+        }
+        let straight = if alpha < OPAQUE { light / alpha } else { light };
+        let shares = straight.with_w(alpha).max(Vec4::ZERO).min(Vec4::ONE);
+        let most = (STEPS - 1) as f32;
+        let steps = shares * Vec4::new(most, most, most, 255.0) + WHOLE;
+        let [r, g, b, alpha] = steps.to_array().map(f32::to_bits);
+        let channel = |step: u32| self.0[usize::from(step as u16)];
+        Rgba([channel(r), channel(g), channel(b), alpha as u8])
+    }
 }
 
 /// The bytes of premultiplied light, coded as it is.
 pub(super) fn coded_premultiplied(light: Light) -> [u8; 4] {
-    let Rgba([r, g, b, _]) = encoded([light[0], light[1], light[2], 1.0]);
-    [r, g, b, (light[3] * 255.0 + 0.5) as u8]
+    let Rgba([r, g, b, _]) = Encoder::new().encoded(light.with_w(1.0));
+    [r, g, b, (light.w * 255.0 + 0.5) as u8]
 }
 
 /// The mean of four.
 pub(super) fn mean(of: [Light; 4]) -> Light {
-    std::array::from_fn(|k| 0.25 * (of[0][k] + of[1][k] + of[2][k] + of[3][k]))
+    0.25 * (of[0] + of[1] + of[2] + of[3])
 }
 
 /// From `a` to `b`.
 #[inline]
 pub(super) fn mixed(a: Light, b: Light, share: f32) -> Light {
-    std::array::from_fn(|k| a[k] + share * (b[k] - a[k]))
+    a + share * (b - a)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    fn encoded(light: Light) -> Rgba<u8> {
+        Encoder::new().encoded(light)
+    }
 
     #[test]
     fn every_value_comes_back() {

@@ -33,10 +33,16 @@ impl FieldPair {
             |p| grid.lattice_from_plane(p),
             grid.width as usize,
             &mut samples,
-            |a, b| {
-                let [a, b] = [a, b].map(|p| grid.lattice_from_plane(p));
-                let (f0, f1) = (source.bilinear(a.x, a.y), target.bilinear(b.x, b.y));
-                (blend.value(f0, f1, t) - level) as f32
+            |facet| {
+                let (to_source, to_target) = (facet.source, facet.target);
+                move |x, y, samples: &mut [f32]| {
+                    for (x, sample) in (x..).zip(samples) {
+                        let places = [to_source.at(x, y), to_target.at(x, y)];
+                        let [a, b] = places.map(|p| grid.lattice_from_plane(p));
+                        let (f0, f1) = (source.bilinear(a.x, a.y), target.bilinear(b.x, b.y));
+                        *sample = (blend.value(f0, f1, t) - level) as f32;
+                    }
+                }
             },
         );
         let Ok(samples) = Samples::new(grid.width, grid.height, &samples) else {
