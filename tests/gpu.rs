@@ -5,6 +5,8 @@
 //! `MORPHOSPACE_REQUIRE_GPU=1` that is a failure. `MORPHOSPACE_PICTURES=DIR`
 //! keeps every pair of pictures for looking at.
 
+#[path = "gpu/pictures.rs"]
+mod pictures;
 #[path = "gpu/scenes.rs"]
 mod scenes;
 #[path = "gpu/studio.rs"]
@@ -18,7 +20,7 @@ use morphospace::geometry::{Bounds, DVec2};
 use morphospace::stage::Show;
 use morphospace::transition::Rgb;
 
-use scenes::{field, solid, truss};
+use scenes::{field, of_gallery, solid, truss};
 use studio::{Scene, Studio};
 
 /// What the issue allows: pixels whose channels differ by more than this …
@@ -38,6 +40,22 @@ const TESTS: &[Test] = &[
         a_truss_looks_the_same_on_both,
     ),
     ("fields_look_the_same_on_both", fields_look_the_same_on_both),
+    (
+        "carried_fields_look_the_same_on_both",
+        carried_fields_look_the_same_on_both,
+    ),
+    (
+        "pictures_look_the_same_on_both",
+        pictures::pictures_look_the_same_on_both,
+    ),
+    (
+        "transparent_pictures_look_the_same_on_both",
+        pictures::transparent_pictures_look_the_same_on_both,
+    ),
+    (
+        "pictures_look_the_same_at_any_zoom",
+        pictures::pictures_look_the_same_at_any_zoom,
+    ),
     (
         "a_transparent_ground_has_straight_alpha",
         a_transparent_ground_has_straight_alpha,
@@ -78,6 +96,26 @@ fn fields_look_the_same_on_both(studio: &mut Studio) {
     for (name, transition) in field() {
         let scene = Scene::new(name, transition);
         for t in [0.0, 0.3, 0.5, 1.0, 1.2] {
+            studio.compare(&scene, t);
+        }
+    }
+}
+
+/// By moving parts, scattered points, lattices and lines.
+fn carried_fields_look_the_same_on_both(studio: &mut Studio) {
+    for name in [
+        "letters-carried",
+        "letters-points",
+        "letters-lattice",
+        "cantilevers-carried",
+        "cantilevers-lines",
+    ] {
+        let mut scene = Scene::new(name, of_gallery(name));
+        // The exporter reads the carried fields at the samples of a grid, the
+        // stage at each pixel: where moving parts fold, the tip of a spike
+        // that is thinner than a cell is seen on the stage alone.
+        scene.astray = 4;
+        for t in [0.0, 0.3, 0.5, 1.0] {
             studio.compare(&scene, t);
         }
     }
@@ -233,7 +271,8 @@ fn astray(a: &[bool], b: &[bool], width: u32) -> usize {
 }
 
 /// Holds both pictures to the promise.
-fn check(name: &str, gpu: &RgbaImage, cpu: &RgbaImage, fill: Rgb, ground: Option<Rgb>) {
+fn check(name: &str, scene: &Scene, t: f64, gpu: &RgbaImage, cpu: &RgbaImage) {
+    let (fill, ground) = (scene.style.fill_at(t), scene.ground);
     let fraction = different(gpu, cpu);
     assert!(
         fraction <= PIXELS,
@@ -243,7 +282,10 @@ fn check(name: &str, gpu: &RgbaImage, cpu: &RgbaImage, fill: Rgb, ground: Option
     assert!(masks[1].iter().any(|&m| m), "{name}: nothing to see");
     for [a, b] in [[0, 1], [1, 0]] {
         let far = astray(&masks[a], &masks[b], gpu.width());
-        assert_eq!(far, 0, "{name}: pixels more than one pixel off the contour");
+        assert!(
+            far <= scene.astray,
+            "{name}: {far} pixels more than one pixel off the contour"
+        );
     }
 }
 

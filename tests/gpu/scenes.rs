@@ -3,11 +3,13 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
+use image::{Rgba, RgbaImage};
 use morphospace::content::{BlendSpace, ContentKind, FieldBlend};
-use morphospace::design::{Design, Form, Truss};
+use morphospace::design::{Design, Form, Picture, Truss};
 use morphospace::geometry::{DVec2, FillRule, Regions};
 use morphospace::mesh::TriangleMesh;
 use morphospace::progress::Silent;
+use morphospace::project::gallery;
 use morphospace::transition::{Cell, Transition, TransitionSpec};
 use morphospace::warp::WarpKind;
 
@@ -119,4 +121,34 @@ pub fn field() -> Vec<(&'static str, Transition)> {
         (name, build(&spec))
     };
     blends.map(transition).into()
+}
+
+/// A transition of the gallery.
+pub fn of_gallery(name: &str) -> Transition {
+    let spec = gallery::load(name).and_then(|loaded| loaded.spec());
+    build(&spec.expect("a bundled document"))
+}
+
+/// The same with the pictures cut to discs that fade out.
+pub fn faded(name: &str) -> Transition {
+    let spec = gallery::load(name).and_then(|loaded| loaded.spec());
+    let mut spec = spec.expect("a bundled document");
+    for design in [&mut spec.source, &mut spec.target] {
+        let design = Arc::make_mut(design);
+        design.picture = design.picture.as_ref().map(disc);
+    }
+    build(&spec)
+}
+
+fn disc(picture: &Picture) -> Picture {
+    let (width, height) = picture.pixels().dimensions();
+    let middle = DVec2::new(f64::from(width), f64::from(height)) / 2.0;
+    let radius = middle.min_element();
+    let pixel = |x: u32, y: u32| {
+        let Rgba([r, g, b, _]) = *picture.pixels().get_pixel(x, y);
+        let centre = DVec2::new(f64::from(x), f64::from(y)) + 0.5;
+        let inside = 3.0 - 4.0 * centre.distance(middle) / radius;
+        Rgba([r, g, b, (255.0 * inside.clamp(0.0, 1.0)) as u8])
+    };
+    Picture::new(RgbaImage::from_fn(width, height, pixel)).transformed(picture.place())
 }

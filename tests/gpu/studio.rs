@@ -33,6 +33,8 @@ pub struct Scene {
     pub ground: Option<Rgb>,
     pub size: [u32; 2],
     pub view: Bounds,
+    /// How many pixels may be more than one pixel off the contour.
+    pub astray: usize,
 }
 
 impl Scene {
@@ -47,6 +49,7 @@ impl Scene {
             style,
             show: Show::default(),
             size: [640, 480],
+            astray: 0,
         }
     }
 }
@@ -137,7 +140,7 @@ impl Studio {
         self.keep(&format!("{}-gpu", scene.name), t, &gpu);
         self.keep(&format!("{}-cpu", scene.name), t, &cpu);
         let name = format!("{} at {t}", scene.name);
-        crate::check(&name, &gpu, &cpu, scene.style.fill_at(t), scene.ground);
+        crate::check(&name, scene, t, &gpu, &cpu);
         (gpu, cpu)
     }
 
