@@ -112,10 +112,10 @@ pub fn match_curves(
     let back = pins::ordered(&inverses, target, source)?;
     if order(source, &there, target, &back) == Ordering::Greater {
         return Ok(Problem::new(target, source, back, options)
-            .solve()
+            .solve([target, source])
             .inverse());
     }
-    Ok(Problem::new(source, target, there, options).solve())
+    Ok(Problem::new(source, target, there, options).solve([source, target]))
 }
 
 fn check(source: &Curve, target: &Curve, options: &MatchOptions) -> Result<(), MatchError> {

@@ -144,16 +144,62 @@ impl Curve {
     pub fn nearest(&self, p: DVec2) -> f64 {
         let mut best = (f64::INFINITY, 0.0);
         for e in 0..self.directions.len() {
-            let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
-            let edge = to - from;
-            let along = ((p - from).dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
-            let distance = p.distance_squared(from.lerp(to, along));
-            if distance < best.0 {
-                let [start, end] = [self.places[e], self.places[e + 1]];
-                best = (distance, start + along * (end - start));
-            }
+            best = self.nearer(best, p, e, [0.0, 1.0]);
         }
         self.wrapped(best.1)
+    }
+
+    /// The place nearest to `p` among those from one to another, counted on
+    /// over the seam of a closed curve, and how far it is. At least
+    /// `from <= to`; not more than one round.
+    pub(super) fn nearest_within(&self, p: DVec2, from: f64, to: f64) -> (f64, f64) {
+        let (from, to) = if self.closed {
+            (from, to.min(from + 1.0))
+        } else {
+            (from.clamp(0.0, 1.0), to.clamp(0.0, 1.0))
+        };
+        let mut best = (f64::INFINITY, self.wrapped(from));
+        let count = self.directions.len();
+        let mut base = if self.closed { from.floor() } else { 0.0 };
+        let mut e = self.edge_at(from - base);
+        while base + self.places[e] <= to {
+            let [start, end] = [self.places[e], self.places[e + 1]].map(|place| base + place);
+            let share = |place: f64| ((place - start) / (end - start)).clamp(0.0, 1.0);
+            if end > start {
+                best = self.nearer(best, p, e, [share(from), share(to)]);
+            }
+            e += 1;
+            if e == count {
+                if !self.closed {
+                    break;
+                }
+                (e, base) = (0, base + 1.0);
+            }
+        }
+        (self.wrapped(best.1), best.0.sqrt())
+    }
+
+    /// The nearest place of an edge between two shares of it, as squared
+    /// distance and place, if it is nearer than `best`.
+    fn nearer(&self, best: (f64, f64), p: DVec2, e: usize, [low, high]: [f64; 2]) -> (f64, f64) {
+        let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
+        let edge = to - from;
+        let along = ((p - from).dot(edge) / edge.length_squared()).clamp(low, high);
+        let distance = p.distance_squared(from.lerp(to, along));
+        if distance < best.0 {
+            let [start, end] = [self.places[e], self.places[e + 1]];
+            (distance, start + along * (end - start))
+        } else {
+            best
+        }
+    }
+
+    /// The length, in the units of the points; may overflow for huge ones.
+    pub(super) fn length(&self) -> f64 {
+        let next = |e: usize| self.points[(e + 1) % self.points.len()];
+        (0..self.directions.len())
+            .map(|e| self.points[e].distance(next(e)))
+            .sum()
     }
 
     /// How often the tangent turns around: 1 for simple counter-clockwise

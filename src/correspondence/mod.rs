@@ -10,6 +10,7 @@
 mod assignment;
 mod boundary;
 mod boundary_match;
+mod congruent;
 mod curve;
 mod cyclic;
 mod features;

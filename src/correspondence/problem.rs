@@ -5,6 +5,7 @@
 
 use super::boundary::MatchOptions;
 use super::boundary_match::BoundaryMatch;
+use super::congruent::settled;
 use super::curve::Curve;
 use super::cyclic::all_starts;
 use super::features::{Features, PoseWeights};
@@ -101,8 +102,8 @@ impl Problem {
         }
     }
 
-    /// The match of the two curves.
-    pub fn solve(self) -> BoundaryMatch {
+    /// The match of the two curves, which are those it was made of.
+    pub fn solve(self, curves: [&Curve; 2]) -> BoundaryMatch {
         let solution = self.posed_solution();
         let nodes = self.strict(&solution);
         let place = |&[i, j]: &[usize; 2]| {
@@ -116,7 +117,7 @@ impl Problem {
         knots.sort_by(|a, b| a[0].total_cmp(&b[0]));
         BoundaryMatch {
             rotation: self.rotation(&nodes),
-            knots,
+            knots: settled(&knots, &self.pins, curves).unwrap_or(knots),
             closed: self.source.closed,
             cost: solution.cost,
             pins: self.pins,

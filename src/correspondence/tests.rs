@@ -170,6 +170,58 @@ fn started_elsewhere_and_resampled_is_within_a_sample() {
 }
 
 #[test]
+fn drawings_with_other_points_are_matched_within_a_sample() {
+    const DRAWINGS: [&str; 6] = [
+        "gecko-resting",
+        "gecko-running",
+        "jug",
+        "teapot",
+        "letter-s",
+        "moustache",
+    ];
+    for name in DRAWINGS {
+        let file = format!("{}/assets/gallery/{name}.svg", env!("CARGO_MANIFEST_DIR"));
+        let options = crate::design::ImportOptions::default();
+        let drawing = crate::design::import_file(file.as_ref(), &options).expect("a drawing");
+        let outline = drawing.outline(0.0).expect("an outline");
+        let shape = &outline.iter().next().expect("a part").outer;
+        for count in [97, 150, 240] {
+            let by = Similarity {
+                rotation: 0.01 * f64::from(count),
+                scale: 0.3,
+                ..Similarity::IDENTITY
+            };
+            let other = turned(&resampled(shape, count), &by);
+            let off = error(shape, &other, |p| by.apply(p))
+                .max(error(&other, shape, |p| by.inverse().apply(p)));
+            assert!(
+                off < SAMPLE,
+                "{name}, {count} points: {:.2} samples",
+                off / SAMPLE
+            );
+        }
+    }
+}
+
+#[test]
+fn pins_hold_where_designs_are_nearly_the_same() {
+    let shape = blob(140, 0.0);
+    let other = resampled(&shape, 97);
+    let pin = Pin {
+        source: 0.25,
+        target: Curve::closed(&other)
+            .expect("a size")
+            .nearest(Curve::closed(&shape).expect("a size").point_at(0.26)),
+    };
+    let found = match_rings(&shape, &other, &[pin], &MatchOptions::default()).expect("a match");
+    assert_eq!(
+        found.target_from_source(pin.source).to_bits(),
+        pin.target.to_bits()
+    );
+    assert_sound(&found);
+}
+
+#[test]
 fn symmetric_shapes_turn_least() {
     for (shape, period) in [
         (gear(12), TAU / 12.0),

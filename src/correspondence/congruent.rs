@@ -1,0 +1,207 @@
+//! Curves that are nearly the same up to a similarity, matched to within a
+//! fraction of a sample.
+//!
+//! A path through pairs of samples is as exact as the samples are close, and
+//! where an outline is smooth nothing but the price of stretch holds it. A
+//! design against another drawing of itself (traced again, simplified, with
+//! other points) can be matched better: the similarity that the match
+//! implies lays one upon the other, and each point belongs where it lands.
+//! That is the iterated closest point (Besl, McKay 1992), kept near the match
+//! that was found.
+
+use super::curve::Curve;
+use crate::geometry::DVec2;
+
+/// Curves count as nearly the same where matched points are off by no more
+/// than this, as a root of the mean square in lengths of the target.
+const ALIKE: f64 = 0.012;
+
+/// So far along the target a knot may be moved, and so near its own point
+/// must land for that, in lengths of the target.
+const REACH: f64 = 0.025;
+const NEAR: f64 = 0.01;
+
+/// How often the curves are laid upon each other.
+const ROUNDS: usize = 8;
+
+/// Half the stretch over which directions are compared, in lengths, and the
+/// least cosine between directions that are the same.
+const TANGENT_REACH: f64 = 0.005;
+const SAME_DIRECTION: f64 = 0.5;
+
+/// A knot that moves less keeps its place to the last bit: corner on corner.
+const EXACT: f64 = 1e-9;
+
+/// The smallest step between knots, as a share of the length.
+const LEAST_STEP: f64 = 1e-6;
+
+/// Knots with each source point matched to where it falls on the target,
+/// where the curves are nearly the same; none where they are not. `knots` is
+/// ascending in the source; pins stay.
+pub(super) fn settled(
+    knots: &[[f64; 2]],
+    pins: &[[f64; 2]],
+    [source, target]: [&Curve; 2],
+) -> Option<Vec<[f64; 2]>> {
+    let length = target.length();
+    let mut places: Vec<f64> = knots.iter().map(|k| k[1]).collect();
+    let is_held = |k: usize| is_fixed(knots, pins, source.is_closed(), k);
+    let points: Vec<DVec2> = knots.iter().map(|k| source.point_at(k[0])).collect();
+    for round in 0..ROUNDS {
+        let landed: Vec<DVec2> = places.iter().map(|&b| target.point_at(b)).collect();
+        let fit = Fit::of(&points, &landed)?;
+        if round == 0 && fit.residual(&points, &landed) > ALIKE * length {
+            return None;
+        }
+        let mut moved: f64 = 0.0;
+        for (k, place) in places.iter_mut().enumerate() {
+            if is_held(k) {
+                continue;
+            }
+            let [from, found] = knots[k];
+            let p = fit.apply(points[k]);
+            let is_same_way = |b: f64| {
+                let own = source.direction(from - TANGENT_REACH, from + TANGENT_REACH);
+                let other = target.direction(b - TANGENT_REACH, b + TANGENT_REACH);
+                (own + fit.angle() - other).cos() > SAME_DIRECTION
+            };
+            let (b, distance) = target.nearest_within(p, found - REACH, found + REACH);
+            let lands = distance <= NEAR * length && is_same_way(b);
+            let next = if lands && (b - found).abs() > EXACT {
+                b
+            } else {
+                found
+            };
+            moved = moved.max(target.point_at(next).distance(target.point_at(*place)));
+            *place = next;
+        }
+        if moved < 1e-6 * length {
+            break;
+        }
+    }
+    let settled = knots.iter().zip(places).map(|(k, b)| [k[0], b]);
+    Some(in_order(settled, pins, source.is_closed()))
+}
+
+/// A similarity: a rotation and scaling as a complex factor about two means.
+struct Fit {
+    factor: DVec2,
+    from: DVec2,
+    to: DVec2,
+}
+
+impl Fit {
+    /// The least squares fit; none where the points are one.
+    fn of(points: &[DVec2], landed: &[DVec2]) -> Option<Self> {
+        let count = points.len() as f64;
+        let from = points.iter().sum::<DVec2>() / count;
+        let to = landed.iter().sum::<DVec2>() / count;
+        let (mut factor, mut square) = (DVec2::ZERO, 0.0);
+        for (p, q) in points.iter().zip(landed) {
+            let (p, q) = (*p - from, *q - to);
+            factor += DVec2::new(p.dot(q), p.perp_dot(q));
+            square += p.length_squared();
+        }
+        let factor = factor / square;
+        (factor.is_finite() && factor != DVec2::ZERO).then_some(Self { factor, from, to })
+    }
+
+    fn apply(&self, p: DVec2) -> DVec2 {
+        self.to + self.factor.rotate(p - self.from)
+    }
+
+    fn angle(&self) -> f64 {
+        self.factor.to_angle()
+    }
+
+    fn residual(&self, points: &[DVec2], landed: &[DVec2]) -> f64 {
+        let off = |(p, q): (&DVec2, &DVec2)| self.apply(*p).distance_squared(*q);
+        let sum: f64 = points.iter().zip(landed).map(off).sum();
+        (sum / points.len() as f64).sqrt()
+    }
+}
+
+/// Whether a knot is a pin, or an end of an open curve.
+fn is_fixed(knots: &[[f64; 2]], pins: &[[f64; 2]], closed: bool, k: usize) -> bool {
+    let is_end = !closed && (k == 0 || k + 1 == knots.len());
+    is_end || pins.iter().any(|pin| pin[0] == knots[k][0])
+}
+
+/// The knots without those that would step back, pins first.
+fn in_order(
+    knots: impl Iterator<Item = [f64; 2]>,
+    pins: &[[f64; 2]],
+    closed: bool,
+) -> Vec<[f64; 2]> {
+    let knots: Vec<[f64; 2]> = knots.collect();
+    let is_held = |k: usize| is_fixed(&knots, pins, closed, k);
+    let start = (0..knots.len()).find(|&k| is_held(k)).unwrap_or(0);
+    // Counted on from the start, so that ascending has a meaning.
+    let base = knots[start];
+    let mut path: Vec<([f64; 2], [f64; 2], bool)> = Vec::with_capacity(knots.len());
+    for offset in 0..knots.len() {
+        let k = (start + offset) % knots.len();
+        let ahead = |s: usize| {
+            let step = knots[k][s] - base[s];
+            if closed { step.rem_euclid(1.0) } else { step }
+        };
+        let place = [ahead(0), ahead(1)];
+        let fixed = is_held(k);
+        let follows = |last: [f64; 2]| (0..2).all(|s| place[s] > last[s] + LEAST_STEP);
+        if fixed {
+            while path.len() > 1 && path.last().is_some_and(|l| !l.2 && !follows(l.1)) {
+                path.pop();
+            }
+        }
+        if offset == 0 || fixed || path.last().is_some_and(|last| follows(last.1)) {
+            path.push((knots[k], place, fixed));
+        }
+    }
+    let mut kept: Vec<[f64; 2]> = path.into_iter().map(|entry| entry.0).collect();
+    kept.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    kept
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::Ring;
+
+    fn closed(points: &[(f64, f64)]) -> Curve {
+        let points = points.iter().map(|&p| DVec2::from(p)).collect();
+        Curve::closed(&Ring::new(points).expect("a ring")).expect("a size")
+    }
+
+    #[test]
+    fn unlike_curves_are_left_alone() {
+        let square = closed(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
+        let bar = closed(&[(0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (0.0, 1.0)]);
+        let knots = [0.0, 0.25, 0.5, 0.75].map(|place| [place, place]);
+        assert_eq!(settled(&knots, &[], [&square, &bar]), None);
+    }
+
+    #[test]
+    fn knots_a_little_off_are_put_right() {
+        let shape = closed(&[(0.0, 0.0), (3.0, 0.0), (2.0, 1.0), (0.5, 1.5)]);
+        let knots: Vec<_> = (0..40)
+            .map(|k| {
+                let place = f64::from(k) / 40.0;
+                [place, (place + 0.004 * f64::from(k % 3)).rem_euclid(1.0)]
+            })
+            .collect();
+        let found = settled(&knots, &[], [&shape, &shape]).expect("nearly the same");
+        assert!(found.len() > 30);
+        for [a, b] in found {
+            let off = shape.point_at(a).distance(shape.point_at(b));
+            assert!(off < 1e-3 * shape.length(), "{a} at {b}: {off}");
+        }
+    }
+
+    #[test]
+    fn order_is_kept_around_pins() {
+        let knots = [[0.1, 0.9], [0.2, 0.05], [0.3, 0.04], [0.4, 0.3], [0.5, 0.2]];
+        let pins = [[0.5, 0.2]];
+        let kept = in_order(knots.into_iter(), &pins, true);
+        assert_eq!(kept, [[0.1, 0.9], [0.2, 0.05], [0.5, 0.2]]);
+    }
+}
