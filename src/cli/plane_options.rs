@@ -7,7 +7,7 @@ use crate::correspondence::{LinePair, PointPair};
 use crate::easing::Easing;
 use crate::geometry::DVec2;
 use crate::project::Project;
-use crate::warp::WarpKind;
+use crate::warp::{Travel, WarpKind};
 
 use super::options::{named, set};
 
@@ -31,6 +31,11 @@ pub(super) struct CellArgs {
     /// may be given many times
     #[arg(long, value_name = "X,Y,X,Y:X,Y,X,Y", value_parser = line, allow_hyphen_values = true)]
     line: Vec<LinePair>,
+
+    /// How pins and lines travel: turning as a whole, or each straight; auto
+    /// is whole for fields
+    #[arg(long, value_parser = named::<Travel>(&["auto", "whole", "straight"]))]
+    travel: Option<Travel>,
 }
 
 #[derive(Debug, Args)]
@@ -53,6 +58,7 @@ impl CellArgs {
     pub fn edit(&self, project: &mut Project) {
         set(&mut project.warp, self.warp.map(Some));
         set(&mut project.content, self.content.map(Some));
+        set(&mut project.travel, self.travel);
         project.matching.pins.extend(&self.pin);
         project.matching.lines.extend(&self.line);
     }

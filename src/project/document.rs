@@ -7,7 +7,7 @@ use crate::correspondence::Matching;
 use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;
 use crate::transition::{FieldOptions, Fit, PlaneOptions, Stop, Style, Timing, TransitionSpec};
-use crate::warp::{ArapOptions, LatticeOptions, LineOptions, ScatteredOptions, WarpKind};
+use crate::warp::{ArapOptions, LatticeOptions, LineOptions, ScatteredOptions, Travel, WarpKind};
 use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -47,6 +47,9 @@ pub struct Project {
     /// The column of the table, likewise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub content: Option<ContentKind>,
+    /// How the features of warps of the plane travel.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub travel: Travel,
     /// How the target is fitted to the source.
     #[serde(default)]
     pub fit: Fit,
@@ -141,6 +144,7 @@ impl Project {
             description: String::new(),
             warp: None,
             content: None,
+            travel: Travel::default(),
             fit: Fit::default(),
             bar_width: default_bar_width(),
             designs,
@@ -202,6 +206,7 @@ impl Project {
     #[must_use]
     pub fn plane(&self) -> PlaneOptions {
         PlaneOptions {
+            travel: self.travel,
             lines: self.lines,
             scattered: self.scattered,
             lattice: self.lattice,

@@ -8,14 +8,16 @@ use crate::correspondence::{HoleRule, LinePair, Matching, PointPair, match_regio
 use crate::geometry::Bounds;
 use crate::progress::Progress;
 use crate::warp::{
-    Arap, Lattice, LatticeOptions, LineOptions, Lines, OnGrid, PlaneGrid, PlaneWarp, Scattered,
-    ScatteredOptions, Still, Warp, WarpKind,
+    Arap, Lattice, LatticeOptions, LineOptions, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart,
+    Scattered, ScatteredOptions, Split, Still, Travel, Warp, WarpKind,
 };
 use std::sync::Arc;
 
 /// The options of all warps of the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PlaneOptions {
+    /// How features travel.
+    pub travel: Travel,
     /// By pairs of lines.
     pub lines: LineOptions,
     /// By scattered points.
@@ -55,24 +57,42 @@ pub(super) fn warp(
         return rigid(spec, frame, &features, progress);
     }
     let (points, lines) = (&features.points, &features.lines);
-    let options = &spec.plane;
+    let options = spec.plane;
     let count = points.len() + 4 * lines.len();
-    Ok(match kind {
-        WarpKind::Lines => on_grid(
-            Lines::new(frame, lines, points, &options.lines)?,
-            frame,
-            count,
-        ),
+    match kind {
+        WarpKind::Lines => split_on_grid(spec, frame, &features, count, |frame, points, lines| {
+            Ok(Lines::new(frame, lines, points, &options.lines)?)
+        }),
         WarpKind::Scattered => {
-            let warp = Scattered::new(frame, points, lines, options.scattered)?;
-            on_grid(warp, frame, count)
+            split_on_grid(spec, frame, &features, count, |frame, points, lines| {
+                Ok(Scattered::new(frame, points, lines, options.scattered)?)
+            })
         }
-        WarpKind::Lattice => on_grid(
-            Lattice::new(frame, points, lines, options.lattice)?,
-            frame,
-            16,
-        ),
-        WarpKind::None | WarpKind::Arap => Arc::new(Still::new(*frame)),
+        WarpKind::Lattice => split_on_grid(spec, frame, &features, 16, |frame, points, lines| {
+            Ok(Lattice::new(frame, points, lines, options.lattice)?)
+        }),
+        WarpKind::None | WarpKind::Arap => Ok(Arc::new(Still::new(*frame))),
+    }
+}
+
+/// A warp of the features on a grid; behind their common motion where they
+/// travel as a whole.
+fn split_on_grid<W: PlaneWarp>(
+    spec: &TransitionSpec,
+    frame: &Bounds,
+    Features { points, lines, .. }: &Features,
+    work: usize,
+    new: impl FnOnce(&Bounds, &[PointPair], &[LinePair]) -> Result<W, BuildError>,
+) -> Result<Arc<dyn Warp>, BuildError> {
+    let is_whole = match spec.plane.travel {
+        Travel::Auto => spec.cell.content() == ContentKind::Field,
+        Travel::Whole => true,
+        Travel::Straight => false,
+    };
+    let rigid = RigidPart::of(points, lines).filter(|_| is_whole);
+    Ok(match rigid {
+        Some(rigid) => on_grid(Split::new(rigid, frame, points, lines, new)?, frame, work),
+        None => on_grid(new(frame, points, lines)?, frame, work),
     })
 }
 

@@ -8,6 +8,7 @@
 pub mod arap;
 mod lattice;
 mod lines;
+mod metamorphosis;
 mod none;
 mod plane;
 mod scattered;
@@ -17,6 +18,7 @@ pub use lattice::{
     FINEST, Lattice, LatticeError, LatticeMaps, LatticeOptions, MORE_LEVELS, Residual,
 };
 pub use lines::{Between, LineMap, LineOptions, Lines, LinesAtT, LinesError, Raster, Segment};
+pub use metamorphosis::{RigidPart, Split, SplitMaps, Travel};
 pub use none::Still;
 pub use plane::{OnGrid, PlaneGrid, PlaneWarp};
 pub use scattered::{

@@ -8,7 +8,7 @@ use bevy_egui::egui::{self, Margin, Panel, ScrollArea, Ui};
 use super::theme::{GRID, Palette};
 use super::{
     Intents, Scene, appearance_panel, colours_panel, designs_panel, field_panel, lattice_panel,
-    lines_panel, match_panel, method_panel, scattered_panel, warp_panel,
+    lines_panel, match_panel, method_panel, scattered_panel, travel_panel, warp_panel,
 };
 use crate::app::intent::Intent;
 use crate::content::ContentKind;
@@ -50,6 +50,9 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     }
     if draft.warp == Some(WarpKind::Arap) {
         warp_panel::show(ui, scene, &mut draft.arap);
+    }
+    if draft.warp.is_some_and(WarpKind::is_of_the_plane) {
+        travel_panel::show(ui, &mut draft.travel);
     }
     match draft.warp {
         Some(WarpKind::Lines) => lines_panel::show(ui, &mut draft.lines),

@@ -28,6 +28,7 @@ mod times;
 mod toolbar;
 mod track;
 mod transport;
+mod travel_panel;
 mod twin_area;
 mod verdict;
 mod warp_panel;

@@ -7,8 +7,8 @@ use super::{RegionMatch, RingKind, RingMatch};
 const FEWEST: usize = 4;
 
 impl RegionMatch {
-    /// Pairs of points evenly along the matched rings, some `count` along the
-    /// longest one and fewer along shorter ones, ring by ring. Rings that
+    /// Pairs of points along the matched rings, where the outlines bend and
+    /// where they change most, some `count` along the longest one and fewer along shorter ones, ring by ring. Rings that
     /// close to a point or open from one have none: no map of the plane can
     /// do that.
     ///
@@ -53,18 +53,117 @@ fn total(sums: &[f64]) -> f64 {
     sums.last().copied().unwrap_or(0.0)
 }
 
-/// `count` pairs of vertices as even as the vertices are.
+/// `count` pairs of vertices, or all there are: a few evenly, then one by one
+/// the vertex that is farthest from where its neighbours among the pins would
+/// carry it, in either design.
 fn pins(ring: &RingMatch, count: usize) -> Vec<PointPair> {
     let sums = walked(ring);
     let n = ring.source.len();
-    let mut chosen: Vec<usize> = (0..count)
-        .map(|k| total(&sums) * k as f64 / count as f64)
+    let mut chosen: Vec<usize> = (0..FEWEST)
+        .map(|k| total(&sums) * k as f64 / FEWEST as f64)
         .map(|place| sums.partition_point(|sum| *sum < place).min(n - 1))
         .collect();
     chosen.dedup();
-    let pair = |k: usize| PointPair {
-        source: ring.source[k],
-        target: ring.target[k],
+    let mut spans: Vec<Span> = (0..chosen.len())
+        .map(|k| {
+            let next = chosen.get(k + 1).copied().unwrap_or(chosen[0] + n);
+            Span::new(ring, &sums, chosen[k], next)
+        })
+        .collect();
+    while spans.len() < count.min(n) {
+        let worst = (0..spans.len()).reduce(|a, b| if spans[b].off > spans[a].off { b } else { a });
+        let Some(k) = worst.filter(|&k| spans[k].off > 0.0) else {
+            break;
+        };
+        let Span {
+            from, to, farthest, ..
+        } = spans[k];
+        spans[k] = Span::new(ring, &sums, from, farthest);
+        spans.insert(k + 1, Span::new(ring, &sums, farthest, to));
+    }
+    let pair = |span: &Span| PointPair {
+        source: ring.source[span.from % n],
+        target: ring.target[span.from % n],
     };
-    chosen.into_iter().map(pair).collect()
+    spans.iter().map(pair).collect()
+}
+
+/// The vertices from one pin to the next, counted on over the seam.
+#[derive(Clone, Copy, Debug)]
+struct Span {
+    from: usize,
+    to: usize,
+    /// The vertex between that the pins carry worst, and how far off.
+    farthest: usize,
+    off: f64,
+}
+
+impl Span {
+    fn new(ring: &RingMatch, sums: &[f64], from: usize, to: usize) -> Self {
+        let n = ring.source.len();
+        let walked = |k: usize| sums[k % n] + total(sums) * (k / n) as f64;
+        let length = walked(to) - walked(from);
+        let off = |k: usize| {
+            let along = (walked(k) - walked(from)) / length;
+            let square = [&ring.source, &ring.target].map(|side| {
+                let carried = side[from % n].lerp(side[to % n], along);
+                carried.distance_squared(side[k % n])
+            });
+            square[0] + square[1]
+        };
+        let mut span = Self {
+            from,
+            to,
+            farthest: from,
+            off: 0.0,
+        };
+        for k in from + 1..to {
+            let off = off(k);
+            if off > span.off {
+                span = Self {
+                    farthest: k,
+                    off,
+                    ..span
+                };
+            }
+        }
+        span
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::correspondence::{Matching, match_regions};
+    use crate::geometry::{DVec2, FillRule, Regions};
+    use crate::progress::Silent;
+
+    #[test]
+    fn corners_are_pinned_before_edges() {
+        // A comb with many points along its edges.
+        let corners: Vec<DVec2> = [
+            (0, 0),
+            (6, 0),
+            (6, 3),
+            (5, 3),
+            (5, 1),
+            (1, 1),
+            (1, 3),
+            (0, 3),
+        ]
+        .map(|(x, y)| DVec2::new(f64::from(x), f64::from(y)))
+        .to_vec();
+        let mut points = Vec::new();
+        for (k, a) in corners.iter().enumerate() {
+            let b = corners[(k + 1) % corners.len()];
+            points.extend((0..8).map(|i| a.lerp(b, f64::from(i) / 8.0)));
+        }
+        let regions = Regions::from_rings(&[points], FillRule::EvenOdd).expect("a comb");
+        let matched =
+            match_regions(&regions, &regions, &Matching::default(), &Silent).expect("itself");
+        let pins = matched.automatic_pins(14).concat();
+        let missing = corners
+            .iter()
+            .filter(|c| pins.iter().all(|p| p.source != **c));
+        assert_eq!(missing.count(), 0, "{pins:?}");
+    }
 }

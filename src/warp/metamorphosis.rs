@@ -1,0 +1,348 @@
+//! A warp of the plane split into a rigid motion and an elastic rest.
+//!
+//! Cohen-Or, Levin, Solomovici, "Three-dimensional distance field
+//! metamorphosis" (1998), §4: the rotation that lays the source's features
+//! onto the target's is played as a rotation, and only what it leaves over is
+//! a warp. A thing that turns does not shrink on the way, as it does where its
+//! features go straight.
+//!
+//! Guaranteed: whatever the features, at t = 0 the source and at t = 1 the
+//! target is looked up at the very same place, to the last bit; swapping the
+//! designs plays the film backwards, to rounding; features that only moved and
+//! turned move rigidly. A turn by π goes counter-clockwise, swapped or not.
+
+use super::PlaneWarp;
+use crate::correspondence::{LinePair, PointPair};
+use crate::geometry::{Bounds, DVec2};
+use serde::{Deserialize, Serialize};
+
+/// How the features of a warp of the plane travel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Travel {
+    /// As a whole where fields are seen; straight where pictures are, whose
+    /// borders would turn into the frame.
+    #[default]
+    Auto,
+    /// The rigid motion that they have in common is played as one, and only
+    /// the rest goes straight.
+    Whole,
+    /// Each goes straight.
+    Straight,
+}
+
+/// The rigid motion that lays features of the source onto those of the target
+/// best, in the sense of least squares: about one centre onto another.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RigidPart {
+    /// The mean of the features, in the source and in the target.
+    centres: [DVec2; 2],
+    /// From source to target, in radians, counter-clockwise, in (−π, π].
+    turn: f64,
+}
+
+/// Turns so near π are π: rounding must not choose the way around.
+const HALF_A_TURN: f64 = 1e-9;
+
+impl RigidPart {
+    /// The best motion for some features, a line counting as its two ends;
+    /// none where there are fewer than two places or one is not finite.
+    ///
+    /// ```
+    /// use morphospace::{correspondence::PointPair, geometry::DVec2, warp::RigidPart};
+    /// let pair = |x, y| PointPair {
+    ///     source: DVec2::new(x, y),
+    ///     target: DVec2::new(x, y).perp(),
+    /// };
+    /// let turned = RigidPart::of(&[pair(0.0, 0.0), pair(1.0, 0.0)], &[]).expect("two points");
+    /// assert!((turned.turn() - 0.5 * std::f64::consts::PI).abs() < 1e-12);
+    /// ```
+    #[must_use]
+    pub fn of(points: &[PointPair], lines: &[LinePair]) -> Option<Self> {
+        let ends = |line: &LinePair| {
+            [0, 1].map(|k| PointPair {
+                source: line.source[k],
+                target: line.target[k],
+            })
+        };
+        let pairs: Vec<PointPair> = (points.iter().copied())
+            .chain(lines.iter().flat_map(ends))
+            .collect();
+        let count = pairs.len() as f64;
+        let mean = |of: fn(&PointPair) -> DVec2| pairs.iter().map(of).sum::<DVec2>() / count;
+        let centres = [mean(|p| p.source), mean(|p| p.target)];
+        let mut sum = DVec2::ZERO;
+        for pair in &pairs {
+            let (p, q) = (pair.source - centres[0], pair.target - centres[1]);
+            sum += DVec2::new(p.dot(q), p.perp_dot(q));
+        }
+        if !(sum.is_finite() && sum != DVec2::ZERO) {
+            return None;
+        }
+        let turn = sum.to_angle();
+        let is_half = std::f64::consts::PI - turn.abs() < HALF_A_TURN;
+        Some(Self {
+            centres,
+            turn: if is_half { turn.abs() } else { turn },
+        })
+    }
+
+    /// The rotation from source to target, in radians, in (−π, π].
+    #[must_use]
+    pub fn turn(&self) -> f64 {
+        self.turn
+    }
+
+    /// A frame that, at rest, covers `frame` at any t in [0, 1].
+    fn frame_at_rest(&self, frame: &Bounds) -> Bounds {
+        let corners = frame.corners();
+        let far = |centre: DVec2| corners.iter().map(move |c| c.distance(centre));
+        let radius = self.centres.into_iter().flat_map(far).fold(0.0, f64::max);
+        Bounds {
+            min: DVec2::splat(-radius),
+            max: DVec2::splat(radius),
+        }
+    }
+
+    /// The features as they would be had nothing moved or turned: both about
+    /// the origin, the target turned back by half and the source on by half.
+    fn at_rest(&self, source: DVec2, target: DVec2) -> [DVec2; 2] {
+        let half = DVec2::from_angle(0.5 * self.turn);
+        [
+            half.rotate(source - self.centres[0]),
+            conjugate(half).rotate(target - self.centres[1]),
+        ]
+    }
+}
+
+/// A warp of the plane behind a rigid motion.
+#[derive(Clone, Debug)]
+pub struct Split<W> {
+    rigid: RigidPart,
+    elastic: W,
+}
+
+/// Memory of a frame of a [`Split`] warp: that of the elastic warp, and the
+/// places as it sees them.
+#[derive(Clone, Debug)]
+pub struct SplitMaps<M> {
+    elastic: M,
+    rest: Vec<DVec2>,
+}
+
+impl<W> Split<W> {
+    /// Splits off `rigid`; `elastic` makes the warp of what is left, over a
+    /// frame at rest and from the features at rest.
+    ///
+    /// # Errors
+    /// Whatever `elastic` fails with.
+    pub fn new<E>(
+        rigid: RigidPart,
+        frame: &Bounds,
+        points: &[PointPair],
+        lines: &[LinePair],
+        elastic: impl FnOnce(&Bounds, &[PointPair], &[LinePair]) -> Result<W, E>,
+    ) -> Result<Self, E> {
+        let points: Vec<PointPair> = points
+            .iter()
+            .map(|pair| {
+                let [source, target] = rigid.at_rest(pair.source, pair.target);
+                PointPair { source, target }
+            })
+            .collect();
+        let lines: Vec<LinePair> = lines
+            .iter()
+            .map(|line| {
+                let [a, b] = [0, 1].map(|k| rigid.at_rest(line.source[k], line.target[k]));
+                LinePair {
+                    source: [a[0], b[0]],
+                    target: [a[1], b[1]],
+                }
+            })
+            .collect();
+        Ok(Self {
+            rigid,
+            elastic: elastic(&rigid.frame_at_rest(frame), &points, &lines)?,
+        })
+    }
+}
+
+impl<W: PlaneWarp> PlaneWarp for Split<W> {
+    type Maps = SplitMaps<W::Maps>;
+
+    fn maps(&self) -> Self::Maps {
+        SplitMaps {
+            elastic: self.elastic.maps(),
+            rest: Vec::new(),
+        }
+    }
+
+    fn look_up(
+        &self,
+        t: f64,
+        maps: &mut Self::Maps,
+        frame: &[DVec2],
+        in_source: &mut [DVec2],
+        in_target: &mut [DVec2],
+    ) {
+        let RigidPart { centres, turn } = self.rigid;
+        let t = if t.is_finite() { t } else { 0.0 };
+        let centre = centres[0] * (1.0 - t) + centres[1] * t;
+        // At rest is halfway: −½ of the turn at t = 0, +½ at t = 1.
+        let back = DVec2::from_angle((0.5 - t) * turn);
+        maps.rest.clear();
+        let rest = frame.iter().map(|p| back.rotate(*p - centre));
+        maps.rest.extend(rest);
+        self.elastic
+            .look_up(t, &mut maps.elastic, &maps.rest, in_source, in_target);
+        let half = DVec2::from_angle(0.5 * turn);
+        for p in in_source.iter_mut() {
+            *p = conjugate(half).rotate(*p) + centres[0];
+        }
+        for p in in_target.iter_mut() {
+            *p = half.rotate(*p) + centres[1];
+        }
+        // The ends are the designs themselves, not the designs to rounding.
+        if t == 0.0 {
+            in_source.copy_from_slice(frame);
+        }
+        if t == 1.0 {
+            in_target.copy_from_slice(frame);
+        }
+    }
+}
+
+fn conjugate(z: DVec2) -> DVec2 {
+    DVec2::new(z.x, -z.y)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::warp::{Lattice, LatticeOptions, Scattered, ScatteredOptions};
+    use proptest::prelude::*;
+    use std::f64::consts::PI;
+
+    const FRAME: Bounds = Bounds {
+        min: DVec2::new(-2.0, -2.0),
+        max: DVec2::new(2.0, 2.0),
+    };
+
+    fn places() -> Vec<DVec2> {
+        let at = |k: u32| DVec2::new(f64::from(k % 5) - 2.0, f64::from(k / 5) - 2.0);
+        (0..25).map(at).collect()
+    }
+
+    fn looked<W: PlaneWarp>(warp: &W, t: f64, frame: &[DVec2]) -> [Vec<DVec2>; 2] {
+        let [mut source, mut target] = [frame.to_vec(), frame.to_vec()];
+        warp.look_up(t, &mut warp.maps(), frame, &mut source, &mut target);
+        [source, target]
+    }
+
+    fn moved(points: &[DVec2], turn: f64, by: DVec2) -> Vec<PointPair> {
+        let to = |p: &DVec2| DVec2::from_angle(turn).rotate(*p) + by;
+        points
+            .iter()
+            .map(|p| PointPair {
+                source: *p,
+                target: to(p),
+            })
+            .collect()
+    }
+
+    fn thin_plate(pairs: &[PointPair]) -> Split<Scattered> {
+        let rigid = RigidPart::of(pairs, &[]).expect("two places");
+        Split::new(rigid, &FRAME, pairs, &[], |frame, points, lines| {
+            Scattered::new(frame, points, lines, ScatteredOptions::default())
+        })
+        .expect("a warp")
+    }
+
+    const CORNERS: [DVec2; 4] = [
+        DVec2::new(-1.0, -1.0),
+        DVec2::new(1.0, -0.5),
+        DVec2::new(0.5, 1.0),
+        DVec2::new(-0.7, 0.4),
+    ];
+
+    #[test]
+    fn what_only_turned_moves_rigidly() {
+        for turn in [0.3, 2.0, -3.0, PI] {
+            let pairs = moved(&CORNERS, turn, DVec2::new(0.4, -0.2));
+            let lattice = {
+                let rigid = RigidPart::of(&pairs, &[]).expect("two places");
+                Split::new(rigid, &FRAME, &pairs, &[], |frame, points, lines| {
+                    Lattice::new(frame, points, lines, LatticeOptions::default())
+                })
+                .expect("a warp")
+            };
+            let frame = places();
+            for t in [0.0, 0.3, 0.5, 0.8, 1.0, 1.4] {
+                for seen in [
+                    looked(&thin_plate(&pairs), t, &frame),
+                    looked(&lattice, t, &frame),
+                ] {
+                    for side in &seen {
+                        for (k, p) in side.iter().enumerate() {
+                            for (l, q) in side.iter().enumerate() {
+                                let (apart, wanted) = (p.distance(*q), frame[k].distance(frame[l]));
+                                assert!((apart - wanted).abs() < 1e-9, "turn {turn} at {t}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_ends_are_exact() {
+        let mut pairs = moved(&CORNERS, 1.3, DVec2::new(0.3, 0.1));
+        pairs[2].target += DVec2::new(0.2, -0.4);
+        let (warp, frame) = (thin_plate(&pairs), places());
+        assert_eq!(looked(&warp, 0.0, &frame)[0], frame);
+        assert_eq!(looked(&warp, 1.0, &frame)[1], frame);
+    }
+
+    #[test]
+    fn places_without_a_direction_have_no_rigid_part() {
+        let pair = |x: f64, y: f64| PointPair {
+            source: DVec2::splat(x),
+            target: DVec2::splat(y),
+        };
+        assert_eq!(RigidPart::of(&[], &[]), None);
+        assert_eq!(RigidPart::of(&[pair(1.0, 2.0)], &[]), None);
+        assert_eq!(
+            RigidPart::of(&[pair(1.0, f64::NAN), pair(0.0, 1.0)], &[]),
+            None
+        );
+    }
+
+    fn pairs() -> impl Strategy<Value = Vec<PointPair>> {
+        let place = || (-2.0..2.0, -2.0..2.0).prop_map(DVec2::from);
+        let pair = (place(), place()).prop_map(|(source, target)| PointPair { source, target });
+        prop::collection::vec(pair, 2..7)
+    }
+
+    proptest! {
+        #[test]
+        fn swapped_is_backwards_and_finite(pairs in pairs(), t in 0.0..1.0) {
+            let back: Vec<PointPair> = pairs
+                .iter()
+                .map(|p| PointPair { source: p.target, target: p.source })
+                .collect();
+            let frame = places();
+            let there = looked(&thin_plate(&pairs), t, &frame);
+            let returned = looked(&thin_plate(&back), 1.0 - t, &frame);
+            // Near half a turn the way around is a matter of rounding.
+            let turn = RigidPart::of(&pairs, &[]).expect("two places").turn();
+            prop_assume!(turn.abs() < 3.1);
+            for k in 0..frame.len() {
+                prop_assert!(there[0][k].is_finite() && there[1][k].is_finite());
+                let scale = 1.0 + there[0][k].length() + there[1][k].length();
+                prop_assert!(there[0][k].distance(returned[1][k]) < 1e-5 * scale);
+                prop_assert!(there[1][k].distance(returned[0][k]) < 1e-5 * scale);
+            }
+        }
+    }
+}
