@@ -84,6 +84,8 @@ pub enum Intent {
     },
     /// Record one pass as a film in the background.
     Record,
+    /// Write a sheet of every method by which the pair can be seen, in the background.
+    Compare,
     /// Stop the work that is going on.
     CancelWork,
     /// Stop the recording that is going on.
@@ -120,6 +122,8 @@ pub enum Intent {
     },
     /// An act in the match editor.
     Editor(EditorAct),
+    /// Show or hide the grid that shows the warp.
+    ToggleGrid,
     /// What the stage draws.
     Show(Show),
     /// Dark, light, or as the system has it.

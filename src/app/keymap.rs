@@ -374,6 +374,12 @@ fn view() -> Vec<Binding> {
                 "A second method beside the stage",
             ),
             row(
+                Letter('w'),
+                Intent::ToggleGrid,
+                "W",
+                "A grid that shows the warp",
+            ),
+            row(
                 Letter('p'),
                 Intent::TogglePlots,
                 "P",
@@ -432,6 +438,12 @@ fn files() -> Vec<Binding> {
             )
             .shift(),
             row(Letter('g'), Intent::Record, "G", "Record one pass"),
+            row(
+                Letter('c'),
+                Intent::Compare,
+                "C",
+                "Sheet of all methods, side by side",
+            ),
             row(
                 Letter('z'),
                 Intent::Undo,

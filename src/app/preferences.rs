@@ -50,6 +50,7 @@ pub fn apply(mut intents: MessageReader<Intent>, mut preferences: ResMut<Prefere
     for intent in intents.read() {
         match intent {
             Intent::Show(show) => preferences.show = *show,
+            Intent::ToggleGrid => preferences.show.grid = !preferences.show.grid,
             Intent::Theme(theme) => preferences.theme = *theme,
             Intent::TogglePanels => preferences.panels = !preferences.panels,
             Intent::ToggleHelp => preferences.help = !preferences.help,

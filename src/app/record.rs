@@ -12,10 +12,11 @@ use crate::app::notices::Notices;
 use crate::app::preferences::Preferences;
 use crate::app::session::Session;
 use crate::export::{
-    Camera, ExportError, Film, FilmKind, PixelSize, Target, View, framing, write_film,
+    Camera, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View, comparison,
+    even_times, framing, write_film, write_still,
 };
 use crate::progress::Progress;
-use crate::project::Project;
+use crate::project::{LoadedProject, Project};
 use crate::transition::Transition;
 
 /// Frames a second; GIF's clock of hundredths keeps it exactly.
@@ -25,11 +26,14 @@ const FPS: f64 = 25.0;
 #[derive(Resource, Debug, Default)]
 pub struct Recorder(Option<Job<Result<PathBuf, String>>>);
 
+/// The t of a sheet of all methods.
+const COLUMNS: usize = 7;
+
 impl Recorder {
     /// What is being recorded and how far it is.
     #[must_use]
     pub fn work(&self) -> Option<(&'static str, f64)> {
-        self.0.as_ref().map(|job| ("Recording", job.progress().1))
+        self.0.as_ref().map(|job| ("Writing", job.progress().1))
     }
 
     /// Stops the recording; what was begun is taken away.
@@ -50,8 +54,18 @@ pub fn apply(
     for intent in intents.read() {
         match intent {
             Intent::CancelRecording => recorder.cancel(),
-            Intent::Record if recorder.0.is_some() => {
-                notices.done("A film is being recorded; wait for it, or cancel it first.");
+            Intent::Record | Intent::Compare if recorder.0.is_some() => {
+                notices.done("A file is being written; wait for it, or cancel it first.");
+            }
+            Intent::Compare => {
+                if let (Some(staged), Some(project), Some(transition)) =
+                    (session.staged(), session.project(), session.transition())
+                {
+                    let order = Order::new(project, transition, &preferences, &session, &folder);
+                    recorder.0 = Some(Job::start("a sheet", move |progress| {
+                        order.compare(&staged, progress)
+                    }));
+                }
             }
             Intent::Record => {
                 if let (Some(project), Some(transition)) = (session.project(), session.transition())
@@ -77,7 +91,7 @@ pub fn report(mut recorder: ResMut<Recorder>, mut notices: ResMut<Notices>) {
         .map_err(|broken| broken.to_string())
         .and_then(|written| written)
     {
-        Ok(path) => notices.done(format!("Recorded {}", path.display())),
+        Ok(path) => notices.done(format!("Wrote {}", path.display())),
         Err(error) => notices.problem(error),
     }
 }
@@ -143,6 +157,27 @@ impl Order {
             Err(ExportError::Cancelled(_)) => Err("The recording was cancelled.".to_owned()),
             Err(error) => Err(error.to_string()),
         }
+    }
+
+    /// A sheet of every method by which the pair can be seen.
+    fn compare(self, staged: &LoadedProject, progress: &dyn Progress) -> Result<PathBuf, String> {
+        let words = |error: &dyn std::error::Error| error.to_string();
+        let spec = staged.spec().map_err(|error| words(&error))?;
+        let rows = MethodRow::all(&spec, progress).map_err(|error| words(&error))?;
+        let timing = &self.project.timing;
+        let times = even_times(timing.from, timing.to, COLUMNS);
+        let ground = (!self.is_transparent).then_some(self.project.style.ground);
+        let drawing = comparison(&rows, &self.project.style, &times, ground);
+        let drawing = drawing.map_err(|error| words(&error))?;
+        let stem = format!("{}-methods", self.stem);
+        let made = create_new(&self.folder, &stem, "png");
+        let (_, path) = made.map_err(|error| words(&error))?;
+        let written = write_still(&drawing, StillKind::Png, &path);
+        if let Err(error) = written {
+            remove(&path);
+            return Err(words(&error));
+        }
+        Ok(path)
     }
 
     fn target(&self) -> Result<(Target, PathBuf), String> {

@@ -8,14 +8,13 @@ use std::path::PathBuf;
 
 use clap::Args;
 
-use crate::content::ContentKind;
 use crate::export::{
     Camera, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View, comparison,
     even_times, framing, sheet, write_film, write_still,
 };
 use crate::progress::Progress;
 use crate::project::Project;
-use crate::transition::{BuildError, Cell, PlayMode, Rgb, Transition, TransitionSpec};
+use crate::transition::{PlayMode, Rgb};
 
 use super::error::CliError;
 use super::inputs::{Inputs, Opened};
@@ -184,24 +183,8 @@ fn compared(
 ) -> Result<Vec<PathBuf>, CliError> {
     let project = &opened.loaded.project;
     let times = even_times(project.timing.from, project.timing.to, count);
-    // Silhouettes of photographs, and colours of silhouettes, say little.
-    let in_colours = opened.transition.cell().content() == ContentKind::Colours;
-    let can = |cell: &Cell| {
-        let suits = (cell.content() == ContentKind::Colours) == in_colours;
-        suits && (opened.loaded.available(cell.warp(), cell.content())).is_ok()
-    };
-    let mut rows = Vec::new();
-    for cell in Cell::all().filter(can) {
-        let spec = opened.loaded.spec().map_err(CliError::failed)?;
-        let built = Transition::build(&TransitionSpec { cell, ..spec }, progress);
-        if let Err(BuildError::Cancelled(cancelled)) = built {
-            return Err(CliError::failed(cancelled));
-        }
-        rows.push(MethodRow {
-            name: cell.name(),
-            transition: built.map_err(|error| error.to_string()),
-        });
-    }
+    let spec = opened.loaded.spec().map_err(CliError::failed)?;
+    let rows = MethodRow::all(&spec, progress).map_err(CliError::failed)?;
     let drawing = comparison(&rows, &project.style, &times, ground_of(args, project));
     write_still(&drawing.map_err(CliError::failed)?, kind, &path).map_err(CliError::failed)?;
     Ok(vec![path])

@@ -5,8 +5,10 @@
 //! of t do not overlap; a method that failed has its reason in place of
 //! frames.
 
+use crate::content::ContentKind;
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::{Rgb, Style, Transition};
+use crate::progress::{Cancelled, Progress};
+use crate::transition::{BuildError, Cell, Rgb, Style, Transition, TransitionSpec};
 
 use super::camera::framing;
 use super::drawing::{Drawing, View};
@@ -38,6 +40,35 @@ pub struct MethodRow {
     pub name: String,
     /// The pair by this method, or why there is none, in words.
     pub transition: Result<Transition, String>,
+}
+
+impl MethodRow {
+    /// A pair by every method that can show it: the specification by each cell
+    /// of the table. Pictures are compared with pictures, shapes with shapes:
+    /// silhouettes of photographs say little.
+    ///
+    /// # Errors
+    /// [`Cancelled`]; a method that fails has its reason in its row.
+    pub fn all(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Vec<Self>, Cancelled> {
+        let is_colours = |cell: Cell| cell.content() == ContentKind::Colours;
+        let suits = |cell: &Cell| {
+            is_colours(*cell) == is_colours(spec.cell)
+                && TransitionSpec::available(*cell, &spec.source, &spec.target).is_ok()
+        };
+        let row = |cell: Cell| {
+            let spec = TransitionSpec {
+                cell,
+                ..spec.clone()
+            };
+            let transition = match Transition::build(&spec, progress) {
+                Err(BuildError::Cancelled(cancelled)) => return Err(cancelled),
+                built => built.map_err(|error| error.to_string()),
+            };
+            let name = cell.name();
+            Ok(Self { name, transition })
+        };
+        Cell::all().filter(suits).map(row).collect()
+    }
 }
 
 /// Draws a row for each method at the given t.

@@ -14,8 +14,17 @@ use crate::transition::Frame;
 
 use super::shapes::write_points;
 
+/// In what the places to look at are told.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Lookups {
+    /// In samples of the fields, or in shares of the pictures' sides.
+    OfContent,
+    /// In units of the plane, relative to the part's origin.
+    OfPlane,
+}
+
 /// The lengths are those of the placement's vertices.
-pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
+pub(super) fn write(frame: &Frame, origin: DVec2, lookups: Lookups, mesh: &mut Mesh) {
     let places = &frame.placement().in_frame;
     if let Some(VertexAttributeValues::Float32x3(positions)) =
         mesh.attribute_mut(Mesh::ATTRIBUTE_POSITION)
@@ -29,14 +38,21 @@ pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
             *out = (p - origin).as_vec2().to_array();
         }
     }
-    if let Some(VertexAttributeValues::Float32x4(lookups)) =
-        mesh.attribute_mut(Mesh::ATTRIBUTE_COLOR)
-    {
-        write_lookups(frame, lookups);
+    if let Some(VertexAttributeValues::Float32x4(out)) = mesh.attribute_mut(Mesh::ATTRIBUTE_COLOR) {
+        match lookups {
+            Lookups::OfContent => write_lookups(frame, out),
+            Lookups::OfPlane => {
+                let placement = frame.placement();
+                let pairs = placement.in_source.iter().zip(&placement.in_target);
+                for (out, (&a, &b)) in out.iter_mut().zip(pairs) {
+                    let (a, b) = ((a - origin).as_vec2(), (b - origin).as_vec2());
+                    *out = [a.x, a.y, b.x, b.y];
+                }
+            }
+        }
     }
 }
 
-/// In samples of the fields, or in pixels of the pictures.
 fn write_lookups(frame: &Frame, out: &mut [[f32; 4]]) {
     let placement = frame.placement();
     let pairs = placement.in_source.iter().zip(&placement.in_target);

@@ -110,6 +110,9 @@ pub struct Show {
     pub iso_lines: bool,
     /// The blended field in two hues, warm inside and cool outside (fields only).
     pub signed_colours: bool,
+    /// A square grid of the source, where the warp carries it (wherever
+    /// there are faces).
+    pub grid: bool,
 }
 
 impl Default for Show {
@@ -121,6 +124,7 @@ impl Default for Show {
             ghosts: false,
             iso_lines: false,
             signed_colours: false,
+            grid: false,
         }
     }
 }

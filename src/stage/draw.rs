@@ -13,10 +13,11 @@ use crate::export::joint_core;
 use crate::transition::{Frame, Rgb};
 use crate::warp::WarpKind;
 
-use super::carried;
+use super::carried::{self, Lookups};
 use super::colours::{ColourLook, ColourMaterial};
 use super::components::{ArapSolver, FieldSprite, PictureSprite, StageStyle};
 use super::field::{FieldLook, FieldMaterial};
+use super::grid::{GridLook, GridMaterial};
 use super::ink::{InkMaterial, linear};
 use super::parts::{Part, PartKind};
 use super::shapes::{Positions, write_corners, write_points};
@@ -67,7 +68,7 @@ pub(super) fn draw_solids(
             if let Some(ink) = ink {
                 set_colour(&mut inks, ink, part.kind.colour(frame.t(), &style));
             }
-            if part.stale {
+            if part.stale && !matches!(part.kind, PartKind::Grid) {
                 part.stale = !rewrite(&mut meshes, mesh, |positions| {
                     part.kind.write(frame, &style, part.origin, positions);
                 });
@@ -149,6 +150,54 @@ pub(super) fn draw_pictures(
     }
 }
 
+/// A transition of any content that moved, or whose look did.
+type Roots = (
+    Option<Ref<'static, ArapSolver>>,
+    Option<Ref<'static, FieldSprite>>,
+    Option<Ref<'static, PictureSprite>>,
+    &'static StageStyle,
+    &'static Children,
+);
+
+/// Writes the grids that show warps, of whatever is seen.
+pub(super) fn draw_grids(
+    roots: Query<Roots, Or<(Moved<ArapSolver>, Moved<FieldSprite>, Moved<PictureSprite>)>>,
+    mut parts: Query<(&mut Part, &Mesh2d, &MeshMaterial2d<GridMaterial>)>,
+    mut meshes: ResMut<Assets<Mesh>>,
+    mut grids: ResMut<Assets<GridMaterial>>,
+) {
+    for (solid, field, picture, style, children) in &roots {
+        let moved = [
+            solid.as_ref().map(DetectChanges::is_changed),
+            field.as_ref().map(DetectChanges::is_changed),
+            picture.as_ref().map(DetectChanges::is_changed),
+        ];
+        let frame = (solid.as_deref().map(ArapSolver::frame))
+            .or(field.as_deref().map(FieldSprite::frame))
+            .or(picture.as_deref().map(PictureSprite::frame));
+        let Some(frame) = frame else { continue };
+        let mut parts = parts.iter_many_mut(children);
+        while let Some((mut part, mesh, grid)) = parts.fetch_next() {
+            part.stale |= moved.contains(&Some(true));
+            if !style.show.grid {
+                continue;
+            }
+            if part.stale
+                && let Some(mut mesh) = meshes.get_mut(mesh)
+            {
+                carried::write(frame, part.origin, Lookups::OfPlane, &mut mesh);
+                part.stale = false;
+            }
+            let look = GridLook::new(frame, part.origin, style);
+            if grids.get(grid).is_some_and(|old| old.look != look)
+                && let Some(mut material) = grids.get_mut(grid)
+            {
+                material.look = look;
+            }
+        }
+    }
+}
+
 /// Writes where a warp has put the vertices of a field or a picture. Where
 /// nothing moves that is done once.
 fn carry(part: &mut Part, moved: bool, frame: &Frame, meshes: &mut Assets<Mesh>, mesh: &Mesh2d) {
@@ -159,7 +208,7 @@ fn carry(part: &mut Part, moved: bool, frame: &Frame, meshes: &mut Assets<Mesh>,
     if part.stale
         && let Some(mut mesh) = meshes.get_mut(mesh)
     {
-        carried::write(frame, part.origin, &mut mesh);
+        carried::write(frame, part.origin, Lookups::OfContent, &mut mesh);
         part.stale = false;
     }
 }
@@ -203,6 +252,7 @@ impl PartKind {
             Self::Bars(_) => show.bars,
             Self::JointCores(_) => show.bars && style.joints,
             Self::Wire { .. } => show.wireframe,
+            Self::Grid => show.grid,
             Self::SourceGhost | Self::TargetGhost => show.ghosts,
         }
     }
@@ -232,7 +282,7 @@ impl PartKind {
             Self::Wire { .. } => write_corners(points, &placement.faces, origin, positions),
             Self::Bars(bars) => bars.write(points, style.style.joints, origin, positions),
             Self::JointCores(bars) => bars.write_cores(points, origin, positions),
-            Self::Field | Self::Picture | Self::SourceGhost | Self::TargetGhost => {}
+            Self::Field | Self::Picture | Self::Grid | Self::SourceGhost | Self::TargetGhost => {}
         }
     }
 }

@@ -44,6 +44,7 @@ mod colours;
 mod components;
 mod draw;
 mod field;
+mod grid;
 mod ink;
 mod parts;
 mod pipelines;
@@ -117,6 +118,7 @@ fn add_drawing(app: &mut App) {
     embedded_asset!(app, "ink.wgsl");
     embedded_asset!(app, "field.wgsl");
     embedded_asset!(app, "colours.wgsl");
+    embedded_asset!(app, "grid.wgsl");
     for init in [init_asset::<Mesh>, init_asset::<Image>] {
         init(app);
     }
@@ -124,6 +126,7 @@ fn add_drawing(app: &mut App) {
         Material2dPlugin::<ink::InkMaterial>::default(),
         Material2dPlugin::<field::FieldMaterial>::default(),
         Material2dPlugin::<colours::ColourMaterial>::default(),
+        Material2dPlugin::<grid::GridMaterial>::default(),
     ))
     .add_observer(parts::undress::<ArapSolver>)
     .add_observer(parts::undress::<FieldSprite>)
@@ -135,6 +138,7 @@ fn add_drawing(app: &mut App) {
             draw::draw_solids,
             draw::draw_fields,
             draw::draw_pictures,
+            draw::draw_grids,
             parts::place_parts,
         )
             .chain()

@@ -16,6 +16,7 @@ use crate::transition::{Figure, Frame};
 use super::colours::{ColourLook, ColourMaterial};
 use super::components::{ArapSolver, FieldSprite, PictureSprite, StageStyle};
 use super::field::{FieldLook, FieldMaterial};
+use super::grid::{GridLook, GridMaterial};
 use super::ink::{InkKind, InkMaterial};
 use super::shapes::{BarShapes, Segments, corner_coordinates, quad_indices};
 use super::view::StageView;
@@ -47,6 +48,8 @@ pub(super) enum PartKind {
         /// It is seen on the faces, not on the ground.
         on_faces: bool,
     },
+    /// The grids that show the warp.
+    Grid,
     SourceGhost,
     TargetGhost,
 }
@@ -64,6 +67,7 @@ impl PartKind {
             Self::Bars(_) => 0.1,
             Self::JointCores(_) => 0.2,
             Self::Wire { .. } => 0.3,
+            Self::Grid => 0.35,
             Self::SourceGhost => 0.4,
             Self::TargetGhost => 0.5,
         }
@@ -71,7 +75,7 @@ impl PartKind {
 
     fn ink(&self) -> InkKind {
         match self {
-            Self::Faces | Self::Field | Self::Picture => InkKind::Faces,
+            Self::Faces | Self::Field | Self::Picture | Self::Grid => InkKind::Faces,
             Self::Bars(_) | Self::JointCores(_) => InkKind::Round,
             Self::Wire { .. } => InkKind::Wire,
             Self::SourceGhost | Self::TargetGhost => InkKind::Line,
@@ -141,6 +145,7 @@ pub(super) struct Wardrobe<'w, 's> {
     inks: ResMut<'w, Assets<InkMaterial>>,
     fields: ResMut<'w, Assets<FieldMaterial>>,
     colours: ResMut<'w, Assets<ColourMaterial>>,
+    grids: ResMut<'w, Assets<GridMaterial>>,
     parts: Query<'w, 's, (), With<Part>>,
 }
 
@@ -232,6 +237,16 @@ impl Wardrobe<'_, '_> {
         self.commands.entity(part).insert(MeshMaterial2d(material));
     }
 
+    fn add_grid(&mut self, of: Entity, frame: &Frame, origin: DVec2, style: &StageStyle) {
+        if frame.placement().faces.is_empty() {
+            return;
+        }
+        let look = GridLook::new(frame, origin, style);
+        let material = self.grids.add(GridMaterial { look });
+        let part = self.add(of, PartKind::Grid, origin, Shape::carried(frame));
+        self.commands.entity(part).insert(MeshMaterial2d(material));
+    }
+
     fn add_ghost(&mut self, of: Entity, kind: PartKind, figure: &Figure, origin: DVec2) {
         let segments = Segments::of(figure, origin);
         if segments.quads() == 0 {
@@ -274,6 +289,7 @@ pub(super) fn dress(undressed: Query<Staged, With<Undressed>>, mut wardrobe: War
             Content::Field(pair) => wardrobe.add_field(entity, frame, pair, origin, style),
             Content::Colours(pair) => wardrobe.add_picture(entity, frame, pair, origin),
         }
+        wardrobe.add_grid(entity, frame, origin, style);
         let ghosts = [
             (PartKind::SourceGhost, transition.source_outline()),
             (PartKind::TargetGhost, transition.target_outline()),

@@ -95,6 +95,13 @@ fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
             "The blended field in two hues: inside and outside.",
             is_field,
         );
+        layer(
+            &mut columns[0],
+            &mut show.grid,
+            "Grid",
+            "A square grid of the source, where the warp carries it (W).",
+            true,
+        );
     });
     ui.spacing_mut().item_spacing = bevy_egui::egui::vec2(8.0, 8.0);
     if show != scene.preferences.show {
