@@ -1018,7 +1018,7 @@ fn a_second_method_stands_beside_the_stage_at_the_same_t() {
         let half = 0.5 * (mesh.source()[k] + mesh.target()[k]);
         assert!(p.distance(half) < 1e-6 * size, "{p} is not {half}");
     }
-    window.send(Intent::TwinMethod(TwinMethod::Field));
+    window.send(Intent::TwinMethod(TwinMethod::Cell(Cell::FIELD_BLEND)));
     wait_for_twin(&mut window);
     let twin: &Twin = window.0.world().resource();
     assert_eq!(twin.problem(), None);

@@ -15,38 +15,56 @@ use crate::content::ContentKind;
 use crate::homotopy::Homotopy;
 use crate::progress::Progress;
 use crate::project::{LoadedProject, Project};
-use crate::transition::Transition;
-use crate::warp::WarpKind;
+use crate::transition::{Cell, Transition};
 
 /// A method that the twin view can show.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TwinMethod {
     /// Each vertex of the common triangulation goes straight to its place.
-    #[default]
     Straight,
-    /// Parts move as rigidly as they can.
-    Rigid,
-    /// Distance fields are blended.
-    Field,
+    /// A cell of the table.
+    Cell(Cell),
 }
 
 impl TwinMethod {
     /// All of them, in the order of the list.
-    pub const ALL: [Self; 3] = [Self::Straight, Self::Rigid, Self::Field];
+    pub fn all() -> impl Iterator<Item = Self> {
+        std::iter::once(Self::Straight).chain(Cell::all().map(Self::Cell))
+    }
+
+    /// What a content is best held against: pictures with a dissolve, shapes
+    /// with straight lines.
+    #[must_use]
+    pub fn plainest(content: Option<ContentKind>) -> Self {
+        if content == Some(ContentKind::Colours) {
+            Self::Cell(Cell::CROSS_DISSOLVE)
+        } else {
+            Self::Straight
+        }
+    }
 
     /// The cell of the table that it is.
     #[must_use]
-    pub fn cell(self) -> (WarpKind, ContentKind) {
+    pub fn cell(self) -> Cell {
         match self {
-            Self::Straight | Self::Rigid => (WarpKind::Arap, ContentKind::Solid),
-            Self::Field => (WarpKind::None, ContentKind::Field),
+            Self::Straight => Cell::RIGID_PARTS,
+            Self::Cell(cell) => cell,
+        }
+    }
+
+    /// What it is called, in a few words.
+    #[must_use]
+    pub fn name(self) -> String {
+        match self {
+            Self::Straight => "straight lines".to_owned(),
+            Self::Cell(cell) => cell.name(),
         }
     }
 
     /// The settings of a project, by this method.
     fn set(self, project: &mut Project) {
-        let (warp, content) = self.cell();
-        (project.warp, project.content) = (Some(warp), Some(content));
+        let cell = self.cell();
+        (project.warp, project.content) = (Some(cell.warp()), Some(cell.content()));
         match self {
             Self::Straight => {
                 // Linear local maps are those of straight lines, and no others: what is as rigid
@@ -54,10 +72,10 @@ impl TwinMethod {
                 project.arap.homotopy = Homotopy::Linear;
                 project.arap.extra_turns.clear();
             }
-            Self::Rigid if project.arap.homotopy == Homotopy::Linear => {
+            Self::Cell(Cell::RIGID_PARTS) if project.arap.homotopy == Homotopy::Linear => {
                 project.arap.homotopy = Homotopy::Polar;
             }
-            Self::Rigid | Self::Field => {}
+            Self::Cell(_) => {}
         }
     }
 }
@@ -67,8 +85,8 @@ impl TwinMethod {
 pub struct Twin {
     /// It is shown.
     pub is_shown: bool,
-    /// By which method.
-    pub method: TwinMethod,
+    /// By which method, once one was chosen.
+    pub method: Option<TwinMethod>,
     settings: Option<Project>,
     job: Option<Job<Result<Transition, String>>>,
     transition: Option<Transition>,
@@ -98,6 +116,12 @@ impl Twin {
         self.job.is_some()
     }
 
+    /// The method beside a project: what was chosen, or else the plainest.
+    #[must_use]
+    pub fn method_beside(&self, project: &Project) -> TwinMethod {
+        self.method.unwrap_or(TwinMethod::plainest(project.content))
+    }
+
     fn forget(&mut self) {
         *self = Self {
             is_shown: self.is_shown,
@@ -113,7 +137,7 @@ impl Twin {
         };
         let now = staged.project.clone();
         let mut wanted = staged;
-        self.method.set(&mut wanted.project);
+        self.method_beside(&now).set(&mut wanted.project);
         if self.settings.as_ref() == Some(&wanted.project) {
             return;
         }
@@ -160,7 +184,7 @@ pub fn apply(mut intents: MessageReader<Intent>, mut twin: ResMut<Twin>) {
     for intent in intents.read() {
         match intent {
             Intent::ToggleTwin => twin.is_shown = !twin.is_shown,
-            Intent::TwinMethod(method) => twin.method = *method,
+            Intent::TwinMethod(method) => twin.method = Some(*method),
             _ => {}
         }
     }

@@ -105,7 +105,7 @@ pub fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
     }
 }
 
-fn description(warp: WarpKind, content: ContentKind) -> &'static str {
+pub fn description(warp: WarpKind, content: ContentKind) -> &'static str {
     match (warp, content) {
         (WarpKind::None, ContentKind::Field) => {
             "Blends how far each point lies from the two outlines. Any shapes, with holes; \

@@ -1,13 +1,18 @@
 //! Two methods side by side: the stage on the left, a second method on the right.
 
-use bevy_egui::egui::{Align2, Area, Frame, Margin, Order, Rect, RichText, Stroke, Ui, pos2, vec2};
+use bevy_egui::egui::{
+    Align2, Area, ComboBox, Frame, Margin, Order, Rect, RichText, Stroke, Ui, pos2, vec2,
+};
 
 use super::stage_area::{self, ink_on};
 use super::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, Palette};
-use super::widgets::choice;
+use super::verdict::first_upper;
 use super::{Intents, Scene, method_panel, verdict};
 use crate::app::intent::Intent;
 use crate::app::twin::TwinMethod;
+
+/// Room for the name of a method.
+const NAME_WIDTH: f32 = 168.0;
 
 /// Draws what lies above both; returns the part that the stage takes.
 pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Rect {
@@ -56,12 +61,11 @@ fn first_name(ui: &Ui, scene: &Scene, rect: Rect) {
     let Some(transition) = scene.session.transition() else {
         return;
     };
-    let cell = transition.cell();
-    let name = method_panel::cell_name(cell.warp(), cell.content());
+    let name = first_upper(&transition.cell().name());
     card(ui, "first method", rect, |ui| {
         let weak = Palette::of(ui).weak;
         ui.add_sized(
-            [84.0, CONTROL_HEIGHT],
+            [NAME_WIDTH, CONTROL_HEIGHT],
             bevy_egui::egui::Label::new(RichText::new(name).small().color(weak)),
         )
         .on_hover_text("The method of the project, as it is chosen on the right of the window.");
@@ -69,40 +73,41 @@ fn first_name(ui: &Ui, scene: &Scene, rect: Rect) {
 }
 
 fn second_name(ui: &Ui, scene: &Scene, rect: Rect, acts: &mut Intents) {
+    let Some(project) = scene.session.project() else {
+        return;
+    };
+    let chosen = scene.twin.method_beside(project);
     card(ui, "second method", rect, |ui| {
-        ui.spacing_mut().item_spacing.x = 2.0;
-        for method in TwinMethod::ALL {
-            let (warp, content) = method.cell();
-            let available = scene.session.available(warp, content);
-            let (name, tip) = words(method);
-            ui.add_enabled_ui(available.is_ok(), |ui| {
-                let size = vec2(52.0, CONTROL_HEIGHT);
-                let response = choice(ui, scene.twin.method == method, name, size);
-                let response = response.on_hover_text(tip);
-                if let Err(reason) = &available {
-                    response.on_disabled_hover_text(format!("Not available: {reason}"));
-                } else if response.clicked() {
-                    acts.push(Intent::TwinMethod(method));
+        ComboBox::from_id_salt("second method")
+            .width(NAME_WIDTH)
+            .selected_text(first_upper(&chosen.name()))
+            .height(400.0)
+            .show_ui(ui, |ui| {
+                for method in TwinMethod::all() {
+                    let cell = method.cell();
+                    let available = scene.session.available(cell.warp(), cell.content());
+                    let name = first_upper(&method.name());
+                    ui.add_enabled_ui(available.is_ok(), |ui| {
+                        let response = ui.selectable_label(chosen == method, name);
+                        if let Err(reason) = &available {
+                            response.on_disabled_hover_text(format!("Not available: {reason}"));
+                        } else if response.on_hover_text(tip(method)).clicked() {
+                            acts.push(Intent::TwinMethod(method));
+                        }
+                    });
                 }
-            });
-        }
+            })
+            .response
+            .on_hover_text("The method beside the one of the project.");
     });
 }
 
-fn words(method: TwinMethod) -> (&'static str, &'static str) {
+fn tip(method: TwinMethod) -> &'static str {
     match method {
-        TwinMethod::Straight => (
-            "Straight",
-            "Each point goes straight to its place: what turns shrinks on the way.",
-        ),
-        TwinMethod::Rigid => (
-            "Rigid",
-            "Each part moves as rigidly as it can: limbs turn instead of shrinking.",
-        ),
-        TwinMethod::Field => (
-            "Field",
-            "How far each point lies from the two outlines is blended; nothing moves.",
-        ),
+        TwinMethod::Straight => {
+            "Each point goes straight to its place: what turns shrinks on the way."
+        }
+        TwinMethod::Cell(cell) => method_panel::description(cell.warp(), cell.content()),
     }
 }
 
