@@ -366,11 +366,15 @@ impl Session {
             .problem
             .as_ref()
             .map_or(&[][..], |problem| &problem.pins);
-        Sheet {
+        let mut sheet = Sheet {
             faulty: faulty.to_vec(),
             content: open.loaded.project.project.content,
             ..Sheet::new([source, target], by, matching, matched)
+        };
+        if let Some(transition) = self.transition().filter(|_| sheet.is_free()) {
+            sheet.features = transition.automatic_pins().to_vec();
         }
+        sheet
     }
 
     /// Gives up the work; the settings go back to what the stage shows.

@@ -253,6 +253,7 @@ fn build_arap(
         bounds: swept_bounds(&arap).padded(room),
         warp: Arc::new(arap.clone()),
         arap: Some(arap),
+        automatic: Vec::new(),
         matched,
         content,
         bar_width,
@@ -321,10 +322,12 @@ fn build_field(
     checkpoint(progress, "measuring distances", 0.5)?;
     let target = field_of(&spec.target, spec, grid, bar_width, progress)?;
     let pair = FieldPair::new(source, target, spec.field.blend)?;
+    let (warp, automatic) = plane::warp(spec, &grid.bounds(), bar_width, progress)?;
     Ok(Inner {
         cell: spec.cell,
         designs: [Arc::clone(&spec.source), Arc::clone(&spec.target)],
-        warp: plane::warp(spec, &grid.bounds(), bar_width, progress)?,
+        warp,
+        automatic,
         arap: None,
         matched: None,
         bounds: frame,
@@ -344,10 +347,12 @@ fn build_colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner
     let pair = PicturePair::new(&source, &target, spec.colours)?;
     // The mesh reaches beyond what is shown, so that its edge is never seen.
     let frame = bounds.padded(0.02 * bounds.diameter());
+    let (warp, automatic) = plane::warp(spec, &frame, 0.0, progress)?;
     Ok(Inner {
         cell: spec.cell,
         designs: [Arc::clone(&spec.source), Arc::clone(&spec.target)],
-        warp: plane::warp(spec, &frame, 0.0, progress)?,
+        warp,
+        automatic,
         arap: None,
         matched: None,
         bounds,

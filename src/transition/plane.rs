@@ -41,16 +41,20 @@ const BEYOND: f64 = 0.25;
 /// Pins that are set along each outline where nobody set any.
 const AUTOMATIC: usize = 24;
 
+/// A warp of the plane and, where nobody set any, the pairs of points that it
+/// goes by.
+pub(super) type Chosen = (Arc<dyn Warp>, Vec<PointPair>);
+
 /// The warp of a specification over a frame.
 pub(super) fn warp(
     spec: &TransitionSpec,
     frame: &Bounds,
     bar_width: f64,
     progress: &dyn Progress,
-) -> Result<Arc<dyn Warp>, BuildError> {
+) -> Result<Chosen, BuildError> {
     let kind = spec.cell.warp();
     if kind == WarpKind::None {
-        return Ok(Arc::new(Still::new(*frame)));
+        return Ok((Arc::new(Still::new(*frame)), Vec::new()));
     }
     let features = Features::of(spec, bar_width, progress)?;
     if kind == WarpKind::Arap {
@@ -58,8 +62,18 @@ pub(super) fn warp(
     }
     let (points, lines) = (&features.points, &features.lines);
     let options = spec.plane;
+    let automatic = if features.are_automatic {
+        features
+            .points
+            .iter()
+            .copied()
+            .chain(lines.iter().map(start))
+            .collect()
+    } else {
+        Vec::new()
+    };
     let count = points.len() + 4 * lines.len();
-    match kind {
+    let warp = match kind {
         WarpKind::Lines => split_on_grid(spec, frame, &features, count, |frame, points, lines| {
             Ok(Lines::new(frame, lines, points, &options.lines)?)
         }),
@@ -71,7 +85,15 @@ pub(super) fn warp(
         WarpKind::Lattice => split_on_grid(spec, frame, &features, 16, |frame, points, lines| {
             Ok(Lattice::new(frame, points, lines, options.lattice)?)
         }),
-        WarpKind::None | WarpKind::Arap => Ok(Arc::new(Still::new(*frame))),
+        WarpKind::None | WarpKind::Arap => Ok(Arc::new(Still::new(*frame)) as Arc<dyn Warp>),
+    };
+    Ok((warp?, automatic))
+}
+
+fn start(line: &LinePair) -> PointPair {
+    PointPair {
+        source: line.source[0],
+        target: line.target[0],
     }
 }
 
@@ -103,12 +125,16 @@ fn rigid(
     frame: &Bounds,
     features: &Features,
     progress: &dyn Progress,
-) -> Result<Arc<dyn Warp>, BuildError> {
+) -> Result<Chosen, BuildError> {
     let frame = frame.padded(BEYOND * frame.size().max_element());
     let mut pins = features.as_points();
     loop {
         match CompatibleMesh::of_frame(&frame, &pins, progress) {
-            Ok(mesh) => return Ok(Arc::new(Arap::build(&mesh, &spec.arap, progress)?)),
+            Ok(mesh) => {
+                let warp = Arc::new(Arap::build(&mesh, &spec.arap, progress)?);
+                pins.retain(|_| features.are_automatic);
+                return Ok((warp, pins));
+            }
             Err(FrameError::Folds { .. }) if features.are_automatic && !pins.is_empty() => {
                 pins = pins.into_iter().step_by(2).collect();
                 if pins.len() == 1 {

@@ -271,11 +271,19 @@ fn taken(grab: Grab, sheet: &Sheet, said: &mut Matching) -> Grab {
     match grab {
         Grab::Feature(k) => match sheet.features.get(k) {
             Some(pair) => {
-                said.pins.push(PointPair {
+                let own = |pair: &PointPair| PointPair {
                     source: sheet.own(Side::Source, pair.source),
                     target: sheet.own(Side::Target, pair.target),
-                });
-                Grab::Pin(said.pins.len() - 1)
+                };
+                if !sheet.is_free() {
+                    said.pins.push(own(pair));
+                    return Grab::Pin(said.pins.len() - 1);
+                }
+                // A warp of the plane finds none once one is set: whoever
+                // moves one keeps the others.
+                let before = said.pins.len();
+                said.pins.extend(sheet.features.iter().map(own));
+                Grab::Pin(before + k)
             }
             None => Grab::View,
         },
