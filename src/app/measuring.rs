@@ -138,7 +138,11 @@ pub fn apply(
 pub fn is_a_click(remedy: &Remedy) -> bool {
     matches!(
         remedy,
-        Remedy::Change { .. } | Remedy::Pin { .. } | Remedy::RigidParts
+        Remedy::Change { .. }
+            | Remedy::Pin { .. }
+            | Remedy::RigidParts
+            | Remedy::Lattices
+            | Remedy::LetFold
     )
 }
 
@@ -156,6 +160,11 @@ fn follow_advice(project: &mut Project, remedy: &Remedy, sheet: &Sheet) {
             project.warp = Some(WarpKind::Arap);
             project.content = Some(ContentKind::Solid);
         }
+        Remedy::Lattices => {
+            project.warp = Some(WarpKind::Lattice);
+            project.lattice.fold_free = true;
+        }
+        Remedy::LetFold => project.lattice.fold_free = false,
         Remedy::MoveVertices { .. } | Remedy::LayOver => {}
     }
 }

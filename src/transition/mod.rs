@@ -31,11 +31,11 @@ pub use crate::easing::Easing;
 
 use crate::compatible::CompatibleMesh;
 use crate::content::{ColourMix, ColourMixError, Content, FieldBlend, FieldPairError};
-use crate::correspondence::RegionMatch;
+use crate::correspondence::{PointPair, RegionMatch};
 use crate::design::Design;
 use crate::geometry::Bounds;
 use crate::progress::Progress;
-use crate::warp::{Arap, Warp};
+use crate::warp::{Arap, Missed, Warp};
 use std::sync::Arc;
 
 /// A transition that is ready to be played. Cloning is cheap.
@@ -65,6 +65,7 @@ struct Inner {
     warp: Arc<dyn Warp>,
     arap: Option<Arap>,
     matched: Option<RegionMatch>,
+    automatic: Vec<PointPair>,
     content: Content,
     bounds: Bounds,
     bar_width: f64,
@@ -149,6 +150,20 @@ impl Transition {
     #[must_use]
     pub fn matched(&self) -> Option<&RegionMatch> {
         self.0.matched.as_ref()
+    }
+
+    /// The pairs of points that a warp of the plane goes by where nobody set
+    /// any, in the coordinates of the frame; of lines where each begins.
+    #[must_use]
+    pub fn automatic_pins(&self) -> &[PointPair] {
+        &self.0.automatic
+    }
+
+    /// The features that the warp does not lead to where they belong at `t`;
+    /// none where it meets all of them.
+    #[must_use]
+    pub fn missed(&self, t: f64) -> Option<Missed> {
+        self.0.warp.missed(t)
     }
 
     /// The common triangulation, where there is one.

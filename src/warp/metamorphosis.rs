@@ -11,7 +11,7 @@
 //! designs plays the film backwards, to rounding; features that only moved and
 //! turned move rigidly. A turn by π goes counter-clockwise, swapped or not.
 
-use super::PlaneWarp;
+use super::{Missed, PlaneWarp};
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 use serde::{Deserialize, Serialize};
@@ -91,6 +91,13 @@ impl RigidPart {
     #[must_use]
     pub fn turn(&self) -> f64 {
         self.turn
+    }
+
+    /// The rotation from the frame at `t` to rest, and the centre then.
+    fn at(&self, t: f64) -> (DVec2, DVec2) {
+        // At rest is halfway: +½ of the turn away at t = 0, −½ at t = 1.
+        let back = DVec2::from_angle((0.5 - t) * self.turn);
+        (back, self.centres[0] * (1.0 - t) + self.centres[1] * t)
     }
 
     /// A frame that, at rest, covers `frame` at any t in [0, 1].
@@ -187,9 +194,7 @@ impl<W: PlaneWarp> PlaneWarp for Split<W> {
     ) {
         let RigidPart { centres, turn } = self.rigid;
         let t = if t.is_finite() { t } else { 0.0 };
-        let centre = centres[0] * (1.0 - t) + centres[1] * t;
-        // At rest is halfway: −½ of the turn at t = 0, +½ at t = 1.
-        let back = DVec2::from_angle((0.5 - t) * turn);
+        let (back, centre) = self.rigid.at(t);
         maps.rest.clear();
         let rest = frame.iter().map(|p| back.rotate(*p - centre));
         maps.rest.extend(rest);
@@ -209,6 +214,13 @@ impl<W: PlaneWarp> PlaneWarp for Split<W> {
         if t == 1.0 {
             in_target.copy_from_slice(frame);
         }
+    }
+
+    fn missed(&self, t: f64) -> Option<Missed> {
+        let missed = self.elastic.missed(t)?;
+        let (back, centre) = self.rigid.at(t);
+        let place = conjugate(back).rotate(missed.place) + centre;
+        Some(Missed { place, ..missed })
     }
 }
 

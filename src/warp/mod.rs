@@ -80,10 +80,27 @@ pub struct Placement {
     pub in_target: Vec<DVec2>,
 }
 
+/// Features that a warp does not lead to where they belong.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Missed {
+    /// How many; a line counts as its samples.
+    pub count: usize,
+    /// How far the worst one is off in a design, in units of the plane.
+    pub by: f64,
+    /// Where the worst one ought to be in the frame.
+    pub place: DVec2,
+}
+
 /// A row of the table, ready to be played.
 pub trait Warp: Debug + Send + Sync {
     /// A placer with memory of its own, at t = 0.
     fn placer(&self) -> Box<dyn Placer>;
+
+    /// The features that are not where they belong at `t`; none where all
+    /// are, to the warp's own tolerance.
+    fn missed(&self, _t: f64) -> Option<Missed> {
+        None
+    }
 }
 
 /// Evaluates a warp. Needs no allocation and cannot fail.

@@ -4,7 +4,7 @@
 //! a design is seen there, so that no hole opens. They are evaluated on a grid
 //! that covers the frame and are taken as linear on its triangles.
 
-use super::{Placement, Placer, Warp};
+use super::{Missed, Placement, Placer, Warp};
 use crate::geometry::{Bounds, DVec2};
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -29,6 +29,11 @@ pub trait PlaneWarp: Debug + Send + Sync + 'static {
         in_source: &mut [DVec2],
         in_target: &mut [DVec2],
     );
+
+    /// The features that are missed at t by more than is asked for.
+    fn missed(&self, _t: f64) -> Option<Missed> {
+        None
+    }
 }
 
 /// A rectangle divided into columns and rows of two triangles each.
@@ -101,6 +106,10 @@ impl<W: PlaneWarp> OnGrid<W> {
 }
 
 impl<W: PlaneWarp> Warp for OnGrid<W> {
+    fn missed(&self, t: f64) -> Option<Missed> {
+        self.warp.missed(t)
+    }
+
     fn placer(&self) -> Box<dyn Placer> {
         let places = self.grid.places.clone();
         let mut placer = GridPlacer {

@@ -9,10 +9,12 @@
 //!
 //! - `scan`: at each t, how much is wrong
 //! - `cause`: the facts
+//! - `plane`: what only warps of the plane can get wrong
 //! - `remedy`: what was tried
 //! - `words`: how it is said
 
 mod cause;
+mod plane;
 mod remedy;
 mod scan;
 #[cfg(test)]
@@ -98,6 +100,18 @@ pub enum Trouble {
     },
     /// Nothing is left of a contour.
     Gone,
+    /// The plane is turned over.
+    PlaneFolds {
+        /// In which share of the frame.
+        share: f64,
+    },
+    /// Pins are not where they belong.
+    Missed {
+        /// How many.
+        count: usize,
+        /// By how much the worst one, as a share of the frame's diameter.
+        by: f64,
+    },
 }
 
 /// What is measured where the trouble is. Angles are radians.
@@ -148,6 +162,10 @@ pub enum Cause {
     },
     /// Fields do not know which part becomes which.
     BlindFields,
+    /// Some of a design is seen more than once, in turned over faces.
+    SeenTwice,
+    /// No map without folds was found that reaches a pin.
+    OutOfReach,
     /// None of the above.
     Unclear,
 }
@@ -184,6 +202,10 @@ pub enum Remedy {
     LayOver,
     /// Rigid parts instead of fields.
     RigidParts,
+    /// Lattices that never fold instead of the warp at hand, or other pins.
+    Lattices,
+    /// Lattices that may fold, or other pins.
+    LetFold,
 }
 
 /// A change of options.
@@ -211,6 +233,10 @@ impl Change {
         }
     }
 }
+
+/// At how many t warps of the plane are looked at where nothing else is
+/// measured.
+const PLANE_STEPS: usize = 33;
 
 impl Verdict {
     /// Looks at a transition at `steps` evenly spaced t, at least 2. Where
@@ -246,7 +272,7 @@ impl Verdict {
         glances: &[Glance],
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        let (clear, findings) = match transition.content() {
+        let (clear, mut findings) = match transition.content() {
             Content::Solid(solid) => (
                 if solid.loops.is_empty() {
                     "no folds"
@@ -259,8 +285,13 @@ impl Verdict {
                 "no more pieces or holes than at the ends",
                 cause::of_field(transition, pair, glances, progress)?,
             ),
-            Content::Colours(_) => ("two pictures", Vec::new()),
+            Content::Colours(_) => ("no folds", Vec::new()),
         };
+        findings.extend(plane::of_plane(
+            transition,
+            glances.len().max(PLANE_STEPS),
+            progress,
+        )?);
         Ok(Self {
             steps: glances.len(),
             clear,

@@ -44,7 +44,30 @@ impl fmt::Display for Trouble {
                 count => write!(f, "{count} holes instead of {at_ends}"),
             },
             Self::Gone => write!(f, "nothing is left"),
+            Self::PlaneFolds { share } => {
+                write!(f, "the plane folds over {} of the frame", percent(*share))
+            }
+            Self::Missed { count, by } => {
+                let pins = if *count == 1 { "pin is" } else { "pins are" };
+                write!(
+                    f,
+                    "{count} {pins} missed by up to {} of the frame",
+                    percent(*by)
+                )
+            }
         }
+    }
+}
+
+/// A share, with as many digits as tell it from nothing.
+fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    if percent >= 10.0 {
+        format!("{percent:.0} %")
+    } else if percent >= 0.1 {
+        format!("{percent:.1} %")
+    } else {
+        format!("{percent:.2} %")
     }
 }
 
@@ -127,6 +150,11 @@ impl fmt::Display for Cause {
                 100.0 * share
             ),
             Self::BlindFields => write!(f, "fields do not know which part becomes which"),
+            Self::SeenTwice => write!(
+                f,
+                "pins or lines near it pass each other, and the plane is turned over between them"
+            ),
+            Self::OutOfReach => write!(f, "the plane would have to fold to bring it there"),
             Self::Unclear => write!(f, "no single cause stands out"),
         }
     }
@@ -158,6 +186,11 @@ impl fmt::Display for Remedy {
                 "lay the designs over each other (fit centred or same-area, or a placement)"
             ),
             Self::RigidParts => write!(f, "blend them as rigid parts"),
+            Self::Lattices => write!(
+                f,
+                "move or delete some about it, or warp by lattices without folds"
+            ),
+            Self::LetFold => write!(f, "move or delete pins about it, or let the lattices fold"),
         }
     }
 }

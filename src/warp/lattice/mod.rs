@@ -32,8 +32,8 @@ mod tower;
 #[cfg(test)]
 mod tests;
 
-use super::PlaneWarp;
 use super::scattered::{FeatureError, Features};
+use super::{Missed, PlaneWarp};
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 use rayon::prelude::*;
@@ -49,6 +49,10 @@ pub const FINEST: u32 = 1024;
 /// Layers of the first level, of the others that are asked for, and of those
 /// that follow: ten of spacings ¼ lead a feature across the frame.
 const COMPOSED: [u32; 3] = [16, 4, 8];
+
+/// Features missed by so many tolerances are told of: a thousandth of the
+/// frame unless another tolerance was chosen.
+const SEEN: f64 = 10.0;
 
 /// How many places a core takes at a time.
 const CHUNK: usize = 256;
@@ -249,5 +253,18 @@ impl PlaneWarp for Lattice {
             to_source.lead(places, source);
             to_target.lead(places, target);
         });
+    }
+
+    fn missed(&self, t: f64) -> Option<Missed> {
+        let seen = SEEN * self.tolerance();
+        let residuals = self.residuals(t).into_iter().zip(self.features.at(t));
+        let off = residuals.map(|(r, (at, _))| (r.source.max(r.target), at));
+        let missed: Vec<_> = off.filter(|(by, _)| *by > seen).collect();
+        let worst = missed.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+        Some(Missed {
+            count: missed.len(),
+            by: worst.0,
+            place: worst.1,
+        })
     }
 }

@@ -1,0 +1,165 @@
+//! What goes wrong with warps of the plane: places that are seen twice, and
+//! features that are missed.
+
+use super::super::film::even_steps;
+use super::{Cause, Finding, Remedy, Trouble};
+use crate::content::Content;
+use crate::geometry::{Bounds, DVec2, twice_signed_area};
+use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::transition::{Frame, Transition};
+use crate::warp::{Missed, WarpKind};
+
+/// Folds over less than this share of the frame are not seen.
+const SEEN: f64 = 5e-4;
+
+/// The worst of one kind so far: how bad, where, and the span of all.
+struct Worst<T> {
+    size: f64,
+    t: f64,
+    span: [f64; 2],
+    what: T,
+}
+
+/// Keeps the worse of two, and the span of both.
+fn worse<T>(before: Option<Worst<T>>, size: f64, t: f64, what: T) -> Option<Worst<T>> {
+    Some(match before {
+        Some(before) => {
+            let span = [before.span[0], t];
+            if size > before.size {
+                Worst {
+                    size,
+                    t,
+                    span,
+                    what,
+                }
+            } else {
+                Worst { span, ..before }
+            }
+        }
+        None => Worst {
+            size,
+            t,
+            span: [t, t],
+            what,
+        },
+    })
+}
+
+pub(super) fn of_plane(
+    transition: &Transition,
+    steps: usize,
+    progress: &dyn Progress,
+) -> Result<Vec<Finding>, Cancelled> {
+    let is_solid = matches!(transition.content(), Content::Solid(_));
+    if is_solid || transition.cell().warp() == WarpKind::None {
+        return Ok(Vec::new());
+    }
+    let bounds = transition.bounds();
+    let mut frame = transition.frame(0.0);
+    let mut folds: Option<Worst<DVec2>> = None;
+    let mut missed: Option<Worst<Missed>> = None;
+    for t in even_steps(steps) {
+        checkpoint(progress, "looking for folds of the plane", t)?;
+        frame.seek(t);
+        let (share, place) = folded(&frame, &bounds);
+        if share > SEEN {
+            folds = worse(folds, share, t, place);
+        }
+        if let Some(now) = transition.missed(t) {
+            missed = worse(missed, now.by, t, now);
+        }
+    }
+    let folds = folds.map(|worst| Finding {
+        trouble: Trouble::PlaneFolds { share: worst.size },
+        t: worst.t,
+        span: worst.span,
+        place: worst.what,
+        cause: Cause::SeenTwice,
+        remedy: Remedy::Lattices,
+    });
+    let diameter = bounds.diameter();
+    let missed = missed.map(|worst| Finding {
+        trouble: Trouble::Missed {
+            count: worst.what.count,
+            by: worst.what.by / diameter,
+        },
+        t: worst.t,
+        span: worst.span,
+        place: worst.what.place,
+        cause: Cause::OutOfReach,
+        remedy: Remedy::LetFold,
+    });
+    Ok(folds.into_iter().chain(missed).collect())
+}
+
+/// The share of the frame in which the plane is turned over, in the frame or
+/// in either design, and the middle of the largest such face.
+fn folded(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
+    let placement = frame.placement();
+    let (mut sum, mut largest, mut place) = (0.0, 0.0, bounds.centre());
+    for face in placement.faces.iter() {
+        let corners = |points: &[DVec2]| face.map(|v| points[v as usize]);
+        let seen = corners(&placement.in_frame);
+        let middle = seen.iter().sum::<DVec2>() / 3.0;
+        if !bounds.contains(middle) {
+            continue;
+        }
+        let area = |[a, b, c]: [DVec2; 3]| twice_signed_area(a, b, c);
+        let own = area(seen);
+        let looks = [&placement.in_source, &placement.in_target].map(|p| area(corners(p)));
+        // What is seen the right way round is so in both designs.
+        if own < 0.0 || looks.iter().any(|look| *look < 0.0) {
+            sum += own.abs();
+            if own.abs() > largest {
+                (largest, place) = (own.abs(), middle);
+            }
+        }
+    }
+    let size = bounds.size();
+    (0.5 * sum / (size.x * size.y).max(f64::MIN_POSITIVE), place)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::Verdict;
+    use super::*;
+    use crate::correspondence::PointPair;
+    use crate::progress::Silent;
+    use crate::project::gallery;
+
+    /// Two pins that change places, by a warp.
+    fn crossed(warp: WarpKind, fold_free: bool) -> Verdict {
+        let mut loaded = gallery::load("portraits-points").expect("a project");
+        let pair = |x: f64, to: f64| PointPair {
+            source: DVec2::new(x, 400.0),
+            target: DVec2::new(to, 400.0),
+        };
+        loaded.project.warp = Some(warp);
+        loaded.project.lattice.fold_free = fold_free;
+        loaded.project.matching.pins = vec![pair(250.0, 450.0), pair(450.0, 250.0)];
+        loaded.project.matching.lines.clear();
+        let spec = loaded.spec().expect("a specification");
+        let transition = Transition::build(&spec, &Silent).expect("a transition");
+        Verdict::of(&transition, 9, &Silent).expect("not cancelled")
+    }
+
+    #[test]
+    fn pins_that_change_places_fold_the_plane() {
+        let verdict = crossed(WarpKind::Scattered, false);
+        let [finding] = verdict.findings.as_slice() else {
+            panic!("{}", verdict.headline());
+        };
+        assert!(matches!(finding.trouble, Trouble::PlaneFolds { share } if share > 0.01));
+        assert_eq!(finding.remedy, Remedy::Lattices);
+    }
+
+    #[test]
+    fn lattices_without_folds_miss_them_instead() {
+        let verdict = crossed(WarpKind::Lattice, true);
+        let [finding] = verdict.findings.as_slice() else {
+            panic!("{}", verdict.headline());
+        };
+        assert!(matches!(finding.trouble, Trouble::Missed { count: 2, by } if by > 0.001));
+        assert_eq!(finding.remedy, Remedy::LetFold);
+    }
+}
