@@ -8,11 +8,14 @@
 mod elements;
 mod outlines;
 mod polygons;
+mod surroundings;
 mod truss;
 
 pub use elements::{BarElement, CompatibleError, Which};
 pub use outlines::OutlinesError;
 pub use polygons::{FrameError, PolygonOptions, PolygonsError, RingEdge};
+
+pub use surroundings::SurroundingsError;
 
 use crate::design::Truss;
 use crate::geometry::{Bounds, DMat2, DVec2};

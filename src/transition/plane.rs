@@ -4,9 +4,9 @@
 use super::{BuildError, TransitionSpec};
 use crate::compatible::{CompatibleMesh, FrameError};
 use crate::content::ContentKind;
-use crate::correspondence::{HoleRule, LinePair, Matching, PointPair, match_regions};
+use crate::correspondence::{HoleRule, LinePair, Matching, PointPair, RegionMatch, match_regions};
 use crate::geometry::Bounds;
-use crate::progress::Progress;
+use crate::progress::{Progress, checkpoint};
 use crate::warp::{
     Arap, Lattice, LatticeOptions, LineOptions, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart,
     Scattered, ScatteredOptions, Split, Still, Travel, Warp, WarpKind,
@@ -127,6 +127,11 @@ fn rigid(
     progress: &dyn Progress,
 ) -> Result<Chosen, BuildError> {
     let frame = frame.padded(BEYOND * frame.size().max_element());
+    if let Some(matched) = &features.matched
+        && let Some(warp) = about_outlines(spec, &frame, matched, progress)?
+    {
+        return Ok((warp, features.as_points()));
+    }
     let mut pins = features.as_points();
     loop {
         match CompatibleMesh::of_frame(&frame, &pins, progress) {
@@ -146,6 +151,22 @@ fn rigid(
     }
 }
 
+/// The frame as rigid as matched outlines allow; none where they do not divide
+/// the frame alike.
+fn about_outlines(
+    spec: &TransitionSpec,
+    frame: &Bounds,
+    matched: &RegionMatch,
+    progress: &dyn Progress,
+) -> Result<Option<Arc<dyn Warp>>, BuildError> {
+    let made = CompatibleMesh::around_outlines(frame, matched, &spec.triangulation, progress);
+    let Ok(mesh) = made else {
+        checkpoint(progress, "triangulating", 0.0)?;
+        return Ok(None);
+    };
+    Ok(Some(Arc::new(Arap::build(&mesh, &spec.arap, progress)?)))
+}
+
 fn on_grid(warp: impl PlaneWarp, frame: &Bounds, features: usize) -> Arc<dyn Warp> {
     let size = frame.size();
     let aspect = size.min_element() / size.max_element();
@@ -162,6 +183,8 @@ struct Features {
     lines: Vec<LinePair>,
     /// Nobody set them.
     are_automatic: bool,
+    /// The outlines that they are on, where nobody set any.
+    matched: Option<RegionMatch>,
 }
 
 impl Features {
@@ -187,6 +210,7 @@ impl Features {
             points: spec.matching.pins.clone(),
             lines: spec.matching.lines.clone(),
             are_automatic: false,
+            matched: None,
         };
         let is_empty = given.points.is_empty() && given.lines.is_empty();
         if !is_empty || spec.cell.content() != ContentKind::Field {
@@ -204,12 +228,14 @@ impl Features {
                 points: Vec::new(),
                 lines: rings.iter().flat_map(|ring| sides(ring)).collect(),
                 are_automatic: true,
+                matched: Some(matched),
             }
         } else {
             Self {
                 points: rings.concat(),
                 lines: Vec::new(),
                 are_automatic: true,
+                matched: Some(matched),
             }
         })
     }

@@ -127,16 +127,20 @@ mod tests {
     use crate::progress::Silent;
     use crate::project::gallery;
 
-    /// Two pins that change places, by a warp.
+    /// Two pins that change places between four that stay, by a warp.
     fn crossed(warp: WarpKind, fold_free: bool) -> Verdict {
         let mut loaded = gallery::load("portraits-points").expect("a project");
-        let pair = |x: f64, to: f64| PointPair {
-            source: DVec2::new(x, 400.0),
-            target: DVec2::new(to, 400.0),
+        let pair = |from: (f64, f64), to: (f64, f64)| PointPair {
+            source: DVec2::from(from),
+            target: DVec2::from(to),
         };
+        let corners = [(20.0, 20.0), (340.0, 20.0), (340.0, 440.0), (20.0, 440.0)];
+        let (left, right) = ((120.0, 250.0), (260.0, 250.0));
         loaded.project.warp = Some(warp);
         loaded.project.lattice.fold_free = fold_free;
-        loaded.project.matching.pins = vec![pair(250.0, 450.0), pair(450.0, 250.0)];
+        let pins = &mut loaded.project.matching.pins;
+        *pins = vec![pair(left, right), pair(right, left)];
+        pins.extend(corners.map(|corner| pair(corner, corner)));
         loaded.project.matching.lines.clear();
         let spec = loaded.spec().expect("a specification");
         let transition = Transition::build(&spec, &Silent).expect("a transition");

@@ -1,0 +1,286 @@
+//! A mesh of the whole frame in which matched outlines are edges.
+//!
+//! Inside and outside of the outlines are triangulated each on its own and
+//! sewn together along the outlines. So it exists for whatever is matched,
+//! where a mesh with pins alone may not, and carries boundaries exactly.
+//! Rings that close to a point or open from one are left out: what they bound
+//! is inside.
+
+use super::{CompatibleMesh, PolygonOptions, PolygonsError};
+use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch};
+use crate::geometry::{Bounds, DVec2, Ring};
+use crate::progress::Progress;
+use rayon::prelude::*;
+
+/// Points along the longer side of the frame.
+const ALONG: f64 = 12.0;
+
+/// Why there is no such mesh.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SurroundingsError {
+    /// The outlines do not lie within each other alike in both designs, are
+    /// cut open, or reach beyond the frame.
+    #[error("the parts of the designs lie within each other in different ways")]
+    Nesting,
+    /// A cell was not triangulated.
+    #[error(transparent)]
+    Polygons(#[from] PolygonsError),
+}
+
+/// A connected piece of the plane between outlines: the ring around it and
+/// those within it, each by its number and whether it is walked backwards.
+struct Cell(Vec<(usize, bool)>);
+
+impl CompatibleMesh {
+    /// Triangulates a rectangle about the outlines of a match, the same in
+    /// both designs.
+    ///
+    /// # Errors
+    /// [`SurroundingsError`] where outlines lie within each other in different
+    /// ways, or if the work is cancelled.
+    pub fn around_outlines(
+        frame: &Bounds,
+        matched: &RegionMatch,
+        options: &PolygonOptions,
+        progress: &dyn Progress,
+    ) -> Result<Self, SurroundingsError> {
+        let border = border(frame);
+        let mut rings = vec![[border.clone(), border]];
+        let cells = cells(&matched.pieces, &mut rings).ok_or(SurroundingsError::Nesting)?;
+        let inside = |p: &DVec2| frame.padded(-1e-6 * frame.diameter()).contains(*p);
+        if !rings[1..].iter().flatten().flatten().all(inside) {
+            return Err(SurroundingsError::Nesting);
+        }
+        let meshes = cells.par_iter().map(|cell| {
+            let side = |side: usize| -> Vec<Vec<DVec2>> {
+                let walked = |&(ring, backwards): &(usize, bool)| {
+                    let mut points = rings[ring][side].clone();
+                    if backwards {
+                        points.reverse();
+                    }
+                    points
+                };
+                cell.0.iter().map(walked).collect()
+            };
+            Self::from_piece(&side(0), &side(1), options, progress)
+        });
+        let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
+        Ok(sewn(&rings, &cells, &meshes)?)
+    }
+}
+
+/// Points along the rectangle, counter-clockwise.
+fn border(frame: &Bounds) -> Vec<DVec2> {
+    let corners = frame.corners();
+    let spacing = frame.size().max_element() / ALONG;
+    let mut points = Vec::new();
+    for k in 0..4 {
+        let (a, b) = (corners[k], corners[(k + 1) % 4]);
+        let pieces = (a.distance(b) / spacing).ceil().max(1.0) as u32;
+        points.extend((0..pieces).map(|i| a + (b - a) * (f64::from(i) / f64::from(pieces))));
+    }
+    points
+}
+
+/// The cells of the plane, and all rings, the frame's first. A part inside,
+/// then what is around it: the frame, or a hole of another part.
+fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<Cell>> {
+    let mut parts = Vec::new();
+    // What is outside: first the frame, then each hole, walked backwards.
+    let mut voids = vec![Cell(vec![(0, false)])];
+    let mut outers = Vec::new();
+    for piece in pieces {
+        let [outer, holes @ ..] = piece.rings.as_slice() else {
+            return None;
+        };
+        if outer.kind != RingKind::Matched {
+            continue;
+        }
+        if !piece.cuts.is_empty() {
+            return None;
+        }
+        let mut add = |ring: &RingMatch| {
+            rings.push([ring.source.clone(), ring.target.clone()]);
+            rings.len() - 1
+        };
+        let own = add(outer);
+        outers.push(own);
+        let mut part = vec![(own, false)];
+        for hole in holes.iter().filter(|hole| hole.kind == RingKind::Matched) {
+            let ring = add(hole);
+            part.push((ring, false));
+            voids.push(Cell(vec![(ring, true)]));
+        }
+        parts.push(Cell(part));
+    }
+    for outer in outers {
+        let around = [0, 1].map(|side| surrounding(&parts, &voids, rings, outer, side));
+        match around {
+            [Some(a), Some(b)] if a == b => voids[a].0.push((outer, true)),
+            _ => return None,
+        }
+    }
+    parts.append(&mut voids);
+    Some(parts)
+}
+
+/// The void that a part lies in on one side: the hole around it with no other
+/// part between, or else the frame. None where it lies in a part.
+fn surrounding(
+    parts: &[Cell],
+    voids: &[Cell],
+    rings: &[[Vec<DVec2>; 2]],
+    outer: usize,
+    side: usize,
+) -> Option<usize> {
+    let p = rings[outer][side][0];
+    let encloses = |ring: usize| {
+        let ring = Ring::new(rings[ring][side].clone()).ok()?;
+        Some(ring.winding(p) != 0)
+    };
+    let mut depth = 0_usize;
+    for part in parts {
+        let own = part.0[0].0;
+        depth += usize::from(own != outer && encloses(own)?);
+    }
+    // The smallest hole around it; holes of one depth do not overlap.
+    let mut around = 0;
+    let mut least = f64::INFINITY;
+    let mut holes = 0_usize;
+    for (k, void) in voids.iter().enumerate().skip(1) {
+        let ring = void.0[0].0;
+        if encloses(ring)? {
+            holes += 1;
+            let area = Ring::new(rings[ring][side].clone())
+                .ok()?
+                .signed_area()
+                .abs();
+            if area < least {
+                (around, least) = (k, area);
+            }
+        }
+    }
+    // Each part around it has a hole around it too, or it lies in the part.
+    (holes == depth).then_some(around)
+}
+
+/// The cells as one mesh: the rings' points once, then what is inside each.
+fn sewn(
+    rings: &[[Vec<DVec2>; 2]],
+    cells: &[Cell],
+    meshes: &[CompatibleMesh],
+) -> Result<CompatibleMesh, PolygonsError> {
+    let mut first = Vec::with_capacity(rings.len());
+    let (mut source, mut target) = (Vec::new(), Vec::new());
+    for [a, b] in rings {
+        first.push(source.len() as u32);
+        source.extend_from_slice(a);
+        target.extend_from_slice(b);
+    }
+    let mut faces = Vec::new();
+    for (cell, mesh) in cells.iter().zip(meshes) {
+        let mut shared = Vec::new();
+        for &(ring, backwards) in &cell.0 {
+            let count = rings[ring][0].len() as u32;
+            let walk = (0..count).map(|k| first[ring] + if backwards { count - 1 - k } else { k });
+            shared.extend(walk);
+        }
+        let own = source.len() as u32;
+        let number = |v: u32| match shared.get(v as usize) {
+            Some(&v) => v,
+            None => own + v - shared.len() as u32,
+        };
+        faces.extend(mesh.faces().iter().map(|face| face.map(number)));
+        source.extend_from_slice(&mesh.source()[shared.len()..]);
+        target.extend_from_slice(&mesh.target()[shared.len()..]);
+    }
+    Ok(CompatibleMesh::new(faces, source, target, Vec::new())?)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::correspondence::{HoleRule, Matching, match_regions};
+    use crate::geometry::{FillRule, Regions, twice_signed_area};
+    use crate::progress::Silent;
+
+    const FRAME: Bounds = Bounds {
+        min: DVec2::new(-10.0, -10.0),
+        max: DVec2::new(10.0, 10.0),
+    };
+
+    fn square(at: f64, half: f64) -> Vec<DVec2> {
+        let corner = |x: f64, y: f64| DVec2::new(at + half * x, half * y);
+        vec![
+            corner(-1.0, -1.0),
+            corner(1.0, -1.0),
+            corner(1.0, 1.0),
+            corner(-1.0, 1.0),
+        ]
+    }
+
+    fn around(
+        source: &[Vec<DVec2>],
+        target: &[Vec<DVec2>],
+    ) -> Result<CompatibleMesh, SurroundingsError> {
+        let [a, b] = [source, target]
+            .map(|rings| Regions::from_rings(rings, FillRule::EvenOdd).expect("regions"));
+        let wanted = Matching {
+            holes: HoleRule::Close,
+            keep_up: true,
+            ..Matching::default()
+        };
+        let matched = match_regions(&a, &b, &wanted, &Silent).expect("a match");
+        CompatibleMesh::around_outlines(&FRAME, &matched, &PolygonOptions::default(), &Silent)
+    }
+
+    /// Each design's faces fill the frame once, and outlines are edges: no
+    /// face has its corners on both sides of one.
+    fn assert_sewn(mesh: &CompatibleMesh, outlines: [&[Vec<DVec2>]; 2]) {
+        assert_eq!(mesh.boundary_loops().len(), 1, "sewn without a gap");
+        for (points, rings) in [mesh.source(), mesh.target()].into_iter().zip(outlines) {
+            let corners = |face: &[u32; 3]| face.map(|v| points[v as usize]);
+            let area = |face: &[u32; 3]| {
+                let [a, b, c] = corners(face);
+                0.5 * twice_signed_area(a, b, c)
+            };
+            let sum: f64 = mesh.faces().iter().map(area).sum();
+            assert!((sum - 400.0).abs() < 1e-9, "{sum}");
+            for ring in rings {
+                let ring = Ring::new(ring.clone()).expect("a ring");
+                let is_in =
+                    |face: &&[u32; 3]| ring.winding(corners(face).iter().sum::<DVec2>() / 3.0) != 0;
+                let inside: f64 = mesh.faces().iter().filter(is_in).map(area).sum();
+                assert!((inside - ring.signed_area().abs()).abs() < 1e-9, "{inside}");
+            }
+        }
+    }
+
+    #[test]
+    fn inside_and_outside_fill_the_frame() {
+        let [a, b] = [[square(-3.0, 2.0)], [square(2.0, 3.0)]];
+        assert_sewn(&around(&a, &b).expect("a mesh"), [&a, &b]);
+    }
+
+    #[test]
+    fn a_part_in_a_hole_of_another_is_sewn_in() {
+        let eye = |by: f64| [square(by, 6.0), square(by, 4.0), square(by, 2.0)];
+        let [a, b] = [eye(0.0), eye(1.0)];
+        assert_sewn(&around(&a, &b).expect("a mesh"), [&a, &b]);
+    }
+
+    #[test]
+    fn a_hole_that_closes_is_inside() {
+        let [a, b] = [
+            vec![square(0.0, 5.0), square(0.0, 1.0)],
+            vec![square(0.0, 4.0)],
+        ];
+        assert_sewn(&around(&a, &b).expect("a mesh"), [&a[..1], &b]);
+    }
+
+    #[test]
+    fn what_reaches_beyond_the_frame_is_refused() {
+        let found = around(&[square(0.0, 12.0)], &[square(0.0, 4.0)]);
+        assert_eq!(found.err(), Some(SurroundingsError::Nesting));
+    }
+}
