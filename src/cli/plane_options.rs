@@ -15,7 +15,7 @@ use super::options::{named, set};
 #[command(next_help_heading = "Warp and content")]
 pub(super) struct CellArgs {
     /// What moves: a row of the table
-    #[arg(long, conflicts_with = "method", value_parser = named::<WarpKind>(&["none", "arap", "lines", "scattered", "lattice"]))]
+    #[arg(long, conflicts_with = "method", value_parser = named::<WarpKind>(&WarpKind::KEYS))]
     warp: Option<WarpKind>,
 
     /// What is seen: a column of the table

@@ -198,7 +198,7 @@ fn compared(
             return Err(CliError::failed(cancelled));
         }
         rows.push(MethodRow {
-            name: cell.name(),
+            name: cell.name().to_owned(),
             transition: built.map_err(|error| error.to_string()),
         });
     }
