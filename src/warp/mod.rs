@@ -10,6 +10,8 @@ mod kind;
 mod lattice;
 mod lines;
 mod none;
+mod parts;
+mod paths;
 mod plane;
 mod scattered;
 
@@ -20,6 +22,7 @@ pub use lattice::{
 };
 pub use lines::{Between, LineMap, LineOptions, Lines, LinesAtT, LinesError, Raster, Segment};
 pub use none::Still;
+pub use paths::{Course, PathOptions, Paths, PathsError, RingPair};
 pub use plane::{OnGrid, PlaneGrid, PlaneWarp};
 pub use scattered::{
     Basis, FeatureError, LINE_SAMPLES, MAX_FEATURES, RadialMap, Scattered, ScatteredError,
