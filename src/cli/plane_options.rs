@@ -1,4 +1,4 @@
-//! Warps of the plane and colours as flags: which cell, its pins and lines.
+//! Warps and colours as flags: which cell, its pins and lines, its paths.
 
 use clap::Args;
 
@@ -7,7 +7,7 @@ use crate::correspondence::{LinePair, PointPair};
 use crate::easing::Easing;
 use crate::geometry::DVec2;
 use crate::project::Project;
-use crate::warp::WarpKind;
+use crate::warp::{Course, WarpKind};
 
 use super::options::{named, set};
 
@@ -34,6 +34,15 @@ pub(super) struct CellArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(next_help_heading = "Boundary paths (paths)")]
+pub(super) struct PathArgs {
+    /// The paths of boundary points: straight lines, or those that lengths and
+    /// directions of the edges leave
+    #[arg(long, value_parser = named::<Course>(&["straight", "intrinsic"]))]
+    path: Option<Course>,
+}
+
+#[derive(Debug, Args)]
 #[command(next_help_heading = "Colours")]
 pub(super) struct ColourArgs {
     /// How the mix of two pictures runs over t
@@ -55,6 +64,12 @@ impl CellArgs {
         set(&mut project.content, self.content.map(Some));
         project.matching.pins.extend(&self.pin);
         project.matching.lines.extend(&self.line);
+    }
+}
+
+impl PathArgs {
+    pub fn edit(&self, project: &mut Project) {
+        set(&mut project.paths.course, self.path);
     }
 }
 

@@ -72,7 +72,7 @@ pub(super) fn warp(
             frame,
             16,
         ),
-        WarpKind::None | WarpKind::Arap => Arc::new(Still::new(*frame)),
+        WarpKind::None | WarpKind::Arap | WarpKind::Paths => Arc::new(Still::new(*frame)),
     })
 }
 

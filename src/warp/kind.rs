@@ -13,6 +13,9 @@ use serde::{Deserialize, Serialize};
 pub enum WarpKind {
     /// Nothing moves.
     None,
+    /// Boundary points on straight or intrinsic paths (Sederberg, Gao, Wang,
+    /// Mu 1993).
+    Paths,
     /// Rigidity-preserving interpolation of compatible triangulations.
     Arap,
     /// Pairs of lines (Beier, Neely 1992).
@@ -28,8 +31,9 @@ const COUNT: usize = WarpKind::ALL.len();
 
 impl WarpKind {
     /// All of them, in the order of the table.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::None,
+        Self::Paths,
         Self::Arap,
         Self::Lines,
         Self::Scattered,
@@ -39,6 +43,7 @@ impl WarpKind {
     /// All of them, those that ask least of the designs last.
     pub const BY_DEMAND: [Self; COUNT] = [
         Self::Arap,
+        Self::Paths,
         Self::Scattered,
         Self::Lines,
         Self::Lattice,
@@ -68,6 +73,7 @@ impl WarpKind {
     pub const fn words(self) -> &'static Words {
         match self {
             Self::None => &NONE,
+            Self::Paths => &PATHS,
             Self::Arap => &ARAP,
             Self::Lines => &LINES,
             Self::Scattered => &SCATTERED,
@@ -113,6 +119,9 @@ pub struct CellWords {
 
 /// Why a warp of the plane does not go with solids.
 const NOTHING_TO_LOOK_UP: &str = "this warp says where to look in the designs, and a solid has nothing to look up; choose fields or colours, or rigid parts (arap)";
+
+/// Why boundary paths go with solids only.
+const NOTHING_INSIDE: &str = "this warp moves the points of an outline and nothing inside it; choose solids, or rigid parts (arap) to carry fields and colours";
 
 /// A field that a warp carries.
 const fn carried_field(name: &'static str, report: &'static str) -> CellWords {
@@ -171,6 +180,23 @@ const ARAP: Words = Words {
     }),
     field: Ok(carried_field("fields by rigid parts", "arap warp")),
     colours: Ok(morph("pictures by rigid parts", "arap warp")),
+};
+
+const PATHS: Words = Words {
+    key: "paths",
+    name: "boundary paths",
+    title: "Paths",
+    sentence: "Points of the outline move on paths of their own, straight or so that its edges \
+               turn (Sederberg and others 1993).",
+    solid: Ok(CellWords {
+        name: "boundary paths",
+        button: "Outlines",
+        report: "paths",
+        sentence: "Moves the points of matched outlines and nothing inside: straight, or so that \
+                   edges turn and keep their lengths. The outline may cross itself.",
+    }),
+    field: Err(NOTHING_INSIDE),
+    colours: Err(NOTHING_INSIDE),
 };
 
 const LINES: Words = Words {

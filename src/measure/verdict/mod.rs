@@ -148,6 +148,9 @@ pub enum Cause {
     },
     /// Fields do not know which part becomes which.
     BlindFields,
+    /// Points of the boundary move on their own; nothing inside keeps them
+    /// apart.
+    NothingInside,
     /// None of the above.
     Unclear,
 }
@@ -182,7 +185,7 @@ pub enum Remedy {
     },
     /// The target to be laid over the source.
     LayOver,
-    /// Rigid parts instead of fields.
+    /// Rigid parts instead of fields or of boundary paths.
     RigidParts,
 }
 
@@ -248,10 +251,10 @@ impl Verdict {
     ) -> Result<Self, Cancelled> {
         let (clear, findings) = match transition.content() {
             Content::Solid(solid) => (
-                if solid.loops.is_empty() {
-                    "no folds"
-                } else {
-                    "no folds, no crossings"
+                match (solid.loops.is_empty(), transition.arap()) {
+                    (true, _) => "no folds",
+                    (false, Some(_)) => "no folds, no crossings",
+                    (false, None) => "no crossings",
                 },
                 cause::of_solid(transition, solid, glances, progress)?,
             ),

@@ -127,6 +127,12 @@ impl fmt::Display for Cause {
                 100.0 * share
             ),
             Self::BlindFields => write!(f, "fields do not know which part becomes which"),
+            Self::NothingInside => {
+                write!(
+                    f,
+                    "points of the boundary move on their own, nothing inside keeps them apart"
+                )
+            }
             Self::Unclear => write!(f, "no single cause stands out"),
         }
     }
