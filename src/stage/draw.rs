@@ -17,6 +17,7 @@ use super::carried;
 use super::colours::{ColourLook, ColourMaterial};
 use super::components::{ArapSolver, FieldSprite, PictureSprite, StageStyle};
 use super::field::{FieldLook, FieldMaterial};
+use super::fill;
 use super::ink::{InkMaterial, linear};
 use super::parts::{Part, PartKind};
 use super::shapes::{Positions, write_corners, write_points};
@@ -67,7 +68,12 @@ pub(super) fn draw_solids(
             if let Some(ink) = ink {
                 set_colour(&mut inks, ink, part.kind.colour(frame.t(), &style));
             }
-            if part.stale {
+            if part.stale && matches!(part.kind, PartKind::Rings) {
+                if let Some(mut mesh) = meshes.get_mut(mesh) {
+                    fill::write(frame, part.origin, &mut mesh);
+                    part.stale = false;
+                }
+            } else if part.stale {
                 part.stale = !rewrite(&mut meshes, mesh, |positions| {
                     part.kind.write(frame, &style, part.origin, positions);
                 });
@@ -198,7 +204,7 @@ fn rewrite(meshes: &mut Assets<Mesh>, mesh: &Mesh2d, write: impl FnOnce(&mut Pos
 impl PartKind {
     fn is_shown(&self, StageStyle { style, show }: &StageStyle) -> bool {
         match self {
-            Self::Faces | Self::Picture => show.fill,
+            Self::Faces | Self::Rings | Self::Picture => show.fill,
             Self::Field => show.fill || show.iso_lines || show.signed_colours,
             Self::Bars(_) => show.bars,
             Self::JointCores(_) => show.bars && style.joints,
@@ -232,7 +238,7 @@ impl PartKind {
             Self::Wire { .. } => write_corners(points, &placement.faces, origin, positions),
             Self::Bars(bars) => bars.write(points, style.style.joints, origin, positions),
             Self::JointCores(bars) => bars.write_cores(points, origin, positions),
-            Self::Field | Self::Picture | Self::SourceGhost | Self::TargetGhost => {}
+            Self::Rings | Self::Field | Self::Picture | Self::SourceGhost | Self::TargetGhost => {}
         }
     }
 }
