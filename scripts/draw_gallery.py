@@ -445,6 +445,30 @@ def spectacles(folder):
         kit.svg(folder / f"{name}.svg", 640, 300, title, outlines(ink, 0.35))
 
 
+def lamp(folder):
+    """A desk lamp with a gooseneck, bent over its table and stretched to the ceiling."""
+
+    def pose(foot, bend):
+        ink = kit.Ink(640, 640, fillet=10)
+        ink.stroke([foot - 84, foot + 84], 32)
+        steps, neck = 60, [foot]
+        for i in range(steps):
+            # The ends of the neck are stiff.
+            share = min(1.0, max(0.0, (i / steps - 0.36) / 0.56))
+            heading = math.radians(90 + bend * share)
+            neck.append(neck[-1] + 470 / steps * cmath.exp(1j * heading))
+        ink.stroke(neck, 30, 26, 24, 24)
+        along = cmath.exp(1j * math.radians(90 + bend))
+        ink.stroke([neck[-1], neck[-1] + 64 * along], 48, 118)
+        return ink
+
+    for name, title, ink in (
+        ("lamp-bent", "Desk lamp, bent", pose(180 + 40j, -172)),
+        ("lamp-stretched", "Desk lamp, stretched", pose(420 + 40j, 52)),
+    ):
+        kit.svg(folder / f"{name}.svg", 640, 640, title, outlines(ink, 0.3))
+
+
 def after(subdivisions, vertices, faces):
     """Vertices when each face is split into four, so many times."""
     edges = len({tuple(sorted(pair)) for a, b, c in faces for pair in ((a, b), (b, c), (c, a))})
@@ -470,6 +494,7 @@ def main():
         gecko,
         fern,
         spectacles,
+        lamp,
     ):
         draw(folder)
 

@@ -7,6 +7,7 @@
 //! | warp ↓ · content → | solid (regions, bars) | distance field (contour) | colours (two pictures) |
 //! |---|---|---|---|
 //! | none | – | log-space blending of signed distances | cross-dissolve |
+//! | boundary paths | polygon blending | – | – |
 //! | ARAP | rigidity-preserving interpolation | fields carried by moving parts | textured morph |
 //! | pairs of lines | – | carried fields | morph |
 //! | scattered points | – | carried fields | morph |

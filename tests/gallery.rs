@@ -36,7 +36,7 @@ fn pieces_and_holes(figure: &Figure) -> (usize, usize) {
 #[test]
 fn every_project_has_a_title_and_a_sentence_and_opens_from_its_folder() {
     let entries = gallery::list().expect("the list");
-    assert_eq!(entries.len(), 28);
+    assert_eq!(entries.len(), 30);
     for entry in entries {
         assert!(!entry.title.is_empty(), "{}", entry.name);
         assert!(entry.description.ends_with('.'), "{}", entry.name);
@@ -103,4 +103,16 @@ fn trusses_have_the_bars_that_are_promised() {
 fn the_stress_scene_is_as_large_as_its_title_says() {
     let transition = build("rotor");
     assert_eq!(transition.frame(0.5).placement().in_frame.len(), 99_025);
+}
+
+#[test]
+fn a_lamp_shrinks_on_straight_paths_and_keeps_its_length_on_intrinsic_ones() {
+    let perimeter = |name: &str, t: f64| -> f64 {
+        let ring = &at(name, t).rings[0];
+        let next = ring.iter().cycle().skip(1);
+        ring.iter().zip(next).map(|(a, b)| a.distance(*b)).sum()
+    };
+    let whole = perimeter("polygons-straight", 0.0);
+    assert!(perimeter("polygons-straight", 0.5) < 0.8 * whole);
+    assert!((perimeter("polygons-intrinsic", 0.5) / whole - 1.0).abs() < 0.05);
 }

@@ -59,6 +59,10 @@ fn arap() -> Cell {
     Cell::new(WarpKind::Arap, ContentKind::Solid).expect("a cell")
 }
 
+fn paths() -> Cell {
+    Cell::new(WarpKind::Paths, ContentKind::Solid).expect("a cell")
+}
+
 fn field() -> Cell {
     Cell::new(WarpKind::None, ContentKind::Field).expect("a cell")
 }
@@ -219,6 +223,36 @@ fn entities_and_meshes_may_go_while_a_build_runs() {
         app.update();
     }
     assert_eq!(places(&app, replaced).len(), straight().positions().len());
+}
+
+#[test]
+fn boundaries_without_faces_are_filled() {
+    let mut app = drawing_app();
+    let staged = StageTransition(transition(DVec2::ZERO, paths()));
+    let entity = app.world_mut().spawn((staged, Blend { t: 0.5 })).id();
+    app.update();
+    app.update();
+    assert!(app.world().get::<SourceMesh>(entity).is_none());
+    let [(fill, visibility), ..] = &meshes_of(&app, entity)[..] else {
+        panic!("a fill was expected");
+    };
+    assert_eq!(*visibility, Visibility::Inherited);
+    let area = |app: &App| -> f32 {
+        let places = positions(app, fill);
+        let meshes = app.world().resource::<Assets<Mesh>>();
+        let mesh = meshes.get(fill).expect("a mesh");
+        let corners: Vec<usize> = mesh.indices().expect("faces").iter().collect();
+        let at = |v: usize| Vec3::from(places[v]).truncate();
+        let faces = corners.as_chunks::<3>().0.iter();
+        let twice = faces.map(|&[a, b, c]| (at(b) - at(a)).perp_dot(at(c) - at(a)));
+        0.5 * twice.sum::<f32>()
+    };
+    // A rigid target: as large on the way as at the ends.
+    let middle = area(&app);
+    assert!(middle > 0.0);
+    app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 1.0;
+    app.update();
+    assert!((area(&app) - middle).abs() < 1e-4 * middle);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use crate::correspondence::{PinError, RegionMatchError};
 use crate::design::Source;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
-use crate::transition::{BuildError, Cell, Transition};
+use crate::transition::{BuildError, Cell, Style, Timing, Transition};
 
 /// A project with its designs and, where it could be built, its transition.
 #[derive(Clone, Debug)]
@@ -179,17 +179,19 @@ impl Problem {
     }
 }
 
-/// The settings that a transition is built from differ.
+/// The settings that a transition is built from differ: all but those of how it is told, played
+/// and painted.
 #[must_use]
 pub fn needs_build(staged: &Project, now: &Project) -> bool {
-    staged.designs != now.designs
-        || staged.fit != now.fit
-        || (staged.warp, staged.content) != (now.warp, now.content)
-        || staged.arap != now.arap
-        || staged.field != now.field
-        || staged.matching != now.matching
-        || staged.triangulation != now.triangulation
-        || staged.bar_width != now.bar_width
+    let built = |project: &Project| Project {
+        title: String::new(),
+        description: String::new(),
+        timing: Timing::default(),
+        style: Style::default(),
+        stops: Vec::new(),
+        ..project.clone()
+    };
+    built(staged) != built(now)
 }
 
 fn reads_differently(staged: &Project, now: &Project) -> bool {

@@ -12,7 +12,7 @@ use crate::app::intent::Intent;
 use crate::app::loading::Request;
 use crate::app::notices::Notices;
 use crate::app::playback::{Playback, SAME_T};
-use crate::app::session::{CONTENTS, Origin, Outcome, Session, WARPS};
+use crate::app::session::{Origin, Outcome, Session};
 use crate::app::view::KeepsFit;
 use crate::content::ContentKind;
 use crate::design::Source;
@@ -190,9 +190,9 @@ fn entry_of(path: &std::path::Path) -> DesignEntry {
 fn next_cell(session: &Session) -> Option<(WarpKind, ContentKind)> {
     let project = session.project()?;
     // All warps of what is seen first: pictures stay pictures.
-    let cells: Vec<_> = CONTENTS
+    let cells: Vec<_> = ContentKind::ALL
         .into_iter()
-        .flat_map(|content| WARPS.map(|warp| (warp, content)))
+        .flat_map(|content| WarpKind::ALL.map(|warp| (warp, content)))
         .collect();
     let here = (project.warp?, project.content?);
     let here = cells.iter().position(|cell| *cell == here)?;

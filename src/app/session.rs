@@ -22,12 +22,6 @@ use crate::project::{LoadedProject, Project};
 use crate::transition::{Stop, Timing, Transition, arrangement};
 use crate::warp::WarpKind;
 
-/// The rows of the table that the window shows.
-pub const WARPS: [WarpKind; 5] = WarpKind::ALL;
-
-/// The columns of the table that the window shows.
-pub const CONTENTS: [ContentKind; 3] = ContentKind::ALL;
-
 /// A build that takes longer is given up when the settings change again.
 const PATIENCE: Duration = Duration::from_millis(1500);
 

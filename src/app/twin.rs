@@ -54,9 +54,9 @@ impl TwinMethod {
 
     /// What it is called, in a few words.
     #[must_use]
-    pub fn name(self) -> String {
+    pub fn name(self) -> &'static str {
         match self {
-            Self::Straight => "straight lines".to_owned(),
+            Self::Straight => "straight lines",
             Self::Cell(cell) => cell.name(),
         }
     }

@@ -15,7 +15,7 @@ use crate::transition::{Boundary, Easing, Fit, PlayMode, Rgb};
 use crate::warp::{PathKind, WarpKind, Weights};
 
 use super::error::CliError;
-use super::plane_options::{CellArgs, ColourArgs};
+use super::plane_options::{CellArgs, ColourArgs, PathArgs};
 
 /// The paper's two methods: cells of the table of warps and contents.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -44,6 +44,8 @@ pub(super) struct MethodArgs {
     cell: CellArgs,
     #[command(flatten)]
     arap: ArapArgs,
+    #[command(flatten)]
+    paths: PathArgs,
     #[command(flatten)]
     field: FieldArgs,
     #[command(flatten)]
@@ -220,6 +222,7 @@ impl MethodArgs {
         self.cell.edit(project);
         self.colours.edit(project);
         self.arap.edit(project);
+        self.paths.edit(project);
         self.field.edit(project);
         self.import.edit(project);
         self.timing.edit(project);
@@ -336,6 +339,7 @@ fn weights(text: &str) -> Result<Weights, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::warp::Course;
     use clap::{CommandFactory, Parser};
 
     #[derive(Debug, Parser)]
@@ -376,7 +380,7 @@ mod tests {
             "--method field --fit same-area --bar-width 0.02 --homotopy exponential \
              --weights 1,2.5 --one-sided --extra-turns 0,-1 --anchor 3 --subdivisions 1 \
              --metric chessboard --boundary binary --space real --epsilon 2 --threshold -1.5 \
-             --cells 64 --margin 0.2 --image-threshold 99 --invert --specks 4 --tolerance 0.01 --strokes \
+             --cells 64 --margin 0.2 --path straight --image-threshold 99 --invert --specks 4 --tolerance 0.01 --strokes \
              --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
              --source-colour #010203 --target-colour #040506 --no-joints",
         )
@@ -402,6 +406,7 @@ mod tests {
             (2.0, -1.5)
         );
         assert_eq!((project.field.cells, project.field.margin), (64, 0.2));
+        assert_eq!(project.paths.course, Course::Straight);
         let import = project.designs[1].import;
         assert_eq!((import.threshold, import.invert), (Some(99), true));
         assert_eq!((import.specks_px, import.tolerance), (4, 0.01));

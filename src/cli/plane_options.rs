@@ -1,4 +1,4 @@
-//! Warps of the plane and colours as flags: which cell, its pins and lines.
+//! Warps and colours as flags: which cell, its pins and lines, its paths.
 
 use clap::Args;
 
@@ -7,7 +7,7 @@ use crate::correspondence::{LinePair, PointPair};
 use crate::easing::Easing;
 use crate::geometry::DVec2;
 use crate::project::Project;
-use crate::warp::{Travel, WarpKind};
+use crate::warp::{Course, Travel, WarpKind};
 
 use super::options::{named, set};
 
@@ -15,7 +15,7 @@ use super::options::{named, set};
 #[command(next_help_heading = "Warp and content")]
 pub(super) struct CellArgs {
     /// What moves: a row of the table
-    #[arg(long, conflicts_with = "method", value_parser = named::<WarpKind>(&["none", "arap", "lines", "scattered", "lattice"]))]
+    #[arg(long, conflicts_with = "method", value_parser = named::<WarpKind>(&WarpKind::KEYS))]
     warp: Option<WarpKind>,
 
     /// What is seen: a column of the table
@@ -36,6 +36,15 @@ pub(super) struct CellArgs {
     /// is whole for fields
     #[arg(long, value_parser = named::<Travel>(&["auto", "whole", "straight"]))]
     travel: Option<Travel>,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Boundary paths (paths)")]
+pub(super) struct PathArgs {
+    /// The paths of boundary points: straight lines, or those that lengths and
+    /// directions of the edges leave
+    #[arg(long, value_parser = named::<Course>(&["straight", "intrinsic"]))]
+    path: Option<Course>,
 }
 
 #[derive(Debug, Args)]
@@ -61,6 +70,12 @@ impl CellArgs {
         set(&mut project.travel, self.travel);
         project.matching.pins.extend(&self.pin);
         project.matching.lines.extend(&self.line);
+    }
+}
+
+impl PathArgs {
+    pub fn edit(&self, project: &mut Project) {
+        set(&mut project.paths.course, self.path);
     }
 }
 

@@ -64,7 +64,7 @@ impl MethodRow {
                 Err(BuildError::Cancelled(cancelled)) => return Err(cancelled),
                 built => built.map_err(|error| error.to_string()),
             };
-            let name = cell.name();
+            let name = cell.name().to_owned();
             Ok(Self { name, transition })
         };
         Cell::all().filter(suits).map(row).collect()

@@ -128,19 +128,16 @@ struct Sampler<'a> {
 
 impl<'a> Sampler<'a> {
     fn of(transition: &'a Transition) -> Self {
-        let (content, mesh) = (transition.content(), transition.compatible());
-        let topology = match (content, mesh) {
-            (Content::Solid(solid), Some(mesh)) if !solid.loops.is_empty() => {
-                let rings = solid.rings_at(mesh.source());
-                let holes = rings.iter().filter(|ring| ring_area(ring) < 0.0).count();
-                Some([rings.len() - holes, holes])
-            }
-            _ => None,
-        };
+        let content = transition.content();
         Self {
             content,
-            mesh,
-            topology,
+            mesh: transition.compatible(),
+            topology: match content {
+                Content::Solid(solid) if !solid.loops.is_empty() => {
+                    Some(topology(solid, &transition.frame(0.0)))
+                }
+                _ => None,
+            },
         }
     }
 
@@ -165,6 +162,19 @@ impl<'a> Sampler<'a> {
             distortion: self.mesh.and_then(|mesh| distortion(mesh, places)),
         }
     }
+}
+
+/// Pieces and holes by the sense of each boundary walk; one that is born from
+/// a point has it from its larger end.
+fn topology(solid: &Solid, frame: &Frame) -> [usize; 2] {
+    let placement = frame.placement();
+    let ends = [&placement.in_source, &placement.in_target].map(|places| solid.rings_at(places));
+    let is_hole = |(a, b): &(&Vec<DVec2>, &Vec<DVec2>)| {
+        let areas = [ring_area(a), ring_area(b)];
+        areas[usize::from(areas[1].abs() > areas[0].abs())] < 0.0
+    };
+    let holes = ends[0].iter().zip(&ends[1]).filter(is_hole).count();
+    [ends[0].len() - holes, holes]
 }
 
 fn of_rings(t: f64, rings: &[Vec<DVec2>]) -> FilmSample {

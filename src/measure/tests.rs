@@ -1,12 +1,14 @@
 //! Identities of the measures, on transitions as they are played.
 
 use super::*;
+use crate::content::ContentKind;
 use crate::design::{Design, ImportOptions, import};
 use crate::geometry::{DMat2, DVec2};
 use crate::homotopy::Homotopy;
 use crate::progress::{Cancelled, Progress, Silent};
-use crate::transition::{Transition, TransitionSpec};
-use crate::warp::ArapOptions;
+use crate::project::gallery;
+use crate::transition::{Cell, Transition, TransitionSpec};
+use crate::warp::{ArapOptions, Course, WarpKind};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
@@ -57,6 +59,34 @@ fn film_of(map: impl Fn(DVec2) -> DVec2, homotopy: Homotopy) -> FilmReport {
         ..ArapOptions::default()
     };
     film(&transition(&faces, &source, &target, options), 17, &Silent).expect("not cancelled")
+}
+
+#[test]
+fn boundary_paths_are_measured_by_what_is_seen() {
+    let loaded = gallery::load("gecko").expect("bundled");
+    let mut spec = loaded.spec().expect("a specification");
+    spec.cell = Cell::new(WarpKind::Paths, ContentKind::Solid).expect("a cell");
+    for course in [Course::Straight, Course::Intrinsic] {
+        spec.paths.course = course;
+        let transition = Transition::build(&spec, &Silent).expect("a transition");
+        let report = film(&transition, 17, &Silent).expect("not cancelled");
+        assert_eq!((report.worst_folds, report.asymmetry), (None, None));
+        assert!(report.motion.is_none() && report.conformal_excess.is_none());
+        assert_eq!(report.pieces_excess, Some(0));
+        let verdict = Verdict::of_film(&transition, &report, &Silent).expect("not cancelled");
+        assert_eq!(
+            verdict,
+            Verdict::of(&transition, 17, &Silent).expect("not cancelled")
+        );
+        assert_eq!(verdict.is_clear(), report.worst_crossings == Some(0));
+        if let Some(finding) = verdict.findings.first() {
+            assert!(matches!(finding.trouble, Trouble::Crossings { .. }));
+            let said = (&finding.cause, &finding.remedy);
+            assert_eq!(said, (&Cause::NothingInside, &Remedy::RigidParts));
+        } else {
+            assert_eq!(verdict.headline(), "no crossings");
+        }
+    }
 }
 
 #[test]

@@ -7,7 +7,9 @@ use crate::correspondence::Matching;
 use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;
 use crate::transition::{FieldOptions, Fit, PlaneOptions, Stop, Style, Timing, TransitionSpec};
-use crate::warp::{ArapOptions, LatticeOptions, LineOptions, ScatteredOptions, Travel, WarpKind};
+use crate::warp::{
+    ArapOptions, LatticeOptions, LineOptions, PathOptions, ScatteredOptions, Travel, WarpKind,
+};
 use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -67,6 +69,9 @@ pub struct Project {
     /// Options of rigid parts.
     #[serde(default)]
     pub arap: ArapOptions,
+    /// Options of the boundary paths.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub paths: PathOptions,
     /// Options of distance fields.
     #[serde(default)]
     pub field: FieldOptions,
@@ -151,6 +156,7 @@ impl Project {
             matching: Matching::default(),
             triangulation: PolygonOptions::default(),
             arap: ArapOptions::default(),
+            paths: PathOptions::default(),
             field: FieldOptions::default(),
             colours: ColourMix::default(),
             lines: LineOptions::default(),

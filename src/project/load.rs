@@ -166,6 +166,7 @@ impl LoadedProject {
             target,
             cell: self.cell()?,
             arap: project.arap.clone(),
+            paths: project.paths,
             matching: project.matching.placed(&by),
             triangulation: project.triangulation,
             field: project.field,

@@ -4,7 +4,7 @@
 use super::*;
 use crate::geometry::{DVec2, Similarity};
 use crate::transition::{Easing, Fit, PlayMode, Rgb, Stop};
-use crate::warp::{PathKind, WarpKind, Weights};
+use crate::warp::{Course, PathKind, WarpKind, Weights};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -22,6 +22,7 @@ fn an_unknown_key_is_named_with_its_line() {
     for (text, line) in [
         (MINIMAL.replace("version", "colour = 3\nversion"), 1),
         (format!("{MINIMAL}[arap]\nhomotopi = 'polar'\n"), 7),
+        (format!("{MINIMAL}[paths]\ncurse = 'straight'\n"), 7),
         (format!("{MINIMAL}[field]\n\n\nmetric = 'manhattan'\n"), 9),
         (format!("{MINIMAL}[field.blend]\nespilon = 1\n"), 7),
         (format!("{MINIMAL}[style]\nsource = 'blue'\n"), 7),
@@ -180,6 +181,7 @@ proptest! {
         project.arap.extra_turns = turns;
         project.arap.weights = if flag { Weights::PerFace(positive.clone()) } else { Weights::Uniform };
         project.arap.path = if flag { PathKind::Anchor(3) } else { PathKind::Centroid };
+        project.paths.course = if flag { Course::Straight } else { Course::Intrinsic };
         project.timing.duration_secs = positive[2];
         project.timing.easing = Easing::ALL[pick];
         project.timing.play = [PlayMode::Once, PlayMode::Loop, PlayMode::PingPong, PlayMode::Once][pick];

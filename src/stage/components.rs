@@ -42,8 +42,8 @@ pub struct Blend {
 #[derive(Component, Clone, Debug, Default)]
 pub struct MorphOptions(pub ArapOptions);
 
-/// A prefactored transition of triangles and the frame it is at: added by the
-/// plugin once the build is done, sought to [`Blend`] whenever that changes.
+/// A prefactored transition of triangles, or of boundaries alone, and the frame
+/// it is at: added by the plugin once the build is done, sought to [`Blend`] whenever that changes.
 #[derive(Component, Debug)]
 pub struct ArapSolver(pub(super) Frame);
 

@@ -17,6 +17,7 @@ use super::carried::{self, Lookups};
 use super::colours::{ColourLook, ColourMaterial};
 use super::components::{ArapSolver, FieldSprite, PictureSprite, StageStyle};
 use super::field::{FieldLook, FieldMaterial};
+use super::fill;
 use super::grid::{GridLook, GridMaterial};
 use super::ink::{InkMaterial, linear};
 use super::parts::{Part, PartKind};
@@ -68,7 +69,12 @@ pub(super) fn draw_solids(
             if let Some(ink) = ink {
                 set_colour(&mut inks, ink, part.kind.colour(frame.t(), &style));
             }
-            if part.stale && !matches!(part.kind, PartKind::Grid) {
+            if part.stale && matches!(part.kind, PartKind::Rings) {
+                if let Some(mut mesh) = meshes.get_mut(mesh) {
+                    fill::write(frame, part.origin, &mut mesh);
+                    part.stale = false;
+                }
+            } else if part.stale && !matches!(part.kind, PartKind::Grid) {
                 part.stale = !rewrite(&mut meshes, mesh, |positions| {
                     part.kind.write(frame, &style, part.origin, positions);
                 });
@@ -159,9 +165,12 @@ type Roots = (
     &'static Children,
 );
 
+/// A frame of any content moved, or its look did.
+type AnyMoved = Or<(Moved<ArapSolver>, Moved<FieldSprite>, Moved<PictureSprite>)>;
+
 /// Writes the grids that show warps, of whatever is seen.
 pub(super) fn draw_grids(
-    roots: Query<Roots, Or<(Moved<ArapSolver>, Moved<FieldSprite>, Moved<PictureSprite>)>>,
+    roots: Query<Roots, AnyMoved>,
     mut parts: Query<(&mut Part, &Mesh2d, &MeshMaterial2d<GridMaterial>)>,
     mut meshes: ResMut<Assets<Mesh>>,
     mut grids: ResMut<Assets<GridMaterial>>,
@@ -247,7 +256,7 @@ fn rewrite(meshes: &mut Assets<Mesh>, mesh: &Mesh2d, write: impl FnOnce(&mut Pos
 impl PartKind {
     fn is_shown(&self, StageStyle { style, show }: &StageStyle) -> bool {
         match self {
-            Self::Faces | Self::Picture => show.fill,
+            Self::Faces | Self::Rings | Self::Picture => show.fill,
             Self::Field => show.fill || show.iso_lines || show.signed_colours,
             Self::Bars(_) => show.bars,
             Self::JointCores(_) => show.bars && style.joints,
@@ -282,7 +291,12 @@ impl PartKind {
             Self::Wire { .. } => write_corners(points, &placement.faces, origin, positions),
             Self::Bars(bars) => bars.write(points, style.style.joints, origin, positions),
             Self::JointCores(bars) => bars.write_cores(points, origin, positions),
-            Self::Field | Self::Picture | Self::Grid | Self::SourceGhost | Self::TargetGhost => {}
+            Self::Rings
+            | Self::Field
+            | Self::Picture
+            | Self::Grid
+            | Self::SourceGhost
+            | Self::TargetGhost => {}
         }
     }
 }

@@ -7,7 +7,8 @@
 //! shader samples both distance fields and draws the threshold's contour.
 //! [`MorphPlugin`] brings just that, without window, keys or panels.
 //!
-//! Guarantees: frames neither fail nor allocate what the last one had; builds
+//! Guarantees: frames neither fail nor allocate what the last one had, but for
+//! boundaries without faces, which are triangulated as they move; builds
 //! run on a task pool, and a failed one is a [`BuildFailed`] on its entity;
 //! without a renderer everything but the drawing works. Does not guarantee
 //! order among several cameras or entities: those are Bevy's, as usual.
@@ -44,6 +45,7 @@ mod colours;
 mod components;
 mod draw;
 mod field;
+mod fill;
 mod grid;
 mod ink;
 mod parts;

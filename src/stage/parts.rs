@@ -16,6 +16,7 @@ use crate::transition::{Figure, Frame};
 use super::colours::{ColourLook, ColourMaterial};
 use super::components::{ArapSolver, FieldSprite, PictureSprite, StageStyle};
 use super::field::{FieldLook, FieldMaterial};
+use super::fill;
 use super::grid::{GridLook, GridMaterial};
 use super::ink::{InkKind, InkMaterial};
 use super::shapes::{BarShapes, Segments, corner_coordinates, quad_indices};
@@ -40,6 +41,8 @@ pub(super) struct Part {
 #[derive(Clone, Debug)]
 pub(super) enum PartKind {
     Faces,
+    /// Boundaries that bring no faces.
+    Rings,
     Field,
     Picture,
     Bars(BarShapes),
@@ -63,7 +66,7 @@ impl PartKind {
     /// What is drawn over what.
     fn layer(&self) -> f32 {
         match self {
-            Self::Faces | Self::Field | Self::Picture => 0.0,
+            Self::Faces | Self::Rings | Self::Field | Self::Picture => 0.0,
             Self::Bars(_) => 0.1,
             Self::JointCores(_) => 0.2,
             Self::Wire { .. } => 0.3,
@@ -75,7 +78,7 @@ impl PartKind {
 
     fn ink(&self) -> InkKind {
         match self {
-            Self::Faces | Self::Field | Self::Picture | Self::Grid => InkKind::Faces,
+            Self::Faces | Self::Rings | Self::Field | Self::Picture | Self::Grid => InkKind::Faces,
             Self::Bars(_) | Self::JointCores(_) => InkKind::Round,
             Self::Wire { .. } => InkKind::Wire,
             Self::SourceGhost | Self::TargetGhost => InkKind::Line,
@@ -182,7 +185,15 @@ impl Wardrobe<'_, '_> {
     fn add_solid(&mut self, of: Entity, frame: &Frame, solid: &Solid, origin: DVec2) {
         let placement = frame.placement();
         let faces = &*placement.faces;
-        if !solid.loops.is_empty() {
+        if !solid.loops.is_empty() && faces.is_empty() {
+            let (positions, indices) = fill::nothing();
+            let shape = Shape {
+                positions,
+                indices: Some(indices),
+                ..default()
+            };
+            self.add_inked(of, PartKind::Rings, origin, shape);
+        } else if !solid.loops.is_empty() {
             let shape = Shape {
                 positions: vec![[0.0; 3]; placement.in_frame.len()],
                 indices: Some(faces.as_flattened().to_vec()),

@@ -1,6 +1,6 @@
 //! From two designs to a transition: everything that can fail.
 
-use super::{Cell, Inner, PlaneOptions, outlines, plane};
+use super::{Cell, Inner, PlaneOptions, boundaries, outlines, plane};
 use crate::compatible::{
     CompatibleError, CompatibleMesh, FrameError, OutlinesError, PolygonOptions,
 };
@@ -13,7 +13,10 @@ use crate::design::{Design, Form, Picture};
 use crate::field::{DistanceField, FieldError, Grid, GridError, Metric};
 use crate::geometry::{Bounds, RegionsError};
 use crate::progress::{Cancelled, Progress, checkpoint};
-use crate::warp::{Arap, ArapError, ArapOptions, LatticeError, LinesError, ScatteredError, Warp};
+use crate::warp::{
+    Arap, ArapError, ArapOptions, LatticeError, LinesError, PathOptions, PathsError,
+    ScatteredError, Warp, WarpKind,
+};
 use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
@@ -70,6 +73,8 @@ pub struct TransitionSpec {
     pub cell: Cell,
     /// Options of the rigidity-preserving interpolation.
     pub arap: ArapOptions,
+    /// Options of the boundary paths.
+    pub paths: PathOptions,
     /// How outlines are matched, in the coordinates of the common frame.
     pub matching: Matching,
     /// How matched outlines are triangulated.
@@ -142,6 +147,9 @@ pub enum BuildError {
     /// The warp by lattices could not be made.
     #[error(transparent)]
     Lattice(#[from] LatticeError),
+    /// The boundary paths could not be made.
+    #[error(transparent)]
+    Paths(#[from] PathsError),
     /// The width of bars is no positive number.
     #[error("the bar width {0} is not between 0 and 1; give a fraction of the design's size")]
     BarWidth(f64),
@@ -171,6 +179,7 @@ impl TransitionSpec {
             target,
             cell,
             arap: ArapOptions::default(),
+            paths: PathOptions::default(),
             matching: Matching::default(),
             triangulation: PolygonOptions::default(),
             field: FieldOptions::default(),
@@ -210,6 +219,9 @@ pub(super) fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<In
         .max(extent(&spec.target).diameter());
     let bar_width = spec.bar_width * diameter;
     match spec.cell.content() {
+        ContentKind::Solid if spec.cell.warp() == WarpKind::Paths => {
+            build_paths(spec, bar_width, progress)
+        }
         ContentKind::Solid => build_arap(spec, bar_width, progress),
         ContentKind::Field => build_field(spec, bar_width, progress),
         ContentKind::Colours => build_colours(spec, progress),
@@ -260,6 +272,30 @@ fn build_arap(
     })
 }
 
+fn build_paths(
+    spec: &TransitionSpec,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<Inner, BuildError> {
+    checkpoint(progress, "matching", 0.0)?;
+    let (paths, matched) = boundaries::paths(spec, bar_width, progress)?;
+    checkpoint(progress, "preparing frames", 0.9)?;
+    Ok(Inner {
+        cell: spec.cell,
+        designs: [Arc::clone(&spec.source), Arc::clone(&spec.target)],
+        bounds: swept_bounds(&paths),
+        content: Content::Solid(Solid {
+            loops: paths.loops(),
+            ..Solid::default()
+        }),
+        warp: Arc::new(paths),
+        arap: None,
+        automatic: Vec::new(),
+        matched,
+        bar_width,
+    })
+}
+
 /// One triangulation of both designs, ready to be interpolated.
 struct Common {
     arap: Arap,
@@ -298,10 +334,13 @@ fn common(
 }
 
 /// The box around a few frames: a part that swings may leave the ends' box.
-fn swept_bounds(arap: &Arap) -> Bounds {
+fn swept_bounds(warp: &dyn Warp) -> Bounds {
     const SAMPLES: u32 = 8;
-    let mut placer = arap.placer();
-    let mut bounds = arap.mesh().bounds();
+    let mut placer = warp.placer();
+    let placement = placer.placement();
+    let ends = placement.in_source.iter().chain(&placement.in_target);
+    let mut bounds =
+        Bounds::of(ends.copied()).unwrap_or_else(|| unreachable!("a warp of solids has vertices"));
     for i in 1..SAMPLES {
         placer.place(f64::from(i) / f64::from(SAMPLES));
         if let Some(b) = Bounds::of(placer.placement().in_frame.iter().copied()) {

@@ -1,7 +1,7 @@
 //! The table of cells: which warp goes with which content.
 
 use crate::content::ContentKind;
-use crate::warp::WarpKind;
+use crate::warp::{CellWords, Column, WarpKind};
 
 /// A cell of the table that exists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -38,18 +38,12 @@ impl Cell {
 
     /// The cells, those that ask least of the designs last in each column.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
-        const ROWS: [WarpKind; 5] = [
-            WarpKind::Arap,
-            WarpKind::Scattered,
-            WarpKind::Lines,
-            WarpKind::Lattice,
-            WarpKind::None,
-        ];
-        let column = |content| {
-            ROWS.into_iter()
+        let cells = |content| {
+            WarpKind::BY_DEMAND
+                .into_iter()
                 .filter_map(move |warp| Self::new(warp, content).ok())
         };
-        ContentKind::ALL.into_iter().flat_map(column)
+        ContentKind::ALL.into_iter().flat_map(cells)
     }
 
     /// The cell of a warp and a content.
@@ -63,16 +57,19 @@ impl Cell {
     /// assert!(Cell::new(WarpKind::None, ContentKind::Solid).is_err());
     /// ```
     pub const fn new(warp: WarpKind, content: ContentKind) -> Result<Self, NoSuchCell> {
-        let reason = match (warp, content) {
-            (WarpKind::None, ContentKind::Solid) => {
-                "a solid changes by moving, so it needs a warp; choose rigid parts (arap)"
-            }
-            (WarpKind::Lines | WarpKind::Scattered | WarpKind::Lattice, ContentKind::Solid) => {
-                "this warp says where to look in the designs, and a solid has nothing to look up; choose fields or colours, or rigid parts (arap)"
-            }
-            _ => return Ok(Self { warp, content }),
-        };
-        Err(NoSuchCell { reason })
+        match column(warp, content) {
+            Ok(_) => Ok(Self { warp, content }),
+            Err(reason) => Err(NoSuchCell { reason }),
+        }
+    }
+
+    /// What is said of it.
+    #[must_use]
+    pub const fn words(self) -> CellWords {
+        match column(self.warp, self.content) {
+            Ok(words) => words,
+            Err(_) => unreachable!(), // no constructor makes such a cell
+        }
     }
 
     /// What it is called, in a few words.
@@ -80,25 +77,11 @@ impl Cell {
     /// ```
     /// use morphospace::transition::Cell;
     /// assert_eq!(Cell::RIGID_PARTS.name(), "rigid parts");
-    /// assert_eq!(Cell::all().last().map(Cell::name), Some("cross-dissolve".to_owned()));
+    /// assert_eq!(Cell::all().last().map(Cell::name), Some("cross-dissolve"));
     /// ```
     #[must_use]
-    pub fn name(self) -> String {
-        let by = match self.warp {
-            WarpKind::None => match self.content {
-                ContentKind::Colours => return "cross-dissolve".to_owned(),
-                ContentKind::Field | ContentKind::Solid => return "field blend".to_owned(),
-            },
-            WarpKind::Arap => "rigid parts",
-            WarpKind::Lines => "lines",
-            WarpKind::Scattered => "scattered points",
-            WarpKind::Lattice => "lattices",
-        };
-        match self.content {
-            ContentKind::Solid => by.to_owned(),
-            ContentKind::Field => format!("fields by {by}"),
-            ContentKind::Colours => format!("pictures by {by}"),
-        }
+    pub const fn name(self) -> &'static str {
+        self.words().name
     }
 
     /// The row.
@@ -111,6 +94,16 @@ impl Cell {
     #[must_use]
     pub const fn content(self) -> ContentKind {
         self.content
+    }
+}
+
+/// What is said of a warp with a content.
+const fn column(warp: WarpKind, content: ContentKind) -> Column {
+    let words = warp.words();
+    match content {
+        ContentKind::Solid => words.solid,
+        ContentKind::Field => words.field,
+        ContentKind::Colours => words.colours,
     }
 }
 

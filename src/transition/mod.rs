@@ -8,6 +8,7 @@
 //! frame and the two can be held against each other.
 
 mod arrange;
+mod boundaries;
 mod build;
 mod cells;
 mod frame;

@@ -85,7 +85,9 @@ pub(super) fn warp(
         WarpKind::Lattice => split_on_grid(spec, frame, &features, 16, |frame, points, lines| {
             Ok(Lattice::new(frame, points, lines, options.lattice)?)
         }),
-        WarpKind::None | WarpKind::Arap => Ok(Arc::new(Still::new(*frame)) as Arc<dyn Warp>),
+        WarpKind::None | WarpKind::Arap | WarpKind::Paths => {
+            Ok(Arc::new(Still::new(*frame)) as Arc<dyn Warp>)
+        }
     };
     Ok((warp?, automatic))
 }

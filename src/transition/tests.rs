@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::content::ContentKind;
+use crate::correspondence::HoleRule;
 use crate::design::{Design, ImportOptions, import};
 use crate::geometry::{DVec2, Similarity};
 use crate::progress::{Progress, Silent};
@@ -107,6 +108,124 @@ fn a_truss_is_seen_by_both_methods() {
     assert_eq!(figure.rings.len(), 2, "a triangle of bars has one hole");
 }
 
+fn paths_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
+    let mut spec = TransitionSpec::new(source, target);
+    spec.cell = Cell::new(WarpKind::Paths, ContentKind::Solid).unwrap();
+    spec
+}
+
+fn area(rings: &[Vec<DVec2>]) -> f64 {
+    let of = |ring: &Vec<DVec2>| -> f64 {
+        let next = ring.iter().cycle().skip(1);
+        ring.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum()
+    };
+    0.5 * rings.iter().map(of).sum::<f64>()
+}
+
+#[test]
+fn boundaries_show_the_designs_at_the_ends_and_births_as_points() {
+    let (a, b) = (
+        svg("M10 10h80v80h-80z"),
+        svg("M50 20L80 80H20zM48 60v6h4v-6zM85 10h10v10h-10z"),
+    );
+    let mut spec = paths_spec(a, b);
+    spec.matching.holes = HoleRule::Close;
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    assert!(transition.arap().is_none() && transition.matched().is_some());
+    for (t, wanted) in [(0.0, 6400.0), (1.0, 1876.0)] {
+        let found = area(&transition.frame(t).figure().rings);
+        assert!((found - wanted).abs() < 1e-9 * wanted, "t = {t}: {found}");
+    }
+    let first = transition.frame(0.0).figure().rings;
+    assert_eq!(first.len(), 3);
+    let is_point = |ring: &&Vec<DVec2>| ring.iter().all(|p| *p == ring[0]);
+    assert_eq!(first.iter().filter(is_point).count(), 1, "the hole");
+    let middle = transition.frame(0.5).figure().rings;
+    assert!(!middle.iter().any(|ring| is_point(&ring)));
+}
+
+#[test]
+fn a_letter_is_born_from_a_point() {
+    let mut spec = crate::project::gallery::load("words")
+        .unwrap()
+        .spec()
+        .unwrap();
+    spec.cell = Cell::new(WarpKind::Paths, ContentKind::Solid).unwrap();
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    let pieces = &transition.matched().unwrap().pieces;
+    let born = pieces.iter().filter(|p| p.source_part.is_none());
+    let born: usize = born.map(|piece| piece.rings.len()).sum();
+    let first = transition.frame(0.0).figure().rings;
+    let points = first
+        .iter()
+        .filter(|ring| ring.iter().all(|p| *p == ring[0]));
+    assert!(born > 0 && points.count() >= born);
+}
+
+#[test]
+fn meshes_bring_their_boundaries_and_other_forms_are_matched() {
+    let turned = "v 0 0 0\nv 0 1 0\nv -1 1 0\nv -1 0 0\nf 1 2 3\nf 1 3 4\n";
+    let mirrored = "v 0 0 0\nv -1 0 0\nv -1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\n";
+    let clockwise = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 3 2\nf 1 4 3\n";
+    let truss = r#"{"nodes": [[0,0],[2,0],[1,1.5]], "bars": [[0,1],[1,2],[2,0]]}"#;
+    for (source, target, is_numbered) in [
+        (SQUARE, turned, true),
+        (SQUARE, mirrored, false),
+        (clockwise, clockwise, true),
+        (SQUARE, truss, false),
+        (truss, truss, false),
+    ] {
+        let spec = paths_spec(design(source), design(target));
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        assert_eq!(transition.matched().is_none(), is_numbered, "{target}");
+        let figure = transition.frame(0.5).figure();
+        assert!(figure.bars.is_empty() && !figure.rings.is_empty());
+    }
+    let spec = paths_spec(design(SQUARE), design(turned));
+    let half = Transition::build(&spec, &Silent).unwrap().frame(0.5);
+    assert!(
+        (area(&half.figure().rings) - 1.0).abs() < 1e-12,
+        "turned whole"
+    );
+}
+
+#[test]
+fn a_mesh_with_a_hole_is_one_part() {
+    let points = [
+        (0, 0),
+        (3, 0),
+        (3, 3),
+        (0, 3),
+        (1, 1),
+        (2, 1),
+        (2, 2),
+        (1, 2),
+    ];
+    let vertices = |turn: f64| -> String {
+        let place = |&(x, y): &(i32, i32)| {
+            let p = DVec2::from_angle(turn).rotate(DVec2::new(x.into(), y.into()));
+            format!("v {} {} 0\n", p.x, p.y)
+        };
+        points.iter().map(place).collect()
+    };
+    let faces = "f 1 2 6\nf 1 6 5\nf 2 3 7\nf 2 7 6\nf 3 4 8\nf 3 8 7\nf 4 1 5\nf 4 5 8\n";
+    let ends = [0.0, 2.0].map(|turn| design(&format!("{}{faces}", vertices(turn))));
+    let [source, target] = ends;
+    let transition = Transition::build(&paths_spec(source, target), &Silent).unwrap();
+    for t in [-0.5, 0.3, 0.5, 1.2] {
+        let rings = transition.frame(t).figure().rings;
+        assert_eq!(rings.len(), 2);
+        assert!((area(&rings) - 8.0).abs() < 1e-9);
+        assert!((rings[0][0].distance(rings[1][0]) - rings_gap(&transition)).abs() < 1e-9);
+    }
+}
+
+/// From the first point of the first ring to that of the second, at t = 0.
+fn rings_gap(transition: &Transition) -> f64 {
+    let rings = transition.frame(0.0).figure().rings;
+    rings[0][0].distance(rings[1][0])
+}
+
 #[test]
 fn frames_do_not_depend_on_what_was_shown_before() {
     let turned = "v 0 0 0\nv 0 1 0\nv -1 1 0\nv -1 0 0\nf 1 2 3\nf 1 3 4\n";
@@ -197,7 +316,8 @@ impl Progress for CancelAt {
 fn a_build_can_be_cancelled_at_every_report() {
     let arap = TransitionSpec::new(design(SQUARE), design(SQUARE));
     let field = field_spec(svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
-    for spec in [arap, field] {
+    let paths = paths_spec(svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
+    for spec in [arap, field, paths] {
         for at in 1.. {
             let progress = CancelAt(at, AtomicUsize::new(0));
             let built = Transition::build(&spec, &progress);

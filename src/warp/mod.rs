@@ -6,20 +6,25 @@
 //! fail. Warps know nothing of contents.
 
 pub mod arap;
+mod kind;
 mod lattice;
 mod lines;
 mod metamorphosis;
 mod none;
+mod parts;
+mod paths;
 mod plane;
 mod scattered;
 
 pub use arap::{Arap, ArapError, ArapOptions, PathKind, Weights};
+pub use kind::{CellWords, Column, WarpKind, Words};
 pub use lattice::{
     FINEST, Lattice, LatticeError, LatticeMaps, LatticeOptions, MORE_LEVELS, Residual,
 };
 pub use lines::{Between, LineMap, LineOptions, Lines, LinesAtT, LinesError, Raster, Segment};
 pub use metamorphosis::{RigidPart, Split, SplitMaps, Travel};
 pub use none::Still;
+pub use paths::{Course, PathOptions, Paths, PathsError, RingPair};
 pub use plane::{OnGrid, PlaneGrid, PlaneWarp};
 pub use scattered::{
     Basis, FeatureError, LINE_SAMPLES, MAX_FEATURES, RadialMap, Scattered, ScatteredError,
@@ -27,43 +32,8 @@ pub use scattered::{
 };
 
 use crate::geometry::DVec2;
-use serde::{Deserialize, Serialize};
 use std::fmt::Debug;
 use std::sync::Arc;
-
-/// Which warp: a row of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum WarpKind {
-    /// Nothing moves.
-    None,
-    /// Rigidity-preserving interpolation of compatible triangulations.
-    Arap,
-    /// Pairs of lines (Beier, Neely 1992).
-    Lines,
-    /// Scattered points, by radial basis functions.
-    Scattered,
-    /// B-spline lattices.
-    Lattice,
-}
-
-impl WarpKind {
-    /// All of them, in the order of the table.
-    pub const ALL: [Self; 5] = [
-        Self::None,
-        Self::Arap,
-        Self::Lines,
-        Self::Scattered,
-        Self::Lattice,
-    ];
-
-    /// Whether it moves the whole plane by pins and lines, whatever the
-    /// designs are.
-    #[must_use]
-    pub const fn is_of_the_plane(self) -> bool {
-        matches!(self, Self::Lines | Self::Scattered | Self::Lattice)
-    }
-}
 
 /// What joins warps and contents: faces, and for each vertex its place in the
 /// frame at t, in the source and in the target. All three have the same

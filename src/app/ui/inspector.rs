@@ -8,7 +8,7 @@ use bevy_egui::egui::{self, Margin, Panel, ScrollArea, Ui};
 use super::theme::{GRID, Palette};
 use super::{
     Intents, Scene, appearance_panel, colours_panel, designs_panel, field_panel, lattice_panel,
-    lines_panel, match_panel, method_panel, scattered_panel, travel_panel, warp_panel,
+    lines_panel, match_panel, method_panel, paths_panel, scattered_panel, travel_panel, warp_panel,
 };
 use crate::app::intent::Intent;
 use crate::content::ContentKind;
@@ -55,6 +55,7 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         travel_panel::show(ui, &mut draft.travel);
     }
     match draft.warp {
+        Some(WarpKind::Paths) => paths_panel::show(ui, &mut draft.paths),
         Some(WarpKind::Lines) => lines_panel::show(ui, &mut draft.lines),
         Some(WarpKind::Scattered) => scattered_panel::show(ui, &mut draft.scattered),
         Some(WarpKind::Lattice) => lattice_panel::show(ui, &mut draft.lattice),

@@ -9,9 +9,9 @@ use super::theme::{GRID, Palette, RADIUS};
 use super::widgets::{hint, section};
 use super::{Intents, Scene};
 use crate::app::intent::Intent;
-use crate::app::session::{CONTENTS, WARPS};
 use crate::content::ContentKind;
 use crate::project::Project;
+use crate::transition::Cell;
 use crate::warp::WarpKind;
 
 const ROW_LABEL_WIDTH: f32 = 52.0;
@@ -20,13 +20,13 @@ const CELL_HEIGHT: f32 = 28.0;
 /// Draws the table and what the chosen cell does.
 pub fn show(ui: &mut Ui, scene: &Scene, project: &Project, acts: &mut Intents) {
     section(ui, "Method", |ui| {
-        let width = (ui.available_width() - ROW_LABEL_WIDTH - GRID) / CONTENTS.len() as f32;
+        let width = (ui.available_width() - ROW_LABEL_WIDTH - GRID) / ContentKind::ALL.len() as f32;
         heads(ui, width);
         ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
-        for warp in WARPS {
+        for warp in WarpKind::ALL {
             ui.horizontal(|ui| {
                 row_head(ui, warp);
-                for content in CONTENTS {
+                for content in ContentKind::ALL {
                     cell(ui, scene, project, (warp, content), width - 4.0, acts);
                 }
             });
@@ -43,7 +43,7 @@ fn heads(ui: &mut Ui, width: f32) {
     let weak = Palette::of(ui).weak;
     let font = TextStyle::Small.resolve(ui.style());
     let mut left = rect.left() + ROW_LABEL_WIDTH + 4.0;
-    for content in CONTENTS {
+    for content in ContentKind::ALL {
         let at = pos2(left, rect.center().y);
         ui.painter().text(
             at,
@@ -59,30 +59,17 @@ fn heads(ui: &mut Ui, width: f32) {
 fn row_head(ui: &mut Ui, warp: WarpKind) {
     let (rect, response) =
         ui.allocate_exact_size(vec2(ROW_LABEL_WIDTH, CELL_HEIGHT), Sense::hover());
-    let (name, tip) = match warp {
-        WarpKind::None => ("Still", "Nothing moves: each point stays where it is."),
-        WarpKind::Arap => (
-            "Rigid",
-            "Each part moves as rigidly as it can: limbs turn instead of shrinking.",
-        ),
-        WarpKind::Lines => (
-            "Lines",
-            "Pairs of lines pull the plane along (Beier and Neely 1992).",
-        ),
-        WarpKind::Scattered => (
-            "Points",
-            "Pins pull the plane along, smoothly between them (radial basis functions).",
-        ),
-        WarpKind::Lattice => (
-            "Lattice",
-            "Pins bend a grid of splines, finer and finer, without folds.",
-        ),
-    };
+    let words = warp.words();
     let font = TextStyle::Small.resolve(ui.style());
     let weak = Palette::of(ui).weak;
-    ui.painter()
-        .text(rect.left_center(), Align2::LEFT_CENTER, name, font, weak);
-    response.on_hover_text(tip);
+    ui.painter().text(
+        rect.left_center(),
+        Align2::LEFT_CENTER,
+        words.title,
+        font,
+        weak,
+    );
+    response.on_hover_text(words.sentence);
 }
 
 fn content_name(content: ContentKind) -> &'static str {
@@ -93,41 +80,15 @@ fn content_name(content: ContentKind) -> &'static str {
     }
 }
 
+/// What stands on the button of a cell.
 pub fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
-    match (warp, content) {
-        (WarpKind::None, ContentKind::Solid) => "–",
-        (WarpKind::None, ContentKind::Field) => "Blend",
-        (WarpKind::Arap, ContentKind::Solid) => "Rigid parts",
-        (WarpKind::None, ContentKind::Colours) => "Dissolve",
-        (_, ContentKind::Field) => "Carried field",
-        (_, ContentKind::Colours) => "Morph",
-        (_, ContentKind::Solid) => "–",
-    }
+    Cell::new(warp, content).map_or("–", |cell| cell.words().button)
 }
 
 pub fn description(warp: WarpKind, content: ContentKind) -> &'static str {
-    match (warp, content) {
-        (WarpKind::None, ContentKind::Field) => {
-            "Blends how far each point lies from the two outlines. Any shapes, with holes; \
-             parts that move grow out of each other instead of turning."
-        }
-        (WarpKind::Arap, ContentKind::Solid) => {
-            "Turns and stretches each triangle evenly and joins them again. Parts keep their \
-             form while they move; outlines are matched by themselves."
-        }
-        (WarpKind::None, ContentKind::Colours) => {
-            "Fades one picture into the other, in linear light. Nothing moves."
-        }
-        (_, ContentKind::Field) => {
-            "Distance fields that travel with the warp: parts move instead of dissolving. Where \
-             nothing is pinned, the outlines are matched and pinned by themselves."
-        }
-        (_, ContentKind::Colours) => {
-            "Moves what belongs together onto each other while one picture fades into the other. \
-             Set pins, or lines, on eyes, corners and edges (key E)."
-        }
-        (_, ContentKind::Solid) => "Nothing moves and nothing blends.",
-    }
+    Cell::new(warp, content).map_or("Nothing moves and nothing blends.", |cell| {
+        cell.words().sentence
+    })
 }
 
 fn cell(

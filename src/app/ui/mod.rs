@@ -18,6 +18,7 @@ mod match_editor;
 mod match_panel;
 mod method_panel;
 mod notices;
+mod paths_panel;
 mod plots;
 mod questions;
 mod scattered_panel;

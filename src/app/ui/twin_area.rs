@@ -61,7 +61,7 @@ fn first_name(ui: &Ui, scene: &Scene, rect: Rect) {
     let Some(transition) = scene.session.transition() else {
         return;
     };
-    let name = first_upper(&transition.cell().name());
+    let name = first_upper(transition.cell().name());
     card(ui, "first method", rect, |ui| {
         let weak = Palette::of(ui).weak;
         ui.add_sized(
@@ -80,13 +80,13 @@ fn second_name(ui: &Ui, scene: &Scene, rect: Rect, acts: &mut Intents) {
     card(ui, "second method", rect, |ui| {
         ComboBox::from_id_salt("second method")
             .width(NAME_WIDTH)
-            .selected_text(first_upper(&chosen.name()))
+            .selected_text(first_upper(chosen.name()))
             .height(400.0)
             .show_ui(ui, |ui| {
                 for method in TwinMethod::all() {
                     let cell = method.cell();
                     let available = scene.session.available(cell.warp(), cell.content());
-                    let name = first_upper(&method.name());
+                    let name = first_upper(method.name());
                     ui.add_enabled_ui(available.is_ok(), |ui| {
                         let response = ui.selectable_label(chosen == method, name);
                         if let Err(reason) = &available {

@@ -5,9 +5,8 @@
 //! `diameters` fractions of the larger design's diameter.
 
 use super::report::{FindingReport, Report};
-use crate::content::ContentKind;
 use crate::measure::{Distribution, FilmReport, MeshReport, Motion};
-use crate::warp::WarpKind;
+use crate::transition::Cell;
 
 /// What stands in a cell.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,15 +94,7 @@ const WORST: fn(&Distribution) -> f64 = |d| d.worst;
 
 const ALL: [Column; 53] = [
     ("method", |r| {
-        words(match (r.warp, r.content) {
-            (WarpKind::Arap, ContentKind::Solid) => "arap",
-            (WarpKind::None, ContentKind::Field) => "field",
-            (WarpKind::None, _) => "dissolve",
-            (WarpKind::Arap, _) => "arap warp",
-            (WarpKind::Lines, _) => "lines",
-            (WarpKind::Scattered, _) => "scattered",
-            (WarpKind::Lattice, _) => "lattice",
-        })
+        words(Cell::new(r.warp, r.content).ok()?.words().report)
     }),
     ("verdict", |r| words(&r.verdict.words)),
     ("verdict_t", |r| number(finding(r)?.finding.t)),

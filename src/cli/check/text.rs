@@ -6,7 +6,6 @@ use std::fmt::Write;
 use super::report::{DesignReport, Report};
 use crate::content::ContentKind;
 use crate::measure::{Distribution, FilmSample, MeshReport, Quantity};
-use crate::warp::WarpKind;
 
 /// The most samples that are listed.
 const MOST_ROWS: usize = 9;
@@ -59,12 +58,10 @@ impl Lines {
 }
 
 fn method(report: &Report, lines: &mut Lines) {
-    let warp = match report.warp {
-        WarpKind::None => "",
-        WarpKind::Arap => "rigid parts (arap)",
-        WarpKind::Lines => "pairs of lines (lines)",
-        WarpKind::Scattered => "scattered points (scattered)",
-        WarpKind::Lattice => "B-spline lattices (lattice)",
+    let words = report.warp.words();
+    let warp = match words.name {
+        "" => String::new(),
+        name => format!("{name} ({})", words.key),
     };
     let content = match report.content {
         ContentKind::Solid => "",

@@ -5,7 +5,7 @@ use super::super::distortion::{Strain, edges};
 use super::super::film::ring_area;
 use super::super::stretch;
 use super::scan::{self, Glance};
-use super::{Cause, Finding, Trouble, remedy};
+use super::{Cause, Finding, Remedy, Trouble, remedy};
 use crate::content::{FieldPair, Solid};
 use crate::geometry::{DVec2, twice_signed_area};
 use crate::homotopy::{Homotopy, LocalMap};
@@ -114,7 +114,9 @@ pub(super) fn of_solid(
     progress: &dyn Progress,
 ) -> Result<Vec<Finding>, Cancelled> {
     let Some(arap) = transition.arap() else {
-        return Ok(Vec::new());
+        return Ok(of_boundaries(transition, solid, glances)
+            .into_iter()
+            .collect());
     };
     let mut found = Vec::new();
     if let Some((t, span)) = scan::worst(glances, |g| g.folds, 0) {
@@ -127,6 +129,21 @@ pub(super) fn of_solid(
     }
     remedy::for_rigid_parts(transition, arap, solid, glances, &mut found, progress)?;
     Ok(found)
+}
+
+/// Crossings of a boundary that has nothing inside.
+fn of_boundaries(transition: &Transition, solid: &Solid, glances: &[Glance]) -> Option<Finding> {
+    let (t, span) = scan::worst(glances, |g| g.crossings, 0)?;
+    let frame = transition.frame(t);
+    let crossings = crossings(&solid.rings_at(&frame.placement().in_frame));
+    Some(Finding {
+        place: crossings.first()?.place,
+        trouble: Trouble::Crossings { crossings },
+        t,
+        span,
+        cause: Cause::NothingInside,
+        remedy: Remedy::RigidParts,
+    })
 }
 
 fn of_folds(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {

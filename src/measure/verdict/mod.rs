@@ -166,6 +166,9 @@ pub enum Cause {
     SeenTwice,
     /// No map without folds was found that reaches a pin.
     OutOfReach,
+    /// Points of the boundary move on their own; nothing inside keeps them
+    /// apart.
+    NothingInside,
     /// None of the above.
     Unclear,
 }
@@ -200,7 +203,7 @@ pub enum Remedy {
     },
     /// The target to be laid over the source.
     LayOver,
-    /// Rigid parts instead of fields.
+    /// Rigid parts instead of fields or of boundary paths.
     RigidParts,
     /// Lattices that never fold instead of the warp at hand, or other pins.
     Lattices,
@@ -274,10 +277,10 @@ impl Verdict {
     ) -> Result<Self, Cancelled> {
         let (clear, mut findings) = match transition.content() {
             Content::Solid(solid) => (
-                if solid.loops.is_empty() {
-                    "no folds"
-                } else {
-                    "no folds, no crossings"
+                match (solid.loops.is_empty(), transition.arap()) {
+                    (true, _) => "no folds",
+                    (false, Some(_)) => "no folds, no crossings",
+                    (false, None) => "no crossings",
                 },
                 cause::of_solid(transition, solid, glances, progress)?,
             ),

@@ -42,7 +42,8 @@ pub(super) fn transition(
     match (transition.content(), transition.arap()) {
         (Content::Solid(solid), Some(arap)) => rigid_parts(arap, solid, steps, progress),
         (Content::Field(_), _) => fields(transition, steps, progress),
-        (Content::Solid(_), None) | (Content::Colours(_), _) => Ok(Vec::new()),
+        (Content::Solid(solid), None) => boundaries(transition, solid, steps, progress),
+        (Content::Colours(_), _) => Ok(Vec::new()),
     }
 }
 
@@ -61,6 +62,25 @@ pub(super) fn rigid_parts(
             t,
             folds: folded(arap, places).count(),
             crossings: count_crossings(&solid.rings_at(places)),
+            ..Glance::default()
+        })
+    };
+    even_steps(steps).map(glance).collect()
+}
+
+fn boundaries(
+    transition: &Transition,
+    solid: &Solid,
+    steps: usize,
+    progress: &dyn Progress,
+) -> Result<Vec<Glance>, Cancelled> {
+    let mut frame = transition.frame(0.0);
+    let glance = |t| {
+        checkpoint(progress, "looking for crossings", t)?;
+        frame.seek(t);
+        Ok(Glance {
+            t,
+            crossings: count_crossings(&solid.rings_at(&frame.placement().in_frame)),
             ..Glance::default()
         })
     };

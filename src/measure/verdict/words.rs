@@ -155,6 +155,12 @@ impl fmt::Display for Cause {
                 "pins or lines near it pass each other, and the plane is turned over between them"
             ),
             Self::OutOfReach => write!(f, "the plane would have to fold to bring it there"),
+            Self::NothingInside => {
+                write!(
+                    f,
+                    "points of the boundary move on their own, nothing inside keeps them apart"
+                )
+            }
             Self::Unclear => write!(f, "no single cause stands out"),
         }
     }

@@ -1,21 +1,19 @@
 //! Where the connected parts are as a whole, which the energy leaves open.
 //!
-//! The design's centroid runs on a straight line C(t), and each part k moves
-//! with the whole, c_k(t) = C(t) + R(tΘ) ((1−t) d_k + t R(−Θ) e_k), with d_k
-//! and e_k its offsets in source and target. (On straight lines of their own,
-//! two parts of a design turned by π would meet.) Centroids use fixed vertex
-//! masses: an area centroid is 0/0 where a path collapses.
+//! Parts move as [`PartPath`] says. Centroids use fixed vertex masses: an area
+//! centroid is 0/0 where a path collapses.
 
+use super::super::parts::PartPath;
 use super::PathKind;
 use super::assembly::LocalMaps;
 use crate::compatible::CompatibleMesh;
-use crate::geometry::{DMat2, DVec2};
+use crate::geometry::DVec2;
 use std::ops::Range;
 
 /// The connected parts and how they drift.
 #[derive(Clone, Debug)]
 pub(super) struct Drift {
-    parts: Vec<Part>,
+    parts: Vec<PartPath>,
     /// Vertices by part.
     vertices: Vec<Run>,
     /// Unknowns in elimination order by part.
@@ -48,26 +46,6 @@ impl Run {
     }
 }
 
-#[derive(Clone, Copy, Debug, Default)]
-struct Part {
-    /// d, the offset from the whole's centroid in the source.
-    begin: DVec2,
-    /// R(−Θ) e, the offset in the target turned back.
-    turned_end: DVec2,
-}
-
-impl Part {
-    fn at(&self, t: f64, whole_angle: f64) -> DVec2 {
-        DMat2::from_angle(t * whole_angle) * (self.begin * (1.0 - t) + self.turned_end * t)
-    }
-
-    /// How far from its straight line the part is; exactly 0 at both ends.
-    fn deviation(&self, t: f64, whole_angle: f64) -> DVec2 {
-        let straight = self.begin * (1.0 - t) + self.at(1.0, whole_angle) * t;
-        self.at(t, whole_angle) - straight
-    }
-}
-
 impl Drift {
     pub(super) fn new(
         mesh: &CompatibleMesh,
@@ -96,7 +74,7 @@ impl Drift {
             PathKind::Anchor(v) => Some((place[v as usize], component[v as usize])),
         };
         Self {
-            parts: parts(&centres, &mass, maps.whole_angle),
+            parts: PartPath::all(&centres, &mass, maps.whole_angle),
             vertices: Run::all(&component),
             unknowns: Run::all(&part_of_unknown),
             shares,
@@ -147,27 +125,4 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     }
     let rest = a_rest.iter().zip(b_rest).map(|(a, b)| a * b);
     sums.iter().sum::<f64>() + rest.sum::<f64>()
-}
-
-fn parts(centres: &[[DVec2; 2]], mass: &[f64], whole_angle: f64) -> Vec<Part> {
-    if let [_] = centres {
-        return vec![Part::default()]; // the only part is the whole
-    }
-    let total: f64 = mass.iter().sum();
-    let centre = |side: usize| -> DVec2 {
-        let weighted = centres
-            .iter()
-            .zip(mass)
-            .map(|(c, &m)| c[side] * (m / total));
-        weighted.sum()
-    };
-    let (from, to) = (centre(0), centre(1));
-    let back = DMat2::from_angle(-whole_angle);
-    centres
-        .iter()
-        .map(|[begin, end]| Part {
-            begin: *begin - from,
-            turned_end: back * (*end - to),
-        })
-        .collect()
 }

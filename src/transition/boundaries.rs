@@ -1,0 +1,147 @@
+//! Two designs by their boundaries alone: matched, not triangulated.
+//!
+//! Two meshes whose boundary walks are the same, number by number, bring
+//! their match along; all other forms are matched as outlines. The match is
+//! the first that rigid parts would try: whether it folds inside is not asked,
+//! since there is no inside.
+
+use super::{BuildError, TransitionSpec};
+use crate::correspondence::{PieceMatch, RegionMatch, RingKind, match_regions};
+use crate::design::Form;
+use crate::geometry::DVec2;
+use crate::mesh::TriangleMesh;
+use crate::progress::Progress;
+use crate::warp::{Paths, RingPair};
+
+/// The paths, and the match where the designs did not bring it along.
+pub(super) fn paths(
+    spec: &TransitionSpec,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<(Paths, Option<RegionMatch>), BuildError> {
+    if let (Form::Mesh(source), Form::Mesh(target)) = (&spec.source.form, &spec.target.form)
+        && let Some(parts) = numbered(source, target)
+    {
+        return Ok((Paths::new(&parts, spec.paths)?, None));
+    }
+    let [source, target] = [&spec.source, &spec.target].map(|d| d.outline(bar_width));
+    let matched = match_regions(&source?, &target?, &spec.matching, progress)?;
+    let parts: Vec<Vec<RingPair>> = matched.pieces.iter().map(rings).collect();
+    Ok((Paths::new(&parts, spec.paths)?, Some(matched)))
+}
+
+/// The rings of a piece. What a match keeps as a tiny ring, so that it can be
+/// triangulated, is a point here.
+fn rings(piece: &PieceMatch) -> Vec<RingPair> {
+    let mut rings: Vec<RingPair> = piece
+        .rings
+        .iter()
+        .map(|ring| RingPair {
+            source: match ring.kind {
+                RingKind::Opens => point(&ring.source),
+                RingKind::Matched | RingKind::Closes => ring.source.clone(),
+            },
+            target: match ring.kind {
+                RingKind::Closes => point(&ring.target),
+                RingKind::Matched | RingKind::Opens => ring.target.clone(),
+            },
+        })
+        .collect();
+    let Some(outer) = piece.rings.first() else {
+        return rings;
+    };
+    for ring in &mut rings {
+        if piece.source_part.is_none() {
+            ring.source.fill(middle(&outer.source));
+        }
+        if piece.target_part.is_none() {
+            ring.target.fill(middle(&outer.target));
+        }
+    }
+    rings
+}
+
+/// A ring as its middle, so many times.
+fn point(ring: &[DVec2]) -> Vec<DVec2> {
+    vec![middle(ring); ring.len()]
+}
+
+fn middle(ring: &[DVec2]) -> DVec2 {
+    ring.iter().sum::<DVec2>() / ring.len().max(1) as f64
+}
+
+/// The boundary walks of two meshes as parts, where they are the same walks
+/// and run the same way round.
+fn numbered(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<RingPair>>> {
+    let walks = source.boundary_loops();
+    if walks != target.boundary_loops() {
+        return None;
+    }
+    let of = |mesh: &TriangleMesh, walk: &[u32]| -> Vec<DVec2> {
+        let positions = mesh.positions();
+        walk.iter().map(|&v| positions[v as usize]).collect()
+    };
+    let rings: Vec<RingPair> = walks
+        .iter()
+        .map(|walk| RingPair {
+            source: of(source, walk),
+            target: of(target, walk),
+        })
+        .collect();
+    let areas: Vec<[f64; 2]> = rings
+        .iter()
+        .map(|ring| [twice_area(&ring.source), twice_area(&ring.target)])
+        .collect();
+    let has_one_sense = areas.iter().all(|[a, b]| a * b > 0.0);
+    has_one_sense.then(|| parts(rings, &areas))
+}
+
+/// Each hole with the smallest outer ring that it lies in in the source. A
+/// mesh may list its faces clockwise; then its outer rings are clockwise.
+fn parts(rings: Vec<RingPair>, areas: &[[f64; 2]]) -> Vec<Vec<RingPair>> {
+    let sense: f64 = areas.iter().map(|[a, _]| a).sum();
+    let (mut outer, mut holes) = (Vec::new(), Vec::new());
+    for (ring, [area, _]) in rings.into_iter().zip(areas) {
+        if area * sense > 0.0 {
+            outer.push((area.abs(), vec![ring]));
+        } else {
+            holes.push(ring);
+        }
+    }
+    for hole in holes {
+        let lies_in = |part: &&mut (f64, Vec<RingPair>)| winds(&part.1[0].source, hole.source[0]);
+        let around = outer
+            .iter_mut()
+            .filter(lies_in)
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        match around {
+            Some((_, part)) => part.push(hole),
+            None => outer.push((0.0, vec![hole])),
+        }
+    }
+    outer.into_iter().map(|(_, part)| part).collect()
+}
+
+fn twice_area(ring: &[DVec2]) -> f64 {
+    let next = ring.iter().cycle().skip(1);
+    let origin = ring.first().copied().unwrap_or_default();
+    ring.iter()
+        .zip(next)
+        .map(|(&a, &b)| (a - origin).perp_dot(b - origin))
+        .sum()
+}
+
+/// Whether a ring winds about a place: crossings of a ray to the right,
+/// counted by their sense.
+fn winds(ring: &[DVec2], p: DVec2) -> bool {
+    let next = ring.iter().cycle().skip(1);
+    let crossing = |(&a, &b): (&DVec2, &DVec2)| {
+        let to_the_left = (b - a).perp_dot(p - a);
+        match (a.y <= p.y, b.y <= p.y) {
+            (true, false) if to_the_left > 0.0 => 1,
+            (false, true) if to_the_left < 0.0 => -1,
+            _ => 0,
+        }
+    };
+    ring.iter().zip(next).map(crossing).sum::<i32>() != 0
+}

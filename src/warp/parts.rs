@@ -1,0 +1,59 @@
+//! Where the parts of a design are as wholes.
+//!
+//! The design's centroid runs on a straight line C(t), and each part k moves
+//! with the whole, c_k(t) = C(t) + R(tΘ) ((1−t) d_k + t R(−Θ) e_k), with d_k
+//! and e_k its offsets in source and target. (On straight lines of their own,
+//! two parts of a design turned by π would meet.)
+
+use crate::geometry::{DMat2, DVec2};
+
+/// The path of a part's centroid about that of the whole.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct PartPath {
+    /// d, the offset from the whole's centroid in the source.
+    begin: DVec2,
+    /// R(−Θ) e, the offset in the target turned back.
+    turned_end: DVec2,
+}
+
+impl PartPath {
+    /// Paths of parts with the given centroids, `[source, target]`, and
+    /// masses in a whole that turns by `whole_angle`.
+    pub(super) fn all(centres: &[[DVec2; 2]], mass: &[f64], whole_angle: f64) -> Vec<Self> {
+        if let [_] = centres {
+            return vec![Self::default()]; // the only part is the whole
+        }
+        let [from, to] = centroid(centres, mass);
+        let back = DMat2::from_angle(-whole_angle);
+        centres
+            .iter()
+            .map(|[begin, end]| Self {
+                begin: *begin - from,
+                turned_end: back * (*end - to),
+            })
+            .collect()
+    }
+
+    /// The offset from the whole's centroid.
+    pub(super) fn at(&self, t: f64, whole_angle: f64) -> DVec2 {
+        DMat2::from_angle(t * whole_angle) * (self.begin * (1.0 - t) + self.turned_end * t)
+    }
+
+    /// How far from its straight line the part is; exactly 0 at both ends.
+    pub(super) fn deviation(&self, t: f64, whole_angle: f64) -> DVec2 {
+        let straight = self.begin * (1.0 - t) + self.at(1.0, whole_angle) * t;
+        self.at(t, whole_angle) - straight
+    }
+}
+
+/// The centroid of the whole in source and target.
+pub(super) fn centroid(centres: &[[DVec2; 2]], mass: &[f64]) -> [DVec2; 2] {
+    let total: f64 = mass.iter().sum();
+    [0, 1].map(|side| {
+        let weighted = centres
+            .iter()
+            .zip(mass)
+            .map(|(c, &m)| c[side] * (m / total));
+        weighted.sum()
+    })
+}

@@ -1,0 +1,244 @@
+//! Boundary paths: corresponding vertices of closed polygons move on paths of
+//! their own, without anything inside.
+//!
+//! Either straight, or intrinsically (Sederberg, Gao, Wang, Mu, "2-D shape
+//! blending: an intrinsic solution to the vertex path problem", 1993, §3 and
+//! §4): lengths and directions of the edges are interpolated, so that what
+//! turns is not shortened on the way. Where a polygon is and how it lies as a
+//! whole is free then. Its centroid runs straight, several parts move with the
+//! design ([`super::parts`]), and of the whole turns that a match leaves open
+//! those are taken that are nearest to the rotation that fits the designs
+//! best.
+//!
+//! Guaranteed: at t = 0 and t = 1 the designs to the last bit; for |t| up to
+//! 1e75 finite vertices, whatever the polygons are; by intrinsic paths a
+//! rotated and moved copy moves rigidly, one of another size stays similar;
+//! swapping the designs plays the film backwards. Not guaranteed: that the
+//! polygons do not cross themselves or each other in between; a half turn has
+//! two equal films.
+//!
+//! - `turning`: continuous angles along a ring
+//! - `ring`: one ring by its edges, and how it is closed
+//! - `part`: an outer ring with its holes
+//! - `whole`: all parts, and where they are
+
+mod part;
+mod ring;
+#[cfg(test)]
+mod tests;
+mod turning;
+mod whole;
+
+use super::{Placement, Placer, Warp};
+use crate::geometry::DVec2;
+use serde::{Deserialize, Serialize};
+use std::ops::Range;
+use std::sync::Arc;
+use whole::Intrinsic;
+
+/// No coordinate is larger: products of a few of them are still numbers.
+const FARTHEST: f64 = 1e75;
+
+/// On which paths the vertices move.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Course {
+    /// Straight lines: what turns is shortened on the way.
+    Straight,
+    /// Those that lengths and directions of the edges leave.
+    #[default]
+    Intrinsic,
+}
+
+/// Options of the boundary paths.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct PathOptions {
+    /// On which paths the vertices move.
+    pub course: Course,
+}
+
+/// A closed polygon in both designs, vertex by vertex. Vertices may coincide:
+/// a ring is born from, or dies into, one that is a point.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct RingPair {
+    /// Vertices in the source, in order.
+    pub source: Vec<DVec2>,
+    /// As many vertices in the target.
+    pub target: Vec<DVec2>,
+}
+
+/// Why polygons have no paths. Parts and rings are counted from 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum PathsError {
+    /// There is nothing that could move.
+    #[error("the match has no boundaries; give two designs with an area")]
+    NoRings,
+    /// A ring has no vertices.
+    #[error("ring {} of part {} has no points; leave it out", ring + 1, part + 1)]
+    Empty {
+        /// Which part.
+        part: usize,
+        /// Which of its rings.
+        ring: usize,
+    },
+    /// A ring's two polygons do not correspond.
+    #[error("ring {} of part {} has {} points in the source and {} in the target; they must be as many", ring + 1, part + 1, .counts[0], .counts[1])]
+    Counts {
+        /// Which part.
+        part: usize,
+        /// Which of its rings.
+        ring: usize,
+        /// How many vertices there are in source and target.
+        counts: [usize; 2],
+    },
+    /// A coordinate is NaN, infinite or beyond [`FARTHEST`].
+    #[error("ring {} of part {} has a point that is no number up to {FARTHEST:e}; correct its coordinates", ring + 1, part + 1)]
+    OutOfRange {
+        /// Which part.
+        part: usize,
+        /// Which of its rings.
+        ring: usize,
+    },
+}
+
+/// Boundary paths, ready to be played.
+///
+/// ```
+/// use morphospace::geometry::DVec2;
+/// use morphospace::warp::{PathOptions, Paths, RingPair, Warp};
+///
+/// let source = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
+/// let turn = DVec2::from_angle(3.0);
+/// let target = source.iter().map(|&p| turn.rotate(p)).collect();
+/// let paths = Paths::new(&[vec![RingPair { source, target }]], PathOptions::default())?;
+/// let mut placer = paths.placer();
+/// placer.place(0.5);
+/// let at = &placer.placement().in_frame;
+/// assert!((at[0].distance(at[1]) - 1.0).abs() < 1e-12); // turned, not shrunk
+/// # Ok::<(), morphospace::warp::PathsError>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Paths(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    source: Vec<DVec2>,
+    target: Vec<DVec2>,
+    /// Each ring as a range of vertices.
+    rings: Vec<Range<u32>>,
+    /// Nothing where the paths are straight.
+    intrinsic: Option<Intrinsic>,
+}
+
+impl Paths {
+    /// Takes parts, each an outer ring and its holes. The vertices of the
+    /// placement are those of all rings, in order. Cost: of the order of the
+    /// number of vertices, and for each hole of those around it.
+    ///
+    /// # Errors
+    /// [`PathsError`] names the ring that has no vertices, not as many in both
+    /// designs, or a point out of range.
+    pub fn new(parts: &[Vec<RingPair>], options: PathOptions) -> Result<Self, PathsError> {
+        check(parts)?;
+        let all = |of: fn(&RingPair) -> &Vec<DVec2>| -> Vec<DVec2> {
+            parts.iter().flatten().flat_map(of).copied().collect()
+        };
+        let mut end = 0;
+        let rings = parts.iter().flatten().map(|ring| {
+            let begin = end;
+            end += ring.source.len() as u32;
+            begin..end
+        });
+        Ok(Self(Arc::new(Inner {
+            rings: rings.collect(),
+            source: all(|ring| &ring.source),
+            target: all(|ring| &ring.target),
+            intrinsic: match options.course {
+                Course::Straight => None,
+                Course::Intrinsic => Some(Intrinsic::new(parts)),
+            },
+        })))
+    }
+
+    /// The rings as walks over the vertices of the placement, in the order in
+    /// which they were given.
+    #[must_use]
+    pub fn loops(&self) -> Vec<Vec<u32>> {
+        self.0
+            .rings
+            .iter()
+            .map(|ring| ring.clone().collect())
+            .collect()
+    }
+}
+
+fn check(parts: &[Vec<RingPair>]) -> Result<(), PathsError> {
+    if parts.iter().all(Vec::is_empty) {
+        return Err(PathsError::NoRings);
+    }
+    for (part, rings) in parts.iter().enumerate() {
+        for (ring, pair) in rings.iter().enumerate() {
+            let counts = [pair.source.len(), pair.target.len()];
+            if counts[0] != counts[1] {
+                return Err(PathsError::Counts { part, ring, counts });
+            }
+            if counts == [0, 0] {
+                return Err(PathsError::Empty { part, ring });
+            }
+            let points = pair.source.iter().chain(&pair.target);
+            let mut coordinates = points.flat_map(|p| p.to_array());
+            if !coordinates.all(|x| x.abs() <= FARTHEST) {
+                return Err(PathsError::OutOfRange { part, ring });
+            }
+        }
+    }
+    Ok(())
+}
+
+impl Warp for Paths {
+    fn placer(&self) -> Box<dyn Placer> {
+        Box::new(PathsPlacer {
+            paths: Arc::clone(&self.0),
+            placement: Placement {
+                faces: Arc::new([]),
+                in_frame: self.0.source.clone(),
+                in_source: self.0.source.clone(),
+                in_target: self.0.target.clone(),
+            },
+        })
+    }
+}
+
+/// The memory of one player of [`Paths`].
+#[derive(Debug)]
+struct PathsPlacer {
+    paths: Arc<Inner>,
+    placement: Placement,
+}
+
+impl Placer for PathsPlacer {
+    fn place(&mut self, t: f64) {
+        let Inner {
+            source,
+            target,
+            intrinsic,
+            ..
+        } = &*self.paths;
+        let out = &mut self.placement.in_frame;
+        match intrinsic {
+            _ if t == 0.0 => out.copy_from_slice(source),
+            _ if t == 1.0 => out.copy_from_slice(target),
+            Some(intrinsic) => intrinsic.write(t, out),
+            None => {
+                for (out, (&p, &q)) in out.iter_mut().zip(source.iter().zip(target)) {
+                    *out = p * (1.0 - t) + q * t;
+                }
+            }
+        }
+    }
+
+    fn placement(&self) -> &Placement {
+        &self.placement
+    }
+}

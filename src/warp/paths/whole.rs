@@ -1,0 +1,124 @@
+//! All parts of a design on intrinsic paths.
+//!
+//! The centroid of the design runs straight and its parts move with it
+//! ([`super::super::parts`]). Parts weigh by their area, the vertices of a part
+//! by the edges that they end: fixed masses, since an area centroid is 0/0
+//! where a ring collapses on its way.
+
+use super::super::parts::{PartPath, centroid};
+use super::RingPair;
+use super::part::{self, EdgePart};
+use super::ring::EdgeRing;
+use super::turning;
+use crate::geometry::DVec2;
+use std::ops::Range;
+
+/// What intrinsic paths need.
+#[derive(Debug)]
+pub(super) struct Intrinsic {
+    parts: Vec<MovingPart>,
+    /// The design's centroid in source and target.
+    centroid: [DVec2; 2],
+    /// The rotation that fits the designs best, in radians in (−π, π].
+    whole_angle: f64,
+}
+
+#[derive(Debug)]
+struct MovingPart {
+    edges: EdgePart,
+    path: PartPath,
+    vertices: Range<usize>,
+}
+
+impl Intrinsic {
+    /// Takes parts apart, each an outer ring and its holes.
+    pub(super) fn new(parts: &[Vec<RingPair>]) -> Self {
+        let outer: Vec<&RingPair> = parts.iter().filter_map(|rings| rings.first()).collect();
+        let rings: Vec<EdgeRing> = outer
+            .iter()
+            .map(|pair| EdgeRing::new(&pair.source, &pair.target, 0.0))
+            .collect();
+        let centres: Vec<[DVec2; 2]> = outer
+            .iter()
+            .zip(&rings)
+            .map(|(pair, ring)| part::centres(pair, ring))
+            .collect();
+        let masses = masses(&outer);
+        let whole = centroid(&centres, &masses);
+        let whole_angle = rotation(&outer, &rings, &masses, whole);
+        let paths = PartPath::all(&centres, &masses, whole_angle);
+        let mut end = 0;
+        let parts = parts
+            .iter()
+            .filter_map(|rings| Some((rings, EdgePart::new(rings, whole_angle)?)))
+            .zip(paths)
+            .map(|((rings, edges), path)| {
+                let begin = end;
+                end += rings.iter().map(|ring| ring.source.len()).sum::<usize>();
+                MovingPart {
+                    edges,
+                    path,
+                    vertices: begin..end,
+                }
+            });
+        Self {
+            parts: parts.collect(),
+            centroid: whole,
+            whole_angle,
+        }
+    }
+
+    /// Writes the vertices of all parts at t.
+    pub(super) fn write(&self, t: f64, out: &mut [DVec2]) {
+        let [from, to] = self.centroid;
+        for part in &self.parts {
+            let at = from * (1.0 - t) + to * t + part.path.at(t, self.whole_angle);
+            let vertices = &mut out[part.vertices.clone()];
+            part.edges.write(t, vertices);
+            vertices.iter_mut().for_each(|p| *p += at);
+        }
+    }
+}
+
+/// The mean share of each part in the areas of both designs; even where there
+/// is no area.
+fn masses(outer: &[&RingPair]) -> Vec<f64> {
+    let area = |ring: &[DVec2]| -> f64 {
+        let edges = turning::edges(ring).zip(ring);
+        edges
+            .map(|(edge, &p)| (p - ring[0]).perp_dot(edge))
+            .sum::<f64>()
+            .abs()
+    };
+    let areas: Vec<[f64; 2]> = outer
+        .iter()
+        .map(|pair| [area(&pair.source), area(&pair.target)])
+        .collect();
+    let totals = [0, 1].map(|side| areas.iter().map(|a| a[side]).sum::<f64>());
+    let shares = areas.iter().map(|a| a[0] / totals[0] + a[1] / totals[1]);
+    let shares: Vec<f64> = shares.collect();
+    if shares.iter().all(|share| share.is_finite()) {
+        shares
+    } else {
+        vec![1.0; outer.len()]
+    }
+}
+
+/// The angle of the rotation about the centroids that fits the designs best,
+/// in radians in (−π, π].
+fn rotation(
+    outer: &[&RingPair],
+    rings: &[EdgeRing],
+    masses: &[f64],
+    [from, to]: [DVec2; 2],
+) -> f64 {
+    let (mut sin, mut cos) = (0.0, 0.0);
+    for ((pair, ring), mass) in outer.iter().zip(rings).zip(masses) {
+        let points = pair.source.iter().zip(&pair.target);
+        for ((&p, &q), share) in points.zip(ring.masses()) {
+            sin += mass * share * (p - from).perp_dot(q - to);
+            cos += mass * share * (p - from).dot(q - to);
+        }
+    }
+    sin.atan2(cos)
+}
