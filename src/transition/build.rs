@@ -350,6 +350,22 @@ fn swept_bounds(warp: &dyn Warp) -> Bounds {
     bounds
 }
 
+/// The same around what parts carry, which may leave the frame on its way.
+fn carried_bounds(frame: Bounds, warp: &dyn Warp, pair: &FieldPair) -> Bounds {
+    const SAMPLES: u32 = 8;
+    let mut placer = warp.placer();
+    let mut bounds = frame;
+    for i in 1..SAMPLES {
+        let t = f64::from(i) / f64::from(SAMPLES);
+        placer.place(t);
+        let rings = pair.contour_carried(placer.placement(), t);
+        if let Some(seen) = Bounds::of(rings.into_iter().flatten()) {
+            bounds = bounds.union(&seen);
+        }
+    }
+    bounds
+}
+
 fn build_field(
     spec: &TransitionSpec,
     bar_width: f64,
@@ -362,6 +378,11 @@ fn build_field(
     let target = field_of(&spec.target, spec, grid, bar_width, progress)?;
     let pair = FieldPair::new(source, target, spec.field.blend)?;
     let (warp, automatic) = plane::warp(spec, &grid.bounds(), bar_width, progress)?;
+    let bounds = if spec.cell.warp() == WarpKind::Arap {
+        carried_bounds(frame, warp.as_ref(), &pair)
+    } else {
+        frame // a grid over the frame shows nothing beyond it
+    };
     Ok(Inner {
         cell: spec.cell,
         designs: [Arc::clone(&spec.source), Arc::clone(&spec.target)],
@@ -369,7 +390,7 @@ fn build_field(
         automatic,
         arap: None,
         matched: None,
-        bounds: frame,
+        bounds,
         content: Content::Field(pair),
         bar_width,
     })

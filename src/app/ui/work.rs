@@ -12,6 +12,9 @@ use crate::app::intent::Intent;
 /// the other.
 const PATIENCE: Duration = Duration::from_millis(300);
 
+/// Height of the names of two methods, or of the editor's tools.
+const TAKEN: f32 = 40.0;
+
 /// Draws a pill at the top of the stage for each piece of work.
 pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     let build = scene
@@ -27,10 +30,13 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     if all.is_empty() {
         return;
     }
+    // Below what else stands at the upper edge.
+    let is_taken = scene.twin.is_shown || scene.editor.is_open;
+    let above = if is_taken { TAKEN } else { 0.0 };
     Area::new("work".into())
         .order(Order::Middle)
         .pivot(Align2::CENTER_TOP)
-        .fixed_pos(stage.center_top() + vec2(0.0, 2.0 * GRID))
+        .fixed_pos(stage.center_top() + vec2(0.0, 2.0 * GRID + above))
         .show(ctx, |ui| {
             for ((stage, fraction), cancel) in all {
                 pill(ui, stage, fraction, cancel, acts);

@@ -8,17 +8,21 @@
 use super::super::scan::scan;
 use super::FieldPair;
 use crate::field::{Samples, contour};
-use crate::geometry::DVec2;
+use crate::geometry::{Bounds, DVec2};
 use crate::warp::Placement;
 
 /// What no face of the placement covers is outside, this many cells deep.
 const OUTSIDE: f64 = -1.0;
 
+/// How far beyond the fields' grid parts are followed, in its longer sides.
+const BEYOND: f64 = 0.5;
+
 impl FieldPair {
     /// What is drawn at `t` where a warp has carried the fields, as closed
     /// polygons in the plane: outer ones counter-clockwise, holes clockwise.
     /// Between samples of the grid the blend is taken as bilinear, and what no
-    /// face covers as outside.
+    /// face covers as outside. What moves out of the grid is followed for half
+    /// its longer side.
     #[must_use]
     pub fn contour_carried(&self, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
         let (grid, blend) = (self.grid(), &self.blend);
@@ -26,12 +30,15 @@ impl FieldPair {
         // Samples are relative to the level, so that single precision is
         // finest where the contour runs.
         let outside = (blend.curve(OUTSIDE + blend.threshold.min(0.0)) - level) as f32;
-        let mut samples = vec![outside; grid.cells()];
+        let more = self.cells_beyond(placement);
+        let [width, height] = [grid.width, grid.height].map(|n| n + 2 * more);
+        let shift = DVec2::splat(f64::from(more));
+        let mut samples = vec![outside; width as usize * height as usize];
         let (source, target) = (self.source.samples(), self.target.samples());
         scan(
             placement,
-            |p| grid.lattice_from_plane(p),
-            grid.width as usize,
+            |p| grid.lattice_from_plane(p) + shift,
+            width as usize,
             &mut samples,
             |facet| {
                 let (to_source, to_target) = (facet.source, facet.target);
@@ -45,13 +52,31 @@ impl FieldPair {
                 }
             },
         );
-        let Ok(samples) = Samples::new(grid.width, grid.height, &samples) else {
+        let Ok(samples) = Samples::new(width, height, &samples) else {
             return Vec::new();
         };
         let mut rings = contour::trace_samples(&samples, 0.0);
         for p in rings.iter_mut().flatten() {
-            *p = grid.plane_from_lattice(*p);
+            *p = grid.plane_from_lattice(*p - shift);
         }
         rings
+    }
+
+    /// By how many cells a placement reaches beyond the grid, on any side.
+    fn cells_beyond(&self, placement: &Placement) -> u32 {
+        let grid = self.grid();
+        let Some(reach) = Bounds::of(placement.in_frame.iter().copied()) else {
+            return 0;
+        };
+        let bounds = grid.bounds();
+        let beyond = (bounds.min - reach.min).max(reach.max - bounds.max);
+        let cells = (beyond.max_element() / grid.cell).ceil();
+        let most = BEYOND * f64::from(grid.width.max(grid.height));
+        // NaN and less than nothing count as nothing.
+        if cells > 0.0 {
+            cells.min(most) as u32
+        } else {
+            0
+        }
     }
 }
