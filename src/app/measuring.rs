@@ -165,6 +165,6 @@ fn follow_advice(project: &mut Project, remedy: &Remedy, sheet: &Sheet) {
             project.lattice.fold_free = true;
         }
         Remedy::LetFold => project.lattice.fold_free = false,
-        Remedy::MoveVertices { .. } | Remedy::LayOver => {}
+        Remedy::MoveVertices { .. } | Remedy::LayOver | Remedy::MovePins => {}
     }
 }

@@ -365,8 +365,11 @@ impl Session {
             content: open.loaded.project.project.content,
             ..Sheet::new([source, target], by, matching, matched)
         };
-        if let Some(transition) = self.transition().filter(|_| sheet.is_free()) {
-            sheet.features = transition.automatic_pins().to_vec();
+        if sheet.is_free() {
+            // Once one is set none is found; the stage may still show the old ones.
+            let is_bare = sheet.pins.is_empty() && sheet.lines.is_empty();
+            let shown = self.transition().filter(|_| is_bare);
+            sheet.features = shown.map_or_else(Vec::new, |t| t.automatic_pins().to_vec());
         }
         sheet
     }

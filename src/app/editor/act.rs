@@ -225,6 +225,7 @@ impl Editor {
         set(&mut pin, touch.side, sheet.own(touch.side, here));
         let other = touch.side.other();
         set(&mut pin, other, sheet.own(other, there));
+        keep_found(sheet, said);
         said.pins.push(pin);
         self.selected = Some(Handle::Pin(said.pins.len() - 1));
     }
@@ -270,20 +271,13 @@ impl Editor {
 fn taken(grab: Grab, sheet: &Sheet, said: &mut Matching) -> Grab {
     match grab {
         Grab::Feature(k) => match sheet.features.get(k) {
+            Some(_) if sheet.is_free() => {
+                keep_found(sheet, said);
+                Grab::Pin(k)
+            }
             Some(pair) => {
-                let own = |pair: &PointPair| PointPair {
-                    source: sheet.own(Side::Source, pair.source),
-                    target: sheet.own(Side::Target, pair.target),
-                };
-                if !sheet.is_free() {
-                    said.pins.push(own(pair));
-                    return Grab::Pin(said.pins.len() - 1);
-                }
-                // A warp of the plane finds none once one is set: whoever
-                // moves one keeps the others.
-                let before = said.pins.len();
-                said.pins.extend(sheet.features.iter().map(own));
-                Grab::Pin(before + k)
+                said.pins.push(sheet.own_pair(pair));
+                Grab::Pin(said.pins.len() - 1)
             }
             None => Grab::View,
         },
@@ -297,6 +291,7 @@ fn taken(grab: Grab, sheet: &Sheet, said: &mut Matching) -> Grab {
             None => Grab::View,
         },
         Grab::NewLine(from) => {
+            keep_found(sheet, said);
             let ends = |side: Side| [sheet.own(side, from); 2];
             said.lines.push(LinePair {
                 source: ends(Side::Source),
@@ -305,6 +300,15 @@ fn taken(grab: Grab, sheet: &Sheet, said: &mut Matching) -> Grab {
             Grab::Stretch(said.lines.len() - 1)
         }
         known => known,
+    }
+}
+
+/// A warp of the plane finds no pins once one is set: whoever sets or moves one
+/// keeps those that were found.
+fn keep_found(sheet: &Sheet, said: &mut Matching) {
+    if sheet.is_free() && said.pins.is_empty() && said.lines.is_empty() {
+        let found = sheet.features.iter().map(|pair| sheet.own_pair(pair));
+        said.pins.extend(found);
     }
 }
 
@@ -354,6 +358,14 @@ impl Sheet {
     /// A point of the frame in a design's own coordinates.
     fn own(&self, side: Side, p: DVec2) -> DVec2 {
         self.by[side.index()].inverse().apply(p)
+    }
+
+    /// A pair of the frame in the designs' own coordinates.
+    fn own_pair(&self, pair: &PointPair) -> PointPair {
+        PointPair {
+            source: self.own(Side::Source, pair.source),
+            target: self.own(Side::Target, pair.target),
+        }
     }
 
     /// One end of a pair of the project, in the frame.

@@ -8,6 +8,7 @@ use crate::app::intent::Intent;
 use crate::content::ContentKind;
 use crate::project::Project;
 use crate::transition::Rgb;
+use crate::warp::WarpKind;
 
 /// Draws the options.
 pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
@@ -100,7 +101,7 @@ fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
             &mut show.grid,
             "Grid",
             "A square grid of the source, where the warp carries it (W).",
-            true,
+            draft.warp != Some(WarpKind::Paths),
         );
     });
     ui.spacing_mut().item_spacing = bevy_egui::egui::vec2(8.0, 8.0);

@@ -51,7 +51,9 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     if draft.warp == Some(WarpKind::Arap) {
         warp_panel::show(ui, scene, &mut draft.arap);
     }
-    if draft.warp.is_some_and(WarpKind::is_of_the_plane) {
+    let carries_fields =
+        draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Field);
+    if carries_fields || draft.warp.is_some_and(WarpKind::is_of_the_plane) {
         travel_panel::show(ui, &mut draft.travel);
     }
     match draft.warp {

@@ -9,18 +9,21 @@ use crate::app::intent::Intent;
 use crate::content::ContentKind;
 use crate::correspondence::{HoleRule, Matching, PartRule};
 use crate::project::Project;
+use crate::warp::WarpKind;
 
 /// The edge length, as a share of the design, that density starts from when it is set by hand.
 const USUAL_EDGE: f64 = 0.05;
 
 /// Draws the options.
 pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
-    let is_solid = draft.content == Some(ContentKind::Solid);
+    // Rigid parts are made of triangles, those that carry a field too.
+    let has_mesh =
+        draft.warp == Some(WarpKind::Arap) && draft.content != Some(ContentKind::Colours);
     section(ui, "Match", |ui| {
         if draft.content != Some(ContentKind::Colours) {
             rules(ui, &mut draft.matching);
         }
-        if is_solid {
+        if has_mesh {
             density(ui, &mut draft.triangulation.edge_length);
         }
         ui.add_space(4.0);

@@ -166,6 +166,8 @@ pub enum Cause {
     SeenTwice,
     /// No map without folds was found that reaches a pin.
     OutOfReach,
+    /// Pins come so near each other on their way that one map cannot meet both.
+    FeaturesMeet,
     /// Points of the boundary move on their own; nothing inside keeps them
     /// apart.
     NothingInside,
@@ -209,6 +211,8 @@ pub enum Remedy {
     Lattices,
     /// Lattices that may fold, or other pins.
     LetFold,
+    /// Other pins.
+    MovePins,
 }
 
 /// A change of options.

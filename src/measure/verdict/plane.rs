@@ -86,8 +86,16 @@ pub(super) fn of_plane(
         t: worst.t,
         span: worst.span,
         place: worst.what.place,
-        cause: Cause::OutOfReach,
-        remedy: Remedy::LetFold,
+        cause: if worst.what.unfolded {
+            Cause::OutOfReach
+        } else {
+            Cause::FeaturesMeet
+        },
+        remedy: if worst.what.unfolded {
+            Remedy::LetFold
+        } else {
+            Remedy::MovePins
+        },
     });
     Ok(folds.into_iter().chain(missed).collect())
 }

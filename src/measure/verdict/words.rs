@@ -154,6 +154,7 @@ impl fmt::Display for Cause {
                 f,
                 "pins or lines near it pass each other, and the plane is turned over between them"
             ),
+            Self::FeaturesMeet => write!(f, "pins come too near each other on their way"),
             Self::OutOfReach => write!(f, "the plane would have to fold to bring it there"),
             Self::NothingInside => {
                 write!(
@@ -196,6 +197,7 @@ impl fmt::Display for Remedy {
                 f,
                 "move or delete some about it, or warp by lattices without folds"
             ),
+            Self::MovePins => write!(f, "move or delete pins about it"),
             Self::LetFold => write!(f, "move or delete pins about it, or let the lattices fold"),
         }
     }

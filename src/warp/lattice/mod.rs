@@ -265,6 +265,7 @@ impl PlaneWarp for Lattice {
             count: missed.len(),
             by: worst.0,
             place: worst.1,
+            unfolded: self.options.fold_free,
         })
     }
 }
