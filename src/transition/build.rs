@@ -350,7 +350,7 @@ fn swept_bounds(warp: &dyn Warp) -> Bounds {
     bounds
 }
 
-/// The same around what parts carry, which may leave the frame on its way.
+/// The same around what a warp carries, which may leave the frame on its way.
 fn carried_bounds(frame: Bounds, warp: &dyn Warp, pair: &FieldPair) -> Bounds {
     const SAMPLES: u32 = 8;
     let mut placer = warp.placer();
@@ -378,10 +378,10 @@ fn build_field(
     let target = field_of(&spec.target, spec, grid, bar_width, progress)?;
     let pair = FieldPair::new(source, target, spec.field.blend)?;
     let (warp, automatic) = plane::warp(spec, &grid.bounds(), bar_width, progress)?;
-    let bounds = if spec.cell.warp() == WarpKind::Arap {
-        carried_bounds(frame, warp.as_ref(), &pair)
+    let bounds = if spec.cell.warp() == WarpKind::None {
+        frame
     } else {
-        frame // a grid over the frame shows nothing beyond it
+        carried_bounds(frame, warp.as_ref(), &pair)
     };
     Ok(Inner {
         cell: spec.cell,

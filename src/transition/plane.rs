@@ -4,12 +4,14 @@
 use super::{BuildError, TransitionSpec};
 use crate::compatible::{CompatibleMesh, FrameError};
 use crate::content::ContentKind;
-use crate::correspondence::{HoleRule, LinePair, Matching, PointPair, RegionMatch, match_regions};
-use crate::geometry::Bounds;
+use crate::correspondence::{
+    HoleRule, LinePair, Matching, PointPair, RegionMatch, Side, match_regions,
+};
+use crate::geometry::{Bounds, DVec2, Regions, Ring};
 use crate::progress::{Progress, checkpoint};
 use crate::warp::{
     Arap, Lattice, LatticeOptions, LineOptions, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart,
-    Scattered, ScatteredOptions, Split, Still, Travel, Warp, WarpKind,
+    Scattered, ScatteredOptions, Split, Still, Travel, Turned, Warp, WarpKind,
 };
 use std::sync::Arc;
 
@@ -37,6 +39,9 @@ const MOST_WORK: f64 = 3e6;
 /// How far a mesh of rigid parts reaches beyond the frame, in longer sides:
 /// its border bends on the way.
 const BEYOND: f64 = 0.25;
+
+/// Pins so near an outline are on it, as a share of the design's diameter.
+const ON_OUTLINE: f64 = 0.005;
 
 /// Pins that are set along each outline where nobody set any.
 const AUTOMATIC: usize = 24;
@@ -115,7 +120,15 @@ fn split_on_grid<W: PlaneWarp>(
     };
     let rigid = RigidPart::of(points, lines).filter(|_| is_whole);
     Ok(match rigid {
-        Some(rigid) => on_grid(Split::new(rigid, frame, points, lines, new)?, frame, work),
+        Some(rigid) => {
+            let warp = Split::new(rigid, frame, points, lines, new)?;
+            // What turns leaves the frame on its way; pictures are cut to it.
+            let seen = match spec.cell.content() {
+                ContentKind::Field => rigid.swept(frame),
+                ContentKind::Colours | ContentKind::Solid => *frame,
+            };
+            on_grid(warp, &seen, work)
+        }
         None => on_grid(new(frame, points, lines)?, frame, work),
     })
 }
@@ -128,12 +141,20 @@ fn rigid(
     features: &Features,
     progress: &dyn Progress,
 ) -> Result<Chosen, BuildError> {
-    let frame = frame.padded(BEYOND * frame.size().max_element());
     if let Some(matched) = &features.matched
-        && let Some(warp) = about_outlines(spec, &frame, matched, progress)?
+        && let Some(warp) = about_outlines(spec, frame, features, matched, progress)?
     {
-        return Ok((warp, features.as_points()));
+        let pins = features.as_points();
+        return Ok((
+            warp,
+            if features.are_automatic {
+                pins
+            } else {
+                Vec::new()
+            },
+        ));
     }
+    let frame = frame.padded(BEYOND * frame.size().max_element());
     let mut pins = features.as_points();
     loop {
         match CompatibleMesh::of_frame(&frame, &pins, progress) {
@@ -153,20 +174,42 @@ fn rigid(
     }
 }
 
-/// The frame as rigid as matched outlines allow; none where they do not divide
-/// the frame alike.
+/// The frame as rigid as matched outlines allow, behind the motion that they
+/// have in common; none where they do not divide the frame alike.
 fn about_outlines(
     spec: &TransitionSpec,
     frame: &Bounds,
+    features: &Features,
     matched: &RegionMatch,
     progress: &dyn Progress,
 ) -> Result<Option<Arc<dyn Warp>>, BuildError> {
-    let made = CompatibleMesh::around_outlines(frame, matched, &spec.triangulation, progress);
+    let rigid = match spec.plane.travel {
+        Travel::Auto | Travel::Whole => RigidPart::of(&features.points, &features.lines),
+        Travel::Straight => None,
+    };
+    let (matched, frame) = match &rigid {
+        Some(rigid) => (&rigid.match_at_rest(matched), rigid.frame_at_rest(frame)),
+        None => (matched, *frame),
+    };
+    let frame = around(matched, &frame);
+    let made = CompatibleMesh::around_outlines(&frame, matched, &spec.triangulation, progress);
     let Ok(mesh) = made else {
         checkpoint(progress, "triangulating", 0.0)?;
         return Ok(None);
     };
-    Ok(Some(Arc::new(Arap::build(&mesh, &spec.arap, progress)?)))
+    let arap = Arap::build(&mesh, &spec.arap, progress)?;
+    Ok(Some(match rigid {
+        Some(rigid) => Arc::new(Turned::new(rigid, arap)),
+        None => Arc::new(arap),
+    }))
+}
+
+/// The frame with all outlines in it, and room around.
+fn around(matched: &RegionMatch, frame: &Bounds) -> Bounds {
+    let rings = matched.pieces.iter().flat_map(|piece| &piece.rings);
+    let points = rings.flat_map(|ring| ring.source.iter().chain(&ring.target));
+    let all = Bounds::of(points.copied()).map_or(*frame, |all| all.union(frame));
+    all.padded(BEYOND * all.size().max_element())
 }
 
 fn on_grid(warp: impl PlaneWarp, frame: &Bounds, features: usize) -> Arc<dyn Warp> {
@@ -185,7 +228,7 @@ struct Features {
     lines: Vec<LinePair>,
     /// Nobody set them.
     are_automatic: bool,
-    /// The outlines that they are on, where nobody set any.
+    /// The outlines that they are on, where all are on outlines.
     matched: Option<RegionMatch>,
 }
 
@@ -201,6 +244,19 @@ impl Features {
         self.points.iter().copied().chain(ends).collect()
     }
 
+    /// Whether each feature is a point, and on the outline of either design.
+    fn are_on(&self, outlines: &[Regions; 2]) -> bool {
+        let is_on = |pair: &PointPair| {
+            Side::BOTH.iter().all(|&side| {
+                let regions = &outlines[side.index()];
+                let far = |ring| distance(ring, pair.of(side));
+                let near = regions.rings().map(far).fold(f64::INFINITY, f64::min);
+                near <= ON_OUTLINE * regions.bounds().diameter()
+            })
+        };
+        self.lines.is_empty() && self.points.iter().all(is_on)
+    }
+
     /// Those that were set; where there are none and outlines are what is
     /// seen, some along matched outlines.
     fn of(
@@ -208,14 +264,14 @@ impl Features {
         bar_width: f64,
         progress: &dyn Progress,
     ) -> Result<Self, BuildError> {
-        let given = Self {
+        let mut given = Self {
             points: spec.matching.pins.clone(),
             lines: spec.matching.lines.clone(),
             are_automatic: false,
             matched: None,
         };
         let is_empty = given.points.is_empty() && given.lines.is_empty();
-        if !is_empty || spec.cell.content() != ContentKind::Field {
+        if spec.cell.content() != ContentKind::Field {
             return Ok(given);
         }
         let matching = Matching {
@@ -223,7 +279,18 @@ impl Features {
             ..spec.matching.clone()
         };
         let [source, target] = [&spec.source, &spec.target].map(|d| d.outline(bar_width));
-        let matched = match_regions(&source?, &target?, &matching, progress)?;
+        let outlines = [source?, target?];
+        let [source, target] = &outlines;
+        if !is_empty {
+            // Pins that somebody moved along the outlines still match them.
+            let is_rigid = spec.cell.warp() == WarpKind::Arap;
+            if is_rigid && given.are_on(&outlines) {
+                given.matched = match_regions(source, target, &matching, progress).ok();
+                checkpoint(progress, "matching", 0.5)?;
+            }
+            return Ok(given);
+        }
+        let matched = match_regions(source, target, &matching, progress)?;
         let rings = matched.automatic_pins(AUTOMATIC);
         Ok(if spec.cell.warp() == WarpKind::Lines {
             Self {
@@ -241,6 +308,16 @@ impl Features {
             }
         })
     }
+}
+
+/// From a ring to a point.
+fn distance(ring: &Ring, p: DVec2) -> f64 {
+    let to_edge = |(a, b): (DVec2, DVec2)| {
+        let edge = b - a;
+        let along = ((p - a).dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
+        p.distance(a + edge * along)
+    };
+    ring.edges().map(to_edge).fold(f64::INFINITY, f64::min)
 }
 
 /// The lines from each pin of a ring to the next.

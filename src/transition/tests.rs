@@ -331,3 +331,41 @@ fn a_build_can_be_cancelled_at_every_report() {
         }
     }
 }
+
+fn arrow(turned: bool) -> Arc<Design> {
+    // 90 long, 20 wide.
+    let right = "M5 45h60v-5l30 10l-30 10v-5h-60z";
+    let left = "M95 55h-60v5l-30-10l30-10v5h60z";
+    svg(if turned { left } else { right })
+}
+
+#[test]
+fn what_turns_with_its_field_is_not_cut_off_at_the_frame() {
+    for warp in [WarpKind::Scattered, WarpKind::Lattice, WarpKind::Arap] {
+        let mut spec = field_spec(arrow(false), arrow(true));
+        spec.cell = Cell::new(warp, ContentKind::Field).unwrap();
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        let rings = transition.frame(0.5).figure().rings;
+        let ends = area(&transition.frame(0.0).figure().rings);
+        assert!(
+            (area(&rings) / ends - 1.0).abs() < 0.1,
+            "{warp:?}: {} of {ends}",
+            area(&rings)
+        );
+        let all = transition.bounds().padded(1e-6);
+        assert!(rings.iter().flatten().all(|p| all.contains(*p)), "{warp:?}");
+    }
+}
+
+#[test]
+fn pins_that_were_found_can_be_taken_over_by_hand() {
+    let mut spec = field_spec(arrow(false), arrow(true));
+    spec.cell = Cell::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    let found = Transition::build(&spec, &Silent).unwrap();
+    assert!(found.automatic_pins().len() > 8);
+    spec.matching.pins = found.automatic_pins().to_vec();
+    let taken = Transition::build(&spec, &Silent).unwrap();
+    assert_eq!(taken.automatic_pins(), []);
+    let areas = [&found, &taken].map(|t| area(&t.frame(0.5).figure().rings));
+    assert!((areas[0] / areas[1] - 1.0).abs() < 0.05, "{areas:?}");
+}

@@ -8,13 +8,15 @@
 //!
 //! Guaranteed: whatever the features, at t = 0 the source and at t = 1 the
 //! target is looked up at the very same place, to the last bit; swapping the
-//! designs plays the film backwards, to rounding; features that only moved and
-//! turned move rigidly. A turn by π goes counter-clockwise, swapped or not.
+//! designs plays the film backwards, to rounding, unless the turn is by π, which
+//! goes counter-clockwise either way; features that only moved and turned move
+//! rigidly.
 
-use super::{Missed, PlaneWarp};
-use crate::correspondence::{LinePair, PointPair};
+use super::{Missed, Placement, Placer, PlaneWarp, Warp};
+use crate::correspondence::{LinePair, PointPair, RegionMatch};
 use crate::geometry::{Bounds, DVec2};
 use serde::{Deserialize, Serialize};
+use std::sync::Arc;
 
 /// How the features of a warp of the plane travel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
@@ -40,6 +42,12 @@ pub struct RigidPart {
     /// From source to target, in radians, counter-clockwise, in (−π, π].
     turn: f64,
 }
+
+/// At so many steps a motion is looked at.
+const SWEPT: u32 = 16;
+
+/// Features whose turns cancel to less than this share have none in common.
+const NO_TURN: f64 = 1e-9;
 
 /// Turns so near π are π: rounding must not choose the way around.
 const HALF_A_TURN: f64 = 1e-9;
@@ -71,12 +79,13 @@ impl RigidPart {
         let count = pairs.len() as f64;
         let mean = |of: fn(&PointPair) -> DVec2| pairs.iter().map(of).sum::<DVec2>() / count;
         let centres = [mean(|p| p.source), mean(|p| p.target)];
-        let mut sum = DVec2::ZERO;
+        let (mut sum, mut size) = (DVec2::ZERO, 0.0);
         for pair in &pairs {
             let (p, q) = (pair.source - centres[0], pair.target - centres[1]);
             sum += DVec2::new(p.dot(q), p.perp_dot(q));
+            size += p.length() * q.length();
         }
-        if !(sum.is_finite() && sum != DVec2::ZERO) {
+        if !(sum.is_finite() && sum.length() > NO_TURN * size) {
             return None;
         }
         let turn = sum.to_angle();
@@ -100,15 +109,45 @@ impl RigidPart {
         (back, self.centres[0] * (1.0 - t) + self.centres[1] * t)
     }
 
-    /// A frame that, at rest, covers `frame` at any t in [0, 1].
-    fn frame_at_rest(&self, frame: &Bounds) -> Bounds {
-        let corners = frame.corners();
-        let far = |centre: DVec2| corners.iter().map(move |c| c.distance(centre));
-        let radius = self.centres.into_iter().flat_map(far).fold(0.0, f64::max);
-        Bounds {
-            min: DVec2::splat(-radius),
-            max: DVec2::splat(radius),
+    /// A match as it would be had nothing moved or turned.
+    #[must_use]
+    pub fn match_at_rest(&self, matched: &RegionMatch) -> RegionMatch {
+        let mut matched = matched.clone();
+        for ring in matched.pieces.iter_mut().flat_map(|piece| &mut piece.rings) {
+            for (p, q) in ring.source.iter_mut().zip(&mut ring.target) {
+                [*p, *q] = self.at_rest(*p, *q);
+            }
         }
+        matched
+    }
+
+    /// A frame of the same size where `frame` is at rest, so that options that
+    /// count in frames keep their meaning.
+    #[must_use]
+    pub fn frame_at_rest(&self, frame: &Bounds) -> Bounds {
+        let [a, b] = self.at_rest(frame.centre(), frame.centre());
+        let half = 0.5 * frame.size();
+        Bounds {
+            min: a.midpoint(b) - half,
+            max: a.midpoint(b) + half,
+        }
+    }
+
+    /// The box around all places that the motion leads the frame of either
+    /// design through, nearly.
+    #[must_use]
+    pub fn swept(&self, frame: &Bounds) -> Bounds {
+        let mut swept = *frame;
+        for k in 0..=SWEPT {
+            let t = f64::from(k) / f64::from(SWEPT);
+            let (back, centre) = self.at(t);
+            for corner in frame.corners() {
+                for rest in self.at_rest(corner, corner) {
+                    swept = swept.union(&Bounds::at(conjugate(back).rotate(rest) + centre));
+                }
+            }
+        }
+        swept
     }
 
     /// The features as they would be had nothing moved or turned: both about
@@ -221,6 +260,66 @@ impl<W: PlaneWarp> PlaneWarp for Split<W> {
         let (back, centre) = self.rigid.at(t);
         let place = conjugate(back).rotate(missed.place) + centre;
         Some(Missed { place, ..missed })
+    }
+}
+
+/// A warp whose vertices keep the points that they show, such as
+/// [`super::Arap`], built at rest and played behind a rigid motion.
+#[derive(Clone, Debug)]
+pub struct Turned<W> {
+    rigid: RigidPart,
+    at_rest: W,
+}
+
+impl<W: Warp> Turned<W> {
+    /// Plays `at_rest` behind `rigid`.
+    pub const fn new(rigid: RigidPart, at_rest: W) -> Self {
+        Self { rigid, at_rest }
+    }
+}
+
+impl<W: Warp> Warp for Turned<W> {
+    fn placer(&self) -> Box<dyn Placer> {
+        let at_rest = self.at_rest.placer();
+        let rest = at_rest.placement();
+        let RigidPart { centres, turn } = self.rigid;
+        let half = DVec2::from_angle(0.5 * turn);
+        let source = |p: &DVec2| conjugate(half).rotate(*p) + centres[0];
+        let target = |p: &DVec2| half.rotate(*p) + centres[1];
+        let mut placer = TurnedPlacer {
+            placement: Placement {
+                faces: Arc::clone(&rest.faces),
+                in_frame: rest.in_frame.clone(),
+                in_source: rest.in_source.iter().map(source).collect(),
+                in_target: rest.in_target.iter().map(target).collect(),
+            },
+            rigid: self.rigid,
+            at_rest,
+        };
+        placer.place(0.0);
+        Box::new(placer)
+    }
+}
+
+#[derive(Debug)]
+struct TurnedPlacer {
+    rigid: RigidPart,
+    at_rest: Box<dyn Placer>,
+    placement: Placement,
+}
+
+impl Placer for TurnedPlacer {
+    fn place(&mut self, t: f64) {
+        self.at_rest.place(t);
+        let (back, centre) = self.rigid.at(if t.is_finite() { t } else { 0.0 });
+        let rest = &self.at_rest.placement().in_frame;
+        for (p, rest) in self.placement.in_frame.iter_mut().zip(rest) {
+            *p = conjugate(back).rotate(*rest) + centre;
+        }
+    }
+
+    fn placement(&self) -> &Placement {
+        &self.placement
     }
 }
 

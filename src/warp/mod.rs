@@ -22,7 +22,7 @@ pub use lattice::{
     FINEST, Lattice, LatticeError, LatticeMaps, LatticeOptions, MORE_LEVELS, Residual,
 };
 pub use lines::{Between, LineMap, LineOptions, Lines, LinesAtT, LinesError, Raster, Segment};
-pub use metamorphosis::{RigidPart, Split, SplitMaps, Travel};
+pub use metamorphosis::{RigidPart, Split, SplitMaps, Travel, Turned};
 pub use none::Still;
 pub use paths::{Course, PathOptions, Paths, PathsError, RingPair};
 pub use plane::{OnGrid, PlaneGrid, PlaneWarp};
@@ -59,6 +59,8 @@ pub struct Missed {
     pub by: f64,
     /// Where the worst one ought to be in the frame.
     pub place: DVec2,
+    /// Folds were not allowed; with them it might be met.
+    pub unfolded: bool,
 }
 
 /// A row of the table, ready to be played.

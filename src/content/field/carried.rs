@@ -65,10 +65,14 @@ impl FieldPair {
     /// By how many cells a placement reaches beyond the grid, on any side.
     fn cells_beyond(&self, placement: &Placement) -> u32 {
         let grid = self.grid();
-        let Some(reach) = Bounds::of(placement.in_frame.iter().copied()) else {
+        let bounds = grid.bounds();
+        // What neither field knows is outside, wherever it goes.
+        let looks = placement.in_source.iter().zip(&placement.in_target);
+        let known = placement.in_frame.iter().zip(looks);
+        let known = known.filter(|(_, (a, b))| bounds.contains(**a) || bounds.contains(**b));
+        let Some(reach) = Bounds::of(known.map(|(p, _)| *p)) else {
             return 0;
         };
-        let bounds = grid.bounds();
         let beyond = (bounds.min - reach.min).max(reach.max - bounds.max);
         let cells = (beyond.max_element() / grid.cell).ceil();
         let most = BEYOND * f64::from(grid.width.max(grid.height));
