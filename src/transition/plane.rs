@@ -46,6 +46,10 @@ const ON_OUTLINE: f64 = 0.005;
 /// Pins that are set along each outline where nobody set any.
 const AUTOMATIC: usize = 24;
 
+/// The same of lines, each of which pulls the whole plane along: where many are
+/// near each other it folds.
+const AUTOMATIC_LINES: usize = 10;
+
 /// A warp of the plane and, where nobody set any, the pairs of points that it
 /// goes by.
 pub(super) type Chosen = (Arc<dyn Warp>, Vec<PointPair>);
@@ -291,7 +295,11 @@ impl Features {
             return Ok(given);
         }
         let matched = match_regions(source, target, &matching, progress)?;
-        let rings = matched.automatic_pins(AUTOMATIC);
+        let count = match spec.cell.warp() {
+            WarpKind::Lines => AUTOMATIC_LINES,
+            _ => AUTOMATIC,
+        };
+        let rings = matched.automatic_pins(count);
         Ok(if spec.cell.warp() == WarpKind::Lines {
             Self {
                 points: Vec::new(),
