@@ -100,6 +100,19 @@ pub(super) fn of_plane(
     Ok(folds.into_iter().chain(missed).collect())
 }
 
+/// Whether something is drawn at `t` where the designs are looked at in these
+/// places: of fields only what is inside.
+fn is_seen(content: &Content, t: f64, looks: [DVec2; 2]) -> bool {
+    let Content::Field(pair) = content else {
+        return true;
+    };
+    let [a, b] = [(pair.source(), looks[0]), (pair.target(), looks[1])].map(|(field, p)| {
+        let at = pair.grid().lattice_from_plane(p);
+        field.samples().bilinear(at.x, at.y)
+    });
+    pair.blend().value(a, b, t) >= pair.blend().level()
+}
+
 /// The share of the frame in which the plane is turned over, in the frame or
 /// in either design, and the middle of the largest such face.
 fn folded(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
@@ -107,9 +120,11 @@ fn folded(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
     let (mut sum, mut largest, mut place) = (0.0, 0.0, bounds.centre());
     for face in placement.faces.iter() {
         let corners = |points: &[DVec2]| face.map(|v| points[v as usize]);
+        let middle = |points: &[DVec2]| corners(points).iter().sum::<DVec2>() / 3.0;
         let seen = corners(&placement.in_frame);
-        let middle = seen.iter().sum::<DVec2>() / 3.0;
-        if !bounds.contains(middle) {
+        let at = middle(&placement.in_frame);
+        let shows = [&placement.in_source, &placement.in_target].map(|p| middle(p));
+        if !bounds.contains(at) || !is_seen(frame.transition().content(), frame.t(), shows) {
             continue;
         }
         let area = |[a, b, c]: [DVec2; 3]| twice_signed_area(a, b, c);
@@ -119,7 +134,7 @@ fn folded(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
         if own < 0.0 || looks.iter().any(|look| *look < 0.0) {
             sum += own.abs();
             if own.abs() > largest {
-                (largest, place) = (own.abs(), middle);
+                (largest, place) = (own.abs(), at);
             }
         }
     }
