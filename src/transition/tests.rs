@@ -369,3 +369,26 @@ fn pins_that_were_found_can_be_taken_over_by_hand() {
     let areas = [&found, &taken].map(|t| area(&t.frame(0.5).figure().rings));
     assert!((areas[0] / areas[1] - 1.0).abs() < 0.05, "{areas:?}");
 }
+
+#[test]
+fn rigid_parts_carry_a_field_that_only_turned_rigidly() {
+    let boot = "M10 10h20v40h30v20h-50z";
+    let turned = "M20 70v-20h40v-30h20v50z";
+    let mut spec = field_spec(svg(boot), svg(turned));
+    spec.cell = Cell::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    let mut frame = transition.frame(0.0);
+    for t in [0.0, 0.2, 0.5, 0.9, 1.0] {
+        frame.seek(t);
+        let placement = frame.placement();
+        let (seen, source) = (&placement.in_frame, &placement.in_source);
+        for k in (0..seen.len()).step_by(7) {
+            let apart = seen[0].distance(seen[k]);
+            let wanted = source[0].distance(source[k]);
+            assert!(
+                (apart - wanted).abs() < 1e-6,
+                "{apart}, not {wanted}, at {t}"
+            );
+        }
+    }
+}

@@ -92,7 +92,7 @@ pub enum PathsError {
         /// How many vertices there are in source and target.
         counts: [usize; 2],
     },
-    /// A coordinate is NaN, infinite or beyond [`FARTHEST`].
+    /// A coordinate is NaN, infinite or beyond 1e75.
     #[error("ring {} of part {} has a point that is no number up to {FARTHEST:e}; correct its coordinates", ring + 1, part + 1)]
     OutOfRange {
         /// Which part.
