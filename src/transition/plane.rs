@@ -5,7 +5,7 @@ use super::{BuildError, TransitionSpec};
 use crate::compatible::{CompatibleMesh, FrameError};
 use crate::content::ContentKind;
 use crate::correspondence::{
-    HoleRule, LinePair, Matching, PointPair, RegionMatch, Side, match_regions,
+    HoleRule, LinePair, Matching, PartRule, PointPair, RegionMatch, Side, match_regions,
 };
 use crate::geometry::{Bounds, DVec2, Regions, Ring};
 use crate::progress::{Progress, checkpoint};
@@ -167,7 +167,9 @@ fn rigid(
                 pins.retain(|_| features.are_automatic);
                 return Ok((warp, pins));
             }
-            Err(FrameError::Folds { .. }) if features.are_automatic && !pins.is_empty() => {
+            Err(FrameError::Folds { .. } | FrameError::Coincide { .. })
+                if features.are_automatic && !pins.is_empty() =>
+            {
                 pins = pins.into_iter().step_by(2).collect();
                 if pins.len() == 1 {
                     pins.clear();
@@ -278,8 +280,10 @@ impl Features {
         if spec.cell.content() != ContentKind::Field {
             return Ok(given);
         }
+        // No map of the plane cuts a ring open or a part in two.
         let matching = Matching {
             holes: HoleRule::Close,
+            parts: PartRule::Alone,
             ..spec.matching.clone()
         };
         let [source, target] = [&spec.source, &spec.target].map(|d| d.outline(bar_width));

@@ -392,3 +392,22 @@ fn rigid_parts_carry_a_field_that_only_turned_rigidly() {
         }
     }
 }
+
+#[test]
+fn one_part_and_two_are_carried_by_every_warp() {
+    let one = svg("M20 20h60v60h-60z");
+    let two = svg("M10 20h30v60h-30z M60 20h30v60h-30z");
+    for warp in [
+        WarpKind::Arap,
+        WarpKind::Lines,
+        WarpKind::Scattered,
+        WarpKind::Lattice,
+    ] {
+        for (source, target) in [(&one, &two), (&two, &one)] {
+            let mut spec = field_spec(Arc::clone(source), Arc::clone(target));
+            spec.cell = Cell::new(warp, ContentKind::Field).unwrap();
+            let transition = Transition::build(&spec, &Silent).unwrap();
+            assert!(!transition.frame(0.5).figure().rings.is_empty(), "{warp:?}");
+        }
+    }
+}
