@@ -66,7 +66,7 @@
 //! export                        SVG, PNG, GIF, APNG, MP4, contact sheets
 //! stage  (feature `bevy`)       MorphPlugin: transitions in a Bevy world
 //! app    (feature `app`)        the window: playback, panels, keys, capture
-//! cli                           the subcommands
+//! cli    (feature `cli`)        the subcommands
 //! ```
 //!
 //! Coordinates are `f64` with y up. The core keeps no global state, logs
@@ -106,4 +106,5 @@ pub mod stage;
 #[cfg(feature = "app")]
 pub mod app;
 
+#[cfg(feature = "cli")]
 pub mod cli;
