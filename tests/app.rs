@@ -14,8 +14,8 @@ use morphospace::app::{
     OnTwin, Playback, Preferences, Question, Session, Sheet, Tool, Touch, Twin, TwinMethod, Typing,
 };
 use morphospace::content::{Content, ContentKind};
-use morphospace::correspondence::{Matching, Side};
-use morphospace::geometry::DVec2;
+use morphospace::correspondence::Matching;
+use morphospace::geometry::{DVec2, Side};
 use morphospace::project::gallery;
 use morphospace::stage::{Blend, MorphPlugin, StageTransition};
 use morphospace::transition::{Cell, PlayMode};
@@ -725,7 +725,7 @@ fn touch(side: Side, x: f64, y: f64) -> Touch {
 /// The corner of the source's part that lies nearest to a point of the file.
 fn corner(window: &Window, side: Side, near: DVec2) -> DVec2 {
     let sides = window.sheet().sides.as_ref().expect("outlines");
-    let corners = sides[side.index()].corners.iter().copied();
+    let corners = sides[side].corners.iter().copied();
     corners
         .min_by(|a, b| a.distance(near).total_cmp(&b.distance(near)))
         .expect("a corner")
@@ -786,7 +786,7 @@ fn a_point_that_is_dragged_becomes_a_pin_that_snaps_and_is_honoured() {
     let from = window.sheet().features[0];
     let neighbour = |side: Side, p: DVec2| {
         let sides = window.sheet().sides.as_ref().expect("outlines");
-        let others = sides[side.index()].corners.iter().copied();
+        let others = sides[side].corners.iter().copied();
         others
             .filter(|corner| corner.distance(p) > 5.0)
             .min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))
@@ -896,7 +896,7 @@ fn parts_are_paired_by_two_clicks_and_freed_by_one() {
     let mut window = with_outlines(folder.path(), TWO, TWO);
     let inside = |window: &Window, side: Side, part: usize| {
         let sides = window.sheet().sides.as_ref().expect("outlines");
-        let ring = &sides[side.index()].parts[part][0];
+        let ring = &sides[side].parts[part][0];
         ring.iter().sum::<DVec2>() / ring.len() as f64
     };
     window.act(EditorAct::Tool(Tool::Parts));

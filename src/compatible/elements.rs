@@ -1,29 +1,11 @@
 //! What is checked before faces and bars become a compatible mesh, and the
 //! errors that say so.
 
-use crate::geometry::{DVec2, orient2d};
+use crate::geometry::{DVec2, Side, orient2d};
 use crate::mesh::MeshError;
 
 /// A bar as a two-point element of the energy: its vertices.
 pub type BarElement = [u32; 2];
-
-/// One of the two designs.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Which {
-    /// The design at t = 0.
-    Source,
-    /// The design at t = 1.
-    Target,
-}
-
-impl std::fmt::Display for Which {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.write_str(match self {
-            Self::Source => "source",
-            Self::Target => "target",
-        })
-    }
-}
 
 /// Why two designs have no common triangulation as given. Numbers in messages
 /// start at 1, as in the files.
@@ -39,10 +21,10 @@ pub enum CompatibleError {
     #[error("face {} differs between source and target; both need the same faces in the same order", .0 + 1)]
     FacesDiffer(usize),
     /// A coordinate is NaN or infinite.
-    #[error("vertex {} of the {which} is not a finite point; correct its coordinates", vertex + 1)]
+    #[error("vertex {} of the {side} is not a finite point; correct its coordinates", vertex + 1)]
     NotFinite {
         /// In which design.
-        which: Which,
+        side: Side,
         /// The vertex.
         vertex: usize,
     },
@@ -58,10 +40,10 @@ pub enum CompatibleError {
     #[error("{}; move their vertices in one design, or mirror it if nearly all are named", list(.0, "turned over between source and target"))]
     Flipped(Vec<usize>),
     /// Faces without area.
-    #[error("{}; move their vertices apart", list(faces, &format!("without area in the {which}")))]
+    #[error("{}; move their vertices apart", list(faces, &format!("without area in the {side}")))]
     Flat {
         /// In which design.
-        which: Which,
+        side: Side,
         /// The faces.
         faces: Vec<usize>,
     },
@@ -98,9 +80,9 @@ fn list(faces: &[usize], what: &str) -> String {
     }
 }
 
-pub(super) fn check_points(points: &[DVec2], which: Which) -> Result<(), CompatibleError> {
+pub(super) fn check_points(points: &[DVec2], side: Side) -> Result<(), CompatibleError> {
     match points.iter().position(|p| !p.is_finite()) {
-        Some(vertex) => Err(CompatibleError::NotFinite { which, vertex }),
+        Some(vertex) => Err(CompatibleError::NotFinite { side, vertex }),
         None => Ok(()),
     }
 }
@@ -130,10 +112,10 @@ pub(super) fn oriented(
         let [a, b, c] = face.map(|v| points[v as usize]);
         orient2d(a, b, c)
     };
-    for (points, which) in [(source, Which::Source), (target, Which::Target)] {
+    for (points, side) in [(source, Side::Source), (target, Side::Target)] {
         let flat = indices(&faces, |face| area(face, points) == 0.0);
         if !flat.is_empty() {
-            return Err(CompatibleError::Flat { which, faces: flat });
+            return Err(CompatibleError::Flat { side, faces: flat });
         }
     }
     for face in &mut faces {

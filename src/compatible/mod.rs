@@ -11,14 +11,14 @@ mod polygons;
 mod surroundings;
 mod truss;
 
-pub use elements::{BarElement, CompatibleError, Which};
+pub use elements::{BarElement, CompatibleError};
 pub use outlines::OutlinesError;
 pub use polygons::{FrameError, PolygonOptions, PolygonsError, RingEdge};
 
 pub use surroundings::SurroundingsError;
 
 use crate::design::Truss;
-use crate::geometry::{Bounds, DMat2, DVec2};
+use crate::geometry::{Bounds, DMat2, DVec2, Side};
 use crate::mesh::{
     Connectivity, Subdivision, TooManyVertices, TriangleMesh, check_faces, components,
 };
@@ -61,8 +61,8 @@ impl CompatibleMesh {
         if source.len() != target.len() {
             return Err(CompatibleError::VertexCounts([source.len(), target.len()]));
         }
-        elements::check_points(&source, Which::Source)?;
-        elements::check_points(&target, Which::Target)?;
+        elements::check_points(&source, Side::Source)?;
+        elements::check_points(&target, Side::Target)?;
         check_faces(&faces, source.len())?;
         elements::check_elements(&elements, &source, &target)?;
         let faces = elements::oriented(faces, &source, &target)?;
@@ -286,7 +286,7 @@ mod tests {
         assert_eq!(
             CompatibleMesh::new(faces, flat, points, vec![]).map(|_| ()),
             Err(CompatibleError::Flat {
-                which: Which::Source,
+                side: Side::Source,
                 faces: vec![1]
             })
         );

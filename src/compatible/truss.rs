@@ -29,7 +29,7 @@ mod pieces;
 mod polygon;
 
 use crate::design::Truss;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, Pair, Side};
 use pieces::Pieces;
 use std::collections::HashMap;
 
@@ -52,7 +52,7 @@ pub(super) enum TrussError {
         /// Its nodes.
         nodes: [u32; 2],
         /// The design that has it.
-        only_in: super::Which,
+        only_in: Side,
     },
     /// Every panel is turned over.
     #[error(
@@ -81,11 +81,7 @@ fn listed(nodes: &[u32]) -> String {
 }
 
 /// The places of the nodes in both designs.
-#[derive(Clone, Copy)]
-struct Pair<'a> {
-    source: &'a [DVec2],
-    target: &'a [DVec2],
-}
+type Nodes<'a> = Pair<&'a [DVec2]>;
 
 /// Triangles between the bars, positive in both designs, and the bars that
 /// are in no panel.
@@ -131,8 +127,8 @@ fn check_same(source: &Truss, target: &Truss) -> Result<(), TrussError> {
             None => Ok(()),
         }
     };
-    only(source, target, super::Which::Source)?;
-    only(target, source, super::Which::Target)
+    only(source, target, Side::Source)?;
+    only(target, source, Side::Target)
 }
 
 fn ordered([a, b]: [u32; 2]) -> [u32; 2] {
@@ -140,7 +136,7 @@ fn ordered([a, b]: [u32; 2]) -> [u32; 2] {
 }
 
 /// The panels between the bars that are kept, triangulated.
-fn with_kept(bars: &[[u32; 2]], pair: Pair, kept: &[bool]) -> Result<Panels, TrussError> {
+fn with_kept(bars: &[[u32; 2]], pair: Nodes, kept: &[bool]) -> Result<Panels, TrussError> {
     let plane: Vec<[u32; 2]> = (0..bars.len())
         .filter(|&bar| kept[bar])
         .map(|bar| bars[bar])
@@ -164,7 +160,7 @@ fn with_kept(bars: &[[u32; 2]], pair: Pair, kept: &[bool]) -> Result<Panels, Tru
 }
 
 /// A single panel that is turned over is reported when its turn comes.
-fn check_sides(cycles: &[Vec<u32>], pair: Pair) -> Result<(), TrussError> {
+fn check_sides(cycles: &[Vec<u32>], pair: Nodes) -> Result<(), TrussError> {
     let turned = |cycle: &Vec<u32>| polygon::area(cycle, pair.target) < 0.0;
     if !cycles.is_empty() && cycles.iter().all(turned) {
         return Err(TrussError::Mirrored);
@@ -175,7 +171,7 @@ fn check_sides(cycles: &[Vec<u32>], pair: Pair) -> Result<(), TrussError> {
     }
 }
 
-fn triangles(cycle: &[u32], pair: Pair) -> Result<Vec<[u32; 3]>, TrussError> {
+fn triangles(cycle: &[u32], pair: Nodes) -> Result<Vec<[u32; 3]>, TrussError> {
     if cycle.len() > MAX_PANEL_NODES {
         return Err(TrussError::TooLarge(cycle.to_vec()));
     }

@@ -108,7 +108,7 @@ pub fn match_curves(
 ) -> Result<BoundaryMatch, MatchError> {
     check(source, target, options)?;
     let there = pins::ordered(pins, source, target)?;
-    let inverses: Vec<Pin> = pins.iter().map(|pin| pin.inverse()).collect();
+    let inverses: Vec<Pin> = pins.iter().map(|pin| pin.swapped()).collect();
     let back = pins::ordered(&inverses, target, source)?;
     if order(source, &there, target, &back) == Ordering::Greater {
         return Ok(Problem::new(target, source, back, options)

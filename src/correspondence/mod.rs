@@ -23,7 +23,6 @@ mod refine;
 mod regions;
 mod samples;
 mod settings;
-mod side;
 #[cfg(test)]
 mod tests;
 mod thickness;
@@ -38,4 +37,3 @@ pub use regions::{
     POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch, match_regions,
 };
 pub use settings::{HoleRule, LinePair, Matching, PartRule, PointPair, RingCut};
-pub use side::Side;

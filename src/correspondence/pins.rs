@@ -1,17 +1,12 @@
 //! Pins: pairs of places that the user says are the same.
 
 use super::curve::Curve;
+use crate::geometry::Pair;
 
 /// A place of the source and one of the target that are the same point, each
 /// as a fraction of its curve's length from the first point.
-#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Pin {
-    /// Place on the source; see [`Curve::nearest`] for a clicked point.
-    pub source: f64,
-    /// Place on the target.
-    pub target: f64,
-}
+/// [`Curve::nearest`] gives that of a clicked point.
+pub type Pin = Pair<f64>;
 
 /// Pins that no continuous match can honour; in messages they count from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -32,17 +27,6 @@ pub enum PinError {
     /// A pin ties an end of an open polyline to an inner point.
     #[error("pin {} ties an end of one polyline to an inner point of the other; delete it", .0 + 1)]
     End(usize),
-}
-
-impl Pin {
-    /// The pin of the match the other way.
-    #[must_use]
-    pub const fn inverse(self) -> Self {
-        Self {
-            source: self.target,
-            target: self.source,
-        }
-    }
 }
 
 /// The pins in the order of the source, places wrapped, repetitions left out.

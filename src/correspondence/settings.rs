@@ -3,8 +3,8 @@
 //! Everything is said by points of the designs, never by numbers of outlines:
 //! a design that is drawn anew keeps what was said of it.
 
-use super::{MatchOptions, Side};
-use crate::geometry::{DVec2, Similarity};
+use super::MatchOptions;
+use crate::geometry::{DVec2, Pair, Side, Similarity};
 use serde::{Deserialize, Serialize};
 
 /// How two designs are matched.
@@ -47,25 +47,11 @@ pub struct Matching {
 
 /// A point of the source and one of the target, in each design's own
 /// coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct PointPair {
-    /// In the source.
-    pub source: DVec2,
-    /// In the target.
-    pub target: DVec2,
-}
+pub type PointPair = Pair<DVec2>;
 
 /// A line of the source and one of the target, each from end to end, in each
 /// design's own coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct LinePair {
-    /// In the source.
-    pub source: [DVec2; 2],
-    /// In the target.
-    pub target: [DVec2; 2],
-}
+pub type LinePair = Pair<[DVec2; 2]>;
 
 /// A cut that opens a ring: straight from a hole to the boundary around it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -107,15 +93,6 @@ pub enum PartRule {
 }
 
 impl PointPair {
-    /// The point of one side.
-    #[must_use]
-    pub fn of(&self, side: Side) -> DVec2 {
-        match side {
-            Side::Source => self.source,
-            Side::Target => self.target,
-        }
-    }
-
     /// The points sent through one map each.
     #[must_use]
     pub fn placed(&self, [source, target]: &[Similarity; 2]) -> Self {
@@ -127,15 +104,6 @@ impl PointPair {
 }
 
 impl LinePair {
-    /// The line of one side.
-    #[must_use]
-    pub fn of(&self, side: Side) -> [DVec2; 2] {
-        match side {
-            Side::Source => self.source,
-            Side::Target => self.target,
-        }
-    }
-
     /// The lines sent through one map each.
     #[must_use]
     pub fn placed(&self, [source, target]: &[Similarity; 2]) -> Self {
@@ -164,7 +132,7 @@ impl Matching {
     pub fn placed(&self, by: &[Similarity; 2]) -> Self {
         let pairs = |pairs: &[PointPair]| pairs.iter().map(|p| p.placed(by)).collect();
         let cut = |cut: &RingCut| {
-            let by = &by[cut.side.index()];
+            let by = &by[cut.side];
             RingCut {
                 side: cut.side,
                 outer: by.apply(cut.outer),
@@ -183,27 +151,20 @@ impl Matching {
     /// The same said of the designs exchanged.
     #[must_use]
     pub fn swapped(&self) -> Self {
-        let pairs = |pairs: &[PointPair]| {
-            let swapped = |p: &PointPair| PointPair {
-                source: p.target,
-                target: p.source,
-            };
-            pairs.iter().map(swapped).collect()
-        };
-        let line = |line: &LinePair| LinePair {
-            source: line.target,
-            target: line.source,
-        };
         let cut = |cut: &RingCut| RingCut {
             side: cut.side.other(),
             ..*cut
         };
         Self {
-            pins: pairs(&self.pins),
-            lines: (self.lines.iter().map(line)).collect(),
-            links: pairs(&self.links),
+            pins: swapped(&self.pins),
+            lines: swapped(&self.lines),
+            links: swapped(&self.links),
             cuts: self.cuts.iter().map(cut).collect(),
             ..*self
         }
     }
+}
+
+fn swapped<T: Copy>(pairs: &[Pair<T>]) -> Vec<Pair<T>> {
+    pairs.iter().map(|pair| pair.swapped()).collect()
 }

@@ -305,7 +305,7 @@ fn pins_are_honoured_exactly() {
         assert_eq!(found.target_from_source(pin.source), pin.target);
     }
     assert_eq!(found.pins().collect::<Vec<_>>(), pins);
-    let inverse = match_rings(&b, &a, &pins.map(Pin::inverse), &options);
+    let inverse = match_rings(&b, &a, &pins.map(Pin::swapped), &options);
     assert_eq!(inverse, Ok(found.inverse()));
     let (a, b) = (
         Curve::closed(&a).expect("a size"),

@@ -6,6 +6,7 @@
 //! counter-clockwise positive.
 
 mod bounds;
+mod pair;
 mod polar;
 mod predicates;
 mod region;
@@ -15,6 +16,7 @@ mod similarity;
 
 pub use bounds::Bounds;
 pub use glam::{DMat2, DVec2};
+pub use pair::{Pair, Side};
 pub use polar::{Polar, SymmetricEigen};
 pub use predicates::{orient2d, twice_signed_area};
 pub use region::{FillRule, Region, Regions, RegionsError};

@@ -5,9 +5,9 @@ use super::{BuildError, TransitionSpec};
 use crate::compatible::{CompatibleMesh, FrameError};
 use crate::content::ContentKind;
 use crate::correspondence::{
-    HoleRule, LinePair, Matching, PartRule, PointPair, RegionMatch, Side, match_regions,
+    HoleRule, LinePair, Matching, PartRule, PointPair, RegionMatch, match_regions,
 };
-use crate::geometry::{Bounds, DVec2, Regions, Ring};
+use crate::geometry::{Bounds, DVec2, Regions, Ring, Side};
 use crate::progress::{Progress, checkpoint};
 use crate::warp::{
     Arap, Lattice, LatticeOptions, LineOptions, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart,
@@ -254,8 +254,8 @@ impl Features {
     fn are_on(&self, outlines: &[Regions; 2]) -> bool {
         let is_on = |pair: &PointPair| {
             Side::BOTH.iter().all(|&side| {
-                let regions = &outlines[side.index()];
-                let far = |ring| distance(ring, pair.of(side));
+                let regions = &outlines[side];
+                let far = |ring| distance(ring, pair[side]);
                 let near = regions.rings().map(far).fold(f64::INFINITY, f64::min);
                 near <= ON_OUTLINE * regions.bounds().diameter()
             })

@@ -8,8 +8,8 @@ use crate::app::intent::Intent;
 use crate::app::opening::change;
 use crate::app::session::Session;
 use crate::content::ContentKind;
-use crate::correspondence::{LinePair, Matching, PointPair, RingCut, Side};
-use crate::geometry::DVec2;
+use crate::correspondence::{Matching, PointPair, RingCut};
+use crate::geometry::{DVec2, Pair, Side};
 use crate::project::Project;
 use crate::warp::WarpKind;
 
@@ -158,7 +158,7 @@ impl Editor {
                 if let (Some(pin), Some(to)) =
                     (said.pins.get_mut(k), sheet.landing(touch, self.snaps))
                 {
-                    set(pin, side, sheet.own(side, to));
+                    pin[side] = sheet.own(side, to);
                 }
             }
             Grab::Cut(k, end) => {
@@ -175,14 +175,14 @@ impl Editor {
             Grab::Line(k, end) => {
                 self.selected = Some(Handle::Line(k, end));
                 if let Some(line) = said.lines.get_mut(k) {
-                    end_of(line, side)[end] = sheet.own(side, touch.at);
+                    line[side][end] = sheet.own(side, touch.at);
                 }
             }
             Grab::Stretch(k) => {
                 self.selected = Some(Handle::Line(k, 1));
                 if let Some(line) = said.lines.get_mut(k) {
                     for side in Side::BOTH {
-                        end_of(line, side)[1] = sheet.own(side, touch.at);
+                        line[side][1] = sheet.own(side, touch.at);
                     }
                 }
             }
@@ -218,13 +218,7 @@ impl Editor {
             self.refusal = Some(NO_PARTNER);
             return;
         };
-        let mut pin = PointPair {
-            source: DVec2::ZERO,
-            target: DVec2::ZERO,
-        };
-        set(&mut pin, touch.side, sheet.own(touch.side, here));
-        let other = touch.side.other();
-        set(&mut pin, other, sheet.own(other, there));
+        let pin = sheet.own_pair(&Pair::on(touch.side, here, there));
         keep_found(sheet, said);
         said.pins.push(pin);
         self.selected = Some(Handle::Pin(said.pins.len() - 1));
@@ -238,12 +232,7 @@ impl Editor {
         };
         match self.first_part.take() {
             Some((side, _, first)) if side != touch.side => {
-                let mut link = PointPair {
-                    source: DVec2::ZERO,
-                    target: DVec2::ZERO,
-                };
-                set(&mut link, side, sheet.own(side, first));
-                set(&mut link, touch.side, sheet.own(touch.side, touch.at));
+                let link = sheet.own_pair(&Pair::on(side, first, touch.at));
                 let parts = Side::BOTH.map(|side| sheet.part(side, sheet.framed(&link, side), 0.0));
                 unlink(sheet, said, parts);
                 said.links.push(link);
@@ -260,7 +249,7 @@ impl Editor {
             (self.selected, self.hovered) = (None, None);
         } else if self.tool == Tool::Parts {
             let mut parts = [None; 2];
-            parts[touch.side.index()] = sheet.part(touch.side, touch.at, touch.reach);
+            parts[touch.side] = sheet.part(touch.side, touch.at, touch.reach);
             unlink(sheet, said, parts);
             self.first_part = None;
         }
@@ -292,11 +281,7 @@ fn taken(grab: Grab, sheet: &Sheet, said: &mut Matching) -> Grab {
         },
         Grab::NewLine(from) => {
             keep_found(sheet, said);
-            let ends = |side: Side| [sheet.own(side, from); 2];
-            said.lines.push(LinePair {
-                source: ends(Side::Source),
-                target: ends(Side::Target),
-            });
+            said.lines.push(Pair::of(|side| [sheet.own(side, from); 2]));
             Grab::Stretch(said.lines.len() - 1)
         }
         known => known,
@@ -309,20 +294,6 @@ fn keep_found(sheet: &Sheet, said: &mut Matching) {
     if sheet.is_free() && said.pins.is_empty() && said.lines.is_empty() {
         let found = sheet.features.iter().map(|pair| sheet.own_pair(pair));
         said.pins.extend(found);
-    }
-}
-
-fn end_of(line: &mut LinePair, side: Side) -> &mut [DVec2; 2] {
-    match side {
-        Side::Source => &mut line.source,
-        Side::Target => &mut line.target,
-    }
-}
-
-fn set(pair: &mut PointPair, side: Side, to: DVec2) {
-    match side {
-        Side::Source => pair.source = to,
-        Side::Target => pair.target = to,
     }
 }
 
@@ -348,7 +319,7 @@ fn remove_handle(handle: Handle, sheet: &Sheet, said: &mut Matching) {
 fn unlink(sheet: &Sheet, said: &mut Matching, parts: [Option<usize>; 2]) {
     said.links.retain(|link| {
         Side::BOTH.into_iter().all(|side| {
-            let wanted = parts[side.index()];
+            let wanted = parts[side];
             wanted.is_none() || sheet.part(side, sheet.framed(link, side), 0.0) != wanted
         })
     });
@@ -357,19 +328,16 @@ fn unlink(sheet: &Sheet, said: &mut Matching, parts: [Option<usize>; 2]) {
 impl Sheet {
     /// A point of the frame in a design's own coordinates.
     fn own(&self, side: Side, p: DVec2) -> DVec2 {
-        self.by[side.index()].inverse().apply(p)
+        self.by[side].inverse().apply(p)
     }
 
     /// A pair of the frame in the designs' own coordinates.
     fn own_pair(&self, pair: &PointPair) -> PointPair {
-        PointPair {
-            source: self.own(Side::Source, pair.source),
-            target: self.own(Side::Target, pair.target),
-        }
+        Pair::of(|side| self.own(side, pair[side]))
     }
 
     /// One end of a pair of the project, in the frame.
     fn framed(&self, pair: &PointPair, side: Side) -> DVec2 {
-        self.by[side.index()].apply(pair.of(side))
+        self.by[side].apply(pair[side])
     }
 }

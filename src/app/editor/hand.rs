@@ -1,17 +1,17 @@
 //! What is under the hand.
 
 use super::{CutEnd, Grab, Handle, Sheet, SheetCut, Touch};
-use crate::correspondence::{RingCut, Side};
-use crate::geometry::DVec2;
+use crate::correspondence::RingCut;
+use crate::geometry::{DVec2, Side};
 
 impl Sheet {
     /// Where a handle is on one side; none where it is on the other side only.
     #[must_use]
     pub fn place(&self, handle: Handle, side: Side) -> Option<DVec2> {
         match handle {
-            Handle::Pin(k) => self.pins.get(k).map(|pin| pin.of(side)),
-            Handle::Feature(k) => self.features.get(k).map(|pair| pair.of(side)),
-            Handle::Line(k, end) => self.lines.get(k).map(|line| line.of(side)[end]),
+            Handle::Pin(k) => self.pins.get(k).map(|pin| pin[side]),
+            Handle::Feature(k) => self.features.get(k).map(|pair| pair[side]),
+            Handle::Line(k, end) => self.lines.get(k).map(|line| line[side][end]),
             Handle::Cut(k, end) => {
                 let cut = self.cuts.get(k)?.cut;
                 (cut.side == side).then_some(match end {

@@ -17,8 +17,7 @@ pub use polyline::spans;
 pub use sheet::{Fate, Sheet, SheetCut, SheetPiece, SheetRing, SheetSide};
 
 use crate::app::session::Session;
-use crate::correspondence::Side;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, Side};
 
 /// One act in the match editor.
 #[derive(Clone, Debug, PartialEq)]

@@ -8,10 +8,10 @@ use bevy::prelude::Resource;
 use super::{features, polyline};
 use crate::content::ContentKind;
 use crate::correspondence::{
-    LinePair, Matching, PieceMatch, PointPair, RegionMatch, RingCut, RingKind, Side,
+    LinePair, Matching, PieceMatch, PointPair, RegionMatch, RingCut, RingKind,
 };
 use crate::design::{Design, Form, Picture};
-use crate::geometry::{Bounds, DVec2, Similarity};
+use crate::geometry::{Bounds, DVec2, Side, Similarity};
 
 /// A cut that was asked for is shown by the one that came of it where the two are no farther apart
 /// than this share of the design.
@@ -156,14 +156,14 @@ impl Sheet {
     /// The nearest place on the boundary of one side.
     #[must_use]
     pub fn on_boundary(&self, side: Side, p: DVec2) -> Option<polyline::Foot> {
-        let parts = &self.sides.as_ref()?[side.index()].parts;
+        let parts = &self.sides.as_ref()?[side].parts;
         polyline::nearest(parts.iter().flatten().map(Vec::as_slice), p)
     }
 
     /// The corner nearest to a point, if one is within reach.
     #[must_use]
     pub fn corner(&self, side: Side, p: DVec2, reach: f64) -> Option<DVec2> {
-        let corners = &self.sides.as_ref()?[side.index()].corners;
+        let corners = &self.sides.as_ref()?[side].corners;
         let near = corners.iter().filter(|corner| corner.distance(p) <= reach);
         near.min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))
             .copied()
@@ -173,13 +173,10 @@ impl Sheet {
     /// partner, and none while there is no match.
     #[must_use]
     pub fn partner(&self, side: Side, p: DVec2) -> Option<DVec2> {
-        let rings = self
-            .rings
-            .iter()
-            .map(|ring| ring.sides[side.index()].as_slice());
+        let rings = self.rings.iter().map(|ring| ring.sides[side].as_slice());
         let foot = polyline::nearest(rings, p)?;
         let ring = &self.rings[foot.ring];
-        let other = &ring.sides[side.other().index()];
+        let other = &ring.sides[side.other()];
         let (a, b) = (other[foot.edge], other[(foot.edge + 1) % other.len()]);
         (ring.kind == RingKind::Matched).then(|| a.lerp(b, foot.along))
     }
@@ -187,7 +184,7 @@ impl Sheet {
     /// The part of one side that a point lies in, or within reach of.
     #[must_use]
     pub fn part(&self, side: Side, p: DVec2, reach: f64) -> Option<usize> {
-        let parts = &self.sides.as_ref()?[side.index()].parts;
+        let parts = &self.sides.as_ref()?[side].parts;
         let rings = |k: usize| parts[k].iter().map(Vec::as_slice);
         let hit = (0..parts.len()).find(|&k| polyline::encloses(rings(k), p));
         hit.or_else(|| {
@@ -291,9 +288,9 @@ fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], links: &[PointPair]) -> 
         let parts = [piece.source_part, piece.target_part];
         links.iter().any(|link| {
             Side::BOTH.into_iter().all(|side| {
-                let part = parts[side.index()].and_then(|k| sides[side.index()].parts.get(k));
+                let part = parts[side].and_then(|k| sides[side].parts.get(k));
                 part.is_some_and(|rings| {
-                    polyline::encloses(rings.iter().map(Vec::as_slice), link.of(side))
+                    polyline::encloses(rings.iter().map(Vec::as_slice), link[side])
                 })
             })
         })

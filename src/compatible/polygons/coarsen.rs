@@ -323,8 +323,8 @@ fn centre_of_kernel(middle: DVec2, half: f64, sides: &[[DVec2; 2]]) -> Option<DV
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compatible::Which;
     use crate::compatible::polygons::piece;
+    use crate::geometry::Side;
     use std::f64::consts::TAU;
 
     #[test]
@@ -344,8 +344,8 @@ mod tests {
         let target = Rings::of(&[wave(3.0), hole(0.5)]);
         let coarse = coarsened(&source, &target, 60);
         assert!(coarse.size() < 200, "{}", coarse.size());
-        for (d, which) in [(0, Which::Source), (1, Which::Target)] {
-            assert_eq!(piece::check(&coarse.core(d), which), Ok(()));
+        for (d, side) in Side::BOTH.into_iter().enumerate() {
+            assert_eq!(piece::check(&coarse.core(d), side), Ok(()));
             for face in &coarse.faces {
                 assert!(face::is_positive(
                     face.map(|v| coarse.points[d][v as usize])

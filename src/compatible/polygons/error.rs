@@ -1,6 +1,6 @@
 //! Why two pieces were not triangulated together.
 
-use crate::compatible::Which;
+use crate::geometry::Side;
 use crate::progress::Cancelled;
 
 /// An edge of a boundary ring, named by its first point.
@@ -52,31 +52,31 @@ pub enum PolygonsError {
         points: usize,
     },
     /// A coordinate is NaN, infinite or out of proportion.
-    #[error("point {} of {} in the {which} is not finite or far out; correct its coordinates", vertex + 1, ring_name(*ring))]
+    #[error("point {} of {} in the {side} is not finite or far out; correct its coordinates", vertex + 1, ring_name(*ring))]
     NotFinite {
         /// In which design.
-        which: Which,
+        side: Side,
         /// The boundary ring; 0 is the outer one.
         ring: usize,
         /// The point in its ring.
         vertex: usize,
     },
     /// Two edges touch, or points coincide, other than along a slit.
-    #[error("{} and {} touch in the {which}; repair the outline", edges[0], edges[1])]
+    #[error("{} and {} touch in the {side}; repair the outline", edges[0], edges[1])]
     NotSimple {
         /// In which design.
-        which: Which,
+        side: Side,
         /// The edges.
         edges: [RingEdge; 2],
     },
     /// The outer boundary runs clockwise.
     #[error("the outline of the {0} runs clockwise; reverse its points")]
-    Clockwise(Which),
+    Clockwise(Side),
     /// A hole runs counter-clockwise.
-    #[error("hole {hole} of the {which} runs counter-clockwise; reverse its points")]
+    #[error("hole {hole} of the {side} runs counter-clockwise; reverse its points")]
     CounterClockwise {
         /// In which design.
-        which: Which,
+        side: Side,
         /// The hole, the first is 1.
         hole: usize,
     },
@@ -84,7 +84,7 @@ pub enum PolygonsError {
     #[error(
         "a hole of the {0} lies outside its outline or in another hole; make it a part of its own"
     )]
-    HoleOutside(Which),
+    HoleOutside(Side),
     /// The edge length is no positive number.
     #[error("the edge length {0} is not a positive share of the diameter; use 0.05, say")]
     EdgeLength(f64),

@@ -11,8 +11,8 @@
 use super::pair::PairMesh;
 use super::{PolygonOptions, checked, quality, to_unit, transfer};
 use crate::compatible::CompatibleMesh;
-use crate::correspondence::{PointPair, Side};
-use crate::geometry::{Bounds, DVec2};
+use crate::correspondence::PointPair;
+use crate::geometry::{Bounds, DVec2, Side};
 use crate::mesh::triangulation::{TriangulationError, delaunay};
 use crate::progress::{Cancelled, Progress};
 
@@ -43,7 +43,7 @@ const SAME: f64 = 1e-6;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum FrameError {
     /// A pin is not finite, or not inside the frame.
-    #[error("pin {} lies outside the frame of the {which} design; move it inside", pin + 1, which = name(*side))]
+    #[error("pin {} lies outside the frame of the {side} design; move it inside", pin + 1)]
     Outside {
         /// Counted from 0.
         pin: usize,
@@ -51,7 +51,7 @@ pub enum FrameError {
         side: Side,
     },
     /// Two pins coincide in one design and not in the other.
-    #[error("pins {} and {} are one point in the {which} design and two in the other; delete one of them", pins[0] + 1, pins[1] + 1, which = name(*side))]
+    #[error("pins {} and {} are one point in the {side} design and two in the other; delete one of them", pins[0] + 1, pins[1] + 1)]
     Coincide {
         /// Counted from 0.
         pins: [usize; 2],
@@ -70,13 +70,6 @@ pub enum FrameError {
     /// Nobody wants the result.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-}
-
-fn name(side: Side) -> &'static str {
-    match side {
-        Side::Source => "source",
-        Side::Target => "target",
-    }
 }
 
 fn listed(pins: &[usize]) -> String {
@@ -114,7 +107,7 @@ impl CompatibleMesh {
         let (pins, numbers) = distinct(frame, pins)?;
         let border = border(frame);
         let ends = |side: Side| {
-            let ends = pins.iter().map(|pin| pin.of(side));
+            let ends = pins.iter().map(|pin| pin[side]);
             border.iter().copied().chain(ends).collect::<Vec<DVec2>>()
         };
         let given = Side::BOTH.map(ends);
@@ -173,13 +166,12 @@ fn distinct(
     let mut numbers: Vec<usize> = Vec::new();
     for (pin, pair) in pins.iter().enumerate() {
         for side in Side::BOTH {
-            if !inside.contains(pair.of(side)) {
+            if !inside.contains(pair[side]) {
                 return Err(FrameError::Outside { pin, side });
             }
         }
-        let near = |other: &PointPair| {
-            Side::BOTH.map(|side| other.of(side).distance(pair.of(side)) <= same)
-        };
+        let near =
+            |other: &PointPair| Side::BOTH.map(|side| other[side].distance(pair[side]) <= same);
         let found = kept
             .iter()
             .map(near)

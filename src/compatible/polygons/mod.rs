@@ -34,8 +34,8 @@ mod tests;
 mod touching;
 mod transfer;
 
-use super::{CompatibleError, CompatibleMesh, Which};
-use crate::geometry::{Bounds, DVec2};
+use super::{CompatibleError, CompatibleMesh};
+use crate::geometry::{Bounds, DVec2, Side};
 use crate::mesh::triangulation::TriangulationError;
 use crate::progress::{Progress, checkpoint};
 pub use error::{PolygonsError, RingEdge};
@@ -132,8 +132,8 @@ impl CompatibleMesh {
         let given = [source, target].map(Rings::of);
         let scales = [&given[0], &given[1]].map(|rings| to_unit(&rings.points));
         let [p, q] = [0, 1].map(|d| given[d].scaled(scales[d]));
-        piece::check(&p, Which::Source)?;
-        piece::check(&q, Which::Target)?;
+        piece::check(&p, Side::Source)?;
+        piece::check(&q, Side::Target)?;
         let mesh = if goes_first(&p, &q) {
             triangulated(&p, &q, options, progress)?
         } else {

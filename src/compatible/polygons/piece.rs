@@ -3,8 +3,7 @@
 
 use super::error::{PolygonsError, RingEdge};
 use super::touching::touching_edges;
-use crate::compatible::Which;
-use crate::geometry::{DVec2, twice_signed_area};
+use crate::geometry::{DVec2, Side, twice_signed_area};
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 
 /// Boundary rings, one after the other.
@@ -56,7 +55,7 @@ impl Rings {
 /// Whether the rings bound one piece: an outer one, counter-clockwise, and
 /// holes in it, clockwise, that touch nothing but their own slits. O(n log n)
 /// where they do.
-pub(super) fn check(rings: &Rings, which: Which) -> Result<(), PolygonsError> {
+pub(super) fn check(rings: &Rings, side: Side) -> Result<(), PolygonsError> {
     let walks = rings.walks();
     if walks.is_empty() {
         return Err(PolygonsError::NoOutline);
@@ -66,7 +65,7 @@ pub(super) fn check(rings: &Rings, which: Which) -> Result<(), PolygonsError> {
         return Err(PolygonsError::TooFewPoints { ring, points });
     }
     if let Some(point) = rings.points.iter().position(|p| !p.is_finite()) {
-        return Err(not_finite(rings, point, which));
+        return Err(not_finite(rings, point, side));
     }
     match constrained_delaunay(&walks) {
         Ok(_) => Ok(()),
@@ -74,34 +73,34 @@ pub(super) fn check(rings: &Rings, which: Which) -> Result<(), PolygonsError> {
             let size = |p: &DVec2| p.abs().max_element();
             let far = (0..rings.points.len())
                 .max_by(|&a, &b| size(&rings.points[a]).total_cmp(&size(&rings.points[b])));
-            Err(not_finite(rings, far.unwrap_or(0), which))
+            Err(not_finite(rings, far.unwrap_or(0), side))
         }
-        Err(_) => Err(reason(rings, &walks, which)),
+        Err(_) => Err(reason(rings, &walks, side)),
     }
 }
 
-fn not_finite(rings: &Rings, point: usize, which: Which) -> PolygonsError {
+fn not_finite(rings: &Rings, point: usize, side: Side) -> PolygonsError {
     let RingEdge { ring, edge } = rings.place(point);
     PolygonsError::NotFinite {
-        which,
+        side,
         ring,
         vertex: edge,
     }
 }
 
 /// Why rings bound no piece, found the slow way.
-fn reason(rings: &Rings, walks: &[&[DVec2]], which: Which) -> PolygonsError {
+fn reason(rings: &Rings, walks: &[&[DVec2]], side: Side) -> PolygonsError {
     if let Some(edges) = touching_edges(walks) {
         let edges = edges.map(|edge| rings.place(edge));
-        return PolygonsError::NotSimple { which, edges };
+        return PolygonsError::NotSimple { side, edges };
     }
     if doubled_area(walks[0]) < 0.0 {
-        return PolygonsError::Clockwise(which);
+        return PolygonsError::Clockwise(side);
     }
     match (1..walks.len()).find(|&hole| doubled_area(walks[hole]) > 0.0) {
-        Some(hole) => PolygonsError::CounterClockwise { which, hole },
+        Some(hole) => PolygonsError::CounterClockwise { side, hole },
         None if walks.len() == 1 => PolygonsError::TooThin,
-        None => PolygonsError::HoleOutside(which),
+        None => PolygonsError::HoleOutside(side),
     }
 }
 
@@ -116,12 +115,12 @@ mod tests {
 
     fn verdict<const N: usize>(rings: [&[(f64, f64)]; N]) -> Result<(), PolygonsError> {
         let rings = rings.map(|ring| ring.iter().copied().map(DVec2::from).collect::<Vec<_>>());
-        check(&Rings::of(&rings), Which::Source)
+        check(&Rings::of(&rings), Side::Source)
     }
 
     fn not_simple(edges: [(usize, usize); 2]) -> Result<(), PolygonsError> {
         Err(PolygonsError::NotSimple {
-            which: Which::Source,
+            side: Side::Source,
             edges: edges.map(|(ring, edge)| RingEdge { ring, edge }),
         })
     }
@@ -145,7 +144,7 @@ mod tests {
         let clockwise = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0)];
         assert_eq!(
             verdict([&clockwise]),
-            Err(PolygonsError::Clockwise(Which::Source))
+            Err(PolygonsError::Clockwise(Side::Source))
         );
     }
 
@@ -154,15 +153,15 @@ mod tests {
         let inside = [(1.0, 1.0), (1.0, 2.0), (2.0, 1.0)];
         assert_eq!(verdict([&SQUARE, &inside]), Ok(()));
         let outside = inside.map(|(x, y)| (x + 9.0, y));
-        let which = Which::Source;
+        let side = Side::Source;
         assert_eq!(
             verdict([&SQUARE, &outside]),
-            Err(PolygonsError::HoleOutside(which))
+            Err(PolygonsError::HoleOutside(side))
         );
         let reversed = [inside[2], inside[1], inside[0]];
         assert_eq!(
             verdict([&SQUARE, &reversed]),
-            Err(PolygonsError::CounterClockwise { which, hole: 1 })
+            Err(PolygonsError::CounterClockwise { side, hole: 1 })
         );
         let touching = inside.map(|(x, y)| (x - 1.0, y));
         assert_eq!(verdict([&SQUARE, &touching]), not_simple([(0, 3), (1, 0)]));

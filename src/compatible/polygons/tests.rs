@@ -179,7 +179,7 @@ fn pair(kinds: (usize, usize), n: usize, seed: u64) -> Option<[Vec<DVec2>; 2]> {
     let m = target.len();
     let source = with_points(source, m);
     target.rotate_left((random.next() * m as f64) as usize);
-    let simple = |points| piece::check(&Rings::of(&[points]), Which::Source).is_ok();
+    let simple = |points| piece::check(&Rings::of(&[points]), Side::Source).is_ok();
     (simple(&source) && simple(&target)).then_some([source, target])
 }
 
@@ -264,7 +264,7 @@ fn what_cannot_be_triangulated_is_named() {
     let mut nan = square.clone();
     nan[3].x = f64::NAN;
     let not_finite = PolygonsError::NotFinite {
-        which: Which::Target,
+        side: Side::Target,
         ring: 0,
         vertex: 3,
     };
@@ -272,7 +272,7 @@ fn what_cannot_be_triangulated_is_named() {
     let reversed: Vec<DVec2> = square.iter().rev().copied().collect();
     assert_eq!(
         of(&reversed, &square, &options),
-        Err(PolygonsError::Clockwise(Which::Source))
+        Err(PolygonsError::Clockwise(Side::Source))
     );
     let zero = PolygonOptions {
         edge_length: Some(0.0),

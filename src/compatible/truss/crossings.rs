@@ -1,11 +1,11 @@
 //! Which bars meet away from a common node, and which of them to keep.
 
-use super::Pair;
+use super::Nodes;
 use crate::geometry::{DVec2, orient2d};
 
 /// Pairs of bars, the smaller index first, that cross, touch or lie on each
 /// other in at least one of the designs, other than by ending at one node.
-pub(super) fn in_either(bars: &[[u32; 2]], pair: Pair) -> Vec<[usize; 2]> {
+pub(super) fn in_either(bars: &[[u32; 2]], pair: Nodes) -> Vec<[usize; 2]> {
     let mut conflicts = in_one(bars, pair.source);
     conflicts.extend(in_one(bars, pair.target));
     conflicts.sort_unstable();

@@ -1,6 +1,6 @@
 //! One polygon in two embeddings, cut into triangles.
 
-use super::Pair;
+use super::Nodes;
 use crate::geometry::{DVec2, orient2d};
 
 /// No triangulation of a part of the polygon.
@@ -24,7 +24,7 @@ pub(super) fn area(cycle: &[u32], nodes: &[DVec2]) -> f64 {
 /// Triangles between the nodes of a counter-clockwise cycle, all positive in
 /// both designs, with the largest possible smallest angle; `None` if there
 /// are none.
-pub(super) fn triangulated(cycle: &[u32], pair: Pair) -> Option<Vec<[u32; 3]>> {
+pub(super) fn triangulated(cycle: &[u32], pair: Nodes) -> Option<Vec<[u32; 3]>> {
     let table = Table::filled(cycle, pair);
     let last = cycle.len().checked_sub(1)?;
     let mut faces = Vec::new();
@@ -51,7 +51,7 @@ struct Table {
 }
 
 impl Table {
-    fn filled(cycle: &[u32], pair: Pair) -> Self {
+    fn filled(cycle: &[u32], pair: Nodes) -> Self {
         let size = cycle.len();
         let mut table = Self {
             size,
@@ -71,7 +71,7 @@ impl Table {
         i * self.size + j
     }
 
-    fn best(&self, cycle: &[u32], pair: Pair, i: usize, j: usize) -> (f64, usize) {
+    fn best(&self, cycle: &[u32], pair: Nodes, i: usize, j: usize) -> (f64, usize) {
         let mut best = (NONE, i);
         for k in i + 1..j {
             let sides = self.cells[self.cell(i, k)]

@@ -182,7 +182,7 @@ fn differences_and_turned_panels_are_named() {
         error,
         TrussError::BarsDiffer {
             nodes: [0, 2],
-            only_in: crate::compatible::Which::Target
+            only_in: crate::geometry::Side::Target
         }
     );
     assert!(error.to_string().contains("only in the target"));
@@ -203,7 +203,7 @@ fn differences_and_turned_panels_are_named() {
 }
 
 /// Every triangulation of a small polygon tried.
-fn brute(cycle: &[u32], pair: Pair) -> Option<f64> {
+fn brute(cycle: &[u32], pair: Pair<&[DVec2]>) -> Option<f64> {
     if cycle.len() < 3 {
         return Some(f64::INFINITY);
     }
@@ -218,7 +218,7 @@ fn brute(cycle: &[u32], pair: Pair) -> Option<f64> {
         .max_by(f64::total_cmp)
 }
 
-fn sines(face: [u32; 3], pair: Pair) -> Option<f64> {
+fn sines(face: [u32; 3], pair: Pair<&[DVec2]>) -> Option<f64> {
     let mut least = f64::INFINITY;
     for nodes in [pair.source, pair.target] {
         let [a, b, c] = face.map(|node| nodes[node as usize]);
@@ -245,7 +245,7 @@ proptest::proptest! {
             }).collect()
         };
         let (source, target) = (around(|r| r.0), around(|r| r.1));
-        let pair = Pair { source: &source, target: &target };
+        let pair = Pair { source: &source[..], target: &target[..] };
         let cycle: Vec<u32> = (0..count as u32).collect();
         let found = polygon::triangulated(&cycle, pair).map(|faces| {
             faces.iter().map(|&f| sines(f, pair).unwrap_or(-1.0)).fold(f64::INFINITY, f64::min)

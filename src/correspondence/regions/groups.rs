@@ -1,13 +1,13 @@
 //! Which parts go together: pairs, one with several, and parts alone.
 
 use super::super::parts::{Pairing, pair_other_parts, relative_centre};
-use super::super::{Matching, PairError, PartRule, RingCut, Side};
+use super::super::{Matching, PairError, PartRule, RingCut};
 use super::closing::{centre, shrunk};
 use super::locate::{Pinned, nearest_ring, part_at, rings};
 use super::piece::{Task, matched};
 use super::split::split;
-use super::{POINT_SIZE, PieceMatch, RegionMatchError, RingKind, RingMatch};
-use crate::geometry::{DVec2, Region, Regions};
+use super::{POINT_SIZE, PieceMatch, RegionMatchError, RingMatch};
+use crate::geometry::{DVec2, Pair, Region, Regions, Side};
 
 /// Parts that belong together: one with one, one with several, or one alone.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -27,7 +27,7 @@ pub(super) fn grouped(
         .iter()
         .map(|g| [g.parts[0][0], g.parts[1][0]])
         .collect();
-    let taken = [0, 1].map(|side| -> Vec<usize> {
+    let taken = Side::BOTH.map(|side| -> Vec<usize> {
         groups
             .iter()
             .flat_map(|g| g.parts[side][1..].to_vec())
@@ -47,8 +47,8 @@ pub(super) fn grouped(
         part.sort_unstable();
     }
     groups.sort_by_key(|group| {
-        let first = |side: usize| group.parts[side].first().copied().unwrap_or(usize::MAX);
-        [first(0), first(1)]
+        let first = |side: Side| group.parts[side].first().copied().unwrap_or(usize::MAX);
+        Side::BOTH.map(first)
     });
     Ok(groups)
 }
@@ -62,16 +62,18 @@ fn said(
     let linked = wanted
         .links
         .iter()
-        .map(|link| Side::BOTH.map(|side| part_at(designs[side.index()], link.of(side))));
+        .map(|link| Side::BOTH.map(|side| part_at(designs[side], link[side])));
     let pinned = pins.iter().map(|pin| pin.on.map(|at| at.part));
     let mut pairs: Vec<[usize; 2]> = linked.chain(pinned).collect();
     pairs.sort_unstable();
     pairs.dedup();
     let mut groups: Vec<Group> = Vec::new();
     for pair in pairs {
-        let touching = groups
-            .iter_mut()
-            .find(|g| (0..2).any(|side| g.parts[side].contains(&pair[side])));
+        let touching = groups.iter_mut().find(|g| {
+            Side::BOTH
+                .iter()
+                .any(|&side| g.parts[side].contains(&pair[side]))
+        });
         let Some(group) = touching else {
             groups.push(Group {
                 parts: pair.map(|part| vec![part]),
@@ -101,7 +103,10 @@ fn attach(groups: &mut Vec<Group>, designs: [&Regions; 2], rule: PartRule, pairi
         PartRule::Split => true,
         PartRule::Alone => false,
     };
-    for (side, alone) in [(0, &pairing.dying), (1, &pairing.born)] {
+    for (side, alone) in [
+        (Side::Source, &pairing.dying),
+        (Side::Target, &pairing.born),
+    ] {
         for &part in alone {
             let near = splits.then(|| nearest_group(groups, designs, side, part));
             match near.flatten() {
@@ -120,10 +125,10 @@ fn attach(groups: &mut Vec<Group>, designs: [&Regions; 2], rule: PartRule, pairi
 fn nearest_group(
     groups: &[Group],
     designs: [&Regions; 2],
-    side: usize,
+    side: Side,
     part: usize,
 ) -> Option<usize> {
-    let place = |side: usize, part: usize| {
+    let place = |side: Side, part: usize| {
         let region = designs[side].iter().nth(part);
         region.map_or(DVec2::ZERO, |region| relative_centre(region, designs[side]))
     };
@@ -131,8 +136,8 @@ fn nearest_group(
     let single = groups
         .iter()
         .enumerate()
-        .filter(|(_, g)| g.parts[1 - side].len() == 1);
-    let far = |g: &Group| place(1 - side, g.parts[1 - side][0]).distance_squared(here);
+        .filter(|(_, g)| g.parts[side.other()].len() == 1);
+    let far = |g: &Group| place(side.other(), g.parts[side.other()][0]).distance_squared(here);
     single
         .min_by(|a, b| far(a.1).total_cmp(&far(b.1)))
         .map(|(k, _)| k)
@@ -146,8 +151,8 @@ pub(super) fn pieces(
     wanted: &Matching,
     pins: &[Pinned],
 ) -> Result<Vec<PieceMatch>, RegionMatchError> {
-    let region = |side: usize, part: usize| designs[side].iter().nth(part);
-    let regions = [0, 1].map(|side| -> Vec<&Region> {
+    let region = |side: Side, part: usize| designs[side].iter().nth(part);
+    let regions = Side::BOTH.map(|side| -> Vec<&Region> {
         group.parts[side]
             .iter()
             .filter_map(|&part| region(side, part))
@@ -159,45 +164,37 @@ pub(super) fn pieces(
             cuts: cuts_of(wanted, designs, parts),
             holes: wanted.holes,
             options: wanted.options(),
-            regions: [regions[0], regions[1]],
+            regions,
             parts,
         };
         matched(&piece)
     };
-    let alone = |side: usize, part: usize| alone(designs, all, side, part);
+    let alone = |side: Side, part: usize| alone(designs, all, side, part);
     match (&regions[0][..], &regions[1][..]) {
         ([a], [b]) => Ok(vec![task([a, b], [group.parts[0][0], group.parts[1][0]])?]),
-        ([_], []) => Ok(vec![alone(0, group.parts[0][0])]),
-        ([], [_]) => Ok(vec![alone(1, group.parts[1][0])]),
+        ([_], []) => Ok(vec![alone(Side::Source, group.parts[0][0])]),
+        ([], [_]) => Ok(vec![alone(Side::Target, group.parts[1][0])]),
         ([one], several) | (several, [one]) => {
-            let side = usize::from(group.parts[0].len() > 1); // the one that is split
-            let numbers = |k: usize| {
-                let mut parts = [group.parts[side][0]; 2];
-                parts[1 - side] = group.parts[1 - side][k];
-                parts
+            // The side whose single part is split.
+            let side = if group.parts[0].len() > 1 {
+                Side::Target
+            } else {
+                Side::Source
+            };
+            let others = &group.parts[side.other()];
+            let piece = |k: usize, piece| {
+                let regions = Pair::on(side, piece, several[k]);
+                let parts = Pair::on(side, group.parts[side][0], others[k]);
+                task(regions.to_array(), parts.to_array())
             };
             let Some(cut) = split(one, several) else {
-                let first = task(ordered(side, one, several[0]), numbers(0))?;
-                let rest = group.parts[1 - side][1..]
-                    .iter()
-                    .map(|&k| alone(1 - side, k));
-                return Ok(std::iter::once(first).chain(rest).collect());
+                let rest = others[1..].iter().map(|&k| alone(side.other(), k));
+                return Ok(std::iter::once(piece(0, one)?).chain(rest).collect());
             };
-            let pieces = cut.iter().zip(several).enumerate();
-            pieces
-                .map(|(k, (piece, other))| task(ordered(side, piece, other), numbers(k)))
-                .collect()
+            let pieces = cut.iter().enumerate();
+            pieces.map(|(k, cut)| piece(k, cut)).collect()
         }
         _ => Ok(Vec::new()),
-    }
-}
-
-/// Source and target, where the first is of `side`.
-fn ordered<'a>(side: usize, first: &'a Region, second: &'a Region) -> [&'a Region; 2] {
-    if side == 0 {
-        [first, second]
-    } else {
-        [second, first]
     }
 }
 
@@ -210,24 +207,21 @@ fn pins_of(pins: &[Pinned], parts: [usize; 2]) -> Vec<(usize, [DVec2; 2])> {
 }
 
 fn cuts_of(wanted: &Matching, designs: [&Regions; 2], parts: [usize; 2]) -> Vec<(usize, RingCut)> {
-    let here = |cut: &RingCut| {
-        let side = cut.side.index();
-        nearest_ring(designs[side], cut.hole).part == parts[side]
-    };
+    let here = |cut: &RingCut| nearest_ring(designs[cut.side], cut.hole).part == parts[cut.side];
     let cuts = wanted.cuts.iter().copied().enumerate();
     cuts.filter(|(_, cut)| here(cut)).collect()
 }
 
 /// A part that dies into a point, or is born from one: where it stands, moved
 /// along with its nearest neighbour.
-fn alone(designs: [&Regions; 2], all: &[Group], side: usize, part: usize) -> PieceMatch {
-    let region = |side: usize, part: usize| designs[side].iter().nth(part);
+fn alone(designs: [&Regions; 2], all: &[Group], side: Side, part: usize) -> PieceMatch {
+    let region = |side: Side, part: usize| designs[side].iter().nth(part);
     let here = region(side, part).map_or(DVec2::ZERO, |r| centre(&r.outer));
     let mut nearest = (f64::INFINITY, DVec2::ZERO);
     for group in all {
         for &own in &group.parts[side] {
-            for &other in &group.parts[1 - side] {
-                let (Some(a), Some(b)) = (region(side, own), region(1 - side, other)) else {
+            for &other in &group.parts[side.other()] {
+                let (Some(a), Some(b)) = (region(side, own), region(side.other(), other)) else {
                     continue;
                 };
                 let (a, b) = (centre(&a.outer), centre(&b.outer));
@@ -238,24 +232,19 @@ fn alone(designs: [&Regions; 2], all: &[Group], side: usize, part: usize) -> Pie
         }
     }
     let rings = region(side, part).map_or(Vec::new(), |r| point_like(r, side, here, nearest.1));
-    let mut piece = PieceMatch {
+    let parts = Pair::on(side, Some(part), None);
+    PieceMatch {
         rings,
-        source_part: None,
-        target_part: None,
+        source_part: parts.source,
+        target_part: parts.target,
         cuts: Vec::new(),
         rotation: 0.0,
         cost: 0.0,
-    };
-    if side == 0 {
-        piece.source_part = Some(part);
-    } else {
-        piece.target_part = Some(part);
     }
-    piece
 }
 
 /// The rings of a part with the similar tiny ones across.
-fn point_like(region: &Region, side: usize, here: DVec2, moved: DVec2) -> Vec<RingMatch> {
+fn point_like(region: &Region, side: Side, here: DVec2, moved: DVec2) -> Vec<RingMatch> {
     let size = region.outer.bounds().diameter();
     let ring = |ring: &crate::geometry::Ring| {
         let whole = ring.points().to_vec();
@@ -267,19 +256,7 @@ fn point_like(region: &Region, side: usize, here: DVec2, moved: DVec2) -> Vec<Ri
             POINT_SIZE * size * (extent / size),
             0.0,
         );
-        if side == 0 {
-            RingMatch {
-                source: whole,
-                target: point,
-                kind: RingKind::Closes,
-            }
-        } else {
-            RingMatch {
-                source: point,
-                target: whole,
-                kind: RingKind::Opens,
-            }
-        }
+        RingMatch::alone(side, whole, point)
     };
     rings(region).map(ring).collect()
 }

@@ -1,6 +1,6 @@
 //! Which part and which ring of it a point of a design belongs to.
 
-use super::super::{Matching, Side};
+use super::super::{Matching, PointPair};
 use super::RegionMatchError;
 use crate::geometry::{DVec2, Region, Regions, Ring};
 
@@ -24,7 +24,7 @@ pub(super) struct Pinned {
 pub(super) fn check(wanted: &Matching) -> Result<(), RegionMatchError> {
     let pairs = wanted.pins.iter().chain(&wanted.links);
     let cuts = wanted.cuts.iter().map(|cut| [cut.outer, cut.hole]);
-    let points = pairs.map(|pair| [pair.source, pair.target]).chain(cuts);
+    let points = pairs.map(|pair| pair.to_array()).chain(cuts);
     for (k, pair) in points.enumerate() {
         if !pair.iter().all(|p| p.is_finite()) {
             return Err(RegionMatchError::NotFinite(k));
@@ -35,8 +35,8 @@ pub(super) fn check(wanted: &Matching) -> Result<(), RegionMatchError> {
 
 /// Each pin with the rings nearest to its ends.
 pub(super) fn pins(wanted: &Matching, designs: [&Regions; 2]) -> Vec<Pinned> {
-    let located = |(index, pair): (usize, &super::super::PointPair)| {
-        let points = Side::BOTH.map(|side| pair.of(side));
+    let located = |(index, pair): (usize, &PointPair)| {
+        let points = pair.to_array();
         let on = [0, 1].map(|s| nearest_ring(designs[s], points[s]));
         Pinned { index, on, points }
     };

@@ -29,7 +29,7 @@ mod tests;
 mod walk;
 
 use super::{MatchError, Matching, PairError, PinError, RingCut};
-use crate::geometry::{DVec2, Regions};
+use crate::geometry::{DVec2, Pair, Regions, Side};
 use crate::progress::{Cancelled, Progress, checkpoint};
 
 /// Diameter of the tiny ring that a hole closes to, and of the part that is
@@ -180,6 +180,20 @@ impl PieceMatch {
 }
 
 impl RingMatch {
+    /// A ring of one design that is a point in the other.
+    fn alone(side: Side, whole: Vec<DVec2>, point: Vec<DVec2>) -> Self {
+        let kind = match side {
+            Side::Source => RingKind::Closes,
+            Side::Target => RingKind::Opens,
+        };
+        let Pair { source, target } = Pair::on(side, whole, point);
+        Self {
+            source,
+            target,
+            kind,
+        }
+    }
+
     fn swapped(&self) -> Self {
         Self {
             source: self.target.clone(),

@@ -6,14 +6,14 @@ use super::super::curve::Curve;
 use super::super::parts::pair_other_holes;
 use super::super::pins::{Pin, PinError};
 use super::super::polygons::{PolygonOptions, SharedPolygons};
-use super::super::{HoleRule, RingCut, Side};
+use super::super::{HoleRule, RingCut};
 use super::closing::{Vertices, centre, point_ring};
 use super::cut;
 use super::locate::{distance_squared, rings};
 use super::slits::mirror;
 use super::walk::Walk;
 use super::{PieceMatch, RegionMatchError, RingKind, RingMatch};
-use crate::geometry::{DVec2, Region, Ring};
+use crate::geometry::{DVec2, Region, Ring, Side};
 
 /// Longest edge of a shared outline, as a share of the outer one's length.
 const SPACING: f64 = 0.0125;
@@ -61,7 +61,7 @@ pub(super) fn matched(task: &Task) -> Result<PieceMatch, RegionMatchError> {
     let blunt = sides.outer_match()?;
     let across = sides.pins_across()?;
     let asked = sides.asked_cuts();
-    let taken = [0, 1].map(|side| {
+    let taken = Side::BOTH.map(|side| {
         let mut taken: Vec<usize> = across[side].clone();
         taken.extend(asked[side].iter().map(|&(_, hole, _)| hole));
         taken.sort_unstable();
@@ -78,25 +78,24 @@ pub(super) fn matched(task: &Task) -> Result<PieceMatch, RegionMatchError> {
     )?;
     let mut cuts = Vec::new();
     for side in Side::BOTH {
-        let s = side.index();
-        for &(number, hole, ends) in &asked[s] {
-            let slit = sides.open_asked(s, hole, ends);
+        for &(number, hole, ends) in &asked[side] {
+            let slit = sides.open_asked(side, hole, ends);
             let ends = slit.ok_or(RegionMatchError::Cut(number))?;
             cuts.push(ring_cut(side, ends));
         }
-        let alone = [&pairing.dying, &pairing.born][s];
-        for hole in sides.largest_first(s, alone) {
+        let alone = [&pairing.dying, &pairing.born][side];
+        for hole in sides.largest_first(side, alone) {
             cuts.extend(
                 sides
-                    .open_if_better(s, hole, false)
+                    .open_if_better(side, hole, false)
                     .map(|e| ring_cut(side, e)),
             );
         }
-        for &hole in &across[s] {
-            if !sides.opened[s].contains(&hole) {
+        for &hole in &across[side] {
+            if !sides.opened[side].contains(&hole) {
                 cuts.extend(
                     sides
-                        .open_if_better(s, hole, true)
+                        .open_if_better(side, hole, true)
                         .map(|e| ring_cut(side, e)),
                 );
             }
@@ -128,14 +127,14 @@ fn ring_cut(side: Side, [outer, hole]: [DVec2; 2]) -> RingCut {
 
 impl<'a> Sides<'a> {
     fn new(task: &'a Task<'a>) -> Self {
-        let nearest = |side: usize, p: DVec2| {
+        let nearest = |side: Side, p: DVec2| {
             let distances = rings(task.regions[side]).map(|ring| distance_squared(ring, p));
             let nearest = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
             nearest.map_or(0, |(ring, _)| ring)
         };
         let pin = |&(index, points): &(usize, [DVec2; 2])| PinHere {
             index,
-            rings: [0, 1].map(|side| nearest(side, points[side])),
+            rings: Side::BOTH.map(|side| nearest(side, points[side])),
             points,
         };
         Self {
@@ -152,8 +151,8 @@ impl<'a> Sides<'a> {
         for pin in &self.pins {
             let side = match pin.rings {
                 [0, 0] => continue,
-                [_, 0] => 0,
-                [0, _] => 1,
+                [_, 0] => Side::Source,
+                [0, _] => Side::Target,
                 _ => continue,
             };
             if self.task.holes == HoleRule::Close {
@@ -171,7 +170,7 @@ impl<'a> Sides<'a> {
     /// For each side the cuts that were asked for: number, hole, ends.
     fn asked_cuts(&self) -> [Vec<(usize, usize, [DVec2; 2])>; 2] {
         Side::BOTH.map(|side| {
-            let region = self.task.regions[side.index()];
+            let region = self.task.regions[side];
             let here = self.task.cuts.iter().filter(|(_, cut)| cut.side == side);
             let mut asked: Vec<(usize, usize, [DVec2; 2])> = Vec::new();
             for &(number, cut) in here {
@@ -201,7 +200,7 @@ impl<'a> Sides<'a> {
         fixed
     }
 
-    fn largest_first(&self, side: usize, holes: &[usize]) -> Vec<usize> {
+    fn largest_first(&self, side: Side, holes: &[usize]) -> Vec<usize> {
         let area = |hole: usize| self.task.regions[side].holes[hole].signed_area();
         let mut holes = holes.to_vec();
         holes.sort_by(|&a, &b| area(a).total_cmp(&area(b))); // clockwise: negative
@@ -209,13 +208,13 @@ impl<'a> Sides<'a> {
     }
 
     /// The holes that the walk does not go around, with their numbers.
-    fn closed_holes(&self, side: usize) -> (Vec<usize>, Vec<&'a Ring>) {
+    fn closed_holes(&self, side: Side) -> (Vec<usize>, Vec<&'a Ring>) {
         let holes = self.task.regions[side].holes.iter().enumerate();
         let closed = holes.filter(|(k, _)| !self.opened[side].contains(k));
         closed.unzip()
     }
 
-    fn open_asked(&mut self, side: usize, hole: usize, ends: [DVec2; 2]) -> Option<[DVec2; 2]> {
+    fn open_asked(&mut self, side: Side, hole: usize, ends: [DVec2; 2]) -> Option<[DVec2; 2]> {
         let (numbers, holes) = self.closed_holes(side);
         let at = numbers.iter().position(|&k| k == hole)?;
         let (walk, slit) = cut::asked(&self.walks[side], &holes, at, ends)?;
@@ -226,14 +225,14 @@ impl<'a> Sides<'a> {
 
     /// Opens a hole where the rules say so, or where that matches better than
     /// closing it.
-    fn open_if_better(&mut self, side: usize, hole: usize, forced: bool) -> Option<[DVec2; 2]> {
+    fn open_if_better(&mut self, side: Side, hole: usize, forced: bool) -> Option<[DVec2; 2]> {
         let rule = self.task.holes;
         if rule == HoleRule::Close && !forced {
             return None;
         }
         let (numbers, holes) = self.closed_holes(side);
         let at = numbers.iter().position(|&k| k == hole)?;
-        let other = self.walks[1 - side].curve().ok()?;
+        let other = self.walks[side.other()].curve().ok()?;
         let opened = cut::best(&self.walks[side], &holes, at, &other, &self.task.options)?;
         if rule == HoleRule::Auto && !forced {
             let blunt = self.coarse_cost(side, &other)?;
@@ -247,7 +246,7 @@ impl<'a> Sides<'a> {
         Some(opened.slit.ends)
     }
 
-    fn coarse_cost(&self, side: usize, other: &Curve) -> Option<f64> {
+    fn coarse_cost(&self, side: Side, other: &Curve) -> Option<f64> {
         let curve = self.walks[side].curve().ok()?;
         let coarse = cut::coarse(&self.task.options);
         let matched = match_curves(&curve, other, &[], &coarse).ok()?;
@@ -255,19 +254,23 @@ impl<'a> Sides<'a> {
     }
 
     fn curves(&self) -> Result<[Curve; 2], RegionMatchError> {
-        let curve = |side: usize| self.walks[side].curve().map_err(MatchError::from);
-        Ok([curve(0)?, curve(1)?])
+        let curve = |side: Side| self.walks[side].curve().map_err(MatchError::from);
+        Ok([curve(Side::Source)?, curve(Side::Target)?])
     }
 
     /// The match of the walks as they are now.
     fn outer_match(&self) -> Result<BoundaryMatch, RegionMatchError> {
         let curves = self.curves()?;
         let is_outer =
-            |side: usize, ring: usize| ring == 0 || self.opened[side].contains(&(ring - 1));
+            |side: Side, ring: usize| ring == 0 || self.opened[side].contains(&(ring - 1));
         let pins: Vec<&PinHere> = self
             .pins
             .iter()
-            .filter(|pin| (0..2).all(|side| is_outer(side, pin.rings[side])))
+            .filter(|pin| {
+                Side::BOTH
+                    .iter()
+                    .all(|&side| is_outer(side, pin.rings[side]))
+            })
             .collect();
         self.with_pins(&pins, &curves, |pins| {
             match_curves(&curves[0], &curves[1], pins, &self.task.options)
@@ -283,10 +286,7 @@ impl<'a> Sides<'a> {
     ) -> Result<BoundaryMatch, RegionMatchError> {
         let places: Vec<Pin> = pins
             .iter()
-            .map(|pin| Pin {
-                source: curves[0].nearest(pin.points[0]),
-                target: curves[1].nearest(pin.points[1]),
-            })
+            .map(|pin| Pin::of(|side| curves[side].nearest(pin.points[side])))
             .collect();
         let number = |k: usize| pins.get(k).map_or(k, |pin| pin.index);
         run(&places).map_err(|error| match error {
@@ -298,9 +298,15 @@ impl<'a> Sides<'a> {
     fn outer_ring(&self, matched: &BoundaryMatch) -> Result<RingMatch, RegionMatchError> {
         let curves = self.curves()?;
         let mut shared = matched.polygons(&curves[0], &curves[1], &spaced(1.0));
-        for side in 0..2 {
+        for side in Side::BOTH {
             for &slit in &self.walks[side].slits {
-                mirror(&mut shared, side, &curves[side], slit, &curves[1 - side]);
+                mirror(
+                    &mut shared,
+                    side,
+                    &curves[side],
+                    slit,
+                    &curves[side.other()],
+                );
             }
         }
         Ok(ring_of(shared))
@@ -331,54 +337,40 @@ impl<'a> Sides<'a> {
         let matched = self.with_pins(&pins, &curves, |pins| {
             match_curves(&posed[0], &posed[1], pins, &self.task.options)
         })?;
-        let share = |side: usize| holes[side].perimeter() / self.walks[side].ring.perimeter();
-        let options = spaced(0.5 * (share(0) + share(1)));
+        let share = |side: Side| holes[side].perimeter() / self.walks[side].ring.perimeter();
+        let options = spaced(0.5 * (share(Side::Source) + share(Side::Target)));
         Ok(ring_of(matched.polygons(&curves[0], &curves[1], &options)))
     }
 
     /// What is alone and was not opened closes to a point.
     fn closing_rings(&self, rings: &mut Vec<RingMatch>, rotation: f64) {
         let paired = rings.len() - 1;
-        for side in 0..2 {
+        for side in Side::BOTH {
             let mut taken = Vec::new();
             for hole in self.unpaired(side, rings, paired) {
                 let (from, to) = (&rings[0].source, &rings[0].target);
-                let outer = match side {
-                    0 => Vertices { from, to },
-                    _ => Vertices { from: to, to: from },
+                let (outer, turn) = match side {
+                    Side::Source => (Vertices { from, to }, rotation),
+                    Side::Target => (Vertices { from: to, to: from }, -rotation),
                 };
-                let turn = if side == 0 { rotation } else { -rotation };
                 let hole = self.divided(side, hole);
-                let part = self.task.regions[1 - side];
+                let part = self.task.regions[side.other()];
                 let point = point_ring(&hole, &outer, part, &taken, turn);
                 taken.extend(point.first());
                 let whole = hole.points().to_vec();
-                rings.push(if side == 0 {
-                    RingMatch {
-                        source: whole,
-                        target: point,
-                        kind: RingKind::Closes,
-                    }
-                } else {
-                    RingMatch {
-                        source: point,
-                        target: whole,
-                        kind: RingKind::Opens,
-                    }
-                });
+                rings.push(RingMatch::alone(side, whole, point));
             }
         }
     }
 
     /// Holes that neither the walk goes around nor a pair holds.
-    fn unpaired(&self, side: usize, rings: &[RingMatch], paired: usize) -> Vec<&'a Ring> {
+    fn unpaired(&self, side: Side, rings: &[RingMatch], paired: usize) -> Vec<&'a Ring> {
         let (_, holes) = self.closed_holes(side);
         let held = |hole: &Ring| {
             rings[1..=paired].iter().any(|ring| {
-                let points = if side == 0 {
-                    &ring.source
-                } else {
-                    &ring.target
+                let points = match side {
+                    Side::Source => &ring.source,
+                    Side::Target => &ring.target,
                 };
                 points.contains(&hole.points()[0])
             })
@@ -387,7 +379,7 @@ impl<'a> Sides<'a> {
     }
 
     /// The ring with its long edges divided.
-    fn divided(&self, side: usize, ring: &Ring) -> Ring {
+    fn divided(&self, side: Side, ring: &Ring) -> Ring {
         let outer = self.walks[side].ring.perimeter();
         let longest = (SPACING * outer).min(ring.perimeter() / LEAST_VERTICES);
         let mut points = Vec::new();

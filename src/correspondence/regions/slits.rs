@@ -6,7 +6,7 @@
 
 use super::super::curve::Curve;
 use super::super::polygons::SharedPolygons;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, Side};
 
 /// Vertices of the two passages nearer than this share of the slit divided by
 /// their number become one.
@@ -32,7 +32,7 @@ struct Rung {
 /// was cut, with its walk's `curve`; `other` is the other design's curve.
 pub(super) fn mirror(
     shared: &mut SharedPolygons,
-    side: usize,
+    side: Side,
     curve: &Curve,
     slit: [DVec2; 2],
     other: &Curve,
@@ -67,7 +67,7 @@ fn passages(curve: &Curve, [a, b]: [DVec2; 2]) -> Option<[[f64; 2]; 2]> {
 }
 
 /// The vertices strictly inside a passage, from the slit's outer end on.
-fn stops(shared: &SharedPolygons, side: usize, [from, to]: [f64; 2], is_back: bool) -> Vec<Stop> {
+fn stops(shared: &SharedPolygons, side: Side, [from, to]: [f64; 2], is_back: bool) -> Vec<Stop> {
     let mut stops: Vec<Stop> = shared
         .places
         .iter()
@@ -144,7 +144,7 @@ struct Added {
 #[expect(clippy::too_many_arguments, reason = "one step of `mirror`")]
 fn place_passage(
     shared: &mut SharedPolygons,
-    side: usize,
+    side: Side,
     curve: &Curve,
     [a, b]: [DVec2; 2],
     other: &Curve,
@@ -179,7 +179,7 @@ fn place_passage(
 /// that the passage has, its ends among them, by the share.
 fn anchors(
     shared: &SharedPolygons,
-    side: usize,
+    side: Side,
     curve: &Curve,
     [from, to]: [f64; 2],
     rungs: &[Rung],
@@ -190,11 +190,11 @@ fn anchors(
         let apart = |k: &usize| (shared.places[*k][side] - wrapped).abs();
         (0..shared.places.len())
             .min_by(|j, k| apart(j).total_cmp(&apart(k)))
-            .map_or(0.0, |k| shared.places[k][1 - side])
+            .map_or(0.0, |k| shared.places[k][side.other()])
     };
     let inner = |rung: &Rung| {
         let vertex = rung.there[way]?;
-        Some([rung.along, shared.places[vertex][1 - side]])
+        Some([rung.along, shared.places[vertex][side.other()]])
     };
     let ends = if way == 0 { [from, to] } else { [to, from] };
     let mut known = vec![[0.0, at(ends[0])]];
@@ -223,16 +223,15 @@ fn interpolated(known: &[[f64; 2]], along: f64) -> f64 {
     from[1] + (along - from[0]) / (to[0] - from[0]) * (to[1] - from[1])
 }
 
-fn points_of(shared: &mut SharedPolygons, side: usize) -> &mut Vec<DVec2> {
-    if side == 0 {
-        &mut shared.source
-    } else {
-        &mut shared.target
+fn points_of(shared: &mut SharedPolygons, side: Side) -> &mut Vec<DVec2> {
+    match side {
+        Side::Source => &mut shared.source,
+        Side::Target => &mut shared.target,
     }
 }
 
 /// Inserts the new vertices in the walk's order.
-fn insert(shared: &mut SharedPolygons, side: usize, curve: &Curve, mut added: Vec<Added>) {
+fn insert(shared: &mut SharedPolygons, side: Side, curve: &Curve, mut added: Vec<Added>) {
     let first = shared.places.first().map_or(0.0, |place| place[side]);
     let ahead = |place: f64| curve.wrapped(place - first);
     added.sort_by(|a, b| ahead(a.places[side]).total_cmp(&ahead(b.places[side])));

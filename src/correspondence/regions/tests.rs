@@ -1,8 +1,8 @@
 //! Whole designs matched: parts, holes, cuts.
 
 use super::*;
-use crate::correspondence::{HoleRule, PartRule, PointPair, Side};
-use crate::geometry::{FillRule, Ring};
+use crate::correspondence::{HoleRule, PartRule, PointPair};
+use crate::geometry::{FillRule, Ring, Side};
 use crate::progress::Silent;
 
 fn block(x: f64, y: f64, w: f64, h: f64) -> Vec<DVec2> {

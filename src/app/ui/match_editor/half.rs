@@ -12,9 +12,9 @@ use super::super::Scene;
 use super::super::theme::{GRID, Palette};
 use super::boundary;
 use crate::app::editor::{Editor, Fate, Sheet, SheetPiece, SheetRing, Tool, Touch, spans};
-use crate::correspondence::{RingKind, Side};
+use crate::correspondence::RingKind;
 use crate::design::Picture;
-use crate::geometry::{Bounds, DVec2};
+use crate::geometry::{Bounds, DVec2, Side};
 use crate::transition::{Rgb, Style};
 
 /// How near the pointer must come, in points.
@@ -151,8 +151,7 @@ impl Half {
     /// The picture that the design came as, where pictures are what is seen.
     fn picture(&self, painter: &Painter, sheet: &Sheet) {
         let sides = sheet.sides.as_ref().filter(|_| sheet.in_colours());
-        let Some(picture) = sides.and_then(|sides| sides[self.side.index()].picture.as_ref())
-        else {
+        let Some(picture) = sides.and_then(|sides| sides[self.side].picture.as_ref()) else {
             return;
         };
         let texture = backdrop(painter, self.side, picture);
@@ -192,7 +191,7 @@ impl Half {
             Side::Target => mesh.target(),
         };
         let points: Vec<Pos2> = points.iter().map(|p| self.px(*p)).collect();
-        let colour = inks.fills[self.side.index()];
+        let colour = inks.fills[self.side];
         let mut filled = Mesh::default();
         for p in &points {
             filled.colored_vertex(*p, colour);
@@ -215,9 +214,8 @@ impl Half {
     }
 
     fn boundaries(&self, painter: &Painter, sheet: &Sheet, inks: &Inks) {
-        let index = self.side.index();
         if sheet.rings.is_empty() {
-            let parts = sheet.sides.as_ref().map(|sides| &sides[index].parts);
+            let parts = sheet.sides.as_ref().map(|sides| &sides[self.side].parts);
             for ring in parts.into_iter().flatten().flatten() {
                 let stroke = Stroke::new(2.0, inks.faint);
                 painter.add(Shape::closed_line(self.line(ring), stroke));
@@ -226,7 +224,7 @@ impl Half {
         for (k, ring) in sheet.rings.iter().enumerate() {
             let piece = sheet.pieces.get(ring.piece);
             let is_alone = piece.is_some_and(|piece| piece.fate != Fate::Paired);
-            let points = self.line(&ring.sides[index]);
+            let points = self.line(&ring.sides[self.side]);
             if ring.kind == RingKind::Matched && !is_alone {
                 boundary::stripe(painter, &points, &ring.places, k, inks.is_light);
             } else {
@@ -249,13 +247,12 @@ impl Half {
             (RingKind::Opens, Side::Target) => "opens",
             _ => return,
         };
-        let bounds = Rect::from_points(&self.line(&ring.sides[self.side.index()]));
+        let bounds = Rect::from_points(&self.line(&ring.sides[self.side]));
         tag(painter, bounds.center(), word, inks, false);
     }
 
     /// Lines across a piece that has no partner.
     fn hatch(&self, painter: &Painter, sheet: &Sheet, piece: usize, colour: Color32) {
-        let index = self.side.index();
         // Turned by an eighth, so that the lines run level.
         let turned = |p: &DVec2| {
             let p = self.px(*p);
@@ -265,7 +262,7 @@ impl Half {
             .rings
             .iter()
             .filter(|ring| ring.piece == piece)
-            .map(|ring| ring.sides[index].iter().map(turned).collect())
+            .map(|ring| ring.sides[self.side].iter().map(turned).collect())
             .collect();
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
             return;
@@ -291,10 +288,7 @@ impl Half {
     fn parts(&self, painter: &Painter, scene: &Scene, inks: &Inks) {
         let (sheet, editor) = (&scene.sheet, &scene.editor);
         let outline = |part: usize, width: f32| {
-            let parts = sheet
-                .sides
-                .as_ref()
-                .map(|sides| &sides[self.side.index()].parts);
+            let parts = sheet.sides.as_ref().map(|sides| &sides[self.side].parts);
             for ring in parts
                 .and_then(|parts| parts.get(part))
                 .into_iter()
@@ -320,7 +314,7 @@ impl Half {
                 (Fate::Born, true) => format!("{} is born", piece.name),
                 _ => piece.name.clone(),
             };
-            let at = self.px(piece.at[self.side.index()]) + self.beside(sheet, k);
+            let at = self.px(piece.at[self.side]) + self.beside(sheet, k);
             tag(painter, at, &word, inks, piece.is_linked);
         }
     }
@@ -329,7 +323,7 @@ impl Half {
     fn beside(&self, sheet: &Sheet, piece: usize) -> Vec2 {
         const ROOMY: f32 = 56.0;
         let rings = sheet.rings.iter().filter(|ring| ring.piece == piece);
-        let points = rings.flat_map(|ring| self.line(&ring.sides[self.side.index()]));
+        let points = rings.flat_map(|ring| self.line(&ring.sides[self.side]));
         let bounds = Rect::from_points(&points.collect::<Vec<_>>());
         if bounds.size().max_elem() < ROOMY {
             vec2(0.0, -bounds.height() / 2.0 - 14.0)
@@ -342,7 +336,7 @@ impl Half {
         let name = scene
             .session
             .transition()
-            .map(|t| t.designs()[self.side.index()].name.clone())
+            .map(|t| t.designs()[self.side].name.clone())
             .unwrap_or_default();
         let role = match self.side {
             Side::Source => "Source",

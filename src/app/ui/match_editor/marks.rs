@@ -9,8 +9,7 @@ use super::super::theme::GRID;
 use super::super::verdict::first_upper;
 use super::half::{Half, Inks};
 use crate::app::editor::{CutEnd, Editor, Grab, Handle, Sheet};
-use crate::correspondence::Side;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, Side};
 
 const PIN_RADIUS: f32 = 8.5;
 const FEATURE_RADIUS: f32 = 7.0;
@@ -168,7 +167,7 @@ fn problem_card(painter: &Painter, scene: &Scene, halves: &[Half; 2], problem: &
     const WIDTH: f32 = 240.0;
     let editor = &scene.editor;
     let side = editor.grabbed.map_or(Side::Source, |(side, _)| side);
-    let half = &halves[side.index()];
+    let half = &halves[side];
     let faulty = scene.sheet.faulty.last().map(|k| Handle::Pin(*k));
     let held = editor
         .selected

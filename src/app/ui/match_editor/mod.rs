@@ -20,8 +20,8 @@ use super::theme::GRID;
 use super::{Intents, Scene};
 use crate::app::editor::{EditorAct, SheetSide, Tool};
 use crate::app::intent::Intent;
-use crate::correspondence::Side;
 use crate::design::Picture;
+use crate::geometry::Side;
 use half::{Half, Inks};
 
 pub use bar::HEIGHT as BAR_HEIGHT;
@@ -68,7 +68,7 @@ fn halves(scene: &Scene, stage: Rect, sides: &[SheetSide; 2]) -> [Half; 2] {
             rect.min + vec2(3.0 * GRID, BAR_HEIGHT + 4.0 * GRID),
             rect.max - vec2(3.0 * GRID, ADVICE_HEIGHT + GRID),
         );
-        let design = &sides[side.index()];
+        let design = &sides[side];
         let picture = design.picture.as_ref().filter(|_| scene.sheet.in_colours());
         let bounds = picture.map_or(design.bounds, Picture::bounds);
         Half::new(side, rect, room, bounds, &scene.editor)
