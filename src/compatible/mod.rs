@@ -169,9 +169,7 @@ impl CompatibleMesh {
     /// The larger of the two embeddings' diameters.
     #[must_use]
     pub fn diameter(&self) -> f64 {
-        let of =
-            |points: &[DVec2]| Bounds::of(points.iter().copied()).map_or(0.0, |b| b.diameter());
-        of(&self.source).max(of(&self.target))
+        Bounds::diameter_of(&self.source).max(Bounds::diameter_of(&self.target))
     }
 
     /// How much the map between the embeddings distorts shapes: the mean of

@@ -8,7 +8,7 @@
 
 use super::{CompatibleMesh, PolygonOptions, PolygonsError};
 use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch};
-use crate::geometry::{Bounds, DVec2, Ring};
+use crate::geometry::{Bounds, DVec2, signed_area, winding};
 use crate::progress::Progress;
 use rayon::prelude::*;
 
@@ -134,14 +134,11 @@ fn surrounding(
     side: usize,
 ) -> Option<usize> {
     let p = rings[outer][side][0];
-    let encloses = |ring: usize| {
-        let ring = Ring::new(rings[ring][side].clone()).ok()?;
-        Some(ring.winding(p) != 0)
-    };
+    let encloses = |ring: usize| winding(&rings[ring][side], p) != 0;
     let mut depth = 0_usize;
     for part in parts {
         let own = part.0[0].0;
-        depth += usize::from(own != outer && encloses(own)?);
+        depth += usize::from(own != outer && encloses(own));
     }
     // The smallest hole around it; holes of one depth do not overlap.
     let mut around = 0;
@@ -149,12 +146,9 @@ fn surrounding(
     let mut holes = 0_usize;
     for (k, void) in voids.iter().enumerate().skip(1) {
         let ring = void.0[0].0;
-        if encloses(ring)? {
+        if encloses(ring) {
             holes += 1;
-            let area = Ring::new(rings[ring][side].clone())
-                .ok()?
-                .signed_area()
-                .abs();
+            let area = signed_area(&rings[ring][side]).abs();
             if area < least {
                 (around, least) = (k, area);
             }
@@ -201,7 +195,7 @@ fn sewn(
 mod tests {
     use super::*;
     use crate::correspondence::{HoleRule, Matching, match_regions};
-    use crate::geometry::{FillRule, Regions, twice_signed_area};
+    use crate::geometry::{FillRule, Regions, Ring, twice_signed_area};
     use crate::progress::Silent;
 
     const FRAME: Bounds = Bounds {

@@ -29,7 +29,7 @@ mod pieces;
 mod polygon;
 
 use crate::design::Truss;
-use crate::geometry::{DVec2, Pair, Side};
+use crate::geometry::{DVec2, Pair, Side, signed_area};
 use pieces::Pieces;
 use std::collections::HashMap;
 
@@ -161,7 +161,10 @@ fn with_kept(bars: &[[u32; 2]], pair: Nodes, kept: &[bool]) -> Result<Panels, Tr
 
 /// A single panel that is turned over is reported when its turn comes.
 fn check_sides(cycles: &[Vec<u32>], pair: Nodes) -> Result<(), TrussError> {
-    let turned = |cycle: &Vec<u32>| polygon::area(cycle, pair.target) < 0.0;
+    let turned = |cycle: &Vec<u32>| {
+        let corners = cycle.iter().map(|&node| pair.target[node as usize]);
+        signed_area(&corners.collect::<Vec<_>>()) < 0.0
+    };
     if !cycles.is_empty() && cycles.iter().all(turned) {
         return Err(TrussError::Mirrored);
     }

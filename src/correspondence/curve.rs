@@ -8,7 +8,7 @@
 //! it, both over a stated length of the curve. Means over the *unwrapped*
 //! direction know no jump at ±π, and jitter of the outline cancels in them.
 
-use crate::geometry::{Bounds, DVec2, Ring};
+use crate::geometry::{Bounds, DVec2, Ring, along_segment};
 use std::f64::consts::TAU;
 
 /// A polyline, closed or open, that knows its places by arc length.
@@ -183,8 +183,7 @@ impl Curve {
     /// distance and place, if it is nearer than `best`.
     fn nearer(&self, best: (f64, f64), p: DVec2, e: usize, [low, high]: [f64; 2]) -> (f64, f64) {
         let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
-        let edge = to - from;
-        let along = ((p - from).dot(edge) / edge.length_squared()).clamp(low, high);
+        let along = along_segment(p, from, to).clamp(low, high);
         let distance = p.distance_squared(from.lerp(to, along));
         if distance < best.0 {
             let [start, end] = [self.places[e], self.places[e + 1]];

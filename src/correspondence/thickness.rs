@@ -9,7 +9,7 @@
 //! to rounding. Open lines have no inside; theirs is the same everywhere.
 
 use super::curve::Curve;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, signed_area};
 use std::f64::consts::FRAC_PI_6;
 
 /// Rays at these multiples of 30° from the inward normal. At a tip those
@@ -28,7 +28,7 @@ pub(super) fn log_thickness(curve: &Curve, places: &[(f64, f64)]) -> Vec<f64> {
         return vec![0.0; places.len()];
     }
     let points = curve.points();
-    let size = area(points).abs().sqrt();
+    let size = signed_area(points).abs().sqrt();
     if !(size.is_finite() && size > 0.0) {
         return vec![0.0; places.len()];
     }
@@ -80,13 +80,6 @@ fn ray(points: &[DVec2], from: DVec2, direction: DVec2, own: f64) -> f64 {
         }
     }
     nearest
-}
-
-fn area(points: &[DVec2]) -> f64 {
-    let base = points[0];
-    let pairs = points.windows(2);
-    let twice: f64 = pairs.map(|p| (p[0] - base).perp_dot(p[1] - base)).sum();
-    0.5 * twice
 }
 
 #[cfg(test)]

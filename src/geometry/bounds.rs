@@ -28,6 +28,12 @@ impl Bounds {
         }))
     }
 
+    /// The diameter of the smallest box around the points; 0 for none.
+    #[must_use]
+    pub fn diameter_of(points: &[DVec2]) -> f64 {
+        Self::of(points.iter().copied()).map_or(0.0, |bounds| bounds.diameter())
+    }
+
     /// The box that holds one point.
     #[must_use]
     pub const fn at(p: DVec2) -> Self {

@@ -12,6 +12,7 @@ mod predicates;
 mod region;
 mod repair;
 mod ring;
+mod segment;
 mod similarity;
 
 pub use bounds::Bounds;
@@ -21,5 +22,6 @@ pub use polar::{Polar, SymmetricEigen};
 pub use predicates::{orient2d, twice_signed_area};
 pub use region::{FillRule, Region, Regions, RegionsError};
 pub use repair::Repairs;
-pub use ring::{Ring, RingError};
+pub use ring::{Ring, RingError, perimeter, ring_edges, signed_area, winding};
+pub use segment::{along_segment, distance_squared_to_segment, segments_cross, segments_touch};
 pub use similarity::{Similarity, SimilarityError};

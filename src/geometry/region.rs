@@ -22,6 +22,25 @@ pub struct Region {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regions(Vec<Region>);
 
+impl Region {
+    /// The outer ring, then the holes.
+    pub fn rings(&self) -> impl Iterator<Item = &Ring> {
+        std::iter::once(&self.outer).chain(&self.holes)
+    }
+
+    /// Enclosed area, holes left out.
+    #[must_use]
+    pub fn area(&self) -> f64 {
+        self.outer.signed_area() + self.holes.iter().map(Ring::signed_area).sum::<f64>()
+    }
+
+    /// Whether `p` lies inside; on a boundary either answer may come.
+    #[must_use]
+    pub fn contains(&self, p: DVec2) -> bool {
+        self.rings().map(|ring| ring.winding(p)).sum::<i32>() != 0
+    }
+}
+
 /// Which points a set of rings encloses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FillRule {
@@ -127,9 +146,7 @@ impl Regions {
 
     /// All rings: each outer one followed by its holes.
     pub fn rings(&self) -> impl Iterator<Item = &Ring> {
-        self.0
-            .iter()
-            .flat_map(|r| std::iter::once(&r.outer).chain(&r.holes))
+        self.0.iter().flat_map(Region::rings)
     }
 
     /// Enclosed area, holes left out.

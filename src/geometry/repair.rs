@@ -8,7 +8,7 @@
 //!
 //! Not counted: edges that meet in corners of both. Outlines may touch so.
 
-use super::{DVec2, orient2d};
+use super::{DVec2, orient2d, ring_edges};
 use std::collections::HashSet;
 
 /// What cleaning had to repair.
@@ -165,8 +165,7 @@ impl Edge {
 }
 
 fn edges(ring: &[DVec2]) -> impl Iterator<Item = Edge> + '_ {
-    let next = ring.iter().skip(1).chain(ring.first());
-    ring.iter().zip(next).map(|(&a, &b)| Edge { a, b })
+    ring_edges(ring).map(|(a, b)| Edge { a, b })
 }
 
 /// The points at which the ring turns, and how many others there are. The

@@ -1,6 +1,6 @@
 //! Closed polygons.
 
-use super::{Bounds, DVec2};
+use super::{Bounds, DVec2, distance_squared_to_segment};
 
 /// A closed polygon of at least three finite points; the last point is joined
 /// to the first and does not repeat it.
@@ -56,25 +56,26 @@ impl Ring {
 
     /// The edges in order, the closing one last.
     pub fn edges(&self) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
-        let next = self.0.iter().skip(1).chain(self.0.first());
-        self.0.iter().copied().zip(next.copied())
+        ring_edges(&self.0)
     }
 
     /// The enclosed area, negative when the points run clockwise.
     #[must_use]
     pub fn signed_area(&self) -> f64 {
-        let origin = self.0[0]; // relative to a vertex: no cancellation far from zero
-        let twice: f64 = self
-            .edges()
-            .map(|(a, b)| (a - origin).perp_dot(b - origin))
-            .sum();
-        0.5 * twice
+        signed_area(&self.0)
     }
 
     /// Length of the closed boundary.
     #[must_use]
     pub fn perimeter(&self) -> f64 {
-        self.edges().map(|(a, b)| a.distance(b)).sum()
+        perimeter(&self.0)
+    }
+
+    /// The squared distance of `p` from the boundary.
+    #[must_use]
+    pub fn distance_squared(&self, p: DVec2) -> f64 {
+        let to_edge = |(a, b)| distance_squared_to_segment(p, a, b);
+        self.edges().map(to_edge).fold(f64::INFINITY, f64::min)
     }
 
     /// The same polygon run the other way.
@@ -96,20 +97,55 @@ impl Ring {
     /// How often the ring winds around `p`, counter-clockwise positive.
     #[must_use]
     pub fn winding(&self, p: DVec2) -> i32 {
-        self.edges()
-            .map(|(a, b)| {
-                let side = (b - a).perp_dot(p - a);
-                match (a.y <= p.y, b.y <= p.y) {
-                    (true, false) if side > 0.0 => 1,
-                    (false, true) if side < 0.0 => -1,
-                    _ => 0,
-                }
-            })
-            .sum()
+        winding(&self.0, p)
     }
 
     /// Every point sent through `map`, which must keep coordinates finite.
     pub(crate) fn mapped(&self, map: impl Fn(DVec2) -> DVec2) -> Self {
         Self(self.0.iter().map(|&p| map(p)).collect())
     }
+}
+
+/// The edges of a closed polygon in order, the closing one last.
+pub fn ring_edges(points: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
+    let next = points.iter().skip(1).chain(points.first());
+    points.iter().copied().zip(next.copied())
+}
+
+/// The area that a closed polygon encloses, negative when its points run
+/// clockwise; 0 for no points.
+///
+/// ```
+/// use morphospace::geometry::{DVec2, signed_area};
+/// assert_eq!(signed_area(&[DVec2::ZERO, DVec2::X, DVec2::Y]), 0.5);
+/// ```
+#[must_use]
+pub fn signed_area(points: &[DVec2]) -> f64 {
+    // Relative to a vertex: no cancellation far from zero.
+    let origin = points.first().copied().unwrap_or_default();
+    let twice: f64 = ring_edges(points)
+        .map(|(a, b)| (a - origin).perp_dot(b - origin))
+        .sum();
+    0.5 * twice
+}
+
+/// The length of a closed polygon's boundary.
+#[must_use]
+pub fn perimeter(points: &[DVec2]) -> f64 {
+    ring_edges(points).map(|(a, b)| a.distance(b)).sum()
+}
+
+/// How often a closed polygon winds around `p`, counter-clockwise positive;
+/// on the boundary either answer may come.
+#[must_use]
+pub fn winding(points: &[DVec2], p: DVec2) -> i32 {
+    let crossing = |(a, b): (DVec2, DVec2)| {
+        let side = (b - a).perp_dot(p - a);
+        match (a.y <= p.y, b.y <= p.y) {
+            (true, false) if side > 0.0 => 1,
+            (false, true) if side < 0.0 => -1,
+            _ => 0,
+        }
+    };
+    ring_edges(points).map(crossing).sum()
 }

@@ -4,6 +4,8 @@
 //! Guaranteed: an edge has one face or two, and two run it in opposite
 //! directions. Vertices where several fans of faces touch are allowed.
 
+use super::components::components;
+
 /// Twins of the half-edges of a list of faces.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Connectivity {
@@ -68,27 +70,15 @@ impl Connectivity {
     /// not join.
     #[must_use]
     pub fn dual_components(&self) -> Vec<u32> {
-        let faces = self.twins.len() / 3;
-        let mut label = vec![NONE; faces];
-        let mut count = 0;
-        let mut stack = Vec::new();
-        for seed in 0..faces {
-            if label[seed] != NONE {
-                continue;
-            }
-            label[seed] = count;
-            stack.push(seed);
-            while let Some(face) = stack.pop() {
-                for other in (0..3).filter_map(|k| self.neighbour(face, k)) {
-                    if label[other] == NONE {
-                        label[other] = count;
-                        stack.push(other);
-                    }
-                }
-            }
-            count += 1;
-        }
-        label
+        let pairs = self
+            .twins
+            .iter()
+            .zip(0..)
+            .filter(|(twin, _)| **twin != NONE);
+        components(
+            self.twins.len() / 3,
+            pairs.map(|(twin, h)| [twin / 3, h / 3]),
+        )
     }
 
     /// The closed boundary walks as vertex indices, in the direction in which

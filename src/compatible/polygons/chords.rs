@@ -8,8 +8,7 @@
 //! is all that is promised; a chord valid in both costs nothing, so that two
 //! equal polygons end without crossings.
 
-use super::touching::segments_touch;
-use crate::geometry::{DVec2, orient2d};
+use crate::geometry::{DVec2, orient2d, segments_touch};
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 
 /// Up to so many vertices crossings are minimised, in O(n³); beyond, both

@@ -10,8 +10,7 @@
 
 use super::face;
 use super::piece::Rings;
-use super::touching::segments_touch;
-use crate::geometry::{DVec2, orient2d};
+use crate::geometry::{DVec2, orient2d, segments_touch};
 use std::collections::HashSet;
 
 /// Edges of the stretches that are tried, longest first.

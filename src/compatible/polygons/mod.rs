@@ -267,16 +267,12 @@ fn badness(mesh: &PairMesh) -> f64 {
 
 /// A power of two, so that scaling is exact, that brings the diameter near 1.
 fn to_unit(points: &[DVec2]) -> f64 {
-    let size = diameter(points);
+    let size = Bounds::diameter_of(points);
     if size.is_normal() {
         (-size.log2().round()).exp2()
     } else {
         1.0
     }
-}
-
-fn diameter(points: &[DVec2]) -> f64 {
-    Bounds::of(points.iter().copied()).map_or(0.0, |bounds| bounds.diameter())
 }
 
 /// The most inner vertices that a refinement may make.

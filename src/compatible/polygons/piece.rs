@@ -3,7 +3,7 @@
 
 use super::error::{PolygonsError, RingEdge};
 use super::touching::touching_edges;
-use crate::geometry::{DVec2, Side, twice_signed_area};
+use crate::geometry::{DVec2, Side, signed_area};
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 
 /// Boundary rings, one after the other.
@@ -94,19 +94,14 @@ fn reason(rings: &Rings, walks: &[&[DVec2]], side: Side) -> PolygonsError {
         let edges = edges.map(|edge| rings.place(edge));
         return PolygonsError::NotSimple { side, edges };
     }
-    if doubled_area(walks[0]) < 0.0 {
+    if signed_area(walks[0]) < 0.0 {
         return PolygonsError::Clockwise(side);
     }
-    match (1..walks.len()).find(|&hole| doubled_area(walks[hole]) > 0.0) {
+    match (1..walks.len()).find(|&hole| signed_area(walks[hole]) > 0.0) {
         Some(hole) => PolygonsError::CounterClockwise { side, hole },
         None if walks.len() == 1 => PolygonsError::TooThin,
         None => PolygonsError::HoleOutside(side),
     }
-}
-
-fn doubled_area(walk: &[DVec2]) -> f64 {
-    let pairs = walk.iter().zip(walk.iter().cycle().skip(1));
-    pairs.map(|(&a, &b)| twice_signed_area(walk[0], a, b)).sum()
 }
 
 #[cfg(test)]

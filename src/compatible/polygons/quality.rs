@@ -7,7 +7,7 @@ use super::pair::PairMesh;
 use super::relax::relax;
 use super::transfer::split_chords;
 use super::{PolygonOptions, PolygonsError, checked};
-use crate::geometry::DVec2;
+use crate::geometry::{Bounds, DVec2};
 use crate::progress::Progress;
 use std::collections::HashSet;
 
@@ -162,7 +162,7 @@ fn split_long(mesh: &mut PairMesh, options: &PolygonOptions) {
         return;
     };
     let n = mesh.fixed;
-    let longest = [0, 1].map(|d| 1.5 * share * super::diameter(&mesh.points[d][..n]));
+    let longest = [0, 1].map(|d| 1.5 * share * Bounds::diameter_of(&mesh.points[d][..n]));
     let most = super::most_points(n, options);
     for [a, b] in mesh.inner_edges() {
         let long = (0..2)

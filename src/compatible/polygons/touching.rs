@@ -1,6 +1,6 @@
 //! Where closed walks touch themselves or each other, exactly.
 
-use crate::geometry::{DVec2, orient2d};
+use crate::geometry::{DVec2, orient2d, segments_touch};
 use std::collections::HashSet;
 
 /// The walks' edges, numbered through.
@@ -89,21 +89,6 @@ fn found(edges: &Edges, mut order: Vec<usize>, lenient: bool) -> Option<[usize; 
 /// Whether the path a, b, c returns onto itself or stands still.
 fn folds_back(a: DVec2, b: DVec2, c: DVec2) -> bool {
     a == b || b == c || (orient2d(a, b, c) == 0.0 && (within(b, a, c) || within(b, c, a)))
-}
-
-/// Whether two closed segments have a point in common.
-pub(super) fn segments_touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
-    let boxes_apart = a.max(b).cmplt(c.min(d)).any() || c.max(d).cmplt(a.min(b)).any();
-    if boxes_apart {
-        return false;
-    }
-    let (abc, abd) = (orient2d(a, b, c), orient2d(a, b, d));
-    if (abc > 0.0 && abd > 0.0) || (abc < 0.0 && abd < 0.0) {
-        return false;
-    }
-    let (cda, cdb) = (orient2d(c, d, a), orient2d(c, d, b));
-    // Collinear segments whose boxes meet do touch.
-    !((cda > 0.0 && cdb > 0.0) || (cda < 0.0 && cdb < 0.0))
 }
 
 /// For collinear points: whether `p` lies between `a` and `b`, ends included,

@@ -13,7 +13,7 @@ use super::pair::PairMesh;
 use super::piece::Rings;
 use super::springs::Springs;
 use super::{PolygonOptions, PolygonsError, checked};
-use crate::geometry::{DMat2, DVec2, twice_signed_area};
+use crate::geometry::{Bounds, DMat2, DVec2, twice_signed_area};
 use crate::linalg::{Cholesky, FactorKind, SymmetricMatrix};
 use crate::mesh::triangulation::{Refinement, refined};
 use crate::progress::Progress;
@@ -40,7 +40,7 @@ pub(super) fn transfer(
         min_angle: MIN_ANGLE,
         max_edge: options
             .edge_length
-            .map(|share| share * super::diameter(&from.points)),
+            .map(|share| share * Bounds::diameter_of(&from.points)),
         max_points: super::most_points(from.points.len(), options),
     };
     let Ok(start) = refined(&from.walks(), &refinement) else {

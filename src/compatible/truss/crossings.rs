@@ -1,7 +1,7 @@
 //! Which bars meet away from a common node, and which of them to keep.
 
 use super::Nodes;
-use crate::geometry::{DVec2, orient2d};
+use crate::geometry::{DVec2, orient2d, segments_touch};
 
 /// Pairs of bars, the smaller index first, that cross, touch or lie on each
 /// other in at least one of the designs, other than by ending at one node.
@@ -42,15 +42,7 @@ fn meet(first: [u32; 2], second: [u32; 2], nodes: &[DVec2]) -> bool {
         let (n, p, q) = (at(shared), other(first), other(second));
         return orient2d(n, p, q) == 0.0 && (p - n).dot(q - n) > 0.0;
     }
-    let [a, b] = first.map(at);
-    let [c, d] = second.map(at);
-    let side = |p, q, r| orient2d(p, q, r).partial_cmp(&0.0);
-    let (abc, abd) = (side(a, b, c), side(a, b, d));
-    if abc == abd && abc == Some(std::cmp::Ordering::Equal) {
-        let apart = a.max(b).cmplt(c.min(d)) | c.max(d).cmplt(a.min(b));
-        return !apart.any();
-    }
-    abc != abd && side(c, d, a) != side(c, d, b)
+    segments_touch(first.map(at), second.map(at))
 }
 
 /// Keeps as many bars as the greedy rule leaves: the one with the most

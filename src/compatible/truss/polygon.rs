@@ -6,21 +6,6 @@ use crate::geometry::{DVec2, orient2d};
 /// No triangulation of a part of the polygon.
 const NONE: f64 = -1.0;
 
-/// The area of a cycle of nodes, negative when clockwise.
-pub(super) fn area(cycle: &[u32], nodes: &[DVec2]) -> f64 {
-    let at = |&node: &u32| nodes[node as usize];
-    let Some(origin) = cycle.first().map(at) else {
-        return 0.0;
-    };
-    let next = cycle.iter().cycle().skip(1);
-    let twice: f64 = cycle
-        .iter()
-        .zip(next)
-        .map(|(a, b)| (at(a) - origin).perp_dot(at(b) - origin))
-        .sum();
-    0.5 * twice
-}
-
 /// Triangles between the nodes of a counter-clockwise cycle, all positive in
 /// both designs, with the largest possible smallest angle; `None` if there
 /// are none.

@@ -6,7 +6,6 @@
 //! boundary, the nearest place with room is taken.
 
 use super::POINT_SIZE;
-use super::locate::{distance_squared, rings};
 use crate::geometry::{Bounds, DVec2, Region, Ring};
 
 /// A place keeps at least this share of the best clearance there is.
@@ -97,13 +96,14 @@ fn carried(outer: &Vertices, p: DVec2) -> Option<DVec2> {
 
 /// Places inside a part, halfway from boundary to boundary.
 fn places(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
-    let count: usize = rings(part).map(|ring| ring.points().len()).sum();
+    let count: usize = part.rings().map(|ring| ring.points().len()).sum();
     let step = count.div_ceil(SEARCHED);
-    let edges = rings(part).flat_map(Ring::edges).step_by(step);
+    let edges = part.rings().flat_map(Ring::edges).step_by(step);
     edges.filter_map(move |(a, b)| {
         let inwards = (b - a).perp().normalize_or_zero();
         let from = a.midpoint(b);
-        let depth = rings(part)
+        let depth = part
+            .rings()
             .flat_map(Ring::edges)
             .filter(|edge| *edge != (a, b))
             .filter_map(|edge| hit(from, inwards, edge))
@@ -124,10 +124,10 @@ fn hit(from: DVec2, direction: DVec2, (a, b): (DVec2, DVec2)) -> Option<f64> {
 
 /// Distance to the boundary and to the points taken; 0 outside.
 fn clearance(part: &Region, taken: &[DVec2], p: DVec2) -> f64 {
-    if !super::locate::contains(part, p) {
+    if !part.contains(p) {
         return 0.0;
     }
-    let to_rings = rings(part).map(|ring| distance_squared(ring, p));
+    let to_rings = part.rings().map(|ring| ring.distance_squared(p));
     let to_points = taken.iter().map(|q| q.distance_squared(p));
     to_rings
         .chain(to_points)

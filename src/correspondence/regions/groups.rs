@@ -3,7 +3,7 @@
 use super::super::parts::{Pairing, pair_other_parts, relative_centre};
 use super::super::{Matching, PairError, PartRule, RingCut};
 use super::closing::{centre, shrunk};
-use super::locate::{Pinned, nearest_ring, part_at, rings};
+use super::locate::{Pinned, nearest_ring, part_at};
 use super::piece::{Task, matched};
 use super::split::split;
 use super::{POINT_SIZE, PieceMatch, RegionMatchError, RingMatch};
@@ -258,5 +258,5 @@ fn point_like(region: &Region, side: Side, here: DVec2, moved: DVec2) -> Vec<Rin
         );
         RingMatch::alone(side, whole, point)
     };
-    rings(region).map(ring).collect()
+    region.rings().map(ring).collect()
 }

@@ -2,7 +2,7 @@
 
 use super::super::{Matching, PointPair};
 use super::RegionMatchError;
-use crate::geometry::{DVec2, Region, Regions, Ring};
+use crate::geometry::{DVec2, Regions};
 
 /// A ring of a design: the part, and 0 for its outer ring or 1 + k for hole k.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,8 +47,8 @@ pub(super) fn pins(wanted: &Matching, designs: [&Regions; 2]) -> Vec<Pinned> {
 pub(super) fn nearest_ring(design: &Regions, p: DVec2) -> RingAt {
     let mut best = (f64::INFINITY, RingAt { part: 0, ring: 0 });
     for (part, region) in design.iter().enumerate() {
-        for (ring, outline) in rings(region).enumerate() {
-            let distance = distance_squared(outline, p);
+        for (ring, outline) in region.rings().enumerate() {
+            let distance = outline.distance_squared(p);
             if distance < best.0 {
                 best = (distance, RingAt { part, ring });
             }
@@ -59,24 +59,6 @@ pub(super) fn nearest_ring(design: &Regions, p: DVec2) -> RingAt {
 
 /// The part that a point lies in, else the nearest.
 pub(super) fn part_at(design: &Regions, p: DVec2) -> usize {
-    let inside = design.iter().position(|region| contains(region, p));
+    let inside = design.iter().position(|region| region.contains(p));
     inside.unwrap_or_else(|| nearest_ring(design, p).part)
-}
-
-/// The outer ring, then the holes.
-pub(super) fn rings(region: &Region) -> impl Iterator<Item = &Ring> {
-    std::iter::once(&region.outer).chain(&region.holes)
-}
-
-pub(super) fn contains(region: &Region, p: DVec2) -> bool {
-    rings(region).map(|ring| ring.winding(p)).sum::<i32>() != 0
-}
-
-pub(super) fn distance_squared(ring: &Ring, p: DVec2) -> f64 {
-    let to_edge = |(a, b): (DVec2, DVec2)| {
-        let edge = b - a;
-        let along = ((p - a).dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
-        p.distance_squared(a + along * edge)
-    };
-    ring.edges().map(to_edge).fold(f64::INFINITY, f64::min)
 }

@@ -9,7 +9,6 @@ use super::super::polygons::{PolygonOptions, SharedPolygons};
 use super::super::{HoleRule, RingCut};
 use super::closing::{Vertices, centre, point_ring};
 use super::cut;
-use super::locate::{distance_squared, rings};
 use super::slits::mirror;
 use super::walk::Walk;
 use super::{PieceMatch, RegionMatchError, RingKind, RingMatch};
@@ -128,7 +127,9 @@ fn ring_cut(side: Side, [outer, hole]: [DVec2; 2]) -> RingCut {
 impl<'a> Sides<'a> {
     fn new(task: &'a Task<'a>) -> Self {
         let nearest = |side: Side, p: DVec2| {
-            let distances = rings(task.regions[side]).map(|ring| distance_squared(ring, p));
+            let distances = task.regions[side]
+                .rings()
+                .map(|ring| ring.distance_squared(p));
             let nearest = distances.enumerate().min_by(|a, b| a.1.total_cmp(&b.1));
             nearest.map_or(0, |(ring, _)| ring)
         };
@@ -174,7 +175,7 @@ impl<'a> Sides<'a> {
             let here = self.task.cuts.iter().filter(|(_, cut)| cut.side == side);
             let mut asked: Vec<(usize, usize, [DVec2; 2])> = Vec::new();
             for &(number, cut) in here {
-                let far = |ring: &Ring| distance_squared(ring, cut.hole);
+                let far = |ring: &Ring| ring.distance_squared(cut.hole);
                 let holes = region.holes.iter().map(far).enumerate();
                 let nearest = holes.min_by(|a, b| a.1.total_cmp(&b.1));
                 if let Some((hole, _)) = nearest

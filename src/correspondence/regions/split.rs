@@ -9,9 +9,7 @@
 use super::super::boundary::{MatchOptions, match_curves};
 use super::super::curve::Curve;
 use super::cut::coarse;
-use super::locate::contains;
-use super::walk::touch;
-use crate::geometry::{DVec2, Region, Ring};
+use crate::geometry::{DVec2, Region, Ring, segments_touch};
 
 /// Places of the boundary between which cuts are tried.
 const PLACES: u32 = 56;
@@ -65,10 +63,6 @@ fn middle(region: &Region) -> DVec2 {
     region.outer.bounds().centre()
 }
 
-fn area(region: &Region) -> f64 {
-    region.outer.signed_area() + region.holes.iter().map(Ring::signed_area).sum::<f64>()
-}
-
 /// What a cut is to bring about.
 struct Goal<'a> {
     first: &'a Region,
@@ -79,21 +73,21 @@ struct Goal<'a> {
 }
 
 fn cut_in_two(region: &Region, first: &Region, others: &[&Region]) -> Option<[Region; 2]> {
-    let other_area: f64 = others.iter().map(|r| area(r)).sum();
-    let total = area(first) + other_area;
-    let weigh = |r: &&Region| middle(r) * (area(r) / other_area);
+    let other_area: f64 = others.iter().map(|r| r.area()).sum();
+    let total = first.area() + other_area;
+    let weigh = |r: &&Region| middle(r) * (r.area() / other_area);
     let middle_of_others: DVec2 = others.iter().map(weigh).sum();
     let goal = Goal {
         first,
         others,
-        share: area(first) / total,
+        share: first.area() / total,
         apart: (middle_of_others - middle(first)) / total.sqrt(),
     };
     let mut ranked: Vec<(f64, [Region; 2])> = Vec::new();
     for pieces in cuts(region) {
         let [a, b] = &pieces.1;
         let (straight, swapped) = (rank(&goal, a, b), rank(&goal, b, a));
-        let price = LENGTH * pieces.0 / area(region).sqrt();
+        let price = LENGTH * pieces.0 / region.area().sqrt();
         if straight <= swapped {
             ranked.push((straight + price, pieces.1));
         } else {
@@ -113,8 +107,8 @@ fn cut_in_two(region: &Region, first: &Region, others: &[&Region]) -> Option<[Re
 }
 
 fn rank(goal: &Goal, first: &Region, rest: &Region) -> f64 {
-    let total = area(first) + area(rest);
-    let share = area(first) / total;
+    let total = first.area() + rest.area();
+    let share = first.area() / total;
     let off = (share / goal.share).ln().abs() + ((1.0 - share) / (1.0 - goal.share)).ln().abs();
     let apart = (middle(rest) - middle(first)) / total.sqrt();
     AREA * off + PLACE * apart.distance(goal.apart)
@@ -193,7 +187,7 @@ fn cut_between(
     let pieces = [piece(near), piece(far)];
     pieces
         .iter()
-        .all(|piece| area(piece) > 0.0)
+        .all(|piece| piece.area() > 0.0)
         .then_some(pieces)
 }
 
@@ -201,7 +195,6 @@ fn cut_between(
 fn is_free(region: &Region, a: DVec2, b: DVec2) -> bool {
     const END_SHARE: f64 = 1e-6;
     let short = [a.lerp(b, END_SHARE), b.lerp(a, END_SHARE)];
-    let rings = std::iter::once(&region.outer).chain(&region.holes);
-    let mut edges = rings.flat_map(Ring::edges);
-    contains(region, a.midpoint(b)) && !edges.any(|(p, q)| touch(short, [p, q]))
+    let mut edges = region.rings().flat_map(Ring::edges);
+    region.contains(a.midpoint(b)) && !edges.any(|(p, q)| segments_touch(short, [p, q]))
 }

@@ -2,8 +2,7 @@
 //! slit to a hole, around that and back.
 
 use super::super::curve::{Curve, CurveError};
-use super::locate::distance_squared;
-use crate::geometry::{DVec2, Region, Ring, orient2d};
+use crate::geometry::{DVec2, Region, Ring, along_segment, segments_touch};
 
 /// A closed walk, and the slits it runs along there and back.
 #[derive(Clone, Debug)]
@@ -83,11 +82,11 @@ impl Walk {
         let middle = a.midpoint(b);
         let rings = || std::iter::once(&self.ring).chain(holes.iter().copied());
         let winding: i32 = rings().map(|ring| ring.winding(middle)).sum();
-        let touched = |ring: &Ring| ring.edges().any(|(p, q)| touch(short, [p, q]));
+        let touched = |ring: &Ring| ring.edges().any(|(p, q)| segments_touch(short, [p, q]));
         let length = a.distance(b);
         let is_clear = |&along: &f64| {
             let least = LEAST_CLEARANCE * along.min(1.0 - along) * length;
-            rings().all(|ring| distance_squared(ring, a.lerp(b, along)) >= least * least)
+            rings().all(|ring| ring.distance_squared(a.lerp(b, along)) >= least * least)
         };
         short[0] != short[1]
             && winding == 1
@@ -130,11 +129,10 @@ fn nearest(
         if !allowed((a, b)) {
             continue;
         }
-        let along = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
-        let q = match along {
+        let q = match along_segment(p, a, b) {
             0.0 => a,
             1.0 => b,
-            _ => a.lerp(b, along),
+            along => a.lerp(b, along),
         };
         if p.distance_squared(q) < least {
             least = p.distance_squared(q);
@@ -142,16 +140,6 @@ fn nearest(
         }
     }
     best
-}
-
-/// Whether two segments have a point in common, exactly.
-pub(super) fn touch([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
-    let (low, high) = (a.min(b), a.max(b));
-    if low.cmpgt(c.max(d)).any() || high.cmplt(c.min(d)).any() {
-        return false;
-    }
-    let sides = |p, q, r, s| orient2d(p, q, r) * orient2d(p, q, s) <= 0.0;
-    sides(a, b, c, d) && sides(c, d, a, b)
 }
 
 #[cfg(test)]
