@@ -8,7 +8,7 @@
 use super::{BuildError, TransitionSpec};
 use crate::correspondence::{PieceMatch, RegionMatch, RingKind, match_regions};
 use crate::design::Form;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, signed_area, winding};
 use crate::mesh::TriangleMesh;
 use crate::progress::Progress;
 use crate::warp::{Paths, RingPair};
@@ -90,7 +90,7 @@ fn numbered(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<Ring
         .collect();
     let areas: Vec<[f64; 2]> = rings
         .iter()
-        .map(|ring| [twice_area(&ring.source), twice_area(&ring.target)])
+        .map(|ring| [signed_area(&ring.source), signed_area(&ring.target)])
         .collect();
     let has_one_sense = areas.iter().all(|[a, b]| a * b > 0.0);
     has_one_sense.then(|| parts(rings, &areas))
@@ -109,7 +109,8 @@ fn parts(rings: Vec<RingPair>, areas: &[[f64; 2]]) -> Vec<Vec<RingPair>> {
         }
     }
     for hole in holes {
-        let lies_in = |part: &&mut (f64, Vec<RingPair>)| winds(&part.1[0].source, hole.source[0]);
+        let lies_in =
+            |part: &&mut (f64, Vec<RingPair>)| winding(&part.1[0].source, hole.source[0]) != 0;
         let around = outer
             .iter_mut()
             .filter(lies_in)
@@ -120,28 +121,4 @@ fn parts(rings: Vec<RingPair>, areas: &[[f64; 2]]) -> Vec<Vec<RingPair>> {
         }
     }
     outer.into_iter().map(|(_, part)| part).collect()
-}
-
-fn twice_area(ring: &[DVec2]) -> f64 {
-    let next = ring.iter().cycle().skip(1);
-    let origin = ring.first().copied().unwrap_or_default();
-    ring.iter()
-        .zip(next)
-        .map(|(&a, &b)| (a - origin).perp_dot(b - origin))
-        .sum()
-}
-
-/// Whether a ring winds about a place: crossings of a ray to the right,
-/// counted by their sense.
-fn winds(ring: &[DVec2], p: DVec2) -> bool {
-    let next = ring.iter().cycle().skip(1);
-    let crossing = |(&a, &b): (&DVec2, &DVec2)| {
-        let to_the_left = (b - a).perp_dot(p - a);
-        match (a.y <= p.y, b.y <= p.y) {
-            (true, false) if to_the_left > 0.0 => 1,
-            (false, true) if to_the_left < 0.0 => -1,
-            _ => 0,
-        }
-    };
-    ring.iter().zip(next).map(crossing).sum::<i32>() != 0
 }

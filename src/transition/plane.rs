@@ -255,7 +255,7 @@ impl Features {
         let is_on = |pair: &PointPair| {
             Side::BOTH.iter().all(|&side| {
                 let regions = &outlines[side];
-                let far = |ring| distance(ring, pair[side]);
+                let far = |ring: &Ring| ring.distance_squared(pair[side]).sqrt();
                 let near = regions.rings().map(far).fold(f64::INFINITY, f64::min);
                 near <= ON_OUTLINE * regions.bounds().diameter()
             })
@@ -320,16 +320,6 @@ impl Features {
             }
         })
     }
-}
-
-/// From a ring to a point.
-fn distance(ring: &Ring, p: DVec2) -> f64 {
-    let to_edge = |(a, b): (DVec2, DVec2)| {
-        let edge = b - a;
-        let along = ((p - a).dot(edge) / edge.length_squared()).clamp(0.0, 1.0);
-        p.distance(a + edge * along)
-    };
-    ring.edges().map(to_edge).fold(f64::INFINITY, f64::min)
 }
 
 /// The lines from each pin of a ring to the next.
