@@ -17,7 +17,7 @@ mod carried;
 use std::sync::Arc;
 
 use crate::field::{DistanceField, Grid, contour};
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, signed_area};
 use serde::{Deserialize, Serialize};
 
 /// What is done to distances before they are mixed.
@@ -257,18 +257,6 @@ impl FieldPair {
         let rings = self.contour(t);
         rings.iter().map(|ring| signed_area(ring)).sum()
     }
-}
-
-/// About the first point, so that a ring far from zero loses no digits.
-fn signed_area(ring: &[DVec2]) -> f64 {
-    let from_first = |p: DVec2| p - ring[0];
-    let next = ring.iter().cycle().skip(1);
-    let twice: f64 = ring
-        .iter()
-        .zip(next)
-        .map(|(&a, &b)| from_first(a).perp_dot(from_first(b)))
-        .sum();
-    0.5 * twice
 }
 
 #[cfg(test)]
