@@ -6,7 +6,7 @@
 //! crossing, by exact predicates. Not counted: touching, coincident edges and
 //! an edge that runs exactly through a vertex.
 
-use crate::geometry::{DVec2, orient2d};
+use crate::geometry::{DVec2, orient2d, segments_cross};
 use serde::Serialize;
 
 /// An edge of closed polygons, from a point to the next one.
@@ -76,7 +76,7 @@ fn sweep(rings: &[Vec<DVec2>], mut found: impl FnMut(RingEdge, RingEdge)) {
         let later = spans[i + 1..].iter();
         for other in later.take_while(|other| other.along[0] <= span.along[1]) {
             let apart = other.across[0] > span.across[1] || span.across[0] > other.across[1];
-            if !apart && cross(span.ends, other.ends) {
+            if !apart && segments_cross(span.ends, other.ends) {
                 found(span.edge, other.edge);
             }
         }
@@ -118,18 +118,6 @@ fn ring_edges(rings: &[Vec<DVec2>]) -> impl Iterator<Item = (RingEdge, [DVec2; 2
     })
 }
 
-fn cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
-    // Neighbours share a point; the exact predicate is slow just there.
-    if a == c || a == d || b == c || b == d {
-        return false;
-    }
-    let apart = |p, q, r, s| {
-        let (left, right) = (orient2d(p, q, r), orient2d(p, q, s));
-        (left > 0.0 && right < 0.0) || (left < 0.0 && right > 0.0)
-    };
-    apart(a, b, c, d) && apart(c, d, a, b)
-}
-
 fn crossing(rings: &[Vec<DVec2>], a: RingEdge, b: RingEdge) -> Crossing {
     let ends = |e: RingEdge| {
         let ring = &rings[e.ring];
@@ -154,7 +142,7 @@ mod tests {
         let edges: Vec<_> = ring_edges(rings).collect();
         let pairs = (0..edges.len()).flat_map(|i| (0..i).map(move |j| (i, j)));
         pairs
-            .filter(|&(i, j)| cross(edges[i].1, edges[j].1))
+            .filter(|&(i, j)| segments_cross(edges[i].1, edges[j].1))
             .count()
     }
 

@@ -9,7 +9,7 @@ use super::motion::{self, Motion};
 use super::{count_crossings, excess};
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, Solid};
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, perimeter, signed_area};
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::transition::{Frame, Transition};
 use crate::warp::{ArapError, Warp};
@@ -154,7 +154,8 @@ impl<'a> Sampler<'a> {
         let lengths: f64 = bars.iter().map(|[a, b]| a.distance(*b)).sum();
         FilmSample {
             t,
-            area: rings.iter().map(|ring| ring_area(ring)).sum::<f64>() + lengths * solid.bar_width,
+            area: rings.iter().map(|ring| signed_area(ring)).sum::<f64>()
+                + lengths * solid.bar_width,
             perimeter: rings_perimeter(&rings) + 2.0 * lengths,
             pieces: self.topology.map(|[pieces, _]| pieces),
             holes: self.topology.map(|[_, holes]| holes),
@@ -170,7 +171,7 @@ fn topology(solid: &Solid, frame: &Frame) -> [usize; 2] {
     let placement = frame.placement();
     let ends = [&placement.in_source, &placement.in_target].map(|places| solid.rings_at(places));
     let is_hole = |(a, b): &(&Vec<DVec2>, &Vec<DVec2>)| {
-        let areas = [ring_area(a), ring_area(b)];
+        let areas = [signed_area(a), signed_area(b)];
         areas[usize::from(areas[1].abs() > areas[0].abs())] < 0.0
     };
     let holes = ends[0].iter().zip(&ends[1]).filter(is_hole).count();
@@ -178,7 +179,7 @@ fn topology(solid: &Solid, frame: &Frame) -> [usize; 2] {
 }
 
 fn of_rings(t: f64, rings: &[Vec<DVec2>]) -> FilmSample {
-    let areas: Vec<f64> = rings.iter().map(|ring| ring_area(ring)).collect();
+    let areas: Vec<f64> = rings.iter().map(|ring| signed_area(ring)).collect();
     let holes = areas.iter().filter(|area| **area < 0.0).count();
     FilmSample {
         t,
@@ -224,23 +225,8 @@ fn report(
     }
 }
 
-pub(super) fn ring_area(ring: &[DVec2]) -> f64 {
-    let next = ring.iter().skip(1).chain(ring.first());
-    let origin = ring.first().copied().unwrap_or_default();
-    let twice: f64 = ring
-        .iter()
-        .zip(next)
-        .map(|(a, b)| (*a - origin).perp_dot(*b - origin))
-        .sum();
-    0.5 * twice
-}
-
 fn rings_perimeter(rings: &[Vec<DVec2>]) -> f64 {
-    let of = |ring: &Vec<DVec2>| -> f64 {
-        let next = ring.iter().skip(1).chain(ring.first());
-        ring.iter().zip(next).map(|(a, b)| a.distance(*b)).sum()
-    };
-    rings.iter().map(of).sum()
+    rings.iter().map(|ring| perimeter(ring)).sum()
 }
 
 /// The film against the one of the exchanged designs, played backwards.

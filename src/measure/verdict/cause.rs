@@ -2,12 +2,11 @@
 
 use super::super::crossings::{Crossing, RingEdge, crossings};
 use super::super::distortion::{Strain, edges};
-use super::super::film::ring_area;
 use super::super::stretch;
 use super::scan::{self, Glance};
 use super::{Cause, Finding, Remedy, Trouble, remedy};
 use crate::content::{FieldPair, Solid};
-use crate::geometry::{DVec2, twice_signed_area};
+use crate::geometry::{DVec2, signed_area, twice_signed_area};
 use crate::homotopy::{Homotopy, LocalMap};
 use crate::progress::{Cancelled, Progress};
 use crate::transition::Transition;
@@ -359,7 +358,7 @@ fn place_of(transition: &Transition, pair: &FieldPair, trouble: &Trouble, t: f64
         1.0
     };
     let rings = transition.frame(t).figure().rings.into_iter();
-    let sized = rings.map(|ring| (wanted * ring_area(&ring), ring));
+    let sized = rings.map(|ring| (wanted * signed_area(&ring), ring));
     let smallest = sized
         .filter(|(area, _)| *area > 0.0)
         .min_by(|a, b| a.0.total_cmp(&b.0));

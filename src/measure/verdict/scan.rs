@@ -2,9 +2,9 @@
 
 use super::super::crossings::count_crossings;
 use super::super::distortion::is_folded;
-use super::super::film::{FilmSample, even_steps, ring_area};
+use super::super::film::{FilmSample, even_steps};
 use crate::content::{Content, Solid};
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, signed_area};
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::transition::Transition;
 use crate::warp::{Arap, Warp};
@@ -105,7 +105,7 @@ pub(super) fn fields(
         checkpoint(progress, "looking for tears", t)?;
         frame.seek(t);
         let rings = frame.figure().rings;
-        let holes = rings.iter().filter(|ring| ring_area(ring) < 0.0).count();
+        let holes = rings.iter().filter(|ring| signed_area(ring) < 0.0).count();
         Ok(Glance {
             t,
             pieces: rings.len() - holes,
