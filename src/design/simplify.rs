@@ -5,7 +5,7 @@
 //! cross itself where the polygon comes near to itself; `Regions::from_rings`
 //! cleans that.
 
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, distance_squared_to_segment};
 
 /// A closed polygon simplified. The two points between which it is opened are
 /// the first one and the one that is farthest from it.
@@ -40,20 +40,10 @@ pub(super) fn closed(points: &[DVec2], tolerance: f64) -> Vec<DVec2> {
 fn farthest(points: &[DVec2], a: usize, b: usize, tolerance: f64) -> Option<usize> {
     let (start, end) = (points[a], points[b % points.len()]);
     (a + 1..b)
-        .map(|i| (i, distance_to_segment(points[i], start, end)))
+        .map(|i| (i, distance_squared_to_segment(points[i], start, end).sqrt()))
         .max_by(|x, y| x.1.total_cmp(&y.1))
         .filter(|&(_, distance)| distance > tolerance)
         .map(|(i, _)| i)
-}
-
-fn distance_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
-    let along = b - a;
-    let length_squared = along.length_squared();
-    if length_squared == 0.0 {
-        return p.distance(a);
-    }
-    let s = ((p - a).dot(along) / length_squared).clamp(0.0, 1.0);
-    p.distance(a + s * along)
 }
 
 #[cfg(test)]
@@ -70,7 +60,9 @@ mod tests {
             assert!(few.len() < 200);
             for p in &circle {
                 let near = (0..few.len())
-                    .map(|i| distance_to_segment(*p, few[i], few[(i + 1) % few.len()]))
+                    .map(|i| {
+                        distance_squared_to_segment(*p, few[i], few[(i + 1) % few.len()]).sqrt()
+                    })
                     .fold(f64::INFINITY, f64::min);
                 assert!(near <= tolerance);
             }

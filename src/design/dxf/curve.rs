@@ -8,7 +8,7 @@
 //! tolerance: its error is estimated, not bounded.
 
 use crate::design::flatten::MAX_POINTS;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, distance_squared_to_segment};
 use glam::{DAffine2, DVec3};
 use std::f64::consts::{PI, TAU};
 
@@ -227,14 +227,7 @@ fn halve(
     let (a, b) = (at(from), at(to));
     let is_near = |share: f64| {
         let p = at(from + share * (to - from));
-        let along = b - a;
-        let s = (p - a).dot(along) / along.length_squared();
-        let s = if s.is_finite() {
-            s.clamp(0.0, 1.0)
-        } else {
-            0.0
-        };
-        p.distance(a + s * along) <= tolerance
+        distance_squared_to_segment(p, a, b).sqrt() <= tolerance
     };
     if halvings == 0 || [0.25, 0.5, 0.75].into_iter().all(is_near) {
         points.push(b);
