@@ -1,6 +1,5 @@
 //! What takes time: reading files and building transitions, off the main thread.
 
-use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use crate::compatible::CompatibleMesh;
@@ -207,26 +206,6 @@ fn reads_differently(staged: &Project, now: &Project) -> bool {
 
 /// Parts of a mesh whose faces share edges; parts that share a vertex only turn on their own.
 fn count_parts(mesh: &CompatibleMesh) -> usize {
-    let faces = mesh.faces();
-    let mut roots: Vec<usize> = (0..faces.len()).collect();
-    let mut first_at: HashMap<[u32; 2], usize> = HashMap::new();
-    for (face, corners) in faces.iter().enumerate() {
-        for k in 0..3 {
-            let (a, b) = (corners[k], corners[(k + 1) % 3]);
-            let other = *first_at.entry([a.min(b), a.max(b)]).or_insert(face);
-            let (one, two) = (root(&mut roots, face), root(&mut roots, other));
-            roots[one.max(two)] = one.min(two);
-        }
-    }
-    (0..faces.len())
-        .filter(|face| roots[*face] == *face)
-        .count()
-}
-
-fn root(roots: &mut [usize], mut face: usize) -> usize {
-    while roots[face] != face {
-        roots[face] = roots[roots[face]];
-        face = roots[face];
-    }
-    face
+    let parts = mesh.connectivity().dual_components();
+    parts.iter().max().map_or(0, |&last| last as usize + 1)
 }

@@ -3,7 +3,7 @@
 //! Rings are lists of points, closed from the last to the first. All distances are those of the
 //! frame that both designs lie in.
 
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, along_segment};
 
 /// A vertex that turns by more than this, in radians, is a corner that pins snap to: curves are
 /// flattened to smaller turns.
@@ -30,7 +30,7 @@ pub fn nearest<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> Option
     for (ring, points) in rings.enumerate() {
         for edge in 0..points.len() {
             let (a, b) = (points[edge], points[(edge + 1) % points.len()]);
-            let along = along_segment(a, b, p);
+            let along = along_segment(p, a, b);
             let point = a.lerp(b, along);
             let distance = point.distance(p);
             if best.is_none_or(|best| distance < best.distance) {
@@ -45,16 +45,6 @@ pub fn nearest<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> Option
         }
     }
     best
-}
-
-fn along_segment(a: DVec2, b: DVec2, p: DVec2) -> f64 {
-    let edge = b - a;
-    let squared = edge.length_squared();
-    if squared > 0.0 {
-        ((p - a).dot(edge) / squared).clamp(0.0, 1.0)
-    } else {
-        0.0
-    }
 }
 
 /// Whether the rings, taken together, wind around a point an odd number of times.
