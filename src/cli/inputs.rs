@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use crate::design::Source;
+use crate::design::{Format, Source};
 use crate::progress::Progress;
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 use crate::transition::Transition;
@@ -13,19 +13,18 @@ use crate::transition::Transition;
 use super::error::CliError;
 use super::options::MethodArgs;
 
-/// Extensions of designs: one of them alone is half a pair.
-const DESIGNS: [&str; 10] = [
-    "png", "jpg", "jpeg", "bmp", "webp", "svg", "obj", "json", "geojson", "dxf",
-];
-
 #[derive(Debug, Args)]
 pub(super) struct Inputs {
-    /// A project (.morph, or gallery:NAME), or two designs: files (PNG, JPEG,
-    /// BMP, WebP, SVG, DXF, OBJ, GeoJSON, polygons or a truss as JSON), an
-    /// element of a drawing (drawing.svg#ID) or text (glyph:D, or
-    /// glyph:D@FONT.ttf)
-    #[arg(value_name = "PROJECT | A B", num_args = 1..=2, required = true)]
+    #[arg(value_name = "PROJECT | A B", num_args = 1..=2, required = true, help = help())]
     inputs: Vec<PathBuf>,
+}
+
+fn help() -> String {
+    format!(
+        "A project (.morph, or gallery:NAME), or two designs: files ({}), an element of a \
+         drawing (drawing.svg#ID) or text (glyph:D, or glyph:D@FONT.ttf)",
+        Format::listed(&Format::ALL)
+    )
 }
 
 /// A project that is ready to be played, and how long that took.
@@ -110,6 +109,7 @@ fn from_file(path: &Path, method: &MethodArgs) -> Result<Loaded, CliError> {
     Ok(LoadedProject::load(edited(project, method)?, folder))
 }
 
+/// One of them alone is half a pair.
 fn is_design(path: &Path) -> bool {
     let Source::File {
         path,
@@ -118,9 +118,7 @@ fn is_design(path: &Path) -> bool {
     else {
         return true;
     };
-    let extension = path.extension().unwrap_or_default().to_string_lossy();
-    let mut designs = DESIGNS.iter();
-    designs.any(|design| extension.eq_ignore_ascii_case(design))
+    Format::ALL.iter().any(|format| format.ends(&path))
 }
 
 fn bundled(name: &str, method: &MethodArgs) -> Result<Loaded, CliError> {

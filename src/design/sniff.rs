@@ -1,29 +1,14 @@
 //! Which format a file has, by what is in it. The ending of its name is never
 //! looked at: a mislabelled file works where its content is good.
 
+use super::format::Format;
 use image::ImageFormat;
 use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, Visitor};
 use std::fmt;
 
-/// A format that can be read.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
-    /// PNG, JPEG, BMP or WebP.
-    Picture(ImageFormat),
-    /// SVG as UTF-8 text.
-    Svg,
-    /// DXF, text or binary.
-    Dxf,
-    /// Wavefront OBJ.
-    Obj,
-    /// Polygons as JSON or GeoJSON.
-    Polygons,
-    /// A truss as JSON.
-    Truss,
-}
-
 /// Content that no reader takes.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum UnknownFormat {
     /// A known format of another kind.
     #[error("this is {found}; {way_out}")]
@@ -42,9 +27,7 @@ pub enum UnknownFormat {
     )]
     Json,
     /// Nothing that is known.
-    #[error(
-        "the content is of no known format; use PNG, JPEG, BMP, WebP, SVG, DXF, OBJ, GeoJSON, or polygons or a truss as JSON"
-    )]
+    #[error("the content is of no known format; use {}", Format::listed(&Format::ALL))]
     Unknown,
 }
 

@@ -9,7 +9,7 @@ use crate::content::{
     PicturePair, Solid,
 };
 use crate::correspondence::{Matching, RegionMatch, RegionMatchError};
-use crate::design::{Design, Form, Picture};
+use crate::design::{Design, Form, Format, Picture};
 use crate::field::{DistanceField, FieldError, Grid, GridError, Metric};
 use crate::geometry::{Bounds, RegionsError};
 use crate::progress::{Cancelled, Progress, checkpoint};
@@ -202,8 +202,9 @@ impl TransitionSpec {
         match [source, target].iter().find(|d| d.picture.is_none()) {
             None => Ok(()),
             Some(design) => Err(BuildError::Unavailable(format!(
-                "{} has no colours: open two pictures (PNG, JPEG, BMP, WebP), or choose fields or solids",
-                design.name
+                "{} has no colours: open two pictures ({}), or choose fields or solids",
+                design.name,
+                Format::listed(&Format::PICTURES)
             ))),
         }
     }
