@@ -80,9 +80,6 @@ fn listed(nodes: &[u32]) -> String {
     }
 }
 
-/// The places of the nodes in both designs.
-type Nodes<'a> = Pair<&'a [DVec2]>;
-
 /// Triangles between the bars, positive in both designs, and the bars that
 /// are in no panel.
 ///
@@ -91,19 +88,19 @@ type Nodes<'a> = Pair<&'a [DVec2]>;
 /// cannot be triangulated.
 pub(super) fn panels(source: &Truss, target: &Truss) -> Result<Panels, TrussError> {
     check_same(source, target)?;
-    let pair = Pair {
+    let nodes = Pair {
         source: source.nodes(),
         target: target.nodes(),
     };
     let bars = source.bars();
-    let conflicts = crossings::in_either(bars, pair);
+    let conflicts = crossings::in_either(bars, nodes);
     let thinned = crossings::thinned(bars.len(), &conflicts);
-    let first = with_kept(bars, pair, &thinned);
+    let first = with_kept(bars, nodes, &thinned);
     if first.is_ok() || conflicts.is_empty() {
         return first;
     }
     let uncrossed = crossings::uncrossed(bars.len(), &conflicts);
-    with_kept(bars, pair, &uncrossed).or(first)
+    with_kept(bars, nodes, &uncrossed).or(first)
 }
 
 fn check_same(source: &Truss, target: &Truss) -> Result<(), TrussError> {
@@ -136,7 +133,11 @@ fn ordered([a, b]: [u32; 2]) -> [u32; 2] {
 }
 
 /// The panels between the bars that are kept, triangulated.
-fn with_kept(bars: &[[u32; 2]], pair: Nodes, kept: &[bool]) -> Result<Panels, TrussError> {
+fn with_kept(
+    bars: &[[u32; 2]],
+    nodes: Pair<&[DVec2]>,
+    kept: &[bool],
+) -> Result<Panels, TrussError> {
     let plane: Vec<[u32; 2]> = (0..bars.len())
         .filter(|&bar| kept[bar])
         .map(|bar| bars[bar])
@@ -145,11 +146,11 @@ fn with_kept(bars: &[[u32; 2]], pair: Nodes, kept: &[bool]) -> Result<Panels, Tr
         panels,
         blocks,
         bridges,
-    } = Pieces::of(&plane, pair.source);
-    check_sides(&panels, pair)?;
+    } = Pieces::of(&plane, nodes.source);
+    check_sides(&panels, nodes)?;
     let mut faces = Vec::new();
     for panel in &panels {
-        faces.extend(triangles(panel, pair)?);
+        faces.extend(triangles(panel, nodes)?);
     }
     let let_go = (0..bars.len())
         .filter(|&bar| !kept[bar])
@@ -160,9 +161,9 @@ fn with_kept(bars: &[[u32; 2]], pair: Nodes, kept: &[bool]) -> Result<Panels, Tr
 }
 
 /// A single panel that is turned over is reported when its turn comes.
-fn check_sides(cycles: &[Vec<u32>], pair: Nodes) -> Result<(), TrussError> {
+fn check_sides(cycles: &[Vec<u32>], nodes: Pair<&[DVec2]>) -> Result<(), TrussError> {
     let turned = |cycle: &Vec<u32>| {
-        let corners = cycle.iter().map(|&node| pair.target[node as usize]);
+        let corners = cycle.iter().map(|&node| nodes.target[node as usize]);
         signed_area(&corners.collect::<Vec<_>>()) < 0.0
     };
     if !cycles.is_empty() && cycles.iter().all(turned) {
@@ -174,11 +175,11 @@ fn check_sides(cycles: &[Vec<u32>], pair: Nodes) -> Result<(), TrussError> {
     }
 }
 
-fn triangles(cycle: &[u32], pair: Nodes) -> Result<Vec<[u32; 3]>, TrussError> {
+fn triangles(cycle: &[u32], nodes: Pair<&[DVec2]>) -> Result<Vec<[u32; 3]>, TrussError> {
     if cycle.len() > MAX_PANEL_NODES {
         return Err(TrussError::TooLarge(cycle.to_vec()));
     }
-    polygon::triangulated(cycle, pair).ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
+    polygon::triangulated(cycle, nodes).ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
 }
 
 /// The bars whose nodes are not both in one block.

@@ -11,12 +11,12 @@
 //! Guarantees: the cost of each k is the least of all paths that start there.
 //! Among equally cheap paths the choice is deterministic, nothing more.
 
-use super::lattice::{Prices, Route, Scratch};
+use super::path_grid::{Prices, Route, Scratch};
 
 /// So few starts are solved on one thread.
 const FEW: usize = 16;
 
-/// The cheapest path of each starting column 0 ≤ k < n. The lattice has
+/// The cheapest path of each starting column 0 ≤ k < n. The grid has
 /// 2n columns at least, a row for each target sample and the first one again.
 pub(super) fn all_starts(prices: &Prices, n: usize) -> Vec<Route> {
     let first = prices.shortest([0, n], |_| [0, n], &mut Scratch::default());
@@ -68,12 +68,12 @@ fn halve(
 
 #[cfg(test)]
 mod tests {
-    use super::super::lattice::Lattice;
+    use super::super::path_grid::PathGrid;
     use super::*;
     use proptest::prelude::*;
 
     /// A torus of random unlikeness with uneven samples.
-    fn torus() -> impl Strategy<Value = (Lattice, usize)> {
+    fn torus() -> impl Strategy<Value = (PathGrid, usize)> {
         (1usize..14, 1usize..14).prop_flat_map(|(n, m)| {
             let gaps = |k| prop::collection::vec(0.1f64..1.0, k);
             // Few values, so that ties are many.
@@ -83,16 +83,16 @@ mod tests {
         })
     }
 
-    fn unrolled(a: &[f64], b: &[f64], unlike: &[f64], stretch: f64) -> (Lattice, usize) {
+    fn unrolled(a: &[f64], b: &[f64], unlike: &[f64], stretch: f64) -> (PathGrid, usize) {
         let (n, m) = (a.len(), b.len());
         let row = |j: usize| (0..=2 * n).map(move |i| unlike[(j % m) * n + i % n]);
-        let lattice = Lattice {
+        let grid = PathGrid {
             source: sums(a, 2 * n),
             target: sums(b, m),
             unlike: (0..=m).flat_map(row).collect(),
             stretch,
         };
-        (lattice, n)
+        (grid, n)
     }
 
     fn sums(gaps: &[f64], count: usize) -> Vec<f64> {
@@ -107,11 +107,11 @@ mod tests {
 
     proptest! {
         #[test]
-        fn every_start_is_as_cheap_as_its_own_plain_program((lattice, n) in torus()) {
-            let routes = all_starts(&lattice.prices(), n);
+        fn every_start_is_as_cheap_as_its_own_plain_program((grid, n) in torus()) {
+            let routes = all_starts(&grid.prices(), n);
             prop_assert_eq!(routes.len(), n);
             for (k, route) in routes.iter().enumerate() {
-                let plain = lattice.prices().shortest([k, k + n], |_| [k, k + n], &mut Scratch::default());
+                let plain = grid.prices().shortest([k, k + n], |_| [k, k + n], &mut Scratch::default());
                 prop_assert!((route.cost - plain.cost).abs() <= 1e-12 * (1.0 + plain.cost));
                 prop_assert_eq!(route.rows[0][0], k);
                 prop_assert_eq!(route.rows.last().map(|row| row[1]), Some(k + n));

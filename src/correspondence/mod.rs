@@ -14,8 +14,9 @@ mod congruent;
 mod curve;
 mod cyclic;
 mod features;
-mod lattice;
-mod parts;
+mod options;
+mod pairing;
+mod path_grid;
 mod pins;
 mod polygons;
 mod problem;
@@ -27,10 +28,11 @@ mod settings;
 mod tests;
 mod thickness;
 
-pub use boundary::{MatchError, MatchOptions, match_curves, match_rings};
+pub use boundary::{match_curves, match_rings};
 pub use boundary_match::BoundaryMatch;
 pub use curve::{Curve, CurveError};
-pub use parts::{PairError, Pairing, pair_holes, pair_parts};
+pub use options::{MatchError, MatchOptions};
+pub use pairing::{PairError, Pairing, pair_holes, pair_parts};
 pub use pins::{Pin, PinError};
 pub use polygons::{PolygonOptions, SharedPolygons};
 pub use regions::{

@@ -3,13 +3,13 @@
 //! [`super::boundary`] says what is guaranteed. Indices of nodes are counted
 //! on over the seams of closed curves: sample n is sample 0 one round on.
 
-use super::boundary::MatchOptions;
 use super::boundary_match::BoundaryMatch;
 use super::congruent::settled;
 use super::curve::Curve;
 use super::cyclic::all_starts;
 use super::features::{Features, PoseWeights};
-use super::lattice::{Lattice, Route, Scratch};
+use super::options::MatchOptions;
+use super::path_grid::{PathGrid, Route, Scratch};
 use super::refine::refine;
 use super::samples::Samples;
 use crate::geometry::DVec2;
@@ -240,21 +240,18 @@ impl Problem {
             let mut nodes = vec![first];
             let mut cost = 0.0;
             for ends in fixed.windows(2) {
-                let lattice = self.lattice(unlike, ends[0], ends[1]);
-                let width = lattice.source.len() - 1;
-                let route = (lattice.prices()).shortest(
-                    [0, width],
-                    |_| [0, width],
-                    &mut Scratch::default(),
-                );
+                let grid = self.grid(unlike, ends[0], ends[1]);
+                let width = grid.source.len() - 1;
+                let route =
+                    (grid.prices()).shortest([0, width], |_| [0, width], &mut Scratch::default());
                 cost += route.cost;
                 nodes.extend(moved(&route, ends[0]).skip(1));
             }
             return visit(cost, &|| nodes.clone());
         }
         let (n, m) = (self.source.steps(), self.target.steps());
-        let lattice = self.lattice(unlike, [0, 0], [2 * n, m]);
-        for route in all_starts(&lattice.prices(), n) {
+        let grid = self.grid(unlike, [0, 0], [2 * n, m]);
+        for route in all_starts(&grid.prices(), n) {
             visit(route.cost, &|| route.nodes());
         }
     }
@@ -284,7 +281,7 @@ impl Problem {
     }
 
     /// The window of pairs from one node to another, both included.
-    fn lattice(&self, unlike: &[f64], from: [usize; 2], to: [usize; 2]) -> Lattice {
+    fn grid(&self, unlike: &[f64], from: [usize; 2], to: [usize; 2]) -> PathGrid {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let place = |samples: &Samples, k: usize| samples.unrolled(k);
         let mut window = Vec::with_capacity((to[0] + 1 - from[0]) * (to[1] + 1 - from[1]));
@@ -292,7 +289,7 @@ impl Problem {
             let round = &unlike[(j % m) * n..][..n];
             window.extend((from[0]..=to[0]).map(|i| round[i % n]));
         }
-        Lattice {
+        PathGrid {
             source: (from[0]..=to[0]).map(|i| place(&self.source, i)).collect(),
             target: (from[1]..=to[1]).map(|j| place(&self.target, j)).collect(),
             unlike: window,
@@ -352,12 +349,12 @@ impl Problem {
     /// A stretch of a path refined; its ends stay.
     fn refined(&self, solution: &Solution, nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
         let [from, to] = [nodes[0], nodes[nodes.len() - 1]];
-        let lattice = self.lattice(&solution.unlike, from, to);
+        let grid = self.grid(&solution.unlike, from, to);
         let local: Vec<_> = nodes
             .iter()
             .map(|n| [n[0] - from[0], n[1] - from[1]])
             .collect();
-        let refined = refine(&lattice, &local, REACH);
+        let refined = refine(&grid, &local, REACH);
         refined
             .iter()
             .map(|n| [n[0] + from[0], n[1] + from[1]])

@@ -6,7 +6,7 @@
 //! as before where all is stretched into one place, cheaper the more evenly
 //! it is shared out.
 
-use super::lattice::Lattice;
+use super::path_grid::PathGrid;
 
 /// Steps in source and target samples: up to 1 : 8, without common factors.
 const STEPS: [[usize; 2]; 21] = [
@@ -36,9 +36,9 @@ const STEPS: [[usize; 2]; 21] = [
 /// The cheapest strictly monotone path from the first to the last of `nodes`,
 /// no farther than `reach` samples from them. Where no such path exists the
 /// unit steps are taken together until they advance in both.
-pub(super) fn refine(lattice: &Lattice, nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
+pub(super) fn refine(grid: &PathGrid, nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     let windows = windows(nodes, reach);
-    cheapest(lattice, &windows).unwrap_or_else(|| blocks(nodes))
+    cheapest(grid, &windows).unwrap_or_else(|| blocks(nodes))
 }
 
 /// Unit steps taken together so that each block advances in both. The path
@@ -75,15 +75,15 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
     (0..=rows).map(window).collect()
 }
 
-fn cheapest(lattice: &Lattice, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> {
-    let width = lattice.source.len();
+fn cheapest(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> {
+    let width = grid.source.len();
     let steps = STEPS.map(|step| Step::new(step, width));
     let mut cost = vec![f64::INFINITY; width * windows.len()];
     let mut came = vec![usize::MAX; cost.len()];
     cost[0] = 0.0;
     for (j, &[low, high]) in windows.iter().enumerate() {
         for i in low..=high {
-            if let Some((total, step)) = best_step(lattice, &steps, &cost, [i, j]) {
+            if let Some((total, step)) = best_step(grid, &steps, &cost, [i, j]) {
                 cost[j * width + i] = total;
                 came[j * width + i] = step;
             }
@@ -103,14 +103,14 @@ fn cheapest(lattice: &Lattice, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>
 /// The cheapest way to a node: its cost and the step, none where no step
 /// comes from a node reached.
 fn best_step(
-    lattice: &Lattice,
+    grid: &PathGrid,
     steps: &[Step],
     cost: &[f64],
     [i, j]: [usize; 2],
 ) -> Option<(f64, usize)> {
     let mut least = f64::INFINITY;
     let mut best = None;
-    let node = j * lattice.source.len() + i;
+    let node = j * grid.source.len() + i;
     for (k, step) in steps.iter().enumerate() {
         if i < step.source || j < step.target {
             continue;
@@ -119,7 +119,7 @@ fn best_step(
         if before >= least {
             continue; // a step costs something
         }
-        let total = before + step.price(lattice, [i, j]);
+        let total = before + step.price(grid, [i, j]);
         if total < least {
             (least, best) = (total, Some(k));
         }
@@ -139,7 +139,7 @@ struct Step {
 }
 
 impl Step {
-    /// In a lattice of so many columns.
+    /// In a grid of so many columns.
     fn new([source, target]: [usize; 2], width: usize) -> Self {
         let pieces = source.max(target);
         let between = (1..pieces).map(|k| {
@@ -158,19 +158,19 @@ impl Step {
     }
 
     /// Bending along the straight step by the trapezoid rule, and its stretch.
-    fn price(&self, lattice: &Lattice, [i, j]: [usize; 2]) -> f64 {
-        let walked_source = lattice.source[i] - lattice.source[i - self.source];
-        let walked_target = lattice.target[j] - lattice.target[j - self.target];
+    fn price(&self, grid: &PathGrid, [i, j]: [usize; 2]) -> f64 {
+        let walked_source = grid.source[i] - grid.source[i - self.source];
+        let walked_target = grid.target[j] - grid.target[j - self.target];
         let walked = walked_source + walked_target;
         let stretch = (walked_source - walked_target).powi(2) / walked;
-        let end = j * lattice.source.len() + i;
-        let unlike = &lattice.unlike[end - self.back..=end];
+        let end = j * grid.source.len() + i;
+        let unlike = &grid.unlike[end - self.back..=end];
         let mut bend = 0.5 * (unlike[0] + unlike[self.back]);
         for &(node, next, share) in &self.between {
             bend += (1.0 - share) * unlike[node] + share * unlike[next];
         }
         let pieces = (1 + self.between.len()) as f64;
-        0.5 * walked * bend / pieces + lattice.stretch * stretch
+        0.5 * walked * bend / pieces + grid.stretch * stretch
     }
 }
 
@@ -179,9 +179,9 @@ mod tests {
     use super::*;
 
     /// Even samples and the same unlikeness everywhere.
-    fn plain(n: usize, m: usize) -> Lattice {
+    fn plain(n: usize, m: usize) -> PathGrid {
         let even = |count: usize| (0..=count).map(|k| k as f64 / count as f64).collect();
-        Lattice {
+        PathGrid {
             source: even(n),
             target: even(m),
             unlike: vec![1.0; (n + 1) * (m + 1)],
@@ -202,9 +202,9 @@ mod tests {
 
     #[test]
     fn a_step_costs_what_its_halves_cost_where_nothing_changes() {
-        let lattice = plain(8, 8);
+        let grid = plain(8, 8);
         let step = Step::new([1, 2], 9);
-        let whole = step.price(&lattice, [1, 2]) + step.price(&lattice, [2, 4]);
+        let whole = step.price(&grid, [1, 2]) + step.price(&grid, [2, 4]);
         let long = 0.5 * (0.25 + 0.5) + (0.25f64 - 0.5).powi(2) / 0.75;
         assert!((whole - long).abs() < 1e-15);
     }

@@ -16,20 +16,11 @@ mod domain;
 mod refine;
 
 pub use cloud::delaunay;
+pub use domain::TriangulationError;
+pub use refine::Refinement;
 
 use crate::geometry::DVec2;
 use domain::Domain;
-
-/// How fine a triangulation is to be.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Refinement {
-    /// Smallest angle wanted, in radians; up to about 0.5 it can be reached.
-    pub min_angle: f64,
-    /// Longest edge wanted, roughly; `None` leaves it to the angles.
-    pub max_edge: Option<f64>,
-    /// The most points that may be added.
-    pub max_points: usize,
-}
 
 /// Points, the walks' first, and counter-clockwise faces.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,25 +29,6 @@ pub struct Triangulated {
     pub points: Vec<DVec2>,
     /// Three indices into the points each.
     pub faces: Vec<[u32; 3]>,
-}
-
-/// Why a piece was not triangulated.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum TriangulationError {
-    /// Fewer than three points.
-    #[error("an outline needs at least 3 points, this one has {0}; add points")]
-    TooFewPoints(usize),
-    /// NaN, infinite or beyond the range of the arithmetic.
-    #[error("a point of the outline is not finite or beyond 1e60; scale the design")]
-    OutOfRange,
-    /// Two edges cross or overlap, or points coincide beside no slit.
-    #[error("the outline crosses or touches itself; repair it first")]
-    NotSimple,
-    /// The walks bound no single piece with holes.
-    #[error(
-        "the outlines bound no single piece; the outer one has to run counter-clockwise around all others, those clockwise and beside each other"
-    )]
-    NotOnePiece,
 }
 
 /// The constrained Delaunay triangulation without further points, in

@@ -1,13 +1,12 @@
 //! Which bars meet away from a common node, and which of them to keep.
 
-use super::Nodes;
-use crate::geometry::{DVec2, orient2d, segments_touch};
+use crate::geometry::{DVec2, Pair, orient2d, segments_touch};
 
 /// Pairs of bars, the smaller index first, that cross, touch or lie on each
 /// other in at least one of the designs, other than by ending at one node.
-pub(super) fn in_either(bars: &[[u32; 2]], pair: Nodes) -> Vec<[usize; 2]> {
-    let mut conflicts = in_one(bars, pair.source);
-    conflicts.extend(in_one(bars, pair.target));
+pub(super) fn in_either(bars: &[[u32; 2]], nodes: Pair<&[DVec2]>) -> Vec<[usize; 2]> {
+    let mut conflicts = in_one(bars, nodes.source);
+    conflicts.extend(in_one(bars, nodes.target));
     conflicts.sort_unstable();
     conflicts.dedup();
     conflicts

@@ -1,7 +1,6 @@
 //! One polygon in two embeddings, cut into triangles.
 
-use super::Nodes;
-use crate::geometry::{DVec2, orient2d};
+use crate::geometry::{DVec2, Pair, orient2d};
 
 /// No triangulation of a part of the polygon.
 const NONE: f64 = -1.0;
@@ -9,8 +8,8 @@ const NONE: f64 = -1.0;
 /// Triangles between the nodes of a counter-clockwise cycle, all positive in
 /// both designs, with the largest possible smallest angle; `None` if there
 /// are none.
-pub(super) fn triangulated(cycle: &[u32], pair: Nodes) -> Option<Vec<[u32; 3]>> {
-    let table = Table::filled(cycle, pair);
+pub(super) fn triangulated(cycle: &[u32], nodes: Pair<&[DVec2]>) -> Option<Vec<[u32; 3]>> {
+    let table = Table::filled(cycle, nodes);
     let last = cycle.len().checked_sub(1)?;
     let mut faces = Vec::new();
     let mut open = vec![(0, last)];
@@ -36,7 +35,7 @@ struct Table {
 }
 
 impl Table {
-    fn filled(cycle: &[u32], pair: Nodes) -> Self {
+    fn filled(cycle: &[u32], nodes: Pair<&[DVec2]>) -> Self {
         let size = cycle.len();
         let mut table = Self {
             size,
@@ -46,7 +45,7 @@ impl Table {
             for i in 0..size - length {
                 let j = i + length;
                 let cell = table.cell(i, j);
-                table.cells[cell] = table.best(cycle, pair, i, j);
+                table.cells[cell] = table.best(cycle, nodes, i, j);
             }
         }
         table
@@ -56,7 +55,7 @@ impl Table {
         i * self.size + j
     }
 
-    fn best(&self, cycle: &[u32], pair: Nodes, i: usize, j: usize) -> (f64, usize) {
+    fn best(&self, cycle: &[u32], nodes: Pair<&[DVec2]>, i: usize, j: usize) -> (f64, usize) {
         let mut best = (NONE, i);
         for k in i + 1..j {
             let sides = self.cells[self.cell(i, k)]
@@ -66,7 +65,7 @@ impl Table {
                 continue;
             }
             let corners = [i, k, j].map(|corner| cycle[corner] as usize);
-            let here = worth(corners, pair.source).min(worth(corners, pair.target));
+            let here = worth(corners, nodes.source).min(worth(corners, nodes.target));
             if sides.min(here) > best.0 {
                 best = (sides.min(here), k);
             }

@@ -1,7 +1,7 @@
 //! Pins along matched outlines, for warps that know nothing of outlines.
 
 use super::super::PointPair;
-use super::{RegionMatch, RingKind, RingMatch};
+use super::outcome::{RegionMatch, RingKind, RingMatch};
 
 /// A ring of little length is pinned at so many points all the same.
 const FEWEST: usize = 4;

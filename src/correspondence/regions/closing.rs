@@ -5,7 +5,7 @@
 //! use them for any polygon). Where that leaves the part, or comes near its
 //! boundary, the nearest place with room is taken.
 
-use super::POINT_SIZE;
+use super::outcome::POINT_SIZE;
 use crate::geometry::{Bounds, DVec2, Region, Ring};
 
 /// A place keeps at least this share of the best clearance there is.

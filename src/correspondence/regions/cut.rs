@@ -5,8 +5,9 @@
 //! hole, matched with few samples; the best place is sought again between its
 //! neighbours.
 
-use super::super::boundary::{MatchOptions, match_curves};
+use super::super::boundary::match_curves;
 use super::super::curve::Curve;
+use super::super::options::MatchOptions;
 use super::walk::{Slit, Walk};
 use crate::geometry::{DVec2, Ring};
 use rayon::prelude::*;

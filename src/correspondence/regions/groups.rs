@@ -1,12 +1,12 @@
 //! Which parts go together: pairs, one with several, and parts alone.
 
-use super::super::parts::{Pairing, pair_other_parts, relative_centre};
+use super::super::pairing::{Pairing, pair_other_parts, relative_centre};
 use super::super::{Matching, PairError, PartRule, RingCut};
 use super::closing::{centre, shrunk};
 use super::locate::{Pinned, nearest_ring, part_at};
+use super::outcome::{POINT_SIZE, PieceMatch, RegionMatchError, RingMatch};
 use super::piece::{Task, matched};
 use super::split::split;
-use super::{POINT_SIZE, PieceMatch, RegionMatchError, RingMatch};
 use crate::geometry::{DVec2, Pair, Region, Regions, Side};
 
 /// Parts that belong together: one with one, one with several, or one alone.

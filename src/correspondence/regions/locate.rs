@@ -1,7 +1,7 @@
 //! Which part and which ring of it a point of a design belongs to.
 
 use super::super::{Matching, PointPair};
-use super::RegionMatchError;
+use super::outcome::RegionMatchError;
 use crate::geometry::{DVec2, Regions};
 
 /// A ring of a design: the part, and 0 for its outer ring or 1 + k for hole k.

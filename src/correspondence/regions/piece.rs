@@ -1,17 +1,18 @@
 //! One part matched with one part, holes and all.
 
-use super::super::boundary::{MatchError, MatchOptions, match_curves};
+use super::super::boundary::match_curves;
 use super::super::boundary_match::BoundaryMatch;
 use super::super::curve::Curve;
-use super::super::parts::pair_other_holes;
+use super::super::options::{MatchError, MatchOptions};
+use super::super::pairing::pair_other_holes;
 use super::super::pins::{Pin, PinError};
 use super::super::polygons::{PolygonOptions, SharedPolygons};
 use super::super::{HoleRule, RingCut};
 use super::closing::{Vertices, centre, point_ring};
 use super::cut;
+use super::outcome::{PieceMatch, RegionMatchError, RingKind, RingMatch};
 use super::slits::mirror;
 use super::walk::Walk;
-use super::{PieceMatch, RegionMatchError, RingKind, RingMatch};
 use crate::geometry::{DVec2, Region, Ring, Side};
 
 /// Longest edge of a shared outline, as a share of the outer one's length.

@@ -6,8 +6,9 @@
 //! More than two pieces are cut off one after another, along the line on
 //! which the wanted parts lie.
 
-use super::super::boundary::{MatchOptions, match_curves};
+use super::super::boundary::match_curves;
 use super::super::curve::Curve;
+use super::super::options::MatchOptions;
 use super::cut::coarse;
 use crate::geometry::{DVec2, Region, Ring, segments_touch};
 

@@ -1,6 +1,6 @@
 //! Points without a boundary of their own.
 
-use super::TriangulationError;
+use super::domain::TriangulationError;
 use crate::geometry::DVec2;
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 

@@ -1,11 +1,29 @@
 //! A piece as a constrained Delaunay triangulation whose coincident points
 //! are merged, and how it is cut open again along its walks.
 
-use super::TriangulationError;
 use crate::geometry::DVec2;
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 use std::collections::HashMap;
+
+/// Why a piece was not triangulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum TriangulationError {
+    /// Fewer than three points.
+    #[error("an outline needs at least 3 points, this one has {0}; add points")]
+    TooFewPoints(usize),
+    /// NaN, infinite or beyond the range of the arithmetic.
+    #[error("a point of the outline is not finite or beyond 1e60; scale the design")]
+    OutOfRange,
+    /// Two edges cross or overlap, or points coincide beside no slit.
+    #[error("the outline crosses or touches itself; repair it first")]
+    NotSimple,
+    /// The walks bound no single piece with holes.
+    #[error(
+        "the outlines bound no single piece; the outer one has to run counter-clockwise around all others, those clockwise and beside each other"
+    )]
+    NotOnePiece,
+}
 
 pub(super) type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
 

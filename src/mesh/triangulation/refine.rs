@@ -2,7 +2,6 @@
 //! Ruppert 1995): circumcentres of bad faces, largest circle first, unless
 //! they lie beyond the boundary or too near to it.
 
-use super::Refinement;
 use super::domain::{Delaunay, Domain};
 use crate::geometry::DVec2;
 use spade::handles::{DirectedEdgeHandle, FaceHandle, FixedVertexHandle, InnerTag};
@@ -12,6 +11,17 @@ use std::collections::{BinaryHeap, HashSet};
 
 type Edge<'a> = DirectedEdgeHandle<'a, Point2<f64>, (), spade::CdtEdge<()>, ()>;
 type Face<'a> = FaceHandle<'a, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
+
+/// How fine a triangulation is to be.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refinement {
+    /// Smallest angle wanted, in radians; up to about 0.5 it can be reached.
+    pub min_angle: f64,
+    /// Longest edge wanted, roughly; `None` leaves it to the angles.
+    pub max_edge: Option<f64>,
+    /// The most points that may be added.
+    pub max_points: usize,
+}
 
 /// Faces of less than this share of the bounding square stay as they are:
 /// below some 1e-15 the centre of the circumcircle is rounding alone.

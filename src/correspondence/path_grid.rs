@@ -9,7 +9,7 @@
 
 /// Places and unlikeness of a window of samples, counted on over the seam.
 #[derive(Clone, Debug)]
-pub(super) struct Lattice {
+pub(super) struct PathGrid {
     /// Places of the source's samples, ascending.
     pub source: Vec<f64>,
     /// Places of the target's samples, ascending.
@@ -20,7 +20,7 @@ pub(super) struct Lattice {
     pub stretch: f64,
 }
 
-/// What each step of a lattice costs, a row for each sample of the target:
+/// What each step of a grid costs, a row for each sample of the target:
 /// infinite where the step would come from outside.
 #[derive(Debug)]
 pub(super) struct Prices {
@@ -51,7 +51,7 @@ const ALONG_BOTH: u8 = 0;
 const ALONG_SOURCE: u8 = 1;
 const ALONG_TARGET: u8 = 2;
 
-impl Lattice {
+impl PathGrid {
     /// How unlike source sample `i` and target sample `j` are.
     pub fn at(&self, i: usize, j: usize) -> f64 {
         self.unlike[j * self.source.len() + i]
@@ -228,30 +228,30 @@ mod tests {
 
     #[test]
     fn the_cheapest_of_all_paths_of_a_small_grid_is_found() {
-        let lattice = Lattice {
+        let grid = PathGrid {
             source: vec![0.0, 0.3, 0.5, 1.0],
             target: vec![0.0, 0.2, 1.0],
             unlike: vec![1.0, 2.0, 0.1, 4.0, 3.0, 0.5, 0.2, 7.0, 1.0, 0.3, 9.0, 0.4],
             stretch: 0.2,
         };
-        let prices = lattice.prices();
+        let prices = grid.prices();
         let route = prices.shortest([0, 3], |_| [0, 3], &mut Scratch::default());
-        assert!((route.cost - cheapest(&lattice, 3, 2)).abs() < 1e-15);
+        assert!((route.cost - cheapest(&grid, 3, 2)).abs() < 1e-15);
         let nodes = route.nodes();
         let price = |w: &[[usize; 2]]| {
             let [[a, b], [i, j]] = [w[0], w[1]];
-            lattice.step(i, j, i - a, j - b)
+            grid.step(i, j, i - a, j - b)
         };
         let sum: f64 = nodes.windows(2).map(price).sum();
         assert!((route.cost - sum).abs() < 1e-15);
     }
 
     /// All paths, one by one.
-    fn cheapest(lattice: &Lattice, i: usize, j: usize) -> f64 {
+    fn cheapest(grid: &PathGrid, i: usize, j: usize) -> f64 {
         let mut best = if i + j == 0 { 0.0 } else { f64::INFINITY };
         for (di, dj) in [(1, 1), (1, 0), (0, 1)] {
             if i >= di && j >= dj {
-                best = best.min(cheapest(lattice, i - di, j - dj) + lattice.step(i, j, di, dj));
+                best = best.min(cheapest(grid, i - di, j - dj) + grid.step(i, j, di, dj));
             }
         }
         best

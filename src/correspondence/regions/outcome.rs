@@ -1,0 +1,145 @@
+//! What the match of two designs is, and why there is none.
+
+use super::super::{MatchError, PairError, PinError, RingCut};
+use crate::geometry::{DVec2, Pair, Side};
+use crate::progress::Cancelled;
+
+/// Diameter of the tiny ring that a hole closes to, and of the part that is
+/// born, as a share of the design's diameter: a pixel on a screen of 4,000.
+pub const POINT_SIZE: f64 = 2.5e-4;
+
+/// How all of two designs goes together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegionMatch {
+    /// The pieces, in the order of the source's parts; born ones last.
+    pub pieces: Vec<PieceMatch>,
+}
+
+/// One connected piece in both designs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PieceMatch {
+    /// The outer ring first, counter-clockwise, then holes, clockwise.
+    pub rings: Vec<RingMatch>,
+    /// Which of the source's parts it is, or is cut from; none if it is born.
+    pub source_part: Option<usize>,
+    /// Which of the target's parts it is, or is cut from; none if it dies.
+    pub target_part: Option<usize>,
+    /// Where rings were cut open: the ends on the outer boundary and on the
+    /// hole.
+    pub cuts: Vec<RingCut>,
+    /// The rotation that lays the source's outer ring onto the target's, in
+    /// radians in (−π, π].
+    pub rotation: f64,
+    /// How unlike the outer rings are as matched; see
+    /// [`super::BoundaryMatch::cost`]. 0 for what is born or dies.
+    pub cost: f64,
+}
+
+/// Corresponding vertices of one ring. Vertex k of the source is vertex k of
+/// the target.
+///
+/// A ring that was cut open runs along its cut twice, there and back, through
+/// the same points bit by bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RingMatch {
+    /// Vertices on the source.
+    pub source: Vec<DVec2>,
+    /// Vertices on the target.
+    pub target: Vec<DVec2>,
+    /// What becomes of the ring.
+    pub kind: RingKind,
+}
+
+/// What becomes of a ring.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum RingKind {
+    /// It is matched with another.
+    Matched,
+    /// It closes to a point in the target.
+    Closes,
+    /// It opens from a point in the source.
+    Opens,
+}
+
+/// Why two designs were not matched. Pins are counted from 1 in messages, in
+/// the order given.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RegionMatchError {
+    /// Links or pins that contradict each other.
+    #[error(transparent)]
+    Pairs(#[from] PairError),
+    /// Pins on one boundary that contradict each other; their indices are
+    /// those of all pins.
+    #[error("{0}")]
+    Pins(PinError),
+    /// A pin, a link or a cut is not finite.
+    #[error("pin, link or cut {} is not finite; place it anew", .0 + 1)]
+    NotFinite(usize),
+    /// A pin ties a hole to an outer boundary although holes close.
+    #[error("pin {} ties a hole to an outer boundary; have the ring cut open, or delete the pin", .0 + 1)]
+    PinAcross(usize),
+    /// A cut does not run inside the ring from its hole to a boundary.
+    #[error("cut {} does not run straight inside the part; move its ends", .0 + 1)]
+    Cut(usize),
+    /// Two boundaries cannot be measured.
+    #[error(transparent)]
+    Match(#[from] MatchError),
+    /// Nobody wants the result.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+impl RegionMatch {
+    /// The same match, the designs exchanged.
+    #[must_use]
+    pub fn swapped(&self) -> Self {
+        Self {
+            pieces: self.pieces.iter().map(PieceMatch::swapped).collect(),
+        }
+    }
+}
+
+impl PieceMatch {
+    fn swapped(&self) -> Self {
+        let cut = |cut: &RingCut| RingCut {
+            side: cut.side.other(),
+            ..*cut
+        };
+        Self {
+            rings: self.rings.iter().map(RingMatch::swapped).collect(),
+            source_part: self.target_part,
+            target_part: self.source_part,
+            cuts: self.cuts.iter().map(cut).collect(),
+            rotation: 0.0 - self.rotation,
+            cost: self.cost,
+        }
+    }
+}
+
+impl RingMatch {
+    /// A ring of one design that is a point in the other.
+    pub(super) fn alone(side: Side, whole: Vec<DVec2>, point: Vec<DVec2>) -> Self {
+        let kind = match side {
+            Side::Source => RingKind::Closes,
+            Side::Target => RingKind::Opens,
+        };
+        let Pair { source, target } = Pair::on(side, whole, point);
+        Self {
+            source,
+            target,
+            kind,
+        }
+    }
+
+    fn swapped(&self) -> Self {
+        Self {
+            source: self.target.clone(),
+            target: self.source.clone(),
+            kind: match self.kind {
+                RingKind::Matched => RingKind::Matched,
+                RingKind::Closes => RingKind::Opens,
+                RingKind::Opens => RingKind::Closes,
+            },
+        }
+    }
+}
