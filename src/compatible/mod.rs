@@ -5,6 +5,7 @@
 //! positive determinant. It does not promise that faces do not overlap: a
 //! spiral may lie over itself.
 
+mod border;
 mod elements;
 mod outlines;
 mod polygons;
@@ -13,7 +14,7 @@ mod truss;
 
 pub use elements::{BarElement, CompatibleError};
 pub use outlines::OutlinesError;
-pub use polygons::{FrameError, PolygonOptions, PolygonsError, RingEdge};
+pub use polygons::{PinnedError, PolygonOptions, PolygonsError, RingEdge};
 
 pub use surroundings::SurroundingsError;
 

@@ -6,7 +6,8 @@
 //! Rings that close to a point or open from one are left out: what they bound
 //! is inside.
 
-use super::{CompatibleMesh, PolygonOptions, PolygonsError};
+use super::border::border;
+use super::{CompatibleError, CompatibleMesh, PolygonOptions, PolygonsError};
 use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch};
 use crate::geometry::{Bounds, DVec2, signed_area, winding};
 use crate::progress::Progress;
@@ -22,6 +23,9 @@ pub enum SurroundingsError {
     /// cut open, or reach beyond the frame.
     #[error("the parts of the designs lie within each other in different ways")]
     Nesting,
+    /// The cells do not fit together along the outlines.
+    #[error("the cells between the outlines do not fit together: {0}")]
+    Sewn(#[from] CompatibleError),
     /// A cell was not triangulated.
     #[error(transparent)]
     Polygons(#[from] PolygonsError),
@@ -44,7 +48,7 @@ impl CompatibleMesh {
         options: &PolygonOptions,
         progress: &dyn Progress,
     ) -> Result<Self, SurroundingsError> {
-        let border = border(frame);
+        let border = border(frame, frame.size().max_element() / ALONG);
         let mut rings = vec![[border.clone(), border]];
         let cells = cells(&matched.pieces, &mut rings).ok_or(SurroundingsError::Nesting)?;
         let inside = |p: &DVec2| frame.padded(-1e-6 * frame.diameter()).contains(*p);
@@ -67,19 +71,6 @@ impl CompatibleMesh {
         let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
         Ok(sewn(&rings, &cells, &meshes)?)
     }
-}
-
-/// Points along the rectangle, counter-clockwise.
-fn border(frame: &Bounds) -> Vec<DVec2> {
-    let corners = frame.corners();
-    let spacing = frame.size().max_element() / ALONG;
-    let mut points = Vec::new();
-    for k in 0..4 {
-        let (a, b) = (corners[k], corners[(k + 1) % 4]);
-        let pieces = (a.distance(b) / spacing).ceil().max(1.0) as u32;
-        points.extend((0..pieces).map(|i| a + (b - a) * (f64::from(i) / f64::from(pieces))));
-    }
-    points
 }
 
 /// The cells of the plane, and all rings, the frame's first. A part inside,
@@ -163,7 +154,7 @@ fn sewn(
     rings: &[[Vec<DVec2>; 2]],
     cells: &[Cell],
     meshes: &[CompatibleMesh],
-) -> Result<CompatibleMesh, PolygonsError> {
+) -> Result<CompatibleMesh, CompatibleError> {
     let mut first = Vec::with_capacity(rings.len());
     let (mut source, mut target) = (Vec::new(), Vec::new());
     for [a, b] in rings {
@@ -188,7 +179,7 @@ fn sewn(
         source.extend_from_slice(&mesh.source()[shared.len()..]);
         target.extend_from_slice(&mesh.target()[shared.len()..]);
     }
-    Ok(CompatibleMesh::new(faces, source, target, Vec::new())?)
+    CompatibleMesh::new(faces, source, target, Vec::new())
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::{Cell, Inner, PlaneOptions, boundaries, outlines, plane};
 use crate::compatible::{
-    CompatibleError, CompatibleMesh, FrameError, OutlinesError, PolygonOptions,
+    CompatibleError, CompatibleMesh, OutlinesError, PinnedError, PolygonOptions,
 };
 use crate::content::{
     ColourMix, ColourMixError, Content, ContentKind, FieldBlend, FieldPair, FieldPairError,
@@ -137,7 +137,7 @@ pub enum BuildError {
     Colours(#[from] ColourMixError),
     /// The frame could not be triangulated with its pins.
     #[error(transparent)]
-    Frame(#[from] FrameError),
+    Frame(#[from] PinnedError),
     /// The warp by lines could not be made.
     #[error(transparent)]
     Lines(#[from] LinesError),

@@ -2,12 +2,12 @@
 //! warp on a grid.
 
 use super::{BuildError, TransitionSpec};
-use crate::compatible::{CompatibleMesh, FrameError};
+use crate::compatible::{CompatibleMesh, PinnedError};
 use crate::content::ContentKind;
 use crate::correspondence::{
     HoleRule, LinePair, Matching, PartRule, PointPair, RegionMatch, match_regions,
 };
-use crate::geometry::{Bounds, DVec2, Regions, Ring, Side};
+use crate::geometry::{Bounds, Regions, Ring, Side};
 use crate::progress::{Progress, checkpoint};
 use crate::warp::{
     Arap, Lattice, LatticeOptions, LineOptions, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart,
@@ -161,13 +161,13 @@ fn rigid(
     let frame = frame.padded(BEYOND * frame.size().max_element());
     let mut pins = features.as_points();
     loop {
-        match CompatibleMesh::of_frame(&frame, &pins, progress) {
+        match CompatibleMesh::around_pins(&frame, &pins, progress) {
             Ok(mesh) => {
                 let warp = Arc::new(Arap::build(&mesh, &spec.arap, progress)?);
                 pins.retain(|_| features.are_automatic);
                 return Ok((warp, pins));
             }
-            Err(FrameError::Folds { .. } | FrameError::Coincide { .. })
+            Err(PinnedError::Folds { .. } | PinnedError::Coincide { .. })
                 if features.are_automatic && !pins.is_empty() =>
             {
                 pins = pins.into_iter().step_by(2).collect();

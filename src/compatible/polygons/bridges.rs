@@ -6,11 +6,12 @@
 //! diagonal gets as many points. Its points become movable vertices.
 
 use super::chords;
+use super::error::PolygonsError;
 use super::overlay::overlay;
 use super::pair::PairMesh;
 use super::piece::Rings;
-use crate::geometry::DVec2;
-use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
+use crate::geometry::{DVec2, Side};
+use crate::mesh::triangulation::constrained_delaunay;
 use std::collections::{HashMap, VecDeque};
 
 /// Diagonals tried for each bridge, shortest first.
@@ -34,7 +35,7 @@ struct Bridge {
 }
 
 /// A mesh that is valid over the reals.
-pub(super) fn base(source: &Rings, target: &Rings) -> Result<PairMesh, TriangulationError> {
+pub(super) fn base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsError> {
     let fixed = source.points.len();
     let mut walks = Walks::of(source, target);
     let mut extra = [Vec::new(), Vec::new()];
@@ -117,10 +118,8 @@ impl Walks {
 
     /// The bridge from the first walk to another one that needs the fewest
     /// inner points, and is straight in one design.
-    fn bridge(&self) -> Result<Bridge, TriangulationError> {
-        let nets = [0, 1].map(|d| Net::of(self, d));
-        let [first, second] = nets;
-        let nets = [first?, second?];
+    fn bridge(&self) -> Result<Bridge, PolygonsError> {
+        let nets = [Net::of(self, Side::Source)?, Net::of(self, Side::Target)?];
         let mut best: Option<Bridge> = None;
         for straight in 0..2 {
             for ends in self.diagonals(&nets[straight], straight) {
@@ -133,7 +132,7 @@ impl Walks {
                 }
             }
         }
-        best.ok_or(TriangulationError::NotOnePiece)
+        best.ok_or(PolygonsError::NoBridge)
     }
 
     /// The shortest diagonals from the first walk to the others, as seen
@@ -211,10 +210,11 @@ struct Net {
 }
 
 impl Net {
-    fn of(walks: &Walks, design: usize) -> Result<Self, TriangulationError> {
-        let points = |walk: &Vec<Corner>| walk.iter().map(|c| c.at[design]).collect::<Vec<_>>();
+    fn of(walks: &Walks, side: Side) -> Result<Self, PolygonsError> {
+        let points = |walk: &Vec<Corner>| walk.iter().map(|c| c.at[side]).collect::<Vec<_>>();
         let walks: Vec<Vec<DVec2>> = walks.0.iter().map(points).collect();
-        let faces = constrained_delaunay(&walks)?;
+        let faces =
+            constrained_delaunay(&walks).map_err(|error| PolygonsError::Base { side, error })?;
         let mut left = HashMap::new();
         for (f, &[a, b, c]) in faces.iter().enumerate() {
             left.extend([[a, b], [b, c], [c, a]].map(|edge| (edge, f as u32)));

@@ -8,7 +8,8 @@
 //! is all that is promised; a chord valid in both costs nothing, so that two
 //! equal polygons end without crossings.
 
-use crate::geometry::{DVec2, orient2d, segments_touch};
+use super::error::PolygonsError;
+use crate::geometry::{DVec2, Side, orient2d, segments_touch};
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 
 /// Up to so many vertices crossings are minimised, in O(n³); beyond, both
@@ -28,12 +29,13 @@ const SLIVER: f64 = 1e-7;
 pub(super) fn triangulations(
     source: &[DVec2],
     target: &[DVec2],
-) -> Result<[Vec<[u32; 3]>; 2], TriangulationError> {
+) -> Result<[Vec<[u32; 3]>; 2], PolygonsError> {
+    let refused = |side, error| PolygonsError::Base { side, error };
     if source.len() > SEARCHED || has_slits(source) || has_slits(target) {
-        return Ok([
-            constrained_delaunay(&[source])?,
-            constrained_delaunay(&[target])?,
-        ]);
+        let alone = |side: Side, points| {
+            constrained_delaunay(&[points]).map_err(|error| refused(side, error))
+        };
+        return Ok([alone(Side::Source, source)?, alone(Side::Target, target)?]);
     }
     let chords = [Chords::of(source), Chords::of(target)];
     let points = [source, target];
@@ -47,10 +49,11 @@ pub(super) fn triangulations(
     }
     // Flat input beyond what the exact predicates see cannot occur: a simple
     // polygon has a triangulation.
-    if faces.iter().any(|f| f.len() + 2 != source.len()) {
-        return Err(TriangulationError::NotSimple);
+    let lacks = |side: &Side| faces[*side].len() + 2 != source.len();
+    match Side::BOTH.into_iter().find(lacks) {
+        Some(side) => Err(refused(side, TriangulationError::NotSimple)),
+        None => Ok(faces),
     }
-    Ok(faces)
 }
 
 /// Whether two corners of the walk are one point.

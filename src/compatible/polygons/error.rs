@@ -1,6 +1,8 @@
 //! Why two pieces were not triangulated together.
 
-use crate::geometry::Side;
+use crate::compatible::elements::CompatibleError;
+use crate::geometry::{DVec2, Side};
+use crate::mesh::triangulation::TriangulationError;
 use crate::progress::Cancelled;
 
 /// An edge of a boundary ring, named by its first point.
@@ -88,12 +90,67 @@ pub enum PolygonsError {
     /// The edge length is no positive number.
     #[error("the edge length {0} is not a positive share of the diameter; use 0.05, say")]
     EdgeLength(f64),
-    /// A piece so thin that its inside holds no representable points.
+    /// A design's rings were refused, and no fault of theirs was found.
     #[error(
-        "an outline is thinner than its coordinates are exact; thicken it, or move the match of its thinnest part"
+        "the outline of the {side} was not triangulated: {error}; {shortest} is the shortest, leave out one of its ends"
     )]
-    TooThin,
+    Refused {
+        /// Which design.
+        side: Side,
+        /// Its shortest edge: the likeliest cause.
+        shortest: RingEdge,
+        /// What the triangulation says.
+        error: TriangulationError,
+    },
+    /// No bridge between the outline and a hole runs inside both designs.
+    #[error(
+        "no cut leads from the outline to a hole in both designs; thicken the walls between them, or leave the hole out"
+    )]
+    NoBridge,
+    /// One design's part of the guaranteed base was not found.
+    #[error(
+        "the {side} was not triangulated by itself ({error}): it is thinner in a place than its coordinates are exact; thicken its thinnest part, or move the match there"
+    )]
+    Base {
+        /// Which design.
+        side: Side,
+        /// What the triangulation says.
+        error: TriangulationError,
+    },
+    /// Faces of the guaranteed base that rounding left without area.
+    #[error("{} without area in the {side}, about ({}, {}): the outline is thinner there than its coordinates are exact; thicken it there, or move the match of that place", if *faces == 1 { "a common face is".to_owned() } else { format!("{faces} common faces are") }, place.x, place.y)]
+    Folded {
+        /// In which design.
+        side: Side,
+        /// How many.
+        faces: usize,
+        /// The middle of the first.
+        place: DVec2,
+    },
+    /// The mesh is not valid in the designs' own coordinates.
+    #[error(
+        "the common triangulation lost its validity in the designs' own coordinates: {0}; or scale both designs to an ordinary size"
+    )]
+    Mesh(CompatibleError),
     /// The work was cancelled.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+impl PolygonsError {
+    /// The same said of the designs exchanged.
+    pub(super) fn swapped(mut self) -> Self {
+        if let Self::Base { side, .. } | Self::Folded { side, .. } = &mut self {
+            *side = side.other();
+        }
+        self
+    }
+
+    /// The same said of designs so many times as large.
+    pub(super) fn enlarged(mut self, by: [f64; 2]) -> Self {
+        if let Self::Folded { side, place, .. } = &mut self {
+            *place *= by[*side];
+        }
+        self
+    }
 }

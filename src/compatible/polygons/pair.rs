@@ -6,7 +6,7 @@
 //! there.
 
 use super::face::{self, Corners};
-use crate::geometry::DVec2;
+use crate::geometry::{Bounds, DVec2};
 
 /// A face that was removed.
 const GONE: [u32; 3] = [u32::MAX; 3];
@@ -266,6 +266,16 @@ impl PairMesh {
             .map(|face| face.map(|v| new_number[v as usize]));
         let points = [0, 1].map(|d| kept.iter().map(|&v| self.points[d][v as usize]).collect());
         (faces.collect(), points)
+    }
+}
+
+/// A power of two, so that scaling is exact, that brings the diameter near 1.
+pub(super) fn to_unit(points: &[DVec2]) -> f64 {
+    let size = Bounds::diameter_of(points);
+    if size.is_normal() {
+        (-size.log2().round()).exp2()
+    } else {
+        1.0
     }
 }
 

@@ -3,7 +3,7 @@
 
 use super::error::{PolygonsError, RingEdge};
 use super::touching::touching_edges;
-use crate::geometry::{DVec2, Side, signed_area};
+use crate::geometry::{DVec2, Side, ring_edges, signed_area};
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 
 /// Boundary rings, one after the other.
@@ -75,7 +75,7 @@ pub(super) fn check(rings: &Rings, side: Side) -> Result<(), PolygonsError> {
                 .max_by(|&a, &b| size(&rings.points[a]).total_cmp(&size(&rings.points[b])));
             Err(not_finite(rings, far.unwrap_or(0), side))
         }
-        Err(_) => Err(reason(rings, &walks, side)),
+        Err(error) => Err(reason(rings, &walks, side, error)),
     }
 }
 
@@ -89,7 +89,12 @@ fn not_finite(rings: &Rings, point: usize, side: Side) -> PolygonsError {
 }
 
 /// Why rings bound no piece, found the slow way.
-fn reason(rings: &Rings, walks: &[&[DVec2]], side: Side) -> PolygonsError {
+fn reason(
+    rings: &Rings,
+    walks: &[&[DVec2]],
+    side: Side,
+    error: TriangulationError,
+) -> PolygonsError {
     if let Some(edges) = touching_edges(walks) {
         let edges = edges.map(|edge| rings.place(edge));
         return PolygonsError::NotSimple { side, edges };
@@ -99,9 +104,22 @@ fn reason(rings: &Rings, walks: &[&[DVec2]], side: Side) -> PolygonsError {
     }
     match (1..walks.len()).find(|&hole| signed_area(walks[hole]) > 0.0) {
         Some(hole) => PolygonsError::CounterClockwise { side, hole },
-        None if walks.len() == 1 => PolygonsError::TooThin,
-        None => PolygonsError::HoleOutside(side),
+        None if walks.len() > 1 && error == TriangulationError::NotOnePiece => {
+            PolygonsError::HoleOutside(side)
+        }
+        None => PolygonsError::Refused {
+            side,
+            shortest: shortest(rings, walks),
+            error,
+        },
     }
+}
+
+fn shortest(rings: &Rings, walks: &[&[DVec2]]) -> RingEdge {
+    let edges = walks.iter().flat_map(|walk| ring_edges(walk));
+    let lengths = edges.map(|(a, b)| a.distance(b)).enumerate();
+    let least = lengths.min_by(|a, b| a.1.total_cmp(&b.1));
+    rings.place(least.map_or(0, |(edge, _)| edge))
 }
 
 #[cfg(test)]
@@ -141,6 +159,18 @@ mod tests {
             verdict([&clockwise]),
             Err(PolygonsError::Clockwise(Side::Source))
         );
+    }
+
+    #[test]
+    fn what_is_refused_without_a_fault_names_its_shortest_edge() {
+        // Below the arithmetic's range two points are one.
+        let thin = [(0.0, 0.0), (1.0, 0.0), (1.0, 1e-200), (0.0, 1.0)];
+        let refused = PolygonsError::Refused {
+            side: Side::Source,
+            shortest: RingEdge { ring: 0, edge: 1 },
+            error: TriangulationError::NotSimple,
+        };
+        assert_eq!(verdict([&thin]), Err(refused));
     }
 
     #[test]

@@ -8,13 +8,15 @@
 //! Not guaranteed: that every set of pins can be met; pins that cross have no
 //! such mesh, and are named.
 
-use super::pair::PairMesh;
-use super::{PolygonOptions, checked, quality, to_unit, transfer};
-use crate::compatible::CompatibleMesh;
+use super::options::PolygonOptions;
+use super::pair::{PairMesh, to_unit};
+use super::{quality, transfer};
+use crate::compatible::border::border;
+use crate::compatible::{CompatibleError, CompatibleMesh};
 use crate::correspondence::PointPair;
 use crate::geometry::{Bounds, DVec2, Side};
 use crate::mesh::triangulation::{TriangulationError, delaunay};
-use crate::progress::{Cancelled, Progress};
+use crate::progress::{Cancelled, Progress, checkpoint};
 
 /// Points along the longer side of the frame.
 const ALONG: f64 = 24.0;
@@ -41,7 +43,7 @@ const SAME: f64 = 1e-6;
 
 /// Why the frame was not triangulated. Pins are counted from 1 in messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum FrameError {
+pub enum PinnedError {
     /// A pin is not finite, or not inside the frame.
     #[error("pin {} lies outside the frame of the {side} design; move it inside", pin + 1)]
     Outside {
@@ -67,6 +69,9 @@ pub enum FrameError {
     /// Sizes that floating point cannot measure.
     #[error(transparent)]
     Triangulation(#[from] TriangulationError),
+    /// The mesh is not valid in the frame's own coordinates.
+    #[error("the mesh about the pins lost its validity: {0}")]
+    Mesh(#[from] CompatibleError),
     /// Nobody wants the result.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -84,7 +89,7 @@ impl CompatibleMesh {
     /// both. The border's vertices come first, then the pins.
     ///
     /// # Errors
-    /// [`FrameError`] for pins outside the rectangle and for pins that no map
+    /// [`PinnedError`] for pins outside the rectangle and for pins that no map
     /// without folds can meet, or if the work is cancelled.
     ///
     /// ```
@@ -94,18 +99,18 @@ impl CompatibleMesh {
     /// use morphospace::progress::Silent;
     /// let frame = Bounds { min: DVec2::ZERO, max: DVec2::new(4.0, 3.0) };
     /// let pin = PointPair { source: DVec2::new(1.0, 1.0), target: DVec2::new(2.5, 2.0) };
-    /// let mesh = CompatibleMesh::of_frame(&frame, &[pin], &Silent)?;
+    /// let mesh = CompatibleMesh::around_pins(&frame, &[pin], &Silent)?;
     /// let k = mesh.source().iter().position(|p| *p == pin.source).expect("a vertex");
     /// assert_eq!(mesh.target()[k], pin.target);
-    /// # Ok::<(), morphospace::compatible::FrameError>(())
+    /// # Ok::<(), morphospace::compatible::PinnedError>(())
     /// ```
-    pub fn of_frame(
+    pub fn around_pins(
         frame: &Bounds,
         pins: &[PointPair],
         progress: &dyn Progress,
-    ) -> Result<Self, FrameError> {
+    ) -> Result<Self, PinnedError> {
         let (pins, numbers) = distinct(frame, pins)?;
-        let border = border(frame);
+        let border = border(frame, spacing(frame));
         let ends = |side: Side| {
             let ends = pins.iter().map(|pin| pin[side]);
             border.iter().copied().chain(ends).collect::<Vec<DVec2>>()
@@ -126,32 +131,23 @@ impl CompatibleMesh {
             let part: Vec<DVec2> = (mesh.points[0].iter().zip(&to))
                 .map(|(p, q)| *p + (*q - *p) * along)
                 .collect();
-            transfer::carry_on(&mut mesh, &part, progress).map_err(cancelled)?;
+            transfer::carry_on(&mut mesh, &part, progress)?;
             if !mesh.is_valid() {
-                return Err(FrameError::Folds {
+                return Err(PinnedError::Folds {
                     pins: at_folds(&mesh, border.len(), &numbers),
                 });
             }
             quality::settle(&mut mesh);
         }
-        quality::improve(&mut mesh, &PolygonOptions::default(), progress).map_err(cancelled)?;
-        checked(progress, "triangulating", 1.0).map_err(cancelled)?;
+        quality::improve(&mut mesh, &PolygonOptions::default(), progress)?;
+        checkpoint(progress, "triangulating", 1.0)?;
         let (faces, mut points) = mesh.compacted();
         for (points, given) in points.iter_mut().zip(&given) {
             points.iter_mut().for_each(|p| *p /= scale);
             points[..fixed].copy_from_slice(given);
         }
         let [in_source, in_target] = points;
-        Self::new(faces, in_source, in_target, Vec::new())
-            .map_err(|_| FrameError::Triangulation(TriangulationError::NotSimple))
-    }
-}
-
-/// Nothing else can go wrong with a mesh that is there.
-fn cancelled(error: super::PolygonsError) -> FrameError {
-    match error {
-        super::PolygonsError::Cancelled(cancelled) => FrameError::Cancelled(cancelled),
-        _ => FrameError::Triangulation(TriangulationError::OutOfRange),
+        Ok(Self::new(faces, in_source, in_target, Vec::new())?)
     }
 }
 
@@ -159,7 +155,7 @@ fn cancelled(error: super::PolygonsError) -> FrameError {
 fn distinct(
     frame: &Bounds,
     pins: &[PointPair],
-) -> Result<(Vec<PointPair>, Vec<usize>), FrameError> {
+) -> Result<(Vec<PointPair>, Vec<usize>), PinnedError> {
     let same = SAME * frame.diameter();
     let inside = frame.padded(-same);
     let mut kept: Vec<PointPair> = Vec::new();
@@ -167,7 +163,7 @@ fn distinct(
     for (pin, pair) in pins.iter().enumerate() {
         for side in Side::BOTH {
             if !inside.contains(pair[side]) {
-                return Err(FrameError::Outside { pin, side });
+                return Err(PinnedError::Outside { pin, side });
             }
         }
         let near =
@@ -184,7 +180,7 @@ fn distinct(
             }
             Some(([true, true], _)) => {}
             Some(([in_source, _], &other)) => {
-                return Err(FrameError::Coincide {
+                return Err(PinnedError::Coincide {
                     pins: [other, pin],
                     side: if in_source {
                         Side::Source
@@ -200,19 +196,6 @@ fn distinct(
 
 fn spacing(frame: &Bounds) -> f64 {
     frame.size().max_element() / ALONG
-}
-
-/// Points along the rectangle, counter-clockwise from its lower left corner.
-fn border(frame: &Bounds) -> Vec<DVec2> {
-    let corners = frame.corners();
-    let mut points = Vec::new();
-    for k in 0..4 {
-        let (a, b) = (corners[k], corners[(k + 1) % 4]);
-        let pieces = (a.distance(b) / spacing(frame)).ceil().max(1.0) as u32;
-        // To the last bit on the side: a sliver beside it would fold.
-        points.extend((0..pieces).map(|i| a + (b - a) * (f64::from(i) / f64::from(pieces))));
-    }
-    points
 }
 
 /// Points in rows of triangles between those that are there: as wide as the
@@ -305,7 +288,7 @@ mod tests {
 
     #[test]
     fn without_pins_nothing_moves() {
-        let mesh = CompatibleMesh::of_frame(&FRAME, &[], &Silent).expect("a mesh");
+        let mesh = CompatibleMesh::around_pins(&FRAME, &[], &Silent).expect("a mesh");
         for (p, q) in mesh.source().iter().zip(mesh.target()) {
             assert!(p.distance(*q) < 1e-9, "{p} {q}");
         }
@@ -314,24 +297,24 @@ mod tests {
     #[test]
     fn pins_that_exchange_places_along_a_line_are_met_around_each_other() {
         let pins = [pin((0.0, 3.0), (3.0, 3.0)), pin((3.0, 3.0), (0.0, 3.0))];
-        let mesh = CompatibleMesh::of_frame(&FRAME, &pins, &Silent);
+        let mesh = CompatibleMesh::around_pins(&FRAME, &pins, &Silent);
         // Half a turn of the middle can do that; where it is not found, both are named.
         match mesh {
             Ok(mesh) => assert!(mesh.target().contains(&pins[0].target)),
-            Err(FrameError::Folds { pins }) => assert!(!pins.is_empty()),
+            Err(PinnedError::Folds { pins }) => assert!(!pins.is_empty()),
             Err(error) => panic!("{error}"),
         }
     }
 
     #[test]
     fn what_cannot_be_is_named() {
-        let out = CompatibleMesh::of_frame(&FRAME, &[pin((0.0, 3.0), (9.0, 3.0))], &Silent);
+        let out = CompatibleMesh::around_pins(&FRAME, &[pin((0.0, 3.0), (9.0, 3.0))], &Silent);
         let side = Side::Target;
-        assert_eq!(out.err(), Some(FrameError::Outside { pin: 0, side }));
+        assert_eq!(out.err(), Some(PinnedError::Outside { pin: 0, side }));
         let pins = [pin((0.0, 3.0), (1.0, 3.0)), pin((0.0, 3.0), (2.0, 3.0))];
-        let one = CompatibleMesh::of_frame(&FRAME, &pins, &Silent);
+        let one = CompatibleMesh::around_pins(&FRAME, &pins, &Silent);
         let (pins, side) = ([0, 1], Side::Source);
-        assert_eq!(one.err(), Some(FrameError::Coincide { pins, side }));
+        assert_eq!(one.err(), Some(PinnedError::Coincide { pins, side }));
     }
 
     proptest! {
@@ -341,14 +324,14 @@ mod tests {
             pins in prop::collection::vec(((-1.6f64..5.6), (1.4f64..4.6), (-0.15f64..0.15), (-0.15f64..0.15)), 0..12)
         ) {
             let pins: Vec<PointPair> = pins.into_iter().map(|(x, y, dx, dy)| pin((x, y), (x + dx, y + dy))).collect();
-            match CompatibleMesh::of_frame(&FRAME, &pins, &Silent) {
+            match CompatibleMesh::around_pins(&FRAME, &pins, &Silent) {
                 Ok(mesh) => for pin in &pins {
                     let k = mesh.source().iter().position(|p| p.distance(pin.source) < 1e-4);
                     let k = k.expect("a vertex");
                     prop_assert!(mesh.target()[k].distance(pin.target) < 1e-4);
                 },
-                Err(FrameError::Folds { pins: named }) => prop_assert!(!named.is_empty()),
-                Err(FrameError::Coincide { .. }) => {}
+                Err(PinnedError::Folds { pins: named }) => prop_assert!(!named.is_empty()),
+                Err(PinnedError::Coincide { .. }) => {}
                 Err(error) => return Err(TestCaseError::fail(error.to_string())),
             }
         }

@@ -3,12 +3,12 @@
 //! the faces (see [`super::face`]) in both embeddings together.
 
 use super::face;
+use super::options::PolygonOptions;
 use super::pair::PairMesh;
 use super::relax::relax;
 use super::transfer::split_chords;
-use super::{PolygonOptions, PolygonsError, checked};
 use crate::geometry::{Bounds, DVec2};
-use crate::progress::Progress;
+use crate::progress::{Cancelled, Progress, checkpoint};
 use std::collections::HashSet;
 
 /// Rounds of flips and moves.
@@ -36,10 +36,10 @@ pub(super) fn improve(
     mesh: &mut PairMesh,
     options: &PolygonOptions,
     progress: &dyn Progress,
-) -> Result<(), PolygonsError> {
+) -> Result<(), Cancelled> {
     let most = (MOST_WORK / (1 + mesh.faces().count())).max(1);
     for round in 0..ROUNDS {
-        checked(progress, "improving", round as f64 / ROUNDS as f64)?;
+        checkpoint(progress, "improving", round as f64 / ROUNDS as f64)?;
         flip_all(mesh);
         split_chords(mesh);
         if round + 1 < ROUNDS {
@@ -67,7 +67,9 @@ pub(super) fn settle(mesh: &mut PairMesh) {
 /// more doubled the vertices of public pairs and changed no median.
 fn split_costly(mesh: &mut PairMesh, options: &PolygonOptions) {
     let n = mesh.fixed;
-    let room = super::most_points(n, options).saturating_sub(mesh.steiner().count());
+    let room = options
+        .most_points(n)
+        .saturating_sub(mesh.steiner().count());
     let mut costly: Vec<([u32; 3], f64)> = mesh
         .faces()
         .map(|face| (face, mesh.cost(face)))
@@ -103,9 +105,9 @@ fn longest_inner_edge(mesh: &PairMesh, face: [u32; 3]) -> Option<[u32; 2]> {
 }
 
 /// Takes needless vertices out of a mesh that has far too many.
-pub(super) fn thin_out(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), PolygonsError> {
+pub(super) fn thin_out(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
     for round in 0..THINNING_ROUNDS {
-        checked(
+        checkpoint(
             progress,
             "simplifying",
             round as f64 / THINNING_ROUNDS as f64,
@@ -163,7 +165,7 @@ fn split_long(mesh: &mut PairMesh, options: &PolygonOptions) {
     };
     let n = mesh.fixed;
     let longest = [0, 1].map(|d| 1.5 * share * Bounds::diameter_of(&mesh.points[d][..n]));
-    let most = super::most_points(n, options);
+    let most = options.most_points(n);
     for [a, b] in mesh.inner_edges() {
         let long = (0..2)
             .any(|d| mesh.points[d][a as usize].distance(mesh.points[d][b as usize]) > longest[d]);

@@ -2,8 +2,14 @@
 
 mod pieces;
 
-use super::*;
-use crate::geometry::{Ring, orient2d};
+use super::error::PolygonsError;
+use super::options::PolygonOptions;
+use super::pair::PairMesh;
+use super::piece::{self, Rings};
+use super::together::from_base;
+use super::touching;
+use crate::compatible::CompatibleMesh;
+use crate::geometry::{DVec2, Ring, Side, orient2d};
 use crate::progress::Silent;
 use proptest::prelude::*;
 use std::f64::consts::TAU;

@@ -9,14 +9,14 @@
 //! where folds remain there is no result.
 
 use super::lbfgs::minimise;
+use super::options::PolygonOptions;
 use super::pair::PairMesh;
 use super::piece::Rings;
 use super::springs::Springs;
-use super::{PolygonOptions, PolygonsError, checked};
 use crate::geometry::{Bounds, DMat2, DVec2, twice_signed_area};
 use crate::linalg::{Cholesky, FactorKind, SymmetricMatrix};
 use crate::mesh::triangulation::{Refinement, refined};
-use crate::progress::Progress;
+use crate::progress::{Cancelled, Progress, checkpoint};
 
 /// Smallest angle that the refinement works towards.
 const MIN_ANGLE: f64 = 0.4;
@@ -35,13 +35,13 @@ pub(super) fn transfer(
     to: &Rings,
     options: &PolygonOptions,
     progress: &dyn Progress,
-) -> Result<Option<PairMesh>, PolygonsError> {
+) -> Result<Option<PairMesh>, Cancelled> {
     let refinement = Refinement {
         min_angle: MIN_ANGLE,
         max_edge: options
             .edge_length
             .map(|share| share * Bounds::diameter_of(&from.points)),
-        max_points: super::most_points(from.points.len(), options),
+        max_points: options.most_points(from.points.len()),
     };
     let Ok(start) = refined(&from.walks(), &refinement) else {
         return Ok(None);
@@ -59,7 +59,7 @@ pub(super) fn carry(
     mesh: &mut PairMesh,
     to: &[DVec2],
     progress: &dyn Progress,
-) -> Result<(), PolygonsError> {
+) -> Result<(), Cancelled> {
     mesh.points[1] = fitted(mesh, to);
     if !mesh.is_valid() {
         let Some(harmonic) = harmonic(mesh, to) else {
@@ -76,12 +76,12 @@ pub(super) fn carry_on(
     mesh: &mut PairMesh,
     to: &[DVec2],
     progress: &dyn Progress,
-) -> Result<(), PolygonsError> {
+) -> Result<(), Cancelled> {
     mesh.points[1][..mesh.fixed].copy_from_slice(&to[..mesh.fixed]);
     remove_folds(mesh, progress)
 }
 
-fn remove_folds(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), PolygonsError> {
+fn remove_folds(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
     let mut fewest = usize::MAX;
     let mut since = 0;
     for round in 0..ROUNDS {
@@ -91,7 +91,7 @@ fn remove_folds(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Poly
         }
         since = if folds < fewest { 0 } else { since + 1 };
         fewest = fewest.min(folds);
-        checked(progress, "removing folds", round as f64 / ROUNDS as f64)?;
+        checkpoint(progress, "removing folds", round as f64 / ROUNDS as f64)?;
         if since >= PATIENCE || !untangle(mesh) {
             break;
         }

@@ -1,0 +1,24 @@
+//! How fine the common triangulation of two polygons is to be.
+
+use serde::{Deserialize, Serialize};
+
+/// How two polygons are triangulated together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct PolygonOptions {
+    /// Longest edge wanted inside, as a share of each design's diameter;
+    /// without one, faces grow from the boundary inwards, with at most two
+    /// inner vertices for each of the boundary in all but hard cases.
+    pub edge_length: Option<f64>,
+}
+
+impl PolygonOptions {
+    /// The most inner vertices that a refinement may make.
+    pub(super) fn most_points(&self, boundary: usize) -> usize {
+        const FINEST: f64 = 1e-3;
+        match self.edge_length {
+            None => 2 * boundary,
+            Some(share) => 2 * boundary + (2.0 / share.max(FINEST).powi(2)) as usize,
+        }
+    }
+}

@@ -1,0 +1,244 @@
+//! The steps by which two polygons are triangulated together: transfer in
+//! both directions, the guaranteed base where both fail, then quality.
+
+use super::error::PolygonsError;
+use super::options::PolygonOptions;
+use super::pair::{PairMesh, to_unit};
+use super::piece::{self, Rings};
+use super::{bridges, coarsen, face, quality, relax, transfer};
+use crate::compatible::CompatibleMesh;
+use crate::geometry::{DVec2, Side};
+use crate::progress::{Cancelled, Progress};
+
+/// With more boundary points the base is made of what a front leaves.
+const FEW: usize = 200;
+
+impl CompatibleMesh {
+    /// Triangulates two simple counter-clockwise polygons together; point i
+    /// of one is point i of the other. The mesh's first vertices are the
+    /// polygon's, in order; inner ones follow.
+    ///
+    /// # Errors
+    /// [`PolygonsError`] for what are no simple polygons, or if the work is
+    /// cancelled.
+    ///
+    /// ```
+    /// use morphospace::compatible::{CompatibleMesh, PolygonOptions};
+    /// use morphospace::{geometry::DVec2, progress::Silent};
+    /// let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
+    /// let dart = [(0.0, 0.0), (2.0, 0.0), (0.5, 0.5), (0.0, 2.0)].map(DVec2::from);
+    /// let mesh = CompatibleMesh::from_polygons(&square, &dart, &PolygonOptions::default(), &Silent)?;
+    /// assert_eq!(mesh.source()[..4], square);
+    /// # Ok::<(), morphospace::compatible::PolygonsError>(())
+    /// ```
+    pub fn from_polygons(
+        source: &[DVec2],
+        target: &[DVec2],
+        options: &PolygonOptions,
+        progress: &dyn Progress,
+    ) -> Result<Self, PolygonsError> {
+        Self::from_piece(&[source], &[target], options, progress)
+    }
+
+    /// Triangulates one connected piece in two designs together. Ring 0 is
+    /// its outer boundary, counter-clockwise, the others are its holes,
+    /// clockwise; point i of a ring is point i of that ring in the other
+    /// design. The mesh's first vertices are the rings' points, ring after
+    /// ring; inner ones follow.
+    ///
+    /// A ring may run along a slit in either design or in both, there and
+    /// back over bit-equal points, as that of a letter D cut open: both banks
+    /// are vertices of their own.
+    ///
+    /// # Errors
+    /// [`PolygonsError`] for what bounds no single piece, or if the work is
+    /// cancelled.
+    ///
+    /// ```
+    /// use morphospace::compatible::{CompatibleMesh, PolygonOptions};
+    /// use morphospace::{geometry::DVec2, progress::Silent};
+    /// let square = |r: f64| [(-r, -r), (r, -r), (r, r), (-r, r)].map(DVec2::from).to_vec();
+    /// let hole = |r: f64| square(r).into_iter().rev().collect();
+    /// let (thin, thick) = ([square(2.0), hole(1.5)], [square(2.0), hole(0.5)]);
+    /// let mesh = CompatibleMesh::from_piece(&thin, &thick, &PolygonOptions::default(), &Silent)?;
+    /// assert_eq!(mesh.boundary_loops().len(), 2);
+    /// # Ok::<(), morphospace::compatible::PolygonsError>(())
+    /// ```
+    pub fn from_piece<R: AsRef<[DVec2]>>(
+        source: &[R],
+        target: &[R],
+        options: &PolygonOptions,
+        progress: &dyn Progress,
+    ) -> Result<Self, PolygonsError> {
+        check(source, target, options)?;
+        let given = [source, target].map(Rings::of);
+        let scales = [&given[0], &given[1]].map(|rings| to_unit(&rings.points));
+        let [p, q] = [0, 1].map(|d| given[d].scaled(scales[d]));
+        piece::check(&p, Side::Source)?;
+        piece::check(&q, Side::Target)?;
+        let mesh = if goes_first(&p, &q) {
+            triangulated(&p, &q, options, progress)
+        } else {
+            let back = triangulated(&q, &p, options, progress);
+            back.map(PairMesh::swapped).map_err(PolygonsError::swapped)
+        };
+        let mesh = mesh.map_err(|error| error.enlarged(scales.map(f64::recip)))?;
+        let (faces, mut points) = mesh.compacted();
+        for d in 0..2 {
+            points[d].iter_mut().for_each(|p| *p /= scales[d]);
+            points[d][..given[d].points.len()].copy_from_slice(&given[d].points);
+        }
+        let [in_source, in_target] = points;
+        Self::new(faces, in_source, in_target, Vec::new()).map_err(PolygonsError::Mesh)
+    }
+}
+
+fn check<R: AsRef<[DVec2]>>(
+    source: &[R],
+    target: &[R],
+    options: &PolygonOptions,
+) -> Result<(), PolygonsError> {
+    if source.len() != target.len() {
+        return Err(PolygonsError::Rings([source.len(), target.len()]));
+    }
+    let lengths = |rings: &[R]| rings.iter().map(|r| r.as_ref().len()).collect::<Vec<_>>();
+    for (ring, (a, b)) in lengths(source).into_iter().zip(lengths(target)).enumerate() {
+        if a != b {
+            let points = [a, b];
+            return Err(PolygonsError::Counts { ring, points });
+        }
+    }
+    match options.edge_length {
+        Some(share) if share.is_nan() || share <= 0.0 => Err(PolygonsError::EdgeLength(share)),
+        _ => Ok(()),
+    }
+}
+
+/// A total order, so that a pair is solved in one order whichever way it is
+/// asked for.
+fn goes_first(a: &Rings, b: &Rings) -> bool {
+    let coordinates = |rings: &Rings| -> Vec<f64> {
+        let points = rings.points.iter();
+        points.flat_map(|p| (*p + 0.0).to_array()).collect()
+    };
+    let (a, b) = (coordinates(a), coordinates(b));
+    let order = a.iter().zip(&b).map(|(a, b)| a.total_cmp(b));
+    order
+        .fold(std::cmp::Ordering::Equal, |so_far, next| so_far.then(next))
+        .is_le()
+}
+
+fn triangulated(
+    source: &Rings,
+    target: &Rings,
+    options: &PolygonOptions,
+    progress: &dyn Progress,
+) -> Result<PairMesh, PolygonsError> {
+    let (forwards, backwards) = rayon::join(
+        || transferred(source, target, options, progress),
+        || transferred(target, source, options, progress),
+    );
+    let best = [forwards?, backwards?.map(PairMesh::swapped)]
+        .into_iter()
+        .flatten()
+        .min_by(|a, b| badness(a).total_cmp(&badness(b)));
+    let mut mesh = match best {
+        Some(mesh) => mesh,
+        None => from_base(source, target, progress)?,
+    };
+    quality::improve(&mut mesh, options, progress)?;
+    Ok(mesh)
+}
+
+/// Improved just so far that both directions can be compared.
+fn transferred(
+    from: &Rings,
+    to: &Rings,
+    options: &PolygonOptions,
+    progress: &dyn Progress,
+) -> Result<Option<PairMesh>, Cancelled> {
+    let mut mesh = transfer::transfer(from, to, options, progress)?;
+    if let Some(mesh) = &mut mesh {
+        quality::settle(mesh);
+    }
+    Ok(mesh)
+}
+
+pub(super) fn from_base(
+    source: &Rings,
+    target: &Rings,
+    progress: &dyn Progress,
+) -> Result<PairMesh, PolygonsError> {
+    let mut mesh = if source.points.len() > FEW {
+        coarse_base(source, target)?
+    } else {
+        bridges::base(source, target)?
+    };
+    if let Some(error) = folded(&mesh) {
+        return Err(error);
+    }
+    quality::thin_out(&mut mesh, progress)?;
+    Ok(mesh)
+}
+
+/// Where rounding left faces of a base without area.
+fn folded(mesh: &PairMesh) -> Option<PolygonsError> {
+    Side::BOTH.into_iter().find_map(|side| {
+        let corners = mesh.faces().map(|face| mesh.corners(face)[side]);
+        let mut folded = corners.filter(|corners| !face::is_positive(*corners));
+        let place = folded.next()?.iter().sum::<DVec2>() / 3.0;
+        Some(PolygonsError::Folded {
+            side,
+            faces: 1 + folded.count(),
+            place,
+        })
+    })
+}
+
+/// The base of what a front leaves, and the faces behind the front.
+fn coarse_base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsError> {
+    let coarse = coarsen::coarsened(source, target, FEW / 2);
+    let mut core = bridges::base(&coarse.core(0), &coarse.core(1))?;
+    let front: Vec<u32> = coarse.rings.concat();
+    let inner = coarse.points[0].len();
+    let number = |v: u32| match (v as usize).checked_sub(front.len()) {
+        None => front[v as usize],
+        Some(i) => (inner + i) as u32,
+    };
+    let mut faces = coarse.faces;
+    faces.extend(core.faces().map(|face| face.map(number)));
+    let [mut p, mut q] = coarse.points;
+    p.extend(core.points[0].drain(front.len()..));
+    q.extend(core.points[1].drain(front.len()..));
+    Ok(PairMesh::new(source.points.len(), p, q, faces))
+}
+
+/// Mean cost of the faces by their area in both designs: what one mesh is
+/// preferred to another by.
+fn badness(mesh: &PairMesh) -> f64 {
+    let weighted = relax::weighted(mesh);
+    weighted
+        .iter()
+        .map(|&(face, weight)| weight * mesh.cost(face))
+        .sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_base_with_flat_faces_says_where_they_are() {
+        let square = [(0.0, 0.0), (3.0, 0.0), (3.0, 3.0), (0.0, 3.0)].map(DVec2::from);
+        let flat = square.map(|p| DVec2::new(p.x + p.y, p.y));
+        let flat = [flat[0], flat[1], 2.0 * flat[1], flat[3]].to_vec();
+        let faces = vec![[0, 1, 2], [0, 2, 3]];
+        let mesh = PairMesh::new(4, square.to_vec(), flat, faces);
+        let error = folded(&mesh).expect("a flat face");
+        let told = error.swapped().enlarged([2.0, 1.0]);
+        let (side, place) = (Side::Source, DVec2::new(6.0, 0.0));
+        let faces = 1;
+        assert_eq!(told, PolygonsError::Folded { side, faces, place });
+        assert!(told.to_string().contains("in the source, about (6, 0)"));
+    }
+}
