@@ -36,6 +36,7 @@ pub use pairing::{PairError, Pairing, pair_holes, pair_parts};
 pub use pins::{Pin, PinError};
 pub use polygons::{PolygonOptions, SharedPolygons};
 pub use regions::{
-    POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch, match_regions,
+    MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch,
+    match_regions,
 };
 pub use settings::{HoleRule, LinePair, Matching, PartRule, PointPair, RingCut};

@@ -4,8 +4,9 @@ use super::super::pairing::{Pairing, pair_other_parts, relative_centre};
 use super::super::{Matching, PairError, PartRule, RingCut};
 use super::closing::{centre, shrunk};
 use super::locate::{Pinned, nearest_ring, part_at};
-use super::outcome::{POINT_SIZE, PieceMatch, RegionMatchError, RingMatch};
-use super::piece::{Task, matched};
+use super::outcome::{MatchNote, POINT_SIZE, PieceMatch, RegionMatchError, RingMatch};
+use super::piece::matched;
+use super::sides::Task;
 use super::split::split;
 use crate::geometry::{DVec2, Pair, Region, Regions, Side};
 
@@ -188,8 +189,11 @@ pub(super) fn pieces(
                 task(regions.to_array(), parts.to_array())
             };
             let Some(cut) = split(one, several) else {
+                let mut first = piece(0, one)?;
+                let part = group.parts[side][0];
+                first.notes.push(MatchNote::Unsplit { side, part });
                 let rest = others[1..].iter().map(|&k| alone(side.other(), k));
-                return Ok(std::iter::once(piece(0, one)?).chain(rest).collect());
+                return Ok(std::iter::once(first).chain(rest).collect());
             };
             let pieces = cut.iter().enumerate();
             pieces.map(|(k, cut)| piece(k, cut)).collect()
@@ -240,6 +244,7 @@ fn alone(designs: [&Regions; 2], all: &[Group], side: Side, part: usize) -> Piec
         cuts: Vec::new(),
         rotation: 0.0,
         cost: 0.0,
+        notes: Vec::new(),
     }
 }
 

@@ -23,6 +23,7 @@ mod groups;
 mod locate;
 mod outcome;
 mod piece;
+mod sides;
 mod slits;
 mod split;
 #[cfg(test)]
@@ -32,7 +33,9 @@ mod walk;
 use super::Matching;
 use crate::geometry::Regions;
 use crate::progress::{Progress, checkpoint};
-pub use outcome::{POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch};
+pub use outcome::{
+    MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch,
+};
 
 /// Matches two designs with all their parts and holes.
 ///

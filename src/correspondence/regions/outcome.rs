@@ -31,8 +31,38 @@ pub struct PieceMatch {
     /// radians in (−π, π].
     pub rotation: f64,
     /// How unlike the outer rings are as matched; see
-    /// [`super::BoundaryMatch::cost`]. 0 for what is born or dies.
+    /// [`crate::correspondence::BoundaryMatch::cost`]. 0 for what is born or dies.
     pub cost: f64,
+    /// What was not done as it was asked for.
+    pub notes: Vec<MatchNote>,
+}
+
+/// What a match could not do as it was asked for, and did otherwise. Parts,
+/// holes and pins are counted from 0, and from 1 in words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[non_exhaustive]
+pub enum MatchNote {
+    /// A hole closes, or opens, since no straight cut leads to it.
+    #[error("hole {} of part {} of the {side} is not cut open: no straight cut leads to it inside the part; draw one", hole + 1, part + 1)]
+    Uncut {
+        /// In which design.
+        side: Side,
+        /// In which part.
+        part: usize,
+        /// Which hole.
+        hole: usize,
+    },
+    /// A pin ties a hole to an outer boundary, and the hole is not cut open.
+    #[error("pin {} is left out: the hole that it lies on is not cut open; draw a cut, or delete the pin", .0 + 1)]
+    PinLeftOut(usize),
+    /// A part is matched with one of several; the others are born or die.
+    #[error("part {} of the {side} is not split: no straight cut through it was found; link the parts that belong together", part + 1)]
+    Unsplit {
+        /// In which design.
+        side: Side,
+        /// Which part.
+        part: usize,
+    },
 }
 
 /// Corresponding vertices of one ring. Vertex k of the source is vertex k of
@@ -90,6 +120,11 @@ pub enum RegionMatchError {
 }
 
 impl RegionMatch {
+    /// What was not done as it was asked for, piece by piece.
+    pub fn notes(&self) -> impl Iterator<Item = &MatchNote> {
+        self.pieces.iter().flat_map(|piece| &piece.notes)
+    }
+
     /// The same match, the designs exchanged.
     #[must_use]
     pub fn swapped(&self) -> Self {
@@ -112,7 +147,18 @@ impl PieceMatch {
             cuts: self.cuts.iter().map(cut).collect(),
             rotation: 0.0 - self.rotation,
             cost: self.cost,
+            notes: self.notes.iter().map(MatchNote::swapped).collect(),
         }
+    }
+}
+
+impl MatchNote {
+    fn swapped(&self) -> Self {
+        let mut note = *self;
+        if let Self::Uncut { side, .. } | Self::Unsplit { side, .. } = &mut note {
+            *side = side.other();
+        }
+        note
     }
 }
 

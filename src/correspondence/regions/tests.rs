@@ -1,8 +1,8 @@
 //! Whole designs matched: parts, holes, cuts.
 
 use super::*;
-use crate::correspondence::{HoleRule, PartRule, PointPair};
-use crate::geometry::{FillRule, Ring, Side};
+use crate::correspondence::{HoleRule, PartRule, PointPair, RingCut};
+use crate::geometry::{DVec2, FillRule, Ring, Side};
 use crate::progress::Silent;
 
 fn block(x: f64, y: f64, w: f64, h: f64) -> Vec<DVec2> {
@@ -189,4 +189,51 @@ fn contradictory_pins_are_named_by_their_numbers_among_all() {
         error.to_string().contains('4') || error.to_string().contains('3'),
         "{error}"
     );
+}
+
+#[test]
+fn a_hole_that_no_straight_cut_reaches_closes_and_is_told() {
+    // A small hole within a hole that winds around it.
+    let winding = [
+        (5.25, 13.0),
+        (5.25, 5.25),
+        (14.75, 5.25),
+        (14.75, 14.75),
+        (3.25, 14.75),
+        (3.25, 8.0),
+        (2.75, 8.0),
+        (2.75, 15.25),
+        (15.25, 15.25),
+        (15.25, 4.75),
+        (4.75, 4.75),
+        (4.75, 13.0),
+    ];
+    let winding = winding.map(DVec2::from).to_vec();
+    let plate = block(0.0, 0.0, 20.0, 20.0);
+    let source = design(&[plate.clone(), winding.clone(), block(9.0, 9.0, 2.0, 2.0)]);
+    let target = design(&[plate, winding]);
+    let mut wanted = Matching {
+        holes: HoleRule::Cut,
+        ..Matching::default()
+    };
+    let uncut = |matched: &RegionMatch| {
+        let notes: Vec<MatchNote> = matched.notes().copied().collect();
+        assert!(matched.pieces[0].cuts.is_empty());
+        assert!(matches!(
+            notes[0],
+            MatchNote::Uncut {
+                side: Side::Source,
+                part: 0,
+                ..
+            }
+        ));
+        notes[1..].to_vec()
+    };
+    assert_eq!(uncut(&run(&source, &target, &wanted)), []);
+    wanted.pins.push(PointPair {
+        source: DVec2::new(9.0, 9.0),
+        target: DVec2::ZERO,
+    });
+    let notes = uncut(&run(&source, &target, &wanted));
+    assert_eq!(notes, [MatchNote::PinLeftOut(0)]);
 }
