@@ -19,11 +19,13 @@ mod pairing;
 mod path_grid;
 mod pins;
 mod polygons;
+mod poses;
 mod problem;
 mod refine;
 mod regions;
 mod samples;
 mod settings;
+mod solve;
 #[cfg(test)]
 mod tests;
 mod thickness;

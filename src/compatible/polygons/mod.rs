@@ -21,6 +21,7 @@ mod chords;
 mod coarsen;
 mod error;
 mod face;
+mod front;
 mod lbfgs;
 mod options;
 mod overlay;
@@ -35,6 +36,7 @@ mod tests;
 mod together;
 mod touching;
 mod transfer;
+mod untangle;
 
 pub use error::{PolygonsError, RingEdge};
 pub use options::PolygonOptions;

@@ -2,31 +2,25 @@
 //! to the other.
 //!
 //! The boundary goes where it must, the interior follows harmonically (Tutte
-//! 1963), and fold-overs are removed by minimising
-//! Σ area · (tr(JᵀJ) + 1 + det²) / χ(det) with a shrinking ε (Garanzha,
-//! Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, "Foldover-free maps in
-//! 50 lines of code"). It gives good angles cheaply and guarantees nothing:
-//! where folds remain there is no result.
+//! 1963), and fold-overs are removed ([`super::untangle`]). It gives good
+//! angles cheaply and guarantees nothing: where folds remain there is no
+//! result.
 
-use super::lbfgs::minimise;
 use super::options::PolygonOptions;
 use super::pair::PairMesh;
 use super::piece::Rings;
-use super::springs::Springs;
-use crate::geometry::{Bounds, DMat2, DVec2, twice_signed_area};
+use super::untangle::untangle;
+use crate::geometry::{Bounds, DVec2};
 use crate::linalg::{Cholesky, FactorKind, SymmetricMatrix};
 use crate::mesh::triangulation::{Refinement, refined};
 use crate::progress::{Cancelled, Progress, checkpoint};
 
 /// Smallest angle that the refinement works towards.
 const MIN_ANGLE: f64 = 0.4;
-/// Least ε, in units of the mean determinant.
-const LEAST_EPSILON: f64 = 1e-3;
-/// Rounds of shrinking ε, and steps in each.
+/// Rounds of shrinking ε.
 const ROUNDS: usize = 60;
 /// Rounds without fewer folds after which it is given up.
 const PATIENCE: usize = 6;
-const STEPS: usize = 30;
 
 /// Both polygons' common mesh, refined in the first and carried to the
 /// second; `None` where folds remain.
@@ -43,6 +37,7 @@ pub(super) fn transfer(
             .map(|share| share * Bounds::diameter_of(&from.points)),
         max_points: options.most_points(from.points.len()),
     };
+    // The base is made of the same walks, and says what is wrong with them.
     let Ok(start) = refined(&from.walks(), &refinement) else {
         return Ok(None);
     };
@@ -152,183 +147,4 @@ fn harmonic(mesh: &PairMesh, to: &[DVec2]) -> Option<Vec<DVec2>> {
     let (x, y) = (solve(|p| p.x), solve(|p| p.y));
     let placed = x.into_iter().zip(y).map(|(x, y)| DVec2::new(x, y));
     Some(to.iter().copied().chain(placed).collect())
-}
-
-/// A face as the energy sees it.
-struct Piece {
-    corners: [usize; 3],
-    /// From edges in the target to the Jacobian, scaled to a mean
-    /// determinant of one.
-    from_edges: DMat2,
-    share: f64,
-}
-
-impl Piece {
-    fn jacobian(&self, at: impl Fn(usize) -> DVec2) -> DMat2 {
-        let [a, b, c] = self.corners.map(at);
-        DMat2::from_cols(b - a, c - a) * self.from_edges
-    }
-}
-
-fn pieces(mesh: &PairMesh) -> Vec<Piece> {
-    let doubled = |d: usize| -> f64 {
-        let area = |f| mesh.corners(f)[d];
-        mesh.faces()
-            .map(area)
-            .map(|c| twice_signed_area(c[0], c[1], c[2]))
-            .sum()
-    };
-    let total = doubled(0);
-    let scale = (total / doubled(1)).sqrt();
-    let piece = |face: [u32; 3]| {
-        let [p, _] = mesh.corners(face);
-        let edges = DMat2::from_cols(p[1] - p[0], p[2] - p[0]);
-        Piece {
-            corners: face.map(|v| v as usize),
-            from_edges: edges.inverse() * scale,
-            share: edges.determinant() / total,
-        }
-    };
-    mesh.faces().map(piece).collect()
-}
-
-/// One round at one ε; `false` if it moved nothing.
-fn untangle(mesh: &mut PairMesh) -> bool {
-    let pieces = pieces(mesh);
-    let n = mesh.fixed;
-    let start = mesh.points[1].clone();
-    let least = pieces
-        .iter()
-        .map(|piece| piece.jacobian(|v| start[v]).determinant())
-        .fold(f64::INFINITY, f64::min);
-    let epsilon = LEAST_EPSILON.hypot(0.2 * least.min(0.0));
-    let Some(mut springs) = springs(&pieces, start.len(), n) else {
-        return false;
-    };
-    let mut x = vec![0.0; 2 * (start.len() - n)];
-    let precondition = |forces: &mut [f64]| springs.solve(forces);
-    minimise(&mut x, STEPS, 1e-5, precondition, |x, gradient| {
-        energy(&pieces, &start, n, epsilon, x, gradient)
-    });
-    let (along_x, along_y) = x.split_at(start.len() - n);
-    for (i, point) in mesh.points[1][n..].iter_mut().enumerate() {
-        *point += DVec2::new(along_x[i], along_y[i]);
-    }
-    mesh.points[1] != start
-}
-
-/// The curvature of the energy near no distortion, up to a factor.
-fn springs(pieces: &[Piece], vertices: usize, fixed: usize) -> Option<Springs> {
-    let springs = pieces.iter().flat_map(|piece| {
-        let weight = 2.0 * piece.share;
-        // |J|² is a sum over edges of the corners' cotangents.
-        let m = piece.from_edges * piece.from_edges.transpose();
-        let (ab, ac, bc) = (
-            m.x_axis.x + m.y_axis.x,
-            m.y_axis.y + m.y_axis.x,
-            -m.y_axis.x,
-        );
-        let [a, b, c] = piece.corners;
-        [([a, b], ab), ([a, c], ac), ([b, c], bc)].map(|(ends, s)| {
-            let unknown = |v: usize| v.checked_sub(fixed).map(|i| i as u32);
-            (ends.map(unknown), weight * s)
-        })
-    });
-    Springs::new(vertices - fixed, springs).ok()
-}
-
-fn energy(
-    pieces: &[Piece],
-    start: &[DVec2],
-    fixed: usize,
-    epsilon: f64,
-    x: &[f64],
-    gradient: &mut [f64],
-) -> f64 {
-    let n = start.len() - fixed;
-    let at = |v: usize| match v.checked_sub(fixed) {
-        None => start[v],
-        Some(i) => start[v] + DVec2::new(x[i], x[n + i]),
-    };
-    gradient.fill(0.0);
-    let mut total = 0.0;
-    for piece in pieces {
-        let j = piece.jacobian(at);
-        let (value, by_jacobian) = density(j, epsilon);
-        total += piece.share * value;
-        let by_edges = by_jacobian * piece.from_edges.transpose() * piece.share;
-        let corners = [
-            -(by_edges.x_axis + by_edges.y_axis),
-            by_edges.x_axis,
-            by_edges.y_axis,
-        ];
-        for (v, g) in piece.corners.into_iter().zip(corners) {
-            if let Some(i) = v.checked_sub(fixed) {
-                gradient[i] += g.x;
-                gradient[n + i] += g.y;
-            }
-        }
-    }
-    total
-}
-
-/// (det + √(ε² + det²)) / 2: positive for either sign.
-fn chi(det: f64, epsilon: f64) -> f64 {
-    let root = (epsilon * epsilon + det * det).sqrt();
-    // The textbook form for both signs cancels to zero where det < 0.
-    if det > 0.0 {
-        0.5 * (det + root)
-    } else {
-        0.5 * epsilon * epsilon / (root - det)
-    }
-}
-
-/// (tr(JᵀJ) + 1 + det²) / χ(det) and its derivative by J.
-fn density(j: DMat2, epsilon: f64) -> (f64, DMat2) {
-    let det = j.determinant();
-    let root = (epsilon * epsilon + det * det).sqrt();
-    let chi = chi(det, epsilon);
-    let cofactor = DMat2::from_cols(
-        DVec2::new(j.y_axis.y, -j.y_axis.x),
-        DVec2::new(-j.x_axis.y, j.x_axis.x),
-    );
-    let square = j.x_axis.length_squared() + j.y_axis.length_squared();
-    let value = (square + 1.0 + det * det) / chi;
-    let by_det = (2.0 * det - value * chi / root) / chi;
-    (value, j * (2.0 / chi) + cofactor * by_det)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_density_has_its_derivative_for_both_signs() {
-        for j in [
-            DMat2::from_cols(DVec2::new(1.0, 0.2), DVec2::new(-0.3, 0.8)),
-            DMat2::from_cols(DVec2::new(1.0, 0.2), DVec2::new(0.3, -0.8)),
-        ] {
-            let (_, by_j) = density(j, 0.3);
-            let h = 1e-6;
-            for k in 0..4 {
-                let moved = |by: f64| {
-                    let mut entries = j.to_cols_array();
-                    entries[k] += by;
-                    density(DMat2::from_cols_array(&entries), 0.3).0
-                };
-                let slow = (moved(h) - moved(-h)) / (2.0 * h);
-                let fast = by_j.to_cols_array()[k];
-                assert!(
-                    (slow - fast).abs() < 1e-6 * (1.0 + slow.abs()),
-                    "{slow} {fast}"
-                );
-            }
-        }
-    }
-
-    #[test]
-    fn a_far_negative_determinant_stays_finite() {
-        let flipped = DMat2::from_diagonal(DVec2::new(1e4, -1e4));
-        assert!(density(flipped, 1e-3).0.is_finite());
-    }
 }

@@ -1,0 +1,261 @@
+//! The front that moves inwards, and what it leaves behind: points that see a
+//! stretch of it in either design, corners cut off.
+
+use super::face;
+use super::piece::Rings;
+use crate::geometry::{DVec2, orient2d, segments_touch};
+use std::collections::HashSet;
+
+/// Edges of the stretches that are tried, longest first.
+const STRETCHES: [usize; 4] = [7, 5, 4, 3];
+/// How far from its stretch a point is sought, in units of its extent.
+const REACHES: [f64; 5] = [0.6, 0.3, 0.12, 0.04, 0.01];
+/// So much farther in it has to be free, too, so that fronts that meet
+/// leave room.
+const ROOM: f64 = 1.5;
+/// Corners are cut off where both faces are at most so far from equilateral.
+const SHAPELY: f64 = 3.0;
+
+/// What is left to triangulate, and what has been.
+pub(super) struct Coarse {
+    /// All vertices, those of the rings first.
+    pub(super) points: [Vec<DVec2>; 2],
+    pub(super) faces: Vec<[u32; 3]>,
+    /// The front's rings, by vertices.
+    pub(super) rings: Vec<Vec<u32>>,
+}
+
+impl Coarse {
+    /// The front in one design.
+    pub(super) fn core(&self, design: usize) -> Rings {
+        let ring = |ring: &Vec<u32>| -> Vec<DVec2> {
+            let at = |&v: &u32| self.points[design][v as usize];
+            ring.iter().map(at).collect()
+        };
+        Rings::of(&self.rings.iter().map(ring).collect::<Vec<_>>())
+    }
+
+    pub(super) fn size(&self) -> usize {
+        self.rings.iter().map(Vec::len).sum()
+    }
+}
+
+/// One ring of the front on its turn; the others stand still.
+pub(super) struct Front<'a> {
+    coarse: &'a mut Coarse,
+    ring: usize,
+    kept: &'a HashSet<u32>,
+    /// Edges of the other rings.
+    others: Vec<[u32; 2]>,
+}
+
+impl<'a> Front<'a> {
+    pub(super) fn of(coarse: &'a mut Coarse, ring: usize, kept: &'a HashSet<u32>) -> Self {
+        let rings = coarse.rings.iter().enumerate();
+        let others = rings.filter(|(r, _)| *r != ring).flat_map(|(_, ring)| {
+            let after = ring.iter().cycle().skip(1);
+            ring.iter().zip(after).map(|(&a, &b)| [a, b])
+        });
+        Self {
+            others: others.collect(),
+            coarse,
+            ring,
+            kept,
+        }
+    }
+
+    /// Once around, from another place at each turn.
+    pub(super) fn advance(&mut self, turn: usize) {
+        let len = self.len();
+        let mut at = turn % 3;
+        let end = at + len;
+        while at < end {
+            at += self.step(at % self.len()).unwrap_or(1);
+        }
+    }
+
+    fn len(&self) -> usize {
+        self.coarse.rings[self.ring].len()
+    }
+
+    /// The vertex so many places along the ring.
+    fn vertex(&self, at: usize) -> u32 {
+        self.coarse.rings[self.ring][at % self.len()]
+    }
+
+    fn place(&self, design: usize, vertex: u32) -> DVec2 {
+        self.coarse.points[design][vertex as usize]
+    }
+
+    /// Replaces a stretch that starts at `at`, and says how many old points
+    /// that passes.
+    fn step(&mut self, at: usize) -> Option<usize> {
+        if self.cut_corner(at) {
+            return Some(2);
+        }
+        STRETCHES.into_iter().find(|&k| self.replace(at, k))
+    }
+
+    fn cut_corner(&mut self, at: usize) -> bool {
+        let stretch = [0, 1, 2].map(|k| self.vertex(at + k));
+        if self.len() < 4 || self.is_kept(&stretch) {
+            return false;
+        }
+        let fits = (0..2).all(|d| {
+            let corners = stretch.map(|v| self.place(d, v));
+            face::is_positive(corners)
+                && face::shape(corners) <= SHAPELY
+                && self.sides(d, at, 2).iter().all(|&[a, b]| {
+                    let tip = |end| orient2d(a, b, end) > 0.0 || a == end || b == end;
+                    tip(corners[0]) && tip(corners[2])
+                })
+                && self.is_free(d, stretch[0], corners[2], &[stretch[2]])
+                && !self.holds_ring(d, &[corners])
+        });
+        if fits {
+            self.coarse.faces.push(stretch);
+            self.splice(at, 2, None);
+        }
+        fits
+    }
+
+    fn is_kept(&self, stretch: &[u32]) -> bool {
+        stretch.iter().any(|v| self.kept.contains(v))
+    }
+
+    /// The stretch of `k` edges replaced by two to a point seen from all.
+    fn replace(&mut self, at: usize, k: usize) -> bool {
+        let stretch: Vec<u32> = (0..=k).map(|i| self.vertex(at + i)).collect();
+        if self.len() < k + 2 || self.is_kept(&stretch) {
+            return false;
+        }
+        let Some(p) = self.common_point(0, at, &stretch) else {
+            return false;
+        };
+        let Some(q) = self.common_point(1, at, &stretch) else {
+            return false;
+        };
+        let new = self.coarse.points[0].len() as u32;
+        self.coarse.points[0].push(p);
+        self.coarse.points[1].push(q);
+        let faces = stretch.windows(2).map(|edge| [edge[0], edge[1], new]);
+        self.coarse.faces.extend(faces);
+        self.splice(at, k, Some(new));
+        true
+    }
+
+    /// Takes the inner vertices of a stretch out of the ring.
+    fn splice(&mut self, at: usize, k: usize, new: Option<u32>) {
+        let len = self.len();
+        let ring = &mut self.coarse.rings[self.ring];
+        ring.rotate_left(at);
+        ring.splice(1..k, new);
+        // Back, so that places before the stretch keep their numbers.
+        let now = ring.len();
+        ring.rotate_right(at.min(now) % now.max(1));
+        debug_assert!(now < len);
+    }
+
+    /// The lines that a new vertex has to be left of: the stretch's edges and
+    /// those beside it at corners less than straight.
+    fn sides(&self, d: usize, at: usize, k: usize) -> Vec<[DVec2; 2]> {
+        let n = self.len();
+        let place = |i: usize| self.place(d, self.vertex(i));
+        let mut sides: Vec<[DVec2; 2]> = (0..k)
+            .filter(|_| k > 2)
+            .map(|i| [place(at + i), place(at + i + 1)])
+            .collect();
+        let before = [place(at + n - 1), place(at), place(at + 1)];
+        let after = [place(at + k - 1), place(at + k), place(at + k + 1)];
+        if orient2d(before[0], before[1], before[2]) > 0.0 {
+            sides.push([before[0], before[1]]);
+        }
+        if orient2d(after[0], after[1], after[2]) > 0.0 {
+            sides.push([after[1], after[2]]);
+        }
+        sides
+    }
+
+    /// A point in one design that sees the whole stretch, with room around.
+    fn common_point(&self, d: usize, at: usize, stretch: &[u32]) -> Option<DVec2> {
+        let places: Vec<DVec2> = stretch.iter().map(|&v| self.place(d, v)).collect();
+        let middle = places.iter().sum::<DVec2>() / places.len() as f64;
+        let extent = places
+            .iter()
+            .map(|p| p.distance(middle))
+            .fold(0.0, f64::max);
+        let sides = self.sides(d, at, stretch.len() - 1);
+        let last = places.len() - 1;
+        REACHES.into_iter().find_map(|reach| {
+            let point = centre_of_kernel(middle, reach * extent, &sides)?;
+            let sees = |p: DVec2| {
+                self.is_free(d, stretch[0], p, &[]) && self.is_free(d, stretch[last], p, &[])
+            };
+            let fan: Vec<[DVec2; 3]> = places
+                .windows(2)
+                .map(|edge| [edge[0], edge[1], point])
+                .collect();
+            let fits = sides.iter().all(|&[a, b]| orient2d(a, b, point) > 0.0)
+                && sees(point)
+                && sees(middle + ROOM * (point - middle))
+                && !self.holds_ring(d, &fan);
+            fits.then_some(point)
+        })
+    }
+
+    /// Whether the straight way from a vertex of the front to a point
+    /// touches no edge of the front but those at the vertex and at `others`.
+    fn is_free(&self, d: usize, from: u32, to: DVec2, others: &[u32]) -> bool {
+        let ring = &self.coarse.rings[self.ring];
+        let after = ring.iter().cycle().skip(1);
+        let own = ring.iter().zip(after).map(|(&a, &b)| [a, b]);
+        let way = [self.place(d, from), to];
+        own.chain(self.others.iter().copied()).all(|edge| {
+            edge.contains(&from)
+                || others.iter().any(|v| edge.contains(v))
+                || !segments_touch(way, edge.map(|v| self.place(d, v)))
+        })
+    }
+
+    /// Whether another ring lies in one of the triangles.
+    fn holds_ring(&self, d: usize, triangles: &[[DVec2; 3]]) -> bool {
+        let rings = self.coarse.rings.iter().enumerate();
+        let mut others = rings.filter(|(r, _)| *r != self.ring);
+        others.any(|(_, ring)| {
+            let p = self.place(d, ring[0]);
+            triangles.iter().any(|&[a, b, c]| {
+                [[a, b], [b, c], [c, a]]
+                    .iter()
+                    .all(|&[a, b]| orient2d(a, b, p) >= 0.0)
+            })
+        })
+    }
+}
+
+/// The mean corner of what is left of all lines within a square.
+fn centre_of_kernel(middle: DVec2, half: f64, sides: &[[DVec2; 2]]) -> Option<DVec2> {
+    let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)];
+    let mut kernel: Vec<DVec2> = corners
+        .iter()
+        .map(|&(x, y)| middle + half * DVec2::new(x, y))
+        .collect();
+    for &[a, b] in sides {
+        let height = |p: DVec2| (b - a).perp_dot(p - a);
+        let mut cut = Vec::with_capacity(kernel.len() + 1);
+        for (i, &p) in kernel.iter().enumerate() {
+            let q = kernel[(i + 1) % kernel.len()];
+            let (h, g) = (height(p), height(q));
+            if h > 0.0 {
+                cut.push(p);
+            }
+            if (h > 0.0) != (g > 0.0) {
+                cut.push(p.lerp(q, h / (h - g)));
+            }
+        }
+        kernel = cut;
+        if kernel.len() < 3 {
+            return None;
+        }
+    }
+    Some(kernel.iter().sum::<DVec2>() / kernel.len() as f64)
+}
