@@ -10,6 +10,7 @@ pub type BarElement = [u32; 2];
 /// Why two designs have no common triangulation as given. Numbers in messages
 /// start at 1, as in the files.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CompatibleError {
     /// Different numbers of vertices.
     #[error("the source has {} vertices and the target {}; both need the same vertices in the same order", .0[0], .0[1])]

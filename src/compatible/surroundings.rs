@@ -18,6 +18,7 @@ const ALONG: f64 = 12.0;
 
 /// Why there is no such mesh.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SurroundingsError {
     /// The outlines do not lie within each other alike in both designs, are
     /// cut open, or reach beyond the frame.

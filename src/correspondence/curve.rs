@@ -28,6 +28,7 @@ pub struct Curve {
 
 /// Why points make no [`Curve`].
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum CurveError {
     /// Fewer than two different points.
     #[error("a polyline needs at least 2 different points, this one has {0}; add points")]

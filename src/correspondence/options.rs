@@ -32,6 +32,7 @@ impl Default for MatchOptions {
 
 /// Why two curves cannot be matched.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MatchError {
     /// A curve has no usable length.
     #[error(transparent)]

@@ -26,6 +26,7 @@ pub struct Pairing {
 
 /// Pairs made by hand that contradict each other.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PairError {
     /// No such part.
     #[error("there is no part {part} to pair, only {count}; remove this pair")]

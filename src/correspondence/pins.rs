@@ -10,6 +10,7 @@ pub type Pin = Pair<f64>;
 
 /// Pins that no continuous match can honour; in messages they count from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PinError {
     /// A place is NaN or infinite.
     #[error("pin {} does not lie on the outline; place it anew", .0 + 1)]

@@ -68,6 +68,7 @@ pub struct RingCut {
 /// What becomes of a hole without a partner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum HoleRule {
     /// Whichever of the two matches better.
     #[default]
@@ -81,6 +82,7 @@ pub enum HoleRule {
 /// What becomes of a part without a partner.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum PartRule {
     /// A single part is split into several; of several parts and several, the
     /// odd ones are born and die.
@@ -110,6 +112,17 @@ impl LinePair {
         Self {
             source: self.source.map(|p| source.apply(p)),
             target: self.target.map(|p| target.apply(p)),
+        }
+    }
+}
+
+impl RingCut {
+    /// The same cut of the designs exchanged.
+    #[must_use]
+    pub fn swapped(&self) -> Self {
+        Self {
+            side: self.side.other(),
+            ..*self
         }
     }
 }
@@ -151,15 +164,11 @@ impl Matching {
     /// The same said of the designs exchanged.
     #[must_use]
     pub fn swapped(&self) -> Self {
-        let cut = |cut: &RingCut| RingCut {
-            side: cut.side.other(),
-            ..*cut
-        };
         Self {
             pins: swapped(&self.pins),
             lines: swapped(&self.lines),
             links: swapped(&self.links),
-            cuts: self.cuts.iter().map(cut).collect(),
+            cuts: self.cuts.iter().map(RingCut::swapped).collect(),
             ..*self
         }
     }

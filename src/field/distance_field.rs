@@ -34,6 +34,7 @@ pub struct DistanceField {
 
 /// Why there is no such field.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FieldError {
     /// The grid is none.
     #[error(transparent)]

@@ -36,6 +36,7 @@ pub struct Grid {
 
 /// Why there is no such grid.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum GridError {
     /// A side is 0 or above the limit.
     #[error(

@@ -30,6 +30,7 @@ pub struct Mask {
 
 /// Why there is no such mask.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MaskError {
     /// A side is 0 or above the limit.
     #[error(

@@ -21,6 +21,7 @@ use std::f64::consts::SQRT_2;
 /// (Rosenfeld and Pfaltz 1968; the names are those of the paper's tool).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Metric {
     /// √(dx² + dy²), exact.
     #[default]

@@ -119,21 +119,6 @@ impl<T> Pair<T> {
     }
 }
 
-impl<T> From<[T; 2]> for Pair<T> {
-    fn from([source, target]: [T; 2]) -> Self {
-        Self { source, target }
-    }
-}
-
-impl<T> IntoIterator for Pair<T> {
-    type Item = T;
-    type IntoIter = std::array::IntoIter<T, 2>;
-
-    fn into_iter(self) -> Self::IntoIter {
-        self.to_array().into_iter()
-    }
-}
-
 impl<T> Index<Side> for Pair<T> {
     type Output = T;
 

@@ -52,6 +52,7 @@ pub enum FillRule {
 
 /// Why rings enclose nothing that could be used.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RegionsError {
     /// A coordinate is NaN or infinite.
     #[error("point {point} of outline {ring} is not a finite number; correct its coordinates")]

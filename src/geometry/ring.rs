@@ -11,6 +11,7 @@ pub struct Ring(Vec<DVec2>);
 
 /// Why points do not make a [`Ring`].
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RingError {
     /// Too few points.
     #[error("a closed outline needs at least 3 different points, this one has {0}; add points")]

@@ -19,6 +19,7 @@ pub struct Similarity {
 
 /// A similarity that would not keep shapes finite.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum SimilarityError {
     /// The scale is zero, negative or not finite.
     #[error("the scale {0} is not a positive number; give one above zero")]

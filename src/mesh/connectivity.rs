@@ -14,6 +14,7 @@ pub struct Connectivity {
 
 /// Faces that do not meet edge to edge. Numbers start at 1 in messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ConnectivityError {
     /// Three faces or more at one edge.
     #[error("more than two faces meet at the edge between vertices {} and {}; remove the extra ones", u64::from(.0[0]) + 1, u64::from(.0[1]) + 1)]
@@ -57,6 +58,9 @@ impl Connectivity {
     }
 
     /// The face across the edge from corner `k` to the next one of `face`.
+    ///
+    /// # Panics
+    /// If there is no such face, or `k` is above 2 in the last one.
     #[must_use]
     pub fn neighbour(&self, face: usize, k: usize) -> Option<usize> {
         match self.twins[3 * face + k] {
@@ -84,6 +88,9 @@ impl Connectivity {
     /// The closed boundary walks as vertex indices, in the direction in which
     /// the faces run them. A vertex where several fans touch is passed once
     /// for each.
+    ///
+    /// # Panics
+    /// If there are fewer faces than those whose pairs these are.
     #[must_use]
     pub fn boundary_loops(&self, faces: &[[u32; 3]]) -> Vec<Vec<u32>> {
         let from = |h: u32| faces[h as usize / 3][h as usize % 3];

@@ -26,6 +26,7 @@ pub struct TriangleMesh {
 
 /// Why points and faces do not make a [`TriangleMesh`]. Indices start at 0.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum MeshError {
     /// There is no face at all.
     #[error("the mesh has no faces; give at least one triangle")]

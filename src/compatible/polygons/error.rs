@@ -30,6 +30,7 @@ fn ring_name(ring: usize) -> String {
 /// Why two pieces were not triangulated together. Numbers in messages start
 /// at 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PolygonsError {
     /// No outer boundary.
     #[error("there is no outline; give at least one ring of points")]

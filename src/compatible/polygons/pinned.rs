@@ -43,6 +43,7 @@ const SAME: f64 = 1e-6;
 
 /// Why the frame was not triangulated. Pins are counted from 1 in messages.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PinnedError {
     /// A pin is not finite, or not inside the frame.
     #[error("pin {} lies outside the frame of the {side} design; move it inside", pin + 1)]

@@ -82,6 +82,7 @@ pub struct RingMatch {
 
 /// What becomes of a ring.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum RingKind {
     /// It is matched with another.
     Matched,
@@ -94,6 +95,7 @@ pub enum RingKind {
 /// Why two designs were not matched. Pins are counted from 1 in messages, in
 /// the order given.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum RegionMatchError {
     /// Links or pins that contradict each other.
     #[error(transparent)]
@@ -136,15 +138,11 @@ impl RegionMatch {
 
 impl PieceMatch {
     fn swapped(&self) -> Self {
-        let cut = |cut: &RingCut| RingCut {
-            side: cut.side.other(),
-            ..*cut
-        };
         Self {
             rings: self.rings.iter().map(RingMatch::swapped).collect(),
             source_part: self.target_part,
             target_part: self.source_part,
-            cuts: self.cuts.iter().map(cut).collect(),
+            cuts: self.cuts.iter().map(RingCut::swapped).collect(),
             rotation: 0.0 - self.rotation,
             cost: self.cost,
             notes: self.notes.iter().map(MatchNote::swapped).collect(),

@@ -8,6 +8,7 @@ use std::collections::HashMap;
 
 /// Why a piece was not triangulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TriangulationError {
     /// Fewer than three points.
     #[error("an outline needs at least 3 points, this one has {0}; add points")]
