@@ -12,8 +12,8 @@ use morphospace::geometry::{Bounds, DVec2};
 use morphospace::mesh::TriangleMesh;
 use morphospace::progress::Silent;
 use morphospace::stage::{
-    ArapSolver, Blend, BuildFailed, CaptureStage, FieldSprite, FrameTimes, MorphPlugin, Show,
-    SourceMesh, StageCamera, StageCaptured, StageStyle, StageTransition, StageView, TargetMesh,
+    Blend, BuildFailed, CaptureStage, FrameTimes, Morph, MorphPlugin, Show, SourceMesh,
+    StageCamera, StageCaptured, StageStyle, StageTransition, StageView, TargetMesh,
 };
 use morphospace::transition::{Cell, Transition, TransitionSpec};
 use morphospace::warp::WarpKind;
@@ -96,13 +96,13 @@ fn has<C: Component>(entity: Entity) -> impl Fn(&World) -> bool {
 fn spawn_pair(app: &mut App, t: f64) -> Entity {
     let pair = (SourceMesh(straight()), TargetMesh(turned()), Blend { t });
     let entity = app.world_mut().spawn(pair).id();
-    until(app, has::<ArapSolver>(entity));
+    until(app, has::<Morph>(entity));
     entity
 }
 
 fn places(app: &App, entity: Entity) -> Vec<DVec2> {
-    let solver = app.world().get::<ArapSolver>(entity).expect("a solver");
-    solver.frame().placement().in_frame.clone()
+    let morph = app.world().get::<Morph>(entity).expect("a morph");
+    morph.frame().placement().in_frame.clone()
 }
 
 fn meshes_of(app: &App, entity: Entity) -> Vec<(Handle<Mesh>, Visibility)> {
@@ -155,7 +155,7 @@ fn two_meshes_and_a_blend_morph() {
 #[derive(Resource, Default)]
 struct Touched(u32);
 
-fn count_touched(changed: Query<(), Changed<ArapSolver>>, mut touched: ResMut<Touched>) {
+fn count_touched(changed: Query<(), Changed<Morph>>, mut touched: ResMut<Touched>) {
     touched.0 += changed.iter().count() as u32;
 }
 
@@ -203,8 +203,8 @@ fn a_failed_build_names_its_entity_and_keeps_what_was_shown() {
     let failures = &app.world().resource::<Failures>().0;
     assert_eq!([failures[0].0, failures[1].0], [bad, good]);
     assert!(!failures[0].1.is_empty());
-    assert!(app.world().get::<ArapSolver>(bad).is_none());
-    assert!(app.world().get::<ArapSolver>(good).is_some());
+    assert!(app.world().get::<Morph>(bad).is_none());
+    assert!(app.world().get::<Morph>(good).is_some());
 }
 
 #[test]
@@ -218,7 +218,7 @@ fn entities_and_meshes_may_go_while_a_build_runs() {
     app.world_mut().despawn(gone);
     let newer = (SourceMesh(straight()), TargetMesh(turned()));
     app.world_mut().entity_mut(replaced).insert(newer);
-    until(&mut app, has::<ArapSolver>(replaced));
+    until(&mut app, has::<Morph>(replaced));
     for _ in 0..20 {
         app.update();
     }
@@ -264,8 +264,8 @@ fn a_transition_that_is_built_brings_its_components() {
     let source = app.world().get::<SourceMesh>(entity).expect("a source");
     assert_eq!(source.0.positions(), straight().positions());
     assert!(app.world().get::<TargetMesh>(entity).is_some());
-    let solver = app.world().get::<ArapSolver>(entity).expect("a solver");
-    assert_eq!(solver.frame().t(), 1.0);
+    let morph = app.world().get::<Morph>(entity).expect("a morph");
+    assert_eq!(morph.frame().t(), 1.0);
     let first_parts = meshes_of(&app, entity);
 
     // The next one takes the place of the first, even where it is of its kind.
@@ -280,16 +280,15 @@ fn a_transition_that_is_built_brings_its_components() {
     app.world_mut().entity_mut(entity).insert(staged);
     app.update();
     assert!(app.world().get::<SourceMesh>(entity).is_none());
-    assert!(app.world().get::<ArapSolver>(entity).is_none());
-    let sprite = app.world().get::<FieldSprite>(entity).expect("a sprite");
-    assert_eq!(sprite.frame().t(), 1.0);
+    let morph = app.world().get::<Morph>(entity).expect("a morph");
+    assert_eq!(morph.frame().t(), 1.0);
     let field_parts = meshes_of(&app, entity);
     assert!(!field_parts.is_empty());
     for (mesh, _) in &solid_parts {
         assert!(field_parts.iter().all(|(other, _)| other != mesh));
     }
 
-    app.world_mut().entity_mut(entity).remove::<FieldSprite>();
+    app.world_mut().entity_mut(entity).remove::<Morph>();
     app.update();
     assert!(meshes_of(&app, entity).is_empty(), "parts stayed behind");
 }
@@ -312,7 +311,7 @@ fn meshes_are_written_only_when_the_frame_moves() {
         app.update();
     }
     let fill = meshes_of(&app, entity)[0].0.clone();
-    let origin = app.world().get::<ArapSolver>(entity).expect("a solver");
+    let origin = app.world().get::<Morph>(entity).expect("a morph");
     let origin = origin.frame().transition().bounds().centre();
     for (p, q) in positions(&app, &fill).iter().zip(places(&app, entity)) {
         let q = q - origin;

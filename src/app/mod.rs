@@ -121,9 +121,9 @@ pub struct LogicPlugin;
 
 impl Plugin for LogicPlugin {
     fn build(&self, app: &mut App) {
-        use MorphSystems::{Input, Playback as Play, Solve};
+        use MorphSystems::{Build, Input, Playback as Play};
         init(app);
-        app.configure_sets(Update, (Input, Play, Solve).chain())
+        app.configure_sets(Update, (Input, Play, Build).chain())
             .add_systems(
                 Update,
                 (
@@ -145,7 +145,7 @@ impl Plugin for LogicPlugin {
                 )
                     .chain()
                     .after(Play)
-                    .before(Solve),
+                    .before(Build),
             );
     }
 }
@@ -225,7 +225,7 @@ impl Plugin for WindowPlugins {
                     thumbnails::advance,
                 )
                     .after(MorphSystems::Playback)
-                    .before(MorphSystems::Solve),
+                    .before(MorphSystems::Build),
             )
             .add_systems(
                 Update,

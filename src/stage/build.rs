@@ -11,7 +11,6 @@ use bevy::prelude::*;
 use bevy::tasks::futures::check_ready;
 use bevy::tasks::{AsyncComputeTaskPool, Task};
 
-use crate::content::Content;
 use crate::design::{Design, Form};
 use crate::mesh::TriangleMesh;
 use crate::progress::Progress;
@@ -19,10 +18,9 @@ use crate::transition::{BuildError, Transition, TransitionSpec};
 use crate::warp::ArapOptions;
 
 use super::components::{
-    ArapSolver, Blend, BuildFailed, FieldSprite, MorphOptions, PictureSprite, SourceMesh,
-    StageTransition, TargetMesh,
+    Blend, BuildFailed, Morph, MorphOptions, SourceMesh, StageTransition, TargetMesh,
 };
-use super::parts::Undressed;
+use super::dress::Undressed;
 
 /// A build that is running. Dropping it (with its entity, or for a newer one)
 /// cancels the build.
@@ -110,11 +108,8 @@ pub(super) fn finish_builds(
         commands.entity(entity).try_remove::<Building>();
         match result {
             Ok(transition) => {
-                let solver = ArapSolver(transition.frame(blend.t));
-                commands
-                    .entity(entity)
-                    .try_remove::<(FieldSprite, PictureSprite)>()
-                    .try_insert((solver, Undressed));
+                let morph = Morph(transition.frame(blend.t));
+                commands.entity(entity).try_insert((morph, Undressed));
             }
             Err(error) => commands.trigger(BuildFailed { entity, error }),
         }
@@ -127,20 +122,11 @@ pub(super) fn adopt_transitions(
     changed: Query<(Entity, &StageTransition, &Blend), Changed<StageTransition>>,
 ) {
     for (entity, StageTransition(transition), blend) in &changed {
-        let frame = transition.frame(blend.t);
+        let morph = Morph(transition.frame(blend.t));
         let mut entity = commands.entity(entity);
-        entity.try_remove::<Building>().try_insert(Undressed);
-        match transition.content() {
-            Content::Solid(_) => entity
-                .try_remove::<(FieldSprite, PictureSprite)>()
-                .try_insert(ArapSolver(frame)),
-            Content::Field(_) => entity
-                .try_remove::<(ArapSolver, PictureSprite)>()
-                .try_insert(FieldSprite(frame)),
-            Content::Colours(_) => entity
-                .try_remove::<(ArapSolver, FieldSprite)>()
-                .try_insert(PictureSprite(frame)),
-        };
+        entity
+            .try_remove::<Building>()
+            .try_insert((morph, Undressed));
         match transition.arap().and_then(|_| meshes(transition)) {
             Some(meshes) => entity.try_insert(meshes),
             None => entity.try_remove::<(SourceMesh, TargetMesh)>(),
@@ -149,7 +135,8 @@ pub(super) fn adopt_transitions(
 }
 
 /// Both ends of a transition that has triangles: the designs themselves, or
-/// the panels between the bars of trusses.
+/// the panels between the bars of trusses. Panels that meet three at an edge
+/// are no mesh; such a transition stands on the stage without.
 fn meshes(transition: &Transition) -> Option<(SourceMesh, TargetMesh)> {
     let [source, target] = transition.designs();
     if let (Form::Mesh(source), Form::Mesh(target)) = (&source.form, &target.form) {
@@ -157,7 +144,9 @@ fn meshes(transition: &Transition) -> Option<(SourceMesh, TargetMesh)> {
     }
     let compatible = transition.compatible()?;
     let mesh = |positions: &[_]| TriangleMesh::new(positions.to_vec(), compatible.faces().to_vec());
-    let source = mesh(compatible.source()).ok()?;
-    let target = mesh(compatible.target()).ok()?;
-    Some((SourceMesh(source), TargetMesh(target)))
+    let ends = (
+        mesh(compatible.source()).ok()?,
+        mesh(compatible.target()).ok()?,
+    );
+    Some((SourceMesh(ends.0), TargetMesh(ends.1)))
 }

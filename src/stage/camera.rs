@@ -8,7 +8,8 @@ use super::view::StageView;
 ///
 /// A program without it places its own camera as it likes: the plugin then
 /// leaves all cameras alone.
-#[derive(Component, Clone, Copy, Debug, Default)]
+#[derive(Component, Clone, Copy, Debug, Default, Reflect)]
+#[reflect(Component, Clone, Debug, Default)]
 #[require(Camera2d, Msaa::Sample4)]
 pub struct StageCamera;
 

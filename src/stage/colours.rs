@@ -38,7 +38,6 @@ pub(super) struct ColourLook {
     /// Least and most x and y of what is shown, relative to the part's origin.
     window: Vec4,
     share: f32,
-    shown: f32,
 }
 
 impl Material2d for ColourMaterial {
@@ -63,7 +62,7 @@ impl ColourMaterial {
 }
 
 impl ColourLook {
-    pub(super) fn new(pair: &PicturePair, t: f64, origin: DVec2, shown: bool) -> Self {
+    pub(super) fn new(pair: &PicturePair, t: f64, origin: DVec2) -> Self {
         let window = pair.window(t);
         let (low, high) = (
             (window.min - origin).as_vec2(),
@@ -72,7 +71,6 @@ impl ColourLook {
         Self {
             window: Vec4::new(low.x, low.y, high.x, high.y),
             share: pair.mix().share(t) as f32,
-            shown: f32::from(u8::from(shown)),
         }
     }
 }

@@ -15,7 +15,6 @@
 struct Colours {
     window: vec4<f32>,
     share: f32,
-    shown: f32,
 };
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> colours: Colours;
@@ -41,7 +40,7 @@ fn fragment(mesh: VertexOutput) -> @location(0) vec4<f32> {
     let from_target = textureSample(target_picture, target_sampler, mesh.color.zw);
     light = mix(from_source, from_target, colours.share);
 #endif
-    let alpha = light.a * covered(mesh.uv) * colours.shown;
+    let alpha = light.a * covered(mesh.uv);
     var colour = vec4(light.rgb / max(light.a, 1e-6), alpha);
 #ifdef SRGB_OUTPUT
     colour = vec4(linear_to_srgb(colour.rgb), colour.a);

@@ -15,13 +15,17 @@ use crate::warp::ArapOptions;
 /// same faces it is all that a morphing entity needs.
 ///
 /// Changing it (or the target, or the options) builds the transition anew.
-#[derive(Component, Clone, Debug)]
+#[derive(Component, Clone, Debug, Reflect)]
+#[reflect(opaque)]
+#[reflect(Component, Clone, Debug)]
 #[require(Blend, MorphOptions, StageStyle, Transform, Visibility)]
 pub struct SourceMesh(pub TriangleMesh);
 
 /// The design at t = 1: the same faces as the [`SourceMesh`], in the same
 /// order, other positions.
-#[derive(Component, Clone, Debug)]
+#[derive(Component, Clone, Debug, Reflect)]
+#[reflect(opaque)]
+#[reflect(Component, Clone, Debug)]
 #[require(Blend, MorphOptions, StageStyle, Transform, Visibility)]
 pub struct TargetMesh(pub TriangleMesh);
 
@@ -32,46 +36,29 @@ pub struct TargetMesh(pub TriangleMesh);
 /// use morphospace::stage::Blend;
 /// assert_eq!(Blend::default().t, 0.0);
 /// ```
-#[derive(Component, Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Component, Clone, Copy, Debug, Default, PartialEq, Reflect)]
+#[reflect(Component, Clone, Debug, Default, PartialEq)]
 pub struct Blend {
     /// The blend parameter.
     pub t: f64,
 }
 
 /// How two meshes are interpolated.
-#[derive(Component, Clone, Debug, Default)]
+#[derive(Component, Clone, Debug, Default, Reflect)]
+#[reflect(opaque)]
+#[reflect(Component, Clone, Debug, Default)]
 pub struct MorphOptions(pub ArapOptions);
 
-/// A prefactored transition of triangles, or of boundaries alone, and the frame
-/// it is at: added by the plugin once the build is done, sought to [`Blend`] whenever that changes.
-#[derive(Component, Debug)]
-pub struct ArapSolver(pub(super) Frame);
+/// A transition that is built, and the frame it is at: added by the plugin,
+/// sought to [`Blend`] whenever that changes. Its content says how it is drawn.
+///
+/// Reflection sees that it is there, not the frame: that owns the memory that
+/// it is evaluated in and has no copies.
+#[derive(Component, Debug, Reflect)]
+#[reflect(Component, Debug, from_reflect = false)]
+pub struct Morph(#[reflect(ignore)] pub(super) Frame);
 
-impl ArapSolver {
-    /// The frame that is on the stage.
-    pub fn frame(&self) -> &Frame {
-        &self.0
-    }
-}
-
-/// A transition of two distance fields and the frame it is at: a quad whose
-/// fragment shader blends both fields and draws the threshold's contour.
-#[derive(Component, Debug)]
-pub struct FieldSprite(pub(super) Frame);
-
-impl FieldSprite {
-    /// The frame that is on the stage.
-    pub fn frame(&self) -> &Frame {
-        &self.0
-    }
-}
-
-/// A transition of two pictures and the frame it is at: a mesh whose fragment
-/// shader looks both up and mixes them.
-#[derive(Component, Debug)]
-pub struct PictureSprite(pub(super) Frame);
-
-impl PictureSprite {
+impl Morph {
     /// The frame that is on the stage.
     pub fn frame(&self) -> &Frame {
         &self.0
@@ -80,23 +67,28 @@ impl PictureSprite {
 
 /// A transition that is built already, of any cell of the table.
 ///
-/// The plugin answers with [`SourceMesh`], [`TargetMesh`] and [`ArapSolver`],
-/// with a [`FieldSprite`], or with a [`PictureSprite`]. Replacing it replaces the picture.
-#[derive(Component, Clone, Debug)]
+/// The plugin answers with a [`Morph`], and with a [`SourceMesh`] and a
+/// [`TargetMesh`] where it has triangles. Replacing it replaces the picture.
+#[derive(Component, Clone, Debug, Reflect)]
+#[reflect(opaque)]
+#[reflect(Component, Clone, Debug)]
 #[require(Blend, StageStyle, Transform, Visibility)]
 pub struct StageTransition(pub Transition);
 
 /// Colours of an entity on the stage, and what of it is shown.
-#[derive(Component, Clone, Debug, Default)]
+#[derive(Component, Clone, Debug, Default, Reflect)]
+#[reflect(Component, Clone, Debug, Default)]
 pub struct StageStyle {
     /// Colours, shared with the exporters.
+    #[reflect(ignore, clone)]
     pub style: Style,
     /// What is shown.
     pub show: Show,
 }
 
 /// What of a transition is shown; what does not apply to it is ignored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Reflect)]
+#[reflect(Clone, Debug, Default, PartialEq)]
 pub struct Show {
     /// The filled form (solids and fields).
     pub fill: bool,

@@ -1,11 +1,12 @@
 //! The stage: transitions in a Bevy world.
 //!
 //! An entity is a transition on the stage: [`SourceMesh`], [`TargetMesh`],
-//! [`Blend`], and the [`ArapSolver`] that was prefactored from them. Each frame,
-//! where `Blend` changed, one system solves and one writes the render mesh. In
-//! field mode the entity carries a [`FieldSprite`]: a mesh whose fragment
-//! shader samples both distance fields and draws the threshold's contour.
-//! [`MorphPlugin`] brings just that, without window, keys or panels.
+//! [`Blend`], and the [`Morph`] that was prefactored from them. Each frame,
+//! where `Blend` changed, one system solves and one draws by content: solids
+//! as render meshes, distance fields and pictures as meshes whose fragment
+//! shader samples both as textures. [`MorphPlugin`] brings just that, without
+//! window, keys or panels; [`MorphSystems`] says where in a frame its systems
+//! run, so that a program can order its own.
 //!
 //! Guarantees: frames neither fail nor allocate what the last one had, but for
 //! boundaries without faces, which are triangulated as they move; builds
@@ -17,7 +18,7 @@
 //! use bevy::prelude::*;
 //! use morphospace::geometry::DVec2;
 //! use morphospace::mesh::TriangleMesh;
-//! use morphospace::stage::{ArapSolver, Blend, MorphPlugin, SourceMesh, TargetMesh};
+//! use morphospace::stage::{Blend, Morph, MorphPlugin, SourceMesh, TargetMesh};
 //!
 //! let triangle = |x: f64| {
 //!     let corners = vec![DVec2::ZERO, DVec2::new(x, 0.0), DVec2::Y];
@@ -31,7 +32,7 @@
 //!     Blend { t: 0.5 },
 //! ));
 //! let entity = entity.id();
-//! while app.world().get::<ArapSolver>(entity).is_none() {
+//! while app.world().get::<Morph>(entity).is_none() {
 //!     app.update();
 //! }
 //! # Ok::<(), morphospace::mesh::MeshError>(())
@@ -44,10 +45,12 @@ mod carried;
 mod colours;
 mod components;
 mod draw;
+mod dress;
 mod field;
 mod fill;
 mod grid;
 mod ink;
+mod paint;
 mod parts;
 mod pipelines;
 mod shapes;
@@ -62,8 +65,8 @@ use bevy::sprite_render::Material2dPlugin;
 pub use camera::StageCamera;
 pub use capture::{CaptureStage, StageCaptured};
 pub use components::{
-    ArapSolver, Blend, BuildFailed, FieldSprite, MorphOptions, PictureSprite, Show, SourceMesh,
-    StageStyle, StageTransition, TargetMesh,
+    Blend, BuildFailed, Morph, MorphOptions, Show, SourceMesh, StageStyle, StageTransition,
+    TargetMesh,
 };
 pub use times::{Durations, FrameTimes, REMEMBERED};
 pub use view::StageView;
@@ -76,28 +79,68 @@ pub use view::StageView;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MorphPlugin;
 
-/// What happens in a frame, in this order, in [`Update`].
+/// What happens in a frame, in this order, in [`Update`]. What one does, the
+/// next one sees.
+///
+/// ```
+/// use bevy::prelude::*;
+/// use morphospace::stage::{Blend, Morph, MorphPlugin, MorphSystems};
+///
+/// fn play(time: Res<Time>, mut blends: Query<&mut Blend>) {
+///     for mut blend in &mut blends {
+///         blend.t = time.elapsed_secs_f64().fract();
+///     }
+/// }
+///
+/// fn follow(morphs: Query<&Morph, Changed<Morph>>) {
+///     for morph in &morphs {
+///         let _places = &morph.frame().placement().in_frame;
+///     }
+/// }
+///
+/// let mut app = App::new();
+/// app.add_plugins((MinimalPlugins, MorphPlugin));
+/// app.add_systems(Update, play.in_set(MorphSystems::Playback));
+/// app.add_systems(Update, follow.after(MorphSystems::Solve));
+/// app.update();
+/// ```
 #[derive(SystemSet, Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum MorphSystems {
     /// Programs turn input into intents. The plugin has nothing here.
     Input,
-    /// Programs move [`Blend`]. The plugin has nothing here.
+    /// Programs move [`Blend`] and change meshes, options and styles; the
+    /// plugin has nothing here.
     Playback,
-    /// Transitions are built, taken in and sought.
+    /// Builds are started where meshes or options are new, those that are done
+    /// are taken in and [`BuildFailed`] is triggered for those that cannot be
+    /// had; a [`StageTransition`] becomes a [`Morph`].
+    Build,
+    /// Each [`Morph`] is sought to its [`Blend`]: afterwards its frame is that
+    /// of this update.
     Solve,
     /// Render meshes, uniforms and cameras are written.
     Draw,
-    /// Pictures are taken.
+    /// Pictures that were asked for by [`CaptureStage`] are taken.
     Capture,
 }
 
 impl Plugin for MorphPlugin {
     fn build(&self, app: &mut App) {
-        use MorphSystems::{Capture, Draw, Input, Playback, Solve};
+        use MorphSystems::{Build, Capture, Draw, Input, Playback, Solve};
+        let builds = (
+            build::start_builds,
+            build::finish_builds,
+            build::adopt_transitions,
+        );
+        register_types(app);
         app.init_resource::<FrameTimes>()
             .init_resource::<StageView>()
-            .configure_sets(Update, (Input, Playback, Solve, Draw, Capture).chain())
-            .add_systems(Update, solve_systems().in_set(Solve))
+            .configure_sets(
+                Update,
+                (Input, Playback, Build, Solve, Draw, Capture).chain(),
+            )
+            .add_systems(Update, builds.chain().in_set(Build))
+            .add_systems(Update, solve::solve_frames.in_set(Solve))
             .add_systems(Update, camera::apply_view.in_set(Draw));
         if app.is_plugin_added::<AssetPlugin>() {
             add_drawing(app);
@@ -106,14 +149,18 @@ impl Plugin for MorphPlugin {
     }
 }
 
-fn solve_systems() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
-    (
-        build::start_builds,
-        build::finish_builds,
-        build::adopt_transitions,
-        solve::solve_frames,
-    )
-        .chain()
+/// For scenes and inspectors; Bevy may have been built without doing so itself.
+fn register_types(app: &mut App) {
+    app.register_type::<SourceMesh>()
+        .register_type::<TargetMesh>()
+        .register_type::<Blend>()
+        .register_type::<MorphOptions>()
+        .register_type::<Morph>()
+        .register_type::<StageTransition>()
+        .register_type::<StageStyle>()
+        .register_type::<StageCamera>()
+        .register_type::<StageView>()
+        .register_type::<FrameTimes>();
 }
 
 fn add_drawing(app: &mut App) {
@@ -130,19 +177,10 @@ fn add_drawing(app: &mut App) {
         Material2dPlugin::<colours::ColourMaterial>::default(),
         Material2dPlugin::<grid::GridMaterial>::default(),
     ))
-    .add_observer(parts::undress::<ArapSolver>)
-    .add_observer(parts::undress::<FieldSprite>)
-    .add_observer(parts::undress::<PictureSprite>)
+    .add_observer(dress::undress)
     .add_systems(
         Update,
-        (
-            parts::dress,
-            draw::draw_solids,
-            draw::draw_fields,
-            draw::draw_pictures,
-            draw::draw_grids,
-            parts::place_parts,
-        )
+        (dress::dress, draw::draw_morphs, parts::place_parts)
             .chain()
             .in_set(MorphSystems::Draw),
     );

@@ -5,6 +5,7 @@
 //! in place; positions are `f32` relative to an origin, converted here and
 //! nowhere else, so that designs far from zero keep their precision.
 
+use bevy::mesh::{Mesh, VertexAttributeValues};
 use glam::DVec2;
 
 use crate::content::Solid;
@@ -24,6 +25,15 @@ pub(super) type Positions = [[f32; 3]];
 fn vertex(p: DVec2, origin: DVec2) -> [f32; 3] {
     let p = (p - origin).as_vec2();
     [p.x, p.y, 0.0]
+}
+
+/// Lets `write` change a mesh's positions, in place.
+pub(super) fn rewrite(mesh: &mut Mesh, write: impl FnOnce(&mut Positions)) {
+    if let Some(VertexAttributeValues::Float32x3(positions)) =
+        mesh.attribute_mut(Mesh::ATTRIBUTE_POSITION)
+    {
+        write(positions);
+    }
 }
 
 /// One vertex for each point.
@@ -76,16 +86,6 @@ impl BarShapes {
             nodes,
             bar_width: solid.bar_width,
         }
-    }
-
-    /// How many quads [`Self::write`] fills.
-    pub(super) fn quads(&self) -> usize {
-        self.bars.len() + self.nodes.len()
-    }
-
-    /// How many quads [`Self::write_cores`] fills.
-    pub(super) fn core_quads(&self) -> usize {
-        self.nodes.len()
     }
 
     /// For each vertex of [`Self::write`], where it is in units of the shape's
@@ -235,7 +235,7 @@ mod tests {
     #[test]
     fn bars_are_as_wide_as_they_should_be() {
         let (points, shapes) = triangle();
-        let mut out = vec![[0.0; 3]; 4 * shapes.quads()];
+        let mut out = vec![[0.0; 3]; shapes.coordinates().len()];
         shapes.write(&points, true, DVec2::ZERO, &mut out);
         let coordinates = shapes.coordinates();
         assert_eq!(coordinates.len(), out.len());
@@ -249,8 +249,8 @@ mod tests {
     #[test]
     fn each_node_has_one_joint_of_the_exporters_size() {
         let (points, shapes) = triangle();
-        assert_eq!(shapes.core_quads(), 3);
-        let mut out = vec![[0.0; 3]; 4 * shapes.quads()];
+        assert_eq!(shapes.core_coordinates().len(), 4 * 3);
+        let mut out = vec![[0.0; 3]; shapes.coordinates().len()];
         let coordinates = shapes.coordinates();
         for (joints, radius) in [(true, 0.2 * JOINT_RADIUS as f32), (false, 0.1)] {
             shapes.write(&points, joints, DVec2::ZERO, &mut out);

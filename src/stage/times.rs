@@ -23,7 +23,8 @@ pub const REMEMBERED: usize = 120;
 /// }
 /// assert_eq!(durations.median(), Some(Duration::from_millis(2)));
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Reflect)]
+#[reflect(Clone, Debug, Default)]
 pub struct Durations {
     ring: [Duration; REMEMBERED],
     recorded: usize,
@@ -62,7 +63,8 @@ impl Durations {
 }
 
 /// How long the stage's work took in the last frames that had any.
-#[derive(Resource, Clone, Debug, Default)]
+#[derive(Resource, Clone, Debug, Default, Reflect)]
+#[reflect(Resource, Clone, Debug, Default)]
 pub struct FrameTimes {
     /// Placing all vertices: right-hand sides, back-substitution, placement.
     pub solve: Durations,

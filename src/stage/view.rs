@@ -30,7 +30,8 @@ const FARTHEST: f64 = 1e2;
 /// view.zoom_at(pointer, 2.0);
 /// assert!((view.world_from_px(pointer) - under).length() < 1e-12);
 /// ```
-#[derive(Resource, Clone, Debug, PartialEq)]
+#[derive(Resource, Clone, Debug, PartialEq, Reflect)]
+#[reflect(Resource, Clone, Debug, Default, PartialEq)]
 pub struct StageView {
     /// The point in the middle of the viewport.
     pub centre: DVec2,
