@@ -7,7 +7,7 @@ use bevy::asset::AssetEvent;
 use bevy::mesh::VertexAttributeValues;
 use bevy::prelude::*;
 use morphospace::content::ContentKind;
-use morphospace::design::{Design, Form};
+use morphospace::design::Design;
 use morphospace::geometry::{Bounds, DVec2};
 use morphospace::mesh::TriangleMesh;
 use morphospace::progress::Silent;
@@ -38,15 +38,7 @@ fn turned() -> TriangleMesh {
 }
 
 fn transition(offset: DVec2, cell: Cell) -> Transition {
-    let design = |mesh: TriangleMesh| {
-        Arc::new(Design {
-            name: "strip".into(),
-            extent: mesh.bounds(),
-            form: Form::Mesh(mesh),
-            picture: None,
-            notes: Vec::new(),
-        })
-    };
+    let design = |mesh: TriangleMesh| Arc::new(Design::new("strip", mesh));
     let source = design(strip(4, |p| p + offset));
     let target = design(strip(4, |p| DVec2::new(-p.y, p.x) + offset));
     let mut spec = TransitionSpec::new(source, target);

@@ -1,10 +1,13 @@
 //! Why a file did not become a design, in one sentence for its owner.
 
 use super::{
-    DxfError, MAX_FILE_BYTES, ObjError, OptionsError, PictureError, PolygonsError, SvgError,
-    TextError, TrussInputError, UnknownFormat,
+    DxfError, ObjError, OptionsError, PictureError, PolygonsError, SvgError, TextError,
+    TrussInputError, UnknownFormat,
 };
 use std::io;
+
+/// Largest file that is read, in bytes.
+pub const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// A file that could not be read as a design. Its message names the file,
 /// the place and the way out.
@@ -28,6 +31,7 @@ impl ImportError {
 
 /// What is wrong with a file.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum Problem {
     /// There is no such file.
     #[error("there is no such file; check the path, or choose another file")]

@@ -23,6 +23,7 @@ use usvg::tiny_skia_path::PathBuilder;
 
 /// Why text gives no outline.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TextError {
     /// There is no text.
     #[error("there is no text; write one letter or more, as in glyph:D")]

@@ -25,6 +25,7 @@ pub struct ImportOptions {
 
 /// An option that is out of its range.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum OptionsError {
     /// The tolerance is not a number from 0 to 0.1.
     #[error("the outline tolerance is {0}; give a fraction of the longer side from 0 to 0.1")]

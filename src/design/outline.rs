@@ -1,6 +1,6 @@
 //! The filled area of meshes and trusses.
 
-use super::Truss;
+use super::truss::Truss;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError};
 use crate::mesh::TriangleMesh;
 use std::f64::consts::PI;

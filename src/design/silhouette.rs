@@ -13,7 +13,8 @@
 //! Not guaranteed: colours of equal luminance are not told apart, and the
 //! threshold is one for the whole picture.
 
-use super::{ImportOptions, simplify};
+use super::options::{ImportOptions, OptionsError};
+use super::simplify;
 use crate::field::{Samples, SamplesError, contour};
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError};
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
@@ -21,6 +22,7 @@ use std::io::Cursor;
 
 /// Why a picture gives no silhouette.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum PictureError {
     /// The file says that it is larger than is read.
     #[error(
@@ -60,6 +62,9 @@ pub enum PictureError {
         "the silhouette has more than {MAX_POINTS} boundary points; leave specks out, change the threshold, or use a smaller picture"
     )]
     TooRagged,
+    /// An option is out of range.
+    #[error(transparent)]
+    Options(#[from] OptionsError),
     /// The samples do not fill the picture.
     #[error(transparent)]
     Samples(#[from] SamplesError),

@@ -12,7 +12,6 @@
 //! called `glyph:FORM` is meant by `./glyph:FORM`. In the text of a glyph
 //! `%40` is `@` and `%25` is `%`: any byte of UTF-8 may be written so.
 
-use super::{Design, ImportError, ImportOptions, import_parts, read_bytes};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -154,35 +153,6 @@ impl Source {
                 written.into()
             }
         }
-    }
-
-    /// Reads the design.
-    ///
-    /// # Errors
-    /// [`ImportError`] names the source, the place in it and the way out.
-    pub fn import(&self, options: &ImportOptions) -> Result<Design, ImportError> {
-        let bytes = match self.file() {
-            Some(path) => read_bytes(path).map_err(|problem| self.error(problem))?,
-            None => Vec::new(),
-        };
-        self.import_bytes(&bytes, options)
-    }
-
-    /// Reads the design from the bytes of [`Source::file`]; they are not
-    /// looked at where there is none.
-    ///
-    /// # Errors
-    /// [`ImportError`] names the source, the place in it and the way out.
-    pub fn import_bytes(
-        &self,
-        bytes: &[u8],
-        options: &ImportOptions,
-    ) -> Result<Design, ImportError> {
-        import_parts(self, bytes, options).map_err(|problem| self.error(problem))
-    }
-
-    fn error(&self, problem: super::Problem) -> ImportError {
-        ImportError::new(&self.to_path().display().to_string(), problem)
     }
 }
 

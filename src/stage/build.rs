@@ -79,21 +79,11 @@ fn build(
     arap: ArapOptions,
     progress: &dyn Progress,
 ) -> Result<Transition, BuildError> {
-    let ends = [design("source", source), design("target", target)].map(Arc::new);
-    let [source, target] = ends;
+    let [source, target] = [("source", source), ("target", target)]
+        .map(|(name, mesh)| Arc::new(Design::new(name, mesh)));
     let mut spec = TransitionSpec::new(source, target);
     spec.arap = arap;
     Transition::build(&spec, progress)
-}
-
-fn design(name: &str, mesh: TriangleMesh) -> Design {
-    Design {
-        name: name.to_owned(),
-        extent: mesh.bounds(),
-        form: Form::Mesh(mesh),
-        picture: None,
-        notes: Vec::new(),
-    }
 }
 
 /// Takes in what has been built.

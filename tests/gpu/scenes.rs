@@ -13,20 +13,8 @@ use morphospace::project::gallery;
 use morphospace::transition::{Cell, Transition, TransitionSpec};
 use morphospace::warp::WarpKind;
 
-fn design(form: Form) -> Arc<Design> {
-    let extent = match &form {
-        Form::Outline(regions) => regions.bounds(),
-        Form::Mesh(mesh) => mesh.bounds(),
-        Form::Truss(truss) => truss.bounds(),
-    };
-    let name = "scene".into();
-    Arc::new(Design {
-        name,
-        form,
-        extent,
-        picture: None,
-        notes: Vec::new(),
-    })
+fn design(form: impl Into<Form>) -> Arc<Design> {
+    Arc::new(Design::new("scene", form))
 }
 
 fn build(spec: &TransitionSpec) -> Transition {

@@ -1,19 +1,15 @@
 //! A file's sections: the layers that are seen, the blocks, the objects, and
 //! blocks put in their places.
 
-use super::DxfError;
 use super::curve::Curve;
 use super::entity::{Entity, Record};
+use super::error::{DxfError, MAX_DEPTH, MAX_OBJECTS};
 use super::pairs::{Pair, Pairs};
 use glam::{DAffine2, DVec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// Most objects, and most curves after blocks are copied.
-pub(super) const MAX_OBJECTS: usize = 1_000_000;
 /// Most pairs of one object that are kept.
 const MAX_PAIRS: usize = 4_000_000;
-/// Most blocks in blocks.
-pub(super) const MAX_DEPTH: usize = 16;
 /// Most kinds of objects that are told apart as left out.
 const MAX_KINDS: usize = 50;
 

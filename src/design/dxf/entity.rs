@@ -4,9 +4,9 @@
 //! own (the "arbitrary axis algorithm" of the DXF Reference); they are seen
 //! from above, as a plan.
 
-use super::DxfError;
 use super::curve::{Arc, Curve, Spline};
-use super::pairs::{Pair, Place};
+use super::error::{DxfError, Place};
+use super::pairs::Pair;
 use crate::geometry::DVec2;
 use glam::{DAffine2, DMat2, DVec3};
 use std::f64::consts::TAU;

@@ -18,102 +18,24 @@
 //! that are given only by the points they pass through, hatches, text and
 //! solids are left out, which is told.
 //!
-//! [`MAX_OBJECTS`]: drawing::MAX_OBJECTS
+//! [`MAX_OBJECTS`]: error::MAX_OBJECTS
 
 mod curve;
 mod drawing;
 mod entity;
+mod error;
 mod join;
 mod pairs;
 
+pub use error::{DxfError, Place};
 pub(super) use pairs::BINARY;
-pub use pairs::Place;
 
 use super::flatten::{MAX_POINTS, TooManyPoints};
-use super::{ImportNote, Outlines};
-use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError};
+use super::form::Outlines;
+use super::note::ImportNote;
+use crate::geometry::{Bounds, DVec2, FillRule, Regions};
 use curve::Curve;
-
-/// Why a drawing gives no outline.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum DxfError {
-    /// More bytes than a drawing should have.
-    #[error(
-        "the drawing has {} MiB, more than the {} MiB that are read; save only its outlines",
-        bytes >> 20,
-        MAX_BYTES >> 20
-    )]
-    TooLarge {
-        /// Its size.
-        bytes: usize,
-    },
-    /// A group code that is none.
-    #[error("{at}: there is no group code where one should be; save the drawing again as DXF")]
-    Code {
-        /// Where.
-        at: Place,
-    },
-    /// The file breaks off.
-    #[error("{at}: the file ends in the middle; save or copy it again")]
-    Truncated {
-        /// Where.
-        at: Place,
-    },
-    /// A number that is none.
-    #[error("{at}: there is no number that can be used; correct it")]
-    Number {
-        /// Where.
-        at: Place,
-    },
-    /// An object whose parts do not fit.
-    #[error("{at}: {kind} cannot be used: {what}; correct or remove it")]
-    Broken {
-        /// Where the object begins.
-        at: Place,
-        /// Its kind, as the file calls it.
-        kind: String,
-        /// What is wrong.
-        what: &'static str,
-    },
-    /// Objects, copies included, without end.
-    #[error(
-        "the drawing has more than {} objects, copies of blocks included; save only its outlines",
-        drawing::MAX_OBJECTS
-    )]
-    TooMany,
-    /// Blocks in blocks without end.
-    #[error(
-        "blocks lie in blocks more than {} levels deep, or a block in itself; explode them",
-        drawing::MAX_DEPTH
-    )]
-    TooDeep,
-    /// Curves into absurdly many points.
-    #[error(transparent)]
-    TooManyPoints(#[from] TooManyPoints),
-    /// There is nothing to read.
-    #[error("there is no line, arc or curve in the drawing{}; draw or explode the outlines", if found.is_empty() { String::new() } else { format!(", only {found}") })]
-    Nothing {
-        /// What there is instead.
-        found: String,
-    },
-    /// Curves, but no ring.
-    #[error(
-        "none of the curves close: one of {count} ends at ({}, {}) and nothing goes on there; join the curves end to end",
-        at.x, at.y
-    )]
-    Open {
-        /// How many curves there are.
-        count: usize,
-        /// A loose end.
-        at: DVec2,
-    },
-    /// Nothing is enclosed.
-    #[error(transparent)]
-    Regions(#[from] RegionsError),
-}
-
-/// Most bytes.
-const MAX_BYTES: usize = 64 << 20;
+use error::MAX_BYTES;
 
 /// How far ends that belong together may be apart, as a fraction of the
 /// drawing's longer side: what rounding to four digits leaves.

@@ -3,32 +3,13 @@
 //!
 //! Nothing is copied: values are slices of the file.
 
-use super::DxfError;
-use std::fmt;
+use super::error::{DxfError, Place};
 
 /// What a binary file begins with.
 pub(in crate::design) const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
 /// Largest number: products of squares stay finite.
 const MAX_NUMBER: f64 = 1e60;
-
-/// Where something stands in the file.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
-    /// A line of text, from 1.
-    Line(usize),
-    /// A byte of a binary file, from 0.
-    Byte(usize),
-}
-
-impl fmt::Display for Place {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Line(line) => write!(f, "line {line}"),
-            Self::Byte(byte) => write!(f, "byte {byte}"),
-        }
-    }
-}
 
 #[derive(Clone, Copy, Debug)]
 enum Value<'a> {

@@ -8,7 +8,7 @@
 //! often as it is referred to. Markers and filters are not counted, for they
 //! are switched off by [`STYLE`].
 
-use super::SvgError;
+use super::error::{MAX_DEPTH, MAX_ELEMENTS, SvgError};
 use std::collections::HashMap;
 use usvg::roxmltree::{Document, Node};
 
@@ -16,15 +16,8 @@ use usvg::roxmltree::{Document, Node};
 /// and filters do not change what is filled, but could unfold without end.
 pub(super) const STYLE: &str = "* { marker: none !important; filter: none !important }";
 
-/// Most bytes of text.
-pub(super) const MAX_BYTES: usize = 64 << 20;
 /// Most XML nodes in the file, text between elements included.
 pub(super) const MAX_NODES: u32 = 2_000_000;
-/// Most elements with all copies; 200,000 paths take about a second.
-pub(super) const MAX_ELEMENTS: u64 = 200_000;
-/// Most levels, copies included. Reading recurses: a stack of 2 MiB, as
-/// threads have, holds more than twice as many, even unoptimised.
-pub(super) const MAX_DEPTH: u32 = 96;
 /// Most tests of a style rule on an element.
 const MAX_STYLE_TESTS: usize = 50_000_000;
 

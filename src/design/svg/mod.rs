@@ -22,104 +22,19 @@
 //! told. Coordinates pass
 //! through `f32`, so that outlines are good to about 1e-7 of the page.
 
+mod error;
 mod guard;
 mod paint;
 
-use super::flatten::TooManyPoints;
-use super::{ImportNote, ImportOptions, Outlines};
-use crate::geometry::{Bounds, DVec2, RegionsError};
-use usvg::roxmltree::{self, Document, Node as Xml};
+pub use error::SvgError;
 
-/// Why a drawing gives no outline.
-#[derive(Debug, thiserror::Error)]
-pub enum SvgError {
-    /// Not well-formed XML.
-    #[error("the drawing is not well-formed ({0}); save it again as plain SVG")]
-    Xml(#[source] roxmltree::Error),
-    /// Not SVG, or without a size.
-    #[error("the drawing cannot be read ({0}); save it again as plain SVG")]
-    Svg(#[source] usvg::Error),
-    /// More bytes than a drawing should have.
-    #[error(
-        "the drawing has {} MiB of text, more than the {} MiB that are read; simplify its paths",
-        bytes >> 20,
-        guard::MAX_BYTES >> 20
-    )]
-    TooLarge {
-        /// Its size.
-        bytes: usize,
-    },
-    /// Elements, copies included, without end.
-    #[error(
-        "line {line}: with all copies (use, patterns, clip paths) the drawing unfolds into more than {} elements; expand fewer copies or remove them",
-        guard::MAX_ELEMENTS
-    )]
-    TooManyElements {
-        /// Where the element stands with which the count went over, from 1.
-        line: u32,
-    },
-    /// Elements in elements without end.
-    #[error(
-        "line {line}: the drawing is nested more than {} levels deep, copies included; ungroup it",
-        guard::MAX_DEPTH
-    )]
-    TooDeep {
-        /// Where the deepest element stands, from 1.
-        line: u32,
-    },
-    /// An element that is a copy of itself.
-    #[error(
-        "line {line}: an element refers to itself, over others or directly; remove the reference"
-    )]
-    Circular {
-        /// Where the element stands, from 1.
-        line: u32,
-    },
-    /// A style sheet that would be matched too often.
-    #[error(
-        "the drawing's style sheet is too long for its {elements} elements; save it with plain attributes"
-    )]
-    TooMuchStyle {
-        /// How many elements there are.
-        elements: usize,
-    },
-    /// A mask, which has no outline.
-    #[error(
-        "the drawing uses the mask \"{0}\", which has no outline; apply it as a clip path, or remove it"
-    )]
-    Mask(String),
-    /// Nothing visible is filled.
-    #[error(
-        "nothing in the drawing is filled{}; fill shapes, and convert text to paths",
-        if *strokes { ", there are only strokes (set strokes = true to read them as shapes)" } else { "" }
-    )]
-    NothingFilled {
-        /// Whether there are strokes.
-        strokes: bool,
-    },
-    /// No element has the id.
-    #[error(
-        "the drawing has no element with the id \"{id}\"; {}",
-        known_ids(known)
-    )]
-    NoElement {
-        /// The id that was asked for.
-        id: String,
-        /// The first ids that there are.
-        known: Vec<String>,
-    },
-    /// The element is there and draws nothing.
-    #[error(
-        "the element \"{0}\" draws nothing by itself; choose a shape, a group or a <use>, not what lies in <defs>"
-    )]
-    NotDrawn(String),
-    /// Curves into absurdly many points.
-    #[error(transparent)]
-    TooManyPoints(#[from] TooManyPoints),
-    /// Nothing is enclosed.
-    #[error(transparent)]
-    Regions(#[from] RegionsError),
-}
+use super::form::Outlines;
+use super::note::ImportNote;
+use super::options::ImportOptions;
+use crate::geometry::{Bounds, DVec2};
+use error::MAX_BYTES;
+use paint::Brush;
+use usvg::roxmltree::{self, Document, Node as Xml};
 
 /// Smallest tolerance that is worked with, as a fraction of the page: that of
 /// the `f32` coordinates.
@@ -128,21 +43,6 @@ const MIN_TOLERANCE: f64 = 1e-7;
 /// Ids that an error names.
 const NAMED_IDS: usize = 8;
 
-fn known_ids(known: &[String]) -> String {
-    match known {
-        [] => "it has none; give the element one, or take all of the drawing".to_owned(),
-        known => format!("it has {}", known.join(", ")),
-    }
-}
-
-/// What of a drawing is read, and how.
-struct Brush<'o> {
-    /// In units of the page.
-    tolerance: f64,
-    strokes: bool,
-    element: Option<&'o str>,
-}
-
 /// Reads the text of an SVG file: all of it, or the element with an id. The
 /// tolerance is a fraction of the page's longer side.
 pub(super) fn read(
@@ -150,7 +50,7 @@ pub(super) fn read(
     element: Option<&str>,
     options: &ImportOptions,
 ) -> Result<Outlines, SvgError> {
-    if text.len() > guard::MAX_BYTES {
+    if text.len() > MAX_BYTES {
         return Err(SvgError::TooLarge { bytes: text.len() });
     }
     let xml = roxmltree::ParsingOptions {

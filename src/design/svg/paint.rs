@@ -1,13 +1,21 @@
 //! What is filled in a drawing, as regions: a painter who knows two colours,
 //! ink and paper, and paints in the drawing's order.
 
-use super::{Brush, SvgError};
+use super::error::SvgError;
 use crate::design::flatten::Flattener;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
 use i_overlay::core::fill_rule::FillRule as OverlayFill;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 use usvg::{ClipPath, Group, Node, Paint, PaintOrder, Path, Stroke, Transform, tiny_skia_path};
+
+/// What of a drawing is read, and how.
+pub(super) struct Brush<'o> {
+    /// In units of the page.
+    pub tolerance: f64,
+    pub strokes: bool,
+    pub element: Option<&'o str>,
+}
 
 /// Polygons to be filled by winding.
 type Rings = Vec<Vec<DVec2>>;

@@ -263,7 +263,7 @@ fn depth_is_limited_before_the_stack_ends() {
     let chain = bomb(200, 1, |level| format!(r##"<use href="#g{level}"/>"##));
     assert!(matches!(read_body(&chain), Err(SvgError::TooDeep { .. })));
     // This thread has the stack of any other: half of it must do.
-    let text = nested(guard::MAX_DEPTH as usize - 1);
+    let text = nested(error::MAX_DEPTH as usize - 1);
     let thread = std::thread::Builder::new().stack_size(1 << 20);
     let handle = thread
         .spawn(move || read(&text, 1e-3).is_ok())

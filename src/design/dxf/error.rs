@@ -1,0 +1,110 @@
+//! Why a drawing gives no outline, the limits that errors name, and places in
+//! a file.
+
+use crate::design::flatten::TooManyPoints;
+use crate::geometry::{DVec2, RegionsError};
+use std::fmt;
+
+/// Most bytes.
+pub(super) const MAX_BYTES: usize = 64 << 20;
+/// Most objects, and most curves after blocks are copied.
+pub(super) const MAX_OBJECTS: usize = 1_000_000;
+/// Most blocks in blocks.
+pub(super) const MAX_DEPTH: usize = 16;
+
+/// Why a drawing gives no outline.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum DxfError {
+    /// More bytes than a drawing should have.
+    #[error(
+        "the drawing has {} MiB, more than the {} MiB that are read; save only its outlines",
+        bytes >> 20,
+        MAX_BYTES >> 20
+    )]
+    TooLarge {
+        /// Its size.
+        bytes: usize,
+    },
+    /// A group code that is none.
+    #[error("{at}: there is no group code where one should be; save the drawing again as DXF")]
+    Code {
+        /// Where.
+        at: Place,
+    },
+    /// The file breaks off.
+    #[error("{at}: the file ends in the middle; save or copy it again")]
+    Truncated {
+        /// Where.
+        at: Place,
+    },
+    /// A number that is none.
+    #[error("{at}: there is no number that can be used; correct it")]
+    Number {
+        /// Where.
+        at: Place,
+    },
+    /// An object whose parts do not fit.
+    #[error("{at}: {kind} cannot be used: {what}; correct or remove it")]
+    Broken {
+        /// Where the object begins.
+        at: Place,
+        /// Its kind, as the file calls it.
+        kind: String,
+        /// What is wrong.
+        what: &'static str,
+    },
+    /// Objects, copies included, without end.
+    #[error(
+        "the drawing has more than {} objects, copies of blocks included; save only its outlines",
+        MAX_OBJECTS
+    )]
+    TooMany,
+    /// Blocks in blocks without end.
+    #[error(
+        "blocks lie in blocks more than {} levels deep, or a block in itself; explode them",
+        MAX_DEPTH
+    )]
+    TooDeep,
+    /// Curves into absurdly many points.
+    #[error(transparent)]
+    TooManyPoints(#[from] TooManyPoints),
+    /// There is nothing to read.
+    #[error("there is no line, arc or curve in the drawing{}; draw or explode the outlines", if found.is_empty() { String::new() } else { format!(", only {found}") })]
+    Nothing {
+        /// What there is instead.
+        found: String,
+    },
+    /// Curves, but no ring.
+    #[error(
+        "none of the curves close: one of {count} ends at ({}, {}) and nothing goes on there; join the curves end to end",
+        at.x, at.y
+    )]
+    Open {
+        /// How many curves there are.
+        count: usize,
+        /// A loose end.
+        at: DVec2,
+    },
+    /// Nothing is enclosed.
+    #[error(transparent)]
+    Regions(#[from] RegionsError),
+}
+
+/// Where something stands in the file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// A line of text, from 1.
+    Line(usize),
+    /// A byte of a binary file, from 0.
+    Byte(usize),
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Line(line) => write!(f, "line {line}"),
+            Self::Byte(byte) => write!(f, "byte {byte}"),
+        }
+    }
+}

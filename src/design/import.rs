@@ -1,0 +1,182 @@
+//! From the bytes of a file, or text in a font, to a design.
+
+use super::error::{ImportError, MAX_FILE_BYTES, Problem};
+use super::form::{Design, Outlines};
+use super::format::Format;
+use super::options::ImportOptions;
+use super::sniff::sniff;
+use super::source::Source;
+use super::truss::Truss;
+use super::{dxf, lettering, obj, polygons, silhouette, svg};
+use std::path::Path;
+
+/// Reads a design from the bytes of a file, whatever its format. `name`
+/// becomes the design's name and stands in errors.
+///
+/// # Errors
+/// [`ImportError`] names the file, the place in it and the way out.
+///
+/// ```
+/// use morphospace::design::{ImportOptions, import};
+/// let obj = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+/// let design = import("triangle", obj, &ImportOptions::default())?;
+/// assert_eq!(design.outline(0.0).expect("area").area(), 0.5);
+/// # Ok::<(), morphospace::design::ImportError>(())
+/// ```
+pub fn import(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Design, ImportError> {
+    read(name.to_owned(), bytes, None, options).map_err(|problem| ImportError::new(name, problem))
+}
+
+/// Reads a design from a file, or from whatever else a path may mean: see
+/// [`Source`]. The design is named after the file, without its ending.
+///
+/// # Errors
+/// [`ImportError`] names the file, the place in it and the way out.
+pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Design, ImportError> {
+    Source::of(path).import(options)
+}
+
+impl Source {
+    /// Reads the design.
+    ///
+    /// # Errors
+    /// [`ImportError`] names the source, the place in it and the way out.
+    pub fn import(&self, options: &ImportOptions) -> Result<Design, ImportError> {
+        let bytes = match self.file() {
+            Some(path) => read_bytes(path).map_err(|problem| self.error(problem))?,
+            None => Vec::new(),
+        };
+        self.import_bytes(&bytes, options)
+    }
+
+    /// Reads the design from the bytes of [`Source::file`]; they are not
+    /// looked at where there is none.
+    ///
+    /// # Errors
+    /// [`ImportError`] names the source, the place in it and the way out.
+    pub fn import_bytes(
+        &self,
+        bytes: &[u8],
+        options: &ImportOptions,
+    ) -> Result<Design, ImportError> {
+        let name = self.name();
+        let design = match self {
+            Self::File { element, .. } => read(name, bytes, element.as_deref(), options),
+            Self::Text { text, font } => {
+                let font = font.is_some().then_some(bytes);
+                letters(name, text, font, options)
+            }
+        };
+        design.map_err(|problem| self.error(problem))
+    }
+
+    fn error(&self, problem: Problem) -> ImportError {
+        ImportError::new(&self.to_path().display().to_string(), problem)
+    }
+}
+
+fn read_bytes(path: &Path) -> Result<Vec<u8>, Problem> {
+    let metadata = std::fs::metadata(path).map_err(Problem::from_io)?;
+    if metadata.is_dir() {
+        return Err(Problem::Folder);
+    }
+    check_size(metadata.len())?;
+    std::fs::read(path).map_err(Problem::from_io)
+}
+
+fn check_size(bytes: u64) -> Result<(), Problem> {
+    match bytes > MAX_FILE_BYTES {
+        true => Err(Problem::TooLarge { bytes }),
+        false => Ok(()),
+    }
+}
+
+/// Draws text in a font, or in the bundled one.
+fn letters(
+    name: String,
+    text: &str,
+    font: Option<&[u8]>,
+    options: &ImportOptions,
+) -> Result<Design, Problem> {
+    options.check()?;
+    let (regions, extent) = lettering::read(text, font, options.tolerance)?;
+    let notes = Vec::new();
+    let outlines = Outlines {
+        regions,
+        extent,
+        notes,
+    };
+    Ok(outlines.named(name))
+}
+
+/// Reads a file, or the element of it with an id.
+fn read(
+    name: String,
+    bytes: &[u8],
+    element: Option<&str>,
+    options: &ImportOptions,
+) -> Result<Design, Problem> {
+    options.check()?;
+    if bytes.is_empty() {
+        return Err(Problem::Empty);
+    }
+    check_size(bytes.len() as u64)?;
+    let format = sniff(bytes)?;
+    if let (Some(id), true) = (element, format != Format::Svg) {
+        return Err(Problem::NoElements { id: id.to_owned() });
+    }
+    Ok(match format {
+        Format::Picture(format) => {
+            Design::of_picture(name, silhouette::decode(bytes, format)?, options)?
+        }
+        Format::Svg => svg::read(text(bytes)?, element, options)?.named(name),
+        Format::Dxf => dxf::read(bytes, options.tolerance)?.named(name),
+        Format::Obj => Design::new(name, obj::read(text(bytes)?)?),
+        Format::Polygons => polygons::read(text(bytes)?)?.named(name),
+        Format::Truss => Design::new(name, Truss::from_json(text(bytes)?)?),
+    })
+}
+
+/// The bytes as text, without a byte order mark.
+fn text(bytes: &[u8]) -> Result<&str, Problem> {
+    std::str::from_utf8(bytes)
+        .map(|text| text.trim_start_matches('\u{feff}'))
+        .map_err(|e| Problem::NotUtf8 {
+            line: 1 + bytes[..e.valid_up_to()]
+                .iter()
+                .filter(|&&b| b == b'\n')
+                .count(),
+        })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{DVec2, Similarity};
+
+    #[test]
+    fn a_turned_design_keeps_its_area_and_moves_its_extent() {
+        let obj = b"v 0 0 0\nv 2 0 0\nv 0 1 0\nf 1 2 3\n";
+        let design = import("t", obj, &ImportOptions::default()).expect("valid");
+        let by = Similarity {
+            rotation: std::f64::consts::FRAC_PI_2,
+            mirror: true,
+            ..Similarity::IDENTITY
+        };
+        let moved = design.transformed(&by);
+        let area = |d: &Design| d.outline(0.0).expect("area").area();
+        assert!((area(&moved) - area(&design)).abs() < 1e-12);
+        assert!((moved.extent.min - DVec2::new(-1.0, -2.0)).length() < 1e-12);
+        assert!((moved.extent.max - DVec2::ZERO).length() < 1e-12);
+    }
+
+    #[test]
+    fn text_that_is_not_utf8_is_named_by_its_line() {
+        let bytes = b"v 0 0 0\nv 1 0 0\nv \xff 1 0\nf 1 2 3\n";
+        let error = import("t.obj", bytes, &ImportOptions::default()).expect_err("bad text");
+        assert!(
+            matches!(error.problem, Problem::NotUtf8 { line: 3 }),
+            "{error}"
+        );
+    }
+}

@@ -1,0 +1,75 @@
+use super::*;
+
+#[test]
+fn numbers_and_order_are_kept_and_quads_become_fans() {
+    let text = "# c\nmtllib x.mtl\no a\nv 0 0 5\nv 1 0 5 # right\nv 1 1 5\nv 0 1 5\n\
+                vt 0 0\nvn 0 0 1\ng b\nusemtl m\nf 2/1/1 3//1 \\\n 4 1/1\n";
+    let mesh = read(text).expect("valid");
+    assert_eq!(mesh.positions()[1], DVec2::X);
+    assert_eq!(mesh.faces(), [[1, 2, 3], [1, 3, 0]]);
+    let relative = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n").expect("valid");
+    assert_eq!(relative.faces(), [[0, 1, 2]]);
+}
+
+#[test]
+fn a_bad_line_is_named() {
+    let error = |text: &str| read(text).expect_err("bad");
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+    assert_eq!(error("v 1\n"), ObjError::Vertex { line: 1, vertex: 1 });
+    for bad in ["NaN", "inf", "-inf", "1e999"] {
+        let text = format!("v 0 0 0\nv {bad} 0 0\n");
+        assert_eq!(error(&text), ObjError::NotFinite { line: 2, vertex: 2 });
+    }
+    assert!(matches!(
+        error("v 0 0 0\nv 1 0 0.1\n"),
+        ObjError::NotFlat {
+            line: 2,
+            vertex: 2,
+            ..
+        }
+    ));
+    for (face, named) in [("1 2 4", 4), ("1 2 0", 0), ("1 2 -4", -4)] {
+        assert_eq!(
+            error(&format!("{triangle}f {face}\n")),
+            ObjError::OutOfRange {
+                line: 4,
+                face: 1,
+                named,
+                vertices: 3
+            }
+        );
+    }
+    let huge = format!("{triangle}f 1 2 9223372036854775807\nf 1 2 -9223372036854775808");
+    assert!(matches!(error(&huge), ObjError::OutOfRange { .. }));
+    assert_eq!(
+        error(&format!("{triangle}f 1 2 2\n")),
+        ObjError::Repeated {
+            line: 4,
+            face: 1,
+            vertex: 2
+        }
+    );
+    assert!(matches!(
+        error(&format!("{triangle}f 1 x 2\n")),
+        ObjError::Face { line: 4, .. }
+    ));
+    assert_eq!(
+        error(&format!("{triangle}f 1 2\n")),
+        ObjError::TooFewCorners { line: 4, face: 1 }
+    );
+    assert_eq!(
+        error(&format!("{triangle}v 5 5 0\nf 1 2 3\n")),
+        ObjError::Unused(4)
+    );
+    assert_eq!(
+        error(triangle),
+        ObjError::NoMesh {
+            vertices: 3,
+            faces: 0
+        }
+    );
+    assert!(matches!(
+        error("v 0 0\nv 1 0\nv 1 1\nv 0 1\nf 1 2 3\nf 1 4 3\nf 1 3 2\n"),
+        ObjError::Mesh(_)
+    ));
+}

@@ -1,0 +1,102 @@
+//! Points, rings and lists of rings in JSON, and where in it they stand.
+
+use super::error::PolygonsError;
+use crate::geometry::DVec2;
+use serde_json::{Map, Value};
+use std::fmt;
+
+/// Largest coordinate: squares and their products stay finite.
+const MAX_COORDINATE: f64 = 1e60;
+
+/// A place in the document.
+pub(super) enum At<'a> {
+    Root,
+    Key(&'a At<'a>, &'static str),
+    Item(&'a At<'a>, usize),
+}
+
+impl fmt::Display for At<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Root => f.write_str("$"),
+            Self::Key(up, key) => write!(f, "{up}.{key}"),
+            Self::Item(up, index) => write!(f, "{up}[{index}]"),
+        }
+    }
+}
+
+pub(super) fn expected(at: &At, expected: &'static str, value: &Value) -> PolygonsError {
+    let found = match value {
+        Value::Null => "null",
+        Value::Bool(_) => "true or false",
+        Value::Number(_) => "a number",
+        Value::String(_) => "a text",
+        Value::Array(list) if list.is_empty() => "an empty list",
+        Value::Array(_) => "a list",
+        Value::Object(_) => "an object",
+    };
+    PolygonsError::Expected {
+        at: at.to_string(),
+        expected,
+        found,
+    }
+}
+
+pub(super) fn items<'v>(
+    value: &'v Value,
+    at: &At,
+    what: &'static str,
+) -> Result<&'v [Value], PolygonsError> {
+    let list = value.as_array().ok_or_else(|| expected(at, what, value))?;
+    Ok(list)
+}
+
+pub(super) type Ring = Vec<DVec2>;
+
+const POINT: &str = "a point, as in [1.5, 2]";
+pub(super) const RING: &str = "a ring, as in [[0, 0], [4, 0], [0, 3]]";
+const RINGS: &str = "a list of rings";
+pub(super) const POLYGONS: &str = "a list of polygons, each a list of rings";
+
+fn point(value: &Value, at: &At) -> Result<DVec2, PolygonsError> {
+    let number = |value: &Value| {
+        let number = value.as_f64().filter(|x| x.abs() <= MAX_COORDINATE);
+        number.ok_or_else(|| expected(at, "two numbers of at most 1e60 for a point", value))
+    };
+    match items(value, at, POINT)? {
+        [x, y, ..] => Ok(DVec2::new(number(x)?, number(y)?)),
+        _ => Err(expected(at, POINT, value)),
+    }
+}
+
+pub(super) fn ring(value: &Value, at: &At) -> Result<Ring, PolygonsError> {
+    let points = items(value, at, RING)?.iter().enumerate();
+    points.map(|(i, p)| point(p, &At::Item(at, i))).collect()
+}
+
+pub(super) fn rings(value: &Value, at: &At) -> Result<Vec<Ring>, PolygonsError> {
+    let rings = items(value, at, RINGS)?.iter().enumerate();
+    rings.map(|(i, r)| ring(r, &At::Item(at, i))).collect()
+}
+
+/// Lists in lists down to the first number.
+pub(super) fn depth(value: &Value) -> usize {
+    match value {
+        Value::Array(list) => 1 + list.first().map_or(0, depth),
+        _ => 0,
+    }
+}
+
+pub(super) fn coordinates<'v, 'a>(
+    object: &'v Map<String, Value>,
+    at: &'a At<'a>,
+) -> Result<(&'v Value, At<'a>), PolygonsError> {
+    let key = "coordinates";
+    let missing = || PolygonsError::Missing {
+        at: at.to_string(),
+        key,
+        expected: RINGS,
+    };
+    let value = object.get(key).ok_or_else(missing)?;
+    Ok((value, At::Key(at, key)))
+}

@@ -1,0 +1,112 @@
+//! Why a drawing gives no outline, and the limits that errors name.
+
+use crate::design::flatten::TooManyPoints;
+use crate::geometry::RegionsError;
+use usvg::roxmltree;
+
+/// Most bytes of text.
+pub(super) const MAX_BYTES: usize = 64 << 20;
+/// Most elements with all copies; 200,000 paths take about a second.
+pub(super) const MAX_ELEMENTS: u64 = 200_000;
+/// Most levels, copies included. Reading recurses: a stack of 2 MiB, as
+/// threads have, holds more than twice as many, even unoptimised.
+pub(super) const MAX_DEPTH: u32 = 96;
+
+/// Why a drawing gives no outline.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SvgError {
+    /// Not well-formed XML.
+    #[error("the drawing is not well-formed ({0}); save it again as plain SVG")]
+    Xml(#[source] roxmltree::Error),
+    /// Not SVG, or without a size.
+    #[error("the drawing cannot be read ({0}); save it again as plain SVG")]
+    Svg(#[source] usvg::Error),
+    /// More bytes than a drawing should have.
+    #[error(
+        "the drawing has {} MiB of text, more than the {} MiB that are read; simplify its paths",
+        bytes >> 20,
+        MAX_BYTES >> 20
+    )]
+    TooLarge {
+        /// Its size.
+        bytes: usize,
+    },
+    /// Elements, copies included, without end.
+    #[error(
+        "line {line}: with all copies (use, patterns, clip paths) the drawing unfolds into more than {} elements; expand fewer copies or remove them",
+        MAX_ELEMENTS
+    )]
+    TooManyElements {
+        /// Where the element stands with which the count went over, from 1.
+        line: u32,
+    },
+    /// Elements in elements without end.
+    #[error(
+        "line {line}: the drawing is nested more than {} levels deep, copies included; ungroup it",
+        MAX_DEPTH
+    )]
+    TooDeep {
+        /// Where the deepest element stands, from 1.
+        line: u32,
+    },
+    /// An element that is a copy of itself.
+    #[error(
+        "line {line}: an element refers to itself, over others or directly; remove the reference"
+    )]
+    Circular {
+        /// Where the element stands, from 1.
+        line: u32,
+    },
+    /// A style sheet that would be matched too often.
+    #[error(
+        "the drawing's style sheet is too long for its {elements} elements; save it with plain attributes"
+    )]
+    TooMuchStyle {
+        /// How many elements there are.
+        elements: usize,
+    },
+    /// A mask, which has no outline.
+    #[error(
+        "the drawing uses the mask \"{0}\", which has no outline; apply it as a clip path, or remove it"
+    )]
+    Mask(String),
+    /// Nothing visible is filled.
+    #[error(
+        "nothing in the drawing is filled{}; fill shapes, and convert text to paths",
+        if *strokes { ", there are only strokes (set strokes = true to read them as shapes)" } else { "" }
+    )]
+    NothingFilled {
+        /// Whether there are strokes.
+        strokes: bool,
+    },
+    /// No element has the id.
+    #[error(
+        "the drawing has no element with the id \"{id}\"; {}",
+        known_ids(known)
+    )]
+    NoElement {
+        /// The id that was asked for.
+        id: String,
+        /// The first ids that there are.
+        known: Vec<String>,
+    },
+    /// The element is there and draws nothing.
+    #[error(
+        "the element \"{0}\" draws nothing by itself; choose a shape, a group or a <use>, not what lies in <defs>"
+    )]
+    NotDrawn(String),
+    /// Curves into absurdly many points.
+    #[error(transparent)]
+    TooManyPoints(#[from] TooManyPoints),
+    /// Nothing is enclosed.
+    #[error(transparent)]
+    Regions(#[from] RegionsError),
+}
+
+fn known_ids(known: &[String]) -> String {
+    match known {
+        [] => "it has none; give the element one, or take all of the drawing".to_owned(),
+        known => format!("it has {}", known.join(", ")),
+    }
+}

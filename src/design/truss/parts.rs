@@ -1,0 +1,177 @@
+//! What a truss consists of, as it stands in a file, and the checks of it.
+
+use super::error::TrussInputError;
+use crate::geometry::DVec2;
+use serde::Deserialize;
+use std::collections::HashMap;
+
+/// What a truss consists of, unchecked, as it stands in a file.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TrussParts {
+    /// Places of the nodes, y up.
+    pub nodes: Vec<DVec2>,
+    /// The two nodes of each bar, from 0.
+    pub bars: Vec<[u32; 2]>,
+    /// Nodes that are held.
+    #[serde(default)]
+    pub supports: Vec<Support>,
+    /// Forces at nodes.
+    #[serde(default)]
+    pub loads: Vec<Load>,
+    /// Section area of each bar, or empty.
+    #[serde(default)]
+    pub areas: Vec<f64>,
+    /// Materials that bars may be of.
+    #[serde(default)]
+    pub materials: Vec<Material>,
+    /// Index of each bar's material, or empty.
+    #[serde(default)]
+    pub bar_materials: Vec<u32>,
+}
+
+/// A node that is held.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Support {
+    /// The node, from 0.
+    pub node: u32,
+    /// Whether it is held along x and along y of the design as drawn.
+    pub fixed: [bool; 2],
+}
+
+/// A force at a node.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Load {
+    /// The node, from 0.
+    pub node: u32,
+    /// The force along x and y.
+    pub force: DVec2,
+}
+
+/// A material that bars may be of.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Material {
+    /// What it is called.
+    pub name: String,
+    /// Young's modulus, positive.
+    #[serde(default)]
+    pub youngs_modulus: Option<f64>,
+    /// Mass per volume, positive.
+    #[serde(default)]
+    pub density: Option<f64>,
+}
+
+/// The first index whose item fails `good`, as an error.
+fn numbers<T>(
+    what: &'static str,
+    rule: &'static str,
+    items: &[T],
+    good: impl Fn(&T) -> bool,
+) -> Result<(), TrussInputError> {
+    match items.iter().position(|item| !good(item)) {
+        Some(index) => Err(TrussInputError::Number { what, index, rule }),
+        None => Ok(()),
+    }
+}
+
+impl TrussParts {
+    /// Everything that a truss guarantees.
+    pub(super) fn check(&self) -> Result<(), TrussInputError> {
+        if self.bars.is_empty() {
+            let nodes = self.nodes.len();
+            return Err(TrussInputError::NoBars { nodes });
+        }
+        self.check_numbers()?;
+        self.check_indices()?;
+        self.check_bars()?;
+        self.check_held()
+    }
+
+    fn check_numbers(&self) -> Result<(), TrussInputError> {
+        const FINITE: &str = "give finite coordinates";
+        const POSITIVE: &str = "give finite numbers above zero";
+        let positive = |&x: &f64| x.is_finite() && x > 0.0;
+        numbers("node", FINITE, &self.nodes, |p| p.is_finite())?;
+        numbers("load", FINITE, &self.loads, |l| l.force.is_finite())?;
+        numbers("area", POSITIVE, &self.areas, positive)?;
+        numbers("material", POSITIVE, &self.materials, |m| {
+            [m.youngs_modulus, m.density].iter().flatten().all(positive)
+        })
+    }
+
+    fn check_indices(&self) -> Result<(), TrussInputError> {
+        let bars = self.bars.len();
+        for (list, found) in [
+            ("areas", self.areas.len()),
+            ("bar_materials", self.bar_materials.len()),
+        ] {
+            if found != 0 && found != bars {
+                return Err(TrussInputError::PerBar { list, found, bars });
+            }
+        }
+        let ends = self.bars.iter().enumerate();
+        self.in_range("bar", ends.flat_map(|(i, bar)| bar.map(|n| (i, n))))?;
+        self.in_range("support", self.supports.iter().map(|s| s.node).enumerate())?;
+        self.in_range("load", self.loads.iter().map(|l| l.node).enumerate())?;
+        let count = self.materials.len();
+        let bad = self.bar_materials.iter().position(|&m| m as usize >= count);
+        match bad {
+            Some(index) => Err(TrussInputError::OutOfRange {
+                what: "the material of bar",
+                index,
+                kind: "material",
+                named: self.bar_materials[index],
+                count,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn in_range(
+        &self,
+        what: &'static str,
+        named: impl Iterator<Item = (usize, u32)>,
+    ) -> Result<(), TrussInputError> {
+        let count = self.nodes.len();
+        let mut bad = named.filter(|&(_, node)| node as usize >= count);
+        match bad.next() {
+            Some((index, named)) => Err(TrussInputError::OutOfRange {
+                what,
+                index,
+                kind: "node",
+                named,
+                count,
+            }),
+            None => Ok(()),
+        }
+    }
+
+    fn check_bars(&self) -> Result<(), TrussInputError> {
+        let mut seen = HashMap::new();
+        for (bar, &[a, b]) in self.bars.iter().enumerate() {
+            if self.nodes[a as usize] == self.nodes[b as usize] {
+                let nodes = [a, b];
+                return Err(TrussInputError::NoLength { bar, nodes });
+            }
+            if let Some(first) = seen.insert([a.min(b), a.max(b)], bar) {
+                let second = bar;
+                return Err(TrussInputError::Duplicate { first, second });
+            }
+        }
+        Ok(())
+    }
+
+    fn check_held(&self) -> Result<(), TrussInputError> {
+        let mut held = vec![false; self.nodes.len()];
+        for &node in self.bars.iter().flatten() {
+            held[node as usize] = true;
+        }
+        match held.iter().position(|&held| !held) {
+            Some(node) => Err(TrussInputError::Loose(node)),
+            None => Ok(()),
+        }
+    }
+}
