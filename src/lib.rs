@@ -51,6 +51,7 @@
 //!
 //! ```text
 //! progress, easing              how work tells how far it is; how a share runs
+//! atomic_file                   files that are there whole or not at all
 //! geometry                      points, matrices, polygons, exact predicates
 //! linalg                        sparse positive definite systems (faer)
 //! mesh                          triangles, connectivity, subdivision
@@ -72,6 +73,7 @@
 //! Coordinates are `f64` with y up. The core keeps no global state, logs
 //! nothing and prints nothing.
 
+mod atomic_file;
 pub mod easing;
 pub mod progress;
 

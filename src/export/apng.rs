@@ -10,9 +10,9 @@ use std::path::Path;
 use image::RgbaImage;
 use png::{BitDepth, BlendOp, ColorType, DisposeOp, Encoder, EncodingError, Writer};
 
+use crate::atomic_file::AtomicFile;
 use crate::progress::Progress;
 
-use super::atomic::AtomicFile;
 use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::{Film, Run};
@@ -29,7 +29,7 @@ pub fn write_apng(
     path: &Path,
     progress: &dyn Progress,
 ) -> Result<(), ExportError> {
-    let mut file = AtomicFile::create(path)?;
+    let mut file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let runs = film.runs();
     let mut output = BufWriter::new(file.file_mut());
     let mut writer =
@@ -50,7 +50,7 @@ pub fn write_apng(
     writer.finish().map_err(ExportError::encode(path))?;
     output.flush().map_err(ExportError::write(path))?;
     drop(output);
-    file.commit()
+    file.commit().map_err(ExportError::write(path))
 }
 
 fn writer<W: Write>(

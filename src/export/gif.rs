@@ -11,9 +11,9 @@ use std::path::Path;
 use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use image::RgbaImage;
 
+use crate::atomic_file::AtomicFile;
 use crate::progress::Progress;
 
-use super::atomic::AtomicFile;
 use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::{Film, Run};
@@ -46,7 +46,7 @@ pub fn write_gif(
     if film.fps() > MAX_GIF_FPS {
         return Err(ExportError::GifRate(film.fps()));
     }
-    let mut file = AtomicFile::create(path)?;
+    let mut file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let palette = film_palette(camera, &film.runs(), progress)?;
     let writer = BufWriter::new(file.file_mut());
     let mut encoder = encoder(writer, camera, film, &palette).map_err(ExportError::encode(path))?;
@@ -64,7 +64,7 @@ pub fn write_gif(
     let mut writer = encoder.into_inner().map_err(ExportError::encode(path))?;
     writer.flush().map_err(ExportError::write(path))?;
     drop(writer);
-    file.commit()
+    file.commit().map_err(ExportError::write(path))
 }
 
 fn encoder<W: Write>(

@@ -23,13 +23,13 @@
 //! ```
 
 mod apng;
-mod atomic;
 mod camera;
 mod comparison;
 mod drawing;
 mod error;
 mod film;
 mod gif;
+#[cfg(not(target_family = "wasm"))]
 mod mp4;
 mod outline;
 mod pair_sheet;
@@ -45,7 +45,8 @@ mod target;
 mod testing;
 mod text;
 
-pub(crate) use atomic::write as write_atomically;
+#[cfg(feature = "cli")]
+pub(crate) use still::write_atomically;
 
 use std::path::PathBuf;
 
@@ -58,6 +59,7 @@ pub use drawing::{Drawing, Item, JOINT_CORE_RADIUS, JOINT_RADIUS, View, joint_co
 pub use error::ExportError;
 pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};
 pub use gif::{MAX_GIF_FPS, write_gif};
+#[cfg(not(target_family = "wasm"))]
 pub use mp4::write_mp4;
 pub use outline::{MAX_COORDINATE_PX, Outline, Step};
 pub use pair_sheet::{Strip, pair_sheet};
@@ -91,7 +93,10 @@ pub fn write_film(
             match kind {
                 FilmKind::Gif => write_gif(camera, film, path, progress)?,
                 FilmKind::Apng => write_apng(camera, film, path, progress)?,
+                #[cfg(not(target_family = "wasm"))]
                 FilmKind::Mp4 => write_mp4(camera, film, path, progress)?,
+                #[cfg(target_family = "wasm")]
+                FilmKind::Mp4 => return Err(ExportError::NoFfmpeg),
             }
             path
         }

@@ -12,9 +12,9 @@ use std::thread::JoinHandle;
 
 use image::RgbaImage;
 
+use crate::atomic_file::AtomicFile;
 use crate::progress::{Cancelled, Progress};
 
-use super::atomic::AtomicFile;
 use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::Film;
@@ -36,7 +36,7 @@ pub fn write_mp4(
     if camera.ground.is_none() {
         return Err(ExportError::Mp4Transparent);
     }
-    let file = AtomicFile::create(path)?;
+    let file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let mut ffmpeg = Ffmpeg::start(camera.view.size(), film.fps(), file.temporary_path())?;
     let fed = camera.shoot_runs(
         &film.runs(),
@@ -56,7 +56,7 @@ pub fn write_mp4(
     }
     // A broken pipe is ffmpeg's end, and its last words say more.
     ffmpeg.finish(path).and(fed)?;
-    file.commit()
+    file.commit().map_err(ExportError::write(path))
 }
 
 fn opaque_bytes(image: &RgbaImage) -> Vec<u8> {

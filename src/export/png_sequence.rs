@@ -10,11 +10,10 @@ use std::path::PathBuf;
 
 use crate::progress::Progress;
 
-use super::atomic;
 use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::Film;
-use super::still::encoded;
+use super::still::{encoded, write_atomically};
 use super::target::Numbered;
 
 /// Writes the frames and returns their paths in order.
@@ -39,7 +38,7 @@ pub fn write_numbered(
         |run, bytes| {
             for number in run.first..run.first + run.count {
                 let path = names.path(number);
-                atomic::write(&path, &bytes)?;
+                write_atomically(&path, &bytes)?;
                 written.push(path);
             }
             Ok(())

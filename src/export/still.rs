@@ -5,7 +5,8 @@ use std::path::Path;
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use image::{ExtendedColorType, ImageEncoder};
 
-use super::atomic;
+use crate::atomic_file;
+
 use super::drawing::Drawing;
 use super::error::ExportError;
 use super::raster::rasterise;
@@ -17,7 +18,12 @@ use super::target::StillKind;
 /// # Errors
 /// [`ExportError`] where the file cannot be written.
 pub fn write_still(drawing: &Drawing, kind: StillKind, path: &Path) -> Result<(), ExportError> {
-    atomic::write(path, &encoded(drawing, kind, path)?)
+    write_atomically(path, &encoded(drawing, kind, path)?)
+}
+
+/// Writes a whole file at once.
+pub(crate) fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
+    atomic_file::write(path, bytes).map_err(ExportError::write(path))
 }
 
 /// A drawing as the bytes of a file; `path` is for the message alone.
@@ -44,4 +50,18 @@ fn png(drawing: &Drawing, path: &Path) -> Result<Vec<u8>, ExportError> {
         )
         .map_err(ExportError::encode(path))?;
     Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::export::PixelSize;
+
+    #[test]
+    fn a_missing_folder_is_named() {
+        let path = Path::new("/no/such/folder/x.svg");
+        let drawing = Drawing::new(PixelSize::new(1, 1).expect("a legal size"), None);
+        let error = write_still(&drawing, StillKind::Svg, path).expect_err("no folder");
+        assert!(error.to_string().contains("/no/such/folder/x.svg"));
+    }
 }

@@ -105,7 +105,7 @@ fn picture(image: &image::RgbaImage, corner: DVec2, size: DVec2) -> String {
     let encoded =
         PngEncoder::new(&mut png).write_image(image, width, height, image::ColorType::Rgba8.into());
     if encoded.is_err() {
-        return String::new();
+        return String::new(); // it has no pixels, and shows nothing
     }
     format!(
         "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"/>",

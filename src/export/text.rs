@@ -18,9 +18,7 @@ use super::outline::{Outline, Step};
 /// high from line to line.
 pub fn centred(words: &str, base_px: DVec2, height_px: f64) -> Outline {
     let start = base_px - DVec2::new(0.5 * width(words, height_px), 0.0);
-    let Some(font) = font() else {
-        return Outline::default();
-    };
+    let font = font();
     let mut pen = Pen {
         origin: start,
         outline: Outline::default(),
@@ -43,16 +41,15 @@ pub fn centred(words: &str, base_px: DVec2, height_px: f64) -> Outline {
 
 /// How wide the words are, in pixels.
 pub fn width(words: &str, height_px: f64) -> f64 {
-    font().map_or(0.0, |font| {
-        advances(&font, words, height_px)
-            .map(|(_, advance)| advance)
-            .sum()
-    })
+    advances(&font(), words, height_px)
+        .map(|(_, advance)| advance)
+        .sum()
 }
 
 /// The font of all labels: Ubuntu Light, under the Ubuntu Font Licence.
-fn font() -> Option<FontRef<'static>> {
-    FontRef::new(epaint_default_fonts::UBUNTU_LIGHT).ok()
+fn font() -> FontRef<'static> {
+    FontRef::new(epaint_default_fonts::UBUNTU_LIGHT)
+        .unwrap_or_else(|error| unreachable!("the bundled font is one: {error}"))
 }
 
 /// Each character's glyph and how far the next one stands from it.

@@ -1,6 +1,7 @@
 //! The document itself, as it stands in the file.
 
 use super::ProjectError;
+use crate::atomic_file::AtomicFile;
 use crate::compatible::PolygonOptions;
 use crate::content::{ColourMix, ContentKind};
 use crate::correspondence::Matching;
@@ -246,32 +247,13 @@ impl Project {
     /// [`ProjectError`] names the file; the old document is untouched.
     pub fn save_atomically(&self, path: &Path) -> Result<(), ProjectError> {
         let text = self.to_toml()?;
-        let folder = match path.parent() {
-            Some(parent) if !parent.as_os_str().is_empty() => parent,
-            _ => Path::new("."),
-        };
-        let written = tempfile::NamedTempFile::new_in(folder).and_then(|mut file| {
-            file.write_all(text.as_bytes())?;
-            file.as_file().sync_all()?;
-            keep_permissions(path, file.path())?;
-            file.persist(path).map_err(|error| error.error)?;
-            Ok(())
+        let written = AtomicFile::create(path).and_then(|mut file| {
+            file.file_mut().write_all(text.as_bytes())?;
+            file.file_mut().sync_all()?;
+            file.commit()
         });
         written.map_err(|error| ProjectError::Io(error.to_string()).in_file(path))
     }
-}
-
-/// A temporary file is private; a document is as open as the one it replaces.
-fn keep_permissions(old: &Path, new: &Path) -> std::io::Result<()> {
-    if let Ok(metadata) = std::fs::metadata(old) {
-        return std::fs::set_permissions(new, metadata.permissions());
-    }
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt;
-        std::fs::set_permissions(new, std::fs::Permissions::from_mode(0o644))?;
-    }
-    Ok(())
 }
 
 fn version_of(text: &str) -> Option<u64> {

@@ -3,26 +3,26 @@
 //! A temporary file in the same folder is written and renamed at the end.
 //! Guarantees: until [`AtomicFile::commit`] the old file, if any, is untouched;
 //! dropping without it removes the temporary file. A killed process can leave
-//! the temporary file behind, never a half one under the final name. It does
-//! not wait for the disk (no fsync).
+//! the temporary file behind, never a half one under the final name. A file
+//! that takes the place of another is as open as that was. Does not wait for
+//! the disk, but where [`AtomicFile::file_mut`] is told to.
 
-use std::fs::File;
+use std::fs::{self, File};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use tempfile::NamedTempFile;
 
-use super::error::ExportError;
-
 /// A file on its way.
 #[derive(Debug)]
-pub(super) struct AtomicFile {
+pub(crate) struct AtomicFile {
     temporary: NamedTempFile,
     path: PathBuf,
 }
 
 impl AtomicFile {
     /// Opens a temporary file beside `path`.
-    pub(super) fn create(path: &Path) -> Result<Self, ExportError> {
+    pub(crate) fn create(path: &Path) -> io::Result<Self> {
         let folder = match path.parent() {
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
@@ -32,8 +32,10 @@ impl AtomicFile {
         let temporary = tempfile::Builder::new()
             .prefix(".morphospace-")
             .suffix(".part")
-            .make_in(folder, |temporary| File::create_new(temporary))
-            .map_err(ExportError::write(path))?;
+            .make_in(folder, |temporary| File::create_new(temporary))?;
+        if let Ok(old) = fs::metadata(path) {
+            temporary.as_file().set_permissions(old.permissions())?;
+        }
         Ok(Self {
             temporary,
             path: path.to_owned(),
@@ -41,36 +43,32 @@ impl AtomicFile {
     }
 
     /// Where the bytes go until [`Self::commit`].
-    pub(super) fn file_mut(&mut self) -> &mut File {
+    pub(crate) fn file_mut(&mut self) -> &mut File {
         self.temporary.as_file_mut()
     }
 
     /// The temporary file's path, for another program to write.
-    pub(super) fn temporary_path(&self) -> &Path {
+    pub(crate) fn temporary_path(&self) -> &Path {
         self.temporary.path()
     }
 
     /// Gives the file its name.
-    pub(super) fn commit(self) -> Result<(), ExportError> {
+    pub(crate) fn commit(self) -> io::Result<()> {
         let persisted = self.temporary.persist(&self.path);
-        persisted
-            .map(drop)
-            .map_err(|e| ExportError::write(self.path)(e.error))
+        persisted.map(drop).map_err(|error| error.error)
     }
 }
 
 /// Writes a whole file at once.
-pub(crate) fn write(path: &Path, bytes: &[u8]) -> Result<(), ExportError> {
+pub(crate) fn write(path: &Path, bytes: &[u8]) -> io::Result<()> {
     let mut file = AtomicFile::create(path)?;
-    std::io::Write::write_all(file.file_mut(), bytes).map_err(ExportError::write(path))?;
+    file.file_mut().write_all(bytes)?;
     file.commit()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::fs;
-    use std::io::Write as _;
 
     #[test]
     fn a_dropped_file_leaves_the_old_one_and_nothing_else() {
@@ -86,13 +84,6 @@ mod tests {
         assert_eq!(fs::read(&path).expect("read"), b"new");
     }
 
-    #[test]
-    fn a_missing_folder_is_named() {
-        let path = Path::new("/no/such/folder/x.png");
-        let error = write(path, b"").expect_err("no folder");
-        assert!(error.to_string().contains("/no/such/folder/x.png"));
-    }
-
     #[cfg(unix)]
     #[test]
     fn others_may_read_what_any_new_file_lets_them() {
@@ -105,5 +96,9 @@ mod tests {
         fs::write(folder.path().join("plain"), b"").expect("written");
         write(&folder.path().join("atomic"), b"").expect("written");
         assert_eq!(mode("plain"), mode("atomic"));
+        let private = fs::Permissions::from_mode(0o600);
+        fs::set_permissions(folder.path().join("atomic"), private).expect("set");
+        write(&folder.path().join("atomic"), b"").expect("written");
+        assert_eq!(mode("atomic") & 0o777, 0o600);
     }
 }
