@@ -127,7 +127,7 @@ impl Window {
 
     fn matching(&self) -> Matching {
         let project = self.session().project().expect("a project");
-        project.matching.clone()
+        project.options.matching.clone()
     }
 
     fn act(&mut self, act: EditorAct) {
@@ -465,8 +465,8 @@ fn settings_that_change_while_a_build_runs_are_built_too() {
     let mut window = Window::with_gallery();
     window.send(Intent::NextMethod);
     let mut project = window.session().project().cloned().expect("a project");
-    project.arap.subdivisions = 1;
-    project.field.cells = 96;
+    project.options.arap.subdivisions = 1;
+    project.options.field.cells = 96;
     window.send(Intent::Edit(Box::new(project.clone())));
     window.wait();
     window.wait();
@@ -580,7 +580,7 @@ fn a_changed_blend_is_shown_without_measuring_again() {
     };
     let before = source(&window);
     let mut project = window.session().project().cloned().expect("a project");
-    project.field.blend.threshold = 2.0;
+    project.options.field.blend.threshold = 2.0;
     window.send(Intent::Edit(Box::new(project)));
     window.wait();
     assert_eq!(source(&window), before);
@@ -636,11 +636,11 @@ fn a_drag_is_one_step() {
     buttons(&mut window, true);
     let mut project = before.clone();
     for width in [0.02, 0.03, 0.04] {
-        project.bar_width = width;
+        project.options.bar_width = width;
         window.send(Intent::Edit(Box::new(project.clone())));
     }
     buttons(&mut window, false);
-    project.bar_width = 0.05;
+    project.options.bar_width = 0.05;
     window.send(Intent::Edit(Box::new(project.clone())));
     window.send(Intent::Undo);
     assert_eq!(window.session().project(), Some(&before));
@@ -840,7 +840,7 @@ fn pins_that_cross_are_said_and_the_old_transition_stays() {
         source: by[0].inverse().apply(source),
         target: by[1].inverse().apply(target),
     };
-    project.matching.pins = vec![
+    project.options.matching.pins = vec![
         own(a.source, a.target),
         own(b.source, c.target),
         own(c.source, b.target),
@@ -926,7 +926,7 @@ fn a_cut_that_is_dragged_is_asked_for() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path(), RING, L);
     let mut project = window.session().project().cloned().expect("a project");
-    project.matching.holes = morphospace::correspondence::HoleRule::Cut;
+    project.options.matching.holes = morphospace::correspondence::HoleRule::Cut;
     window.send(Intent::Edit(Box::new(project)));
     window.wait();
     assert_eq!(window.session().problem(), None);

@@ -43,7 +43,7 @@ fn transition(offset: DVec2, cell: Cell) -> Transition {
     let target = design(strip(4, |p| DVec2::new(-p.y, p.x) + offset));
     let mut spec = TransitionSpec::new(source, target);
     spec.cell = cell;
-    spec.field.cells = 32;
+    spec.options.field.cells = 32;
     Transition::build(&spec, &Silent).expect("a transition")
 }
 

@@ -77,13 +77,13 @@ impl Rebuild {
     /// Where nothing but the mixing of the fields has changed, they need not be measured again.
     fn mixed_otherwise(&self) -> Option<Transition> {
         let mut otherwise_same = self.staged.clone();
-        otherwise_same.field.blend = self.now.project.field.blend;
+        otherwise_same.options.field.blend = self.now.project.options.field.blend;
         if needs_build(&otherwise_same, &self.now.project) {
             return None;
         }
         self.transition
             .as_ref()?
-            .with_blend(self.now.project.field.blend)
+            .with_blend(self.now.project.options.field.blend)
             .ok()?
     }
 }

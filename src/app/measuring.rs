@@ -148,10 +148,10 @@ pub fn is_a_click(remedy: &Remedy) -> bool {
 
 fn follow_advice(project: &mut Project, remedy: &Remedy, sheet: &Sheet) {
     match remedy {
-        Remedy::Change { change, .. } => change.apply(&mut project.arap, &mut project.field),
+        Remedy::Change { change, .. } => change.apply(&mut project.options),
         Remedy::Pin { source, target } => {
             let [by_source, by_target] = &sheet.by;
-            project.matching.pins.push(PointPair {
+            project.options.matching.pins.push(PointPair {
                 source: by_source.inverse().apply(*source),
                 target: by_target.inverse().apply(*target),
             });
@@ -162,9 +162,9 @@ fn follow_advice(project: &mut Project, remedy: &Remedy, sheet: &Sheet) {
         }
         Remedy::Lattices => {
             project.warp = Some(WarpKind::Lattice);
-            project.lattice.fold_free = true;
+            project.options.lattice.fold_free = true;
         }
-        Remedy::LetFold => project.lattice.fold_free = false,
+        Remedy::LetFold => project.options.lattice.fold_free = false,
         Remedy::MoveVertices { .. } | Remedy::LayOver | Remedy::MovePins => {}
     }
 }

@@ -166,7 +166,7 @@ fn apply(project: &mut Project, intent: &Intent) {
             if let Some(entry) = project.designs.get_mut(*index) {
                 *entry = entry_of(path);
                 // What was said of points of the old one means nothing in the new one.
-                let matching = &mut project.matching;
+                let matching = &mut project.options.matching;
                 (matching.pins, matching.links, matching.cuts) = Default::default();
                 matching.lines.clear();
             }

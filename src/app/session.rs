@@ -354,7 +354,7 @@ impl Session {
         let Ok(by) = arrangement([source, target], open.staged.fit, places) else {
             return Sheet::default();
         };
-        let matching = &open.loaded.project.project.matching;
+        let matching = &open.loaded.project.project.options.matching;
         let matched = self.transition().and_then(Transition::matched);
         let faulty = open
             .problem

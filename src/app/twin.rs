@@ -69,11 +69,11 @@ impl TwinMethod {
             Self::Straight => {
                 // Linear local maps are those of straight lines, and no others: what is as rigid
                 // as possible then is the straight lines themselves.
-                project.arap.homotopy = Homotopy::Linear;
-                project.arap.extra_turns.clear();
+                project.options.arap.homotopy = Homotopy::Linear;
+                project.options.arap.extra_turns.clear();
             }
-            Self::Cell(Cell::RIGID_PARTS) if project.arap.homotopy == Homotopy::Linear => {
-                project.arap.homotopy = Homotopy::Polar;
+            Self::Cell(Cell::RIGID_PARTS) if project.options.arap.homotopy == Homotopy::Linear => {
+                project.options.arap.homotopy = Homotopy::Polar;
             }
             Self::Cell(_) => {}
         }

@@ -231,7 +231,7 @@ impl MethodArgs {
             .timing
             .check(&project.stops)
             .map_err(CliError::usage)?;
-        project.colours.check().map_err(CliError::usage)
+        project.options.colours.check().map_err(CliError::usage)
     }
 }
 
@@ -242,13 +242,13 @@ impl PlacingArgs {
             (project.warp, project.content) = (Some(warp), Some(content));
         }
         set(&mut project.fit, self.fit);
-        set(&mut project.bar_width, self.bar_width);
+        set(&mut project.options.bar_width, self.bar_width);
     }
 }
 
 impl ArapArgs {
     fn edit(&self, project: &mut Project) {
-        let arap = &mut project.arap;
+        let arap = &mut project.options.arap;
         set(&mut arap.homotopy, self.homotopy);
         set(&mut arap.weights, self.weights.clone());
         set(&mut arap.symmetric, self.symmetric.then_some(true));
@@ -262,7 +262,7 @@ impl ArapArgs {
 
 impl FieldArgs {
     fn edit(&self, project: &mut Project) {
-        let field = &mut project.field;
+        let field = &mut project.options.field;
         set(&mut field.metric, self.metric);
         set(&mut field.boundary, self.boundary);
         set(&mut field.blend.space, self.space);
@@ -389,24 +389,39 @@ mod tests {
             (project.warp, project.content),
             (Some(WarpKind::None), Some(ContentKind::Field))
         );
-        assert_eq!((project.fit, project.bar_width), (Fit::SameArea, 0.02));
-        assert_eq!(project.arap.homotopy, Homotopy::Exponential);
-        assert_eq!(project.arap.weights, Weights::PerFace(vec![1.0, 2.5]));
         assert_eq!(
-            (project.arap.symmetric, project.arap.subdivisions),
+            (project.fit, project.options.bar_width),
+            (Fit::SameArea, 0.02)
+        );
+        assert_eq!(project.options.arap.homotopy, Homotopy::Exponential);
+        assert_eq!(
+            project.options.arap.weights,
+            Weights::PerFace(vec![1.0, 2.5])
+        );
+        assert_eq!(
+            (
+                project.options.arap.symmetric,
+                project.options.arap.subdivisions
+            ),
             (false, 1)
         );
-        assert_eq!(project.arap.extra_turns, [0, -1]);
-        assert_eq!(project.arap.path, PathKind::Anchor(3));
-        assert_eq!(project.field.metric, Metric::Chessboard);
-        assert_eq!(project.field.boundary, Boundary::Binary);
-        assert_eq!(project.field.blend.space, BlendSpace::Real);
+        assert_eq!(project.options.arap.extra_turns, [0, -1]);
+        assert_eq!(project.options.arap.path, PathKind::Anchor(3));
+        assert_eq!(project.options.field.metric, Metric::Chessboard);
+        assert_eq!(project.options.field.boundary, Boundary::Binary);
+        assert_eq!(project.options.field.blend.space, BlendSpace::Real);
         assert_eq!(
-            (project.field.blend.epsilon, project.field.blend.threshold),
+            (
+                project.options.field.blend.epsilon,
+                project.options.field.blend.threshold
+            ),
             (2.0, -1.5)
         );
-        assert_eq!((project.field.cells, project.field.margin), (64, 0.2));
-        assert_eq!(project.paths.course, Course::Straight);
+        assert_eq!(
+            (project.options.field.cells, project.options.field.margin),
+            (64, 0.2)
+        );
+        assert_eq!(project.options.paths.course, Course::Straight);
         let import = project.designs[1].import;
         assert_eq!((import.threshold, import.invert), (Some(99), true));
         assert_eq!((import.specks_px, import.tolerance), (4, 0.01));

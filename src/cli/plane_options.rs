@@ -67,21 +67,21 @@ impl CellArgs {
     pub fn edit(&self, project: &mut Project) {
         set(&mut project.warp, self.warp.map(Some));
         set(&mut project.content, self.content.map(Some));
-        set(&mut project.travel, self.travel);
-        project.matching.pins.extend(&self.pin);
-        project.matching.lines.extend(&self.line);
+        set(&mut project.options.travel, self.travel);
+        project.options.matching.pins.extend(&self.pin);
+        project.options.matching.lines.extend(&self.line);
     }
 }
 
 impl PathArgs {
     pub fn edit(&self, project: &mut Project) {
-        set(&mut project.paths.course, self.path);
+        set(&mut project.options.paths.course, self.path);
     }
 }
 
 impl ColourArgs {
     pub fn edit(&self, project: &mut Project) {
-        let mix = &mut project.colours;
+        let mix = &mut project.options.colours;
         set(&mut mix.curve, self.mix);
         set(&mut mix.from, self.mix_from);
         set(&mut mix.to, self.mix_to);

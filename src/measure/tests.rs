@@ -32,7 +32,7 @@ pub(super) fn transition(
     arap: ArapOptions,
 ) -> Transition {
     let mut spec = TransitionSpec::new(design(source, faces), design(target, faces));
-    spec.arap = arap;
+    spec.options.arap = arap;
     Transition::build(&spec, &Silent).expect("a transition")
 }
 
@@ -67,7 +67,7 @@ fn boundary_paths_are_measured_by_what_is_seen() {
     let mut spec = loaded.spec().expect("a specification");
     spec.cell = Cell::new(WarpKind::Paths, ContentKind::Solid).expect("a cell");
     for course in [Course::Straight, Course::Intrinsic] {
-        spec.paths.course = course;
+        spec.options.paths.course = course;
         let transition = Transition::build(&spec, &Silent).expect("a transition");
         let report = film(&transition, 17, &Silent).expect("not cancelled");
         assert_eq!((report.worst_folds, report.asymmetry), (None, None));

@@ -1,16 +1,12 @@
 //! The document itself, as it stands in the file.
 
-use super::ProjectError;
+use super::{ProjectError, keys};
 use crate::atomic_file::AtomicFile;
-use crate::compatible::PolygonOptions;
-use crate::content::{ColourMix, ContentKind};
-use crate::correspondence::Matching;
+use crate::content::ContentKind;
 use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;
-use crate::transition::{FieldOptions, Fit, PlaneOptions, Stop, Style, Timing, TransitionSpec};
-use crate::warp::{
-    ArapOptions, LatticeOptions, LineOptions, PathOptions, ScatteredOptions, Travel, WarpKind,
-};
+use crate::transition::{Fit, Options, Stop, Style, Timing};
+use crate::warp::WarpKind;
 use serde::{Deserialize, Serialize};
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -50,44 +46,16 @@ pub struct Project {
     /// The column of the table, likewise.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub content: Option<ContentKind>,
-    /// How the features of warps of the plane travel.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub travel: Travel,
     /// How the target is fitted to the source.
     #[serde(default)]
     pub fit: Fit,
-    /// Width of the bars of a truss, as a fraction of the design's diameter.
-    #[serde(default = "default_bar_width")]
-    pub bar_width: f64,
     /// The given forms, at least two; the first two are source and target.
     pub designs: Vec<DesignEntry>,
-    /// How outlines are matched.
-    #[serde(default, rename = "match", skip_serializing_if = "is_default")]
-    pub matching: Matching,
-    /// How matched outlines are triangulated.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub triangulation: PolygonOptions,
-    /// Options of rigid parts.
-    #[serde(default)]
-    pub arap: ArapOptions,
-    /// Options of the boundary paths.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub paths: PathOptions,
-    /// Options of distance fields.
-    #[serde(default)]
-    pub field: FieldOptions,
-    /// How two pictures mix.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub colours: ColourMix,
-    /// Options of the warp by lines.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub lines: LineOptions,
-    /// Options of the warp by scattered points.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub scattered: ScatteredOptions,
-    /// Options of the warp by lattices.
-    #[serde(default, skip_serializing_if = "is_default")]
-    pub lattice: LatticeOptions,
+    /// The options of all methods, whose keys stand beside the others in the
+    /// file.
+    // Reading through `flatten` would lose unknown keys and lines.
+    #[serde(flatten, skip_deserializing)]
+    pub options: Options,
     /// How it runs over time.
     #[serde(default)]
     pub timing: Timing,
@@ -115,10 +83,6 @@ pub struct DesignEntry {
     /// Where it is laid, about its own middle.
     #[serde(default, skip_serializing_if = "is_default")]
     pub placement: Similarity,
-}
-
-fn default_bar_width() -> f64 {
-    TransitionSpec::DEFAULT_BAR_WIDTH
 }
 
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
@@ -150,19 +114,9 @@ impl Project {
             description: String::new(),
             warp: None,
             content: None,
-            travel: Travel::default(),
             fit: Fit::default(),
-            bar_width: default_bar_width(),
             designs,
-            matching: Matching::default(),
-            triangulation: PolygonOptions::default(),
-            arap: ArapOptions::default(),
-            paths: PathOptions::default(),
-            field: FieldOptions::default(),
-            colours: ColourMix::default(),
-            lines: LineOptions::default(),
-            scattered: ScatteredOptions::default(),
-            lattice: LatticeOptions::default(),
+            options: Options::default(),
             timing: Timing::default(),
             style: Style::default(),
             stops: Vec::new(),
@@ -174,7 +128,7 @@ impl Project {
     /// # Errors
     /// [`ProjectError`] names the line of what is wrong.
     pub fn parse(text: &str) -> Result<Self, ProjectError> {
-        let project = match toml::from_str::<Self>(text) {
+        let project = match keys::read(text) {
             Ok(project) => project,
             // A newer version may well have keys that are unknown here; that
             // it is newer is what its reader needs to hear.
@@ -183,7 +137,7 @@ impl Project {
                     Some(version) if version > FORMAT_VERSION.into() => {
                         ProjectError::newer(text, version)
                     }
-                    _ => ProjectError::syntax(text, &error),
+                    _ => error,
                 });
             }
         };
@@ -203,21 +157,10 @@ impl Project {
         for entry in &self.designs {
             entry.placement.checked()?;
         }
-        self.field.blend.check()?;
-        self.colours.check()?;
+        self.options.field.blend.check()?;
+        self.options.colours.check()?;
         self.timing.check(&self.stops)?;
         Ok(())
-    }
-
-    /// The options of all warps of the plane.
-    #[must_use]
-    pub fn plane(&self) -> PlaneOptions {
-        PlaneOptions {
-            travel: self.travel,
-            lines: self.lines,
-            scattered: self.scattered,
-            lattice: self.lattice,
-        }
     }
 
     /// The document as text.

@@ -4,6 +4,7 @@ use crate::content::{ColourMixError, FieldPairError};
 use crate::design::ImportError;
 use crate::geometry::SimilarityError;
 use crate::transition::{BuildError, TimingError};
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 /// Why a project could not be read, written or loaded.
@@ -95,6 +96,21 @@ impl ProjectError {
         Self::Syntax {
             line: error.span().map_or(1, |span| line_of(text, span.start)),
             message: message.trim_end_matches("; ").to_owned(),
+        }
+    }
+
+    pub(super) fn unknown_key(
+        text: &str,
+        key: &toml::Spanned<Cow<'_, str>>,
+        known: [&[&str]; 2],
+    ) -> Self {
+        Self::Syntax {
+            line: line_of(text, key.span().start),
+            message: format!(
+                "unknown key \"{}\", expected one of {}",
+                key.get_ref().escape_debug(),
+                known.concat().join(", ")
+            ),
         }
     }
 

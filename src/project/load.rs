@@ -3,7 +3,7 @@
 use super::{Project, ProjectError};
 use crate::content::ContentKind;
 use crate::design::{Design, Source};
-use crate::transition::{BuildError, Cell, TransitionSpec, arranged, arrangement};
+use crate::transition::{BuildError, Cell, Options, TransitionSpec, arranged, arrangement};
 use crate::warp::WarpKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -165,14 +165,10 @@ impl LoadedProject {
             source,
             target,
             cell: self.cell()?,
-            arap: project.arap.clone(),
-            paths: project.paths,
-            matching: project.matching.placed(&by),
-            triangulation: project.triangulation,
-            field: project.field,
-            colours: project.colours,
-            plane: project.plane(),
-            bar_width: project.bar_width,
+            options: Options {
+                matching: project.options.matching.placed(&by),
+                ..project.options.clone()
+            },
         })
     }
 }

@@ -8,6 +8,7 @@
 mod document;
 mod error;
 pub mod gallery;
+mod keys;
 mod load;
 
 #[cfg(test)]

@@ -27,10 +27,61 @@ fn an_unknown_key_is_named_with_its_line() {
         (format!("{MINIMAL}[field.blend]\nespilon = 1\n"), 7),
         (format!("{MINIMAL}[style]\nsource = 'blue'\n"), 7),
         (format!("{MINIMAL}[designs.placement]\nskale = 1\n"), 7),
+        (format!("{MINIMAL}[match]\nstretsh = 1\n"), 7),
+        (
+            MINIMAL.replace("version", "\ntravel = 'by train'\nversion"),
+            2,
+        ),
+        (MINIMAL.replace("version", "bar-width = 'x'\nversion"), 1),
+        (format!("{MINIMAL}[plane]\n"), 6),
         ("version = \n".to_owned(), 1),
     ] {
         assert_eq!(line_of(&text), line, "{text}");
     }
+}
+
+#[test]
+fn an_unknown_key_is_told_what_there_is() {
+    let text = MINIMAL.replace("version", "\"bar\\nwidth\" = 3\nversion");
+    let error = Project::parse(&text).unwrap_err().to_string();
+    for part in [
+        "line 1: ",
+        r#""bar\nwidth""#,
+        "fit",
+        "bar-width",
+        "match",
+        "lattice",
+    ] {
+        assert!(error.contains(part), "{part}: {error}");
+    }
+}
+
+#[test]
+fn options_stand_beside_the_other_keys() {
+    let mut project = Project::parse(MINIMAL).unwrap();
+    let keys = |project: &Project| -> Vec<String> {
+        let table: toml::Table = project.to_toml().unwrap().parse().unwrap();
+        table.keys().cloned().collect()
+    };
+    let always = [
+        "arap",
+        "bar-width",
+        "designs",
+        "field",
+        "fit",
+        "style",
+        "timing",
+        "version",
+    ];
+    assert_eq!(keys(&project), always, "defaults are left out");
+    project.options.travel = crate::warp::Travel::Whole;
+    project.options.matching.stretch = Some(0.5);
+    project.options.lattice.fold_free = !project.options.lattice.fold_free;
+    for key in ["travel", "match", "lattice"] {
+        assert!(keys(&project).iter().any(|k| k == key), "{key}");
+    }
+    let text = project.to_toml().unwrap();
+    assert_eq!(Project::parse(&text).unwrap(), project);
 }
 
 #[test]
@@ -169,7 +220,7 @@ proptest! {
         project.description = names[1].clone();
         project.fit = [Fit::AsDrawn, Fit::Centred, Fit::SameArea, Fit::Centred][pick];
         project.warp = flag.then_some(WarpKind::Arap);
-        project.bar_width = positive[0];
+        project.options.bar_width = positive[0];
         project.designs[0].name = names[2].clone();
         project.designs[0].import.threshold = flag.then_some(7);
         project.designs[1].placement = Similarity {
@@ -178,15 +229,15 @@ proptest! {
             rotation: numbers[2],
             mirror: flag,
         };
-        project.arap.extra_turns = turns;
-        project.arap.weights = if flag { Weights::PerFace(positive.clone()) } else { Weights::Uniform };
-        project.arap.path = if flag { PathKind::Anchor(3) } else { PathKind::Centroid };
-        project.paths.course = if flag { Course::Straight } else { Course::Intrinsic };
+        project.options.arap.extra_turns = turns;
+        project.options.arap.weights = if flag { Weights::PerFace(positive.clone()) } else { Weights::Uniform };
+        project.options.arap.path = if flag { PathKind::Anchor(3) } else { PathKind::Centroid };
+        project.options.paths.course = if flag { Course::Straight } else { Course::Intrinsic };
         project.timing.duration_secs = positive[2];
         project.timing.easing = Easing::ALL[pick];
         project.timing.play = [PlayMode::Once, PlayMode::Loop, PlayMode::PingPong, PlayMode::Once][pick];
-        project.field.blend.epsilon = positive[3];
-        project.field.blend.threshold = numbers[3];
+        project.options.field.blend.epsilon = positive[3];
+        project.options.field.blend.threshold = numbers[3];
         project.style.ground = Rgb(colour);
         project.stops = vec![
             Stop { t: numbers[4], name: names[3].clone() },

@@ -82,7 +82,7 @@ fn build(
     let [source, target] = [("source", source), ("target", target)]
         .map(|(name, mesh)| Arc::new(Design::new(name, mesh)));
     let mut spec = TransitionSpec::new(source, target);
-    spec.arap = arap;
+    spec.options.arap = arap;
     Transition::build(&spec, progress)
 }
 

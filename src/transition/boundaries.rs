@@ -22,12 +22,12 @@ pub(super) fn paths(
     if let (Form::Mesh(source), Form::Mesh(target)) = (&spec.source.form, &spec.target.form)
         && let Some(parts) = numbered(source, target)
     {
-        return Ok((Paths::new(&parts, spec.paths)?, None));
+        return Ok((Paths::new(&parts, spec.options.paths)?, None));
     }
     let [source, target] = [&spec.source, &spec.target].map(|d| d.outline(bar_width));
-    let matched = match_regions(&source?, &target?, &spec.matching, progress)?;
+    let matched = match_regions(&source?, &target?, &spec.options.matching, progress)?;
     let parts: Vec<Vec<RingPair>> = matched.pieces.iter().map(rings).collect();
-    Ok((Paths::new(&parts, spec.paths)?, Some(matched)))
+    Ok((Paths::new(&parts, spec.options.paths)?, Some(matched)))
 }
 
 /// The rings of a piece. What a match keeps as a tiny ring, so that it can be

@@ -1,68 +1,23 @@
 //! From two designs to a transition: everything that can fail.
 
-use super::{Cell, Inner, PlaneOptions, boundaries, outlines, plane};
-use crate::compatible::{
-    CompatibleError, CompatibleMesh, OutlinesError, PinnedError, PolygonOptions,
-};
+use super::options::{Boundary, Options};
+use super::{Cell, Inner, boundaries, outlines, plane};
+use crate::compatible::{CompatibleError, CompatibleMesh, OutlinesError, PinnedError};
 use crate::content::{
-    ColourMix, ColourMixError, Content, ContentKind, FieldBlend, FieldPair, FieldPairError,
-    PicturePair, Solid,
+    ColourMixError, Content, ContentKind, FieldPair, FieldPairError, PicturePair, Solid,
 };
-use crate::correspondence::{Matching, RegionMatch, RegionMatchError};
+use crate::correspondence::{RegionMatch, RegionMatchError};
 use crate::design::{Design, Form, Format, Picture};
 use crate::field::{DistanceField, FieldError, Grid, GridError, Metric};
 use crate::geometry::{Bounds, RegionsError};
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::warp::{
-    Arap, ArapError, ArapOptions, LatticeError, LinesError, PathOptions, PathsError,
-    ScatteredError, Warp, WarpKind,
+    Arap, ArapError, LatticeError, LinesError, PathsError, ScatteredError, Warp, WarpKind,
 };
-use serde::{Deserialize, Serialize};
 use std::sync::Arc;
 
-/// Where the boundary of a distance field runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Boundary {
-    /// Where the outline is; Euclidean only.
-    #[default]
-    Exact,
-    /// Between cells, as in the paper.
-    Binary,
-}
-
-/// Options of the distance fields.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
-pub struct FieldOptions {
-    /// How distance is measured; all but the Euclidean need
-    /// [`Boundary::Binary`].
-    pub metric: Metric,
-    /// Where the boundary runs.
-    pub boundary: Boundary,
-    /// How the two fields are mixed.
-    pub blend: FieldBlend,
-    /// Cells along the longer side of the frame. Distances, ε and the
-    /// threshold count in these cells.
-    pub cells: u32,
-    /// Room around the designs, as a fraction of the longer side.
-    pub margin: f64,
-}
-
-impl Default for FieldOptions {
-    fn default() -> Self {
-        Self {
-            metric: Metric::Euclidean,
-            boundary: Boundary::default(),
-            blend: FieldBlend::default(),
-            cells: 512,
-            margin: 0.1,
-        }
-    }
-}
-
 /// Everything a transition is built from: two designs laid into one frame, a
-/// cell of the table and the options of both methods.
+/// cell of the table and the options of all methods.
 #[derive(Clone, Debug)]
 pub struct TransitionSpec {
     /// The design at t = 0.
@@ -71,23 +26,9 @@ pub struct TransitionSpec {
     pub target: Arc<Design>,
     /// Warp and content.
     pub cell: Cell,
-    /// Options of the rigidity-preserving interpolation.
-    pub arap: ArapOptions,
-    /// Options of the boundary paths.
-    pub paths: PathOptions,
-    /// How outlines are matched, in the coordinates of the common frame.
-    pub matching: Matching,
-    /// How matched outlines are triangulated.
-    pub triangulation: PolygonOptions,
-    /// Options of the distance fields.
-    pub field: FieldOptions,
-    /// How two pictures mix.
-    pub colours: ColourMix,
-    /// Options of the warps of the plane.
-    pub plane: PlaneOptions,
-    /// Width of the bars of a truss, as a fraction of the larger design's
-    /// diameter.
-    pub bar_width: f64,
+    /// The options of all methods; places of the match are in the common
+    /// frame.
+    pub options: Options,
 }
 
 /// Why a transition could not be built.
@@ -159,10 +100,6 @@ pub enum BuildError {
 }
 
 impl TransitionSpec {
-    /// Bars are drawn this wide, as a fraction of the diameter, where nothing
-    /// else is asked for.
-    pub const DEFAULT_BAR_WIDTH: f64 = 0.012;
-
     /// Two designs by the method that suits them best, with default options.
     #[must_use]
     pub fn new(source: Arc<Design>, target: Arc<Design>) -> Self {
@@ -178,14 +115,7 @@ impl TransitionSpec {
             source,
             target,
             cell,
-            arap: ArapOptions::default(),
-            paths: PathOptions::default(),
-            matching: Matching::default(),
-            triangulation: PolygonOptions::default(),
-            field: FieldOptions::default(),
-            colours: ColourMix::default(),
-            plane: PlaneOptions::default(),
-            bar_width: Self::DEFAULT_BAR_WIDTH,
+            options: Options::default(),
         }
     }
 
@@ -212,13 +142,13 @@ impl TransitionSpec {
 
 pub(super) fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildError> {
     TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
-    if !(spec.bar_width > 0.0 && spec.bar_width <= 1.0) {
-        return Err(BuildError::BarWidth(spec.bar_width));
+    if !(spec.options.bar_width > 0.0 && spec.options.bar_width <= 1.0) {
+        return Err(BuildError::BarWidth(spec.options.bar_width));
     }
     let diameter = extent(&spec.source)
         .diameter()
         .max(extent(&spec.target).diameter());
-    let bar_width = spec.bar_width * diameter;
+    let bar_width = spec.options.bar_width * diameter;
     match spec.cell.content() {
         ContentKind::Solid if spec.cell.warp() == WarpKind::Paths => {
             build_paths(spec, bar_width, progress)
@@ -328,7 +258,7 @@ fn common(
         error,
     })?;
     Ok(Common {
-        arap: Arap::build(&mesh, &spec.arap, progress)?,
+        arap: Arap::build(&mesh, &spec.options.arap, progress)?,
         bars,
         matched: None,
     })
@@ -373,11 +303,11 @@ fn build_field(
     progress: &dyn Progress,
 ) -> Result<Inner, BuildError> {
     let frame = field_frame(spec, bar_width);
-    let grid = Grid::covering(&frame, spec.field.cells, spec.field.margin)?;
+    let grid = Grid::covering(&frame, spec.options.field.cells, spec.options.field.margin)?;
     let source = field_of(&spec.source, spec, grid, bar_width, progress)?;
     checkpoint(progress, "measuring distances", 0.5)?;
     let target = field_of(&spec.target, spec, grid, bar_width, progress)?;
-    let pair = FieldPair::new(source, target, spec.field.blend)?;
+    let pair = FieldPair::new(source, target, spec.options.field.blend)?;
     let (warp, automatic) = plane::warp(spec, &grid.bounds(), bar_width, progress)?;
     let bounds = if spec.cell.warp() == WarpKind::None {
         frame
@@ -405,7 +335,7 @@ fn build_colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner
     };
     let [source, target] = [picture(&spec.source)?, picture(&spec.target)?];
     let bounds = source.bounds().union(&target.bounds());
-    let pair = PicturePair::new(&source, &target, spec.colours)?;
+    let pair = PicturePair::new(&source, &target, spec.options.colours)?;
     // The mesh reaches beyond what is shown, so that its edge is never seen.
     let frame = bounds.padded(0.02 * bounds.diameter());
     let (warp, automatic) = plane::warp(spec, &frame, 0.0, progress)?;
@@ -442,11 +372,12 @@ fn field_of(
     let outline = design.outline(bar_width)?;
     // The exact boundary has Euclidean distances only; the other metrics
     // belong to the pixels of a binary picture.
-    let exact = spec.field.boundary == Boundary::Exact && spec.field.metric == Metric::Euclidean;
+    let exact = spec.options.field.boundary == Boundary::Exact
+        && spec.options.field.metric == Metric::Euclidean;
     let field = if exact {
         DistanceField::from_regions(&outline, grid, progress)
     } else {
-        DistanceField::from_raster(&outline, grid, spec.field.metric, progress)
+        DistanceField::from_raster(&outline, grid, spec.options.field.metric, progress)
     };
     field.map_err(|error| match error {
         FieldError::Cancelled(cancelled) => BuildError::Cancelled(cancelled),

@@ -12,6 +12,7 @@ mod boundaries;
 mod build;
 mod cells;
 mod frame;
+mod options;
 mod outlines;
 mod plane;
 mod style;
@@ -21,10 +22,10 @@ mod timing;
 mod tests;
 
 pub use arrange::{Fit, arranged, arrangement};
-pub use build::{Boundary, BuildError, FieldOptions, TransitionSpec};
+pub use build::{BuildError, TransitionSpec};
 pub use cells::{Cell, NoSuchCell};
 pub use frame::{Figure, Frame};
-pub use plane::PlaneOptions;
+pub use options::{Boundary, FieldOptions, Options};
 pub use style::{NoColour, Rgb, Style};
 pub use timing::{PlayMode, Stop, Timing, TimingError};
 

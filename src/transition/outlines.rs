@@ -50,11 +50,11 @@ pub(super) fn best(
         match_regions(source, target, matching, progress)
     };
     let film = |matched: RegionMatch| Candidate::new(matched, spec, progress);
-    let first = matched(&spec.matching)?;
-    let is_settled = spec.matching.stretch.is_some();
+    let first = matched(&spec.options.matching)?;
+    let is_settled = spec.options.matching.stretch.is_some();
     let is_alike = first.pieces.iter().all(|piece| piece.cost <= ALIKE);
     let others = || {
-        let others = OTHER_PRICES.map(|price| priced(spec, price, spec.matching.thickness));
+        let others = OTHER_PRICES.map(|price| priced(spec, price, spec.options.matching.thickness));
         best_of(&others, |matching| film(matched(matching)?))
     };
     let mut best = if is_settled || is_alike {
@@ -81,7 +81,7 @@ fn priced(spec: &TransitionSpec, stretch: f64, thickness: Option<f64>) -> Matchi
     Matching {
         stretch: Some(stretch),
         thickness,
-        ..spec.matching.clone()
+        ..spec.options.matching.clone()
     }
 }
 
@@ -100,8 +100,8 @@ impl Candidate {
         spec: &TransitionSpec,
         progress: &dyn Progress,
     ) -> Result<Self, BuildError> {
-        let mesh = CompatibleMesh::from_outlines(&matched, &spec.triangulation, progress)?;
-        let arap = Arap::build(&mesh, &spec.arap, progress)?;
+        let mesh = CompatibleMesh::from_outlines(&matched, &spec.options.triangulation, progress)?;
+        let arap = Arap::build(&mesh, &spec.options.arap, progress)?;
         Ok(Self {
             folds: folds(&arap),
             distortion: mesh.distortion(),

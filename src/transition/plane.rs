@@ -10,23 +10,10 @@ use crate::correspondence::{
 use crate::geometry::{Bounds, Regions, Ring, Side};
 use crate::progress::{Progress, checkpoint};
 use crate::warp::{
-    Arap, Lattice, LatticeOptions, LineOptions, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart,
-    Scattered, ScatteredOptions, Split, Still, Travel, Turned, Warp, WarpKind,
+    Arap, Lattice, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart, Scattered, Split, Still, Travel,
+    Turned, Warp, WarpKind,
 };
 use std::sync::Arc;
-
-/// The options of all warps of the plane.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct PlaneOptions {
-    /// How features travel.
-    pub travel: Travel,
-    /// By pairs of lines.
-    pub lines: LineOptions,
-    /// By scattered points.
-    pub scattered: ScatteredOptions,
-    /// By B-spline lattices.
-    pub lattice: LatticeOptions,
-}
 
 /// Squares of the grid along the longer side of the frame, on which a warp is
 /// taken as linear.
@@ -70,7 +57,7 @@ pub(super) fn warp(
         return rigid(spec, frame, &features, progress);
     }
     let (points, lines) = (&features.points, &features.lines);
-    let options = spec.plane;
+    let options = &spec.options;
     let automatic = if features.are_automatic {
         features
             .points
@@ -117,7 +104,7 @@ fn split_on_grid<W: PlaneWarp>(
     work: usize,
     new: impl FnOnce(&Bounds, &[PointPair], &[LinePair]) -> Result<W, BuildError>,
 ) -> Result<Arc<dyn Warp>, BuildError> {
-    let is_whole = match spec.plane.travel {
+    let is_whole = match spec.options.travel {
         Travel::Auto => spec.cell.content() == ContentKind::Field,
         Travel::Whole => true,
         Travel::Straight => false,
@@ -163,7 +150,7 @@ fn rigid(
     loop {
         match CompatibleMesh::around_pins(&frame, &pins, progress) {
             Ok(mesh) => {
-                let warp = Arc::new(Arap::build(&mesh, &spec.arap, progress)?);
+                let warp = Arc::new(Arap::build(&mesh, &spec.options.arap, progress)?);
                 pins.retain(|_| features.are_automatic);
                 return Ok((warp, pins));
             }
@@ -189,7 +176,7 @@ fn about_outlines(
     matched: &RegionMatch,
     progress: &dyn Progress,
 ) -> Result<Option<Arc<dyn Warp>>, BuildError> {
-    let rigid = match spec.plane.travel {
+    let rigid = match spec.options.travel {
         Travel::Auto | Travel::Whole => RigidPart::of(&features.points, &features.lines),
         Travel::Straight => None,
     };
@@ -198,12 +185,13 @@ fn about_outlines(
         None => (matched, *frame),
     };
     let frame = around(matched, &frame);
-    let made = CompatibleMesh::around_outlines(&frame, matched, &spec.triangulation, progress);
+    let made =
+        CompatibleMesh::around_outlines(&frame, matched, &spec.options.triangulation, progress);
     let Ok(mesh) = made else {
         checkpoint(progress, "triangulating", 0.0)?;
         return Ok(None);
     };
-    let arap = Arap::build(&mesh, &spec.arap, progress)?;
+    let arap = Arap::build(&mesh, &spec.options.arap, progress)?;
     Ok(Some(match rigid {
         Some(rigid) => Arc::new(Turned::new(rigid, arap)),
         None => Arc::new(arap),
@@ -271,8 +259,8 @@ impl Features {
         progress: &dyn Progress,
     ) -> Result<Self, BuildError> {
         let mut given = Self {
-            points: spec.matching.pins.clone(),
-            lines: spec.matching.lines.clone(),
+            points: spec.options.matching.pins.clone(),
+            lines: spec.options.matching.lines.clone(),
             are_automatic: false,
             matched: None,
         };
@@ -284,7 +272,7 @@ impl Features {
         let matching = Matching {
             holes: HoleRule::Close,
             parts: PartRule::Alone,
-            ..spec.matching.clone()
+            ..spec.options.matching.clone()
         };
         let [source, target] = [&spec.source, &spec.target].map(|d| d.outline(bar_width));
         let outlines = [source?, target?];

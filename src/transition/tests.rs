@@ -26,7 +26,7 @@ const TRUSS: &str = r#"{"nodes": [[0,0],[2,0],[1,1.5]], "bars": [[0,1],[1,2],[2,
 fn field_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
     let mut spec = TransitionSpec::new(source, target);
     spec.cell = Cell::new(WarpKind::None, ContentKind::Field).unwrap();
-    spec.field.cells = 128;
+    spec.options.field.cells = 128;
     spec
 }
 
@@ -100,7 +100,7 @@ fn a_truss_is_seen_by_both_methods() {
     assert_eq!((bars.rings.len(), bars.bars.len()), (0, 3));
     assert!(bars.bar_width > 0.0);
     let mut spec = field_spec(Arc::clone(&truss), truss);
-    spec.bar_width = 0.05;
+    spec.options.bar_width = 0.05;
     let figure = Transition::build(&spec, &Silent)
         .unwrap()
         .frame(0.5)
@@ -129,7 +129,7 @@ fn boundaries_show_the_designs_at_the_ends_and_births_as_points() {
         svg("M50 20L80 80H20zM48 60v6h4v-6zM85 10h10v10h-10z"),
     );
     let mut spec = paths_spec(a, b);
-    spec.matching.holes = HoleRule::Close;
+    spec.options.matching.holes = HoleRule::Close;
     let transition = Transition::build(&spec, &Silent).unwrap();
     assert!(transition.arap().is_none() && transition.matched().is_some());
     for (t, wanted) in [(0.0, 6400.0), (1.0, 1876.0)] {
@@ -363,7 +363,7 @@ fn pins_that_were_found_can_be_taken_over_by_hand() {
     spec.cell = Cell::new(WarpKind::Arap, ContentKind::Field).unwrap();
     let found = Transition::build(&spec, &Silent).unwrap();
     assert!(found.automatic_pins().len() > 8);
-    spec.matching.pins = found.automatic_pins().to_vec();
+    spec.options.matching.pins = found.automatic_pins().to_vec();
     let taken = Transition::build(&spec, &Silent).unwrap();
     assert_eq!(taken.automatic_pins(), []);
     let areas = [&found, &taken].map(|t| area(&t.frame(0.5).figure().rings));

@@ -68,7 +68,7 @@ pub fn truss() -> Transition {
         Form::Truss(truss)
     };
     let mut spec = TransitionSpec::new(design(truss(0.0)), design(truss(2.0)));
-    spec.bar_width = 0.02;
+    spec.options.bar_width = 0.02;
     build(&spec)
 }
 
@@ -100,8 +100,8 @@ pub fn field() -> Vec<(&'static str, Transition)> {
     let transition = |(name, space, epsilon, threshold)| {
         let mut spec = TransitionSpec::new(source.clone(), target.clone());
         spec.cell = cell;
-        spec.field.cells = 200;
-        spec.field.blend = FieldBlend {
+        spec.options.field.cells = 200;
+        spec.options.field.blend = FieldBlend {
             space,
             epsilon,
             threshold,

@@ -41,7 +41,7 @@ pub fn apply(
         };
         let mut matching = session
             .project()
-            .map(|project| project.matching.clone())
+            .map(|project| project.options.matching.clone())
             .unwrap_or_default();
         let before = matching.clone();
         editor.act(act, &sheet, &session, &mut matching);
@@ -56,7 +56,7 @@ pub fn apply(
         }
         if matching != before {
             change(&mut session, gesture.mark(), |project| {
-                project.matching = matching;
+                project.options.matching = matching;
             });
         }
     }

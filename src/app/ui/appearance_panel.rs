@@ -115,7 +115,7 @@ fn colour(ui: &mut Ui, label: &str, tip: &str, value: &mut Rgb) {
 }
 
 fn bars(ui: &mut Ui, draft: &mut Project) {
-    let width = DragValue::new(&mut draft.bar_width)
+    let width = DragValue::new(&mut draft.options.bar_width)
         .speed(0.0002)
         .range(0.001..=0.2)
         .max_decimals(4);

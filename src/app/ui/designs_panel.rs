@@ -41,7 +41,7 @@ pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
         }
         if draft.designs.len() >= 2 && swap(ui) {
             draft.designs.swap(0, 1);
-            draft.matching = draft.matching.swapped();
+            draft.options.matching = draft.options.matching.swapped();
         }
     });
 }

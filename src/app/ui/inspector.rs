@@ -49,23 +49,23 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         match_panel::show(ui, scene, &mut draft, acts);
     }
     if draft.warp == Some(WarpKind::Arap) {
-        warp_panel::show(ui, scene, &mut draft.arap);
+        warp_panel::show(ui, scene, &mut draft.options.arap);
     }
     let carries_fields =
         draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Field);
     if carries_fields || draft.warp.is_some_and(WarpKind::is_of_the_plane) {
-        travel_panel::show(ui, &mut draft.travel);
+        travel_panel::show(ui, &mut draft.options.travel);
     }
     match draft.warp {
-        Some(WarpKind::Paths) => paths_panel::show(ui, &mut draft.paths),
-        Some(WarpKind::Lines) => lines_panel::show(ui, &mut draft.lines),
-        Some(WarpKind::Scattered) => scattered_panel::show(ui, &mut draft.scattered),
-        Some(WarpKind::Lattice) => lattice_panel::show(ui, &mut draft.lattice),
+        Some(WarpKind::Paths) => paths_panel::show(ui, &mut draft.options.paths),
+        Some(WarpKind::Lines) => lines_panel::show(ui, &mut draft.options.lines),
+        Some(WarpKind::Scattered) => scattered_panel::show(ui, &mut draft.options.scattered),
+        Some(WarpKind::Lattice) => lattice_panel::show(ui, &mut draft.options.lattice),
         Some(WarpKind::None | WarpKind::Arap) | None => {}
     }
     match draft.content {
-        Some(ContentKind::Field) => field_panel::show(ui, &mut draft.field),
-        Some(ContentKind::Colours) => colours_panel::show(ui, &mut draft.colours),
+        Some(ContentKind::Field) => field_panel::show(ui, &mut draft.options.field),
+        Some(ContentKind::Colours) => colours_panel::show(ui, &mut draft.options.colours),
         Some(ContentKind::Solid) | None => {}
     }
     designs_panel::show(ui, &mut draft, acts);

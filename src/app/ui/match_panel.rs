@@ -21,13 +21,13 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
         draft.warp == Some(WarpKind::Arap) && draft.content != Some(ContentKind::Colours);
     section(ui, "Match", |ui| {
         if draft.content != Some(ContentKind::Colours) {
-            rules(ui, &mut draft.matching);
+            rules(ui, &mut draft.options.matching);
         }
         if has_mesh {
-            density(ui, &mut draft.triangulation.edge_length);
+            density(ui, &mut draft.options.triangulation.edge_length);
         }
         ui.add_space(4.0);
-        hint(ui, &said(&draft.matching));
+        hint(ui, &said(&draft.options.matching));
         ui.horizontal(|ui| {
             let (name, tip) = if scene.editor.is_open {
                 ("Back to the stage", "The match is kept (E or Esc).")
@@ -42,7 +42,9 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
                 acts.push(Intent::Editor(EditorAct::Toggle));
             }
             let tip = "Deletes all pins, pairs and cuts that were set by hand; can be undone.";
-            if has_places(&draft.matching) && ui.button("Clear").on_hover_text(tip).clicked() {
+            if has_places(&draft.options.matching)
+                && ui.button("Clear").on_hover_text(tip).clicked()
+            {
                 acts.push(Intent::Editor(EditorAct::Clear));
             }
         });

@@ -27,8 +27,7 @@ use crate::content::{BlendSpace, Content};
 use crate::geometry::DVec2;
 use crate::homotopy::Homotopy;
 use crate::progress::{Cancelled, Progress};
-use crate::transition::{FieldOptions, Transition};
-use crate::warp::ArapOptions;
+use crate::transition::{Options, Transition};
 use scan::Glance;
 use serde::Serialize;
 
@@ -127,7 +126,7 @@ pub enum Cause {
     },
     /// A part turns by more than half a turn against what it hangs on.
     FarTurn {
-        /// Its number from 0, as [`ArapOptions::extra_turns`] counts, where
+        /// Its number from 0, as [`crate::warp::ArapOptions::extra_turns`] counts, where
         /// there are several.
         part: Option<usize>,
         /// By how much.
@@ -231,12 +230,12 @@ pub enum Change {
 
 impl Change {
     /// Makes the change in the options of a transition or project.
-    pub fn apply(&self, arap: &mut ArapOptions, field: &mut FieldOptions) {
+    pub fn apply(&self, options: &mut Options) {
         match self {
-            Self::Homotopy(homotopy) => arap.homotopy = *homotopy,
-            Self::Symmetric => arap.symmetric = true,
-            Self::ExtraTurns(turns) => arap.extra_turns.clone_from(turns),
-            Self::Space(space) => field.blend.space = *space,
+            Self::Homotopy(homotopy) => options.arap.homotopy = *homotopy,
+            Self::Symmetric => options.arap.symmetric = true,
+            Self::ExtraTurns(turns) => options.arap.extra_turns.clone_from(turns),
+            Self::Space(space) => options.field.blend.space = *space,
         }
     }
 }

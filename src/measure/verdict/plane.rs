@@ -160,11 +160,11 @@ mod tests {
         let corners = [(20.0, 20.0), (340.0, 20.0), (340.0, 440.0), (20.0, 440.0)];
         let (left, right) = ((120.0, 250.0), (260.0, 250.0));
         loaded.project.warp = Some(warp);
-        loaded.project.lattice.fold_free = fold_free;
-        let pins = &mut loaded.project.matching.pins;
+        loaded.project.options.lattice.fold_free = fold_free;
+        let pins = &mut loaded.project.options.matching.pins;
         *pins = vec![pair(left, right), pair(right, left)];
         pins.extend(corners.map(|corner| pair(corner, corner)));
-        loaded.project.matching.lines.clear();
+        loaded.project.options.matching.lines.clear();
         let spec = loaded.spec().expect("a specification");
         let transition = Transition::build(&spec, &Silent).expect("a transition");
         Verdict::of(&transition, 9, &Silent).expect("not cancelled")

@@ -7,7 +7,7 @@ use crate::content::{BlendSpace, FieldPair, Solid};
 use crate::design::Form;
 use crate::homotopy::Homotopy;
 use crate::progress::{Cancelled, Progress};
-use crate::transition::{FieldOptions, Transition};
+use crate::transition::{Options, Transition};
 use crate::warp::{Arap, ArapError};
 
 /// Meshes with more faces than this are not built again to try an option: a
@@ -120,9 +120,12 @@ fn tried(
     steps: usize,
     progress: &dyn Progress,
 ) -> Result<Option<Vec<Glance>>, Cancelled> {
-    let mut options = arap.options().clone();
-    change.apply(&mut options, &mut FieldOptions::default());
-    match Arap::build(arap.mesh(), &options, progress) {
+    let mut options = Options {
+        arap: arap.options().clone(),
+        ..Options::default()
+    };
+    change.apply(&mut options);
+    match Arap::build(arap.mesh(), &options.arap, progress) {
         Ok(other) => scan::rigid_parts(&other, solid, steps, progress).map(Some),
         Err(ArapError::Cancelled(cancelled)) => Err(cancelled),
         Err(_) => Ok(None),

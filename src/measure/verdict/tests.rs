@@ -9,6 +9,7 @@ use crate::measure::film;
 use crate::measure::tests::{sheet, transition};
 use crate::progress::Silent;
 use crate::transition::TransitionSpec;
+use crate::warp::ArapOptions;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -248,7 +249,7 @@ fn fields(source: &str, target: &str) -> Transition {
     };
     let mut spec = TransitionSpec::new(read(source), read(target));
     spec.cell = crate::transition::Cell::FIELD_BLEND;
-    spec.field.cells = 96;
+    spec.options.field.cells = 96;
     Transition::build(&spec, &Silent).expect("a transition")
 }
 
@@ -301,19 +302,19 @@ fn fields_that_keep_their_pieces_are_clear() {
 
 #[test]
 fn a_change_is_made_in_the_options() {
-    let (mut arap, mut field) = (ArapOptions::default(), FieldOptions::default());
-    arap.symmetric = false;
+    let mut options = Options::default();
+    options.arap.symmetric = false;
     for change in [
         Change::Homotopy(Homotopy::Exponential),
         Change::Symmetric,
         Change::ExtraTurns(vec![0, -1]),
         Change::Space(BlendSpace::Real),
     ] {
-        change.apply(&mut arap, &mut field);
+        change.apply(&mut options);
         assert!(!change.to_string().is_empty());
     }
-    assert_eq!(arap.homotopy, Homotopy::Exponential);
-    assert!(arap.symmetric);
-    assert_eq!(arap.extra_turns, [0, -1]);
-    assert_eq!(field.blend.space, BlendSpace::Real);
+    assert_eq!(options.arap.homotopy, Homotopy::Exponential);
+    assert!(options.arap.symmetric);
+    assert_eq!(options.arap.extra_turns, [0, -1]);
+    assert_eq!(options.field.blend.space, BlendSpace::Real);
 }

@@ -1,0 +1,78 @@
+//! Reading a document whose keys belong to two structs: the project and the
+//! options that it shares with a specification.
+//!
+//! Serde's `flatten` reads through a buffer: unknown keys would pass in
+//! silence and errors would lose their line. So the keys at the top are dealt
+//! out to the struct that has them, and each is read from its own.
+
+use super::{Project, ProjectError};
+use crate::transition::Options;
+use serde::de::value::Error as NoValue;
+use serde::de::{Deserialize, Deserializer, Error, Visitor};
+use serde::forward_to_deserialize_any;
+use toml::Spanned;
+use toml::de::DeTable;
+
+/// Reads a document of the version of this program.
+///
+/// # Errors
+/// [`ProjectError::Syntax`] with the line of what is wrong.
+pub(super) fn read(text: &str) -> Result<Project, ProjectError> {
+    let wrong = |error: toml::de::Error| ProjectError::syntax(text, &error);
+    let document = DeTable::parse(text).map_err(wrong)?;
+    let span = document.span();
+    let (own, shared) = (keys_of::<Project>(), keys_of::<Options>());
+    let (mut project, mut options) = (DeTable::new(), DeTable::new());
+    for (key, value) in document.into_inner() {
+        let name = key.get_ref().as_ref();
+        let table = if shared.contains(&name) {
+            &mut options
+        } else if own.contains(&name) {
+            &mut project
+        } else {
+            return Err(ProjectError::unknown_key(text, &key, [own, shared]));
+        };
+        table.insert(key, value);
+    }
+    let from = |table| toml::Deserializer::from(Spanned::new(span.clone(), table));
+    let mut project = Project::deserialize(from(project)).map_err(wrong)?;
+    project.options = Options::deserialize(from(options)).map_err(wrong)?;
+    Ok(project)
+}
+
+/// The keys that a struct is read from.
+fn keys_of<'de, T: Deserialize<'de>>() -> &'static [&'static str] {
+    let mut keys: &[&str] = &[];
+    // Fails always: it has no values to give.
+    if T::deserialize(Keys(&mut keys)).is_ok() {
+        keys = &[];
+    }
+    keys
+}
+
+/// A deserialiser that only listens to what a struct asks for.
+struct Keys<'a>(&'a mut &'static [&'static str]);
+
+impl<'de> Deserializer<'de> for Keys<'_> {
+    type Error = NoValue;
+
+    fn deserialize_any<V: Visitor<'de>>(self, _visitor: V) -> Result<V::Value, NoValue> {
+        Err(NoValue::custom("there are no values"))
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, NoValue> {
+        *self.0 = fields;
+        self.deserialize_any(visitor)
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string
+        bytes byte_buf option unit unit_struct newtype_struct seq tuple
+        tuple_struct map enum identifier ignored_any
+    }
+}

@@ -1,0 +1,121 @@
+//! The options of all methods, each once: a document holds them as they stand
+//! in its file, a specification as a transition is built from them.
+
+use crate::compatible::PolygonOptions;
+use crate::content::{ColourMix, FieldBlend};
+use crate::correspondence::Matching;
+use crate::field::Metric;
+use crate::warp::{
+    ArapOptions, LatticeOptions, LineOptions, PathOptions, ScatteredOptions, Travel,
+};
+use serde::{Deserialize, Serialize};
+
+/// The options of all methods. What is not given has its default; defaults
+/// are left out where most documents have no use for them.
+///
+/// ```
+/// use morphospace::transition::Options;
+/// let mut options = Options::default();
+/// options.field.cells = 256;
+/// assert_eq!(options.bar_width, 0.012);
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
+pub struct Options {
+    /// How the features of warps of the plane travel.
+    #[serde(skip_serializing_if = "is_default")]
+    pub travel: Travel,
+    /// Width of the bars of a truss, as a fraction of the larger design's
+    /// diameter.
+    pub bar_width: f64,
+    /// How outlines are matched: in a document in the coordinates of each
+    /// design, in a specification in those of the common frame.
+    #[serde(rename = "match", skip_serializing_if = "is_default")]
+    pub matching: Matching,
+    /// How matched outlines are triangulated.
+    #[serde(skip_serializing_if = "is_default")]
+    pub triangulation: PolygonOptions,
+    /// Options of rigid parts.
+    pub arap: ArapOptions,
+    /// Options of the boundary paths.
+    #[serde(skip_serializing_if = "is_default")]
+    pub paths: PathOptions,
+    /// Options of distance fields.
+    pub field: FieldOptions,
+    /// How two pictures mix.
+    #[serde(skip_serializing_if = "is_default")]
+    pub colours: ColourMix,
+    /// Options of the warp by lines.
+    #[serde(skip_serializing_if = "is_default")]
+    pub lines: LineOptions,
+    /// Options of the warp by scattered points.
+    #[serde(skip_serializing_if = "is_default")]
+    pub scattered: ScatteredOptions,
+    /// Options of the warp by lattices.
+    #[serde(skip_serializing_if = "is_default")]
+    pub lattice: LatticeOptions,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Self {
+            travel: Travel::default(),
+            bar_width: 0.012,
+            matching: Matching::default(),
+            triangulation: PolygonOptions::default(),
+            arap: ArapOptions::default(),
+            paths: PathOptions::default(),
+            field: FieldOptions::default(),
+            colours: ColourMix::default(),
+            lines: LineOptions::default(),
+            scattered: ScatteredOptions::default(),
+            lattice: LatticeOptions::default(),
+        }
+    }
+}
+
+fn is_default<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
+/// Where the boundary of a distance field runs.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Boundary {
+    /// Where the outline is; Euclidean only.
+    #[default]
+    Exact,
+    /// Between cells, as in the paper.
+    Binary,
+}
+
+/// Options of the distance fields.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+pub struct FieldOptions {
+    /// How distance is measured; all but the Euclidean need
+    /// [`Boundary::Binary`].
+    pub metric: Metric,
+    /// Where the boundary runs.
+    pub boundary: Boundary,
+    /// How the two fields are mixed.
+    pub blend: FieldBlend,
+    /// Cells along the longer side of the frame. Distances, ε and the
+    /// threshold count in these cells.
+    pub cells: u32,
+    /// Room around the designs, as a fraction of the longer side.
+    pub margin: f64,
+}
+
+impl Default for FieldOptions {
+    fn default() -> Self {
+        Self {
+            metric: Metric::Euclidean,
+            boundary: Boundary::default(),
+            blend: FieldBlend::default(),
+            cells: 512,
+            margin: 0.1,
+        }
+    }
+}
