@@ -124,18 +124,6 @@ impl PicturePair {
         })
     }
 
-    /// The same pictures mixed another way; decodes nothing again.
-    ///
-    /// # Errors
-    /// Where the span of the mix is none.
-    pub fn with_mix(&self, mix: ColourMix) -> Result<Self, ColourMixError> {
-        mix.check()?;
-        Ok(Self {
-            layers: self.layers.clone(),
-            mix,
-        })
-    }
-
     /// Source and target.
     #[must_use]
     pub fn layers(&self) -> &[Layer; 2] {

@@ -9,6 +9,7 @@ use std::sync::Arc;
 /// placement.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Fit {
     /// Coordinates as they stand in the files.
     #[default]

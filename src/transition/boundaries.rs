@@ -5,29 +5,57 @@
 //! the first that rigid parts would try: whether it folds inside is not asked,
 //! since there is no inside.
 
-use super::{BuildError, TransitionSpec};
+use super::error::BuildError;
+use super::moved::{AnyWarp, Moved};
+use super::spec::TransitionSpec;
+use crate::content::Solid;
 use crate::correspondence::{PieceMatch, RegionMatch, RingKind, match_regions};
 use crate::design::Form;
 use crate::geometry::{DVec2, signed_area, winding};
 use crate::mesh::TriangleMesh;
-use crate::progress::Progress;
+use crate::progress::{Progress, checkpoint};
 use crate::warp::{Paths, RingPair};
+use std::sync::Arc;
 
-/// The paths, and the match where the designs did not bring it along.
+/// The paths, and what is seen of them.
 pub(super) fn paths(
     spec: &TransitionSpec,
     bar_width: f64,
     progress: &dyn Progress,
-) -> Result<(Paths, Option<RegionMatch>), BuildError> {
-    if let (Form::Mesh(source), Form::Mesh(target)) = (&spec.source.form, &spec.target.form)
-        && let Some(parts) = numbered(source, target)
-    {
-        return Ok((Paths::new(&parts, spec.options.paths)?, None));
+) -> Result<(Moved, Solid), BuildError> {
+    checkpoint(progress, "matching", 0.0)?;
+    let (parts, matched) = match (&spec.source.form, &spec.target.form) {
+        (Form::Mesh(source), Form::Mesh(target)) => numbered(source, target),
+        _ => None,
     }
-    let [source, target] = [&spec.source, &spec.target].map(|d| d.outline(bar_width));
-    let matched = match_regions(&source?, &target?, &spec.options.matching, progress)?;
-    let parts: Vec<Vec<RingPair>> = matched.pieces.iter().map(rings).collect();
-    Ok((Paths::new(&parts, spec.options.paths)?, Some(matched)))
+    .map_or_else(
+        || matched(spec, bar_width, progress),
+        |parts| Ok((parts, None)),
+    )?;
+    let paths = Paths::new(&parts, spec.options.paths)?;
+    checkpoint(progress, "preparing frames", 0.9)?;
+    let solid = Solid {
+        loops: paths.loops(),
+        ..Solid::default()
+    };
+    let moved = Moved {
+        matched,
+        ..AnyWarp::Paths(Arc::new(paths)).into()
+    };
+    Ok((moved, solid))
+}
+
+/// The rings of each part, and the match that brings them together.
+type Matched = (Vec<Vec<RingPair>>, Option<RegionMatch>);
+
+fn matched(
+    spec: &TransitionSpec,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<Matched, BuildError> {
+    let [source, target] = spec.outlines(bar_width)?;
+    let matched = match_regions(&source, &target, &spec.options.matching, progress)?;
+    Ok((matched.pieces.iter().map(rings).collect(), Some(matched)))
 }
 
 /// The rings of a piece. What a match keeps as a tiny ring, so that it can be

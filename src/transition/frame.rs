@@ -1,6 +1,6 @@
 //! One moment of a transition.
 
-use super::Transition;
+use super::ready::Transition;
 use crate::content::{Content, Raster};
 use crate::design::{Design, Form};
 use crate::geometry::DVec2;
@@ -26,15 +26,34 @@ pub struct Figure {
     pub bar_width: f64,
 }
 
-impl Frame {
-    pub(super) fn new(transition: Transition) -> Self {
-        Self {
-            placer: transition.0.warp.placer(),
-            transition,
+impl Transition {
+    /// A frame at `t`, with memory of its own. Outside [0, 1] it
+    /// extrapolates; a `t` that is not finite counts as 0.
+    #[must_use]
+    pub fn frame(&self, t: f64) -> Frame {
+        let mut frame = Frame {
+            placer: self.warp().placer(),
+            transition: self.clone(),
             t: 0.0,
-        }
+        };
+        frame.seek(t);
+        frame
     }
 
+    /// The source as it was given, for a ghost behind the frames.
+    #[must_use]
+    pub fn source_outline(&self) -> Figure {
+        ghost(&self.designs()[0], self.bar_width())
+    }
+
+    /// The target as it was given.
+    #[must_use]
+    pub fn target_outline(&self) -> Figure {
+        ghost(&self.designs()[1], self.bar_width())
+    }
+}
+
+impl Frame {
     /// Moves to `t` without allocating. A `t` that is not finite counts as 0.
     pub fn seek(&mut self, t: f64) {
         self.t = if t.is_finite() { t } else { 0.0 };
@@ -91,9 +110,7 @@ impl Frame {
             },
         }
     }
-}
 
-impl Frame {
     /// The frame as pixels, where pictures are what is seen: sRGB with
     /// straight alpha.
     #[must_use]
@@ -106,7 +123,7 @@ impl Frame {
 }
 
 /// A design on its own.
-pub(super) fn ghost(design: &Design, bar_width: f64) -> Figure {
+fn ghost(design: &Design, bar_width: f64) -> Figure {
     let rings = |walks: Vec<&[DVec2]>| walks.into_iter().map(<[DVec2]>::to_vec).collect();
     match &design.form {
         Form::Outline(regions) => Figure {

@@ -82,6 +82,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 /// Where the boundary of a distance field runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Boundary {
     /// Where the outline is; Euclidean only.
     #[default]
@@ -93,6 +94,7 @@ pub enum Boundary {
 /// Options of the distance fields.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
 pub struct FieldOptions {
     /// How distance is measured; all but the Euclidean need
     /// [`Boundary::Binary`].
@@ -117,5 +119,18 @@ impl Default for FieldOptions {
             cells: 512,
             margin: 0.1,
         }
+    }
+}
+
+impl FieldOptions {
+    /// Whether the boundary runs on the outline: the metrics that are not
+    /// Euclidean belong to the pixels of a binary picture.
+    pub(super) fn is_exact(&self) -> bool {
+        self.boundary == Boundary::Exact && self.metric == Metric::Euclidean
+    }
+
+    /// Whether the boundary cannot be as exact as it is asked for.
+    pub(super) fn is_switched(&self) -> bool {
+        self.boundary == Boundary::Exact && !self.is_exact()
     }
 }

@@ -8,6 +8,7 @@ use crate::design::{Design, ImportOptions, import};
 use crate::geometry::{DVec2, Similarity};
 use crate::progress::{Progress, Silent};
 use crate::warp::WarpKind;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 fn design(text: &str) -> Arc<Design> {
@@ -410,4 +411,95 @@ fn one_part_and_two_are_carried_by_every_warp() {
             assert!(!transition.frame(0.5).figure().rings.is_empty(), "{warp:?}");
         }
     }
+}
+
+#[test]
+fn what_carries_fields_and_pictures_as_rigid_parts_is_told() {
+    let mut fields = field_spec(arrow(false), arrow(true));
+    fields.cell = Cell::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    let mut loaded = crate::project::gallery::load("portraits-points").unwrap();
+    loaded.project.warp = Some(WarpKind::Arap);
+    let pictures = loaded.spec().unwrap();
+    assert_eq!(pictures.cell.content(), ContentKind::Colours);
+    for spec in [fields, pictures] {
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        let arap = transition.arap().expect("rigid parts");
+        assert!(arap.part_count() > 0);
+        let faces = &transition.frame(0.5).placement().faces.clone();
+        assert_eq!(faces, arap.mesh().faces());
+        assert!(transition.compatible().is_none(), "a mesh of the frame");
+    }
+}
+
+#[test]
+fn every_cell_of_the_table_is_built() {
+    let loaded = crate::project::gallery::load("portraits-points").unwrap();
+    let pictures = loaded.spec().unwrap();
+    let (a, b) = (svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
+    for cell in Cell::all() {
+        let mut spec = match cell.content() {
+            ContentKind::Colours => pictures.clone(),
+            ContentKind::Solid | ContentKind::Field => field_spec(Arc::clone(&a), Arc::clone(&b)),
+        };
+        spec.cell = cell;
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        assert_eq!(transition.cell(), cell);
+        assert_eq!(transition.notes(), [], "{}", cell.name());
+        let has_arap = cell.warp() == WarpKind::Arap;
+        assert_eq!(transition.arap().is_some(), has_arap, "{}", cell.name());
+    }
+}
+
+fn rigid_fields(source: &str, target: &str) -> TransitionSpec {
+    let mut spec = field_spec(svg(source), svg(target));
+    spec.cell = Cell::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    spec.options.matching.holes = HoleRule::Close;
+    spec
+}
+
+#[test]
+fn parts_that_leave_a_hole_are_carried_by_fewer_pins_and_that_is_told() {
+    let inside = "M5 20h60v60h-60z M15 30v40h40v-40z M30 45h10v10h-10z";
+    let outside = "M5 20h60v60h-60z M15 30v40h40v-40z M80 45h10v10h-10z";
+    let spec = rigid_fields(inside, outside);
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    let [Note::NotByOutlines(_), Note::FewerPins { left, of }] = transition.notes() else {
+        panic!("{:?}", transition.notes());
+    };
+    assert!(left < of, "{left} of {of}");
+    assert_eq!(transition.automatic_pins().len(), *left);
+}
+
+#[test]
+fn pins_that_do_not_match_their_outlines_carry_alone_and_that_is_told() {
+    let ring = "M10 10h80v80h-80z M40 40v20h20v-20z";
+    let mut spec = rigid_fields(ring, ring);
+    // From the hole to the outer boundary, which closing holes does not allow.
+    let [y, hole] = [50.0, 40.0];
+    let outer = 10.0;
+    spec.options.matching.pins = vec![crate::correspondence::PointPair {
+        source: DVec2::new(hole, y),
+        target: DVec2::new(outer, y),
+    }];
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    assert!(
+        matches!(transition.notes(), [Note::NotMatched(_)]),
+        "{:?}",
+        transition.notes()
+    );
+}
+
+#[test]
+fn a_boundary_that_cannot_be_exact_is_told() {
+    let mut spec = field_spec(svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
+    spec.options.field.metric = crate::field::Metric::CityBlock;
+    let notes = |spec: &TransitionSpec| {
+        let transition = Transition::build(spec, &Silent).unwrap();
+        let mixed = transition.with_blend(spec.options.field.blend).unwrap();
+        assert_eq!(mixed.unwrap().notes(), transition.notes());
+        transition.notes().to_vec()
+    };
+    assert_eq!(notes(&spec), [Note::BinaryBoundary]);
+    spec.options.field.boundary = Boundary::Binary;
+    assert_eq!(notes(&spec), []);
 }

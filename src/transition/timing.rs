@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 /// What happens at the end of a pass.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum PlayMode {
     /// Playing stops.
     Once,
@@ -34,6 +35,7 @@ pub struct Stop {
 /// How a transition runs over time.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
 pub struct Timing {
     /// Seconds of a pass, rests not counted; positive.
     pub duration_secs: f64,
@@ -51,6 +53,7 @@ pub struct Timing {
 
 /// Numbers that give no pass.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum TimingError {
     /// The duration is not positive.
     #[error("a pass cannot last {0} seconds; give a positive duration")]

@@ -276,6 +276,11 @@ impl<W: Warp> Turned<W> {
     pub const fn new(rigid: RigidPart, at_rest: W) -> Self {
         Self { rigid, at_rest }
     }
+
+    /// The warp behind the motion.
+    pub const fn at_rest(&self) -> &W {
+        &self.at_rest
+    }
 }
 
 impl<W: Warp> Warp for Turned<W> {

@@ -1,0 +1,145 @@
+//! Choosing among matches: candidates, the film of each, and the one whose
+//! film has the least trouble.
+//!
+//! No measure of two boundaries alone tells what becomes of the inside, so a
+//! match is judged by its film. Candidates come in rounds: first the match at
+//! the prices that were asked for, and at other prices beside it where the
+//! shapes are unlike; then, as long as the best film folds, the others. Of
+//! all films so far the best is the one with the fewest folded faces over all
+//! its steps, then the least distortion, then the earliest.
+
+use super::error::BuildError;
+use super::spec::TransitionSpec;
+use crate::compatible::CompatibleMesh;
+use crate::correspondence::{Matching, RegionMatch, match_regions};
+use crate::geometry::{Regions, orient2d};
+use crate::progress::Progress;
+use crate::warp::{Arap, Warp};
+use rayon::prelude::*;
+
+/// A match of at most this cost whose film does not fold is taken at once.
+/// Two poses of a thing cost up to about 0.3, unlike things 0.4 and more.
+const ALIKE: f64 = 0.34;
+
+/// Prices of stretch that are tried for unlike shapes, after the default.
+const OTHER_PRICES: [f64; 2] = [0.6, 1.2];
+
+/// What is tried where all of those fold: prices without regard to
+/// thickness, which of a thick body and thin arms makes one arm the body.
+const LAST_PRICES: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
+
+/// Steps of a film that is looked at for folds.
+const STEPS: u32 = 16;
+
+/// A match with its film, and how good that is.
+pub(super) struct Candidate {
+    pub matched: RegionMatch,
+    pub film: Arap,
+    folds: usize,
+    distortion: f64,
+}
+
+/// The match of both outlines that is kept, with its film.
+pub(super) fn best(
+    spec: &TransitionSpec,
+    outlines: &[Regions; 2],
+    progress: &dyn Progress,
+) -> Result<Candidate, BuildError> {
+    let [source, target] = outlines;
+    let matched = |matching: &Matching| match_regions(source, target, matching, progress);
+    let film = |matched| Candidate::new(matched, spec, progress);
+    let asked = &spec.options.matching;
+    let first = matched(asked)?;
+    let is_alike = first.pieces.iter().all(|piece| piece.cost <= ALIKE);
+    let other = |round: &[Matching]| best_of(round, |matching| film(matched(matching)?));
+    let mut rounds = rounds(asked).into_iter();
+    let beside = if is_alike { None } else { rounds.next() };
+    let (first, beside) = rayon::join(|| film(first), || other(&beside.unwrap_or_default()));
+    let mut best = first?.or(beside?);
+    for round in rounds {
+        if best.folds == 0 {
+            break;
+        }
+        best = best.or(other(&round)?);
+    }
+    Ok(best)
+}
+
+/// What is tried after the match that was asked for, round by round; nothing
+/// where somebody settled the price.
+fn rounds(asked: &Matching) -> Vec<Vec<Matching>> {
+    if asked.stretch.is_some() {
+        return Vec::new();
+    }
+    let priced = |stretch: &f64, thickness| Matching {
+        stretch: Some(*stretch),
+        thickness,
+        ..asked.clone()
+    };
+    vec![
+        OTHER_PRICES
+            .iter()
+            .map(|price| priced(price, asked.thickness))
+            .collect(),
+        LAST_PRICES
+            .iter()
+            .map(|price| priced(price, Some(0.0)))
+            .collect(),
+    ]
+}
+
+/// The best of a round, the first among equals; none of none.
+fn best_of(
+    round: &[Matching],
+    candidate: impl Fn(&Matching) -> Result<Candidate, BuildError> + Sync + Send,
+) -> Result<Option<Candidate>, BuildError> {
+    let found: Result<Vec<Candidate>, BuildError> = round.par_iter().map(candidate).collect();
+    Ok(found?.into_iter().reduce(|best, next| best.or(Some(next))))
+}
+
+impl Candidate {
+    fn new(
+        matched: RegionMatch,
+        spec: &TransitionSpec,
+        progress: &dyn Progress,
+    ) -> Result<Self, BuildError> {
+        let options = &spec.options;
+        let mesh = CompatibleMesh::from_outlines(&matched, &options.triangulation, progress)?;
+        let film = Arap::build(&mesh, &options.arap, progress)?;
+        Ok(Self {
+            folds: folds(&film),
+            distortion: mesh.distortion(),
+            matched,
+            film,
+        })
+    }
+
+    /// The better one, this one among equals.
+    fn or(self, other: Option<Self>) -> Self {
+        match other {
+            Some(other) if other.trouble() < self.trouble() => other,
+            _ => self,
+        }
+    }
+
+    /// What makes one film worse than another, first things first.
+    fn trouble(&self) -> (usize, f64) {
+        (self.folds, self.distortion)
+    }
+}
+
+/// Faces that are not positive, over all steps of a film.
+fn folds(arap: &Arap) -> usize {
+    let mut placer = arap.placer();
+    (1..STEPS)
+        .map(|step| {
+            placer.place(f64::from(step) / f64::from(STEPS));
+            let places = &placer.placement().in_frame;
+            let is_folded = |face: &&[u32; 3]| {
+                let [a, b, c] = face.map(|v| places[v as usize]);
+                orient2d(a, b, c) <= 0.0
+            };
+            arap.mesh().faces().iter().filter(is_folded).count()
+        })
+        .sum()
+}

@@ -1,0 +1,82 @@
+//! Why there is no transition.
+
+use super::cells::NoSuchCell;
+use crate::compatible::{CompatibleError, PinnedError, OutlinesError};
+use crate::content::{ColourMixError, FieldPairError};
+use crate::correspondence::RegionMatchError;
+use crate::field::{FieldError, GridError};
+use crate::geometry::RegionsError;
+use crate::progress::Cancelled;
+use crate::warp::{ArapError, LatticeError, LinesError, PathsError, ScatteredError};
+
+/// Why a transition could not be built.
+#[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum BuildError {
+    /// The designs are of kinds that cannot be interpolated this way.
+    #[error("{0}")]
+    Unavailable(String),
+    /// The warp and the content do not go together.
+    #[error(transparent)]
+    NoSuchCell(#[from] NoSuchCell),
+    /// The designs do not share a triangulation.
+    #[error("{source_name} and {target_name}: {error}")]
+    Compatible {
+        /// Name of the source.
+        source_name: String,
+        /// Name of the target.
+        target_name: String,
+        /// What does not fit.
+        error: CompatibleError,
+    },
+    /// The outlines were not matched.
+    #[error(transparent)]
+    Match(#[from] RegionMatchError),
+    /// The matched outlines were not triangulated.
+    #[error(transparent)]
+    Triangulation(#[from] OutlinesError),
+    /// The rigidity-preserving interpolation failed.
+    #[error(transparent)]
+    Arap(#[from] ArapError),
+    /// A design has no outline.
+    #[error(transparent)]
+    Outline(#[from] RegionsError),
+    /// The frame has no grid.
+    #[error(transparent)]
+    Grid(#[from] GridError),
+    /// A distance field could not be made.
+    #[error("{design}: {error}")]
+    Field {
+        /// Name of the design.
+        design: String,
+        /// What went wrong.
+        error: FieldError,
+    },
+    /// ε or the threshold is out of range.
+    #[error(transparent)]
+    Blend(#[from] FieldPairError),
+    /// The span in which colours change is none.
+    #[error(transparent)]
+    Colours(#[from] ColourMixError),
+    /// The frame could not be triangulated with its pins.
+    #[error(transparent)]
+    Frame(#[from] PinnedError),
+    /// The warp by lines could not be made.
+    #[error(transparent)]
+    Lines(#[from] LinesError),
+    /// The warp by scattered points could not be made.
+    #[error(transparent)]
+    Scattered(#[from] ScatteredError),
+    /// The warp by lattices could not be made.
+    #[error(transparent)]
+    Lattice(#[from] LatticeError),
+    /// The boundary paths could not be made.
+    #[error(transparent)]
+    Paths(#[from] PathsError),
+    /// The width of bars is no positive number.
+    #[error("the bar width {0} is not between 0 and 1; give a fraction of the design's size")]
+    BarWidth(f64),
+    /// Nobody wants the result.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}

@@ -1,0 +1,65 @@
+//! The warp that a transition holds, and how it was come by.
+
+use super::note::Note;
+use crate::correspondence::{PointPair, RegionMatch};
+use crate::warp::{Arap, Paths, Still, Turned, Warp};
+use std::sync::Arc;
+
+/// The warp that a transition holds.
+#[derive(Clone, Debug)]
+pub(super) enum AnyWarp {
+    /// Nothing moves.
+    Still(Still),
+    /// Boundary points alone.
+    Paths(Arc<Paths>),
+    /// Rigid parts: of solids, or of the whole frame.
+    Rigid(Arap),
+    /// Rigid parts of the frame behind the motion that they have in common.
+    Turned(Turned<Arap>),
+    /// Lines, scattered points or lattices, on a grid of the plane.
+    Plane(Arc<dyn Warp>),
+}
+
+impl AnyWarp {
+    pub fn as_warp(&self) -> &dyn Warp {
+        match self {
+            Self::Still(still) => still,
+            Self::Paths(paths) => paths.as_ref(),
+            Self::Rigid(arap) => arap,
+            Self::Turned(turned) => turned,
+            Self::Plane(warp) => warp.as_ref(),
+        }
+    }
+
+    /// The rigid parts; of those behind a common motion as they are at rest.
+    pub fn arap(&self) -> Option<&Arap> {
+        match self {
+            Self::Rigid(arap) => Some(arap),
+            Self::Turned(turned) => Some(turned.at_rest()),
+            Self::Still(_) | Self::Paths(_) | Self::Plane(_) => None,
+        }
+    }
+}
+
+/// A warp, and how it was come by.
+#[derive(Clone, Debug)]
+pub(super) struct Moved {
+    pub warp: AnyWarp,
+    /// How the outlines of solids were matched, where they were.
+    pub matched: Option<RegionMatch>,
+    /// The pins that were found for a warp of the plane, where nobody set any.
+    pub automatic: Vec<PointPair>,
+    /// What was done otherwise than asked.
+    pub notes: Vec<Note>,
+}
+
+impl From<AnyWarp> for Moved {
+    fn from(warp: AnyWarp) -> Self {
+        Self {
+            warp,
+            matched: None,
+            automatic: Vec::new(),
+            notes: Vec::new(),
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! What was done otherwise than asked while a transition was built.
+
+use crate::compatible::SurroundingsError;
+use crate::correspondence::RegionMatchError;
+use serde::{Serialize, Serializer};
+use std::fmt;
+
+/// Something that could not be done as it was asked for, and what was done
+/// instead. The transition plays all the same. Serialised as its words.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Note {
+    /// Pins that were found were thinned out until the frame did not fold.
+    FewerPins {
+        /// How many are left.
+        left: usize,
+        /// How many were found.
+        of: usize,
+    },
+    /// The outlines could not be edges of the frame's mesh; pins along them
+    /// carry it.
+    NotByOutlines(SurroundingsError),
+    /// Pins on the outlines do not match them; the pins alone carry the frame.
+    NotMatched(RegionMatchError),
+    /// Fields of distances that are not Euclidean have their boundary between
+    /// cells, although it was to be exact.
+    BinaryBoundary,
+    /// The equations of rigid parts could only be solved with a little added
+    /// to their diagonal.
+    Stiffened {
+        /// How much, as a share of the diagonal.
+        share: f64,
+    },
+}
+
+impl fmt::Display for Note {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FewerPins { left, of } => write!(
+                f,
+                "{left} of the {of} pins that were found are used: with more of them the plane would fold"
+            ),
+            Self::NotByOutlines(error) => write!(
+                f,
+                "pins along the outlines carry the plane, not the outlines themselves: {error}"
+            ),
+            Self::NotMatched(error) => write!(
+                f,
+                "the pins alone carry the plane, not the outlines that they lie on: {error}"
+            ),
+            Self::BinaryBoundary => write!(
+                f,
+                "the boundary runs between cells: only Euclidean distances have it exactly"
+            ),
+            Self::Stiffened { share } => write!(
+                f,
+                "faces of very different sizes: {share:.0e} of the diagonal was added to the equations to solve them"
+            ),
+        }
+    }
+}
+
+impl Serialize for Note {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_note_says_what_was_done_instead() {
+        let cut = RegionMatchError::Cut(1);
+        for (note, words) in [
+            (Note::FewerPins { left: 12, of: 24 }, "12 of the 24 pins"),
+            (
+                Note::NotByOutlines(SurroundingsError::Nesting),
+                "lie within each other in different ways",
+            ),
+            (Note::NotMatched(cut), "cut 2 does not run straight"),
+            (Note::BinaryBoundary, "between cells"),
+            (Note::Stiffened { share: 1e-11 }, "1e-11 of the diagonal"),
+        ] {
+            let said = note.to_string();
+            assert!(said.contains(words) && !said.contains('\n'), "{said}");
+            let json = serde_json::to_value(&note).expect("words");
+            assert_eq!(json, said);
+        }
+    }
+}

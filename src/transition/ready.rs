@@ -1,0 +1,149 @@
+//! A transition that is ready to be played.
+
+use super::cells::Cell;
+use super::moved::Moved;
+use super::note::Note;
+use crate::compatible::CompatibleMesh;
+use crate::content::{Content, FieldBlend, FieldPairError};
+use crate::correspondence::{PointPair, RegionMatch};
+use crate::design::Design;
+use crate::geometry::Bounds;
+use crate::warp::{Arap, Missed, Warp};
+use std::sync::Arc;
+
+/// A transition that is ready to be played. Cloning is cheap.
+///
+/// ```
+/// use morphospace::design::{ImportOptions, import};
+/// use morphospace::progress::Silent;
+/// use morphospace::transition::{Transition, TransitionSpec};
+/// use std::sync::Arc;
+///
+/// let read = |text: &str| import("t", text.as_bytes(), &ImportOptions::default()).map(Arc::new);
+/// let source = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")?;
+/// let target = read("v 0 0 0\nv 0 2 0\nv -2 0 0\nf 1 2 3\n")?;
+/// let transition = Transition::build(&TransitionSpec::new(source, target), &Silent)?;
+/// let mut frame = transition.frame(0.0);
+/// frame.seek(0.5);
+/// assert_eq!(frame.figure().rings.len(), 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Transition(Arc<Inner>);
+
+/// What a transition consists of.
+#[derive(Clone, Debug)]
+pub(super) struct Inner {
+    pub cell: Cell,
+    pub designs: [Arc<Design>; 2],
+    pub moved: Moved,
+    pub content: Content,
+    pub bounds: Bounds,
+    /// Width of the bars of trusses, in units of the designs.
+    pub bar_width: f64,
+}
+
+impl From<Inner> for Transition {
+    fn from(inner: Inner) -> Self {
+        Self(Arc::new(inner))
+    }
+}
+
+impl Transition {
+    /// The same fields mixed in another way, without measuring them again;
+    /// `None` where there are no fields.
+    ///
+    /// # Errors
+    /// [`FieldPairError`] if ε or the threshold is out of range.
+    pub fn with_blend(&self, blend: FieldBlend) -> Result<Option<Self>, FieldPairError> {
+        let Content::Field(pair) = &self.0.content else {
+            return Ok(None);
+        };
+        Ok(Some(Self::from(Inner {
+            content: Content::Field(pair.with_blend(blend)?),
+            ..self.0.as_ref().clone()
+        })))
+    }
+
+    /// Row and column of the table.
+    #[must_use]
+    pub fn cell(&self) -> Cell {
+        self.0.cell
+    }
+
+    /// What is seen.
+    #[must_use]
+    pub fn content(&self) -> &Content {
+        &self.0.content
+    }
+
+    /// Where each point is at t.
+    pub(super) fn warp(&self) -> &dyn Warp {
+        self.0.moved.warp.as_warp()
+    }
+
+    /// The rigidity-preserving interpolation, where that is the warp: of
+    /// solids, or of the frame that carries fields or pictures. Where the
+    /// frame turns as a whole, it is the interpolation of what is left, at
+    /// rest.
+    #[must_use]
+    pub fn arap(&self) -> Option<&Arap> {
+        self.0.moved.warp.arap()
+    }
+
+    /// What was done otherwise than asked while it was built, in that order.
+    #[must_use]
+    pub fn notes(&self) -> &[Note] {
+        &self.0.moved.notes
+    }
+
+    /// Which point of one outline is which of the other, in the coordinates
+    /// of the frame; none where the designs brought their match along or need
+    /// none.
+    #[must_use]
+    pub fn matched(&self) -> Option<&RegionMatch> {
+        self.0.moved.matched.as_ref()
+    }
+
+    /// The pairs of points that a warp of the plane goes by where nobody set
+    /// any, in the coordinates of the frame; of lines where each begins.
+    #[must_use]
+    pub fn automatic_pins(&self) -> &[PointPair] {
+        &self.0.moved.automatic
+    }
+
+    /// The features that the warp does not lead to where they belong at `t`;
+    /// none where it meets all of them.
+    #[must_use]
+    pub fn missed(&self, t: f64) -> Option<Missed> {
+        self.warp().missed(t)
+    }
+
+    /// The common triangulation of the designs, where solids have one. What
+    /// carries fields and pictures is a mesh of the frame: see
+    /// [`Self::arap`].
+    #[must_use]
+    pub fn compatible(&self) -> Option<&CompatibleMesh> {
+        match self.content() {
+            Content::Solid(_) => self.arap().map(Arap::mesh),
+            Content::Field(_) | Content::Colours(_) => None,
+        }
+    }
+
+    /// The box that holds every frame for t in [0, 1], nearly.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        self.0.bounds
+    }
+
+    /// The designs, laid into one frame: source and target.
+    #[must_use]
+    pub fn designs(&self) -> &[Arc<Design>; 2] {
+        &self.0.designs
+    }
+
+    /// Width of the bars of trusses, in units of the designs.
+    pub(super) fn bar_width(&self) -> f64 {
+        self.0.bar_width
+    }
+}

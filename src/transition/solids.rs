@@ -1,0 +1,69 @@
+//! Two designs as rigid parts: one triangulation of both, interpolated.
+//!
+//! Two meshes bring their triangulation along, two trusses their panels; all
+//! other forms are matched as outlines.
+
+use super::choice;
+use super::error::BuildError;
+use super::moved::{AnyWarp, Moved};
+use super::spec::TransitionSpec;
+use crate::compatible::{CompatibleError, CompatibleMesh};
+use crate::content::Solid;
+use crate::design::Form;
+use crate::progress::{Progress, checkpoint};
+use crate::warp::Arap;
+
+/// The parts, and what is seen of them.
+pub(super) fn rigid_parts(
+    spec: &TransitionSpec,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<(Moved, Solid), BuildError> {
+    checkpoint(progress, "triangulating", 0.0)?;
+    let mut bars = Vec::new();
+    let (arap, matched) = match (&spec.source.form, &spec.target.form) {
+        (Form::Mesh(a), Form::Mesh(b)) => (
+            given(spec, CompatibleMesh::from_meshes(a, b), progress)?,
+            None,
+        ),
+        (Form::Truss(a), Form::Truss(b)) => {
+            bars = a.bars().to_vec();
+            (
+                given(spec, CompatibleMesh::from_trusses(a, b), progress)?,
+                None,
+            )
+        }
+        _ => {
+            let best = choice::best(spec, &spec.outlines(bar_width)?, progress)?;
+            (best.film, Some(best.matched))
+        }
+    };
+    let solid = Solid {
+        loops: if bars.is_empty() {
+            arap.mesh().boundary_loops()
+        } else {
+            Vec::new()
+        },
+        bars,
+        bar_width,
+    };
+    let moved = Moved {
+        matched,
+        ..AnyWarp::Rigid(arap).into()
+    };
+    Ok((moved, solid))
+}
+
+/// The interpolation of a triangulation that the designs brought along.
+fn given(
+    spec: &TransitionSpec,
+    mesh: Result<CompatibleMesh, CompatibleError>,
+    progress: &dyn Progress,
+) -> Result<Arap, BuildError> {
+    let mesh = mesh.map_err(|error| BuildError::Compatible {
+        source_name: spec.source.name.clone(),
+        target_name: spec.target.name.clone(),
+        error,
+    })?;
+    Ok(Arap::build(&mesh, &spec.options.arap, progress)?)
+}

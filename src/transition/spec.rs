@@ -1,0 +1,74 @@
+//! What a transition is built from.
+
+use super::cells::Cell;
+use super::error::BuildError;
+use super::options::Options;
+use crate::content::ContentKind;
+use crate::design::{Design, Format, Picture};
+use crate::geometry::{Regions, RegionsError};
+use std::sync::Arc;
+
+/// Everything a transition is built from: two designs laid into one frame, a
+/// cell of the table and the options of all methods.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct TransitionSpec {
+    /// The design at t = 0.
+    pub source: Arc<Design>,
+    /// The design at t = 1.
+    pub target: Arc<Design>,
+    /// Warp and content.
+    pub cell: Cell,
+    /// The options of all methods; places of the match are in the common
+    /// frame.
+    pub options: Options,
+}
+
+impl TransitionSpec {
+    /// Two designs by the method that suits them best, with default options.
+    #[must_use]
+    pub fn new(source: Arc<Design>, target: Arc<Design>) -> Self {
+        let are_photographs = [&source, &target]
+            .iter()
+            .all(|d| d.picture.as_ref().is_some_and(Picture::is_photograph));
+        let cell = if are_photographs {
+            Cell::CROSS_DISSOLVE
+        } else {
+            Cell::RIGID_PARTS
+        };
+        Self {
+            source,
+            target,
+            cell,
+            options: Options::default(),
+        }
+    }
+
+    /// The outlines of both designs; bars are so wide, in units of the designs.
+    pub(super) fn outlines(&self, bar_width: f64) -> Result<[Regions; 2], RegionsError> {
+        Ok([
+            self.source.outline(bar_width)?,
+            self.target.outline(bar_width)?,
+        ])
+    }
+
+    /// Whether designs of these kinds can be interpolated by `cell`, without
+    /// trying.
+    ///
+    /// # Errors
+    /// [`BuildError::Unavailable`] with the reason, for a greyed button.
+    pub fn available(cell: Cell, source: &Design, target: &Design) -> Result<(), BuildError> {
+        // Every form has an outline; not every one came as a picture.
+        if cell.content() != ContentKind::Colours {
+            return Ok(());
+        }
+        match [source, target].iter().find(|d| d.picture.is_none()) {
+            None => Ok(()),
+            Some(design) => Err(BuildError::Unavailable(format!(
+                "{} has no colours: open two pictures ({}), or choose fields or solids",
+                design.name,
+                Format::listed(&Format::PICTURES)
+            ))),
+        }
+    }
+}
