@@ -1,15 +1,12 @@
 //! The document itself, as it stands in the file.
 
-use super::{ProjectError, keys};
-use crate::atomic_file::AtomicFile;
 use crate::content::ContentKind;
 use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;
 use crate::transition::{Fit, Options, Stop, Style, Timing};
 use crate::warp::WarpKind;
 use serde::{Deserialize, Serialize};
-use std::io::Write;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// The version that is written; older ones are read, newer ones refused.
 pub const FORMAT_VERSION: u32 = 1;
@@ -30,6 +27,7 @@ pub const FORMAT_VERSION: u32 = 1;
 /// ```
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
 pub struct Project {
     /// The version of the format.
     pub version: u32,
@@ -122,84 +120,4 @@ impl Project {
             stops: Vec::new(),
         }
     }
-
-    /// Reads a document from its text.
-    ///
-    /// # Errors
-    /// [`ProjectError`] names the line of what is wrong.
-    pub fn parse(text: &str) -> Result<Self, ProjectError> {
-        let project = match keys::read(text) {
-            Ok(project) => project,
-            // A newer version may well have keys that are unknown here; that
-            // it is newer is what its reader needs to hear.
-            Err(error) => {
-                return Err(match version_of(text) {
-                    Some(version) if version > FORMAT_VERSION.into() => {
-                        ProjectError::newer(text, version)
-                    }
-                    _ => error,
-                });
-            }
-        };
-        project.check(text)?;
-        Ok(project)
-    }
-
-    fn check(&self, text: &str) -> Result<(), ProjectError> {
-        match self.version {
-            0 => return Err(ProjectError::VersionZero),
-            v if v > FORMAT_VERSION => return Err(ProjectError::newer(text, v.into())),
-            _ => {}
-        }
-        if self.designs.len() < 2 {
-            return Err(ProjectError::TooFewDesigns(self.designs.len()));
-        }
-        for entry in &self.designs {
-            entry.placement.checked()?;
-        }
-        self.options.field.blend.check()?;
-        self.options.colours.check()?;
-        self.timing.check(&self.stops)?;
-        Ok(())
-    }
-
-    /// The document as text.
-    ///
-    /// # Errors
-    /// [`ProjectError::Write`] if a number cannot be written, such as a count
-    /// beyond the range of TOML.
-    pub fn to_toml(&self) -> Result<String, ProjectError> {
-        toml::to_string_pretty(self).map_err(|error| ProjectError::Write(error.to_string()))
-    }
-
-    /// Reads a document from a file.
-    ///
-    /// # Errors
-    /// [`ProjectError`] names the file and, where there is one, the line.
-    pub fn read(path: &Path) -> Result<Self, ProjectError> {
-        let in_file = |error: ProjectError| error.in_file(path);
-        let bytes = std::fs::read(path).map_err(|e| in_file(ProjectError::Io(e.to_string())))?;
-        let text = String::from_utf8(bytes).map_err(|_| in_file(ProjectError::NotText))?;
-        Self::parse(&text).map_err(in_file)
-    }
-
-    /// Writes the document beside its final place and moves it there, so that
-    /// the old one stays whole until the new one is.
-    ///
-    /// # Errors
-    /// [`ProjectError`] names the file; the old document is untouched.
-    pub fn save_atomically(&self, path: &Path) -> Result<(), ProjectError> {
-        let text = self.to_toml()?;
-        let written = AtomicFile::create(path).and_then(|mut file| {
-            file.file_mut().write_all(text.as_bytes())?;
-            file.file_mut().sync_all()?;
-            file.commit()
-        });
-        written.map_err(|error| ProjectError::Io(error.to_string()).in_file(path))
-    }
-}
-
-fn version_of(text: &str) -> Option<u64> {
-    let table: toml::Table = text.parse().ok()?;
-    u64::try_from(table.get("version")?.as_integer()?).ok()
 }

@@ -1,5 +1,6 @@
 //! What can be wrong with a project.
 
+use super::document::FORMAT_VERSION;
 use crate::content::{ColourMixError, FieldPairError};
 use crate::design::ImportError;
 use crate::geometry::SimilarityError;
@@ -9,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 /// Why a project could not be read, written or loaded.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum ProjectError {
     /// What is wrong, and in which file.
     #[error("{}: {error}", file.display())]
@@ -35,7 +37,7 @@ pub enum ProjectError {
     /// The version is from the future.
     #[error(
         "line {line}: the document has version {version}, this program reads up to {}; update the program",
-        super::FORMAT_VERSION
+        FORMAT_VERSION
     )]
     NewerVersion {
         /// Counted from 1.
@@ -46,7 +48,7 @@ pub enum ProjectError {
     /// There is no version 0.
     #[error(
         "there is no version 0 of this format; write version = {}",
-        super::FORMAT_VERSION
+        FORMAT_VERSION
     )]
     VersionZero,
     /// Fewer than two designs.

@@ -1,9 +1,13 @@
 //! A document together with the designs it names.
 
-use super::{Project, ProjectError};
+use super::bundle;
+use super::document::{DesignEntry, Project};
+use super::error::ProjectError;
 use crate::content::ContentKind;
 use crate::design::{Design, Source};
-use crate::transition::{BuildError, Cell, Options, TransitionSpec, arranged, arrangement};
+use crate::transition::{
+    BuildError, Cell, NoSuchCell, Options, TransitionSpec, arranged, arrangement,
+};
 use crate::warp::WarpKind;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -56,22 +60,22 @@ impl LoadedProject {
     pub fn reread(self) -> Result<Self, ProjectError> {
         match self.folder {
             Some(folder) => Self::load(self.project, folder),
-            None => super::gallery::load_document(self.project),
+            None => Self::load_bundled(self.project),
         }
     }
 
-    /// Reads the designs of a document from bytes that `bytes_of` finds.
-    pub(super) fn load_bundled<'a>(
-        project: Project,
-        bytes_of: impl Fn(&Path) -> Result<&'a [u8], ProjectError>,
-    ) -> Result<Self, ProjectError> {
+    /// Reads the bundled designs that a document names.
+    pub(super) fn load_bundled(project: Project) -> Result<Self, ProjectError> {
         Self::load_by(project, None, |entry| {
             // A bundled project whose design a user has replaced by a file.
             if entry.path.is_absolute() {
                 return Ok(Source::of(&entry.path).import(&entry.import)?);
             }
-            let source = Source::parse(&entry.path, |path| bytes_of(path).is_ok());
-            let bytes = source.file().map_or(Ok(&[][..]), &bytes_of)?;
+            let source = Source::parse(&entry.path, |path| bundle::bytes(path).is_some());
+            let bytes = match source.file() {
+                Some(file) => bundle::bytes(file).ok_or_else(|| missing(file))?,
+                None => &[],
+            };
             Ok(source.import_bytes(bytes, &entry.import)?)
         })
     }
@@ -79,7 +83,7 @@ impl LoadedProject {
     fn load_by(
         project: Project,
         folder: Option<PathBuf>,
-        read: impl Fn(&super::DesignEntry) -> Result<Design, ProjectError>,
+        read: impl Fn(&DesignEntry) -> Result<Design, ProjectError>,
     ) -> Result<Self, ProjectError> {
         let designs = project
             .designs
@@ -113,15 +117,16 @@ impl LoadedProject {
     /// The cell that is asked for, or that suits the designs best.
     ///
     /// # Errors
-    /// [`BuildError::Unavailable`] if warp and content do not go together.
-    pub fn cell(&self) -> Result<Cell, BuildError> {
-        let unavailable =
-            |error: crate::transition::NoSuchCell| BuildError::Unavailable(error.to_string());
+    /// [`NoSuchCell`] if warp and content do not go together.
+    ///
+    /// # Panics
+    /// If there are fewer than two designs.
+    pub fn cell(&self) -> Result<Cell, NoSuchCell> {
         let default =
             TransitionSpec::new(Arc::clone(&self.designs[0]), Arc::clone(&self.designs[1])).cell;
         match (self.project.warp, self.project.content) {
             (None, None) => Ok(default),
-            (Some(warp), Some(content)) => Cell::new(warp, content).map_err(unavailable),
+            (Some(warp), Some(content)) => Cell::new(warp, content),
             (Some(warp), None) => {
                 let photographs = default.content() == ContentKind::Colours;
                 let cells = Cell::all().filter(|cell| cell.warp() == warp);
@@ -144,9 +149,12 @@ impl LoadedProject {
     /// Whether these designs can be seen by a cell, without building it.
     ///
     /// # Errors
-    /// [`BuildError::Unavailable`] with the reason, for a greyed button.
+    /// [`BuildError`] with the reason, for a greyed button.
+    ///
+    /// # Panics
+    /// If there are fewer than two designs.
     pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), BuildError> {
-        let cell = Cell::new(warp, content).map_err(|e| BuildError::Unavailable(e.to_string()))?;
+        let cell = Cell::new(warp, content)?;
         TransitionSpec::available(cell, &self.designs[0], &self.designs[1])
     }
 
@@ -155,6 +163,9 @@ impl LoadedProject {
     /// # Errors
     /// [`ProjectError`] if the cell does not exist or a placement is no
     /// similarity.
+    ///
+    /// # Panics
+    /// If there are fewer than two designs.
     pub fn spec(&self) -> Result<TransitionSpec, ProjectError> {
         let project = &self.project;
         let places = [&project.designs[0], &project.designs[1]].map(|entry| entry.placement);
@@ -164,11 +175,15 @@ impl LoadedProject {
         Ok(TransitionSpec {
             source,
             target,
-            cell: self.cell()?,
+            cell: self.cell().map_err(BuildError::from)?,
             options: Options {
                 matching: project.options.matching.placed(&by),
                 ..project.options.clone()
             },
         })
     }
+}
+
+fn missing(file: &Path) -> ProjectError {
+    ProjectError::Io(format!("{} is missing", file.display()))
 }

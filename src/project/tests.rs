@@ -173,15 +173,6 @@ fn every_bundled_project_loads_and_plays() {
 }
 
 #[test]
-fn copying_from_the_gallery_gives_a_project_that_opens() {
-    let folder = tempfile::tempdir().unwrap();
-    for entry in gallery::list().unwrap().iter().take(2) {
-        let path = gallery::copy_into(&entry.name, folder.path()).unwrap();
-        LoadedProject::open(&path).unwrap();
-    }
-}
-
-#[test]
 fn relative_paths_are_relative_to_the_document() {
     let folder = tempfile::tempdir().unwrap();
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

@@ -159,7 +159,7 @@ fn about_pins(
 ) -> Result<AnyWarp, BuildError> {
     let frame = frame.padded(BEYOND * frame.size().max_element());
     let mesh = loop {
-        match CompatibleMesh::of_frame(&frame, pins, progress) {
+        match CompatibleMesh::around_pins(&frame, pins, progress) {
             Ok(mesh) => break mesh,
             Err(PinnedError::Folds { .. } | PinnedError::Coincide { .. })
                 if are_automatic && !pins.is_empty() =>

@@ -1,23 +1,83 @@
-//! Reading a document whose keys belong to two structs: the project and the
-//! options that it shares with a specification.
+//! Reading a document.
 //!
-//! Serde's `flatten` reads through a buffer: unknown keys would pass in
+//! Its keys belong to two structs: the project, and the options that it shares
+//! with a specification. Serde's `flatten` reads through a buffer: unknown keys would pass in
 //! silence and errors would lose their line. So the keys at the top are dealt
 //! out to the struct that has them, and each is read from its own.
 
-use super::{Project, ProjectError};
+use super::document::{FORMAT_VERSION, Project};
+use super::error::ProjectError;
 use crate::transition::Options;
 use serde::de::value::Error as NoValue;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 use serde::forward_to_deserialize_any;
+use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
+
+impl Project {
+    /// Reads a document from its text.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the line of what is wrong.
+    pub fn parse(text: &str) -> Result<Self, ProjectError> {
+        let project = match read(text) {
+            Ok(project) => project,
+            // A newer version may well have keys that are unknown here; that
+            // it is newer is what its reader needs to hear.
+            Err(error) => {
+                return Err(match version_of(text) {
+                    Some(version) if version > FORMAT_VERSION.into() => {
+                        ProjectError::newer(text, version)
+                    }
+                    _ => error,
+                });
+            }
+        };
+        project.check(text)?;
+        Ok(project)
+    }
+
+    fn check(&self, text: &str) -> Result<(), ProjectError> {
+        match self.version {
+            0 => return Err(ProjectError::VersionZero),
+            v if v > FORMAT_VERSION => return Err(ProjectError::newer(text, v.into())),
+            _ => {}
+        }
+        if self.designs.len() < 2 {
+            return Err(ProjectError::TooFewDesigns(self.designs.len()));
+        }
+        for entry in &self.designs {
+            entry.placement.checked()?;
+        }
+        self.options.field.blend.check()?;
+        self.options.colours.check()?;
+        self.timing.check(&self.stops)?;
+        Ok(())
+    }
+
+    /// Reads a document from a file.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the file and, where there is one, the line.
+    pub fn read(path: &Path) -> Result<Self, ProjectError> {
+        let in_file = |error: ProjectError| error.in_file(path);
+        let bytes = std::fs::read(path).map_err(|e| in_file(ProjectError::Io(e.to_string())))?;
+        let text = String::from_utf8(bytes).map_err(|_| in_file(ProjectError::NotText))?;
+        Self::parse(&text).map_err(in_file)
+    }
+}
+
+fn version_of(text: &str) -> Option<u64> {
+    let table: toml::Table = text.parse().ok()?;
+    u64::try_from(table.get("version")?.as_integer()?).ok()
+}
 
 /// Reads a document of the version of this program.
 ///
 /// # Errors
 /// [`ProjectError::Syntax`] with the line of what is wrong.
-pub(super) fn read(text: &str) -> Result<Project, ProjectError> {
+fn read(text: &str) -> Result<Project, ProjectError> {
     let wrong = |error: toml::de::Error| ProjectError::syntax(text, &error);
     let document = DeTable::parse(text).map_err(wrong)?;
     let span = document.span();
