@@ -286,6 +286,22 @@ fn a_check_is_one_json_object() {
 }
 
 #[test]
+fn a_check_tells_what_was_done_otherwise_than_asked() {
+    let shop = Workshop::new();
+    let check = "check a.svg b.svg --method field --cells 64 --samples 3 --metric city-block";
+    let said = "boundary runs between cells";
+    let table = shop.done(check);
+    let is_note = |line: &str| line.starts_with("note  ") && line.contains(said);
+    assert!(table.lines().any(is_note), "{table}");
+    let json = shop.done(&format!("{check} --json"));
+    let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let note = report["verdict"]["notes"][0].as_str().expect("a note");
+    assert!(note.contains(said), "{note}");
+    let table = shop.done(&format!("{check} --boundary binary"));
+    assert!(!table.contains(said), "{table}");
+}
+
+#[test]
 fn a_new_project_is_rendered_from_anywhere() {
     let shop = Workshop::new();
     fs::create_dir(shop.path("sub")).expect("made");

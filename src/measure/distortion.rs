@@ -40,6 +40,9 @@ pub struct Distortion {
 /// Measures the map from the source to `places`; `None` where there are no
 /// faces. Folded faces count as infinitely distorted.
 ///
+/// # Panics
+/// If there are fewer places than the mesh has vertices.
+///
 /// ```
 /// use morphospace::{compatible::CompatibleMesh, geometry::DVec2, measure::distortion};
 /// let source = vec![DVec2::ZERO, DVec2::X, DVec2::Y];

@@ -17,6 +17,7 @@ use serde::Serialize;
 
 /// What is measured at one t.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct FilmSample {
     /// Where.
     pub t: f64,
@@ -49,6 +50,7 @@ pub struct FilmSample {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct FilmReport {
     /// The samples, evenly spaced over [0, 1].
     pub samples: Vec<FilmSample>,

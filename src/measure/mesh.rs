@@ -11,6 +11,7 @@ const THIN_DEG: f64 = 5.0;
 
 /// The two embeddings of a compatible mesh.
 #[derive(Clone, Debug, Serialize)]
+#[non_exhaustive]
 pub struct MeshReport {
     /// How many vertices there are.
     pub vertices: usize,

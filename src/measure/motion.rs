@@ -6,6 +6,7 @@ use serde::Serialize;
 /// Travel and acceleration of the vertices relative to the moving whole, as
 /// fractions of the design's diameter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
 pub struct Motion {
     /// Mean length of the vertices' paths.
     pub mean_travel: f64,

@@ -21,7 +21,8 @@ const NEAR_T: f64 = 0.02;
 /// Height that the verdict takes at the lower edge of the stage.
 pub fn height(scene: &Scene) -> f32 {
     scene.measured.measures().map_or(0.0, |measures| {
-        let lines = measures.verdict.findings.len().max(1);
+        let verdict = &measures.verdict;
+        let lines = verdict.findings.len().max(1) + verdict.notes.len();
         3.0 * GRID + ROW_HEIGHT * lines as f32
     })
 }
@@ -44,7 +45,7 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
         });
 }
 
-/// One line, or one for each kind of trouble.
+/// One line, or one for each kind of trouble, and one for each note.
 fn lines(ui: &mut Ui, scene: &Scene, measures: &Measures, acts: &mut Intents) {
     let verdict = &measures.verdict;
     ui.spacing_mut().item_spacing.y = 0.0;
@@ -62,6 +63,13 @@ fn lines(ui: &mut Ui, scene: &Scene, measures: &Measures, acts: &mut Intents) {
         row(ui, false, |ui| {
             headline(ui, scene, finding, acts);
             advice(ui, index, finding, acts);
+        });
+    }
+    for note in &verdict.notes {
+        row(ui, false, |ui| {
+            let note = first_upper(&note.to_string());
+            let text = Label::new(RichText::new(&note).small()).truncate();
+            ui.add(text).on_hover_text(note);
         });
     }
 }

@@ -13,7 +13,7 @@ use crate::content::{Content, ContentKind};
 use crate::design::{Design, Form};
 use crate::measure::{self, FilmReport, Finding, MeshReport, Verdict};
 use crate::progress::Progress;
-use crate::transition::Transition;
+use crate::transition::{Note, Transition};
 use crate::warp::WarpKind;
 
 /// Frames whose times are taken.
@@ -75,6 +75,8 @@ pub(super) struct Seconds {
 pub(super) struct VerdictReport {
     pub words: String,
     pub findings: Vec<FindingReport>,
+    /// What was done otherwise than asked while the transition was built.
+    pub notes: Vec<Note>,
 }
 
 #[derive(Debug, Serialize)]
@@ -98,6 +100,7 @@ impl VerdictReport {
         Self {
             words,
             findings: verdict.findings.into_iter().map(told).collect(),
+            notes: verdict.notes,
         }
     }
 }

@@ -123,6 +123,9 @@ fn verdict(report: &Report, lines: &mut Lines) {
         lines.row("", &format!("cause: {}", finding.cause_words));
         lines.row("", &format!("to do: {}", finding.remedy_words));
     }
+    for note in &report.verdict.notes {
+        lines.row("note", &note.to_string());
+    }
 }
 
 fn distortion(report: &Report, mesh: &MeshReport, lines: &mut Lines) {

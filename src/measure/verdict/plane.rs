@@ -1,10 +1,10 @@
 //! What goes wrong with warps of the plane: places that are seen twice, and
 //! features that are missed.
 
-use super::super::film::even_steps;
-use super::{Cause, Finding, Remedy, Trouble};
+use super::finding::{Cause, Finding, Remedy, Trouble};
 use crate::content::Content;
 use crate::geometry::{Bounds, DVec2, twice_signed_area};
+use crate::measure::film::even_steps;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::transition::{Frame, Transition};
 use crate::warp::{Missed, WarpKind};
@@ -45,7 +45,7 @@ fn worse<T>(before: Option<Worst<T>>, size: f64, t: f64, what: T) -> Option<Wors
     })
 }
 
-pub(super) fn of_plane(
+pub(super) fn findings(
     transition: &Transition,
     steps: usize,
     progress: &dyn Progress,
@@ -144,9 +144,9 @@ fn folded(frame: &Frame, bounds: &Bounds) -> (f64, DVec2) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Verdict;
     use super::*;
     use crate::correspondence::PointPair;
+    use crate::measure::Verdict;
     use crate::progress::Silent;
     use crate::project::gallery;
 

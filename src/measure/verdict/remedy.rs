@@ -1,8 +1,8 @@
 //! What helps: options are tried, the rest is named.
 
-use super::cause::Scene;
+use super::finding::{Cause, Change, Finding, Remedy, Trouble};
 use super::scan::{self, Glance};
-use super::{Cause, Change, Finding, Remedy, Trouble};
+use super::scene::Scene;
 use crate::content::{BlendSpace, FieldPair, Solid};
 use crate::design::Form;
 use crate::homotopy::Homotopy;
@@ -159,7 +159,7 @@ pub(super) fn for_fields(
     found: &mut [Finding],
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
-    if found.is_empty() || transition.compatible().is_some() {
+    if found.is_empty() {
         return Ok(());
     }
     let mut blend = *pair.blend();

@@ -1,10 +1,10 @@
 //! How much is wrong at each t, as cheaply as it can be known.
 
-use super::super::crossings::count_crossings;
-use super::super::distortion::is_folded;
-use super::super::film::{FilmSample, even_steps};
 use crate::content::{Content, Solid};
 use crate::geometry::{DVec2, signed_area};
+use crate::measure::crossings::count_crossings;
+use crate::measure::distortion::is_folded;
+use crate::measure::film::{FilmSample, even_steps};
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::transition::Transition;
 use crate::warp::{Arap, Warp};

@@ -1,14 +1,18 @@
 //! Films that go wrong by construction, and one cause after the other.
 
-use super::cause::{self, Scene};
+use super::cause;
+use super::scene::Scene;
 use super::*;
+use crate::content::BlendSpace;
 use crate::content::Content;
 use crate::design::{ImportOptions, import};
-use crate::geometry::DMat2;
+use crate::field::Metric;
+use crate::geometry::{DMat2, DVec2};
+use crate::homotopy::Homotopy;
 use crate::measure::film;
 use crate::measure::tests::{sheet, transition};
 use crate::progress::Silent;
-use crate::transition::TransitionSpec;
+use crate::transition::{Note, Options, Transition, TransitionSpec};
 use crate::warp::ArapOptions;
 use std::f64::consts::PI;
 use std::sync::Arc;
@@ -241,6 +245,10 @@ fn neighbours_that_turn_apart_are_named() {
 }
 
 fn fields(source: &str, target: &str) -> Transition {
+    fields_by(source, target, Metric::Euclidean)
+}
+
+fn fields_by(source: &str, target: &str, metric: Metric) -> Transition {
     let read = |shapes: &str| {
         let svg = format!(
             "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"100\" height=\"60\">{shapes}</svg>"
@@ -250,6 +258,7 @@ fn fields(source: &str, target: &str) -> Transition {
     let mut spec = TransitionSpec::new(read(source), read(target));
     spec.cell = crate::transition::Cell::FIELD_BLEND;
     spec.options.field.cells = 96;
+    spec.options.field.metric = metric;
     Transition::build(&spec, &Silent).expect("a transition")
 }
 
@@ -298,6 +307,15 @@ fn fields_that_lose_a_bridge_fall_apart() {
 fn fields_that_keep_their_pieces_are_clear() {
     let found = verdict(&fields(&rect(10, 10, 40, 40), &rect(15, 10, 50, 40)));
     assert_eq!(found.headline(), "no more pieces or holes than at the ends");
+}
+
+#[test]
+fn a_verdict_tells_how_the_film_was_made() {
+    let (a, b) = (rect(10, 10, 40, 40), rect(15, 10, 50, 40));
+    assert_eq!(verdict(&fields(&a, &b)).notes, []);
+    let found = verdict(&fields_by(&a, &b, Metric::Chessboard));
+    assert_eq!(found.notes, [Note::BinaryBoundary]);
+    assert!(found.is_clear(), "a note is no trouble");
 }
 
 #[test]

@@ -1,6 +1,7 @@
 //! How it is said.
 
-use super::{Cause, Change, Finding, Remedy, Trouble, Verdict};
+use super::finding::{Cause, Change, Finding, Remedy, Trouble};
+use super::judge::Verdict;
 use crate::content::BlendSpace;
 use crate::geometry::DVec2;
 use crate::homotopy::Homotopy;
@@ -149,20 +150,30 @@ impl fmt::Display for Cause {
                 "only {:.0} % of the smaller design lies on the other",
                 100.0 * share
             ),
-            Self::BlindFields => write!(f, "fields do not know which part becomes which"),
-            Self::SeenTwice => write!(
-                f,
+            Self::BlindFields
+            | Self::SeenTwice
+            | Self::FeaturesMeet
+            | Self::OutOfReach
+            | Self::NothingInside
+            | Self::Unclear => f.write_str(self.sentence()),
+        }
+    }
+}
+
+impl Cause {
+    /// What is said of a cause without numbers.
+    const fn sentence(&self) -> &'static str {
+        match self {
+            Self::BlindFields => "fields do not know which part becomes which",
+            Self::SeenTwice => {
                 "pins or lines near it pass each other, and the plane is turned over between them"
-            ),
-            Self::FeaturesMeet => write!(f, "pins come too near each other on their way"),
-            Self::OutOfReach => write!(f, "the plane would have to fold to bring it there"),
-            Self::NothingInside => {
-                write!(
-                    f,
-                    "points of the boundary move on their own, nothing inside keeps them apart"
-                )
             }
-            Self::Unclear => write!(f, "no single cause stands out"),
+            Self::FeaturesMeet => "pins come too near each other on their way",
+            Self::OutOfReach => "the plane would have to fold to bring it there",
+            Self::NothingInside => {
+                "points of the boundary move on their own, nothing inside keeps them apart"
+            }
+            _ => "no single cause stands out",
         }
     }
 }

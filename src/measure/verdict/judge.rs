@@ -1,0 +1,105 @@
+//! From a film to a verdict.
+
+use super::finding::Finding;
+use super::scan::{self, Glance};
+use super::{field, plane, solid};
+use crate::content::Content;
+use crate::measure::film::FilmReport;
+use crate::progress::{Cancelled, Progress};
+use crate::transition::{Note, Transition};
+use serde::Serialize;
+
+/// What is wrong with a film; see [`Self::headline`]. What is noted of how it
+/// was made is told, but is no trouble.
+///
+/// ```
+/// use morphospace::measure::Verdict;
+/// use morphospace::{progress::Silent, project::gallery, transition::Transition};
+///
+/// let spec = gallery::load("triangle-polar")?.spec()?;
+/// let verdict = Verdict::of(&Transition::build(&spec, &Silent)?, 65, &Silent)?;
+/// assert_eq!(verdict.headline(), "no folds, no crossings");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Verdict {
+    /// At how many t the film was looked at.
+    pub steps: usize,
+    /// What can be said where nothing was found.
+    pub clear: &'static str,
+    /// What was found, one of each kind of trouble, folds first.
+    pub findings: Vec<Finding>,
+    /// What was done otherwise than asked while the film was made.
+    pub notes: Vec<Note>,
+}
+
+/// At how many t warps of the plane are looked at where nothing else is
+/// measured.
+const PLANE_STEPS: usize = 33;
+
+impl Verdict {
+    /// Looks at a transition at `steps` evenly spaced t, at least 2. Where
+    /// something is wrong, options are tried, each at the cost of another
+    /// look; not for more than some thousand faces.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if nobody wants the result any more.
+    pub fn of(
+        transition: &Transition,
+        steps: usize,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let glances = scan::transition(transition, steps, progress)?;
+        Self::of_glances(transition, &glances, progress)
+    }
+
+    /// The verdict on a film that has been measured already.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if nobody wants the result any more.
+    pub fn of_film(
+        transition: &Transition,
+        film: &FilmReport,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let glances: Vec<_> = film.samples.iter().map(Glance::of_sample).collect();
+        Self::of_glances(transition, &glances, progress)
+    }
+
+    fn of_glances(
+        transition: &Transition,
+        glances: &[Glance],
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let (clear, mut findings) = match transition.content() {
+            Content::Solid(solid) => (
+                match (solid.loops.is_empty(), transition.arap()) {
+                    (true, _) => "no folds",
+                    (false, Some(_)) => "no folds, no crossings",
+                    (false, None) => "no crossings",
+                },
+                solid::findings(transition, solid, glances, progress)?,
+            ),
+            Content::Field(pair) => (
+                "no more pieces or holes than at the ends",
+                field::findings(transition, pair, glances, progress)?,
+            ),
+            Content::Colours(_) => ("no folds", Vec::new()),
+        };
+        let steps = glances.len().max(PLANE_STEPS);
+        findings.extend(plane::findings(transition, steps, progress)?);
+        Ok(Self {
+            steps: glances.len(),
+            clear,
+            findings,
+            notes: transition.notes().to_vec(),
+        })
+    }
+
+    /// Whether nothing was found.
+    #[must_use]
+    pub fn is_clear(&self) -> bool {
+        self.findings.is_empty()
+    }
+}

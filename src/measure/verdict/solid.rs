@@ -1,0 +1,101 @@
+//! What is found in rigid parts and in boundaries.
+
+use super::finding::{Cause, Finding, Remedy, Trouble};
+use super::scan::{self, Glance};
+use super::scene::Scene;
+use super::{cause, remedy};
+use crate::content::Solid;
+use crate::measure::crossings::crossings;
+use crate::progress::{Cancelled, Progress};
+use crate::transition::Transition;
+
+pub(super) fn findings(
+    transition: &Transition,
+    solid: &Solid,
+    glances: &[Glance],
+    progress: &dyn Progress,
+) -> Result<Vec<Finding>, Cancelled> {
+    let Some(arap) = transition.arap() else {
+        return Ok(of_boundaries(transition, solid, glances)
+            .into_iter()
+            .collect());
+    };
+    let mut found = Vec::new();
+    if let Some((t, span)) = scan::worst(glances, |g| g.folds, 0) {
+        let scene = Scene::new(transition, arap, solid, t);
+        found.extend(of_folds(&scene, t, span));
+    }
+    if let Some((t, span)) = scan::worst(glances, |g| g.crossings, 0) {
+        let scene = Scene::new(transition, arap, solid, t);
+        found.extend(of_crossings(&scene, t, span));
+    }
+    remedy::for_rigid_parts(transition, arap, solid, glances, &mut found, progress)?;
+    Ok(found)
+}
+
+/// Crossings of a boundary that has nothing inside.
+fn of_boundaries(transition: &Transition, solid: &Solid, glances: &[Glance]) -> Option<Finding> {
+    let (t, span) = scan::worst(glances, |g| g.crossings, 0)?;
+    let frame = transition.frame(t);
+    let crossings = crossings(&solid.rings_at(&frame.placement().in_frame));
+    Some(Finding {
+        place: crossings.first()?.place,
+        trouble: Trouble::Crossings { crossings },
+        t,
+        span,
+        cause: Cause::NothingInside,
+        remedy: Remedy::RigidParts,
+    })
+}
+
+fn of_folds(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
+    let faces: Vec<usize> = scan::folded(scene.arap, &scene.places).collect();
+    let by_det = |a: &&usize, b: &&usize| scene.det(**a).total_cmp(&scene.det(**b));
+    let worst = *faces.iter().min_by(by_det)?;
+    let cause = cause::straight_paths(scene, worst, t)
+        .or_else(|| cause::far_turn_of_part(scene, worst))
+        .or_else(|| cause::uneven_match(scene, worst))
+        .or_else(|| cause::unlike_neighbours(scene, &faces))
+        .or_else(|| cause::far_turn(scene, worst));
+    Some(Finding {
+        place: scene.centroid(worst, &scene.places),
+        trouble: Trouble::Folds { faces },
+        t,
+        span,
+        cause: cause.unwrap_or(Cause::Unclear),
+        remedy: remedy::by_hand(scene, worst),
+    })
+}
+
+fn of_crossings(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
+    let found = crossings(&scene.solid.rings_at(&scene.places));
+    let first = *found.first()?;
+    let faces: Vec<usize> = first
+        .edges
+        .iter()
+        .filter_map(|&e| scene.face_at(e))
+        .collect();
+    let &[a, b] = faces.as_slice() else {
+        return None;
+    };
+    let cause = cause::straight_paths(scene, a, t)
+        .or_else(|| cause::straight_paths(scene, b, t))
+        .or_else(|| cause::far_turn_of_part(scene, a))
+        .or_else(|| cause::far_turn_of_part(scene, b))
+        .or_else(|| {
+            let near = cause::near_each_other(scene, &first);
+            near.then(|| cause::uneven_match(scene, a)).flatten()
+        });
+    let meet = || Cause::PlacesMeet {
+        turns: [a, b].map(|f| scene.angles[f]),
+        source: [a, b].map(|f| scene.centroid(f, scene.arap.mesh().source())),
+    };
+    Some(Finding {
+        place: first.place,
+        trouble: Trouble::Crossings { crossings: found },
+        t,
+        span,
+        cause: cause.unwrap_or_else(meet),
+        remedy: remedy::by_hand(scene, a),
+    })
+}
