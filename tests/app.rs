@@ -480,6 +480,16 @@ fn settings_that_change_while_a_build_runs_are_built_too() {
 }
 
 #[test]
+fn parts_that_carry_fields_can_turn_on_their_own() {
+    let mut window = Window::new();
+    window.send(Intent::OpenGallery("letters-carried".to_owned()));
+    window.wait();
+    let transition = window.session().transition().expect("a transition");
+    assert!(matches!(transition.content(), Content::Field(_)));
+    assert!(window.session().parts() > 0, "the panel has turns to offer");
+}
+
+#[test]
 fn work_that_is_cancelled_takes_its_settings_back() {
     let mut window = Window::with_gallery();
     let before = window.session().project().cloned();

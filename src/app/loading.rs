@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::compatible::CompatibleMesh;
 use crate::correspondence::{PinError, RegionMatchError};
 use crate::design::Source;
 use crate::progress::{Cancelled, Progress, checkpoint};
@@ -18,8 +17,6 @@ pub struct Loaded {
     pub transition: Option<Transition>,
     /// Why there is nothing to play.
     pub problem: Option<Problem>,
-    /// How many parts can turn on their own.
-    pub parts: usize,
 }
 
 /// Why there is nothing to play.
@@ -63,7 +60,6 @@ impl Rebuild {
                 project: self.now,
                 transition: Some(transition),
                 problem: None,
-                parts: 0,
             });
         }
         let mut project = self.now;
@@ -149,15 +145,10 @@ fn built(project: LoadedProject, progress: &dyn Progress) -> Loaded {
         Ok(transition) => (Some(transition), None),
         Err(problem) => (None, Some(problem)),
     };
-    let parts = transition
-        .as_ref()
-        .and_then(Transition::compatible)
-        .map_or(0, count_parts);
     Loaded {
         project,
         transition,
         problem,
-        parts,
     }
 }
 
@@ -202,10 +193,4 @@ fn reads_differently(staged: &Project, now: &Project) -> bool {
             .collect()
     };
     reading(staged) != reading(now)
-}
-
-/// Parts of a mesh whose faces share edges; parts that share a vertex only turn on their own.
-fn count_parts(mesh: &CompatibleMesh) -> usize {
-    let parts = mesh.connectivity().dual_components();
-    parts.iter().max().map_or(0, |&last| last as usize + 1)
 }

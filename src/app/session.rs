@@ -20,7 +20,7 @@ use crate::content::ContentKind;
 use crate::design::Form;
 use crate::project::{LoadedProject, Project};
 use crate::transition::{Stop, Timing, Transition, arrangement};
-use crate::warp::WarpKind;
+use crate::warp::{Arap, WarpKind};
 
 /// A build that takes longer is given up when the settings change again.
 const PATIENCE: Duration = Duration::from_millis(1500);
@@ -223,7 +223,8 @@ impl Session {
     /// How many parts can turn on their own.
     #[must_use]
     pub fn parts(&self) -> usize {
-        self.open.as_ref().map_or(0, |open| open.loaded.parts)
+        let arap = self.transition().and_then(Transition::arap);
+        arap.map_or(0, Arap::part_count)
     }
 
     /// Some design is a truss.
@@ -481,7 +482,6 @@ impl Session {
             return Outcome::NotRebuilt(problem.text);
         }
         open.loaded.transition = loaded.transition;
-        open.loaded.parts = loaded.parts;
         open.loaded.project.designs = loaded.project.designs;
         open.staged = loaded.project.project;
         Outcome::Rebuilt

@@ -117,7 +117,7 @@ pub(super) fn adopt_transitions(
         entity
             .try_remove::<Building>()
             .try_insert((morph, Undressed));
-        match transition.arap().and_then(|_| meshes(transition)) {
+        match transition.compatible().and_then(|_| meshes(transition)) {
             Some(meshes) => entity.try_insert(meshes),
             None => entity.try_remove::<(SourceMesh, TargetMesh)>(),
         };
