@@ -28,11 +28,13 @@ impl Transition {
     pub fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Self, BuildError> {
         TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
         let bar_width = bar_width(spec)?;
-        let (moved, content, bounds) = match spec.cell.content() {
+        let (mut moved, content, bounds) = match spec.cell.content() {
             ContentKind::Solid => solids(spec, bar_width, progress)?,
             ContentKind::Field => fields(spec, bar_width, progress)?,
             ContentKind::Colours => colours(spec, progress)?,
         };
+        let of_match = moved.matched.iter().flat_map(Note::of_match);
+        moved.notes.extend(of_match);
         Ok(Self::from(Inner {
             cell: spec.cell,
             designs: [spec.source.clone(), spec.target.clone()],

@@ -1,7 +1,7 @@
 //! Why there is no transition.
 
 use super::cells::NoSuchCell;
-use crate::compatible::{CompatibleError, PinnedError, OutlinesError};
+use crate::compatible::{CompatibleError, OutlinesError, PinnedError};
 use crate::content::{ColourMixError, FieldPairError};
 use crate::correspondence::RegionMatchError;
 use crate::field::{FieldError, GridError};

@@ -87,6 +87,7 @@ impl Features {
         } else {
             found.points = matched.automatic_pins(AUTOMATIC).concat();
         }
+        found.notes.extend(Note::of_match(&matched));
         found.matched = Some(matched);
         Ok(found)
     }
@@ -101,7 +102,10 @@ impl Features {
         let matched = match_regions(source, target, matching, progress);
         checkpoint(progress, "matching", 0.5)?;
         match matched {
-            Ok(matched) => self.matched = Some(matched),
+            Ok(matched) => {
+                self.notes.extend(Note::of_match(&matched));
+                self.matched = Some(matched);
+            }
             Err(error) => self.notes.push(Note::NotMatched(error)),
         }
         Ok(self)

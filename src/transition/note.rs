@@ -1,7 +1,7 @@
 //! What was done otherwise than asked while a transition was built.
 
 use crate::compatible::SurroundingsError;
-use crate::correspondence::RegionMatchError;
+use crate::correspondence::{MatchNote, RegionMatch, RegionMatchError};
 use serde::{Serialize, Serializer};
 use std::fmt;
 
@@ -10,6 +10,8 @@ use std::fmt;
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
+    /// The outlines were matched otherwise than asked.
+    Match(MatchNote),
     /// Pins that were found were thinned out until the frame did not fold.
     FewerPins {
         /// How many are left.
@@ -33,9 +35,17 @@ pub enum Note {
     },
 }
 
+impl Note {
+    /// What a match could not do as it was asked for.
+    pub(super) fn of_match(matched: &RegionMatch) -> impl Iterator<Item = Self> {
+        matched.notes().copied().map(Self::Match)
+    }
+}
+
 impl fmt::Display for Note {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
+            Self::Match(note) => note.fmt(f),
             Self::FewerPins { left, of } => write!(
                 f,
                 "{left} of the {of} pins that were found are used: with more of them the plane would fold"
@@ -80,6 +90,7 @@ mod tests {
                 "lie within each other in different ways",
             ),
             (Note::NotMatched(cut), "cut 2 does not run straight"),
+            (Note::Match(MatchNote::PinLeftOut(0)), "pin 1 is left out"),
             (Note::BinaryBoundary, "between cells"),
             (Note::Stiffened { share: 1e-11 }, "1e-11 of the diagonal"),
         ] {

@@ -3,7 +3,7 @@
 
 use super::*;
 use crate::content::ContentKind;
-use crate::correspondence::HoleRule;
+use crate::correspondence::{HoleRule, MatchNote};
 use crate::design::{Design, ImportOptions, import};
 use crate::geometry::{DVec2, Similarity};
 use crate::progress::{Progress, Silent};
@@ -502,4 +502,27 @@ fn a_boundary_that_cannot_be_exact_is_told() {
     assert_eq!(notes(&spec), [Note::BinaryBoundary]);
     spec.options.field.boundary = Boundary::Binary;
     assert_eq!(notes(&spec), []);
+}
+
+#[test]
+fn what_a_match_could_not_do_is_told() {
+    // A small hole within a hole that winds around it: no cut leads there.
+    let drawn = |island: &str| {
+        let winding = "M5.25 13V5.25H14.75V14.75H3.25V8H2.75V15.25H15.25V4.75H4.75V13z";
+        design(&format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 20 20'>\
+             <path fill-rule='evenodd' d='M0 0h20v20h-20z{winding}{island}'/></svg>"
+        ))
+    };
+    let mut spec = TransitionSpec::new(drawn("M9 9h2v2h-2z"), drawn(""));
+    spec.options.matching.holes = HoleRule::Cut;
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    assert!(
+        matches!(
+            transition.notes(),
+            [Note::Match(MatchNote::Uncut { part: 0, .. })]
+        ),
+        "{:?}",
+        transition.notes()
+    );
 }
