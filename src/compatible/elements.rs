@@ -1,6 +1,7 @@
 //! What is checked before faces and bars become a compatible mesh, and the
 //! errors that say so.
 
+use super::truss::TrussError;
 use crate::geometry::{DVec2, Side, orient2d};
 use crate::mesh::MeshError;
 
@@ -58,8 +59,8 @@ pub enum CompatibleError {
     #[error("there are no faces and no bars; give at least one triangle or bar")]
     Empty,
     /// Two trusses do not fit together, or a panel cannot be triangulated.
-    #[error("{0}")]
-    Truss(String),
+    #[error(transparent)]
+    Truss(#[from] TrussError),
 }
 
 /// "face 3 is …" or "faces 3, 4, 5 and 9 more are …".

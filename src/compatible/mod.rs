@@ -17,6 +17,7 @@ pub use outlines::OutlinesError;
 pub use polygons::{PinnedError, PolygonOptions, PolygonsError, RingEdge};
 
 pub use surroundings::SurroundingsError;
+pub use truss::TrussError;
 
 use crate::design::Truss;
 use crate::geometry::{Bounds, DMat2, DVec2, Side};
@@ -109,8 +110,7 @@ impl CompatibleMesh {
     /// [`CompatibleError::Truss`] names the first difference or the panel that
     /// cannot be triangulated in both; otherwise what [`Self::new`] finds.
     pub fn from_trusses(source: &Truss, target: &Truss) -> Result<Self, CompatibleError> {
-        let (faces, elements) = truss::panels(source, target)
-            .map_err(|error| CompatibleError::Truss(error.to_string()))?;
+        let (faces, elements) = truss::panels(source, target)?;
         let (source, target) = (source.nodes().to_vec(), target.nodes().to_vec());
         Self::new(faces, source, target, elements)
     }

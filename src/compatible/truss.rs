@@ -42,7 +42,8 @@ const MAX_PANEL_NODES: usize = 1000;
 /// Why two trusses have no common triangulation. Nodes and bars count from 0,
 /// as in the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub(super) enum TrussError {
+#[non_exhaustive]
+pub enum TrussError {
     /// Different numbers of nodes.
     #[error("the source truss has {} nodes and the target {}; both need the same nodes in the same order", .0[0], .0[1])]
     NodeCounts([usize; 2]),

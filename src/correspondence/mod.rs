@@ -1,8 +1,8 @@
 //! Which point of one design is which of the other.
 //!
-//! Parts and holes are paired by an assignment ([`pair_parts`],
-//! [`pair_holes`]), boundaries by a cyclic dynamic program over all starting
-//! points ([`match_rings`]), with pins as hard constraints. A
+//! Parts and holes are paired by an assignment, boundaries by a cyclic dynamic
+//! program over all starting points ([`match_rings`]), with pins as hard
+//! constraints. A
 //! [`BoundaryMatch`] gives both polygons the same number of corresponding
 //! vertices ([`BoundaryMatch::polygons`]). [`match_regions`] does all of that
 //! for two designs, and gives a partner to what one of them has alone.
@@ -34,7 +34,7 @@ pub use boundary::{match_curves, match_rings};
 pub use boundary_match::BoundaryMatch;
 pub use curve::{Curve, CurveError};
 pub use options::{MatchError, MatchOptions};
-pub use pairing::{PairError, Pairing, pair_holes, pair_parts};
+pub use pairing::PairError;
 pub use pins::{Pin, PinError};
 pub use polygons::{PolygonOptions, SharedPolygons};
 pub use regions::{

@@ -15,13 +15,13 @@ use std::f64::consts::TAU;
 
 /// Parts, or holes, that belong together; indices in the order given.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Pairing {
+pub(super) struct Pairing {
     /// `[source, target]`, ascending in the source.
-    pub pairs: Vec<[usize; 2]>,
+    pub(super) pairs: Vec<[usize; 2]>,
     /// Parts of the source alone, ascending: they die into a point.
-    pub dying: Vec<usize>,
+    pub(super) dying: Vec<usize>,
     /// Parts of the target alone, ascending: they are born from a point.
-    pub born: Vec<usize>,
+    pub(super) born: Vec<usize>,
 }
 
 /// Pairs made by hand that contradict each other.
@@ -46,32 +46,6 @@ const POSITION: f64 = 1.0;
 const SIZE: f64 = 0.15;
 const SHAPE: f64 = 0.25;
 
-/// Pairs the regions of two designs; `fixed` pairs are kept.
-///
-/// Positions count relative to each design's own box, so that neither where
-/// the designs lie nor how large they are matters.
-///
-/// # Errors
-/// [`PairError`] if a fixed pair names no part, or a part twice.
-///
-/// ```
-/// use morphospace::correspondence::pair_parts;
-/// use morphospace::geometry::{DVec2, FillRule, Regions};
-/// let square = |x: f64| [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0), (x, 1.0)].map(DVec2::from).to_vec();
-/// let two = Regions::from_rings(&[square(0.0), square(3.0)], FillRule::NonZero)?;
-/// let one = Regions::from_rings(&[square(0.0)], FillRule::NonZero)?;
-/// let pairing = pair_parts(&two, &one, &[])?;
-/// assert_eq!((pairing.pairs.len(), pairing.dying.len()), (1, 1));
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-pub fn pair_parts(
-    source: &Regions,
-    target: &Regions,
-    fixed: &[[usize; 2]],
-) -> Result<Pairing, PairError> {
-    pair_other_parts(source, target, fixed, [&[], &[]])
-}
-
 /// The centre and the area of a region's outer boundary, relative to a
 /// design's box: what parts are first compared by.
 pub(super) fn relative_centre(region: &Region, design: &Regions) -> DVec2 {
@@ -86,8 +60,15 @@ pub(super) fn relative_centre(region: &Region, design: &Regions) -> DVec2 {
     .position
 }
 
-/// [`pair_parts`] of those that are not `taken`, which are in no list.
-pub(super) fn pair_other_parts(
+/// Pairs the regions of two designs; `fixed` pairs are kept, and what is
+/// `taken` is in no list.
+///
+/// Positions count relative to each design's own box, so that neither where
+/// the designs lie nor how large they are matters.
+///
+/// # Errors
+/// [`PairError`] if a fixed pair names no part, or a part twice.
+pub(super) fn pair_parts(
     source: &Regions,
     target: &Regions,
     fixed: &[[usize; 2]],
@@ -102,22 +83,13 @@ pub(super) fn pair_other_parts(
     pair(&parts(source), &parts(target), fixed, taken)
 }
 
-/// Pairs the holes of two regions; `fixed` pairs are kept. `rotation` turns
-/// the source onto the target: that of the match of their outer boundaries.
+/// Pairs the holes of two regions; `fixed` pairs are kept, and what is `taken`
+/// is in no list. `rotation` turns the source onto the target: that of the
+/// match of their outer boundaries.
 ///
 /// # Errors
 /// As [`pair_parts`].
-pub fn pair_holes(
-    source: &Region,
-    target: &Region,
-    rotation: f64,
-    fixed: &[[usize; 2]],
-) -> Result<Pairing, PairError> {
-    pair_other_holes(source, target, rotation, fixed, [&[], &[]])
-}
-
-/// [`pair_holes`] of those that are not `taken`, which are in no list.
-pub(super) fn pair_other_holes(
+pub(super) fn pair_holes(
     source: &Region,
     target: &Region,
     rotation: f64,
@@ -292,6 +264,8 @@ mod tests {
     use super::*;
     use crate::geometry::{FillRule, Similarity};
 
+    const NONE: [&[usize]; 2] = [&[], &[]];
+
     fn block(x: f64, y: f64, w: f64, h: f64) -> Vec<DVec2> {
         [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
             .map(DVec2::from)
@@ -338,7 +312,7 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         let other = four.transformed(&moved);
-        let pairing = pair_parts(&four, &other, &[]).expect("pairs");
+        let pairing = pair_parts(&four, &other, &[], NONE).expect("pairs");
         let (a, b) = (centres(&four), centres(&other));
         assert_eq!(pairing.pairs.len(), 4);
         for [i, j] in pairing.pairs {
@@ -354,14 +328,14 @@ mod tests {
             block(9.0, 0.0, 2.0, 2.0),
         ]);
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
-        let there = pair_parts(&three, &two, &[]).expect("pairs");
+        let there = pair_parts(&three, &two, &[], NONE).expect("pairs");
         assert_eq!(
             (there.pairs.len(), there.dying.len(), there.born.len()),
             (2, 1, 0)
         );
         let middle = three.iter().nth(there.dying[0]).expect("a part");
         assert!((middle.outer.signed_area() - 1.0).abs() < 1e-9);
-        assert_eq!(pair_parts(&two, &three, &[]), Ok(swapped(&there)));
+        assert_eq!(pair_parts(&two, &three, &[], NONE), Ok(swapped(&there)));
     }
 
     #[test]
@@ -382,9 +356,9 @@ mod tests {
                 source.iter().next().expect("one"),
                 target.iter().next().expect("one"),
             );
-            let pairing = pair_holes(a, b, rotation, &[]).expect("pairs");
+            let pairing = pair_holes(a, b, rotation, &[], NONE).expect("pairs");
             assert_eq!(pairing.pairs, vec![[0, 0], [1, 1], [2, 2]]);
-            let back = pair_holes(b, a, -rotation, &[]).expect("pairs");
+            let back = pair_holes(b, a, -rotation, &[], NONE).expect("pairs");
             assert_eq!(back, swapped(&pairing));
         }
     }
@@ -392,13 +366,13 @@ mod tests {
     #[test]
     fn fixed_pairs_are_kept_and_checked() {
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
-        let crossed = pair_parts(&two, &two, &[[0, 1]]).expect("pairs");
+        let crossed = pair_parts(&two, &two, &[[0, 1]], NONE).expect("pairs");
         assert_eq!(crossed.pairs, vec![[0, 1], [1, 0]]);
         assert_eq!(
-            pair_parts(&two, &two, &[[0, 1], [0, 0]]),
+            pair_parts(&two, &two, &[[0, 1], [0, 0]], NONE),
             Err(PairError::Twice(0))
         );
         let missing = PairError::NoSuchPart { part: 7, count: 2 };
-        assert_eq!(pair_parts(&two, &two, &[[0, 7]]), Err(missing));
+        assert_eq!(pair_parts(&two, &two, &[[0, 7]], NONE), Err(missing));
     }
 }

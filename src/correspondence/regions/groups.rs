@@ -1,6 +1,6 @@
 //! Which parts go together: pairs, one with several, and parts alone.
 
-use super::super::pairing::{Pairing, pair_other_parts, relative_centre};
+use super::super::pairing::{Pairing, pair_parts, relative_centre};
 use super::super::{Matching, PairError, PartRule, RingCut};
 use super::closing::{centre, shrunk};
 use super::locate::{Pinned, nearest_ring, part_at};
@@ -35,7 +35,7 @@ pub(super) fn grouped(
             .collect()
     });
     let [source, target] = designs;
-    let pairing = pair_other_parts(source, target, &fixed, [&taken[0], &taken[1]])?;
+    let pairing = pair_parts(source, target, &fixed, [&taken[0], &taken[1]])?;
     for pair in &pairing.pairs {
         if !fixed.contains(pair) {
             groups.push(Group {

@@ -1,6 +1,6 @@
 //! The match of two designs with all their parts and holes.
 //!
-//! Parts are paired ([`super::pair_parts`]), each pair's outer boundaries and
+//! Parts are paired, each pair's outer boundaries and
 //! holes are matched, and what one design alone has is given a partner: a
 //! hole closes to a point or its ring is cut open, a part is split off the
 //! other design's or is born from a point. The outcome is a list of

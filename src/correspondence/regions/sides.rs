@@ -5,7 +5,7 @@ use super::super::boundary::match_curves;
 use super::super::boundary_match::BoundaryMatch;
 use super::super::curve::Curve;
 use super::super::options::{MatchError, MatchOptions};
-use super::super::pairing::{Pairing, pair_other_holes};
+use super::super::pairing::{Pairing, pair_holes};
 use super::super::pins::{Pin, PinError};
 use super::super::{HoleRule, RingCut};
 use super::cut;
@@ -137,7 +137,7 @@ impl<'a> Sides<'a> {
         let [source, target] = self.task.regions;
         let fixed = self.pinned_holes(&taken);
         let taken = [&taken[0][..], &taken[1]];
-        let pairing = pair_other_holes(source, target, rotation, &fixed, taken)?;
+        let pairing = pair_holes(source, target, rotation, &fixed, taken)?;
         let mut cuts: Vec<(Side, [DVec2; 2])> = Vec::new();
         for side in Side::BOTH {
             for &(number, hole, ends) in &asked[side] {

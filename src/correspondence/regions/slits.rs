@@ -6,7 +6,7 @@
 
 use super::super::curve::Curve;
 use super::super::polygons::SharedPolygons;
-use crate::geometry::{DVec2, Side};
+use crate::geometry::{DVec2, Pair, Side};
 
 /// Vertices of the two passages nearer than this share of the slit divided by
 /// their number become one.
@@ -28,6 +28,18 @@ struct Rung {
     there: [Option<usize>; 2],
 }
 
+/// One way along a slit: from its outer end, or back to it.
+struct Passage<'a> {
+    /// The design that was cut, its walk's curve and the other design's.
+    side: Side,
+    curve: &'a Curve,
+    other: &'a Curve,
+    slit: [DVec2; 2],
+    is_back: bool,
+    /// The places at which it begins and ends.
+    span: [f64; 2],
+}
+
 /// Gives both passages of a slit the same vertices. `side` is the design that
 /// was cut, with its walk's `curve`; `other` is the other design's curve.
 pub(super) fn mirror(
@@ -37,19 +49,24 @@ pub(super) fn mirror(
     slit: [DVec2; 2],
     other: &Curve,
 ) {
-    let Some(passages) = passages(curve, slit) else {
+    let Some(spans) = passages(curve, slit) else {
         return;
     };
-    let stops = [
-        stops(shared, side, passages[0], false),
-        stops(shared, side, passages[1], true),
-    ];
-    let rungs = spread(paired(&stops));
+    let passages = [false, true].map(|is_back| Passage {
+        side,
+        curve,
+        other,
+        slit,
+        is_back,
+        span: spans[usize::from(is_back)],
+    });
+    let rungs = spread(paired(&[
+        passages[0].stops(shared),
+        passages[1].stops(shared),
+    ]));
     let mut added = Vec::new();
-    for (way, passage) in passages.iter().enumerate() {
-        place_passage(
-            shared, side, curve, slit, other, &rungs, way, *passage, &mut added,
-        );
+    for passage in &passages {
+        passage.place(shared, &rungs, &mut added);
     }
     insert(shared, side, curve, added);
 }
@@ -64,23 +81,6 @@ fn passages(curve: &Curve, [a, b]: [DVec2; 2]) -> Option<[[f64; 2]; 2]> {
         Some([curve.places()[k], end])
     };
     Some([find(a, b)?, find(b, a)?])
-}
-
-/// The vertices strictly inside a passage, from the slit's outer end on.
-fn stops(shared: &SharedPolygons, side: Side, [from, to]: [f64; 2], is_back: bool) -> Vec<Stop> {
-    let mut stops: Vec<Stop> = shared
-        .places
-        .iter()
-        .enumerate()
-        .filter(|(_, place)| from < place[side] && place[side] < to)
-        .map(|(vertex, place)| {
-            let along = (place[side] - from) / (to - from);
-            let along = if is_back { 1.0 - along } else { along };
-            Stop { along, vertex }
-        })
-        .collect();
-    stops.sort_by(|a, b| a.along.total_cmp(&b.along));
-    stops
 }
 
 /// Both passages' stops in one order, near ones together.
@@ -139,80 +139,85 @@ struct Added {
     points: [DVec2; 2],
 }
 
-/// Moves the vertices that a passage has to the rungs, and collects those
-/// that it lacks.
-#[expect(clippy::too_many_arguments, reason = "one step of `mirror`")]
-fn place_passage(
-    shared: &mut SharedPolygons,
-    side: Side,
-    curve: &Curve,
-    [a, b]: [DVec2; 2],
-    other: &Curve,
-    rungs: &[Rung],
-    way: usize,
-    [from, to]: [f64; 2],
-    added: &mut Vec<Added>,
-) {
-    let own_place = |along: f64| {
-        let along = if way == 0 { along } else { 1.0 - along };
-        from + along * (to - from)
-    };
-    let known = anchors(shared, side, curve, [from, to], rungs, way);
-    for rung in rungs {
-        let point = a.lerp(b, rung.along);
-        let own = own_place(rung.along);
-        if let Some(vertex) = rung.there[way] {
-            points_of(shared, side)[vertex] = point;
-            shared.places[vertex][side] = own;
-        } else {
-            let across = other.wrapped(interpolated(&known, rung.along));
-            let mut places = [across; 2];
-            places[side] = own;
-            let mut points = [other.point_at(across); 2];
-            points[side] = point;
-            added.push(Added { places, points });
-        }
+impl Passage<'_> {
+    /// Its vertices strictly inside, from the slit's outer end on.
+    fn stops(&self, shared: &SharedPolygons) -> Vec<Stop> {
+        let [from, to] = self.span;
+        let places = shared.places.iter().map(|place| place[self.side]);
+        let inside = places.enumerate().filter(|(_, at)| from < *at && *at < to);
+        let stop = |(vertex, at): (usize, f64)| Stop {
+            along: self.from_outer((at - from) / (to - from)),
+            vertex,
+        };
+        let mut stops: Vec<Stop> = inside.map(stop).collect();
+        stops.sort_by(|a, b| a.along.total_cmp(&b.along));
+        stops
     }
-}
 
-/// Share of the slit and the other side's place, unwrapped, of all vertices
-/// that the passage has, its ends among them, by the share.
-fn anchors(
-    shared: &SharedPolygons,
-    side: Side,
-    curve: &Curve,
-    [from, to]: [f64; 2],
-    rungs: &[Rung],
-    way: usize,
-) -> Vec<[f64; 2]> {
-    let at = |place: f64| {
-        let wrapped = curve.wrapped(place);
-        let apart = |k: &usize| (shared.places[*k][side] - wrapped).abs();
-        (0..shared.places.len())
-            .min_by(|j, k| apart(j).total_cmp(&apart(k)))
-            .map_or(0.0, |k| shared.places[k][side.other()])
-    };
-    let inner = |rung: &Rung| {
-        let vertex = rung.there[way]?;
-        Some([rung.along, shared.places[vertex][side.other()]])
-    };
-    let ends = if way == 0 { [from, to] } else { [to, from] };
-    let mut known = vec![[0.0, at(ends[0])]];
-    known.extend(rungs.iter().filter_map(inner));
-    known.push([1.0, at(ends[1])]);
-    // In the walk's order the other side's places ascend.
-    if way == 1 {
-        known.reverse();
+    /// A share of the passage as one of the slit, and back.
+    fn from_outer(&self, share: f64) -> f64 {
+        if self.is_back { 1.0 - share } else { share }
     }
-    for k in 1..known.len() {
-        if known[k][1] < known[k - 1][1] {
-            known[k][1] += 1.0;
+
+    /// The vertex of a rung that it has already.
+    fn vertex(&self, rung: &Rung) -> Option<usize> {
+        rung.there[usize::from(self.is_back)]
+    }
+
+    /// Moves the vertices that it has to the rungs, and collects those that
+    /// it lacks.
+    fn place(&self, shared: &mut SharedPolygons, rungs: &[Rung], added: &mut Vec<Added>) {
+        let known = self.anchors(shared, rungs);
+        let ([a, b], [from, to]) = (self.slit, self.span);
+        for rung in rungs {
+            let point = a.lerp(b, rung.along);
+            let own = from + self.from_outer(rung.along) * (to - from);
+            if let Some(vertex) = self.vertex(rung) {
+                points_of(shared, self.side)[vertex] = point;
+                shared.places[vertex][self.side] = own;
+            } else {
+                let across = self.other.wrapped(interpolated(&known, rung.along));
+                let here = Pair::on(self.side, own, across);
+                let points = Pair::on(self.side, point, self.other.point_at(across));
+                added.push(Added {
+                    places: here.to_array(),
+                    points: points.to_array(),
+                });
+            }
         }
     }
-    if way == 1 {
-        known.reverse();
+
+    /// Share of the slit and the other side's place, unwrapped, of all
+    /// vertices that it has, its ends among them, by the share.
+    fn anchors(&self, shared: &SharedPolygons, rungs: &[Rung]) -> Vec<[f64; 2]> {
+        let across = |vertex: usize| shared.places[vertex][self.side.other()];
+        let at = |place: f64| {
+            let wrapped = self.curve.wrapped(place);
+            let apart = |k: &usize| (shared.places[*k][self.side] - wrapped).abs();
+            (0..shared.places.len())
+                .min_by(|j, k| apart(j).total_cmp(&apart(k)))
+                .map_or(0.0, across)
+        };
+        let inner = |rung: &Rung| Some([rung.along, across(self.vertex(rung)?)]);
+        let [from, to] = self.span;
+        let mut known = vec![[self.from_outer(0.0), at(from)]];
+        if self.is_back {
+            known.extend(rungs.iter().rev().filter_map(inner));
+        } else {
+            known.extend(rungs.iter().filter_map(inner));
+        }
+        known.push([self.from_outer(1.0), at(to)]);
+        // In the walk's order the other side's places ascend.
+        for k in 1..known.len() {
+            if known[k][1] < known[k - 1][1] {
+                known[k][1] += 1.0;
+            }
+        }
+        if self.is_back {
+            known.reverse();
+        }
+        known
     }
-    known
 }
 
 fn interpolated(known: &[[f64; 2]], along: f64) -> f64 {
