@@ -36,9 +36,7 @@ pub(super) struct RenderArgs {
     #[command(flatten)]
     inputs: Inputs,
 
-    /// What to write: NAME.png or .svg (with --at or --sheet), .gif, .apng, .mp4,
-    /// name-####.png or a folder (numbered pictures)
-    #[arg(long, short, value_name = "PATH")]
+    #[arg(long, short, value_name = "PATH", help = out_help())]
     out: PathBuf,
 
     /// One picture, at this t
@@ -76,6 +74,15 @@ pub(super) struct RenderArgs {
 
     #[command(flatten)]
     method: MethodArgs,
+}
+
+fn out_help() -> String {
+    format!(
+        "What to write: NAME{} (with --at or --sheet), {}, name-####.png or a folder (numbered \
+         pictures)",
+        StillKind::endings(),
+        FilmKind::endings()
+    )
 }
 
 /// What is behind the shapes.
@@ -120,8 +127,9 @@ fn job(args: &RenderArgs, target: Target) -> Result<Job, CliError> {
             count.map_or(COMPARED, |count| count as usize),
         )),
         _ if args.compare => Err(CliError::Usage(format!(
-            "--compare makes one picture: end `{}` in .png or .svg",
-            args.out.display()
+            "--compare makes one picture: end `{}` in {}",
+            args.out.display(),
+            StillKind::endings()
         ))),
         (Target::Still(kind, path), Some(t), _) => Ok(Job::Picture(kind, path, t)),
         (Target::Still(kind, path), None, Some(count)) => {
@@ -134,8 +142,9 @@ fn job(args: &RenderArgs, target: Target) -> Result<Job, CliError> {
         ))),
         (target, None, None) => Ok(Job::Film(target)),
         _ => Err(CliError::Usage(format!(
-            "--at and --sheet make one picture: end `{}` in .png or .svg",
-            args.out.display()
+            "--at and --sheet make one picture: end `{}` in {}",
+            args.out.display(),
+            StillKind::endings()
         ))),
     }
 }

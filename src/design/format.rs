@@ -92,12 +92,24 @@ impl Format {
     /// Names in a row for a sentence: `PNG, JPEG, BMP or WebP`.
     #[must_use]
     pub fn listed(formats: &[Self]) -> String {
-        let names: Vec<&str> = formats.iter().map(|format| format.name()).collect();
-        match names.split_last() {
-            Some((last, rest)) if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
-            _ => names.concat(),
-        }
+        any_of(formats.iter().map(|format| format.name()))
     }
+}
+
+/// Words in a row for a sentence: `a, b or c`.
+pub(crate) fn any_of<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> String {
+    let words: Vec<W> = words.into_iter().collect();
+    let last = words.len().saturating_sub(1);
+    let mut row = String::new();
+    for (i, word) in words.iter().enumerate() {
+        row += match i {
+            0 => "",
+            i if i == last => " or ",
+            _ => ", ",
+        };
+        row += word.as_ref();
+    }
+    row
 }
 
 /// How the names of designs' files end, each ending once.

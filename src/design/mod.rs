@@ -35,6 +35,7 @@ pub use dxf::{DxfError, Place as DxfPlace};
 pub use error::{ImportError, MAX_FILE_BYTES, Problem};
 pub use flatten::TooManyPoints;
 pub use form::{Design, Form};
+pub(crate) use format::any_of;
 pub use format::{Format, extensions};
 pub use import::{import, import_file};
 pub use lettering::TextError;

@@ -1,5 +1,6 @@
 //! What a path asks for: its name tells the kind of picture or film.
 
+use crate::design::any_of;
 use std::path::{Path, PathBuf};
 
 /// Digits of the numbers in a folder of frames.
@@ -23,6 +24,47 @@ pub enum FilmKind {
     Apng,
     /// H.264 through ffmpeg.
     Mp4,
+}
+
+impl StillKind {
+    /// All of them.
+    pub const ALL: [Self; 2] = [Self::Png, Self::Svg];
+
+    /// How the names of its files end, without a dot.
+    #[must_use]
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Png => "png",
+            Self::Svg => "svg",
+        }
+    }
+
+    /// The endings of all in a row, for a sentence: `.png or .svg`.
+    #[must_use]
+    pub fn endings() -> String {
+        any_of(Self::ALL.map(|kind| format!(".{}", kind.extension())))
+    }
+}
+
+impl FilmKind {
+    /// All of them.
+    pub const ALL: [Self; 3] = [Self::Gif, Self::Apng, Self::Mp4];
+
+    /// How the names of its files end, without a dot.
+    #[must_use]
+    pub const fn extension(self) -> &'static str {
+        match self {
+            Self::Gif => "gif",
+            Self::Apng => "apng",
+            Self::Mp4 => "mp4",
+        }
+    }
+
+    /// The endings of all in a row, for a sentence: `.gif, .apng or .mp4`.
+    #[must_use]
+    pub fn endings() -> String {
+        any_of(Self::ALL.map(|kind| format!(".{}", kind.extension())))
+    }
 }
 
 /// Numbered pictures: `folder/prefix0007suffix`.
@@ -65,23 +107,23 @@ pub enum Target {
 pub enum TargetError {
     /// An extension that is none of ours.
     #[error(
-        "`{}` names no kind of picture: end it in .png, .svg, .gif, .apng or .mp4, in name-####.png for numbered pictures, or in / for a folder of them",
-        .0.display()
+        "`{}` names no kind of picture: end it in {} for one, in {} for a film, in name-####.png for numbered pictures, or in / for a folder of them",
+        .0.display(), StillKind::endings(), FilmKind::endings()
     )]
     Unknown(PathBuf),
     /// `####` in a name that is no still picture.
     #[error(
-        "`{}` numbers its frames: end it in .png or .svg, or leave the # out",
-        .0.display()
+        "`{}` numbers its frames: end it in {}, or leave the # out",
+        .0.display(), StillKind::endings()
     )]
     NotNumbered(PathBuf),
 }
 
 impl Target {
-    /// Reads the kind from the name: `.png`, `.svg`, `.gif`, `.apng`, `.mp4`;
-    /// `name-####.png` (or `.svg`) for numbered pictures; a folder (one that
-    /// exists, a name that ends in `/`, or one without extension) for numbered
-    /// PNGs in it.
+    /// Reads the kind from the name: the extension of a [`StillKind`] or of a
+    /// [`FilmKind`]; `name-####.png` (or `.svg`) for numbered pictures; a
+    /// folder (one that exists, a name that ends in `/`, or one without
+    /// extension) for numbered PNGs in it.
     ///
     /// # Errors
     /// [`TargetError`] where the name tells nothing.
@@ -89,23 +131,16 @@ impl Target {
         if is_folder(path) {
             return Ok(Self::Numbered(in_folder(path)));
         }
-        let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-        let still = match extension.as_deref() {
-            Some("png") => Some(StillKind::Png),
-            Some("svg") => Some(StillKind::Svg),
-            _ => None,
+        let ends = |extension: &str| {
+            (path.extension()).is_some_and(|ending| ending.eq_ignore_ascii_case(extension))
         };
+        let still = (StillKind::ALL.into_iter()).find(|kind| ends(kind.extension()));
         let name = path.file_name().and_then(|name| name.to_str());
         if let Some(name) = name.filter(|name| name.contains('#')) {
             let kind = still.ok_or_else(|| TargetError::NotNumbered(path.to_owned()))?;
             return Ok(Self::Numbered(by_pattern(path, name, kind)));
         }
-        let film = match extension.as_deref() {
-            Some("gif") => Some(FilmKind::Gif),
-            Some("apng") => Some(FilmKind::Apng),
-            Some("mp4") => Some(FilmKind::Mp4),
-            _ => None,
-        };
+        let film = (FilmKind::ALL.into_iter()).find(|kind| ends(kind.extension()));
         let still = still.map(|kind| Self::Still(kind, path.to_owned()));
         let film = film.map(|kind| Self::Film(kind, path.to_owned()));
         let unknown = || TargetError::Unknown(path.to_owned());
