@@ -7,7 +7,6 @@
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-use image::RgbaImage;
 use png::{BitDepth, BlendOp, ColorType, DisposeOp, Encoder, EncodingError, Writer};
 
 use crate::atomic_file::AtomicFile;
@@ -16,7 +15,7 @@ use crate::progress::Progress;
 use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::{Film, Run};
-use super::raster::rasterise;
+use super::raster::{rasterise, samples};
 
 /// Writes the film.
 ///
@@ -38,7 +37,7 @@ pub fn write_apng(
         &runs,
         DRAWING,
         progress,
-        |drawing| Ok(pixels(&rasterise(&drawing), camera.ground.is_some())),
+        |drawing| Ok(samples(&rasterise(&drawing), camera.ground.is_some())),
         |run, pixels| {
             let (numerator, denominator) = delay(film, run);
             let written = writer
@@ -71,14 +70,6 @@ fn writer<W: Write>(
     encoder.set_blend_op(BlendOp::Source)?;
     encoder.set_dispose_op(DisposeOp::None)?;
     encoder.write_header()
-}
-
-fn pixels(image: &RgbaImage, is_opaque: bool) -> Vec<u8> {
-    let channels = if is_opaque { 3 } else { 4 };
-    image
-        .pixels()
-        .flat_map(|pixel| pixel.0.into_iter().take(channels))
-        .collect()
 }
 
 /// Seconds as a fraction of 16-bit numbers.
@@ -131,7 +122,7 @@ mod tests {
             let control = reader.info().animation_control().expect("animated");
             assert_eq!((control.num_frames, control.num_plays), (4, 1));
             for &t in film.times() {
-                let exact = pixels(&rasterise(&camera.shoot(t)), ground.is_some());
+                let exact = samples(&rasterise(&camera.shoot(t)), ground.is_some());
                 let mut decoded = vec![0; exact.len()];
                 reader.next_frame(&mut decoded).expect("a frame");
                 assert!(exact == decoded, "t = {t}");

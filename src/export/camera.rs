@@ -10,10 +10,11 @@ use crate::geometry::Bounds;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::transition::{Rgb, Style, Transition};
 
-use super::drawing::{Drawing, View};
+use super::drawing::Drawing;
 use super::error::ExportError;
 use super::film::Run;
 use super::size::PixelSize;
+use super::view::View;
 
 /// Memory for frames that are drawn ahead of being written, in bytes.
 pub const BATCH_BYTES: u64 = 256 << 20;

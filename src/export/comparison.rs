@@ -11,11 +11,10 @@ use crate::progress::{Cancelled, Progress};
 use crate::transition::{BuildError, Cell, Rgb, Style, Transition, TransitionSpec};
 
 use super::camera::framing;
-use super::drawing::{Drawing, View};
-use super::pair_sheet::{BAD, wrapped};
-use super::sheet::ink_on;
+use super::drawing::Drawing;
 use super::size::{PixelSize, SizeError};
-use super::text;
+use super::view::View;
+use super::words::{BAD, Type, ink_on};
 
 /// The longer side of a frame, in pixels, where there is room for it.
 const CELL_PX: f64 = 220.0;
@@ -29,9 +28,12 @@ const GAP_PX: f64 = 16.0;
 /// Width of the names, in pixels.
 const NAMES_PX: f64 = 180.0;
 
-/// Size of letters and height of a line, in pixels.
-const LETTERS_PX: f64 = 15.0;
-const LINE_PX: f64 = 20.0;
+/// How the words are set.
+const TYPE: Type = Type {
+    letters_px: 15.0,
+    line_px: 20.0,
+};
+const LINE_PX: f64 = TYPE.line_px;
 
 /// A method on the sheet.
 #[derive(Clone, Debug)]
@@ -95,32 +97,43 @@ pub fn comparison(
     for (k, row) in rows.iter().enumerate() {
         let left = DVec2::new(corner.x, corner.y + k as f64 * step.y);
         let name_at = DVec2::new(GAP_PX, left.y + 0.5 * cell.y - LINE_PX);
-        push_lines(&mut drawing, &wrapped(&row.name, NAMES_PX, 3), name_at, ink);
+        TYPE.push(
+            &mut drawing,
+            &TYPE.wrapped(&row.name, NAMES_PX, 3),
+            name_at,
+            ink,
+        );
         match (&row.transition, bounds) {
             (Ok(transition), Some(bounds)) => {
                 let mut frame = transition.frame(0.0);
                 for (i, &t) in times.iter().enumerate() {
                     frame.seek(t);
                     let at = left + DVec2::new(i as f64 * step.x, 0.0);
-                    let view = View::fit_cell(bounds, drawing.size(), at, cell);
+                    let view = View::fit_cell(bounds, drawing.size, at, cell);
                     drawing.push_frame(&frame, style, &view);
                 }
             }
             (Err(reason), _) => {
                 let room = times.len() as f64 * step.x;
                 let at = DVec2::new(left.x, name_at.y);
-                push_lines(&mut drawing, &wrapped(reason, room, 4), at, BAD);
+                TYPE.push(&mut drawing, &TYPE.wrapped(reason, room, 4), at, BAD);
             }
             (Ok(_), None) => {}
         }
     }
-    let base = corner.y + count.y * step.y + LETTERS_PX;
-    for (i, t) in times.iter().enumerate() {
-        let middle = corner.x + i as f64 * step.x + 0.5 * cell.x;
-        let words = format!("t = {}", (t * 100.0).round() / 100.0);
-        drawing.push_label(&words, DVec2::new(middle, base), LETTERS_PX, ink);
-    }
+    let middle = DVec2::new(0.5 * cell.x, count.y * step.y + TYPE.letters_px);
+    push_times(&mut drawing, times, corner + middle, step.x);
     Ok(drawing)
+}
+
+/// Each t below its column.
+fn push_times(drawing: &mut Drawing, times: &[f64], first: DVec2, step: f64) {
+    let ink = ink_on(drawing.ground);
+    for (i, t) in times.iter().enumerate() {
+        let words = format!("t = {}", (t * 100.0).round() / 100.0);
+        let base = first + DVec2::new(i as f64 * step, 0.0);
+        drawing.push_label(&words, base, TYPE.letters_px, ink);
+    }
 }
 
 /// Width and height of a frame.
@@ -131,12 +144,4 @@ fn cell(bounds: Option<Bounds>, rows: usize, columns: usize) -> DVec2 {
     let room = (DVec2::splat(LONGEST_PX - NAMES_PX - 8.0 * GAP_PX) / count - GAP_PX) / shape;
     // Rows are high enough for a name of three lines.
     (shape * CELL_PX.min(room.min_element()).max(16.0)).max(DVec2::new(16.0, 3.0 * LINE_PX))
-}
-
-fn push_lines(drawing: &mut Drawing, lines: &[String], corner: DVec2, colour: Rgb) {
-    for (i, line) in lines.iter().enumerate() {
-        let middle = 0.5 * text::width(line, LETTERS_PX);
-        let base = corner + DVec2::new(middle, (i as f64 + 0.8) * LINE_PX);
-        drawing.push_label(line, base, LETTERS_PX, colour);
-    }
 }

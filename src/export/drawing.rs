@@ -21,6 +21,7 @@ use crate::transition::{Figure, Frame, Rgb, Style};
 use super::outline::{Outline, is_drawable};
 use super::size::PixelSize;
 use super::text;
+use super::view::View;
 
 /// Radius of a joint's disc, in bar widths.
 pub const JOINT_RADIUS: f64 = 0.9;
@@ -103,14 +104,9 @@ impl Drawing {
         }
     }
 
-    /// Its size in pixels.
-    pub fn size(&self) -> PixelSize {
-        self.size
-    }
-
     /// A frame as it is seen through `view`, over the whole picture.
     pub fn of_frame(frame: &Frame, style: &Style, view: &View, ground: Option<Rgb>) -> Self {
-        let mut drawing = Self::new(view.size, ground);
+        let mut drawing = Self::new(view.size(), ground);
         drawing.push_frame(frame, style, view);
         drawing
     }
@@ -140,7 +136,7 @@ impl Drawing {
         let raster = Raster {
             size,
             corner: view.to_plane(low),
-            pixel: 1.0 / view.px_per_unit,
+            pixel: 1.0 / view.px_per_unit(),
         };
         if let Some(image) = frame.picture(&raster) {
             self.items.push(Item::Picture {
@@ -163,7 +159,7 @@ impl Drawing {
         if !segments.is_empty() {
             self.push_bars(
                 segments,
-                figure.bar_width * view.px_per_unit,
+                figure.bar_width * view.px_per_unit(),
                 colour,
                 joints,
             );
@@ -226,61 +222,6 @@ fn joint_centres(segments: &[[DVec2; 2]]) -> Vec<DVec2> {
     segments.iter().flatten().copied().filter(is_new).collect()
 }
 
-/// Which part of the plane a picture, or a cell of one, shows.
-///
-/// The whole rectangle is visible, centred, at one scale in both directions.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
-    size: PixelSize,
-    centre: DVec2,
-    middle_px: DVec2,
-    px_per_unit: f64,
-}
-
-impl View {
-    /// Fits `bounds` into a picture of the given size.
-    pub fn fit(bounds: Bounds, size: PixelSize) -> Self {
-        Self::fit_cell(bounds, size, DVec2::ZERO, size.as_dvec2())
-    }
-
-    /// Fits `bounds` into the cell of a picture that begins at `corner_px`.
-    pub fn fit_cell(bounds: Bounds, size: PixelSize, corner_px: DVec2, cell_px: DVec2) -> Self {
-        let ratio = cell_px / bounds.size();
-        let px_per_unit = [ratio.x, ratio.y]
-            .into_iter()
-            .filter(|r| r.is_finite() && *r > 0.0)
-            .reduce(f64::min);
-        Self {
-            size,
-            centre: bounds.centre(),
-            middle_px: corner_px + 0.5 * cell_px,
-            px_per_unit: px_per_unit.unwrap_or(1.0),
-        }
-    }
-
-    /// The picture that this is a view in.
-    pub fn size(&self) -> PixelSize {
-        self.size
-    }
-
-    /// Pixels per unit of the design.
-    pub fn px_per_unit(&self) -> f64 {
-        self.px_per_unit
-    }
-
-    /// A point in pixels, y down, in the design.
-    pub fn to_plane(&self, px: DVec2) -> DVec2 {
-        let d = (px - self.middle_px) / self.px_per_unit;
-        self.centre + DVec2::new(d.x, -d.y)
-    }
-
-    /// A point of the design in pixels, y down.
-    pub fn to_px(&self, p: DVec2) -> DVec2 {
-        let from_centre = (p - self.centre) * self.px_per_unit;
-        self.middle_px + DVec2::new(from_centre.x, -from_centre.y)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -293,24 +234,6 @@ mod tests {
             max: DVec2::new(3.0, 2.0),
         };
         View::fit(bounds, PixelSize::new(400, 400).expect("a legal size"))
-    }
-
-    #[test]
-    fn the_view_centres_and_flips_y_once() {
-        let view = view();
-        assert_eq!(view.px_per_unit(), 100.0);
-        assert_eq!(view.to_px(DVec2::new(-1.0, 0.0)), DVec2::new(0.0, 300.0));
-        assert_eq!(view.to_px(DVec2::new(3.0, 2.0)), DVec2::new(400.0, 100.0));
-    }
-
-    #[test]
-    fn a_view_of_a_point_still_shows_it_in_the_middle() {
-        let bounds = Bounds {
-            min: DVec2::splat(5.0),
-            max: DVec2::splat(5.0),
-        };
-        let view = View::fit(bounds, PixelSize::new(10, 20).expect("a legal size"));
-        assert_eq!(view.to_px(DVec2::splat(5.0)), DVec2::new(5.0, 10.0));
     }
 
     #[test]

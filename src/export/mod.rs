@@ -44,6 +44,8 @@ mod target;
 #[cfg(test)]
 mod testing;
 mod text;
+mod view;
+mod words;
 
 #[cfg(feature = "cli")]
 pub(crate) use still::write_atomically;
@@ -55,7 +57,7 @@ use crate::progress::Progress;
 pub use apng::write_apng;
 pub use camera::{BATCH_BYTES, Camera, framing};
 pub use comparison::{MethodRow, comparison};
-pub use drawing::{Drawing, Item, JOINT_CORE_RADIUS, JOINT_RADIUS, View, joint_core};
+pub use drawing::{Drawing, Item, JOINT_CORE_RADIUS, JOINT_RADIUS, joint_core};
 pub use error::ExportError;
 pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};
 pub use gif::{MAX_GIF_FPS, write_gif};
@@ -70,6 +72,7 @@ pub use size::{MAX_PIXELS, MAX_SIDE_PX, PixelSize, SizeError};
 pub use still::write_still;
 pub use svg::to_svg;
 pub use target::{FilmKind, Numbered, StillKind, Target, TargetError};
+pub use view::View;
 
 /// Writes a film to wherever the target says, and returns the paths of what it
 /// wrote. A still target gets the film's first frame.

@@ -10,15 +10,13 @@ use std::path::Path;
 use std::process::{Child, ChildStdin, Command, Stdio};
 use std::thread::JoinHandle;
 
-use image::RgbaImage;
-
 use crate::atomic_file::AtomicFile;
 use crate::progress::{Cancelled, Progress};
 
 use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::Film;
-use super::raster::rasterise;
+use super::raster::{rasterise, samples};
 use super::size::PixelSize;
 
 /// Writes the film; the camera's size must be even on both sides
@@ -42,7 +40,7 @@ pub fn write_mp4(
         &film.runs(),
         DRAWING,
         progress,
-        |drawing| Ok(opaque_bytes(&rasterise(&drawing))),
+        |drawing| Ok(samples(&rasterise(&drawing), true)),
         |run, bytes| {
             let feed = |_| ffmpeg.stdin.write_all(&bytes);
             (0..run.count)
@@ -57,13 +55,6 @@ pub fn write_mp4(
     // A broken pipe is ffmpeg's end, and its last words say more.
     ffmpeg.finish(path).and(fed)?;
     file.commit().map_err(ExportError::write(path))
-}
-
-fn opaque_bytes(image: &RgbaImage) -> Vec<u8> {
-    image
-        .pixels()
-        .flat_map(|pixel| pixel.0.into_iter().take(3))
-        .collect()
 }
 
 /// A running ffmpeg.

@@ -11,10 +11,10 @@ use crate::geometry::{Bounds, DVec2};
 use crate::transition::{Figure, Rgb, Style, Transition};
 
 use super::camera::framing;
-use super::drawing::{Drawing, View};
-use super::sheet::ink_on;
+use super::drawing::Drawing;
 use super::size::{PixelSize, SizeError};
-use super::text;
+use super::view::View;
+use super::words::{BAD, Type, ink_on};
 
 /// The longer side of the largest sheet, in pixels.
 const LONGEST_PX: f64 = 8_192.0;
@@ -28,11 +28,12 @@ const GAP_PX: f64 = 8.0;
 /// Width of the words beside a strip, in pixels.
 const WORDS_PX: f64 = 230.0;
 
-/// Height of a line of words, in pixels.
-const LINE_PX: f64 = 16.0;
-
-/// Size of the letters in it.
-const LETTERS_PX: f64 = 13.0;
+/// How the words are set.
+const TYPE: Type = Type {
+    letters_px: 13.0,
+    line_px: 16.0,
+};
+const LINE_PX: f64 = TYPE.line_px;
 
 /// Room for so many frames is there at least, for the words of pairs that
 /// have none.
@@ -40,9 +41,6 @@ const FEWEST_COLUMNS: usize = 5;
 
 /// Width by height that a sheet comes near to.
 const SHAPE: f64 = 1.4;
-
-/// What is said of something that went wrong.
-pub(super) const BAD: Rgb = Rgb([0xc0, 0x3a, 0x20]);
 
 /// One pair on the sheet.
 ///
@@ -207,21 +205,26 @@ fn push_strip(drawing: &mut Drawing, strip: &Strip, layout: &Layout, corner: DVe
     let ink = ink_on(drawing.ground);
     let words = if strip.is_bad { BAD } else { ink };
     let lines = ((layout.strip().y - GAP_PX) / LINE_PX) as usize;
-    let name = wrapped(&strip.name, WORDS_PX, lines.min(2));
+    let name = TYPE.wrapped(&strip.name, WORDS_PX, lines.min(2));
     let beside = if strip.frames.is_empty() {
         Vec::new()
     } else {
-        wrapped(&strip.words, WORDS_PX, lines - name.len())
+        TYPE.wrapped(&strip.words, WORDS_PX, lines - name.len())
     };
-    push_lines(drawing, &name, corner, ink);
+    TYPE.push(drawing, &name, corner, ink);
     let below = corner + DVec2::new(0.0, name.len() as f64 * LINE_PX);
-    push_lines(drawing, &beside, below, words);
+    TYPE.push(drawing, &beside, below, words);
     let frames = corner + DVec2::new(WORDS_PX + 2.0 * GAP_PX, 0.0);
     match strip.bounds {
         Some(bounds) => push_frames(drawing, strip, bounds, layout, frames),
         None => {
             let width = layout.columns as f64 * (layout.cell_px + GAP_PX);
-            push_lines(drawing, &wrapped(&strip.words, width, lines), frames, BAD);
+            TYPE.push(
+                drawing,
+                &TYPE.wrapped(&strip.words, width, lines),
+                frames,
+                BAD,
+            );
         }
     }
 }
@@ -240,66 +243,9 @@ fn push_frames(
     }
 }
 
-fn push_lines(drawing: &mut Drawing, lines: &[String], corner: DVec2, colour: Rgb) {
-    for (i, line) in lines.iter().enumerate() {
-        let middle = 0.5 * text::width(line, LETTERS_PX);
-        let base = corner + DVec2::new(middle, (i as f64 + 0.8) * LINE_PX);
-        drawing.push_label(line, base, LETTERS_PX, colour);
-    }
-}
-
-/// Words in at most so many lines of a width; what is left over becomes an
-/// ellipsis. Words that are longer than a line are broken.
-pub(super) fn wrapped(words: &str, width_px: f64, most: usize) -> Vec<String> {
-    let fits = |line: &str| text::width(line, LETTERS_PX) <= width_px;
-    let mut lines: Vec<String> = Vec::new();
-    let mut line = String::new();
-    for word in words.split_whitespace() {
-        if !line.is_empty() && !fits(&format!("{line} {word}")) {
-            lines.push(std::mem::take(&mut line));
-        }
-        if !line.is_empty() {
-            line.push(' ');
-        }
-        for c in word.chars() {
-            line.push(c);
-            if !fits(&line) {
-                line.pop();
-                lines.push(std::mem::replace(&mut line, c.to_string()));
-            }
-        }
-    }
-    lines.push(line);
-    lines.retain(|line| !line.is_empty());
-    if lines.len() > most {
-        lines.truncate(most);
-        if let Some(last) = lines.last_mut() {
-            while !last.is_empty() && !fits(&format!("{last}\u{2026}")) {
-                last.pop();
-            }
-            last.push('\u{2026}');
-        }
-    }
-    lines
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn words_are_wrapped_broken_and_cut() {
-        assert_eq!(wrapped("", 100.0, 3), Vec::<String>::new());
-        assert_eq!(wrapped("a  b\nc", 100.0, 3), ["a b c"]);
-        let long = "x".repeat(200);
-        let lines = wrapped(&long, 100.0, 3);
-        assert_eq!(lines.len(), 3);
-        assert!(lines[2].ends_with('\u{2026}'));
-        for line in wrapped("several words that do not fit", 60.0, 9) {
-            assert!(text::width(&line, LETTERS_PX) <= 60.0, "{line}");
-        }
-        assert_eq!(wrapped("narrow", 0.0, 2).len(), 2);
-    }
 
     #[test]
     fn strips_do_not_overlap_and_stay_on_the_sheet() {

@@ -167,6 +167,15 @@ fn color(Rgb([r, g, b]): Rgb) -> Color {
     Color::from_rgba8(r, g, b, 255)
 }
 
+/// The pixels in a row, without their alpha where all are opaque.
+pub(super) fn samples(image: &RgbaImage, is_opaque: bool) -> Vec<u8> {
+    let channels = if is_opaque { 3 } else { 4 };
+    let pixels = image.pixels();
+    pixels
+        .flat_map(|p| p.0.into_iter().take(channels))
+        .collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -8,8 +8,10 @@
 use crate::geometry::{Bounds, DVec2};
 use crate::transition::{Rgb, Style, Transition};
 
-use super::drawing::{Drawing, View};
+use super::drawing::Drawing;
 use super::size::PixelSize;
+use super::view::View;
+use super::words::{Number, ink_on};
 
 /// The longer side of a cell where the sheet's size is free, in pixels.
 const CELL_PX: u32 = 240;
@@ -154,23 +156,7 @@ pub fn sheet(
 
 /// `t = 0.25`: at most three decimals, no trailing zeros.
 fn label(t: f64) -> String {
-    let fixed = format!("{t:.3}");
-    let short = fixed.trim_end_matches('0').trim_end_matches('.');
-    let number = if short == "-0" { "0" } else { short };
-    format!("t = {}", number.replace('-', "\u{2212}"))
-}
-
-/// A colour for words that can be read on the ground; on a transparent one a
-/// middle grey, which shows on light and on dark.
-pub(super) fn ink_on(ground: Option<Rgb>) -> Rgb {
-    let grey = |c: u8| Rgb([c; 3]);
-    match ground {
-        None => grey(0x80),
-        Some(Rgb([r, g, b])) => {
-            let luma = 0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b);
-            if luma > 128.0 { grey(0x20) } else { grey(0xe8) }
-        }
-    }
+    format!("t = {}", Number(t).to_string().replace('-', "\u{2212}"))
 }
 
 #[cfg(test)]

@@ -14,6 +14,7 @@ use crate::transition::Rgb;
 
 use super::drawing::{Drawing, Item};
 use super::outline::{Outline, Step};
+use super::words::Number;
 
 /// Writes a drawing as an SVG document.
 pub fn to_svg(drawing: &Drawing) -> String {
@@ -141,17 +142,6 @@ fn base64(bytes: &[u8]) -> String {
     text
 }
 
-/// At most three decimals, no trailing zeros, no negative zero.
-struct Number(f64);
-
-impl fmt::Display for Number {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let fixed = format!("{:.3}", self.0);
-        let short = fixed.trim_end_matches('0').trim_end_matches('.');
-        f.write_str(if short == "-0" { "0" } else { short })
-    }
-}
-
 struct Point(DVec2);
 
 impl fmt::Display for Point {
@@ -188,17 +178,6 @@ mod tests {
     use crate::geometry::Bounds;
     use crate::transition::Figure;
     use tiny_skia::{FillRule, Paint, Pixmap};
-
-    #[test]
-    fn numbers_are_short_and_never_negative_zero() {
-        let text = |x: f64| Number(x).to_string();
-        assert_eq!(text(0.0), "0");
-        assert_eq!(text(-0.0001), "0");
-        assert_eq!(text(1.5), "1.5");
-        assert_eq!(text(-2.0), "-2");
-        assert_eq!(text(100.0), "100");
-        assert_eq!(text(0.12349), "0.123");
-    }
 
     #[test]
     fn base64_is_that_of_the_rfc() {

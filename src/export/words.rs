@@ -1,0 +1,127 @@
+//! Words and numbers on sheets: how they are set, broken into lines and
+//! coloured.
+
+use std::fmt;
+
+use crate::geometry::DVec2;
+use crate::transition::Rgb;
+
+use super::drawing::Drawing;
+use super::text;
+
+/// What is said of something that went wrong.
+pub(super) const BAD: Rgb = Rgb([0xc0, 0x3a, 0x20]);
+
+/// How words are set.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Type {
+    /// Size of the letters.
+    pub letters_px: f64,
+    /// Height of a line.
+    pub line_px: f64,
+}
+
+impl Type {
+    /// Adds lines, one below the other, from an upper left corner on.
+    pub fn push(self, drawing: &mut Drawing, lines: &[String], corner: DVec2, colour: Rgb) {
+        for (i, line) in lines.iter().enumerate() {
+            let middle = 0.5 * text::width(line, self.letters_px);
+            let base = corner + DVec2::new(middle, (i as f64 + 0.8) * self.line_px);
+            drawing.push_label(line, base, self.letters_px, colour);
+        }
+    }
+
+    /// Words in at most so many lines of a width; what is left over becomes an
+    /// ellipsis. Words that are longer than a line are broken.
+    pub fn wrapped(self, words: &str, width_px: f64, most: usize) -> Vec<String> {
+        let fits = |line: &str| text::width(line, self.letters_px) <= width_px;
+        let mut lines: Vec<String> = Vec::new();
+        let mut line = String::new();
+        for word in words.split_whitespace() {
+            if !line.is_empty() && !fits(&format!("{line} {word}")) {
+                lines.push(std::mem::take(&mut line));
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            for c in word.chars() {
+                line.push(c);
+                if !fits(&line) {
+                    line.pop();
+                    lines.push(std::mem::replace(&mut line, c.to_string()));
+                }
+            }
+        }
+        lines.push(line);
+        lines.retain(|line| !line.is_empty());
+        if lines.len() > most {
+            lines.truncate(most);
+            if let Some(last) = lines.last_mut() {
+                while !last.is_empty() && !fits(&format!("{last}\u{2026}")) {
+                    last.pop();
+                }
+                last.push('\u{2026}');
+            }
+        }
+        lines
+    }
+}
+
+/// A colour for words that can be read on the ground; on a transparent one a
+/// middle grey, which shows on light and on dark.
+pub(super) fn ink_on(ground: Option<Rgb>) -> Rgb {
+    let grey = |c: u8| Rgb([c; 3]);
+    match ground {
+        None => grey(0x80),
+        Some(Rgb([r, g, b])) => {
+            let luma = 0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b);
+            if luma > 128.0 { grey(0x20) } else { grey(0xe8) }
+        }
+    }
+}
+
+/// At most three decimals, no trailing zeros, no negative zero.
+pub(super) struct Number(pub f64);
+
+impl fmt::Display for Number {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let fixed = format!("{:.3}", self.0);
+        let short = fixed.trim_end_matches('0').trim_end_matches('.');
+        f.write_str(if short == "-0" { "0" } else { short })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TYPE: Type = Type {
+        letters_px: 13.0,
+        line_px: 16.0,
+    };
+
+    #[test]
+    fn words_are_wrapped_broken_and_cut() {
+        assert_eq!(TYPE.wrapped("", 100.0, 3), Vec::<String>::new());
+        assert_eq!(TYPE.wrapped("a  b\nc", 100.0, 3), ["a b c"]);
+        let long = "x".repeat(200);
+        let lines = TYPE.wrapped(&long, 100.0, 3);
+        assert_eq!(lines.len(), 3);
+        assert!(lines[2].ends_with('\u{2026}'));
+        for line in TYPE.wrapped("several words that do not fit", 60.0, 9) {
+            assert!(text::width(&line, TYPE.letters_px) <= 60.0, "{line}");
+        }
+        assert_eq!(TYPE.wrapped("narrow", 0.0, 2).len(), 2);
+    }
+
+    #[test]
+    fn numbers_are_short_and_never_negative_zero() {
+        let text = |x: f64| Number(x).to_string();
+        assert_eq!(text(0.0), "0");
+        assert_eq!(text(-0.0001), "0");
+        assert_eq!(text(1.5), "1.5");
+        assert_eq!(text(-2.0), "-2");
+        assert_eq!(text(100.0), "100");
+        assert_eq!(text(0.12349), "0.123");
+    }
+}
