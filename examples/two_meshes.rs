@@ -1,5 +1,6 @@
 //! `MorphPlugin` alone, in a Bevy program of its own: two meshes are spawned
-//! with a `Blend`, a system moves the blend, and they morph.
+//! with a `Blend`, and a puck that is dragged along a bar morphs them. Until it
+//! is touched it swings by itself.
 //!
 //! `cargo run --release --example two_meshes`
 
@@ -9,19 +10,31 @@ use bevy::prelude::*;
 use morphospace::geometry::DVec2;
 use morphospace::mesh::{MeshError, TriangleMesh};
 use morphospace::stage::{
-    Blend, BuildFailed, MorphPlugin, Show, SourceMesh, StageStyle, TargetMesh,
+    Blend, BuildFailed, Morph, MorphPlugin, MorphSystems, Show, SourceMesh, StageStyle, TargetMesh,
 };
 use morphospace::transition::{Rgb, Style};
 
 /// Seconds from one star to the other and back.
 const PERIOD_SECS: f64 = 6.0;
 
+/// Where the bar begins and ends, below the stars.
+const BAR: [Vec2; 2] = [Vec2::new(-200.0, -340.0), Vec2::new(200.0, -340.0)];
+
+/// What is dragged, and where on the bar it is.
+#[derive(Component, Default)]
+struct Puck {
+    t: f64,
+    has_been_touched: bool,
+}
+
 fn main() -> AppExit {
     App::new()
         .add_plugins((DefaultPlugins, MorphPlugin))
         .insert_resource(ClearColor(Color::srgb_u8(0x1b, 0x1f, 0x27)))
-        .add_systems(Startup, spawn_pair)
-        .add_systems(Update, move_blend)
+        .add_systems(Startup, (spawn_pair, spawn_puck))
+        .add_systems(Update, drag_puck.in_set(MorphSystems::Input))
+        .add_systems(Update, move_blend.in_set(MorphSystems::Playback))
+        .add_systems(Update, show_t.after(MorphSystems::Solve))
         .add_observer(report_failure)
         .run()
 }
@@ -65,9 +78,60 @@ fn spawn_pair(mut commands: Commands) -> Result {
     Ok(())
 }
 
-fn move_blend(time: Res<Time>, mut blends: Query<&mut Blend>) {
+fn spawn_puck(
+    mut commands: Commands,
+    mut meshes: ResMut<Assets<Mesh>>,
+    mut colours: ResMut<Assets<ColorMaterial>>,
+) {
+    let [from, to] = BAR;
+    let mut shape = |mesh: Mesh, grey: u8| {
+        let colour = colours.add(Color::srgb_u8(grey, grey, grey));
+        (Mesh2d(meshes.add(mesh)), MeshMaterial2d(colour))
+    };
+    let bar = Rectangle::new(from.distance(to), 2.0);
+    commands.spawn((
+        shape(bar.into(), 0x60),
+        Transform::from_translation(from.midpoint(to).extend(0.0)),
+    ));
+    commands.spawn((Puck::default(), shape(Circle::new(12.0).into(), 0xd0)));
+}
+
+/// The puck follows the pointer while a button is down.
+fn drag_puck(
+    mut pucks: Query<(&mut Puck, &mut Transform)>,
+    buttons: Res<ButtonInput<MouseButton>>,
+    window: Single<&Window>,
+    camera: Single<(&Camera, &GlobalTransform)>,
+    time: Res<Time>,
+) {
+    let (camera, place) = *camera;
+    let pointer = window
+        .cursor_position()
+        .filter(|_| buttons.pressed(MouseButton::Left));
+    let pointer = pointer.and_then(|px| camera.viewport_to_world_2d(place, px).ok());
+    let [from, to] = BAR;
+    for (mut puck, mut transform) in &mut pucks {
+        if let Some(p) = pointer {
+            let share = (p - from).dot(to - from) / (to - from).length_squared();
+            puck.t = f64::from(share.clamp(0.0, 1.0));
+            puck.has_been_touched = true;
+        } else if !puck.has_been_touched {
+            puck.t = 0.5 - 0.5 * (TAU * time.elapsed_secs_f64() / PERIOD_SECS).cos();
+        }
+        transform.translation = from.lerp(to, puck.t as f32).extend(1.0);
+    }
+}
+
+fn move_blend(puck: Single<&Puck>, mut blends: Query<&mut Blend>) {
     for mut blend in &mut blends {
-        blend.t = 0.5 - 0.5 * (TAU * time.elapsed_secs_f64() / PERIOD_SECS).cos();
+        blend.t = puck.t;
+    }
+}
+
+/// After solving the frame is that of this update.
+fn show_t(morphs: Query<&Morph, Changed<Morph>>, mut window: Single<&mut Window>) {
+    for morph in &morphs {
+        window.title = format!("t = {:.2}", morph.frame().t());
     }
 }
 

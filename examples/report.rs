@@ -1,0 +1,37 @@
+//! What is measured of a transition, as JSON on stdout: the core alone,
+//! without a window.
+//!
+//! `cargo run --release --no-default-features --example report [GALLERY NAME]`
+
+use std::error::Error;
+
+use morphospace::measure::{self, Verdict};
+use morphospace::progress::Silent;
+use morphospace::project::gallery;
+use morphospace::transition::Transition;
+use serde_json::{Value, json};
+
+/// At how many values of t the film is measured.
+const SAMPLES: usize = 33;
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let name = std::env::args().nth(1);
+    let report = report(name.as_deref().unwrap_or("triangle-polar"))?;
+    serde_json::to_writer_pretty(std::io::stdout().lock(), &report)?;
+    Ok(())
+}
+
+/// The mesh and the film of a bundled project in numbers, and what they mean.
+pub fn report(name: &str) -> Result<Value, Box<dyn Error>> {
+    let loaded = gallery::load(name)?;
+    let transition = Transition::build(&loaded.spec()?, &Silent)?;
+    let film = measure::film(&transition, SAMPLES, &Silent)?;
+    let verdict = Verdict::of_film(&transition, &film, &Silent)?;
+    Ok(json!({
+        "title": loaded.title(),
+        "verdict": verdict.headline(),
+        "findings": verdict.findings,
+        "mesh": transition.compatible().and_then(measure::mesh),
+        "film": film,
+    }))
+}
