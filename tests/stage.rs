@@ -12,10 +12,10 @@ use morphospace::geometry::{Bounds, DVec2};
 use morphospace::mesh::TriangleMesh;
 use morphospace::progress::Silent;
 use morphospace::stage::{
-    Blend, BuildFailed, CaptureStage, FrameTimes, Morph, MorphPlugin, Show, SourceMesh,
-    StageCamera, StageCaptured, StageStyle, StageTransition, StageView, TargetMesh,
+    Blend, BuildFailed, CaptureStage, FrameTimes, Morph, MorphPlugin, MorphSystems, Show,
+    SourceMesh, StageCamera, StageCaptured, StageStyle, StageTransition, StageView, TargetMesh,
 };
-use morphospace::transition::{Cell, Transition, TransitionSpec};
+use morphospace::transition::{Cell, Rgb, Style, Transition, TransitionSpec};
 use morphospace::warp::WarpKind;
 
 /// A strip of squares, each cut in two.
@@ -412,4 +412,68 @@ fn a_capture_without_a_renderer_is_refused_in_words() {
     assert_eq!(answers.len(), 1);
     assert_eq!(answers[0].id, 7);
     assert!(answers[0].result.as_ref().is_err_and(|why| !why.is_empty()));
+}
+
+#[derive(Resource, Default)]
+struct Seen(Vec<(f64, f64)>);
+
+fn step_blends(mut blends: Query<&mut Blend>) {
+    for mut blend in &mut blends {
+        blend.t += 0.125;
+    }
+}
+
+fn note_frames(morphs: Query<(&Blend, &Morph)>, mut seen: ResMut<Seen>) {
+    let pairs = morphs
+        .iter()
+        .map(|(blend, morph)| (blend.t, morph.frame().t()));
+    seen.0.extend(pairs);
+}
+
+#[test]
+fn what_runs_after_solving_sees_the_frame_of_this_update() {
+    let mut app = bare_app();
+    let entity = spawn_pair(&mut app, 0.0);
+    app.init_resource::<Seen>()
+        .add_systems(Update, step_blends.in_set(MorphSystems::Playback))
+        .add_systems(Update, note_frames.after(MorphSystems::Solve));
+    for _ in 0..3 {
+        app.update();
+    }
+    let seen = &app.world().resource::<Seen>().0;
+    assert_eq!(*seen, [(0.125, 0.125), (0.25, 0.25), (0.375, 0.375)]);
+    // What is built in an update is there in the same one.
+    let staged = StageTransition(transition(DVec2::ZERO, arap()));
+    app.world_mut().entity_mut(entity).insert(staged);
+    app.update();
+    assert_eq!(app.world().resource::<Seen>().0.last(), Some(&(0.5, 0.5)));
+}
+
+#[test]
+fn components_are_known_to_reflection() {
+    let app = bare_app();
+    let registry = app.world().resource::<AppTypeRegistry>().read();
+    for name in [
+        "SourceMesh",
+        "TargetMesh",
+        "Blend",
+        "MorphOptions",
+        "Morph",
+        "StageTransition",
+        "StageStyle",
+        "StageCamera",
+    ] {
+        let known = registry.get_with_short_type_path(name);
+        let known = known.and_then(|known| known.data::<ReflectComponent>());
+        assert!(known.is_some(), "{name}");
+    }
+    let style = StageStyle {
+        style: Style {
+            ground: Rgb([1, 2, 3]),
+            ..default()
+        },
+        ..default()
+    };
+    let copy = style.reflect_clone_and_take::<StageStyle>();
+    assert_eq!(copy.expect("a copy").style, style.style);
 }
