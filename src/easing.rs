@@ -1,10 +1,9 @@
 //! How a share runs from 0 to 1: of a segment of time, or of a mix of colours.
 
-use serde::{Deserialize, Serialize};
+use crate::names::named;
 
 /// How a share runs from 0 to 1.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Easing {
     /// Evenly.
     Linear,
@@ -17,10 +16,14 @@ pub enum Easing {
     EaseOut,
 }
 
-impl Easing {
-    /// All of them.
-    pub const ALL: [Self; 4] = [Self::Linear, Self::Smooth, Self::EaseIn, Self::EaseOut];
+named! { Easing {
+    Linear: "linear", "Even", "The same speed all along";
+    Smooth: "smooth", "Smooth", "Slow at both ends";
+    EaseIn: "ease-in", "Ease in", "Slow at the beginning";
+    EaseOut: "ease-out", "Ease out", "Slow at the end";
+} }
 
+impl Easing {
     /// Maps [0, 1] onto itself, increasing.
     #[must_use]
     pub fn apply(self, x: f64) -> f64 {

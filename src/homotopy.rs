@@ -8,11 +8,10 @@
 //! evaluates the same formulas for several faces at once.
 
 use crate::geometry::{DMat2, Polar, SymmetricEigen};
-use serde::{Deserialize, Serialize};
+use crate::names::named;
 
 /// How the local map of a face moves from the identity to its end.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Homotopy {
     /// (1−t) I + t M (paper, eq. 3): straight vertex paths; collapses on
     /// half turns.
@@ -29,15 +28,21 @@ pub enum Homotopy {
     LinearAfterPolar,
 }
 
-impl Homotopy {
-    /// All of them, in the order of the paper.
-    pub const ALL: [Self; 4] = [
-        Self::Linear,
-        Self::LinearAfterPolar,
-        Self::Polar,
-        Self::Exponential,
-    ];
+named! { Homotopy {
+    Linear: "linear", "Linear",
+        "Points go straight. Cheap and even, but parts shrink while they turn and collapse on \
+         half turns.";
+    LinearAfterPolar: "linear-after-polar", "Linear, turn apart",
+        "Turn and stretch apart, the turn on a straight line: shows why the turn must be on a \
+         circle.";
+    Polar: "polar", "Polar",
+        "Parts turn steadily while they stretch evenly. Right for most designs.";
+    Exponential: "exponential", "Exponential",
+        "Turns steadily and stretches by equal factors: never turns inside out, even far beyond \
+         the designs.";
+} }
 
+impl Homotopy {
     /// Whether no face can turn over for t in [0, 1].
     #[must_use]
     pub const fn keeps_orientation(self) -> bool {

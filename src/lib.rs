@@ -50,6 +50,7 @@
 //! A module uses modules above it, never below.
 //!
 //! ```text
+//! names                         what the values of options are called
 //! progress, easing              how work tells how far it is; how a share runs
 //! atomic_file                   files that are there whole or not at all
 //! geometry                      points, matrices, polygons, exact predicates
@@ -74,6 +75,8 @@
 //! nothing and prints nothing.
 
 mod atomic_file;
+pub mod names;
+
 pub mod easing;
 pub mod progress;
 

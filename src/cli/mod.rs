@@ -15,6 +15,7 @@ mod output;
 mod plane_options;
 mod render;
 mod terminal;
+mod values;
 
 use std::ffi::OsString;
 use std::path::PathBuf;

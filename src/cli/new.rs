@@ -35,11 +35,7 @@ pub(super) struct NewArgs {
 }
 
 pub(super) fn run(args: &NewArgs) -> Result<(), CliError> {
-    let is_project = args
-        .out
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("morph"));
-    if !is_project {
+    if !Project::is_named(&args.out) {
         let path = args.out.display();
         return Err(CliError::Usage(format!(
             "`{path}` is no project: end --out in .morph"

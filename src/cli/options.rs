@@ -1,30 +1,33 @@
 //! Every option of a method as a flag, shared by `render`, `check` and `new`.
 //!
 //! A flag that is not given leaves the project as it is. Names of choices are
-//! those of the project file, read by the same code.
+//! those of the project file, read from the same tables.
 
-use clap::builder::{PossibleValuesParser, TypedValueParser};
-use clap::{Args, ValueEnum};
-use serde::de::DeserializeOwned;
+use clap::Args;
 
 use crate::content::{BlendSpace, ContentKind};
 use crate::field::Metric;
 use crate::homotopy::Homotopy;
+use crate::names::named;
 use crate::project::Project;
 use crate::transition::{Boundary, Easing, Fit, PlayMode, Rgb};
 use crate::warp::{PathKind, WarpKind, Weights};
 
 use super::error::CliError;
 use super::plane_options::{CellArgs, ColourArgs, PathArgs};
+use super::values::{one_of, set, weights};
 
 /// The paper's two methods: cells of the table of warps and contents.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Method {
-    /// Rigid parts: meshes and trusses move as rigidly as possible
     Arap,
-    /// Distance fields: any two outlines
     Field,
 }
+
+named! { Method {
+    Arap: "arap", "Rigid parts", "Rigid parts: meshes and trusses move as rigidly as possible";
+    Field: "field", "Distance fields", "Distance fields: any two outlines";
+} }
 
 impl Method {
     fn kinds(self) -> (WarpKind, ContentKind) {
@@ -62,11 +65,11 @@ pub(super) struct MethodArgs {
 #[command(next_help_heading = "Method")]
 struct PlacingArgs {
     /// How the designs are blended [default: what suits them]
-    #[arg(long, value_enum)]
+    #[arg(long, value_parser = one_of::<Method>())]
     method: Option<Method>,
 
     /// How the target is laid over the source
-    #[arg(long, value_parser = named::<Fit>(&["as-drawn", "centred", "same-area"]))]
+    #[arg(long, value_parser = one_of::<Fit>())]
     fit: Option<Fit>,
 
     /// Width of a truss's bars, as a fraction of the design's diameter
@@ -78,7 +81,7 @@ struct PlacingArgs {
 #[command(next_help_heading = "Rigid parts (arap)")]
 struct ArapArgs {
     /// The path of each face's local map
-    #[arg(long, value_parser = named::<Homotopy>(&["linear", "polar", "exponential", "linear-after-polar"]))]
+    #[arg(long, value_parser = one_of::<Homotopy>())]
     homotopy: Option<Homotopy>,
 
     /// What each face weighs: area, uniform, or numbers, one a face
@@ -119,15 +122,15 @@ struct ArapArgs {
 #[command(next_help_heading = "Distance fields (field)")]
 struct FieldArgs {
     /// How distance is measured
-    #[arg(long, value_parser = named::<Metric>(&["euclidean", "city-block", "chessboard", "quasi-euclidean"]))]
+    #[arg(long, value_parser = one_of::<Metric>())]
     metric: Option<Metric>,
 
     /// Where the boundary runs: on the outline, or between cells as in the paper
-    #[arg(long, value_parser = named::<Boundary>(&["exact", "binary"]))]
+    #[arg(long, value_parser = one_of::<Boundary>())]
     boundary: Option<Boundary>,
 
     /// Whether logarithms of distances are blended, or distances
-    #[arg(long, value_parser = named::<BlendSpace>(&["log", "real"]))]
+    #[arg(long, value_parser = one_of::<BlendSpace>())]
     space: Option<BlendSpace>,
 
     /// Where the logarithm bends, in cells
@@ -191,11 +194,11 @@ struct TimingArgs {
     hold: Option<f64>,
 
     /// How t runs between stops
-    #[arg(long, value_parser = named::<Easing>(&["linear", "smooth", "ease-in", "ease-out"]))]
+    #[arg(long, value_parser = one_of::<Easing>())]
     easing: Option<Easing>,
 
     /// What happens at the end of a pass
-    #[arg(long, value_parser = named::<PlayMode>(&["once", "loop", "ping-pong"]))]
+    #[arg(long, value_parser = one_of::<PlayMode>())]
     play: Option<PlayMode>,
 }
 
@@ -304,35 +307,6 @@ impl StyleArgs {
         set(&mut style.source, self.source_colour);
         set(&mut style.target, self.target_colour);
         set(&mut style.joints, self.no_joints.then_some(false));
-    }
-}
-
-pub(super) fn set<T>(place: &mut T, value: Option<T>) {
-    if let Some(value) = value {
-        *place = value;
-    }
-}
-
-/// A choice by the name that it has in the project file.
-pub(super) fn named<T>(names: &'static [&'static str]) -> impl TypedValueParser<Value = T>
-where
-    T: DeserializeOwned + Clone + Send + Sync + 'static,
-{
-    PossibleValuesParser::new(names)
-        .try_map(|name| serde_json::from_value::<T>(serde_json::Value::String(name)))
-}
-
-fn weights(text: &str) -> Result<Weights, String> {
-    match text {
-        "area" => Ok(Weights::Area),
-        "uniform" => Ok(Weights::Uniform),
-        numbers => {
-            let each = numbers.split(',').map(|number| number.trim().parse());
-            let all: Result<Vec<f64>, _> = each.collect();
-            all.map(Weights::PerFace).map_err(|_| {
-                "write area, uniform, or numbers with commas, one for each face".to_owned()
-            })
-        }
     }
 }
 

@@ -21,6 +21,7 @@ use super::inputs::{Inputs, Opened};
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
+use super::values::{Ground, ground, range};
 
 /// The longer side of a picture of free size, in pixels.
 const LONGER_SIDE_PX: u32 = 960;
@@ -83,13 +84,6 @@ fn out_help() -> String {
         StillKind::endings(),
         FilmKind::endings()
     )
-}
-
-/// What is behind the shapes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Ground {
-    Transparent,
-    Coloured(Rgb),
 }
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
@@ -278,50 +272,5 @@ fn tell(written: &[PathBuf]) {
             first.display(),
             last.display()
         )),
-    }
-}
-
-fn ground(text: &str) -> Result<Ground, String> {
-    match text {
-        "transparent" => Ok(Ground::Transparent),
-        colour => match colour.parse() {
-            Ok(colour) => Ok(Ground::Coloured(colour)),
-            Err(error) => Err(format!("{error}, or transparent")),
-        },
-    }
-}
-
-fn range(text: &str) -> Result<Range<usize>, String> {
-    let wrong =
-        || format!("`{text}` is no range: write A..B with A less than B, for example 0..60");
-    let (start, end) = text.split_once("..").ok_or_else(wrong)?;
-    let number = |digits: &str| digits.parse::<usize>().map_err(|_| wrong());
-    let range = number(start)?..number(end)?;
-    if range.is_empty() {
-        Err(wrong())
-    } else {
-        Ok(range)
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn ranges_are_read() {
-        assert_eq!(range("0..60"), Ok(0..60));
-        for wrong in [
-            "", "5", "5..", "..5", "5..5", "6..5", "-1..5", "0..=5", "a..b",
-        ] {
-            assert!(range(wrong).is_err(), "{wrong}");
-        }
-    }
-
-    #[test]
-    fn grounds_are_read() {
-        assert_eq!(ground("transparent"), Ok(Ground::Transparent));
-        assert_eq!(ground("#010203"), Ok(Ground::Coloured(Rgb([1, 2, 3]))));
-        assert!(ground("white").is_err());
     }
 }

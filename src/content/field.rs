@@ -18,11 +18,11 @@ use std::sync::Arc;
 
 use crate::field::{DistanceField, Grid, contour};
 use crate::geometry::{DVec2, signed_area};
+use crate::names::named;
 use serde::{Deserialize, Serialize};
 
 /// What is done to distances before they are mixed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum BlendSpace {
     /// L(x) = sgn(x) log(1 + |x| / ε): what is near a boundary decides.
     #[default]
@@ -30,6 +30,11 @@ pub enum BlendSpace {
     /// L(x) = x.
     Real,
 }
+
+named! { BlendSpace {
+    Log: "log", "Logarithmic", "Near the outlines counts most: thin parts survive";
+    Real: "real", "Real", "Far counts as much as near: thin parts go under";
+} }
 
 /// How two distances make one. All lengths are in cells of the fields' grid.
 ///

@@ -10,11 +10,10 @@ pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
 pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError};
 pub use solid::Solid;
 
-use serde::{Deserialize, Serialize};
+use crate::names::named;
 
 /// Which content: a column of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum ContentKind {
     /// Regions and bars, filled.
     Solid,
@@ -24,10 +23,11 @@ pub enum ContentKind {
     Colours,
 }
 
-impl ContentKind {
-    /// All of them, in the order of the table.
-    pub const ALL: [Self; 3] = [Self::Solid, Self::Field, Self::Colours];
-}
+named! { ContentKind {
+    Solid: "solid", "Solid", "Regions and bars, filled";
+    Field: "field", "Field", "The contour of two blended distance fields";
+    Colours: "colours", "Colours", "Two pictures, cross-dissolved";
+} }
 
 /// A column of the table with its data.
 #[derive(Clone, Debug)]

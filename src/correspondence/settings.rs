@@ -5,6 +5,7 @@
 
 use super::MatchOptions;
 use crate::geometry::{DVec2, Pair, Side, Similarity};
+use crate::names::named;
 use serde::{Deserialize, Serialize};
 
 /// How two designs are matched.
@@ -66,8 +67,7 @@ pub struct RingCut {
 }
 
 /// What becomes of a hole without a partner.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum HoleRule {
     /// Whichever of the two matches better.
@@ -79,9 +79,14 @@ pub enum HoleRule {
     Cut,
 }
 
+named! { HoleRule {
+    Auto: "auto", "Auto", "Whichever of the two fits better";
+    Close: "close", "Close", "The hole shrinks to a point, or grows from one";
+    Cut: "cut", "Cut", "The ring around the hole is cut open and uncoils";
+} }
+
 /// What becomes of a part without a partner.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PartRule {
     /// A single part is split into several; of several parts and several, the
@@ -93,6 +98,13 @@ pub enum PartRule {
     /// It is born from a point, or dies into one.
     Alone,
 }
+
+named! { PartRule {
+    Auto: "auto", "Auto",
+        "One part is split into several; among several, the odd ones appear or vanish";
+    Split: "split", "Split", "The part that fits best is cut in pieces, one for each";
+    Alone: "alone", "Alone", "It grows from a point, or shrinks to one";
+} }
 
 impl PointPair {
     /// The points sent through one map each.

@@ -3,10 +3,12 @@
 use crate::design::any_of;
 use std::path::{Path, PathBuf};
 
+use crate::names::{Choice, named};
+
 /// Digits of the numbers in a folder of frames.
 const FOLDER_DIGITS: usize = 4;
 
-/// A format for one picture.
+/// A format for one picture; its key is the ending of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StillKind {
     /// Pixels.
@@ -15,7 +17,12 @@ pub enum StillKind {
     Svg,
 }
 
-/// A format for one file that moves.
+named! { StillKind {
+    Png: "png", "PNG", "Pixels";
+    Svg: "svg", "SVG", "Shapes";
+} }
+
+/// A format for one file that moves; its key is the ending of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum FilmKind {
     /// 256 colours, plays everywhere.
@@ -26,44 +33,25 @@ pub enum FilmKind {
     Mp4,
 }
 
+named! { FilmKind {
+    Gif: "gif", "GIF", "Plays everywhere, 256 colours";
+    Apng: "apng", "APNG", "Full colour, plays in browsers";
+    Mp4: "mp4", "MP4", "Needs ffmpeg on this machine";
+} }
+
 impl StillKind {
-    /// All of them.
-    pub const ALL: [Self; 2] = [Self::Png, Self::Svg];
-
-    /// How the names of its files end, without a dot.
-    #[must_use]
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Self::Png => "png",
-            Self::Svg => "svg",
-        }
-    }
-
     /// The endings of all in a row, for a sentence: `.png or .svg`.
     #[must_use]
     pub fn endings() -> String {
-        any_of(Self::ALL.map(|kind| format!(".{}", kind.extension())))
+        any_of(Self::ALL.map(|kind| format!(".{kind}")))
     }
 }
 
 impl FilmKind {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Gif, Self::Apng, Self::Mp4];
-
-    /// How the names of its files end, without a dot.
-    #[must_use]
-    pub const fn extension(self) -> &'static str {
-        match self {
-            Self::Gif => "gif",
-            Self::Apng => "apng",
-            Self::Mp4 => "mp4",
-        }
-    }
-
     /// The endings of all in a row, for a sentence: `.gif, .apng or .mp4`.
     #[must_use]
     pub fn endings() -> String {
-        any_of(Self::ALL.map(|kind| format!(".{}", kind.extension())))
+        any_of(Self::ALL.map(|kind| format!(".{kind}")))
     }
 }
 
@@ -131,16 +119,15 @@ impl Target {
         if is_folder(path) {
             return Ok(Self::Numbered(in_folder(path)));
         }
-        let ends = |extension: &str| {
-            (path.extension()).is_some_and(|ending| ending.eq_ignore_ascii_case(extension))
-        };
-        let still = (StillKind::ALL.into_iter()).find(|kind| ends(kind.extension()));
+        let extension = path.extension().unwrap_or_default();
+        let extension = extension.to_string_lossy().to_lowercase();
+        let still = StillKind::of_key(&extension).ok();
         let name = path.file_name().and_then(|name| name.to_str());
         if let Some(name) = name.filter(|name| name.contains('#')) {
             let kind = still.ok_or_else(|| TargetError::NotNumbered(path.to_owned()))?;
             return Ok(Self::Numbered(by_pattern(path, name, kind)));
         }
-        let film = (FilmKind::ALL.into_iter()).find(|kind| ends(kind.extension()));
+        let film = FilmKind::of_key(&extension).ok();
         let still = still.map(|kind| Self::Still(kind, path.to_owned()));
         let film = film.map(|kind| Self::Film(kind, path.to_owned()));
         let unknown = || TargetError::Unknown(path.to_owned());

@@ -13,14 +13,13 @@
 use super::Mask;
 use super::chamfer::{Lengths, Steps};
 use super::euclidean::Columns;
+use crate::names::named;
 use crate::progress::{Cancelled, Progress, checkpoint};
-use serde::{Deserialize, Serialize};
 use std::f64::consts::SQRT_2;
 
 /// How far two cells are apart, `dx` columns and `dy` rows from each other
 /// (Rosenfeld and Pfaltz 1968; the names are those of the paper's tool).
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Metric {
     /// √(dx² + dy²), exact.
@@ -33,6 +32,14 @@ pub enum Metric {
     /// max(dx, dy) + (√2 − 1) min(dx, dy): diagonal steps have length √2.
     QuasiEuclidean,
 }
+
+named! { Metric {
+    Euclidean: "euclidean", "Euclidean", "True distance: offsets are round.";
+    QuasiEuclidean: "quasi-euclidean", "Quasi-Euclidean",
+        "Along axes and diagonals: offsets are octagons.";
+    CityBlock: "city-block", "City block", "Along axes: offsets are diamonds.";
+    Chessboard: "chessboard", "Chessboard", "The larger of the two: offsets are squares.";
+} }
 
 /// Signed distances of all cells of `mask`, row-major as its bits.
 ///

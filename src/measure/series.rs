@@ -1,16 +1,15 @@
 //! What runs along t, for plots.
 
 use super::film::{FilmReport, FilmSample};
-use serde::Serialize;
+use crate::names::named;
 
 /// A quantity that a film has at every t.
 ///
 /// ```
-/// use morphospace::measure::Quantity;
-/// assert_eq!(Quantity::WorstConformal.label(), "conformal distortion, worst face");
+/// use morphospace::{measure::Quantity, names::Choice};
+/// assert_eq!(Quantity::WorstConformal.name().title, "Worst shear");
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Quantity {
     /// Filled area, in squared units of the designs.
@@ -34,36 +33,25 @@ pub enum Quantity {
     Holes,
 }
 
+named! { Quantity {
+    Area: "area", "Area", "The filled area.";
+    Perimeter: "perimeter", "Perimeter", "The length of all boundaries.";
+    WorstConformal: "worst-conformal", "Worst shear",
+        "Conformal distortion of the worst triangle: its longer stretch by its shorter; 1 keeps \
+         all angles.";
+    WorstIsometric: "worst-isometric", "Worst stretch",
+        "Isometric distortion of the worst triangle: the larger of its stretch and its squeeze; \
+         1 keeps all lengths.";
+    MinDet: "min-det", "Least area ratio",
+        "The least determinant: the area of the triangle that has shrunk most, as a share of \
+         what it was. At 0 and below it folds over.";
+    Folds: "folds", "Folded faces", "Triangles that are turned over or flat.";
+    Crossings: "crossings", "Crossings", "How often the boundary crosses itself.";
+    Pieces: "pieces", "Pieces", "Separate pieces.";
+    Holes: "holes", "Holes", "Holes in them.";
+} }
+
 impl Quantity {
-    /// All of them, in the order in which they are listed.
-    pub const ALL: [Self; 9] = [
-        Self::Area,
-        Self::Perimeter,
-        Self::WorstConformal,
-        Self::WorstIsometric,
-        Self::MinDet,
-        Self::Folds,
-        Self::Crossings,
-        Self::Pieces,
-        Self::Holes,
-    ];
-
-    /// What it is called beside a plot.
-    #[must_use]
-    pub const fn label(self) -> &'static str {
-        match self {
-            Self::Area => "area",
-            Self::Perimeter => "perimeter",
-            Self::WorstConformal => "conformal distortion, worst face",
-            Self::WorstIsometric => "isometric distortion, worst face",
-            Self::MinDet => "least determinant",
-            Self::Folds => "folded faces",
-            Self::Crossings => "boundary crossings",
-            Self::Pieces => "pieces",
-            Self::Holes => "holes",
-        }
-    }
-
     /// At one sample; `None` where this kind of transition has none of it.
     #[must_use]
     pub fn at(self, sample: &FilmSample) -> Option<f64> {

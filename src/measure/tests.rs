@@ -146,7 +146,7 @@ fn scaling_to_nine_times_the_area_rises_evenly() {
 fn each_quantity_is_there_or_empty() {
     let report = film_of(|p| p, Homotopy::Polar);
     for quantity in Quantity::ALL {
-        assert_eq!(report.series(quantity).len(), 17, "{}", quantity.label());
+        assert_eq!(report.series(quantity).len(), 17, "{}", quantity);
     }
     let truss = r#"{"nodes": [[0,0],[1,0],[0,1]], "bars": [[0,1],[1,2],[2,0]]}"#;
     let read = import("truss", truss.as_bytes(), &ImportOptions::default());

@@ -101,6 +101,16 @@ impl DesignEntry {
 }
 
 impl Project {
+    /// How the names of documents end, without the dot.
+    pub const EXTENSION: &'static str = "morph";
+
+    /// Whether a path is named as a document.
+    #[must_use]
+    pub fn is_named(path: &Path) -> bool {
+        path.extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case(Self::EXTENSION))
+    }
+
     /// Two files with default options. Paths are kept as they are given.
     #[must_use]
     pub fn pair(source: impl Into<PathBuf>, target: impl Into<PathBuf>) -> Self {

@@ -2,13 +2,12 @@
 
 use crate::design::{Design, Form};
 use crate::geometry::{DVec2, Similarity, SimilarityError, twice_signed_area};
-use serde::{Deserialize, Serialize};
+use crate::names::named;
 use std::sync::Arc;
 
 /// How the target is fitted to the source, before each design's own
 /// placement.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Fit {
     /// Coordinates as they stand in the files.
@@ -20,6 +19,12 @@ pub enum Fit {
     /// to its size.
     SameArea,
 }
+
+named! { Fit {
+    AsDrawn: "as-drawn", "As drawn", "Where the files have them";
+    Centred: "centred", "Centred", "Centre on centre, sizes as drawn";
+    SameArea: "same-area", "Same area", "Centre on centre, scaled to one area";
+} }
 
 /// Both designs laid into one frame: the target fitted to the source, then
 /// each placed about its own middle.

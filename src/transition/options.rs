@@ -5,6 +5,7 @@ use crate::compatible::PolygonOptions;
 use crate::content::{ColourMix, FieldBlend};
 use crate::correspondence::Matching;
 use crate::field::Metric;
+use crate::names::named;
 use crate::warp::{
     ArapOptions, LatticeOptions, LineOptions, PathOptions, ScatteredOptions, Travel,
 };
@@ -80,8 +81,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 }
 
 /// Where the boundary of a distance field runs.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Boundary {
     /// Where the outline is; Euclidean only.
@@ -90,6 +90,11 @@ pub enum Boundary {
     /// Between cells, as in the paper.
     Binary,
 }
+
+named! { Boundary {
+    Exact: "exact", "Exact", "Where the drawing has it: smooth";
+    Binary: "binary", "Binary", "Between cells, as the paper's tool: stepped";
+} }
 
 /// Options of the distance fields.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]

@@ -5,11 +5,11 @@
 //! t. Playing once, in a loop or to and fro repeats passes.
 
 use crate::easing::Easing;
+use crate::names::named;
 use serde::{Deserialize, Serialize};
 
 /// What happens at the end of a pass.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PlayMode {
     /// Playing stops.
@@ -20,6 +20,12 @@ pub enum PlayMode {
     #[default]
     PingPong,
 }
+
+named! { PlayMode {
+    PingPong: "ping-pong", "Ping-pong", "There and back, again and again";
+    Loop: "loop", "Loop", "Starts again at the end";
+    Once: "once", "Once", "Stops at the end";
+} }
 
 /// A named place in the transition.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]

@@ -1,15 +1,15 @@
 //! The rows of the table, and all that is said of each wherever a warp is
 //! offered, listed or reported.
 //!
-//! A new warp is a variant of [`WarpKind`] and a constant of [`Words`] here;
-//! command line, window, reports and the table of cells read it from there.
-//! Warps know nothing of contents, so a column is named by a field.
+//! A new warp is a variant of [`WarpKind`] with its row of names, and a
+//! constant of [`Words`] here; command line, window, reports and the table of
+//! cells read it from there. Warps know nothing of contents, so a column is
+//! named by a field.
 
-use serde::{Deserialize, Serialize};
+use crate::names::named;
 
 /// Which warp: a row of the table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum WarpKind {
     /// Nothing moves.
     None,
@@ -26,22 +26,21 @@ pub enum WarpKind {
     Lattice,
 }
 
-/// How many warps there are.
-const COUNT: usize = WarpKind::ALL.len();
+named! { WarpKind {
+    None: "none", "Still", "Nothing moves: each point stays where it is.";
+    Paths: "paths", "Paths",
+        "Points of the outline move on paths of their own, straight or so that its edges turn \
+         (Sederberg and others 1993).";
+    Arap: "arap", "Rigid", "Each part moves as rigidly as it can: limbs turn instead of shrinking.";
+    Lines: "lines", "Lines", "Pairs of lines pull the plane along (Beier and Neely 1992).";
+    Scattered: "scattered", "Points",
+        "Pins pull the plane along, smoothly between them (radial basis functions).";
+    Lattice: "lattice", "Lattice", "Pins bend a grid of splines, finer and finer, without folds.";
+} }
 
 impl WarpKind {
-    /// All of them, in the order of the table.
-    pub const ALL: [Self; 6] = [
-        Self::None,
-        Self::Paths,
-        Self::Arap,
-        Self::Lines,
-        Self::Scattered,
-        Self::Lattice,
-    ];
-
     /// All of them, those that ask least of the designs last.
-    pub const BY_DEMAND: [Self; COUNT] = [
+    pub const BY_DEMAND: [Self; Self::ALL.len()] = [
         Self::Arap,
         Self::Paths,
         Self::Scattered,
@@ -49,18 +48,6 @@ impl WarpKind {
         Self::Lattice,
         Self::None,
     ];
-
-    /// Their names in files and on the command line, in the order of the
-    /// table.
-    pub const KEYS: [&'static str; COUNT] = {
-        let mut keys = [""; COUNT];
-        let mut k = 0;
-        while k < COUNT {
-            keys[k] = Self::ALL[k].words().key;
-            k += 1;
-        }
-        keys
-    };
 
     /// Whether it moves the whole plane by pins and lines, whatever the
     /// designs are.
@@ -73,7 +60,7 @@ impl WarpKind {
     ///
     /// ```
     /// use morphospace::warp::WarpKind;
-    /// assert_eq!(WarpKind::Arap.words().key, "arap");
+    /// assert_eq!(WarpKind::Arap.words().name, "rigid parts");
     /// assert!(WarpKind::None.words().solid.is_err());
     /// ```
     #[must_use]
@@ -92,14 +79,8 @@ impl WarpKind {
 /// What is said of a warp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Words {
-    /// Its name in files and on the command line.
-    pub key: &'static str,
     /// Its name in a report, in full; of no warp nothing is said.
     pub name: &'static str,
-    /// Its name at the head of a row, one word.
-    pub title: &'static str,
-    /// What it does, in one sentence.
-    pub sentence: &'static str,
     /// With solids.
     pub solid: Column,
     /// With distance fields.
@@ -153,10 +134,7 @@ const fn morph(name: &'static str, report: &'static str) -> CellWords {
 }
 
 const NONE: Words = Words {
-    key: "none",
     name: "",
-    title: "Still",
-    sentence: "Nothing moves: each point stays where it is.",
     solid: Err("a solid changes by moving, so it needs a warp; choose rigid parts (arap)"),
     field: Ok(CellWords {
         name: "field blend",
@@ -174,10 +152,7 @@ const NONE: Words = Words {
 };
 
 const ARAP: Words = Words {
-    key: "arap",
     name: "rigid parts",
-    title: "Rigid",
-    sentence: "Each part moves as rigidly as it can: limbs turn instead of shrinking.",
     solid: Ok(CellWords {
         name: "rigid parts",
         button: "Rigid parts",
@@ -190,11 +165,7 @@ const ARAP: Words = Words {
 };
 
 const PATHS: Words = Words {
-    key: "paths",
     name: "boundary paths",
-    title: "Paths",
-    sentence: "Points of the outline move on paths of their own, straight or so that its edges \
-               turn (Sederberg and others 1993).",
     solid: Ok(CellWords {
         name: "boundary paths",
         button: "Outlines",
@@ -207,30 +178,21 @@ const PATHS: Words = Words {
 };
 
 const LINES: Words = Words {
-    key: "lines",
     name: "pairs of lines",
-    title: "Lines",
-    sentence: "Pairs of lines pull the plane along (Beier and Neely 1992).",
     solid: Err(NOTHING_TO_LOOK_UP),
     field: Ok(carried_field("fields by lines", "lines")),
     colours: Ok(morph("pictures by lines", "lines")),
 };
 
 const SCATTERED: Words = Words {
-    key: "scattered",
     name: "scattered points",
-    title: "Points",
-    sentence: "Pins pull the plane along, smoothly between them (radial basis functions).",
     solid: Err(NOTHING_TO_LOOK_UP),
     field: Ok(carried_field("fields by scattered points", "scattered")),
     colours: Ok(morph("pictures by scattered points", "scattered")),
 };
 
 const LATTICE: Words = Words {
-    key: "lattice",
     name: "B-spline lattices",
-    title: "Lattice",
-    sentence: "Pins bend a grid of splines, finer and finer, without folds.",
     solid: Err(NOTHING_TO_LOOK_UP),
     field: Ok(carried_field("fields by lattices", "lattice")),
     colours: Ok(morph("pictures by lattices", "lattice")),
@@ -239,13 +201,6 @@ const LATTICE: Words = Words {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn keys_are_those_of_the_file() {
-        for (warp, key) in WarpKind::ALL.into_iter().zip(WarpKind::KEYS) {
-            assert_eq!(serde_json::to_value(warp).expect("written"), key);
-        }
-    }
 
     #[test]
     fn both_orders_have_every_warp_once() {

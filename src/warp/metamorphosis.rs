@@ -15,12 +15,11 @@
 use super::{Missed, Placement, Placer, PlaneWarp, Warp};
 use crate::correspondence::{LinePair, PointPair, RegionMatch};
 use crate::geometry::{Bounds, DVec2};
-use serde::{Deserialize, Serialize};
+use crate::names::named;
 use std::sync::Arc;
 
 /// How the features of a warp of the plane travel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Travel {
     /// As a whole where fields are seen; straight where pictures are, whose
     /// borders would turn into the frame.
@@ -32,6 +31,14 @@ pub enum Travel {
     /// Each goes straight.
     Straight,
 }
+
+named! { Travel {
+    Auto: "auto", "Auto", "As a whole where fields are seen, straight where pictures are.";
+    Whole: "whole", "As a whole",
+        "What turns keeps its size on the way; the borders of pictures turn too.";
+    Straight: "straight", "Straight",
+        "Each goes the shortest way; what turns far shrinks on the way.";
+} }
 
 /// The rigid motion that lays features of the source onto those of the target
 /// best, in the sense of least squares: about one centre onto another.

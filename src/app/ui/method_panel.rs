@@ -10,6 +10,7 @@ use super::widgets::{hint, section};
 use super::{Intents, Scene};
 use crate::app::intent::Intent;
 use crate::content::ContentKind;
+use crate::names::Choice;
 use crate::project::Project;
 use crate::transition::Cell;
 use crate::warp::WarpKind;
@@ -48,7 +49,7 @@ fn heads(ui: &mut Ui, width: f32) {
         ui.painter().text(
             at,
             Align2::LEFT_CENTER,
-            content_name(content),
+            content.name().title,
             font.clone(),
             weak,
         );
@@ -59,25 +60,17 @@ fn heads(ui: &mut Ui, width: f32) {
 fn row_head(ui: &mut Ui, warp: WarpKind) {
     let (rect, response) =
         ui.allocate_exact_size(vec2(ROW_LABEL_WIDTH, CELL_HEIGHT), Sense::hover());
-    let words = warp.words();
+    let name = warp.name();
     let font = TextStyle::Small.resolve(ui.style());
     let weak = Palette::of(ui).weak;
     ui.painter().text(
         rect.left_center(),
         Align2::LEFT_CENTER,
-        words.title,
+        name.title,
         font,
         weak,
     );
-    response.on_hover_text(words.sentence);
-}
-
-fn content_name(content: ContentKind) -> &'static str {
-    match content {
-        ContentKind::Solid => "Solid",
-        ContentKind::Field => "Field",
-        ContentKind::Colours => "Colours",
-    }
+    response.on_hover_text(name.sentence);
 }
 
 /// What stands on the button of a cell.

@@ -9,6 +9,7 @@ use super::theme::{GRID, Palette};
 use super::{Intents, Scene};
 use crate::app::intent::Intent;
 use crate::measure::{FilmReport, Quantity};
+use crate::names::Choice;
 
 const HEIGHT: f32 = 168.0;
 
@@ -74,7 +75,7 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
     let t = scene.playback.t();
     ui.spacing_mut().item_spacing.y = 2.0;
     heading(ui, quantity, series, t);
-    let plot = Plot::new(("plot", quantity.label()))
+    let plot = Plot::new(("plot", quantity.name().title))
         .height(ui.available_height().min(HEIGHT - 52.0))
         .allow_drag(false)
         .allow_zoom(false)
@@ -103,7 +104,7 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
         let drawn: Vec<[f64; 2]> = series.iter().map(|[t, v]| [*t, on_axis(*v)]).collect();
         for run in runs(&drawn) {
             plot.line(
-                Line::new(quantity.label(), PlotPoints::from(run))
+                Line::new(quantity.name().title, PlotPoints::from(run))
                     .color(palette.accent)
                     .width(1.75)
                     .allow_hover(false),
@@ -124,7 +125,7 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
     }
     response
         .response
-        .on_hover_text(format!("{} Click to go to a t.", meaning(quantity)));
+        .on_hover_text(format!("{} Click to go to a t.", quantity.name().sentence));
 }
 
 /// Ratios run over many powers of ten where something is born from a point.
@@ -173,7 +174,11 @@ fn heading(ui: &mut Ui, quantity: Quantity, series: &[[f64; 2]], t: f64) {
         .iter()
         .min_by(|a, b| (a[0] - t).abs().total_cmp(&(b[0] - t).abs()));
     ui.horizontal(|ui| {
-        ui.label(RichText::new(name(quantity)).small().color(palette.weak));
+        ui.label(
+            RichText::new(quantity.name().title)
+                .small()
+                .color(palette.weak),
+        );
         if let Some([_, value]) = nearest.filter(|_| (0.0..=1.0).contains(&t)) {
             ui.label(RichText::new(short(*value)).small().color(palette.text));
         }
@@ -210,43 +215,6 @@ fn short(value: f64) -> String {
             format!("{value:.decimals$}")
         }
         _ => format!("{value:.1e}"),
-    }
-}
-
-fn name(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Area => "Area",
-        Quantity::Perimeter => "Perimeter",
-        Quantity::WorstConformal => "Worst shear",
-        Quantity::WorstIsometric => "Worst stretch",
-        Quantity::MinDet => "Least area ratio",
-        Quantity::Folds => "Folded faces",
-        Quantity::Crossings => "Crossings",
-        Quantity::Pieces => "Pieces",
-        Quantity::Holes => "Holes",
-    }
-}
-
-fn meaning(quantity: Quantity) -> &'static str {
-    match quantity {
-        Quantity::Area => "The filled area.",
-        Quantity::Perimeter => "The length of all boundaries.",
-        Quantity::WorstConformal => {
-            "Conformal distortion of the worst triangle: its longer stretch by its shorter; 1 keeps \
-             all angles."
-        }
-        Quantity::WorstIsometric => {
-            "Isometric distortion of the worst triangle: the larger of its stretch and its squeeze; \
-             1 keeps all lengths."
-        }
-        Quantity::MinDet => {
-            "The least determinant: the area of the triangle that has shrunk most, as a share of \
-             what it was. At 0 and below it folds over."
-        }
-        Quantity::Folds => "Triangles that are turned over or flat.",
-        Quantity::Crossings => "How often the boundary crosses itself.",
-        Quantity::Pieces => "Separate pieces.",
-        Quantity::Holes => "Holes in them.",
     }
 }
 

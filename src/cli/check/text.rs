@@ -6,6 +6,7 @@ use std::fmt::Write;
 use super::report::{DesignReport, Report};
 use crate::content::ContentKind;
 use crate::measure::{Distribution, FilmSample, MeshReport, Quantity};
+use crate::names::Choice;
 
 /// The most samples that are listed.
 const MOST_ROWS: usize = 9;
@@ -58,22 +59,18 @@ impl Lines {
 }
 
 fn method(report: &Report, lines: &mut Lines) {
-    let words = report.warp.words();
-    let warp = match words.name {
-        "" => String::new(),
-        name => format!("{name} ({})", words.key),
-    };
     let content = match report.content {
         ContentKind::Solid => "",
-        ContentKind::Field => "distance fields (field)",
-        ContentKind::Colours => "colours (colours)",
+        ContentKind::Field => "distance fields",
+        ContentKind::Colours => "colours",
     };
-    let joint = if warp.is_empty() || content.is_empty() {
-        ""
-    } else {
-        ", "
-    };
-    let method = format!("{warp}{joint}{content}");
+    let warp = (report.warp.words().name, report.warp.name().key);
+    let said = [warp, (content, report.content.name().key)];
+    let said = said.into_iter().filter(|(words, _)| !words.is_empty());
+    let said: Vec<_> = said
+        .map(|(words, key)| format!("{words} ({key})"))
+        .collect();
+    let method = said.join(", ");
     let grid = report.grid.map(|[w, h]| format!(", {w} x {h} cells"));
     lines.row("method", &format!("{method}{}", grid.unwrap_or_default()));
     for (role, design) in ["source", "target"].iter().zip(&report.designs) {

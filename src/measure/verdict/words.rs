@@ -4,7 +4,6 @@ use super::finding::{Cause, Change, Finding, Remedy, Trouble};
 use super::judge::Verdict;
 use crate::content::BlendSpace;
 use crate::geometry::DVec2;
-use crate::homotopy::Homotopy;
 use std::fmt;
 
 impl Verdict {
@@ -217,15 +216,7 @@ impl fmt::Display for Remedy {
 impl fmt::Display for Change {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Homotopy(homotopy) => {
-                let name = match homotopy {
-                    Homotopy::Linear => "linear",
-                    Homotopy::Polar => "polar",
-                    Homotopy::Exponential => "exponential",
-                    Homotopy::LinearAfterPolar => "linear-after-polar",
-                };
-                write!(f, "choose the {name} homotopy")
-            }
+            Self::Homotopy(homotopy) => write!(f, "choose the {homotopy} homotopy"),
             Self::Symmetric => write!(f, "choose the symmetric energy"),
             Self::ExtraTurns(turns) => {
                 let turns: Vec<_> = turns.iter().map(i32::to_string).collect();

@@ -6,6 +6,7 @@
 //! The paper's useful ranges are b in [0.5, 2] and p in [0, 1].
 
 use crate::geometry::DVec2;
+use crate::names::named;
 use serde::{Deserialize, Serialize};
 
 /// The largest b: weights of the nearest and of the farthest place that can be
@@ -13,8 +14,7 @@ use serde::{Deserialize, Serialize};
 pub(super) const MAX_FALLOFF: f64 = 8.0;
 
 /// How a line at t lies between its two.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Between {
     /// Both ends move on straight lines. A line that turns by π shrinks to a
     /// point on the way.
@@ -24,6 +24,12 @@ pub enum Between {
     #[default]
     MiddleAndAngle,
 }
+
+named! { Between {
+    MiddleAndAngle: "middle-and-angle", "Turn",
+        "Its middle moves straight, its direction turns the shorter way";
+    Ends: "ends", "Ends", "Both ends move straight: a line that turns shrinks on the way";
+} }
 
 /// How lines move what is around them.
 ///

@@ -31,6 +31,7 @@ mod whole;
 
 use super::{Placement, Placer, Warp};
 use crate::geometry::DVec2;
+use crate::names::named;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
 use std::sync::Arc;
@@ -40,8 +41,7 @@ use whole::Intrinsic;
 const FARTHEST: f64 = 1e75;
 
 /// On which paths the vertices move.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Course {
     /// Straight lines: what turns is shortened on the way.
     Straight,
@@ -49,6 +49,12 @@ pub enum Course {
     #[default]
     Intrinsic,
 }
+
+named! { Course {
+    Straight: "straight", "Straight", "On straight lines: what turns shrinks on the way";
+    Intrinsic: "intrinsic", "Intrinsic",
+        "Edges turn and change their lengths evenly: what turns keeps its form";
+} }
 
 /// Options of the boundary paths.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

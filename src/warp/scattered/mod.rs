@@ -39,14 +39,14 @@ pub use radial::RadialMap;
 use super::PlaneWarp;
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
+use crate::names::named;
 use radial::CHUNK;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use system::Solver;
 
 /// The radial function φ.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Basis {
     /// r² log r: bends least; moves the whole plane.
     #[default]
@@ -57,6 +57,13 @@ pub enum Basis {
     /// (Ruprecht, Müller 1995): tight where features are dense.
     Multiquadric,
 }
+
+named! { Basis {
+    ThinPlate: "thin-plate", "Thin plate", "Bends least; moves the whole plane.";
+    Gaussian: "gaussian", "Gaussian", "Moves what is near a pin.";
+    Multiquadric: "multiquadric", "Multiquadric",
+        "Tight where pins are dense, wide where they are sparse.";
+} }
 
 /// Options of the warp by scattered points.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
