@@ -3,13 +3,16 @@
 use std::io;
 
 /// Why a command did not do its work.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub(super) enum CliError {
     /// The command was used wrongly: exit code 2.
+    #[error("{0}")]
     Usage(String),
     /// The work failed: exit code 1.
+    #[error("{0}")]
     Failed(String),
     /// Data could not be written to stdout.
+    #[error("cannot write to stdout: {0}")]
     Stdout(io::Error),
 }
 

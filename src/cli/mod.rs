@@ -9,6 +9,7 @@ mod check;
 mod error;
 mod gallery;
 mod inputs;
+mod laboratory;
 mod new;
 mod options;
 mod output;

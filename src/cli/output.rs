@@ -3,6 +3,8 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
+use serde::Serialize;
+
 use super::error::CliError;
 
 const FAILED: u8 = 1;
@@ -15,6 +17,13 @@ pub(super) fn data(text: &str) -> Result<(), CliError> {
         .write_all(text.as_bytes())
         .and_then(|()| stdout.flush())
         .map_err(CliError::Stdout)
+}
+
+/// A value as JSON for [`data`].
+pub(super) fn json(value: &impl Serialize) -> Result<String, CliError> {
+    // By way of a value, whose keys are in alphabetical order.
+    let value = serde_json::to_value(value).map_err(CliError::failed)?;
+    Ok(format!("{value:#}\n"))
 }
 
 /// Writes a line of words to stderr. Where even that fails, nobody listens.
@@ -30,18 +39,12 @@ pub(super) fn exit_code(result: Result<(), CliError>) -> ExitCode {
         Err(CliError::Stdout(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
             ExitCode::SUCCESS
         }
-        Err(CliError::Stdout(error)) => failed(&format!("cannot write to stdout: {error}")),
-        Err(CliError::Failed(message)) => failed(&message),
-        Err(CliError::Usage(message)) => {
-            words(&format!("morphospace: {message}"));
-            ExitCode::from(WRONG_USE)
+        Err(error) => {
+            words(&format!("morphospace: {error}"));
+            let is_usage = matches!(error, CliError::Usage(_));
+            ExitCode::from(if is_usage { WRONG_USE } else { FAILED })
         }
     }
-}
-
-fn failed(message: &str) -> ExitCode {
-    words(&format!("morphospace: {message}"));
-    ExitCode::from(FAILED)
 }
 
 /// Shows help, version or what was wrong about the arguments.

@@ -1,37 +1,18 @@
 //! `morphospace check`: a transition, or a table of pairs, in numbers and in
 //! words.
 //!
-//! With `--json` one object on stdout; lengths and areas are in the units of
-//! the designs, angles in degrees (of causes in radians), times in seconds. A
-//! number that is infinite (a folded face is infinitely distorted) is `null`,
-//! as JSON has no other way.
-//!
-//! - `report`: everything that is measured of one transition
-//! - `clock`: how long each stage of building took
-//! - `text`: the report for people
-//! - `pairs`: a table of pairs, over all cores
-//! - `table`, `columns`, `summary`: what goes in, what comes out, in short
+//! With `--json` one object on stdout; the laboratory says in which units.
 
-mod clock;
-mod columns;
-mod histogram;
-mod pairs;
-mod report;
-mod summary;
-mod table;
-mod text;
-
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::error::CliError;
 use super::inputs::Inputs;
+use super::laboratory::{Batch, Outcome, Report, StageClock};
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
-use clock::StageClock;
-use report::Report;
 
 #[derive(Debug, Args)]
 #[command(mut_arg("inputs", |inputs| inputs
@@ -84,7 +65,7 @@ impl CheckArgs {
 
 pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
     match (&args.pairs, &args.out, &args.inputs) {
-        (Some(pairs), Some(out), _) => pairs::run(args, pairs, out),
+        (Some(pairs), Some(out), _) => table(args, pairs, out),
         // The parser lets these pass where --pairs is at odds with the inputs.
         (None, ..) if args.wants_a_table() => Err(CliError::Usage(
             "--out, --sheet, --both and --one-by-one go with a table: give it with --pairs"
@@ -104,11 +85,39 @@ fn one(args: &CheckArgs, inputs: &Inputs) -> Result<(), CliError> {
     let stages = clock.stages();
     let report = Report::of(&opened, stages, args.samples as usize, &terminal)?;
     drop(terminal);
-    let text = if args.json {
-        let value = serde_json::to_value(&report).map_err(CliError::failed)?;
-        format!("{value:#}\n")
+    output::data(&if args.json {
+        output::json(&report)?
     } else {
-        text::of(&report)
+        report.text()
+    })
+}
+
+fn table(args: &CheckArgs, pairs: &Path, out: &Path) -> Result<(), CliError> {
+    let batch = Batch {
+        pairs,
+        out,
+        sheet: args.sheet.as_deref(),
+        both: args.both,
+        one_by_one: args.one_by_one,
+        samples: args.samples as usize,
+        method: &args.method,
     };
-    output::data(&text)
+    let Outcome {
+        summary,
+        written,
+        first_failure,
+    } = batch.run(&Terminal::new())?;
+    output::data(&if args.json {
+        output::json(&summary)?
+    } else {
+        summary.text()
+    })?;
+    output::words(&format!("wrote {}", written.join(" and ")));
+    let Some((line, reason)) = first_failure else {
+        return Ok(());
+    };
+    Err(CliError::Failed(format!(
+        "{} of {} pairs failed, the first in line {line} ({reason}); see the column status",
+        summary.failures, summary.pairs
+    )))
 }

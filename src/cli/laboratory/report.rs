@@ -6,9 +6,10 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use super::super::error::CliError;
-use super::super::inputs::Opened;
 use super::clock::{self, Stages};
+use super::text;
+use crate::cli::error::CliError;
+use crate::cli::inputs::Opened;
 use crate::content::{Content, ContentKind};
 use crate::design::{Design, Form};
 use crate::measure::{self, FilmReport, Finding, MeshReport, Verdict};
@@ -21,7 +22,7 @@ const TIMED_FRAMES: usize = 15;
 
 /// Everything that is measured.
 #[derive(Debug, Serialize)]
-pub(super) struct Report {
+pub(in crate::cli) struct Report {
     pub title: String,
     pub warp: WarpKind,
     pub content: ContentKind,
@@ -36,6 +37,9 @@ pub(super) struct Report {
     pub verdict: VerdictReport,
     pub mesh: Option<MeshReport>,
     pub film: FilmReport,
+    /// How many samples the film had, even if they were forgotten.
+    #[serde(skip)]
+    pub samples: usize,
 }
 
 #[derive(Debug, Serialize)]
@@ -106,6 +110,7 @@ impl VerdictReport {
 }
 
 impl Report {
+    /// Measures a transition at so many t.
     pub fn of(
         opened: &Opened,
         stages: Stages,
@@ -143,8 +148,20 @@ impl Report {
             seconds,
             verdict: VerdictReport::of(verdict),
             mesh: mesh_report,
+            samples: film.samples.len(),
             film,
         })
+    }
+
+    /// Without the samples, which take most of the room: one in a long table.
+    pub fn without_samples(mut self) -> Self {
+        self.film.samples = Vec::new();
+        self
+    }
+
+    /// For people, in aligned lines.
+    pub fn text(&self) -> String {
+        text::of(self)
     }
 }
 

@@ -6,7 +6,7 @@ use std::time::{Duration, Instant};
 use crate::progress::Progress;
 
 /// Stages and the time that they took, in the order of their beginning.
-pub(super) type Stages = Vec<(&'static str, Duration)>;
+pub(in crate::cli) type Stages = Vec<(&'static str, Duration)>;
 
 /// Stages that belong to rigid parts once a mesh is there, and to fields.
 const NOT_TRIANGULATING: [&str; 5] = [
@@ -21,7 +21,7 @@ const NOT_TRIANGULATING: [&str; 5] = [
 /// from its first report to the first of another one; what goes on before any
 /// report belongs to no stage. Where several threads report, a time belongs to
 /// the stage that was reported last, so that the stages add up to the whole.
-pub(super) struct StageClock<'a> {
+pub(in crate::cli) struct StageClock<'a> {
     inner: &'a dyn Progress,
     heard: Mutex<Heard>,
 }

@@ -3,9 +3,10 @@
 
 use std::fmt::Write;
 
+use super::number::{percent, short};
 use super::report::{DesignReport, Report};
 use crate::content::ContentKind;
-use crate::measure::{Distribution, FilmSample, MeshReport, Quantity};
+use crate::measure::{Distribution, FilmSample, MeshReport, Motion, Quantity};
 use crate::names::Choice;
 
 /// The most samples that are listed.
@@ -23,6 +24,7 @@ const LISTED: [(&str, Quantity); 8] = [
     ("least det", Quantity::MinDet),
 ];
 
+/// The whole report.
 pub(super) fn of(report: &Report) -> String {
     let mut lines = Lines::default();
     lines.line(&report.title);
@@ -157,52 +159,43 @@ fn film(report: &Report, lines: &mut Lines) {
         let first = first.map(|t| format!(", the first at t = {t:.2}"));
         count.map(|n| format!("{n}{}", first.unwrap_or_default()))
     };
-    let motion = film.motion.as_ref();
-    let rows = [
+    let off = |share: f64| format!("{} of the diameter off", short(share));
+    let up_and_down = format!(
+        "area {}, perimeter {} beyond what the ends need",
+        percent(film.area_variation_excess),
+        percent(film.perimeter_variation_excess)
+    );
+    for (name, text) in [
         ("folds", seen(film.worst_folds, film.first_fold_t)),
         (
             "crossings",
             seen(film.worst_crossings, film.first_crossing_t),
         ),
-        (
-            "symmetry",
-            film.asymmetry
-                .map(|a| format!("{} of the diameter off", short(a))),
-        ),
-        (
-            "up and down",
-            Some(format!(
-                "area {}, perimeter {} beyond what the ends need",
-                percent(film.area_variation_excess),
-                percent(film.perimeter_variation_excess)
-            )),
-        ),
-        (
-            "topology",
-            film.pieces_excess
-                .zip(film.holes_excess)
-                .filter(|_| report.content == ContentKind::Field)
-                .map(|(pieces, holes)| {
-                    format!("{pieces} pieces and {holes} holes more than at the ends")
-                }),
-        ),
-        (
-            "motion",
-            motion.map(|m| {
-                format!(
-                    "travel {} mean, {} most; acceleration {} (diameters, rigid motion taken out)",
-                    short(m.mean_travel),
-                    short(m.max_travel),
-                    short(m.max_acceleration)
-                )
-            }),
-        ),
-    ];
-    for (name, text) in rows {
+        ("symmetry", film.asymmetry.map(off)),
+        ("up and down", Some(up_and_down)),
+        ("topology", topology(report)),
+        ("motion", film.motion.as_ref().map(motion)),
+    ] {
         if let Some(text) = text {
             lines.row(name, &text);
         }
     }
+}
+
+/// Solids keep theirs, so that it is told of fields only.
+fn topology(report: &Report) -> Option<String> {
+    let (pieces, holes) = report.film.pieces_excess.zip(report.film.holes_excess)?;
+    (report.content == ContentKind::Field)
+        .then(|| format!("{pieces} pieces and {holes} holes more than at the ends"))
+}
+
+fn motion(motion: &Motion) -> String {
+    format!(
+        "travel {} mean, {} most; acceleration {} (diameters, rigid motion taken out)",
+        short(motion.mean_travel),
+        short(motion.max_travel),
+        short(motion.max_acceleration)
+    )
 }
 
 fn samples(samples: &[FilmSample], lines: &mut Lines) {
@@ -254,54 +247,5 @@ fn times(report: &Report, lines: &mut Lines) {
             .map(|(name, s)| format!("{name} {} ms", short(1e3 * s)))
             .collect();
         lines.row(name, &words.join(", "));
-    }
-}
-
-fn percent(share: f64) -> String {
-    format!("{} %", short(100.0 * share))
-}
-
-/// Four digits, as people read them.
-pub(super) fn short(x: f64) -> String {
-    let size = x.abs();
-    if x == 0.0 || !x.is_finite() {
-        return format!("{x:.0}");
-    }
-    if !(5e-4..1e7).contains(&size) {
-        return format!("{x:.1e}");
-    }
-    let decimals = match size {
-        s if s >= 1000.0 => 0,
-        s if s >= 100.0 => 1,
-        s if s >= 10.0 => 2,
-        _ => 3,
-    };
-    let fixed = format!("{x:.decimals$}");
-    if fixed.contains('.') {
-        let trimmed = fixed.trim_end_matches('0').trim_end_matches('.');
-        return trimmed.to_owned();
-    }
-    fixed
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn numbers_are_short() {
-        for (x, text) in [
-            (0.0, "0"),
-            (1.0, "1"),
-            (1.23456, "1.235"),
-            (1200.0, "1200"),
-            (123.456, "123.5"),
-            (1.5e-12, "1.5e-12"),
-            (3.2e9, "3.2e9"),
-            (-0.5, "-0.5"),
-            (f64::INFINITY, "inf"),
-        ] {
-            assert_eq!(short(x), text);
-        }
     }
 }

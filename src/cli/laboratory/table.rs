@@ -4,9 +4,9 @@
 //! becomes that row's error, so that the others are worked on.
 
 use std::collections::HashSet;
+use std::io;
 use std::path::{Path, PathBuf};
 
-use super::super::error::CliError;
 use super::columns;
 use crate::design::Source;
 
@@ -26,25 +26,56 @@ pub(super) struct Row {
     /// What it says, to be carried along.
     pub cells: Vec<Vec<u8>>,
     /// The two files, or why there are none.
-    pub pair: Result<[PathBuf; 2], String>,
+    pub pair: Result<[PathBuf; 2], RowError>,
+}
+
+/// Why there is no table.
+#[derive(Debug, thiserror::Error)]
+pub(super) enum TableError {
+    #[error("the table cannot be read ({0}); check its name and permissions")]
+    Unreadable(io::Error),
+    #[error("the table is UTF-16; save it as CSV in UTF-8")]
+    Utf16,
+    #[error("the table is empty; its first line names the columns: source,target")]
+    Empty,
+    #[error(transparent)]
+    Csv(csv::Error),
+    #[error("the table lists no pairs; add a line for each under the header")]
+    NoPairs,
+    #[error("the first line is not text in UTF-8; save the table as CSV in UTF-8")]
+    HeaderNotText,
+    #[error("two columns are called `{0}`; rename one of them")]
+    Twice(String),
+    #[error("the column `{0}` has the name of one of the report's own; rename it")]
+    Own(String),
+    #[error("there is no column `{0}`; the first line names {1}; separate columns by commas")]
+    Missing(&'static str, String),
+}
+
+/// Why a row names no pair.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub(super) enum RowError {
+    #[error("the row has {found} cells and the header {wanted}; quote cells that hold commas")]
+    Cells { found: usize, wanted: usize },
+    #[error("the {0} is not text in UTF-8; save the table in UTF-8")]
+    NotText(&'static str),
+    #[error("the {0} is empty; write the path of a design")]
+    Empty(&'static str),
+    #[error("the {0} `{1}` runs over several lines; close its quote")]
+    Lines(&'static str, String),
 }
 
 /// Reads a table; its paths are relative to its folder.
-pub(super) fn read(path: &Path) -> Result<Table, CliError> {
-    let wrong = |problem: String| CliError::Failed(format!("`{}`: {problem}", path.display()));
-    let bytes = std::fs::read(path).map_err(|error| {
-        wrong(format!(
-            "the table cannot be read ({error}); check its name and permissions"
-        ))
-    })?;
+pub(super) fn read(path: &Path) -> Result<Table, TableError> {
+    let bytes = std::fs::read(path).map_err(TableError::Unreadable)?;
     let folder = path.parent().unwrap_or(Path::new(""));
-    parsed(&bytes, folder).map_err(wrong)
+    parsed(&bytes, folder)
 }
 
-fn parsed(bytes: &[u8], folder: &Path) -> Result<Table, String> {
+fn parsed(bytes: &[u8], folder: &Path) -> Result<Table, TableError> {
     const UTF8_MARK: &[u8] = b"\xef\xbb\xbf";
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        return Err("the table is UTF-16; save it as CSV in UTF-8".to_owned());
+        return Err(TableError::Utf16);
     }
     let bytes = bytes.strip_prefix(UTF8_MARK).unwrap_or(bytes);
     let mut reader = csv::ReaderBuilder::new()
@@ -52,61 +83,46 @@ fn parsed(bytes: &[u8], folder: &Path) -> Result<Table, String> {
         .has_headers(false)
         .from_reader(bytes);
     let mut records = reader.byte_records();
-    let header = match records.next() {
-        None => {
-            return Err(
-                "the table is empty; its first line names the columns: source,target".to_owned(),
-            );
-        }
-        Some(record) => header(&record.map_err(|error| error.to_string())?)?,
-    };
-    let [source, target] = [column(&header, "source")?, column(&header, "target")?];
+    let first = records.next().ok_or(TableError::Empty)?;
+    let header = header(&first.map_err(TableError::Csv)?)?;
+    let pair = [column(&header, "source")?, column(&header, "target")?];
     let mut rows = Vec::new();
     for record in records {
-        let record = record.map_err(|error| error.to_string())?;
+        let record = record.map_err(TableError::Csv)?;
         if !record.iter().all(|cell| cell.trim_ascii().is_empty()) {
-            rows.push(row(&record, header.len(), [source, target], folder));
+            rows.push(row(&record, header.len(), pair, folder));
         }
     }
     if rows.is_empty() {
-        return Err("the table lists no pairs; add a line for each under the header".to_owned());
+        return Err(TableError::NoPairs);
     }
     Ok(Table { header, rows })
 }
 
-fn header(record: &csv::ByteRecord) -> Result<Vec<String>, String> {
+fn header(record: &csv::ByteRecord) -> Result<Vec<String>, TableError> {
     let name = |cell: &[u8]| {
         let text = std::str::from_utf8(cell).ok().filter(|t| !t.contains('\0'));
         text.map(|name| name.trim().to_owned())
-            .ok_or("the first line is not text in UTF-8; save the table as CSV in UTF-8")
+            .ok_or(TableError::HeaderNotText)
     };
     let names: Vec<String> = record.iter().map(name).collect::<Result<_, _>>()?;
     let mut seen = HashSet::new();
     for name in names.iter().filter(|name| !name.is_empty()) {
         if !seen.insert(name) {
-            return Err(format!(
-                "two columns are called `{name}`; rename one of them"
-            ));
+            return Err(TableError::Twice(cut(name)));
         }
         if columns::is_own(name) {
-            return Err(format!(
-                "the column `{name}` has the name of one of the report's own; rename it"
-            ));
+            return Err(TableError::Own(cut(name)));
         }
     }
     Ok(names)
 }
 
-fn column(header: &[String], wanted: &str) -> Result<usize, String> {
-    header
-        .iter()
+fn column(header: &[String], wanted: &'static str) -> Result<usize, TableError> {
+    let mut names = header.iter();
+    names
         .position(|name| name == wanted)
-        .ok_or_else(|| {
-            format!(
-                "there is no column `{wanted}`; the first line names {}; separate columns by commas",
-                quoted(header)
-            )
-        })
+        .ok_or_else(|| TableError::Missing(wanted, quoted(header)))
 }
 
 fn quoted(names: &[String]) -> String {
@@ -136,14 +152,14 @@ fn row(record: &csv::ByteRecord, width: usize, pair: [usize; 2], folder: &Path) 
     let mut cells: Vec<Vec<u8>> = record.iter().take(width).map(<[u8]>::to_vec).collect();
     cells.resize(width, Vec::new());
     let [source, target] = pair;
-    let paths = || -> Result<[PathBuf; 2], String> {
+    let paths = || {
         let source = path(&cells[source], "source", folder)?;
         let target = path(&cells[target], "target", folder)?;
         if record.len() != width {
-            return Err(format!(
-                "the row has {} cells and the header {width}; quote cells that hold commas",
-                record.len()
-            ));
+            return Err(RowError::Cells {
+                found: record.len(),
+                wanted: width,
+            });
         }
         Ok([source, target])
     };
@@ -155,18 +171,14 @@ fn row(record: &csv::ByteRecord, width: usize, pair: [usize; 2], folder: &Path) 
     }
 }
 
-fn path(cell: &[u8], column: &str, folder: &Path) -> Result<PathBuf, String> {
-    let text = std::str::from_utf8(cell)
-        .map_err(|_| format!("the {column} is not text in UTF-8; save the table in UTF-8"))?;
+fn path(cell: &[u8], column: &'static str, folder: &Path) -> Result<PathBuf, RowError> {
+    let text = std::str::from_utf8(cell).map_err(|_| RowError::NotText(column))?;
     let text = text.trim();
     if text.is_empty() {
-        return Err(format!("the {column} is empty; write the path of a design"));
+        return Err(RowError::Empty(column));
     }
     if text.contains(['\n', '\r', '\0']) {
-        return Err(format!(
-            "the {column} `{}` runs over several lines; close its quote",
-            cut(text)
-        ));
+        return Err(RowError::Lines(column, cut(text)));
     }
     Ok(Source::in_folder(folder, text.as_ref()).to_path())
 }
@@ -175,11 +187,11 @@ fn path(cell: &[u8], column: &str, folder: &Path) -> Result<PathBuf, String> {
 mod tests {
     use super::*;
 
-    fn table(text: &str) -> Result<Table, String> {
+    fn table(text: &str) -> Result<Table, TableError> {
         parsed(text.as_bytes(), Path::new("folder"))
     }
 
-    fn pairs(text: &str) -> Vec<Result<[String; 2], String>> {
+    fn pairs(text: &str) -> Vec<Result<[String; 2], RowError>> {
         let rows = table(text).expect("a table").rows.into_iter();
         let name = |path: PathBuf| path.to_string_lossy().replace('\\', "/");
         rows.map(|row| row.pair.map(|pair| pair.map(name)))
@@ -231,11 +243,11 @@ mod tests {
             ("source,target,status\na,b,c\n", "`status` has the name"),
             ("source,target\0\na,b\n", "not text"),
         ] {
-            let problem = table(text).expect_err(said);
+            let problem = table(text).expect_err(said).to_string();
             assert!(problem.contains(said), "{text:?}: {problem}");
         }
         let utf16 = parsed(b"\xff\xfes\0o\0", Path::new("")).expect_err("UTF-16");
-        assert!(utf16.contains("UTF-8"));
+        assert!(utf16.to_string().contains("UTF-8"));
     }
 
     #[test]
@@ -251,7 +263,7 @@ mod tests {
         assert_eq!(found.len(), said.len(), "{found:?}");
         assert!(found[0].is_ok());
         for (row, said) in found.iter().zip(said).skip(1) {
-            let problem = row.as_ref().expect_err(said);
+            let problem = row.as_ref().expect_err(said).to_string();
             assert!(
                 problem.contains(said) || problem.contains("close its quote"),
                 "{problem}"

@@ -1,0 +1,135 @@
+//! How the values of a measure are spread, as lines of text.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use super::number::short;
+
+/// Each edge is about 1.6 times the one before (the R5 series of ISO 3).
+const SERIES: [f64; 5] = [1.0, 1.6, 2.5, 4.0, 6.3];
+
+/// Most bars: where values spread wider, the outer ones take the rest.
+const MOST: usize = 12;
+
+/// Length of the longest bar, in characters.
+const LONGEST: usize = 40;
+
+/// Counts of values between edges.
+#[derive(Debug, PartialEq, Serialize)]
+pub(super) struct Histogram {
+    /// One more than there are counts, ascending. The first bar and the last
+    /// reach as far as the values do.
+    pub edges: Vec<f64>,
+    /// How many values lie from one edge to the next, the last included.
+    pub counts: Vec<usize>,
+}
+
+impl Histogram {
+    /// Of positive numbers, infinite ones included; `None` where no finite
+    /// one is.
+    pub fn of(values: &[f64]) -> Option<Self> {
+        let mut sizes: Vec<f64> = values.iter().copied().filter(|v| *v > 0.0).collect();
+        sizes.sort_unstable_by(f64::total_cmp);
+        let finite = sizes.partition_point(|size| size.is_finite());
+        let steps: Vec<i32> = sizes[..finite].iter().copied().map(step_below).collect();
+        let (first, last) = fullest(&steps)?;
+        let mut edges: Vec<f64> = (first..=last + 1).map(edge).collect();
+        let mut counts = vec![0; edges.len() - 1];
+        for &step in &steps {
+            counts[(step.clamp(first, last) - first) as usize] += 1;
+        }
+        *counts.last_mut()? += sizes.len() - finite;
+        // One value far off must not press all others into one bar: it lies in
+        // an outer bar, which is as wide as it takes.
+        let [least, most] = [*sizes.first()?, *sizes.last()?];
+        if least < edges[0] {
+            edges[0] = edge(step_below(least));
+        }
+        let end = edges.last_mut()?;
+        if most > *end {
+            *end = if most.is_finite() {
+                edge(step_below(most) + 1)
+            } else {
+                most
+            };
+        }
+        Some(Self { edges, counts })
+    }
+
+    /// A line for each bar.
+    pub fn text(&self) -> String {
+        let most = self.counts.iter().copied().max().unwrap_or(0).max(1);
+        let mut text = String::new();
+        for (edges, &count) in self.edges.windows(2).zip(&self.counts) {
+            let [low, high] = [edges[0], edges[1]].map(short);
+            let bar = "\u{2588}".repeat((count * LONGEST).div_ceil(most));
+            writeln!(text, "{low:>9} to {high:<7}{count:>5} {bar}").unwrap_or_default();
+        }
+        text
+    }
+}
+
+/// The first and the last of the [`MOST`] steps in a row, or fewer, that hold
+/// the most values; of ascending steps.
+fn fullest(steps: &[i32]) -> Option<(i32, i32)> {
+    let held = |from: usize| {
+        let last = steps[from] + MOST as i32 - 1;
+        (from, steps.partition_point(|step| *step <= last))
+    };
+    // Of equals the lowest, which `max_by_key` has last.
+    let windows = (0..steps.len()).rev().map(held);
+    let (from, end) = windows.max_by_key(|(from, end)| end - from)?;
+    Some((steps[from], steps[end - 1]))
+}
+
+fn edge(step: i32) -> f64 {
+    let series = SERIES[step.rem_euclid(5) as usize];
+    // Powers of ten below one are exact as quotients only.
+    match step.div_euclid(5) {
+        power @ 0.. => series * 10f64.powi(power),
+        power => series / 10f64.powi(-power),
+    }
+}
+
+fn step_below(value: f64) -> i32 {
+    let near = (5.0 * value.log10()).floor() as i32;
+    (near - 1..=near + 1)
+        .rev()
+        .find(|&step| edge(step) <= value)
+        .unwrap_or(near - 2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_value_is_counted_once_and_edges_are_round() {
+        let found = Histogram::of(&[1.0, 1.2, 1.6, 3.9, f64::NAN, 0.0]).expect("bars");
+        assert_eq!(found.edges, [1.0, 1.6, 2.5, 4.0]);
+        assert_eq!(found.counts, [2, 1, 1]);
+        assert_eq!(Histogram::of(&[0.0]), None);
+        assert_eq!(Histogram::of(&[f64::INFINITY]), None);
+    }
+
+    #[test]
+    fn one_value_has_one_bar_wherever_it_is() {
+        for value in [0.016, 1.0, 3.0, 1e-9, 7e20] {
+            let found = Histogram::of(&[value]).expect("a bar");
+            assert_eq!(found.counts, [1], "{value}");
+            assert!(found.edges[0] <= value && value <= found.edges[1]);
+        }
+    }
+
+    #[test]
+    fn values_far_off_leave_the_others_apart() {
+        let found = Histogram::of(&[1e-30, 1.0, 1.7, 1.8, 9.0, 1e30]).expect("bars");
+        assert_eq!(found.counts, [2, 2, 0, 0, 2]);
+        assert!(found.edges[0] <= 1e-30 && *found.edges.last().expect("an edge") >= 1e30);
+        assert_eq!(found.edges[1..5], [1.6, 2.5, 4.0, 6.3]);
+        let found = Histogram::of(&[1.0, 2.0, f64::INFINITY]).expect("bars");
+        assert_eq!(found.counts, [1, 2]);
+        assert_eq!(found.edges, [1.0, 1.6, f64::INFINITY]);
+    }
+}

@@ -1,0 +1,51 @@
+//! Numbers as people read them.
+
+/// Four digits.
+pub(super) fn short(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 || !x.is_finite() {
+        return format!("{x:.0}");
+    }
+    if !(5e-4..1e7).contains(&size) {
+        return format!("{x:.1e}");
+    }
+    let decimals = match size {
+        s if s >= 1000.0 => 0,
+        s if s >= 100.0 => 1,
+        s if s >= 10.0 => 2,
+        _ => 3,
+    };
+    let fixed = format!("{x:.decimals$}");
+    if fixed.contains('.') {
+        let trimmed = fixed.trim_end_matches('0').trim_end_matches('.');
+        return trimmed.to_owned();
+    }
+    fixed
+}
+
+/// A share as per cent.
+pub(super) fn percent(share: f64) -> String {
+    format!("{} %", short(100.0 * share))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_short() {
+        for (x, text) in [
+            (0.0, "0"),
+            (1.0, "1"),
+            (1.23456, "1.235"),
+            (1200.0, "1200"),
+            (123.456, "123.5"),
+            (1.5e-12, "1.5e-12"),
+            (3.2e9, "3.2e9"),
+            (-0.5, "-0.5"),
+            (f64::INFINITY, "inf"),
+        ] {
+            assert_eq!(short(x), text);
+        }
+    }
+}

@@ -1,0 +1,298 @@
+//! The pairs of a table, over all cores.
+//!
+//! Guarantees: a row for each pair and direction, in the order of the table,
+//! whatever happens to it; report and sheet are written whole or not at all,
+//! at the end; a cancel writes nothing. Times are taken while other pairs run
+//! on the other cores, unless they go one by one.
+
+use std::any::Any;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use rayon::prelude::*;
+
+use super::clock::StageClock;
+use super::columns;
+use super::report::Report;
+use super::summary::Summary;
+use super::table::{self, Row, RowError, Table};
+use crate::cli::error::CliError;
+use crate::cli::inputs::Opened;
+use crate::cli::options::MethodArgs;
+use crate::design::Source;
+use crate::export::{
+    StillKind, Strip, Target, even_times, pair_sheet, write_atomically, write_still,
+};
+use crate::progress::Progress;
+use crate::transition::Style;
+
+/// Frames of a strip of the sheet.
+const STRIP_FRAMES: usize = 7;
+
+/// A table to be worked through, and how.
+pub(in crate::cli) struct Batch<'a> {
+    /// The table of pairs.
+    pub pairs: &'a Path,
+    /// Where the report goes.
+    pub out: &'a Path,
+    /// Where the contact sheet goes, if there is to be one.
+    pub sheet: Option<&'a Path>,
+    /// Each pair in both directions.
+    pub both: bool,
+    /// One pair after the other.
+    pub one_by_one: bool,
+    /// At how many t each film is measured.
+    pub samples: usize,
+    /// By which method.
+    pub method: &'a MethodArgs,
+}
+
+/// What became of a table.
+pub(in crate::cli) struct Outcome {
+    /// All pairs in short.
+    pub summary: Summary,
+    /// The files that were written, in words.
+    pub written: Vec<String>,
+    /// The line of the first pair that failed, and why it did.
+    pub first_failure: Option<(u64, String)>,
+}
+
+/// Why a pair has no report.
+#[derive(Debug, thiserror::Error)]
+enum PairError {
+    #[error(transparent)]
+    Row(#[from] RowError),
+    #[error(transparent)]
+    Work(#[from] CliError),
+    #[error("internal error ({0}); please report it with both designs")]
+    Panic(String),
+}
+
+impl PairError {
+    fn of_panic(panic: &(dyn Any + Send)) -> Self {
+        let text = panic.downcast_ref::<&str>().copied();
+        let words = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+        Self::Panic(words.unwrap_or("no words").to_owned())
+    }
+
+    /// In one line, for a cell of the table.
+    fn line(&self) -> String {
+        let words = self.to_string();
+        words.lines().map(str::trim).collect::<Vec<_>>().join("; ")
+    }
+}
+
+/// A row in one direction.
+struct Job<'a> {
+    row: &'a Row,
+    backward: bool,
+}
+
+/// What came of it.
+struct Done<'a> {
+    job: &'a Job<'a>,
+    report: Result<Report, String>,
+    strip: Option<Strip>,
+}
+
+impl Batch<'_> {
+    /// Measures every pair and writes what was found.
+    pub fn run(&self, progress: &dyn Progress) -> Result<Outcome, CliError> {
+        let sheet = match self.sheet {
+            Some(path) => Some((sheet_kind(path)?, path)),
+            None => None,
+        };
+        self.check_places()?;
+        let table = table::read(self.pairs)
+            .map_err(|error| CliError::Failed(format!("`{}`: {error}", self.pairs.display())))?;
+        let jobs = self.jobs(&table);
+        let done = self.work(&jobs, progress);
+        if progress.is_cancelled() {
+            let nothing = "cancelled; nothing was written";
+            return Err(CliError::Failed(nothing.to_owned()));
+        }
+        progress.report("writing", 1.0);
+        let bytes = report_bytes(&table, &done).map_err(CliError::failed)?;
+        write_atomically(self.out, &bytes).map_err(CliError::failed)?;
+        let mut written = vec![self.out.display().to_string()];
+        if let Some((kind, path)) = sheet {
+            let left_out = write_sheet(&done, kind, path)?;
+            written.push(path.display().to_string() + &left_out);
+        }
+        let failure = |d: &Done<'_>| Some((d.job.row.line, d.report.as_ref().err()?.clone()));
+        Ok(Outcome {
+            summary: Summary::of(done.iter().map(|d| d.report.as_ref().ok())),
+            written,
+            first_failure: done.iter().find_map(failure),
+        })
+    }
+
+    /// Before the work and not after it: whether what comes out can be
+    /// written, and over nothing that goes in.
+    fn check_places(&self) -> Result<(), CliError> {
+        let same = |a: &Path, b: &Path| match (a.canonicalize(), b.canonicalize()) {
+            (Ok(a), Ok(b)) => a == b,
+            _ => a == b,
+        };
+        for path in [Some(self.out), self.sheet].into_iter().flatten() {
+            let shown = path.display();
+            if same(path, self.pairs) {
+                return Err(CliError::Usage(format!(
+                    "`{shown}` is the table itself: choose another name for the output"
+                )));
+            }
+            let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
+            if path.is_dir() || folder.is_some_and(|folder| !folder.is_dir()) {
+                return Err(CliError::Failed(format!(
+                    "cannot write `{shown}`: name a file in a folder that exists"
+                )));
+            }
+        }
+        if self.sheet.is_some_and(|sheet| same(sheet, self.out)) {
+            let one = "--out and --sheet are one file: choose two names";
+            return Err(CliError::Usage(one.to_owned()));
+        }
+        Ok(())
+    }
+
+    fn jobs<'a>(&self, table: &'a Table) -> Vec<Job<'a>> {
+        let directions: &[bool] = if self.both { &[false, true] } else { &[false] };
+        let of_row = |row| {
+            let job = move |&backward| Job { row, backward };
+            directions.iter().map(job)
+        };
+        table.rows.iter().flat_map(of_row).collect()
+    }
+
+    fn work<'a>(&self, jobs: &'a [Job<'a>], progress: &dyn Progress) -> Vec<Done<'a>> {
+        const STAGE: &str = "checking pairs";
+        let finished = AtomicUsize::new(0);
+        progress.report(STAGE, 0.0);
+        let one = |job| {
+            let done = self.one(job, progress);
+            let count = finished.fetch_add(1, Ordering::Relaxed) + 1;
+            progress.report(STAGE, count as f64 / jobs.len() as f64);
+            done
+        };
+        if self.one_by_one {
+            return jobs.iter().map(one).collect();
+        }
+        jobs.par_iter().with_max_len(1).map(one).collect()
+    }
+
+    fn one<'a>(&self, job: &'a Job<'a>, progress: &dyn Progress) -> Done<'a> {
+        // One pair must not end the work on all others, whatever it is.
+        let caught = catch_unwind(AssertUnwindSafe(|| self.measured(job, progress)));
+        let measured = caught.unwrap_or_else(|panic| Err(PairError::of_panic(&*panic)));
+        let (report, strip) = match measured {
+            Ok((report, strip)) => (Ok(report), strip),
+            Err(error) => {
+                let reason = error.line();
+                let failed = || Strip::failed(&job.name(), &format!("failed: {reason}"));
+                let strip = self.sheet.is_some().then(failed);
+                (Err(reason), strip)
+            }
+        };
+        Done { job, report, strip }
+    }
+
+    fn measured(
+        &self,
+        job: &Job<'_>,
+        progress: &dyn Progress,
+    ) -> Result<(Report, Option<Strip>), PairError> {
+        let [source, target] = job.row.pair.as_ref().map_err(RowError::clone)?;
+        let mut pair = [source.as_path(), target.as_path()];
+        if job.backward {
+            pair.reverse();
+        }
+        let quiet = Quiet(progress);
+        let clock = StageClock::new(&quiet);
+        let opened = Opened::pair(pair, self.method, &clock)?;
+        let report = Report::of(&opened, clock.stages(), self.samples, &quiet)?;
+        let strip = self.sheet.is_some().then(|| strip(&opened, &report, job));
+        Ok((report.without_samples(), strip))
+    }
+}
+
+impl Job<'_> {
+    /// The pair by the names of its designs.
+    fn name(&self) -> String {
+        let name = |path: &Path| Source::of(path).name();
+        match &self.row.pair {
+            Ok([source, target]) if self.backward => {
+                format!("{} to {}", name(target), name(source))
+            }
+            Ok([source, target]) => format!("{} to {}", name(source), name(target)),
+            Err(_) => format!("line {}", self.row.line),
+        }
+    }
+}
+
+/// Passes a cancel on, and keeps the many stages of many pairs to itself.
+struct Quiet<'a>(&'a dyn Progress);
+
+impl Progress for Quiet<'_> {
+    fn report(&self, _: &'static str, _: f64) {}
+
+    fn is_cancelled(&self) -> bool {
+        self.0.is_cancelled()
+    }
+}
+
+fn sheet_kind(path: &Path) -> Result<StillKind, CliError> {
+    match Target::of_path(path) {
+        Ok(Target::Still(kind, _)) => Ok(kind),
+        _ => Err(CliError::Usage(format!(
+            "`{}` is no picture: end --sheet in .png or .svg",
+            path.display()
+        ))),
+    }
+}
+
+fn strip(opened: &Opened, report: &Report, job: &Job<'_>) -> Strip {
+    let style: &Style = &opened.loaded.project.style;
+    let times = even_times(0.0, 1.0, STRIP_FRAMES);
+    Strip::of(&job.name(), &opened.transition, style, &times)
+        .saying(&report.verdict.words, !report.verdict.findings.is_empty())
+}
+
+fn report_bytes(table: &Table, done: &[Done<'_>]) -> Result<Vec<u8>, csv::Error> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    for name in &table.header {
+        writer.write_field(name)?;
+    }
+    for name in [columns::DIRECTION, columns::STATUS] {
+        writer.write_field(name)?;
+    }
+    writer.write_record(columns::ALL.iter().map(|column| column.heading()))?;
+    for Done { job, report, .. } in done {
+        for cell in &job.row.cells {
+            writer.write_field(cell)?;
+        }
+        writer.write_field(if job.backward { "backward" } else { "forward" })?;
+        writer.write_field(report.as_ref().map_or_else(String::as_str, |_| "ok"))?;
+        let cell = |column: &columns::Column| match report {
+            Ok(report) => column.cell(report),
+            Err(_) => String::new(),
+        };
+        writer.write_record(columns::ALL.iter().map(cell))?;
+    }
+    writer
+        .into_inner()
+        .map_err(|error| error.into_error().into())
+}
+
+/// Writes the sheet; words about strips that had no room.
+fn write_sheet(done: &[Done<'_>], kind: StillKind, path: &Path) -> Result<String, CliError> {
+    let strips: Vec<Strip> = done.iter().filter_map(|d| d.strip.clone()).collect();
+    let ground = Some(Style::default().ground);
+    let (drawing, shown) = pair_sheet(&strips, ground).map_err(CliError::failed)?;
+    write_still(&drawing, kind, path).map_err(CliError::failed)?;
+    Ok(if shown < strips.len() {
+        format!(" (the first {shown} of {} pairs)", strips.len())
+    } else {
+        String::new()
+    })
+}

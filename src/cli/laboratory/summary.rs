@@ -1,0 +1,153 @@
+//! What came out of a table of pairs, in short.
+
+use std::fmt::Write;
+
+use serde::Serialize;
+
+use super::columns::{self, Better, Column};
+use super::histogram::Histogram;
+use super::number::short;
+use super::report::Report;
+
+/// The fewest values whose spread is drawn.
+const ENOUGH: usize = 10;
+
+/// The whole table in short.
+#[derive(Debug, Serialize)]
+pub(in crate::cli) struct Summary {
+    /// Rows, each direction of its own.
+    pub pairs: usize,
+    /// Of them those that could not be built.
+    pub failures: usize,
+    /// Of them those with a fold at some t.
+    pub with_folds: usize,
+    /// Of them those whose boundary crosses itself at some t.
+    pub with_crossings: usize,
+    /// Of them those with more pieces or holes on the way than at the ends.
+    pub with_tears: usize,
+    /// Medians and worst values of the main measures.
+    pub measures: Vec<Measured>,
+}
+
+#[derive(Debug, Serialize)]
+pub(in crate::cli) struct Measured {
+    pub column: String,
+    #[serde(skip)]
+    words: String,
+    pub median: f64,
+    pub worst: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub spread: Option<Histogram>,
+}
+
+impl Summary {
+    /// Of the report on each pair; `None` for those that failed.
+    pub fn of<'a>(reports: impl IntoIterator<Item = Option<&'a Report>>) -> Self {
+        let rows: Vec<Option<&Report>> = reports.into_iter().collect();
+        let done: Vec<&Report> = rows.iter().copied().flatten().collect();
+        let with = |is: fn(&Report) -> bool| done.iter().filter(|report| is(report)).count();
+        let columns = columns::ALL.iter();
+        Self {
+            pairs: rows.len(),
+            failures: rows.len() - done.len(),
+            with_folds: with(|r| r.film.worst_folds > Some(0)),
+            with_crossings: with(|r| r.film.worst_crossings > Some(0)),
+            with_tears: with(|r| r.film.pieces_excess.max(r.film.holes_excess) > Some(0)),
+            measures: columns.filter_map(|c| measured(&done, c)).collect(),
+        }
+    }
+
+    /// In aligned lines.
+    pub fn text(&self) -> String {
+        const WIDTH: usize = 36;
+        let mut text = String::new();
+        let of = |n: usize| format!("{n} of {}", self.pairs - self.failures);
+        for (name, value) in [
+            ("pairs", self.pairs.to_string()),
+            ("failures", self.failures.to_string()),
+            ("with a fold at some t", of(self.with_folds)),
+            ("with a boundary crossing", of(self.with_crossings)),
+            ("with pieces or holes of their own", of(self.with_tears)),
+        ] {
+            writeln!(text, "{name:<WIDTH$}{value:>12}").unwrap_or_default();
+        }
+        if !self.measures.is_empty() {
+            writeln!(text, "\n{:<WIDTH$}{:>12}{:>12}", "", "median", "worst").unwrap_or_default();
+        }
+        for told in &self.measures {
+            let (median, worst) = (short(told.median), short(told.worst));
+            writeln!(text, "{:<WIDTH$}{median:>12}{worst:>12}", told.words).unwrap_or_default();
+        }
+        for told in &self.measures {
+            if let Some(spread) = &told.spread {
+                write!(text, "\n{}\n{}", told.words, spread.text()).unwrap_or_default();
+            }
+        }
+        text
+    }
+}
+
+fn measured(reports: &[&Report], column: &Column) -> Option<Measured> {
+    let told = column.told?;
+    let mut all: Vec<f64> = reports.iter().filter_map(|r| column.number(r)).collect();
+    all.sort_unstable_by(f64::total_cmp);
+    let middle = all.len() / 2;
+    let upper = *all.get(middle)?;
+    let lower = all[(all.len() - 1) / 2];
+    let is_drawn = told.is_drawn && all.len() >= ENOUGH;
+    Some(Measured {
+        column: column.heading(),
+        words: column.words()?,
+        median: 0.5 * (lower + upper),
+        worst: match told.better {
+            Better::Small => *all.last()?,
+            Better::Large => *all.first()?,
+        },
+        spread: is_drawn.then(|| Histogram::of(&all)).flatten(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::inputs::Opened;
+    use crate::progress::Silent;
+    use crate::project::gallery;
+    use crate::transition::Transition;
+    use std::time::Duration;
+
+    fn report() -> Report {
+        let loaded = gallery::load("triangle-polar").expect("bundled");
+        let spec = loaded.spec().expect("a spec");
+        let opened = Opened {
+            transition: Transition::build(&spec, &Silent).expect("built"),
+            loaded,
+            import_time: Duration::ZERO,
+            build_time: Duration::ZERO,
+        };
+        Report::of(&opened, Vec::new(), 3, &Silent).expect("measured")
+    }
+
+    #[test]
+    fn failures_count_and_do_not_enter_medians() {
+        let with = |excess: f64, angle: f64, folds: usize| {
+            let mut report = report();
+            report.film.conformal_excess = Some(excess);
+            report.film.worst_folds = Some(folds);
+            report.mesh.as_mut().expect("a mesh").min_angle_source_deg = angle;
+            report
+        };
+        let [a, b, c] = [with(1.0, 20.0, 0), with(3.0, 10.0, 4), with(2.0, 15.0, 0)];
+        let summary = Summary::of([Some(&a), None, Some(&b), Some(&c)]);
+        assert_eq!((summary.pairs, summary.failures), (4, 1));
+        assert_eq!((summary.with_folds, summary.with_crossings), (1, 0));
+        let of = |column: &str| {
+            let found = summary.measures.iter().find(|m| m.column == column);
+            found.map(|measured| (measured.median, measured.worst))
+        };
+        assert_eq!(of("conformal_excess"), Some((2.0, 3.0)));
+        assert_eq!(of("min_angle_source_deg"), Some((15.0, 10.0)));
+        let text = summary.text();
+        assert!(text.contains("failures                                       1"));
+    }
+}
