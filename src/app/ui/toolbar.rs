@@ -2,13 +2,13 @@
 
 use bevy_egui::egui::{self, Align, Color32, Layout, Margin, Panel, Rect, RichText, Ui, vec2};
 
-use super::icons::Icon;
-use super::theme::{GRID, Palette};
-use super::widgets::{choices, from_right, icon_button, icon_button_sized, row};
-use super::{Intents, Scene};
-use crate::app::choices::{CaptureScale, RecordFormat, ThemeChoice};
-use crate::app::editor::EditorAct;
-use crate::app::intent::Intent;
+use crate::app::asking::acts::EditorAct;
+use crate::app::asking::choices::{CaptureScale, RecordFormat, ThemeChoice};
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::icons::Icon;
+use crate::app::ui::kit::theme::{GRID, Palette};
+use crate::app::ui::kit::widgets::{choices, from_right, icon_button, icon_button_sized, row};
+use crate::app::ui::scene::{Intents, Scene};
 
 const HEIGHT: f32 = 48.0;
 

@@ -2,14 +2,17 @@
 
 use bevy_egui::egui::{self, Align2, Area, Context, Order, Rect, vec2};
 
-use super::super::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID};
-use super::super::widgets::{choice, primary_button};
-use super::super::{Intents, Scene};
-use crate::app::editor::{EditorAct, Tool};
-use crate::app::intent::Intent;
+use crate::app::asking::acts::{EditorAct, Tool};
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID};
+use crate::app::ui::kit::widgets::{choice, primary_button};
+use crate::app::ui::scene::{Intents, Scene};
 
 /// Its height with the space above it.
-pub const HEIGHT: f32 = 48.0;
+pub const BAR_HEIGHT: f32 = 48.0;
+
+/// Height of the line of advice at the lower edge.
+pub const ADVICE_HEIGHT: f32 = 40.0;
 
 /// Draws it.
 pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {

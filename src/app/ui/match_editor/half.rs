@@ -8,63 +8,25 @@ use bevy_egui::egui::{
     Stroke, StrokeKind, TextureHandle, TextureOptions, Vec2, pos2, vec2,
 };
 
-use super::super::Scene;
-use super::super::theme::{GRID, Palette};
-use super::boundary;
-use crate::app::editor::{Editor, Fate, Sheet, SheetPiece, SheetRing, Tool, Touch, spans};
+use crate::app::asking::acts::{Tool, Touch};
+use crate::app::editing::editor::Editor;
+use crate::app::editing::polyline::spans;
+use crate::app::editing::ring::SheetRing;
+use crate::app::editing::sheet::{Fate, Sheet, SheetPiece};
+use crate::app::ui::kit::theme::GRID;
+use crate::app::ui::match_editor::bar::BAR_HEIGHT;
+use crate::app::ui::match_editor::boundary;
+use crate::app::ui::match_editor::inks::Inks;
+use crate::app::ui::scene::Scene;
 use crate::correspondence::RingKind;
 use crate::design::Picture;
 use crate::geometry::{Bounds, DVec2, Side};
-use crate::transition::{Rgb, Style};
 
 /// How near the pointer must come, in points.
 const REACH: f32 = 9.0;
 
-/// The share of a design's colour in its fill: the boundary's colours must stand out from it.
-const FILL: f32 = 0.28;
-
 /// Distance of the lines of a hatching, in points.
 const HATCH: f32 = 8.0;
-
-/// The colours of the editor.
-#[derive(Clone, Copy, Debug)]
-pub struct Inks {
-    /// Behind everything.
-    pub ground: Color32,
-    /// What can be read on it.
-    pub ink: Color32,
-    /// Lines that stand back.
-    pub faint: Color32,
-    /// What is chosen.
-    pub accent: Color32,
-    /// Something went wrong.
-    pub problem: Color32,
-    /// The ground is light.
-    pub is_light: bool,
-    /// Fill of source and target.
-    fills: [Color32; 2],
-}
-
-impl Inks {
-    /// The inks on a project's ground. The ground is the project's and not the panels', so the
-    /// palette is the one that goes with it.
-    pub fn new(style: &Style, ink: Color32) -> Self {
-        let colour = |Rgb([r, g, b]): Rgb| Color32::from_rgb(r, g, b);
-        let ground = colour(style.ground);
-        let is_light = ink.r() < 0x80;
-        let on_ground = Palette::on(is_light);
-        let fill = |rgb: Rgb| ground.lerp_to_gamma(colour(rgb), FILL);
-        Self {
-            ground,
-            ink,
-            faint: ground.lerp_to_gamma(ink, 0.35),
-            accent: on_ground.accent,
-            problem: on_ground.problem,
-            is_light,
-            fills: [fill(style.source), fill(style.target)],
-        }
-    }
-}
 
 /// Where one design lies in the window.
 #[derive(Clone, Debug)]
@@ -342,7 +304,7 @@ impl Half {
             Side::Source => "Source",
             Side::Target => "Target",
         };
-        let at = self.rect.left_top() + vec2(2.0 * GRID, super::BAR_HEIGHT + 2.0 * GRID);
+        let at = self.rect.left_top() + vec2(2.0 * GRID, BAR_HEIGHT + 2.0 * GRID);
         let font = FontId::proportional(12.5);
         let words = format!("{role}  {name}");
         painter.text(at, Align2::LEFT_TOP, words, font, inks.ink);

@@ -4,11 +4,14 @@ use bevy_egui::egui::{
     Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2,
 };
 
-use super::super::Scene;
-use super::super::theme::GRID;
-use super::super::verdict::first_upper;
-use super::half::{Half, Inks};
-use crate::app::editor::{CutEnd, Editor, Grab, Handle, Sheet};
+use crate::app::editing::editor::{CutEnd, Editor, Grab, Handle};
+use crate::app::editing::sheet::Sheet;
+use crate::app::ui::kit::theme::GRID;
+use crate::app::ui::match_editor::bar::{ADVICE_HEIGHT, BAR_HEIGHT};
+use crate::app::ui::match_editor::half::Half;
+use crate::app::ui::match_editor::inks::Inks;
+use crate::app::ui::scene::Scene;
+use crate::app::ui::stage::verdict::first_upper;
 use crate::geometry::{DVec2, Side};
 
 const PIN_RADIUS: f32 = 8.5;
@@ -193,8 +196,8 @@ fn problem_card(painter: &Painter, scene: &Scene, halves: &[Half; 2], problem: &
     let size = galley.size() + vec2(2.0 * GRID, 1.5 * GRID);
     let room = half.rect.shrink(GRID);
     let room = Rect::from_min_max(
-        room.min + vec2(0.0, super::BAR_HEIGHT + GRID),
-        room.max - vec2(0.0, super::ADVICE_HEIGHT),
+        room.min + vec2(0.0, BAR_HEIGHT + GRID),
+        room.max - vec2(0.0, ADVICE_HEIGHT),
     );
     let corner = at.unwrap_or_else(|| room.left_bottom() - vec2(0.0, size.y));
     let most = (room.max - size).max(room.min);

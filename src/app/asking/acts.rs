@@ -1,0 +1,69 @@
+//! What a hand can ask for in the match editor, as plain data.
+
+use bevy::prelude::Vec2;
+
+use crate::geometry::{DVec2, Side};
+
+/// One act in the match editor.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EditorAct {
+    /// Show the editor in place of the stage, or the stage again.
+    Toggle,
+    /// What a click does.
+    Tool(Tool),
+    /// Pins snap to corners.
+    Snap(bool),
+    /// The triangles are shown.
+    Triangles(bool),
+    /// The pointer is here, or nowhere.
+    Hover(Option<Touch>),
+    /// The hand takes what is here.
+    Press(Touch),
+    /// The hand moves, by so many logical pixels, y down, to there.
+    Drag(Touch, Vec2),
+    /// The hand lets go.
+    Release,
+    /// A click.
+    Click(Touch),
+    /// Delete what is here.
+    Remove(Touch),
+    /// Delete what is selected.
+    RemoveSelected,
+    /// Delete everything that was said of the match by hand, the rules aside.
+    Clear,
+    /// Move the view by so many logical pixels, y down.
+    Pan(Vec2),
+    /// Zoom the view.
+    Zoom {
+        /// The point that stays where it is, in logical pixels from the middle of the half, y
+        /// down.
+        at: Vec2,
+        /// Above 1 comes nearer.
+        factor: f32,
+    },
+}
+
+/// A place that the hand points to.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Touch {
+    /// In which design.
+    pub side: Side,
+    /// Where, in the frame.
+    pub at: DVec2,
+    /// How near counts as there, in the frame.
+    pub reach: f64,
+    /// Pins do not snap.
+    pub is_free: bool,
+}
+
+/// What a click does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Tool {
+    /// Sets a pin.
+    #[default]
+    Pins,
+    /// Draws pairs of lines.
+    Lines,
+    /// Pairs parts.
+    Parts,
+}

@@ -1,0 +1,85 @@
+//! What there is to choose from at the screen.
+
+use crate::content::ContentKind;
+use crate::transition::Cell;
+
+/// The colours of the panels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ThemeChoice {
+    /// Light panels on a dark ground.
+    #[default]
+    Dark,
+    /// Dark panels on a light ground.
+    Light,
+}
+
+/// The size of a screenshot of the stage.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum CaptureScale {
+    /// As many pixels as the window has.
+    #[default]
+    One,
+    /// Twice as many along each side.
+    Two,
+    /// 3840 pixels along the longer side.
+    FourK,
+}
+
+/// The kind of file that a recording writes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RecordFormat {
+    /// One animated GIF.
+    #[default]
+    Gif,
+    /// One animated PNG: full colour, may be transparent.
+    Apng,
+    /// One MP4, where `ffmpeg` is installed.
+    Mp4,
+    /// A folder of numbered PNGs.
+    Pngs,
+}
+
+/// A method that the twin view can show.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TwinMethod {
+    /// Each vertex of the common triangulation goes straight to its place.
+    Straight,
+    /// A cell of the table.
+    Cell(Cell),
+}
+
+impl TwinMethod {
+    /// All of them, in the order of the list.
+    pub fn all() -> impl Iterator<Item = Self> {
+        std::iter::once(Self::Straight).chain(Cell::all().map(Self::Cell))
+    }
+
+    /// What a content is best held against: pictures with a dissolve, shapes
+    /// with straight lines.
+    #[must_use]
+    pub fn plainest(content: Option<ContentKind>) -> Self {
+        if content == Some(ContentKind::Colours) {
+            Self::Cell(Cell::CROSS_DISSOLVE)
+        } else {
+            Self::Straight
+        }
+    }
+
+    /// The cell of the table that it is.
+    #[must_use]
+    pub fn cell(self) -> Cell {
+        match self {
+            Self::Straight => Cell::RIGID_PARTS,
+            Self::Cell(cell) => cell,
+        }
+    }
+
+    /// What it is called, in a few words.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Straight => "straight lines",
+            Self::Cell(cell) => cell.name(),
+        }
+    }
+}

@@ -1,0 +1,154 @@
+//! What a user can ask for, as one message type.
+//!
+//! Keys, panels, dialogs and dropped files only write [`Intent`]s; the systems of the other files
+//! act on them. So a key and a button that mean the same thing cannot drift apart, and a test can
+//! drive the program without a window.
+
+use std::path::PathBuf;
+
+use bevy::prelude::{Message, Vec2};
+
+use crate::app::asking::acts::EditorAct;
+use crate::app::asking::choices::TwinMethod;
+use crate::app::asking::choices::{CaptureScale, RecordFormat, ThemeChoice};
+use crate::content::ContentKind;
+use crate::project::Project;
+use crate::stage::Show;
+use crate::warp::WarpKind;
+
+/// One act of the user.
+#[derive(Message, Clone, Debug, PartialEq)]
+pub enum Intent {
+    /// Play, or pause.
+    TogglePlay,
+    /// Play the other way.
+    Reverse,
+    /// Move t by so many hundredths.
+    Step(i32),
+    /// Set t; any finite number, outside 0..1 extrapolates.
+    Seek(f64),
+    /// Jump to where the pass starts.
+    SeekStart,
+    /// Jump to where the pass ends.
+    SeekEnd,
+    /// Jump to the next stop.
+    JumpToNextStop,
+    /// Jump to the stop before.
+    JumpToPreviousStop,
+    /// Play to the next stop and wait there.
+    PlayToNextStop,
+    /// Play backwards to the stop before and wait there.
+    PlayToPreviousStop,
+    /// The next faster speed.
+    Faster,
+    /// The next slower speed.
+    Slower,
+    /// Speed 1.
+    NormalSpeed,
+    /// This speed, a factor on that of the timing.
+    Speed(f64),
+    /// Once, loop, ping-pong, and round again.
+    CyclePlayMode,
+    /// Put a stop where t is.
+    AddStop,
+    /// Take the last change of the project back.
+    Undo,
+    /// Make the change again that was taken back last.
+    Redo,
+    /// Replace the project's settings; the designs stay those that are named in it.
+    Edit(Box<Project>),
+    /// Show the transition by this cell.
+    UseCell(WarpKind, ContentKind),
+    /// Show the transition by the next cell that can be had.
+    NextMethod,
+    /// Ask for files to open.
+    AskOpen,
+    /// Open these files: one project, or one or two designs.
+    Open(Vec<PathBuf>),
+    /// Open a bundled project by its name.
+    OpenGallery(String),
+    /// Ask for a file that replaces one design of the pair (0 source, 1 target).
+    AskReplace(usize),
+    /// Replace one design of the pair (0 source, 1 target) by this file.
+    ReplaceDesign(usize, PathBuf),
+    /// Write the project where it came from; asks for a place if it has none.
+    Save,
+    /// Ask for a place and write the project there.
+    SaveAs,
+    /// Write the project to this path.
+    SaveTo(PathBuf),
+    /// Save a picture of the stage, or of the whole window.
+    Screenshot {
+        /// With the panels, as the window shows it.
+        with_panels: bool,
+    },
+    /// Record one pass as a film in the background.
+    Record,
+    /// Write a sheet of every method by which the pair can be seen, in the background.
+    Compare,
+    /// Stop the work that is going on.
+    CancelWork,
+    /// Stop the recording that is going on.
+    CancelRecording,
+    /// Whole screen, or window.
+    ToggleFullscreen,
+    /// Hide everything but the stage, or show it again.
+    TogglePanels,
+    /// Show or hide the list of keys.
+    ToggleHelp,
+    /// Show or hide the times of a frame.
+    ToggleTimes,
+    /// Show or hide the measures against t.
+    TogglePlots,
+    /// Do what the verdict advises about this finding.
+    TakeAdvice(usize),
+    /// Show or hide a second method beside the stage.
+    ToggleTwin,
+    /// The method that is shown beside the stage.
+    TwinMethod(TwinMethod),
+    /// Leave what was entered last: help, question, hidden panels, whole screen.
+    Back,
+    /// Show the whole transition.
+    FitView,
+    /// Move the view by so many logical pixels, y down.
+    Pan(Vec2),
+    /// Zoom the view.
+    Zoom {
+        /// The point that stays where it is, in logical pixels from the stage area's upper left
+        /// corner, y down.
+        at: Vec2,
+        /// Above 1 comes nearer.
+        factor: f32,
+    },
+    /// An act in the match editor.
+    Editor(EditorAct),
+    /// Show or hide the grid that shows the warp.
+    ToggleGrid,
+    /// What the stage draws.
+    Show(Show),
+    /// Dark, light, or as the system has it.
+    Theme(ThemeChoice),
+    /// The size of screenshots.
+    CaptureScale(CaptureScale),
+    /// Whether screenshots and films have a transparent ground.
+    CaptureTransparent(bool),
+    /// The kind of file that a recording writes.
+    RecordFormat(RecordFormat),
+    /// A message was read.
+    Dismiss(u64),
+    /// Close the window; asks first where something would be lost.
+    Close,
+    /// The answer to the question about unsaved changes.
+    Answer(Answer),
+}
+
+/// An answer to "there are unsaved changes".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// Save, then go on.
+    Save,
+    /// Go on without saving.
+    Discard,
+    /// Do not go on.
+    Stay,
+}

@@ -1,0 +1,5 @@
+//! Pictures and films, and where they go.
+
+pub mod files;
+pub mod films;
+pub mod pictures;

@@ -1,0 +1,158 @@
+//! Pictures of the stage and of the whole window.
+//!
+//! A picture is drawn by the graphics card, encoded and written on a thread of its own; that it
+//! was written, or why not, is said on screen. Nothing is ever overwritten.
+
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
+
+use bevy::prelude::*;
+use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
+use bevy::window::PrimaryWindow;
+use image::{DynamicImage, ImageFormat};
+
+use crate::app::asking::choices::CaptureScale;
+use crate::app::asking::intent::Intent;
+use crate::app::capturing::files::{CaptureFolder, create_new};
+use crate::app::looking::preferences::Preferences;
+use crate::app::playing::playback::Playback;
+use crate::app::session::state::Session;
+use crate::app::telling::job::Job;
+use crate::app::telling::notices::Notices;
+use crate::stage::{CaptureStage, StageCaptured, StageView};
+
+/// The longer side of a 4K picture in pixels.
+const FOUR_K_PX: f32 = 3840.0;
+
+/// Pictures that are being taken or written.
+#[derive(Resource, Debug, Default)]
+pub struct Captures {
+    next_id: u64,
+    names: HashMap<u64, String>,
+    writing: Vec<Job<Result<PathBuf, String>>>,
+}
+
+/// Asks the stage, or the window, for a picture.
+pub fn ask(
+    mut intents: MessageReader<Intent>,
+    mut captures: ResMut<Captures>,
+    mut requests: MessageWriter<CaptureStage>,
+    mut commands: Commands,
+    (session, playback, preferences): (Res<Session>, Res<Playback>, Res<Preferences>),
+    (view, window): (Res<StageView>, Single<&Window, With<PrimaryWindow>>),
+) {
+    for intent in intents.read() {
+        let Intent::Screenshot { with_panels } = *intent else {
+            continue;
+        };
+        let name = format!("{}-t{:.3}", session.file_stem(), playback.t());
+        if with_panels {
+            commands
+                .spawn(Screenshot::primary_window())
+                .observe(window_captured(name));
+            continue;
+        }
+        let Some(project) = session.project() else {
+            continue;
+        };
+        captures.next_id += 1;
+        let id = captures.next_id;
+        captures.names.insert(id, name);
+        requests.write(CaptureStage {
+            id,
+            size_px: size_px(&view, window.scale_factor(), preferences.capture_scale),
+            ground: (!preferences.capture_transparent).then_some(project.style.ground),
+            view: view.visible(),
+        });
+    }
+}
+
+fn size_px(view: &StageView, scale_factor: f32, scale: CaptureScale) -> UVec2 {
+    let on_screen = view.viewport_px * scale_factor;
+    let factor = match scale {
+        CaptureScale::One => 1.0,
+        CaptureScale::Two => 2.0,
+        CaptureScale::FourK => FOUR_K_PX / on_screen.max_element().max(1.0),
+    };
+    (on_screen * factor).round().as_uvec2().max(UVec2::ONE)
+}
+
+fn window_captured(
+    name: String,
+) -> impl FnMut(On<ScreenshotCaptured>, ResMut<Captures>, ResMut<Notices>, Res<CaptureFolder>) {
+    move |captured, mut captures, mut notices, folder| match captured
+        .image
+        .clone()
+        .try_into_dynamic()
+    {
+        Ok(image) => captures.write(&folder, &name, image.to_rgb8().into()),
+        Err(error) => notices.problem(format!("The picture of the window was not taken: {error}")),
+    }
+}
+
+impl Captures {
+    /// A picture of the stage is awaited, or one is being written.
+    pub fn is_busy(&self) -> bool {
+        !self.names.is_empty() || !self.writing.is_empty()
+    }
+
+    fn write(&mut self, folder: &CaptureFolder, name: &str, image: DynamicImage) {
+        let (folder, name) = (folder.0.clone(), name.to_owned());
+        self.writing.push(Job::start("a picture", move |_| {
+            save(&folder, &name, &image)
+        }));
+    }
+}
+
+fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, String> {
+    let (file, path) = create_new(folder, name, "png").map_err(|error| error.to_string())?;
+    let mut writer = std::io::BufWriter::new(file);
+    let written = image
+        .write_to(&mut writer, ImageFormat::Png)
+        .map_err(|e| e.to_string());
+    let flushed = written
+        .and_then(|()| std::io::Write::flush(&mut writer).map_err(|error| error.to_string()));
+    match flushed {
+        Ok(()) => Ok(path),
+        Err(error) => {
+            // What was begun is no picture; where even that cannot be taken back, it stays.
+            std::fs::remove_file(&path).ok();
+            Err(format!("{} was not written: {error}", path.display()))
+        }
+    }
+}
+
+/// Takes pictures from the stage.
+pub fn receive(
+    mut answers: MessageReader<StageCaptured>,
+    mut captures: ResMut<Captures>,
+    mut notices: ResMut<Notices>,
+    folder: Res<CaptureFolder>,
+) {
+    for answer in answers.read() {
+        let Some(name) = captures.names.remove(&answer.id) else {
+            continue;
+        };
+        match &answer.result {
+            Ok(image) => captures.write(&folder, &name, image.clone().into()),
+            Err(error) => notices.problem(error.clone()),
+        }
+    }
+}
+
+/// Says what was written.
+pub fn report(mut captures: ResMut<Captures>, mut notices: ResMut<Notices>) {
+    captures.bypass_change_detection().writing.retain(|job| {
+        let Some(answer) = job.poll() else {
+            return true;
+        };
+        match answer
+            .map_err(|broken| broken.to_string())
+            .and_then(|written| written)
+        {
+            Ok(path) => notices.done(format!("Saved {}", path.display())),
+            Err(error) => notices.problem(error),
+        }
+        false
+    });
+}

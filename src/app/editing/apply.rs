@@ -1,0 +1,344 @@
+//! Acts on what the hand does in the match editor.
+
+use bevy::prelude::{MessageReader, Res, ResMut, Vec2};
+
+use crate::app::asking::acts::{EditorAct, Tool, Touch};
+use crate::app::asking::hand::Gesture;
+use crate::app::asking::intent::Intent;
+use crate::app::editing::editor::{CutEnd, Editor, Grab, Handle};
+use crate::app::editing::sheet::Sheet;
+use crate::app::session::state::Session;
+use crate::content::ContentKind;
+use crate::correspondence::{Matching, PointPair, RingCut};
+use crate::geometry::{DVec2, Pair, Side};
+use crate::project::Project;
+use crate::warp::WarpKind;
+
+/// The least and the most that the view is enlarged.
+const ZOOMS: [f32; 2] = [0.2, 100.0];
+
+/// Said of a point that no pin can be set on.
+const NO_PARTNER: &str = "Nothing on the other side belongs to this boundary, so it cannot be \
+     pinned. Pin two boundaries that are matched, or pair their parts.";
+
+/// Said where nothing was matched yet.
+const NOTHING_TO_PAIR: &str = "There is no part here. Click inside a part.";
+
+/// Acts on the intents that concern the match editor.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    mut editor: ResMut<Editor>,
+    mut session: ResMut<Session>,
+    (sheet, gesture): (Res<Sheet>, Res<Gesture>),
+) {
+    for intent in intents.read() {
+        let act = match intent {
+            Intent::Editor(act) => act,
+            Intent::FitView if editor.is_open => {
+                (editor.pan, editor.zoom) = (Vec2::ZERO, 1.0);
+                continue;
+            }
+            _ => continue,
+        };
+        let mut matching = session
+            .project()
+            .map(|project| project.options.matching.clone())
+            .unwrap_or_default();
+        let before = matching.clone();
+        editor.act(act, &sheet, &session, &mut matching);
+        if *act == EditorAct::Toggle && editor.is_open {
+            session.change(gesture.mark(), choose_what_moves);
+            let is_free = session
+                .project()
+                .is_some_and(|p| p.content != Some(ContentKind::Solid));
+            if editor.tool == Tool::Parts && is_free || editor.tool == Tool::Lines && !is_free {
+                editor.tool = Tool::Pins;
+            }
+        }
+        if matching != before {
+            session.change(gesture.mark(), |project| {
+                project.options.matching = matching;
+            });
+        }
+    }
+}
+
+/// Where nothing moves there is nothing to match: outlines then become rigid parts, and pictures
+/// follow points.
+fn choose_what_moves(project: &mut Project) {
+    if project.warp == Some(WarpKind::None) {
+        let (warp, content) = match project.content {
+            Some(ContentKind::Colours) => (WarpKind::Scattered, ContentKind::Colours),
+            _ => (WarpKind::Arap, ContentKind::Solid),
+        };
+        project.warp = Some(warp);
+        project.content = Some(content);
+    }
+}
+
+impl Editor {
+    fn act(&mut self, act: &EditorAct, sheet: &Sheet, session: &Session, said: &mut Matching) {
+        match act {
+            EditorAct::Toggle => self.is_open = !self.is_open && session.can_match(),
+            EditorAct::Tool(tool) => {
+                self.tool = *tool;
+                self.first_part = None;
+            }
+            EditorAct::Snap(on) => self.snaps = *on,
+            EditorAct::Triangles(on) => self.triangles = *on,
+            EditorAct::Hover(touch) => self.hover(*touch, sheet),
+            EditorAct::Press(touch) => self.press(*touch, sheet),
+            EditorAct::Drag(touch, delta) => self.drag(*touch, *delta, sheet, said),
+            EditorAct::Release => self.grabbed = None,
+            EditorAct::Click(touch) => self.click(*touch, sheet, said),
+            EditorAct::Remove(touch) => self.remove(*touch, sheet, said),
+            EditorAct::RemoveSelected => {
+                if let Some(handle) = self.selected.take() {
+                    remove_handle(handle, sheet, said);
+                }
+            }
+            EditorAct::Clear => {
+                (said.pins, said.links, said.cuts) = Default::default();
+                said.lines.clear();
+                self.selected = None;
+            }
+            EditorAct::Pan(delta) => self.pan += *delta,
+            EditorAct::Zoom { at, factor } => self.zoom_at(*at, *factor),
+        }
+    }
+
+    fn zoom_at(&mut self, at: Vec2, factor: f32) {
+        if !(factor.is_finite() && factor > 0.0) {
+            return;
+        }
+        let zoom = (self.zoom * factor).clamp(ZOOMS[0], ZOOMS[1]);
+        self.pan = at + (self.pan - at) * (zoom / self.zoom);
+        self.zoom = zoom;
+    }
+
+    fn hover(&mut self, touch: Option<Touch>, sheet: &Sheet) {
+        let is_pinning = self.tool != Tool::Parts;
+        self.hovered = touch.and_then(|touch| sheet.handle_at(touch));
+        self.trace = touch
+            .filter(|_| is_pinning && self.hovered.is_none())
+            .and_then(|touch| sheet.trace(touch));
+        self.part = touch
+            .filter(|_| !is_pinning)
+            .and_then(|touch| Some((touch.side, sheet.part(touch.side, touch.at, touch.reach)?)));
+    }
+
+    fn press(&mut self, touch: Touch, sheet: &Sheet) {
+        self.refusal = None;
+        let handle = sheet.handle_at(touch);
+        self.selected = handle.or(self.selected);
+        let grab = match handle {
+            None if self.tool == Tool::Lines && sheet.is_free() => Grab::NewLine(touch.at),
+            None => Grab::View,
+            Some(Handle::Pin(k)) => Grab::Pin(k),
+            Some(Handle::Line(k, end)) => Grab::Line(k, end),
+            Some(Handle::Feature(k)) => Grab::Feature(k),
+            Some(Handle::Cut(k, end)) => match sheet.cuts[k].asked {
+                Some(asked) => Grab::Cut(asked, end),
+                None => Grab::FoundCut(k, end),
+            },
+        };
+        self.grabbed = Some((touch.side, grab));
+    }
+
+    fn drag(&mut self, touch: Touch, delta: Vec2, sheet: &Sheet, said: &mut Matching) {
+        let Some((side, grab)) = self.grabbed else {
+            return;
+        };
+        let touch = Touch { side, ..touch };
+        let grab = taken(grab, sheet, said);
+        self.grabbed = Some((side, grab));
+        match grab {
+            Grab::View => self.pan += delta,
+            Grab::Pin(k) => {
+                self.selected = Some(Handle::Pin(k));
+                if let (Some(pin), Some(to)) =
+                    (said.pins.get_mut(k), sheet.landing(touch, self.snaps))
+                {
+                    pin[side] = sheet.own(side, to);
+                }
+            }
+            Grab::Cut(k, end) => {
+                if let (Some(cut), Some(foot)) =
+                    (said.cuts.get_mut(k), sheet.on_boundary(side, touch.at))
+                {
+                    let to = sheet.own(side, foot.point);
+                    match end {
+                        CutEnd::Outer => cut.outer = to,
+                        CutEnd::Hole => cut.hole = to,
+                    }
+                }
+            }
+            Grab::Line(k, end) => {
+                self.selected = Some(Handle::Line(k, end));
+                if let Some(line) = said.lines.get_mut(k) {
+                    line[side][end] = sheet.own(side, touch.at);
+                }
+            }
+            Grab::Stretch(k) => {
+                self.selected = Some(Handle::Line(k, 1));
+                if let Some(line) = said.lines.get_mut(k) {
+                    for side in Side::BOTH {
+                        line[side][1] = sheet.own(side, touch.at);
+                    }
+                }
+            }
+            Grab::Feature(_) | Grab::FoundCut(..) | Grab::NewLine(_) => {}
+        }
+    }
+
+    fn click(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
+        self.refusal = None;
+        match (sheet.handle_at(touch), self.tool) {
+            (Some(handle), _) => self.selected = Some(handle),
+            (None, Tool::Pins) => self.add_pin(touch, sheet, said),
+            (None, Tool::Lines) => {}
+            (None, Tool::Parts) => self.pair(touch, sheet, said),
+        }
+    }
+
+    fn add_pin(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
+        self.selected = None;
+        let is_near = sheet
+            .on_boundary(touch.side, touch.at)
+            .is_some_and(|foot| foot.distance <= touch.reach);
+        let landing = sheet.landing(touch, self.snaps);
+        let Some(here) = landing.filter(|_| is_near || sheet.is_free()) else {
+            return;
+        };
+        let partner = if sheet.is_free() {
+            Some(here)
+        } else {
+            sheet.partner(touch.side, here)
+        };
+        let Some(there) = partner else {
+            self.refusal = Some(NO_PARTNER);
+            return;
+        };
+        let pin = sheet.own_pair(&Pair::on(touch.side, here, there));
+        keep_found(sheet, said);
+        said.pins.push(pin);
+        self.selected = Some(Handle::Pin(said.pins.len() - 1));
+    }
+
+    fn pair(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
+        let Some(part) = sheet.part(touch.side, touch.at, touch.reach) else {
+            self.refusal = Some(NOTHING_TO_PAIR);
+            self.first_part = None;
+            return;
+        };
+        match self.first_part.take() {
+            Some((side, _, first)) if side != touch.side => {
+                let link = sheet.own_pair(&Pair::on(side, first, touch.at));
+                let parts = Side::BOTH.map(|side| sheet.part(side, sheet.framed(&link, side), 0.0));
+                unlink(sheet, said, parts);
+                said.links.push(link);
+            }
+            Some((_, first, _)) if first == part => {}
+            _ => self.first_part = Some((touch.side, part, touch.at)),
+        }
+    }
+
+    fn remove(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
+        self.refusal = None;
+        if let Some(handle) = sheet.handle_at(touch) {
+            remove_handle(handle, sheet, said);
+            (self.selected, self.hovered) = (None, None);
+        } else if self.tool == Tool::Parts {
+            let mut parts = [None; 2];
+            parts[touch.side] = sheet.part(touch.side, touch.at, touch.reach);
+            unlink(sheet, said, parts);
+            self.first_part = None;
+        }
+    }
+}
+
+/// What is found becomes what is asked for once the hand moves it.
+fn taken(grab: Grab, sheet: &Sheet, said: &mut Matching) -> Grab {
+    match grab {
+        Grab::Feature(k) => match sheet.features.get(k) {
+            Some(_) if sheet.is_free() => {
+                keep_found(sheet, said);
+                Grab::Pin(k)
+            }
+            Some(pair) => {
+                said.pins.push(sheet.own_pair(pair));
+                Grab::Pin(said.pins.len() - 1)
+            }
+            None => Grab::View,
+        },
+        Grab::FoundCut(k, end) => match sheet.cuts.get(k) {
+            Some(found) => {
+                let RingCut { side, outer, hole } = found.cut;
+                let [outer, hole] = [outer, hole].map(|p| sheet.own(side, p));
+                said.cuts.push(RingCut { side, outer, hole });
+                Grab::Cut(said.cuts.len() - 1, end)
+            }
+            None => Grab::View,
+        },
+        Grab::NewLine(from) => {
+            keep_found(sheet, said);
+            said.lines.push(Pair::of(|side| [sheet.own(side, from); 2]));
+            Grab::Stretch(said.lines.len() - 1)
+        }
+        known => known,
+    }
+}
+
+/// A warp of the plane finds no pins once one is set: whoever sets or moves one
+/// keeps those that were found.
+fn keep_found(sheet: &Sheet, said: &mut Matching) {
+    if sheet.is_free() && said.pins.is_empty() && said.lines.is_empty() {
+        let found = sheet.features.iter().map(|pair| sheet.own_pair(pair));
+        said.pins.extend(found);
+    }
+}
+
+fn remove_handle(handle: Handle, sheet: &Sheet, said: &mut Matching) {
+    match handle {
+        Handle::Pin(k) if k < said.pins.len() => {
+            said.pins.remove(k);
+        }
+        Handle::Cut(k, _) => {
+            let asked = sheet.cuts.get(k).and_then(|cut| cut.asked);
+            if let Some(k) = asked.filter(|k| *k < said.cuts.len()) {
+                said.cuts.remove(k);
+            }
+        }
+        Handle::Line(k, _) if k < said.lines.len() => {
+            said.lines.remove(k);
+        }
+        Handle::Pin(_) | Handle::Feature(_) | Handle::Line(..) => {}
+    }
+}
+
+/// Drops every pair that one of these parts is in.
+fn unlink(sheet: &Sheet, said: &mut Matching, parts: [Option<usize>; 2]) {
+    said.links.retain(|link| {
+        Side::BOTH.into_iter().all(|side| {
+            let wanted = parts[side];
+            wanted.is_none() || sheet.part(side, sheet.framed(link, side), 0.0) != wanted
+        })
+    });
+}
+
+impl Sheet {
+    /// A point of the frame in a design's own coordinates.
+    fn own(&self, side: Side, p: DVec2) -> DVec2 {
+        self.by[side].inverse().apply(p)
+    }
+
+    /// A pair of the frame in the designs' own coordinates.
+    fn own_pair(&self, pair: &PointPair) -> PointPair {
+        Pair::of(|side| self.own(side, pair[side]))
+    }
+
+    /// One end of a pair of the project, in the frame.
+    fn framed(&self, pair: &PointPair, side: Side) -> DVec2 {
+        self.by[side].apply(pair[side])
+    }
+}

@@ -1,0 +1,110 @@
+//! How the match editor is looked at, and what the hand holds in it.
+
+use bevy::prelude::{Resource, Vec2};
+
+use crate::app::asking::acts::Tool;
+use crate::geometry::{DVec2, Side};
+
+/// What the hand can hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Handle {
+    /// A pin, by its number in the project.
+    Pin(usize),
+    /// A point that was matched without being asked for, by its number on the sheet.
+    Feature(usize),
+    /// An end of a cut, by its number on the sheet.
+    Cut(usize, CutEnd),
+    /// An end of a line, 0 or 1, by the line's number in the project.
+    Line(usize, usize),
+}
+
+/// An end of a cut.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CutEnd {
+    /// That on the boundary around the hole.
+    Outer,
+    /// That on the hole.
+    Hole,
+}
+
+/// What the hand holds.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Grab {
+    /// A pin, by its number in the project.
+    Pin(usize),
+    /// A point that becomes a pin as soon as it moves.
+    Feature(usize),
+    /// A cut that becomes one of the project's as soon as it moves, by its number on the sheet.
+    FoundCut(usize, CutEnd),
+    /// A cut, by its number in the project.
+    Cut(usize, CutEnd),
+    /// An end of a line, by the line's number in the project.
+    Line(usize, usize),
+    /// A line that is drawn as soon as the hand moves, from here.
+    NewLine(DVec2),
+    /// The second end, on both sides, of a line that is being drawn.
+    Stretch(usize),
+    /// The view.
+    View,
+}
+
+/// How the sheet is looked at, and what the hand does with it.
+#[derive(Resource, Clone, Debug, PartialEq)]
+pub struct Editor {
+    /// The editor is shown in place of the stage.
+    pub is_open: bool,
+    /// What a click does.
+    pub tool: Tool,
+    /// Pins snap to corners.
+    pub snaps: bool,
+    /// The triangles are shown.
+    pub triangles: bool,
+    /// What is under the pointer.
+    pub hovered: Option<Handle>,
+    /// The boundary under the pointer and what it is matched with: source and target.
+    pub trace: Option<[DVec2; 2]>,
+    /// The part under the pointer while parts are being paired.
+    pub part: Option<(Side, usize)>,
+    /// What was clicked last.
+    pub selected: Option<Handle>,
+    /// What the hand holds, and on which side.
+    pub grabbed: Option<(Side, Grab)>,
+    /// The first of two parts that are to be paired, with the point that names it.
+    pub first_part: Option<(Side, usize, DVec2)>,
+    /// Why the last act came to nothing.
+    pub refusal: Option<&'static str>,
+    /// How far the view was moved, in logical pixels, y down.
+    pub pan: Vec2,
+    /// How much larger than fitted.
+    pub zoom: f32,
+}
+
+impl Default for Editor {
+    fn default() -> Self {
+        Self {
+            is_open: false,
+            tool: Tool::default(),
+            snaps: true,
+            triangles: false,
+            hovered: None,
+            trace: None,
+            part: None,
+            selected: None,
+            grabbed: None,
+            first_part: None,
+            refusal: None,
+            pan: Vec2::ZERO,
+            zoom: 1.0,
+        }
+    }
+}
+
+impl Editor {
+    /// Leaves what was entered last; `false` where there is nothing to leave.
+    pub fn back(&mut self) -> bool {
+        if self.first_part.take().is_some() {
+            return true;
+        }
+        std::mem::take(&mut self.is_open)
+    }
+}

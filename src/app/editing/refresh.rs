@@ -1,0 +1,68 @@
+//! Lays the sheet out of what is open and what is on the stage.
+
+use bevy::prelude::{DetectChanges, Local, Res, ResMut};
+
+use crate::app::editing::editor::{Editor, Handle};
+use crate::app::editing::sheet::Sheet;
+use crate::app::session::state::Session;
+use crate::transition::{Transition, arrangement};
+
+/// Lays the sheet out anew where the project, its transition or the editor is another.
+pub fn refresh(
+    session: Res<Session>,
+    mut editor: ResMut<Editor>,
+    mut sheet: ResMut<Sheet>,
+    mut was_open: Local<bool>,
+) {
+    let is_opened = editor.is_open && !*was_open;
+    *was_open = editor.is_open;
+    if !editor.is_open || !(is_opened || session.is_changed()) {
+        return;
+    }
+    *sheet = Sheet::of(&session);
+    if sheet.sides.is_none() {
+        editor.is_open = false;
+    }
+    let is_there = |handle: &mut Handle| match *handle {
+        Handle::Pin(k) => k < sheet.pins.len(),
+        Handle::Feature(k) => k < sheet.features.len(),
+        Handle::Cut(k, _) => k < sheet.cuts.len(),
+        Handle::Line(k, _) => k < sheet.lines.len(),
+    };
+    editor.selected = editor.selected.take_if(is_there);
+    editor.hovered = editor.hovered.take_if(is_there);
+}
+
+impl Sheet {
+    /// The designs of the stage side by side, and how they go together.
+    #[must_use]
+    pub fn of(session: &Session) -> Self {
+        Self::laid_out(session).unwrap_or_default()
+    }
+
+    fn laid_out(session: &Session) -> Option<Self> {
+        let (project, staged) = (session.project()?, session.staged_settings()?);
+        let [source, target, ..] = session.designs() else {
+            return None;
+        };
+        let [source_entry, target_entry, ..] = staged.designs.as_slice() else {
+            return None;
+        };
+        let places = [source_entry.placement, target_entry.placement];
+        let by = arrangement([source, target], staged.fit, places).ok()?;
+        let transition = session.transition();
+        let matched = transition.and_then(Transition::matched);
+        let mut sheet = Self {
+            faulty: session.problem_pins().to_vec(),
+            content: project.content,
+            ..Self::new([source, target], by, &project.options.matching, matched)
+        };
+        if sheet.is_free() {
+            // Once one is set none is found; the stage may still show the old ones.
+            let is_bare = sheet.pins.is_empty() && sheet.lines.is_empty();
+            let shown = transition.filter(|_| is_bare);
+            sheet.features = shown.map_or_else(Vec::new, |t| t.automatic_pins().to_vec());
+        }
+        Some(sheet)
+    }
+}

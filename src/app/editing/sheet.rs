@@ -1,0 +1,318 @@
+//! What the match editor shows: both designs and how they go together, in the frame that both lie
+//! in.
+//!
+//! A sheet is made anew whenever the project or its transition changes, and never by drawing it.
+
+use bevy::prelude::Resource;
+
+use crate::app::editing::ring::SheetRing;
+use crate::app::editing::{features, polyline};
+use crate::content::ContentKind;
+use crate::correspondence::{
+    LinePair, Matching, PieceMatch, PointPair, RegionMatch, RingCut, RingKind,
+};
+use crate::design::{Design, Form, Picture};
+use crate::geometry::{Bounds, DVec2, Side, Similarity};
+
+/// A cut that was asked for is shown by the one that came of it where the two are no farther apart
+/// than this share of the design.
+const SAME_CUT: f64 = 0.25;
+
+/// Both designs and their match.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct Sheet {
+    /// Source and target; none where there is nothing to match.
+    pub sides: Option<[SheetSide; 2]>,
+    /// The matched rings; none while there is no transition.
+    pub rings: Vec<SheetRing>,
+    /// The pieces that rings belong to.
+    pub pieces: Vec<SheetPiece>,
+    /// Pins, as they stand in the project.
+    pub pins: Vec<PointPair>,
+    /// The pins that the match failed on.
+    pub faulty: Vec<usize>,
+    /// Some points that were matched without being asked for.
+    pub features: Vec<PointPair>,
+    /// Pairs of lines, as they stand in the project.
+    pub lines: Vec<LinePair>,
+    /// What is seen, and so what pins are for.
+    pub content: Option<ContentKind>,
+    /// Pairs of parts that were asked for.
+    pub links: Vec<PointPair>,
+    /// Rings that are cut open.
+    pub cuts: Vec<SheetCut>,
+    /// What lays each design into the frame.
+    pub by: [Similarity; 2],
+}
+
+/// One design.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SheetSide {
+    /// Its parts, each an outline and its holes.
+    pub parts: Vec<Vec<Vec<DVec2>>>,
+    /// What pins snap to.
+    pub corners: Vec<DVec2>,
+    /// The box around it.
+    pub bounds: Bounds,
+    /// The picture that it came as, where it lies in the frame.
+    pub picture: Option<Picture>,
+}
+
+/// One piece in both designs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SheetPiece {
+    /// What it is called: the same on both sides.
+    pub name: String,
+    /// What becomes of it.
+    pub fate: Fate,
+    /// Where its name stands, in the source and in the target.
+    pub at: [DVec2; 2],
+    /// It was paired by hand.
+    pub is_linked: bool,
+}
+
+/// What becomes of a piece.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Fate {
+    /// It is in both designs.
+    Paired,
+    /// It is in the target only, and grows from a point.
+    Born,
+    /// It is in the source only, and shrinks to a point.
+    Dies,
+}
+
+/// A cut that opens a ring.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SheetCut {
+    /// The cut, as it was made.
+    pub cut: RingCut,
+    /// As it was asked for, where it was.
+    pub wanted: Option<RingCut>,
+    /// Which of the project's cuts it came from; none where it was found.
+    pub asked: Option<usize>,
+}
+
+impl Sheet {
+    /// Lays out a pair of designs, given as their files have them. Nothing where one of them has
+    /// triangles or bars of its own.
+    #[must_use]
+    pub fn new(
+        designs: [&Design; 2],
+        by: [Similarity; 2],
+        matching: &Matching,
+        matched: Option<&RegionMatch>,
+    ) -> Self {
+        let [Some(source), Some(target)] = [0, 1].map(|k| side(designs[k], &by[k])) else {
+            return Self::default();
+        };
+        let placed = matching.placed(&by);
+        let pieces: &[PieceMatch] = matched.map_or(&[], |matched| &matched.pieces);
+        let rings = rings(pieces);
+        let diameter = source.bounds.diameter().max(target.bounds.diameter());
+        let sides = [source, target];
+        Self {
+            features: features::chosen(&rings, &placed.pins),
+            pieces: names(pieces, &sides, &placed.links),
+            cuts: cuts(pieces, &placed.cuts, diameter),
+            sides: Some(sides),
+            rings,
+            pins: placed.pins,
+            lines: placed.lines,
+            content: None,
+            links: placed.links,
+            faulty: Vec::new(),
+            by,
+        }
+    }
+
+    /// Pins and lines may lie anywhere: they move the plane and not a boundary.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        matches!(
+            self.content,
+            Some(ContentKind::Field | ContentKind::Colours)
+        )
+    }
+
+    /// Pictures are what is seen.
+    #[must_use]
+    pub fn in_colours(&self) -> bool {
+        self.content == Some(ContentKind::Colours)
+    }
+
+    /// The nearest place on the boundary of one side.
+    #[must_use]
+    pub fn on_boundary(&self, side: Side, p: DVec2) -> Option<polyline::Foot> {
+        let parts = &self.sides.as_ref()?[side].parts;
+        polyline::nearest(parts.iter().flatten().map(Vec::as_slice), p)
+    }
+
+    /// The corner nearest to a point, if one is within reach.
+    #[must_use]
+    pub fn corner(&self, side: Side, p: DVec2, reach: f64) -> Option<DVec2> {
+        let corners = &self.sides.as_ref()?[side].corners;
+        let near = corners.iter().filter(|corner| corner.distance(p) <= reach);
+        near.min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))
+            .copied()
+    }
+
+    /// The point of the other side that a point of one side is matched with; none on what has no
+    /// partner, and none while there is no match.
+    #[must_use]
+    pub fn partner(&self, side: Side, p: DVec2) -> Option<DVec2> {
+        let rings = self.rings.iter().map(|ring| ring.sides[side].as_slice());
+        let foot = polyline::nearest(rings, p)?;
+        let ring = &self.rings[foot.ring];
+        let other = &ring.sides[side.other()];
+        let (a, b) = (other[foot.edge], other[(foot.edge + 1) % other.len()]);
+        (ring.kind == RingKind::Matched).then(|| a.lerp(b, foot.along))
+    }
+
+    /// The part of one side that a point lies in, or within reach of.
+    #[must_use]
+    pub fn part(&self, side: Side, p: DVec2, reach: f64) -> Option<usize> {
+        let parts = &self.sides.as_ref()?[side].parts;
+        let rings = |k: usize| parts[k].iter().map(Vec::as_slice);
+        let hit = (0..parts.len()).find(|&k| polyline::encloses(rings(k), p));
+        hit.or_else(|| {
+            let far = |k: usize| polyline::nearest(rings(k), p).map_or(f64::MAX, |f| f.distance);
+            let nearest = (0..parts.len()).min_by(|a, b| far(*a).total_cmp(&far(*b)))?;
+            (far(nearest) <= reach).then_some(nearest)
+        })
+    }
+}
+
+fn side(design: &Design, by: &Similarity) -> Option<SheetSide> {
+    let Form::Outline(regions) = &design.form else {
+        return None;
+    };
+    let ring = |points: &[DVec2]| points.iter().map(|p| by.apply(*p)).collect::<Vec<_>>();
+    let parts: Vec<Vec<Vec<DVec2>>> = regions
+        .iter()
+        .map(|region| {
+            let holes = region.holes.iter().map(|hole| ring(hole.points()));
+            std::iter::once(ring(region.outer.points()))
+                .chain(holes)
+                .collect()
+        })
+        .collect();
+    let corners = parts
+        .iter()
+        .flatten()
+        .flat_map(|ring| polyline::corners(ring));
+    let corners = corners.collect();
+    let bounds = Bounds::of(parts.iter().flatten().flatten().copied())?;
+    Some(SheetSide {
+        parts,
+        corners,
+        bounds,
+        picture: design
+            .picture
+            .as_ref()
+            .map(|picture| picture.transformed(by)),
+    })
+}
+
+fn rings(pieces: &[PieceMatch]) -> Vec<SheetRing> {
+    let of = |(k, piece): (usize, &PieceMatch)| -> Vec<SheetRing> {
+        let ring = |ring: &crate::correspondence::RingMatch| {
+            SheetRing::new(k, ring.kind, [ring.source.clone(), ring.target.clone()])
+        };
+        piece.rings.iter().map(ring).collect()
+    };
+    pieces.iter().enumerate().flat_map(of).collect()
+}
+
+fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], links: &[PointPair]) -> Vec<SheetPiece> {
+    let mut paired = 0;
+    let mut alone = 0;
+    let mut name = |fate: Fate| {
+        let (count, first) = match fate {
+            Fate::Paired => (&mut paired, 'A'),
+            Fate::Born | Fate::Dies => (&mut alone, 'a'),
+        };
+        *count += 1;
+        letters(*count - 1, first)
+    };
+    let is_linked = |piece: &PieceMatch| {
+        let parts = [piece.source_part, piece.target_part];
+        links.iter().any(|link| {
+            Side::BOTH.into_iter().all(|side| {
+                let part = parts[side].and_then(|k| sides[side].parts.get(k));
+                part.is_some_and(|rings| {
+                    polyline::encloses(rings.iter().map(Vec::as_slice), link[side])
+                })
+            })
+        })
+    };
+    let piece = |piece: &PieceMatch| {
+        let fate = match (piece.source_part, piece.target_part) {
+            (Some(_), None) => Fate::Dies,
+            (None, Some(_)) => Fate::Born,
+            _ => Fate::Paired,
+        };
+        SheetPiece {
+            name: name(fate),
+            fate,
+            at: [true, false].map(|is_source| middle(piece, is_source)),
+            is_linked: is_linked(piece),
+        }
+    };
+    pieces.iter().map(piece).collect()
+}
+
+/// A, B, … Z, A2, B2, …
+fn letters(index: usize, first: char) -> String {
+    let letter = char::from(first as u8 + (index % 26) as u8);
+    match index / 26 {
+        0 => letter.to_string(),
+        round => format!("{letter}{}", round + 1),
+    }
+}
+
+fn middle(piece: &PieceMatch, is_source: bool) -> DVec2 {
+    let rings: Vec<&[DVec2]> = piece
+        .rings
+        .iter()
+        .map(|ring| {
+            if is_source {
+                &ring.source
+            } else {
+                &ring.target
+            }
+        })
+        .map(Vec::as_slice)
+        .collect();
+    let first = rings.first().and_then(|ring| ring.first());
+    polyline::inside(&rings)
+        .or(first.copied())
+        .unwrap_or_default()
+}
+
+/// The cuts that were made, each with the one that asked for it; then what was asked for and not
+/// made.
+fn cuts(pieces: &[PieceMatch], asked: &[RingCut], diameter: f64) -> Vec<SheetCut> {
+    let far = |a: &RingCut, b: &RingCut| a.outer.distance(b.outer) + a.hole.distance(b.hole);
+    let mut left: Vec<usize> = (0..asked.len()).collect();
+    let mut cuts: Vec<SheetCut> = Vec::new();
+    for cut in pieces.iter().flat_map(|piece| &piece.cuts) {
+        let near = left
+            .iter()
+            .copied()
+            .filter(|&k| asked[k].side == cut.side && far(&asked[k], cut) < SAME_CUT * diameter)
+            .min_by(|&a, &b| far(&asked[a], cut).total_cmp(&far(&asked[b], cut)));
+        left.retain(|k| Some(*k) != near);
+        cuts.push(SheetCut {
+            cut: *cut,
+            wanted: near.map(|k| asked[k]),
+            asked: near,
+        });
+    }
+    cuts.extend(left.into_iter().map(|k| SheetCut {
+        cut: asked[k],
+        wanted: Some(asked[k]),
+        asked: Some(k),
+    }));
+    cuts
+}

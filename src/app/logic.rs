@@ -1,0 +1,114 @@
+//! The order of all that happens in a frame, but for what needs a window or a graphics card.
+
+use bevy::prelude::*;
+
+use crate::app::asking::hand::{self, Typing};
+use crate::app::asking::intent::Intent;
+use crate::app::asking::keymap::{self, KeyMap};
+use crate::app::capturing::files::CaptureFolder;
+use crate::app::capturing::films;
+use crate::app::editing::editor::Editor;
+use crate::app::editing::sheet::Sheet;
+use crate::app::editing::{apply, refresh};
+use crate::app::looking::measuring::{self, Measured};
+use crate::app::looking::preferences::{self, Preferences};
+use crate::app::looking::times;
+use crate::app::looking::twin::{self, Twin};
+use crate::app::looking::view::{self, KeepsFit, StageArea};
+use crate::app::opening::apply::{self as opening, Gallery};
+use crate::app::opening::closing::{self, Question};
+use crate::app::opening::dialogs;
+use crate::app::playing::playback::{self, Playback};
+use crate::app::playing::staging;
+use crate::app::session::state::Session;
+use crate::app::telling::notices::{self, Notices};
+use crate::stage::MorphSystems;
+
+/// Everything that needs neither a window nor a graphics card.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct LogicPlugin;
+
+impl Plugin for LogicPlugin {
+    fn build(&self, app: &mut App) {
+        use MorphSystems::{Build, Input, Playback as Play};
+        init(app);
+        app.configure_sets(Update, (Input, Play, Build).chain())
+            .add_systems(
+                Update,
+                (
+                    times::record,
+                    hand::note_gesture,
+                    keymap::read_keys,
+                    dialogs::read_drops,
+                )
+                    .in_set(Input),
+            )
+            .add_systems(Update, act().in_set(Play))
+            .add_systems(
+                Update,
+                (
+                    staging::stage_transition,
+                    staging::stage_twin,
+                    staging::stage_t,
+                    staging::stage_style,
+                )
+                    .chain()
+                    .after(Play)
+                    .before(Build),
+            );
+    }
+}
+
+fn init(app: &mut App) {
+    app.add_message::<Intent>()
+        .add_message::<bevy::window::FileDragAndDrop>()
+        .add_message::<bevy::window::WindowCloseRequested>()
+        .init_resource::<ClearColor>()
+        .init_resource::<ButtonInput<MouseButton>>()
+        .init_resource::<hand::Gesture>()
+        .init_resource::<Gallery>()
+        .init_resource::<Session>()
+        .init_resource::<Playback>()
+        .init_resource::<Preferences>()
+        .init_resource::<KeyMap>()
+        .init_resource::<Typing>()
+        .init_resource::<Editor>()
+        .init_resource::<Sheet>()
+        .init_resource::<Measured>()
+        .init_resource::<Twin>()
+        .init_resource::<Notices>()
+        .init_resource::<Question>()
+        .init_resource::<dialogs::Drop>()
+        .init_resource::<films::Recorder>()
+        .init_resource::<StageArea>()
+        .init_resource::<KeepsFit>()
+        .init_resource::<times::WholeFrame>()
+        .insert_resource(CaptureFolder::choose(None));
+}
+
+/// The systems that act on intents. The order among them is that of their answers: what is opened
+/// is taken in before it is played.
+fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
+    (
+        closing::read_close_requests,
+        view::back,
+        preferences::apply,
+        (closing::answer, closing::close, dialogs::decide).chain(),
+        (
+            opening::open,
+            opening::edit,
+            apply::apply,
+            measuring::apply,
+            opening::save,
+            opening::poll,
+            refresh::refresh,
+        )
+            .chain(),
+        (measuring::follow, twin::apply, twin::follow).chain(),
+        (playback::apply, playback::advance).chain(),
+        (films::apply, films::report).chain(),
+        view::apply,
+        notices::apply,
+    )
+        .chain()
+}

@@ -1,0 +1,169 @@
+//! Measures the transition on the stage, beside the window.
+//!
+//! Whenever another transition is on the stage it is sampled over t and judged in words. A newer
+//! transition stops the work on an older one; while a build is running, as when something is being
+//! dragged, nothing is measured.
+
+use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
+
+use crate::app::asking::hand::Gesture;
+use crate::app::asking::intent::Intent;
+use crate::app::editing::sheet::Sheet;
+use crate::app::session::state::Session;
+use crate::app::telling::job::Job;
+use crate::content::ContentKind;
+use crate::correspondence::PointPair;
+use crate::measure::{FilmReport, Remedy, Verdict, film};
+use crate::progress::{Cancelled, Progress};
+use crate::project::Project;
+use crate::transition::Transition;
+use crate::warp::WarpKind;
+
+/// At how many t a film is measured: those of the verdict and of the plots.
+const STEPS: usize = 65;
+
+/// A film in numbers and in words.
+#[derive(Clone, Debug)]
+pub struct Measures {
+    /// The numbers against t.
+    pub film: FilmReport,
+    /// What goes wrong, where, why, and what helps.
+    pub verdict: Verdict,
+}
+
+/// What is known of the transition on the stage.
+#[derive(Resource, Debug, Default)]
+pub struct Measured {
+    of: Option<Transition>,
+    job: Option<Job<Result<Measures, Cancelled>>>,
+    measures: Option<Measures>,
+    /// There is an answer, with measures or, where the work broke off, without.
+    is_done: bool,
+}
+
+impl Measured {
+    /// The measures; while they are being taken, none.
+    #[must_use]
+    pub fn measures(&self) -> Option<&Measures> {
+        self.measures.as_ref()
+    }
+
+    /// The measures are being taken.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.job.is_some()
+    }
+
+    fn is_of(&self, transition: Option<&Transition>) -> bool {
+        match (&self.of, transition) {
+            (Some(old), Some(new)) => std::ptr::eq(old.content(), new.content()),
+            (None, None) => true,
+            _ => false,
+        }
+    }
+
+    fn follow(&mut self, session: &Session) {
+        let transition = session.transition();
+        if !self.is_of(transition) {
+            *self = Self {
+                of: transition.cloned(),
+                ..Self::default()
+            };
+        }
+        if session.work().is_none() && !self.is_done && self.job.is_none() {
+            self.job = self.of.clone().map(start);
+        }
+    }
+
+    /// Whether there was an answer.
+    fn take(&mut self) -> bool {
+        let Some(answer) = self.job.as_ref().and_then(Job::poll) else {
+            return false;
+        };
+        self.job = None;
+        self.is_done = true;
+        self.measures = answer.ok().and_then(Result::ok);
+        true
+    }
+}
+
+fn start(transition: Transition) -> Job<Result<Measures, Cancelled>> {
+    Job::start("the measures", move |progress| {
+        measured(&transition, progress)
+    })
+}
+
+fn measured(transition: &Transition, progress: &dyn Progress) -> Result<Measures, Cancelled> {
+    let film = film(transition, STEPS, progress)?;
+    let verdict = Verdict::of_film(transition, &film, progress)?;
+    Ok(Measures { film, verdict })
+}
+
+/// Starts to measure what is new and takes in what was measured.
+pub fn follow(session: Res<Session>, mut measured: ResMut<Measured>) {
+    let now = measured.bypass_change_detection();
+    let was_busy = now.is_busy();
+    let is_taken = now.take();
+    now.follow(&session);
+    if is_taken || now.is_busy() != was_busy {
+        measured.set_changed();
+    }
+}
+
+/// Does what the verdict advises.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    mut session: ResMut<Session>,
+    (measured, gesture): (Res<Measured>, Res<Gesture>),
+) {
+    for intent in intents.read() {
+        let Intent::TakeAdvice(index) = *intent else {
+            continue;
+        };
+        let findings = measured.measures().map(|m| &m.verdict.findings);
+        let Some(finding) = findings.and_then(|all| all.get(index)) else {
+            continue;
+        };
+        let sheet = Sheet::of(&session);
+        let remedy = finding.remedy.clone();
+        session.change(gesture.mark(), |project| {
+            follow_advice(project, &remedy, &sheet);
+        });
+    }
+}
+
+/// Whether a remedy can be taken by a click.
+#[must_use]
+pub fn is_a_click(remedy: &Remedy) -> bool {
+    matches!(
+        remedy,
+        Remedy::Change { .. }
+            | Remedy::Pin { .. }
+            | Remedy::RigidParts
+            | Remedy::Lattices
+            | Remedy::LetFold
+    )
+}
+
+fn follow_advice(project: &mut Project, remedy: &Remedy, sheet: &Sheet) {
+    match remedy {
+        Remedy::Change { change, .. } => change.apply(&mut project.options),
+        Remedy::Pin { source, target } => {
+            let [by_source, by_target] = &sheet.by;
+            project.options.matching.pins.push(PointPair {
+                source: by_source.inverse().apply(*source),
+                target: by_target.inverse().apply(*target),
+            });
+        }
+        Remedy::RigidParts => {
+            project.warp = Some(WarpKind::Arap);
+            project.content = Some(ContentKind::Solid);
+        }
+        Remedy::Lattices => {
+            project.warp = Some(WarpKind::Lattice);
+            project.options.lattice.fold_free = true;
+        }
+        Remedy::LetFold => project.options.lattice.fold_free = false,
+        Remedy::MoveVertices { .. } | Remedy::LayOver | Remedy::MovePins => {}
+    }
+}

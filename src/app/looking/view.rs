@@ -1,0 +1,221 @@
+//! Where the stage is seen: its place in the window, fit, pan, zoom, whole screen.
+
+use bevy::camera::Viewport;
+use bevy::prelude::*;
+use bevy::window::{MonitorSelection, PrimaryWindow, WindowMode};
+
+use crate::app::asking::intent::Intent;
+use crate::app::editing::editor::Editor;
+use crate::app::looking::preferences::Preferences;
+use crate::app::looking::twin::Twin;
+use crate::app::opening::closing::Question;
+use crate::app::opening::dialogs::Drop;
+use crate::app::session::state::Session;
+use crate::geometry::Bounds;
+use crate::stage::{StageCamera, StageView};
+
+/// Room around the transition when all of it is shown, as a part of its size.
+const ROOM: f64 = 0.04;
+
+/// The part of the window that the panels leave to the stage, in logical pixels.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct StageArea {
+    /// Upper left corner, y down.
+    pub corner: Vec2,
+    /// Width and height.
+    pub size: Vec2,
+}
+
+impl Default for StageArea {
+    fn default() -> Self {
+        Self {
+            corner: Vec2::ZERO,
+            size: Vec2::new(1280.0, 720.0),
+        }
+    }
+}
+
+/// The view shows the whole transition and is to go on doing so when the area changes.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct KeepsFit(pub bool);
+
+impl Default for KeepsFit {
+    fn default() -> Self {
+        Self(true)
+    }
+}
+
+/// Acts on the intents that concern the view.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    mut view: ResMut<StageView>,
+    mut keeps_fit: ResMut<KeepsFit>,
+) {
+    for intent in intents.read() {
+        match intent {
+            Intent::FitView => keeps_fit.0 = true,
+            Intent::Pan(delta) => {
+                view.pan_px(*delta);
+                keeps_fit.0 = false;
+            }
+            Intent::Zoom { at, factor } => {
+                view.zoom_at(*at, f64::from(*factor));
+                keeps_fit.0 = false;
+            }
+            _ => {}
+        }
+    }
+}
+
+/// Fits the view wherever it is to be fitted and something about it changed.
+pub fn fit(
+    session: Res<Session>,
+    area: Res<StageArea>,
+    keeps_fit: Res<KeepsFit>,
+    mut view: ResMut<StageView>,
+    mut last: Local<Option<(Bounds, Vec2)>>,
+) {
+    if !keeps_fit.0 {
+        *last = None;
+        return;
+    }
+    let Some(transition) = session.transition() else {
+        return;
+    };
+    let bounds = transition.bounds();
+    let bounds = bounds.padded(ROOM * bounds.diameter());
+    let now = Some((bounds, area.size));
+    if *last != now {
+        view.fit(bounds, area.size);
+        *last = now;
+    }
+}
+
+/// Lets the stage's camera draw into its part of the window alone.
+pub fn place_camera(
+    area: Res<StageArea>,
+    window: Single<&Window, With<PrimaryWindow>>,
+    mut camera: Single<&mut Camera, With<StageCamera>>,
+) {
+    let viewport = viewport(*area, &window);
+    let is_same = |old: &Viewport| {
+        viewport.as_ref().is_some_and(|new| {
+            (old.physical_position, old.physical_size) == (new.physical_position, new.physical_size)
+        })
+    };
+    if !camera.viewport.as_ref().is_some_and(is_same) {
+        camera.viewport = viewport;
+    }
+}
+
+/// The camera that shows the second method.
+#[derive(Component, Debug)]
+pub struct TwinCamera;
+
+/// What a camera looks at.
+type Seen<'w> = (&'w Camera, &'w Transform, &'w Projection);
+
+/// Lets the second camera draw beside the first, what the first one shows of the plane.
+pub fn place_twin(
+    area: Res<StageArea>,
+    twin: Res<Twin>,
+    editor: Res<Editor>,
+    window: Single<&Window, With<PrimaryWindow>>,
+    stage: Single<Seen<'static>, (With<StageCamera>, Without<TwinCamera>)>,
+    beside: Single<(&mut Camera, &mut Transform, &mut Projection), With<TwinCamera>>,
+) {
+    let (camera, transform, projection) = stage.into_inner();
+    let (mut twin_camera, mut twin_transform, mut twin_projection) = beside.into_inner();
+    let right = StageArea {
+        corner: area.corner + Vec2::new(area.size.x, 0.0),
+        ..*area
+    };
+    let viewport = viewport(right, &window).filter(|_| twin.is_shown && !editor.is_open);
+    let is_active = viewport.is_some();
+    if twin_camera.is_active != is_active {
+        twin_camera.is_active = is_active;
+    }
+    if !is_active {
+        return;
+    }
+    // As many pixels as the first one has, so that both show the same to the last one.
+    let viewport = viewport.map(|beside| Viewport {
+        physical_size: camera
+            .viewport
+            .as_ref()
+            .map_or(beside.physical_size, |first| {
+                first.physical_size.min(beside.physical_size)
+            }),
+        ..beside
+    });
+    twin_camera.viewport = viewport;
+    *twin_transform = *transform;
+    *twin_projection = projection.clone();
+}
+
+/// At least a pixel, and within the window even while it is being resized; the whole window
+/// where that cannot be.
+fn viewport(area: StageArea, window: &Window) -> Option<Viewport> {
+    let scale = window.scale_factor();
+    let whole = window.physical_size();
+    let corner = (area.corner * scale).round().as_uvec2();
+    let size = (area.size * scale)
+        .round()
+        .as_uvec2()
+        .min(whole.saturating_sub(corner));
+    (size.min_element() > 0).then(|| Viewport {
+        physical_position: corner,
+        physical_size: size,
+        ..default()
+    })
+}
+
+/// Whole screen, and the way back out of everything.
+pub fn window_mode(
+    mut intents: MessageReader<Intent>,
+    mut window: Single<&mut Window, With<PrimaryWindow>>,
+) {
+    for intent in intents.read() {
+        if *intent == Intent::ToggleFullscreen {
+            window.mode = match window.mode {
+                WindowMode::Windowed => WindowMode::BorderlessFullscreen(MonitorSelection::Current),
+                _ => WindowMode::Windowed,
+            };
+        }
+    }
+}
+
+/// Esc: the help goes first, then what hid the panels, then the whole screen.
+pub fn back(
+    mut intents: MessageReader<Intent>,
+    mut preferences: ResMut<Preferences>,
+    mut window: Query<&mut Window, With<PrimaryWindow>>,
+    (mut editor, mut twin): (ResMut<Editor>, ResMut<Twin>),
+    (question, drop): (Res<Question>, Res<Drop>),
+) {
+    if question.text().is_some() || drop.undecided().is_some() {
+        intents.clear(); // Esc answers the question and nothing else.
+        return;
+    }
+    let backs = intents
+        .read()
+        .filter(|intent| **intent == Intent::Back)
+        .count();
+    for _ in 0..backs {
+        if preferences.help {
+            preferences.help = false;
+        } else if editor.bypass_change_detection().back() {
+            editor.set_changed();
+        } else if std::mem::take(&mut twin.is_shown) {
+            // The second method is gone.
+        } else if !preferences.panels {
+            preferences.panels = true;
+        } else if let Ok(mut window) = window.single_mut()
+            && window.mode != WindowMode::Windowed
+        {
+            window.mode = WindowMode::Windowed;
+        } else if preferences.times {
+            preferences.times = false;
+        }
+    }
+}

@@ -1,0 +1,277 @@
+//! Opening, editing and saving: the intents that change the [`Session`].
+
+use std::path::PathBuf;
+
+use bevy::prelude::{Commands, DetectChangesMut, MessageReader, Res, ResMut, Resource};
+
+use crate::app::asking::hand::Gesture;
+use crate::app::asking::intent::Intent;
+use crate::app::editing::editor::Editor;
+use crate::app::looking::view::KeepsFit;
+use crate::app::opening::closing::Question;
+use crate::app::opening::dialogs::{Drop, is_project};
+use crate::app::playing::playback::{Playback, SAME_T};
+use crate::app::session::loading::Request;
+use crate::app::session::state::{Origin, Outcome, Session};
+use crate::app::telling::notices::Notices;
+use crate::content::ContentKind;
+use crate::design::Source;
+use crate::project::{DesignEntry, Project, gallery};
+use crate::transition::{PlayMode, Stop};
+use crate::warp::WarpKind;
+
+/// Acts on the intents that open something; asks first where changes would be lost.
+pub fn open(
+    mut intents: MessageReader<Intent>,
+    mut session: ResMut<Session>,
+    mut question: ResMut<Question>,
+    mut drop: ResMut<Drop>,
+    mut notices: ResMut<Notices>,
+) {
+    for intent in intents.read() {
+        let (request, origin) = match intent {
+            Intent::OpenGallery(name) => (
+                Request::Gallery(name.clone()),
+                Origin::Gallery(name.clone()),
+            ),
+            Intent::Open(paths) => match what_to_open(paths, &session) {
+                ToOpen::Request(request, origin) => (request, origin),
+                ToOpen::Ask(path) => {
+                    drop.ask(path);
+                    continue;
+                }
+                ToOpen::Refuse(text) => {
+                    notices.problem(text);
+                    continue;
+                }
+            },
+            _ => continue,
+        };
+        if session.is_dirty() {
+            question.ask(intent.clone(), session.unsaved_text());
+        } else {
+            session.open(request, origin);
+        }
+    }
+}
+
+/// The bundled projects; none where a bundled document is wrong, which the tests rule out.
+#[derive(Resource, Clone, Debug, PartialEq, Eq)]
+pub struct Gallery(pub Vec<gallery::Entry>);
+
+impl Default for Gallery {
+    fn default() -> Self {
+        Self(gallery::list().unwrap_or_default())
+    }
+}
+
+enum ToOpen {
+    Request(Request, Origin),
+    Ask(PathBuf),
+    Refuse(String),
+}
+
+fn what_to_open(paths: &[PathBuf], session: &Session) -> ToOpen {
+    match paths {
+        [project] if is_project(project) => {
+            let origin = Origin::File(project.clone());
+            ToOpen::Request(Request::File(project.clone()), origin)
+        }
+        [design] if session.project().is_some() => ToOpen::Ask(design.clone()),
+        [design] => ToOpen::Request(
+            Request::Pair(design.clone(), design.clone()),
+            Origin::Unsaved,
+        ),
+        [source, target] if !is_project(source) && !is_project(target) => ToOpen::Request(
+            Request::Pair(source.clone(), target.clone()),
+            Origin::Unsaved,
+        ),
+        _ => ToOpen::Refuse(format!(
+            "{} files cannot be opened together: open one project, or one or two designs.",
+            paths.len()
+        )),
+    }
+}
+
+/// Acts on the intents that change the open project.
+pub fn edit(
+    mut intents: MessageReader<Intent>,
+    mut session: ResMut<Session>,
+    mut notices: ResMut<Notices>,
+    (playback, gesture): (Res<Playback>, Res<Gesture>),
+) {
+    let mark = gesture.mark();
+    for intent in intents.read() {
+        match intent {
+            Intent::CancelWork => session.cancel(),
+            Intent::Undo => {
+                let undone = session.undo();
+                tell(undone, "There is nothing to undo.", &mut notices);
+            }
+            Intent::Redo => {
+                let redone = session.redo();
+                tell(redone, "There is nothing to redo.", &mut notices);
+            }
+            Intent::NextMethod => match next_cell(&session) {
+                Some(cell) => session.change(mark, |project| set_cell(project, cell)),
+                None => notices.done("These designs can be shown by one method only."),
+            },
+            Intent::AddStop => {
+                let added = add_stop(&mut session, playback.t(), mark);
+                tell(Ok(added), "There is a stop here already.", &mut notices);
+            }
+            Intent::Edit(_)
+            | Intent::UseCell(..)
+            | Intent::CyclePlayMode
+            | Intent::ReplaceDesign(..) => {
+                session.change(mark, |project| apply(project, intent));
+            }
+            _ => {}
+        }
+    }
+}
+
+fn tell(went: Result<bool, String>, nothing: &str, notices: &mut Notices) {
+    match went {
+        Ok(true) => {}
+        Ok(false) => notices.done(nothing),
+        Err(text) => notices.problem(text),
+    }
+}
+
+fn apply(project: &mut Project, intent: &Intent) {
+    match intent {
+        Intent::Edit(changed) => project.clone_from(changed),
+        Intent::UseCell(warp, content) => set_cell(project, (*warp, *content)),
+        Intent::CyclePlayMode => {
+            project.timing.play = match project.timing.play {
+                PlayMode::Once => PlayMode::Loop,
+                PlayMode::Loop => PlayMode::PingPong,
+                PlayMode::PingPong => PlayMode::Once,
+            };
+        }
+        Intent::ReplaceDesign(index, path) => {
+            if let Some(entry) = project.designs.get_mut(*index) {
+                *entry = entry_of(path);
+                // What was said of points of the old one means nothing in the new one.
+                let matching = &mut project.options.matching;
+                (matching.pins, matching.links, matching.cuts) = Default::default();
+                matching.lines.clear();
+            }
+        }
+        _ => {}
+    }
+}
+
+fn set_cell(project: &mut Project, (warp, content): (WarpKind, ContentKind)) {
+    project.warp = Some(warp);
+    project.content = Some(content);
+}
+
+fn entry_of(path: &std::path::Path) -> DesignEntry {
+    let whole =
+        |file: &std::path::Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    DesignEntry::new(Source::of(path).at(whole).to_path())
+}
+
+/// The next cell of the table, after the one in use, that can be had.
+fn next_cell(session: &Session) -> Option<(WarpKind, ContentKind)> {
+    let project = session.project()?;
+    // All warps of what is seen first: pictures stay pictures.
+    let cells: Vec<_> = ContentKind::ALL
+        .into_iter()
+        .flat_map(|content| WarpKind::ALL.map(|warp| (warp, content)))
+        .collect();
+    let here = (project.warp?, project.content?);
+    let here = cells.iter().position(|cell| *cell == here)?;
+    let after = cells.iter().cycle().skip(here + 1).take(cells.len() - 1);
+    after
+        .copied()
+        .find(|(warp, content)| session.available(*warp, *content).is_ok())
+}
+
+/// Whether a stop was put there; where there is one already, none is.
+fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
+    let mut is_added = false;
+    session.change(mark, |project| {
+        let place = project.stops.partition_point(|stop| stop.t < t - SAME_T);
+        if project
+            .stops
+            .iter()
+            .all(|stop| (stop.t - t).abs() >= SAME_T)
+        {
+            let name = free_name(&project.stops);
+            project.stops.insert(place, Stop { t, name });
+            is_added = true;
+        }
+    });
+    is_added
+}
+
+fn free_name(stops: &[Stop]) -> String {
+    let taken = |name: &String| stops.iter().any(|stop| stop.name == *name);
+    (1..=stops.len() + 1)
+        .map(|n| format!("Stop {n}"))
+        .find(|name| !taken(name))
+        .unwrap_or_default()
+}
+
+/// Acts on the intents that save; tells what was saved, and lets go on what waited for it.
+pub fn save(
+    mut intents: MessageReader<Intent>,
+    mut session: ResMut<Session>,
+    mut question: ResMut<Question>,
+    mut notices: ResMut<Notices>,
+    mut commands: Commands,
+) {
+    let mut waiting = None;
+    for intent in intents.read() {
+        let saved = match intent {
+            Intent::Save if session.path().is_some() => session.save(None),
+            Intent::SaveTo(path) => session.save(Some(path)),
+            _ => continue,
+        };
+        match saved {
+            Ok(path) => {
+                notices.done(format!("Saved {}", path.display()));
+                waiting = question.after_save();
+            }
+            Err(error) => {
+                notices.problem(error);
+                question.not_saved();
+            }
+        }
+    }
+    if let Some(intent) = waiting {
+        commands.write_message(intent);
+    }
+}
+
+/// Takes in what was opened or built.
+pub fn poll(
+    mut session: ResMut<Session>,
+    mut notices: ResMut<Notices>,
+    mut playback: ResMut<Playback>,
+    (mut keeps_fit, editor): (ResMut<KeepsFit>, Res<Editor>),
+) {
+    let outcome = session.bypass_change_detection().poll();
+    if outcome.is_some() {
+        session.set_changed();
+    }
+    match outcome {
+        None | Some(Outcome::Rebuilt) => {}
+        // The match editor says it where it was caused.
+        Some(Outcome::NotRebuilt(_)) if editor.is_open => {}
+        Some(Outcome::Failed(text) | Outcome::NotRebuilt(text)) => notices.problem(text),
+        Some(Outcome::Opened) => begin(&session, &mut playback, &mut keeps_fit),
+        Some(Outcome::OpenedWithout(text)) => {
+            notices.problem(text);
+            begin(&session, &mut playback, &mut keeps_fit);
+        }
+    }
+}
+
+fn begin(session: &Session, playback: &mut Playback, keeps_fit: &mut KeepsFit) {
+    playback.begin(session.timing());
+    keeps_fit.0 = true;
+}

@@ -1,0 +1,281 @@
+//! Files that the user points at: in the system's dialogs, or by dropping them on the window.
+//!
+//! A dialog never blocks the stage. It is made on the main thread, as macOS demands, and waited
+//! for on a thread of its own.
+
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+use bevy::ecs::system::NonSendMarker;
+use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource, Time};
+use bevy::tasks::block_on;
+use bevy::window::FileDragAndDrop;
+use rfd::{AsyncFileDialog, FileHandle};
+
+use crate::app::asking::intent::Intent;
+use crate::app::capturing::files::{CaptureFolder, create_new};
+use crate::app::opening::closing::Question;
+use crate::app::session::state::Session;
+use crate::app::telling::job::Job;
+use crate::app::telling::notices::Notices;
+
+/// Files that are dropped together arrive one by one; so long is waited for the next.
+const GATHER_SECS: f32 = 0.15;
+
+/// A dialog that is gone after less time than this was never seen: the system has none to show.
+/// Nobody reads, decides and cancels that fast.
+const UNSEEN: Duration = Duration::from_millis(400);
+
+/// The extension of a project.
+pub const PROJECT_EXTENSION: &str = "morph";
+
+const DESIGN_EXTENSIONS: [&str; 8] = ["png", "jpg", "jpeg", "bmp", "webp", "svg", "obj", "json"];
+
+/// What the dialog that is open is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Purpose {
+    Open,
+    Replace(usize),
+    Save,
+}
+
+/// The dialog that is open, if any; never more than one.
+#[derive(Resource, Debug, Default)]
+pub struct Dialog(Option<Asked>);
+
+/// A dialog that is open.
+#[derive(Debug)]
+struct Asked {
+    purpose: Purpose,
+    since: Instant,
+    answer: Job<Vec<PathBuf>>,
+}
+
+impl Dialog {
+    /// A dialog is open.
+    pub fn is_open(&self) -> bool {
+        self.0.is_some()
+    }
+}
+
+/// Opens dialogs.
+pub fn open(
+    mut intents: MessageReader<Intent>,
+    mut dialog: ResMut<Dialog>,
+    session: Res<Session>,
+    _main_thread: NonSendMarker,
+) {
+    for intent in intents.read() {
+        let purpose = match intent {
+            Intent::AskOpen => Purpose::Open,
+            Intent::AskReplace(index) => Purpose::Replace(*index),
+            Intent::SaveAs => Purpose::Save,
+            Intent::Save if session.path().is_none() => Purpose::Save,
+            _ => continue,
+        };
+        if dialog.0.is_none() && session.project().is_some_or_open(purpose) {
+            dialog.0 = Some(Asked {
+                purpose,
+                since: Instant::now(),
+                answer: start(purpose, &session),
+            });
+        }
+    }
+}
+
+trait SomeOrOpen {
+    fn is_some_or_open(&self, purpose: Purpose) -> bool;
+}
+
+impl<T> SomeOrOpen for Option<T> {
+    fn is_some_or_open(&self, purpose: Purpose) -> bool {
+        self.is_some() || purpose == Purpose::Open
+    }
+}
+
+fn start(purpose: Purpose, session: &Session) -> Job<Vec<PathBuf>> {
+    let paths = |files: Vec<FileHandle>| files.iter().map(|file| file.path().to_owned()).collect();
+    let designs = AsyncFileDialog::new();
+    match purpose {
+        Purpose::Open => {
+            let all: Vec<&str> = DESIGN_EXTENSIONS
+                .into_iter()
+                .chain([PROJECT_EXTENSION])
+                .collect();
+            let asked = designs
+                .set_title("Open a project, or one or two designs")
+                .add_filter("Projects and designs", &all)
+                .pick_files();
+            Job::start("the dialog", move |_| {
+                paths(block_on(asked).unwrap_or_default())
+            })
+        }
+        Purpose::Replace(_) => {
+            let asked = designs
+                .set_title("Choose a design")
+                .add_filter("Designs", &DESIGN_EXTENSIONS)
+                .pick_file();
+            Job::start("the dialog", move |_| {
+                paths(block_on(asked).into_iter().collect())
+            })
+        }
+        Purpose::Save => {
+            let asked = designs
+                .set_title("Save the project")
+                .set_file_name(format!("{}.{PROJECT_EXTENSION}", session.file_stem()))
+                .add_filter("Projects", &[PROJECT_EXTENSION])
+                .save_file();
+            Job::start("the dialog", move |_| {
+                paths(block_on(asked).into_iter().collect())
+            })
+        }
+    }
+}
+
+/// Takes in what was chosen.
+pub fn finish(
+    mut dialog: ResMut<Dialog>,
+    mut question: ResMut<Question>,
+    mut notices: ResMut<Notices>,
+    mut intents: MessageWriter<Intent>,
+    (session, folder): (Res<Session>, Res<CaptureFolder>),
+) {
+    let answered = |asked: &Asked| Some((asked.purpose, asked.since, asked.answer.poll()?));
+    let Some((purpose, since, answer)) = dialog.0.as_ref().and_then(answered) else {
+        return;
+    };
+    dialog.0 = None;
+    let paths = answer.unwrap_or_else(|broken| {
+        notices.problem(broken.to_string());
+        Vec::new()
+    });
+    let is_unseen = paths.is_empty() && since.elapsed() < UNSEEN;
+    match (purpose, paths.first()) {
+        (Purpose::Save, None) if is_unseen => match place_without_asking(&session, &folder) {
+            Ok(path) => {
+                notices.problem(NO_DIALOG_TO_SAVE);
+                intents.write(Intent::SaveTo(path));
+            }
+            Err(error) => {
+                notices.problem(error);
+                question.not_saved();
+            }
+        },
+        (Purpose::Save, None) => question.not_saved(),
+        (_, None) if is_unseen => notices.problem(NO_DIALOG_TO_OPEN),
+        (_, None) => {}
+        (Purpose::Save, Some(path)) => {
+            intents.write(Intent::SaveTo(with_extension(path)));
+        }
+        (Purpose::Replace(index), Some(path)) => {
+            intents.write(Intent::ReplaceDesign(index, path.clone()));
+        }
+        (Purpose::Open, Some(_)) => {
+            intents.write(Intent::Open(paths));
+        }
+    }
+}
+
+const NO_DIALOG_TO_OPEN: &str = "The system shows no file dialog (on Linux, install \
+    xdg-desktop-portal or zenity). Drop files on the window instead, or name them on the command line.";
+
+const NO_DIALOG_TO_SAVE: &str = "The system shows no file dialog (on Linux, install \
+    xdg-desktop-portal or zenity), so the project goes where pictures go.";
+
+/// A new name where pictures go, so that work can be kept even without a dialog.
+fn place_without_asking(session: &Session, folder: &CaptureFolder) -> Result<PathBuf, String> {
+    create_new(&folder.0, &session.file_stem(), PROJECT_EXTENSION)
+        .map(|(_, path)| path)
+        .map_err(|error| error.to_string())
+}
+
+fn with_extension(path: &Path) -> PathBuf {
+    if path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case(PROJECT_EXTENSION))
+    {
+        path.to_owned()
+    } else {
+        let mut name = path.as_os_str().to_owned();
+        name.push(".");
+        name.push(PROJECT_EXTENSION);
+        name.into()
+    }
+}
+
+/// Files that were dropped: those still arriving, and one of which nobody knows what it is for.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct Drop {
+    arriving: Vec<PathBuf>,
+    quiet_secs: f32,
+    undecided: Option<PathBuf>,
+}
+
+impl Drop {
+    /// A single design that may become source or target.
+    #[must_use]
+    pub fn undecided(&self) -> Option<&Path> {
+        self.undecided.as_deref()
+    }
+
+    /// Its name, for a question.
+    #[must_use]
+    pub fn undecided_name(&self) -> Option<String> {
+        let name = self.undecided.as_deref()?.file_name()?;
+        Some(name.to_string_lossy().into_owned())
+    }
+
+    /// Asks what a single design is for.
+    pub fn ask(&mut self, path: PathBuf) {
+        self.undecided = Some(path);
+    }
+}
+
+/// Whether a path names a project.
+#[must_use]
+pub fn is_project(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case(PROJECT_EXTENSION))
+}
+
+/// Gathers dropped files and opens them together.
+pub fn read_drops(
+    mut drops: MessageReader<FileDragAndDrop>,
+    time: Res<Time>,
+    mut state: ResMut<Drop>,
+    mut intents: MessageWriter<Intent>,
+) {
+    for drop in drops.read() {
+        if let FileDragAndDrop::DroppedFile { path_buf, .. } = drop {
+            state.arriving.push(path_buf.clone());
+            state.quiet_secs = 0.0;
+        }
+    }
+    if state.arriving.is_empty() {
+        return;
+    }
+    state.quiet_secs += time.delta_secs();
+    if state.quiet_secs >= GATHER_SECS {
+        intents.write(Intent::Open(std::mem::take(&mut state.arriving)));
+    }
+}
+
+/// Forgets the undecided file once it is decided.
+pub fn decide(mut intents: MessageReader<Intent>, mut state: ResMut<Drop>) {
+    let is_decided = |intent: &Intent| matches!(intent, Intent::ReplaceDesign(..) | Intent::Back);
+    if intents.read().any(is_decided) && state.undecided.is_some() {
+        state.undecided = None;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_extension_is_added_once() {
+        assert_eq!(with_extension(Path::new("a")), Path::new("a.morph"));
+        assert_eq!(with_extension(Path::new("a.b")), Path::new("a.b.morph"));
+        assert_eq!(with_extension(Path::new("a.MORPH")), Path::new("a.MORPH"));
+    }
+}

@@ -1,0 +1,6 @@
+//! Opening, changing, saving and closing projects; the bundled ones and their film strips.
+
+pub mod apply;
+pub mod closing;
+pub mod dialogs;
+pub mod thumbnails;

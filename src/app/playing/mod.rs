@@ -1,0 +1,5 @@
+//! Time: t, how it moves, what it moves on the stage, and how often the window draws.
+
+pub mod pace;
+pub mod playback;
+pub mod staging;

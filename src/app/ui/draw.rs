@@ -1,0 +1,151 @@
+//! Draws everything around the stage, once a frame.
+
+use bevy::prelude::*;
+use bevy_egui::{
+    EguiContexts, EguiInputSet, EguiPlugin, EguiPreUpdateSet, EguiPrimaryContextPass, egui,
+};
+
+use crate::app::asking::hand::Typing;
+use crate::app::asking::intent::Intent;
+use crate::app::looking::view::StageArea;
+use crate::app::ui::kit::theme;
+use crate::app::ui::overlays::{help, notices, questions, times, work};
+use crate::app::ui::panels::inspector;
+use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::stage::{area, twin, verdict};
+use crate::app::ui::timeline::{plots, strip};
+use crate::app::ui::{gallery, match_editor, toolbar};
+
+/// Draws the panels with egui.
+#[derive(Debug)]
+pub struct UiPlugin;
+
+impl Plugin for UiPlugin {
+    fn build(&self, app: &mut App) {
+        app.add_plugins(EguiPlugin::default())
+            .init_resource::<gallery::Textures>()
+            .add_systems(
+                PreUpdate,
+                keep_keys_from_widgets
+                    .after(EguiInputSet::WriteEguiEvents)
+                    .before(EguiPreUpdateSet::BeginPass),
+            )
+            .add_systems(EguiPrimaryContextPass, draw);
+    }
+}
+
+/// A window as wide as this has room for the gallery beside the match editor.
+const ROOMY: f32 = 1200.0;
+
+fn keep_keys_from_widgets(mut contexts: Query<&mut bevy_egui::EguiInput>, typing: Res<Typing>) {
+    if typing.0 {
+        return;
+    }
+    for mut input in &mut contexts {
+        input
+            .events
+            .retain(|event| !matches!(event, egui::Event::Key { .. } | egui::Event::Text(_)));
+    }
+}
+
+fn draw(
+    mut contexts: EguiContexts,
+    scene: Scene,
+    mut textures: ResMut<gallery::Textures>,
+    mut typing: ResMut<Typing>,
+    mut area: ResMut<StageArea>,
+    mut intents: MessageWriter<Intent>,
+    mut is_dressed: Local<bool>,
+) -> Result {
+    let ctx = contexts.ctx_mut()?.clone();
+    if !*is_dressed {
+        theme::install(&ctx);
+        *is_dressed = true;
+    }
+    theme::choose(&ctx, scene.preferences.theme);
+    let mut acts = Intents::new();
+    let mut root = egui::Ui::new(
+        ctx.clone(),
+        "window".into(),
+        egui::UiBuilder::new()
+            .layer_id(egui::LayerId::background())
+            .max_rect(ctx.viewport_rect()),
+    );
+    if scene.preferences.panels {
+        panels(&mut root, &scene, &mut textures, &mut acts);
+    }
+    let stage = root.available_rect_before_wrap();
+    let first = middle(&mut root, &scene, stage, &mut acts);
+    overlays(&ctx, &scene, stage, &mut acts);
+    area.set_if_neq(StageArea::from_points(first.left_top(), first.size()));
+    typing.set_if_neq(Typing(
+        ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx),
+    ));
+    intents.write_batch(acts);
+    Ok(())
+}
+
+/// What the panels leave: the stage, a second method beside it, or the match editor. Returns the
+/// part that the stage takes.
+fn middle(root: &mut egui::Ui, scene: &Scene, stage: egui::Rect, acts: &mut Intents) -> egui::Rect {
+    if scene.editor.is_open {
+        match_editor::show(root, scene, stage, acts);
+        return stage;
+    }
+    if scene.twin.is_shown {
+        return twin::show(root, scene, stage, acts);
+    }
+    area::show(root, scene, stage, "stage", acts);
+    verdict::mark(root, scene, stage);
+    stage
+}
+
+fn panels(
+    root: &mut egui::Ui,
+    scene: &Scene,
+    textures: &mut gallery::Textures,
+    acts: &mut Intents,
+) {
+    toolbar::show(root, scene, acts);
+    strip::show(root, scene, acts);
+    if scene.preferences.plots {
+        plots::show(root, scene, acts);
+    }
+    // Two designs side by side need the room that the gallery takes in a small window.
+    if !scene.editor.is_open || root.available_width() >= ROOMY {
+        gallery::show(root, scene, textures, acts);
+    }
+    inspector::show(root, scene, acts);
+}
+
+fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut Intents) {
+    let mut below = stage;
+    if scene.editor.is_open {
+        match_editor::overlay(ctx, scene, stage, acts);
+        below.min.y += match_editor::BAR_HEIGHT;
+    }
+    work::show(ctx, scene, below, acts);
+    if scene.editor.is_open {
+        below.max.y -= match_editor::ADVICE_HEIGHT;
+    } else {
+        verdict::show(ctx, scene, stage, acts);
+        below.max.y -= verdict::height(scene);
+    }
+    notices::show(ctx, scene, below, acts);
+    if scene.preferences.times {
+        times::show(ctx, scene, stage);
+    }
+    if scene.preferences.help {
+        help::show(ctx, scene, acts);
+    }
+    questions::show(ctx, scene, acts);
+}
+
+impl StageArea {
+    fn from_points(corner: egui::Pos2, size: egui::Vec2) -> Self {
+        Self {
+            corner: Vec2::new(corner.x, corner.y),
+            size: Vec2::new(size.x, size.y),
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The bundled projects, each as a film strip.
+
+use std::collections::HashMap;
+
+use bevy::prelude::Resource;
+use bevy_egui::egui::{
+    self, Color32, ColorImage, Margin, Panel, Rect, Response, RichText, ScrollArea, Sense, Stroke,
+    StrokeKind, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType, pos2, vec2,
+};
+
+use crate::app::asking::intent::Intent;
+use crate::app::opening::thumbnails::{STRIP_PX, Thumbnail};
+use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette, RADIUS};
+use crate::app::ui::scene::{Intents, Scene};
+use crate::project::gallery;
+
+const WIDTH: f32 = 232.0;
+const PICTURE_HEIGHT: f32 = 72.0;
+
+/// The thumbnails that egui already has.
+#[derive(Resource, Default)]
+pub struct Textures(HashMap<String, TextureHandle>);
+
+/// Draws the gallery on the left.
+pub fn show(root: &mut Ui, scene: &Scene, textures: &mut Textures, acts: &mut Intents) {
+    let frame = egui::Frame::new()
+        .fill(Palette::of(root).panel)
+        .inner_margin(Margin {
+            left: 16,
+            right: 8,
+            top: 8,
+            bottom: 0,
+        });
+    Panel::left("gallery")
+        .exact_size(WIDTH)
+        .resizable(false)
+        .frame(frame)
+        .show(root, |ui| {
+            let weak = Palette::of(ui).weak;
+            ui.label(RichText::new("Gallery").small().strong().color(weak));
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                ui.set_width(WIDTH - 32.0);
+                for entry in &scene.gallery.0 {
+                    if card(ui, scene, textures, entry).clicked() {
+                        acts.push(Intent::OpenGallery(entry.name.clone()));
+                    }
+                }
+                ui.add_space(GRID);
+            });
+        });
+}
+
+fn card(ui: &mut Ui, scene: &Scene, textures: &mut Textures, entry: &gallery::Entry) -> Response {
+    let palette = Palette::of(ui);
+    let size = vec2(ui.available_width(), PICTURE_HEIGHT + 28.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let is_open = scene.session.gallery_name() == Some(entry.name.as_str());
+    if is_open {
+        show_when_new(ui, &entry.name, &response);
+    }
+    response.widget_info(|| {
+        WidgetInfo::selected(WidgetType::SelectableLabel, true, is_open, &entry.title)
+    });
+    let (fill, line) = match (is_open, response.hovered()) {
+        (true, _) => (palette.accent_ground, palette.accent),
+        (false, true) => (palette.hover, palette.line),
+        (false, false) => (palette.raised, Color32::TRANSPARENT),
+    };
+    ui.painter().rect(
+        rect,
+        CARD_RADIUS,
+        fill,
+        Stroke::new(1.0, line),
+        StrokeKind::Inside,
+    );
+    let picture = Rect::from_min_size(rect.min, vec2(rect.width(), PICTURE_HEIGHT)).shrink(4.0);
+    thumbnail(ui, scene, textures, &entry.name, picture);
+    let text_at = pos2(rect.left() + 8.0, rect.bottom() - 15.0);
+    let font = egui::TextStyle::Small.resolve(ui.style());
+    let galley = ui
+        .painter()
+        .layout(entry.title.clone(), font, palette.text, rect.width());
+    let clip = ui.painter().with_clip_rect(rect.shrink(4.0));
+    clip.galley(
+        text_at - vec2(0.0, galley.size().y / 2.0),
+        galley,
+        palette.text,
+    );
+    response.on_hover_text(&entry.description)
+}
+
+/// Scrolls to the card of a project that has just been opened, and then leaves the list alone.
+fn show_when_new(ui: &Ui, name: &str, card: &Response) {
+    let shown = egui::Id::new("the card that was scrolled to");
+    let is_new = ui.data_mut(|data| {
+        let last = data.get_temp_mut_or_default::<String>(shown);
+        let is_new = last != name;
+        name.clone_into(last);
+        is_new
+    });
+    if is_new {
+        card.scroll_to_me(None);
+    }
+}
+
+fn thumbnail(ui: &Ui, scene: &Scene, textures: &mut Textures, name: &str, rect: Rect) {
+    let palette = Palette::of(ui);
+    match scene.thumbnails.get(name) {
+        Some(Thumbnail::Ready(image)) => {
+            let texture = textures.0.entry(name.to_owned()).or_insert_with(|| {
+                let size = [image.width() as usize, image.height() as usize];
+                let pixels = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
+                ui.ctx().load_texture(name, pixels, TextureOptions::LINEAR)
+            });
+            ui.painter().rect_filled(rect, RADIUS, palette.panel);
+            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+            let fitted = fit(rect, STRIP_PX.0 as f32 / STRIP_PX.1 as f32);
+            ui.painter()
+                .image(texture.id(), fitted, whole, Color32::WHITE);
+        }
+        Some(Thumbnail::Failed) | None => {
+            ui.painter().rect_filled(rect, RADIUS, palette.panel);
+        }
+    }
+}
+
+fn fit(rect: Rect, aspect: f32) -> Rect {
+    let height = rect.height().min(rect.width() / aspect);
+    Rect::from_center_size(rect.center(), vec2(height * aspect, height))
+}

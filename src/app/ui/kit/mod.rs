@@ -1,0 +1,5 @@
+//! What all panels are made of: colours, icons, controls.
+
+pub mod icons;
+pub mod theme;
+pub mod widgets;

@@ -1,0 +1,249 @@
+//! The look of the panels: one quiet palette, an 8-point grid, four sizes of type.
+//!
+//! Blue stands for the source and orange for the target everywhere; the two differ in lightness
+//! as well as in hue, so they stay apart for colour-blind eyes and on a grey print. Amber says
+//! "beyond the designs", and no meaning is carried by colour alone.
+
+use bevy_egui::egui::{
+    self, Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle,
+    Theme, Vec2, Visuals, style::HandleShape, style::ScrollStyle, style::WidgetVisuals,
+};
+
+use crate::app::asking::choices::ThemeChoice;
+
+/// One step of the grid, in points.
+pub const GRID: f32 = 8.0;
+
+/// Radius of the corners of controls.
+pub const RADIUS: CornerRadius = CornerRadius::same(4);
+
+/// Radius of the corners of cards and windows.
+pub const CARD_RADIUS: CornerRadius = CornerRadius::same(8);
+
+/// Height of every control.
+pub const CONTROL_HEIGHT: f32 = 24.0;
+
+/// The colours of one theme.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Palette {
+    /// Ground of the panels.
+    pub panel: Color32,
+    /// Ground of windows above the panels.
+    pub window: Color32,
+    /// Ground of controls and cards.
+    pub raised: Color32,
+    /// The same under the pointer.
+    pub hover: Color32,
+    /// Hairlines.
+    pub line: Color32,
+    /// Text.
+    pub text: Color32,
+    /// Text that explains.
+    pub weak: Color32,
+    /// What is chosen.
+    pub accent: Color32,
+    /// Ground of what is chosen.
+    pub accent_ground: Color32,
+    /// Beyond the designs.
+    pub amber: Color32,
+    /// Something went wrong.
+    pub problem: Color32,
+    /// All is well.
+    pub good: Color32,
+}
+
+const DARK: Palette = Palette {
+    panel: Color32::from_rgb(0x17, 0x1b, 0x21),
+    window: Color32::from_rgb(0x1e, 0x23, 0x2b),
+    raised: Color32::from_rgb(0x24, 0x2a, 0x33),
+    hover: Color32::from_rgb(0x2f, 0x37, 0x42),
+    line: Color32::from_rgb(0x2d, 0x34, 0x3e),
+    text: Color32::from_rgb(0xe1, 0xe6, 0xec),
+    weak: Color32::from_rgb(0x98, 0xa3, 0xb0),
+    accent: Color32::from_rgb(0x7f, 0xb0, 0xf0),
+    accent_ground: Color32::from_rgb(0x2a, 0x45, 0x66),
+    amber: Color32::from_rgb(0xe2, 0xb0, 0x5a),
+    problem: Color32::from_rgb(0xf0, 0x8a, 0x70),
+    good: Color32::from_rgb(0x7c, 0xc4, 0x9a),
+};
+
+const LIGHT: Palette = Palette {
+    panel: Color32::from_rgb(0xf8, 0xf6, 0xf2),
+    window: Color32::from_rgb(0xfd, 0xfc, 0xfa),
+    raised: Color32::from_rgb(0xeb, 0xe8, 0xe1),
+    hover: Color32::from_rgb(0xdf, 0xdb, 0xd2),
+    line: Color32::from_rgb(0xdb, 0xd7, 0xce),
+    text: Color32::from_rgb(0x1f, 0x24, 0x2a),
+    weak: Color32::from_rgb(0x5d, 0x66, 0x70),
+    accent: Color32::from_rgb(0x1d, 0x5a, 0xa8),
+    accent_ground: Color32::from_rgb(0xcf, 0xdf, 0xf3),
+    amber: Color32::from_rgb(0x8f, 0x5d, 0x06),
+    problem: Color32::from_rgb(0xa8, 0x3a, 0x1c),
+    good: Color32::from_rgb(0x1f, 0x6b, 0x44),
+};
+
+impl Palette {
+    /// The palette for a light or a dark ground.
+    #[must_use]
+    pub const fn on(is_light: bool) -> Self {
+        if is_light { LIGHT } else { DARK }
+    }
+
+    /// The palette that a piece of the window is drawn with.
+    #[must_use]
+    pub fn of(ui: &egui::Ui) -> Self {
+        if ui.visuals().dark_mode { DARK } else { LIGHT }
+    }
+}
+
+/// Teaches egui both themes; to be called once.
+pub fn install(ctx: &egui::Context) {
+    ctx.set_style_of(Theme::Dark, style(DARK, Visuals::dark()));
+    ctx.set_style_of(Theme::Light, style(LIGHT, Visuals::light()));
+    ctx.options_mut(|options| options.zoom_with_keyboard = false);
+}
+
+/// Shows the panels in this theme.
+pub fn choose(ctx: &egui::Context, theme: ThemeChoice) {
+    ctx.set_theme(match theme {
+        ThemeChoice::Dark => Theme::Dark,
+        ThemeChoice::Light => Theme::Light,
+    });
+}
+
+fn style(palette: Palette, base: Visuals) -> Style {
+    let mut style = Style {
+        visuals: visuals(palette, base),
+        ..Style::default()
+    };
+    style.text_styles = text_styles();
+    spacing(&mut style.spacing);
+    style.interaction.tooltip_delay = 0.4;
+    style.interaction.selectable_labels = false;
+    style.animation_time = 0.1;
+    style
+}
+
+fn text_styles() -> std::collections::BTreeMap<TextStyle, FontId> {
+    let proportional = |size| FontId::new(size, FontFamily::Proportional);
+    [
+        (TextStyle::Heading, proportional(17.0)),
+        (TextStyle::Body, proportional(14.0)),
+        (TextStyle::Button, proportional(14.0)),
+        (TextStyle::Small, proportional(12.5)),
+        (
+            TextStyle::Monospace,
+            FontId::new(13.0, FontFamily::Monospace),
+        ),
+    ]
+    .into()
+}
+
+fn spacing(spacing: &mut egui::style::Spacing) {
+    spacing.item_spacing = Vec2::splat(GRID);
+    spacing.button_padding = Vec2::new(GRID, 4.0);
+    spacing.interact_size = Vec2::new(40.0, CONTROL_HEIGHT);
+    spacing.window_margin = Margin::same(16);
+    spacing.menu_margin = Margin::same(8);
+    spacing.combo_width = 120.0;
+    spacing.slider_width = 96.0;
+    spacing.slider_rail_height = 4.0;
+    spacing.tooltip_width = 320.0;
+    spacing.scroll = ScrollStyle::thin();
+    spacing.scroll.fade.strength = 0.0;
+}
+
+fn visuals(palette: Palette, base: Visuals) -> Visuals {
+    let mut visuals = base;
+    visuals.panel_fill = palette.panel;
+    visuals.window_fill = palette.window;
+    visuals.window_stroke = Stroke::new(1.0, palette.line);
+    visuals.window_corner_radius = CARD_RADIUS;
+    visuals.menu_corner_radius = CARD_RADIUS;
+    visuals.window_shadow = shadow();
+    visuals.popup_shadow = shadow();
+    visuals.extreme_bg_color = palette.raised;
+    visuals.text_edit_bg_color = Some(palette.raised);
+    visuals.faint_bg_color = palette.raised;
+    visuals.weak_text_color = Some(palette.weak);
+    visuals.hyperlink_color = palette.accent;
+    visuals.warn_fg_color = palette.amber;
+    visuals.error_fg_color = palette.problem;
+    visuals.selection.bg_fill = palette.accent_ground;
+    visuals.selection.stroke = Stroke::new(1.0, palette.accent);
+    visuals.slider_trailing_fill = true;
+    visuals.handle_shape = HandleShape::Circle;
+    // Half-transparent fills come out too dark on the light ground: egui's colours are
+    // premultiplied before the graphics card makes them linear. What is disabled is drawn flat.
+    visuals.disabled_alpha = 1.0;
+    visuals.widgets.noninteractive = widget(palette.panel, palette.line, palette.text);
+    visuals.widgets.inactive = widget(palette.raised, Color32::TRANSPARENT, palette.text);
+    visuals.widgets.hovered = widget(palette.hover, palette.line, palette.text);
+    visuals.widgets.active = widget(palette.accent_ground, palette.accent, palette.text);
+    visuals.widgets.open = widget(palette.hover, palette.line, palette.text);
+    visuals
+}
+
+fn shadow() -> Shadow {
+    Shadow {
+        offset: [0, 4],
+        blur: 16,
+        spread: 0,
+        color: Color32::from_black_alpha(60),
+    }
+}
+
+fn widget(fill: Color32, line: Color32, text: Color32) -> WidgetVisuals {
+    WidgetVisuals {
+        bg_fill: fill,
+        weak_bg_fill: fill,
+        bg_stroke: Stroke::new(1.0, line),
+        corner_radius: RADIUS,
+        fg_stroke: Stroke::new(1.0, text),
+        expansion: 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Relative luminance after WCAG 2.2.
+    fn luminance(colour: Color32) -> f64 {
+        let linear = |v: u8| {
+            let v = f64::from(v) / 255.0;
+            if v <= 0.040_45 {
+                v / 12.92
+            } else {
+                ((v + 0.055) / 1.055).powf(2.4)
+            }
+        };
+        0.2126 * linear(colour.r()) + 0.7152 * linear(colour.g()) + 0.0722 * linear(colour.b())
+    }
+
+    fn contrast(a: Color32, b: Color32) -> f64 {
+        let (a, b) = (luminance(a) + 0.05, luminance(b) + 0.05);
+        a.max(b) / a.min(b)
+    }
+
+    /// WCAG 2.2 asks for 4.5 between text and ground.
+    #[test]
+    fn every_text_can_be_read_on_every_ground_that_it_stands_on() {
+        for palette in [DARK, LIGHT] {
+            for ground in [palette.panel, palette.window, palette.raised] {
+                for text in [
+                    palette.text,
+                    palette.weak,
+                    palette.accent,
+                    palette.amber,
+                    palette.problem,
+                    palette.good,
+                ] {
+                    assert!(contrast(text, ground) >= 4.5, "{text:?} on {ground:?}");
+                }
+            }
+            assert!(contrast(palette.text, palette.accent_ground) >= 4.5);
+            assert!(contrast(palette.text, palette.hover) >= 4.5);
+        }
+    }
+}

@@ -1,0 +1,227 @@
+//! The few controls that the panels are made of, each with its tooltip.
+
+use bevy_egui::egui::{
+    self, Align, Color32, ComboBox, DragValue, Layout, Rect, Response, RichText, Sense, Slider,
+    Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, vec2,
+};
+use std::ops::RangeInclusive;
+
+use crate::app::ui::kit::icons;
+use crate::app::ui::kit::icons::Icon;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette, RADIUS};
+
+/// Width of the column of labels.
+const LABEL_WIDTH: f32 = 88.0;
+
+/// A heading and what stands under it.
+pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> R {
+    let palette = Palette::of(ui);
+    ui.add_space(GRID);
+    ui.label(RichText::new(title).size(12.5).strong().color(palette.weak));
+    let body = ui.vertical(body).inner;
+    ui.add_space(GRID);
+    let line = ui.available_rect_before_wrap();
+    ui.painter()
+        .hline(line.x_range(), line.top(), Stroke::new(1.0, palette.line));
+    body
+}
+
+/// A label on the left and a control on the right; both tell what the control does.
+pub fn row(ui: &mut Ui, label: &str, tip: &str, control: impl FnOnce(&mut Ui) -> Response) {
+    ui.horizontal(|ui| {
+        ui.set_min_height(CONTROL_HEIGHT);
+        let (rect, response) =
+            ui.allocate_exact_size(vec2(LABEL_WIDTH, CONTROL_HEIGHT), Sense::hover());
+        let colour = Palette::of(ui).weak;
+        let font = egui::TextStyle::Body.resolve(ui.style());
+        ui.painter().text(
+            rect.left_center(),
+            egui::Align2::LEFT_CENTER,
+            label,
+            font,
+            colour,
+        );
+        response.on_hover_text(tip);
+        control(ui).on_hover_text(tip).on_disabled_hover_text(tip);
+    });
+}
+
+/// A row with a slider and a number.
+pub fn slider(
+    ui: &mut Ui,
+    label: &str,
+    tip: &str,
+    value: &mut f64,
+    range: RangeInclusive<f64>,
+    logarithmic: bool,
+) {
+    row(ui, label, tip, |ui| {
+        let number = DragValue::new(value)
+            .speed((range.end() - range.start()) / 400.0)
+            .range(range.clone())
+            .max_decimals(3);
+        let number = ui.add_sized([56.0, CONTROL_HEIGHT], number);
+        ui.spacing_mut().slider_width = (ui.available_width() - GRID).max(40.0);
+        let slider = Slider::new(value, range)
+            .logarithmic(logarithmic)
+            .show_value(false);
+        number | ui.add(slider)
+    });
+}
+
+/// A row with a number alone.
+pub fn number(ui: &mut Ui, label: &str, tip: &str, value: DragValue<'_>) {
+    row(ui, label, tip, |ui| {
+        ui.add_sized([72.0, CONTROL_HEIGHT], value)
+    });
+}
+
+/// A row with a switch.
+pub fn toggle(ui: &mut Ui, label: &str, tip: &str, on: &mut bool) {
+    row(ui, label, tip, |ui| switch(ui, label, on));
+}
+
+/// A switch.
+pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
+    let palette = Palette::of(ui);
+    let (rect, mut response) = ui.allocate_exact_size(vec2(32.0, CONTROL_HEIGHT), Sense::click());
+    if response.clicked() {
+        *on = !*on;
+        response.mark_changed();
+    }
+    let is_on = *on;
+    response.widget_info(|| WidgetInfo::selected(WidgetType::Checkbox, true, is_on, label));
+    let along = ui.ctx().animate_bool_responsive(response.id, is_on);
+    let track = Rect::from_center_size(rect.center(), vec2(32.0, 16.0));
+    let fill = if is_on { palette.accent } else { palette.hover };
+    ui.painter().rect(
+        track,
+        8.0,
+        fill,
+        Stroke::new(1.0, palette.line),
+        StrokeKind::Inside,
+    );
+    let knob = egui::pos2(
+        egui::lerp(track.left() + 8.0..=track.right() - 8.0, along),
+        track.center().y,
+    );
+    ui.painter()
+        .circle_filled(knob, 5.5, if is_on { palette.panel } else { palette.weak });
+    response
+}
+
+/// A row of choices of which one holds; each tells what it does.
+pub fn choices<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    value: &mut T,
+    options: &[(T, &str, &str)],
+) -> Response {
+    let width = ui.available_width();
+    let gap = 2.0;
+    let count = options.len().max(1) as f32;
+    let each = vec2((width - gap * (count - 1.0)) / count, CONTROL_HEIGHT);
+    ui.spacing_mut().item_spacing.x = gap;
+    let mut all: Option<Response> = None;
+    for (option, label, tip) in options {
+        let response = choice(ui, *value == *option, label, each).on_hover_text(*tip);
+        if response.clicked() {
+            *value = option.clone();
+        }
+        all = Some(all.map_or(response.clone(), |others| others | response));
+    }
+    all.unwrap_or_else(|| ui.allocate_response(Vec2::ZERO, Sense::hover()))
+}
+
+/// One choice among several.
+pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
+    let palette = Palette::of(ui);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, chosen, label));
+    let (fill, text) = match (ui.is_enabled(), chosen, response.hovered()) {
+        (false, ..) => (palette.panel, palette.weak.gamma_multiply(0.6)),
+        (true, true, _) => (palette.accent_ground, palette.text),
+        (true, false, true) => (palette.hover, palette.text),
+        (true, false, false) => (palette.raised, palette.weak),
+    };
+    ui.painter().rect_filled(rect, RADIUS, fill);
+    let font = egui::TextStyle::Small.resolve(ui.style());
+    ui.painter().text(
+        rect.center(),
+        egui::Align2::CENTER_CENTER,
+        label,
+        font,
+        text,
+    );
+    response
+}
+
+/// A drop-down list.
+pub fn menu<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    salt: &str,
+    value: &mut T,
+    options: &[(T, &str, &str)],
+) -> Response {
+    let current = options
+        .iter()
+        .find(|(option, ..)| option == value)
+        .map_or("", |(_, label, _)| label);
+    let width = ui.available_width();
+    ComboBox::from_id_salt(salt)
+        .width(width)
+        .selected_text(current)
+        .show_ui(ui, |ui| {
+            for (option, label, tip) in options {
+                ui.selectable_value(value, option.clone(), *label)
+                    .on_hover_text(*tip);
+            }
+        })
+        .response
+}
+
+/// A square button with an icon.
+pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str) -> Response {
+    icon_button_sized(ui, icon, tip, vec2(32.0, 32.0), None)
+}
+
+/// A button with an icon, of that size, with another colour where one is given.
+pub fn icon_button_sized(
+    ui: &mut Ui,
+    icon: Icon,
+    tip: &str,
+    size: Vec2,
+    colour: Option<Color32>,
+) -> Response {
+    let palette = Palette::of(ui);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, ui.is_enabled(), tip));
+    if response.hovered() || response.is_pointer_button_down_on() {
+        ui.painter().rect_filled(rect, RADIUS, palette.hover);
+    }
+    let colour = colour.unwrap_or(if ui.is_enabled() {
+        palette.text
+    } else {
+        palette.weak
+    });
+    icons::paint(ui.painter(), icon, rect, colour);
+    response.on_hover_text(tip).on_disabled_hover_text(tip)
+}
+
+/// A line of text that explains, wrapped.
+pub fn hint(ui: &mut Ui, text: &str) {
+    let colour = Palette::of(ui).weak;
+    ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
+}
+
+/// Lays its content out from the right.
+pub fn from_right<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
+    ui.with_layout(Layout::right_to_left(Align::Center), content)
+        .inner
+}
+
+/// The button that is most likely meant.
+pub fn primary_button(ui: &mut Ui, text: &str) -> Response {
+    let palette = Palette::of(ui);
+    let text = RichText::new(text).color(palette.text);
+    ui.add(egui::Button::new(text).fill(palette.accent_ground))
+}

@@ -1,0 +1,171 @@
+//! Both halves, the line of advice below them, and the hand on them.
+
+use bevy::prelude::Vec2;
+use bevy_egui::egui::{
+    Align2, Context, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, pos2,
+    vec2,
+};
+
+use crate::app::asking::acts::{EditorAct, Tool};
+use crate::app::asking::intent::Intent;
+use crate::app::editing::sheet::SheetSide;
+use crate::app::ui::kit::theme::GRID;
+use crate::app::ui::match_editor::bar::{self, ADVICE_HEIGHT, BAR_HEIGHT};
+use crate::app::ui::match_editor::half::Half;
+use crate::app::ui::match_editor::inks::Inks;
+use crate::app::ui::match_editor::marks;
+use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::stage::area::{ZOOM_PER_POINT, ink_on};
+use crate::design::Picture;
+use crate::geometry::Side;
+
+/// Draws both halves and takes the user's hand.
+pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) {
+    let Some(sides) = &scene.sheet.sides else {
+        return;
+    };
+    let inks = Inks::of(scene);
+    let painter = root.painter().with_clip_rect(stage);
+    painter.rect_filled(stage, CornerRadius::ZERO, inks.ground);
+    let halves = halves(scene, stage, sides);
+    for half in &halves {
+        half.draw(&painter, scene, &inks);
+    }
+    let middle = stage.center().x;
+    let between = stage.top() + BAR_HEIGHT + GRID..=stage.bottom() - ADVICE_HEIGHT;
+    painter.vline(middle, between, Stroke::new(1.0, inks.faint));
+    marks::draw(&painter, scene, &halves, &inks);
+    advice(&painter, scene, stage, &inks);
+    for half in &halves {
+        let id = root.id().with(("half", half.side.index()));
+        let response = root.interact(half.rect, id, Sense::click_and_drag());
+        hand(root, scene, half, &response, acts);
+    }
+}
+
+/// Draws what lies above both halves.
+pub fn overlay(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
+    bar::show(ctx, scene, stage, acts);
+}
+
+fn halves(scene: &Scene, stage: Rect, sides: &[SheetSide; 2]) -> [Half; 2] {
+    let [left, right] = [
+        Rect::from_min_max(stage.min, pos2(stage.center().x, stage.bottom())),
+        Rect::from_min_max(pos2(stage.center().x, stage.top()), stage.max),
+    ];
+    let half = |side: Side, rect: Rect| {
+        let room = Rect::from_min_max(
+            rect.min + vec2(3.0 * GRID, BAR_HEIGHT + 4.0 * GRID),
+            rect.max - vec2(3.0 * GRID, ADVICE_HEIGHT + GRID),
+        );
+        let design = &sides[side];
+        let picture = design.picture.as_ref().filter(|_| scene.sheet.in_colours());
+        let bounds = picture.map_or(design.bounds, Picture::bounds);
+        Half::new(side, rect, room, bounds, &scene.editor)
+    };
+    [half(Side::Source, left), half(Side::Target, right)]
+}
+
+fn hand(ui: &Ui, scene: &Scene, half: &Half, response: &Response, acts: &mut Intents) {
+    let (shift, moved, origin) = ui.input(|input| {
+        let pointer = &input.pointer;
+        (
+            input.modifiers.shift,
+            pointer.delta() != bevy_egui::egui::Vec2::ZERO,
+            pointer.press_origin(),
+        )
+    });
+    let mut act = |act: EditorAct| acts.push(Intent::Editor(act));
+    let primary = PointerButton::Primary;
+    if response.drag_started_by(primary)
+        && let Some(origin) = origin
+    {
+        act(EditorAct::Press(half.touch(origin, shift)));
+    }
+    if let Some(pointer) = response.interact_pointer_pos() {
+        let delta = response.drag_delta();
+        let delta = Vec2::new(delta.x, delta.y);
+        if response.dragged_by(primary) && delta != Vec2::ZERO {
+            act(EditorAct::Drag(half.touch(pointer, shift), delta));
+        } else if response.dragged() && delta != Vec2::ZERO {
+            act(EditorAct::Pan(delta));
+        }
+        if response.clicked_by(primary) {
+            act(EditorAct::Click(half.touch(pointer, shift)));
+        }
+        if response.clicked_by(PointerButton::Secondary) {
+            act(EditorAct::Remove(half.touch(pointer, shift)));
+        }
+    }
+    if response.drag_stopped_by(primary) {
+        act(EditorAct::Release);
+    }
+    if let Some(pointer) = response.hover_pos() {
+        if moved && !response.dragged() {
+            act(EditorAct::Hover(Some(half.touch(pointer, shift))));
+        }
+        zoom(ui, half, pointer - half.rect.center(), &mut act);
+    } else if is_left(scene, half, response) {
+        act(EditorAct::Hover(None));
+    }
+}
+
+/// The pointer has left this half, and what was under it there is still marked.
+fn is_left(scene: &Scene, half: &Half, response: &Response) -> bool {
+    let editor = &scene.editor;
+    let is_marked = editor.hovered.is_some() || editor.trace.is_some() || editor.part.is_some();
+    let is_elsewhere = response
+        .ctx
+        .input(|input| input.pointer.hover_pos())
+        .is_none_or(|p| !half.rect.union(half.across()).contains(p));
+    is_marked && is_elsewhere && editor.grabbed.is_none()
+}
+
+fn zoom(ui: &Ui, half: &Half, from_middle: bevy_egui::egui::Vec2, act: &mut impl FnMut(EditorAct)) {
+    let factor = ui
+        .input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * ZOOM_PER_POINT).exp());
+    if factor != 1.0 {
+        let at = from_middle - half.room_offset();
+        act(EditorAct::Zoom {
+            at: Vec2::new(at.x, at.y),
+            factor,
+        });
+    }
+}
+
+/// One line on what can be done now.
+fn advice(painter: &bevy_egui::egui::Painter, scene: &Scene, stage: Rect, inks: &Inks) {
+    let editor = &scene.editor;
+    let words = match (editor.tool, editor.first_part) {
+        _ if editor.refusal.is_some() => editor.refusal.unwrap_or_default(),
+        (Tool::Pins, _) if scene.sheet.is_free() => {
+            "Click anywhere to set a pin on both sides, drag it to where it belongs, right-click \
+             to delete it."
+        }
+        (Tool::Lines, _) => {
+            "Draw a line along an edge; it appears on both sides. Drag its ends to where they \
+             belong, right-click an end to delete it."
+        }
+        (Tool::Pins, _) => {
+            "Click a boundary to pin it, drag a point to move it (Shift: no snapping), \
+             right-click a pin to delete it."
+        }
+        (Tool::Parts, None) => {
+            "Click a part on one side, then its partner on the other. Right-click frees a part."
+        }
+        (Tool::Parts, Some((Side::Source, ..))) => "Now click its partner in the target.",
+        (Tool::Parts, Some((Side::Target, ..))) => "Now click its partner in the source.",
+    };
+    let colour = if editor.refusal.is_some() {
+        inks.problem
+    } else {
+        inks.ink
+    };
+    let width = stage.width() - 4.0 * GRID;
+    let font = FontId::proportional(12.5);
+    let galley = painter.layout(words.to_owned(), font, colour, width);
+    let at = Align2::CENTER_BOTTOM
+        .anchor_size(stage.center_bottom() - vec2(0.0, GRID), galley.size())
+        .min;
+    painter.galley(at, galley, colour);
+}

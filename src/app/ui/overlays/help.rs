@@ -1,0 +1,96 @@
+//! The list of keys, made from the key map that is in use.
+
+use bevy_egui::egui::{self, Align2, Context, Id, Modal, RichText, Stroke, StrokeKind, Ui, vec2};
+
+use crate::app::asking::intent::Intent;
+use crate::app::asking::keymap::Binding;
+use crate::app::ui::kit::theme::{GRID, Palette, RADIUS};
+use crate::app::ui::kit::widgets::from_right;
+use crate::app::ui::scene::{Intents, Scene};
+
+const KEYS_WIDTH: f32 = 120.0;
+const COLUMN_WIDTH: f32 = 376.0;
+
+/// Height of a line: all of them fit into the smallest window.
+const ROW_HEIGHT: f32 = 20.0;
+
+/// Draws the list above everything else.
+pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
+    let response = Modal::new(Id::new("help")).show(ctx, |ui| {
+        ui.set_width(2.0 * COLUMN_WIDTH + 2.0 * GRID);
+        ui.horizontal(|ui| {
+            ui.heading("Keys");
+            from_right(ui, |ui| {
+                if ui.button("Close").clicked() {
+                    acts.push(Intent::ToggleHelp);
+                }
+            });
+        });
+        ui.add_space(GRID);
+        let groups = groups(scene.keys.bindings());
+        let half = groups.len().div_ceil(2);
+        ui.horizontal_top(|ui| {
+            for column in groups.chunks(half.max(1)) {
+                ui.vertical(|ui| {
+                    ui.set_width(COLUMN_WIDTH);
+                    for (name, rows) in column {
+                        group(ui, name, rows);
+                    }
+                });
+            }
+        });
+        crate::app::ui::kit::widgets::hint(
+            ui,
+            "Drag the stage to move it, scroll to zoom, double-click to show everything. \
+             Drop one or two files anywhere to open them.",
+        );
+    });
+    if response.backdrop_response.clicked() {
+        acts.push(Intent::ToggleHelp);
+    }
+}
+
+fn groups(bindings: &[Binding]) -> Vec<(&'static str, Vec<&Binding>)> {
+    let mut groups: Vec<(&'static str, Vec<&Binding>)> = Vec::new();
+    for binding in bindings.iter().filter(|binding| !binding.keys.is_empty()) {
+        match groups.last_mut().filter(|(name, _)| *name == binding.group) {
+            Some((_, rows)) => rows.push(binding),
+            None => groups.push((binding.group, vec![binding])),
+        }
+    }
+    groups
+}
+
+fn group(ui: &mut Ui, name: &str, rows: &[&Binding]) {
+    let palette = Palette::of(ui);
+    ui.spacing_mut().item_spacing.y = 2.0;
+    ui.label(RichText::new(name).small().strong().color(palette.weak));
+    for binding in rows {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().interact_size.y = ROW_HEIGHT;
+            let size = vec2(KEYS_WIDTH, ROW_HEIGHT);
+            let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+            key_cap(ui, rect, binding.keys);
+            ui.label(binding.help);
+        });
+    }
+    ui.add_space(GRID);
+}
+
+fn key_cap(ui: &Ui, rect: egui::Rect, keys: &str) {
+    let palette = Palette::of(ui);
+    let font = egui::TextStyle::Small.resolve(ui.style());
+    let text = ui
+        .painter()
+        .layout_no_wrap(keys.to_owned(), font, palette.text);
+    let cap = Align2::LEFT_CENTER.anchor_size(rect.left_center(), text.size() + vec2(12.0, 2.0));
+    ui.painter().rect(
+        cap,
+        RADIUS,
+        palette.raised,
+        Stroke::new(1.0, palette.line),
+        StrokeKind::Inside,
+    );
+    ui.painter()
+        .galley(cap.min + vec2(6.0, 1.0), text, palette.text);
+}

@@ -1,0 +1,66 @@
+//! What is being worked on, how far it is, and a way to stop it.
+
+use std::time::Duration;
+
+use bevy_egui::egui::{self, Align2, Area, Context, Order, ProgressBar, Rect, RichText, Ui, vec2};
+
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette};
+use crate::app::ui::scene::{Intents, Scene};
+
+/// What is done sooner is not worth a word: while a slider or a pin is dragged, one build follows
+/// the other.
+const PATIENCE: Duration = Duration::from_millis(300);
+
+/// Height of the names of two methods, or of the editor's tools.
+const TAKEN: f32 = 40.0;
+
+/// Draws a pill at the top of the stage for each piece of work.
+pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
+    let build = scene
+        .session
+        .work()
+        .filter(|_| scene.session.work_lasts() > PATIENCE)
+        .map(|work| (work, Intent::CancelWork));
+    let film = scene
+        .recorder
+        .work()
+        .map(|work| (work, Intent::CancelRecording));
+    let all: Vec<_> = build.into_iter().chain(film).collect();
+    if all.is_empty() {
+        return;
+    }
+    // Below what else stands at the upper edge.
+    let is_taken = scene.twin.is_shown || scene.editor.is_open;
+    let above = if is_taken { TAKEN } else { 0.0 };
+    Area::new("work".into())
+        .order(Order::Middle)
+        .pivot(Align2::CENTER_TOP)
+        .fixed_pos(stage.center_top() + vec2(0.0, 2.0 * GRID + above))
+        .show(ctx, |ui| {
+            for ((stage, fraction), cancel) in all {
+                pill(ui, stage, fraction, cancel, acts);
+            }
+        });
+}
+
+fn pill(ui: &mut Ui, stage: &str, fraction: f64, cancel: Intent, acts: &mut Intents) {
+    let palette = Palette::of(ui);
+    egui::Frame::window(ui.style())
+        .corner_radius(CARD_RADIUS)
+        .inner_margin(egui::Margin::symmetric(16, 8))
+        .show(ui, |ui| {
+            ui.horizontal(|ui| {
+                ui.label(RichText::new(stage).color(palette.text));
+                let bar = ProgressBar::new(fraction as f32)
+                    .desired_width(120.0)
+                    .desired_height(6.0)
+                    .fill(palette.accent);
+                ui.add(bar);
+                let tip = "Stops this work; what is on the stage stays.";
+                if ui.button("Cancel").on_hover_text(tip).clicked() {
+                    acts.push(cancel);
+                }
+            });
+        });
+}

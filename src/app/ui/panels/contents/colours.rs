@@ -1,0 +1,39 @@
+//! How one picture fades into the other, apart from how they move.
+
+use bevy_egui::egui::{DragValue, Ui};
+
+use crate::app::ui::kit::widgets::{menu, number, row, section};
+use crate::content::ColourMix;
+use crate::transition::Easing;
+
+const CURVES: [(Easing, &str, &str); 4] = [
+    (Easing::Linear, "Even", "The same speed all along"),
+    (Easing::Smooth, "Smooth", "Slow at both ends"),
+    (Easing::EaseIn, "Ease in", "Slow at the beginning"),
+    (Easing::EaseOut, "Ease out", "Slow at the end"),
+];
+
+/// The shortest span in which colours change.
+const SHORTEST: f64 = 0.01;
+
+/// Draws the options.
+pub fn show(ui: &mut Ui, mix: &mut ColourMix) {
+    section(ui, "Colours", |ui| {
+        row(
+            ui,
+            "Curve",
+            "How fast one picture gives way to the other.",
+            |ui| menu(ui, "mix", &mut mix.curve, &CURVES),
+        );
+        let from = DragValue::new(&mut mix.from)
+            .range(0.0..=mix.to - SHORTEST)
+            .speed(0.005)
+            .fixed_decimals(2);
+        number(ui, "From t", "Until here only the source is seen.", from);
+        let to = DragValue::new(&mut mix.to)
+            .range(mix.from + SHORTEST..=1.0)
+            .speed(0.005)
+            .fixed_decimals(2);
+        number(ui, "To t", "From here on only the target is seen.", to);
+    });
+}

@@ -1,0 +1,107 @@
+//! How distance fields are made and blended.
+
+use bevy_egui::egui::{DragValue, Ui};
+
+use crate::app::ui::kit::widgets::{choices, menu, number, row, section, slider};
+use crate::content::BlendSpace;
+use crate::field::Metric;
+use crate::transition::{Boundary, FieldOptions};
+
+const METRICS: [(Metric, &str, &str); 4] = [
+    (
+        Metric::Euclidean,
+        "Euclidean",
+        "True distance: offsets are round.",
+    ),
+    (
+        Metric::QuasiEuclidean,
+        "Quasi-Euclidean",
+        "Along axes and diagonals: offsets are octagons.",
+    ),
+    (
+        Metric::CityBlock,
+        "City block",
+        "Along axes: offsets are diamonds.",
+    ),
+    (
+        Metric::Chessboard,
+        "Chessboard",
+        "The larger of the two: offsets are squares.",
+    ),
+];
+
+/// Draws the options.
+pub fn show(ui: &mut Ui, field: &mut FieldOptions) {
+    section(ui, "Distance field", |ui| {
+        row(
+            ui,
+            "Space",
+            "The scale on which distances are mixed.",
+            |ui| {
+                choices(
+                    ui,
+                    &mut field.blend.space,
+                    &[
+                        (
+                            BlendSpace::Log,
+                            "Logarithmic",
+                            "Near the outlines counts most: thin parts survive",
+                        ),
+                        (
+                            BlendSpace::Real,
+                            "Real",
+                            "Far counts as much as near: thin parts go under",
+                        ),
+                    ],
+                )
+            },
+        );
+        ui.add_enabled_ui(field.blend.space == BlendSpace::Log, |ui| {
+            slider(
+                ui,
+                "ε",
+                "How sharply the logarithm prefers what is near, in cells. Small: the two outlines \
+                 stay visible as a web; large: like real space. Only for logarithmic space.",
+                &mut field.blend.epsilon,
+                0.01..=100.0,
+                true,
+            );
+        });
+        slider(
+            ui,
+            "Threshold",
+            "The distance that is drawn as the outline, in cells. Above 0 the shape grows thinner, below 0 thicker.",
+            &mut field.blend.threshold,
+            -40.0..=40.0,
+            false,
+        );
+        row(
+            ui,
+            "Metric",
+            "What distance means; it shows in the corners.",
+            |ui| menu(ui, "metric", &mut field.metric, &METRICS),
+        );
+        let is_euclidean = field.metric == Metric::Euclidean;
+        ui.add_enabled_ui(is_euclidean, |ui| row(ui, "Outline", "Where the edge of a shape lies within a cell; metrics other than the Euclidean have it between cells.", |ui| {
+            choices(ui, &mut field.boundary, &[
+                (Boundary::Exact, "Exact", "Where the drawing has it: smooth"),
+                (Boundary::Binary, "Binary", "Between cells, as the paper's tool: stepped"),
+            ])
+        }));
+        let cells = DragValue::new(&mut field.cells).range(32..=4096).speed(4.0);
+        number(
+            ui,
+            "Cells",
+            "Cells along the longer side. More: finer detail, and ε and threshold mean smaller distances.",
+            cells,
+        );
+        slider(
+            ui,
+            "Margin",
+            "Room around the designs, as a part of the longer side. Needed where the shape grows outwards.",
+            &mut field.margin,
+            0.0..=1.0,
+            false,
+        );
+    });
+}

@@ -1,0 +1,4 @@
+//! The options of what is seen.
+
+pub mod colours;
+pub mod field;

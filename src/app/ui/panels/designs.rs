@@ -1,0 +1,199 @@
+//! The two designs: how they are read, and how they lie in one frame.
+
+use bevy_egui::egui::{Color32, DragValue, Label, RichText, Sense, Ui, vec2};
+
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::icons::Icon;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
+use crate::app::ui::kit::widgets::{
+    choices, from_right, icon_button_sized, number, row, section, slider, toggle,
+};
+use crate::app::ui::scene::Intents;
+use crate::project::{DesignEntry, Project};
+use crate::transition::{Fit, Rgb};
+
+/// Draws both designs.
+pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
+    section(ui, "Designs", |ui| {
+        row(
+            ui,
+            "Frame",
+            "How unlike designs are laid over each other before anything else.",
+            |ui| {
+                choices(
+                    ui,
+                    &mut draft.fit,
+                    &[
+                        (Fit::AsDrawn, "As drawn", "Where the files have them"),
+                        (Fit::Centred, "Centred", "Centre on centre, sizes as drawn"),
+                        (
+                            Fit::SameArea,
+                            "Same area",
+                            "Centre on centre, scaled to one area",
+                        ),
+                    ],
+                )
+            },
+        );
+        let colours = [draft.style.source, draft.style.target];
+        for (index, entry) in draft.designs.iter_mut().take(2).enumerate() {
+            design(ui, index, colours[index], entry, acts);
+        }
+        if draft.designs.len() >= 2 && swap(ui) {
+            draft.designs.swap(0, 1);
+            draft.options.matching = draft.options.matching.swapped();
+        }
+    });
+}
+
+fn swap(ui: &mut Ui) -> bool {
+    let tip = "Exchanges source and target: the film runs the other way.";
+    icon_button_sized(ui, Icon::Swap, tip, vec2(32.0, CONTROL_HEIGHT), None).clicked()
+}
+
+fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts: &mut Intents) {
+    let palette = Palette::of(ui);
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        let (dot, _) = ui.allocate_exact_size(vec2(12.0, CONTROL_HEIGHT), Sense::hover());
+        let fill = Color32::from_rgb(colour.0[0], colour.0[1], colour.0[2]);
+        ui.painter().circle_filled(dot.center(), 5.0, fill);
+        let role = ["Source", "Target"][index];
+        ui.label(RichText::new(role).small().color(palette.weak));
+        from_right(ui, |ui| {
+            let tip = "Another file in its place";
+            if icon_button_sized(ui, Icon::Open, tip, vec2(24.0, 24.0), None).clicked() {
+                acts.push(Intent::AskReplace(index));
+            }
+            let path = entry.path.display().to_string();
+            ui.add(Label::new(name_of(entry)).truncate())
+                .on_hover_text(path);
+        });
+    });
+    let id = ui.id().with(("placement", index));
+    ui.push_id(id, |ui| {
+        bevy_egui::egui::CollapsingHeader::new("Placement").show_unindented(ui, |ui| {
+            placement(ui, entry);
+        });
+        if is_picture(entry) {
+            bevy_egui::egui::CollapsingHeader::new("Reading the picture")
+                .show_unindented(ui, |ui| reading(ui, entry));
+        }
+    });
+}
+
+fn name_of(entry: &DesignEntry) -> String {
+    if !entry.name.is_empty() {
+        return entry.name.clone();
+    }
+    entry
+        .path
+        .file_stem()
+        .map(|stem| stem.to_string_lossy().into_owned())
+        .unwrap_or_default()
+}
+
+fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
+    let place = &mut entry.placement;
+    row(
+        ui,
+        "Offset",
+        "Moves this design right and up, in its own units.",
+        |ui| {
+            let field = |ui: &mut Ui, value: &mut f64, prefix: &str| {
+                let drag = DragValue::new(value)
+                    .speed(0.01)
+                    .prefix(prefix.to_owned())
+                    .max_decimals(3);
+                ui.add_sized([76.0, CONTROL_HEIGHT], drag)
+            };
+            field(ui, &mut place.offset.x, "x ") | field(ui, &mut place.offset.y, "y ")
+        },
+    );
+    slider(
+        ui,
+        "Scale",
+        "Enlarges this design about its own middle.",
+        &mut place.scale,
+        0.05..=20.0,
+        true,
+    );
+    let mut degrees = place.rotation.to_degrees();
+    slider(
+        ui,
+        "Rotation",
+        "Turns this design counter-clockwise, in degrees.",
+        &mut degrees,
+        -180.0..=180.0,
+        false,
+    );
+    if (degrees - place.rotation.to_degrees()).abs() > 1e-9 {
+        place.rotation = degrees.to_radians();
+    }
+    toggle(
+        ui,
+        "Mirror",
+        "Exchanges left and right of this design.",
+        &mut place.mirror,
+    );
+}
+
+fn is_picture(entry: &DesignEntry) -> bool {
+    let extension = entry
+        .path
+        .extension()
+        .and_then(|e| e.to_str())
+        .unwrap_or_default();
+    ["png", "jpg", "jpeg", "bmp", "webp"]
+        .iter()
+        .any(|e| extension.eq_ignore_ascii_case(e))
+}
+
+fn reading(ui: &mut Ui, entry: &mut DesignEntry) {
+    let import = &mut entry.import;
+    let mut is_automatic = import.threshold.is_none();
+    toggle(
+        ui,
+        "Automatic",
+        "Finds the grey level that parts shape from ground by itself.",
+        &mut is_automatic,
+    );
+    match (is_automatic, import.threshold) {
+        (true, _) => import.threshold = None,
+        (false, None) => import.threshold = Some(128),
+        (false, Some(_)) => {}
+    }
+    if let Some(threshold) = &mut import.threshold {
+        let drag = DragValue::new(threshold).speed(0.5).range(1..=255);
+        number(
+            ui,
+            "Grey level",
+            "Where shape ends and ground begins, 1 to 255: higher lets more in.",
+            drag,
+        );
+    }
+    toggle(
+        ui,
+        "Invert",
+        "Takes the ground for the shape.",
+        &mut import.invert,
+    );
+    let specks = DragValue::new(&mut import.specks_px).speed(0.2);
+    number(
+        ui,
+        "Specks",
+        "Spots and holes of fewer pixels than this are left out.",
+        specks,
+    );
+    let tolerance = DragValue::new(&mut import.tolerance)
+        .speed(0.0001)
+        .range(0.0..=0.1)
+        .max_decimals(4);
+    number(
+        ui,
+        "Tolerance",
+        "How far the outline may run from the exact edge, as a part of the longer side: larger has fewer corners.",
+        tolerance,
+    );
+    ui.add_space(GRID);
+}

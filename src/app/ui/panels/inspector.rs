@@ -1,0 +1,76 @@
+//! The panel on the right: everything that can be set about the transition.
+//!
+//! Its parts change a copy of the project; where the copy came out different it is sent as one
+//! intent.
+
+use bevy_egui::egui::{self, Margin, Panel, ScrollArea, Ui};
+
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::theme::{GRID, Palette};
+use crate::app::ui::panels::contents::{colours, field};
+use crate::app::ui::panels::warps::{lattice, lines, paths, rigid, scattered, travel};
+use crate::app::ui::panels::{appearance, designs, matching, method};
+use crate::app::ui::scene::{Intents, Scene};
+use crate::content::ContentKind;
+use crate::warp::WarpKind;
+
+const WIDTH: f32 = 328.0;
+
+/// Draws the panel.
+pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let frame = egui::Frame::new()
+        .fill(Palette::of(root).panel)
+        .inner_margin(Margin {
+            left: 16,
+            right: 8,
+            top: 0,
+            bottom: 0,
+        });
+    Panel::right("inspector")
+        .exact_size(WIDTH)
+        .resizable(false)
+        .frame(frame)
+        .show(root, |ui| {
+            ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                ui.set_width(WIDTH - 40.0);
+                sections(ui, scene, acts);
+                ui.add_space(2.0 * GRID);
+            });
+        });
+}
+
+fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let Some(project) = scene.session.project() else {
+        return;
+    };
+    method::show(ui, scene, project, acts);
+    let mut draft = project.clone();
+    if scene.session.can_match() && draft.warp != Some(WarpKind::None) {
+        matching::show(ui, scene, &mut draft, acts);
+    }
+    if draft.warp == Some(WarpKind::Arap) {
+        rigid::show(ui, scene, &mut draft.options.arap);
+    }
+    let carries_fields =
+        draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Field);
+    if carries_fields || draft.warp.is_some_and(WarpKind::is_of_the_plane) {
+        travel::show(ui, &mut draft.options.travel);
+    }
+    match draft.warp {
+        Some(WarpKind::Paths) => paths::show(ui, &mut draft.options.paths),
+        Some(WarpKind::Lines) => lines::show(ui, &mut draft.options.lines),
+        Some(WarpKind::Scattered) => scattered::show(ui, &mut draft.options.scattered),
+        Some(WarpKind::Lattice) => lattice::show(ui, &mut draft.options.lattice),
+        Some(WarpKind::None | WarpKind::Arap) | None => {}
+    }
+    match draft.content {
+        Some(ContentKind::Field) => field::show(ui, &mut draft.options.field),
+        Some(ContentKind::Colours) => colours::show(ui, &mut draft.options.colours),
+        Some(ContentKind::Solid) | None => {}
+    }
+    designs::show(ui, &mut draft, acts);
+    appearance::show(ui, scene, &mut draft, acts);
+    if draft != *project {
+        acts.push(Intent::Edit(Box::new(draft)));
+    }
+}

@@ -1,0 +1,184 @@
+//! How outlines are matched and triangulated: the rules, and the way to the match editor.
+
+use bevy_egui::egui::Ui;
+
+use crate::app::asking::acts::EditorAct;
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::widgets::{choices, hint, row, section, slider, toggle};
+use crate::app::ui::scene::{Intents, Scene};
+use crate::content::ContentKind;
+use crate::correspondence::{HoleRule, Matching, PartRule};
+use crate::project::Project;
+use crate::warp::WarpKind;
+
+/// The edge length, as a share of the design, that density starts from when it is set by hand.
+const USUAL_EDGE: f64 = 0.05;
+
+/// Draws the options.
+pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
+    // Rigid parts are made of triangles, those that carry a field too.
+    let has_mesh =
+        draft.warp == Some(WarpKind::Arap) && draft.content != Some(ContentKind::Colours);
+    section(ui, "Match", |ui| {
+        if draft.content != Some(ContentKind::Colours) {
+            rules(ui, &mut draft.options.matching);
+        }
+        if has_mesh {
+            density(ui, &mut draft.options.triangulation.edge_length);
+        }
+        ui.add_space(4.0);
+        hint(ui, &said(&draft.options.matching));
+        ui.horizontal(|ui| {
+            let (name, tip) = if scene.editor.is_open {
+                ("Back to the stage", "The match is kept (E or Esc).")
+            } else {
+                (
+                    "Edit the match",
+                    "Shows source and target side by side: which point is which, and what to \
+                     change about it (E).",
+                )
+            };
+            if ui.button(name).on_hover_text(tip).clicked() {
+                acts.push(Intent::Editor(EditorAct::Toggle));
+            }
+            let tip = "Deletes all pins, pairs and cuts that were set by hand; can be undone.";
+            if has_places(&draft.options.matching)
+                && ui.button("Clear").on_hover_text(tip).clicked()
+            {
+                acts.push(Intent::Editor(EditorAct::Clear));
+            }
+        });
+    });
+}
+
+fn rules(ui: &mut Ui, matching: &mut Matching) {
+    row(
+        ui,
+        "Turning",
+        "Whether a shape may be matched with one that is turned.",
+        |ui| {
+            choices(
+                ui,
+                &mut matching.keep_up,
+                &[
+                    (false, "Free", "A shape is found again however it is turned"),
+                    (
+                        true,
+                        "Keep up",
+                        "What points up stays what points up, as with letters",
+                    ),
+                ],
+            )
+        },
+    );
+    row(
+        ui,
+        "Holes",
+        "What becomes of a hole that the other design does not have.",
+        |ui| {
+            choices(
+                ui,
+                &mut matching.holes,
+                &[
+                    (HoleRule::Auto, "Auto", "Whichever of the two fits better"),
+                    (
+                        HoleRule::Close,
+                        "Close",
+                        "The hole shrinks to a point, or grows from one",
+                    ),
+                    (
+                        HoleRule::Cut,
+                        "Cut",
+                        "The ring around the hole is cut open and uncoils",
+                    ),
+                ],
+            )
+        },
+    );
+    row(
+        ui,
+        "Parts",
+        "What becomes of a part that the other design does not have.",
+        |ui| {
+            choices(
+                ui,
+                &mut matching.parts,
+                &[
+                    (
+                        PartRule::Auto,
+                        "Auto",
+                        "One part is split into several; among several, the odd ones appear or \
+                         vanish",
+                    ),
+                    (
+                        PartRule::Split,
+                        "Split",
+                        "The part that fits best is cut in pieces, one for each",
+                    ),
+                    (
+                        PartRule::Alone,
+                        "Alone",
+                        "It grows from a point, or shrinks to one",
+                    ),
+                ],
+            )
+        },
+    );
+}
+
+fn density(ui: &mut Ui, edge_length: &mut Option<f64>) {
+    let mut is_automatic = edge_length.is_none();
+    toggle(
+        ui,
+        "Auto mesh",
+        "Triangles as coarse as good angles allow. Off: a largest edge length of your own.",
+        &mut is_automatic,
+    );
+    *edge_length = match (is_automatic, *edge_length) {
+        (true, _) => None,
+        (false, length) => Some(length.unwrap_or(USUAL_EDGE)),
+    };
+    if let Some(length) = edge_length {
+        slider(
+            ui,
+            "Edge length",
+            "The longest edge wanted inside, as a share of the design's size: smaller makes more \
+             triangles, softer bends and slower frames.",
+            length,
+            0.01..=0.25,
+            true,
+        );
+    }
+}
+
+fn has_places(matching: &Matching) -> bool {
+    let Matching {
+        pins,
+        lines,
+        links,
+        cuts,
+        ..
+    } = matching;
+    !(pins.is_empty() && lines.is_empty() && links.is_empty() && cuts.is_empty())
+}
+
+fn said(matching: &Matching) -> String {
+    if !has_places(matching) {
+        return "Nothing was set by hand yet. Outlines match themselves; pictures need pins or \
+                lines."
+            .to_owned();
+    }
+    let count = |n: usize, one: &str, many: &str| match n {
+        0 => None,
+        1 => Some(format!("1 {one}")),
+        n => Some(format!("{n} {many}")),
+    };
+    let all = [
+        count(matching.pins.len(), "pin", "pins"),
+        count(matching.lines.len(), "line", "lines"),
+        count(matching.links.len(), "pair of parts", "pairs of parts"),
+        count(matching.cuts.len(), "cut", "cuts"),
+    ];
+    let all: Vec<String> = all.into_iter().flatten().collect();
+    format!("Set by hand: {}.", all.join(", "))
+}

@@ -1,0 +1,139 @@
+//! The table of cells: what moves, and what is seen. Cells that cannot be had are grey and say why.
+
+use bevy_egui::egui::{
+    Align2, FontId, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo,
+    WidgetType, pos2, vec2,
+};
+
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::theme::{GRID, Palette, RADIUS};
+use crate::app::ui::kit::widgets::{hint, section};
+use crate::app::ui::scene::{Intents, Scene};
+use crate::content::ContentKind;
+use crate::names::Choice;
+use crate::project::Project;
+use crate::transition::Cell;
+use crate::warp::WarpKind;
+
+const ROW_LABEL_WIDTH: f32 = 52.0;
+const CELL_HEIGHT: f32 = 28.0;
+
+/// Draws the table and what the chosen cell does.
+pub fn show(ui: &mut Ui, scene: &Scene, project: &Project, acts: &mut Intents) {
+    section(ui, "Method", |ui| {
+        let width = (ui.available_width() - ROW_LABEL_WIDTH - GRID) / ContentKind::ALL.len() as f32;
+        heads(ui, width);
+        ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
+        for warp in WarpKind::ALL {
+            ui.horizontal(|ui| {
+                row_head(ui, warp);
+                for content in ContentKind::ALL {
+                    cell(ui, scene, project, (warp, content), width - 4.0, acts);
+                }
+            });
+        }
+        ui.add_space(4.0);
+        if let (Some(warp), Some(content)) = (project.warp, project.content) {
+            hint(ui, description(warp, content));
+        }
+    });
+}
+
+fn heads(ui: &mut Ui, width: f32) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
+    let weak = Palette::of(ui).weak;
+    let font = TextStyle::Small.resolve(ui.style());
+    let mut left = rect.left() + ROW_LABEL_WIDTH + 4.0;
+    for content in ContentKind::ALL {
+        let at = pos2(left, rect.center().y);
+        ui.painter().text(
+            at,
+            Align2::LEFT_CENTER,
+            content.name().title,
+            font.clone(),
+            weak,
+        );
+        left += width;
+    }
+}
+
+fn row_head(ui: &mut Ui, warp: WarpKind) {
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(ROW_LABEL_WIDTH, CELL_HEIGHT), Sense::hover());
+    let name = warp.name();
+    let font = TextStyle::Small.resolve(ui.style());
+    let weak = Palette::of(ui).weak;
+    ui.painter().text(
+        rect.left_center(),
+        Align2::LEFT_CENTER,
+        name.title,
+        font,
+        weak,
+    );
+    response.on_hover_text(name.sentence);
+}
+
+/// What stands on the button of a cell.
+pub fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
+    Cell::new(warp, content).map_or("–", |cell| cell.words().button)
+}
+
+pub fn description(warp: WarpKind, content: ContentKind) -> &'static str {
+    Cell::new(warp, content).map_or("Nothing moves and nothing blends.", |cell| {
+        cell.words().sentence
+    })
+}
+
+fn cell(
+    ui: &mut Ui,
+    scene: &Scene,
+    project: &Project,
+    (warp, content): (WarpKind, ContentKind),
+    width: f32,
+    acts: &mut Intents,
+) {
+    let available = scene.session.available(warp, content);
+    let is_chosen = (project.warp, project.content) == (Some(warp), Some(content));
+    let sense = if available.is_ok() {
+        Sense::click()
+    } else {
+        Sense::hover()
+    };
+    let (rect, response) = ui.allocate_exact_size(vec2(width, CELL_HEIGHT), sense);
+    let name = cell_name(warp, content);
+    response.widget_info(|| {
+        WidgetInfo::selected(WidgetType::RadioButton, available.is_ok(), is_chosen, name)
+    });
+    paint_cell(ui, rect, name, &response, is_chosen, available.is_ok());
+    if response.clicked() && !is_chosen {
+        acts.push(Intent::UseCell(warp, content));
+    }
+    match available {
+        Ok(()) => response.on_hover_text(description(warp, content)),
+        Err(reason) => response.on_hover_text(format!("Not available: {reason}")),
+    };
+}
+
+fn paint_cell(ui: &Ui, rect: Rect, name: &str, response: &Response, chosen: bool, can: bool) {
+    let palette = Palette::of(ui);
+    let font: FontId = TextStyle::Small.resolve(ui.style());
+    let (fill, line, text) = match (can, chosen, response.hovered()) {
+        (_, true, _) => (palette.accent_ground, palette.accent, palette.text),
+        (false, ..) => (
+            palette.panel,
+            palette.line,
+            palette.weak.gamma_multiply(0.6),
+        ),
+        (true, false, true) => (palette.hover, palette.line, palette.text),
+        (true, false, false) => (palette.raised, palette.raised, palette.text),
+    };
+    ui.painter().rect(
+        rect,
+        RADIUS,
+        fill,
+        Stroke::new(1.0, line),
+        StrokeKind::Inside,
+    );
+    ui.painter()
+        .text(rect.center(), Align2::CENTER_CENTER, name, font, text);
+}

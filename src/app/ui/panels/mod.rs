@@ -1,0 +1,9 @@
+//! The panel on the right: everything that can be set about the transition.
+
+pub mod appearance;
+pub mod contents;
+pub mod designs;
+pub mod inspector;
+pub mod matching;
+pub mod method;
+pub mod warps;

@@ -1,0 +1,176 @@
+//! How parts move: the options of the rigidity-preserving interpolation.
+
+use bevy_egui::egui::{DragValue, Ui};
+
+use crate::app::ui::kit::theme::CONTROL_HEIGHT;
+use crate::app::ui::kit::widgets::{choices, menu, number, row, section, toggle};
+use crate::app::ui::scene::Scene;
+use crate::homotopy::Homotopy;
+use crate::warp::{ArapOptions, PathKind, Weights};
+
+/// The most parts that get a number of their own; more would fill the window.
+const MOST_PARTS: usize = 8;
+
+/// The most times that faces are split in the window: each makes four of one.
+const MOST_SUBDIVISIONS: u32 = 4;
+
+const HOMOTOPIES: [(Homotopy, &str, &str); 4] = [
+    (
+        Homotopy::Linear,
+        "Linear",
+        "Points go straight. Cheap and even, but parts shrink while they turn and collapse on half turns.",
+    ),
+    (
+        Homotopy::LinearAfterPolar,
+        "Linear, turn apart",
+        "Turn and stretch apart, the turn on a straight line: shows why the turn must be on a circle.",
+    ),
+    (
+        Homotopy::Polar,
+        "Polar",
+        "Parts turn steadily while they stretch evenly. Right for most designs.",
+    ),
+    (
+        Homotopy::Exponential,
+        "Exponential",
+        "Turns steadily and stretches by equal factors: never turns inside out, even far beyond the designs.",
+    ),
+];
+
+/// Draws the options.
+pub fn show(ui: &mut Ui, scene: &Scene, arap: &mut ArapOptions) {
+    section(ui, "Motion of parts", |ui| {
+        row(
+            ui,
+            "Homotopy",
+            "The path of each triangle from its first form to its last.",
+            |ui| menu(ui, "homotopy", &mut arap.homotopy, &HOMOTOPIES),
+        );
+        weights(ui, &mut arap.weights);
+        toggle(
+            ui,
+            "Symmetric",
+            "On: the film from target to source is the same backwards. Off: only the source's \
+             triangles count, as in the paper.",
+            &mut arap.symmetric,
+        );
+        path(ui, &mut arap.path);
+        extra_turns(ui, &mut arap.extra_turns, scene.session.parts());
+        let subdivisions = DragValue::new(&mut arap.subdivisions)
+            .range(0..=MOST_SUBDIVISIONS)
+            .speed(0.02);
+        number(
+            ui,
+            "Subdivide",
+            "Splits each triangle into four, so many times: parts bend more softly, frames take longer.",
+            subdivisions,
+        );
+    });
+}
+
+fn weights(ui: &mut Ui, weights: &mut Weights) {
+    let tip = "How much each triangle has to say. Stiffer where the weight is larger.";
+    row(ui, "Weights", tip, |ui| {
+        let mut options = vec![
+            (
+                Weights::Area,
+                "Area",
+                "By area: fine triangles do not stiffen the shape",
+            ),
+            (
+                Weights::Uniform,
+                "Uniform",
+                "All alike, as in the paper: finely divided parts are stiffer",
+            ),
+        ];
+        if matches!(weights, Weights::PerFace(_)) {
+            options.push((
+                weights.clone(),
+                "Own",
+                "The numbers that stand in the project file",
+            ));
+        }
+        choices(ui, weights, &options)
+    });
+}
+
+fn path(ui: &mut Ui, path: &mut PathKind) {
+    let tip = "Which point of the whole goes straight from its first place to its last.";
+    row(ui, "Path", tip, |ui| {
+        let anchor = if let PathKind::Anchor(vertex) = *path {
+            vertex
+        } else {
+            0
+        };
+        let width = if matches!(path, PathKind::Anchor(_)) {
+            112.0
+        } else {
+            ui.available_width()
+        };
+        let chosen = ui
+            .scope(|ui| {
+                ui.set_max_width(width);
+                choices(
+                    ui,
+                    path,
+                    &[
+                        (PathKind::Centroid, "Centre", "The centre of mass"),
+                        (
+                            PathKind::Anchor(anchor),
+                            "Vertex",
+                            "One vertex, by its number",
+                        ),
+                    ],
+                )
+            })
+            .inner;
+        let PathKind::Anchor(vertex) = path else {
+            return chosen;
+        };
+        chosen | ui.add_sized([56.0, CONTROL_HEIGHT], DragValue::new(vertex).prefix("# "))
+    });
+}
+
+fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
+    let tip = "Whole turns that are added on the way: the ends stay, the film goes round. Negative: clockwise.";
+    let each = turns.len() > 1;
+    if !each {
+        let mut all = turns.first().copied().unwrap_or(0);
+        number(
+            ui,
+            "Extra turns",
+            tip,
+            DragValue::new(&mut all).range(-9..=9).speed(0.02),
+        );
+        if all != turns.first().copied().unwrap_or(0) {
+            *turns = if all == 0 { Vec::new() } else { vec![all] };
+        }
+    }
+    for (part, turn) in turns
+        .iter_mut()
+        .enumerate()
+        .take(MOST_PARTS)
+        .filter(|_| each)
+    {
+        let label = format!("Turns, part {}", part + 1);
+        number(
+            ui,
+            &label,
+            tip,
+            DragValue::new(turn).range(-9..=9).speed(0.02),
+        );
+    }
+    if parts > 1 && parts <= MOST_PARTS {
+        let mut apart = each;
+        toggle(
+            ui,
+            "Each part",
+            "A number of turns of its own for each part that hangs on others by points only.",
+            &mut apart,
+        );
+        if apart != each {
+            let all = turns.first().copied().unwrap_or(0);
+            *turns = if apart { vec![all; parts] } else { vec![all] };
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! What the panels show, and what the user does to it.
+
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::Res;
+
+use crate::app::asking::intent::Intent;
+use crate::app::asking::keymap::KeyMap;
+use crate::app::capturing::films::Recorder;
+use crate::app::editing::editor::Editor;
+use crate::app::editing::sheet::Sheet;
+use crate::app::looking::measuring::Measured;
+use crate::app::looking::preferences::Preferences;
+use crate::app::looking::times::WholeFrame;
+use crate::app::looking::twin::Twin;
+use crate::app::opening::apply::Gallery;
+use crate::app::opening::closing::Question;
+use crate::app::opening::dialogs::Drop;
+use crate::app::opening::thumbnails::Thumbnails;
+use crate::app::playing::playback::Playback;
+use crate::app::session::state::Session;
+use crate::app::telling::notices::Notices;
+use crate::stage::{FrameTimes, StageView};
+
+/// Everything that the panels show.
+#[derive(SystemParam)]
+pub struct Scene<'w> {
+    pub session: Res<'w, Session>,
+    pub editor: Res<'w, Editor>,
+    pub sheet: Res<'w, Sheet>,
+    pub measured: Res<'w, Measured>,
+    pub twin: Res<'w, Twin>,
+    pub view: Res<'w, StageView>,
+    pub gallery: Res<'w, Gallery>,
+    pub playback: Res<'w, Playback>,
+    pub preferences: Res<'w, Preferences>,
+    pub notices: Res<'w, Notices>,
+    pub thumbnails: Res<'w, Thumbnails>,
+    pub recorder: Res<'w, Recorder>,
+    pub question: Res<'w, Question>,
+    pub drop: Res<'w, Drop>,
+    pub keys: Res<'w, KeyMap>,
+    pub times: Res<'w, FrameTimes>,
+    pub whole: Res<'w, WholeFrame>,
+}
+
+/// What the user does this frame.
+pub type Intents = Vec<Intent>;

@@ -1,0 +1,73 @@
+//! The part of the window that the stage shows through: it can be dragged and zoomed, and says
+//! what to do while it is empty.
+
+use bevy::prelude::Vec2;
+use bevy_egui::egui::{Align2, Color32, FontId, Rect, Sense, Ui};
+
+use crate::app::asking::intent::Intent;
+use crate::app::ui::scene::{Intents, Scene};
+use crate::transition::{Rgb, Style};
+
+/// One line of the wheel zooms by this exponent; eight lines make a factor of about 2.7.
+pub const ZOOM_PER_POINT: f32 = 0.0025;
+
+/// Turns dragging and scrolling over the stage, or over what shows the same of the plane beside
+/// it, into intents.
+pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, name: &str, acts: &mut Intents) {
+    if let Some(words) = empty_words(scene) {
+        let ground = scene
+            .session
+            .project()
+            .map_or(Style::default().ground, |p| p.style.ground);
+        let font = FontId::proportional(16.0);
+        root.painter().text(
+            rect.center(),
+            Align2::CENTER_CENTER,
+            words,
+            font,
+            ink_on(ground),
+        );
+    }
+    let response = root.interact(rect, root.id().with(name), Sense::click_and_drag());
+    if response.dragged() {
+        let delta = response.drag_delta();
+        acts.push(Intent::Pan(Vec2::new(delta.x, delta.y)));
+    }
+    if response.double_clicked() {
+        acts.push(Intent::FitView);
+    }
+    let Some(pointer) = response.hover_pos() else {
+        return;
+    };
+    let factor = root
+        .input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * ZOOM_PER_POINT).exp());
+    if factor != 1.0 {
+        let at = pointer - rect.min;
+        acts.push(Intent::Zoom {
+            at: Vec2::new(at.x, at.y),
+            factor,
+        });
+    }
+}
+
+fn empty_words(scene: &Scene) -> Option<&'static str> {
+    let session = &scene.session;
+    if session.transition().is_some() || session.work().is_some() {
+        return None;
+    }
+    Some(match session.project() {
+        None => "Choose a project from the gallery, or drop one or two files here.",
+        Some(_) => "Nothing to show yet: choose another method, or other designs.",
+    })
+}
+
+/// A quiet ink that can be read on a ground.
+pub fn ink_on(ground: Rgb) -> Color32 {
+    let [r, g, b] = ground.to_linear();
+    let is_light = 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.18;
+    if is_light {
+        Color32::from_gray(0x50)
+    } else {
+        Color32::from_gray(0xc8)
+    }
+}

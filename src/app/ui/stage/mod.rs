@@ -1,0 +1,5 @@
+//! What lies on the stage: the hand on it, the second method beside it, the verdict.
+
+pub mod area;
+pub mod twin;
+pub mod verdict;

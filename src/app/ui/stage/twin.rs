@@ -1,0 +1,129 @@
+//! Two methods side by side: the stage on the left, a second method on the right.
+
+use bevy_egui::egui::{
+    Align2, Area, ComboBox, Frame, Margin, Order, Rect, RichText, Stroke, Ui, pos2, vec2,
+};
+
+use crate::app::asking::choices::TwinMethod;
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, Palette};
+use crate::app::ui::panels::method;
+use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::stage::area;
+use crate::app::ui::stage::area::ink_on;
+use crate::app::ui::stage::verdict;
+use crate::app::ui::stage::verdict::first_upper;
+
+/// Room for the name of a method.
+const NAME_WIDTH: f32 = 168.0;
+
+/// Draws what lies above both; returns the part that the stage takes.
+pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Rect {
+    let half = vec2((stage.width() / 2.0).floor(), stage.height());
+    let left = Rect::from_min_size(stage.min, half);
+    let right = left.translate(vec2(half.x, 0.0));
+    area::show(root, scene, left, "stage", acts);
+    area::show(root, scene, right, "twin", acts);
+    verdict::mark(root, scene, left);
+    let ground = scene
+        .session
+        .project()
+        .map_or_else(Default::default, |project| project.style)
+        .ground;
+    let ink = ink_on(ground);
+    let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
+    root.painter().vline(right.left(), stage.y_range(), line);
+    missing(root, scene, right);
+    first_name(root, scene, left);
+    second_name(root, scene, right, acts);
+    left
+}
+
+/// What the right half says while it is empty.
+fn missing(ui: &Ui, scene: &Scene, rect: Rect) {
+    let twin = &scene.twin;
+    let words = match (twin.transition(), twin.problem()) {
+        (Some(_), _) => return,
+        (None, Some(problem)) => problem.to_owned(),
+        (None, None) if twin.is_busy() => "Building …".to_owned(),
+        (None, None) => return,
+    };
+    let ground = scene
+        .session
+        .project()
+        .map_or_else(Default::default, |project| project.style)
+        .ground;
+    let font = bevy_egui::egui::FontId::proportional(14.0);
+    let width = rect.width() - 4.0 * GRID;
+    let galley = ui.painter().layout(words, font, ink_on(ground), width);
+    let at = Align2::CENTER_CENTER.anchor_size(rect.center(), galley.size());
+    ui.painter().galley(at.min, galley, ink_on(ground));
+}
+
+fn first_name(ui: &Ui, scene: &Scene, rect: Rect) {
+    let Some(transition) = scene.session.transition() else {
+        return;
+    };
+    let name = first_upper(transition.cell().name());
+    card(ui, "first method", rect, |ui| {
+        let weak = Palette::of(ui).weak;
+        ui.add_sized(
+            [NAME_WIDTH, CONTROL_HEIGHT],
+            bevy_egui::egui::Label::new(RichText::new(name).small().color(weak)),
+        )
+        .on_hover_text("The method of the project, as it is chosen on the right of the window.");
+    });
+}
+
+fn second_name(ui: &Ui, scene: &Scene, rect: Rect, acts: &mut Intents) {
+    let Some(project) = scene.session.project() else {
+        return;
+    };
+    let chosen = scene.twin.method_beside(project);
+    card(ui, "second method", rect, |ui| {
+        ComboBox::from_id_salt("second method")
+            .width(NAME_WIDTH)
+            .selected_text(first_upper(chosen.name()))
+            .height(400.0)
+            .show_ui(ui, |ui| {
+                for method in TwinMethod::all() {
+                    let cell = method.cell();
+                    let available = scene.session.available(cell.warp(), cell.content());
+                    let name = first_upper(method.name());
+                    ui.add_enabled_ui(available.is_ok(), |ui| {
+                        let response = ui.selectable_label(chosen == method, name);
+                        if let Err(reason) = &available {
+                            response.on_disabled_hover_text(format!("Not available: {reason}"));
+                        } else if response.on_hover_text(tip(method)).clicked() {
+                            acts.push(Intent::TwinMethod(method));
+                        }
+                    });
+                }
+            })
+            .response
+            .on_hover_text("The method beside the one of the project.");
+    });
+}
+
+fn tip(method: TwinMethod) -> &'static str {
+    match method {
+        TwinMethod::Straight => {
+            "Each point goes straight to its place: what turns shrinks on the way."
+        }
+        TwinMethod::Cell(cell) => method::description(cell.warp(), cell.content()),
+    }
+}
+
+/// A card at the top of a half.
+fn card(ui: &Ui, name: &'static str, rect: Rect, content: impl FnOnce(&mut Ui)) {
+    Area::new(name.into())
+        .order(Order::Middle)
+        .pivot(Align2::CENTER_TOP)
+        .fixed_pos(pos2(rect.center().x, rect.top() + GRID))
+        .show(ui.ctx(), |ui| {
+            Frame::window(ui.style())
+                .corner_radius(CARD_RADIUS)
+                .inner_margin(Margin::symmetric(6, 4))
+                .show(ui, |ui| ui.horizontal(content));
+        });
+}

@@ -1,0 +1,166 @@
+//! The verdict on the transition: a line or two at the lower left of the stage, and where it points to.
+
+use bevy_egui::egui::{
+    self, Align2, Area, Context, Label, Order, Rect, RichText, Sense, Stroke, Ui, pos2, vec2,
+};
+
+use crate::app::asking::intent::Intent;
+use crate::app::looking::measuring::{Measures, is_a_click};
+use crate::app::ui::kit::icons;
+use crate::app::ui::kit::icons::Icon;
+use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette};
+use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::stage::area::ink_on;
+use crate::measure::Finding;
+
+/// Height of one line.
+const ROW_HEIGHT: f32 = 24.0;
+
+/// How near t must be for the place of a finding to be marked.
+const NEAR_T: f64 = 0.02;
+
+/// Height that the verdict takes at the lower edge of the stage.
+pub fn height(scene: &Scene) -> f32 {
+    scene.measured.measures().map_or(0.0, |measures| {
+        let verdict = &measures.verdict;
+        let lines = verdict.findings.len().max(1) + verdict.notes.len();
+        3.0 * GRID + ROW_HEIGHT * lines as f32
+    })
+}
+
+/// Draws the lines.
+pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
+    let Some(measures) = scene.measured.measures() else {
+        return;
+    };
+    Area::new("verdict".into())
+        .order(Order::Middle)
+        .pivot(Align2::LEFT_BOTTOM)
+        .fixed_pos(stage.left_bottom() + vec2(GRID, -GRID))
+        .show(ctx, |ui| {
+            ui.set_max_width(stage.width() - 2.0 * GRID);
+            egui::Frame::window(ui.style())
+                .corner_radius(CARD_RADIUS)
+                .inner_margin(egui::Margin::symmetric(8, 4))
+                .show(ui, |ui| lines(ui, scene, measures, acts));
+        });
+}
+
+/// One line, or one for each kind of trouble, and one for each note.
+fn lines(ui: &mut Ui, scene: &Scene, measures: &Measures, acts: &mut Intents) {
+    let verdict = &measures.verdict;
+    ui.spacing_mut().item_spacing.y = 0.0;
+    if verdict.is_clear() {
+        row(ui, true, |ui| {
+            let tip = format!(
+                "Looked at {} moments from the source to the target.",
+                verdict.steps
+            );
+            let text = RichText::new(first_upper(verdict.clear)).small();
+            ui.label(text).on_hover_text(tip);
+        });
+    }
+    for (index, finding) in verdict.findings.iter().enumerate() {
+        row(ui, false, |ui| {
+            headline(ui, scene, finding, acts);
+            advice(ui, index, finding, acts);
+        });
+    }
+    for note in &verdict.notes {
+        row(ui, false, |ui| {
+            let note = first_upper(&note.to_string());
+            let text = Label::new(RichText::new(&note).small()).truncate();
+            ui.add(text).on_hover_text(note);
+        });
+    }
+}
+
+fn row(ui: &mut Ui, is_clear: bool, content: impl FnOnce(&mut Ui)) {
+    let palette = Palette::of(ui);
+    let (icon, colour) = if is_clear {
+        (Icon::Tick, palette.good)
+    } else {
+        (Icon::Warning, palette.amber)
+    };
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        ui.set_min_height(ROW_HEIGHT);
+        let (rect, _) = ui.allocate_exact_size(vec2(16.0, 20.0), Sense::hover());
+        icons::paint(ui.painter(), icon, rect, colour);
+        content(ui);
+    });
+}
+
+/// What is seen; a click goes there.
+fn headline(ui: &mut Ui, scene: &Scene, finding: &Finding, acts: &mut Intents) {
+    let text = RichText::new(first_upper(&finding.headline()))
+        .small()
+        .color(Palette::of(ui).amber);
+    let response = ui.add(Label::new(text).sense(Sense::click()));
+    if response.hovered() {
+        ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
+    }
+    if response.clicked() {
+        acts.push(Intent::Seek(finding.t));
+    }
+    let go = if (scene.playback.t() - finding.t).abs() <= NEAR_T {
+        "The place is marked on the stage."
+    } else {
+        "Click to go there."
+    };
+    let tip = format!(
+        "Why: {}.\nWhat helps: {}.\n{go}",
+        finding.cause, finding.remedy
+    );
+    response.on_hover_text(tip);
+}
+
+/// A button for what helps, where a click can do it.
+fn advice(ui: &mut Ui, index: usize, finding: &Finding, acts: &mut Intents) {
+    if !is_a_click(&finding.remedy) {
+        return;
+    }
+    let tip = format!(
+        "{}. Can be undone.",
+        first_upper(&finding.remedy.to_string())
+    );
+    if ui.small_button("Fix").on_hover_text(tip).clicked() {
+        acts.push(Intent::TakeAdvice(index));
+    }
+}
+
+/// A sentence from words that stand within one.
+pub fn first_upper(text: &str) -> String {
+    let mut chars = text.chars();
+    chars
+        .next()
+        .map(|first| first.to_uppercase().chain(chars).collect())
+        .unwrap_or_default()
+}
+
+/// Marks the place of each finding on the stage while t is there.
+pub fn mark(ui: &Ui, scene: &Scene, stage: Rect) {
+    let Some(measures) = scene.measured.measures() else {
+        return;
+    };
+    let ground = scene.session.project().map(|p| p.style.ground);
+    let Some(ground) = ground else {
+        return;
+    };
+    let is_light = ink_on(ground).r() < 0x80;
+    let colour = Palette::on(is_light).amber;
+    let painter = ui.painter().with_clip_rect(stage);
+    for finding in &measures.verdict.findings {
+        if (scene.playback.t() - finding.t).abs() > NEAR_T {
+            continue;
+        }
+        let px = scene.view.px_from_world(finding.place);
+        let at = stage.min + vec2(px.x, px.y);
+        painter.circle_stroke(at, 16.0, Stroke::new(2.0, colour));
+        for (dx, dy) in [(-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0)] {
+            let ray = vec2(dx, dy);
+            let ends = [at + 16.0 * ray, at + 22.0 * ray];
+            painter.line_segment(ends.map(|p| pos2(p.x, p.y)), Stroke::new(2.0, colour));
+        }
+    }
+}

@@ -1,0 +1,6 @@
+//! The strips at the bottom: transport, track and plots.
+
+pub mod plots;
+pub mod strip;
+pub mod track;
+pub mod transport;

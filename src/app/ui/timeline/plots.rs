@@ -1,0 +1,242 @@
+//! The measures against t, side by side, with a line where t is; a click goes to a t.
+
+use bevy_egui::egui::{
+    self, Color32, Margin, Panel, PointerButton, RichText, ScrollArea, Ui, vec2,
+};
+use egui_plot::{AxisHints, HLine, Line, LineStyle, Plot, PlotPoints, VLine};
+
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::theme::{GRID, Palette};
+use crate::app::ui::scene::{Intents, Scene};
+use crate::measure::{FilmReport, Quantity};
+use crate::names::Choice;
+
+const HEIGHT: f32 = 168.0;
+
+/// The least width of one plot.
+const LEAST_WIDTH: f32 = 208.0;
+
+/// Draws the panel.
+pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let frame = egui::Frame::new()
+        .fill(Palette::of(root).panel)
+        .inner_margin(Margin {
+            left: 16,
+            right: 16,
+            top: 8,
+            bottom: 4,
+        });
+    Panel::bottom("plots")
+        .exact_size(HEIGHT)
+        .resizable(false)
+        .frame(frame)
+        .show(root, |ui| match scene.measured.measures() {
+            Some(measures) => row(ui, scene, &measures.film, acts),
+            None => waiting(ui, scene),
+        });
+}
+
+fn waiting(ui: &mut Ui, scene: &Scene) {
+    let words = if scene.session.transition().is_some() {
+        "Measuring …"
+    } else {
+        "Nothing to measure yet."
+    };
+    let weak = Palette::of(ui).weak;
+    ui.centered_and_justified(|ui| ui.label(RichText::new(words).small().color(weak)));
+}
+
+fn row(ui: &mut Ui, scene: &Scene, film: &FilmReport, acts: &mut Intents) {
+    let shown: Vec<(Quantity, Vec<[f64; 2]>)> = Quantity::ALL
+        .into_iter()
+        .map(|quantity| (quantity, film.series(quantity)))
+        .filter(|(_, series)| !series.is_empty())
+        .collect();
+    let gap = 2.0 * GRID;
+    // As many as fit whole; the others are scrolled to.
+    let width = ui.available_width();
+    let fit = ((width + gap) / (LEAST_WIDTH + gap)).floor().max(1.0);
+    let count = fit.min(shown.len().max(1) as f32);
+    let each = (width + gap) / count - gap;
+    ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+        ui.horizontal_top(|ui| {
+            ui.spacing_mut().item_spacing.x = gap;
+            for (quantity, series) in &shown {
+                ui.allocate_ui(vec2(each, HEIGHT - 24.0), |ui| {
+                    ui.vertical(|ui| one(ui, scene, *quantity, series, acts));
+                });
+            }
+        });
+    });
+}
+
+fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts: &mut Intents) {
+    let palette = Palette::of(ui);
+    let t = scene.playback.t();
+    ui.spacing_mut().item_spacing.y = 2.0;
+    heading(ui, quantity, series, t);
+    let plot = Plot::new(("plot", quantity.name().title))
+        .height(ui.available_height().min(HEIGHT - 52.0))
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(false)
+        .show_x(false)
+        .show_y(false)
+        .show_background(false)
+        .grid_color(palette.weak)
+        .include_x(0.0)
+        .include_x(1.0)
+        .set_margin_fraction(vec2(0.02, 0.08))
+        .label_formatter(|_| None)
+        .custom_x_axes(vec![AxisHints::new_x().tick_label_color(palette.weak)])
+        .custom_y_axes(vec![value_axis(quantity, palette.weak)]);
+    let on_axis = |value: f64| drawn(quantity, value);
+    let plot = least(quantity)
+        .into_iter()
+        .map(on_axis)
+        .fold(plot, Plot::include_y);
+    let response = plot.show(ui, |plot| {
+        if quantity == Quantity::MinDet {
+            plot.hline(level(0.0, palette.problem));
+        }
+        let drawn: Vec<[f64; 2]> = series.iter().map(|[t, v]| [*t, on_axis(*v)]).collect();
+        for run in runs(&drawn) {
+            plot.line(
+                Line::new(quantity.name().title, PlotPoints::from(run))
+                    .color(palette.accent)
+                    .width(1.75)
+                    .allow_hover(false),
+            );
+        }
+        plot.vline(
+            VLine::new("t", t)
+                .color(palette.text)
+                .width(1.0)
+                .allow_hover(false),
+        );
+        plot.pointer_coordinate()
+    });
+    let is_held = response.response.is_pointer_button_down_on()
+        || response.response.dragged_by(PointerButton::Primary);
+    if let Some(pointer) = response.inner.filter(|_| is_held) {
+        acts.push(Intent::Seek(pointer.x.clamp(0.0, 1.0)));
+    }
+    response
+        .response
+        .on_hover_text(format!("{} Click to go to a t.", quantity.name().sentence));
+}
+
+/// Ratios run over many powers of ten where something is born from a point.
+fn is_ratio(quantity: Quantity) -> bool {
+    matches!(
+        quantity,
+        Quantity::WorstConformal | Quantity::WorstIsometric
+    )
+}
+
+/// A value on its axis, which for ratios is logarithmic.
+fn drawn(quantity: Quantity, value: f64) -> f64 {
+    if is_ratio(quantity) {
+        value.log10()
+    } else {
+        value
+    }
+}
+
+fn value_axis(quantity: Quantity, colour: Color32) -> AxisHints<'static> {
+    AxisHints::new_y()
+        .tick_label_color(colour)
+        .min_thickness(36.0)
+        .formatter(move |mark, _| {
+            let value = mark.value;
+            short(if is_ratio(quantity) {
+                10.0_f64.powf(value)
+            } else {
+                value
+            })
+        })
+}
+
+fn level(y: f64, colour: Color32) -> HLine {
+    HLine::new("zero", y)
+        .color(colour)
+        .width(1.0)
+        .style(LineStyle::dashed_loose())
+        .allow_hover(false)
+}
+
+/// The name, and the value where t is.
+fn heading(ui: &mut Ui, quantity: Quantity, series: &[[f64; 2]], t: f64) {
+    let palette = Palette::of(ui);
+    let nearest = series
+        .iter()
+        .min_by(|a, b| (a[0] - t).abs().total_cmp(&(b[0] - t).abs()));
+    ui.horizontal(|ui| {
+        ui.label(
+            RichText::new(quantity.name().title)
+                .small()
+                .color(palette.weak),
+        );
+        if let Some([_, value]) = nearest.filter(|_| (0.0..=1.0).contains(&t)) {
+            ui.label(RichText::new(short(*value)).small().color(palette.text));
+        }
+    });
+}
+
+/// Stretches without a gap: what is infinite cannot be drawn.
+fn runs(series: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
+    series
+        .split(|[_, value]| !value.is_finite())
+        .filter(|run| !run.is_empty())
+        .map(<[[f64; 2]]>::to_vec)
+        .collect()
+}
+
+/// What the axis always shows: counts start at 0 and reach 1, distortions start at 1.
+fn least(quantity: Quantity) -> Vec<f64> {
+    match quantity {
+        Quantity::Area | Quantity::Perimeter => vec![0.0],
+        Quantity::WorstConformal | Quantity::WorstIsometric => vec![1.0, 2.0],
+        Quantity::MinDet => vec![0.0, 1.0],
+        Quantity::Folds | Quantity::Crossings | Quantity::Pieces | Quantity::Holes => {
+            vec![0.0, 1.0]
+        }
+    }
+}
+
+fn short(value: f64) -> String {
+    match value.abs() {
+        v if !v.is_finite() => "folded".to_owned(),
+        v if v.fract() == 0.0 && v < 1e6 => format!("{value:.0}"),
+        v if (0.01..1e4).contains(&v) => {
+            let decimals = if v >= 100.0 { 0 } else { 2 };
+            format!("{value:.decimals$}")
+        }
+        _ => format!("{value:.1e}"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_infinite_is_a_gap() {
+        let series = [[0.0, 1.0], [0.25, f64::INFINITY], [0.5, 2.0], [0.75, 3.0]];
+        assert_eq!(
+            runs(&series),
+            [vec![[0.0, 1.0]], vec![[0.5, 2.0], [0.75, 3.0]]]
+        );
+    }
+
+    #[test]
+    fn numbers_are_short() {
+        assert_eq!(short(3.0), "3");
+        assert_eq!(short(1.2345), "1.23");
+        assert_eq!(short(123.4), "123");
+        assert_eq!(short(0.000_12), "1.2e-4");
+        assert_eq!(short(f64::INFINITY), "folded");
+    }
+}

@@ -1,0 +1,259 @@
+//! The track: t from left to right, with its stops, and the land beyond 0 and 1.
+
+use bevy_egui::egui::{
+    self, Align2, Color32, DragValue, FontId, Id, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke,
+    TextStyle, Ui, pos2, vec2,
+};
+
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::theme::{GRID, Palette};
+use crate::app::ui::scene::{Intents, Scene};
+use crate::project::Project;
+use crate::transition::{Stop, Style};
+
+/// How far the track reaches beyond 0 and 1 when nothing asks for more.
+const BEYOND: f64 = 0.25;
+
+/// Scrubbing snaps to ends and stops within so many points.
+const SNAP: f32 = 5.0;
+
+const BAR_HEIGHT: f32 = 6.0;
+
+/// From t to the screen and back.
+#[derive(Clone, Copy)]
+struct Ruler {
+    left: f32,
+    width: f32,
+    y: f32,
+    from: f64,
+    to: f64,
+}
+
+impl Ruler {
+    fn new(rect: Rect, scene: &Scene, stops: &[Stop]) -> Self {
+        let timing = scene.session.timing();
+        let places = stops
+            .iter()
+            .map(|stop| stop.t)
+            .chain([timing.from, timing.to]);
+        let places = places.chain([scene.playback.t()]);
+        let (mut from, mut to) = (-BEYOND, 1.0 + BEYOND);
+        for t in places {
+            from = from.min(t);
+            to = to.max(t);
+        }
+        let line = rect.shrink2(vec2(GRID, 0.0));
+        Self {
+            left: line.left(),
+            width: line.width(),
+            y: rect.top() + 34.0,
+            from,
+            to,
+        }
+    }
+
+    fn x(&self, t: f64) -> f32 {
+        self.left + ((t - self.from) / (self.to - self.from)) as f32 * self.width
+    }
+
+    fn t(&self, x: f32) -> f64 {
+        self.from + f64::from((x - self.left) / self.width) * (self.to - self.from)
+    }
+}
+
+/// Draws the track and takes the user's hand.
+pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
+    let size = vec2(ui.available_width(), ui.available_height());
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
+    let ruler = Ruler::new(rect, scene, &draft.stops);
+    scrub(&response, ruler, &draft.stops, acts);
+    beyond(ui, ruler);
+    bar(ui, ruler, &draft.style);
+    ticks(ui, ruler);
+    stops(ui, ruler, &mut draft.stops, acts);
+    playhead(ui, ruler, scene.playback.t());
+}
+
+fn scrub(response: &Response, ruler: Ruler, stops: &[Stop], acts: &mut Intents) {
+    let is_held = response.dragged() || response.is_pointer_button_down_on();
+    let Some(pointer) = response.interact_pointer_pos().filter(|_| is_held) else {
+        return;
+    };
+    let places = stops.iter().map(|stop| stop.t).chain([0.0, 1.0]);
+    let near = places
+        .map(|t| (t, (ruler.x(t) - pointer.x).abs()))
+        .filter(|(_, d)| *d < SNAP);
+    let snapped = near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(t, _)| t);
+    acts.push(Intent::Seek(
+        snapped.unwrap_or_else(|| rounded(ruler.t(pointer.x))),
+    ));
+}
+
+/// To a thousandth, the finest that is shown.
+fn rounded(t: f64) -> f64 {
+    (t * 1000.0).round() / 1000.0
+}
+
+fn font(ui: &Ui) -> FontId {
+    FontId {
+        size: 11.5,
+        ..TextStyle::Small.resolve(ui.style())
+    }
+}
+
+fn beyond(ui: &Ui, ruler: Ruler) {
+    let palette = Palette::of(ui);
+    for (from, to) in [(ruler.from, 0.0), (1.0, ruler.to)] {
+        let (a, b) = (pos2(ruler.x(from), ruler.y), pos2(ruler.x(to), ruler.y));
+        let dashes = Shape::dashed_line(
+            &[a, b],
+            Stroke::new(2.0, palette.amber.gamma_multiply(0.6)),
+            4.0,
+            4.0,
+        );
+        ui.painter().extend(dashes);
+        let middle = a.lerp(b, 0.5) + vec2(0.0, 18.0);
+        ui.painter().text(
+            middle,
+            Align2::CENTER_CENTER,
+            "extrapolation",
+            font(ui),
+            palette.amber,
+        );
+    }
+}
+
+fn bar(ui: &Ui, ruler: Ruler, style: &Style) {
+    const STEPS: u32 = 32;
+    let mut mesh = Mesh::default();
+    for i in 0..=STEPS {
+        let t = f64::from(i) / f64::from(STEPS);
+        let [r, g, b] = style.fill_at(t).0;
+        let colour = Color32::from_rgb(r, g, b);
+        let x = ruler.x(t);
+        mesh.colored_vertex(pos2(x, ruler.y - BAR_HEIGHT / 2.0), colour);
+        mesh.colored_vertex(pos2(x, ruler.y + BAR_HEIGHT / 2.0), colour);
+        if i > 0 {
+            let k = 2 * i;
+            mesh.add_triangle(k - 2, k - 1, k);
+            mesh.add_triangle(k - 1, k, k + 1);
+        }
+    }
+    ui.painter().add(Shape::mesh(mesh));
+}
+
+fn ticks(ui: &Ui, ruler: Ruler) {
+    let palette = Palette::of(ui);
+    for tenth in 0..=10u8 {
+        let x = ruler.x(f64::from(tenth) / 10.0);
+        let is_end = tenth % 10 == 0;
+        let length = if tenth % 5 == 0 { 6.0 } else { 4.0 };
+        let top = ruler.y + BAR_HEIGHT / 2.0 + 3.0;
+        ui.painter()
+            .vline(x, top..=top + length, Stroke::new(1.0, palette.weak));
+        let label = match tenth {
+            0 => "0 source".to_owned(),
+            10 => "1 target".to_owned(),
+            n => format!("0.{n}"),
+        };
+        let colour = if is_end { palette.text } else { palette.weak };
+        let at = pos2(x, ruler.y + 20.0);
+        ui.painter()
+            .text(at, Align2::CENTER_CENTER, label, font(ui), colour);
+    }
+}
+
+fn playhead(ui: &Ui, ruler: Ruler, t: f64) {
+    let palette = Palette::of(ui);
+    let x = ruler.x(t);
+    let colour = if (0.0..=1.0).contains(&t) {
+        palette.text
+    } else {
+        palette.amber
+    };
+    ui.painter()
+        .vline(x, ruler.y - 12.0..=ruler.y + 12.0, Stroke::new(2.0, colour));
+    ui.painter().circle(
+        pos2(x, ruler.y),
+        6.0,
+        palette.panel,
+        Stroke::new(2.0, colour),
+    );
+}
+
+fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
+    let mut deleted = None;
+    for (index, stop) in stops.iter_mut().enumerate() {
+        let at = pos2(ruler.x(stop.t), ruler.y - 14.0);
+        let id = ui.id().with(("stop", index));
+        let response = marker(ui, at, id, &stop.name);
+        if response.clicked() {
+            acts.push(Intent::Seek(stop.t));
+        }
+        if let Some(pointer) = response
+            .interact_pointer_pos()
+            .filter(|_| response.dragged())
+        {
+            stop.t = rounded(ruler.t(pointer.x));
+        }
+        let tip = format!(
+            "{} at t = {:.3}. Click to go there, drag to move, right-click to rename or delete.",
+            stop.name, stop.t
+        );
+        let response = response.on_hover_text(tip);
+        response.context_menu(|ui| {
+            if stop_menu(ui, stop) {
+                deleted = Some(index);
+            }
+        });
+    }
+    if let Some(index) = deleted {
+        stops.remove(index);
+    }
+}
+
+fn marker(ui: &Ui, at: Pos2, id: Id, name: &str) -> Response {
+    let palette = Palette::of(ui);
+    let rect = Rect::from_center_size(at, vec2(16.0, 16.0));
+    let response = ui.interact(rect, id, Sense::click_and_drag());
+    let colour = if response.hovered() || response.dragged() {
+        palette.accent
+    } else {
+        palette.text
+    };
+    let diamond = [
+        vec2(0.0, -5.0),
+        vec2(5.0, 0.0),
+        vec2(0.0, 5.0),
+        vec2(-5.0, 0.0),
+    ];
+    let points = diamond.iter().map(|corner| at + *corner).collect();
+    ui.painter()
+        .add(Shape::convex_polygon(points, colour, Stroke::NONE));
+    let text_at = at - vec2(0.0, 12.0);
+    ui.painter()
+        .text(text_at, Align2::CENTER_CENTER, name, font(ui), colour);
+    response
+}
+
+/// Whether the stop is to be deleted.
+fn stop_menu(ui: &mut Ui, stop: &mut Stop) -> bool {
+    ui.set_width(184.0);
+    ui.add(
+        egui::TextEdit::singleline(&mut stop.name)
+            .hint_text("Name")
+            .desired_width(f32::INFINITY),
+    )
+    .on_hover_text("Name of the stop");
+    ui.horizontal(|ui| {
+        ui.label("t");
+        let number = DragValue::new(&mut stop.t).speed(0.002).max_decimals(6);
+        ui.add(number)
+            .on_hover_text("Where the stop is; outside 0 to 1 it extrapolates.");
+    });
+    let is_deleted = ui.button("Delete stop").clicked();
+    if is_deleted {
+        ui.close();
+    }
+    is_deleted
+}

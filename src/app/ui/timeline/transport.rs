@@ -1,0 +1,211 @@
+//! Buttons and numbers of the timeline: play, where t is, and how a pass runs.
+
+use bevy_egui::egui::{self, DragValue, Response, RichText, Ui, vec2};
+
+use crate::app::asking::intent::Intent;
+use crate::app::playing::playback::SPEEDS;
+use crate::app::ui::kit::icons;
+use crate::app::ui::kit::icons::Icon;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
+use crate::app::ui::kit::widgets::{choice, from_right, icon_button};
+use crate::app::ui::scene::{Intents, Scene};
+use crate::transition::{Easing, PlayMode, Timing};
+
+const ROW_HEIGHT: f32 = 36.0;
+
+/// The longest pass and hold that the window offers, in seconds.
+const LONGEST_SECS: f64 = 600.0;
+
+/// Draws the row above the track.
+pub fn show(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
+    ui.allocate_ui(vec2(ui.available_width(), ROW_HEIGHT), |ui| {
+        ui.horizontal_centered(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            buttons(ui, scene, acts);
+            ui.add_space(GRID);
+            place(ui, scene, acts);
+            from_right(ui, |ui| pass(ui, scene, timing, acts));
+        });
+    });
+}
+
+fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let mut button = |ui: &mut Ui, icon: Icon, tip: &str, intent: Intent| {
+        if icon_button(ui, icon, tip).clicked() {
+            acts.push(intent);
+        }
+    };
+    button(
+        ui,
+        Icon::ToStart,
+        "Start of the pass (Home)",
+        Intent::SeekStart,
+    );
+    let back = "Play back to the stop before and wait (Page Up)";
+    button(ui, Icon::PreviousStop, back, Intent::PlayToPreviousStop);
+    if play_button(ui, scene).clicked() {
+        acts.push(Intent::TogglePlay);
+    }
+    let mut button = |ui: &mut Ui, icon: Icon, tip: &str, intent: Intent| {
+        if icon_button(ui, icon, tip).clicked() {
+            acts.push(intent);
+        }
+    };
+    let next = "Play to the next stop and wait (Page Down)";
+    button(ui, Icon::NextStop, next, Intent::PlayToNextStop);
+    button(ui, Icon::ToEnd, "End of the pass (End)", Intent::SeekEnd);
+    button(ui, Icon::AddStop, "Set a stop here (M)", Intent::AddStop);
+}
+
+fn play_button(ui: &mut Ui, scene: &Scene) -> Response {
+    let palette = Palette::of(ui);
+    let (rect, response) = ui.allocate_exact_size(vec2(36.0, 36.0), egui::Sense::click());
+    let icon = match (scene.playback.is_playing(), scene.playback.is_backwards()) {
+        (true, _) => Icon::Pause,
+        (false, false) => Icon::Play,
+        (false, true) => Icon::PlayBackwards,
+    };
+    let fill = if response.hovered() {
+        palette.accent
+    } else {
+        palette.accent_ground
+    };
+    let ink = if response.hovered() {
+        palette.panel
+    } else {
+        palette.text
+    };
+    ui.painter().circle_filled(rect.center(), 17.0, fill);
+    icons::paint(ui.painter(), icon, rect, ink);
+    response.on_hover_text("Play or pause (Space); play the other way (R)")
+}
+
+fn place(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let palette = Palette::of(ui);
+    ui.label(RichText::new("t").color(palette.weak));
+    let mut t = scene.playback.t();
+    let number = DragValue::new(&mut t)
+        .speed(0.002)
+        .fixed_decimals(3)
+        .update_while_editing(false);
+    let response = ui.add_sized([72.0, CONTROL_HEIGHT], number).on_hover_text(
+        "Where the transition is: 0 is the source, 1 the target. Click to type, drag to move; \
+         values below 0 and above 1 extrapolate.",
+    );
+    if response.changed() {
+        acts.push(Intent::Seek(t));
+    }
+    let beyond = match scene.playback.t() {
+        t if t < 0.0 => "extrapolated before the source",
+        t if t > 1.0 => "extrapolated beyond the target",
+        _ => return,
+    };
+    ui.label(RichText::new(beyond).small().color(palette.amber));
+}
+
+/// From right to left.
+fn pass(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
+    ui.spacing_mut().item_spacing.x = 4.0;
+    speed(ui, scene, acts);
+    caption(ui, "Speed");
+    seconds(
+        ui,
+        &mut timing.hold_secs,
+        0.0,
+        "Waits so long at either end of a pass.",
+    );
+    caption(ui, "Hold");
+    seconds(
+        ui,
+        &mut timing.duration_secs,
+        0.1,
+        "How long one pass takes, without the holds.",
+    );
+    caption(ui, "Lasts");
+    easing(ui, &mut timing.easing);
+    ui.add_space(GRID);
+    for (mode, name, tip) in [
+        (
+            PlayMode::PingPong,
+            "Ping-pong",
+            "There and back, again and again (L)",
+        ),
+        (PlayMode::Loop, "Loop", "Starts again at the end (L)"),
+        (PlayMode::Once, "Once", "Stops at the end (L)"),
+    ] {
+        let width = if mode == PlayMode::PingPong {
+            72.0
+        } else {
+            48.0
+        };
+        let response = choice(ui, timing.play == mode, name, vec2(width, CONTROL_HEIGHT));
+        if response.on_hover_text(tip).clicked() {
+            timing.play = mode;
+        }
+    }
+}
+
+fn caption(ui: &mut Ui, text: &str) {
+    let weak = Palette::of(ui).weak;
+    ui.label(RichText::new(text).small().color(weak));
+    ui.add_space(4.0);
+}
+
+fn seconds(ui: &mut Ui, value: &mut f64, least: f64, tip: &str) {
+    let number = DragValue::new(value)
+        .speed(0.02)
+        .range(least..=LONGEST_SECS)
+        .max_decimals(2)
+        .suffix(" s")
+        .update_while_editing(false);
+    ui.add_sized([60.0, CONTROL_HEIGHT], number)
+        .on_hover_text(tip);
+}
+
+fn easing(ui: &mut Ui, easing: &mut Easing) {
+    let options = [
+        (Easing::Linear, "Even", "The same speed all along"),
+        (
+            Easing::Smooth,
+            "Smooth",
+            "Sets off and arrives gently at each stop",
+        ),
+        (Easing::EaseIn, "Ease in", "Sets off gently at each stop"),
+        (Easing::EaseOut, "Ease out", "Arrives gently at each stop"),
+    ];
+    let current = options
+        .iter()
+        .find(|(option, ..)| option == easing)
+        .map_or("", |(_, name, _)| name);
+    let list = egui::ComboBox::from_id_salt("easing")
+        .width(88.0)
+        .selected_text(current);
+    let shown = list.show_ui(ui, |ui| {
+        for (option, name, tip) in options {
+            ui.selectable_value(easing, option, name).on_hover_text(tip);
+        }
+    });
+    shown
+        .response
+        .on_hover_text("How t speeds up and slows down from stop to stop.");
+}
+
+fn speed(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let current = scene.playback.speed();
+    let list = egui::ComboBox::from_id_salt("speed")
+        .width(64.0)
+        .selected_text(format!("{current}×"));
+    let shown = list.show_ui(ui, |ui| {
+        for speed in SPEEDS {
+            if ui
+                .selectable_label(speed == current, format!("{speed}×"))
+                .clicked()
+            {
+                acts.push(Intent::Speed(speed));
+            }
+        }
+    });
+    shown.response.on_hover_text(
+        "Speed of playing only ([ and ]); Backspace is 1. Recordings keep the duration.",
+    );
+}

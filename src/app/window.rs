@@ -1,0 +1,159 @@
+//! The window itself: its size, its cameras, and what it adds to the logic.
+
+use std::path::PathBuf;
+
+use bevy::app::{HierarchyPropagatePlugin, PropagateSet};
+use bevy::camera::CameraOutputMode;
+use bevy::camera::visibility::{RenderLayers, VisibilitySystems};
+use bevy::prelude::*;
+use bevy::render::render_resource::BlendState;
+use bevy::window::{ExitCondition, WindowResolution};
+use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
+
+use crate::app::asking::intent::Intent;
+use crate::app::capturing::files::CaptureFolder;
+use crate::app::capturing::pictures;
+use crate::app::logic::LogicPlugin;
+use crate::app::looking::view;
+use crate::app::opening::apply::Gallery;
+use crate::app::opening::{dialogs, thumbnails};
+use crate::app::playing::{pace, staging};
+use crate::app::ui::draw::UiPlugin;
+use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
+
+/// What the command line hands to the window.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct AppOptions {
+    /// A project, or one or two designs; the gallery's first project where there is none.
+    pub files: Vec<PathBuf>,
+    /// The folder for pictures and films, instead of the user's pictures.
+    pub captures: Option<PathBuf>,
+}
+
+/// Opens the window and returns when it was closed.
+pub fn run(options: AppOptions) -> AppExit {
+    let AppOptions { files, captures } = options;
+    App::new()
+        .add_plugins(DefaultPlugins.set(window()))
+        .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
+        .insert_resource(CaptureFolder::choose(captures))
+        .add_systems(
+            Startup,
+            move |mut intents: MessageWriter<Intent>, gallery: Res<Gallery>| {
+                intents.write(first(&files, &gallery));
+            },
+        )
+        .run()
+}
+
+fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
+    let bundled = match files {
+        [] => gallery.0.first().map(|entry| entry.name.clone()),
+        [one] => one
+            .to_str()
+            .and_then(|name| name.strip_prefix("gallery:"))
+            .map(str::to_owned),
+        _ => None,
+    };
+    bundled.map_or_else(|| Intent::Open(files.to_vec()), Intent::OpenGallery)
+}
+
+fn window() -> WindowPlugin {
+    WindowPlugin {
+        primary_window: Some(Window {
+            title: "Morphospace".to_owned(),
+            name: Some("morphospace".to_owned()),
+            resolution: WindowResolution::new(1280, 720),
+            resize_constraints: WindowResizeConstraints {
+                min_width: 960.0,
+                min_height: 540.0,
+                ..default()
+            },
+            ..default()
+        }),
+        exit_condition: ExitCondition::OnPrimaryClosed,
+        close_when_requested: false,
+        ..default()
+    }
+}
+
+/// What the window adds: cameras, panels, dialogs, pictures.
+#[derive(Debug)]
+struct WindowPlugins;
+
+impl Plugin for WindowPlugins {
+    fn build(&self, app: &mut App) {
+        app.add_plugins(UiPlugin)
+            .init_resource::<pictures::Captures>()
+            .init_resource::<dialogs::Dialog>()
+            .init_resource::<thumbnails::Thumbnails>()
+            .add_systems(Startup, spawn_cameras)
+            .add_systems(Last, pace::keep)
+            .add_systems(
+                Update,
+                (
+                    (dialogs::open, dialogs::finish).chain(),
+                    view::window_mode,
+                    (view::fit, view::place_camera).chain(),
+                    thumbnails::advance,
+                )
+                    .after(MorphSystems::Playback)
+                    .before(MorphSystems::Build),
+            )
+            .add_systems(
+                Update,
+                pictures::ask
+                    .after(MorphSystems::Draw)
+                    .before(MorphSystems::Capture),
+            )
+            .add_systems(
+                PostUpdate,
+                view::place_twin.before(TransformSystems::Propagate),
+            )
+            .add_plugins(HierarchyPropagatePlugin::<RenderLayers>::new(PostUpdate))
+            .configure_sets(
+                PostUpdate,
+                PropagateSet::<RenderLayers>::default().before(VisibilitySystems::CheckVisibility),
+            )
+            .add_systems(
+                Update,
+                (pictures::receive, pictures::report).after(MorphSystems::Capture),
+            );
+    }
+}
+
+/// One camera for the stage, in its part of the window, one for the second method beside it, and
+/// one above them for the panels.
+fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
+    egui.auto_create_primary_context = false;
+    commands.spawn(StageCamera);
+    commands.spawn((
+        view::TwinCamera,
+        Camera2d,
+        Msaa::Sample4,
+        staging::TWIN_LAYER,
+        Camera {
+            order: 1,
+            // The first camera has cleared the whole window.
+            clear_color: ClearColorConfig::None,
+            is_active: false,
+            ..default()
+        },
+    ));
+    commands.spawn((
+        PrimaryEguiContext,
+        Camera2d,
+        // As the stage's: the cameras of one window share its depth texture.
+        Msaa::Sample4,
+        RenderLayers::none(),
+        Camera {
+            order: 2,
+            output_mode: CameraOutputMode::Write {
+                blend_state: Some(BlendState::ALPHA_BLENDING),
+                clear_color: ClearColorConfig::None,
+            },
+            clear_color: ClearColorConfig::Custom(Color::NONE),
+            ..default()
+        },
+    ));
+}
