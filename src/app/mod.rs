@@ -33,7 +33,7 @@ pub use asking::acts::{EditorAct, Tool, Touch};
 pub use asking::choices::{CaptureScale, RecordFormat, ThemeChoice, TwinMethod};
 pub use asking::hand::Typing;
 pub use asking::intent::{Answer, Intent};
-pub use asking::keymap::{Binding, Held, KeyMap, Trigger};
+pub use asking::keymap::{Binding, Held, KeyMap, Row, Trigger};
 pub use capturing::files::CaptureFolder;
 pub use editing::editor::{CutEnd, Editor, Grab, Handle};
 pub use editing::sheet::{Fate, Sheet};

@@ -1,14 +1,15 @@
 //! Which key means what.
 //!
-//! One table serves the keys and the list of keys that the window shows, so the list cannot be
-//! out of date. Letters and signs go by what the key prints, digits by where they are, so that
+//! The rows of [`keytable`](super::keytable) serve both the keys and the list of keys that the
+//! window shows: what the list calls a key is made from what recognises it. Letters and signs go by what the key prints, digits by where they are, so that
 //! the number row works on a French keyboard and `[` on a German one. While a text field has the
 //! focus no key means anything here.
+
+use std::fmt;
 
 use bevy::input::keyboard::{Key, KeyCode, KeyboardFocusLost, KeyboardInput};
 use bevy::prelude::{Local, MessageReader, MessageWriter, Res, Resource};
 
-use crate::app::asking::acts::EditorAct;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
 
@@ -25,7 +26,7 @@ pub enum Trigger {
     Digit(u8),
 }
 
-/// One key, what it means, and how the list of keys tells it.
+/// One key and what it means.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Binding {
     /// The key.
@@ -40,12 +41,17 @@ pub struct Binding {
     pub in_editor: bool,
     /// What it means.
     pub intent: Intent,
+}
+
+/// Keys that belong together: a line of the list of keys.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
     /// The heading that it is listed under.
     pub group: &'static str,
-    /// The key as the list shows it; empty where the line before stands for this one too.
-    pub keys: &'static str,
-    /// What it does, for the list.
+    /// What the keys do.
     pub help: &'static str,
+    /// The keys.
+    pub bindings: Vec<Binding>,
 }
 
 /// Keys that are held besides the one that was pressed.
@@ -77,12 +83,18 @@ impl Held {
 
 /// The key map in use.
 #[derive(Resource, Clone, Debug, PartialEq)]
-pub struct KeyMap(Vec<Binding>);
+pub struct KeyMap(Vec<Row>);
 
 impl KeyMap {
-    /// All bindings, in the order of the list.
+    /// A key map of these rows.
     #[must_use]
-    pub fn bindings(&self) -> &[Binding] {
+    pub const fn new(rows: Vec<Row>) -> Self {
+        Self(rows)
+    }
+
+    /// All rows, in the order of the list.
+    #[must_use]
+    pub fn rows(&self) -> &[Row] {
         &self.0
     }
 
@@ -93,26 +105,82 @@ impl KeyMap {
         if !input.state.is_pressed() {
             return None;
         }
-        let matching =
-            |binding: &&Binding| (binding.repeats || !input.repeat) && binding.matches(input, held);
-        let is_digit = |binding: &&Binding| matches!(binding.trigger, Trigger::Digit(_));
-        let of_editor = self
-            .0
+        let rank = |binding: &Binding| match (binding.in_editor, &binding.trigger) {
+            (true, _) => 0,
+            (false, Trigger::Named(_) | Trigger::Letter(_) | Trigger::Sign(_)) => 1,
+            (false, Trigger::Digit(_)) => 2,
+        };
+        self.0
             .iter()
-            .filter(|binding| binding.in_editor && is_editing);
-        let of_all = self
-            .0
-            .iter()
-            .filter(|binding| !binding.in_editor && !is_digit(binding));
-        of_editor
-            .chain(of_all)
-            .find(matching)
-            .or_else(|| self.0.iter().filter(is_digit).find(matching))
+            .flat_map(|row| &row.bindings)
+            .filter(|binding| is_editing || !binding.in_editor)
+            .filter(|binding| binding.repeats || !input.repeat)
+            .filter(|binding| binding.matches(input, held))
+            .min_by_key(|binding| rank(binding))
             .map(|binding| &binding.intent)
     }
 }
 
+impl Row {
+    /// What the list calls its keys: modifiers that all of them share are said once, and digits
+    /// from the first to the last.
+    #[must_use]
+    pub fn keys(&self) -> String {
+        let labels = |with: fn(&Binding) -> String| -> Vec<String> {
+            self.bindings.iter().map(with).collect()
+        };
+        let (Some(first), Some(last)) = (self.bindings.first(), self.bindings.last()) else {
+            return String::new();
+        };
+        if matches!(first.trigger, Trigger::Digit(_)) {
+            return format!("{} – {}", first.trigger, last.trigger);
+        }
+        let modifiers = first.modifiers();
+        if self.bindings.iter().all(|b| b.modifiers() == modifiers) {
+            modifiers.to_owned() + &labels(|b| b.trigger.to_string()).join("  ")
+        } else {
+            labels(Binding::chord).join("  ")
+        }
+    }
+}
+
+impl fmt::Display for Trigger {
+    /// What is printed on the key.
+    fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let name = match self {
+            Self::Letter(letter) => return write!(out, "{}", letter.to_ascii_uppercase()),
+            Self::Sign(sign) => return write!(out, "{sign}"),
+            Self::Digit(digit) => return write!(out, "{digit}"),
+            Self::Named(Key::ArrowRight) => "Right",
+            Self::Named(Key::ArrowLeft) => "Left",
+            Self::Named(Key::ArrowUp) => "Up",
+            Self::Named(Key::ArrowDown) => "Down",
+            Self::Named(Key::PageUp) => "Page Up",
+            Self::Named(Key::PageDown) => "Page Down",
+            Self::Named(Key::Escape) => "Esc",
+            Self::Named(Key::Delete) => "Del",
+            Self::Named(key) => return write!(out, "{key:?}"),
+        };
+        out.write_str(name)
+    }
+}
+
 impl Binding {
+    /// The key with what is held besides it, as `Ctrl Shift S`.
+    #[must_use]
+    pub fn chord(&self) -> String {
+        format!("{}{}", self.modifiers(), self.trigger)
+    }
+
+    const fn modifiers(&self) -> &'static str {
+        match (self.control, self.shift) {
+            (true, true) => "Ctrl Shift ",
+            (true, false) => "Ctrl ",
+            (false, true) => "Shift ",
+            (false, false) => "",
+        }
+    }
+
     fn matches(&self, input: &KeyboardInput, held: Held) -> bool {
         let modifiers_match = held.shift == self.shift && held.control == self.control && !held.alt;
         match &self.trigger {
@@ -179,277 +247,4 @@ pub fn read_keys(
             intents.write(intent.clone());
         }
     }
-}
-
-impl Default for KeyMap {
-    fn default() -> Self {
-        let mut rows = playing();
-        rows.extend(stops());
-        rows.extend(matching());
-        rows.extend(view());
-        rows.extend(files());
-        Self(rows)
-    }
-}
-
-fn row(trigger: Trigger, intent: Intent, keys: &'static str, help: &'static str) -> Binding {
-    Binding {
-        trigger,
-        shift: false,
-        control: false,
-        repeats: false,
-        in_editor: false,
-        intent,
-        group: "",
-        keys,
-        help,
-    }
-}
-
-impl Binding {
-    fn shift(self) -> Self {
-        Self {
-            shift: true,
-            ..self
-        }
-    }
-
-    fn control(self) -> Self {
-        Self {
-            control: true,
-            ..self
-        }
-    }
-
-    fn editing(self) -> Self {
-        Self {
-            in_editor: true,
-            ..self
-        }
-    }
-
-    fn repeating(self) -> Self {
-        Self {
-            repeats: true,
-            ..self
-        }
-    }
-}
-
-fn grouped(group: &'static str, rows: Vec<Binding>) -> Vec<Binding> {
-    rows.into_iter()
-        .map(|binding| Binding { group, ..binding })
-        .collect()
-}
-
-fn playing() -> Vec<Binding> {
-    use Trigger::{Digit, Letter, Named, Sign};
-    let mut rows = vec![
-        row(
-            Named(Key::Space),
-            Intent::TogglePlay,
-            "Space",
-            "Play or pause",
-        ),
-        row(
-            Named(Key::ArrowRight),
-            Intent::Step(1),
-            "Right  Left",
-            "Step by one hundredth",
-        )
-        .repeating(),
-        row(Named(Key::ArrowLeft), Intent::Step(-1), "", "").repeating(),
-        row(
-            Named(Key::ArrowRight),
-            Intent::Step(10),
-            "Shift Right  Left",
-            "Ten steps",
-        )
-        .shift()
-        .repeating(),
-        row(Named(Key::ArrowLeft), Intent::Step(-10), "", "")
-            .shift()
-            .repeating(),
-        row(
-            Named(Key::Home),
-            Intent::SeekStart,
-            "Home  End",
-            "Start and end of the pass",
-        ),
-        row(Named(Key::End), Intent::SeekEnd, "", ""),
-        row(Sign(']'), Intent::Faster, "[  ]", "Slower and faster").repeating(),
-        row(Sign('['), Intent::Slower, "", "").repeating(),
-        row(
-            Named(Key::Backspace),
-            Intent::NormalSpeed,
-            "Backspace",
-            "Speed 1",
-        ),
-        row(Letter('r'), Intent::Reverse, "R", "Play the other way"),
-        row(
-            Letter('l'),
-            Intent::CyclePlayMode,
-            "L",
-            "Once, loop, ping-pong",
-        ),
-    ];
-    rows.extend((1..=9).map(|n: u8| {
-        let (keys, help) = if n == 1 {
-            ("1 – 9", "Jump to a tenth")
-        } else {
-            ("", "")
-        };
-        row(Digit(n), Intent::Seek(f64::from(n) / 10.0), keys, help)
-    }));
-    grouped("Play", rows)
-}
-
-fn stops() -> Vec<Binding> {
-    use Trigger::{Letter, Named};
-    grouped(
-        "Stops and slides",
-        vec![
-            row(Letter('m'), Intent::AddStop, "M", "Set a stop here"),
-            row(
-                Named(Key::ArrowUp),
-                Intent::JumpToNextStop,
-                "Up  Down",
-                "Jump to the next and previous stop",
-            ),
-            row(Named(Key::ArrowDown), Intent::JumpToPreviousStop, "", ""),
-            row(
-                Named(Key::PageDown),
-                Intent::PlayToNextStop,
-                "Page Down",
-                "Play to the next stop and wait",
-            ),
-            row(
-                Named(Key::PageUp),
-                Intent::PlayToPreviousStop,
-                "Page Up",
-                "Play back to the stop before",
-            ),
-        ],
-    )
-}
-
-fn matching() -> Vec<Binding> {
-    use Trigger::{Letter, Named};
-    let edit = |act: EditorAct| Intent::Editor(act);
-    let remove = || edit(EditorAct::RemoveSelected);
-    grouped(
-        "Match",
-        vec![
-            row(
-                Letter('e'),
-                edit(EditorAct::Toggle),
-                "E",
-                "Edit the match: which point is which",
-            ),
-            row(
-                Named(Key::Delete),
-                remove(),
-                "Del",
-                "Delete the chosen pin or cut",
-            )
-            .editing(),
-            row(Named(Key::Backspace), remove(), "", "").editing(),
-        ],
-    )
-}
-
-fn view() -> Vec<Binding> {
-    use Trigger::{Letter, Named, Sign};
-    grouped(
-        "View",
-        vec![
-            row(Named(Key::Tab), Intent::NextMethod, "Tab", "Next method"),
-            row(
-                Letter('v'),
-                Intent::ToggleTwin,
-                "V",
-                "A second method beside the stage",
-            ),
-            row(
-                Letter('w'),
-                Intent::ToggleGrid,
-                "W",
-                "A grid that shows the warp",
-            ),
-            row(
-                Letter('p'),
-                Intent::TogglePlots,
-                "P",
-                "Plots of the measures against t",
-            ),
-            row(
-                Letter('z'),
-                Intent::FitView,
-                "Z",
-                "Show the whole transition",
-            ),
-            row(
-                Letter('f'),
-                Intent::ToggleFullscreen,
-                "F  F11",
-                "Whole screen",
-            ),
-            row(Named(Key::F11), Intent::ToggleFullscreen, "", ""),
-            row(
-                Letter('h'),
-                Intent::TogglePanels,
-                "H",
-                "Hide everything but the stage",
-            ),
-            row(Named(Key::Escape), Intent::Back, "Esc", "Back"),
-            row(Sign('?'), Intent::ToggleHelp, "?  F1", "This list"),
-            row(Named(Key::F1), Intent::ToggleHelp, "", ""),
-            row(
-                Named(Key::F3),
-                Intent::ToggleTimes,
-                "F3",
-                "Times of a frame",
-            ),
-        ],
-    )
-}
-
-fn files() -> Vec<Binding> {
-    use Trigger::Letter;
-    let with_panels = Intent::Screenshot { with_panels: true };
-    let stage_alone = Intent::Screenshot { with_panels: false };
-    grouped(
-        "Files and pictures",
-        vec![
-            row(Letter('o'), Intent::AskOpen, "Ctrl O", "Open").control(),
-            row(Letter('s'), Intent::Save, "Ctrl S", "Save").control(),
-            row(Letter('s'), Intent::SaveAs, "Ctrl Shift S", "Save as")
-                .control()
-                .shift(),
-            row(Letter('s'), stage_alone, "S", "Picture of the stage"),
-            row(
-                Letter('s'),
-                with_panels,
-                "Shift S",
-                "Picture with the panels",
-            )
-            .shift(),
-            row(Letter('g'), Intent::Record, "G", "Record one pass"),
-            row(
-                Letter('c'),
-                Intent::Compare,
-                "C",
-                "Sheet of all methods, side by side",
-            ),
-            row(
-                Letter('z'),
-                Intent::Undo,
-                "Ctrl Z  Ctrl Y",
-                "Undo, redo (or Ctrl Shift Z)",
-            )
-            .control(),
-            row(Letter('z'), Intent::Redo, "", "").control().shift(),
-            row(Letter('y'), Intent::Redo, "", "").control(),
-        ],
-    )
 }

@@ -5,3 +5,4 @@ pub mod choices;
 pub mod hand;
 pub mod intent;
 pub mod keymap;
+mod keytable;

@@ -3,13 +3,13 @@
 use bevy_egui::egui::{self, Align2, Context, Id, Modal, RichText, Stroke, StrokeKind, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
-use crate::app::asking::keymap::Binding;
+use crate::app::asking::keymap::Row;
 use crate::app::ui::kit::theme::{GRID, Palette, RADIUS};
 use crate::app::ui::kit::widgets::from_right;
 use crate::app::ui::scene::{Intents, Scene};
 
-const KEYS_WIDTH: f32 = 120.0;
-const COLUMN_WIDTH: f32 = 376.0;
+const KEYS_WIDTH: f32 = 136.0;
+const COLUMN_WIDTH: f32 = 392.0;
 
 /// Height of a line: all of them fit into the smallest window.
 const ROW_HEIGHT: f32 = 20.0;
@@ -27,14 +27,14 @@ pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
             });
         });
         ui.add_space(GRID);
-        let groups = groups(scene.keys.bindings());
+        let groups = groups(scene.keys.rows());
         let half = groups.len().div_ceil(2);
         ui.horizontal_top(|ui| {
             for column in groups.chunks(half.max(1)) {
                 ui.vertical(|ui| {
                     ui.set_width(COLUMN_WIDTH);
-                    for (name, rows) in column {
-                        group(ui, name, rows);
+                    for rows in column {
+                        group(ui, rows);
                     }
                 });
             }
@@ -50,28 +50,22 @@ pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
     }
 }
 
-fn groups(bindings: &[Binding]) -> Vec<(&'static str, Vec<&Binding>)> {
-    let mut groups: Vec<(&'static str, Vec<&Binding>)> = Vec::new();
-    for binding in bindings.iter().filter(|binding| !binding.keys.is_empty()) {
-        match groups.last_mut().filter(|(name, _)| *name == binding.group) {
-            Some((_, rows)) => rows.push(binding),
-            None => groups.push((binding.group, vec![binding])),
-        }
-    }
-    groups
+fn groups(rows: &[Row]) -> Vec<&[Row]> {
+    rows.chunk_by(|a, b| a.group == b.group).collect()
 }
 
-fn group(ui: &mut Ui, name: &str, rows: &[&Binding]) {
+fn group(ui: &mut Ui, rows: &[Row]) {
     let palette = Palette::of(ui);
     ui.spacing_mut().item_spacing.y = 2.0;
+    let name = rows.first().map_or("", |row| row.group);
     ui.label(RichText::new(name).small().strong().color(palette.weak));
-    for binding in rows {
+    for row in rows {
         ui.horizontal(|ui| {
             ui.spacing_mut().interact_size.y = ROW_HEIGHT;
             let size = vec2(KEYS_WIDTH, ROW_HEIGHT);
             let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
-            key_cap(ui, rect, binding.keys);
-            ui.label(binding.help);
+            key_cap(ui, rect, &row.keys());
+            ui.label(row.help);
         });
     }
     ui.add_space(GRID);
