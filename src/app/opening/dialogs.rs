@@ -13,11 +13,12 @@ use bevy::window::FileDragAndDrop;
 use rfd::{AsyncFileDialog, FileHandle};
 
 use crate::app::asking::intent::Intent;
-use crate::app::capturing::files::{CaptureFolder, create_new};
+use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new};
 use crate::app::opening::closing::Question;
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
 use crate::app::telling::notices::Notices;
+use crate::design::extensions;
 
 /// Files that are dropped together arrive one by one; so long is waited for the next.
 const GATHER_SECS: f32 = 0.15;
@@ -28,8 +29,6 @@ const UNSEEN: Duration = Duration::from_millis(400);
 
 /// The extension of a project.
 pub const PROJECT_EXTENSION: &str = "morph";
-
-const DESIGN_EXTENSIONS: [&str; 8] = ["png", "jpg", "jpeg", "bmp", "webp", "svg", "obj", "json"];
 
 /// What the dialog that is open is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -94,41 +93,61 @@ impl<T> SomeOrOpen for Option<T> {
 }
 
 fn start(purpose: Purpose, session: &Session) -> Job<Vec<PathBuf>> {
-    let paths = |files: Vec<FileHandle>| files.iter().map(|file| file.path().to_owned()).collect();
-    let designs = AsyncFileDialog::new();
+    let (title, kind, extensions) = purpose.asks();
+    let asked = AsyncFileDialog::new()
+        .set_title(title)
+        .add_filter(kind, &extensions);
     match purpose {
-        Purpose::Open => {
-            let all: Vec<&str> = DESIGN_EXTENSIONS
-                .into_iter()
-                .chain([PROJECT_EXTENSION])
-                .collect();
-            let asked = designs
-                .set_title("Open a project, or one or two designs")
-                .add_filter("Projects and designs", &all)
-                .pick_files();
-            Job::start("the dialog", move |_| {
-                paths(block_on(asked).unwrap_or_default())
-            })
-        }
-        Purpose::Replace(_) => {
-            let asked = designs
-                .set_title("Choose a design")
-                .add_filter("Designs", &DESIGN_EXTENSIONS)
-                .pick_file();
-            Job::start("the dialog", move |_| {
-                paths(block_on(asked).into_iter().collect())
-            })
-        }
+        Purpose::Open => wait_for(asked.pick_files()),
+        Purpose::Replace(_) => wait_for(asked.pick_file()),
         Purpose::Save => {
-            let asked = designs
-                .set_title("Save the project")
-                .set_file_name(format!("{}.{PROJECT_EXTENSION}", session.file_stem()))
-                .add_filter("Projects", &[PROJECT_EXTENSION])
-                .save_file();
-            Job::start("the dialog", move |_| {
-                paths(block_on(asked).into_iter().collect())
-            })
+            let name = format!("{}.{PROJECT_EXTENSION}", session.file_stem());
+            wait_for(asked.set_file_name(name).save_file())
         }
+    }
+}
+
+impl Purpose {
+    /// The title of the dialog, what files it shows, and how their names end.
+    fn asks(self) -> (&'static str, &'static str, Vec<&'static str>) {
+        let project = vec![PROJECT_EXTENSION];
+        match self {
+            Self::Open => (
+                "Open a project, or one or two designs",
+                "Projects and designs",
+                [extensions(), project].concat(),
+            ),
+            Self::Replace(_) => ("Choose a design", "Designs", extensions()),
+            Self::Save => ("Save the project", "Projects", project),
+        }
+    }
+}
+
+/// Waits beside the window until the dialog is closed.
+fn wait_for<F>(asked: impl Future<Output = Option<F>> + Send + 'static) -> Job<Vec<PathBuf>>
+where
+    F: IntoFiles,
+{
+    Job::start("the dialog", move |_| {
+        let files = block_on(asked).map_or_else(Vec::new, F::into_files);
+        files.iter().map(|file| file.path().to_owned()).collect()
+    })
+}
+
+/// One file or several.
+trait IntoFiles {
+    fn into_files(self) -> Vec<FileHandle>;
+}
+
+impl IntoFiles for FileHandle {
+    fn into_files(self) -> Vec<FileHandle> {
+        vec![self]
+    }
+}
+
+impl IntoFiles for Vec<FileHandle> {
+    fn into_files(self) -> Vec<FileHandle> {
+        self
     }
 }
 
@@ -157,7 +176,7 @@ pub fn finish(
                 intents.write(Intent::SaveTo(path));
             }
             Err(error) => {
-                notices.problem(error);
+                notices.problem(error.to_string());
                 question.not_saved();
             }
         },
@@ -183,10 +202,11 @@ const NO_DIALOG_TO_SAVE: &str = "The system shows no file dialog (on Linux, inst
     xdg-desktop-portal or zenity), so the project goes where pictures go.";
 
 /// A new name where pictures go, so that work can be kept even without a dialog.
-fn place_without_asking(session: &Session, folder: &CaptureFolder) -> Result<PathBuf, String> {
-    create_new(&folder.0, &session.file_stem(), PROJECT_EXTENSION)
-        .map(|(_, path)| path)
-        .map_err(|error| error.to_string())
+fn place_without_asking(
+    session: &Session,
+    folder: &CaptureFolder,
+) -> Result<PathBuf, NewFileError> {
+    create_new(&folder.0, &session.file_stem(), PROJECT_EXTENSION).map(|(_, path)| path)
 }
 
 fn with_extension(path: &Path) -> PathBuf {
@@ -271,6 +291,17 @@ pub fn decide(mut intents: MessageReader<Intent>, mut state: ResMut<Drop>) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn dialogs_show_whatever_an_importer_reads() {
+        for purpose in [Purpose::Open, Purpose::Replace(0)] {
+            let (_, _, shown) = purpose.asks();
+            for format in crate::design::Format::ALL {
+                let read = format.extensions();
+                assert!(read.iter().all(|e| shown.contains(e)), "{}", format.name());
+            }
+        }
+    }
 
     #[test]
     fn the_extension_is_added_once() {

@@ -6,34 +6,30 @@ use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
 use crate::app::ui::kit::widgets::{
-    choices, from_right, icon_button_sized, number, row, section, slider, toggle,
+    choose, from_right, icon_button_sized, number, row, section, slider, toggle,
 };
 use crate::app::ui::scene::Intents;
+use crate::design::Format;
 use crate::project::{DesignEntry, Project};
 use crate::transition::{Fit, Rgb};
 
 /// Draws both designs.
 pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
     section(ui, "Designs", |ui| {
-        row(
+        choose(
             ui,
             "Frame",
             "How unlike designs are laid over each other before anything else.",
-            |ui| {
-                choices(
-                    ui,
-                    &mut draft.fit,
-                    &[
-                        (Fit::AsDrawn, "As drawn", "Where the files have them"),
-                        (Fit::Centred, "Centred", "Centre on centre, sizes as drawn"),
-                        (
-                            Fit::SameArea,
-                            "Same area",
-                            "Centre on centre, scaled to one area",
-                        ),
-                    ],
-                )
-            },
+            &mut draft.fit,
+            &[
+                (Fit::AsDrawn, "As drawn", "Where the files have them"),
+                (Fit::Centred, "Centred", "Centre on centre, sizes as drawn"),
+                (
+                    Fit::SameArea,
+                    "Same area",
+                    "Centre on centre, scaled to one area",
+                ),
+            ],
         );
         let colours = [draft.style.source, draft.style.target];
         for (index, entry) in draft.designs.iter_mut().take(2).enumerate() {
@@ -139,14 +135,9 @@ fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
 }
 
 fn is_picture(entry: &DesignEntry) -> bool {
-    let extension = entry
-        .path
-        .extension()
-        .and_then(|e| e.to_str())
-        .unwrap_or_default();
-    ["png", "jpg", "jpeg", "bmp", "webp"]
+    Format::PICTURES
         .iter()
-        .any(|e| extension.eq_ignore_ascii_case(e))
+        .any(|format| format.ends(&entry.path))
 }
 
 fn reading(ui: &mut Ui, entry: &mut DesignEntry) {
