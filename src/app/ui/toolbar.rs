@@ -7,7 +7,7 @@ use crate::app::asking::choices::{CaptureScale, RecordFormat, ThemeChoice};
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{choices, from_right, icon_button, icon_button_sized, row};
+use crate::app::ui::kit::widgets::{choose, from_right, icon_button, icon_button_sized};
 use crate::app::ui::scene::{Intents, Scene};
 
 const HEIGHT: f32 = 48.0;
@@ -90,6 +90,25 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     );
     match_button(ui, scene, acts);
     ui.add_space(GRID);
+    capture_buttons(ui, scene, acts);
+    ui.add_space(GRID);
+    history_buttons(ui, scene, acts);
+    ui.add_space(GRID);
+    if icon_button(ui, Icon::Save, "Save the project (Ctrl S)").clicked() {
+        acts.push(Intent::Save);
+    }
+    let open = icon_button(
+        ui,
+        Icon::Open,
+        "Open a project, or one or two designs (Ctrl O)",
+    );
+    if open.clicked() {
+        acts.push(Intent::AskOpen);
+    }
+}
+
+/// From right to left.
+fn capture_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     capture_menu(ui, scene, acts);
     let record = icon_button_sized(
         ui,
@@ -108,20 +127,6 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     );
     if camera.clicked() {
         acts.push(Intent::Screenshot { with_panels: false });
-    }
-    ui.add_space(GRID);
-    history_buttons(ui, scene, acts);
-    ui.add_space(GRID);
-    if icon_button(ui, Icon::Save, "Save the project (Ctrl S)").clicked() {
-        acts.push(Intent::Save);
-    }
-    let open = icon_button(
-        ui,
-        Icon::Open,
-        "Open a project, or one or two designs (Ctrl O)",
-    );
-    if open.clicked() {
-        acts.push(Intent::AskOpen);
     }
 }
 
@@ -206,59 +211,44 @@ fn capture_menu(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
 fn capture_options(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let preferences = &scene.preferences;
     let mut scale = preferences.capture_scale;
-    row(
+    choose(
         ui,
         "Size",
         "How many pixels a picture of the stage has.",
-        |ui| {
-            choices(
-                ui,
-                &mut scale,
-                &[
-                    (CaptureScale::One, "1×", "As many as on screen"),
-                    (CaptureScale::Two, "2×", "Twice as many along each side"),
-                    (CaptureScale::FourK, "4K", "3840 along the longer side"),
-                ],
-            )
-        },
+        &mut scale,
+        &[
+            (CaptureScale::One, "1×", "As many as on screen"),
+            (CaptureScale::Two, "2×", "Twice as many along each side"),
+            (CaptureScale::FourK, "4K", "3840 along the longer side"),
+        ],
     );
     let mut transparent = preferences.capture_transparent;
-    row(
+    choose(
         ui,
         "Ground",
         "What lies behind the shape in pictures and films.",
-        |ui| {
-            choices(
-                ui,
-                &mut transparent,
-                &[
-                    (false, "Coloured", "The ground colour of the project"),
-                    (
-                        true,
-                        "Transparent",
-                        "Nothing; for placing on a page (MP4 has no transparency)",
-                    ),
-                ],
-            )
-        },
+        &mut transparent,
+        &[
+            (false, "Coloured", "The ground colour of the project"),
+            (
+                true,
+                "Transparent",
+                "Nothing; for placing on a page (MP4 has no transparency)",
+            ),
+        ],
     );
     let mut format = preferences.record_format;
-    row(
+    choose(
         ui,
         "Film",
         "The kind of file that a recording writes.",
-        |ui| {
-            choices(
-                ui,
-                &mut format,
-                &[
-                    (RecordFormat::Gif, "GIF", "Plays everywhere, 256 colours"),
-                    (RecordFormat::Apng, "APNG", "Full colour, plays in browsers"),
-                    (RecordFormat::Mp4, "MP4", "Needs ffmpeg on this machine"),
-                    (RecordFormat::Pngs, "PNGs", "A folder of numbered pictures"),
-                ],
-            )
-        },
+        &mut format,
+        &[
+            (RecordFormat::Gif, "GIF", "Plays everywhere, 256 colours"),
+            (RecordFormat::Apng, "APNG", "Full colour, plays in browsers"),
+            (RecordFormat::Mp4, "MP4", "Needs ffmpeg on this machine"),
+            (RecordFormat::Pngs, "PNGs", "A folder of numbered pictures"),
+        ],
     );
     if scale != preferences.capture_scale {
         acts.push(Intent::CaptureScale(scale));

@@ -132,6 +132,17 @@ pub fn choices<T: PartialEq + Clone>(
     all.unwrap_or_else(|| ui.allocate_response(Vec2::ZERO, Sense::hover()))
 }
 
+/// A row of which one choice holds.
+pub fn choose<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    label: &str,
+    tip: &str,
+    value: &mut T,
+    options: &[(T, &str, &str)],
+) {
+    row(ui, label, tip, |ui| choices(ui, value, options));
+}
+
 /// One choice among several.
 pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
     let palette = Palette::of(ui);

@@ -34,7 +34,7 @@ pub fn draw(painter: &Painter, scene: &Scene, halves: &[Half; 2], inks: &Inks) {
         pins(&clipped, scene, half, inks);
     }
     if let Some(problem) = scene.session.problem() {
-        problem_card(painter, scene, halves, problem, inks);
+        problem_card(painter, scene, halves, &problem.to_string(), inks);
     }
 }
 

@@ -1,6 +1,6 @@
 //! What is drawn, and in which colours.
 
-use bevy_egui::egui::{DragValue, Response, Ui};
+use bevy_egui::egui::{DragValue, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::widgets::{choice, number, row, section, toggle};
@@ -38,76 +38,69 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
     });
 }
 
+const EQUAL: &str = "Lines of equal blended distance.";
+
 fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
     let mut show = scene.preferences.show;
     let is_field = draft.content == Some(ContentKind::Field);
-    let layer = |ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool| {
-        ui.add_enabled_ui(applies, |ui| {
-            let size = bevy_egui::egui::vec2(ui.available_width(), 24.0);
-            let response: Response = choice(ui, *on && applies, name, size);
-            if response.clicked() {
-                *on = !*on;
-            }
-            response.on_hover_text(tip).on_disabled_hover_text(tip);
-        });
-    };
-    ui.spacing_mut().item_spacing = bevy_egui::egui::vec2(4.0, 4.0);
-    ui.columns(3, |columns| {
-        layer(
-            &mut columns[0],
-            &mut show.fill,
-            "Fill",
-            "The shape itself.",
-            true,
-        );
-        layer(
-            &mut columns[1],
+    let has_bars = scene.session.has_bars() && !is_field;
+    let has_grid = draft.warp != Some(WarpKind::Paths);
+    let layers: [(&mut bool, &str, &str, bool); 7] = [
+        (&mut show.fill, "Fill", "The shape itself.", true),
+        (
             &mut show.ghosts,
             "Ghosts",
             "Thin outlines of source and target.",
             true,
-        );
-        let bars = scene.session.has_bars();
-        layer(
-            &mut columns[2],
+        ),
+        (
             &mut show.bars,
             "Bars",
             "Bars and joints of a truss.",
-            bars && !is_field,
-        );
-        layer(
-            &mut columns[0],
+            has_bars,
+        ),
+        (
             &mut show.wireframe,
             "Wireframe",
             "The edges of the triangles that carry the motion.",
             !is_field,
-        );
-        layer(
-            &mut columns[1],
-            &mut show.iso_lines,
-            "Iso-lines",
-            "Lines of equal blended distance.",
-            is_field,
-        );
-        layer(
-            &mut columns[2],
+        ),
+        (&mut show.iso_lines, "Iso-lines", EQUAL, is_field),
+        (
             &mut show.signed_colours,
             "Signed",
             "The blended field in two hues: inside and outside.",
             is_field,
-        );
-        layer(
-            &mut columns[0],
+        ),
+        (
             &mut show.grid,
             "Grid",
             "A square grid of the source, where the warp carries it (W).",
-            draft.warp != Some(WarpKind::Paths),
-        );
+            has_grid,
+        ),
+    ];
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
+        ui.columns(3, |columns| {
+            for (k, (on, name, tip, applies)) in layers.into_iter().enumerate() {
+                layer(&mut columns[k % 3], on, name, tip, applies);
+            }
+        });
     });
-    ui.spacing_mut().item_spacing = bevy_egui::egui::vec2(8.0, 8.0);
     if show != scene.preferences.show {
         acts.push(Intent::Show(show));
     }
+}
+
+fn layer(ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool) {
+    ui.add_enabled_ui(applies, |ui| {
+        let size = vec2(ui.available_width(), 24.0);
+        let response = choice(ui, *on && applies, name, size);
+        if response.clicked() {
+            *on = !*on;
+        }
+        response.on_hover_text(tip).on_disabled_hover_text(tip);
+    });
 }
 
 fn colour(ui: &mut Ui, label: &str, tip: &str, value: &mut Rgb) {

@@ -4,7 +4,7 @@ use bevy_egui::egui::Ui;
 
 use crate::app::asking::acts::EditorAct;
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::widgets::{choices, hint, row, section, slider, toggle};
+use crate::app::ui::kit::widgets::{choose, hint, section, slider, toggle};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
 use crate::correspondence::{HoleRule, Matching, PartRule};
@@ -52,77 +52,66 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
 }
 
 fn rules(ui: &mut Ui, matching: &mut Matching) {
-    row(
+    choose(
         ui,
         "Turning",
         "Whether a shape may be matched with one that is turned.",
-        |ui| {
-            choices(
-                ui,
-                &mut matching.keep_up,
-                &[
-                    (false, "Free", "A shape is found again however it is turned"),
-                    (
-                        true,
-                        "Keep up",
-                        "What points up stays what points up, as with letters",
-                    ),
-                ],
-            )
-        },
+        &mut matching.keep_up,
+        &[
+            (false, "Free", "A shape is found again however it is turned"),
+            (
+                true,
+                "Keep up",
+                "What points up stays what points up, as with letters",
+            ),
+        ],
     );
-    row(
+    choose(
         ui,
         "Holes",
         "What becomes of a hole that the other design does not have.",
-        |ui| {
-            choices(
-                ui,
-                &mut matching.holes,
-                &[
-                    (HoleRule::Auto, "Auto", "Whichever of the two fits better"),
-                    (
-                        HoleRule::Close,
-                        "Close",
-                        "The hole shrinks to a point, or grows from one",
-                    ),
-                    (
-                        HoleRule::Cut,
-                        "Cut",
-                        "The ring around the hole is cut open and uncoils",
-                    ),
-                ],
-            )
-        },
+        &mut matching.holes,
+        &[
+            (HoleRule::Auto, "Auto", "Whichever of the two fits better"),
+            (
+                HoleRule::Close,
+                "Close",
+                "The hole shrinks to a point, or grows from one",
+            ),
+            (
+                HoleRule::Cut,
+                "Cut",
+                "The ring around the hole is cut open and uncoils",
+            ),
+        ],
     );
-    row(
+    parts(ui, &mut matching.parts);
+}
+
+fn parts(ui: &mut Ui, rule: &mut PartRule) {
+    choose(
         ui,
         "Parts",
         "What becomes of a part that the other design does not have.",
-        |ui| {
-            choices(
-                ui,
-                &mut matching.parts,
-                &[
-                    (
-                        PartRule::Auto,
-                        "Auto",
-                        "One part is split into several; among several, the odd ones appear or \
+        rule,
+        &[
+            (
+                PartRule::Auto,
+                "Auto",
+                "One part is split into several; among several, the odd ones appear or \
                          vanish",
-                    ),
-                    (
-                        PartRule::Split,
-                        "Split",
-                        "The part that fits best is cut in pieces, one for each",
-                    ),
-                    (
-                        PartRule::Alone,
-                        "Alone",
-                        "It grows from a point, or shrinks to one",
-                    ),
-                ],
-            )
-        },
+            ),
+            (
+                PartRule::Split,
+                "Split",
+                "The part that fits best is cut in pieces, one for each",
+            ),
+            (
+                PartRule::Alone,
+                "Alone",
+                "It grows from a point, or shrinks to one",
+            ),
+        ],
     );
 }
 

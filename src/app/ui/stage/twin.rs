@@ -44,7 +44,7 @@ fn missing(ui: &Ui, scene: &Scene, rect: Rect) {
     let twin = &scene.twin;
     let words = match (twin.transition(), twin.problem()) {
         (Some(_), _) => return,
-        (None, Some(problem)) => problem.to_owned(),
+        (None, Some(problem)) => problem.to_string(),
         (None, None) if twin.is_busy() => "Building …".to_owned(),
         (None, None) => return,
     };

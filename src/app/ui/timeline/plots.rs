@@ -75,28 +75,8 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
     let t = scene.playback.t();
     ui.spacing_mut().item_spacing.y = 2.0;
     heading(ui, quantity, series, t);
-    let plot = Plot::new(("plot", quantity.name().title))
-        .height(ui.available_height().min(HEIGHT - 52.0))
-        .allow_drag(false)
-        .allow_zoom(false)
-        .allow_scroll(false)
-        .allow_boxed_zoom(false)
-        .allow_double_click_reset(false)
-        .show_x(false)
-        .show_y(false)
-        .show_background(false)
-        .grid_color(palette.weak)
-        .include_x(0.0)
-        .include_x(1.0)
-        .set_margin_fraction(vec2(0.02, 0.08))
-        .label_formatter(|_| None)
-        .custom_x_axes(vec![AxisHints::new_x().tick_label_color(palette.weak)])
-        .custom_y_axes(vec![value_axis(quantity, palette.weak)]);
+    let plot = axes(quantity, palette.weak).height(ui.available_height().min(HEIGHT - 52.0));
     let on_axis = |value: f64| drawn(quantity, value);
-    let plot = least(quantity)
-        .into_iter()
-        .map(on_axis)
-        .fold(plot, Plot::include_y);
     let response = plot.show(ui, |plot| {
         if quantity == Quantity::MinDet {
             plot.hline(level(0.0, palette.problem));
@@ -126,6 +106,30 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
     response
         .response
         .on_hover_text(format!("{} Click to go to a t.", quantity.name().sentence));
+}
+
+/// The empty plot: it cannot be dragged or zoomed.
+fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
+    let plot = Plot::new(("plot", quantity.label()))
+        .allow_drag(false)
+        .allow_zoom(false)
+        .allow_scroll(false)
+        .allow_boxed_zoom(false)
+        .allow_double_click_reset(false)
+        .show_x(false)
+        .show_y(false)
+        .show_background(false)
+        .grid_color(colour)
+        .include_x(0.0)
+        .include_x(1.0)
+        .set_margin_fraction(vec2(0.02, 0.08))
+        .label_formatter(|_| None)
+        .custom_x_axes(vec![AxisHints::new_x().tick_label_color(colour)])
+        .custom_y_axes(vec![value_axis(quantity, colour)]);
+    least(quantity)
+        .into_iter()
+        .map(|value| drawn(quantity, value))
+        .fold(plot, Plot::include_y)
 }
 
 /// Ratios run over many powers of ten where something is born from a point.

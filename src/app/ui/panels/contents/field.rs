@@ -2,8 +2,8 @@
 
 use bevy_egui::egui::{DragValue, Ui};
 
-use crate::app::ui::kit::widgets::{choices, menu, number, row, section, slider};
-use crate::content::BlendSpace;
+use crate::app::ui::kit::widgets::{choose, menu, number, row, section, slider};
+use crate::content::{BlendSpace, FieldBlend};
 use crate::field::Metric;
 use crate::transition::{Boundary, FieldOptions};
 
@@ -33,48 +33,7 @@ const METRICS: [(Metric, &str, &str); 4] = [
 /// Draws the options.
 pub fn show(ui: &mut Ui, field: &mut FieldOptions) {
     section(ui, "Distance field", |ui| {
-        row(
-            ui,
-            "Space",
-            "The scale on which distances are mixed.",
-            |ui| {
-                choices(
-                    ui,
-                    &mut field.blend.space,
-                    &[
-                        (
-                            BlendSpace::Log,
-                            "Logarithmic",
-                            "Near the outlines counts most: thin parts survive",
-                        ),
-                        (
-                            BlendSpace::Real,
-                            "Real",
-                            "Far counts as much as near: thin parts go under",
-                        ),
-                    ],
-                )
-            },
-        );
-        ui.add_enabled_ui(field.blend.space == BlendSpace::Log, |ui| {
-            slider(
-                ui,
-                "ε",
-                "How sharply the logarithm prefers what is near, in cells. Small: the two outlines \
-                 stay visible as a web; large: like real space. Only for logarithmic space.",
-                &mut field.blend.epsilon,
-                0.01..=100.0,
-                true,
-            );
-        });
-        slider(
-            ui,
-            "Threshold",
-            "The distance that is drawn as the outline, in cells. Above 0 the shape grows thinner, below 0 thicker.",
-            &mut field.blend.threshold,
-            -40.0..=40.0,
-            false,
-        );
+        mixing(ui, &mut field.blend);
         row(
             ui,
             "Metric",
@@ -82,12 +41,7 @@ pub fn show(ui: &mut Ui, field: &mut FieldOptions) {
             |ui| menu(ui, "metric", &mut field.metric, &METRICS),
         );
         let is_euclidean = field.metric == Metric::Euclidean;
-        ui.add_enabled_ui(is_euclidean, |ui| row(ui, "Outline", "Where the edge of a shape lies within a cell; metrics other than the Euclidean have it between cells.", |ui| {
-            choices(ui, &mut field.boundary, &[
-                (Boundary::Exact, "Exact", "Where the drawing has it: smooth"),
-                (Boundary::Binary, "Binary", "Between cells, as the paper's tool: stepped"),
-            ])
-        }));
+        ui.add_enabled_ui(is_euclidean, |ui| outline(ui, &mut field.boundary));
         let cells = DragValue::new(&mut field.cells).range(32..=4096).speed(4.0);
         number(
             ui,
@@ -104,4 +58,63 @@ pub fn show(ui: &mut Ui, field: &mut FieldOptions) {
             false,
         );
     });
+}
+
+/// How the two fields become one.
+fn mixing(ui: &mut Ui, blend: &mut FieldBlend) {
+    choose(
+        ui,
+        "Space",
+        "The scale on which distances are mixed.",
+        &mut blend.space,
+        &[
+            (
+                BlendSpace::Log,
+                "Logarithmic",
+                "Near the outlines counts most: thin parts survive",
+            ),
+            (
+                BlendSpace::Real,
+                "Real",
+                "Far counts as much as near: thin parts go under",
+            ),
+        ],
+    );
+    ui.add_enabled_ui(blend.space == BlendSpace::Log, |ui| {
+        slider(
+            ui,
+            "ε",
+            "How sharply the logarithm prefers what is near, in cells. Small: the two outlines \
+             stay visible as a web; large: like real space. Only for logarithmic space.",
+            &mut blend.epsilon,
+            0.01..=100.0,
+            true,
+        );
+    });
+    slider(
+        ui,
+        "Threshold",
+        "The distance that is drawn as the outline, in cells. Above 0 the shape grows thinner, below 0 thicker.",
+        &mut blend.threshold,
+        -40.0..=40.0,
+        false,
+    );
+}
+
+fn outline(ui: &mut Ui, boundary: &mut Boundary) {
+    choose(
+        ui,
+        "Outline",
+        "Where the edge of a shape lies within a cell; metrics other than the Euclidean have it \
+         between cells.",
+        boundary,
+        &[
+            (Boundary::Exact, "Exact", "Where the drawing has it: smooth"),
+            (
+                Boundary::Binary,
+                "Binary",
+                "Between cells, as the paper's tool: stepped",
+            ),
+        ],
+    );
 }

@@ -2,30 +2,30 @@
 
 use bevy_egui::egui::{DragValue, Ui};
 
-use crate::app::ui::kit::widgets::{choices, number, row, section};
+use crate::app::ui::kit::widgets::{choose, number, section};
 use crate::warp::{Between, LineOptions};
 
 /// Draws the options.
 pub fn show(ui: &mut Ui, lines: &mut LineOptions) {
     section(ui, "Lines", |ui| {
-        row(ui, "Between", "How a line lies between its two.", |ui| {
-            choices(
-                ui,
-                &mut lines.between,
-                &[
-                    (
-                        Between::MiddleAndAngle,
-                        "Turn",
-                        "Its middle moves straight, its direction turns the shorter way",
-                    ),
-                    (
-                        Between::Ends,
-                        "Ends",
-                        "Both ends move straight: a line that turns shrinks on the way",
-                    ),
-                ],
-            )
-        });
+        choose(
+            ui,
+            "Between",
+            "How a line lies between its two.",
+            &mut lines.between,
+            &[
+                (
+                    Between::MiddleAndAngle,
+                    "Turn",
+                    "Its middle moves straight, its direction turns the shorter way",
+                ),
+                (
+                    Between::Ends,
+                    "Ends",
+                    "Both ends move straight: a line that turns shrinks on the way",
+                ),
+            ],
+        );
         let smoothness = DragValue::new(&mut lines.smoothness)
             .range(1e-4..=1.0)
             .speed(0.001)
