@@ -782,7 +782,7 @@ fn a_click_on_a_boundary_pins_it_where_it_is_matched() {
     let pin = window.sheet().pins[0];
     assert!(pin.source.distance(on.point) < 1e-9);
     assert!(place.is_finite() && pin.target.is_finite());
-    assert_eq!(window.session().problem(), None);
+    assert!(window.session().problem().is_none());
     window.send(Intent::Undo);
     window.wait();
     assert_eq!(window.matching(), Matching::default());
@@ -829,7 +829,7 @@ fn a_point_that_is_dragged_becomes_a_pin_that_snaps_and_is_honoured() {
     window.wait();
     assert_eq!(window.matching().pins.len(), 1);
     assert!(window.sheet().pins[0].target.distance(to) < 1e-9, "snapped");
-    assert_eq!(window.session().problem(), None);
+    assert!(window.session().problem().is_none());
     let pin = window.sheet().pins[0];
     let honoured = window.sheet().partner(Side::Source, pin.source);
     assert!(honoured.is_some_and(|p| p.distance(pin.target) < 1e-6));
@@ -861,7 +861,7 @@ fn pins_that_cross_are_said_and_the_old_transition_stays() {
         .map(|t| std::ptr::from_ref(t.content()));
     window.send(Intent::Edit(Box::new(project)));
     window.wait();
-    let problem = window.session().problem().map(str::to_owned);
+    let problem = window.session().problem().map(ToString::to_string);
     assert!(
         problem.as_ref().is_some_and(|p| p.contains("pins")),
         "{problem:?}"
@@ -874,7 +874,7 @@ fn pins_that_cross_are_said_and_the_old_transition_stays() {
     assert_eq!(stage, now);
     window.send(Intent::Undo);
     window.wait();
-    assert_eq!(window.session().problem(), None);
+    assert!(window.session().problem().is_none());
 }
 
 #[test]
@@ -927,7 +927,7 @@ fn parts_are_paired_by_two_clicks_and_freed_by_one() {
     window.act(EditorAct::Remove(touch(Side::Source, source.x, source.y)));
     assert!(window.matching().links.is_empty());
     window.wait();
-    assert_eq!(window.session().problem(), None);
+    assert!(window.session().problem().is_none());
 }
 
 #[test]
@@ -939,7 +939,7 @@ fn a_cut_that_is_dragged_is_asked_for() {
     project.options.matching.holes = morphospace::correspondence::HoleRule::Cut;
     window.send(Intent::Edit(Box::new(project)));
     window.wait();
-    assert_eq!(window.session().problem(), None);
+    assert!(window.session().problem().is_none());
     assert_eq!(window.sheet().cuts.len(), 1);
     let found = window.sheet().cuts[0];
     assert_eq!(found.asked, None);
@@ -951,7 +951,7 @@ fn a_cut_that_is_dragged_is_asked_for() {
     window.wait();
     assert_eq!(window.matching().cuts.len(), 1);
     assert_eq!(window.sheet().cuts[0].asked, Some(0));
-    assert_eq!(window.session().problem(), None);
+    assert!(window.session().problem().is_none());
     window.act(EditorAct::Clear);
     window.wait();
     assert_eq!(window.sheet().cuts[0].asked, None);
@@ -1031,7 +1031,7 @@ fn a_second_method_stands_beside_the_stage_at_the_same_t() {
     window.send(Intent::TwinMethod(TwinMethod::Cell(Cell::FIELD_BLEND)));
     wait_for_twin(&mut window);
     let twin: &Twin = window.0.world().resource();
-    assert_eq!(twin.problem(), None);
+    assert!(twin.problem().is_none());
     let content = twin.transition().map(|t| t.cell().content());
     assert_eq!(content, Some(ContentKind::Field));
     window.press(KeyCode::Escape, Key::Escape);

@@ -6,17 +6,17 @@ use bevy::prelude::{MessageReader, Res, ResMut, Resource};
 
 use crate::app::asking::choices::{CaptureScale, RecordFormat};
 use crate::app::asking::intent::Intent;
-use crate::app::capturing::files::{CaptureFolder, create_new, create_new_folder};
+use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new, create_new_folder};
 use crate::app::looking::preferences::Preferences;
 use crate::app::session::state::Session;
-use crate::app::telling::job::Job;
+use crate::app::telling::job::{Broken, Job};
 use crate::app::telling::notices::Notices;
 use crate::export::{
-    Camera, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View, comparison,
-    even_times, framing, write_film, write_still,
+    Camera, ExportError, Film, FilmError, FilmKind, MethodRow, PixelSize, SizeError, StillKind,
+    Target, TargetError, View, comparison, even_times, framing, write_film, write_still,
 };
-use crate::progress::Progress;
-use crate::project::{LoadedProject, Project};
+use crate::progress::{Cancelled, Progress};
+use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::Transition;
 
 /// Frames a second; GIF's clock of hundredths keeps it exactly.
@@ -24,7 +24,51 @@ const FPS: f64 = 25.0;
 
 /// The recording that is going on, if any.
 #[derive(Resource, Debug, Default)]
-pub struct Recorder(Option<Job<Result<PathBuf, String>>>);
+pub struct Recorder(Option<Job<Result<PathBuf, RecordError>>>);
+
+/// Why a film or a sheet was not written.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// It was not wanted any more.
+    #[error("The recording was cancelled.")]
+    Cancelled,
+    /// The timing makes no film.
+    #[error(transparent)]
+    Film(#[from] FilmError),
+    /// No file could be made for it.
+    #[error(transparent)]
+    File(#[from] NewFileError),
+    /// The file is none that a film can go to.
+    #[error(transparent)]
+    Target(#[from] TargetError),
+    /// The sheet would have no size.
+    #[error(transparent)]
+    Size(#[from] SizeError),
+    /// The settings do not go with the designs.
+    #[error(transparent)]
+    Project(#[from] ProjectError),
+    /// It could not be written.
+    #[error(transparent)]
+    Export(ExportError),
+    /// The work on it broke off.
+    #[error(transparent)]
+    Broken(#[from] Broken),
+}
+
+impl From<Cancelled> for RecordError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+impl From<ExportError> for RecordError {
+    fn from(error: ExportError) -> Self {
+        match error {
+            ExportError::Cancelled(_) => Self::Cancelled,
+            error => Self::Export(error),
+        }
+    }
+}
 
 /// The t of a sheet of all methods.
 const COLUMNS: usize = 7;
@@ -51,6 +95,7 @@ pub fn apply(
     mut notices: ResMut<Notices>,
     (session, preferences, folder): (Res<Session>, Res<Preferences>, Res<CaptureFolder>),
 ) {
+    let new_order = || Order::new(&preferences, &session, &folder);
     for intent in intents.read() {
         match intent {
             Intent::CancelRecording => recorder.cancel(),
@@ -58,23 +103,15 @@ pub fn apply(
                 notices.done("A file is being written; wait for it, or cancel it first.");
             }
             Intent::Compare => {
-                if let (Some(staged), Some(project), Some(transition)) =
-                    (session.staged(), session.project(), session.transition())
-                {
-                    let order = Order::new(project, transition, &preferences, &session, &folder);
+                if let (Some(order), Some(staged)) = (new_order(), session.staged()) {
                     recorder.0 = Some(Job::start("a sheet", move |progress| {
                         order.compare(&staged, progress)
                     }));
                 }
             }
             Intent::Record => {
-                if let (Some(project), Some(transition)) = (session.project(), session.transition())
-                {
-                    let order = Order::new(project, transition, &preferences, &session, &folder);
-                    recorder.0 = Some(Job::start("a film", move |progress| {
-                        order.carry_out(progress)
-                    }));
-                }
+                recorder.0 = new_order()
+                    .map(|order| Job::start("a film", move |progress| order.carry_out(progress)));
             }
             _ => {}
         }
@@ -88,11 +125,11 @@ pub fn report(mut recorder: ResMut<Recorder>, mut notices: ResMut<Notices>) {
     };
     recorder.0 = None;
     match answer
-        .map_err(|broken| broken.to_string())
+        .map_err(RecordError::from)
         .and_then(|written| written)
     {
         Ok(path) => notices.done(format!("Wrote {}", path.display())),
-        Err(error) => notices.problem(error),
+        Err(error) => notices.problem(error.to_string()),
     }
 }
 
@@ -108,16 +145,11 @@ struct Order {
 }
 
 impl Order {
-    fn new(
-        project: &Project,
-        transition: &Transition,
-        preferences: &Preferences,
-        session: &Session,
-        folder: &CaptureFolder,
-    ) -> Self {
-        Self {
-            project: project.clone(),
-            transition: transition.clone(),
+    /// None where nothing is on the stage.
+    fn new(preferences: &Preferences, session: &Session, folder: &CaptureFolder) -> Option<Self> {
+        Some(Self {
+            project: session.project()?.clone(),
+            transition: session.transition()?.clone(),
             longer_side_px: match preferences.capture_scale {
                 CaptureScale::One => 960,
                 CaptureScale::Two => 1920,
@@ -127,10 +159,10 @@ impl Order {
             format: preferences.record_format,
             folder: folder.0.clone(),
             stem: session.file_stem(),
-        }
+        })
     }
 
-    fn carry_out(self, progress: &dyn Progress) -> Result<PathBuf, String> {
+    fn carry_out(self, progress: &dyn Progress) -> Result<PathBuf, RecordError> {
         let (target, path) = self.target()?;
         let written = self.film(&target, progress);
         if written.is_err() {
@@ -141,9 +173,8 @@ impl Order {
     }
 
     /// One pass there; where it plays to and fro, the way back too, so that it can be looped.
-    fn film(&self, target: &Target, progress: &dyn Progress) -> Result<(), String> {
-        let film = Film::of_timing(&self.project.timing, &self.project.stops, FPS)
-            .map_err(|e| e.to_string())?;
+    fn film(&self, target: &Target, progress: &dyn Progress) -> Result<(), RecordError> {
+        let film = Film::of_timing(&self.project.timing, &self.project.stops, FPS)?;
         let bounds = framing(&self.transition, film.times());
         let size = PixelSize::of_shape(bounds, self.longer_side_px);
         let camera = Camera {
@@ -152,51 +183,45 @@ impl Order {
             view: View::fit(bounds, size),
             ground: (!self.is_transparent).then_some(self.project.style.ground),
         };
-        match write_film(&camera, &film, target, progress) {
-            Ok(_) => Ok(()),
-            Err(ExportError::Cancelled(_)) => Err("The recording was cancelled.".to_owned()),
-            Err(error) => Err(error.to_string()),
-        }
+        write_film(&camera, &film, target, progress)?;
+        Ok(())
     }
 
     /// A sheet of every method by which the pair can be seen.
-    fn compare(self, staged: &LoadedProject, progress: &dyn Progress) -> Result<PathBuf, String> {
-        let words = |error: &dyn std::error::Error| error.to_string();
-        let spec = staged.spec().map_err(|error| words(&error))?;
-        let rows = MethodRow::all(&spec, progress).map_err(|error| words(&error))?;
+    fn compare(
+        self,
+        staged: &LoadedProject,
+        progress: &dyn Progress,
+    ) -> Result<PathBuf, RecordError> {
+        let rows = MethodRow::all(&staged.spec()?, progress)?;
         let timing = &self.project.timing;
         let times = even_times(timing.from, timing.to, COLUMNS);
         let ground = (!self.is_transparent).then_some(self.project.style.ground);
-        let drawing = comparison(&rows, &self.project.style, &times, ground);
-        let drawing = drawing.map_err(|error| words(&error))?;
+        let drawing = comparison(&rows, &self.project.style, &times, ground)?;
         let stem = format!("{}-methods", self.stem);
-        let made = create_new(&self.folder, &stem, "png");
-        let (_, path) = made.map_err(|error| words(&error))?;
+        let (_, path) = create_new(&self.folder, &stem, "png")?;
         let written = write_still(&drawing, StillKind::Png, &path);
-        if let Err(error) = written {
+        if written.is_err() {
             remove(&path);
-            return Err(words(&error));
         }
+        written?;
         Ok(path)
     }
 
-    fn target(&self) -> Result<(Target, PathBuf), String> {
+    fn target(&self) -> Result<(Target, PathBuf), RecordError> {
         let (extension, kind) = match self.format {
             RecordFormat::Gif => ("gif", FilmKind::Gif),
             RecordFormat::Apng => ("apng", FilmKind::Apng),
             RecordFormat::Mp4 => ("mp4", FilmKind::Mp4),
             RecordFormat::Pngs => return self.numbered(),
         };
-        let made = create_new(&self.folder, &self.stem, extension);
-        let (_, path) = made.map_err(|error| error.to_string())?;
+        let (_, path) = create_new(&self.folder, &self.stem, extension)?;
         Ok((Target::Film(kind, path.clone()), path))
     }
 
-    fn numbered(&self) -> Result<(Target, PathBuf), String> {
-        let made = create_new_folder(&self.folder, &self.stem);
-        let path = made.map_err(|error| error.to_string())?;
-        let target = Target::of_path(&path).map_err(|error| error.to_string())?;
-        Ok((target, path))
+    fn numbered(&self) -> Result<(Target, PathBuf), RecordError> {
+        let path = create_new_folder(&self.folder, &self.stem)?;
+        Ok((Target::of_path(&path)?, path))
     }
 }
 

@@ -9,15 +9,15 @@ use std::path::{Path, PathBuf};
 use bevy::prelude::*;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::window::PrimaryWindow;
-use image::{DynamicImage, ImageFormat};
+use image::{DynamicImage, ImageError, ImageFormat};
 
 use crate::app::asking::choices::CaptureScale;
 use crate::app::asking::intent::Intent;
-use crate::app::capturing::files::{CaptureFolder, create_new};
+use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new};
 use crate::app::looking::preferences::Preferences;
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
-use crate::app::telling::job::Job;
+use crate::app::telling::job::{Broken, Job};
 use crate::app::telling::notices::Notices;
 use crate::stage::{CaptureStage, StageCaptured, StageView};
 
@@ -29,7 +29,26 @@ const FOUR_K_PX: f32 = 3840.0;
 pub struct Captures {
     next_id: u64,
     names: HashMap<u64, String>,
-    writing: Vec<Job<Result<PathBuf, String>>>,
+    writing: Vec<Job<Result<PathBuf, PictureError>>>,
+}
+
+/// Why a picture was not written.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// No file could be made for it.
+    #[error(transparent)]
+    File(#[from] NewFileError),
+    /// It could not be encoded or written.
+    #[error("{} was not written: {error}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What went wrong.
+        error: ImageError,
+    },
+    /// The work on it broke off.
+    #[error(transparent)]
+    Broken(#[from] Broken),
 }
 
 /// Asks the stage, or the window, for a picture.
@@ -104,20 +123,18 @@ impl Captures {
     }
 }
 
-fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, String> {
-    let (file, path) = create_new(folder, name, "png").map_err(|error| error.to_string())?;
+fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, PictureError> {
+    let (file, path) = create_new(folder, name, "png")?;
     let mut writer = std::io::BufWriter::new(file);
     let written = image
         .write_to(&mut writer, ImageFormat::Png)
-        .map_err(|e| e.to_string());
-    let flushed = written
-        .and_then(|()| std::io::Write::flush(&mut writer).map_err(|error| error.to_string()));
-    match flushed {
+        .and_then(|()| Ok(std::io::Write::flush(&mut writer)?));
+    match written {
         Ok(()) => Ok(path),
         Err(error) => {
             // What was begun is no picture; where even that cannot be taken back, it stays.
             std::fs::remove_file(&path).ok();
-            Err(format!("{} was not written: {error}", path.display()))
+            Err(PictureError::Write { path, error })
         }
     }
 }
@@ -147,11 +164,11 @@ pub fn report(mut captures: ResMut<Captures>, mut notices: ResMut<Notices>) {
             return true;
         };
         match answer
-            .map_err(|broken| broken.to_string())
+            .map_err(PictureError::from)
             .and_then(|written| written)
         {
             Ok(path) => notices.done(format!("Saved {}", path.display())),
-            Err(error) => notices.problem(error),
+            Err(error) => notices.problem(error.to_string()),
         }
         false
     });

@@ -4,6 +4,7 @@ use bevy::prelude::{DetectChanges, Local, Res, ResMut};
 
 use crate::app::editing::editor::{Editor, Handle};
 use crate::app::editing::sheet::Sheet;
+use crate::app::session::loading::Problem;
 use crate::app::session::state::Session;
 use crate::transition::{Transition, arrangement};
 
@@ -53,7 +54,7 @@ impl Sheet {
         let transition = session.transition();
         let matched = transition.and_then(Transition::matched);
         let mut sheet = Self {
-            faulty: session.problem_pins().to_vec(),
+            faulty: session.problem().map_or_else(Vec::new, Problem::pins),
             content: project.content,
             ..Self::new([source, target], by, &project.options.matching, matched)
         };

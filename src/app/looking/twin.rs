@@ -10,12 +10,24 @@ use bevy::prelude::{
 
 use crate::app::asking::choices::TwinMethod;
 use crate::app::asking::intent::Intent;
+use crate::app::session::loading::{Problem, transition_of};
 use crate::app::session::state::Session;
-use crate::app::telling::job::Job;
+use crate::app::telling::job::{Broken, Job};
 use crate::homotopy::Homotopy;
 use crate::progress::Progress;
 use crate::project::{LoadedProject, Project};
 use crate::transition::{Cell, Transition};
+
+/// Why there is nothing beside the stage.
+#[derive(Debug, thiserror::Error)]
+pub enum TwinError {
+    /// The method cannot be had of these designs.
+    #[error(transparent)]
+    Problem(#[from] Problem),
+    /// The work on it broke off.
+    #[error(transparent)]
+    Broken(#[from] Broken),
+}
 
 /// What stands beside the stage.
 #[derive(Resource, Debug, Default)]
@@ -25,9 +37,9 @@ pub struct Twin {
     /// By which method, once one was chosen.
     pub method: Option<TwinMethod>,
     settings: Option<Project>,
-    job: Option<Job<Result<Transition, String>>>,
+    job: Option<Job<Result<Transition, Problem>>>,
     transition: Option<Transition>,
-    problem: Option<String>,
+    problem: Option<TwinError>,
 }
 
 /// The entity that is beside the stage.
@@ -43,8 +55,8 @@ impl Twin {
 
     /// Why there is nothing beside the stage.
     #[must_use]
-    pub fn problem(&self) -> Option<&str> {
-        self.problem.as_deref()
+    pub fn problem(&self) -> Option<&TwinError> {
+        self.problem.as_ref()
     }
 
     /// It is being built.
@@ -96,8 +108,7 @@ impl Twin {
             return false;
         };
         self.job = None;
-        let built = answer.map_err(|broken| broken.to_string());
-        match built.and_then(|built| built) {
+        match answer.map_err(TwinError::from).and_then(|built| Ok(built?)) {
             Ok(transition) => self.transition = Some(transition),
             Err(problem) => (self.transition, self.problem) = (None, Some(problem)),
         }
@@ -105,15 +116,12 @@ impl Twin {
     }
 }
 
-fn built(project: &LoadedProject, progress: &dyn Progress) -> Result<Transition, String> {
+fn built(project: &LoadedProject, progress: &dyn Progress) -> Result<Transition, Problem> {
     let (warp, content) = (project.project.warp, project.project.content);
     if let (Some(warp), Some(content)) = (warp, content) {
-        project
-            .available(warp, content)
-            .map_err(|error| error.to_string())?;
+        project.available(warp, content)?;
     }
-    let spec = project.spec().map_err(|error| error.to_string())?;
-    Transition::build(&spec, progress).map_err(|error| error.to_string())
+    transition_of(project, progress)
 }
 
 /// Acts on the intents that concern the twin view.

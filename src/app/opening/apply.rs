@@ -12,7 +12,9 @@ use crate::app::opening::closing::Question;
 use crate::app::opening::dialogs::{Drop, is_project};
 use crate::app::playing::playback::{Playback, SAME_T};
 use crate::app::session::loading::Request;
-use crate::app::session::state::{Origin, Outcome, Session};
+use crate::app::session::open::Origin;
+use crate::app::session::saving::SaveError;
+use crate::app::session::state::{Outcome, Session};
 use crate::app::telling::notices::Notices;
 use crate::content::ContentKind;
 use crate::design::Source;
@@ -40,8 +42,8 @@ pub fn open(
                     drop.ask(path);
                     continue;
                 }
-                ToOpen::Refuse(text) => {
-                    notices.problem(text);
+                ToOpen::Refuse(error) => {
+                    notices.problem(error.to_string());
                     continue;
                 }
             },
@@ -68,8 +70,13 @@ impl Default for Gallery {
 enum ToOpen {
     Request(Request, Origin),
     Ask(PathBuf),
-    Refuse(String),
+    Refuse(TooMany),
 }
+
+/// Files that cannot be opened together.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0} files cannot be opened together: open one project, or one or two designs.")]
+struct TooMany(usize);
 
 fn what_to_open(paths: &[PathBuf], session: &Session) -> ToOpen {
     match paths {
@@ -86,10 +93,7 @@ fn what_to_open(paths: &[PathBuf], session: &Session) -> ToOpen {
             Request::Pair(source.clone(), target.clone()),
             Origin::Unsaved,
         ),
-        _ => ToOpen::Refuse(format!(
-            "{} files cannot be opened together: open one project, or one or two designs.",
-            paths.len()
-        )),
+        _ => ToOpen::Refuse(TooMany(paths.len())),
     }
 }
 
@@ -131,11 +135,11 @@ pub fn edit(
     }
 }
 
-fn tell(went: Result<bool, String>, nothing: &str, notices: &mut Notices) {
+fn tell(went: Result<bool, SaveError>, nothing: &str, notices: &mut Notices) {
     match went {
         Ok(true) => {}
         Ok(false) => notices.done(nothing),
-        Err(text) => notices.problem(text),
+        Err(error) => notices.problem(error.to_string()),
     }
 }
 
@@ -237,7 +241,7 @@ pub fn save(
                 waiting = question.after_save();
             }
             Err(error) => {
-                notices.problem(error);
+                notices.problem(error.to_string());
                 question.not_saved();
             }
         }
@@ -258,14 +262,19 @@ pub fn poll(
     if outcome.is_some() {
         session.set_changed();
     }
+    let mut say_why_not = || {
+        if let Some(problem) = session.problem() {
+            notices.problem(problem.to_string());
+        }
+    };
     match outcome {
         None | Some(Outcome::Rebuilt) => {}
         // The match editor says it where it was caused.
-        Some(Outcome::NotRebuilt(_)) if editor.is_open => {}
-        Some(Outcome::Failed(text) | Outcome::NotRebuilt(text)) => notices.problem(text),
-        Some(Outcome::Opened) => begin(&session, &mut playback, &mut keeps_fit),
-        Some(Outcome::OpenedWithout(text)) => {
-            notices.problem(text);
+        Some(Outcome::NotRebuilt) if editor.is_open => {}
+        Some(Outcome::NotRebuilt) => say_why_not(),
+        Some(Outcome::Failed(error)) => notices.problem(error.to_string()),
+        Some(Outcome::Opened) => {
+            say_why_not();
             begin(&session, &mut playback, &mut keeps_fit);
         }
     }

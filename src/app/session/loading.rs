@@ -9,7 +9,7 @@ use crate::project::{LoadedProject, Project, ProjectError, gallery};
 use crate::transition::{BuildError, Cell, Style, Timing, Transition};
 
 /// A project with its designs and, where it could be built, its transition.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Loaded {
     /// The project and its designs.
     pub project: LoadedProject,
@@ -20,12 +20,14 @@ pub struct Loaded {
 }
 
 /// Why there is nothing to play.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Problem {
-    /// A sentence for the user.
-    pub text: String,
-    /// The pins that it comes from, by their numbers in the project.
-    pub pins: Vec<usize>,
+#[derive(Debug, thiserror::Error)]
+pub enum Problem {
+    /// The settings do not go with the designs.
+    #[error(transparent)]
+    Project(#[from] ProjectError),
+    /// No transition can be built from them.
+    #[error(transparent)]
+    Build(#[from] BuildError),
 }
 
 /// Work to be done.
@@ -134,14 +136,7 @@ fn choose_cell(loaded: &mut LoadedProject) {
 }
 
 fn built(project: LoadedProject, progress: &dyn Progress) -> Loaded {
-    let built = project
-        .spec()
-        .map_err(|error| Problem {
-            text: error.to_string(),
-            pins: Vec::new(),
-        })
-        .and_then(|spec| Transition::build(&spec, progress).map_err(|error| Problem::of(&error)));
-    let (transition, problem) = match built {
+    let (transition, problem) = match transition_of(&project, progress) {
         Ok(transition) => (Some(transition), None),
         Err(problem) => (None, Some(problem)),
     };
@@ -152,19 +147,28 @@ fn built(project: LoadedProject, progress: &dyn Progress) -> Loaded {
     }
 }
 
+/// Builds the transition of a project.
+///
+/// # Errors
+/// The settings do not go with the designs, or no transition can be built from them.
+pub fn transition_of(
+    project: &LoadedProject,
+    progress: &dyn Progress,
+) -> Result<Transition, Problem> {
+    Ok(Transition::build(&project.spec()?, progress)?)
+}
+
 impl Problem {
-    fn of(error: &BuildError) -> Self {
-        let pins = match error {
-            BuildError::Match(RegionMatchError::Pins(error)) => match error {
+    /// The pins that it comes from, by their numbers in the project.
+    #[must_use]
+    pub fn pins(&self) -> Vec<usize> {
+        match self {
+            Self::Build(BuildError::Match(RegionMatchError::Pins(error))) => match error {
                 PinError::NotFinite(a) | PinError::End(a) => vec![*a],
                 PinError::SamePoint(a, b) | PinError::Crossing(a, b) => vec![*a, *b],
             },
-            BuildError::Match(RegionMatchError::PinAcross(a)) => vec![*a],
-            _ => Vec::new(),
-        };
-        Self {
-            text: error.to_string(),
-            pins,
+            Self::Build(BuildError::Match(RegionMatchError::PinAcross(a))) => vec![*a],
+            Self::Build(_) | Self::Project(_) => Vec::new(),
         }
     }
 }

@@ -13,6 +13,9 @@ use crate::project::{LoadedProject, Project, ProjectError, gallery};
 /// Why a project was not saved.
 #[derive(Debug, thiserror::Error)]
 pub enum SaveError {
+    /// Nothing is open.
+    #[error("There is no project to save.")]
+    NothingOpen,
     /// The document could not be written.
     #[error(transparent)]
     Project(#[from] ProjectError),

@@ -110,7 +110,7 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
 
 /// The empty plot: it cannot be dragged or zoomed.
 fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
-    let plot = Plot::new(("plot", quantity.label()))
+    let plot = Plot::new(("plot", quantity.name().title))
         .allow_drag(false)
         .allow_zoom(false)
         .allow_scroll(false)

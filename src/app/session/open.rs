@@ -1,0 +1,218 @@
+//! A project that is open: where it comes from, how it was changed, what of it is on the stage.
+
+use std::path::{Path, PathBuf};
+
+use crate::app::capturing::files::safe;
+use crate::app::session::history::{History, Snapshot};
+use crate::app::session::loading::{self, Loaded, Problem, Rebuild};
+use crate::app::session::saving::{self, SaveError};
+use crate::design::Form;
+use crate::project::{LoadedProject, Project};
+use crate::transition::Transition;
+
+/// Where the open project comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A bundled project, by its name.
+    Gallery(String),
+    /// A file.
+    File(PathBuf),
+    /// Designs that were opened together, or a project that was changed beyond its file.
+    Unsaved,
+}
+
+/// A project that is open.
+#[derive(Debug)]
+pub struct Open {
+    /// The settings as they are now, and the designs.
+    pub loaded: LoadedProject,
+    /// What is on the stage.
+    pub transition: Option<Transition>,
+    /// Why the settings, as they are now, make no transition.
+    pub problem: Option<Problem>,
+    /// The settings of what is on the stage.
+    pub staged: Project,
+    /// The steps that can be taken back.
+    pub history: History,
+    origin: Origin,
+    /// As it was opened or saved last.
+    saved: Project,
+}
+
+impl Open {
+    /// A project that has just been read.
+    #[must_use]
+    pub fn new(loaded: Loaded, origin: Origin) -> Self {
+        let project = loaded.project.project.clone();
+        Self {
+            loaded: loaded.project,
+            transition: loaded.transition,
+            problem: loaded.problem,
+            staged: project.clone(),
+            history: History::default(),
+            origin,
+            saved: project,
+        }
+    }
+
+    /// The file that it is saved to.
+    #[must_use]
+    pub fn path(&self) -> Option<&Path> {
+        match &self.origin {
+            Origin::File(path) => Some(path),
+            Origin::Gallery(_) | Origin::Unsaved => None,
+        }
+    }
+
+    /// Its name, where it is a bundled one.
+    #[must_use]
+    pub fn gallery_name(&self) -> Option<&str> {
+        match &self.origin {
+            Origin::Gallery(name) => Some(name),
+            Origin::File(_) | Origin::Unsaved => None,
+        }
+    }
+
+    fn stem(&self) -> Option<String> {
+        let stem = self.path().and_then(Path::file_stem);
+        stem.map(|stem| stem.to_string_lossy().into_owned())
+    }
+
+    /// What it is called.
+    #[must_use]
+    pub fn title(&self) -> String {
+        let stem = self.stem();
+        stem.filter(|_| self.loaded.project.title.is_empty())
+            .unwrap_or_else(|| self.loaded.title())
+    }
+
+    /// What files that belong to it are called.
+    #[must_use]
+    pub fn file_stem(&self) -> String {
+        let name = || self.gallery_name().map(str::to_owned);
+        safe(&self.stem().or_else(name).unwrap_or_else(|| self.title()))
+    }
+
+    /// There are changes that are not saved.
+    #[must_use]
+    pub fn is_dirty(&self) -> bool {
+        self.loaded.project != self.saved
+    }
+
+    /// Takes the changes for saved.
+    pub fn forget_changes(&mut self) {
+        self.saved = self.loaded.project.clone();
+    }
+
+    /// Some design is a truss.
+    #[must_use]
+    pub fn has_bars(&self) -> bool {
+        let mut designs = self.loaded.designs.iter();
+        designs.any(|design| matches!(design.form, Form::Truss(_)))
+    }
+
+    /// Both designs are outlines: there is something to match.
+    #[must_use]
+    pub fn can_match(&self) -> bool {
+        let pair = self.loaded.designs.iter().take(2);
+        pair.clone().count() == 2 && pair.into_iter().all(|d| matches!(d.form, Form::Outline(_)))
+    }
+
+    /// Changes the settings. Changes of one mark are one step of the history.
+    pub fn edit(&mut self, project: Project, mark: Option<u64>) {
+        let before = self.snapshot();
+        self.loaded.project = project;
+        self.history.note(before, self.snapshot(), mark);
+    }
+
+    /// Takes the settings of a step of the history; `false` where there is none.
+    ///
+    /// # Errors
+    /// A bundled design that the step names cannot be written; the project is as it was.
+    pub fn go(
+        &mut self,
+        step: impl FnOnce(&mut History) -> Option<Snapshot>,
+    ) -> Result<bool, SaveError> {
+        let Some(Snapshot { project, folder }) = step(&mut self.history) else {
+            return Ok(false);
+        };
+        self.loaded.project = match &self.loaded.folder {
+            Some(now) if folder.as_ref() != Some(now) => {
+                saving::named_from(project, folder.as_deref(), now)?
+            }
+            _ => project,
+        };
+        Ok(true)
+    }
+
+    /// Whether the settings make another transition than that on the stage. Where they are those
+    /// of the stage again, there is no problem any more.
+    pub fn is_stale(&mut self) -> bool {
+        let is_stale = loading::needs_build(&self.staged, &self.loaded.project);
+        if !is_stale && self.transition.is_some() {
+            self.problem = None;
+        }
+        is_stale
+    }
+
+    /// What is to be built where it is stale.
+    #[must_use]
+    pub fn rebuild(&self) -> Rebuild {
+        Rebuild {
+            now: self.loaded.clone(),
+            staged: self.staged.clone(),
+            transition: self.transition.clone(),
+        }
+    }
+
+    /// Takes in what was built; whether there is a new transition. The settings may have changed
+    /// again meanwhile: they stay, and so does what is on the stage where there is nothing new.
+    pub fn restage(&mut self, built: Loaded) -> bool {
+        self.problem = built.problem;
+        if self.problem.is_some() {
+            return false;
+        }
+        self.transition = built.transition;
+        self.loaded.designs = built.project.designs;
+        self.staged = built.project.project;
+        true
+    }
+
+    /// The settings go back to those of the stage; no step of the history is left of it.
+    pub fn give_up_changes(&mut self) {
+        self.amend(|now, staged| now.clone_from(staged));
+    }
+
+    /// The designs go back to those of the stage: a file that cannot be read is not kept.
+    pub fn give_up_designs(&mut self) {
+        self.amend(|now, staged| {
+            now.designs.clone_from(&staged.designs);
+            now.fit = staged.fit;
+        });
+    }
+
+    fn amend(&mut self, change: impl FnOnce(&mut Project, &Project)) {
+        let before = self.snapshot();
+        change(&mut self.loaded.project, &self.staged);
+        self.history.amend(before, self.snapshot());
+    }
+
+    /// Writes it to a file, which is its file from then on.
+    ///
+    /// # Errors
+    /// The document or a bundled design cannot be written; the project is as it was.
+    pub fn save(&mut self, path: PathBuf) -> Result<(), SaveError> {
+        saving::save(&mut self.loaded, &path)?;
+        self.saved = self.loaded.project.clone();
+        self.staged.designs.clone_from(&self.saved.designs);
+        self.origin = Origin::File(path);
+        Ok(())
+    }
+
+    fn snapshot(&self) -> Snapshot {
+        Snapshot {
+            project: self.loaded.project.clone(),
+            folder: self.loaded.folder.clone(),
+        }
+    }
+}
