@@ -1,113 +1,193 @@
-//! The warp by line features: a raster of 1024 by 1024, and a frame's grid.
+//! A whole frame of two pictures of 1024 by 1024 through 40 pairs of lines,
+//! as the program makes it: the warp on its grid, and the pixels.
 //!
-//! `cargo bench --no-default-features --bench lines`. The lines are those of
-//! `benches/lines_numpy.py`, which computes the same in plain NumPy; where
-//! the variable `LINES_NUMPY` names the file it wrote, the greatest difference
-//! to it is printed.
+//! `cargo bench --no-default-features --bench lines`. Where the variable
+//! `LINES_NUMPY` names a Python that has NumPy, `benches/lines_numpy.py` makes
+//! the same frame before, and its times, those of the program in the same
+//! minute, and how far the two are apart are printed. NumPy looks the lines up
+//! at every pixel; the program does so at the corners of its grid and is
+//! linear between them.
 
-use criterion::{BenchmarkId, Criterion, Throughput};
+use criterion::Criterion;
+use image::{DynamicImage, ImageFormat, Rgba, RgbaImage};
+use morphospace::content::{ContentKind, Raster};
 use morphospace::correspondence::LinePair;
+use morphospace::design::{Design, ImportOptions, import};
 use morphospace::geometry::{Bounds, DVec2};
-use morphospace::warp::{LineMap, LineOptions, Lines, PlaneGrid, PlaneWarp, Raster, Segment};
+use morphospace::progress::Silent;
+use morphospace::transition::{Cell, Frame, Transition, TransitionSpec};
+use morphospace::warp::{LineOptions, Lines, Placement, PlaneGrid, PlaneWarp, WarpKind};
 use std::error::Error;
+use std::io::Cursor;
+use std::process::Command;
+use std::sync::Arc;
+use std::time::Instant;
 
 type Result<T> = std::result::Result<T, Box<dyn Error>>;
 
 const SIDE: usize = 1024;
 const COUNT: u32 = 40;
 
+/// The frame, its pixels in the plane.
+const PIXELS: Raster = Raster {
+    size: [SIDE as u32; 2],
+    corner: DVec2::new(0.0, SIDE as f64),
+    pixel: 1.0,
+};
+
 fn main() -> Result<()> {
-    if let Some(file) = std::env::var_os("LINES_NUMPY") {
-        compare(&std::fs::read(file)?)?;
+    let transition = transition()?;
+    if let Some(python) = std::env::var_os("LINES_NUMPY") {
+        compare(&python, &transition)?;
     }
     let mut criterion = Criterion::default().configure_from_args();
-    raster(&mut criterion)?;
-    frame(&mut criterion)?;
+    whole(&mut criterion, &transition)?;
+    warp(&mut criterion)?;
     criterion.final_summary();
     Ok(())
 }
 
-fn segment(middle: DVec2, angle: f64, length: f64) -> Segment {
+fn line(middle: DVec2, angle: f64, length: f64) -> [DVec2; 2] {
     let half = DVec2::from_angle(angle) * (0.5 * length);
     [middle - half, middle + half]
 }
 
-/// Line i in the frame and in the design.
-fn pair(i: u32) -> [Segment; 2] {
+fn pair(i: u32) -> LinePair {
     let i = f64::from(i);
     let middle = DVec2::new(0.5 + i * 0.7548776662, 0.5 + i * 0.5698402910).fract() * SIDE as f64;
     let angle = 2.4 * i;
     let length = 60.0 + 240.0 * (i * 0.6180339887).fract();
     let moved = middle + 40.0 * DVec2::new((1.7 * i).cos(), (1.3 * i).sin());
-    let turned = angle + 0.5 * i.sin();
     let stretched = length * (1.0 + 0.3 * (2.1 * i).cos());
-    [
-        segment(middle, angle, length),
-        segment(moved, turned, stretched),
-    ]
+    LinePair {
+        source: line(middle, angle, length),
+        target: line(moved, angle + 0.5 * i.sin(), stretched),
+    }
 }
 
-fn pairs() -> Vec<[Segment; 2]> {
-    (0..COUNT).map(pair).collect()
+/// An opaque picture of slow waves.
+fn design(shift: u32) -> Result<Arc<Design>> {
+    let wave = |x: u32, k: u32| ((x * (k + 1) + shift * 57) % 511).abs_diff(255) as u8;
+    let pixel = |x, y| Rgba([wave(x, 0), wave(y, 1), wave(x + y, 2), 255]);
+    let picture = RgbaImage::from_fn(SIDE as u32, SIDE as u32, pixel);
+    let mut bytes = Cursor::new(Vec::new());
+    DynamicImage::from(picture).write_to(&mut bytes, ImageFormat::Png)?;
+    let options = ImportOptions::default();
+    Ok(Arc::new(import("waves", bytes.get_ref(), &options)?))
 }
 
-const PIXELS: Raster = Raster {
-    origin: DVec2::splat(0.5),
-    step: DVec2::ONE,
-    columns: SIDE,
-};
+fn transition() -> Result<Transition> {
+    let mut spec = TransitionSpec::new(design(0)?, design(1)?);
+    spec.cell = Cell::new(WarpKind::Lines, ContentKind::Colours)?;
+    spec.matching.lines = (0..COUNT).map(pair).collect();
+    Ok(Transition::build(&spec, &Silent)?)
+}
 
+/// Of a frame of pictures there is one.
+fn picture(frame: &mut Frame) -> Option<RgbaImage> {
+    frame.seek(0.5);
+    frame.picture(&PIXELS)
+}
+
+/// Times NumPy, then the program, and holds what they make against each other.
 #[expect(clippy::print_stdout, reason = "it is what the variable asks for")]
-fn compare(bytes: &[u8]) -> Result<()> {
-    let expected: Vec<f64> = bytes
-        .as_chunks()
-        .0
-        .iter()
+fn compare(python: &std::ffi::OsStr, transition: &Transition) -> Result<()> {
+    let out = std::env::temp_dir().join(format!("lines_numpy_{}.bin", std::process::id()));
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/lines_numpy.py");
+    let status = Command::new(python).arg(script).arg(&out).status()?;
+    let bytes = std::fs::read(&out)?;
+    std::fs::remove_file(&out)?;
+    let expected: Vec<f64> = (bytes.as_chunks().0.iter())
         .map(|b| f64::from_le_bytes(*b))
         .collect();
-    let mut found = vec![0.0; 2 * SIDE * SIDE];
-    if expected.len() != found.len() {
-        return Err("the file does not hold two planes of 1024 by 1024 doubles".into());
+    if !status.success() || expected.len() != 7 * SIDE * SIDE {
+        return Err("NumPy made no frame".into());
     }
-    let (x, y) = found.split_at_mut(SIDE * SIDE);
-    LineMap::new(&pairs(), 1.0, 2.0, 0.5)?.map_raster(&PIXELS, x, y);
-    let differences = found.iter().zip(&expected).map(|(a, b)| (a - b).abs());
-    println!(
-        "greatest difference to NumPy: {:e} px",
-        differences.fold(0.0, f64::max)
-    );
+    for threads in [1, std::thread::available_parallelism()?.get()] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let mut frame = transition.frame(0.0);
+        let mut times = pool.build()?.install(|| {
+            let time = |_| {
+                let start = Instant::now();
+                picture(&mut frame)?;
+                Some(1e3 * start.elapsed().as_secs_f64())
+            };
+            (0..41).map(time).collect::<Option<Vec<f64>>>()
+        });
+        let times = times.as_mut().ok_or("a frame without colours")?;
+        times.sort_by(f64::total_cmp);
+        let (best, median) = (times[0], times[20]);
+        println!("program, {threads} threads: best {best:.1} ms, median {median:.1} ms");
+    }
+    let mut frame = transition.frame(0.0);
+    let seen = picture(&mut frame).ok_or("a frame without colours")?;
+    let (planes, colours) = expected.split_at(4 * SIDE * SIDE);
+    let differences = apart(frame.placement(), planes);
+    let (most, mean) = most_and_mean(&differences);
+    println!("the maps are at most {most:.2} px apart, {mean:.4} px in the mean");
+    let levels = seen.as_raw().chunks_exact(4).zip(colours.as_chunks().0);
+    let off = |(a, b): (&[u8], &[f64; 3])| [0, 1, 2].map(|k| (f64::from(a[k]) - b[k]).abs());
+    let (most, mean) = most_and_mean(&levels.flat_map(off).collect::<Vec<_>>());
+    println!("the pictures are at most {most} levels of 255 apart, {mean:.4} in the mean");
     Ok(())
 }
 
-fn raster(criterion: &mut Criterion) -> Result<()> {
-    let mut group = criterion.benchmark_group("raster");
-    group.sample_size(20);
-    group.throughput(Throughput::Elements((SIDE * SIDE) as u64));
-    let [mut x, mut y] = [vec![0.0; SIDE * SIDE], vec![0.0; SIDE * SIDE]];
-    for b in [2.0, 1.0, 1.5] {
-        let map = LineMap::new(&pairs(), 1.0, b, 0.5)?;
-        for threads in [1, 2] {
-            let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
-            let pool = builder.build()?;
-            let id = BenchmarkId::new(format!("b = {b}/{threads} threads"), SIDE);
-            group.bench_function(id, |bench| {
-                bench.iter(|| pool.install(|| map.map_raster(&PIXELS, &mut x, &mut y)));
-            });
+fn most_and_mean(values: &[f64]) -> (f64, f64) {
+    let most = values.iter().copied().fold(0.0, f64::max);
+    (most, values.iter().sum::<f64>() / values.len() as f64)
+}
+
+/// How far each pixel's places in both designs are from those expected: four
+/// planes, x and y in the source and in the target.
+fn apart(placement: &Placement, expected: &[f64]) -> Vec<f64> {
+    let mut apart = vec![f64::INFINITY; 2 * SIDE * SIDE];
+    for face in placement.faces.iter() {
+        let of = |points: &[DVec2]| face.map(|v| points[v as usize]);
+        let [a, b, c] = of(&placement.in_frame);
+        let det = (b - a).perp_dot(c - a);
+        let (low, high) = (a.min(b).min(c).floor(), a.max(b).max(c).ceil());
+        let pixels = |low: f64, high: f64| low.max(0.0) as usize..(high as usize).min(SIDE);
+        for up in pixels(low.y, high.y) {
+            for column in pixels(low.x, high.x) {
+                let p = DVec2::new(column as f64, up as f64) + 0.5 - a;
+                let [u, v] = [p.perp_dot(c - a), (b - a).perp_dot(p)].map(|area| area / det);
+                if u < -1e-9 || v < -1e-9 || u + v > 1.0 + 1e-9 {
+                    continue;
+                }
+                let pixel = (SIDE - 1 - up) * SIDE + column;
+                let designs = [of(&placement.in_source), of(&placement.in_target)];
+                for (k, [a, b, c]) in designs.into_iter().enumerate() {
+                    let plane = |axis: usize| expected[(2 * k + axis) * SIDE * SIDE + pixel];
+                    let place = a + u * (b - a) + v * (c - a);
+                    apart[2 * pixel + k] = place.distance(DVec2::new(plane(0), plane(1)));
+                }
+            }
         }
     }
-    group.finish();
+    apart
+}
+
+fn whole(criterion: &mut Criterion, transition: &Transition) -> Result<()> {
+    for threads in [1, 2] {
+        let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
+        let pool = builder.build()?;
+        let mut frame = transition.frame(0.0);
+        let name = format!("whole/{SIDE} x {SIDE}, {threads} threads");
+        criterion.bench_function(&name, |bench| {
+            bench.iter(|| pool.install(|| picture(&mut frame)));
+        });
+    }
     Ok(())
 }
 
-/// A frame of a film: a grid of some 33 000 places, both designs.
-fn frame(criterion: &mut Criterion) -> Result<()> {
+/// The warp alone, on a grid of some 33 000 places.
+fn warp(criterion: &mut Criterion) -> Result<()> {
     let bounds = Bounds {
         min: DVec2::ZERO,
         max: DVec2::splat(SIDE as f64),
     };
     let grid = PlaneGrid::covering(&bounds, 181);
-    let line = |[source, target]: [Segment; 2]| LinePair { source, target };
-    let lines: Vec<LinePair> = pairs().into_iter().map(line).collect();
+    let lines: Vec<LinePair> = (0..COUNT).map(pair).collect();
     for falloff in [2.0, 1.5] {
         let options = LineOptions {
             falloff,

@@ -27,29 +27,23 @@
 //! - `options`: the paper's constants, and what may be wrong
 //! - `between`: where a line is at t
 //! - `line`: a line with everything that a place needs of it
+//! - `scaled`: coordinates whose products neither overflow nor vanish
 //! - `bundle`: lines together, and the places that they move
 //! - `kernel`: the sums over lines, many places at a time
-//! - `falloff`: weights; `power`: for exponents without a short formula
-//! - `map`: the map of the plane by one set of lines
-//! - `raster`: that of a picture; `interpolation`: what is far from a tile
+//! - `falloff`: weights
 
 mod between;
 mod bundle;
 mod falloff;
-mod interpolation;
 mod kernel;
 mod line;
-mod map;
 mod options;
-mod power;
-mod raster;
+mod scaled;
 
 #[cfg(test)]
 mod tests;
 
-pub use map::{LineMap, Segment};
 pub use options::{Between, LineOptions, LinesError};
-pub use raster::Raster;
 
 use super::PlaneWarp;
 use crate::correspondence::{LinePair, PointPair};
@@ -96,7 +90,7 @@ pub struct Lines {
 
 /// Memory of one frame of [`Lines`]: the lines at a t.
 #[derive(Clone, Debug)]
-pub struct LinesAtT(Bundle<2>);
+pub struct LinesAtT(Bundle);
 
 impl Lines {
     /// A warp by lines and pins, in the coordinates of the frame. Without any

@@ -6,6 +6,7 @@
 //! fail. Warps know nothing of contents.
 
 pub mod arap;
+mod elementary;
 mod kind;
 mod lattice;
 mod lines;
@@ -21,7 +22,7 @@ pub use kind::{CellWords, Column, WarpKind, Words};
 pub use lattice::{
     FINEST, Lattice, LatticeError, LatticeMaps, LatticeOptions, MORE_LEVELS, Residual,
 };
-pub use lines::{Between, LineMap, LineOptions, Lines, LinesAtT, LinesError, Raster, Segment};
+pub use lines::{Between, LineOptions, Lines, LinesAtT, LinesError};
 pub use metamorphosis::{RigidPart, Split, SplitMaps, Travel, Turned};
 pub use none::Still;
 pub use paths::{Course, PathOptions, Paths, PathsError, RingPair};

@@ -19,13 +19,11 @@
 //! - `angles`: one consistent rotation angle for each face
 //! - `assembly`: gradients, weights and the matrix
 //! - `stresses`: the right-hand side of a frame, many faces at a time
-//! - `elementary`: sine, cosine, exponential and logarithm for it and others
 //! - `drift`: where parts as a whole are at t
 
 mod angles;
 mod assembly;
 mod drift;
-pub(super) mod elementary;
 mod stresses;
 
 #[cfg(test)]

@@ -13,10 +13,10 @@
 //! and the tests hold the two together.
 
 use super::assembly::{ElementMap, FaceMap, LocalMaps};
-use super::elementary::{exp, sin_cos};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, SymmetricEigen};
 use crate::homotopy::{Homotopy, LocalMap};
+use crate::warp::elementary::{exp, sin_cos};
 use pulp::{Arch, Simd, WithSimd};
 use std::sync::Arc;
 

@@ -8,7 +8,7 @@
 //! neither rounding nor an exchange chooses. Beyond [0, 1] a line that shrinks
 //! stays a point when it has become one (by middle, angle and length).
 
-use super::map::Segment;
+use super::line::Segment;
 use super::options::Between;
 use crate::geometry::DVec2;
 use std::f64::consts::TAU;

@@ -3,7 +3,7 @@
 //! Places come in pairs of vectors: one division does for both weights, as
 //! 1/q = (the other q) / (product of both).
 
-use super::power::power;
+use crate::warp::elementary::{exp, ln};
 use pulp::{Simd, bytemuck};
 
 /// How many vectors share a division. Four would share it as well, but more
@@ -51,7 +51,7 @@ impl Falloff for Power {
     #[inline(always)]
     fn weights<S: Simd>(self, simd: S, strength: S::f64s, mut q: Group<S>) -> Group<S> {
         for value in bytemuck::cast_slice_mut::<_, f64>(&mut q) {
-            *value = power(*value, -self.0);
+            *value = exp(-self.0 * ln(*value));
         }
         [simd.mul_f64s(strength, q[0]), simd.mul_f64s(strength, q[1])]
     }

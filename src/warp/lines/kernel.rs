@@ -1,4 +1,4 @@
-//! Σ w and Σ w D over lines, for many places at a time.
+//! Σ w D / Σ w over lines, for many places at a time.
 //!
 //! The width of the vectors is chosen at run time; results differ between
 //! widths in the last digits at most.
@@ -9,18 +9,19 @@
 
 use super::falloff::{Falloff, GROUP, Group, Inverse, Power, Square};
 use super::line::{Affine, Line};
+use super::scaled::Scaled;
 use crate::geometry::DVec2;
 use pulp::{Arch, Simd, WithSimd};
 
 /// How many places there are in a block.
-pub(super) const BLOCK: usize = 128;
+const BLOCK: usize = 128;
 
 /// How many groups of vectors are taken through the lines together: a block,
 /// if vectors have four numbers.
 const CELLS: usize = BLOCK / GROUP / 4;
 
 /// The farthest place, scaled.
-pub(super) const FARTHEST: f64 = 1e36;
+const FARTHEST: f64 = 1e36;
 
 /// The least a, scaled: below what coordinates can tell.
 pub(super) const LEAST_A: f64 = 1e-30;
@@ -28,57 +29,29 @@ pub(super) const LEAST_A: f64 = 1e-30;
 /// The largest a, scaled: to all features it makes no difference any more.
 pub(super) const LARGEST_A: f64 = 1e30;
 
+/// The least Σ w that is one: that of no lines is 0, and no other is below.
+const LEAST_WEIGHT: f64 = 1e-300;
+
 /// A number of each place of a block.
-pub(super) type Row = [f64; BLOCK];
-
-/// The sums of a block.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Sums<const N: usize> {
-    /// Σ w.
-    pub(super) weight: Row,
-    /// Σ w D for each design, x and y.
-    pub(super) moved: [[Row; 2]; N],
-}
-
-impl<const N: usize> Sums<N> {
-    /// Those of no lines.
-    pub(super) const ZERO: Self = Self {
-        weight: [0.0; BLOCK],
-        moved: [[[0.0; BLOCK]; 2]; N],
-    };
-}
+type Row = [f64; BLOCK];
 
 /// Lines to be summed over.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lines<'a, const N: usize> {
-    pub(super) lines: &'a [Line<N>],
+pub(super) struct Lines<'a> {
+    pub(super) lines: &'a [Line],
+    /// What they are scaled by.
+    pub(super) plane: Scaled,
     /// The paper's a, scaled.
     pub(super) a: f64,
     /// The paper's b.
     pub(super) b: f64,
 }
 
-/// Places of a block. What stands behind the first `count` is not computed, or
-/// in vain.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Places<'a> {
-    pub(super) x: &'a Row,
-    pub(super) y: &'a Row,
-    pub(super) count: usize,
-    /// Scaled is what they are times this, less the centre.
-    pub(super) per_unit: f64,
-    pub(super) centre: DVec2,
-}
-
-/// Adds the lines' part to the sums.
-pub(super) fn add<const N: usize>(
-    arch: Arch,
-    lines: Lines<'_, N>,
-    places: Places<'_>,
-    sums: &mut Sums<N>,
-) {
+/// Where each place is looked up in both designs: moved by Σ w D / Σ w, and
+/// not at all where there are no lines.
+pub(super) fn look_up(arch: Arch, lines: Lines<'_>, places: &[DVec2], designs: [&mut [DVec2]; 2]) {
     let b = lines.b;
-    let job = (lines, places, sums);
+    let job = (lines, places, designs);
     if b == 2.0 {
         arch.dispatch(Pass(Square, job));
     } else if b == 1.0 {
@@ -88,53 +61,91 @@ pub(super) fn add<const N: usize>(
     }
 }
 
-/// `unit` Σ w D / Σ w, and 0 where there are no lines.
-pub(super) fn means<const N: usize>(arch: Arch, sums: &Sums<N>, unit: f64) -> [[Row; 2]; N] {
-    let mut means = sums.moved;
-    arch.dispatch(Means(&sums.weight, &mut means, unit));
-    means
-}
-
-/// The division, to be compiled for several widths of vectors.
-struct Means<'a, const N: usize>(&'a Row, &'a mut [[Row; 2]; N], f64);
-
-impl<const N: usize> WithSimd for Means<'_, N> {
-    type Output = ();
-
-    #[inline(always)]
-    fn with_simd<S: Simd>(self, _: S) {
-        let Self(weights, means, unit) = self;
-        for (lane, &weight) in weights.iter().enumerate() {
-            // No weight is below, but that of no lines.
-            let factor = 1.0 / if weight > 1e-300 { weight } else { 1e-300 };
-            for rows in means.iter_mut() {
-                for row in rows {
-                    row[lane] = row[lane] * factor * unit;
-                }
-            }
-        }
-    }
-}
-
 /// The work, to be compiled for several widths of vectors.
-struct Pass<'a, F, const N: usize>(F, (Lines<'a, N>, Places<'a>, &'a mut Sums<N>));
+struct Pass<'a, F>(F, (Lines<'a>, &'a [DVec2], [&'a mut [DVec2]; 2]));
 
-impl<F: Falloff, const N: usize> WithSimd for Pass<'_, F, N> {
+impl<F: Falloff> WithSimd for Pass<'_, F> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
-        let Self(falloff, (lines, places, sums)) = self;
-        let used = places.count.div_ceil(GROUP * S::F64_LANES);
+        let Self(falloff, (lines, places, [source, target])) = self;
         let mut cells = [Cell::new(simd); CELLS];
-        for start in (0..used).step_by(CELLS) {
-            let cells = &mut cells[..CELLS.min(used - start)];
-            for (k, cell) in cells.iter_mut().enumerate() {
-                cell.load(simd, start + k, &places, sums);
+        let designs = source.chunks_mut(BLOCK).zip(target.chunks_mut(BLOCK));
+        for (places, designs) in places.chunks(BLOCK).zip(designs) {
+            let mut block = Block::of(places);
+            let used = places.len().div_ceil(GROUP * S::F64_LANES);
+            for start in (0..used).step_by(CELLS) {
+                let cells = &mut cells[..CELLS.min(used - start)];
+                for (k, cell) in cells.iter_mut().enumerate() {
+                    *cell = block.cell(simd, start + k, &lines.plane);
+                }
+                sum(simd, falloff, lines, cells);
+                for (k, cell) in cells.iter().enumerate() {
+                    block.take(simd, start + k, cell, lines.plane.unit);
+                }
             }
-            sum(simd, falloff, lines, cells);
-            for (k, cell) in cells.iter().enumerate() {
-                cell.store(start + k, sums);
+            block.write(places, designs.into());
+        }
+    }
+}
+
+/// A block of places, and how far each is moved in both designs.
+struct Block {
+    /// x and y. Behind the last place stands that place again, and what is
+    /// computed there is computed in vain.
+    places: [Row; 2],
+    moved: [[Row; 2]; 2],
+}
+
+impl Block {
+    #[inline(always)]
+    fn of(places: &[DVec2]) -> Self {
+        let last = places.len() - 1;
+        let mut block = Self {
+            places: [[0.0; BLOCK]; 2],
+            moved: [[[0.0; BLOCK]; 2]; 2],
+        };
+        let [x, y] = &mut block.places;
+        for (lane, (x, y)) in x.iter_mut().zip(y).enumerate() {
+            [*x, *y] = places[lane.min(last)].to_array();
+        }
+        block
+    }
+
+    /// The places of a group, with no line added.
+    #[inline(always)]
+    fn cell<S: Simd>(&self, simd: S, at: usize, plane: &Scaled) -> Cell<S> {
+        let [x, y] = self.places.each_ref().map(|row| groups::<S>(row)[at]);
+        Cell {
+            x: scaled(simd, x, plane.per_unit, plane.centre.x),
+            y: scaled(simd, y, plane.per_unit, plane.centre.y),
+            ..Cell::new(simd)
+        }
+    }
+
+    /// `unit` Σ w D / Σ w of a group.
+    #[inline(always)]
+    fn take<S: Simd>(&mut self, simd: S, at: usize, cell: &Cell<S>, unit: f64) {
+        let [one, unit, least] = [1.0, unit, LEAST_WEIGHT].map(|x| simd.splat_f64s(x));
+        let mut factors = cell.weight;
+        for factor in &mut factors {
+            *factor = simd.div_f64s(one, simd.max_f64s(*factor, least));
+        }
+        let rows = self.moved.as_flattened_mut().iter_mut();
+        for (row, sums) in rows.zip(cell.moved.as_flattened()) {
+            let out = groups_mut::<S>(row)[at].iter_mut();
+            for (out, (&sum, &factor)) in out.zip(sums.iter().zip(&factors)) {
+                *out = simd.mul_f64s(simd.mul_f64s(sum, factor), unit);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn write(&self, places: &[DVec2], designs: [&mut [DVec2]; 2]) {
+        for (design, [dx, dy]) in designs.into_iter().zip(&self.moved) {
+            for (lane, (out, &place)) in design.iter_mut().zip(places).enumerate() {
+                *out = place + DVec2::new(dx[lane], dy[lane]);
             }
         }
     }
@@ -145,12 +156,7 @@ impl<F: Falloff, const N: usize> WithSimd for Pass<'_, F, N> {
 /// A line's weights wait long for its roots: so these are begun one line
 /// ahead, for all cells, and no processor needs to look far.
 #[inline(always)]
-fn sum<S: Simd, const N: usize>(
-    simd: S,
-    falloff: impl Falloff,
-    lines: Lines<'_, N>,
-    cells: &mut [Cell<S, N>],
-) {
+fn sum<S: Simd>(simd: S, falloff: impl Falloff, lines: Lines<'_>, cells: &mut [Cell<S>]) {
     let Lines { lines, a, .. } = lines;
     let [Some(first), Some(last)] = [lines.first(), lines.last()] else {
         return;
@@ -174,16 +180,16 @@ fn sum<S: Simd, const N: usize>(
 /// that lie across lines of the cache are slow.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
-struct Cell<S: Simd, const N: usize> {
+struct Cell<S: Simd> {
     x: Group<S>,
     y: Group<S>,
     /// a + dist, of the line that comes next.
     q: Group<S>,
     weight: Group<S>,
-    moved: [[Group<S>; 2]; N],
+    moved: [[Group<S>; 2]; 2],
 }
 
-impl<S: Simd, const N: usize> Cell<S, N> {
+impl<S: Simd> Cell<S> {
     #[inline(always)]
     fn new(simd: S) -> Self {
         let zero = [simd.splat_f64s(0.0); GROUP];
@@ -192,38 +198,13 @@ impl<S: Simd, const N: usize> Cell<S, N> {
             y: zero,
             q: zero,
             weight: zero,
-            moved: [[zero; 2]; N],
-        }
-    }
-
-    #[inline(always)]
-    fn load(&mut self, simd: S, at: usize, places: &Places<'_>, sums: &Sums<N>) {
-        let Places {
-            per_unit, centre, ..
-        } = *places;
-        self.x = scaled(simd, groups::<S>(places.x)[at], per_unit, centre.x);
-        self.y = scaled(simd, groups::<S>(places.y)[at], per_unit, centre.y);
-        self.weight = groups::<S>(&sums.weight)[at];
-        for (moved, rows) in self.moved.iter_mut().zip(&sums.moved) {
-            for (moved, row) in moved.iter_mut().zip(rows) {
-                *moved = groups::<S>(row)[at];
-            }
-        }
-    }
-
-    #[inline(always)]
-    fn store(&self, at: usize, sums: &mut Sums<N>) {
-        groups_mut::<S>(&mut sums.weight)[at] = self.weight;
-        for (moved, rows) in self.moved.iter().zip(&mut sums.moved) {
-            for (moved, row) in moved.iter().zip(rows) {
-                groups_mut::<S>(row)[at] = *moved;
-            }
+            moved: [[zero; 2]; 2],
         }
     }
 
     /// a + dist.
     #[inline(always)]
-    fn reach(&self, simd: S, a: f64, line: &Line<N>) -> Group<S> {
+    fn reach(&self, simd: S, a: f64, line: &Line) -> Group<S> {
         let all = |value| simd.splat_f64s(value);
         let (half, a, zero) = (all(line.half), all(a), all(0.0));
         let mut q = self.q;
@@ -241,7 +222,7 @@ impl<S: Simd, const N: usize> Cell<S, N> {
 
     /// Adds w and w D of a line, whose q is known.
     #[inline(always)]
-    fn add(&mut self, simd: S, falloff: impl Falloff, line: &Line<N>) {
+    fn add(&mut self, simd: S, falloff: impl Falloff, line: &Line) {
         let w = falloff.weights(simd, simd.splat_f64s(line.strength), self.q);
         for (sum, &w) in self.weight.iter_mut().zip(&w) {
             *sum = simd.add_f64s(*sum, w);

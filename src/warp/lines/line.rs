@@ -1,4 +1,4 @@
-//! A line of the frame with its fellows in some designs, and what a place
+//! A line of the frame with its fellows in both designs, and what a place
 //! needs of it.
 //!
 //! How far along and across a place is, and its displacement D, are affine in
@@ -10,9 +10,10 @@
 //! finite. Beyond the paper: a line that is short against its fellow, or long,
 //! turns into a point.
 
-use super::kernel::FARTHEST;
-use super::map::Segment;
 use crate::geometry::{DMat2, DVec2};
+
+/// A line from end to end.
+pub(super) type Segment = [DVec2; 2];
 
 /// A line, or its fellow, shorter than this part of the other becomes a point
 /// by and by.
@@ -23,9 +24,9 @@ const NO_LENGTH: f64 = 1e-150;
 
 /// A line of the frame and its fellows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Feature<const N: usize> {
+pub(super) struct Feature {
     pub(super) in_frame: Segment,
-    pub(super) in_designs: [Segment; N],
+    pub(super) in_designs: [Segment; 2],
     /// The length by which it is weighed, if not by that of the line.
     pub(super) nominal: Option<f64>,
 }
@@ -35,7 +36,7 @@ pub(super) type Affine = [f64; 3];
 
 /// A line as the kernel reads it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line<const N: usize> {
+pub(super) struct Line {
     /// How far along the line a place is, from its middle.
     pub(super) along: Affine,
     /// How far to the left of the line it is.
@@ -45,11 +46,11 @@ pub(super) struct Line<const N: usize> {
     /// (length / greatest length)^(b p).
     pub(super) strength: f64,
     /// The displacement D into each design, x and y.
-    pub(super) carries: [[Affine; 2]; N],
+    pub(super) carries: [[Affine; 2]; 2],
 }
 
-impl<const N: usize> Feature<N> {
-    pub(super) fn points(&self) -> impl Iterator<Item = DVec2> + Clone + use<N> {
+impl Feature {
+    pub(super) fn points(&self) -> impl Iterator<Item = DVec2> + Clone + use<> {
         let designs = self.in_designs.into_iter().flatten();
         self.in_frame.into_iter().chain(designs)
     }
@@ -78,10 +79,10 @@ impl Middled {
     }
 }
 
-impl<const N: usize> Line<N> {
+impl Line {
     /// The line of a scaled feature, its strength being its length still, at
     /// least so long as its fellows make it; `a` where none has any.
-    pub(super) fn new(feature: &Feature<N>, a: f64) -> Self {
+    pub(super) fn new(feature: &Feature, a: f64) -> Self {
         let frame = Middled::new(feature.in_frame);
         let designs = feature.in_designs.map(Middled::new);
         let lengths = designs.iter().map(|design| design.length);
@@ -105,15 +106,6 @@ impl<const N: usize> Line<N> {
             strength: feature.nominal.unwrap_or(own).max(f64::MIN_POSITIVE),
             carries: designs.map(|design| carry(&frame, &design)),
         }
-    }
-
-    /// Whether a disc of this radius sees one end, or none, from the whole of
-    /// it, and its middle is this far from the line.
-    pub(super) fn is_far(&self, middle: DVec2, radius: f64, distance: f64) -> bool {
-        let at = |[c, a, b]: Affine| c + a * middle.x + b * middle.y;
-        let beyond = at(self.along).abs() - self.half;
-        let away = beyond.max(0.0).hypot(at(self.across));
-        beyond.abs() >= radius && away >= distance && away < 0.1 * FARTHEST
     }
 }
 

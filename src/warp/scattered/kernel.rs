@@ -5,7 +5,7 @@
 //! results are the same for all.
 
 use crate::geometry::DVec2;
-use crate::warp::arap::elementary::{exp, ln};
+use crate::warp::elementary::{exp, ln};
 use pulp::{Simd, WithSimd};
 
 /// How many places are worked on at a time: their sums stay in the nearest

@@ -115,7 +115,7 @@ pub(super) fn sin_cos(x: f64) -> (f64, f64) {
 
 /// eˣ, for x beyond ±708 that of ±708.
 #[inline(always)]
-pub(in crate::warp) fn exp(x: f64) -> f64 {
+pub(super) fn exp(x: f64) -> f64 {
     let x = x.clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT);
     let rounded = x * LOG2_E + ROUNDER;
     let n = rounded - ROUNDER;
@@ -139,7 +139,7 @@ fn logarithm_series(x: f64) -> f64 {
 /// The natural logarithm of a positive normal number, from the fraction f + 1
 /// between √½ and √2 and the exponent: ln(1 + f) = 2 artanh(f / (2 + f)).
 #[inline(always)]
-pub(in crate::warp) fn ln(x: f64) -> f64 {
+pub(super) fn ln(x: f64) -> f64 {
     let half_root = FRAC_1_SQRT_2.to_bits();
     let shifted = x.to_bits().wrapping_add(1.0_f64.to_bits() - half_root);
     // The exponent stands in the low bits of 2⁵² + exponent.
