@@ -11,7 +11,7 @@ use crate::homotopy::Homotopy;
 use crate::names::named;
 use crate::project::Project;
 use crate::transition::{Boundary, Easing, Fit, PlayMode, Rgb};
-use crate::warp::{PathKind, WarpKind, Weights};
+use crate::warp::{ArapPath, WarpKind, Weights};
 
 use super::error::CliError;
 use super::plane_options::{CellArgs, ColourArgs, PathArgs};
@@ -257,8 +257,8 @@ impl ArapArgs {
         set(&mut arap.symmetric, self.symmetric.then_some(true));
         set(&mut arap.symmetric, self.one_sided.then_some(false));
         set(&mut arap.extra_turns, self.extra_turns.clone());
-        set(&mut arap.path, self.centroid.then_some(PathKind::Centroid));
-        set(&mut arap.path, self.anchor.map(PathKind::Anchor));
+        set(&mut arap.path, self.centroid.then_some(ArapPath::Centroid));
+        set(&mut arap.path, self.anchor.map(ArapPath::Anchor));
         set(&mut arap.subdivisions, self.subdivisions);
     }
 }
@@ -380,7 +380,7 @@ mod tests {
             (false, 1)
         );
         assert_eq!(project.options.arap.extra_turns, [0, -1]);
-        assert_eq!(project.options.arap.path, PathKind::Anchor(3));
+        assert_eq!(project.options.arap.path, ArapPath::Anchor(3));
         assert_eq!(project.options.field.metric, Metric::Chessboard);
         assert_eq!(project.options.field.boundary, Boundary::Binary);
         assert_eq!(project.options.field.blend.space, BlendSpace::Real);

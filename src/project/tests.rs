@@ -4,7 +4,7 @@
 use super::*;
 use crate::geometry::{DVec2, Similarity};
 use crate::transition::{Easing, Fit, PlayMode, Rgb, Stop};
-use crate::warp::{Course, PathKind, WarpKind, Weights};
+use crate::warp::{ArapPath, Course, WarpKind, Weights};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -222,7 +222,7 @@ proptest! {
         };
         project.options.arap.extra_turns = turns;
         project.options.arap.weights = if flag { Weights::PerFace(positive.clone()) } else { Weights::Uniform };
-        project.options.arap.path = if flag { PathKind::Anchor(3) } else { PathKind::Centroid };
+        project.options.arap.path = if flag { ArapPath::Anchor(3) } else { ArapPath::Centroid };
         project.options.paths.course = if flag { Course::Straight } else { Course::Intrinsic };
         project.timing.duration_secs = positive[2];
         project.timing.easing = Easing::ALL[pick];

@@ -5,31 +5,34 @@
 //! which own all memory a frame needs; placing allocates nothing and cannot
 //! fail. Warps know nothing of contents.
 
-pub mod arap;
+mod arap;
 mod elementary;
+mod features;
 mod kind;
 mod lattice;
 mod lines;
 mod metamorphosis;
 mod none;
-mod parts;
+mod part_path;
 mod paths;
 mod plane;
+mod rigid_part;
 mod scattered;
 
-pub use arap::{Arap, ArapError, ArapOptions, PathKind, Weights};
+pub use arap::{AngleError, Arap, ArapError, ArapOptions, ArapPath, Ridge, Weights};
+pub use features::{FeatureError, LINE_SAMPLES, MAX_FEATURES};
 pub use kind::{CellWords, Column, WarpKind, Words};
 pub use lattice::{
     FINEST, Lattice, LatticeError, LatticeMaps, LatticeOptions, MORE_LEVELS, Residual,
 };
 pub use lines::{Between, LineOptions, Lines, LinesAtT, LinesError};
-pub use metamorphosis::{RigidPart, Split, SplitMaps, Travel, Turned};
+pub use metamorphosis::{Split, SplitMaps, Turned};
 pub use none::Still;
 pub use paths::{Course, PathOptions, Paths, PathsError, RingPair};
 pub use plane::{OnGrid, PlaneGrid, PlaneWarp};
+pub use rigid_part::{RigidPart, Travel};
 pub use scattered::{
-    Basis, FeatureError, LINE_SAMPLES, MAX_FEATURES, RadialMap, Scattered, ScatteredError,
-    ScatteredMaps, ScatteredOptions,
+    Basis, RadialCompromise, RadialMap, Scattered, ScatteredError, ScatteredMaps, ScatteredOptions,
 };
 
 use crate::geometry::DVec2;

@@ -7,7 +7,7 @@
 //! ½ |Δv − e(t)|², an area like length²/2 times a relative stretch squared.
 
 use super::angles::{self, choose_turns};
-use super::{ArapError, ArapOptions, Weights};
+use super::options::{ArapError, ArapOptions, Weights};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
 use crate::homotopy::LocalMap;

@@ -3,11 +3,11 @@
 //! Parts move as [`PartPath`] says. Centroids use fixed vertex masses: an area
 //! centroid is 0/0 where a path collapses.
 
-use super::super::parts::PartPath;
-use super::PathKind;
 use super::assembly::LocalMaps;
+use super::options::ArapPath;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
+use crate::warp::part_path::PartPath;
 use std::ops::Range;
 
 /// The connected parts and how they drift.
@@ -51,7 +51,7 @@ impl Drift {
         mesh: &CompatibleMesh,
         maps: &LocalMaps,
         place: &[u32],
-        path: PathKind,
+        path: ArapPath,
     ) -> Self {
         let component = mesh.components();
         let count = component.iter().max().map_or(0, |&last| last as usize + 1);
@@ -70,8 +70,8 @@ impl Drift {
             centres[part as usize][1] += mesh.target()[v] * share;
         }
         let anchor = match path {
-            PathKind::Centroid => None,
-            PathKind::Anchor(v) => Some((place[v as usize], component[v as usize])),
+            ArapPath::Centroid => None,
+            ArapPath::Anchor(v) => Some((place[v as usize], component[v as usize])),
         };
         Self {
             parts: PartPath::all(&centres, &mass, maps.whole_angle),

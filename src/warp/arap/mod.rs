@@ -16,149 +16,38 @@
 //! energy). Not guaranteed: that no face folds in between; see
 //! [`crate::measure`].
 //!
+//! - `options`: what may be chosen, and what may be wrong with it
 //! - `angles`: one consistent rotation angle for each face
 //! - `assembly`: gradients, weights and the matrix
 //! - `stresses`: the right-hand side of a frame, many faces at a time
+//! - `ridge`: what is added to a matrix that rounding has eaten at
 //! - `drift`: where parts as a whole are at t
 
 mod angles;
 mod assembly;
 mod drift;
+mod options;
+mod ridge;
 mod stresses;
 
 #[cfg(test)]
 mod tests;
 
 pub use angles::AngleError;
+pub use options::{ArapError, ArapOptions, ArapPath, Weights};
+pub use ridge::Ridge;
 
 use super::{Placement, Placer, Warp};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
 use crate::homotopy::Homotopy;
-use crate::linalg::{Cholesky, FactorError, FactorKind, SymmetricMatrix, Workspace};
-use crate::mesh::TooManyVertices;
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::linalg::{Cholesky, SymmetricMatrix, Workspace};
+use crate::progress::{Progress, checkpoint};
 use assembly::LocalMaps;
 use drift::Drift;
-use serde::{Deserialize, Serialize};
+use ridge::factored;
 use std::sync::Arc;
 use stresses::Stresses;
-
-/// How faces are weighted in the energy.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Weights {
-    /// By area: the result does not depend on how the inside is divided.
-    #[default]
-    Area,
-    /// All alike, as the paper does: small faces count as much as large ones.
-    Uniform,
-    /// One positive number for each face, before subdivision; a stiff part
-    /// gets a large one.
-    PerFace(Vec<f64>),
-}
-
-impl Weights {
-    /// The weights after every face was split into four so many times.
-    ///
-    /// # Errors
-    /// [`ArapError`] unless they are one positive number for each face.
-    fn subdivided(&self, faces: usize, rounds: u32) -> Result<Self, ArapError> {
-        let Self::PerFace(each) = self else {
-            return Ok(self.clone());
-        };
-        let wrong = |problem: String| Err(ArapError::Weights { faces, problem });
-        if each.len() != faces {
-            return wrong(format!("{} were given", each.len()));
-        }
-        if let Some(bad) = each.iter().position(|w| !(w.is_finite() && *w > 0.0)) {
-            return wrong(format!("number {} is {}", bad + 1, each[bad]));
-        }
-        let children = 4_usize.saturating_pow(rounds);
-        if each.len().saturating_mul(children) > 4 * crate::mesh::MAX_VERTICES {
-            return Err(TooManyVertices { rounds }.into());
-        }
-        // Subdivision lists the children of a face one after the other.
-        let repeated = each.iter().flat_map(|&w| std::iter::repeat_n(w, children));
-        Ok(Self::PerFace(repeated.collect()))
-    }
-}
-
-/// Where the whole design is at t, which the energy leaves open.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum PathKind {
-    /// The centroid moves on a straight line.
-    #[default]
-    Centroid,
-    /// The vertex of this number, from 0, moves on a straight line.
-    Anchor(u32),
-}
-
-/// Options of the rigidity-preserving interpolation.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
-pub struct ArapOptions {
-    /// How each local map moves.
-    pub homotopy: Homotopy,
-    /// How faces are weighted.
-    pub weights: Weights,
-    /// Both directions in one energy, or the paper's one-sided one.
-    pub symmetric: bool,
-    /// Whole turns added: a single number for everything, or one for each
-    /// part whose panels share edges, in the order of its first face.
-    pub extra_turns: Vec<i32>,
-    /// Where the whole design is at t.
-    pub path: PathKind,
-    /// How often every face is split into four before solving.
-    pub subdivisions: u32,
-}
-
-impl Default for ArapOptions {
-    fn default() -> Self {
-        Self {
-            homotopy: Homotopy::default(),
-            weights: Weights::default(),
-            symmetric: true,
-            extra_turns: Vec::new(),
-            path: PathKind::default(),
-            subdivisions: 0,
-        }
-    }
-}
-
-/// Why a rigidity-preserving interpolation could not be built.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum ArapError {
-    /// The rotation angles of the faces do not fit together.
-    #[error(transparent)]
-    Angles(#[from] AngleError),
-    /// The weights are not one positive number for each face.
-    #[error("weights must be one positive number for each of the {faces} faces; {problem}")]
-    Weights {
-        /// How many faces there are.
-        faces: usize,
-        /// What is wrong.
-        problem: String,
-    },
-    /// The anchor is no vertex.
-    #[error("the anchor is vertex {anchor}, but the last one is {last}; choose another")]
-    Anchor {
-        /// The number given.
-        anchor: u32,
-        /// The largest possible one.
-        last: usize,
-    },
-    /// The mesh would become too large.
-    #[error(transparent)]
-    TooManyVertices(#[from] TooManyVertices),
-    /// The matrix could not be factored.
-    #[error(transparent)]
-    Factor(#[from] FactorError),
-    /// Nobody wants the result.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
 
 /// A prefactored rigidity-preserving interpolation.
 ///
@@ -186,6 +75,7 @@ pub struct Arap(Arc<Inner>);
 struct Inner {
     mesh: CompatibleMesh,
     cholesky: Cholesky,
+    ridge: Option<Ridge>,
     stresses: Stresses,
     drift: Drift,
     maps: LocalMaps,
@@ -209,7 +99,7 @@ impl Arap {
             .subdivided(mesh.faces().len(), options.subdivisions)?;
         checkpoint(progress, "subdividing", 0.0)?;
         let mesh = mesh.subdivided(options.subdivisions)?;
-        check_anchor(options.path, mesh.source().len())?;
+        options.path.check(mesh.source().len())?;
         checkpoint(progress, "decomposing", 0.1)?;
         let options = ArapOptions {
             weights,
@@ -228,7 +118,7 @@ impl Arap {
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         checkpoint(progress, "factoring", 0.3)?;
-        let cholesky = factored(maps.matrix(&mesh))?;
+        let (cholesky, ridge) = factored(maps.matrix(&mesh))?;
         checkpoint(progress, "preparing frames", 0.9)?;
         let place = cholesky.place_in_order();
         let stresses = Stresses::new(&mesh, &maps, options.homotopy);
@@ -236,6 +126,7 @@ impl Arap {
         Ok(Self(Arc::new(Inner {
             mesh,
             cholesky,
+            ridge,
             stresses,
             drift,
             maps,
@@ -268,6 +159,14 @@ impl Arap {
         &self.0.cholesky
     }
 
+    /// What had to be added to the matrix to factor it; none in all but the
+    /// most uneven of meshes. The film is then a little stiffer than asked
+    /// for, as [`Self::cholesky`] is than [`Self::system`].
+    #[must_use]
+    pub fn ridge(&self) -> Option<Ridge> {
+        self.0.ridge
+    }
+
     /// The rotation angle of each face from source to target, in radians,
     /// consistent across shared edges.
     #[must_use]
@@ -296,16 +195,6 @@ impl Arap {
     #[must_use]
     pub fn part_count(&self) -> usize {
         self.0.maps.part_count
-    }
-}
-
-fn check_anchor(path: PathKind, vertices: usize) -> Result<(), ArapError> {
-    match path {
-        PathKind::Anchor(anchor) if anchor as usize >= vertices => Err(ArapError::Anchor {
-            anchor,
-            last: vertices - 1,
-        }),
-        _ => Ok(()),
     }
 }
 
@@ -380,21 +269,4 @@ impl Placer for ArapPlacer {
     fn placement(&self) -> &Placement {
         &self.placement
     }
-}
-
-/// Shares of the diagonal that are added where rounding has eaten a pivot.
-/// Faces a ten-thousandth as large as their neighbours, about a hole that
-/// closes to a point, leave pivots of the size of the last digits.
-const STIFFER: [f64; 3] = [1e-13, 1e-11, 1e-9];
-
-fn factored(mut matrix: SymmetricMatrix) -> Result<Cholesky, FactorError> {
-    let mut result = Cholesky::factor(&matrix, FactorKind::Automatic);
-    for share in STIFFER {
-        if !matches!(result, Err(FactorError::NotPositiveDefinite { .. })) {
-            break;
-        }
-        matrix.stiffen(share);
-        result = Cholesky::factor(&matrix, FactorKind::Automatic);
-    }
-    result
 }

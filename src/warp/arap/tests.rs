@@ -105,7 +105,7 @@ fn all_options() -> Vec<ArapOptions> {
 fn ends_are_met_to_the_last_bit() {
     for mesh in [bent_pair(), parts(|p| DMat2::from_angle(2.0) * p + p * 0.3)] {
         for mut options in all_options() {
-            for path in [PathKind::Centroid, PathKind::Anchor(3)] {
+            for path in [ArapPath::Centroid, ArapPath::Anchor(3)] {
                 options.path = path;
                 let mut at = film(&mesh, &options);
                 at(0.4); // whatever was shown before leaves no trace
@@ -348,7 +348,7 @@ fn parts_turned_by_half_a_turn_do_not_meet() {
 fn an_anchor_runs_straight() {
     let mesh = bent_pair();
     let options = ArapOptions {
-        path: PathKind::Anchor(5),
+        path: ArapPath::Anchor(5),
         ..ArapOptions::default()
     };
     let mut at = film(&mesh, &options);
@@ -357,7 +357,7 @@ fn an_anchor_runs_straight() {
         assert!(at(t)[5].distance(straight) < 1e-12);
     }
     let missing = ArapOptions {
-        path: PathKind::Anchor(999),
+        path: ArapPath::Anchor(999),
         ..ArapOptions::default()
     };
     assert!(matches!(
@@ -458,4 +458,26 @@ fn a_stiff_part_keeps_its_shape_better() {
         gap.x_axis.length() + gap.y_axis.length()
     };
     assert!(stiff_at(9, 100.0) < 0.5 * stiff_at(9, 1.0));
+}
+
+/// Two triangles of one size, and a bar from one to the other.
+fn on_a_thread(length: f64) -> CompatibleMesh {
+    let corners = |x: f64| [(x, 0.0), (x + 1.0, 0.0), (x, 1.0)].map(DVec2::from);
+    let source = [corners(0.0), corners(length)].concat();
+    let faces = vec![[0, 1, 2], [3, 4, 5]];
+    CompatibleMesh::new(faces, source.clone(), source, vec![[0, 3]]).unwrap()
+}
+
+#[test]
+fn what_is_added_to_a_matrix_is_told() {
+    let options = ArapOptions {
+        weights: Weights::Uniform,
+        ..ArapOptions::default()
+    };
+    let ridge = |mesh| Arap::build(&mesh, &options, &Silent).unwrap().ridge();
+    assert_eq!(ridge(bent_pair()), None);
+    assert_eq!(ridge(on_a_thread(10.0)), None);
+    // The bar's stiffness is lost beside that of the second triangle.
+    let (share, vertex) = (1e-13, 3);
+    assert_eq!(ridge(on_a_thread(1e10)), Some(Ridge { share, vertex }));
 }

@@ -6,15 +6,11 @@
 //! least displacements that meet it, and a control point takes the mean of
 //! what it is asked for, weighted by how much it matters there.
 //!
-//! Control points are kept in blocks of 8 × 8, of which only those are made
-//! that a feature touches: fine layers stay small. Where a layer has no
-//! control points it is zero, and it is twice continuously differentiable.
+//! Where a layer has no control points it is zero, and it is twice
+//! continuously differentiable.
 
+use super::blocks::Blocks;
 use crate::geometry::{Bounds, DVec2};
-
-/// Control points along a block's side: 2 to this power.
-const SHIFT: usize = 3;
-const SIDE: usize = 1 << SHIFT;
 
 /// How a feature counts in a fit.
 #[derive(Clone, Copy, Debug)]
@@ -33,27 +29,7 @@ pub(super) struct Layer {
     spacing: f64,
     /// Where the first control point's own cell begins.
     origin: DVec2,
-    /// Blocks from left to right, and all of them.
-    columns: usize,
-    /// The number of each block, from 1; 0 where there is none.
-    directory: Vec<u32>,
-    /// Which entries of the directory are not 0.
-    made: Vec<usize>,
-    blocks: Vec<Block>,
-}
-
-#[derive(Clone, Debug)]
-struct Block {
-    /// Sums of what was asked for, then the displacements.
-    controls: [[DVec2; SIDE]; SIDE],
-    weights: [[f64; SIDE]; SIDE],
-}
-
-impl Block {
-    const EMPTY: Self = Self {
-        controls: [[DVec2::ZERO; SIDE]; SIDE],
-        weights: [[0.0; SIDE]; SIDE],
-    };
+    controls: Blocks,
 }
 
 /// The first of the four control points along each axis, and the values of
@@ -79,20 +55,11 @@ fn basis(s: f64) -> [f64; 4] {
 impl Layer {
     /// Makes the layer one of `spacing` over `domain`, with nothing moved.
     fn reset(&mut self, domain: &Bounds, spacing: f64) {
-        for entry in self.made.drain(..) {
-            self.directory[entry] = 0;
-        }
-        self.blocks.clear();
         let cells = (domain.size() / spacing).ceil();
-        let [columns, rows] = cells.to_array().map(|c| (c as usize + 4).div_ceil(SIDE));
+        self.controls
+            .reset(cells.to_array().map(|c| c as usize + 4));
         self.spacing = spacing;
         self.origin = domain.min;
-        self.columns = columns;
-        self.directory.resize(columns * rows, 0);
-    }
-
-    fn rows(&self) -> usize {
-        self.directory.len() / self.columns.max(1)
     }
 
     /// `None` where all four columns or rows of control points are outside.
@@ -100,10 +67,11 @@ impl Layer {
     fn stencil(&self, p: DVec2) -> Option<Stencil> {
         let at = (p - self.origin) / self.spacing;
         let low = at.floor();
+        let [columns, rows] = self.controls.size();
         let inside = low.x >= 0.0
             && low.y >= 0.0
-            && low.x + 4.0 <= (self.columns * SIDE) as f64
-            && low.y + 4.0 <= (self.rows() * SIDE) as f64;
+            && low.x + 4.0 <= columns as f64
+            && low.y + 4.0 <= rows as f64;
         inside.then(|| {
             let s = at - low;
             Stencil {
@@ -126,17 +94,7 @@ impl Layer {
         for pull in pulls {
             self.ask(&pull);
         }
-        let mut largest = 0.0_f64;
-        for block in &mut self.blocks {
-            let rows = block.controls.iter_mut().zip(&block.weights);
-            for (control, &weight) in rows.flat_map(|(c, w)| c.iter_mut().zip(w)) {
-                if weight > 0.0 {
-                    *control = (*control / weight).clamp(DVec2::splat(-most), DVec2::splat(most));
-                    largest = largest.max(control.abs().max_element());
-                }
-            }
-        }
-        largest
+        self.controls.divide(most)
     }
 
     /// Adds one feature to the sums: w² φ and w² with φ = w z / Σ w² (eqs. 3
@@ -149,24 +107,13 @@ impl Layer {
         let total = square(&basis[0]) * square(&basis[1]);
         for (j, by) in basis[1].iter().enumerate() {
             for (i, bx) in basis[0].iter().enumerate() {
-                let (column, row) = (first[0] + i, first[1] + j);
                 let w = bx * by;
                 let weight = pull.weight * w * w;
-                let block = self.block(column >> SHIFT, row >> SHIFT);
-                block.controls[row % SIDE][column % SIDE] += pull.by * (weight * w / total);
-                block.weights[row % SIDE][column % SIDE] += weight;
+                let asked = pull.by * (weight * w / total);
+                self.controls
+                    .ask([first[0] + i, first[1] + j], asked, weight);
             }
         }
-    }
-
-    fn block(&mut self, column: usize, row: usize) -> &mut Block {
-        let entry = row * self.columns + column;
-        if self.directory[entry] == 0 {
-            self.blocks.push(Block::EMPTY);
-            self.made.push(entry);
-            self.directory[entry] = self.blocks.len() as u32;
-        }
-        &mut self.blocks[self.directory[entry] as usize - 1]
     }
 
     /// By how much a place is displaced.
@@ -175,39 +122,7 @@ impl Layer {
         let Some(Stencil { first, basis }) = self.stencil(p) else {
             return DVec2::ZERO;
         };
-        self.sum(first, &basis[0], &basis[1])
-    }
-
-    /// Σ control point · basis, by columns and rows.
-    #[inline(always)]
-    fn sum(&self, [i0, j0]: [usize; 2], bx: &[f64; 4], by: &[f64; 4]) -> DVec2 {
-        let number =
-            |i: usize, j: usize| self.directory[(j >> SHIFT) * self.columns + (i >> SHIFT)];
-        let corners = [(0, 0), (3, 0), (0, 3), (3, 3)].map(|(i, j)| number(i0 + i, j0 + j));
-        if corners == [0; 4] {
-            return DVec2::ZERO;
-        }
-        let block = |corner: usize| {
-            let number = (corners[corner] as usize).checked_sub(1)?;
-            Some(&self.blocks[number].controls)
-        };
-        // So many of the four columns are in the left blocks.
-        let (i, split) = (i0 % SIDE, (SIDE - i0 % SIDE).min(4));
-        let (left, right) = bx.split_at(split);
-        let dot = |controls: &[DVec2], basis: &[f64]| -> DVec2 {
-            controls.iter().zip(basis).map(|(&c, &b)| c * b).sum()
-        };
-        let mut sum = DVec2::ZERO;
-        for (j, &by) in (j0..).zip(by) {
-            let half = if j >> SHIFT == j0 >> SHIFT { 0 } else { 2 };
-            if let Some(controls) = block(half) {
-                sum += dot(&controls[j % SIDE][i..], left) * by;
-            }
-            if let (false, Some(controls)) = (right.is_empty(), block(half + 1)) {
-                sum += dot(&controls[j % SIDE], right) * by;
-            }
-        }
-        sum
+        self.controls.sum(first, &basis[0], &basis[1])
     }
 
     /// The derivatives of the displacement by x and by y.
@@ -229,8 +144,8 @@ impl Layer {
             slopes.map(|d| d / self.spacing)
         };
         [
-            self.sum(first, &slope(s.x), &basis[1]),
-            self.sum(first, &basis[0], &slope(s.y)),
+            self.controls.sum(first, &slope(s.x), &basis[1]),
+            self.controls.sum(first, &basis[0], &slope(s.y)),
         ]
     }
 }

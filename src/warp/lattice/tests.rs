@@ -1,4 +1,5 @@
 use super::*;
+use crate::warp::FeatureError;
 use proptest::prelude::*;
 
 type Tested = Result<(), Box<dyn std::error::Error>>;

@@ -2,7 +2,7 @@
 //! belong.
 
 use super::layer::{Layer, Pull};
-use super::{COMPOSED, LatticeOptions, MORE_LEVELS};
+use super::options::LatticeOptions;
 use crate::geometry::{Bounds, DVec2};
 
 /// The largest coordinate of a control point's displacement, in spacings.
@@ -10,6 +10,10 @@ use crate::geometry::{Bounds, DVec2};
 /// "Injectivity conditions of 2D and 3D uniform cubic B-spline functions",
 /// 2000).
 const BOUND: f64 = 0.48;
+
+/// Layers of the first level, of the others that are asked for, and of those
+/// that follow: ten of spacings ¼ lead a feature across the frame.
+const COMPOSED: [u32; 3] = [16, 4, 8];
 
 /// Layers end where what is left is this share of the tolerance, so that one
 /// layer more or less is no jump in a film.
@@ -193,13 +197,5 @@ impl Tower {
             }
         }
         [total.determinant(), least]
-    }
-}
-
-impl LatticeOptions {
-    /// How many levels there may be in the end.
-    fn most_levels(&self) -> u32 {
-        let finer = super::FINEST / (self.coarsest << (self.levels - 1));
-        self.levels + MORE_LEVELS.min(finer.ilog2())
     }
 }

@@ -5,7 +5,7 @@
 //! and its direction are interpolated like those of an edge of the ring. So a
 //! hole in a limb goes where the limb goes.
 
-use super::RingPair;
+use super::options::RingPair;
 use super::ring::EdgeRing;
 use super::turning::whole_turns;
 use crate::geometry::{Bounds, DVec2};

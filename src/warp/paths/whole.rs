@@ -1,16 +1,16 @@
 //! All parts of a design on intrinsic paths.
 //!
 //! The centroid of the design runs straight and its parts move with it
-//! ([`super::super::parts`]). Parts weigh by their area, the vertices of a part
+//! ([`crate::warp::part_path`]). Parts weigh by their area, the vertices of a part
 //! by the edges that they end: fixed masses, since an area centroid is 0/0
 //! where a ring collapses on its way.
 
-use super::super::parts::{PartPath, centroid};
-use super::RingPair;
+use super::options::RingPair;
 use super::part::{self, EdgePart};
 use super::ring::EdgeRing;
 use super::turning;
 use crate::geometry::DVec2;
+use crate::warp::part_path::{PartPath, centroid};
 use std::ops::Range;
 
 /// What intrinsic paths need.

@@ -32,6 +32,16 @@ pub(super) enum Kernel {
     },
 }
 
+impl Kernel {
+    /// With this sign it is positive definite, if conditionally.
+    pub(super) fn sign(self) -> f64 {
+        match self {
+            Self::Multiquadric { exponent } if exponent > 0.0 => -1.0,
+            _ => 1.0,
+        }
+    }
+}
+
 /// One of the functions, to compile a loop for.
 trait Phi: Copy {
     fn of(self, r2: f64, own: f64) -> f64;

@@ -1,8 +1,8 @@
 //! A map of the plane through given values at given places: dense, for any
 //! number of places to look it up at.
 
+use super::options::{ScatteredError, ScatteredOptions};
 use super::system::Solver;
-use super::{ScatteredError, ScatteredOptions};
 use crate::geometry::DVec2;
 use rayon::prelude::*;
 
@@ -31,6 +31,17 @@ pub(super) const CHUNK: usize = 1024;
 /// ```
 #[derive(Debug)]
 pub struct RadialMap(Solver<1>);
+
+/// What a map gave up so that there is one. Nothing, if it is the default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RadialCompromise {
+    /// How many centres were one with an earlier one.
+    pub merged: usize,
+    /// What was added to the diagonal of the system, where it was singular to
+    /// the last digits. Infinite where nothing helped: the map is then the
+    /// similarity that fits best.
+    pub ridge: f64,
+}
 
 impl RadialMap {
     /// Solves for the map. Width and smoothing are relative to `unit`, a
@@ -66,6 +77,15 @@ impl RadialMap {
         let mut solver = Solver::new(*options, unit, f64::INFINITY);
         solver.solve(centres, &values);
         Ok(Self(solver))
+    }
+
+    /// What was given up when it was built.
+    #[must_use]
+    pub fn compromise(&self) -> RadialCompromise {
+        RadialCompromise {
+            merged: self.0.merged(),
+            ridge: self.0.ridge().unwrap_or(f64::INFINITY),
+        }
     }
 
     /// The value at one place.

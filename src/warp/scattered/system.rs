@@ -24,13 +24,11 @@
 //! values. Where the matrix is singular to the last digits, as it is for
 //! Gaussians far wider than their distances, a ridge is added.
 
-mod places;
-
-use super::ease::{TooNear, ease};
 use super::kernel::{Centres, Kernel, Sum, column};
-use super::{Basis, ScatteredOptions};
+use super::options::{Basis, ScatteredOptions};
+use super::places::Places;
+use super::ridged::Ridged;
 use crate::geometry::DVec2;
-use crate::linalg::DenseLu;
 use pulp::Arch;
 
 /// The least of E: at 1e-13 an affine map is met to 1e-12 by places whose
@@ -42,12 +40,6 @@ const LEAST: f64 = 1e-13;
 /// surfaces", 2006, eq. 9 with R = 2: E ≤ 1 / (1 + 2 log 2)).
 const MOST: f64 = 0.4;
 
-/// What is added to the diagonal, from attempt to attempt.
-const RIDGES: [f64; 7] = [0.0, 1e-14, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4];
-
-/// The share of the values that a solution may miss before a ridge is added.
-const MISSED: f64 = 1e-9;
-
 /// Solves again and again in the same memory.
 #[derive(Debug)]
 pub(super) struct Solver<const K: usize> {
@@ -58,17 +50,10 @@ pub(super) struct Solver<const K: usize> {
     /// The limit of slopes between places that come near to each other, or
     /// near to a line; infinite for none.
     steepest: f64,
-    too_near: Vec<TooNear>,
-    memory: Vec<[DVec2; K]>,
-    places: Vec<DVec2>,
-    values: Vec<[DVec2; K]>,
-    /// How many are merged in each.
-    counts: Vec<f64>,
-    matrix: Vec<f64>,
-    rhs: Vec<f64>,
-    solution: Vec<f64>,
-    missed: Vec<f64>,
-    lu: DenseLu,
+    places: Places<K>,
+    system: Ridged,
+    /// What was added to the diagonal for it; none where nothing helped.
+    ridge: Option<f64>,
     /// The last solution.
     pub(super) sum: Sum<K>,
 }
@@ -80,16 +65,9 @@ impl<const K: usize> Solver<K> {
             options,
             unit,
             steepest,
-            too_near: Vec::new(),
-            memory: Vec::new(),
-            places: Vec::new(),
-            values: Vec::new(),
-            counts: Vec::new(),
-            matrix: Vec::new(),
-            rhs: Vec::new(),
-            solution: Vec::new(),
-            missed: Vec::new(),
-            lu: DenseLu::new(),
+            places: Places::default(),
+            system: Ridged::default(),
+            ridge: Some(0.0),
             sum: Sum {
                 kernel: Kernel::ThinPlate,
                 origin: DVec2::ZERO,
@@ -107,30 +85,37 @@ impl<const K: usize> Solver<K> {
 
     /// Solves for finite places and values; cannot fail.
     pub(super) fn solve(&mut self, places: &[DVec2], values: &[[DVec2; K]]) {
-        self.merge(places, values);
+        self.places.merge(places, values, self.unit);
         if self.steepest.is_finite() {
-            let Self {
-                places,
-                values,
-                steepest,
-                too_near,
-                memory,
-                ..
-            } = self;
-            ease(places, values, *steepest, too_near, memory);
+            self.places.ease(self.steepest);
         }
-        self.centre();
-        let similarity = self.take_similarity();
+        self.places.centre(self.unit, &mut self.sum);
+        self.sum.affine = self.places.take_similarity();
         self.sum.kernel = self.kernel();
+        let n = self.places.at.len();
         self.sum.coefficients.clear();
-        self.sum
-            .coefficients
-            .resize(self.places.len(), [[0.0; 2]; K]);
-        self.sum.affine = similarity;
-        let anything = self.values.iter().flatten().any(|r| *r != DVec2::ZERO);
-        if anything && self.attempt() {
-            self.keep();
+        self.sum.coefficients.resize(n, [[0.0; 2]; K]);
+        self.ridge = Some(0.0);
+        let mut looks = self.places.values.iter().flatten();
+        if looks.any(|r| *r != DVec2::ZERO) {
+            self.assemble();
+            self.system.ask(&self.places.values);
+            self.ridge = self.system.solve(n);
+            if self.ridge.is_some() {
+                self.keep();
+            }
         }
+    }
+
+    /// How many places were one with an earlier one.
+    pub(super) fn merged(&self) -> usize {
+        self.places.merged()
+    }
+
+    /// What had to be added to the diagonal for the last solution; none where
+    /// nothing helped, and it is a similarity alone.
+    pub(super) fn ridge(&self) -> Option<f64> {
+        self.ridge
     }
 
     /// The function in the coordinates that are scaled.
@@ -164,16 +149,22 @@ impl<const K: usize> Solver<K> {
     /// E as xx, xy, yy: [`LEAST`], and more across a line that places are
     /// nearer to than the values allow.
     fn slack(&self) -> [f64; 3] {
-        let n = self.places.len().max(1) as f64;
+        let n = self.places.at.len().max(1) as f64;
         let [mut xx, mut xy, mut yy] = [0.0; 3];
-        for p in &self.places {
+        for p in &self.places.at {
             xx += p.x * p.x / n;
             xy += p.x * p.y / n;
             yy += p.y * p.y / n;
         }
         let half = 0.5 * (xx - yy);
         let across = (0.5 * (xx + yy) - half.hypot(xy)).max(0.0);
-        let left = (0..K).map(|k| self.values.iter().map(|v| v[k].length_squared()).sum());
+        let left = (0..K).map(|k| {
+            self.places
+                .values
+                .iter()
+                .map(|v| v[k].length_squared())
+                .sum()
+        });
         let left = left.fold(0.0, f64::max) / n;
         let slope = self.steepest * self.sum.scale;
         let more = (left / (slope * slope) - across).clamp(0.0, MOST);
@@ -187,115 +178,65 @@ impl<const K: usize> Solver<K> {
 
     /// The matrix column by column, with λ on the diagonal.
     fn assemble(&mut self) {
-        let n = self.places.len();
+        let n = self.places.at.len();
         let size = n + 3;
-        self.matrix.clear();
-        self.matrix.resize(size * size, 0.0);
+        self.system.matrix.clear();
+        self.system.matrix.resize(size * size, 0.0);
         let kernel = self.sum.kernel;
-        let sign = match kernel {
-            Kernel::Multiquadric { exponent } if exponent > 0.0 => -1.0,
-            _ => 1.0,
-        };
-        for (j, entries) in self.matrix.chunks_exact_mut(size).take(n).enumerate() {
+        let sign = kernel.sign();
+        for (j, entries) in self
+            .system
+            .matrix
+            .chunks_exact_mut(size)
+            .take(n)
+            .enumerate()
+        {
             let centres = &self.sum.centres;
             column(self.arch, kernel, centres, j, sign, &mut entries[..n]);
-            let p = self.places[j];
+            let p = self.places.at[j];
             entries[n..].copy_from_slice(&[1.0, p.x, p.y]);
         }
-        for (i, p) in self.places.iter().enumerate() {
+        for (i, p) in self.places.at.iter().enumerate() {
             for (k, value) in [1.0, p.x, p.y].into_iter().enumerate() {
-                self.matrix[(n + k) * size + i] = value;
+                self.system.matrix[(n + k) * size + i] = value;
             }
         }
         self.tie();
         let lambda = self.smoothing();
         for i in 0..n {
-            self.matrix[i * size + i] += lambda;
+            self.system.matrix[i * size + i] += lambda;
         }
         let [xx, xy, yy] = self.slack();
         for (i, j, e) in [(1, 1, xx), (1, 2, xy), (2, 1, xy), (2, 2, yy)] {
-            self.matrix[(n + j) * size + n + i] = -e;
+            self.system.matrix[(n + j) * size + n + i] = -e;
         }
     }
 
     /// Adds μ for places that are too near: (1 / shrunk − 1) times what two
     /// opposite coefficients cost without it, or more where that may vanish.
     fn tie(&mut self) {
-        let size = self.places.len() + 3;
-        for near in &mut self.too_near {
+        let size = self.places.at.len() + 3;
+        for near in &mut self.places.too_near {
             let [i, j] = near.pair;
-            let entry = |i: usize, j: usize| self.matrix[j * size + i];
+            let entry = |i: usize, j: usize| self.system.matrix[j * size + i];
             let cost = 0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i));
-            let cost = cost.abs() + self.places[i].distance_squared(self.places[j]);
+            let cost = cost.abs() + self.places.at[i].distance_squared(self.places.at[j]);
             near.tie = (cost * (1.0 / near.shrunk - 1.0)).min(1e12);
         }
-        for near in &self.too_near {
+        for near in &self.places.too_near {
             let [i, j] = near.pair;
             for (i, j, mu) in [(i, i, 1.0), (j, j, 1.0), (i, j, -1.0), (j, i, -1.0)] {
-                self.matrix[j * size + i] += mu * near.tie;
+                self.system.matrix[j * size + i] += mu * near.tie;
             }
         }
-    }
-
-    /// Solves with as small a ridge as does; whether any did.
-    fn attempt(&mut self) -> bool {
-        self.assemble();
-        let n = self.places.len();
-        let size = n + 3;
-        self.rhs.clear();
-        self.rhs.resize(size * 2 * K, 0.0);
-        for (i, value) in self.values.iter().enumerate() {
-            for (k, v) in value.iter().enumerate() {
-                self.rhs[2 * k * size + i] = v.x;
-                self.rhs[(2 * k + 1) * size + i] = v.y;
-            }
-        }
-        let mut before = 0.0;
-        for ridge in RIDGES {
-            for i in 0..n {
-                self.matrix[i * size + i] += ridge - before;
-            }
-            before = ridge;
-            self.lu.factor(size, &self.matrix);
-            self.solution.clear();
-            self.solution.extend_from_slice(&self.rhs);
-            self.lu.solve(&mut self.solution);
-            if self.solves() {
-                return true;
-            }
-        }
-        false
-    }
-
-    /// Whether the solution misses the values by little.
-    fn solves(&mut self) -> bool {
-        let size = self.places.len() + 3;
-        let largest = self.rhs.iter().fold(0.0_f64, |most, v| most.max(v.abs()));
-        let columns = self.rhs.chunks_exact(size);
-        let mut columns = columns.zip(self.solution.chunks_exact(size));
-        columns.all(|(rhs, solution)| {
-            let missed = &mut self.missed;
-            missed.clear();
-            missed.extend_from_slice(rhs);
-            for (&x, entries) in solution.iter().zip(self.matrix.chunks_exact(size)) {
-                for (missed, entry) in missed.iter_mut().zip(entries) {
-                    *missed -= x * entry;
-                }
-            }
-            // False for NaN as well.
-            missed.iter().all(|r| r.abs() <= MISSED * largest)
-        })
     }
 
     /// Takes the solution over, the functions' sign included.
     fn keep(&mut self) {
-        let n = self.places.len();
+        let n = self.places.at.len();
         let size = n + 3;
-        let sign = match self.sum.kernel {
-            Kernel::Multiquadric { exponent } if exponent > 0.0 => -1.0,
-            _ => 1.0,
-        };
-        for (row, solution) in self.solution.chunks_exact(size).enumerate() {
+        let sign = self.sum.kernel.sign();
+        for (row, solution) in self.system.solution.chunks_exact(size).enumerate() {
             let (k, axis) = (row / 2, row % 2);
             for (c, value) in self.sum.coefficients.iter_mut().zip(&solution[..n]) {
                 c[k][axis] = sign * value;

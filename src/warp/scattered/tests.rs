@@ -1,4 +1,5 @@
 use super::*;
+use crate::warp::{FeatureError, MAX_FEATURES};
 use proptest::prelude::*;
 
 type Tested = Result<(), Box<dyn std::error::Error>>;
@@ -42,6 +43,25 @@ fn looks(warp: &Scattered, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     let [mut source, mut target] = [(); 2].map(|()| vec![DVec2::NAN; places.len()]);
     warp.look_up(t, &mut warp.maps(), places, &mut source, &mut target);
     [source, target]
+}
+
+#[test]
+fn what_a_map_gave_up_is_told() -> Tested {
+    let centres = spread(6, 0.0);
+    let usual = ScatteredOptions::default();
+    let map = RadialMap::new(&centres, &values(&centres), &usual, 1.0)?;
+    assert_eq!(map.compromise(), RadialCompromise::default());
+    let twice = [centres.clone(), centres.clone()].concat();
+    let map = RadialMap::new(&twice, &values(&twice), &usual, 1.0)?;
+    assert_eq!((map.compromise().merged, map.compromise().ridge), (6, 0.0));
+    let wide = ScatteredOptions {
+        width: 10.0,
+        ..with(Basis::Gaussian)
+    };
+    let centres = spread(60, 0.0);
+    let map = RadialMap::new(&centres, &values(&centres), &wide, 1.0)?;
+    assert!(map.compromise().ridge > 0.0);
+    Ok(())
 }
 
 #[test]

@@ -6,7 +6,7 @@ use crate::app::ui::kit::theme::CONTROL_HEIGHT;
 use crate::app::ui::kit::widgets::{choices, menu, number, row, section, toggle};
 use crate::app::ui::scene::Scene;
 use crate::homotopy::Homotopy;
-use crate::warp::{ArapOptions, PathKind, Weights};
+use crate::warp::{ArapOptions, ArapPath, Weights};
 
 /// The most parts that get a number of their own; more would fill the window.
 const MOST_PARTS: usize = 8;
@@ -94,15 +94,15 @@ fn weights(ui: &mut Ui, weights: &mut Weights) {
     });
 }
 
-fn path(ui: &mut Ui, path: &mut PathKind) {
+fn path(ui: &mut Ui, path: &mut ArapPath) {
     let tip = "Which point of the whole goes straight from its first place to its last.";
     row(ui, "Path", tip, |ui| {
-        let anchor = if let PathKind::Anchor(vertex) = *path {
+        let anchor = if let ArapPath::Anchor(vertex) = *path {
             vertex
         } else {
             0
         };
-        let width = if matches!(path, PathKind::Anchor(_)) {
+        let width = if matches!(path, ArapPath::Anchor(_)) {
             112.0
         } else {
             ui.available_width()
@@ -114,9 +114,9 @@ fn path(ui: &mut Ui, path: &mut PathKind) {
                     ui,
                     path,
                     &[
-                        (PathKind::Centroid, "Centre", "The centre of mass"),
+                        (ArapPath::Centroid, "Centre", "The centre of mass"),
                         (
-                            PathKind::Anchor(anchor),
+                            ArapPath::Anchor(anchor),
                             "Vertex",
                             "One vertex, by its number",
                         ),
@@ -124,7 +124,7 @@ fn path(ui: &mut Ui, path: &mut PathKind) {
                 )
             })
             .inner;
-        let PathKind::Anchor(vertex) = path else {
+        let ArapPath::Anchor(vertex) = path else {
             return chosen;
         };
         chosen | ui.add_sized([56.0, CONTROL_HEIGHT], DragValue::new(vertex).prefix("# "))

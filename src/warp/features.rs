@@ -42,17 +42,19 @@ pub enum FeatureError {
 
 /// Checked pairs, with lines sampled.
 #[derive(Clone, Debug)]
-pub(in crate::warp) struct Features {
+pub(super) struct Features {
     pairs: Vec<PointPair>,
     /// The frame's diameter, or 1 if it has none.
-    pub(in crate::warp) unit: f64,
+    pub(super) unit: f64,
+    /// How many were too far away, and are taken to be nearer.
+    pub(super) clamped: usize,
 }
 
 impl Features {
     /// # Errors
     /// [`FeatureError`] on coordinates that are not finite, and on too many
     /// features. Pairs are counted from 1.
-    pub(in crate::warp) fn new(
+    pub(super) fn new(
         frame: &Bounds,
         points: &[PointPair],
         lines: &[LinePair],
@@ -77,23 +79,27 @@ impl Features {
         let centre = frame.centre();
         let near = |p: DVec2| p.clamp(centre - FAR * unit, centre + FAR * unit);
         let pairs = points.iter().copied().chain(lines.iter().flat_map(sampled));
-        let pairs = pairs.map(|pair| PointPair {
-            source: near(pair.source),
-            target: near(pair.target),
+        let mut clamped = 0;
+        let pairs = pairs.map(|pair| {
+            let [source, target] = [pair.source, pair.target].map(near);
+            let nearer = PointPair { source, target };
+            clamped += usize::from(nearer != pair);
+            nearer
         });
         Ok(Self {
             pairs: pairs.collect(),
             unit,
+            clamped,
         })
     }
 
-    pub(in crate::warp) fn len(&self) -> usize {
+    pub(super) fn len(&self) -> usize {
         self.pairs.len()
     }
 
     /// The features at t, and from there to the source and to the target. At
     /// t = 0 and t = 1 the one or the other is exactly zero.
-    pub(in crate::warp) fn at(&self, t: f64) -> impl Iterator<Item = (DVec2, [DVec2; 2])> + '_ {
+    pub(super) fn at(&self, t: f64) -> impl Iterator<Item = (DVec2, [DVec2; 2])> + '_ {
         let t = if t.is_nan() { 0.0 } else { t.clamp(-FAR, FAR) };
         self.pairs.iter().map(move |pair| {
             let at = pair.source * (1.0 - t) + pair.target * t;
@@ -131,6 +137,12 @@ mod tests {
         let halfway: Vec<DVec2> = features.at(0.5).map(|(at, _)| at).collect();
         let wanted = [0.0, 0.25, 0.5, 0.75, 1.0].map(|x| DVec2::new(x, 0.5));
         assert_eq!(halfway, wanted);
+        assert_eq!(features.clamped, 0);
+        let far = PointPair {
+            source: DVec2::ZERO,
+            target: DVec2::X * 1e9,
+        };
+        assert_eq!(Features::new(&frame, &[far], &[line])?.clamped, 1);
         Ok(())
     }
 }

@@ -1,35 +1,52 @@
 //! Places and values made ready: those that coincide are one, all are in
 //! coordinates of their own, and what a similarity explains is taken off.
 
-use super::Solver;
+use super::ease::{TooNear, ease};
+use super::kernel::{Centres, Sum};
 use crate::geometry::DVec2;
-use crate::warp::scattered::kernel::Centres;
 
 /// Places nearer than this share of the unit are one: a thousandth of a pixel.
 const MERGED: f64 = 1e-6;
 
-impl<const K: usize> Solver<K> {
-    /// Each place joins the first one that is near enough.
-    pub(super) fn merge(&mut self, places: &[DVec2], values: &[[DVec2; K]]) {
-        self.places.clear();
+/// Places and values, and memory to make them ready in.
+#[derive(Debug, Default)]
+pub(super) struct Places<const K: usize> {
+    pub(super) at: Vec<DVec2>,
+    pub(super) values: Vec<[DVec2; K]>,
+    pub(super) too_near: Vec<TooNear>,
+    memory: Vec<[DVec2; K]>,
+    /// How many are merged in each.
+    counts: Vec<f64>,
+}
+
+impl<const K: usize> Places<K> {
+    /// How many were one with an earlier one.
+    pub(super) fn merged(&self) -> usize {
+        self.counts.iter().sum::<f64>() as usize - self.counts.len()
+    }
+
+    /// Each place joins the first one that is near enough; near is a share of
+    /// the unit.
+    pub(super) fn merge(&mut self, places: &[DVec2], values: &[[DVec2; K]], unit: f64) {
+        self.at.clear();
         self.values.clear();
         self.counts.clear();
         let far = places.iter().map(|p| p.distance_squared(places[0]));
         let extent = far.fold(0.0, f64::max).sqrt();
-        let near = MERGED * self.unit.max(1e-3 * extent);
+        let near = MERGED * unit.max(1e-3 * extent);
         for (&place, value) in places.iter().zip(values) {
-            let mut known = self.places.iter();
+            let mut known = self.at.iter();
             match known.position(|p| p.distance_squared(place) <= near * near) {
                 Some(at) => {
                     self.counts[at] += 1.0;
                     for (sum, &value) in self.values[at].iter_mut().zip(value) {
                         *sum += value;
                     }
-                    let mean = self.places[at];
-                    self.places[at] = mean + (place - mean) / self.counts[at];
+                    let mean = self.at[at];
+                    self.at[at] = mean + (place - mean) / self.counts[at];
                 }
                 None => {
-                    self.places.push(place);
+                    self.at.push(place);
                     self.values.push(*value);
                     self.counts.push(1.0);
                 }
@@ -40,19 +57,24 @@ impl<const K: usize> Solver<K> {
         }
     }
 
+    /// Shrinks differences of values that are steeper than this.
+    pub(super) fn ease(&mut self, steepest: f64) {
+        let (at, values) = (&self.at, &mut self.values);
+        ease(at, values, steepest, &mut self.too_near, &mut self.memory);
+    }
+
     /// Origin and scale, the centres in these coordinates and their radii.
-    pub(super) fn centre(&mut self) {
-        let n = self.places.len();
-        let sum = &mut self.sum;
-        sum.origin = self.places.iter().sum::<DVec2>() / n.max(1) as f64;
-        let far = self.places.iter().map(|p| p.distance_squared(sum.origin));
+    pub(super) fn centre(&mut self, unit: f64, sum: &mut Sum<K>) {
+        let n = self.at.len();
+        sum.origin = self.at.iter().sum::<DVec2>() / n.max(1) as f64;
+        let far = self.at.iter().map(|p| p.distance_squared(sum.origin));
         let radius = far.fold(0.0, f64::max).sqrt();
-        sum.scale = if radius > 0.0 { radius } else { self.unit };
+        sum.scale = if radius > 0.0 { radius } else { unit };
         let Centres { x, y, own } = &mut sum.centres;
         x.clear();
         y.clear();
         own.clear();
-        for place in &mut self.places {
+        for place in &mut self.at {
             *place = (*place - sum.origin) / sum.scale;
             x.push(place.x);
             y.push(place.y);
@@ -62,7 +84,7 @@ impl<const K: usize> Solver<K> {
         let mut too_near = self.too_near.iter().peekable();
         for i in 0..n {
             for j in i + 1..n {
-                let mut apart = self.places[i].distance_squared(self.places[j]);
+                let mut apart = self.at[i].distance_squared(self.at[j]);
                 if let Some(near) = too_near.next_if(|near| near.pair == [i, j]) {
                     // When they are one, there is no such neighbour.
                     apart /= near.shrunk * near.shrunk;
@@ -78,18 +100,18 @@ impl<const K: usize> Solver<K> {
 
     /// Takes the similarity that fits the values best from them.
     pub(super) fn take_similarity(&mut self) -> [[[f64; 2]; 3]; K] {
-        let n = self.places.len().max(1) as f64;
-        let spread: f64 = self.places.iter().map(|p| p.length_squared()).sum();
+        let n = self.at.len().max(1) as f64;
+        let spread: f64 = self.at.iter().map(|p| p.length_squared()).sum();
         std::array::from_fn(|k| {
             let mean = self.values.iter().map(|v| v[k]).sum::<DVec2>() / n;
             // Σ z̄ v / Σ z̄ z, as complex numbers.
-            let turns = self.places.iter().zip(&self.values).map(|(&z, v)| {
+            let turns = self.at.iter().zip(&self.values).map(|(&z, v)| {
                 let v = v[k] - mean;
                 DVec2::new(z.dot(v), z.perp_dot(v))
             });
             let turn = turns.sum::<DVec2>();
             let turn = if spread > 0.0 { turn / spread } else { turn };
-            for (&z, v) in self.places.iter().zip(&mut self.values) {
+            for (&z, v) in self.at.iter().zip(&mut self.values) {
                 v[k] -= mean + turn.rotate(z);
             }
             [mean, turn, turn.perp()].map(|column| column.to_array())

@@ -1,0 +1,58 @@
+//! What is added to a matrix that rounding has eaten at.
+//!
+//! The matrix of the energy is positive definite, but not to the last digits
+//! where stiffnesses differ by more than a number has digits. Then the least
+//! of a few shares of the diagonal is added with which it can be factored, and
+//! that is told.
+
+use crate::linalg::{Cholesky, FactorError, FactorKind, SymmetricMatrix};
+
+/// Shares of the diagonal that are added where rounding has eaten a pivot.
+/// Faces a ten-thousandth as large as their neighbours, about a hole that
+/// closes to a point, leave pivots of the size of the last digits.
+const STIFFER: [f64; 3] = [1e-13, 1e-11, 1e-9];
+
+/// A ridge: what was added to a matrix, and why.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ridge {
+    /// By which share of itself each entry of the diagonal was made larger.
+    pub share: f64,
+    /// The first vertex, from 0, whose pivot was not positive without it: of
+    /// the mesh that is interpolated.
+    pub vertex: usize,
+}
+
+impl std::fmt::Display for Ridge {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { share, vertex } = self;
+        write!(
+            f,
+            "the system was made stiffer by {share:e}, since it could not be solved at vertex {}: \
+             some face or bar there is very thin beside its neighbours",
+            vertex + 1
+        )
+    }
+}
+
+/// Factors a matrix, with a ridge where it needs one.
+///
+/// # Errors
+/// [`FactorError`] if it cannot be factored with the largest ridge either.
+pub(super) fn factored(
+    mut matrix: SymmetricMatrix,
+) -> Result<(Cholesky, Option<Ridge>), FactorError> {
+    let factor = |matrix: &SymmetricMatrix| Cholesky::factor(matrix, FactorKind::Automatic);
+    let first = factor(&matrix);
+    let Err(FactorError::NotPositiveDefinite { index: vertex }) = first else {
+        return first.map(|cholesky| (cholesky, None));
+    };
+    for share in STIFFER {
+        // What was added before is a hundredth of it.
+        matrix.stiffen(share);
+        match factor(&matrix) {
+            Err(FactorError::NotPositiveDefinite { .. }) => {}
+            done => return done.map(|cholesky| (cholesky, Some(Ridge { share, vertex }))),
+        }
+    }
+    Err(FactorError::NotPositiveDefinite { index: vertex })
+}
