@@ -12,6 +12,7 @@ use crate::names::named;
 
 /// How the local map of a face moves from the identity to its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Homotopy {
     /// (1−t) I + t M (paper, eq. 3): straight vertex paths; collapses on
     /// half turns.

@@ -87,6 +87,7 @@ impl SymmetricMatrix {
 
 /// Which of the two forms of factor to make.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[non_exhaustive]
 pub enum FactorKind {
     /// By the ratio of operations to entries.
     #[default]
@@ -114,6 +115,7 @@ impl FactorKind {
 
 /// Why a matrix could not be factored.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FactorError {
     /// A pivot is zero, negative or NaN.
     #[error(

@@ -23,6 +23,7 @@ use serde::{Deserialize, Serialize};
 
 /// What is done to distances before they are mixed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum BlendSpace {
     /// L(x) = sgn(x) log(1 + |x| / ε): what is near a boundary decides.
     #[default]
@@ -61,6 +62,7 @@ pub struct FieldBlend {
 
 /// Why a blend or a pair is none.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FieldPairError {
     /// ε is not a positive finite number.
     #[error("epsilon is {0}: it must be above 0; the paper's value is 1")]

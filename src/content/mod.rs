@@ -14,6 +14,7 @@ use crate::names::named;
 
 /// Which content: a column of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum ContentKind {
     /// Regions and bars, filled.
     Solid,
@@ -31,6 +32,7 @@ named! { ContentKind {
 
 /// A column of the table with its data.
 #[derive(Clone, Debug)]
+#[non_exhaustive]
 pub enum Content {
     /// Regions and bars, filled.
     Solid(Solid),

@@ -20,6 +20,7 @@ const FAR: f64 = 1e6;
 
 /// Why features are none.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum FeatureError {
     /// The frame has no place or no size in numbers.
     #[error("the frame is not finite: give the designs finite coordinates")]

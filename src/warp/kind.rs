@@ -10,6 +10,7 @@ use crate::names::named;
 
 /// Which warp: a row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum WarpKind {
     /// Nothing moves.
     None,

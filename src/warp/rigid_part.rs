@@ -9,6 +9,7 @@ use crate::names::named;
 
 /// How the features of a warp of the plane travel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Travel {
     /// As a whole where fields are seen; straight where pictures are, whose
     /// borders would turn into the frame.

@@ -12,6 +12,7 @@ use std::f64::consts::{PI, TAU};
 
 /// Angles that do not fit together.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum AngleError {
     /// Around some hole the angles add up to whole turns, so that no
     /// continuous choice exists.

@@ -10,6 +10,7 @@ use serde::{Deserialize, Serialize};
 /// How faces are weighted in the energy.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum Weights {
     /// By area: the result does not depend on how the inside is divided.
     #[default]
@@ -50,6 +51,7 @@ impl Weights {
 /// Where the whole design is at t, which the energy leaves open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
+#[non_exhaustive]
 pub enum ArapPath {
     /// The centroid moves on a straight line.
     #[default]
@@ -106,6 +108,7 @@ impl Default for ArapOptions {
 
 /// Why a rigidity-preserving interpolation could not be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ArapError {
     /// The rotation angles of the faces do not fit together.
     #[error(transparent)]

@@ -40,6 +40,7 @@ impl Default for LatticeOptions {
 
 /// Why a warp by lattices is none.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LatticeError {
     /// The features cannot be moved by.
     #[error(transparent)]

@@ -15,6 +15,7 @@ pub(super) const MAX_FALLOFF: f64 = 8.0;
 
 /// How a line at t lies between its two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Between {
     /// Both ends move on straight lines. A line that turns by π shrinks to a
     /// point on the way.
@@ -65,6 +66,7 @@ impl Default for LineOptions {
 
 /// Why there is no warp by these lines.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum LinesError {
     /// a is not a positive finite number.
     #[error("the smoothness of the lines is {0}: it must be above 0; 0.01 is usual")]

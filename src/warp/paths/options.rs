@@ -9,6 +9,7 @@ const FARTHEST: f64 = 1e75;
 
 /// On which paths the vertices move.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Course {
     /// Straight lines: what turns is shortened on the way.
     Straight,
@@ -43,6 +44,7 @@ pub struct RingPair {
 
 /// Why polygons have no paths. Parts and rings are counted from 0.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
 pub enum PathsError {
     /// There is nothing that could move.
     #[error("the match has no boundaries; give two designs with an area")]

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// The radial function φ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
 pub enum Basis {
     /// r² log r: bends least; moves the whole plane.
     #[default]
@@ -58,6 +59,7 @@ impl Default for ScatteredOptions {
 
 /// Why a warp by scattered points, or a radial map, is none.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
 pub enum ScatteredError {
     /// The features cannot be moved by.
     #[error(transparent)]
