@@ -13,7 +13,7 @@ use crate::design::{Design, Form};
 use crate::field::{DistanceField, FieldError, Grid};
 use crate::geometry::Bounds;
 use crate::progress::{Progress, checkpoint};
-use crate::warp::{Placement, Warp, WarpKind};
+use crate::warp::{Arap, Placement, Warp, WarpKind};
 
 /// What moves, what is seen, and the box around it.
 type Made = (Moved, Content, Bounds);
@@ -35,6 +35,10 @@ impl Transition {
         };
         let of_match = moved.matched.iter().flat_map(Note::of_match);
         moved.notes.extend(of_match);
+        let ridge = moved.warp.arap().and_then(Arap::ridge);
+        moved
+            .notes
+            .extend(ridge.map(|ridge| Note::Stiffened { share: ridge.share }));
         Ok(Self::from(Inner {
             cell: spec.cell,
             designs: [spec.source.clone(), spec.target.clone()],
