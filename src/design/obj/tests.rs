@@ -14,7 +14,6 @@ fn numbers_and_order_are_kept_and_quads_become_fans() {
 #[test]
 fn a_bad_line_is_named() {
     let error = |text: &str| read(text).expect_err("bad");
-    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     assert_eq!(error("v 1\n"), ObjError::Vertex { line: 1, vertex: 1 });
     for bad in ["NaN", "inf", "-inf", "1e999"] {
         let text = format!("v 0 0 0\nv {bad} 0 0\n");
@@ -28,6 +27,12 @@ fn a_bad_line_is_named() {
             ..
         }
     ));
+}
+
+#[test]
+fn a_bad_face_is_named() {
+    let error = |text: &str| read(text).expect_err("bad");
+    let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (face, named) in [("1 2 4", 4), ("1 2 0", 0), ("1 2 -4", -4)] {
         assert_eq!(
             error(&format!("{triangle}f {face}\n")),
