@@ -10,6 +10,7 @@ use std::fmt;
 use bevy::input::keyboard::{Key, KeyCode, KeyboardFocusLost, KeyboardInput};
 use bevy::prelude::{Local, MessageReader, MessageWriter, Res, Resource};
 
+use crate::app::asking::hand::Typing;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
 

@@ -2,7 +2,7 @@
 
 use crate::app::editing::polyline;
 use crate::correspondence::{PointPair, RingKind};
-use crate::geometry::{DVec2, Pair, Side};
+use crate::geometry::DVec2;
 
 /// One ring in both designs, vertex by vertex.
 #[derive(Clone, Debug, PartialEq)]

@@ -15,7 +15,7 @@ use crate::app::ui::match_editor::half::Half;
 use crate::app::ui::match_editor::inks::Inks;
 use crate::app::ui::match_editor::marks;
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::area::{ZOOM_PER_POINT, ink_on};
+use crate::app::ui::stage::area::ZOOM_PER_POINT;
 use crate::design::Picture;
 use crate::geometry::Side;
 
