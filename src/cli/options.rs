@@ -354,9 +354,7 @@ mod tests {
             "--method field --fit same-area --bar-width 0.02 --homotopy exponential \
              --weights 1,2.5 --one-sided --extra-turns 0,-1 --anchor 3 --subdivisions 1 \
              --metric chessboard --boundary binary --space real --epsilon 2 --threshold -1.5 \
-             --cells 64 --margin 0.2 --path straight --image-threshold 99 --invert --specks 4 --tolerance 0.01 --strokes \
-             --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
-             --source-colour #010203 --target-colour #040506 --no-joints",
+             --cells 64 --margin 0.2 --path straight",
         )
         .expect("edited");
         assert_eq!(
@@ -396,6 +394,16 @@ mod tests {
             (64, 0.2)
         );
         assert_eq!(project.options.paths.course, Course::Straight);
+    }
+
+    #[test]
+    fn flags_reach_import_timing_and_style() {
+        let project = edited(
+            "--image-threshold 99 --invert --specks 4 --tolerance 0.01 --strokes \
+             --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
+             --source-colour #010203 --target-colour #040506 --no-joints",
+        )
+        .expect("edited");
         let import = project.designs[1].import;
         assert_eq!((import.threshold, import.invert), (Some(99), true));
         assert_eq!((import.specks_px, import.tolerance), (4, 0.01));

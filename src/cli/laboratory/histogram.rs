@@ -17,7 +17,7 @@ const LONGEST: usize = 40;
 
 /// Counts of values between edges.
 #[derive(Debug, PartialEq, Serialize)]
-pub(super) struct Histogram {
+pub(in crate::cli) struct Histogram {
     /// One more than there are counts, ascending. The first bar and the last
     /// reach as far as the values do.
     pub edges: Vec<f64>,

@@ -43,7 +43,7 @@ pub(in crate::cli) struct Report {
 }
 
 #[derive(Debug, Serialize)]
-pub(super) struct DesignReport {
+pub(in crate::cli) struct DesignReport {
     pub name: String,
     pub kind: &'static str,
     /// Points of its outline, vertices of its mesh or nodes of its truss.
@@ -54,7 +54,7 @@ pub(super) struct DesignReport {
 
 /// How long each stage took.
 #[derive(Debug, Serialize)]
-pub(super) struct Seconds {
+pub(in crate::cli) struct Seconds {
     /// Reading and importing the designs.
     pub import: f64,
     /// Matching boundaries and parts.
@@ -76,7 +76,7 @@ pub(super) struct Seconds {
 
 /// The verdict with its words.
 #[derive(Debug, Serialize)]
-pub(super) struct VerdictReport {
+pub(in crate::cli) struct VerdictReport {
     pub words: String,
     pub findings: Vec<FindingReport>,
     /// What was done otherwise than asked while the transition was built.
@@ -84,7 +84,7 @@ pub(super) struct VerdictReport {
 }
 
 #[derive(Debug, Serialize)]
-pub(super) struct FindingReport {
+pub(in crate::cli) struct FindingReport {
     pub words: String,
     pub cause_words: String,
     pub remedy_words: String,
