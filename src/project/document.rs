@@ -6,7 +6,7 @@ use crate::geometry::Similarity;
 use crate::transition::{Fit, Options, Stop, Style, Timing};
 use crate::warp::WarpKind;
 use serde::{Deserialize, Serialize};
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// The version that is written; older ones are read, newer ones refused.
 pub const FORMAT_VERSION: u32 = 1;
