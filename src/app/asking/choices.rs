@@ -1,6 +1,7 @@
 //! What there is to choose from at the screen.
 
 use crate::content::ContentKind;
+use crate::export::FilmKind;
 use crate::transition::Cell;
 
 /// The colours of the panels.
@@ -26,17 +27,19 @@ pub enum CaptureScale {
 }
 
 /// The kind of file that a recording writes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum RecordFormat {
-    /// One animated GIF.
-    #[default]
-    Gif,
-    /// One animated PNG: full colour, may be transparent.
-    Apng,
-    /// One MP4, where `ffmpeg` is installed.
-    Mp4,
+    /// One file that moves.
+    Film(FilmKind),
     /// A folder of numbered PNGs.
     Pngs,
+}
+
+impl Default for RecordFormat {
+    /// What plays everywhere.
+    fn default() -> Self {
+        Self::Film(FilmKind::Gif)
+    }
 }
 
 /// A method that the twin view can show.

@@ -12,9 +12,10 @@ use crate::app::session::state::Session;
 use crate::app::telling::job::{Broken, Job};
 use crate::app::telling::notices::Notices;
 use crate::export::{
-    Camera, ExportError, Film, FilmError, FilmKind, MethodRow, PixelSize, SizeError, StillKind,
-    Target, TargetError, View, comparison, even_times, framing, write_film, write_still,
+    Camera, ExportError, Film, FilmError, MethodRow, PixelSize, SizeError, StillKind, Target,
+    TargetError, View, comparison, even_times, framing, write_film, write_still,
 };
+use crate::names::Choice;
 use crate::progress::{Cancelled, Progress};
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::Transition;
@@ -209,13 +210,10 @@ impl Order {
     }
 
     fn target(&self) -> Result<(Target, PathBuf), RecordError> {
-        let (extension, kind) = match self.format {
-            RecordFormat::Gif => ("gif", FilmKind::Gif),
-            RecordFormat::Apng => ("apng", FilmKind::Apng),
-            RecordFormat::Mp4 => ("mp4", FilmKind::Mp4),
-            RecordFormat::Pngs => return self.numbered(),
+        let RecordFormat::Film(kind) = self.format else {
+            return self.numbered();
         };
-        let (_, path) = create_new(&self.folder, &self.stem, extension)?;
+        let (_, path) = create_new(&self.folder, &self.stem, kind.name().key)?;
         Ok((Target::Film(kind, path.clone()), path))
     }
 

@@ -19,6 +19,7 @@ use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
 use crate::app::telling::notices::Notices;
 use crate::design::extensions;
+use crate::project::Project;
 
 /// Files that are dropped together arrive one by one; so long is waited for the next.
 const GATHER_SECS: f32 = 0.15;
@@ -28,7 +29,7 @@ const GATHER_SECS: f32 = 0.15;
 const UNSEEN: Duration = Duration::from_millis(400);
 
 /// The extension of a project.
-pub const PROJECT_EXTENSION: &str = "morph";
+pub const PROJECT_EXTENSION: &str = Project::EXTENSION;
 
 /// What the dialog that is open is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -210,10 +211,7 @@ fn place_without_asking(
 }
 
 fn with_extension(path: &Path) -> PathBuf {
-    if path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case(PROJECT_EXTENSION))
-    {
+    if is_project(path) {
         path.to_owned()
     } else {
         let mut name = path.as_os_str().to_owned();
@@ -254,8 +252,7 @@ impl Drop {
 /// Whether a path names a project.
 #[must_use]
 pub fn is_project(path: &Path) -> bool {
-    path.extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case(PROJECT_EXTENSION))
+    Project::is_named(path)
 }
 
 /// Gathers dropped files and opens them together.

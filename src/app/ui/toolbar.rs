@@ -9,6 +9,8 @@ use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::kit::widgets::{choose, from_right, icon_button, icon_button_sized};
 use crate::app::ui::scene::{Intents, Scene};
+use crate::export::FilmKind;
+use crate::names::Choice;
 
 const HEIGHT: f32 = 48.0;
 
@@ -243,12 +245,7 @@ fn capture_options(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         "Film",
         "The kind of file that a recording writes.",
         &mut format,
-        &[
-            (RecordFormat::Gif, "GIF", "Plays everywhere, 256 colours"),
-            (RecordFormat::Apng, "APNG", "Full colour, plays in browsers"),
-            (RecordFormat::Mp4, "MP4", "Needs ffmpeg on this machine"),
-            (RecordFormat::Pngs, "PNGs", "A folder of numbered pictures"),
-        ],
+        &record_formats(),
     );
     if scale != preferences.capture_scale {
         acts.push(Intent::CaptureScale(scale));
@@ -259,4 +256,13 @@ fn capture_options(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     if format != preferences.record_format {
         acts.push(Intent::RecordFormat(format));
     }
+}
+
+fn record_formats() -> Vec<(RecordFormat, &'static str, &'static str)> {
+    let film = |kind: FilmKind| {
+        let name = kind.name();
+        (RecordFormat::Film(kind), name.title, name.sentence)
+    };
+    let pngs = (RecordFormat::Pngs, "PNGs", "A folder of numbered pictures");
+    FilmKind::ALL.map(film).into_iter().chain([pngs]).collect()
 }

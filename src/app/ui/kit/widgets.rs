@@ -9,6 +9,7 @@ use std::ops::RangeInclusive;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette, RADIUS};
+use crate::names::Choice;
 
 /// Width of the column of labels.
 const LABEL_WIDTH: f32 = 88.0;
@@ -166,28 +167,32 @@ pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
     response
 }
 
-/// A drop-down list.
-pub fn menu<T: PartialEq + Clone>(
-    ui: &mut Ui,
-    salt: &str,
-    value: &mut T,
-    options: &[(T, &str, &str)],
-) -> Response {
-    let current = options
-        .iter()
-        .find(|(option, ..)| option == value)
-        .map_or("", |(_, label, _)| label);
-    let width = ui.available_width();
+/// A row of all values of an option.
+pub fn pick<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
+    let row = |choice: &T| (*choice, choice.name().title, choice.name().sentence);
+    let options: Vec<_> = T::CHOICES.iter().map(row).collect();
+    choose(ui, label, tip, value, &options);
+}
+
+/// A drop-down list of all values of an option.
+pub fn menu<T: Choice>(ui: &mut Ui, salt: &str, value: &mut T, width: f32) -> Response {
     ComboBox::from_id_salt(salt)
         .width(width)
-        .selected_text(current)
+        .selected_text(value.name().title)
         .show_ui(ui, |ui| {
-            for (option, label, tip) in options {
-                ui.selectable_value(value, option.clone(), *label)
-                    .on_hover_text(*tip);
+            for choice in T::CHOICES {
+                ui.selectable_value(value, *choice, choice.name().title)
+                    .on_hover_text(choice.name().sentence);
             }
         })
         .response
+}
+
+/// A row with such a list.
+pub fn list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
+    row(ui, label, tip, |ui| {
+        menu(ui, label, value, ui.available_width())
+    });
 }
 
 /// A square button with an icon.

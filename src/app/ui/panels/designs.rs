@@ -6,30 +6,21 @@ use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
 use crate::app::ui::kit::widgets::{
-    choose, from_right, icon_button_sized, number, row, section, slider, toggle,
+    from_right, icon_button_sized, number, pick, row, section, slider, toggle,
 };
 use crate::app::ui::scene::Intents;
 use crate::design::Format;
 use crate::project::{DesignEntry, Project};
-use crate::transition::{Fit, Rgb};
+use crate::transition::Rgb;
 
 /// Draws both designs.
 pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
     section(ui, "Designs", |ui| {
-        choose(
+        pick(
             ui,
             "Frame",
             "How unlike designs are laid over each other before anything else.",
             &mut draft.fit,
-            &[
-                (Fit::AsDrawn, "As drawn", "Where the files have them"),
-                (Fit::Centred, "Centred", "Centre on centre, sizes as drawn"),
-                (
-                    Fit::SameArea,
-                    "Same area",
-                    "Centre on centre, scaled to one area",
-                ),
-            ],
         );
         let colours = [draft.style.source, draft.style.target];
         for (index, entry) in draft.designs.iter_mut().take(2).enumerate() {

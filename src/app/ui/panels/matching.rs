@@ -4,10 +4,10 @@ use bevy_egui::egui::Ui;
 
 use crate::app::asking::acts::EditorAct;
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::widgets::{choose, hint, section, slider, toggle};
+use crate::app::ui::kit::widgets::{choose, hint, pick, section, slider, toggle};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
-use crate::correspondence::{HoleRule, Matching, PartRule};
+use crate::correspondence::Matching;
 use crate::project::Project;
 use crate::warp::WarpKind;
 
@@ -66,52 +66,17 @@ fn rules(ui: &mut Ui, matching: &mut Matching) {
             ),
         ],
     );
-    choose(
+    pick(
         ui,
         "Holes",
         "What becomes of a hole that the other design does not have.",
         &mut matching.holes,
-        &[
-            (HoleRule::Auto, "Auto", "Whichever of the two fits better"),
-            (
-                HoleRule::Close,
-                "Close",
-                "The hole shrinks to a point, or grows from one",
-            ),
-            (
-                HoleRule::Cut,
-                "Cut",
-                "The ring around the hole is cut open and uncoils",
-            ),
-        ],
     );
-    parts(ui, &mut matching.parts);
-}
-
-fn parts(ui: &mut Ui, rule: &mut PartRule) {
-    choose(
+    pick(
         ui,
         "Parts",
         "What becomes of a part that the other design does not have.",
-        rule,
-        &[
-            (
-                PartRule::Auto,
-                "Auto",
-                "One part is split into several; among several, the odd ones appear or \
-                         vanish",
-            ),
-            (
-                PartRule::Split,
-                "Split",
-                "The part that fits best is cut in pieces, one for each",
-            ),
-            (
-                PartRule::Alone,
-                "Alone",
-                "It grows from a point, or shrinks to one",
-            ),
-        ],
+        &mut matching.parts,
     );
 }
 

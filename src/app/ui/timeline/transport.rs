@@ -7,9 +7,10 @@ use crate::app::playing::playback::SPEEDS;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
-use crate::app::ui::kit::widgets::{choice, from_right, icon_button};
+use crate::app::ui::kit::widgets::{choice, from_right, icon_button, menu};
 use crate::app::ui::scene::{Intents, Scene};
-use crate::transition::{Easing, PlayMode, Timing};
+use crate::names::Choice;
+use crate::transition::{PlayMode, Timing};
 
 const ROW_HEIGHT: f32 = 36.0;
 
@@ -122,23 +123,19 @@ fn pass(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
         "How long one pass takes, without the holds.",
     );
     caption(ui, "Lasts");
-    easing(ui, &mut timing.easing);
+    menu(ui, "easing", &mut timing.easing, 88.0)
+        .on_hover_text("How t speeds up and slows down from stop to stop.");
     ui.add_space(GRID);
-    for (mode, name, tip) in [
-        (
-            PlayMode::PingPong,
-            "Ping-pong",
-            "There and back, again and again (L)",
-        ),
-        (PlayMode::Loop, "Loop", "Starts again at the end (L)"),
-        (PlayMode::Once, "Once", "Stops at the end (L)"),
-    ] {
+    for mode in PlayMode::ALL {
         let width = if mode == PlayMode::PingPong {
             72.0
         } else {
             48.0
         };
-        let response = choice(ui, timing.play == mode, name, vec2(width, CONTROL_HEIGHT));
+        let name = mode.name();
+        let size = vec2(width, CONTROL_HEIGHT);
+        let response = choice(ui, timing.play == mode, name.title, size);
+        let tip = format!("{} (L)", name.sentence);
         if response.on_hover_text(tip).clicked() {
             timing.play = mode;
         }
@@ -160,34 +157,6 @@ fn seconds(ui: &mut Ui, value: &mut f64, least: f64, tip: &str) {
         .update_while_editing(false);
     ui.add_sized([60.0, CONTROL_HEIGHT], number)
         .on_hover_text(tip);
-}
-
-fn easing(ui: &mut Ui, easing: &mut Easing) {
-    let options = [
-        (Easing::Linear, "Even", "The same speed all along"),
-        (
-            Easing::Smooth,
-            "Smooth",
-            "Sets off and arrives gently at each stop",
-        ),
-        (Easing::EaseIn, "Ease in", "Sets off gently at each stop"),
-        (Easing::EaseOut, "Ease out", "Arrives gently at each stop"),
-    ];
-    let current = options
-        .iter()
-        .find(|(option, ..)| option == easing)
-        .map_or("", |(_, name, _)| name);
-    let list = egui::ComboBox::from_id_salt("easing")
-        .width(88.0)
-        .selected_text(current);
-    let shown = list.show_ui(ui, |ui| {
-        for (option, name, tip) in options {
-            ui.selectable_value(easing, option, name).on_hover_text(tip);
-        }
-    });
-    shown
-        .response
-        .on_hover_text("How t speeds up and slows down from stop to stop.");
 }
 
 fn speed(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {

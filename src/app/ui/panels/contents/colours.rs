@@ -2,16 +2,8 @@
 
 use bevy_egui::egui::{DragValue, Ui};
 
-use crate::app::ui::kit::widgets::{menu, number, row, section};
+use crate::app::ui::kit::widgets::{list, number, section};
 use crate::content::ColourMix;
-use crate::transition::Easing;
-
-const CURVES: [(Easing, &str, &str); 4] = [
-    (Easing::Linear, "Even", "The same speed all along"),
-    (Easing::Smooth, "Smooth", "Slow at both ends"),
-    (Easing::EaseIn, "Ease in", "Slow at the beginning"),
-    (Easing::EaseOut, "Ease out", "Slow at the end"),
-];
 
 /// The shortest span in which colours change.
 const SHORTEST: f64 = 0.01;
@@ -19,11 +11,11 @@ const SHORTEST: f64 = 0.01;
 /// Draws the options.
 pub fn show(ui: &mut Ui, mix: &mut ColourMix) {
     section(ui, "Colours", |ui| {
-        row(
+        list(
             ui,
             "Curve",
             "How fast one picture gives way to the other.",
-            |ui| menu(ui, "mix", &mut mix.curve, &CURVES),
+            &mut mix.curve,
         );
         let from = DragValue::new(&mut mix.from)
             .range(0.0..=mix.to - SHORTEST)

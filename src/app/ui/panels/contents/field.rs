@@ -2,43 +2,20 @@
 
 use bevy_egui::egui::{DragValue, Ui};
 
-use crate::app::ui::kit::widgets::{choose, menu, number, row, section, slider};
+use crate::app::ui::kit::widgets::{list, number, pick, section, slider};
 use crate::content::{BlendSpace, FieldBlend};
 use crate::field::Metric;
 use crate::transition::{Boundary, FieldOptions};
-
-const METRICS: [(Metric, &str, &str); 4] = [
-    (
-        Metric::Euclidean,
-        "Euclidean",
-        "True distance: offsets are round.",
-    ),
-    (
-        Metric::QuasiEuclidean,
-        "Quasi-Euclidean",
-        "Along axes and diagonals: offsets are octagons.",
-    ),
-    (
-        Metric::CityBlock,
-        "City block",
-        "Along axes: offsets are diamonds.",
-    ),
-    (
-        Metric::Chessboard,
-        "Chessboard",
-        "The larger of the two: offsets are squares.",
-    ),
-];
 
 /// Draws the options.
 pub fn show(ui: &mut Ui, field: &mut FieldOptions) {
     section(ui, "Distance field", |ui| {
         mixing(ui, &mut field.blend);
-        row(
+        list(
             ui,
             "Metric",
             "What distance means; it shows in the corners.",
-            |ui| menu(ui, "metric", &mut field.metric, &METRICS),
+            &mut field.metric,
         );
         let is_euclidean = field.metric == Metric::Euclidean;
         ui.add_enabled_ui(is_euclidean, |ui| outline(ui, &mut field.boundary));
@@ -62,23 +39,11 @@ pub fn show(ui: &mut Ui, field: &mut FieldOptions) {
 
 /// How the two fields become one.
 fn mixing(ui: &mut Ui, blend: &mut FieldBlend) {
-    choose(
+    pick(
         ui,
         "Space",
         "The scale on which distances are mixed.",
         &mut blend.space,
-        &[
-            (
-                BlendSpace::Log,
-                "Logarithmic",
-                "Near the outlines counts most: thin parts survive",
-            ),
-            (
-                BlendSpace::Real,
-                "Real",
-                "Far counts as much as near: thin parts go under",
-            ),
-        ],
     );
     ui.add_enabled_ui(blend.space == BlendSpace::Log, |ui| {
         slider(
@@ -102,19 +67,11 @@ fn mixing(ui: &mut Ui, blend: &mut FieldBlend) {
 }
 
 fn outline(ui: &mut Ui, boundary: &mut Boundary) {
-    choose(
+    pick(
         ui,
         "Outline",
         "Where the edge of a shape lies within a cell; metrics other than the Euclidean have it \
          between cells.",
         boundary,
-        &[
-            (Boundary::Exact, "Exact", "Where the drawing has it: smooth"),
-            (
-                Boundary::Binary,
-                "Binary",
-                "Between cells, as the paper's tool: stepped",
-            ),
-        ],
     );
 }

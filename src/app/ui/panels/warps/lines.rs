@@ -2,29 +2,17 @@
 
 use bevy_egui::egui::{DragValue, Ui};
 
-use crate::app::ui::kit::widgets::{choose, number, section};
-use crate::warp::{Between, LineOptions};
+use crate::app::ui::kit::widgets::{number, pick, section};
+use crate::warp::LineOptions;
 
 /// Draws the options.
 pub fn show(ui: &mut Ui, lines: &mut LineOptions) {
     section(ui, "Lines", |ui| {
-        choose(
+        pick(
             ui,
             "Between",
             "How a line lies between its two.",
             &mut lines.between,
-            &[
-                (
-                    Between::MiddleAndAngle,
-                    "Turn",
-                    "Its middle moves straight, its direction turns the shorter way",
-                ),
-                (
-                    Between::Ends,
-                    "Ends",
-                    "Both ends move straight: a line that turns shrinks on the way",
-                ),
-            ],
         );
         let smoothness = DragValue::new(&mut lines.smoothness)
             .range(1e-4..=1.0)

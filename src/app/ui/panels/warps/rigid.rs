@@ -3,9 +3,8 @@
 use bevy_egui::egui::{DragValue, Ui};
 
 use crate::app::ui::kit::theme::CONTROL_HEIGHT;
-use crate::app::ui::kit::widgets::{choices, menu, number, row, section, toggle};
+use crate::app::ui::kit::widgets::{choices, list, number, row, section, toggle};
 use crate::app::ui::scene::Scene;
-use crate::homotopy::Homotopy;
 use crate::warp::{ArapOptions, ArapPath, Weights};
 
 /// The most parts that get a number of their own; more would fill the window.
@@ -14,37 +13,14 @@ const MOST_PARTS: usize = 8;
 /// The most times that faces are split in the window: each makes four of one.
 const MOST_SUBDIVISIONS: u32 = 4;
 
-const HOMOTOPIES: [(Homotopy, &str, &str); 4] = [
-    (
-        Homotopy::Linear,
-        "Linear",
-        "Points go straight. Cheap and even, but parts shrink while they turn and collapse on half turns.",
-    ),
-    (
-        Homotopy::LinearAfterPolar,
-        "Linear, turn apart",
-        "Turn and stretch apart, the turn on a straight line: shows why the turn must be on a circle.",
-    ),
-    (
-        Homotopy::Polar,
-        "Polar",
-        "Parts turn steadily while they stretch evenly. Right for most designs.",
-    ),
-    (
-        Homotopy::Exponential,
-        "Exponential",
-        "Turns steadily and stretches by equal factors: never turns inside out, even far beyond the designs.",
-    ),
-];
-
 /// Draws the options.
 pub fn show(ui: &mut Ui, scene: &Scene, arap: &mut ArapOptions) {
     section(ui, "Motion of parts", |ui| {
-        row(
+        list(
             ui,
             "Homotopy",
             "The path of each triangle from its first form to its last.",
-            |ui| menu(ui, "homotopy", &mut arap.homotopy, &HOMOTOPIES),
+            &mut arap.homotopy,
         );
         weights(ui, &mut arap.weights);
         toggle(

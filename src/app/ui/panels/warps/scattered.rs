@@ -2,29 +2,18 @@
 
 use bevy_egui::egui::{DragValue, Ui};
 
-use crate::app::ui::kit::widgets::{menu, number, row, section};
+use crate::app::ui::kit::widgets::{list, number, section};
 use crate::warp::{Basis, ScatteredOptions};
-
-const BASES: [(Basis, &str, &str); 3] = [
-    (
-        Basis::ThinPlate,
-        "Thin plate",
-        "Bends least; moves the whole plane.",
-    ),
-    (Basis::Gaussian, "Gaussian", "Moves what is near a pin."),
-    (
-        Basis::Multiquadric,
-        "Multiquadric",
-        "Tight where pins are dense, wide where they are sparse.",
-    ),
-];
 
 /// Draws the options.
 pub fn show(ui: &mut Ui, scattered: &mut ScatteredOptions) {
     section(ui, "Points", |ui| {
-        row(ui, "Basis", "How the pull of a pin spreads.", |ui| {
-            menu(ui, "basis", &mut scattered.basis, &BASES)
-        });
+        list(
+            ui,
+            "Basis",
+            "How the pull of a pin spreads.",
+            &mut scattered.basis,
+        );
         match scattered.basis {
             Basis::ThinPlate => {}
             Basis::Gaussian => {
