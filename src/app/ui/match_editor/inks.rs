@@ -51,7 +51,7 @@ impl Inks {
 }
 
 impl Inks {
-    fn of(scene: &Scene) -> Self {
+    pub fn of(scene: &Scene) -> Self {
         let style = scene
             .session
             .project()

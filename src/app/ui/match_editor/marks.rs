@@ -47,7 +47,7 @@ fn features(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks
         } else {
             inks.ground.lerp_to_gamma(inks.ink, 0.65)
         };
-        let at = half.px(pair.of(half.side));
+        let at = half.px(pair[half.side]);
         painter.circle(at, FEATURE_RADIUS, inks.ground, Stroke::new(1.0, colour));
         number(painter, at, sheet.pins.len() + k + 1, colour);
     }
@@ -64,7 +64,7 @@ fn pins(painter: &Painter, scene: &Scene, half: &Half, inks: &Inks) {
         } else {
             PIN_RADIUS
         };
-        let at = half.px(pin.of(half.side));
+        let at = half.px(pin[half.side]);
         let is_wrong = sheet.faulty.contains(&k);
         let fill = match (is_wrong, is_selected) {
             (true, _) => inks.problem,
@@ -79,7 +79,7 @@ fn pins(painter: &Painter, scene: &Scene, half: &Half, inks: &Inks) {
 /// Each line with a number at its middle; its first end is a disc, its second an open ring.
 fn lines(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &Inks) {
     for (k, line) in sheet.lines.iter().enumerate() {
-        let ends = line.of(half.side).map(|p| half.px(p));
+        let ends = line[half.side].map(|p| half.px(p));
         let is_selected = matches!(editor.selected, Some(Handle::Line(of, _)) if of == k);
         let colour = if is_selected { inks.accent } else { inks.ink };
         painter.line_segment(ends, Stroke::new(5.0, inks.ground));
