@@ -79,7 +79,7 @@ fn design(shift: u32) -> Result<Arc<Design>> {
 fn transition() -> Result<Transition> {
     let mut spec = TransitionSpec::new(design(0)?, design(1)?);
     spec.cell = Cell::new(WarpKind::Lines, ContentKind::Colours)?;
-    spec.matching.lines = (0..COUNT).map(pair).collect();
+    spec.options.matching.lines = (0..COUNT).map(pair).collect();
     Ok(Transition::build(&spec, &Silent)?)
 }
 

@@ -16,38 +16,53 @@
 //! What joins the two is a [`warp::Placement`]: faces, and for each vertex its
 //! place in the frame, in the source and in the target.
 //!
+//! # In twenty lines
+//!
+//! What most programs need stands at the root of the crate: a [`Design`] of
+//! points or of a file, the [`Transition`] between two, a [`Frame`] of it, and
+//! a [`Camera`] that makes SVG and pixels.
+//!
+//! ```
+//! use morphospace::{Camera, Design, Error, Transition};
+//!
+//! # fn main() -> Result<(), Error> {
+//! let kite = [[2.0, 0.0], [4.0, 3.0], [2.0, 4.0], [0.0, 3.0]];
+//! let house = [[0.0, 0.0], [4.0, 0.0], [4.0, 3.0], [2.0, 5.0], [0.0, 3.0]];
+//! let source = Design::of_rings("kite", [kite])?;
+//! let target = Design::of_rings("house", [house])?;
+//! let transition = Transition::between(source, target)?;
+//! let mut frame = transition.frame(0.0);
+//! for i in 0..=4 {
+//!     frame.seek(f64::from(i) / 4.0); // cannot fail
+//!     println!("{:?}", frame.figure().rings);
+//! }
+//! println!("{}", Camera::around(transition, 480).svg(0.5));
+//! # Ok(())
+//! # }
+//! ```
+//!
 //! # The way the data flows
 //!
 //! ```text
 //! files ─► Design ─► RegionMatch ─► CompatibleMesh ─► Transition ─► Frame(t) ─┬─► stage (Bevy)
 //!          regions    who is who     one list of       warp×content           ├─► export: SVG, …
-//!          mesh                      faces, two        prefactored            └─► measures
-//!          truss                     embeddings
+//!          mesh       └─── of unlike outlines several ───┘                    └─► measures
+//!          truss        choice: each match gets its film,
+//!                       the one with the least trouble stays
 //! ```
 //!
-//! One direction, no way back. Everything that can fail fails while a
-//! [`transition::Transition`] is built; a [`transition::Frame`] cannot fail
-//! and allocates nothing when it moves to another t. It is unevaluated: the
-//! stage evaluates it on the GPU, export and tests on the CPU.
-//!
-//! ```
-//! use morphospace::project::gallery;
-//! use morphospace::progress::Silent;
-//! use morphospace::transition::Transition;
-//!
-//! let loaded = gallery::load("triangle-polar")?;
-//! let transition = Transition::build(&loaded.spec()?, &Silent)?;
-//! let mut frame = transition.frame(0.0);
-//! for i in 0..=4 {
-//!     frame.seek(f64::from(i) / 4.0);
-//!     println!("{:?}", frame.figure().rings);
-//! }
-//! # Ok::<(), Box<dyn std::error::Error>>(())
-//! ```
+//! One direction, no way back. Where outlines are unlike, a transition of rigid
+//! parts is built from several matches: each gets its mesh and its film, and
+//! the one that folds least, then distorts least, then came first is kept.
+//! Everything that can fail fails while a [`Transition`] is built; a [`Frame`]
+//! cannot fail and allocates nothing when it moves to another t. It is
+//! unevaluated: the stage evaluates it on the GPU, export and tests on the CPU.
+//! What was done otherwise than asked is told: [`Transition::notes`].
 //!
 //! # Layers
 //!
-//! A module uses modules above it, never below.
+//! A module uses modules above it, never below, and no files use each other in
+//! a circle; `tests/layers.rs` reads this list and holds the code to it.
 //!
 //! ```text
 //! names                         what the values of options are called
@@ -66,6 +81,7 @@
 //! measure                       quality in numbers
 //! project                       the .morph document and the gallery
 //! export                        SVG, PNG, GIF, APNG, MP4, contact sheets
+//! short                         from files to a transition, one error
 //! stage  (feature `bevy`)       MorphPlugin: transitions in a Bevy world
 //! app    (feature `app`)        the window: playback, panels, keys, capture
 //! cli    (feature `cli`)        the subcommands
@@ -75,9 +91,8 @@
 //! nothing and prints nothing.
 
 mod atomic_file;
-pub mod names;
-
 pub mod easing;
+pub mod names;
 pub mod progress;
 
 pub mod geometry;
@@ -105,6 +120,8 @@ pub mod project;
 
 pub mod export;
 
+mod short;
+
 #[cfg(feature = "bevy")]
 pub mod stage;
 
@@ -113,3 +130,14 @@ pub mod app;
 
 #[cfg(feature = "cli")]
 pub mod cli;
+
+pub use design::Design;
+pub use export::{Camera, PixelSize};
+pub use geometry::DVec2;
+pub use short::{Error, open_pair, open_project};
+pub use transition::{Cell, Figure, Frame, Transition};
+
+/// What the readme shows is compiled.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

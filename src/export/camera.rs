@@ -4,6 +4,7 @@
 //! pictures are in memory at once (or one frame, where that is larger); a cancel
 //! is noticed before each frame.
 
+use image::RgbaImage;
 use rayon::prelude::*;
 
 use crate::geometry::Bounds;
@@ -12,8 +13,10 @@ use crate::transition::{Rgb, Style, Transition};
 
 use super::drawing::Drawing;
 use super::error::ExportError;
-use super::film::Run;
+use super::film::{Run, even_times};
+use super::raster::rasterise;
 use super::size::PixelSize;
+use super::svg::to_svg;
 use super::view::View;
 
 /// Memory for frames that are drawn ahead of being written, in bytes.
@@ -39,6 +42,29 @@ pub struct Camera {
 }
 
 impl Camera {
+    /// A camera that sees every frame for t in [0, 1] whole, with the longer
+    /// side of its pictures given in pixels, in the usual colours and on a
+    /// transparent ground.
+    pub fn around(transition: Transition, longer_side_px: u32) -> Self {
+        let bounds = framing(&transition, &even_times(0.0, 1.0, FRAMING_SAMPLES));
+        Self {
+            view: View::fit(bounds, PixelSize::of_shape(bounds, longer_side_px)),
+            transition,
+            style: Style::default(),
+            ground: None,
+        }
+    }
+
+    /// The frame at `t` as an SVG document.
+    pub fn svg(&self, t: f64) -> String {
+        to_svg(&self.shoot(t))
+    }
+
+    /// The frame at `t` as pixels with straight alpha.
+    pub fn pixels(&self, t: f64) -> RgbaImage {
+        rasterise(&self.shoot(t))
+    }
+
     /// The drawing of one frame.
     pub fn shoot(&self, t: f64) -> Drawing {
         Drawing::of_frame(

@@ -12,13 +12,24 @@ use crate::content::{Content, ContentKind, FieldPair, PicturePair};
 use crate::design::{Design, Form};
 use crate::field::{DistanceField, FieldError, Grid};
 use crate::geometry::Bounds;
-use crate::progress::{Progress, checkpoint};
+use crate::progress::{Progress, Silent, checkpoint};
 use crate::warp::{Arap, Placement, Warp, WarpKind};
+use std::sync::Arc;
 
 /// What moves, what is seen, and the box around it.
 type Made = (Moved, Content, Bounds);
 
 impl Transition {
+    /// Two designs by the method that suits them best, with default options,
+    /// however long it takes.
+    ///
+    /// # Errors
+    /// [`BuildError`] says what does not go together.
+    pub fn between(source: Design, target: Design) -> Result<Self, BuildError> {
+        let spec = TransitionSpec::new(Arc::new(source), Arc::new(target));
+        Self::build(&spec, &Silent)
+    }
+
     /// Builds the cell of the table that the specification names: imports
     /// nothing, decides everything.
     ///

@@ -223,7 +223,7 @@ mod tests {
                 "←" => "Left".to_owned(),
                 "↑" => "Up".to_owned(),
                 "↓" => "Down".to_owned(),
-                other => other.replace('_', " ").replace('+', " "),
+                other => other.replace(['_', '+'], " "),
             })
             .collect();
         if words.contains(&"–".to_owned()) {

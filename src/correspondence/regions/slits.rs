@@ -146,7 +146,7 @@ impl Passage<'_> {
         let places = shared.places.iter().map(|place| place[self.side]);
         let inside = places.enumerate().filter(|(_, at)| from < *at && *at < to);
         let stop = |(vertex, at): (usize, f64)| Stop {
-            along: self.from_outer((at - from) / (to - from)),
+            along: self.outer_share((at - from) / (to - from)),
             vertex,
         };
         let mut stops: Vec<Stop> = inside.map(stop).collect();
@@ -155,7 +155,7 @@ impl Passage<'_> {
     }
 
     /// A share of the passage as one of the slit, and back.
-    fn from_outer(&self, share: f64) -> f64 {
+    fn outer_share(&self, share: f64) -> f64 {
         if self.is_back { 1.0 - share } else { share }
     }
 
@@ -171,7 +171,7 @@ impl Passage<'_> {
         let ([a, b], [from, to]) = (self.slit, self.span);
         for rung in rungs {
             let point = a.lerp(b, rung.along);
-            let own = from + self.from_outer(rung.along) * (to - from);
+            let own = from + self.outer_share(rung.along) * (to - from);
             if let Some(vertex) = self.vertex(rung) {
                 points_of(shared, self.side)[vertex] = point;
                 shared.places[vertex][self.side] = own;
@@ -200,13 +200,13 @@ impl Passage<'_> {
         };
         let inner = |rung: &Rung| Some([rung.along, across(self.vertex(rung)?)]);
         let [from, to] = self.span;
-        let mut known = vec![[self.from_outer(0.0), at(from)]];
+        let mut known = vec![[self.outer_share(0.0), at(from)]];
         if self.is_back {
             known.extend(rungs.iter().rev().filter_map(inner));
         } else {
             known.extend(rungs.iter().filter_map(inner));
         }
-        known.push([self.from_outer(1.0), at(to)]);
+        known.push([self.outer_share(1.0), at(to)]);
         // In the walk's order the other side's places ascend.
         for k in 1..known.len() {
             if known[k][1] < known[k - 1][1] {
