@@ -9,7 +9,7 @@ use clap::Args;
 
 use super::error::CliError;
 use super::inputs::Inputs;
-use super::laboratory::{Batch, Outcome, Report, StageClock};
+use super::laboratory::{Batch, Outcome, Report, StageClock, text};
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
@@ -88,7 +88,7 @@ fn one(args: &CheckArgs, inputs: &Inputs) -> Result<(), CliError> {
     output::data(&if args.json {
         output::json(&report)?
     } else {
-        report.text()
+        text(&report)
     })
 }
 

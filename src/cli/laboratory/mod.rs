@@ -28,3 +28,4 @@ mod text;
 pub(super) use clock::StageClock;
 pub(super) use pairs::{Batch, Outcome};
 pub(super) use report::Report;
+pub(super) use text::text;

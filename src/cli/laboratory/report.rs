@@ -7,7 +7,6 @@ use std::time::{Duration, Instant};
 use serde::Serialize;
 
 use super::clock::{self, Stages};
-use super::text;
 use crate::cli::error::CliError;
 use crate::cli::inputs::Opened;
 use crate::content::{Content, ContentKind};
@@ -157,11 +156,6 @@ impl Report {
     pub fn without_samples(mut self) -> Self {
         self.film.samples = Vec::new();
         self
-    }
-
-    /// For people, in aligned lines.
-    pub fn text(&self) -> String {
-        text::of(self)
     }
 }
 

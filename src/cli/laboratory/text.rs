@@ -25,7 +25,7 @@ const LISTED: [(&str, Quantity); 8] = [
 ];
 
 /// The whole report.
-pub(super) fn of(report: &Report) -> String {
+pub(in crate::cli) fn text(report: &Report) -> String {
     let mut lines = Lines::default();
     lines.line(&report.title);
     lines.gap();
