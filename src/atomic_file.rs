@@ -48,6 +48,7 @@ impl AtomicFile {
     }
 
     /// The temporary file's path, for another program to write.
+    #[cfg(not(target_family = "wasm"))] // no other programs there
     pub(crate) fn temporary_path(&self) -> &Path {
         self.temporary.path()
     }

@@ -27,7 +27,9 @@ fn the_readme_shows_the_program_of_twenty_lines() {
     let example = include_str!("../examples/polygons_to_svg.rs");
     let (_, program) = example.split_once("\n\n").expect("a head");
     assert!(program.lines().count() <= 20);
-    assert!(include_str!("../README.md").contains(&program.replace("pub(crate) fn main", "fn main")));
+    assert!(
+        include_str!("../README.md").contains(&program.replace("pub(crate) fn main", "fn main"))
+    );
 }
 
 #[test]
