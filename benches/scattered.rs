@@ -1,15 +1,16 @@
-//! Warps by scattered points and by lattices: one map on a raster, and whole
-//! frames.
+//! Warps by scattered points and by lattices: frames on a raster and on a
+//! grid.
 //!
-//! `cargo bench --no-default-features --bench scattered`. The points and
-//! values of the maps are those of `benches/scattered_scipy.py`, which times
-//! `scipy.interpolate.RBFInterpolator` on them, side by side.
+//! `cargo bench --no-default-features --bench scattered`. The pairs of the
+//! rasters are those of `benches/scattered_scipy.py`, which solves and looks
+//! up the same two maps, into the source and into the target, by
+//! `scipy.interpolate.RBFInterpolator`, side by side.
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use morphospace::correspondence::PointPair;
 use morphospace::geometry::{Bounds, DVec2};
 use morphospace::warp::{
-    Basis, Lattice, LatticeOptions, PlaneGrid, PlaneWarp, RadialMap, Scattered, ScatteredOptions,
+    Basis, Lattice, LatticeOptions, PlaneGrid, PlaneWarp, Scattered, ScatteredOptions,
 };
 use std::error::Error;
 
@@ -22,7 +23,7 @@ const SQUARE: Bounds = Bounds {
 
 fn main() -> Result<()> {
     let mut criterion = Criterion::default().configure_from_args();
-    maps(&mut criterion)?;
+    rasters(&mut criterion)?;
     frames(&mut criterion)?;
     criterion.final_summary();
     Ok(())
@@ -42,34 +43,43 @@ fn value(p: &DVec2) -> DVec2 {
 fn with(basis: Basis) -> ScatteredOptions {
     ScatteredOptions {
         basis,
-        width: 0.25,
+        width: 0.25 / std::f64::consts::SQRT_2, // a quarter of the side
         ..ScatteredOptions::default()
     }
 }
 
-fn maps(criterion: &mut Criterion) -> Result<()> {
+/// Frames halfway on a raster of 512 × 512 places: both maps are solved for,
+/// and looked up.
+fn rasters(criterion: &mut Criterion) -> Result<()> {
     let raster: Vec<DVec2> = (0..512 * 512)
         .map(|k| DVec2::new(f64::from(k % 512), f64::from(k / 512)) / 511.0)
         .collect();
-    let mut out = raster.clone();
-    let mut group = criterion.benchmark_group("radial_map");
+    let (mut source, mut target) = (raster.clone(), raster.clone());
+    let mut group = criterion.benchmark_group("raster");
     group.sample_size(10);
+    group.throughput(Throughput::Elements(512 * 512));
     for basis in [Basis::ThinPlate, Basis::Gaussian, Basis::Multiquadric] {
         for count in [50, 200, 500] {
-            let centres = spread(count, 0.0);
-            let values: Vec<DVec2> = centres.iter().map(value).collect();
-            let build = || RadialMap::new(&centres, &values, &with(basis), 1.0);
-            let id = |what: &str| BenchmarkId::new(format!("{basis:?}/{what}"), count);
-            group.throughput(Throughput::Elements(u64::from(count)));
-            group.bench_function(id("build"), |b| b.iter(build));
-            let map = build()?;
-            group.throughput(Throughput::Elements(512 * 512));
+            let centres = spread(count, 0.0).into_iter();
+            let pairs: Vec<_> = centres
+                .map(|source| PointPair {
+                    source,
+                    target: value(&source),
+                })
+                .collect();
+            let warp = Scattered::new(&SQUARE, &pairs, &[], with(basis))?;
+            let mut maps = warp.maps();
             for threads in [1, 2] {
                 let pool = rayon::ThreadPoolBuilder::new()
                     .num_threads(threads)
                     .build()?;
-                group.bench_function(id(&format!("512x512, {threads} thread")), |b| {
-                    b.iter(|| pool.install(|| map.map_into(&raster, &mut out)));
+                let id = BenchmarkId::new(format!("{basis:?}, {threads} thread"), count);
+                group.bench_function(id, |b| {
+                    b.iter(|| {
+                        pool.install(|| {
+                            warp.look_up(0.5, &mut maps, &raster, &mut source, &mut target);
+                        });
+                    });
                 });
             }
         }

@@ -47,8 +47,6 @@ pub(super) struct Features {
     pairs: Vec<PointPair>,
     /// The frame's diameter, or 1 if it has none.
     pub(super) unit: f64,
-    /// How many were too far away, and are taken to be nearer.
-    pub(super) clamped: usize,
 }
 
 impl Features {
@@ -80,17 +78,13 @@ impl Features {
         let centre = frame.centre();
         let near = |p: DVec2| p.clamp(centre - FAR * unit, centre + FAR * unit);
         let pairs = points.iter().copied().chain(lines.iter().flat_map(sampled));
-        let mut clamped = 0;
-        let pairs = pairs.map(|pair| {
-            let [source, target] = [pair.source, pair.target].map(near);
-            let nearer = PointPair { source, target };
-            clamped += usize::from(nearer != pair);
-            nearer
-        });
+        let nearer = |pair: PointPair| PointPair {
+            source: near(pair.source),
+            target: near(pair.target),
+        };
         Ok(Self {
-            pairs: pairs.collect(),
+            pairs: pairs.map(nearer).collect(),
             unit,
-            clamped,
         })
     }
 
@@ -138,12 +132,15 @@ mod tests {
         let halfway: Vec<DVec2> = features.at(0.5).map(|(at, _)| at).collect();
         let wanted = [0.0, 0.25, 0.5, 0.75, 1.0].map(|x| DVec2::new(x, 0.5));
         assert_eq!(halfway, wanted);
-        assert_eq!(features.clamped, 0);
         let far = PointPair {
             source: DVec2::ZERO,
             target: DVec2::X * 1e9,
         };
-        assert_eq!(Features::new(&frame, &[far], &[line])?.clamped, 1);
+        let features = Features::new(&frame, &[far], &[line])?;
+        let places: Vec<_> = features.at(0.0).map(|(at, _)| at).collect();
+        let [places_far, on_line] = [&places[..1], &places[1..]];
+        assert!(places_far.iter().all(|p| *p != far.source && p.is_finite()));
+        assert_eq!(on_line[0], line.source[0]);
         Ok(())
     }
 }

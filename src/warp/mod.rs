@@ -31,9 +31,7 @@ pub use none::Still;
 pub use paths::{Course, PathOptions, Paths, PathsError, RingPair};
 pub use plane::{OnGrid, PlaneGrid, PlaneWarp};
 pub use rigid_part::{RigidPart, Travel};
-pub use scattered::{
-    Basis, RadialCompromise, RadialMap, Scattered, ScatteredError, ScatteredMaps, ScatteredOptions,
-};
+pub use scattered::{Basis, Scattered, ScatteredError, ScatteredMaps, ScatteredOptions};
 
 use crate::geometry::DVec2;
 use std::fmt::Debug;

@@ -6,6 +6,7 @@
 
 use super::{Missed, Placement, Placer, Warp};
 use crate::geometry::{Bounds, DVec2};
+use rayon::prelude::*;
 use std::fmt::Debug;
 use std::sync::Arc;
 
@@ -34,6 +35,20 @@ pub trait PlaneWarp: Debug + Send + Sync + 'static {
     fn missed(&self, _t: f64) -> Option<Missed> {
         None
     }
+}
+
+/// Looks up so many places at a time, over all cores.
+pub(super) fn in_chunks(
+    size: usize,
+    frame: &[DVec2],
+    [in_source, in_target]: [&mut [DVec2]; 2],
+    look: impl Fn(&[DVec2], [&mut [DVec2]; 2]) + Sync,
+) {
+    let looks = in_source
+        .par_chunks_mut(size)
+        .zip(in_target.par_chunks_mut(size));
+    let chunks = frame.par_chunks(size).zip(looks);
+    chunks.for_each(|(places, (source, target))| look(places, [source, target]));
 }
 
 /// A rectangle divided into columns and rows of two triangles each.

@@ -38,11 +38,11 @@ mod tests;
 
 pub use options::{FINEST, LatticeError, LatticeOptions, MORE_LEVELS};
 
+use super::Missed;
 use super::features::Features;
-use super::{Missed, PlaneWarp};
+use super::plane::{PlaneWarp, in_chunks};
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
-use rayon::prelude::*;
 use tower::{Ground, Tower};
 
 /// Features missed by so many tolerances are told of: a thousandth of the
@@ -109,19 +109,6 @@ impl Lattice {
         })
     }
 
-    /// How many features are farther from the frame than a million of its
-    /// diameters, in either design, and are taken to be no farther.
-    #[must_use]
-    pub fn clamped(&self) -> usize {
-        self.features.clamped
-    }
-
-    /// What it was built with.
-    #[must_use]
-    pub fn options(&self) -> &LatticeOptions {
-        &self.options
-    }
-
     /// The tolerance as a length.
     #[must_use]
     pub fn tolerance(&self) -> f64 {
@@ -174,13 +161,15 @@ impl PlaneWarp for Lattice {
     ) {
         self.build(t, maps);
         let [to_source, to_target] = &maps.towers;
-        let sources = in_source.par_chunks_mut(CHUNK);
-        let looked_up = sources.zip(in_target.par_chunks_mut(CHUNK));
-        let chunks = frame.par_chunks(CHUNK).zip(looked_up);
-        chunks.for_each(|(places, (source, target))| {
-            to_source.lead(places, source);
-            to_target.lead(places, target);
-        });
+        in_chunks(
+            CHUNK,
+            frame,
+            [in_source, in_target],
+            |places, [source, target]| {
+                to_source.lead(places, source);
+                to_target.lead(places, target);
+            },
+        );
     }
 
     fn missed(&self, t: f64) -> Option<Missed> {

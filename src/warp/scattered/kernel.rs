@@ -155,35 +155,28 @@ impl Work for Column<'_> {
     }
 }
 
-/// A sum of functions and an affine map, for K vectors at once.
+/// A sum of functions and an affine map, into both designs at once.
 #[derive(Clone, Debug)]
-pub(super) struct Sum<const K: usize> {
+pub(super) struct Sum {
     pub(super) kernel: Kernel,
     /// The centres' coordinates are (place − origin) / scale.
     pub(super) origin: DVec2,
     pub(super) scale: f64,
     pub(super) centres: Centres,
-    /// Of each centre, as [x, y] of each vector.
-    pub(super) coefficients: Vec<[[f64; 2]; K]>,
+    /// Of each centre, as [x, y] into each design.
+    pub(super) coefficients: Vec<[[f64; 2]; 2]>,
     /// Constant, and factors of both coordinates, as [x, y] of each.
-    pub(super) affine: [[[f64; 2]; 3]; K],
+    pub(super) affine: [[[f64; 2]; 3]; 2],
 }
 
-impl<const K: usize> Sum<K> {
-    /// The sum at each place, with the place itself `added` or not.
-    pub(super) fn evaluate(
-        &self,
-        arch: pulp::Arch,
-        places: &[DVec2],
-        added: bool,
-        out: [&mut [DVec2]; K],
-    ) {
+impl Sum {
+    /// Each place, moved by the sum there.
+    pub(super) fn evaluate(&self, arch: pulp::Arch, places: &[DVec2], out: [&mut [DVec2]; 2]) {
         arch.dispatch(Dispatched(
             self.kernel,
             Evaluation {
                 sum: self,
                 places,
-                added,
                 out,
             },
         ));
@@ -191,7 +184,7 @@ impl<const K: usize> Sum<K> {
 
     /// The sums at a few places, in the centres' coordinates.
     #[inline(always)]
-    fn block<P: Phi>(&self, phi: P, x: &[f64], y: &[f64], sums: &mut [[Row; 2]; K]) {
+    fn block<P: Phi>(&self, phi: P, x: &[f64], y: &[f64], sums: &mut [[Row; 2]; 2]) {
         let n = x.len().min(LANES);
         let (x, y) = (&x[..n], &y[..n]);
         for (sums, [constant, by_x, by_y]) in sums.iter_mut().zip(&self.affine) {
@@ -221,24 +214,22 @@ impl<const K: usize> Sum<K> {
     }
 }
 
-struct Evaluation<'a, const K: usize> {
-    sum: &'a Sum<K>,
+struct Evaluation<'a> {
+    sum: &'a Sum,
     places: &'a [DVec2],
-    added: bool,
-    out: [&'a mut [DVec2]; K],
+    out: [&'a mut [DVec2]; 2],
 }
 
-impl<const K: usize> Work for Evaluation<'_, K> {
+impl Work for Evaluation<'_> {
     #[inline(always)]
     fn run<P: Phi>(self, phi: P) {
         let Self {
             sum,
             places,
-            added,
             mut out,
         } = self;
         let [mut x, mut y] = [[0.0; LANES]; 2];
-        let mut sums = [[[0.0; LANES]; 2]; K];
+        let mut sums = [[[0.0; LANES]; 2]; 2];
         for (block, places) in places.chunks(LANES).enumerate() {
             for (lane, &place) in places.iter().enumerate() {
                 let at = (place - sum.origin) / sum.scale;
@@ -249,8 +240,7 @@ impl<const K: usize> Work for Evaluation<'_, K> {
             for (out, [x, y]) in out.iter_mut().zip(&sums) {
                 let out = &mut out[block * LANES..];
                 for (lane, (&place, out)) in places.iter().zip(out).enumerate() {
-                    let value = DVec2::new(x[lane], y[lane]);
-                    *out = if added { place + value } else { value };
+                    *out = place + DVec2::new(x[lane], y[lane]);
                 }
             }
         }

@@ -11,25 +11,21 @@
 //! target, is looked up at the very same place, to the last bit. Without
 //! smoothing, features are met, but for those that the plane would have to be
 //! more than twenty times as steep for: features that meet on their way give
-//! way to each other without a jump (`ease`). Swapping the designs plays the
+//! way to each other without a jump (`places`). Swapping the designs plays the
 //! film backwards. No feature is the identity, one a translation, two a
 //! similarity.
 //! Not guaranteed: that the plane does not fold; see [`super::Lattice`] for
 //! that.
 //!
 //! - `options`: the functions to choose from, and what may be wrong
-//! - `ease`: features that meet
-//! - `places`: where the features are, made ready
+//! - `places`: where the features are, made ready, and those that meet
 //! - `system`: what is solved
 //! - `ridged`: what is done where that is singular
 //! - `kernel`: the functions, many distances at a time
-//! - `radial`: the map alone, for other uses
 
-mod ease;
 mod kernel;
 mod options;
 mod places;
-mod radial;
 mod ridged;
 mod system;
 
@@ -37,15 +33,15 @@ mod system;
 mod tests;
 
 pub use options::{Basis, ScatteredError, ScatteredOptions};
-pub use radial::{RadialCompromise, RadialMap};
 
-use super::PlaneWarp;
 use super::features::Features;
+use super::plane::{PlaneWarp, in_chunks};
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
-use radial::CHUNK;
-use rayon::prelude::*;
 use system::Solver;
+
+/// How many places a core takes at a time.
+const CHUNK: usize = 1024;
 
 /// The row *scattered points*.
 ///
@@ -86,19 +82,6 @@ impl Scattered {
         let features = Features::new(frame, points, lines)?;
         Ok(Self { features, options })
     }
-
-    /// How many features are farther from the frame than a million of its
-    /// diameters, in either design, and are taken to be no farther.
-    #[must_use]
-    pub fn clamped(&self) -> usize {
-        self.features.clamped
-    }
-
-    /// What it was built with.
-    #[must_use]
-    pub fn options(&self) -> &ScatteredOptions {
-        &self.options
-    }
 }
 
 /// The memory of one player of a [`Scattered`].
@@ -107,7 +90,7 @@ pub struct ScatteredMaps {
     /// Features at t, and from there to source and target.
     at: Vec<DVec2>,
     looks: Vec<[DVec2; 2]>,
-    solver: Solver<2>,
+    solver: Solver,
 }
 
 impl PlaneWarp for Scattered {
@@ -118,7 +101,7 @@ impl PlaneWarp for Scattered {
         ScatteredMaps {
             at: Vec::with_capacity(room),
             looks: Vec::with_capacity(room),
-            solver: Solver::new(self.options, self.features.unit, ease::STEEPEST),
+            solver: Solver::new(self.options, self.features.unit),
         }
     }
 
@@ -138,12 +121,9 @@ impl PlaneWarp for Scattered {
             looks.push(look);
         }
         solver.solve(at, looks);
-        let (sum, arch) = (&solver.sum, solver.arch());
-        let sources = in_source.par_chunks_mut(CHUNK);
-        let looked_up = sources.zip(in_target.par_chunks_mut(CHUNK));
-        let chunks = frame.par_chunks(CHUNK).zip(looked_up);
-        chunks.for_each(|(places, (source, target))| {
-            sum.evaluate(arch, places, true, [source, target]);
+        let (sum, arch) = (&solver.sum, solver.arch);
+        in_chunks(CHUNK, frame, [in_source, in_target], |places, looks| {
+            sum.evaluate(arch, places, looks);
         });
     }
 }

@@ -57,7 +57,7 @@ impl Default for ScatteredOptions {
     }
 }
 
-/// Why a warp by scattered points, or a radial map, is none.
+/// Why a warp by scattered points is none.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ScatteredError {
@@ -73,20 +73,6 @@ pub enum ScatteredError {
     /// λ is out of range.
     #[error("the smoothing is {0}: it must be at least 0 and finite; 0 meets every feature")]
     Smoothing(f64),
-    /// The unit of a radial map is no length.
-    #[error("the unit is {0}: it must be a length above 0")]
-    Unit(f64),
-    /// A centre of a radial map, or its value, is not finite.
-    #[error("centre {0} or its value is not finite")]
-    Centre(usize),
-    /// Centres and values of a radial map do not pair up.
-    #[error("{centres} centres and {values} values: give one value for each centre")]
-    Lengths {
-        /// How many centres.
-        centres: usize,
-        /// How many values.
-        values: usize,
-    },
 }
 
 impl ScatteredOptions {

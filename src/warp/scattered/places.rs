@@ -1,33 +1,51 @@
-//! Places and values made ready: those that coincide are one, all are in
-//! coordinates of their own, and what a similarity explains is taken off.
+//! Places and values made ready: those that coincide are one, those that come
+//! near to each other give way, all are in coordinates of their own, and what
+//! a similarity explains is taken off.
+//!
+//! Two features at distance d whose looks differ by D make the plane D / d
+//! times as steep between them. Up to a limit K nothing is changed. Beyond it
+//! their difference is shrunk by (K d / D)², so that the slope returns to zero
+//! instead of growing without bound, which would tear the plane just before
+//! they meet. What the two say of the slope between them also has to be heard
+//! less and less, or it would be lost with a jump when they are one: that is
+//! done by the system, for the pairs that are too near.
 
-use super::ease::{TooNear, ease};
 use super::kernel::{Centres, Sum};
 use crate::geometry::DVec2;
 
 /// Places nearer than this share of the unit are one: a thousandth of a pixel.
 const MERGED: f64 = 1e-6;
 
+/// How many times steeper than the frame a look-up may be between two
+/// features before they give way. At 20, two features a hundredth of the
+/// frame apart may be a fifth of it apart in a design, and both are met.
+pub(super) const STEEPEST: f64 = 20.0;
+
+/// Two features that are too near for what they want.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct TooNear {
+    pub(super) pair: [usize; 2],
+    /// (K d / D)², below 1.
+    pub(super) shrunk: f64,
+    /// μ of the system; 0 until it is known.
+    pub(super) tie: f64,
+}
+
 /// Places and values, and memory to make them ready in.
 #[derive(Debug, Default)]
-pub(super) struct Places<const K: usize> {
+pub(super) struct Places {
     pub(super) at: Vec<DVec2>,
-    pub(super) values: Vec<[DVec2; K]>,
+    pub(super) values: Vec<[DVec2; 2]>,
     pub(super) too_near: Vec<TooNear>,
-    memory: Vec<[DVec2; K]>,
+    memory: Vec<[DVec2; 2]>,
     /// How many are merged in each.
     counts: Vec<f64>,
 }
 
-impl<const K: usize> Places<K> {
-    /// How many were one with an earlier one.
-    pub(super) fn merged(&self) -> usize {
-        self.counts.iter().sum::<f64>() as usize - self.counts.len()
-    }
-
+impl Places {
     /// Each place joins the first one that is near enough; near is a share of
     /// the unit.
-    pub(super) fn merge(&mut self, places: &[DVec2], values: &[[DVec2; K]], unit: f64) {
+    pub(super) fn merge(&mut self, places: &[DVec2], values: &[[DVec2; 2]], unit: f64) {
         self.at.clear();
         self.values.clear();
         self.counts.clear();
@@ -57,14 +75,45 @@ impl<const K: usize> Places<K> {
         }
     }
 
-    /// Shrinks differences of values that are steeper than this.
-    pub(super) fn ease(&mut self, steepest: f64) {
-        let (at, values) = (&self.at, &mut self.values);
-        ease(at, values, steepest, &mut self.too_near, &mut self.memory);
+    /// Shrinks differences of values that are steeper than [`STEEPEST`], and
+    /// notes whose.
+    pub(super) fn ease(&mut self) {
+        let Self { at, memory, .. } = self;
+        self.too_near.clear();
+        memory.clear();
+        memory.extend_from_slice(&self.values);
+        for (i, value) in self.values.iter_mut().enumerate() {
+            let (mut sums, mut weights) = (memory[i], [1.0; 2]);
+            for (j, &other) in at.iter().enumerate() {
+                let allowed = STEEPEST * STEEPEST * at[i].distance_squared(other);
+                let mut least = 1.0_f64;
+                for k in 0..2 {
+                    let difference = memory[i][k].distance_squared(memory[j][k]);
+                    if allowed < difference {
+                        let shrunk = allowed / difference;
+                        // With w at both, a difference shrinks by (1 − w) / (1 + w).
+                        let weight = (1.0 - shrunk) / (1.0 + shrunk);
+                        sums[k] += weight * memory[j][k];
+                        weights[k] += weight;
+                        least = least.min(shrunk);
+                    }
+                }
+                if least < 1.0 && i < j {
+                    self.too_near.push(TooNear {
+                        pair: [i, j],
+                        shrunk: least,
+                        tie: 0.0,
+                    });
+                }
+            }
+            for ((value, sum), weight) in value.iter_mut().zip(sums).zip(weights) {
+                *value = sum / weight;
+            }
+        }
     }
 
     /// Origin and scale, the centres in these coordinates and their radii.
-    pub(super) fn centre(&mut self, unit: f64, sum: &mut Sum<K>) {
+    pub(super) fn centre(&mut self, unit: f64, sum: &mut Sum) {
         let n = self.at.len();
         sum.origin = self.at.iter().sum::<DVec2>() / n.max(1) as f64;
         let far = self.at.iter().map(|p| p.distance_squared(sum.origin));
@@ -99,7 +148,7 @@ impl<const K: usize> Places<K> {
     }
 
     /// Takes the similarity that fits the values best from them.
-    pub(super) fn take_similarity(&mut self) -> [[[f64; 2]; 3]; K] {
+    pub(super) fn take_similarity(&mut self) -> [[[f64; 2]; 3]; 2] {
         let n = self.at.len().max(1) as f64;
         let spread: f64 = self.at.iter().map(|p| p.length_squared()).sum();
         std::array::from_fn(|k| {

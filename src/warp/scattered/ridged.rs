@@ -15,19 +15,19 @@ pub(super) struct Ridged {
     /// Column by column.
     pub(super) matrix: Vec<f64>,
     rhs: Vec<f64>,
-    /// One column after the other: x and y of each vector.
+    /// One column after the other: x and y into each design.
     pub(super) solution: Vec<f64>,
     missed: Vec<f64>,
     lu: DenseLu,
 }
 
 impl Ridged {
-    /// Sets the right-hand sides: x and y of each vector, and zeros where the
+    /// Sets the right-hand sides: x and y into each design, and zeros where the
     /// affine part has none.
-    pub(super) fn ask<const K: usize>(&mut self, values: &[[DVec2; K]]) {
+    pub(super) fn ask(&mut self, values: &[[DVec2; 2]]) {
         let size = values.len() + 3;
         self.rhs.clear();
-        self.rhs.resize(size * 2 * K, 0.0);
+        self.rhs.resize(size * 4, 0.0);
         for (i, value) in values.iter().enumerate() {
             for (k, v) in value.iter().enumerate() {
                 self.rhs[2 * k * size + i] = v.x;
@@ -36,12 +36,12 @@ impl Ridged {
         }
     }
 
-    /// Solves for n coefficients and an affine part. Returns what had to be
-    /// added to the diagonal of the coefficients; none where nothing helped.
-    pub(super) fn solve(&mut self, n: usize) -> Option<f64> {
+    /// Solves for n coefficients and an affine part, with the least addition
+    /// to the diagonal of the coefficients; `false` where nothing helped.
+    pub(super) fn solve(&mut self, n: usize) -> bool {
         let size = n + 3;
         let mut before = 0.0;
-        RIDGES.into_iter().find(|&ridge| {
+        RIDGES.into_iter().any(|ridge| {
             for i in 0..n {
                 self.matrix[i * size + i] += ridge - before;
             }

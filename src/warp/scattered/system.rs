@@ -16,7 +16,7 @@
 //! their own. Where places come near a line that the values have nothing to do
 //! with, E grows, and the slope across stays below a limit without a jump.
 //!
-//! Where two places come too near for what their values are (`ease`), μ is
+//! Where two places come too near for what their values are (`places`), μ is
 //! added to Φ at both and taken from it between them. A large μ leaves the sum
 //! of their coefficients free and their difference 0, as if they were one.
 //!
@@ -26,7 +26,7 @@
 
 use super::kernel::{Centres, Kernel, Sum, column};
 use super::options::{Basis, ScatteredOptions};
-use super::places::Places;
+use super::places::{Places, STEEPEST};
 use super::ridged::Ridged;
 use crate::geometry::DVec2;
 use pulp::Arch;
@@ -42,80 +42,55 @@ const MOST: f64 = 0.4;
 
 /// Solves again and again in the same memory.
 #[derive(Debug)]
-pub(super) struct Solver<const K: usize> {
-    arch: Arch,
+pub(super) struct Solver {
+    pub(super) arch: Arch,
     options: ScatteredOptions,
     /// What width, smoothing and merging are relative to.
     unit: f64,
-    /// The limit of slopes between places that come near to each other, or
-    /// near to a line; infinite for none.
-    steepest: f64,
-    places: Places<K>,
+    places: Places,
     system: Ridged,
-    /// What was added to the diagonal for it; none where nothing helped.
-    ridge: Option<f64>,
     /// The last solution.
-    pub(super) sum: Sum<K>,
+    pub(super) sum: Sum,
 }
 
-impl<const K: usize> Solver<K> {
-    pub(super) fn new(options: ScatteredOptions, unit: f64, steepest: f64) -> Self {
+impl Solver {
+    pub(super) fn new(options: ScatteredOptions, unit: f64) -> Self {
         Self {
             arch: Arch::new(),
             options,
             unit,
-            steepest,
             places: Places::default(),
             system: Ridged::default(),
-            ridge: Some(0.0),
             sum: Sum {
                 kernel: Kernel::ThinPlate,
                 origin: DVec2::ZERO,
                 scale: 1.0,
                 centres: Centres::default(),
                 coefficients: Vec::new(),
-                affine: [[[0.0; 2]; 3]; K],
+                affine: [[[0.0; 2]; 3]; 2],
             },
         }
     }
 
-    pub(super) fn arch(&self) -> Arch {
-        self.arch
-    }
-
     /// Solves for finite places and values; cannot fail.
-    pub(super) fn solve(&mut self, places: &[DVec2], values: &[[DVec2; K]]) {
+    pub(super) fn solve(&mut self, places: &[DVec2], values: &[[DVec2; 2]]) {
         self.places.merge(places, values, self.unit);
-        if self.steepest.is_finite() {
-            self.places.ease(self.steepest);
-        }
+        self.places.ease();
         self.places.centre(self.unit, &mut self.sum);
         self.sum.affine = self.places.take_similarity();
         self.sum.kernel = self.kernel();
         let n = self.places.at.len();
         self.sum.coefficients.clear();
-        self.sum.coefficients.resize(n, [[0.0; 2]; K]);
-        self.ridge = Some(0.0);
+        self.sum.coefficients.resize(n, [[0.0; 2]; 2]);
         let mut looks = self.places.values.iter().flatten();
         if looks.any(|r| *r != DVec2::ZERO) {
             self.assemble();
             self.system.ask(&self.places.values);
-            self.ridge = self.system.solve(n);
-            if self.ridge.is_some() {
+            // Where nothing helps, the similarity alone is left.
+            if self.system.solve(n) {
                 self.keep();
             }
         }
-    }
-
-    /// How many places were one with an earlier one.
-    pub(super) fn merged(&self) -> usize {
-        self.places.merged()
-    }
-
-    /// What had to be added to the diagonal for the last solution; none where
-    /// nothing helped, and it is a similarity alone.
-    pub(super) fn ridge(&self) -> Option<f64> {
-        self.ridge
     }
 
     /// The function in the coordinates that are scaled.
@@ -158,7 +133,7 @@ impl<const K: usize> Solver<K> {
         }
         let half = 0.5 * (xx - yy);
         let across = (0.5 * (xx + yy) - half.hypot(xy)).max(0.0);
-        let left = (0..K).map(|k| {
+        let left = (0..2).map(|k| {
             self.places
                 .values
                 .iter()
@@ -166,7 +141,7 @@ impl<const K: usize> Solver<K> {
                 .sum()
         });
         let left = left.fold(0.0, f64::max) / n;
-        let slope = self.steepest * self.sum.scale;
+        let slope = STEEPEST * self.sum.scale;
         let more = (left / (slope * slope) - across).clamp(0.0, MOST);
         let axis = DVec2::from_angle(0.5 * xy.atan2(half)).perp();
         [
