@@ -7,9 +7,8 @@
 //! Guaranteed: what is said was seen at one of the steps. Not guaranteed:
 //! anything between two steps, or that a cause is the only one.
 //!
-//! - `judge`: from a film to a verdict
 //! - `scan`: at each t, how much is wrong
-//! - `scene`: rigid parts at the t of a trouble; `cause`: the facts about it
+//! - `cause`: rigid parts at the t of a trouble, and the facts about it
 //! - `solid`, `field`, `plane`: what is found in rigid parts and boundaries, in
 //!   fields, and with warps of the plane
 //! - `remedy`: what was tried
@@ -18,15 +17,124 @@
 mod cause;
 mod field;
 mod finding;
-mod judge;
 mod plane;
 mod remedy;
 mod scan;
-mod scene;
 mod solid;
 #[cfg(test)]
 mod tests;
 mod words;
 
 pub use finding::{Cause, Change, Finding, Remedy, Trouble};
-pub use judge::Verdict;
+
+use crate::content::Content;
+use crate::measure::film::FilmReport;
+use crate::progress::{Cancelled, Progress};
+use crate::transition::{Note, Transition};
+use scan::Glance;
+use serde::Serialize;
+
+/// What is wrong with a film; see [`Self::headline`]. What is noted of how it
+/// was made is told, but is no trouble.
+///
+/// ```
+/// use morphospace::measure::Verdict;
+/// use morphospace::{progress::Silent, project::gallery, transition::Transition};
+///
+/// let spec = gallery::load("triangle-polar")?.spec()?;
+/// let verdict = Verdict::of(&Transition::build(&spec, &Silent)?, 65, &Silent)?;
+/// assert_eq!(verdict.headline(), "no folds, no crossings");
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Verdict {
+    /// At how many t the film was looked at.
+    pub steps: usize,
+    /// What can be said where nothing was found.
+    pub clear: &'static str,
+    /// What was found, one of each kind of trouble, folds first.
+    pub findings: Vec<Finding>,
+    /// What was done otherwise than asked while the film was made.
+    pub notes: Vec<Note>,
+}
+
+/// At how many t warps of the plane are looked at where nothing else is
+/// measured.
+const PLANE_STEPS: usize = 33;
+
+impl Verdict {
+    /// Looks at a transition at `steps` evenly spaced t, at least 2. Where
+    /// something is wrong, options are tried, each at the cost of another
+    /// look; not for more than some thousand faces.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if nobody wants the result any more.
+    pub fn of(
+        transition: &Transition,
+        steps: usize,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let glances = scan::transition(transition, steps, progress)?;
+        Self::of_glances(transition, &glances, progress)
+    }
+
+    /// The verdict on a film that has been measured already.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if nobody wants the result any more.
+    pub fn of_film(
+        transition: &Transition,
+        film: &FilmReport,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let glances: Vec<_> = film.samples.iter().map(Glance::of_sample).collect();
+        Self::of_glances(transition, &glances, progress)
+    }
+
+    fn of_glances(
+        transition: &Transition,
+        glances: &[Glance],
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
+        let (clear, mut findings) = match transition.content() {
+            Content::Solid(solid) => (
+                match (solid.loops.is_empty(), transition.arap()) {
+                    (true, _) => "no folds",
+                    (false, Some(_)) => "no folds, no crossings",
+                    (false, None) => "no crossings",
+                },
+                solid::findings(transition, solid, glances, progress)?,
+            ),
+            Content::Field(pair) => (
+                "no more pieces or holes than at the ends",
+                field::findings(transition, pair, glances, progress)?,
+            ),
+            Content::Colours(_) => ("no folds", Vec::new()),
+        };
+        let steps = glances.len().max(PLANE_STEPS);
+        findings.extend(plane::findings(transition, steps, progress)?);
+        Ok(Self {
+            steps: glances.len(),
+            clear,
+            findings,
+            notes: transition.notes().to_vec(),
+        })
+    }
+
+    /// Everything that was found on one line, or that nothing was.
+    #[must_use]
+    pub fn headline(&self) -> String {
+        if self.is_clear() {
+            return self.clear.to_owned();
+        }
+        let findings: Vec<_> = self.findings.iter().map(Finding::headline).collect();
+        findings.join("; ")
+    }
+
+    /// Whether nothing was found.
+    #[must_use]
+    pub fn is_clear(&self) -> bool {
+        self.findings.is_empty()
+    }
+}

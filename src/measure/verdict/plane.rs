@@ -12,37 +12,19 @@ use crate::warp::{Missed, WarpKind};
 /// Folds over less than this share of the frame are not seen.
 const SEEN: f64 = 5e-4;
 
-/// The worst of one kind so far: how bad, where, and the span of all.
-struct Worst<T> {
-    size: f64,
-    t: f64,
-    span: [f64; 2],
-    what: T,
-}
+/// The worst of one kind so far, how bad it is, and the span of all.
+type Worst = Option<(f64, Finding)>;
 
 /// Keeps the worse of two, and the span of both.
-fn worse<T>(before: Option<Worst<T>>, size: f64, t: f64, what: T) -> Option<Worst<T>> {
-    Some(match before {
-        Some(before) => {
-            let span = [before.span[0], t];
-            if size > before.size {
-                Worst {
-                    size,
-                    t,
-                    span,
-                    what,
-                }
-            } else {
-                Worst { span, ..before }
-            }
+fn keep(worst: &mut Worst, size: f64, mut finding: Finding) {
+    if let Some((before, known)) = worst {
+        known.span[1] = finding.t;
+        finding.span = known.span;
+        if size <= *before {
+            return;
         }
-        None => Worst {
-            size,
-            t,
-            span: [t, t],
-            what,
-        },
-    })
+    }
+    *worst = Some((size, finding));
 }
 
 pub(super) fn findings(
@@ -56,48 +38,50 @@ pub(super) fn findings(
     }
     let bounds = transition.bounds();
     let mut frame = transition.frame(0.0);
-    let mut folds: Option<Worst<DVec2>> = None;
-    let mut missed: Option<Worst<Missed>> = None;
+    let (mut folds, mut missed) = (Worst::None, Worst::None);
     for t in even_steps(steps) {
         checkpoint(progress, "looking for folds of the plane", t)?;
         frame.seek(t);
         let (share, place) = folded(&frame, &bounds);
         if share > SEEN {
-            folds = worse(folds, share, t, place);
+            let finding = Finding {
+                trouble: Trouble::PlaneFolds { share },
+                t,
+                span: [t, t],
+                place,
+                cause: Cause::SeenTwice,
+                remedy: Remedy::Lattices,
+            };
+            keep(&mut folds, share, finding);
         }
         if let Some(now) = transition.missed(t) {
-            missed = worse(missed, now.by, t, now);
+            keep(&mut missed, now.by, of_missed(&now, t, bounds.diameter()));
         }
     }
-    let folds = folds.map(|worst| Finding {
-        trouble: Trouble::PlaneFolds { share: worst.size },
-        t: worst.t,
-        span: worst.span,
-        place: worst.what,
-        cause: Cause::SeenTwice,
-        remedy: Remedy::Lattices,
-    });
-    let diameter = bounds.diameter();
-    let missed = missed.map(|worst| Finding {
+    Ok([folds, missed]
+        .into_iter()
+        .flatten()
+        .map(|(_, f)| f)
+        .collect())
+}
+
+fn of_missed(missed: &Missed, t: f64, diameter: f64) -> Finding {
+    let (cause, remedy) = if missed.unfolded {
+        (Cause::OutOfReach, Remedy::LetFold)
+    } else {
+        (Cause::FeaturesMeet, Remedy::MovePins)
+    };
+    Finding {
         trouble: Trouble::Missed {
-            count: worst.what.count,
-            by: worst.what.by / diameter,
+            count: missed.count,
+            by: missed.by / diameter,
         },
-        t: worst.t,
-        span: worst.span,
-        place: worst.what.place,
-        cause: if worst.what.unfolded {
-            Cause::OutOfReach
-        } else {
-            Cause::FeaturesMeet
-        },
-        remedy: if worst.what.unfolded {
-            Remedy::LetFold
-        } else {
-            Remedy::MovePins
-        },
-    });
-    Ok(folds.into_iter().chain(missed).collect())
+        t,
+        span: [t, t],
+        place: missed.place,
+        cause,
+        remedy,
+    }
 }
 
 /// Whether something is drawn at `t` where the designs are looked at in these

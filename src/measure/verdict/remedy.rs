@@ -1,8 +1,8 @@
 //! What helps: options are tried, the rest is named.
 
+use super::cause::Scene;
 use super::finding::{Cause, Change, Finding, Remedy, Trouble};
 use super::scan::{self, Glance};
-use super::scene::Scene;
 use crate::content::{BlendSpace, FieldPair, Solid};
 use crate::design::Form;
 use crate::homotopy::Homotopy;

@@ -34,6 +34,20 @@ impl Glance {
     }
 }
 
+/// A look at each of so many t.
+fn looks(
+    steps: usize,
+    what: &'static str,
+    progress: &dyn Progress,
+    mut look: impl FnMut(f64) -> Glance,
+) -> Result<Vec<Glance>, Cancelled> {
+    let glance = |t| {
+        checkpoint(progress, what, t)?;
+        Ok(Glance { t, ..look(t) })
+    };
+    even_steps(steps).map(glance).collect()
+}
+
 pub(super) fn transition(
     transition: &Transition,
     steps: usize,
@@ -42,7 +56,16 @@ pub(super) fn transition(
     match (transition.content(), transition.arap()) {
         (Content::Solid(solid), Some(arap)) => rigid_parts(arap, solid, steps, progress),
         (Content::Field(_), _) => fields(transition, steps, progress),
-        (Content::Solid(solid), None) => boundaries(transition, solid, steps, progress),
+        (Content::Solid(solid), None) => {
+            let mut frame = transition.frame(0.0);
+            looks(steps, "looking for crossings", progress, |t| {
+                frame.seek(t);
+                Glance {
+                    crossings: count_crossings(&solid.rings_at(&frame.placement().in_frame)),
+                    ..Glance::default()
+                }
+            })
+        }
         (Content::Colours(_), _) => Ok(Vec::new()),
     }
 }
@@ -54,37 +77,15 @@ pub(super) fn rigid_parts(
     progress: &dyn Progress,
 ) -> Result<Vec<Glance>, Cancelled> {
     let mut placer = arap.placer();
-    let glance = |t| {
-        checkpoint(progress, "looking for folds", t)?;
+    looks(steps, "looking for folds", progress, |t| {
         placer.place(t);
         let places = &placer.placement().in_frame;
-        Ok(Glance {
-            t,
+        Glance {
             folds: folded(arap, places).count(),
             crossings: count_crossings(&solid.rings_at(places)),
             ..Glance::default()
-        })
-    };
-    even_steps(steps).map(glance).collect()
-}
-
-fn boundaries(
-    transition: &Transition,
-    solid: &Solid,
-    steps: usize,
-    progress: &dyn Progress,
-) -> Result<Vec<Glance>, Cancelled> {
-    let mut frame = transition.frame(0.0);
-    let glance = |t| {
-        checkpoint(progress, "looking for crossings", t)?;
-        frame.seek(t);
-        Ok(Glance {
-            t,
-            crossings: count_crossings(&solid.rings_at(&frame.placement().in_frame)),
-            ..Glance::default()
-        })
-    };
-    even_steps(steps).map(glance).collect()
+        }
+    })
 }
 
 /// The faces that are folded at the given places.
@@ -101,19 +102,16 @@ pub(super) fn fields(
     progress: &dyn Progress,
 ) -> Result<Vec<Glance>, Cancelled> {
     let mut frame = transition.frame(0.0);
-    let glance = |t| {
-        checkpoint(progress, "looking for tears", t)?;
+    looks(steps, "looking for tears", progress, |t| {
         frame.seek(t);
         let rings = frame.figure().rings;
         let holes = rings.iter().filter(|ring| signed_area(ring) < 0.0).count();
-        Ok(Glance {
-            t,
+        Glance {
             pieces: rings.len() - holes,
             holes,
             ..Glance::default()
-        })
-    };
-    even_steps(steps).map(glance).collect()
+        }
+    })
 }
 
 /// The most of a count.

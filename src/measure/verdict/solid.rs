@@ -1,9 +1,9 @@
 //! What is found in rigid parts and in boundaries.
 
+use super::cause::{self, Scene};
 use super::finding::{Cause, Finding, Remedy, Trouble};
+use super::remedy;
 use super::scan::{self, Glance};
-use super::scene::Scene;
-use super::{cause, remedy};
 use crate::content::Solid;
 use crate::measure::crossings::crossings;
 use crate::progress::{Cancelled, Progress};

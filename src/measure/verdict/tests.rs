@@ -1,7 +1,6 @@
 //! Films that go wrong by construction, and one cause after the other.
 
-use super::cause;
-use super::scene::Scene;
+use super::cause::{self, Scene};
 use super::*;
 use crate::content::BlendSpace;
 use crate::content::Content;

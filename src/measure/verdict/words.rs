@@ -1,22 +1,9 @@
 //! How it is said.
 
 use super::finding::{Cause, Change, Finding, Remedy, Trouble};
-use super::judge::Verdict;
 use crate::content::BlendSpace;
 use crate::geometry::DVec2;
 use std::fmt;
-
-impl Verdict {
-    /// Everything that was found on one line, or that nothing was.
-    #[must_use]
-    pub fn headline(&self) -> String {
-        if self.is_clear() {
-            return self.clear.to_owned();
-        }
-        let findings: Vec<_> = self.findings.iter().map(Finding::headline).collect();
-        findings.join("; ")
-    }
-}
 
 impl Finding {
     /// What is seen, and where on the way: "7 faces fold at t = 0.43".
@@ -149,30 +136,18 @@ impl fmt::Display for Cause {
                 "only {:.0} % of the smaller design lies on the other",
                 100.0 * share
             ),
-            Self::BlindFields
-            | Self::SeenTwice
-            | Self::FeaturesMeet
-            | Self::OutOfReach
-            | Self::NothingInside
-            | Self::Unclear => f.write_str(self.sentence()),
-        }
-    }
-}
-
-impl Cause {
-    /// What is said of a cause without numbers.
-    const fn sentence(&self) -> &'static str {
-        match self {
-            Self::BlindFields => "fields do not know which part becomes which",
-            Self::SeenTwice => {
+            Self::BlindFields => write!(f, "fields do not know which part becomes which"),
+            Self::SeenTwice => write!(
+                f,
                 "pins or lines near it pass each other, and the plane is turned over between them"
-            }
-            Self::FeaturesMeet => "pins come too near each other on their way",
-            Self::OutOfReach => "the plane would have to fold to bring it there",
-            Self::NothingInside => {
+            ),
+            Self::FeaturesMeet => write!(f, "pins come too near each other on their way"),
+            Self::OutOfReach => write!(f, "the plane would have to fold to bring it there"),
+            Self::NothingInside => write!(
+                f,
                 "points of the boundary move on their own, nothing inside keeps them apart"
-            }
-            _ => "no single cause stands out",
+            ),
+            Self::Unclear => write!(f, "no single cause stands out"),
         }
     }
 }

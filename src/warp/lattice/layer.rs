@@ -124,35 +124,36 @@ impl Layer {
         };
         self.controls.sum(first, &basis[0], &basis[1])
     }
-
-    /// The derivatives of the displacement by x and by y.
-    #[cfg(test)]
-    pub(super) fn gradient(&self, p: DVec2) -> [DVec2; 2] {
-        let Some(Stencil { first, basis }) = self.stencil(p) else {
-            return [DVec2::ZERO; 2];
-        };
-        let at = (p - self.origin) / self.spacing;
-        let s = at - at.floor();
-        let slope = |s: f64| {
-            let r = 1.0 - s;
-            let slopes = [
-                -0.5 * r * r,
-                1.5 * s * s - 2.0 * s,
-                2.0 * r - 1.5 * r * r,
-                0.5 * s * s,
-            ];
-            slopes.map(|d| d / self.spacing)
-        };
-        [
-            self.controls.sum(first, &slope(s.x), &basis[1]),
-            self.controls.sum(first, &basis[0], &slope(s.y)),
-        ]
-    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    impl Layer {
+        /// The derivatives of the displacement by x and by y.
+        pub(in crate::warp::lattice) fn gradient(&self, p: DVec2) -> [DVec2; 2] {
+            let Some(Stencil { first, basis }) = self.stencil(p) else {
+                return [DVec2::ZERO; 2];
+            };
+            let at = (p - self.origin) / self.spacing;
+            let s = at - at.floor();
+            let slope = |s: f64| {
+                let r = 1.0 - s;
+                let slopes = [
+                    -0.5 * r * r,
+                    1.5 * s * s - 2.0 * s,
+                    2.0 * r - 1.5 * r * r,
+                    0.5 * s * s,
+                ];
+                slopes.map(|d| d / self.spacing)
+            };
+            [
+                self.controls.sum(first, &slope(s.x), &basis[1]),
+                self.controls.sum(first, &basis[0], &slope(s.y)),
+            ]
+        }
+    }
 
     const DOMAIN: Bounds = Bounds {
         min: DVec2::new(-1.0, -2.0),

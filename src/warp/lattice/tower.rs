@@ -175,27 +175,33 @@ impl Tower {
             }
         }
     }
+}
 
-    /// The determinant of the derivative at a place: composed, the product of
-    /// the layers'; of these also the least.
-    #[cfg(test)]
-    pub(super) fn determinants(&self, place: DVec2) -> [f64; 2] {
-        use crate::geometry::DMat2;
-        let mut at = place;
-        let mut total = DMat2::IDENTITY;
-        let mut least = f64::INFINITY;
-        for layer in &self.layers[..self.height] {
-            let [x, y] = layer.gradient(at);
-            let slope = DMat2::from_cols(x, y);
-            if self.composed {
-                let step = DMat2::IDENTITY + slope;
-                least = least.min(step.determinant());
-                total = step * total;
-                at += layer.at(at);
-            } else {
-                total += slope;
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::DMat2;
+
+    impl Tower {
+        /// The determinant of the derivative at a place: composed, the product of
+        /// the layers'; of these also the least.
+        pub(in crate::warp::lattice) fn determinants(&self, place: DVec2) -> [f64; 2] {
+            let mut at = place;
+            let mut total = DMat2::IDENTITY;
+            let mut least = f64::INFINITY;
+            for layer in &self.layers[..self.height] {
+                let [x, y] = layer.gradient(at);
+                let slope = DMat2::from_cols(x, y);
+                if self.composed {
+                    let step = DMat2::IDENTITY + slope;
+                    least = least.min(step.determinant());
+                    total = step * total;
+                    at += layer.at(at);
+                } else {
+                    total += slope;
+                }
             }
+            [total.determinant(), least]
         }
-        [total.determinant(), least]
     }
 }
