@@ -28,13 +28,9 @@
 //! - `between`: where a line is at t
 //! - `line`: a line with everything that a place needs of it
 //! - `scaled`: coordinates whose products neither overflow nor vanish
-//! - `bundle`: lines together, and the places that they move
-//! - `kernel`: the sums over lines, many places at a time
-//! - `falloff`: weights
+//! - `kernel`: weights and the sums over lines, many places at a time
 
 mod between;
-mod bundle;
-mod falloff;
 mod kernel;
 mod line;
 mod options;
@@ -45,14 +41,15 @@ mod tests;
 
 pub use options::{Between, LineOptions, LinesError};
 
-use super::PlaneWarp;
+use super::plane::{PlaneWarp, in_chunks};
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 use between::Moving;
-use bundle::Bundle;
-use line::Feature;
+use kernel::{LARGEST_A, LEAST_A};
+use line::{Feature, Line};
 use options::{Constants, check_points};
-use rayon::prelude::*;
+use pulp::Arch;
+use scaled::Scaled;
 
 /// The length, in diameters of the frame, of a line that weighs as much as a
 /// pin: about that of the lines which people draw along a feature.
@@ -88,9 +85,17 @@ pub struct Lines {
     between: Between,
 }
 
-/// Memory of one frame of [`Lines`]: the lines at a t.
+/// Memory of one frame of [`Lines`]: the lines at a t, which move the plane
+/// together, into both designs.
 #[derive(Clone, Debug)]
-pub struct LinesAtT(Bundle);
+pub struct LinesAtT {
+    arch: Arch,
+    constants: Constants,
+    plane: Scaled,
+    /// a, scaled.
+    a: f64,
+    lines: Vec<Line>,
+}
 
 impl Lines {
     /// A warp by lines and pins, in the coordinates of the frame. Without any
@@ -136,11 +141,58 @@ fn diameter(frame: &Bounds) -> Result<f64, LinesError> {
     Ok(if diameter > 0.0 { diameter } else { 1.0 })
 }
 
+impl LinesAtT {
+    /// No lines, with memory for so many.
+    fn new(constants: Constants, capacity: usize) -> Self {
+        Self {
+            arch: Arch::new(),
+            constants,
+            plane: Scaled::default(),
+            a: constants.a,
+            lines: Vec::with_capacity(capacity),
+        }
+    }
+
+    /// Replaces the lines. Those that overflowed on their way are left out.
+    fn fill(&mut self, features: impl Iterator<Item = Feature> + Clone) {
+        let features = features.filter(Feature::is_finite);
+        self.plane = Scaled::around(features.clone());
+        let (plane, a) = (self.plane, self.constants.a * self.plane.per_unit);
+        self.a = a.clamp(LEAST_A, LARGEST_A);
+        self.lines.clear();
+        let lines = features.map(|feature| Line::new(&plane.feature(&feature), a));
+        self.lines.extend(lines);
+        self.weigh();
+    }
+
+    /// Makes strengths of lengths, relative to the greatest.
+    fn weigh(&mut self) {
+        let lengths = self.lines.iter().map(|line| line.strength);
+        let greatest = lengths.fold(0.0, f64::max);
+        let exponent = self.constants.b * self.constants.p;
+        for line in &mut self.lines {
+            line.strength = (line.strength / greatest).min(1.0).powf(exponent);
+        }
+    }
+
+    /// Where each place is looked up in both designs. All slices are as long
+    /// as `places`, or what is beyond the shortest is left as it is.
+    fn map_into(&self, places: &[DVec2], designs: [&mut [DVec2]; 2]) {
+        let lines = kernel::Lines {
+            lines: &self.lines,
+            plane: self.plane,
+            a: self.a,
+            b: self.constants.b,
+        };
+        kernel::look_up(self.arch, lines, places, designs);
+    }
+}
+
 impl PlaneWarp for Lines {
     type Maps = LinesAtT;
 
     fn maps(&self) -> LinesAtT {
-        LinesAtT(Bundle::new(self.constants, self.features.len()))
+        LinesAtT::new(self.constants, self.features.len())
     }
 
     fn look_up(
@@ -151,19 +203,14 @@ impl PlaneWarp for Lines {
         in_source: &mut [DVec2],
         in_target: &mut [DVec2],
     ) {
-        let bundle = &mut maps.0;
-        bundle.fill(self.features.iter().map(|(moving, nominal)| Feature {
+        maps.fill(self.features.iter().map(|(moving, nominal)| Feature {
             in_frame: moving.at(t, self.between),
             in_designs: [moving.source(), moving.target()],
             nominal: *nominal,
         }));
-        let bundle = &*bundle;
-        let designs = in_source
-            .par_chunks_mut(CHUNK)
-            .zip(in_target.par_chunks_mut(CHUNK));
-        frame
-            .par_chunks(CHUNK)
-            .zip(designs)
-            .for_each(|(frame, (source, target))| bundle.map_into(frame, [source, target]));
+        let maps = &*maps;
+        in_chunks(CHUNK, frame, [in_source, in_target], |places, looks| {
+            maps.map_into(places, looks);
+        });
     }
 }

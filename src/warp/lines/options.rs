@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 
 /// The largest b: weights of the nearest and of the farthest place that can be
 /// told apart are then still normal numbers.
-pub(super) const MAX_FALLOFF: f64 = 8.0;
+const MAX_FALLOFF: f64 = 8.0;
 
 /// How a line at t lies between its two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -102,8 +102,10 @@ pub(super) struct Constants {
     pub(super) p: f64,
 }
 
-impl Constants {
-    pub(super) fn new(a: f64, b: f64, p: f64) -> Result<Self, LinesError> {
+impl LineOptions {
+    /// The constants in a frame of this diameter.
+    pub(super) fn constants(&self, diameter: f64) -> Result<Constants, LinesError> {
+        let (a, b, p) = (self.smoothness, self.falloff, self.length_exponent);
         if !(a > 0.0 && a.is_finite()) {
             return Err(LinesError::Smoothness(a));
         }
@@ -113,16 +115,8 @@ impl Constants {
         if !(p >= 0.0 && p.is_finite()) {
             return Err(LinesError::LengthExponent(p));
         }
-        Ok(Self { a, b, p })
-    }
-}
-
-impl LineOptions {
-    /// The constants in a frame of this diameter.
-    pub(super) fn constants(&self, diameter: f64) -> Result<Constants, LinesError> {
-        let checked = Constants::new(self.smoothness, self.falloff, self.length_exponent)?;
-        let a = (checked.a * diameter).clamp(f64::MIN_POSITIVE, f64::MAX);
-        Ok(Constants { a, ..checked })
+        let a = (a * diameter).clamp(f64::MIN_POSITIVE, f64::MAX);
+        Ok(Constants { a, b, p })
     }
 }
 

@@ -4,7 +4,6 @@
 use super::line::Segment;
 use super::*;
 use proptest::prelude::*;
-use pulp::Arch;
 use std::f64::consts::PI;
 
 type Result<T = ()> = std::result::Result<T, Box<dyn std::error::Error>>;
@@ -52,11 +51,11 @@ fn looked_up(lines: &Lines, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
 
 /// The map by one set of pairs, each in the frame and in a design, with a in
 /// units of the plane.
-struct Map(Bundle);
+struct Map(LinesAtT);
 
 impl Map {
     fn new(pairs: &[[Segment; 2]], a: f64, b: f64, p: f64) -> Self {
-        let mut bundle = Bundle::new(Constants { a, b, p }, pairs.len());
+        let mut bundle = LinesAtT::new(Constants { a, b, p }, pairs.len());
         bundle.fill(pairs.iter().map(|&[in_frame, in_design]| Feature {
             in_frame,
             in_designs: [in_design; 2],
