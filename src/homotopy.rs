@@ -53,13 +53,13 @@ impl Homotopy {
     /// M(t).
     ///
     /// ```
-    /// use morphospace::{geometry::DMat2, homotopy::{Homotopy, LocalMap}};
-    /// let half_turn = LocalMap { angle: std::f64::consts::PI, stretch: DMat2::IDENTITY };
+    /// use morphospace::{geometry::{DMat2, Polar}, homotopy::Homotopy};
+    /// let half_turn = Polar { angle: std::f64::consts::PI, stretch: DMat2::IDENTITY };
     /// assert!(Homotopy::Linear.at(&half_turn, 0.5).determinant().abs() < 1e-15);
     /// assert!((Homotopy::Polar.at(&half_turn, 0.5).determinant() - 1.0).abs() < 1e-15);
     /// ```
     #[must_use]
-    pub fn at(self, map: &LocalMap, t: f64) -> DMat2 {
+    pub fn at(self, map: &Polar, t: f64) -> DMat2 {
         let from_identity = |m: DMat2| DMat2::IDENTITY * (1.0 - t) + m * t;
         let turned = DMat2::from_angle(t * map.angle);
         match self {
@@ -75,48 +75,24 @@ impl Homotopy {
     }
 }
 
-/// A local map by its angle, not reduced modulo 2π, and its stretch.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LocalMap {
-    /// θ in radians, any real.
-    pub angle: f64,
-    /// S, symmetric positive definite.
-    pub stretch: DMat2,
-}
-
-impl LocalMap {
-    /// Of a matrix with a positive determinant, with θ in (−π, π].
-    #[must_use]
-    pub fn of(m: DMat2) -> Self {
-        let Polar { angle, stretch } = Polar::of(m);
-        Self { angle, stretch }
-    }
-
-    /// M = R(θ) S.
-    #[must_use]
-    pub fn matrix(&self) -> DMat2 {
-        DMat2::from_angle(self.angle) * self.stretch
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::geometry::DVec2;
     use proptest::prelude::*;
 
-    fn any_map() -> impl Strategy<Value = LocalMap> {
+    fn any_map() -> impl Strategy<Value = Polar> {
         (-10.0f64..10.0, -2.0f64..2.0, 0.1f64..5.0, 0.1f64..5.0).prop_map(|(angle, phi, a, b)| {
             let v = DMat2::from_angle(phi);
             let stretch = v * DMat2::from_diagonal(DVec2::new(a, b)) * v.transpose();
-            LocalMap { angle, stretch }
+            Polar { angle, stretch }
         })
     }
 
     /// The inverse map with the angle −θ: M⁻¹ = S⁻¹ R(−θ) = R(−θ) (R(θ) S⁻¹ R(−θ)).
-    fn inverse(map: &LocalMap) -> LocalMap {
+    fn inverse(map: &Polar) -> Polar {
         let turn = DMat2::from_angle(map.angle);
-        LocalMap {
+        Polar {
             angle: -map.angle,
             stretch: turn * map.stretch.inverse() * turn.transpose(),
         }

@@ -151,25 +151,14 @@ impl PicturePair {
     /// is. Costs a bilinear look-up in each picture for each pixel.
     #[must_use]
     pub fn render(&self, placement: &Placement, t: f64, raster: &Raster) -> RgbaImage {
-        let mut out = RgbaImage::default();
-        self.render_into(placement, t, raster, &mut out);
-        out
-    }
-
-    /// As [`render`](Self::render), into an image that is already there: one
-    /// of the same size is written over, another one is replaced.
-    pub fn render_into(&self, placement: &Placement, t: f64, raster: &Raster, out: &mut RgbaImage) {
         let [width, height] = raster.size;
-        if out.dimensions() == (width, height) {
-            out.fill(0);
-        } else {
-            *out = RgbaImage::new(width, height);
-        }
+        let mut out = RgbaImage::new(width, height);
         let (pixels, _) = out.as_chunks_mut::<4>();
         let to_lattice = |p: DVec2| raster.located(p) - 0.5;
         let paint = Paint::new(self, t, raster);
         let filler = |facet: Facet| paint.filler(facet);
         scan(placement, to_lattice, width as usize, pixels, filler);
+        out
     }
 }
 

@@ -3,21 +3,22 @@
 
 use super::{DMat2, DVec2};
 
-/// M = R(angle) · stretch with a rotation R and a symmetric stretch.
+/// M = R(angle) · stretch with a rotation R and a symmetric stretch. The angle
+/// may be chosen anew, whole turns away, where a shape turns further.
 ///
 /// For det M > 0 the stretch is positive definite and the decomposition is
 /// unique. For det M ≤ 0 the factors still multiply to M, but the stretch is
 /// not positive; callers refuse such matrices before they come here.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Polar {
-    /// Rotation angle in (−π, π].
+    /// θ in radians, any real.
     pub angle: f64,
     /// The symmetric factor.
     pub stretch: DMat2,
 }
 
 impl Polar {
-    /// θ = atan2(c − b, a + d) for M = [a b; c d], S = R(−θ) M.
+    /// With θ = atan2(c − b, a + d) in (−π, π], for M = [a b; c d], S = R(−θ) M.
     ///
     /// ```
     /// use morphospace::geometry::{DMat2, Polar};
@@ -34,6 +35,12 @@ impl Polar {
             angle,
             stretch: DMat2::from_cols(DVec2::new(s.x_axis.x, off), DVec2::new(off, s.y_axis.y)),
         }
+    }
+
+    /// R(θ) S.
+    #[must_use]
+    pub fn matrix(&self) -> DMat2 {
+        DMat2::from_angle(self.angle) * self.stretch
     }
 }
 

@@ -1,12 +1,12 @@
 //! The projects that come with the program, held in the binary.
 
-use super::bundle;
 use super::document::Project;
 use super::error::ProjectError;
-use super::load::LoadedProject;
+use super::load::{FILES, LoadedProject};
+use include_dir::File;
 use std::path::Path;
 
-pub use super::bundle::bytes;
+pub use super::load::bytes;
 
 /// A bundled project.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
@@ -24,7 +24,7 @@ pub struct Entry {
 /// # Errors
 /// [`ProjectError`] if a bundled document is wrong; the tests read them all.
 pub fn list() -> Result<Vec<Entry>, ProjectError> {
-    let mut entries = bundle::names()
+    let mut entries = names()
         .map(|name| {
             let project = document(name)?;
             Ok(Entry {
@@ -62,8 +62,8 @@ pub fn load_document(project: Project) -> Result<LoadedProject, ProjectError> {
 pub fn document(name: &str) -> Result<Project, ProjectError> {
     let file = format!("{name}.morph");
     let path = Path::new(&file);
-    let Some(text) = bundle::text(path) else {
-        let mut known: Vec<_> = bundle::names().collect();
+    let Some(text) = FILES.get_file(path).and_then(File::contents_utf8) else {
+        let mut known: Vec<_> = names().collect();
         known.sort_unstable();
         return Err(ProjectError::NotInGallery {
             name: name.to_owned(),
@@ -71,4 +71,11 @@ pub fn document(name: &str) -> Result<Project, ProjectError> {
         });
     };
     Project::parse(text).map_err(|error| error.in_file(path))
+}
+
+/// The names of the bundled documents.
+fn names() -> impl Iterator<Item = &'static str> {
+    FILES
+        .files()
+        .filter_map(|file| file.path().to_str()?.strip_suffix(".morph"))
 }

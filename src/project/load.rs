@@ -1,6 +1,5 @@
 //! A document together with the designs it names.
 
-use super::bundle;
 use super::document::{DesignEntry, Project};
 use super::error::ProjectError;
 use crate::content::ContentKind;
@@ -9,8 +8,18 @@ use crate::transition::{
     BuildError, Cell, NoSuchCell, Options, TransitionSpec, arranged, arrangement,
 };
 use crate::warp::WarpKind;
+use include_dir::{Dir, File, include_dir};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
+
+/// The files of the gallery, held in the binary.
+pub(super) static FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/assets/gallery");
+
+/// The content of a bundled file, by its path in a bundled document.
+#[must_use]
+pub fn bytes(path: &Path) -> Option<&'static [u8]> {
+    FILES.get_file(path).map(File::contents)
+}
 
 /// A project whose designs have been read.
 #[derive(Clone, Debug)]
@@ -71,9 +80,9 @@ impl LoadedProject {
             if entry.path.is_absolute() {
                 return Ok(Source::of(&entry.path).import(&entry.import)?);
             }
-            let source = Source::parse(&entry.path, |path| bundle::bytes(path).is_some());
+            let source = Source::parse(&entry.path, |path| bytes(path).is_some());
             let bytes = match source.file() {
-                Some(file) => bundle::bytes(file).ok_or_else(|| missing(file))?,
+                Some(file) => bytes(file).ok_or_else(|| missing(file))?,
                 None => &[],
             };
             Ok(source.import_bytes(bytes, &entry.import)?)

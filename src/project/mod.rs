@@ -5,13 +5,11 @@
 //! that an interrupted write leaves the old document. What is written is read
 //! back equal, except for comments, which are not kept.
 
-mod bundle;
 mod document;
 mod error;
 pub mod gallery;
 mod load;
 mod reading;
-mod saving;
 
 #[cfg(test)]
 mod tests;

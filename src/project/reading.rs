@@ -1,4 +1,4 @@
-//! Reading a document.
+//! Reading a document, and writing it.
 //!
 //! Its keys belong to two structs: the project, and the options that it shares
 //! with a specification. Serde's `flatten` reads through a buffer: unknown keys would pass in
@@ -7,10 +7,12 @@
 
 use super::document::{FORMAT_VERSION, Project};
 use super::error::ProjectError;
+use crate::atomic_file::AtomicFile;
 use crate::transition::Options;
 use serde::de::value::Error as NoValue;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 use serde::forward_to_deserialize_any;
+use std::io::Write;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
@@ -65,6 +67,30 @@ impl Project {
         let bytes = std::fs::read(path).map_err(|e| in_file(ProjectError::Io(e.to_string())))?;
         let text = String::from_utf8(bytes).map_err(|_| in_file(ProjectError::NotText))?;
         Self::parse(&text).map_err(in_file)
+    }
+
+    /// The document as text.
+    ///
+    /// # Errors
+    /// [`ProjectError::Write`] if a number cannot be written, such as a count
+    /// beyond the range of TOML.
+    pub fn to_toml(&self) -> Result<String, ProjectError> {
+        toml::to_string_pretty(self).map_err(|error| ProjectError::Write(error.to_string()))
+    }
+
+    /// Writes the document beside its final place and moves it there, so that
+    /// the old one stays whole until the new one is.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the file; the old document is untouched.
+    pub fn save_atomically(&self, path: &Path) -> Result<(), ProjectError> {
+        let text = self.to_toml()?;
+        let written = AtomicFile::create(path).and_then(|mut file| {
+            file.file_mut().write_all(text.as_bytes())?;
+            file.file_mut().sync_all()?;
+            file.commit()
+        });
+        written.map_err(|error| ProjectError::Io(error.to_string()).in_file(path))
     }
 }
 

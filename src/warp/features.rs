@@ -62,14 +62,7 @@ impl Features {
         if !(frame.min.is_finite() && frame.max.is_finite() && diameter.is_finite()) {
             return Err(FeatureError::Frame);
         }
-        let bad = |p: &PointPair| !(p.source.is_finite() && p.target.is_finite());
-        if let Some(index) = points.iter().position(bad) {
-            return Err(FeatureError::Point(index + 1));
-        }
-        let bad = |l: &LinePair| !l.source.iter().chain(&l.target).all(|p| p.is_finite());
-        if let Some(index) = lines.iter().position(bad) {
-            return Err(FeatureError::Line(index + 1));
-        }
+        check(points, lines)?;
         let found = points.len() + LINE_SAMPLES * lines.len();
         if found > MAX_FEATURES {
             return Err(FeatureError::TooMany { found });
@@ -101,6 +94,22 @@ impl Features {
             (at, [pair.source - at, pair.target - at])
         })
     }
+}
+
+/// That all coordinates are finite.
+///
+/// # Errors
+/// [`FeatureError`] names the first pair that has others, counted from 1.
+pub(super) fn check(points: &[PointPair], lines: &[LinePair]) -> Result<(), FeatureError> {
+    let bad = |p: &PointPair| !(p.source.is_finite() && p.target.is_finite());
+    if let Some(index) = points.iter().position(bad) {
+        return Err(FeatureError::Point(index + 1));
+    }
+    let bad = |l: &LinePair| !l.source.iter().chain(&l.target).all(|p| p.is_finite());
+    if let Some(index) = lines.iter().position(bad) {
+        return Err(FeatureError::Line(index + 1));
+    }
+    Ok(())
 }
 
 fn sampled(line: &LinePair) -> impl Iterator<Item = PointPair> + '_ {

@@ -41,13 +41,14 @@ mod tests;
 
 pub use options::{Between, LineOptions, LinesError};
 
+use super::features::{FeatureError, check};
 use super::plane::{PlaneWarp, in_chunks};
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
 use between::Moving;
 use kernel::{LARGEST_A, LEAST_A};
 use line::{Feature, Line};
-use options::{Constants, check_points};
+use options::Constants;
 use pulp::Arch;
 use scaled::Scaled;
 
@@ -110,12 +111,7 @@ impl Lines {
         options: &LineOptions,
     ) -> Result<Self, LinesError> {
         let diameter = diameter(frame)?;
-        check_points(lines.iter().map(|l| [l.source, l.target]), |line| {
-            LinesError::Line { line }
-        })?;
-        check_points(points.iter().map(|p| [[p.source], [p.target]]), |pin| {
-            LinesError::Pin { pin }
-        })?;
+        check(points, lines)?;
         let line = |line: &LinePair| Moving::new(line.source, line.target);
         let pin = |pin: &PointPair| Moving::new([pin.source; 2], [pin.target; 2]);
         let nominal = |moving: Moving| {
@@ -132,11 +128,11 @@ impl Lines {
 }
 
 /// The frame's diagonal; 1 for a frame that is a point.
-fn diameter(frame: &Bounds) -> Result<f64, LinesError> {
+fn diameter(frame: &Bounds) -> Result<f64, FeatureError> {
     let size = frame.size();
     let diameter = size.x.hypot(size.y);
     if !diameter.is_finite() {
-        return Err(LinesError::Frame);
+        return Err(FeatureError::Frame);
     }
     Ok(if diameter > 0.0 { diameter } else { 1.0 })
 }

@@ -22,9 +22,7 @@ mod scattered;
 pub use arap::{AngleError, Arap, ArapError, ArapOptions, ArapPath, Ridge, Weights};
 pub use features::{FeatureError, LINE_SAMPLES, MAX_FEATURES};
 pub use kind::{CellWords, Column, WarpKind, Words};
-pub use lattice::{
-    FINEST, Lattice, LatticeError, LatticeMaps, LatticeOptions, MORE_LEVELS, Residual,
-};
+pub use lattice::{FINEST, Lattice, LatticeError, LatticeMaps, LatticeOptions, MORE_LEVELS};
 pub use lines::{Between, LineOptions, Lines, LinesAtT, LinesError};
 pub use metamorphosis::{Split, SplitMaps, Turned};
 pub use none::Still;

@@ -211,21 +211,3 @@ fn threads_do_not_matter() {
     assert!(one.pixels().any(|p| p[3] > 0));
     assert!([2, 3, 7].into_iter().all(|threads| on(threads) == one));
 }
-
-#[test]
-fn an_image_is_written_over_whatever_was_in_it() {
-    let [a, b] = pictures();
-    let pair = PicturePair::new(&a, &b, ColourMix::default()).expect("a mix");
-    let mut image = RgbaImage::from_pixel(50, 40, Rgba([9; 4]));
-    for moves in [[(0.0, 0.0); 3], [(20.0, 9.0); 3]] {
-        let placement = placement(&[moves; 30]);
-        pair.render_into(&placement, 0.4, &RASTER, &mut image);
-        assert_eq!(image, pair.render(&placement, 0.4, &RASTER));
-    }
-    let small = Raster {
-        size: [3, 2],
-        ..RASTER
-    };
-    pair.render_into(&placement(&[[(0.0, 0.0); 3]; 30]), 0.4, &small, &mut image);
-    assert_eq!(image.dimensions(), (3, 2));
-}

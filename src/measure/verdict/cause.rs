@@ -2,8 +2,8 @@
 
 use super::finding::Cause;
 use crate::content::Solid;
-use crate::geometry::{DVec2, twice_signed_area};
-use crate::homotopy::{Homotopy, LocalMap};
+use crate::geometry::{DVec2, Polar, twice_signed_area};
+use crate::homotopy::Homotopy;
 use crate::measure::crossings::{Crossing, RingEdge};
 use crate::measure::distortion::{Strain, edges};
 use crate::measure::stretch;
@@ -52,13 +52,13 @@ impl<'a> Scene<'a> {
         Strain::of(edges(&self.places, corners) * edges(mesh.source(), corners).inverse()).det
     }
 
-    pub fn local_map(&self, face: usize) -> LocalMap {
+    pub fn local_map(&self, face: usize) -> Polar {
         let mesh = self.arap.mesh();
         let corners = &mesh.faces()[face];
         let whole = edges(mesh.target(), corners) * edges(mesh.source(), corners).inverse();
-        LocalMap {
+        Polar {
             angle: self.angles[face],
-            ..LocalMap::of(whole)
+            ..Polar::of(whole)
         }
     }
 

@@ -1,6 +1,6 @@
 //! What is found in fields.
 
-use super::finding::{Cause, Finding, Trouble};
+use super::finding::{Cause, Finding, Remedy, Trouble};
 use super::remedy;
 use super::scan::{self, Glance};
 use crate::content::FieldPair;
@@ -61,14 +61,15 @@ fn finding(
     span: [f64; 2],
 ) -> Finding {
     let share = overlap(pair);
+    let (cause, remedy) = if share < LITTLE_OVERLAP {
+        (Cause::LittleOverlap { share }, Remedy::LayOver)
+    } else {
+        (Cause::BlindFields, Remedy::RigidParts)
+    };
     Finding {
         place: place_of(transition, pair, &trouble, t),
-        cause: if share < LITTLE_OVERLAP {
-            Cause::LittleOverlap { share }
-        } else {
-            Cause::BlindFields
-        },
-        remedy: remedy::for_overlap(share < LITTLE_OVERLAP),
+        cause,
+        remedy,
         trouble,
         t,
         span,

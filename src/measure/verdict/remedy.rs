@@ -22,14 +22,6 @@ pub(super) fn by_hand(scene: &Scene<'_>, face: usize) -> Remedy {
     Remedy::MoveVertices { source, target }
 }
 
-pub(super) fn for_overlap(is_little: bool) -> Remedy {
-    if is_little {
-        Remedy::LayOver
-    } else {
-        Remedy::RigidParts
-    }
-}
-
 /// Tries options, and turns what is done to vertices into pins where the
 /// designs are outlines.
 pub(super) fn for_rigid_parts(

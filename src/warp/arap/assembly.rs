@@ -10,14 +10,13 @@ use super::angles::{self, choose_turns};
 use super::options::{ArapError, ArapOptions, Weights};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
-use crate::homotopy::LocalMap;
 use crate::linalg::SymmetricMatrix;
 
 /// One face: its local map and W g for its second and third vertex; the first
 /// has minus their sum.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FaceMap {
-    pub map: LocalMap,
+    pub map: Polar,
     /// Gradients of the hat functions of the second and third vertex.
     pub gradients: DMat2,
     /// W times them.
@@ -75,9 +74,9 @@ impl LocalMaps {
                 let sides = [weight(areas.faces[0][f]), weight(areas.faces[1][f])];
                 let w = weight_matrix(maps[f], sides, options.symmetric);
                 let gradients = gradients(corners(mesh.source(), mesh.faces()[f]));
-                let map = LocalMap {
+                let map = Polar {
                     angle: face_angles[f],
-                    stretch: polars[f].stretch,
+                    ..polars[f]
                 };
                 FaceMap {
                     map,

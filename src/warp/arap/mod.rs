@@ -153,15 +153,9 @@ impl Arap {
         self.0.maps.matrix(&self.0.mesh)
     }
 
-    /// The factored matrix; for measurements.
-    #[must_use]
-    pub fn cholesky(&self) -> &Cholesky {
-        &self.0.cholesky
-    }
-
     /// What had to be added to the matrix to factor it; none in all but the
     /// most uneven of meshes. The film is then a little stiffer than asked
-    /// for, as [`Self::cholesky`] is than [`Self::system`].
+    /// for, as what is factored is than [`Self::system`].
     #[must_use]
     pub fn ridge(&self) -> Option<Ridge> {
         self.0.ridge

@@ -22,18 +22,6 @@ pub struct Ridge {
     pub vertex: usize,
 }
 
-impl std::fmt::Display for Ridge {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let Self { share, vertex } = self;
-        write!(
-            f,
-            "the system was made stiffer by {share:e}, since it could not be solved at vertex {}: \
-             some face or bar there is very thin beside its neighbours",
-            vertex + 1
-        )
-    }
-}
-
 /// Factors a matrix, with a ridge where it needs one.
 ///
 /// # Errors

@@ -14,8 +14,8 @@
 
 use super::assembly::{ElementMap, FaceMap, LocalMaps};
 use crate::compatible::CompatibleMesh;
-use crate::geometry::{DMat2, DVec2, SymmetricEigen};
-use crate::homotopy::{Homotopy, LocalMap};
+use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen};
+use crate::homotopy::Homotopy;
 use crate::warp::elementary::{exp, sin_cos};
 use pulp::{Arch, Simd, WithSimd};
 use std::sync::Arc;
@@ -288,7 +288,7 @@ fn rows<const N: usize>(faces: &[FaceMap], of: impl Fn(&FaceMap) -> [f64; N]) ->
 impl ElementMap {
     /// Adds the pull of the bar's vector at t.
     fn add(&self, homotopy: Homotopy, t: f64, forces: &mut [DVec2]) {
-        let map = LocalMap {
+        let map = Polar {
             angle: self.angle,
             stretch: DMat2::IDENTITY * self.stretch,
         };

@@ -2,8 +2,7 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use super::*;
-use crate::geometry::{DMat2, twice_signed_area};
-use crate::homotopy::LocalMap;
+use crate::geometry::{DMat2, Polar, twice_signed_area};
 use crate::progress::Silent;
 use std::f64::consts::{PI, TAU};
 
@@ -205,7 +204,7 @@ fn one_sided_energy(
             };
             let (d, area) = edges(mesh.source());
             let m = edges(mesh.target()).0 * d.inverse();
-            let map = LocalMap {
+            let map = Polar {
                 angle,
                 stretch: DMat2::from_angle(-angle) * m,
             };
@@ -395,7 +394,7 @@ fn many_faces_at_a_time_equal_the_plain_homotopies() {
     let mesh =
         CompatibleMesh::new(vec![[0, 1, 2]], source.clone(), target.clone(), vec![]).unwrap();
     let edges = |v: &[DVec2]| DMat2::from_cols(v[1] - v[0], v[2] - v[0]);
-    let map = LocalMap::of(edges(&target) * edges(&source).inverse());
+    let map = Polar::of(edges(&target) * edges(&source).inverse());
     for homotopy in Homotopy::ALL {
         let mut at = film(&mesh, &with(homotopy));
         for t in TIMES {

@@ -71,20 +71,16 @@ impl Blocks {
         &mut self.blocks[self.directory[entry] as usize - 1]
     }
 
-    /// Makes means of sums, each coordinate within ±`most`. Returns the
-    /// largest coordinate of any.
-    pub(super) fn divide(&mut self, most: f64) -> f64 {
-        let mut largest = 0.0_f64;
+    /// Makes means of sums, each coordinate within ±`most`.
+    pub(super) fn divide(&mut self, most: f64) {
         for block in &mut self.blocks {
             let rows = block.controls.iter_mut().zip(&block.weights);
             for (control, &weight) in rows.flat_map(|(c, w)| c.iter_mut().zip(w)) {
                 if weight > 0.0 {
                     *control = (*control / weight).clamp(DVec2::splat(-most), DVec2::splat(most));
-                    largest = largest.max(control.abs().max_element());
                 }
             }
         }
-        largest
     }
 
     /// Σ control point · basis, by columns and rows.

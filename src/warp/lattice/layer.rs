@@ -82,19 +82,19 @@ impl Layer {
     }
 
     /// Fits the layer to what features ask for, each coordinate of a control
-    /// point within ±`most`. Returns the largest coordinate of any.
+    /// point within ±`most`.
     pub(super) fn fit(
         &mut self,
         domain: &Bounds,
         spacing: f64,
         pulls: impl Iterator<Item = Pull>,
         most: f64,
-    ) -> f64 {
+    ) {
         self.reset(domain, spacing);
         for pull in pulls {
             self.ask(&pull);
         }
-        self.controls.divide(most)
+        self.controls.divide(most);
     }
 
     /// Adds one feature to the sums: w² φ and w² with φ = w z / Σ w² (eqs. 3

@@ -52,16 +52,6 @@ const SEEN: f64 = 10.0;
 /// How many places a core takes at a time.
 const CHUNK: usize = 256;
 
-/// How far the looks from a feature at t are from its places in the designs,
-/// in units of the plane.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Residual {
-    /// In the source.
-    pub source: f64,
-    /// In the target.
-    pub target: f64,
-}
-
 /// The row *B-spline lattices*.
 ///
 /// ```
@@ -115,16 +105,16 @@ impl Lattice {
         self.ground.tolerance
     }
 
-    /// How far features are missed at t: first points, then the samples of
-    /// each line from end to end. Builds the maps anew.
+    /// How far the looks from each feature at t are from its places in the
+    /// source and in the target: first points, then the samples of each line
+    /// from end to end. Builds the maps anew.
     #[must_use]
-    pub fn residuals(&self, t: f64) -> Vec<Residual> {
+    pub fn residuals(&self, t: f64) -> Vec<[f64; 2]> {
         let mut maps = self.maps();
         self.build(t, &mut maps);
         let [source, target] = &maps.towers;
         let both = source.residuals().zip(target.residuals());
-        both.map(|(source, target)| Residual { source, target })
-            .collect()
+        both.map(<[f64; 2]>::from).collect()
     }
 
     fn build(&self, t: f64, maps: &mut LatticeMaps) {
@@ -175,7 +165,7 @@ impl PlaneWarp for Lattice {
     fn missed(&self, t: f64) -> Option<Missed> {
         let seen = SEEN * self.tolerance();
         let residuals = self.residuals(t).into_iter().zip(self.features.at(t));
-        let off = residuals.map(|(r, (at, _))| (r.source.max(r.target), at));
+        let off = residuals.map(|([a, b], (at, _))| (a.max(b), at));
         let missed: Vec<_> = off.filter(|(by, _)| *by > seen).collect();
         let worst = missed.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
         Some(Missed {

@@ -5,8 +5,8 @@
 //! with p = 0 all lines are alike, with p = 1 long ones outweigh short ones.
 //! The paper's useful ranges are b in [0.5, 2] and p in [0, 1].
 
-use crate::geometry::DVec2;
 use crate::names::named;
+use crate::warp::features::FeatureError;
 use serde::{Deserialize, Serialize};
 
 /// The largest b: weights of the nearest and of the farthest place that can be
@@ -77,21 +77,9 @@ pub enum LinesError {
     /// p is not a finite number from 0.
     #[error("the length exponent of the lines is {0}: it must be at least 0; 0.5 is usual")]
     LengthExponent(f64),
-    /// The frame has no finite diameter.
-    #[error("the frame has no finite size: draw the designs smaller")]
-    Frame,
-    /// A line has no finite coordinates.
-    #[error("line {} has an end that is no point of the plane: draw it anew", .line + 1)]
-    Line {
-        /// Its number, from 0.
-        line: usize,
-    },
-    /// A pin has no finite coordinates.
-    #[error("pin {} is no point of the plane: set it anew", .pin + 1)]
-    Pin {
-        /// Its number, from 0.
-        pin: usize,
-    },
+    /// The features cannot be moved by.
+    #[error(transparent)]
+    Features(#[from] FeatureError),
 }
 
 /// a, b and p, checked; a in units of the plane.
@@ -117,17 +105,5 @@ impl LineOptions {
         }
         let a = (a * diameter).clamp(f64::MIN_POSITIVE, f64::MAX);
         Ok(Constants { a, b, p })
-    }
-}
-
-/// That all coordinates are finite; else the error of the first that is not.
-pub(super) fn check_points<const N: usize>(
-    pairs: impl Iterator<Item = [[DVec2; N]; 2]>,
-    error: impl Fn(usize) -> LinesError,
-) -> Result<(), LinesError> {
-    let is_finite = |pair: &[[DVec2; N]; 2]| pair.as_flattened().iter().all(|p| p.is_finite());
-    match pairs.enumerate().find(|(_, pair)| !is_finite(pair)) {
-        Some((index, _)) => Err(error(index)),
-        None => Ok(()),
     }
 }

@@ -243,9 +243,9 @@ fn what_is_wrong_is_told() {
         Lines::new(frame, lines, pins, &options).err()
     };
     let found = error(&[good, bad], &[], usual);
-    assert_eq!(found, Some(LinesError::Line { line: 1 }));
+    assert_eq!(found, Some(FeatureError::Line(2).into()));
     let found = error(&[good], &[pin(DVec2::INFINITY, DVec2::X)], usual);
-    assert_eq!(found, Some(LinesError::Pin { pin: 0 }));
+    assert_eq!(found, Some(FeatureError::Point(1).into()));
     for smoothness in [0.0, -1.0, f64::INFINITY] {
         let options = LineOptions {
             smoothness,
