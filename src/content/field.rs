@@ -17,7 +17,7 @@ mod carried;
 use std::sync::Arc;
 
 use crate::field::{DistanceField, Grid, contour};
-use crate::geometry::{DVec2, signed_area};
+use crate::geometry::DVec2;
 use crate::names::named;
 use serde::{Deserialize, Serialize};
 
@@ -196,11 +196,9 @@ impl FieldPair {
     /// Where the blend is none.
     pub fn with_blend(&self, blend: FieldBlend) -> Result<Self, FieldPairError> {
         blend.check()?;
-        let (source, target) = (self.source.clone(), self.target.clone());
         Ok(Self {
-            source,
-            target,
             blend,
+            ..self.clone()
         })
     }
 
@@ -255,14 +253,6 @@ impl FieldPair {
             *p = grid.plane_from_lattice(*p);
         }
         rings
-    }
-
-    /// The area of what is drawn at `t`, holes taken off, in squared units of
-    /// the plane.
-    #[must_use]
-    pub fn area(&self, t: f64) -> f64 {
-        let rings = self.contour(t);
-        rings.iter().map(|ring| signed_area(ring)).sum()
     }
 }
 

@@ -7,6 +7,7 @@ mod scan;
 mod solid;
 
 pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
+pub(crate) use colours::{linear_from_srgb, srgb_from_linear};
 pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError};
 pub use solid::Solid;
 

@@ -141,8 +141,9 @@ impl Wardrobe<'_, '_> {
             let material = fitting.wardrobe.paints.grids.add(GridMaterial { look });
             fitting.add(PartKind::Grid, Shape::carried(frame), material, Paint::Grid);
         }
-        fitting.add_ghost(PartKind::SourceGhost, &transition.source_outline());
-        fitting.add_ghost(PartKind::TargetGhost, &transition.target_outline());
+        let [source, target] = transition.outlines();
+        fitting.add_ghost(PartKind::SourceGhost, &source);
+        fitting.add_ghost(PartKind::TargetGhost, &target);
     }
 }
 

@@ -1,7 +1,7 @@
 //! How two unlike designs are laid into one frame.
 
 use crate::design::{Design, Form};
-use crate::geometry::{DVec2, Similarity, SimilarityError, twice_signed_area};
+use crate::geometry::{Bounds, DVec2, Similarity, SimilarityError, twice_signed_area};
 use crate::names::named;
 use std::sync::Arc;
 
@@ -94,12 +94,17 @@ fn laid(design: &Arc<Design>, by: Similarity) -> Arc<Design> {
     }
 }
 
-fn middle(design: &Design) -> DVec2 {
+/// The box around the form itself, not around its picture.
+pub(super) fn extent(design: &Design) -> Bounds {
     match &design.form {
-        Form::Outline(regions) => regions.bounds().centre(),
-        Form::Mesh(mesh) => mesh.bounds().centre(),
-        Form::Truss(truss) => truss.bounds().centre(),
+        Form::Outline(regions) => regions.bounds(),
+        Form::Mesh(mesh) => mesh.bounds(),
+        Form::Truss(truss) => truss.bounds(),
     }
+}
+
+fn middle(design: &Design) -> DVec2 {
+    extent(design).centre()
 }
 
 /// Area, or for a truss the square of its diameter.

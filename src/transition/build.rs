@@ -1,5 +1,6 @@
 //! From two designs to a transition: everything that can fail.
 
+use super::arrange::extent;
 use super::boundaries;
 use super::error::BuildError;
 use super::moved::Moved;
@@ -69,15 +70,6 @@ fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
     }
     let diameter = |design| extent(design).diameter();
     Ok(share * diameter(&spec.source).max(diameter(&spec.target)))
-}
-
-/// The box around the form itself, not around its picture.
-fn extent(design: &Design) -> Bounds {
-    match &design.form {
-        Form::Outline(regions) => regions.bounds(),
-        Form::Mesh(mesh) => mesh.bounds(),
-        Form::Truss(truss) => truss.bounds(),
-    }
 }
 
 fn solids(

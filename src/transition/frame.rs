@@ -40,16 +40,11 @@ impl Transition {
         frame
     }
 
-    /// The source as it was given, for a ghost behind the frames.
+    /// Source and target as they were given, for ghosts behind the frames.
     #[must_use]
-    pub fn source_outline(&self) -> Figure {
-        ghost(&self.designs()[0], self.bar_width())
-    }
-
-    /// The target as it was given.
-    #[must_use]
-    pub fn target_outline(&self) -> Figure {
-        ghost(&self.designs()[1], self.bar_width())
+    pub fn outlines(&self) -> [Figure; 2] {
+        let designs = self.designs().each_ref();
+        designs.map(|design| ghost(design, self.bar_width()))
     }
 }
 

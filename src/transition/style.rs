@@ -1,5 +1,6 @@
 //! How a transition is painted: the colours that window and export share.
 
+use crate::content::{linear_from_srgb, srgb_from_linear};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// An opaque sRGB colour, written as `#rrggbb`.
@@ -60,7 +61,8 @@ impl Rgb {
         let t = t.clamp(0.0, 1.0);
         Self(std::array::from_fn(|k| {
             let (a, b) = (linear(self.0[k]), linear(other.0[k]));
-            encoded(a * (1.0 - t) + b * t)
+            let mixed = srgb_from_linear(a * (1.0 - t) + b * t);
+            (mixed * 255.0).round().clamp(0.0, 255.0) as u8
         }))
     }
 
@@ -71,23 +73,9 @@ impl Rgb {
     }
 }
 
-/// The sRGB transfer function (IEC 61966-2-1).
+/// A channel in linear light, in [0, 1].
 fn linear(channel: u8) -> f64 {
-    let c = f64::from(channel) / 255.0;
-    if c <= 0.040_45 {
-        c / 12.92
-    } else {
-        ((c + 0.055) / 1.055).powf(2.4)
-    }
-}
-
-fn encoded(light: f64) -> u8 {
-    let c = if light <= 0.003_130_8 {
-        12.92 * light
-    } else {
-        1.055 * light.powf(1.0 / 2.4) - 0.055
-    };
-    (c * 255.0).round().clamp(0.0, 255.0) as u8
+    linear_from_srgb(f64::from(channel) / 255.0)
 }
 
 /// Colours and marks of a transition.

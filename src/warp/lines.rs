@@ -201,7 +201,7 @@ impl PlaneWarp for Lines {
     ) {
         maps.fill(self.features.iter().map(|(moving, nominal)| Feature {
             in_frame: moving.at(t, self.between),
-            in_designs: [moving.source(), moving.target()],
+            in_designs: [moving.source, moving.target],
             nominal: *nominal,
         }));
         let maps = &*maps;

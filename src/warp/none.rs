@@ -21,22 +21,20 @@ impl Still {
 impl Warp for Still {
     fn placer(&self) -> Box<dyn Placer> {
         let corners = self.frame.corners().to_vec();
-        Box::new(StillPlacer(Placement {
+        Box::new(Placement {
             faces: Arc::new([[0, 1, 2], [0, 2, 3]]),
             in_frame: corners.clone(),
             in_source: corners.clone(),
             in_target: corners,
-        }))
+        })
     }
 }
 
-#[derive(Debug)]
-struct StillPlacer(Placement);
-
-impl Placer for StillPlacer {
+/// One that does not change.
+impl Placer for Placement {
     fn place(&mut self, _t: f64) {}
 
     fn placement(&self) -> &Placement {
-        &self.0
+        self
     }
 }

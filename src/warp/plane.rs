@@ -65,17 +65,10 @@ impl PlaneGrid {
         let size = frame.size();
         let cell = size.max_element() / f64::from(cells.max(1));
         let along = |length: f64| ((length / cell).round() as u32).clamp(1, cells.max(1));
-        Self::new(frame, along(size.x), along(size.y))
-    }
-
-    fn new(frame: &Bounds, columns: u32, rows: u32) -> Self {
-        let (low, size) = (frame.min, frame.size());
+        let (columns, rows) = (along(size.x), along(size.y));
         let place = |i: u32, j: u32| {
-            low + size
-                * DVec2::new(
-                    f64::from(i) / f64::from(columns),
-                    f64::from(j) / f64::from(rows),
-                )
+            let share = |k: u32, of: u32| f64::from(k) / f64::from(of);
+            frame.min + size * DVec2::new(share(i, columns), share(j, rows))
         };
         let places = (0..=rows).flat_map(|j| (0..=columns).map(move |i| place(i, j)));
         let cell = |i: u32, j: u32| {

@@ -21,32 +21,33 @@ const OPAQUE: f32 = 1.0 - 1e-6;
 /// in the lowest bits: 2^23.
 const WHOLE: f32 = 8_388_608.0;
 
-static LINEAR: LazyLock<[f32; 256]> = LazyLock::new(|| {
-    std::array::from_fn(|k| {
-        let encoded = k as f64 / 255.0;
-        let linear = if encoded <= 0.04045 {
-            encoded / 12.92
-        } else {
-            ((encoded + 0.055) / 1.055).powf(2.4)
-        };
-        linear as f32
-    })
-});
+/// The curve of IEC 61966-2-1 (sRGB), undone; both in [0, 1].
+pub(crate) fn linear_from_srgb(encoded: f64) -> f64 {
+    if encoded <= 0.04045 {
+        encoded / 12.92
+    } else {
+        ((encoded + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// The curve of IEC 61966-2-1 (sRGB); both in [0, 1].
+pub(crate) fn srgb_from_linear(linear: f64) -> f64 {
+    if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+static LINEAR: LazyLock<[f32; 256]> =
+    LazyLock::new(|| std::array::from_fn(|k| linear_from_srgb(k as f64 / 255.0) as f32));
 
 static ENCODED: LazyLock<Box<[u8; STEPS]>> = LazyLock::new(|| {
-    let encode = |k: usize| {
-        let linear = k as f64 / (STEPS - 1) as f64;
-        let encoded = if linear <= 0.003_130_8 {
-            12.92 * linear
-        } else {
-            1.055 * linear.powf(1.0 / 2.4) - 0.055
-        };
-        (encoded * 255.0).round() as u8
-    };
-    Box::new(std::array::from_fn(encode))
+    let step = |k: usize| srgb_from_linear(k as f64 / (STEPS - 1) as f64);
+    Box::new(std::array::from_fn(|k| (step(k) * 255.0).round() as u8))
 });
 
-/// The curve of IEC 61966-2-1 (sRGB), undone.
+/// A pixel in linear light.
 pub(super) fn decoded(pixel: Rgba<u8>) -> Light {
     let [r, g, b, a] = pixel.0;
     let alpha = f32::from(a) / 255.0;

@@ -24,8 +24,8 @@ const HALFWAY: DVec2 = DVec2::new(0.123, 1.0);
 /// A line on its way.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Moving {
-    source: Segment,
-    target: Segment,
+    pub(super) source: Segment,
+    pub(super) target: Segment,
     /// The direction in the source, or that in the target if it has none.
     direction: DVec2,
     lengths: [f64; 2],
@@ -47,14 +47,6 @@ impl Moving {
             lengths: [from, to],
             turn,
         }
-    }
-
-    pub(super) fn source(&self) -> Segment {
-        self.source
-    }
-
-    pub(super) fn target(&self) -> Segment {
-        self.target
     }
 
     /// Whether it has no length in either design.
