@@ -51,7 +51,12 @@ pub(super) fn best(
     let asked = &spec.options.matching;
     let first = matched(asked)?;
     let is_alike = first.pieces.iter().all(|piece| piece.cost <= ALIKE);
-    let other = |round: &[Matching]| best_of(round, |matching| film(matched(matching)?));
+    // The best of a round, the first among equals; none of none.
+    let other = |round: &[Matching]| -> Result<Option<Candidate>, BuildError> {
+        let found = round.par_iter().map(|matching| film(matched(matching)?));
+        let found: Vec<Candidate> = found.collect::<Result<_, BuildError>>()?;
+        Ok(found.into_iter().reduce(|best, next| best.or(Some(next))))
+    };
     let mut rounds = rounds(asked).into_iter();
     let beside = if is_alike { None } else { rounds.next() };
     let (first, beside) = rayon::join(|| film(first), || other(&beside.unwrap_or_default()));
@@ -71,30 +76,18 @@ fn rounds(asked: &Matching) -> Vec<Vec<Matching>> {
     if asked.stretch.is_some() {
         return Vec::new();
     }
-    let priced = |stretch: &f64, thickness| Matching {
-        stretch: Some(*stretch),
-        thickness,
-        ..asked.clone()
+    let round = |prices: &[f64], thickness: Option<f64>| -> Vec<Matching> {
+        let priced = |&stretch: &f64| Matching {
+            stretch: Some(stretch),
+            thickness,
+            ..asked.clone()
+        };
+        prices.iter().map(priced).collect()
     };
     vec![
-        OTHER_PRICES
-            .iter()
-            .map(|price| priced(price, asked.thickness))
-            .collect(),
-        LAST_PRICES
-            .iter()
-            .map(|price| priced(price, Some(0.0)))
-            .collect(),
+        round(&OTHER_PRICES, asked.thickness),
+        round(&LAST_PRICES, Some(0.0)),
     ]
-}
-
-/// The best of a round, the first among equals; none of none.
-fn best_of(
-    round: &[Matching],
-    candidate: impl Fn(&Matching) -> Result<Candidate, BuildError> + Sync + Send,
-) -> Result<Option<Candidate>, BuildError> {
-    let found: Result<Vec<Candidate>, BuildError> = round.par_iter().map(candidate).collect();
-    Ok(found?.into_iter().reduce(|best, next| best.or(Some(next))))
 }
 
 impl Candidate {

@@ -50,6 +50,18 @@ pub struct Placement {
     pub in_target: Vec<DVec2>,
 }
 
+impl Placement {
+    /// At t = 0: each vertex is where it is in the source.
+    pub(crate) fn of_source(faces: Arc<[[u32; 3]]>, source: &[DVec2], target: &[DVec2]) -> Self {
+        Self {
+            faces,
+            in_frame: source.to_vec(),
+            in_source: source.to_vec(),
+            in_target: target.to_vec(),
+        }
+    }
+}
+
 /// Features that a warp does not lead to where they belong.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Missed {

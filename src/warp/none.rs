@@ -20,13 +20,9 @@ impl Still {
 
 impl Warp for Still {
     fn placer(&self) -> Box<dyn Placer> {
-        let corners = self.frame.corners().to_vec();
-        Box::new(Placement {
-            faces: Arc::new([[0, 1, 2], [0, 2, 3]]),
-            in_frame: corners.clone(),
-            in_source: corners.clone(),
-            in_target: corners,
-        })
+        let corners = self.frame.corners();
+        let faces = Arc::new([[0, 1, 2], [0, 2, 3]]);
+        Box::new(Placement::of_source(faces, &corners, &corners))
     }
 }
 

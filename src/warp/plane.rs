@@ -119,16 +119,11 @@ impl<W: PlaneWarp> Warp for OnGrid<W> {
     }
 
     fn placer(&self) -> Box<dyn Placer> {
-        let places = self.grid.places.clone();
+        let places = &self.grid.places;
         let mut placer = GridPlacer {
             maps: self.warp.maps(),
             warp: Arc::clone(&self.warp),
-            placement: Placement {
-                faces: Arc::clone(&self.grid.faces),
-                in_frame: places.clone(),
-                in_source: places.clone(),
-                in_target: places,
-            },
+            placement: Placement::of_source(Arc::clone(&self.grid.faces), places, places),
         };
         placer.place(0.0);
         Box::new(placer)

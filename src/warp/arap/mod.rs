@@ -218,12 +218,7 @@ impl ArapPlacer {
             deviation: vec![0.0; 2 * mesh.source().len()],
             workspace: arap.cholesky.workspace(2),
             shifts: vec![DVec2::ZERO; arap.drift.part_count()],
-            placement: Placement {
-                faces: Arc::clone(mesh.faces()),
-                in_frame: mesh.source().to_vec(),
-                in_source: mesh.source().to_vec(),
-                in_target: mesh.target().to_vec(),
-            },
+            placement: Placement::of_source(Arc::clone(mesh.faces()), mesh.source(), mesh.target()),
             arap,
         }
     }

@@ -115,12 +115,7 @@ impl Warp for Paths {
     fn placer(&self) -> Box<dyn Placer> {
         Box::new(PathsPlacer {
             paths: Arc::clone(&self.0),
-            placement: Placement {
-                faces: Arc::new([]),
-                in_frame: self.0.source.clone(),
-                in_source: self.0.source.clone(),
-                in_target: self.0.target.clone(),
-            },
+            placement: Placement::of_source(Arc::new([]), &self.0.source, &self.0.target),
         })
     }
 }

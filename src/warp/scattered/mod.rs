@@ -19,14 +19,12 @@
 //!
 //! - `options`: the functions to choose from, and what may be wrong
 //! - `places`: where the features are, made ready, and those that meet
-//! - `system`: what is solved
-//! - `ridged`: what is done where that is singular
+//! - `system`: what is solved, and what is done where that is singular
 //! - `kernel`: the functions, many distances at a time
 
 mod kernel;
 mod options;
 mod places;
-mod ridged;
 mod system;
 
 #[cfg(test)]
