@@ -136,18 +136,30 @@ impl fmt::Display for Cause {
                 "only {:.0} % of the smaller design lies on the other",
                 100.0 * share
             ),
-            Self::BlindFields => write!(f, "fields do not know which part becomes which"),
-            Self::SeenTwice => write!(
-                f,
+            Self::BlindFields
+            | Self::SeenTwice
+            | Self::FeaturesMeet
+            | Self::OutOfReach
+            | Self::NothingInside
+            | Self::Unclear => f.write_str(self.sentence()),
+        }
+    }
+}
+
+impl Cause {
+    /// What is said of a cause without numbers.
+    const fn sentence(&self) -> &'static str {
+        match self {
+            Self::BlindFields => "fields do not know which part becomes which",
+            Self::SeenTwice => {
                 "pins or lines near it pass each other, and the plane is turned over between them"
-            ),
-            Self::FeaturesMeet => write!(f, "pins come too near each other on their way"),
-            Self::OutOfReach => write!(f, "the plane would have to fold to bring it there"),
-            Self::NothingInside => write!(
-                f,
+            }
+            Self::FeaturesMeet => "pins come too near each other on their way",
+            Self::OutOfReach => "the plane would have to fold to bring it there",
+            Self::NothingInside => {
                 "points of the boundary move on their own, nothing inside keeps them apart"
-            ),
-            Self::Unclear => write!(f, "no single cause stands out"),
+            }
+            _ => "no single cause stands out",
         }
     }
 }
