@@ -21,33 +21,24 @@ use super::curve::Curve;
 use super::options::{MatchError, MatchOptions, check};
 use super::pins::{self, Pin};
 use super::problem::Problem;
-use crate::geometry::{DVec2, Ring};
+use crate::geometry::DVec2;
 use std::cmp::Ordering;
 
-/// Matches two closed boundaries that run the same way around.
+/// Matches two boundaries that run the same way around.
 ///
 /// # Errors
-/// [`MatchError`] for contradictory pins, opposite orientations, options out
-/// of range, or sizes that floating point cannot measure.
-pub fn match_rings(
-    source: &Ring,
-    target: &Ring,
-    pins: &[Pin],
-    options: &MatchOptions,
-) -> Result<BoundaryMatch, MatchError> {
-    match_curves(
-        &Curve::closed(source)?,
-        &Curve::closed(target)?,
-        pins,
-        options,
-    )
-}
-
-/// Matches two curves, both closed or both open. The ends of open curves are
-/// matched to each other in the order given.
+/// [`MatchError`] for contradictory pins, opposite orientations, or options
+/// out of range.
 ///
-/// # Errors
-/// As [`match_rings`], and for a closed curve with an open one.
+/// ```
+/// use morphospace::correspondence::{Curve, MatchOptions, match_curves};
+/// use morphospace::geometry::{DVec2, Ring};
+/// let flag = [(0.0, 0.0), (3.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
+/// let curve = Curve::closed(&Ring::new(flag.to_vec())?)?;
+/// let same = match_curves(&curve, &curve, &[], &MatchOptions::default())?;
+/// assert!(same.knots().iter().all(|[a, b]| (a - b).abs() < 1e-12));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
 pub fn match_curves(
     source: &Curve,
     target: &Curve,

@@ -45,7 +45,7 @@ pub(super) fn settled(
 ) -> Option<Vec<[f64; 2]>> {
     let length = target.length();
     let mut places: Vec<f64> = knots.iter().map(|k| k[1]).collect();
-    let is_held = |k: usize| is_fixed(knots, pins, source.is_closed(), k);
+    let is_held = |k: usize| is_pin(pins, knots[k]);
     let points: Vec<DVec2> = knots.iter().map(|k| source.point_at(k[0])).collect();
     for round in 0..ROUNDS {
         let landed: Vec<DVec2> = places.iter().map(|&b| target.point_at(b)).collect();
@@ -80,7 +80,7 @@ pub(super) fn settled(
         }
     }
     let settled: Vec<[f64; 2]> = knots.iter().zip(places).map(|(k, b)| [k[0], b]).collect();
-    let kept = in_order(knots, &settled, pins, source.is_closed());
+    let kept = in_order(knots, &settled, pins);
     // What loses many knots did not settle.
     (2 * kept.len() > knots.len()).then_some(kept)
 }
@@ -123,37 +123,27 @@ impl Fit {
     }
 }
 
-/// Whether a knot is a pin, or an end of an open curve.
-fn is_fixed(knots: &[[f64; 2]], pins: &[[f64; 2]], closed: bool, k: usize) -> bool {
-    let is_end = !closed && (k == 0 || k + 1 == knots.len());
-    is_end || pins.iter().any(|pin| pin[0] == knots[k][0])
+fn is_pin(pins: &[[f64; 2]], knot: [f64; 2]) -> bool {
+    pins.iter().any(|pin| pin[0] == knot[0])
 }
 
 /// The settled knots without those that would step back, pins first. Each is
 /// near the knot that was found, so that none is taken for one a round ahead.
-fn in_order(
-    found: &[[f64; 2]],
-    settled: &[[f64; 2]],
-    pins: &[[f64; 2]],
-    closed: bool,
-) -> Vec<[f64; 2]> {
-    let is_held = |k: usize| is_fixed(found, pins, closed, k);
+fn in_order(found: &[[f64; 2]], settled: &[[f64; 2]], pins: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let is_held = |k: usize| is_pin(pins, found[k]);
     let start = (0..found.len()).find(|&k| is_held(k)).unwrap_or(0);
     let mut path: Vec<(usize, [f64; 2])> = Vec::with_capacity(found.len());
     let moved = |k: usize| {
         let by = settled[k][1] - found[k][1];
-        if closed { by - by.round() } else { by }
+        by - by.round()
     };
     for offset in 0..found.len() {
         let k = (start + offset) % found.len();
         // Counted on from the start, so that ascending has a meaning.
-        let ahead = |side: usize| {
-            let step = found[k][side] - found[start][side];
-            if closed { step.rem_euclid(1.0) } else { step }
-        };
+        let ahead = |side: usize| (found[k][side] - found[start][side]).rem_euclid(1.0);
         let place = [ahead(0), ahead(1) + moved(k)];
         let follows = |last: [f64; 2]| {
-            let is_within = !closed || place[1] < moved(start) + 1.0 - LEAST_STEP;
+            let is_within = place[1] < moved(start) + 1.0 - LEAST_STEP;
             is_within && (0..2).all(|s| place[s] > last[s] + LEAST_STEP)
         };
         if is_held(k) {
@@ -210,7 +200,7 @@ mod tests {
         let knots = [[0.1, 0.9], [0.2, 0.05], [0.3, 0.04], [0.4, 0.3], [0.5, 0.2]];
         let pins = [[0.5, 0.2]];
         let found = [[0.1, 0.9], [0.2, 0.02], [0.3, 0.1], [0.4, 0.15], [0.5, 0.2]];
-        let kept = in_order(&found, &knots, &pins, true);
+        let kept = in_order(&found, &knots, &pins);
         assert_eq!(kept, [[0.1, 0.9], [0.2, 0.05], [0.5, 0.2]]);
     }
 
@@ -219,10 +209,10 @@ mod tests {
         let found: Vec<[f64; 2]> = (0..200).map(|k| [f64::from(k) / 200.0; 2]).collect();
         let mut moved = found.clone();
         moved[0][1] = 0.006;
-        let kept = in_order(&found, &moved, &[], true);
+        let kept = in_order(&found, &moved, &[]);
         assert_eq!(kept.len(), 199);
         moved[0][1] = 0.993;
-        let kept = in_order(&found, &moved, &[], true);
+        let kept = in_order(&found, &moved, &[]);
         assert_eq!(kept.len(), 199, "the last one would meet the first");
     }
 }

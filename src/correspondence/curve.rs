@@ -1,21 +1,20 @@
-//! Curves by arc length, with the unwrapped direction of their tangent.
+//! Closed curves by arc length, with the unwrapped direction of their tangent.
 //!
 //! A place on a [`Curve`] is the fraction of its length from the first point,
 //! in [0, 1); so it keeps its meaning when the curve is moved, turned or
-//! enlarged. Open polylines reach 1 at their last point.
+//! enlarged.
 //!
 //! Turning is the mean direction after a place less the mean direction before
 //! it, both over a stated length of the curve. Means over the *unwrapped*
 //! direction know no jump at ±π, and jitter of the outline cancels in them.
 
-use crate::geometry::{Bounds, DVec2, Ring, along_segment};
+use crate::geometry::{DVec2, Ring, along_segment, perimeter};
 use std::f64::consts::TAU;
 
-/// A polyline, closed or open, that knows its places by arc length.
+/// A closed polyline that knows its places by arc length.
 #[derive(Clone, Debug)]
 pub struct Curve {
     points: Vec<DVec2>,
-    closed: bool,
     /// Place of each point, and at the end the place 1.
     places: Vec<f64>,
     /// Unwrapped direction of each edge, in radians.
@@ -26,26 +25,16 @@ pub struct Curve {
     round: f64,
 }
 
-/// Why points make no [`Curve`].
+/// The length of a ring is no positive finite number in floating point.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CurveError {
-    /// Fewer than two different points.
-    #[error("a polyline needs at least 2 different points, this one has {0}; add points")]
-    TooFewPoints(usize),
-    /// A coordinate is NaN or infinite.
-    #[error("point {0} of the polyline is not a finite number; correct its coordinates")]
-    NotFinite(usize),
-    /// The length is no positive finite number in floating point.
-    #[error("the outline is too large or too small to be measured; scale it to an ordinary size")]
-    Size,
-}
+#[error("the outline is too large or too small to be measured; scale it to an ordinary size")]
+pub struct CurveError;
 
 impl Curve {
     /// A closed boundary.
     ///
     /// # Errors
-    /// [`CurveError::Size`] if its length overflows or underflows.
+    /// [`CurveError`] if its length overflows or underflows.
     ///
     /// ```
     /// use morphospace::{correspondence::Curve, geometry::{DVec2, Ring}};
@@ -55,28 +44,7 @@ impl Curve {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn closed(ring: &Ring) -> Result<Self, CurveError> {
-        Self::measured(ring.points().to_vec(), true)
-    }
-
-    /// An open polyline; immediate repetitions of points are left out.
-    ///
-    /// # Errors
-    /// [`CurveError`] for fewer than two different points, a coordinate that
-    /// is not finite, or a length that overflows or underflows.
-    pub fn open(points: &[DVec2]) -> Result<Self, CurveError> {
-        if let Some(bad) = points.iter().position(|p| !p.is_finite()) {
-            return Err(CurveError::NotFinite(bad));
-        }
-        let mut points = points.to_vec();
-        points.dedup();
-        if points.len() < 2 {
-            return Err(CurveError::TooFewPoints(points.len()));
-        }
-        Self::measured(points, false)
-    }
-
-    fn measured(points: Vec<DVec2>, closed: bool) -> Result<Self, CurveError> {
-        let edges = unit_edges(&points, closed).ok_or(CurveError::Size)?;
+        let edges = unit_edges(ring).ok_or(CurveError)?;
         let mut places = vec![0.0];
         let mut sum = 0.0;
         for edge in &edges {
@@ -84,7 +52,7 @@ impl Curve {
             places.push(sum);
         }
         if !(sum.is_finite() && sum > 0.0) {
-            return Err(CurveError::Size);
+            return Err(CurveError);
         }
         places.iter_mut().for_each(|place| *place /= sum);
         let directions = unwrapped(&edges);
@@ -96,8 +64,7 @@ impl Curve {
         let gained = directions[edges.len() - 1] + turn(last, first) - directions[0];
         Ok(Self {
             round: TAU * (gained / TAU).round(),
-            points,
-            closed,
+            points: ring.points().to_vec(),
             places,
             directions,
             integral,
@@ -116,14 +83,8 @@ impl Curve {
         &self.places[..self.points.len()]
     }
 
-    /// Whether the last point is joined to the first.
-    #[must_use]
-    pub fn is_closed(&self) -> bool {
-        self.closed
-    }
-
-    /// The point at a place, exact at the curve's own points. Places of closed
-    /// curves are taken modulo 1, those of open ones clamped to the ends.
+    /// The point at a place, exact at the curve's own points. Places
+    /// are taken modulo 1.
     #[must_use]
     pub fn point_at(&self, place: f64) -> DVec2 {
         let place = self.wrapped(place);
@@ -151,17 +112,13 @@ impl Curve {
     }
 
     /// The place nearest to `p` among those from one to another, counted on
-    /// over the seam of a closed curve, and how far it is. At least
+    /// over the seam, and how far it is. At least
     /// `from <= to`; not more than one round.
     pub(super) fn nearest_within(&self, p: DVec2, from: f64, to: f64) -> (f64, f64) {
-        let (from, to) = if self.closed {
-            (from, to.min(from + 1.0))
-        } else {
-            (from.clamp(0.0, 1.0), to.clamp(0.0, 1.0))
-        };
+        let to = to.min(from + 1.0);
         let mut best = (f64::INFINITY, self.wrapped(from));
         let count = self.directions.len();
-        let mut base = if self.closed { from.floor() } else { 0.0 };
+        let mut base = from.floor();
         let mut e = self.edge_at(from - base);
         while base + self.places[e] <= to {
             let [start, end] = [self.places[e], self.places[e + 1]].map(|place| base + place);
@@ -171,9 +128,6 @@ impl Curve {
             }
             e += 1;
             if e == count {
-                if !self.closed {
-                    break;
-                }
                 (e, base) = (0, base + 1.0);
             }
         }
@@ -196,10 +150,7 @@ impl Curve {
 
     /// The length, in the units of the points; may overflow for huge ones.
     pub(super) fn length(&self) -> f64 {
-        let next = |e: usize| self.points[(e + 1) % self.points.len()];
-        (0..self.directions.len())
-            .map(|e| self.points[e].distance(next(e)))
-            .sum()
+        perimeter(&self.points)
     }
 
     /// How often the tangent turns around: 1 for simple counter-clockwise
@@ -208,17 +159,13 @@ impl Curve {
         (self.round / TAU).round() as i32
     }
 
-    /// `place` in [0, 1) for closed curves, in [0, 1] for open ones.
+    /// `place` in [0, 1).
     pub(super) fn wrapped(&self, place: f64) -> f64 {
-        if !self.closed {
-            return place.clamp(0.0, 1.0);
-        }
         let place = place.rem_euclid(1.0);
         if place < 1.0 { place } else { 0.0 } // -1e-20 is rounded up to 1
     }
 
-    /// Direction at the mean over `[from, to]`, in radians, unwrapped. Open
-    /// curves go on straight beyond their ends.
+    /// Direction at the mean over `[from, to]`, in radians, unwrapped.
     pub(super) fn direction(&self, from: f64, to: f64) -> f64 {
         (self.direction_integral(to) - self.direction_integral(from)) / (to - from)
     }
@@ -229,21 +176,11 @@ impl Curve {
     }
 
     fn direction_integral(&self, place: f64) -> f64 {
-        let last = self.directions.len();
-        if self.closed {
-            let rounds = place.floor();
-            let rest = place - rounds;
-            let whole = rounds * self.integral[last];
-            let gained = self.round * rounds * (rest + 0.5 * (rounds - 1.0));
-            return whole + gained + self.integral_within(rest);
-        }
-        if place <= 0.0 {
-            self.directions[0] * place
-        } else if place >= 1.0 {
-            self.integral[last] + self.directions[last - 1] * (place - 1.0)
-        } else {
-            self.integral_within(place)
-        }
+        let rounds = place.floor();
+        let rest = place - rounds;
+        let whole = rounds * self.integral[self.directions.len()];
+        let gained = self.round * rounds * (rest + 0.5 * (rounds - 1.0));
+        whole + gained + self.integral_within(rest)
     }
 
     fn integral_within(&self, place: f64) -> f64 {
@@ -260,14 +197,10 @@ impl Curve {
 
 /// Edge vectors in units of the larger extent: neither overflows nor
 /// underflows when squared.
-fn unit_edges(points: &[DVec2], closed: bool) -> Option<Vec<DVec2>> {
-    let extent = Bounds::of(points.iter().copied())?.size().max_element();
-    if !(extent.is_finite() && extent > 0.0) {
-        return None;
-    }
-    let count = points.len() - usize::from(!closed);
-    let edge = |e: usize| (points[(e + 1) % points.len()] - points[e]) / extent;
-    Some((0..count).map(edge).collect())
+fn unit_edges(ring: &Ring) -> Option<Vec<DVec2>> {
+    let extent = ring.bounds().size().max_element();
+    let is_measurable = extent.is_finite() && extent > 0.0;
+    is_measurable.then(|| ring.edges().map(|(a, b)| (b - a) / extent).collect())
 }
 
 /// The direction of each edge, each within π of the one before.

@@ -1,9 +1,8 @@
 //! Which point of one design is which of the other.
 //!
 //! Parts and holes are paired by an assignment, boundaries by a cyclic dynamic
-//! program over all starting points ([`match_rings`]), with pins as hard
-//! constraints. A
-//! [`BoundaryMatch`] gives both polygons the same number of corresponding
+//! program over all starting points ([`match_curves`]), with pins as hard
+//! constraints. A [`BoundaryMatch`] gives both polygons the same number of corresponding
 //! vertices ([`BoundaryMatch::polygons`]). [`match_regions`] does all of that
 //! for two designs, and gives a partner to what one of them has alone.
 
@@ -30,7 +29,7 @@ mod solve;
 mod tests;
 mod thickness;
 
-pub use boundary::{match_curves, match_rings};
+pub use boundary::match_curves;
 pub use boundary_match::BoundaryMatch;
 pub use curve::{Curve, CurveError};
 pub use options::{MatchError, MatchOptions};

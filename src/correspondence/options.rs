@@ -40,9 +40,6 @@ pub enum MatchError {
     /// The pins contradict each other.
     #[error(transparent)]
     Pins(#[from] PinError),
-    /// One curve is closed and the other open.
-    #[error("a closed outline cannot be matched with an open line; close or open one of them")]
-    ClosedWithOpen,
     /// One curve runs counter-clockwise and the other clockwise.
     #[error("the outlines run opposite ways around; reverse the points of one of them")]
     Orientation,
@@ -63,10 +60,7 @@ pub(super) fn check(
     target: &Curve,
     options: &MatchOptions,
 ) -> Result<(), MatchError> {
-    if source.is_closed() != target.is_closed() {
-        return Err(MatchError::ClosedWithOpen);
-    }
-    if source.is_closed() && source.turning_number() * target.turning_number() < 0 {
+    if source.turning_number() * target.turning_number() < 0 {
         return Err(MatchError::Orientation);
     }
     if !(8..=1000).contains(&options.samples) {

@@ -25,13 +25,10 @@ pub enum PinError {
         .0 + 1, .1 + 1
     )]
     Crossing(usize, usize),
-    /// A pin ties an end of an open polyline to an inner point.
-    #[error("pin {} ties an end of one polyline to an inner point of the other; delete it", .0 + 1)]
-    End(usize),
 }
 
 /// The pins in the order of the source, places wrapped, repetitions left out.
-/// On closed curves the order of the target may start anywhere.
+/// The order of the target may start anywhere.
 pub(super) fn ordered(
     pins: &[Pin],
     source: &Curve,
@@ -43,20 +40,13 @@ pub(super) fn ordered(
             return Err(PinError::NotFinite(k));
         }
         let place = [source.wrapped(pin.source), target.wrapped(pin.target)];
-        if !source.is_closed() && is_end(place[0]) != is_end(place[1]) {
-            return Err(PinError::End(k));
-        }
         places.push((place, k));
     }
     places.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     places.dedup_by_key(|(place, _)| *place);
     check_shared(&places)?;
-    check_order(&places, source.is_closed())?;
+    check_order(&places)?;
     Ok(places.into_iter().map(|(place, _)| place).collect())
-}
-
-fn is_end(place: f64) -> bool {
-    place <= 0.0 || place >= 1.0
 }
 
 fn check_shared(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
@@ -73,24 +63,16 @@ fn check_shared(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
 }
 
 /// Names a pin outside the longest series in order, and the one it crosses.
-fn check_order(pins: &[([f64; 2], usize)], closed: bool) -> Result<(), PinError> {
+fn check_order(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
     let n = pins.len();
     let falls = |k: usize| pins[k].0[1] > pins[(k + 1) % n].0[1];
-    let ends = if closed { n } else { n.saturating_sub(1) };
-    if (0..ends).filter(|&k| falls(k)).count() <= usize::from(closed) {
+    if (0..n).filter(|&k| falls(k)).count() <= 1 {
         return Ok(());
     }
-    let starts = if closed { n } else { 1 };
-    let series = (0..starts).map(|start| rising(pins, start, closed));
+    let series = (0..n).map(|start| rising(pins, start));
     let kept = series.max_by_key(Vec::len).unwrap_or_default();
     let odd = (0..n).find(|k| !kept.contains(k)).unwrap_or(0);
-    let turned = |place: f64| {
-        if closed {
-            (place - pins[kept[0]].0[1]).rem_euclid(1.0)
-        } else {
-            place
-        }
-    };
+    let turned = |place: f64| (place - pins[kept[0]].0[1]).rem_euclid(1.0);
     let ahead = |k: usize| (k + n - kept[0]) % n;
     let crossed =
         |&&k: &&usize| (ahead(k) < ahead(odd)) != (turned(pins[k].0[1]) < turned(pins[odd].0[1]));
@@ -100,13 +82,10 @@ fn check_order(pins: &[([f64; 2], usize)], closed: bool) -> Result<(), PinError>
 }
 
 /// The longest series from `start` on that rises in the target too.
-fn rising(pins: &[([f64; 2], usize)], start: usize, closed: bool) -> Vec<usize> {
+fn rising(pins: &[([f64; 2], usize)], start: usize) -> Vec<usize> {
     let n = pins.len();
-    let base = if closed { pins[start].0[1] } else { 0.0 };
-    let value = |k: usize| {
-        let place = pins[(start + k) % n].0[1] - base;
-        if closed { place.rem_euclid(1.0) } else { place }
-    };
+    let base = pins[start].0[1];
+    let value = |k: usize| (pins[(start + k) % n].0[1] - base).rem_euclid(1.0);
     let mut best: Vec<(usize, usize)> = Vec::with_capacity(n); // length, predecessor
     for k in 0..n {
         let before = (0..k).filter(|&b| value(b) < value(k));

@@ -98,7 +98,7 @@ impl BoundaryMatch {
                 vertices.push(Vertex { at, places });
             }
         }
-        let vertices = spaced(merged(vertices, self.closed), options.spacing, self.closed);
+        let vertices = spaced(merged(vertices), options.spacing);
         assembled(&vertices, &joints, &common, curves)
     }
 }
@@ -108,22 +108,18 @@ impl BoundaryMatch {
 struct Common {
     /// `[source, parameter]` and `[target, parameter]` at the knots.
     tables: [Vec<[f64; 2]>; 2],
-    closed: bool,
 }
 
 impl Common {
     /// The seam lies at a knot that is a point of both curves, if there is one.
     fn new(matched: &BoundaryMatch, curves: [&Curve; 2]) -> Self {
         let mut knots = matched.knots.clone();
-        if matched.closed {
-            let is_own = |place: f64, c: &Curve| {
-                c.places().binary_search_by(|p| p.total_cmp(&place)).is_ok()
-            };
-            let both = |k: &[f64; 2]| is_own(k[0], curves[0]) && is_own(k[1], curves[1]);
-            let seam = knots.iter().position(both).unwrap_or(0);
-            knots.rotate_left(seam);
-            knots.push(knots[0].map(|place| place + 1.0));
-        }
+        let is_own =
+            |place: f64, c: &Curve| c.places().binary_search_by(|p| p.total_cmp(&place)).is_ok();
+        let both = |k: &[f64; 2]| is_own(k[0], curves[0]) && is_own(k[1], curves[1]);
+        let seam = knots.iter().position(both).unwrap_or(0);
+        knots.rotate_left(seam);
+        knots.push(knots[0].map(|place| place + 1.0));
         let start = knots[0];
         let last = knots.len() - 1;
         for (k, knot) in knots.iter_mut().enumerate() {
@@ -137,18 +133,13 @@ impl Common {
         let table = |side: usize| knots.iter().map(|k| [k[side], mean(k)]).collect();
         Self {
             tables: [table(0), table(1)],
-            closed: matched.closed,
         }
     }
 
     fn parameter(&self, place: f64, side: usize) -> f64 {
         let first = self.tables[side][0][0];
-        let over = self.closed && place < first;
-        interpolated(
-            &self.tables[side],
-            if over { place + 1.0 } else { place },
-            0,
-        )
+        let over = f64::from(u8::from(place < first));
+        interpolated(&self.tables[side], place + over, 0)
     }
 
     fn place(&self, parameter: f64, side: usize, curve: &Curve) -> f64 {
@@ -226,13 +217,11 @@ fn unwarped(joints: &[Joint], bent: f64, side: usize) -> f64 {
 }
 
 /// In order, with vertices at the same parameter as one.
-fn merged(mut vertices: Vec<Vertex>, closed: bool) -> Vec<Vertex> {
-    if closed {
-        // The seam is one place.
-        for vertex in &mut vertices {
-            if vertex.at >= 1.0 - SAME {
-                vertex.at = 0.0;
-            }
+fn merged(mut vertices: Vec<Vertex>) -> Vec<Vertex> {
+    // The seam is one place.
+    for vertex in &mut vertices {
+        if vertex.at >= 1.0 - SAME {
+            vertex.at = 0.0;
         }
     }
     vertices.sort_by(|a, b| a.at.total_cmp(&b.at));
@@ -251,15 +240,13 @@ fn merged(mut vertices: Vec<Vertex>, closed: bool) -> Vec<Vertex> {
 }
 
 /// With even places between neighbours that are too far apart.
-fn spaced(vertices: Vec<Vertex>, spacing: f64, closed: bool) -> Vec<Vertex> {
+fn spaced(vertices: Vec<Vertex>, spacing: f64) -> Vec<Vertex> {
     let mut spaced = Vec::with_capacity(vertices.len());
     for (k, &vertex) in vertices.iter().enumerate() {
         spaced.push(vertex);
-        let next = match vertices.get(k + 1) {
-            Some(next) => next.at,
-            None if closed => vertices[0].at + 1.0,
-            None => break,
-        };
+        let next = vertices
+            .get(k + 1)
+            .map_or(vertices[0].at + 1.0, |next| next.at);
         let gap = next - vertex.at;
         let pieces = (gap / spacing).ceil().clamp(1.0, 1.0 + MOST_ADDED * gap) as u32;
         let at = |k: u32| vertex.at + gap * f64::from(k) / f64::from(pieces);
@@ -295,7 +282,7 @@ fn assembled(
             shared.places.push(places);
         }
     }
-    while common.closed && shared.source.len() > 3 && closes_twice(&shared) {
+    while shared.source.len() > 3 && closes_twice(&shared) {
         shared.source.pop();
         shared.target.pop();
         shared.places.pop();

@@ -1,7 +1,7 @@
 //! Two sampled curves and the cheapest closed paths through their pairs.
 //!
 //! [`super::boundary`] says what is guaranteed. Indices of nodes are counted
-//! on over the seams of closed curves: sample n is sample 0 one round on.
+//! on over the seams: sample n is sample 0 one round on.
 
 use super::curve::Curve;
 use super::cyclic::all_starts;
@@ -61,7 +61,7 @@ impl Problem {
     }
 
     /// Visits cost and nodes of the cheapest path of each start; of the one
-    /// path where pins or ends leave no choice.
+    /// path where pins leave no choice.
     pub(super) fn visit_paths(
         &self,
         unlike: &[f64],
@@ -81,7 +81,7 @@ impl Problem {
             }
             return visit(cost, &|| nodes.clone());
         }
-        let (n, m) = (self.source.steps(), self.target.steps());
+        let (n, m) = (self.source.places.len(), self.target.places.len());
         let grid = self.grid(unlike, [0, 0], [2 * n, m]);
         for route in all_starts(&grid.prices(), n) {
             visit(route.cost, &|| route.nodes());
@@ -89,25 +89,19 @@ impl Problem {
     }
 
     /// Nodes that every path visits, ascending, from a first one to its like
-    /// one round on; none where closed curves have no pins.
+    /// one round on; none without pins.
     pub(super) fn fixed_nodes(&self) -> Vec<[usize; 2]> {
-        let (n, m) = (self.source.steps(), self.target.steps());
+        let (n, m) = (self.source.places.len(), self.target.places.len());
         let node =
             |pin: &[f64; 2]| Some([self.source.index_of(pin[0])?, self.target.index_of(pin[1])?]);
         let mut nodes: Vec<[usize; 2]> = self.pins.iter().filter_map(node).collect();
-        if self.source.closed {
-            if let Some(&first) = nodes.first() {
-                for node in &mut nodes {
-                    if node[1] < first[1] {
-                        node[1] += m;
-                    }
+        if let Some(&first) = nodes.first() {
+            for node in &mut nodes {
+                if node[1] < first[1] {
+                    node[1] += m;
                 }
-                nodes.push([first[0] + n, first[1] + m]);
             }
-        } else {
-            nodes.extend([[0, 0], [n, m]]);
-            nodes.sort_unstable();
-            nodes.dedup();
+            nodes.push([first[0] + n, first[1] + m]);
         }
         nodes
     }
@@ -115,15 +109,14 @@ impl Problem {
     /// The window of pairs from one node to another, both included.
     pub(super) fn grid(&self, unlike: &[f64], from: [usize; 2], to: [usize; 2]) -> PathGrid {
         let (n, m) = (self.source.places.len(), self.target.places.len());
-        let place = |samples: &Samples, k: usize| samples.unrolled(k);
         let mut window = Vec::with_capacity((to[0] + 1 - from[0]) * (to[1] + 1 - from[1]));
         for j in from[1]..=to[1] {
             let round = &unlike[(j % m) * n..][..n];
             window.extend((from[0]..=to[0]).map(|i| round[i % n]));
         }
         PathGrid {
-            source: (from[0]..=to[0]).map(|i| place(&self.source, i)).collect(),
-            target: (from[1]..=to[1]).map(|j| place(&self.target, j)).collect(),
+            source: (from[0]..=to[0]).map(|i| self.source.unrolled(i)).collect(),
+            target: (from[1]..=to[1]).map(|j| self.target.unrolled(j)).collect(),
             unlike: window,
             stretch: self.stretch,
         }

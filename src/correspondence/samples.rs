@@ -27,7 +27,6 @@ const LEAST_GAP: f64 = 0.5;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Samples {
     pub places: Vec<f64>,
-    pub closed: bool,
 }
 
 impl Samples {
@@ -38,27 +37,13 @@ impl Samples {
         let anchors = anchors(curve, spacing, fixed);
         let mut places = Vec::new();
         for (k, &from) in anchors.iter().enumerate() {
-            let to = match anchors.get(k + 1) {
-                Some(&next) => next,
-                None if curve.is_closed() => anchors[0] + 1.0,
-                None => break,
-            };
+            let to = anchors.get(k + 1).copied().unwrap_or(anchors[0] + 1.0);
             fill(&mut places, from, to, spacing);
         }
-        if curve.is_closed() {
-            places.iter_mut().for_each(|p| *p = curve.wrapped(*p));
-        } else {
-            places.push(1.0);
-        }
+        places.iter_mut().for_each(|p| *p = curve.wrapped(*p));
         places.sort_by(f64::total_cmp);
         places.dedup();
-        let closed = curve.is_closed();
-        Self { places, closed }
-    }
-
-    /// How many steps lead once around, or from end to end.
-    pub fn steps(&self) -> usize {
-        self.places.len() - usize::from(!self.closed)
+        Self { places }
     }
 
     /// The index of a place that is among them.
@@ -66,7 +51,7 @@ impl Samples {
         self.places.binary_search_by(|p| p.total_cmp(&place)).ok()
     }
 
-    /// Place of a sample counted on over the seam, for closed curves.
+    /// Place of a sample counted on over the seam.
     pub fn unrolled(&self, index: usize) -> f64 {
         let n = self.places.len();
         self.places[index % n] + (index / n) as f64
@@ -81,17 +66,14 @@ fn fill(places: &mut Vec<f64>, from: f64, to: f64, spacing: f64) {
     places.extend((0..count).map(|k| from + step * f64::from(k)));
 }
 
-/// What is kept exactly: pins, ends, corners; at least one place, so that the
+/// What is kept exactly: pins and corners; at least one place, so that the
 /// phase of the samples does not depend on where the outline starts.
 fn anchors(curve: &Curve, spacing: f64, fixed: &[f64]) -> Vec<f64> {
     let mut kept = fixed.to_vec();
-    if !curve.is_closed() {
-        kept.extend([0.0, 1.0]);
-    }
     kept.sort_by(f64::total_cmp);
     kept.dedup();
     for (place, _) in corners(curve) {
-        insert_apart(&mut kept, place, LEAST_GAP * spacing, curve.is_closed());
+        insert_apart(&mut kept, place, LEAST_GAP * spacing);
     }
     if kept.is_empty() {
         kept.push(bendiest(curve));
@@ -100,21 +82,14 @@ fn anchors(curve: &Curve, spacing: f64, fixed: &[f64]) -> Vec<f64> {
 }
 
 /// Inserts in order unless something is nearer than `gap`; tells whether.
-fn insert_apart(kept: &mut Vec<f64>, place: f64, gap: f64, closed: bool) -> bool {
+fn insert_apart(kept: &mut Vec<f64>, place: f64, gap: f64) -> bool {
     let at = kept.partition_point(|&k| k < place);
-    let n = kept.len();
-    let wrap = if closed { 1.0 } else { f64::INFINITY };
-    let (before, after) = match n {
-        0 => (f64::NEG_INFINITY, f64::INFINITY),
-        _ => (
-            if at > 0 {
-                kept[at - 1]
-            } else {
-                kept[n - 1] - wrap
-            },
-            if at < n { kept[at] } else { kept[0] + wrap },
-        ),
+    let before = match at.checked_sub(1) {
+        Some(k) => kept[k],
+        None => kept.last().map_or(f64::NEG_INFINITY, |last| last - 1.0),
     };
+    let first = || kept.first().map_or(f64::INFINITY, |first| first + 1.0);
+    let after = kept.get(at).copied().unwrap_or_else(first);
     let fits = place - before >= gap && after - place >= gap;
     if fits {
         kept.insert(at, place);
@@ -134,7 +109,7 @@ pub(super) fn corners(curve: &Curve) -> Vec<(f64, f64)> {
     let mut seen: Vec<(f64, f64)> = curve.places().iter().filter_map(is_corner).collect();
     seen.sort_by(|a, b| b.1.total_cmp(&a.1).then(a.0.total_cmp(&b.0)));
     let mut kept = Vec::new();
-    seen.retain(|&(place, _)| insert_apart(&mut kept, place, near_reach, curve.is_closed()));
+    seen.retain(|&(place, _)| insert_apart(&mut kept, place, near_reach));
     seen
 }
 
@@ -202,15 +177,5 @@ mod tests {
         assert!(pins.iter().all(|&pin| samples.index_of(pin).is_some()));
         assert!(samples.places.windows(2).all(|w| w[0] < w[1]));
         assert_eq!(samples.index_of(0.25), None);
-    }
-
-    #[test]
-    fn open_curves_keep_their_ends() {
-        let line = Curve::open(&[DVec2::ZERO, DVec2::X, DVec2::ONE]).expect("a line");
-        let samples = Samples::of(&line, 10, &[]);
-        assert_eq!(samples.places.first(), Some(&0.0));
-        assert_eq!(samples.places.last(), Some(&1.0));
-        assert_eq!(samples.steps(), 10);
-        assert!(samples.index_of(0.5).is_some());
     }
 }

@@ -21,20 +21,17 @@ impl Problem {
             [self.source.places[i % n], self.target.places[j % m]]
         };
         let mut knots: Vec<_> = nodes.iter().map(place).collect();
-        if self.source.closed {
-            knots.pop(); // the first again
-        }
+        knots.pop(); // the first again
         knots.sort_by(|a, b| a[0].total_cmp(&b[0]));
         BoundaryMatch {
             rotation: self.rotation(&nodes),
             knots: settled(&knots, &self.pins, curves).unwrap_or(knots),
-            closed: self.source.closed,
             cost: solution.cost,
             pins: self.pins,
         }
     }
 
-    /// The solution as a strictly monotone path. A closed one without pins is
+    /// The solution as a strictly monotone path. One without pins is
     /// cut at its most telling node, then at the far side, to leave no trace
     /// of the cut.
     fn strict(&self, solution: &Solution) -> Vec<[usize; 2]> {
@@ -94,7 +91,7 @@ impl Problem {
 
     /// A closed path from one of its nodes to the same one round on.
     fn cut_at(&self, nodes: &[[usize; 2]], start: [usize; 2]) -> Vec<[usize; 2]> {
-        let (n, m) = (self.source.steps(), self.target.steps());
+        let (n, m) = (self.source.places.len(), self.target.places.len());
         let at = nodes.iter().position(|node| *node == start).unwrap_or(0);
         let ahead = nodes[at..nodes.len() - 1].iter().copied();
         let behind = nodes[..=at].iter().map(|&[i, j]| [i + n, j + m]);

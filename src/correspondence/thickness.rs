@@ -6,7 +6,8 @@
 //! is, which turning and position cannot.
 //!
 //! Guaranteed: finite, and the same for the shape moved, turned or enlarged,
-//! to rounding. Open lines have no inside; theirs is the same everywhere.
+//! to rounding. A curve that turns no way around has no inside; its thickness is
+//! the same everywhere.
 
 use super::curve::Curve;
 use crate::geometry::{DVec2, signed_area};
@@ -24,7 +25,7 @@ const OWN: f64 = 1e-7;
 /// in radians.
 pub(super) fn log_thickness(curve: &Curve, places: &[(f64, f64)]) -> Vec<f64> {
     let turns = curve.turning_number();
-    if !curve.is_closed() || turns == 0 {
+    if turns == 0 {
         return vec![0.0; places.len()];
     }
     let points = curve.points();

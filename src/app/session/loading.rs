@@ -164,7 +164,7 @@ impl Problem {
     pub fn pins(&self) -> Vec<usize> {
         match self {
             Self::Build(BuildError::Match(RegionMatchError::Pins(error))) => match error {
-                PinError::NotFinite(a) | PinError::End(a) => vec![*a],
+                PinError::NotFinite(a) => vec![*a],
                 PinError::SamePoint(a, b) | PinError::Crossing(a, b) => vec![*a, *b],
             },
             Self::Build(BuildError::Match(RegionMatchError::PinAcross(a))) => vec![*a],

@@ -291,6 +291,5 @@ fn renumbered(error: PinError, number: impl Fn(usize) -> usize) -> PinError {
         PinError::NotFinite(k) => PinError::NotFinite(number(k)),
         PinError::SamePoint(a, b) => PinError::SamePoint(number(a), number(b)),
         PinError::Crossing(a, b) => PinError::Crossing(number(a), number(b)),
-        PinError::End(k) => PinError::End(number(k)),
     }
 }
