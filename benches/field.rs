@@ -6,7 +6,7 @@
 
 use criterion::{BenchmarkId, Criterion, Throughput};
 use morphospace::content::{FieldBlend, FieldPair};
-use morphospace::field::{DistanceField, DistanceTransform, Grid, Mask, Metric};
+use morphospace::field::{DistanceField, Grid, Mask, Metric, distance_transform};
 use morphospace::geometry::{DVec2, FillRule, Regions};
 use morphospace::progress::Silent;
 use std::error::Error;
@@ -57,12 +57,10 @@ fn signed_transform(criterion: &mut Criterion) -> Result<()> {
             for threads in [1, 2] {
                 let builder = rayon::ThreadPoolBuilder::new().num_threads(threads);
                 let pool = builder.build()?;
-                let mut transform = DistanceTransform::new();
-                let mut out = Vec::new();
                 let id = BenchmarkId::new(format!("{name}/{threads} thread"), side);
                 group.bench_function(id, |b| {
                     b.iter(|| {
-                        pool.install(|| transform.run(&mask, Metric::Euclidean, &mut out, &Silent))
+                        pool.install(|| distance_transform(&mask, Metric::Euclidean, &Silent))
                     });
                 });
             }
@@ -74,11 +72,9 @@ fn signed_transform(criterion: &mut Criterion) -> Result<()> {
         Metric::QuasiEuclidean,
     ] {
         let mask = gear(1024)?;
-        let mut transform = DistanceTransform::new();
-        let mut out = Vec::new();
         let id = BenchmarkId::new(format!("gear/{metric:?}"), 1024);
         group.bench_function(id, |b| {
-            b.iter(|| transform.run(&mask, metric, &mut out, &Silent));
+            b.iter(|| distance_transform(&mask, metric, &Silent));
         });
     }
     group.finish();

@@ -20,7 +20,7 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Side};
 use morphospace::compatible::CompatibleMesh;
 use morphospace::geometry::DVec2;
-use morphospace::linalg::{Cholesky, FactorKind, SymmetricMatrix};
+use morphospace::linalg::{Cholesky, SymmetricMatrix};
 use morphospace::progress::Silent;
 use morphospace::warp::{Arap, ArapOptions, Warp};
 use std::hint::black_box;
@@ -124,16 +124,14 @@ fn frames(c: &mut Criterion) {
                 });
             });
         }
-        for kind in [FactorKind::Automatic, FactorKind::Supernodal] {
-            let cholesky = Cholesky::factor(&matrix, kind).expect("positive definite");
-            let mut workspace = cholesky.workspace(2);
-            group.bench_function(BenchmarkId::new(format!("solve {kind:?}"), name), |b| {
-                b.iter(|| {
-                    x.copy_from_slice(&rhs);
-                    cholesky.solve_ordered(black_box(&mut x), &mut workspace);
-                });
+        let cholesky = Cholesky::factor(&matrix).expect("positive definite");
+        let mut workspace = cholesky.workspace(2);
+        group.bench_function(BenchmarkId::new("solve", name), |b| {
+            b.iter(|| {
+                x.copy_from_slice(&rhs);
+                cholesky.solve_ordered(black_box(&mut x), &mut workspace);
             });
-        }
+        });
         let mut placer = arap.placer();
         let mut t = 0.0;
         group.bench_function(BenchmarkId::new("frame", name), |b| {

@@ -85,33 +85,10 @@ impl SymmetricMatrix {
     }
 }
 
-/// Which of the two forms of factor to make.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum FactorKind {
-    /// By the ratio of operations to entries.
-    #[default]
-    Automatic,
-    /// Column by column: less to read for sparse factors.
-    Simplicial,
-    /// By dense blocks of columns.
-    Supernodal,
-}
-
-impl FactorKind {
-    /// Operations per entry from which dense blocks pay. Up to a million
-    /// vertices of a planar mesh two right-hand sides were solved faster
-    /// column by column (`cargo bench --bench frame`), so the bar is high.
-    const SUPERNODAL_FROM: f64 = 1000.0;
-
-    fn threshold(self) -> SupernodalThreshold {
-        match self {
-            Self::Automatic => SupernodalThreshold(Self::SUPERNODAL_FROM),
-            Self::Simplicial => SupernodalThreshold::FORCE_SIMPLICIAL,
-            Self::Supernodal => SupernodalThreshold::FORCE_SUPERNODAL,
-        }
-    }
-}
+/// Operations per entry from which dense blocks pay. Up to a million
+/// vertices of a planar mesh two right-hand sides were solved faster
+/// column by column (`cargo bench --bench frame`), so the bar is high.
+const SUPERNODAL_FROM: SupernodalThreshold = SupernodalThreshold(1000.0);
 
 /// Why a matrix could not be factored.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -163,21 +140,28 @@ impl Cholesky {
     /// [`FactorError`] if the matrix is not positive definite or too large.
     ///
     /// ```
-    /// use morphospace::linalg::{Cholesky, FactorKind, SymmetricMatrix};
+    /// use morphospace::linalg::{Cholesky, SymmetricMatrix};
     /// let mut a = SymmetricMatrix::zero(2, 3);
     /// a.add(0, 0, 4.0);
     /// a.add(1, 1, 2.0);
     /// a.add(0, 1, 1.0);
-    /// let x = Cholesky::factor(&a, FactorKind::Automatic)?.solve(&[5.0, 3.0]);
+    /// let x = Cholesky::factor(&a)?.solve(&[5.0, 3.0]);
     /// assert!((x[0] - 1.0).abs() < 1e-15 && (x[1] - 1.0).abs() < 1e-15);
     /// # Ok::<(), morphospace::linalg::FactorError>(())
     /// ```
-    pub fn factor(matrix: &SymmetricMatrix, kind: FactorKind) -> Result<Self, FactorError> {
+    pub fn factor(matrix: &SymmetricMatrix) -> Result<Self, FactorError> {
+        Self::factored(matrix, SUPERNODAL_FROM)
+    }
+
+    fn factored(
+        matrix: &SymmetricMatrix,
+        supernodal_from: SupernodalThreshold,
+    ) -> Result<Self, FactorError> {
         let n = matrix.n;
         let lower = SparseColMat::<u32, f64>::try_new_from_triplets(n, n, &matrix.lower)
             .map_err(|_| FactorError::OutOfMemory)?;
         let params = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: kind.threshold(),
+            supernodal_flop_ratio_threshold: supernodal_from,
             ..CholeskySymbolicParams::default()
         };
         let symbolic = factorize_symbolic_cholesky(
@@ -214,20 +198,15 @@ impl Cholesky {
             MemStack::new(&mut memory),
             Default::default(),
         );
-        let failed_at = match result {
-            Ok(_) => None,
+        match result {
+            Ok(_) => Ok(()),
             // The library counts pivots from 1.
-            Err(LltError::NonPositivePivot { index }) => Some(index.saturating_sub(1)),
-        };
-        match failed_at {
-            None => Ok(()),
-            Some(place) => Err(FactorError::NotPositiveDefinite {
-                index: self
-                    .place
-                    .iter()
-                    .position(|&p| p as usize == place)
-                    .unwrap_or(place),
-            }),
+            Err(LltError::NonPositivePivot { index }) => {
+                let place = index.saturating_sub(1);
+                let unknown = self.place.iter().position(|&p| p as usize == place);
+                let index = unknown.unwrap_or(place);
+                Err(FactorError::NotPositiveDefinite { index })
+            }
         }
     }
 
@@ -235,12 +214,6 @@ impl Cholesky {
     #[must_use]
     pub fn size(&self) -> usize {
         self.place.len()
-    }
-
-    /// Entries of the factor: what a solve has to read, twice.
-    #[must_use]
-    pub fn factor_entries(&self) -> usize {
-        self.values.len()
     }
 
     /// For each unknown its place in elimination order, as
@@ -370,8 +343,8 @@ mod tests {
         ) {
             let a = laplacian(n, &edges);
             let slow = dense_solve(&a, &rhs[..n]);
-            for kind in [FactorKind::Simplicial, FactorKind::Supernodal, FactorKind::Automatic] {
-                let fast = Cholesky::factor(&a, kind).expect("positive definite").solve(&rhs[..n]);
+            for from in [SupernodalThreshold::FORCE_SIMPLICIAL, SupernodalThreshold::FORCE_SUPERNODAL, SUPERNODAL_FROM] {
+                let fast = Cholesky::factored(&a, from).expect("positive definite").solve(&rhs[..n]);
                 for (x, y) in fast.iter().zip(&slow) {
                     prop_assert!((x - y).abs() < 1e-10, "{x} {y}");
                 }
@@ -385,7 +358,7 @@ mod tests {
         a.add(0, 0, 1.0);
         a.add(1, 1, -1.0);
         assert_eq!(
-            Cholesky::factor(&a, FactorKind::Automatic).map(|_| ()),
+            Cholesky::factor(&a).map(|_| ()),
             Err(FactorError::NotPositiveDefinite { index: 1 })
         );
     }

@@ -1,7 +1,7 @@
 //! What is checked before faces and bars become a compatible mesh, and the
 //! errors that say so.
 
-use super::truss::TrussError;
+use super::truss::{TrussError, listed};
 use crate::geometry::{DVec2, Side, orient2d};
 use crate::mesh::MeshError;
 
@@ -65,20 +65,10 @@ pub enum CompatibleError {
 
 /// "face 3 is …" or "faces 3, 4, 5 and 9 more are …".
 fn list(faces: &[usize], what: &str) -> String {
-    const SHOWN: usize = 5;
-    let names: Vec<String> = faces
-        .iter()
-        .take(SHOWN)
-        .map(|f| (f + 1).to_string())
-        .collect();
-    match faces.len() {
-        1 => format!("face {} is {what}", names[0]),
-        n if n <= SHOWN => format!("faces {} are {what}", names.join(", ")),
-        n => format!(
-            "faces {} and {} more are {what}",
-            names.join(", "),
-            n - SHOWN
-        ),
+    let numbers: Vec<usize> = faces.iter().map(|f| f + 1).collect();
+    match numbers[..] {
+        [face] => format!("face {face} is {what}"),
+        _ => format!("faces {} are {what}", listed(&numbers, 5)),
     }
 }
 

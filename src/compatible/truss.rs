@@ -61,23 +61,25 @@ pub enum TrussError {
     )]
     Mirrored,
     /// A panel is turned over.
-    #[error("the panel of nodes {} is turned over between source and target; move its nodes in one design", listed(.0))]
+    #[error("the panel of nodes {} is turned over between source and target; move its nodes in one design", listed(.0, SHOWN))]
     Flipped(Vec<u32>),
     /// No diagonals are valid in both designs.
-    #[error("the panel of nodes {} has no triangles that are valid in both designs; add a bar or a node inside it", listed(.0))]
+    #[error("the panel of nodes {} has no triangles that are valid in both designs; add a bar or a node inside it", listed(.0, SHOWN))]
     NoTriangulation(Vec<u32>),
     /// A panel of very many nodes.
-    #[error("the panel of nodes {} has {} nodes, more than {MAX_PANEL_NODES}; divide it by bars", listed(.0), .0.len())]
+    #[error("the panel of nodes {} has {} nodes, more than {MAX_PANEL_NODES}; divide it by bars", listed(.0, SHOWN), .0.len())]
     TooLarge(Vec<u32>),
 }
 
+/// Most nodes that a message names.
+const SHOWN: usize = 8;
+
 /// "0, 4, 5 and 9 more".
-fn listed(nodes: &[u32]) -> String {
-    const SHOWN: usize = 8;
-    let names: Vec<String> = nodes.iter().take(SHOWN).map(u32::to_string).collect();
-    match nodes.len().checked_sub(SHOWN) {
-        None | Some(0) => names.join(", "),
-        Some(more) => format!("{} and {more} more", names.join(", ")),
+pub(super) fn listed<T: ToString>(numbers: &[T], shown: usize) -> String {
+    let names: Vec<String> = numbers.iter().take(shown).map(T::to_string).collect();
+    match numbers.len().saturating_sub(shown) {
+        0 => names.join(", "),
+        more => format!("{} and {more} more", names.join(", ")),
     }
 }
 

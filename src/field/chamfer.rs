@@ -15,17 +15,40 @@ use std::ops::Range;
 /// Rows between two looks at whether the work was cancelled.
 const ROWS: usize = 64;
 
-/// Lengths of a step along an axis and of a step along a diagonal.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Steps {
-    pub(super) straight: f64,
-    pub(super) diagonal: f64,
+/// Signed distances of all cells of `mask`, where a step along an axis is 1
+/// long and one along a diagonal `diagonal`.
+pub(super) fn distances(
+    mask: &Mask,
+    diagonal: f64,
+    progress: &dyn Progress,
+) -> Result<Vec<f32>, Cancelled> {
+    let height = mask.height() as usize;
+    let mut lengths = Lengths::of(mask);
+    let report = |done: usize| {
+        let fraction = 0.5 * done as f64 / height as f64;
+        checkpoint(progress, "measuring distances", fraction)
+    };
+    for y in 0..height {
+        if y % ROWS == 0 {
+            report(y)?;
+        }
+        let row = lengths.row(y);
+        row.for_each(|i| lengths.visit(i, diagonal, |i, step| i - step));
+    }
+    for y in (0..height).rev() {
+        if y % ROWS == 0 {
+            report(2 * height - 1 - y)?;
+        }
+        let row = lengths.row(y).rev();
+        row.for_each(|i| lengths.visit(i, diagonal, |i, step| i + step));
+    }
+    let cells = (0..height).flat_map(|y| lengths.row(y));
+    Ok(cells.map(|i| lengths.signed(i)).collect())
 }
 
 /// Sides and unsigned distances, with the ring of outside cells around the
-/// picture; kept between transforms.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Lengths {
+/// picture.
+struct Lengths {
     sides: Vec<bool>,
     lengths: Vec<f64>,
     /// Cells in a row, ring included.
@@ -33,51 +56,21 @@ pub(super) struct Lengths {
 }
 
 impl Lengths {
-    /// Measures `mask`, and writes signed distances into `out` of its length.
-    pub(super) fn transform(
-        &mut self,
-        mask: &Mask,
-        steps: Steps,
-        out: &mut [f32],
-        progress: &dyn Progress,
-    ) -> Result<(), Cancelled> {
-        let height = mask.height() as usize;
-        self.read(mask);
-        let report = |done: usize| {
-            let fraction = 0.5 * done as f64 / height as f64;
-            checkpoint(progress, "measuring distances", fraction)
-        };
-        for y in 0..height {
-            if y % ROWS == 0 {
-                report(y)?;
-            }
-            let row = self.row(y);
-            row.for_each(|i| self.visit(i, steps, |i, step| i - step));
-        }
-        for y in (0..height).rev() {
-            if y % ROWS == 0 {
-                report(2 * height - 1 - y)?;
-            }
-            let row = self.row(y).rev();
-            row.for_each(|i| self.visit(i, steps, |i, step| i + step));
-        }
-        self.write(out);
-        Ok(())
-    }
-
-    /// Sets the sides, and no distance yet.
-    fn read(&mut self, mask: &Mask) {
+    /// The sides, and no distance yet.
+    fn of(mask: &Mask) -> Self {
         let (width, height) = (mask.width() as usize, mask.height() as usize);
-        self.stride = width + 2;
-        let cells = self.stride * (height + 2);
-        self.sides.clear();
-        self.sides.resize(cells, false);
-        self.lengths.clear();
-        self.lengths.resize(cells, f64::INFINITY);
+        let stride = width + 2;
+        let cells = stride * (height + 2);
+        let mut found = Self {
+            sides: vec![false; cells],
+            lengths: vec![f64::INFINITY; cells],
+            stride,
+        };
         for (y, bits) in mask.bits().chunks_exact(width).enumerate() {
-            let row = self.row(y);
-            self.sides[row].copy_from_slice(bits);
+            let row = found.row(y);
+            found.sides[row].copy_from_slice(bits);
         }
+        found
     }
 
     /// Indices of the cells in row `y` of the picture.
@@ -88,7 +81,7 @@ impl Lengths {
 
     /// Lowers the distance of cell `i` by way of the four neighbours that the
     /// pass has behind it.
-    fn visit(&mut self, i: usize, steps: Steps, behind: impl Fn(usize, usize) -> usize) {
+    fn visit(&mut self, i: usize, diagonal: f64, behind: impl Fn(usize, usize) -> usize) {
         let by = |step: usize| {
             let neighbour = behind(i, step);
             if self.sides[neighbour] == self.sides[i] {
@@ -97,17 +90,13 @@ impl Lengths {
                 0.0
             }
         };
-        let straight = by(1).min(by(self.stride)) + steps.straight;
-        let diagonal = by(self.stride - 1).min(by(self.stride + 1)) + steps.diagonal;
+        let straight = by(1).min(by(self.stride)) + 1.0;
+        let diagonal = by(self.stride - 1).min(by(self.stride + 1)) + diagonal;
         self.lengths[i] = self.lengths[i].min(straight).min(diagonal);
     }
 
-    fn write(&self, out: &mut [f32]) {
-        for (y, out) in out.chunks_exact_mut(self.stride - 2).enumerate() {
-            for (out, i) in out.iter_mut().zip(self.row(y)) {
-                let distance = (self.lengths[i] - 0.5) as f32;
-                *out = if self.sides[i] { distance } else { -distance };
-            }
-        }
+    fn signed(&self, i: usize) -> f32 {
+        let distance = (self.lengths[i] - 0.5) as f32;
+        if self.sides[i] { distance } else { -distance }
     }
 }

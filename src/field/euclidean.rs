@@ -27,60 +27,46 @@ const ROWS: usize = 16;
 /// square and still leaves room for one more in an `i32`.
 const NONE: i16 = i16::MAX;
 
-/// Distances along the columns, kept between transforms.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Columns {
-    strips: Vec<i16>,
+/// Signed distances of all cells of `mask`.
+pub(super) fn distances(mask: &Mask, progress: &dyn Progress) -> Result<Vec<f32>, Cancelled> {
+    let strips = columns(mask);
+    let (width, height) = (mask.width() as usize, mask.height() as usize);
+    let done = AtomicUsize::new(0);
+    let mut out = vec![0.0; mask.bits().len()];
+    out.par_chunks_mut(width * ROWS)
+        .enumerate()
+        .try_for_each_init(
+            || RowPass::new(width),
+            |pass, (band, out)| {
+                let before = done.fetch_add(ROWS, Ordering::Relaxed);
+                let fraction = before as f64 / height as f64;
+                checkpoint(progress, "measuring distances", fraction)?;
+                for (i, out) in out.chunks_mut(width).enumerate() {
+                    let y = band * ROWS + i;
+                    pass.read(&strips, y, height);
+                    pass.transform(&mask.bits()[y * width..][..width], out);
+                }
+                Ok(())
+            },
+        )?;
+    Ok(out)
 }
 
-impl Columns {
-    /// Distances along the columns from each cell to the nearest of the other
-    /// side, the ring of empty cells around the mask included.
-    pub(super) fn measure(&mut self, mask: &Mask) {
-        let (width, height) = (mask.width() as usize, mask.height() as usize);
-        let strip_len = STRIP * height;
-        self.strips.resize(strip_len * width.div_ceil(STRIP), NONE);
-        self.strips
-            .par_chunks_mut(strip_len)
-            .enumerate()
-            .for_each(|(strip, out)| {
-                let from = strip * STRIP;
-                let to = width.min(from + STRIP);
-                let row = |y: usize| &mask.bits()[y * width + from..y * width + to];
-                sweep(out, (0..height).map(|y| (y, row(y))), |_, new| new);
-                sweep(out, (0..height).rev().map(|y| (y, row(y))), i16::min);
-            });
-    }
-
-    /// Signed distances of all cells, into `out` of the mask's length.
-    pub(super) fn rows(
-        &self,
-        mask: &Mask,
-        out: &mut [f32],
-        progress: &dyn Progress,
-    ) -> Result<(), Cancelled> {
-        let (width, height) = (mask.width() as usize, mask.height() as usize);
-        let done = AtomicUsize::new(0);
-        out.par_chunks_mut(width * ROWS)
-            .enumerate()
-            .try_for_each_init(
-                || RowPass::new(width),
-                |pass, (band, out)| {
-                    let before = done.fetch_add(ROWS, Ordering::Relaxed);
-                    checkpoint(
-                        progress,
-                        "measuring distances",
-                        before as f64 / height as f64,
-                    )?;
-                    for (i, out) in out.chunks_mut(width).enumerate() {
-                        let y = band * ROWS + i;
-                        pass.read(&self.strips, y, height);
-                        pass.transform(&mask.bits()[y * width..][..width], out);
-                    }
-                    Ok(())
-                },
-            )
-    }
+/// Distances along the columns from each cell to the nearest of the other
+/// side, the ring of empty cells around the mask included, strip by strip.
+fn columns(mask: &Mask) -> Vec<i16> {
+    let (width, height) = (mask.width() as usize, mask.height() as usize);
+    let strip_len = STRIP * height;
+    let mut strips = vec![NONE; strip_len * width.div_ceil(STRIP)];
+    let fill = |(strip, out): (usize, &mut [i16])| {
+        let from = strip * STRIP;
+        let to = width.min(from + STRIP);
+        let row = |y: usize| &mask.bits()[y * width + from..y * width + to];
+        sweep(out, (0..height).map(|y| (y, row(y))), |_, new| new);
+        sweep(out, (0..height).rev().map(|y| (y, row(y))), i16::min);
+    };
+    (strips.par_chunks_mut(strip_len).enumerate()).for_each(fill);
+    strips
 }
 
 /// Counts cells since the last change of side in each column of a strip, row

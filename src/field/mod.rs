@@ -25,4 +25,4 @@ pub use distance_field::{DistanceField, FieldError};
 pub use grid::{Grid, GridError};
 pub use mask::{Mask, MaskError};
 pub use samples::{Samples, SamplesError};
-pub use transform::{DistanceTransform, Metric, distance_transform};
+pub use transform::{Metric, distance_transform};

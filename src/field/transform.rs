@@ -10,9 +10,7 @@
 //! metric. Costs: linear in the number of cells; the Euclidean transform runs
 //! over the threads of the caller's rayon pool, the others on one.
 
-use super::Mask;
-use super::chamfer::{Lengths, Steps};
-use super::euclidean::Columns;
+use super::{Mask, chamfer, euclidean};
 use crate::names::named;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use std::f64::consts::SQRT_2;
@@ -60,75 +58,14 @@ pub fn distance_transform(
     metric: Metric,
     progress: &dyn Progress,
 ) -> Result<Vec<f32>, Cancelled> {
-    let mut out = Vec::new();
-    DistanceTransform::new().run(mask, metric, &mut out, progress)?;
-    Ok(out)
-}
-
-/// [`distance_transform`] for many masks: keeps its buffers between runs.
-///
-/// ```
-/// use morphospace::field::{DistanceTransform, Mask, Metric};
-/// use morphospace::progress::Silent;
-///
-/// let mut transform = DistanceTransform::new();
-/// let mut out = Vec::new();
-/// for side in [1, 2, 3] {
-///     let full = Mask::new(side, side, vec![true; (side * side) as usize])?;
-///     transform.run(&full, Metric::Chessboard, &mut out, &Silent)?;
-///     assert_eq!(out.len(), full.bits().len());
-/// }
-/// # Ok::<(), Box<dyn std::error::Error>>(())
-/// ```
-#[derive(Clone, Debug, Default)]
-pub struct DistanceTransform {
-    columns: Columns,
-    lengths: Lengths,
-}
-
-impl DistanceTransform {
-    /// A transform with empty buffers.
-    #[must_use]
-    pub fn new() -> Self {
-        Self::default()
-    }
-
-    /// Puts the signed distances of all cells of `mask` into `out`, which is
-    /// given the mask's length. Allocates nothing where the last mask was as
-    /// large, apart from a row for each thread.
-    ///
-    /// # Errors
-    /// [`Cancelled`] if nobody wants the result any more; what is in `out` then
-    /// is of no use.
-    pub fn run(
-        &mut self,
-        mask: &Mask,
-        metric: Metric,
-        out: &mut Vec<f32>,
-        progress: &dyn Progress,
-    ) -> Result<(), Cancelled> {
-        checkpoint(progress, "measuring distances", 0.0)?;
-        out.resize(mask.bits().len(), 0.0);
-        let Some(steps) = steps(metric) else {
-            self.columns.measure(mask);
-            return self.columns.rows(mask, out, progress);
-        };
-        self.lengths.transform(mask, steps, out, progress)
-    }
-}
-
-/// The steps whose shortest ways make a metric, if there are such.
-fn steps(metric: Metric) -> Option<Steps> {
+    checkpoint(progress, "measuring distances", 0.0)?;
     let diagonal = match metric {
-        Metric::Euclidean => return None,
+        Metric::Euclidean => return euclidean::distances(mask, progress),
         Metric::CityBlock => 2.0,
         Metric::Chessboard => 1.0,
         Metric::QuasiEuclidean => SQRT_2,
     };
-    Some(Steps {
-        straight: 1.0,
-        diagonal,
-    })
+    chamfer::distances(mask, diagonal, progress)
 }
 
 #[cfg(test)]

@@ -8,7 +8,7 @@
 //!
 //! Not counted: edges that meet in corners of both. Outlines may touch so.
 
-use super::{DVec2, orient2d, ring_edges};
+use super::{Bounds, DVec2, orient2d, ring_edges};
 use std::collections::HashSet;
 
 /// What cleaning had to repair.
@@ -46,12 +46,6 @@ pub struct Repairs {
 const TESTS_PER_EDGE: usize = 500;
 
 impl Repairs {
-    /// Whether nothing had to be repaired.
-    #[must_use]
-    pub fn is_clean(&self) -> bool {
-        *self == Self::default()
-    }
-
     /// The faults of this and another set of outlines together.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
@@ -98,12 +92,16 @@ impl Repairs {
     }
 
     fn cross(&mut self, rings: &[Vec<DVec2>]) {
-        let mut edges: Vec<Edge> = rings.iter().flat_map(|ring| edges(ring)).collect();
-        edges.sort_unstable_by(|e, f| e.left().total_cmp(&f.left()));
+        let mut edges: Vec<Edge> = rings
+            .iter()
+            .flat_map(|ring| ring_edges(ring))
+            .map(Edge::new)
+            .collect();
+        edges.sort_unstable_by(|e, f| e.bounds.min.x.total_cmp(&f.bounds.min.x));
         let mut tests = TESTS_PER_EDGE * edges.len();
         let mut active: Vec<Edge> = Vec::new();
         for edge in edges {
-            active.retain(|other| other.right() >= edge.left());
+            active.retain(|other| other.bounds.max.x >= edge.bounds.min.x);
             if active.len() > tests {
                 self.at_least = true;
                 return;
@@ -117,7 +115,7 @@ impl Repairs {
     }
 
     fn compare(&mut self, e: &Edge, f: &Edge) {
-        if e.below() > f.above() || f.below() > e.above() {
+        if e.bounds.min.y > f.bounds.max.y || f.bounds.min.y > e.bounds.max.y {
             return;
         }
         let [ea, eb] = [orient2d(f.a, f.b, e.a), orient2d(f.a, f.b, e.b)];
@@ -138,34 +136,19 @@ fn differ(a: f64, b: f64) -> bool {
 struct Edge {
     a: DVec2,
     b: DVec2,
+    bounds: Bounds,
 }
 
 impl Edge {
-    fn left(&self) -> f64 {
-        self.a.x.min(self.b.x)
-    }
-
-    fn right(&self) -> f64 {
-        self.a.x.max(self.b.x)
-    }
-
-    fn below(&self) -> f64 {
-        self.a.y.min(self.b.y)
-    }
-
-    fn above(&self) -> f64 {
-        self.a.y.max(self.b.y)
+    fn new((a, b): (DVec2, DVec2)) -> Self {
+        let bounds = Bounds::at(a).union(&Bounds::at(b));
+        Self { a, b, bounds }
     }
 
     /// Whether a point of the edge's line lies between its ends.
     fn holds_inside(&self, p: DVec2) -> bool {
-        let within = p.cmpge(self.a.min(self.b)).all() && p.cmple(self.a.max(self.b)).all();
-        within && p != self.a && p != self.b
+        self.bounds.contains(p) && p != self.a && p != self.b
     }
-}
-
-fn edges(ring: &[DVec2]) -> impl Iterator<Item = Edge> + '_ {
-    ring_edges(ring).map(|(a, b)| Edge { a, b })
 }
 
 /// The points at which the ring turns, and how many others there are. The
@@ -258,10 +241,11 @@ mod tests {
             vec![ring(&SQUARE), hole],
             vec![ring(&closed)],
         ] {
-            assert!(repairs(&rings).is_clean());
+            assert_eq!(repairs(&rings), Repairs::default());
         }
         // Two squares that touch in a corner.
-        assert!(repairs(&[ring(&SQUARE), ring(&[(4, 4), (8, 4), (8, 8), (4, 8)])]).is_clean());
+        let beside = ring(&[(4, 4), (8, 4), (8, 8), (4, 8)]);
+        assert_eq!(repairs(&[ring(&SQUARE), beside]), Repairs::default());
     }
 
     #[test]
@@ -293,7 +277,7 @@ mod tests {
         let (regions, repairs) =
             Regions::from_rings_reporting(&[spike], FillRule::NonZero).expect("area");
         assert!((regions.area() - 16.0).abs() < 1e-9);
-        assert!(!repairs.is_clean());
+        assert_ne!(repairs, Repairs::default());
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! grow with the mesh (Kovalsky, Galun, Lipman 2016, "Accelerated quadratic
 //! proxy for geometric optimization").
 
-use crate::linalg::{Cholesky, FactorError, FactorKind, SymmetricMatrix, Workspace};
+use crate::linalg::{Cholesky, FactorError, SymmetricMatrix, Workspace};
 
 /// Share of the mean stiffness that holds each vertex on its own: keeps the
 /// matrix definite where springs cancel.
@@ -37,7 +37,7 @@ impl Springs {
         for v in 0..vertices as u32 {
             matrix.add(v, v, held);
         }
-        let factor = Cholesky::factor(&matrix, FactorKind::Automatic)?;
+        let factor = Cholesky::factor(&matrix)?;
         Ok(Self {
             workspace: factor.workspace(2),
             ordered: vec![0.0; 2 * vertices],

@@ -160,8 +160,9 @@ fn hold_piece<R: AsRef<[DVec2]>>(mesh: &CompatibleMesh, source: &[R], target: &[
 }
 
 fn together(source: &[DVec2], target: &[DVec2]) -> CompatibleMesh {
-    let mesh = CompatibleMesh::from_polygons(source, target, &PolygonOptions::default(), &Silent)
-        .expect("simple polygons");
+    let mesh =
+        CompatibleMesh::from_piece(&[source], &[target], &PolygonOptions::default(), &Silent)
+            .expect("simple polygons");
     hold(&mesh, source, target);
     mesh
 }
@@ -248,7 +249,7 @@ fn a_shorter_edge_length_gives_shorter_edges() {
     let fine = PolygonOptions {
         edge_length: Some(0.05),
     };
-    let mesh = CompatibleMesh::from_polygons(&square, &square, &fine, &Silent).expect("simple");
+    let mesh = CompatibleMesh::from_piece(&[&square], &[&square], &fine, &Silent).expect("simple");
     hold(&mesh, &square, &square);
     assert!(mesh.source().len() > 2 * together(&square, &square).source().len());
 }
@@ -258,7 +259,7 @@ fn what_cannot_be_triangulated_is_named() {
     let square = shape(5, 8, &mut Random(1));
     let options = PolygonOptions::default();
     let of = |a: &[DVec2], b: &[DVec2], options| {
-        CompatibleMesh::from_polygons(a, b, options, &Silent).map(|_| ())
+        CompatibleMesh::from_piece(&[a], &[b], options, &Silent).map(|_| ())
     };
     assert_eq!(
         of(&square, &square[1..], &options),

@@ -14,32 +14,6 @@ use crate::progress::{Cancelled, Progress};
 const FEW: usize = 200;
 
 impl CompatibleMesh {
-    /// Triangulates two simple counter-clockwise polygons together; point i
-    /// of one is point i of the other. The mesh's first vertices are the
-    /// polygon's, in order; inner ones follow.
-    ///
-    /// # Errors
-    /// [`PolygonsError`] for what are no simple polygons, or if the work is
-    /// cancelled.
-    ///
-    /// ```
-    /// use morphospace::compatible::{CompatibleMesh, PolygonOptions};
-    /// use morphospace::{geometry::DVec2, progress::Silent};
-    /// let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
-    /// let dart = [(0.0, 0.0), (2.0, 0.0), (0.5, 0.5), (0.0, 2.0)].map(DVec2::from);
-    /// let mesh = CompatibleMesh::from_polygons(&square, &dart, &PolygonOptions::default(), &Silent)?;
-    /// assert_eq!(mesh.source()[..4], square);
-    /// # Ok::<(), morphospace::compatible::PolygonsError>(())
-    /// ```
-    pub fn from_polygons(
-        source: &[DVec2],
-        target: &[DVec2],
-        options: &PolygonOptions,
-        progress: &dyn Progress,
-    ) -> Result<Self, PolygonsError> {
-        Self::from_piece(&[source], &[target], options, progress)
-    }
-
     /// Triangulates one connected piece in two designs together. Ring 0 is
     /// its outer boundary, counter-clockwise, the others are its holes,
     /// clockwise; point i of a ring is point i of that ring in the other

@@ -11,7 +11,7 @@ use super::pair::PairMesh;
 use super::piece::Rings;
 use super::untangle::untangle;
 use crate::geometry::{Bounds, DVec2};
-use crate::linalg::{Cholesky, FactorKind, SymmetricMatrix};
+use crate::linalg::{Cholesky, SymmetricMatrix};
 use crate::mesh::triangulation::{Refinement, refined};
 use crate::progress::{Cancelled, Progress, checkpoint};
 
@@ -142,7 +142,7 @@ fn harmonic(mesh: &PairMesh, to: &[DVec2]) -> Option<Vec<DVec2>> {
             }
         }
     }
-    let factor = Cholesky::factor(&matrix, FactorKind::Automatic).ok()?;
+    let factor = Cholesky::factor(&matrix).ok()?;
     let solve = |side: fn(&DVec2) -> f64| factor.solve(&rhs.iter().map(side).collect::<Vec<_>>());
     let (x, y) = (solve(|p| p.x), solve(|p| p.y));
     let placed = x.into_iter().zip(y).map(|(x, y)| DVec2::new(x, y));

@@ -4,6 +4,7 @@
 //! either passage as they will. Both get all of them, in the same points bit
 //! by bit: a mesh of the part before it was cut has those points once.
 
+use super::super::boundary_match::interpolated;
 use super::super::curve::Curve;
 use super::super::polygons::SharedPolygons;
 use crate::geometry::{DVec2, Pair, Side};
@@ -176,7 +177,7 @@ impl Passage<'_> {
                 points_of(shared, self.side)[vertex] = point;
                 shared.places[vertex][self.side] = own;
             } else {
-                let across = self.other.wrapped(interpolated(&known, rung.along));
+                let across = self.other.wrapped(interpolated(&known, rung.along, 0));
                 let here = Pair::on(self.side, own, across);
                 let points = Pair::on(self.side, point, self.other.point_at(across));
                 added.push(Added {
@@ -218,14 +219,6 @@ impl Passage<'_> {
         }
         known
     }
-}
-
-fn interpolated(known: &[[f64; 2]], along: f64) -> f64 {
-    let k = known
-        .partition_point(|anchor| anchor[0] <= along)
-        .clamp(1, known.len() - 1);
-    let (from, to) = (known[k - 1], known[k]);
-    from[1] + (along - from[0]) / (to[0] - from[0]) * (to[1] - from[1])
 }
 
 fn points_of(shared: &mut SharedPolygons, side: Side) -> &mut Vec<DVec2> {

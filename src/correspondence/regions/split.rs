@@ -173,8 +173,7 @@ fn cut_between(
     far.extend(between(to, 2.0).map(|(_, p)| *p));
     far.extend(between(-1.0, from).map(|(_, p)| *p));
     far.push(a);
-    let mut pieces = [near, far].map(|points| Ring::new(points).ok());
-    let [Some(near), Some(far)] = [pieces[0].take(), pieces[1].take()] else {
+    let [Ok(near), Ok(far)] = [near, far].map(Ring::new) else {
         return None;
     };
     let holes_in = |ring: &Ring| -> Vec<Ring> {

@@ -206,22 +206,6 @@ fn swapping_the_sides_swaps_the_signs_away_from_the_border() {
 }
 
 #[test]
-fn buffers_of_a_larger_mask_do_not_show_in_a_smaller_one() {
-    let large = Mask::new(130, 90, vec![true; 130 * 90]).expect("a legal mask");
-    let small = mask("..#.. .###. ..#..");
-    let mut transform = DistanceTransform::new();
-    let mut out = Vec::new();
-    for metric in METRICS {
-        for mask in [&large, &small] {
-            transform
-                .run(mask, metric, &mut out, &Silent)
-                .expect("never cancelled");
-        }
-        check(&small, metric, &out);
-    }
-}
-
-#[test]
 fn one_thread_and_many_find_the_same() -> Result<(), rayon::ThreadPoolBuildError> {
     let bits = (0..300 * 200_u32).map(|i| i.wrapping_mul(2_654_435_761) > 3_900_000_000);
     let mask = Mask::new(300, 200, bits.collect()).expect("a legal mask");

@@ -5,7 +5,7 @@
 //! of a few shares of the diagonal is added with which it can be factored, and
 //! that is told.
 
-use crate::linalg::{Cholesky, FactorError, FactorKind, SymmetricMatrix};
+use crate::linalg::{Cholesky, FactorError, SymmetricMatrix};
 
 /// Shares of the diagonal that are added where rounding has eaten a pivot.
 /// Faces a ten-thousandth as large as their neighbours, about a hole that
@@ -29,15 +29,14 @@ pub struct Ridge {
 pub(super) fn factored(
     mut matrix: SymmetricMatrix,
 ) -> Result<(Cholesky, Option<Ridge>), FactorError> {
-    let factor = |matrix: &SymmetricMatrix| Cholesky::factor(matrix, FactorKind::Automatic);
-    let first = factor(&matrix);
+    let first = Cholesky::factor(&matrix);
     let Err(FactorError::NotPositiveDefinite { index: vertex }) = first else {
         return first.map(|cholesky| (cholesky, None));
     };
     for share in STIFFER {
         // What was added before is a hundredth of it.
         matrix.stiffen(share);
-        match factor(&matrix) {
+        match Cholesky::factor(&matrix) {
             Err(FactorError::NotPositiveDefinite { .. }) => {}
             done => return done.map(|cholesky| (cholesky, Some(Ridge { share, vertex }))),
         }
