@@ -127,27 +127,17 @@ fn surrounding(
 ) -> Option<usize> {
     let p = rings[outer][side][0];
     let encloses = |ring: usize| winding(&rings[ring][side], p) != 0;
-    let mut depth = 0_usize;
-    for part in parts {
-        let own = part.0[0].0;
-        depth += usize::from(own != outer && encloses(own));
-    }
+    let around_it = parts.iter().map(|part| part.0[0].0);
+    let depth = around_it
+        .filter(|&own| own != outer && encloses(own))
+        .count();
+    let ring = |void: usize| voids[void].0[0].0;
+    let holes: Vec<usize> = (1..voids.len()).filter(|&k| encloses(ring(k))).collect();
     // The smallest hole around it; holes of one depth do not overlap.
-    let mut around = 0;
-    let mut least = f64::INFINITY;
-    let mut holes = 0_usize;
-    for (k, void) in voids.iter().enumerate().skip(1) {
-        let ring = void.0[0].0;
-        if encloses(ring) {
-            holes += 1;
-            let area = signed_area(&rings[ring][side]).abs();
-            if area < least {
-                (around, least) = (k, area);
-            }
-        }
-    }
+    let area = |k: usize| signed_area(&rings[ring(k)][side]).abs();
+    let smallest = (holes.iter().copied()).min_by(|&j, &k| area(j).total_cmp(&area(k)));
     // Each part around it has a hole around it too, or it lies in the part.
-    (holes == depth).then_some(around)
+    (holes.len() == depth).then_some(smallest.unwrap_or(0))
 }
 
 /// The cells as one mesh: the rings' points once, then what is inside each.

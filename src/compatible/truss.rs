@@ -141,10 +141,11 @@ fn with_kept(
     nodes: Pair<&[DVec2]>,
     kept: &[bool],
 ) -> Result<Panels, TrussError> {
-    let plane: Vec<[u32; 2]> = (0..bars.len())
-        .filter(|&bar| kept[bar])
-        .map(|bar| bars[bar])
-        .collect();
+    let those = |are_kept: bool| {
+        let those = bars.iter().zip(kept).filter(move |(_, k)| **k == are_kept);
+        those.map(|(bar, _)| *bar)
+    };
+    let plane: Vec<[u32; 2]> = those(true).collect();
     let Pieces {
         panels,
         blocks,
@@ -155,11 +156,8 @@ fn with_kept(
     for panel in &panels {
         faces.extend(triangles(panel, nodes)?);
     }
-    let let_go = (0..bars.len())
-        .filter(|&bar| !kept[bar])
-        .map(|bar| bars[bar]);
     let mut elements = bridges;
-    elements.extend(outside(let_go, &blocks));
+    elements.extend(outside(those(false), &blocks));
     Ok((faces, elements))
 }
 

@@ -21,7 +21,7 @@ use super::curve::Curve;
 use super::options::{MatchError, MatchOptions, check};
 use super::pins::{self, Pin};
 use super::problem::Problem;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, lexicographic};
 use std::cmp::Ordering;
 
 /// Matches two boundaries that run the same way around.
@@ -60,19 +60,10 @@ pub fn match_curves(
 /// A total order of curves with their pins, so that a pair is solved in one
 /// order only.
 fn order(a: &Curve, a_pins: &[[f64; 2]], b: &Curve, b_pins: &[[f64; 2]]) -> Ordering {
-    fn compare(a: impl Iterator<Item = f64>, b: impl Iterator<Item = f64>) -> Ordering {
-        let different = |(a, b): (f64, f64)| Some(a.total_cmp(&b)).filter(|o| o.is_ne());
-        a.zip(b).find_map(different).unwrap_or(Ordering::Equal)
-    }
     let flat = |p: &DVec2| p.to_array();
     let points = |c: &Curve| c.points().iter().flat_map(flat).collect::<Vec<_>>();
     let count = a.points().len().cmp(&b.points().len());
-    let shape = || compare(points(a).into_iter(), points(b).into_iter());
-    let pinned = || {
-        compare(
-            a_pins.iter().flatten().copied(),
-            b_pins.iter().flatten().copied(),
-        )
-    };
+    let shape = || lexicographic(points(a), points(b));
+    let pinned = || lexicographic(a_pins.concat(), b_pins.concat());
     count.then_with(shape).then_with(pinned)
 }

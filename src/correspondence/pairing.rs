@@ -9,7 +9,7 @@
 //! several.
 
 use super::assignment::assign;
-use crate::geometry::{DVec2, Region, Regions, Ring};
+use crate::geometry::{DVec2, Region, Regions, Ring, lexicographic};
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
@@ -202,19 +202,22 @@ fn pair(
     taken: [&[usize]; 2],
 ) -> Result<Pairing, PairError> {
     check(fixed, source.len(), target.len())?;
-    let free = |count: usize, side: usize| -> Vec<usize> {
+    let without = |pairs: &[[usize; 2]], count: usize, side: usize| -> Vec<usize> {
         (0..count)
-            .filter(|k| fixed.iter().all(|pair| pair[side] != *k) && !taken[side].contains(k))
+            .filter(|k| pairs.iter().all(|pair| pair[side] != *k) && !taken[side].contains(k))
             .collect()
     };
-    let (a, b) = (free(source.len(), 0), free(target.len(), 1));
-    let keys = |parts: &[Part], free: &[usize]| -> Vec<[f64; 6]> {
-        free.iter().map(|&k| parts[k].key()).collect()
+    let (a, b) = (
+        without(fixed, source.len(), 0),
+        without(fixed, target.len(), 1),
+    );
+    let keys = |parts: &[Part], free: &[usize]| -> Vec<f64> {
+        free.iter().flat_map(|&k| parts[k].key()).collect()
     };
     let order = a
         .len()
         .cmp(&b.len())
-        .then_with(|| compare(&keys(source, &a), &keys(target, &b)));
+        .then_with(|| lexicographic(keys(source, &a), keys(target, &b)));
     let mut pairs = fixed.to_vec();
     if order == Ordering::Greater {
         let given = assign(b.len(), a.len(), |r, c| target[b[r]].unlike(&source[a[c]]));
@@ -225,22 +228,9 @@ fn pair(
     }
     pairs.sort_unstable();
     pairs.dedup();
-    let alone = |count: usize, side: usize| {
-        (0..count)
-            .filter(|k| pairs.iter().all(|pair| pair[side] != *k) && !taken[side].contains(k))
-            .collect()
-    };
-    let (dying, born) = (alone(source.len(), 0), alone(target.len(), 1));
+    let dying = without(&pairs, source.len(), 0);
+    let born = without(&pairs, target.len(), 1);
     Ok(Pairing { pairs, dying, born })
-}
-
-fn compare(a: &[[f64; 6]], b: &[[f64; 6]]) -> Ordering {
-    let values = a.iter().flatten().zip(b.iter().flatten());
-    let different = |(a, b): (&f64, &f64)| Some(a.total_cmp(b)).filter(|o| o.is_ne());
-    values
-        .into_iter()
-        .find_map(different)
-        .unwrap_or(Ordering::Equal)
 }
 
 fn check(fixed: &[[usize; 2]], sources: usize, targets: usize) -> Result<(), PairError> {

@@ -43,9 +43,7 @@ pub(super) struct Solution {
 impl Problem {
     /// The best path over the poses that a search through fewer samples left.
     pub(super) fn posed_solution(&self) -> Solution {
-        let blind = self
-            .source_features
-            .unlike(&self.target_features, self.thickness);
+        let blind = self.blind();
         if self.keep_up {
             return self.posed(&blind, 0.0, PoseWeights::FIXED);
         }
@@ -74,19 +72,17 @@ impl Problem {
 
     /// The rotation of the best match, and those of others almost as good.
     fn likely_poses(&self) -> Vec<f64> {
-        let blind = self
-            .source_features
-            .unlike(&self.target_features, self.thickness);
+        let blind = self.blind();
         let mut found = self.solutions(&blind, self.poses(&blind));
         found.sort_by(|a, b| a.score.total_cmp(&b.score));
         let most = found.first().map_or(0.0, |best| NEAR_TIE * best.score);
-        let mut poses: Vec<f64> = Vec::new();
-        for solution in found.iter().take_while(|found| found.score <= most) {
-            if poses.iter().all(|&pose| apart(pose, solution.rotation)) {
-                poses.push(solution.rotation);
-            }
-        }
-        poses
+        let good = found.iter().take_while(|found| found.score <= most);
+        distinct(good.map(|solution| solution.rotation))
+    }
+
+    /// How unlike samples are whatever the pose.
+    fn blind(&self) -> Vec<f64> {
+        (self.source_features).unlike(&self.target_features, self.thickness)
     }
 
     /// The best path at each of some poses.
@@ -109,12 +105,8 @@ impl Problem {
             likely.push((scored(cost, rotation), rotation));
         });
         likely.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let mut poses: Vec<f64> = Vec::new();
-        for (_, pose) in likely {
-            if poses.len() < POSES && poses.iter().all(|&p| apart(p, pose)) {
-                poses.push(pose);
-            }
-        }
+        let mut poses = distinct(likely.into_iter().map(|(_, pose)| pose));
+        poses.truncate(POSES);
         if poses.iter().all(|&p| apart(p, 0.0)) {
             poses.push(0.0);
         }
@@ -149,6 +141,17 @@ impl Problem {
 /// The cost with what the rotation adds.
 fn scored(cost: f64, rotation: f64) -> f64 {
     cost + (REST_RELATIVE * cost + REST) * (1.0 - rotation.cos())
+}
+
+/// Those of some poses that are not near an earlier one.
+fn distinct(poses: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut kept: Vec<f64> = Vec::new();
+    for pose in poses {
+        if kept.iter().all(|&other| apart(other, pose)) {
+            kept.push(pose);
+        }
+    }
+    kept
 }
 
 fn apart(a: f64, b: f64) -> bool {

@@ -10,7 +10,7 @@
 //! the same everywhere.
 
 use super::curve::Curve;
-use crate::geometry::{DVec2, signed_area};
+use crate::geometry::{DVec2, along_ray, ring_edges, signed_area};
 use std::f64::consts::FRAC_PI_6;
 
 /// Rays at these multiples of 30° from the inward normal. At a tip those
@@ -66,21 +66,8 @@ fn centred(mut values: Vec<f64>, places: &[(f64, f64)]) -> Vec<f64> {
 
 /// How far a ray goes to the first edge beyond `own`; infinite if to none.
 fn ray(points: &[DVec2], from: DVec2, direction: DVec2, own: f64) -> f64 {
-    let mut nearest = f64::INFINITY;
-    let n = points.len();
-    for (k, &a) in points.iter().enumerate() {
-        let edge = points[if k + 1 < n { k + 1 } else { 0 }] - a;
-        let offset = a - from;
-        let across = direction.perp_dot(edge);
-        let along = offset.perp_dot(direction) / across;
-        if (0.0..=1.0).contains(&along) {
-            let far = offset.perp_dot(edge) / across;
-            if far > own && far < nearest {
-                nearest = far;
-            }
-        }
-    }
-    nearest
+    let met = ring_edges(points).filter_map(|edge| along_ray(from, direction, edge));
+    met.filter(|far| *far > own).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

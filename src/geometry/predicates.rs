@@ -2,6 +2,7 @@
 //! the `robust` crate), beside the plain floating-point area.
 
 use super::DVec2;
+use std::cmp::Ordering;
 
 /// Twice the signed area of `abc`: positive when they turn counter-clockwise,
 /// zero exactly when they are collinear. The sign is exact; the value is not.
@@ -21,4 +22,15 @@ pub fn orient2d(a: DVec2, b: DVec2, c: DVec2) -> f64 {
 #[must_use]
 pub fn twice_signed_area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
+}
+
+/// The order of two lists by the first numbers that differ: a total order of
+/// lists of one length.
+pub(crate) fn lexicographic(
+    a: impl IntoIterator<Item = f64>,
+    b: impl IntoIterator<Item = f64>,
+) -> Ordering {
+    let mut orders = a.into_iter().zip(b).map(|(a, b)| a.total_cmp(&b));
+    let different = orders.find(|order| order.is_ne());
+    different.unwrap_or(Ordering::Equal)
 }

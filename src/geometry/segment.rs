@@ -63,6 +63,17 @@ pub fn segments_cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
     !shared && parted([a, b], c, d) && parted([c, d], a, b)
 }
 
+/// How far along a ray the segment from `a` to `b` is met, in lengths of
+/// `direction`; none if it is not, or lies behind.
+pub(crate) fn along_ray(from: DVec2, direction: DVec2, (a, b): (DVec2, DVec2)) -> Option<f64> {
+    let (edge, offset) = (b - a, a - from);
+    let across = direction.perp_dot(edge);
+    let share = offset.perp_dot(direction) / across;
+    let far = || offset.perp_dot(edge) / across;
+    let meets = (0.0..=1.0).contains(&share);
+    meets.then(far).filter(|far| *far > 0.0)
+}
+
 /// Whether both points lie strictly on the same side of the line.
 fn one_side([a, b]: [DVec2; 2], p: DVec2, q: DVec2) -> bool {
     let [p, q] = [p, q].map(|p| orient2d(a, b, p));

@@ -121,19 +121,6 @@ impl Connectivity {
         }
         out
     }
-
-    /// The pairing after every face (a, b, c) has become (a, c, b).
-    pub(crate) fn reversed(&self) -> Self {
-        // Corner k now starts the edge that used to end there: 0 → 2, 1 → 1, 2 → 0.
-        let moved = |h: u32| h - h % 3 + (2 - h % 3);
-        let mut twins = vec![NONE; self.twins.len()];
-        for (h, &twin) in self.twins.iter().enumerate() {
-            if twin != NONE {
-                twins[moved(h as u32) as usize] = moved(twin);
-            }
-        }
-        Self { twins }
-    }
 }
 
 /// (edge with the smaller vertex first, whether run that way, half-edge).
@@ -161,8 +148,6 @@ mod tests {
         assert_eq!(c.neighbour(0, 2), Some(1));
         assert_eq!(c.neighbour(0, 0), None);
         assert_eq!(c.dual_components(), vec![0, 0]);
-        let flipped = [[0, 2, 1], [0, 3, 2]];
-        assert_eq!(Connectivity::new(&flipped), Ok(c.reversed()));
     }
 
     #[test]

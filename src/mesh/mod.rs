@@ -117,21 +117,18 @@ impl TriangleMesh {
     /// that orientations stay.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
-        let positions = self.positions.iter().map(|&p| by.apply(p)).collect();
-        if !by.mirror {
-            return Self {
-                positions,
-                faces: self.faces.clone(),
-                connectivity: self.connectivity.clone(),
-            };
+        let mut mesh = self.clone();
+        for p in &mut mesh.positions {
+            *p = by.apply(*p);
         }
-        let faces: Vec<_> = self.faces.iter().map(|&[a, b, c]| [a, c, b]).collect();
-        let connectivity = self.connectivity.reversed();
-        Self {
-            positions,
-            faces,
-            connectivity,
+        if by.mirror {
+            for face in &mut mesh.faces {
+                face.swap(1, 2);
+            }
+            mesh.connectivity = Connectivity::new(&mesh.faces)
+                .unwrap_or_else(|_| unreachable!("mirrored faces meet as before"));
         }
+        mesh
     }
 }
 

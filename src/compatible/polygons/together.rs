@@ -7,7 +7,7 @@ use super::pair::{PairMesh, to_unit};
 use super::piece::{self, Rings};
 use super::{bridges, coarsen, face, quality, relax, transfer};
 use crate::compatible::CompatibleMesh;
-use crate::geometry::{DVec2, Side};
+use crate::geometry::{DVec2, Side, lexicographic};
 use crate::progress::{Cancelled, Progress};
 
 /// With more boundary points the base is made of what a front leaves.
@@ -91,15 +91,12 @@ fn check<R: AsRef<[DVec2]>>(
 /// A total order, so that a pair is solved in one order whichever way it is
 /// asked for.
 fn goes_first(a: &Rings, b: &Rings) -> bool {
+    // Negative zero is zero.
     let coordinates = |rings: &Rings| -> Vec<f64> {
         let points = rings.points.iter();
         points.flat_map(|p| (*p + 0.0).to_array()).collect()
     };
-    let (a, b) = (coordinates(a), coordinates(b));
-    let order = a.iter().zip(&b).map(|(a, b)| a.total_cmp(b));
-    order
-        .fold(std::cmp::Ordering::Equal, |so_far, next| so_far.then(next))
-        .is_le()
+    lexicographic(coordinates(a), coordinates(b)).is_le()
 }
 
 fn triangulated(

@@ -111,23 +111,19 @@ impl Span {
             });
             square[0] + square[1]
         };
-        let mut span = Self {
+        let (farthest, off) =
+            (from + 1..to)
+                .map(|k| (k, off(k)))
+                .fold(
+                    (from, 0.0),
+                    |worst, next| if next.1 > worst.1 { next } else { worst },
+                );
+        Self {
             from,
             to,
-            farthest: from,
-            off: 0.0,
-        };
-        for k in from + 1..to {
-            let off = off(k);
-            if off > span.off {
-                span = Self {
-                    farthest: k,
-                    off,
-                    ..span
-                };
-            }
+            farthest,
+            off,
         }
-        span
     }
 }
 

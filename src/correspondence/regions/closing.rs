@@ -6,7 +6,7 @@
 //! boundary, the nearest place with room is taken.
 
 use super::outcome::POINT_SIZE;
-use crate::geometry::{Bounds, DVec2, Region, Ring};
+use crate::geometry::{Bounds, DVec2, Region, Ring, along_ray};
 
 /// A place keeps at least this share of the best clearance there is.
 const LEAST_CLEARANCE: f64 = 0.25;
@@ -106,20 +106,11 @@ fn places(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
             .rings()
             .flat_map(Ring::edges)
             .filter(|edge| *edge != (a, b))
-            .filter_map(|edge| hit(from, inwards, edge))
+            .filter_map(|edge| along_ray(from, inwards, edge))
             .fold(f64::INFINITY, f64::min);
         let place = from + 0.5 * depth * inwards;
         (depth.is_finite() && depth > 0.0 && place.is_finite()).then_some(place)
     })
-}
-
-/// How far along a ray an edge is met.
-fn hit(from: DVec2, direction: DVec2, (a, b): (DVec2, DVec2)) -> Option<f64> {
-    let edge = b - a;
-    let across = direction.perp_dot(edge);
-    let far = (a - from).perp_dot(edge) / across;
-    let along = (a - from).perp_dot(direction) / across;
-    (far > 0.0 && (0.0..=1.0).contains(&along)).then_some(far)
 }
 
 /// Distance to the boundary and to the points taken; 0 outside.

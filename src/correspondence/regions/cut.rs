@@ -59,17 +59,6 @@ pub(super) fn best(
     Some(Opened { walk, slit, cost })
 }
 
-/// The cut that was asked for.
-pub(super) fn asked(
-    walk: &Walk,
-    holes: &[&Ring],
-    cut: usize,
-    ends: [DVec2; 2],
-) -> Option<(Walk, Slit)> {
-    let slit = walk.slit(holes, cut, ends[0], ends[1])?;
-    Some((walk.opened(holes[cut], &slit)?, slit))
-}
-
 fn cost(
     walk: &Walk,
     hole: &Ring,

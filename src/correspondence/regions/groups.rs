@@ -241,10 +241,7 @@ fn alone(designs: [&Regions; 2], all: &[Group], side: Side, part: usize) -> Piec
         rings,
         source_part: parts.source,
         target_part: parts.target,
-        cuts: Vec::new(),
-        rotation: 0.0,
-        cost: 0.0,
-        notes: Vec::new(),
+        ..PieceMatch::default()
     }
 }
 
@@ -254,13 +251,8 @@ fn point_like(region: &Region, side: Side, here: DVec2, moved: DVec2) -> Vec<Rin
     let ring = |ring: &crate::geometry::Ring| {
         let whole = ring.points().to_vec();
         let extent = ring.bounds().diameter();
-        let point = shrunk(
-            &whole,
-            here,
-            here + moved,
-            POINT_SIZE * size * (extent / size),
-            0.0,
-        );
+        let size = POINT_SIZE * size * (extent / size);
+        let point = shrunk(&whole, here, here + moved, size, 0.0);
         RingMatch::alone(side, whole, point)
     };
     region.rings().map(ring).collect()

@@ -16,7 +16,7 @@ pub struct RegionMatch {
 }
 
 /// One connected piece in both designs.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct PieceMatch {
     /// The outer ring first, counter-clockwise, then holes, clockwise.
     pub rings: Vec<RingMatch>,

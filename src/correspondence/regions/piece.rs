@@ -1,6 +1,5 @@
 //! One part matched with one part, holes and all.
 
-use super::super::boundary::match_curves;
 use super::super::boundary_match::BoundaryMatch;
 use super::super::curve::Curve;
 use super::super::options::MatchError;
@@ -83,9 +82,7 @@ impl<'a> Sides<'a> {
             .iter()
             .filter(|pin| pin.rings == [a + 1, b + 1])
             .collect();
-        let matched = self.with_pins(&pins, &curves, |pins| {
-            match_curves(&posed[0], &posed[1], pins, &self.task.options)
-        })?;
+        let matched = self.matched(&pins, &curves, &posed)?;
         let share = |side: Side| holes[side].perimeter() / self.walks[side].ring.perimeter();
         let options = spaced(0.5 * (share(Side::Source) + share(Side::Target)));
         Ok(ring_of(matched.polygons(&curves[0], &curves[1], &options)))

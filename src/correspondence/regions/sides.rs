@@ -190,8 +190,8 @@ impl<'a> Sides<'a> {
     fn open_asked(&mut self, side: Side, hole: usize, ends: [DVec2; 2]) -> Option<[DVec2; 2]> {
         let (numbers, holes) = self.closed_holes(side);
         let at = numbers.iter().position(|&k| k == hole)?;
-        let (walk, slit) = cut::asked(&self.walks[side], &holes, at, ends)?;
-        self.walks[side] = walk;
+        let slit = self.walks[side].slit(&holes, at, ends[0], ends[1])?;
+        self.walks[side] = self.walks[side].opened(holes[at], &slit)?;
         self.opened[side].push(hole);
         Some(slit.ends)
     }
@@ -262,24 +262,24 @@ impl<'a> Sides<'a> {
                     .all(|&side| is_outer(side, pin.rings[side]))
             })
             .collect();
-        self.with_pins(&pins, &curves, |pins| {
-            match_curves(&curves[0], &curves[1], pins, &self.task.options)
-        })
+        self.matched(&pins, &curves, &curves)
     }
 
-    /// Runs a match and names pins by their numbers among all.
-    pub(super) fn with_pins(
+    /// Matches two curves with pins on the rings as they lie, and names pins by
+    /// their numbers among all.
+    pub(super) fn matched(
         &self,
         pins: &[&PinHere],
-        curves: &[Curve; 2],
-        run: impl Fn(&[Pin]) -> Result<BoundaryMatch, MatchError>,
+        lying: &[Curve; 2],
+        [source, target]: &[Curve; 2],
     ) -> Result<BoundaryMatch, RegionMatchError> {
         let places: Vec<Pin> = pins
             .iter()
-            .map(|pin| Pin::of(|side| curves[side].nearest(pin.points[side])))
+            .map(|pin| Pin::of(|side| lying[side].nearest(pin.points[side])))
             .collect();
         let number = |k: usize| pins.get(k).map_or(k, |pin| pin.index);
-        run(&places).map_err(|error| match error {
+        let matched = match_curves(source, target, &places, &self.task.options);
+        matched.map_err(|error| match error {
             MatchError::Pins(error) => RegionMatchError::Pins(renumbered(error, number)),
             error => RegionMatchError::Match(error),
         })
