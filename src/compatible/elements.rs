@@ -73,10 +73,10 @@ fn list(faces: &[usize], what: &str) -> String {
 }
 
 pub(super) fn check_points(points: &[DVec2], side: Side) -> Result<(), CompatibleError> {
-    match points.iter().position(|p| !p.is_finite()) {
-        Some(vertex) => Err(CompatibleError::NotFinite { side, vertex }),
-        None => Ok(()),
-    }
+    let bad = points.iter().position(|p| !p.is_finite());
+    bad.map_or(Ok(()), |vertex| {
+        Err(CompatibleError::NotFinite { side, vertex })
+    })
 }
 
 pub(super) fn check_elements(
@@ -88,10 +88,8 @@ pub(super) fn check_elements(
         let (a, b) = (a as usize, b as usize);
         a < source.len() && b < source.len() && source[a] != source[b] && target[a] != target[b]
     };
-    match elements.iter().position(|bar| !good(bar)) {
-        Some(bar) => Err(CompatibleError::BadBar(bar)),
-        None => Ok(()),
-    }
+    let bad = elements.iter().position(|bar| !good(bar));
+    bad.map_or(Ok(()), |bar| Err(CompatibleError::BadBar(bar)))
 }
 
 /// The faces, counter-clockwise in the source and so in the target.
@@ -141,8 +139,6 @@ pub(super) fn check_held(
     for &v in faces.iter().flatten().chain(elements.iter().flatten()) {
         held[v as usize] = true;
     }
-    match held.iter().position(|h| !h) {
-        Some(vertex) => Err(CompatibleError::LooseVertex(vertex)),
-        None => Ok(()),
-    }
+    let loose = held.iter().position(|h| !h);
+    loose.map_or(Ok(()), |vertex| Err(CompatibleError::LooseVertex(vertex)))
 }

@@ -31,6 +31,7 @@ pub(super) fn triangulations(
     target: &[DVec2],
 ) -> Result<[Vec<[u32; 3]>; 2], PolygonsError> {
     let refused = |side, error| PolygonsError::Base { side, error };
+    let has_slits = |points| !doubled(points).is_empty();
     if source.len() > SEARCHED || has_slits(source) || has_slits(target) {
         let alone = |side: Side, points| {
             constrained_delaunay(&[points]).map_err(|error| refused(side, error))
@@ -56,12 +57,17 @@ pub(super) fn triangulations(
     }
 }
 
-/// Whether two corners of the walk are one point.
-fn has_slits(points: &[DVec2]) -> bool {
+/// The corners that share their place with another one: those of slits.
+pub(super) fn doubled(points: &[DVec2]) -> Vec<u32> {
     // Negative zero is zero.
-    let mut sorted: Vec<DVec2> = points.iter().map(|&p| p + 0.0).collect();
-    sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
-    sorted.windows(2).any(|pair| pair[0] == pair[1])
+    let at = |v: u32| points[v as usize] + 0.0;
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    order.sort_by(|&a, &b| {
+        let (p, q) = (at(a), at(b));
+        p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y))
+    });
+    let pairs = order.windows(2).filter(|pair| at(pair[0]) == at(pair[1]));
+    pairs.flatten().copied().collect()
 }
 
 /// Which chords lie inside a polygon.

@@ -8,6 +8,7 @@
 //! bounds corresponding pieces again. It halves the number of points at each
 //! turn where the boundary has detail; how far it comes is not promised.
 
+use super::chords::doubled;
 use super::front::{Coarse, Front};
 use super::piece::Rings;
 use crate::geometry::DVec2;
@@ -31,7 +32,7 @@ pub(super) fn coarsened(source: &Rings, target: &Rings, enough: usize) -> Coarse
         faces: Vec::new(),
         rings: source.walks().into_iter().map(ring).collect(),
     };
-    let kept = slits(&coarse.points);
+    let kept: HashSet<u32> = coarse.points.iter().flat_map(|p| doubled(p)).collect();
     for turn in 0..TURNS {
         let before = coarse.size();
         for r in 0..coarse.rings.len() {
@@ -43,27 +44,6 @@ pub(super) fn coarsened(source: &Rings, target: &Rings, enough: usize) -> Coarse
         }
     }
     coarse
-}
-
-/// Vertices that share their place with another one in either design.
-fn slits(points: &[Vec<DVec2>; 2]) -> HashSet<u32> {
-    let mut found = HashSet::new();
-    for points in points {
-        let at = |v: u32| points[v as usize] + 0.0;
-        let mut order: Vec<u32> = (0..points.len() as u32).collect();
-        let key = |v: u32| [at(v).x, at(v).y];
-        order.sort_by(|&a, &b| {
-            key(a)[0]
-                .total_cmp(&key(b)[0])
-                .then(key(a)[1].total_cmp(&key(b)[1]))
-        });
-        for pair in order.windows(2) {
-            if at(pair[0]) == at(pair[1]) {
-                found.extend(pair);
-            }
-        }
-    }
-    found
 }
 
 #[cfg(test)]

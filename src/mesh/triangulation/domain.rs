@@ -2,6 +2,7 @@
 //! are merged, and how it is cut open again along its walks.
 
 use crate::geometry::DVec2;
+use crate::mesh::components;
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 use std::collections::HashMap;
@@ -165,25 +166,16 @@ impl Domain {
     }
 
     fn is_connected(&self, winding: &[i32]) -> bool {
-        let mut seen: Vec<bool> = winding.iter().map(|&w| w != 1).collect();
-        seen[0] = true;
-        let Some(start) = self.delaunay.inner_faces().find(|f| !seen[f.index()]) else {
-            return false;
-        };
-        seen[start.index()] = true;
-        let mut open = vec![start];
-        while let Some(face) = open.pop() {
-            for edge in face.adjacent_edges() {
-                if let Some(beyond) = edge.rev().face().as_inner()
-                    && !edge.is_constraint_edge()
-                    && !seen[beyond.index()]
-                {
-                    seen[beyond.index()] = true;
-                    open.push(beyond);
-                }
-            }
-        }
-        seen.into_iter().all(|seen| seen)
+        let edges = self.delaunay.undirected_edges();
+        let free = edges.filter(|edge| !edge.is_constraint_edge());
+        let across = free.map(|edge| {
+            let edge = edge.as_directed();
+            [edge, edge.rev()].map(|side| side.face().index() as u32)
+        });
+        let part = components(winding.len(), across);
+        let mut inside = part.iter().zip(winding).filter(|(_, w)| **w == 1);
+        let first = inside.next();
+        first.is_some_and(|(first, _)| inside.all(|(other, _)| other == first))
     }
 
     /// For each face which corners of the walks stand at its vertices; `None`
