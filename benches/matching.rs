@@ -3,7 +3,7 @@
 //! `cargo bench --no-default-features --bench matching`
 
 use criterion::{BenchmarkId, Criterion};
-use morphospace::correspondence::{Curve, MatchOptions, PolygonOptions, match_curves};
+use morphospace::correspondence::{Curve, MatchOptions, match_curves};
 use morphospace::geometry::{DVec2, Ring};
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -51,7 +51,7 @@ fn polygons(criterion: &mut Criterion) -> Result<()> {
     let (source, target) = (lobes(120, 5.0)?, lobes(120, 4.0)?);
     let matched = match_curves(&source, &target, &[], &MatchOptions::default())?;
     criterion.bench_function("polygons", |bencher| {
-        bencher.iter(|| matched.polygons(&source, &target, &PolygonOptions::default()));
+        bencher.iter(|| matched.polygons(&source, &target, f64::INFINITY));
     });
     Ok(())
 }

@@ -35,7 +35,7 @@ pub use curve::{Curve, CurveError};
 pub use options::{MatchError, MatchOptions};
 pub use pairing::PairError;
 pub use pins::{Pin, PinError};
-pub use polygons::{PolygonOptions, SharedPolygons};
+pub use polygons::SharedPolygons;
 pub use regions::{
     MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch,
     match_regions,

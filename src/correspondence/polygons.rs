@@ -14,27 +14,12 @@ use super::curve::Curve;
 use super::samples::corners;
 use crate::geometry::DVec2;
 
-/// How vertices are shared; lengths are fractions of the curves' length.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PolygonOptions {
-    /// Corners of the two curves nearer than this become one vertex.
-    pub snap_corners: f64,
-    /// Other vertices nearer than this become one.
-    pub snap: f64,
-    /// No two neighbours are farther apart, on the mean of the two curves;
-    /// infinite to add no vertices.
-    pub spacing: f64,
-}
+/// Corners of the two curves nearer than this become one vertex, in fractions
+/// of the curves' length.
+const SNAP_CORNERS: f64 = 0.008;
 
-impl Default for PolygonOptions {
-    fn default() -> Self {
-        Self {
-            snap_corners: 0.008,
-            snap: 0.0025,
-            spacing: f64::INFINITY,
-        }
-    }
-}
+/// Other vertices nearer than this become one.
+const SNAP: f64 = 0.0025;
 
 /// Corresponding vertices: as many in the source as in the target, no two
 /// neighbours in the same point.
@@ -67,14 +52,11 @@ struct Vertex {
 
 impl BoundaryMatch {
     /// Both curves as polygons with corresponding vertices, in order. The
-    /// curves must be those that were matched.
+    /// curves must be those that were matched. No two neighbours are farther
+    /// apart than `spacing`, as a fraction of the mean length of the two;
+    /// infinite to add no vertices.
     #[must_use]
-    pub fn polygons(
-        &self,
-        source: &Curve,
-        target: &Curve,
-        options: &PolygonOptions,
-    ) -> SharedPolygons {
+    pub fn polygons(&self, source: &Curve, target: &Curve, spacing: f64) -> SharedPolygons {
         let curves = [source, target];
         let common = Common::new(self, curves);
         let all = [0, 1].map(|side| common.own(curves[side].places(), side));
@@ -86,8 +68,8 @@ impl BoundaryMatch {
         for pin in &self.pins {
             insert(&mut joints, [0, 1].map(|s| common.parameter(pin[s], s)));
         }
-        join(&mut joints, &sharp, options.snap_corners);
-        join(&mut joints, &all, options.snap);
+        join(&mut joints, &sharp, SNAP_CORNERS);
+        join(&mut joints, &all, SNAP);
         let mut vertices: Vec<Vertex> = Vec::new();
         for side in 0..2 {
             let pins = self.pins.iter().map(|pin| pin[side]);
@@ -98,7 +80,7 @@ impl BoundaryMatch {
                 vertices.push(Vertex { at, places });
             }
         }
-        let vertices = spaced(merged(vertices), options.spacing);
+        let vertices = spaced(merged(vertices), spacing);
         assembled(&vertices, &joints, &common, curves)
     }
 }

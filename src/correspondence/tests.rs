@@ -333,7 +333,7 @@ fn pins_are_honoured_exactly() {
         Curve::closed(&a).expect("a size"),
         Curve::closed(&b).expect("a size"),
     );
-    let shared = found.polygons(&a, &b, &PolygonOptions::default());
+    let shared = found.polygons(&a, &b, f64::INFINITY);
     assert!(
         pins.iter()
             .all(|pin| shared.places.contains(&[pin.source, pin.target]))
@@ -438,9 +438,9 @@ fn what_cannot_be_matched_is_an_error() {
     );
 }
 
-fn assert_shared(a: &Ring, b: &Ring, options: &PolygonOptions) -> SharedPolygons {
+fn assert_shared(a: &Ring, b: &Ring, spacing: f64) -> SharedPolygons {
     let curves = [a, b].map(|r| Curve::closed(r).expect("a size"));
-    let shared = matched(a, b).polygons(&curves[0], &curves[1], options);
+    let shared = matched(a, b).polygons(&curves[0], &curves[1], spacing);
     for (own, polygon) in [(a, &shared.source), (b, &shared.target)] {
         assert_eq!(polygon.len(), shared.places.len());
         let n = polygon.len();
@@ -464,10 +464,10 @@ fn shared_polygons_keep_all_points_of_both() {
     ];
     for a in &shapes {
         for b in &shapes {
-            let shared = assert_shared(a, b, &PolygonOptions::default());
+            let shared = assert_shared(a, b, f64::INFINITY);
             assert!(shared.places.len() <= a.points().len() + b.points().len());
         }
-        let same = assert_shared(a, a, &PolygonOptions::default());
+        let same = assert_shared(a, a, f64::INFINITY);
         assert_eq!(same.source.len(), a.points().len());
         assert_eq!(same.source, same.target);
     }
@@ -475,11 +475,7 @@ fn shared_polygons_keep_all_points_of_both() {
 
 #[test]
 fn spacing_bounds_the_gaps() {
-    let options = PolygonOptions {
-        spacing: 0.01,
-        ..PolygonOptions::default()
-    };
-    let shared = assert_shared(&shoe(), &star(5, 0.4), &options);
+    let shared = assert_shared(&shoe(), &star(5, 0.4), 0.01);
     let n = shared.places.len();
     for k in 0..n {
         let gap = |s: usize| (shared.places[(k + 1) % n][s] - shared.places[k][s]).rem_euclid(1.0);
@@ -504,7 +500,7 @@ proptest! {
         let there = matched(&a, &b);
         assert_sound(&there);
         prop_assert_eq!(matched(&b, &a), there.inverse());
-        assert_shared(&a, &b, &PolygonOptions::default());
+        assert_shared(&a, &b, f64::INFINITY);
     }
 
     #[test]

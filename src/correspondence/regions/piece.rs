@@ -3,7 +3,7 @@
 use super::super::boundary_match::BoundaryMatch;
 use super::super::curve::Curve;
 use super::super::options::MatchError;
-use super::super::polygons::{PolygonOptions, SharedPolygons};
+use super::super::polygons::SharedPolygons;
 use super::closing::{Vertices, centre, point_ring};
 use super::outcome::{PieceMatch, RegionMatchError, RingKind, RingMatch};
 use super::sides::{PinHere, Sides, Task};
@@ -45,7 +45,7 @@ pub(super) fn matched(task: &Task) -> Result<PieceMatch, RegionMatchError> {
 impl<'a> Sides<'a> {
     fn outer_ring(&self, matched: &BoundaryMatch) -> Result<RingMatch, RegionMatchError> {
         let curves = self.curves()?;
-        let mut shared = matched.polygons(&curves[0], &curves[1], &spaced(1.0));
+        let mut shared = matched.polygons(&curves[0], &curves[1], spacing(1.0));
         for side in Side::BOTH {
             for &slit in &self.walks[side].slits {
                 mirror(
@@ -84,8 +84,8 @@ impl<'a> Sides<'a> {
             .collect();
         let matched = self.matched(&pins, &curves, &posed)?;
         let share = |side: Side| holes[side].perimeter() / self.walks[side].ring.perimeter();
-        let options = spaced(0.5 * (share(Side::Source) + share(Side::Target)));
-        Ok(ring_of(matched.polygons(&curves[0], &curves[1], &options)))
+        let spacing = spacing(0.5 * (share(Side::Source) + share(Side::Target)));
+        Ok(ring_of(matched.polygons(&curves[0], &curves[1], spacing)))
     }
 
     /// What is alone and was not opened closes to a point.
@@ -137,12 +137,9 @@ impl<'a> Sides<'a> {
     }
 }
 
-/// How vertices are shared on a ring that is `share` as long as the outer one.
-fn spaced(share: f64) -> PolygonOptions {
-    PolygonOptions {
-        spacing: (SPACING / share).min(1.0 / LEAST_VERTICES),
-        ..PolygonOptions::default()
-    }
+/// How far apart vertices are on a ring that is `share` as long as the outer one.
+fn spacing(share: f64) -> f64 {
+    (SPACING / share).min(1.0 / LEAST_VERTICES)
 }
 
 fn ring_of(shared: SharedPolygons) -> RingMatch {
