@@ -69,20 +69,6 @@ impl SymmetricMatrix {
             }
         }
     }
-
-    /// The product with `x`; for tests and residuals.
-    #[must_use]
-    pub fn times(&self, x: &[f64]) -> Vec<f64> {
-        let mut y = vec![0.0; self.n];
-        for entry in &self.lower {
-            let (i, j) = (entry.row as usize, entry.col as usize);
-            y[i] += entry.val * x[j];
-            if i != j {
-                y[j] += entry.val * x[i];
-            }
-        }
-        y
-    }
 }
 
 /// Operations per entry from which dense blocks pay. Up to a million
@@ -291,12 +277,14 @@ mod tests {
     /// Gaussian elimination without any cleverness.
     fn dense_solve(a: &SymmetricMatrix, rhs: &[f64]) -> Vec<f64> {
         let n = a.size();
-        let unit = |j: usize| {
-            (0..n)
-                .map(|i| f64::from(u8::from(i == j)))
-                .collect::<Vec<_>>()
-        };
-        let columns: Vec<Vec<f64>> = (0..n).map(|j| a.times(&unit(j))).collect();
+        let mut columns = vec![vec![0.0; n]; n];
+        for (i, j, value) in a.entries() {
+            let (i, j) = (i as usize, j as usize);
+            columns[j][i] += value;
+            if i != j {
+                columns[i][j] += value;
+            }
+        }
         let mut m: Vec<Vec<f64>> = (0..n)
             .map(|i| columns.iter().map(|c| c[i]).chain([rhs[i]]).collect())
             .collect();

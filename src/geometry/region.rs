@@ -156,12 +156,6 @@ impl Regions {
         self.rings().map(Ring::signed_area).sum()
     }
 
-    /// Length of all boundaries, those of holes included.
-    #[must_use]
-    pub fn perimeter(&self) -> f64 {
-        self.rings().map(Ring::perimeter).sum()
-    }
-
     /// The smallest box around all pieces.
     #[must_use]
     pub fn bounds(&self) -> Bounds {

@@ -11,16 +11,16 @@
 //! that a refinement reaches its angle; beside sharp corners and unsplit
 //! edges none can.
 
-mod cloud;
 mod domain;
 mod refine;
 
-pub use cloud::delaunay;
 pub use domain::TriangulationError;
 pub use refine::Refinement;
 
 use crate::geometry::DVec2;
 use domain::Domain;
+use spade::handles::{FaceHandle, InnerTag};
+use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 
 /// Points, the walks' first, and counter-clockwise faces.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,6 +68,35 @@ pub fn refined<W: AsRef<[DVec2]>>(
         points: domain.points(walks),
         faces: domain.faces(),
     })
+}
+
+/// The Delaunay triangulation of points, over their convex hull: all of them
+/// are corners, in the order given.
+///
+/// # Errors
+/// [`TriangulationError`] for fewer than three points, points out of range,
+/// points that coincide, and points on one line.
+///
+/// ```
+/// use morphospace::{geometry::DVec2, mesh::triangulation::delaunay};
+/// let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0), (0.5, 0.5)];
+/// assert_eq!(delaunay(&corners.map(DVec2::from))?.len(), 4);
+/// # Ok::<(), morphospace::mesh::triangulation::TriangulationError>(())
+/// ```
+pub fn delaunay(points: &[DVec2]) -> Result<Vec<[u32; 3]>, TriangulationError> {
+    if points.len() < 3 {
+        return Err(TriangulationError::TooFewPoints(points.len()));
+    }
+    let plain: Vec<_> = points.iter().map(|p| Point2::new(p.x, p.y)).collect();
+    let delaunay = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(plain)
+        .map_err(|_| TriangulationError::OutOfRange)?;
+    if delaunay.num_vertices() != points.len() || delaunay.num_inner_faces() == 0 {
+        return Err(TriangulationError::NotSimple);
+    }
+    let corners = |face: FaceHandle<'_, InnerTag, _, _, _, _>| {
+        face.vertices().map(|v| v.fix().index() as u32)
+    };
+    Ok(delaunay.inner_faces().map(corners).collect())
 }
 
 #[cfg(test)]
@@ -136,7 +165,6 @@ mod tests {
         assert_eq!(faces.len() + 2, walk.len());
         assert!((area(&walk, &faces) - 15.0).abs() < 1e-12);
         let fine = Refinement {
-            min_angle: 0.4,
             max_edge: Some(0.3),
             max_points: 1000,
         };
@@ -149,7 +177,6 @@ mod tests {
     #[test]
     fn a_refinement_keeps_the_boundary() {
         let fine = Refinement {
-            min_angle: 0.4,
             max_edge: Some(0.3),
             max_points: 1000,
         };

@@ -15,8 +15,6 @@ use crate::linalg::{Cholesky, SymmetricMatrix};
 use crate::mesh::triangulation::{Refinement, refined};
 use crate::progress::{Cancelled, Progress, checkpoint};
 
-/// Smallest angle that the refinement works towards.
-const MIN_ANGLE: f64 = 0.4;
 /// Rounds of shrinking ε.
 const ROUNDS: usize = 60;
 /// Rounds without fewer folds after which it is given up.
@@ -31,7 +29,6 @@ pub(super) fn transfer(
     progress: &dyn Progress,
 ) -> Result<Option<PairMesh>, Cancelled> {
     let refinement = Refinement {
-        min_angle: MIN_ANGLE,
         max_edge: options
             .edge_length
             .map(|share| share * Bounds::diameter_of(&from.points)),

@@ -15,13 +15,14 @@ type Face<'a> = FaceHandle<'a, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()
 /// How fine a triangulation is to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Refinement {
-    /// Smallest angle wanted, in radians; up to about 0.5 it can be reached.
-    pub min_angle: f64,
     /// Longest edge wanted, roughly; `None` leaves it to the angles.
     pub max_edge: Option<f64>,
     /// The most points that may be added.
     pub max_points: usize,
 }
+
+/// Smallest angle wanted, in radians; up to about 0.5 it can be reached.
+const MIN_ANGLE: f64 = 0.4;
 
 /// Faces of less than this share of the bounding square stay as they are:
 /// below some 1e-15 the centre of the circumcircle is rounding alone.
@@ -101,7 +102,7 @@ impl Domain {
         let least_area = SMALLEST_SHARE * size * size;
         let equilateral = |edge: f64| (0.25 * 3f64.sqrt() * edge * edge).max(least_area);
         Limits {
-            ratio: (2.0 * refinement.min_angle.sin()).powi(2),
+            ratio: (2.0 * MIN_ANGLE.sin()).powi(2),
             area: refinement.max_edge.map_or(f64::INFINITY, equilateral),
             least_area,
         }
