@@ -77,12 +77,8 @@ impl<'a> Sides<'a> {
             turned(holes[0], 0.5 * rotation)?,
             turned(holes[1], -0.5 * rotation)?,
         ];
-        let pins: Vec<&PinHere> = self
-            .pins
-            .iter()
-            .filter(|pin| pin.rings == [a + 1, b + 1])
-            .collect();
-        let matched = self.matched(&pins, &curves, &posed)?;
+        let is_here = |pin: &PinHere| pin.rings == [a + 1, b + 1];
+        let matched = self.matched(is_here, &curves, &posed)?;
         let share = |side: Side| holes[side].perimeter() / self.walks[side].ring.perimeter();
         let spacing = spacing(0.5 * (share(Side::Source) + share(Side::Target)));
         Ok(ring_of(matched.polygons(&curves[0], &curves[1], spacing)))

@@ -253,30 +253,22 @@ impl<'a> Sides<'a> {
         let curves = self.curves()?;
         let is_outer =
             |side: Side, ring: usize| ring == 0 || self.opened[side].contains(&(ring - 1));
-        let pins: Vec<&PinHere> = self
-            .pins
-            .iter()
-            .filter(|pin| {
-                Side::BOTH
-                    .iter()
-                    .all(|&side| is_outer(side, pin.rings[side]))
-            })
-            .collect();
-        self.matched(&pins, &curves, &curves)
+        let is_here =
+            |pin: &PinHere| (Side::BOTH.into_iter()).all(|side| is_outer(side, pin.rings[side]));
+        self.matched(is_here, &curves, &curves)
     }
 
-    /// Matches two curves with pins on the rings as they lie, and names pins by
-    /// their numbers among all.
+    /// Matches two curves with some of the pins on them as they lie, and names
+    /// pins by their numbers among all.
     pub(super) fn matched(
         &self,
-        pins: &[&PinHere],
+        is_here: impl Fn(&PinHere) -> bool,
         lying: &[Curve; 2],
         [source, target]: &[Curve; 2],
     ) -> Result<BoundaryMatch, RegionMatchError> {
-        let places: Vec<Pin> = pins
-            .iter()
-            .map(|pin| Pin::of(|side| lying[side].nearest(pin.points[side])))
-            .collect();
+        let pins: Vec<&PinHere> = self.pins.iter().filter(|pin| is_here(pin)).collect();
+        let place = |pin: &&PinHere| Pin::of(|side| lying[side].nearest(pin.points[side]));
+        let places: Vec<Pin> = pins.iter().map(place).collect();
         let number = |k: usize| pins.get(k).map_or(k, |pin| pin.index);
         let matched = match_curves(source, target, &places, &self.task.options);
         matched.map_err(|error| match error {
