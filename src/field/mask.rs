@@ -32,17 +32,6 @@ pub struct Mask {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MaskError {
-    /// A side is 0 or above the limit.
-    #[error(
-        "a picture of {width} × {height} cells: choose 1 to {} cells for each side",
-        Grid::MAX_SIDE
-    )]
-    Size {
-        /// Cells along a row.
-        width: u32,
-        /// Rows.
-        height: u32,
-    },
     /// There are not as many bits as cells.
     #[error("a picture of {width} × {height} cells needs as many bits, but {bits} were given")]
     Length {
@@ -56,7 +45,7 @@ pub enum MaskError {
     /// No cell is inside.
     #[error("no cell is inside the design: choose another threshold, or more cells")]
     Empty,
-    /// The grid is none.
+    /// The grid is none, or one of the mask's size would not be.
     #[error(transparent)]
     Grid(#[from] GridError),
 }
@@ -70,7 +59,7 @@ impl Mask {
     pub fn new(width: u32, height: u32, bits: Vec<bool>) -> Result<Self, MaskError> {
         let sides = 1..=Grid::MAX_SIDE;
         if !sides.contains(&width) || !sides.contains(&height) {
-            return Err(MaskError::Size { width, height });
+            return Err(GridError::Size { width, height }.into());
         }
         if bits.len() != width as usize * height as usize {
             let bits = bits.len();
@@ -193,7 +182,7 @@ mod tests {
             (u32::MAX, u32::MAX),
         ] {
             let refused = Mask::new(width, height, Vec::new());
-            assert_eq!(refused, Err(MaskError::Size { width, height }));
+            assert_eq!(refused, Err(GridError::Size { width, height }.into()));
         }
         let dust = regions(&[&[(0.1, 0.1), (0.2, 0.1), (0.2, 0.2)]]);
         let grid = Grid::new(4, 4, DVec2::ZERO, 1.0).expect("a grid");
