@@ -2,7 +2,6 @@
 
 use super::{CompatibleMesh, PolygonOptions, PolygonsError};
 use crate::correspondence::{PieceMatch, RegionMatch};
-use crate::geometry::DVec2;
 use crate::progress::Progress;
 use rayon::prelude::*;
 
@@ -63,10 +62,8 @@ fn of_piece(
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<CompatibleMesh, PolygonsError> {
-    let rings = |of: fn(&crate::correspondence::RingMatch) -> &Vec<DVec2>| -> Vec<Vec<DVec2>> {
-        piece.rings.iter().map(|ring| of(ring).clone()).collect()
-    };
-    let (source, target) = (rings(|ring| &ring.source), rings(|ring| &ring.target));
+    let source: Vec<_> = piece.rings.iter().map(|ring| &ring.source).collect();
+    let target: Vec<_> = piece.rings.iter().map(|ring| &ring.target).collect();
     CompatibleMesh::from_piece(&source, &target, options, progress)
 }
 

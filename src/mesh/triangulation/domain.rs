@@ -108,14 +108,8 @@ impl Domain {
         let corners = self
             .corners(&winding)
             .ok_or(TriangulationError::NotSimple)?;
-        let first = self.delaunay.vertices().map(|v| v.position());
-        let first = first.enumerate().reduce(|a, b| {
-            if (b.1.x, b.1.y) < (a.1.x, a.1.y) {
-                b
-            } else {
-                a
-            }
-        });
+        let places = self.delaunay.vertices().map(|v| v.position()).enumerate();
+        let first = places.min_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         let first = first.map_or(NONE, |(v, _)| v as u32);
         if !self.merged[..outer].contains(&first) || !self.is_connected(&winding) {
             return Err(TriangulationError::NotOnePiece);

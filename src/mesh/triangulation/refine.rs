@@ -3,7 +3,7 @@
 //! they lie beyond the boundary or too near to it.
 
 use super::domain::{Delaunay, Domain};
-use crate::geometry::DVec2;
+use crate::geometry::{Bounds, DVec2, orient2d};
 use spade::handles::{DirectedEdgeHandle, FaceHandle, FixedVertexHandle, InnerTag};
 use spade::{Point2, Triangulation as _};
 use std::cmp::Ordering;
@@ -90,15 +90,8 @@ impl Domain {
     }
 
     fn limits(&self, refinement: &Refinement) -> Limits {
-        let positions = || {
-            let vertices = self.delaunay.vertices();
-            vertices.map(|v| DVec2::new(v.position().x, v.position().y))
-        };
-        let (low, high) = (
-            positions().reduce(DVec2::min),
-            positions().reduce(DVec2::max),
-        );
-        let size = high.zip(low).map_or(0.0, |(h, l)| (h - l).max_element());
+        let positions = self.delaunay.vertices().map(|v| at(v.position()));
+        let size = Bounds::of(positions).map_or(0.0, |bounds| bounds.size().max_element());
         let least_area = SMALLEST_SHARE * size * size;
         let equilateral = |edge: f64| (0.25 * 3f64.sqrt() * edge * edge).max(least_area);
         Limits {
@@ -180,7 +173,7 @@ fn at(p: Point2<f64>) -> DVec2 {
 /// Whether a point is on the face's side of an edge, or on it.
 fn sees(edge: Edge<'_>, p: DVec2) -> bool {
     let [a, b] = edge.positions().map(at);
-    crate::geometry::orient2d(a, b, p) >= 0.0
+    orient2d(a, b, p) >= 0.0
 }
 
 fn encroaches(edge: Edge<'_>, p: DVec2) -> bool {
