@@ -9,7 +9,7 @@ use super::super::boundary::match_curves;
 use super::super::curve::Curve;
 use super::super::options::MatchOptions;
 use super::walk::{Slit, Walk};
-use crate::geometry::{DVec2, Ring};
+use crate::geometry::Ring;
 use rayon::prelude::*;
 
 /// Places of the first round, and samples of each match.
