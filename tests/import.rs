@@ -3,8 +3,8 @@
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
 use morphospace::design::{
-    Design, DxfError, Form, ImportError, ImportOptions, ObjError, PictureError, PolygonsError,
-    Problem, Source, SvgError, TrussInputError, UnknownFormat, import, import_file,
+    Design, DxfError, Form, ImportError, ImportOptions, JsonError, ObjError, PictureError,
+    PolygonsError, Problem, Source, SvgError, TrussInputError, UnknownFormat, import, import_file,
 };
 use proptest::prelude::*;
 use std::io::Cursor;
@@ -232,7 +232,7 @@ fn hostile_meshes_and_trusses_are_named() {
     let deep = format!("{{\"nodes\": {}", "[".repeat(100_000));
     assert!(matches!(
         problem(deep.as_bytes()),
-        Problem::Truss(TrussInputError::Json { line: 1, .. })
+        Problem::Truss(TrussInputError::Json(JsonError { line: 1, .. }))
     ));
 }
 

@@ -6,7 +6,7 @@ use super::{
 };
 use std::io;
 
-/// Largest file that is read, in bytes.
+/// Largest file that is read, in bytes; of drawings and polygons a quarter.
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// A file that could not be read as a design. Its message names the file,
@@ -46,10 +46,16 @@ pub enum Problem {
     #[error("the file is empty; save it again from where it was made")]
     Empty,
     /// It is larger than any design should be.
-    #[error("the file has {} MiB, more than the {} MiB that are read; save a smaller version", bytes >> 20, MAX_FILE_BYTES >> 20)]
+    #[error(
+        "the file has {} MiB, more than the {} MiB that are read; save a smaller or simpler version",
+        bytes >> 20,
+        most >> 20
+    )]
     TooLarge {
         /// Its size.
         bytes: u64,
+        /// What is read at most.
+        most: u64,
     },
     /// Text that is not text.
     #[error("line {line} is not UTF-8 text; save the file with the encoding UTF-8")]

@@ -80,13 +80,13 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, Problem> {
     if metadata.is_dir() {
         return Err(Problem::Folder);
     }
-    check_size(metadata.len())?;
+    check_size(metadata.len(), MAX_FILE_BYTES)?;
     std::fs::read(path).map_err(Problem::from_io)
 }
 
-fn check_size(bytes: u64) -> Result<(), Problem> {
-    match bytes > MAX_FILE_BYTES {
-        true => Err(Problem::TooLarge { bytes }),
+fn check_size(bytes: u64, most: u64) -> Result<(), Problem> {
+    match bytes > most {
+        true => Err(Problem::TooLarge { bytes, most }),
         false => Ok(()),
     }
 }
@@ -120,8 +120,11 @@ fn read(
     if bytes.is_empty() {
         return Err(Problem::Empty);
     }
-    check_size(bytes.len() as u64)?;
+    check_size(bytes.len() as u64, MAX_FILE_BYTES)?;
     let format = sniff(bytes)?;
+    if let Format::Svg | Format::Dxf | Format::Polygons = format {
+        check_size(bytes.len() as u64, MAX_FILE_BYTES / 4)?; // they take more room once read
+    }
     if let (Some(id), true) = (element, format != Format::Svg) {
         return Err(Problem::NoElements { id: id.to_owned() });
     }

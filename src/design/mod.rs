@@ -38,6 +38,7 @@ pub use form::{Design, Form};
 pub(crate) use format::any_of;
 pub use format::{Format, extensions};
 pub use import::{import, import_file};
+pub use json::JsonError;
 pub use lettering::TextError;
 pub use note::ImportNote;
 pub use obj::ObjError;

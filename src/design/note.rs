@@ -84,87 +84,77 @@ impl ImportNote {
         let told = counted.into_iter().filter(|&(count, _)| count > 0);
         told.map(|(_, note)| note).collect()
     }
-
-    /// How many of what were left out, for one and for many, and what can be
-    /// done about it; `None` where something was repaired instead.
-    fn left_out(&self) -> Option<(usize, [String; 2], String)> {
-        let plain = |n: usize, one: &str, many: &str, way_out: &str| {
-            Some((n, [one.to_owned(), many.to_owned()], way_out.to_owned()))
-        };
-        match self {
-            Self::Crossings { .. } | Self::Touches { .. } => None,
-            Self::Duplicates(n) => plain(*n, "outline drawn again", "outlines drawn again", ""),
-            Self::Flat(n) => {
-                let one = "outline that encloses nothing";
-                plain(*n, one, "outlines that enclose nothing", "")
-            }
-            Self::Slivers(n) => {
-                let one = "sliver between touching edges";
-                plain(*n, one, "slivers between touching edges", "")
-            }
-            Self::IdlePoints(n) => {
-                let one = "point that repeats another or lies on a straight edge";
-                let many = "points that repeat another or lie on a straight edge";
-                plain(*n, one, many, "")
-            }
-            Self::Strokes(n) => {
-                let way_out = "; set strokes = true to read them as shapes";
-                plain(*n, "stroke", "strokes", way_out)
-            }
-            Self::Texts(n) => plain(*n, "text", "texts", "; convert text to paths"),
-            Self::Pictures(n) => plain(*n, "embedded picture", "embedded pictures", ""),
-            Self::Open { count, at } => {
-                let way_out = format!("; close the gap at ({}, {})", at.x, at.y);
-                let (one, many) = ("curve that does not close", "curves that do not close");
-                plain(*count, one, many, &way_out)
-            }
-            Self::Skipped { kind, count } => {
-                let [one, many] = ["object", "objects"].map(|w| format!("{w} of the kind {kind}"));
-                plain(*count, &one, &many, "")
-            }
-        }
-    }
 }
 
 impl fmt::Display for ImportNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some((n, [one, many], way_out)) = self.left_out() {
-            let what = plural(n, &one, &many);
-            let were = plural(n, "was", "were");
-            return write!(f, "{n} {what} {were} left out{way_out}");
-        }
+        let mut left_out = |n: usize, one: &str, many: &str, way_out: &str| {
+            let what = if n == 1 { one } else { many };
+            let were = if n == 1 { "was" } else { "were" };
+            write!(f, "{n} {what} {were} left out{way_out}")
+        };
         match self {
+            Self::Duplicates(n) => left_out(*n, "outline drawn again", "outlines drawn again", ""),
+            Self::Flat(n) => {
+                let one = "outline that encloses nothing";
+                left_out(*n, one, "outlines that enclose nothing", "")
+            }
+            Self::Slivers(n) => {
+                let one = "sliver between touching edges";
+                left_out(*n, one, "slivers between touching edges", "")
+            }
+            Self::IdlePoints(n) => {
+                let one = "point that repeats another or lies on a straight edge";
+                let many = "points that repeat another or lie on a straight edge";
+                left_out(*n, one, many, "")
+            }
+            Self::Strokes(n) => {
+                let way_out = "; set strokes = true to read them as shapes";
+                left_out(*n, "stroke", "strokes", way_out)
+            }
+            Self::Texts(n) => left_out(*n, "text", "texts", "; convert text to paths"),
+            Self::Pictures(n) => left_out(*n, "embedded picture", "embedded pictures", ""),
+            Self::Open { count, at } => {
+                let way_out = format!("; close the gap at ({}, {})", at.x, at.y);
+                let (one, many) = ("curve that does not close", "curves that do not close");
+                left_out(*count, one, many, &way_out)
+            }
+            Self::Skipped { kind, count } => {
+                let [one, many] = ["object", "objects"].map(|w| format!("{w} of the kind {kind}"));
+                left_out(*count, &one, &many, "")
+            }
             Self::Crossings {
                 count,
                 at_least,
                 rule,
             } => {
+                let (least, one) = (floor(*at_least), *count == 1);
+                let what = if one { "crossing" } else { "crossings" };
+                let were = if one { "was" } else { "were" };
                 let rule = match rule {
                     FillRule::NonZero => "the non-zero winding rule",
                     FillRule::EvenOdd => "the even-odd rule",
                 };
-                let what = plural(*count, "crossing of edges was", "crossings of edges were");
-                write!(f, "{}{count} {what} resolved by {rule}", floor(*at_least))
-            }
-            Self::Touches { count, at_least } => {
-                let what = plural(*count, "corner that lies", "corners that lie");
                 write!(
                     f,
-                    "{}{count} {what} on another edge divided it",
-                    floor(*at_least)
+                    "{least}{count} {what} of edges {were} resolved by {rule}"
                 )
             }
-            _ => Ok(()),
+            Self::Touches { count, at_least } => {
+                let (least, one) = (floor(*at_least), *count == 1);
+                let what = if one {
+                    "corner that lies"
+                } else {
+                    "corners that lie"
+                };
+                write!(f, "{least}{count} {what} on another edge divided it")
+            }
         }
     }
 }
 
 fn floor(at_least: bool) -> &'static str {
     if at_least { "at least " } else { "" }
-}
-
-fn plural<'w>(count: usize, one: &'w str, many: &'w str) -> &'w str {
-    if count == 1 { one } else { many }
 }
 
 #[cfg(test)]

@@ -75,25 +75,19 @@ pub fn sniff(bytes: &[u8]) -> Result<Format, UnknownFormat> {
 }
 
 fn picture(bytes: &[u8]) -> Option<ImageFormat> {
-    match bytes {
-        [0x89, b'P', b'N', b'G', b'\r', b'\n', 0x1a, b'\n', ..] => Some(ImageFormat::Png),
-        [0xff, 0xd8, 0xff, ..] => Some(ImageFormat::Jpeg),
-        _ if bytes.starts_with(b"RIFF") && bytes.get(8..12) == Some(b"WEBP") => {
-            Some(ImageFormat::WebP)
-        }
-        _ if is_bmp(bytes) => Some(ImageFormat::Bmp),
-        _ => None,
-    }
+    let guessed = image::guess_format(bytes).ok()?;
+    let is_read = Format::PICTURES.contains(&Format::Picture(guessed));
+    let is_picture = is_read && (guessed != ImageFormat::Bmp || is_bmp(bytes));
+    is_picture.then_some(guessed)
 }
 
 /// `BM` alone also begins words: the size of the second header must be one of
 /// those that exist, too.
 fn is_bmp(bytes: &[u8]) -> bool {
     let header_size = bytes.get(14..18).and_then(|b| b.try_into().ok());
-    bytes.starts_with(b"BM")
-        && header_size
-            .map(u32::from_le_bytes)
-            .is_some_and(|size| matches!(size, 12 | 16 | 40 | 52 | 56 | 64 | 108 | 124))
+    header_size
+        .map(u32::from_le_bytes)
+        .is_some_and(|size| matches!(size, 12 | 16 | 40 | 52 | 56 | 64 | 108 | 124))
 }
 
 fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {

@@ -54,9 +54,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Drawing, DxfError> {
 /// The next pair of a section, which must not end without an ENDSEC.
 fn inside<'a>(pairs: &mut Pairs<'a>) -> Result<Pair<'a>, DxfError> {
     let at = pairs.place();
-    let pair = pairs.next()?.ok_or(DxfError::Truncated { at })?;
+    let pair = pairs.next()?.ok_or(DxfError::Truncated(at))?;
     if pair.code == 0 && pair.text() == b"EOF" {
-        return Err(DxfError::Truncated { at });
+        return Err(DxfError::Truncated(at));
     }
     Ok(pair)
 }

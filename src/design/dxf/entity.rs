@@ -73,14 +73,16 @@ impl<'a> Record<'a> {
         Ok(xs.into_iter().zip(ys).map(DVec2::from).collect())
     }
 
+    /// The extrusion direction; upwards where it has no length.
+    fn normal(&self) -> Result<DVec3, DxfError> {
+        let z = self.real(230, 1.0)?;
+        let given = self.point(210)?.with_z(z);
+        Ok(given.try_normalize().unwrap_or(DVec3::Z))
+    }
+
     /// From the object's own plane at a height to the plan.
     fn plan(&self, elevation: f64) -> Result<DAffine2, DxfError> {
-        let given = DVec3::new(
-            self.real(210, 0.0)?,
-            self.real(220, 0.0)?,
-            self.real(230, 1.0)?,
-        );
-        let normal = given.try_normalize().unwrap_or(DVec3::Z);
+        let normal = self.normal()?;
         let near_z = normal.x.abs() < 1.0 / 64.0 && normal.y.abs() < 1.0 / 64.0;
         let aside = if near_z { DVec3::Y } else { DVec3::Z };
         let x_axis = aside.cross(normal).try_normalize().unwrap_or(DVec3::X);
@@ -176,13 +178,7 @@ impl<'a> Record<'a> {
 
     fn ellipse(&self) -> Result<Entity, DxfError> {
         let (centre, major) = (self.point(10)?, self.point(11)?);
-        let normal = DVec3::new(
-            self.real(210, 0.0)?,
-            self.real(220, 0.0)?,
-            self.real(230, 1.0)?,
-        );
-        let normal = normal.try_normalize().unwrap_or(DVec3::Z);
-        let minor = self.real(40, 1.0)? * normal.cross(major);
+        let minor = self.real(40, 1.0)? * self.normal()?.cross(major);
         let (from, to) = (self.real(41, 0.0)?, self.real(42, TAU)?);
         let arc = Arc {
             centre: centre.truncate(),

@@ -5,8 +5,6 @@ use crate::design::flatten::TooManyPoints;
 use crate::geometry::{DVec2, RegionsError};
 use std::fmt;
 
-/// Most bytes.
-pub(super) const MAX_BYTES: usize = 64 << 20;
 /// Most objects, and most curves after blocks are copied.
 pub(super) const MAX_OBJECTS: usize = 1_000_000;
 /// Most blocks in blocks.
@@ -16,34 +14,15 @@ pub(super) const MAX_DEPTH: usize = 16;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DxfError {
-    /// More bytes than a drawing should have.
-    #[error(
-        "the drawing has {} MiB, more than the {} MiB that are read; save only its outlines",
-        bytes >> 20,
-        MAX_BYTES >> 20
-    )]
-    TooLarge {
-        /// Its size.
-        bytes: usize,
-    },
     /// A group code that is none.
-    #[error("{at}: there is no group code where one should be; save the drawing again as DXF")]
-    Code {
-        /// Where.
-        at: Place,
-    },
+    #[error("{0}: there is no group code where one should be; save the drawing again as DXF")]
+    Code(Place),
     /// The file breaks off.
-    #[error("{at}: the file ends in the middle; save or copy it again")]
-    Truncated {
-        /// Where.
-        at: Place,
-    },
+    #[error("{0}: the file ends in the middle; save or copy it again")]
+    Truncated(Place),
     /// A number that is none.
-    #[error("{at}: there is no number that can be used; correct it")]
-    Number {
-        /// Where.
-        at: Place,
-    },
+    #[error("{0}: there is no number that can be used; correct it")]
+    Number(Place),
     /// An object whose parts do not fit.
     #[error("{at}: {kind} cannot be used: {what}; correct or remove it")]
     Broken {
@@ -56,14 +35,12 @@ pub enum DxfError {
     },
     /// Objects, copies included, without end.
     #[error(
-        "the drawing has more than {} objects, copies of blocks included; save only its outlines",
-        MAX_OBJECTS
+        "the drawing has more than {MAX_OBJECTS} objects, copies of blocks included; save only its outlines"
     )]
     TooMany,
     /// Blocks in blocks without end.
     #[error(
-        "blocks lie in blocks more than {} levels deep, or a block in itself; explode them",
-        MAX_DEPTH
+        "blocks lie in blocks more than {MAX_DEPTH} levels deep, or a block in itself; explode them"
     )]
     TooDeep,
     /// Curves into absurdly many points.

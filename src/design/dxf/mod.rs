@@ -35,7 +35,6 @@ use super::form::Outlines;
 use super::note::ImportNote;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions};
 use curve::Curve;
-use error::MAX_BYTES;
 
 /// How far ends that belong together may be apart, as a fraction of the
 /// drawing's longer side: what rounding to four digits leaves.
@@ -50,9 +49,6 @@ const ROUNDING: f64 = 1e-9;
 
 /// Reads a DXF file. The tolerance is a fraction of the drawing's longer side.
 pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
-    if bytes.len() > MAX_BYTES {
-        return Err(DxfError::TooLarge { bytes: bytes.len() });
-    }
     let drawing = drawing::read(bytes)?;
     let curves = || drawing.paths.iter().flat_map(|(curves, _)| curves);
     let hull = Bounds::of(curves().flat_map(Curve::hull));

@@ -43,7 +43,7 @@ impl<'a> Pair<'a> {
         };
         // NaN is in no range.
         let number = number.filter(|n: &f64| n.abs() <= MAX_NUMBER);
-        number.ok_or(DxfError::Number { at: self.at })
+        number.ok_or(DxfError::Number(self.at))
     }
 
     /// The value as a whole number.
@@ -117,9 +117,9 @@ impl<'a> Pairs<'a> {
             return Ok(None);
         }
         let code = std::str::from_utf8(code).ok().and_then(|t| t.parse().ok());
-        let code = code.ok_or(DxfError::Code { at })?;
+        let code = code.ok_or(DxfError::Code(at))?;
         let at = self.place();
-        let value = self.line().ok_or(DxfError::Truncated { at })?;
+        let value = self.line().ok_or(DxfError::Truncated(at))?;
         let value = Value::Text(value);
         Ok(Some(Pair { code, at, value }))
     }
@@ -171,7 +171,7 @@ impl<'a> Pairs<'a> {
             | 430..=439
             | 470..=481
             | 999..=1009 => Value::Text(self.string()?),
-            _ => return Err(DxfError::Code { at: self.place() }),
+            _ => return Err(DxfError::Code(self.place())),
         })
     }
 
@@ -180,7 +180,7 @@ impl<'a> Pairs<'a> {
         let at = self.place();
         let rest = &self.bytes[self.position..];
         let end = rest.iter().position(|&b| b == 0);
-        let text = self.slice(end.ok_or(DxfError::Truncated { at })?)?;
+        let text = self.slice(end.ok_or(DxfError::Truncated(at))?)?;
         self.position += 1;
         Ok(text.trim_ascii())
     }
@@ -188,13 +188,13 @@ impl<'a> Pairs<'a> {
     fn take<const N: usize>(&mut self) -> Result<[u8; N], DxfError> {
         let at = self.place();
         let bytes = self.slice(N)?;
-        bytes.try_into().map_err(|_| DxfError::Truncated { at })
+        bytes.try_into().map_err(|_| DxfError::Truncated(at))
     }
 
     fn slice(&mut self, length: usize) -> Result<&'a [u8], DxfError> {
         let at = self.place();
         let slice = self.bytes.get(self.position..self.position + length);
         self.position += length;
-        slice.ok_or(DxfError::Truncated { at })
+        slice.ok_or(DxfError::Truncated(at))
     }
 }

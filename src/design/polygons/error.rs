@@ -1,5 +1,6 @@
 //! Why JSON gives no polygons.
 
+use crate::design::json::JsonError;
 use crate::geometry::RegionsError;
 
 /// Why JSON gives no polygons. Places are paths such as
@@ -8,25 +9,8 @@ use crate::geometry::RegionsError;
 #[non_exhaustive]
 pub enum PolygonsError {
     /// Not JSON.
-    #[error("line {line}, column {column}: {message}; correct the file")]
-    Json {
-        /// The line, from 1.
-        line: usize,
-        /// The column, from 1.
-        column: usize,
-        /// What was found.
-        message: String,
-    },
-    /// More text than polygons should have.
-    #[error(
-        "the file has {} MiB, more than the {} MiB of polygons that are read; simplify them",
-        bytes >> 20,
-        MAX_BYTES >> 20
-    )]
-    TooLarge {
-        /// Its size.
-        bytes: usize,
-    },
+    #[error(transparent)]
+    Json(#[from] JsonError),
     /// Something else stands where something should.
     #[error("{at} is {found}; give {expected}")]
     Expected {
@@ -65,6 +49,3 @@ pub enum PolygonsError {
     #[error(transparent)]
     Regions(#[from] RegionsError),
 }
-
-/// Most bytes of text: some four million points.
-pub(super) const MAX_BYTES: usize = 64 << 20;

@@ -29,27 +29,16 @@ mod value;
 pub use error::PolygonsError;
 
 use super::form::Outlines;
-use super::json::fault;
+use super::json::JsonError;
 use super::note::ImportNote;
 use crate::geometry::{FillRule, Regions, RegionsError, Repairs};
-use error::MAX_BYTES;
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
 use value::{At, POLYGONS, RING, Ring, coordinates, depth, expected, items, ring, rings};
 
 /// Reads plain polygons or GeoJSON.
 pub(super) fn read(text: &str) -> Result<Outlines, PolygonsError> {
-    if text.len() > MAX_BYTES {
-        return Err(PolygonsError::TooLarge { bytes: text.len() });
-    }
-    let value: Value = serde_json::from_str(text).map_err(|error| {
-        let (line, column, message) = fault(&error);
-        PolygonsError::Json {
-            line,
-            column,
-            message,
-        }
-    })?;
+    let value: Value = serde_json::from_str(text).map_err(JsonError::from)?;
     let mut found = Found::default();
     let root = At::Root;
     match &value {

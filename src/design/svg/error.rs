@@ -4,8 +4,6 @@ use crate::design::flatten::TooManyPoints;
 use crate::geometry::RegionsError;
 use usvg::roxmltree;
 
-/// Most bytes of text.
-pub(super) const MAX_BYTES: usize = 64 << 20;
 /// Most elements with all copies; 200,000 paths take about a second.
 pub(super) const MAX_ELEMENTS: u64 = 200_000;
 /// Most levels, copies included. Reading recurses: a stack of 2 MiB, as
@@ -22,50 +20,25 @@ pub enum SvgError {
     /// Not SVG, or without a size.
     #[error("the drawing cannot be read ({0}); save it again as plain SVG")]
     Svg(#[source] usvg::Error),
-    /// More bytes than a drawing should have.
+    /// Elements, copies included, without end: the line, from 1, of that with
+    /// which the count went over.
     #[error(
-        "the drawing has {} MiB of text, more than the {} MiB that are read; simplify its paths",
-        bytes >> 20,
-        MAX_BYTES >> 20
+        "line {0}: with all copies (use, patterns, clip paths) the drawing unfolds into more than {MAX_ELEMENTS} elements; expand fewer copies or remove them"
     )]
-    TooLarge {
-        /// Its size.
-        bytes: usize,
-    },
-    /// Elements, copies included, without end.
+    TooManyElements(u32),
+    /// Elements in elements without end: the line of the deepest, from 1.
     #[error(
-        "line {line}: with all copies (use, patterns, clip paths) the drawing unfolds into more than {} elements; expand fewer copies or remove them",
-        MAX_ELEMENTS
+        "line {0}: the drawing is nested more than {MAX_DEPTH} levels deep, copies included; ungroup it"
     )]
-    TooManyElements {
-        /// Where the element stands with which the count went over, from 1.
-        line: u32,
-    },
-    /// Elements in elements without end.
+    TooDeep(u32),
+    /// An element that is a copy of itself: its line, from 1.
+    #[error("line {0}: an element refers to itself, over others or directly; remove the reference")]
+    Circular(u32),
+    /// A style sheet that would be matched too often, on so many elements.
     #[error(
-        "line {line}: the drawing is nested more than {} levels deep, copies included; ungroup it",
-        MAX_DEPTH
+        "the drawing's style sheet is too long for its {0} elements; save it with plain attributes"
     )]
-    TooDeep {
-        /// Where the deepest element stands, from 1.
-        line: u32,
-    },
-    /// An element that is a copy of itself.
-    #[error(
-        "line {line}: an element refers to itself, over others or directly; remove the reference"
-    )]
-    Circular {
-        /// Where the element stands, from 1.
-        line: u32,
-    },
-    /// A style sheet that would be matched too often.
-    #[error(
-        "the drawing's style sheet is too long for its {elements} elements; save it with plain attributes"
-    )]
-    TooMuchStyle {
-        /// How many elements there are.
-        elements: usize,
-    },
+    TooMuchStyle(usize),
     /// A mask, which has no outline.
     #[error(
         "the drawing uses the mask \"{0}\", which has no outline; apply it as a clip path, or remove it"

@@ -28,7 +28,7 @@ pub(super) fn check(document: &Document) -> Result<(), SvgError> {
     let sheet = StyleSheet::of(document);
     let elements = document.descendants().filter(Node::is_element).count();
     if sheet.rules.saturating_mul(elements) > MAX_STYLE_TESTS {
-        return Err(SvgError::TooMuchStyle { elements });
+        return Err(SvgError::TooMuchStyle(elements));
     }
     let mut ids = HashMap::new();
     for node in document.descendants() {
@@ -56,8 +56,7 @@ fn check_depth(document: &Document) -> Result<(), SvgError> {
         let above = node.parent().and_then(|p| depths.get(&p.id()));
         let depth = above.map_or(0, |d| d + 1);
         if depth > MAX_DEPTH {
-            let line = line(document, node);
-            return Err(SvgError::TooDeep { line });
+            return Err(SvgError::TooDeep(line(document, node)));
         }
         depths.insert(node.id(), depth);
     }
@@ -167,12 +166,12 @@ impl<'d, 'a> Counter<'d, 'a> {
         let document = self.document;
         let at = || line(document, node);
         match self.states.get(&node.id()) {
-            Some(State::Open) => return Err(SvgError::Circular { line: at() }),
+            Some(State::Open) => return Err(SvgError::Circular(at())),
             Some(State::Done(size)) if depth + size.levels > MAX_DEPTH => {
-                return Err(SvgError::TooDeep { line: at() });
+                return Err(SvgError::TooDeep(at()));
             }
             Some(&State::Done(size)) => return Ok(size),
-            None if depth > MAX_DEPTH => return Err(SvgError::TooDeep { line: at() }),
+            None if depth > MAX_DEPTH => return Err(SvgError::TooDeep(at())),
             None => {}
         }
         self.states.insert(node.id(), State::Open);
@@ -186,8 +185,7 @@ impl<'d, 'a> Counter<'d, 'a> {
             size.levels = size.levels.max(inner.levels + 1);
         }
         if size.elements > MAX_ELEMENTS {
-            let line = line(self.document, node);
-            return Err(SvgError::TooManyElements { line });
+            return Err(SvgError::TooManyElements(at()));
         }
         self.states.insert(node.id(), State::Done(size));
         Ok(size)

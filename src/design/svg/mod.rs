@@ -32,7 +32,6 @@ use super::form::Outlines;
 use super::note::ImportNote;
 use super::options::ImportOptions;
 use crate::geometry::{Bounds, DVec2};
-use error::MAX_BYTES;
 use paint::Brush;
 use usvg::roxmltree::{self, Document, Node as Xml};
 
@@ -50,9 +49,6 @@ pub(super) fn read(
     element: Option<&str>,
     options: &ImportOptions,
 ) -> Result<Outlines, SvgError> {
-    if text.len() > MAX_BYTES {
-        return Err(SvgError::TooLarge { bytes: text.len() });
-    }
     let xml = roxmltree::ParsingOptions {
         allow_dtd: true, // drawing programs write a DOCTYPE; entities are limited
         nodes_limit: guard::MAX_NODES,

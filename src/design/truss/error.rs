@@ -1,19 +1,14 @@
 //! Why parts do not make a truss.
 
+use crate::design::json::JsonError;
+
 /// Why parts do not make a truss. Nodes and bars count from 0, as in the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrussInputError {
     /// Not JSON, or not of this form.
-    #[error("line {line}, column {column}: {message}; correct the file")]
-    Json {
-        /// The line, from 1.
-        line: usize,
-        /// The column, from 1.
-        column: usize,
-        /// What was found.
-        message: String,
-    },
+    #[error(transparent)]
+    Json(#[from] JsonError),
     /// There is no bar.
     #[error("the truss has {nodes} nodes and no bars; give bars as pairs of node numbers")]
     NoBars {

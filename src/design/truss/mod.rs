@@ -29,7 +29,7 @@ mod parts;
 pub use error::TrussInputError;
 pub use parts::{Load, Material, Support, TrussParts};
 
-use super::json::fault;
+use super::json::JsonError;
 use crate::geometry::{Bounds, DVec2, Similarity};
 
 /// Nodes and bars, checked.
@@ -70,15 +70,7 @@ impl Truss {
     /// # Errors
     /// [`TrussInputError`] names the line, or the first thing that cannot be used.
     pub fn from_json(text: &str) -> Result<Self, TrussInputError> {
-        let parts = serde_json::from_str(text).map_err(|error| {
-            let (line, column, message) = fault(&error);
-            TrussInputError::Json {
-                line,
-                column,
-                message,
-            }
-        })?;
-        Self::from_parts(parts)
+        Self::from_parts(serde_json::from_str(text).map_err(JsonError::from)?)
     }
 
     /// Places of the nodes, y up.

@@ -77,6 +77,24 @@ fn numbers<T>(
     }
 }
 
+/// Whether all that is named is there: so many of a kind.
+fn in_range(
+    what: &'static str,
+    mut named: impl Iterator<Item = (usize, u32)>,
+    (kind, count): (&'static str, usize),
+) -> Result<(), TrussInputError> {
+    match named.find(|&(_, named)| named as usize >= count) {
+        Some((index, named)) => Err(TrussInputError::OutOfRange {
+            what,
+            index,
+            kind,
+            named,
+            count,
+        }),
+        None => Ok(()),
+    }
+}
+
 impl TrussParts {
     /// Everything that a truss guarantees.
     pub(super) fn check(&self) -> Result<(), TrussInputError> {
@@ -112,41 +130,16 @@ impl TrussParts {
                 return Err(TrussInputError::PerBar { list, found, bars });
             }
         }
+        let nodes = ("node", self.nodes.len());
         let ends = self.bars.iter().enumerate();
-        self.in_range("bar", ends.flat_map(|(i, bar)| bar.map(|n| (i, n))))?;
-        self.in_range("support", self.supports.iter().map(|s| s.node).enumerate())?;
-        self.in_range("load", self.loads.iter().map(|l| l.node).enumerate())?;
-        let count = self.materials.len();
-        let bad = self.bar_materials.iter().position(|&m| m as usize >= count);
-        match bad {
-            Some(index) => Err(TrussInputError::OutOfRange {
-                what: "the material of bar",
-                index,
-                kind: "material",
-                named: self.bar_materials[index],
-                count,
-            }),
-            None => Ok(()),
-        }
-    }
-
-    fn in_range(
-        &self,
-        what: &'static str,
-        named: impl Iterator<Item = (usize, u32)>,
-    ) -> Result<(), TrussInputError> {
-        let count = self.nodes.len();
-        let mut bad = named.filter(|&(_, node)| node as usize >= count);
-        match bad.next() {
-            Some((index, named)) => Err(TrussInputError::OutOfRange {
-                what,
-                index,
-                kind: "node",
-                named,
-                count,
-            }),
-            None => Ok(()),
-        }
+        in_range("bar", ends.flat_map(|(i, bar)| bar.map(|n| (i, n))), nodes)?;
+        let supports = self.supports.iter().map(|s| s.node);
+        in_range("support", supports.enumerate(), nodes)?;
+        let loads = self.loads.iter().map(|l| l.node);
+        in_range("load", loads.enumerate(), nodes)?;
+        let of_bars = self.bar_materials.iter().copied().enumerate();
+        let materials = ("material", self.materials.len());
+        in_range("the material of bar", of_bars, materials)
     }
 
     fn check_bars(&self) -> Result<(), TrussInputError> {
