@@ -13,7 +13,6 @@ mod laboratory;
 mod new;
 mod options;
 mod output;
-mod plane_options;
 mod render;
 mod terminal;
 mod values;

@@ -9,7 +9,7 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::export::{
-    Camera, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View, comparison,
+    Camera, Drawing, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View, comparison,
     even_times, framing, sheet, write_film, write_still,
 };
 use crate::progress::Progress;
@@ -88,15 +88,17 @@ fn out_help() -> String {
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let target = Target::of_path(&args.out).map_err(CliError::usage)?;
-    let target = job(args, target)?;
+    let job = job(args, target)?;
     let terminal = Terminal::new();
     let opened = args.inputs.open(&args.method, &terminal)?;
-    let written = match target {
-        Job::Picture(kind, path, t) => picture(args, &opened, kind, path, t),
-        Job::Comparison(kind, path, count) => compared(args, &opened, kind, path, count, &terminal),
-        Job::Sheet(kind, path, count) => contact_sheet(args, &opened, kind, path, count),
-        Job::Film(target) => film(args, &opened, target, &terminal),
-    }?;
+    let written = match job {
+        Job::Still(kind, path, shown) => {
+            let drawing = drawn(args, &opened, &shown, &terminal)?;
+            write_still(&drawing, kind, &path).map_err(CliError::failed)?;
+            vec![path]
+        }
+        Job::Film(target) => film(args, &opened, target, &terminal)?,
+    };
     drop(terminal);
     tell(&written);
     Ok(())
@@ -104,30 +106,38 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
 
 /// What is to be made, once the flags are seen to fit the name.
 enum Job {
-    Picture(StillKind, PathBuf, f64),
-    Sheet(StillKind, PathBuf, usize),
-    Comparison(StillKind, PathBuf, usize),
+    Still(StillKind, PathBuf, Shown),
     Film(Target),
 }
 
+/// What one picture shows.
+enum Shown {
+    /// The frame at a t.
+    Frame(f64),
+    /// A contact sheet of so many frames.
+    Sheet(usize),
+    /// Every method, with so many frames each.
+    Methods(usize),
+}
+
 fn job(args: &RenderArgs, target: Target) -> Result<Job, CliError> {
-    match (target, args.at, args.sheet) {
+    let one_picture = |flags: &str| {
+        let (path, endings) = (args.out.display(), StillKind::endings());
+        CliError::Usage(format!("{flags} one picture: end `{path}` in {endings}"))
+    };
+    let count = args.sheet.map(|count| count as usize);
+    match (target, args.at, count) {
         (_, Some(t), _) if !t.is_finite() => Err(CliError::Usage(format!(
             "--at {t} is nowhere: t must be a finite number"
         ))),
-        (Target::Still(kind, path), None, count) if args.compare => Ok(Job::Comparison(
-            kind,
-            path,
-            count.map_or(COMPARED, |count| count as usize),
-        )),
-        _ if args.compare => Err(CliError::Usage(format!(
-            "--compare makes one picture: end `{}` in {}",
-            args.out.display(),
-            StillKind::endings()
-        ))),
-        (Target::Still(kind, path), Some(t), _) => Ok(Job::Picture(kind, path, t)),
+        (Target::Still(kind, path), None, count) if args.compare => {
+            let methods = Shown::Methods(count.unwrap_or(COMPARED));
+            Ok(Job::Still(kind, path, methods))
+        }
+        _ if args.compare => Err(one_picture("--compare makes")),
+        (Target::Still(kind, path), Some(t), _) => Ok(Job::Still(kind, path, Shown::Frame(t))),
         (Target::Still(kind, path), None, Some(count)) => {
-            Ok(Job::Sheet(kind, path, count as usize))
+            Ok(Job::Still(kind, path, Shown::Sheet(count)))
         }
         (Target::Still(_, path), None, None) => Err(CliError::Usage(format!(
             "`{0}` is one picture: add --at T for one moment or --sheet N for a contact sheet, or write name-####.{1} for numbered pictures",
@@ -135,62 +145,37 @@ fn job(args: &RenderArgs, target: Target) -> Result<Job, CliError> {
             path.extension().unwrap_or_default().to_string_lossy(),
         ))),
         (target, None, None) => Ok(Job::Film(target)),
-        _ => Err(CliError::Usage(format!(
-            "--at and --sheet make one picture: end `{}` in {}",
-            args.out.display(),
-            StillKind::endings()
-        ))),
+        _ => Err(one_picture("--at and --sheet make")),
     }
 }
 
-fn picture(
+fn drawn(
     args: &RenderArgs,
     opened: &Opened,
-    kind: StillKind,
-    path: PathBuf,
-    t: f64,
-) -> Result<Vec<PathBuf>, CliError> {
-    let project = &opened.loaded.project;
-    // Seen as the film is, so that pictures of one project fit together.
-    let mut times = even_times(project.timing.from, project.timing.to, 17);
-    times.push(t);
-    let camera = camera(args, opened, &times, std::convert::identity);
-    write_still(&camera.shoot(t), kind, &path).map_err(CliError::failed)?;
-    Ok(vec![path])
-}
-
-fn contact_sheet(
-    args: &RenderArgs,
-    opened: &Opened,
-    kind: StillKind,
-    path: PathBuf,
-    count: usize,
-) -> Result<Vec<PathBuf>, CliError> {
-    let project = &opened.loaded.project;
-    let times = even_times(project.timing.from, project.timing.to, count);
-    let bounds = framing(&opened.transition, &times);
-    let ground = ground_of(args, project);
-    let (transition, style) = (&opened.transition, &project.style);
-    let drawing = sheet(transition, style, &times, bounds, args.size, ground);
-    write_still(&drawing, kind, &path).map_err(CliError::failed)?;
-    Ok(vec![path])
-}
-
-fn compared(
-    args: &RenderArgs,
-    opened: &Opened,
-    kind: StillKind,
-    path: PathBuf,
-    count: usize,
+    shown: &Shown,
     progress: &dyn Progress,
-) -> Result<Vec<PathBuf>, CliError> {
+) -> Result<Drawing, CliError> {
     let project = &opened.loaded.project;
-    let times = even_times(project.timing.from, project.timing.to, count);
-    let spec = opened.loaded.spec().map_err(CliError::failed)?;
-    let rows = MethodRow::all(&spec, progress).map_err(CliError::failed)?;
-    let drawing = comparison(&rows, &project.style, &times, ground_of(args, project));
-    write_still(&drawing.map_err(CliError::failed)?, kind, &path).map_err(CliError::failed)?;
-    Ok(vec![path])
+    let (transition, style) = (&opened.transition, &project.style);
+    let ground = ground_of(args, project);
+    let times = |count| even_times(project.timing.from, project.timing.to, count);
+    Ok(match *shown {
+        Shown::Frame(t) => {
+            // Seen as the film is, so that pictures of one project fit together.
+            let seen: Vec<f64> = times(17).into_iter().chain([t]).collect();
+            camera(args, opened, &seen, std::convert::identity).shoot(t)
+        }
+        Shown::Sheet(count) => {
+            let times = times(count);
+            let bounds = framing(transition, &times);
+            sheet(transition, style, &times, bounds, args.size, ground)
+        }
+        Shown::Methods(count) => {
+            let spec = opened.loaded.spec().map_err(CliError::failed)?;
+            let rows = MethodRow::all(&spec, progress).map_err(CliError::failed)?;
+            comparison(&rows, style, &times(count), ground).map_err(CliError::failed)?
+        }
+    })
 }
 
 fn film(

@@ -192,8 +192,7 @@ pub fn pair_sheet(strips: &[Strip], ground: Option<Rgb>) -> Result<(Drawing, usi
     let frames = strips.iter().map(|s| s.frames.len());
     let columns = frames.max().unwrap_or(0).max(FEWEST_COLUMNS);
     let layout = Layout::new(strips.len(), columns);
-    let [width, height] = layout.size().to_array().map(|side| side.ceil() as u32);
-    let mut drawing = Drawing::new(PixelSize::new(width, height)?, ground);
+    let mut drawing = Drawing::new(PixelSize::holding(layout.size())?, ground);
     let shown = strips.len().min(layout.capacity());
     for (index, strip) in strips[..shown].iter().enumerate() {
         push_strip(&mut drawing, strip, &layout, layout.corner(index));

@@ -92,6 +92,15 @@ impl PixelSize {
         Self { width, height }
     }
 
+    /// Room for sides of any length: rounded up to whole pixels.
+    ///
+    /// # Errors
+    /// [`SizeError`] where a side is 0 or the picture is too large.
+    pub(super) fn holding(sides_px: DVec2) -> Result<Self, SizeError> {
+        let [width, height] = sides_px.to_array().map(|side| side.ceil() as u32);
+        Self::new(width, height)
+    }
+
     /// Each side rounded up to an even number, as most film formats want it.
     pub fn to_even(self) -> Self {
         Self {
