@@ -9,8 +9,8 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::export::{
-    Camera, Drawing, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View, comparison,
-    even_times, framing, sheet, write_film, write_still,
+    Camera, Drawing, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View,
+    comparison, endings, even_times, framing, sheet, write_film, write_still,
 };
 use crate::progress::Progress;
 use crate::project::Project;
@@ -81,8 +81,8 @@ fn out_help() -> String {
     format!(
         "What to write: NAME{} (with --at or --sheet), {}, name-####.png or a folder (numbered \
          pictures)",
-        StillKind::endings(),
-        FilmKind::endings()
+        endings::<StillKind>(),
+        endings::<FilmKind>()
     )
 }
 
@@ -122,7 +122,7 @@ enum Shown {
 
 fn job(args: &RenderArgs, target: Target) -> Result<Job, CliError> {
     let one_picture = |flags: &str| {
-        let (path, endings) = (args.out.display(), StillKind::endings());
+        let (path, endings) = (args.out.display(), endings::<StillKind>());
         CliError::Usage(format!("{flags} one picture: end `{path}` in {endings}"))
     };
     let count = args.sheet.map(|count| count as usize);

@@ -21,7 +21,6 @@ mod lettering;
 mod note;
 mod obj;
 mod options;
-mod outline;
 mod picture;
 mod polygons;
 mod silhouette;

@@ -12,15 +12,12 @@ use crate::transition::{BuildError, Cell, Rgb, Style, Transition, TransitionSpec
 
 use super::camera::framing;
 use super::drawing::Drawing;
-use super::size::{PixelSize, SizeError};
+use super::size::{LONGEST_SHEET_PX, PixelSize, SizeError};
 use super::view::View;
 use super::words::{BAD, Type, ink_on};
 
 /// The longer side of a frame, in pixels, where there is room for it.
 const CELL_PX: f64 = 220.0;
-
-/// The longer side of the largest sheet, in pixels.
-const LONGEST_PX: f64 = 8_192.0;
 
 /// Room between frames and around them, in pixels.
 const GAP_PX: f64 = 16.0;
@@ -91,8 +88,7 @@ pub fn comparison(
     let corner = DVec2::new(NAMES_PX + 2.0 * GAP_PX, GAP_PX);
     let count = DVec2::new(times.len() as f64, rows.len() as f64);
     let size = corner + count * step + DVec2::new(0.0, LINE_PX + GAP_PX);
-    let [width, height] = size.to_array().map(|side| side.ceil() as u32);
-    let mut drawing = Drawing::new(PixelSize::new(width, height)?, ground);
+    let mut drawing = Drawing::new(PixelSize::holding(size)?, ground);
     let ink = ink_on(ground);
     for (k, row) in rows.iter().enumerate() {
         let left = DVec2::new(corner.x, corner.y + k as f64 * step.y);
@@ -141,7 +137,7 @@ fn cell(bounds: Option<Bounds>, rows: usize, columns: usize) -> DVec2 {
     let size = bounds.map_or(DVec2::ONE, |bounds| bounds.size());
     let shape = (size / size.max_element()).max(DVec2::splat(0.2));
     let count = DVec2::new(columns.max(1) as f64, rows.max(1) as f64);
-    let room = (DVec2::splat(LONGEST_PX - NAMES_PX - 8.0 * GAP_PX) / count - GAP_PX) / shape;
+    let room = (DVec2::splat(LONGEST_SHEET_PX - NAMES_PX - 8.0 * GAP_PX) / count - GAP_PX) / shape;
     // Rows are high enough for a name of three lines.
     (shape * CELL_PX.min(room.min_element()).max(16.0)).max(DVec2::new(16.0, 3.0 * LINE_PX))
 }

@@ -82,13 +82,9 @@ impl Film {
     /// [`FilmError`] for a rate or a length that cannot be had.
     pub fn of_timing(timing: &Timing, stops: &[Stop], fps: f64) -> Result<Self, FilmError> {
         check_rate(fps)?;
+        check_ends(timing.from, timing.to)?;
         let pass_secs = timing.pass_secs();
-        let steps = (pass_secs * fps).round().max(1.0);
-        let steps = if steps.is_finite() {
-            steps as usize
-        } else {
-            usize::MAX
-        };
+        let steps = (pass_secs * fps).round().max(1.0) as usize;
         if steps >= MAX_FRAMES {
             return Err(FilmError::Count(steps.saturating_add(1)));
         }
@@ -97,7 +93,7 @@ impl Film {
             i if i == steps => timing.to,
             i => timing.t_at(pass_secs * i as f64 / steps as f64, stops),
         };
-        let film = Self::new((0..=steps).map(t_of).collect(), fps)?;
+        let film = Self::new((0..=steps).map(t_of).collect(), fps);
         Ok(film.playing(timing.play))
     }
 
@@ -108,13 +104,11 @@ impl Film {
     /// [`FilmError`] for a rate, a count or a t that cannot be had.
     pub fn evenly(from: f64, to: f64, count: usize, fps: f64) -> Result<Self, FilmError> {
         check_rate(fps)?;
-        if !(from.is_finite() && to.is_finite()) {
-            return Err(FilmError::Ends { from, to });
-        }
+        check_ends(from, to)?;
         if count == 0 || count > MAX_FRAMES {
             return Err(FilmError::Count(count));
         }
-        Self::new(even_times(from, to, count), fps)
+        Ok(Self::new(even_times(from, to, count), fps))
     }
 
     /// The same pass, as it plays: ping-pong adds the way back, without the two
@@ -194,19 +188,13 @@ impl Film {
         at(run.first + run.count) - at(run.first)
     }
 
-    fn new(times: Vec<f64>, fps: f64) -> Result<Self, FilmError> {
-        let ends = (times.first(), times.last());
-        if let (Some(&from), Some(&to)) = ends
-            && !(from.is_finite() && to.is_finite())
-        {
-            return Err(FilmError::Ends { from, to });
-        }
-        Ok(Self {
+    fn new(times: Vec<f64>, fps: f64) -> Self {
+        Self {
             times,
             first_number: 0,
             fps,
             repeats: false,
-        })
+        }
     }
 }
 
@@ -225,6 +213,14 @@ fn check_rate(fps: f64) -> Result<(), FilmError> {
         Ok(())
     } else {
         Err(FilmError::Rate(fps))
+    }
+}
+
+fn check_ends(from: f64, to: f64) -> Result<(), FilmError> {
+    if from.is_finite() && to.is_finite() {
+        Ok(())
+    } else {
+        Err(FilmError::Ends { from, to })
     }
 }
 

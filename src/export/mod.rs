@@ -71,7 +71,7 @@ pub use sheet::{SheetLayout, sheet};
 pub use size::{MAX_PIXELS, MAX_SIDE_PX, PixelSize, SizeError};
 pub use still::write_still;
 pub use svg::to_svg;
-pub use target::{FilmKind, Numbered, StillKind, Target, TargetError};
+pub use target::{FilmKind, Numbered, StillKind, Target, TargetError, endings};
 pub use view::View;
 
 /// Writes a film to wherever the target says, and returns the paths of what it

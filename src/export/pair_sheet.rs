@@ -3,7 +3,7 @@
 //!
 //! Guarantees: names, words and frames do not overlap, whatever their length;
 //! what does not fit ends in an ellipsis; the sheet keeps within
-//! [`LONGEST_PX`] by smaller frames, then by leaving out the last strips,
+//! [`LONGEST_SHEET_PX`] by smaller frames, then by leaving out the last strips,
 //! which it says. Strips run down in blocks that make the sheet a little wider
 //! than high.
 
@@ -12,12 +12,9 @@ use crate::transition::{Figure, Rgb, Style, Transition};
 
 use super::camera::framing;
 use super::drawing::Drawing;
-use super::size::{PixelSize, SizeError};
+use super::size::{LONGEST_SHEET_PX, PixelSize, SizeError};
 use super::view::View;
 use super::words::{BAD, Type, ink_on};
-
-/// The longer side of the largest sheet, in pixels.
-const LONGEST_PX: f64 = 8_192.0;
 
 /// Sides of a frame, in pixels: the largest with which all strips fit.
 const CELLS_PX: [f64; 4] = [104.0, 84.0, 64.0, 48.0];
@@ -118,7 +115,7 @@ impl Layout {
     /// smallest ones.
     fn new(strips: usize, columns: usize) -> Self {
         let layouts = CELLS_PX.map(|cell_px| Self::balanced(strips.max(1), columns, cell_px));
-        let fits = |layout: &&Self| layout.size().max_element() <= LONGEST_PX;
+        let fits = |layout: &&Self| layout.size().max_element() <= LONGEST_SHEET_PX;
         let fitting = layouts.iter().find(fits).copied();
         fitting.unwrap_or_else(|| Self::fullest(columns))
     }
@@ -148,7 +145,7 @@ impl Layout {
             blocks: 1,
         };
         let strip = one.strip();
-        let most = |side: f64| ((LONGEST_PX - 2.0 * GAP_PX) / side).max(1.0) as usize;
+        let most = |side: f64| ((LONGEST_SHEET_PX - 2.0 * GAP_PX) / side).max(1.0) as usize;
         Self {
             rows: most(strip.y),
             blocks: most(strip.x),
@@ -251,7 +248,7 @@ mod tests {
         for count in [1, 2, 7, 60, 120, 600, 100_000] {
             let layout = Layout::new(count, 7);
             let size = layout.size();
-            assert!(size.max_element() <= LONGEST_PX, "{count}: {size}");
+            assert!(size.max_element() <= LONGEST_SHEET_PX, "{count}: {size}");
             let shown = count.min(layout.capacity());
             assert!(shown == count || shown > 1_000, "{count}: {shown}");
             for index in [0, shown / 2, shown - 1] {

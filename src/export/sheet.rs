@@ -9,7 +9,7 @@ use crate::geometry::{Bounds, DVec2};
 use crate::transition::{Rgb, Style, Transition};
 
 use super::drawing::Drawing;
-use super::size::PixelSize;
+use super::size::{LONGEST_SHEET_PX, PixelSize};
 use super::view::View;
 use super::words::{Number, ink_on};
 
@@ -86,32 +86,22 @@ impl SheetLayout {
 /// Cells of their natural size in balanced rows, on a sheet that is not too
 /// large.
 fn free(count: usize, cell: DVec2) -> SheetLayout {
-    const LONGEST_PX: f64 = 8_192.0;
     let rows = count.div_ceil(MAX_COLUMNS);
     let columns = count.div_ceil(rows);
     let unit = f64::from(CELL_PX);
     let (label_px, gap_px) = (LABEL_SHARE * unit, GAP_SHARE * unit);
     let whole = cell + DVec2::new(gap_px, gap_px + label_px);
     let wanted = whole * DVec2::new(columns as f64, rows as f64);
-    let fitting = (LONGEST_PX / wanted.max_element()).min(1.0);
-    let [width, height] = (wanted * fitting)
-        .to_array()
-        .map(|side| side.round().max(1.0) as u32);
-    match PixelSize::new(width, height) {
-        Ok(size) => SheetLayout {
-            size,
-            columns,
-            rows,
-            label_px: label_px * fitting,
-            gap_px: gap_px * fitting,
-        },
-        Err(_) => {
-            let square = Bounds {
-                min: DVec2::ZERO,
-                max: DVec2::ONE,
-            };
-            SheetLayout::filling(PixelSize::of_shape(square, CELL_PX), columns, rows)
-        }
+    let fitting = (LONGEST_SHEET_PX / wanted.max_element()).min(1.0);
+    let sides = (wanted * fitting).round().max(DVec2::ONE);
+    let size = PixelSize::holding(sides)
+        .unwrap_or_else(|error| unreachable!("a sheet keeps within its longest side: {error}"));
+    SheetLayout {
+        size,
+        columns,
+        rows,
+        label_px: label_px * fitting,
+        gap_px: gap_px * fitting,
     }
 }
 

@@ -15,6 +15,9 @@ pub const MAX_SIDE_PX: u32 = 16_384;
 /// The most pixels of a picture: 512 MiB at four bytes each.
 pub const MAX_PIXELS: u64 = 1 << 27;
 
+/// The longer side of the largest sheet, in pixels: what every viewer opens.
+pub(super) const LONGEST_SHEET_PX: f64 = 8_192.0;
+
 /// A picture's width and height in pixels, both at least 1.
 ///
 /// ```

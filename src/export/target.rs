@@ -3,7 +3,7 @@
 use crate::design::any_of;
 use std::path::{Path, PathBuf};
 
-use crate::names::{Choice, named};
+use crate::names::{Choice, keys, named};
 
 /// Digits of the numbers in a folder of frames.
 const FOLDER_DIGITS: usize = 4;
@@ -39,20 +39,10 @@ named! { FilmKind {
     Mp4: "mp4", "MP4", "Needs ffmpeg on this machine";
 } }
 
-impl StillKind {
-    /// The endings of all in a row, for a sentence: `.png or .svg`.
-    #[must_use]
-    pub fn endings() -> String {
-        any_of(Self::ALL.map(|kind| format!(".{kind}")))
-    }
-}
-
-impl FilmKind {
-    /// The endings of all in a row, for a sentence: `.gif, .apng or .mp4`.
-    #[must_use]
-    pub fn endings() -> String {
-        any_of(Self::ALL.map(|kind| format!(".{kind}")))
-    }
+/// The endings of all kinds in a row, for a sentence: `.png or .svg`.
+#[must_use]
+pub fn endings<K: Choice>() -> String {
+    any_of(keys::<K>().map(|key| format!(".{key}")))
 }
 
 /// Numbered pictures: `folder/prefix0007suffix`.
@@ -96,13 +86,13 @@ pub enum TargetError {
     /// An extension that is none of ours.
     #[error(
         "`{}` names no kind of picture: end it in {} for one, in {} for a film, in name-####.png for numbered pictures, or in / for a folder of them",
-        .0.display(), StillKind::endings(), FilmKind::endings()
+        .0.display(), endings::<StillKind>(), endings::<FilmKind>()
     )]
     Unknown(PathBuf),
     /// `####` in a name that is no still picture.
     #[error(
         "`{}` numbers its frames: end it in {}, or leave the # out",
-        .0.display(), StillKind::endings()
+        .0.display(), endings::<StillKind>()
     )]
     NotNumbered(PathBuf),
 }

@@ -23,10 +23,9 @@
 //!
 //! Errors name the place as a path into the document.
 
-mod error;
 mod value;
 
-pub use error::PolygonsError;
+pub use value::PolygonsError;
 
 use super::form::Outlines;
 use super::json::JsonError;

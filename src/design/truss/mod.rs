@@ -23,11 +23,9 @@
 //! Guaranteed: coordinates are finite, bars join two different nodes at
 //! different places, no bar is given twice, every node is held by a bar.
 
-mod error;
 mod parts;
 
-pub use error::TrussInputError;
-pub use parts::{Load, Material, Support, TrussParts};
+pub use parts::{Load, Material, Support, TrussInputError, TrussParts};
 
 use super::json::JsonError;
 use crate::geometry::{Bounds, DVec2, Similarity};
