@@ -39,7 +39,7 @@ pub use format::{Format, extensions};
 pub use import::{import, import_file};
 pub use json::JsonError;
 pub use lettering::TextError;
-pub use note::ImportNote;
+pub use note::{ImportNote, OnlyThese};
 pub use obj::ObjError;
 pub use options::{ImportOptions, OptionsError};
 pub use picture::Picture;

@@ -1,6 +1,7 @@
 //! What was repaired or left out while a design was read, in words.
 
 use crate::geometry::{DVec2, FillRule, Repairs};
+use std::collections::BTreeMap;
 use std::fmt;
 
 /// Something about a file that its owner may want to know. It is no error:
@@ -83,6 +84,27 @@ impl ImportNote {
         ];
         let told = counted.into_iter().filter(|&(count, _)| count > 0);
         told.map(|(_, note)| note).collect()
+    }
+
+    /// Of the kinds that were left out, and how many of each.
+    pub(super) fn of_skipped(kinds: BTreeMap<String, usize>) -> impl Iterator<Item = Self> {
+        let kinds = kinds.into_iter();
+        kinds.map(|(kind, count)| Self::Skipped { kind, count })
+    }
+}
+
+/// What there is in a file besides what is asked for, as the end of a clause:
+/// `, only 2 TEXT`; how many of which kind.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OnlyThese(pub BTreeMap<String, usize>);
+
+impl fmt::Display for OnlyThese {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (i, (kind, count)) in self.0.iter().enumerate() {
+            let before = if i == 0 { ", only " } else { ", " };
+            write!(f, "{before}{count} {kind}")?;
+        }
+        Ok(())
     }
 }
 

@@ -22,6 +22,8 @@ pub(super) struct Column {
     read: Read,
     /// What the summary tells of it, if it does.
     pub told: Option<Told>,
+    /// Whether the summary draws its values as bars.
+    pub is_drawn: bool,
 }
 
 /// What the summary tells of a column.
@@ -30,8 +32,6 @@ pub(super) struct Told {
     words: &'static str,
     /// Which end of the values is the worst.
     pub better: Better,
-    /// Whether its values are drawn as bars.
-    pub is_drawn: bool,
 }
 
 /// Which values are the good ones.
@@ -102,26 +102,16 @@ impl Column {
     }
 
     const fn told(self, words: &'static str, better: Better) -> Self {
-        let told = Told {
-            words,
-            better,
-            is_drawn: false,
-        };
         Self {
-            told: Some(told),
+            told: Some(Told { words, better }),
             ..self
         }
     }
 
     const fn drawn(self, words: &'static str) -> Self {
-        let told = Told {
-            words,
-            better: Better::Small,
-            is_drawn: true,
-        };
         Self {
-            told: Some(told),
-            ..self
+            is_drawn: true,
+            ..self.told(words, Better::Small)
         }
     }
 }
@@ -131,22 +121,22 @@ pub(super) fn is_own(heading: &str) -> bool {
     heading == DIRECTION || heading == STATUS || ALL.iter().any(|own| own.heading() == heading)
 }
 
-const fn number(name: &'static str, unit: Unit, of: fn(&Report) -> Option<f64>) -> Column {
+const fn column(name: &'static str, unit: Unit, read: Read) -> Column {
     Column {
         name,
         unit,
-        read: Read::Number(of),
+        read,
         told: None,
+        is_drawn: false,
     }
 }
 
+const fn number(name: &'static str, unit: Unit, of: fn(&Report) -> Option<f64>) -> Column {
+    column(name, unit, Read::Number(of))
+}
+
 const fn words(name: &'static str, of: fn(&Report) -> Option<&str>) -> Column {
-    Column {
-        name,
-        unit: Pure,
-        read: Read::Words(of),
-        told: None,
-    }
+    column(name, Pure, Read::Words(of))
 }
 
 fn finding(report: &Report) -> Option<&FindingReport> {

@@ -94,7 +94,7 @@ fn measured(reports: &[&Report], column: &Column) -> Option<Measured> {
     let middle = all.len() / 2;
     let upper = *all.get(middle)?;
     let lower = all[(all.len() - 1) / 2];
-    let is_drawn = told.is_drawn && all.len() >= ENOUGH;
+    let is_drawn = column.is_drawn && all.len() >= ENOUGH;
     Some(Measured {
         column: column.heading(),
         words: column.words()?,

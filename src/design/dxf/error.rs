@@ -2,6 +2,7 @@
 //! a file.
 
 use crate::design::flatten::TooManyPoints;
+use crate::design::note::OnlyThese;
 use crate::geometry::{DVec2, RegionsError};
 use std::fmt;
 
@@ -47,11 +48,8 @@ pub enum DxfError {
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
     /// There is nothing to read.
-    #[error("there is no line, arc or curve in the drawing{}; draw or explode the outlines", if found.is_empty() { String::new() } else { format!(", only {found}") })]
-    Nothing {
-        /// What there is instead.
-        found: String,
-    },
+    #[error("there is no line, arc or curve in the drawing{0}; draw or explode the outlines")]
+    Nothing(OnlyThese),
     /// Curves, but no ring.
     #[error(
         "none of the curves close: one of {count} ends at ({}, {}) and nothing goes on there; join the curves end to end",

@@ -32,7 +32,7 @@ pub(super) use pairs::BINARY;
 
 use super::flatten::{MAX_POINTS, TooManyPoints};
 use super::form::Outlines;
-use super::note::ImportNote;
+use super::note::{ImportNote, OnlyThese};
 use crate::geometry::{Bounds, DVec2, FillRule, Regions};
 use curve::Curve;
 
@@ -54,12 +54,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
     let hull = Bounds::of(curves().flat_map(Curve::hull));
     let side = hull.map_or(0.0, |hull| hull.size().max_element());
     if side <= 0.0 {
-        let kinds = drawing
-            .skipped
-            .iter()
-            .map(|(kind, n)| format!("{n} {kind}"));
-        let found = kinds.collect::<Vec<_>>().join(", ");
-        return Err(DxfError::Nothing { found });
+        return Err(DxfError::Nothing(OnlyThese(drawing.skipped)));
     }
     let tolerance = tolerance.max(MIN_TOLERANCE) * side;
     let (mut rings, open) = flattened(&drawing.paths, tolerance, ROUNDING * side)?;
@@ -76,8 +71,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
         count: joined.loose.len(),
         at,
     }));
-    let skipped = drawing.skipped.into_iter();
-    notes.extend(skipped.map(|(kind, count)| ImportNote::Skipped { kind, count }));
+    notes.extend(ImportNote::of_skipped(drawing.skipped));
     Ok(Outlines {
         extent: regions.bounds(),
         regions,

@@ -29,7 +29,7 @@ pub use value::PolygonsError;
 
 use super::form::Outlines;
 use super::json::JsonError;
-use super::note::ImportNote;
+use super::note::{ImportNote, OnlyThese};
 use crate::geometry::{FillRule, Regions, RegionsError, Repairs};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
@@ -55,7 +55,7 @@ struct Found {
     /// Each a list of rings.
     polygons: Vec<Vec<Ring>>,
     /// What else there was, by its type.
-    skipped: BTreeMap<&'static str, usize>,
+    skipped: BTreeMap<String, usize>,
 }
 
 impl Found {
@@ -105,10 +105,7 @@ impl Found {
             },
             "FeatureCollection" => self.members(object, "features", at)?,
             "GeometryCollection" => self.members(object, "geometries", at)?,
-            "Point" => self.skip("Point"),
-            "MultiPoint" => self.skip("MultiPoint"),
-            "LineString" => self.skip("LineString"),
-            "MultiLineString" => self.skip("MultiLineString"),
+            "Point" | "MultiPoint" | "LineString" | "MultiLineString" => self.skip(kind),
             other => {
                 return Err(PolygonsError::Type {
                     at: at.to_string(),
@@ -143,16 +140,14 @@ impl Found {
         self.geojson(object, at)
     }
 
-    fn skip(&mut self, kind: &'static str) {
-        *self.skipped.entry(kind).or_default() += 1;
+    fn skip(&mut self, kind: &str) {
+        *self.skipped.entry(kind.to_owned()).or_default() += 1;
     }
 
     /// Each polygon cleaned, then all united.
     fn united(self) -> Result<Outlines, PolygonsError> {
         if self.polygons.is_empty() {
-            let kinds = self.skipped.iter().map(|(kind, n)| format!("{n} {kind}"));
-            let found = kinds.collect::<Vec<_>>().join(", ");
-            return Err(PolygonsError::NoPolygon { found });
+            return Err(PolygonsError::NoPolygon(OnlyThese(self.skipped)));
         }
         let mut repairs = Repairs::default();
         let mut united: Vec<Ring> = Vec::new();
@@ -168,10 +163,7 @@ impl Found {
         }
         let regions = Regions::from_rings(&united, FillRule::NonZero)?;
         let mut notes = ImportNote::of_repairs(&repairs, FillRule::EvenOdd);
-        notes.extend(self.skipped.iter().map(|(kind, &count)| {
-            let kind = (*kind).to_owned();
-            ImportNote::Skipped { kind, count }
-        }));
+        notes.extend(ImportNote::of_skipped(self.skipped));
         Ok(Outlines {
             extent: regions.bounds(),
             regions,

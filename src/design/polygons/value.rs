@@ -2,6 +2,7 @@
 //! they give no polygons.
 
 use crate::design::json::JsonError;
+use crate::design::note::OnlyThese;
 use crate::geometry::{DVec2, RegionsError};
 use serde_json::{Map, Value};
 use std::fmt;
@@ -43,11 +44,8 @@ pub enum PolygonsError {
         found: String,
     },
     /// There is not one polygon.
-    #[error("there is no polygon in the file{}; save filled outlines", if found.is_empty() { String::new() } else { format!(", only {found}") })]
-    NoPolygon {
-        /// What there is instead.
-        found: String,
-    },
+    #[error("there is no polygon in the file{0}; save filled outlines")]
+    NoPolygon(OnlyThese),
     /// Nothing is enclosed.
     #[error(transparent)]
     Regions(#[from] RegionsError),

@@ -113,10 +113,7 @@ impl Painter<'_> {
         let own = match group.clip_path() {
             Some(path) => {
                 let inside = self.clip(path, group.abs_transform())?;
-                Some(match clip {
-                    Some(outer) => overlaid(&inside, outer, OverlayRule::Intersect),
-                    None => inside,
-                })
+                Some(within(inside, clip))
             }
             None => None,
         };
@@ -147,10 +144,7 @@ impl Painter<'_> {
     }
 
     fn lay(&mut self, rings: Rings, is_white: bool, clip: Option<&Rings>) {
-        let rings = match clip {
-            Some(clip) => overlaid(&rings, clip, OverlayRule::Intersect),
-            None => rings,
-        };
+        let rings = within(rings, clip);
         let is_paper = self.white_is_paper && is_white;
         match self.layers.last_mut() {
             Some(layer) if layer.is_paper == is_paper => layer.rings.extend(rings),
@@ -163,13 +157,8 @@ impl Painter<'_> {
         let mut rings = Vec::new();
         let base = group.pre_concat(clip.transform());
         self.clip_group(clip.root(), base, &mut rings)?;
-        match clip.clip_path() {
-            Some(outer) => {
-                let outer = self.clip(outer, group)?;
-                Ok(overlaid(&rings, &outer, OverlayRule::Intersect))
-            }
-            None => Ok(rings),
-        }
+        let outer = clip.clip_path().map(|outer| self.clip(outer, group));
+        Ok(within(rings, outer.transpose()?.as_ref()))
     }
 
     fn clip_group(
@@ -184,11 +173,9 @@ impl Painter<'_> {
                 Node::Group(inner) => {
                     let mut own = Vec::new();
                     self.clip_group(inner, base, &mut own)?;
-                    if let Some(clip) = inner.clip_path() {
-                        let inside = self.clip(clip, base.pre_concat(inner.abs_transform()))?;
-                        own = overlaid(&own, &inside, OverlayRule::Intersect);
-                    }
-                    rings.extend(own);
+                    let at = base.pre_concat(inner.abs_transform());
+                    let inside = inner.clip_path().map(|clip| self.clip(clip, at));
+                    rings.extend(within(own, inside.transpose()?.as_ref()));
                 }
                 _ => {}
             }
@@ -268,6 +255,14 @@ fn composed(layers: Vec<Layer>) -> Rings {
         ink.extend(layer.rings);
         ink
     })
+}
+
+/// What a clip path lets through, if there is one.
+fn within(rings: Rings, clip: Option<&Rings>) -> Rings {
+    match clip {
+        Some(clip) => overlaid(&rings, clip, OverlayRule::Intersect),
+        None => rings,
+    }
 }
 
 /// A Boolean operation on areas filled by winding.
