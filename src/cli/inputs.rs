@@ -7,7 +7,7 @@ use clap::Args;
 
 use crate::design::{Format, Source};
 use crate::progress::Progress;
-use crate::project::{LoadedProject, Project, ProjectError, gallery};
+use crate::project::{LoadedProject, Project, gallery};
 use crate::transition::Transition;
 
 use super::error::CliError;
@@ -50,14 +50,13 @@ impl Inputs {
 
     fn load(&self, method: &MethodArgs) -> Result<LoadedProject, CliError> {
         match self.inputs.as_slice() {
-            [source, target] => return pair(source, target, method),
+            [source, target] => pair(source, target, method),
             [project] => match gallery_name(project) {
-                Some(name) => bundled(name, method)?,
-                None => from_file(project, method)?,
+                Some(name) => bundled(name, method),
+                None => from_file(project, method),
             },
-            _ => return Err(CliError::Usage("give a project or two designs".to_owned())),
+            _ => Err(CliError::Usage("give a project or two designs".to_owned())),
         }
-        .map_err(CliError::failed)
     }
 }
 
@@ -95,9 +94,7 @@ fn pair(source: &Path, target: &Path, method: &MethodArgs) -> Result<LoadedProje
     LoadedProject::load(project, PathBuf::new()).map_err(CliError::failed)
 }
 
-type Loaded = Result<LoadedProject, ProjectError>;
-
-fn from_file(path: &Path, method: &MethodArgs) -> Result<Loaded, CliError> {
+fn from_file(path: &Path, method: &MethodArgs) -> Result<LoadedProject, CliError> {
     if is_design(path) {
         let path = path.display();
         return Err(CliError::Usage(format!(
@@ -106,7 +103,7 @@ fn from_file(path: &Path, method: &MethodArgs) -> Result<Loaded, CliError> {
     }
     let project = Project::read(path).map_err(CliError::failed)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    Ok(LoadedProject::load(edited(project, method)?, folder))
+    LoadedProject::load(edited(project, method)?, folder).map_err(CliError::failed)
 }
 
 /// One of them alone is half a pair.
@@ -121,9 +118,9 @@ fn is_design(path: &Path) -> bool {
     Format::ALL.iter().any(|format| format.ends(&path))
 }
 
-fn bundled(name: &str, method: &MethodArgs) -> Result<Loaded, CliError> {
+fn bundled(name: &str, method: &MethodArgs) -> Result<LoadedProject, CliError> {
     let project = gallery::document(name).map_err(CliError::failed)?;
-    Ok(gallery::load_document(edited(project, method)?))
+    gallery::load_document(edited(project, method)?).map_err(CliError::failed)
 }
 
 fn edited(mut project: Project, method: &MethodArgs) -> Result<Project, CliError> {

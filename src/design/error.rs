@@ -20,15 +20,6 @@ pub struct ImportError {
     pub problem: Problem,
 }
 
-impl ImportError {
-    pub(super) fn new(file: &str, problem: Problem) -> Self {
-        Self {
-            file: file.to_owned(),
-            problem,
-        }
-    }
-}
-
 /// What is wrong with a file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]

@@ -24,7 +24,8 @@ use std::path::Path;
 /// # Ok::<(), morphospace::design::ImportError>(())
 /// ```
 pub fn import(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Design, ImportError> {
-    read(name.to_owned(), bytes, None, options).map_err(|problem| ImportError::new(name, problem))
+    let file = name.to_owned();
+    read(file.clone(), bytes, None, options).map_err(|problem| ImportError { file, problem })
 }
 
 /// Reads a design from a file, or from whatever else a path may mean: see
@@ -71,7 +72,8 @@ impl Source {
     }
 
     fn error(&self, problem: Problem) -> ImportError {
-        ImportError::new(&self.to_path().display().to_string(), problem)
+        let file = self.to_path().display().to_string();
+        ImportError { file, problem }
     }
 }
 

@@ -9,7 +9,7 @@ use rayon::prelude::*;
 
 use crate::geometry::Bounds;
 use crate::progress::{Cancelled, Progress, checkpoint};
-use crate::transition::{Rgb, Style, Transition};
+use crate::transition::{Frame, Rgb, Style, Transition};
 
 use super::drawing::Drawing;
 use super::error::ExportError;
@@ -67,12 +67,11 @@ impl Camera {
 
     /// The drawing of one frame.
     pub fn shoot(&self, t: f64) -> Drawing {
-        Drawing::of_frame(
-            &self.transition.frame(t),
-            &self.style,
-            &self.view,
-            self.ground,
-        )
+        self.drawn(&self.transition.frame(t))
+    }
+
+    fn drawn(&self, frame: &Frame) -> Drawing {
+        Drawing::of_frame(frame, &self.style, &self.view, self.ground)
     }
 
     /// Draws each run's frame once, makes something of it on any thread, and
@@ -116,12 +115,7 @@ impl Camera {
                         return Err(Cancelled.into());
                     }
                     frame.seek(run.t);
-                    make(Drawing::of_frame(
-                        frame,
-                        &self.style,
-                        &self.view,
-                        self.ground,
-                    ))
+                    make(self.drawn(frame))
                 },
             )
             .collect()

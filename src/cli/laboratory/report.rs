@@ -131,7 +131,10 @@ impl Report {
             frame: frame.as_secs_f64(),
             figure: figure.as_secs_f64(),
             measure: start.elapsed().as_secs_f64(),
-            stages: in_seconds(stages),
+            stages: stages
+                .into_iter()
+                .map(|(s, t)| (s, t.as_secs_f64()))
+                .collect(),
         };
         Ok(Self {
             title: opened.loaded.title(),
@@ -157,13 +160,6 @@ impl Report {
         self.film.samples = Vec::new();
         self
     }
-}
-
-fn in_seconds(stages: Stages) -> BTreeMap<&'static str, f64> {
-    let stages = stages.into_iter();
-    stages
-        .map(|(stage, time)| (stage, time.as_secs_f64()))
-        .collect()
 }
 
 fn of_design(design: &Arc<Design>) -> DesignReport {

@@ -62,11 +62,8 @@ struct Graph {
 impl Graph {
     fn of(curves: &[Vec<DVec2>], within: f64) -> Self {
         let mut places = Places::new(curves, within);
-        let mut ends = Vec::with_capacity(curves.len());
-        for curve in curves {
-            let both = [curve[0], curve[curve.len() - 1]];
-            ends.push(both.map(|p| places.of(p)));
-        }
+        let both = |curve: &Vec<DVec2>| [curve[0], curve[curve.len() - 1]].map(|p| places.of(p));
+        let ends: Vec<_> = curves.iter().map(both).collect();
         let mut at = vec![Vec::new(); places.points.len()];
         for (curve, both) in ends.iter().enumerate() {
             for &place in both {

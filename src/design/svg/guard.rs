@@ -40,7 +40,7 @@ pub(super) fn check(document: &Document) -> Result<(), SvgError> {
         document,
         ids,
         sheet,
-        states: HashMap::new(),
+        sizes: HashMap::new(),
     };
     counter.unfold(document.root_element(), 0).map(|_| ())
 }
@@ -146,17 +146,12 @@ struct Size {
     levels: u32,
 }
 
-#[derive(Clone, Copy)]
-enum State {
-    Open,
-    Done(Size),
-}
-
 struct Counter<'d, 'a> {
     document: &'d Document<'a>,
     ids: HashMap<&'d str, Node<'d, 'a>>,
     sheet: StyleSheet<'d>,
-    states: HashMap<usvg::roxmltree::NodeId, State>,
+    /// `None` for elements that are being counted.
+    sizes: HashMap<usvg::roxmltree::NodeId, Option<Size>>,
 }
 
 impl<'d, 'a> Counter<'d, 'a> {
@@ -165,16 +160,16 @@ impl<'d, 'a> Counter<'d, 'a> {
     fn unfold(&mut self, node: Node<'d, 'a>, depth: u32) -> Result<Size, SvgError> {
         let document = self.document;
         let at = || line(document, node);
-        match self.states.get(&node.id()) {
-            Some(State::Open) => return Err(SvgError::Circular(at())),
-            Some(State::Done(size)) if depth + size.levels > MAX_DEPTH => {
+        match self.sizes.get(&node.id()) {
+            Some(None) => return Err(SvgError::Circular(at())),
+            Some(Some(size)) if depth + size.levels > MAX_DEPTH => {
                 return Err(SvgError::TooDeep(at()));
             }
-            Some(&State::Done(size)) => return Ok(size),
+            Some(&Some(size)) => return Ok(size),
             None if depth > MAX_DEPTH => return Err(SvgError::TooDeep(at())),
             None => {}
         }
-        self.states.insert(node.id(), State::Open);
+        self.sizes.insert(node.id(), None);
         let mut size = Size {
             elements: 1,
             levels: 1,
@@ -187,7 +182,7 @@ impl<'d, 'a> Counter<'d, 'a> {
         if size.elements > MAX_ELEMENTS {
             return Err(SvgError::TooManyElements(at()));
         }
-        self.states.insert(node.id(), State::Done(size));
+        self.sizes.insert(node.id(), Some(size));
         Ok(size)
     }
 
