@@ -99,17 +99,11 @@ impl Format {
 /// Words in a row for a sentence: `a, b or c`.
 pub(crate) fn any_of<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> String {
     let words: Vec<W> = words.into_iter().collect();
-    let last = words.len().saturating_sub(1);
-    let mut row = String::new();
-    for (i, word) in words.iter().enumerate() {
-        row += match i {
-            0 => "",
-            i if i == last => " or ",
-            _ => ", ",
-        };
-        row += word.as_ref();
+    let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
+    match words.as_slice() {
+        [rest @ .., last] if !rest.is_empty() => format!("{} or {last}", rest.join(", ")),
+        few => few.concat(),
     }
-    row
 }
 
 /// How the names of designs' files end, each ending once.

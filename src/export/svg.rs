@@ -50,11 +50,10 @@ fn element(item: &Item) -> String {
             "<path fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" d=\"{}\"/>",
             colour,
             Number(*width_px),
-            joined(
-                segments
-                    .iter()
-                    .map(|[a, b]| format!("M{}L{}", Point(*a), Point(*b)))
-            )
+            segments
+                .iter()
+                .map(|[a, b]| format!("M{}L{}", Point(*a), Point(*b)))
+                .collect::<String>()
         ),
         Item::Discs {
             centres,
@@ -73,7 +72,7 @@ fn fill(outline: &Outline, colour: Rgb, label: Option<&str>) -> String {
     let label = label.map_or_else(String::new, |words| {
         format!(" role=\"img\" aria-label=\"{}\"", Escaped(words))
     });
-    let steps = joined(outline.steps.iter().map(step));
+    let steps: String = outline.steps.iter().map(step).collect();
     format!("<path{label} fill=\"{}\" d=\"{steps}\"/>", colour)
 }
 
@@ -96,7 +95,7 @@ fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
             Number(radius_px)
         )
     };
-    let circles = joined(centres.iter().map(circle));
+    let circles: String = centres.iter().map(circle).collect();
     format!("<g fill=\"{}\">{circles}</g>", colour)
 }
 
@@ -116,10 +115,6 @@ fn picture(image: &image::RgbaImage, corner: DVec2, size: DVec2) -> String {
         Number(size.y),
         base64(&png)
     )
-}
-
-fn joined(parts: impl Iterator<Item = String>) -> String {
-    parts.fold(String::new(), |all, part| all + &part)
 }
 
 /// RFC 4648, with padding.

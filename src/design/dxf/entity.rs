@@ -126,7 +126,10 @@ impl<'a> Record<'a> {
         let mut corners: Vec<Corner> = Vec::new();
         for pair in &self.pairs {
             match (pair.code, corners.last_mut()) {
-                (10, _) => corners.push(Corner::at(pair.real()?, 0.0)),
+                (10, _) => {
+                    let point = DVec2::new(pair.real()?, 0.0);
+                    corners.push(Corner { point, bulge: 0.0 });
+                }
                 (20, Some(corner)) => corner.point.y = pair.real()?,
                 (42, Some(corner)) => corner.bulge = pair.real()?,
                 _ => {}
@@ -148,13 +151,12 @@ impl<'a> Record<'a> {
             if vertex.whole(70)? & 16 != 0 {
                 continue; // the frame of a curve that stands there fitted
             }
-            let mut corner = Corner::at(vertex.real(10, 0.0)?, vertex.real(20, 0.0)?);
-            corner.bulge = if is_in_space {
-                0.0
-            } else {
-                vertex.real(42, 0.0)?
+            let bulge = match is_in_space {
+                true => 0.0,
+                false => vertex.real(42, 0.0)?,
             };
-            corners.push(corner);
+            let point = DVec2::new(vertex.real(10, 0.0)?, vertex.real(20, 0.0)?);
+            corners.push(Corner { point, bulge });
         }
         let plan = match is_in_space {
             true => DAffine2::IDENTITY,
@@ -257,15 +259,6 @@ struct Corner {
     point: DVec2,
     /// Of the side that begins here: the tangent of a quarter of its angle.
     bulge: f64,
-}
-
-impl Corner {
-    fn at(x: f64, y: f64) -> Self {
-        Self {
-            point: DVec2::new(x, y),
-            bulge: 0.0,
-        }
-    }
 }
 
 fn polyline(corners: &[Corner], is_closed: bool, plan: &DAffine2) -> Entity {

@@ -33,7 +33,7 @@ use super::note::{ImportNote, OnlyThese};
 use crate::geometry::{FillRule, Regions, RegionsError, Repairs};
 use serde_json::{Map, Value};
 use std::collections::BTreeMap;
-use value::{At, POLYGONS, RING, Ring, coordinates, depth, expected, items, ring, rings};
+use value::{At, POLYGONS, RING, RINGS, Ring, depth, expected, items, required, ring, rings};
 
 /// Reads plain polygons or GeoJSON.
 pub(super) fn read(text: &str) -> Result<Outlines, PolygonsError> {
@@ -92,11 +92,11 @@ impl Found {
         let kind = object.get("type").and_then(Value::as_str).unwrap_or("");
         match kind {
             "Polygon" => {
-                let (value, at) = coordinates(object, at)?;
+                let (value, at) = required(object, "coordinates", RINGS, at)?;
                 self.polygons.push(rings(value, &at)?);
             }
             "MultiPolygon" => {
-                let (value, at) = coordinates(object, at)?;
+                let (value, at) = required(object, "coordinates", RINGS, at)?;
                 self.polygons(value, &at)?;
             }
             "Feature" => match object.get("geometry") {
@@ -122,12 +122,7 @@ impl Found {
         key: &'static str,
         at: &At,
     ) -> Result<(), PolygonsError> {
-        let list = object.get(key).ok_or_else(|| PolygonsError::Missing {
-            at: at.to_string(),
-            key,
-            expected: "a list, even if it is empty",
-        })?;
-        let at = At::Key(at, key);
+        let (list, at) = required(object, key, "a list, even if it is empty", at)?;
         for (i, value) in items(list, &at, "a list")?.iter().enumerate() {
             self.member(value, &At::Item(&at, i))?;
         }

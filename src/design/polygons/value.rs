@@ -101,7 +101,7 @@ pub(super) type Ring = Vec<DVec2>;
 
 const POINT: &str = "a point, as in [1.5, 2]";
 pub(super) const RING: &str = "a ring, as in [[0, 0], [4, 0], [0, 3]]";
-const RINGS: &str = "a list of rings";
+pub(super) const RINGS: &str = "a list of rings";
 pub(super) const POLYGONS: &str = "a list of polygons, each a list of rings";
 
 fn point(value: &Value, at: &At) -> Result<DVec2, PolygonsError> {
@@ -133,15 +133,17 @@ pub(super) fn depth(value: &Value) -> usize {
     }
 }
 
-pub(super) fn coordinates<'v, 'a>(
+/// A member that must be there, and where it stands.
+pub(super) fn required<'v, 'a>(
     object: &'v Map<String, Value>,
+    key: &'static str,
+    expected: &'static str,
     at: &'a At<'a>,
 ) -> Result<(&'v Value, At<'a>), PolygonsError> {
-    let key = "coordinates";
     let missing = || PolygonsError::Missing {
         at: at.to_string(),
         key,
-        expected: RINGS,
+        expected,
     };
     let value = object.get(key).ok_or_else(missing)?;
     Ok((value, At::Key(at, key)))
