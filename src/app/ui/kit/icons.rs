@@ -73,28 +73,62 @@ pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
         Icon::NextStop => pen.slide(1.0),
         Icon::PreviousStop => pen.slide(-1.0),
         Icon::AddStop => pen.flag(),
-        Icon::Open => pen.folder(),
-        Icon::Save => pen.tray(),
+        Icon::Open => pen.lines(FOLDER),
+        Icon::Save => pen.lines(TRAY),
         Icon::Camera => pen.camera(),
         Icon::Record => pen.dot(vec2(0.0, 0.0), 4.5),
         Icon::Moon => pen.moon(),
         Icon::Sun => pen.sun(),
         Icon::Fit => pen.corners(),
         Icon::Close => pen.lines(&[&[(-4.0, -4.0), (4.0, 4.0)], &[(4.0, -4.0), (-4.0, 4.0)]]),
-        Icon::Swap => pen.swap(),
+        Icon::Swap => pen.lines(SWAP),
         Icon::Tick => pen.lines(&[&[(-5.0, 0.5), (-1.5, 4.0), (5.0, -4.0)]]),
         Icon::Warning => pen.warning(),
         Icon::More => pen.lines(&[&[(-3.5, -1.5), (0.0, 2.0), (3.5, -1.5)]]),
         Icon::Undo => pen.turn(1.0),
         Icon::Redo => pen.turn(-1.0),
         Icon::Match => pen.pair(),
-        Icon::Twin => pen.panes(),
+        Icon::Twin => pen.lines(PANES),
         Icon::Plot => pen.lines(&[
             &[(-6.0, -6.0), (-6.0, 6.0), (6.5, 6.0)],
             &[(-3.5, 2.5), (-0.5, -2.0), (2.0, 0.5), (6.0, -4.5)],
         ]),
     }
 }
+
+/// Lines through points, from the middle of the icon.
+type Lines = &'static [&'static [(f32, f32)]];
+
+const FOLDER: Lines = &[&[
+    (-6.5, 5.0),
+    (-6.5, -5.0),
+    (-2.0, -5.0),
+    (-0.5, -3.0),
+    (6.5, -3.0),
+    (6.5, 5.0),
+    (-6.5, 5.0),
+]];
+const TRAY: Lines = &[
+    &[(0.0, -6.5), (0.0, 2.0)],
+    &[(-3.5, -1.5), (0.0, 2.0), (3.5, -1.5)],
+    &[(-6.5, 2.0), (-6.5, 6.0), (6.5, 6.0), (6.5, 2.0)],
+];
+const SWAP: Lines = &[
+    &[(-6.0, -3.0), (6.0, -3.0)],
+    &[(3.0, -6.0), (6.0, -3.0), (3.0, 0.0)],
+    &[(6.0, 3.5), (-6.0, 3.5)],
+    &[(-3.0, 0.5), (-6.0, 3.5), (-3.0, 6.5)],
+];
+const PANES: Lines = &[
+    &[
+        (-7.0, -5.0),
+        (7.0, -5.0),
+        (7.0, 5.0),
+        (-7.0, 5.0),
+        (-7.0, -5.0),
+    ],
+    &[(0.0, -5.0), (0.0, 5.0)],
+];
 
 struct Pen<'a> {
     painter: &'a Painter,
@@ -164,26 +198,6 @@ impl Pen<'_> {
         self.filled(&[(-3.5, -6.0), (5.5, -2.5), (-3.5, 1.0)]);
     }
 
-    fn folder(&self) {
-        self.lines(&[&[
-            (-6.5, 5.0),
-            (-6.5, -5.0),
-            (-2.0, -5.0),
-            (-0.5, -3.0),
-            (6.5, -3.0),
-            (6.5, 5.0),
-            (-6.5, 5.0),
-        ]]);
-    }
-
-    fn tray(&self) {
-        self.lines(&[
-            &[(0.0, -6.5), (0.0, 2.0)],
-            &[(-3.5, -1.5), (0.0, 2.0), (3.5, -1.5)],
-            &[(-6.5, 2.0), (-6.5, 6.0), (6.5, 6.0), (6.5, 2.0)],
-        ]);
-    }
-
     fn camera(&self) {
         self.lines(&[&[
             (-7.0, 5.0),
@@ -229,15 +243,6 @@ impl Pen<'_> {
         }
     }
 
-    fn swap(&self) {
-        self.lines(&[
-            &[(-6.0, -3.0), (6.0, -3.0)],
-            &[(3.0, -6.0), (6.0, -3.0), (3.0, 0.0)],
-            &[(6.0, 3.5), (-6.0, 3.5)],
-            &[(-3.0, 0.5), (-6.0, 3.5), (-3.0, 6.5)],
-        ]);
-    }
-
     /// `side` is 1 for the arrow to the left.
     fn turn(&self, side: f32) {
         let arc: Vec<(f32, f32)> = (0..=12u8)
@@ -262,19 +267,6 @@ impl Pen<'_> {
             self.painter
                 .circle_stroke(self.at(x, y), 2.4, self.stroke());
         }
-    }
-
-    fn panes(&self) {
-        self.lines(&[
-            &[
-                (-7.0, -5.0),
-                (7.0, -5.0),
-                (7.0, 5.0),
-                (-7.0, 5.0),
-                (-7.0, -5.0),
-            ],
-            &[(0.0, -5.0), (0.0, 5.0)],
-        ]);
     }
 
     fn warning(&self) {

@@ -14,24 +14,12 @@ use crate::warp::WarpKind;
 pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
     section(ui, "Appearance", |ui| {
         layers(ui, scene, draft, acts);
-        colour(
-            ui,
-            "Source",
-            "Colour of the shape at t = 0.",
-            &mut draft.style.source,
-        );
-        colour(
-            ui,
-            "Target",
-            "Colour of the shape at t = 1.",
-            &mut draft.style.target,
-        );
-        colour(
-            ui,
-            "Ground",
-            "Colour behind the shape, on screen and in pictures.",
-            &mut draft.style.ground,
-        );
+        let tip = "Colour of the shape at t = 0.";
+        colour(ui, "Source", tip, &mut draft.style.source);
+        let tip = "Colour of the shape at t = 1.";
+        colour(ui, "Target", tip, &mut draft.style.target);
+        let tip = "Colour behind the shape, on screen and in pictures.";
+        colour(ui, "Ground", tip, &mut draft.style.ground);
         if scene.session.has_bars() {
             bars(ui, draft);
         }
@@ -112,16 +100,8 @@ fn bars(ui: &mut Ui, draft: &mut Project) {
         .speed(0.0002)
         .range(0.001..=0.2)
         .max_decimals(4);
-    number(
-        ui,
-        "Bar width",
-        "Thickness of the bars, as a part of the design's size; also of the shape that its field is made from.",
-        width,
-    );
-    toggle(
-        ui,
-        "Joints",
-        "Draws a disc where bars meet.",
-        &mut draft.style.joints,
-    );
+    let tip = "Thickness of the bars, as a part of the design's size; also of the shape that its field is made from.";
+    number(ui, "Bar width", tip, width);
+    let tip = "Draws a disc where bars meet.";
+    toggle(ui, "Joints", tip, &mut draft.style.joints);
 }

@@ -16,12 +16,8 @@ use crate::transition::Rgb;
 /// Draws both designs.
 pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
     section(ui, "Designs", |ui| {
-        pick(
-            ui,
-            "Frame",
-            "How unlike designs are laid over each other before anything else.",
-            &mut draft.fit,
-        );
+        let tip = "How unlike designs are laid over each other before anything else.";
+        pick(ui, "Frame", tip, &mut draft.fit);
         let colours = [draft.style.source, draft.style.target];
         for (index, entry) in draft.designs.iter_mut().take(2).enumerate() {
             design(ui, index, colours[index], entry, acts);
@@ -97,32 +93,16 @@ fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
             field(ui, &mut place.offset.x, "x ") | field(ui, &mut place.offset.y, "y ")
         },
     );
-    slider(
-        ui,
-        "Scale",
-        "Enlarges this design about its own middle.",
-        &mut place.scale,
-        0.05..=20.0,
-        true,
-    );
+    let tip = "Enlarges this design about its own middle.";
+    slider(ui, "Scale", tip, &mut place.scale, 0.05..=20.0, true);
     let mut degrees = place.rotation.to_degrees();
-    slider(
-        ui,
-        "Rotation",
-        "Turns this design counter-clockwise, in degrees.",
-        &mut degrees,
-        -180.0..=180.0,
-        false,
-    );
+    let tip = "Turns this design counter-clockwise, in degrees.";
+    slider(ui, "Rotation", tip, &mut degrees, -180.0..=180.0, false);
     if (degrees - place.rotation.to_degrees()).abs() > 1e-9 {
         place.rotation = degrees.to_radians();
     }
-    toggle(
-        ui,
-        "Mirror",
-        "Exchanges left and right of this design.",
-        &mut place.mirror,
-    );
+    let tip = "Exchanges left and right of this design.";
+    toggle(ui, "Mirror", tip, &mut place.mirror);
 }
 
 fn is_picture(entry: &DesignEntry) -> bool {
@@ -134,12 +114,8 @@ fn is_picture(entry: &DesignEntry) -> bool {
 fn reading(ui: &mut Ui, entry: &mut DesignEntry) {
     let import = &mut entry.import;
     let mut is_automatic = import.threshold.is_none();
-    toggle(
-        ui,
-        "Automatic",
-        "Finds the grey level that parts shape from ground by itself.",
-        &mut is_automatic,
-    );
+    let tip = "Finds the grey level that parts shape from ground by itself.";
+    toggle(ui, "Automatic", tip, &mut is_automatic);
     match (is_automatic, import.threshold) {
         (true, _) => import.threshold = None,
         (false, None) => import.threshold = Some(128),
@@ -147,35 +123,19 @@ fn reading(ui: &mut Ui, entry: &mut DesignEntry) {
     }
     if let Some(threshold) = &mut import.threshold {
         let drag = DragValue::new(threshold).speed(0.5).range(1..=255);
-        number(
-            ui,
-            "Grey level",
-            "Where shape ends and ground begins, 1 to 255: higher lets more in.",
-            drag,
-        );
+        let tip = "Where shape ends and ground begins, 1 to 255: higher lets more in.";
+        number(ui, "Grey level", tip, drag);
     }
-    toggle(
-        ui,
-        "Invert",
-        "Takes the ground for the shape.",
-        &mut import.invert,
-    );
+    let tip = "Takes the ground for the shape.";
+    toggle(ui, "Invert", tip, &mut import.invert);
     let specks = DragValue::new(&mut import.specks_px).speed(0.2);
-    number(
-        ui,
-        "Specks",
-        "Spots and holes of fewer pixels than this are left out.",
-        specks,
-    );
+    let tip = "Spots and holes of fewer pixels than this are left out.";
+    number(ui, "Specks", tip, specks);
     let tolerance = DragValue::new(&mut import.tolerance)
         .speed(0.0001)
         .range(0.0..=0.1)
         .max_decimals(4);
-    number(
-        ui,
-        "Tolerance",
-        "How far the outline may run from the exact edge, as a part of the longer side: larger has fewer corners.",
-        tolerance,
-    );
+    let tip = "How far the outline may run from the exact edge, as a part of the longer side: larger has fewer corners.";
+    number(ui, "Tolerance", tip, tolerance);
     ui.add_space(GRID);
 }

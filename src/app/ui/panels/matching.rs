@@ -66,42 +66,24 @@ fn rules(ui: &mut Ui, matching: &mut Matching) {
             ),
         ],
     );
-    pick(
-        ui,
-        "Holes",
-        "What becomes of a hole that the other design does not have.",
-        &mut matching.holes,
-    );
-    pick(
-        ui,
-        "Parts",
-        "What becomes of a part that the other design does not have.",
-        &mut matching.parts,
-    );
+    let tip = "What becomes of a hole that the other design does not have.";
+    pick(ui, "Holes", tip, &mut matching.holes);
+    let tip = "What becomes of a part that the other design does not have.";
+    pick(ui, "Parts", tip, &mut matching.parts);
 }
 
 fn density(ui: &mut Ui, edge_length: &mut Option<f64>) {
     let mut is_automatic = edge_length.is_none();
-    toggle(
-        ui,
-        "Auto mesh",
-        "Triangles as coarse as good angles allow. Off: a largest edge length of your own.",
-        &mut is_automatic,
-    );
+    let tip = "Triangles as coarse as good angles allow. Off: a largest edge length of your own.";
+    toggle(ui, "Auto mesh", tip, &mut is_automatic);
     *edge_length = match (is_automatic, *edge_length) {
         (true, _) => None,
         (false, length) => Some(length.unwrap_or(USUAL_EDGE)),
     };
     if let Some(length) = edge_length {
-        slider(
-            ui,
-            "Edge length",
-            "The longest edge wanted inside, as a share of the design's size: smaller makes more \
-             triangles, softer bends and slower frames.",
-            length,
-            0.01..=0.25,
-            true,
-        );
+        let tip = "The longest edge wanted inside, as a share of the design's size: smaller makes more \
+             triangles, softer bends and slower frames.";
+        slider(ui, "Edge length", tip, length, 0.01..=0.25, true);
     }
 }
 

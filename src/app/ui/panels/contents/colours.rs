@@ -11,12 +11,8 @@ const SHORTEST: f64 = 0.01;
 /// Draws the options.
 pub fn show(ui: &mut Ui, mix: &mut ColourMix) {
     section(ui, "Colours", |ui| {
-        list(
-            ui,
-            "Curve",
-            "How fast one picture gives way to the other.",
-            &mut mix.curve,
-        );
+        let tip = "How fast one picture gives way to the other.";
+        list(ui, "Curve", tip, &mut mix.curve);
         let from = DragValue::new(&mut mix.from)
             .range(0.0..=mix.to - SHORTEST)
             .speed(0.005)

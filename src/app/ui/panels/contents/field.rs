@@ -11,55 +11,32 @@ use crate::transition::{Boundary, FieldOptions};
 pub fn show(ui: &mut Ui, field: &mut FieldOptions) {
     section(ui, "Distance field", |ui| {
         mixing(ui, &mut field.blend);
-        list(
-            ui,
-            "Metric",
-            "What distance means; it shows in the corners.",
-            &mut field.metric,
-        );
+        let tip = "What distance means; it shows in the corners.";
+        list(ui, "Metric", tip, &mut field.metric);
         let is_euclidean = field.metric == Metric::Euclidean;
         ui.add_enabled_ui(is_euclidean, |ui| outline(ui, &mut field.boundary));
         let cells = DragValue::new(&mut field.cells).range(32..=4096).speed(4.0);
-        number(
-            ui,
-            "Cells",
-            "Cells along the longer side. More: finer detail, and ε and threshold mean smaller distances.",
-            cells,
-        );
-        slider(
-            ui,
-            "Margin",
-            "Room around the designs, as a part of the longer side. Needed where the shape grows outwards.",
-            &mut field.margin,
-            0.0..=1.0,
-            false,
-        );
+        let tip = "Cells along the longer side. More: finer detail, and ε and threshold mean smaller distances.";
+        number(ui, "Cells", tip, cells);
+        let tip = "Room around the designs, as a part of the longer side. Needed where the shape grows outwards.";
+        slider(ui, "Margin", tip, &mut field.margin, 0.0..=1.0, false);
     });
 }
 
 /// How the two fields become one.
 fn mixing(ui: &mut Ui, blend: &mut FieldBlend) {
-    pick(
-        ui,
-        "Space",
-        "The scale on which distances are mixed.",
-        &mut blend.space,
-    );
+    let tip = "The scale on which distances are mixed.";
+    pick(ui, "Space", tip, &mut blend.space);
     ui.add_enabled_ui(blend.space == BlendSpace::Log, |ui| {
-        slider(
-            ui,
-            "ε",
-            "How sharply the logarithm prefers what is near, in cells. Small: the two outlines \
-             stay visible as a web; large: like real space. Only for logarithmic space.",
-            &mut blend.epsilon,
-            0.01..=100.0,
-            true,
-        );
+        let tip = "How sharply the logarithm prefers what is near, in cells. Small: the two outlines \
+             stay visible as a web; large: like real space. Only for logarithmic space.";
+        slider(ui, "ε", tip, &mut blend.epsilon, 0.01..=100.0, true);
     });
+    let tip = "The distance that is drawn as the outline, in cells. Above 0 the shape grows thinner, below 0 thicker.";
     slider(
         ui,
         "Threshold",
-        "The distance that is drawn as the outline, in cells. Above 0 the shape grows thinner, below 0 thicker.",
+        tip,
         &mut blend.threshold,
         -40.0..=40.0,
         false,
@@ -67,11 +44,7 @@ fn mixing(ui: &mut Ui, blend: &mut FieldBlend) {
 }
 
 fn outline(ui: &mut Ui, boundary: &mut Boundary) {
-    pick(
-        ui,
-        "Outline",
-        "Where the edge of a shape lies within a cell; metrics other than the Euclidean have it \
-         between cells.",
-        boundary,
-    );
+    let tip = "Where the edge of a shape lies within a cell; metrics other than the Euclidean have it \
+         between cells.";
+    pick(ui, "Outline", tip, boundary);
 }

@@ -13,13 +13,9 @@ const MOST_LEVELS: u32 = 7;
 /// Draws the options.
 pub fn show(ui: &mut Ui, lattice: &mut LatticeOptions) {
     section(ui, "Lattice", |ui| {
-        toggle(
-            ui,
-            "Fold-free",
-            "On: the plane never folds, and a pin that cannot be reached is missed. Off: pins \
-             are met, and the plane may fold.",
-            &mut lattice.fold_free,
-        );
+        let tip = "On: the plane never folds, and a pin that cannot be reached is missed. Off: pins \
+             are met, and the plane may fold.";
+        toggle(ui, "Fold-free", tip, &mut lattice.fold_free);
         let coarsest = DragValue::new(&mut lattice.coarsest)
             .range(1..=MOST_CELLS)
             .speed(0.05);

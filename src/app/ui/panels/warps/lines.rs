@@ -8,12 +8,8 @@ use crate::warp::LineOptions;
 /// Draws the options.
 pub fn show(ui: &mut Ui, lines: &mut LineOptions) {
     section(ui, "Lines", |ui| {
-        pick(
-            ui,
-            "Between",
-            "How a line lies between its two.",
-            &mut lines.between,
-        );
+        let tip = "How a line lies between its two.";
+        pick(ui, "Between", tip, &mut lines.between);
         let smoothness = DragValue::new(&mut lines.smoothness)
             .range(1e-4..=1.0)
             .speed(0.001)
@@ -25,12 +21,8 @@ pub fn show(ui: &mut Ui, lines: &mut LineOptions) {
             .range(0.1..=8.0)
             .speed(0.02)
             .fixed_decimals(2);
-        number(
-            ui,
-            "Falloff",
-            "How fast a line's pull weakens with distance.",
-            falloff,
-        );
+        let tip = "How fast a line's pull weakens with distance.";
+        number(ui, "Falloff", tip, falloff);
         let exponent = DragValue::new(&mut lines.length_exponent)
             .range(0.0..=2.0)
             .speed(0.01)

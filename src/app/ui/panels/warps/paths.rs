@@ -8,11 +8,7 @@ use crate::warp::PathOptions;
 /// Draws the options.
 pub fn show(ui: &mut Ui, paths: &mut PathOptions) {
     section(ui, "Boundary paths", |ui| {
-        pick(
-            ui,
-            "Course",
-            "How each point of the outline moves.",
-            &mut paths.course,
-        );
+        let tip = "How each point of the outline moves.";
+        pick(ui, "Course", tip, &mut paths.course);
     });
 }

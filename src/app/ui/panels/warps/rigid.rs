@@ -16,31 +16,19 @@ const MOST_SUBDIVISIONS: u32 = 4;
 /// Draws the options.
 pub fn show(ui: &mut Ui, scene: &Scene, arap: &mut ArapOptions) {
     section(ui, "Motion of parts", |ui| {
-        list(
-            ui,
-            "Homotopy",
-            "The path of each triangle from its first form to its last.",
-            &mut arap.homotopy,
-        );
+        let tip = "The path of each triangle from its first form to its last.";
+        list(ui, "Homotopy", tip, &mut arap.homotopy);
         weights(ui, &mut arap.weights);
-        toggle(
-            ui,
-            "Symmetric",
-            "On: the film from target to source is the same backwards. Off: only the source's \
-             triangles count, as in the paper.",
-            &mut arap.symmetric,
-        );
+        let tip = "On: the film from target to source is the same backwards. Off: only the source's \
+             triangles count, as in the paper.";
+        toggle(ui, "Symmetric", tip, &mut arap.symmetric);
         path(ui, &mut arap.path);
         extra_turns(ui, &mut arap.extra_turns, scene.session.parts());
         let subdivisions = DragValue::new(&mut arap.subdivisions)
             .range(0..=MOST_SUBDIVISIONS)
             .speed(0.02);
-        number(
-            ui,
-            "Subdivide",
-            "Splits each triangle into four, so many times: parts bend more softly, frames take longer.",
-            subdivisions,
-        );
+        let tip = "Splits each triangle into four, so many times: parts bend more softly, frames take longer.";
+        number(ui, "Subdivide", tip, subdivisions);
     });
 }
 
@@ -138,12 +126,8 @@ fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
     }
     if parts > 1 && parts <= MOST_PARTS {
         let mut apart = each;
-        toggle(
-            ui,
-            "Each part",
-            "A number of turns of its own for each part that hangs on others by points only.",
-            &mut apart,
-        );
+        let tip = "A number of turns of its own for each part that hangs on others by points only.";
+        toggle(ui, "Each part", tip, &mut apart);
         if apart != each {
             let all = turns.first().copied().unwrap_or(0);
             *turns = if apart { vec![all; parts] } else { vec![all] };

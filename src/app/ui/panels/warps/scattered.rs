@@ -8,12 +8,8 @@ use crate::warp::{Basis, ScatteredOptions};
 /// Draws the options.
 pub fn show(ui: &mut Ui, scattered: &mut ScatteredOptions) {
     section(ui, "Points", |ui| {
-        list(
-            ui,
-            "Basis",
-            "How the pull of a pin spreads.",
-            &mut scattered.basis,
-        );
+        let tip = "How the pull of a pin spreads.";
+        list(ui, "Basis", tip, &mut scattered.basis);
         match scattered.basis {
             Basis::ThinPlate => {}
             Basis::Gaussian => {
