@@ -9,7 +9,7 @@ use crate::app::looking::twin::{OnTwin, Twin};
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
 use crate::stage::{Blend, StageStyle, StageTransition};
-use crate::transition::Style;
+use crate::transition::{Style, Transition};
 
 /// The render layer of what is beside the stage.
 pub const TWIN_LAYER: RenderLayers = RenderLayers::layer(1);
@@ -18,30 +18,19 @@ pub const TWIN_LAYER: RenderLayers = RenderLayers::layer(1);
 #[derive(Component, Debug)]
 pub struct OnStage;
 
+/// What of a kind is on the stage already.
+type Staged<'w, 's, Of> = Query<'w, 's, (Entity, &'static StageTransition), With<Of>>;
+
 /// Puts the transition on the stage wherever it is another one.
 pub fn stage_transition(
     mut commands: Commands,
     session: Res<Session>,
     playback: Res<Playback>,
-    staged: Query<(Entity, &StageTransition), With<OnStage>>,
+    staged: Staged<OnStage>,
 ) {
-    if !session.is_changed() {
-        return;
-    }
-    let blend = Blend { t: playback.t() };
-    match (session.transition(), staged.single()) {
-        (Some(new), Ok((_, StageTransition(old))))
-            if std::ptr::eq(new.content(), old.content()) => {}
-        (Some(new), Ok((entity, _))) => {
-            commands
-                .entity(entity)
-                .insert((StageTransition(new.clone()), blend));
-        }
-        (Some(new), Err(_)) => {
-            commands.spawn((OnStage, StageTransition(new.clone()), blend));
-        }
-        (None, Ok((entity, _))) => commands.entity(entity).despawn(),
-        (None, Err(_)) => {}
+    if session.is_changed() {
+        let blend = Blend { t: playback.t() };
+        stage(&mut commands, session.transition(), blend, &staged, OnStage);
     }
 }
 
@@ -50,27 +39,32 @@ pub fn stage_twin(
     mut commands: Commands,
     twin: Res<Twin>,
     playback: Res<Playback>,
-    staged: Query<(Entity, &StageTransition), With<OnTwin>>,
+    staged: Staged<OnTwin>,
 ) {
-    if !twin.is_changed() {
-        return;
+    if twin.is_changed() {
+        let blend = Blend { t: playback.t() };
+        let marks = (OnTwin, Propagate(TWIN_LAYER));
+        stage(&mut commands, twin.transition(), blend, &staged, marks);
     }
-    let blend = Blend { t: playback.t() };
-    match (twin.transition(), staged.single()) {
+}
+
+/// Brings the entity with these marks up to the transition; there is none where that is none.
+fn stage<Of: Component>(
+    commands: &mut Commands,
+    transition: Option<&Transition>,
+    blend: Blend,
+    staged: &Staged<Of>,
+    marks: impl Bundle,
+) {
+    match (transition, staged.single()) {
         (Some(new), Ok((_, StageTransition(old))))
             if std::ptr::eq(new.content(), old.content()) => {}
         (Some(new), Ok((entity, _))) => {
-            commands
-                .entity(entity)
-                .insert((StageTransition(new.clone()), blend));
+            let new = (StageTransition(new.clone()), blend);
+            commands.entity(entity).insert(new);
         }
         (Some(new), Err(_)) => {
-            commands.spawn((
-                OnTwin,
-                Propagate(TWIN_LAYER),
-                StageTransition(new.clone()),
-                blend,
-            ));
+            commands.spawn((marks, StageTransition(new.clone()), blend));
         }
         (None, Ok((entity, _))) => commands.entity(entity).despawn(),
         (None, Err(_)) => {}
