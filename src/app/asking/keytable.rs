@@ -25,32 +25,24 @@ const fn key(trigger: Trigger, intent: Intent) -> Binding {
 }
 
 impl Binding {
-    fn shift(self) -> Self {
-        Self {
-            shift: true,
-            ..self
-        }
+    fn shift(mut self) -> Self {
+        self.shift = true;
+        self
     }
 
-    fn control(self) -> Self {
-        Self {
-            control: true,
-            ..self
-        }
+    fn control(mut self) -> Self {
+        self.control = true;
+        self
     }
 
-    fn editing(self) -> Self {
-        Self {
-            in_editor: true,
-            ..self
-        }
+    fn editing(mut self) -> Self {
+        self.in_editor = true;
+        self
     }
 
-    fn repeating(self) -> Self {
-        Self {
-            repeats: true,
-            ..self
-        }
+    fn repeating(mut self) -> Self {
+        self.repeats = true;
+        self
     }
 }
 

@@ -73,23 +73,14 @@ pub fn open(
             Intent::Save if session.path().is_none() => Purpose::Save,
             _ => continue,
         };
-        if dialog.0.is_none() && session.project().is_some_or_open(purpose) {
+        let applies = session.project().is_some() || purpose == Purpose::Open;
+        if dialog.0.is_none() && applies {
             dialog.0 = Some(Asked {
                 purpose,
                 since: Instant::now(),
                 answer: start(purpose, &session),
             });
         }
-    }
-}
-
-trait SomeOrOpen {
-    fn is_some_or_open(&self, purpose: Purpose) -> bool;
-}
-
-impl<T> SomeOrOpen for Option<T> {
-    fn is_some_or_open(&self, purpose: Purpose) -> bool {
-        self.is_some() || purpose == Purpose::Open
     }
 }
 
@@ -100,10 +91,14 @@ fn start(purpose: Purpose, session: &Session) -> Job<Vec<PathBuf>> {
         .add_filter(kind, &extensions);
     match purpose {
         Purpose::Open => wait_for(asked.pick_files()),
-        Purpose::Replace(_) => wait_for(asked.pick_file()),
+        Purpose::Replace(_) => {
+            let file = asked.pick_file();
+            wait_for(async { file.await.map(|file| vec![file]) })
+        }
         Purpose::Save => {
             let name = format!("{}.{PROJECT_EXTENSION}", session.file_stem());
-            wait_for(asked.set_file_name(name).save_file())
+            let file = asked.set_file_name(name).save_file();
+            wait_for(async { file.await.map(|file| vec![file]) })
         }
     }
 }
@@ -125,31 +120,13 @@ impl Purpose {
 }
 
 /// Waits beside the window until the dialog is closed.
-fn wait_for<F>(asked: impl Future<Output = Option<F>> + Send + 'static) -> Job<Vec<PathBuf>>
-where
-    F: IntoFiles,
-{
+fn wait_for(
+    asked: impl Future<Output = Option<Vec<FileHandle>>> + Send + 'static,
+) -> Job<Vec<PathBuf>> {
     Job::start("the dialog", move |_| {
-        let files = block_on(asked).map_or_else(Vec::new, F::into_files);
+        let files = block_on(asked).unwrap_or_default();
         files.iter().map(|file| file.path().to_owned()).collect()
     })
-}
-
-/// One file or several.
-trait IntoFiles {
-    fn into_files(self) -> Vec<FileHandle>;
-}
-
-impl IntoFiles for FileHandle {
-    fn into_files(self) -> Vec<FileHandle> {
-        vec![self]
-    }
-}
-
-impl IntoFiles for Vec<FileHandle> {
-    fn into_files(self) -> Vec<FileHandle> {
-        self
-    }
 }
 
 /// Takes in what was chosen.
