@@ -6,7 +6,6 @@ use crate::app::capturing::files::safe;
 use crate::app::session::history::{History, Snapshot};
 use crate::app::session::loading::{self, Loaded, Problem, Rebuild};
 use crate::app::session::saving::{self, SaveError};
-use crate::design::Form;
 use crate::project::{LoadedProject, Project};
 use crate::transition::Transition;
 
@@ -102,20 +101,6 @@ impl Open {
     /// Takes the changes for saved.
     pub fn forget_changes(&mut self) {
         self.saved = self.loaded.project.clone();
-    }
-
-    /// Some design is a truss.
-    #[must_use]
-    pub fn has_bars(&self) -> bool {
-        let mut designs = self.loaded.designs.iter();
-        designs.any(|design| matches!(design.form, Form::Truss(_)))
-    }
-
-    /// Both designs are outlines: there is something to match.
-    #[must_use]
-    pub fn can_match(&self) -> bool {
-        let pair = self.loaded.designs.iter().take(2);
-        pair.clone().count() == 2 && pair.into_iter().all(|d| matches!(d.form, Form::Outline(_)))
     }
 
     /// Changes the settings. Changes of one mark are one step of the history.

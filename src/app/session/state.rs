@@ -17,7 +17,7 @@ use crate::app::session::open::{Open, Origin};
 use crate::app::session::saving::SaveError;
 use crate::app::session::work::{Work, WorkError, WorkKind};
 use crate::content::ContentKind;
-use crate::design::Design;
+use crate::design::{Design, Form};
 use crate::project::{LoadedProject, Project};
 use crate::transition::{BuildError, Stop, Timing, Transition};
 use crate::warp::{Arap, WarpKind};
@@ -156,13 +156,15 @@ impl Session {
     /// Some design is a truss.
     #[must_use]
     pub fn has_bars(&self) -> bool {
-        self.open.as_ref().is_some_and(Open::has_bars)
+        let mut designs = self.designs().iter();
+        designs.any(|design| matches!(design.form, Form::Truss(_)))
     }
 
     /// Both designs are outlines: there is something to match.
     #[must_use]
     pub fn can_match(&self) -> bool {
-        self.open.as_ref().is_some_and(Open::can_match)
+        let pair = self.designs().get(..2).unwrap_or_default();
+        !pair.is_empty() && pair.iter().all(|d| matches!(d.form, Form::Outline(_)))
     }
 }
 
