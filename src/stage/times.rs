@@ -46,12 +46,6 @@ impl Durations {
         self.recorded += 1;
     }
 
-    /// The latest duration, `None` before the first.
-    pub fn latest(&self) -> Option<Duration> {
-        let last = self.recorded.checked_sub(1)?;
-        Some(self.ring[last % REMEMBERED])
-    }
-
     /// The median of the remembered durations (the lower one of an even
     /// count), `None` before the first.
     pub fn median(&self) -> Option<Duration> {
@@ -86,7 +80,6 @@ mod tests {
             durations.record(Duration::from_millis(3));
         }
         assert_eq!(durations.median(), Some(Duration::from_millis(3)));
-        assert_eq!(durations.latest(), Some(Duration::from_millis(3)));
     }
 
     #[test]

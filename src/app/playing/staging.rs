@@ -9,7 +9,7 @@ use crate::app::looking::twin::{OnTwin, Twin};
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
 use crate::stage::{Blend, StageStyle, StageTransition};
-use crate::transition::{Style, Transition};
+use crate::transition::Transition;
 
 /// The render layer of what is beside the stage.
 pub const TWIN_LAYER: RenderLayers = RenderLayers::layer(1);
@@ -90,9 +90,7 @@ pub fn stage_style(
     mut styles: Query<&mut StageStyle, Shown>,
     mut ground: ResMut<ClearColor>,
 ) {
-    let style = session
-        .project()
-        .map_or_else(Style::default, |project| project.style);
+    let style = session.style();
     let [r, g, b] = style.ground.0;
     let colour = Color::srgb_u8(r, g, b);
     if ground.0 != colour {

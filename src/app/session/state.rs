@@ -19,7 +19,7 @@ use crate::app::session::work::{Work, WorkError, WorkKind};
 use crate::content::ContentKind;
 use crate::design::{Design, Form};
 use crate::project::{LoadedProject, Project};
-use crate::transition::{BuildError, Stop, Timing, Transition};
+use crate::transition::{BuildError, Stop, Style, Timing, Transition};
 use crate::warp::{Arap, WarpKind};
 
 /// What [`Session::poll`] found.
@@ -104,6 +104,12 @@ impl Session {
     #[must_use]
     pub fn timing(&self) -> &Timing {
         self.project().map_or(&NO_TIMING, |project| &project.timing)
+    }
+
+    /// How the open project is painted.
+    #[must_use]
+    pub fn style(&self) -> Style {
+        self.project().map_or_else(Style::default, |p| p.style)
     }
 
     /// The stops of the open project.

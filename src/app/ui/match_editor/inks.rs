@@ -48,14 +48,10 @@ impl Inks {
             fills: [fill(style.source), fill(style.target)],
         }
     }
-}
 
-impl Inks {
+    /// The inks on the ground of the open project.
     pub fn of(scene: &Scene) -> Self {
-        let style = scene
-            .session
-            .project()
-            .map_or_else(Default::default, |project| project.style);
+        let style = scene.session.style();
         Self::new(&style, ink_on(style.ground))
     }
 }

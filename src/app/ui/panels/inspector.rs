@@ -7,9 +7,7 @@ use bevy_egui::egui::{self, Margin, Panel, ScrollArea, Ui};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::panels::contents::{colours, field};
-use crate::app::ui::panels::warps::{lattice, lines, paths, rigid, scattered, travel};
-use crate::app::ui::panels::{appearance, designs, matching, method};
+use crate::app::ui::panels::{appearance, contents, designs, matching, method, rigid, warps};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
 use crate::warp::WarpKind;
@@ -54,18 +52,18 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let carries_fields =
         draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Field);
     if carries_fields || draft.warp.is_some_and(WarpKind::is_of_the_plane) {
-        travel::show(ui, &mut draft.options.travel);
+        warps::travel(ui, &mut draft.options.travel);
     }
     match draft.warp {
-        Some(WarpKind::Paths) => paths::show(ui, &mut draft.options.paths),
-        Some(WarpKind::Lines) => lines::show(ui, &mut draft.options.lines),
-        Some(WarpKind::Scattered) => scattered::show(ui, &mut draft.options.scattered),
-        Some(WarpKind::Lattice) => lattice::show(ui, &mut draft.options.lattice),
+        Some(WarpKind::Paths) => warps::paths(ui, &mut draft.options.paths),
+        Some(WarpKind::Lines) => warps::lines(ui, &mut draft.options.lines),
+        Some(WarpKind::Scattered) => warps::scattered(ui, &mut draft.options.scattered),
+        Some(WarpKind::Lattice) => warps::lattice(ui, &mut draft.options.lattice),
         Some(WarpKind::None | WarpKind::Arap) | None => {}
     }
     match draft.content {
-        Some(ContentKind::Field) => field::show(ui, &mut draft.options.field),
-        Some(ContentKind::Colours) => colours::show(ui, &mut draft.options.colours),
+        Some(ContentKind::Field) => contents::field(ui, &mut draft.options.field),
+        Some(ContentKind::Colours) => contents::colours(ui, &mut draft.options.colours),
         Some(ContentKind::Solid) | None => {}
     }
     designs::show(ui, &mut draft, acts);

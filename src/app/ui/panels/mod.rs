@@ -6,4 +6,5 @@ pub mod designs;
 pub mod inspector;
 pub mod matching;
 pub mod method;
+pub mod rigid;
 pub mod warps;

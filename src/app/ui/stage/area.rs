@@ -6,7 +6,7 @@ use bevy_egui::egui::{Align2, Color32, FontId, Rect, Sense, Ui};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::scene::{Intents, Scene};
-use crate::transition::{Rgb, Style};
+use crate::transition::Rgb;
 
 /// One line of the wheel zooms by this exponent; eight lines make a factor of about 2.7.
 pub const ZOOM_PER_POINT: f32 = 0.0025;
@@ -15,10 +15,7 @@ pub const ZOOM_PER_POINT: f32 = 0.0025;
 /// it, into intents.
 pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, name: &str, acts: &mut Intents) {
     if let Some(words) = empty_words(scene) {
-        let ground = scene
-            .session
-            .project()
-            .map_or(Style::default().ground, |p| p.style.ground);
+        let ground = scene.session.style().ground;
         let font = FontId::proportional(16.0);
         root.painter().text(
             rect.center(),

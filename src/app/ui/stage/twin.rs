@@ -25,11 +25,7 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Re
     area::show(root, scene, left, "stage", acts);
     area::show(root, scene, right, "twin", acts);
     verdict::mark(root, scene, left);
-    let ground = scene
-        .session
-        .project()
-        .map_or_else(Default::default, |project| project.style)
-        .ground;
+    let ground = scene.session.style().ground;
     let ink = ink_on(ground);
     let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
     root.painter().vline(right.left(), stage.y_range(), line);
@@ -48,11 +44,7 @@ fn missing(ui: &Ui, scene: &Scene, rect: Rect) {
         (None, None) if twin.is_busy() => "Building …".to_owned(),
         (None, None) => return,
     };
-    let ground = scene
-        .session
-        .project()
-        .map_or_else(Default::default, |project| project.style)
-        .ground;
+    let ground = scene.session.style().ground;
     let font = bevy_egui::egui::FontId::proportional(14.0);
     let width = rect.width() - 4.0 * GRID;
     let galley = ui.painter().layout(words, font, ink_on(ground), width);

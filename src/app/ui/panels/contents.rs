@@ -1,14 +1,35 @@
-//! How distance fields are made and blended.
+//! The options of what is seen.
 
 use bevy_egui::egui::{DragValue, Ui};
 
 use crate::app::ui::kit::widgets::{list, number, pick, section, slider};
-use crate::content::{BlendSpace, FieldBlend};
+use crate::content::{BlendSpace, ColourMix, FieldBlend};
 use crate::field::Metric;
 use crate::transition::{Boundary, FieldOptions};
 
-/// Draws the options.
-pub fn show(ui: &mut Ui, field: &mut FieldOptions) {
+/// The shortest span in which colours change.
+const SHORTEST: f64 = 0.01;
+
+/// How one picture fades into the other, apart from how they move.
+pub fn colours(ui: &mut Ui, mix: &mut ColourMix) {
+    section(ui, "Colours", |ui| {
+        let tip = "How fast one picture gives way to the other.";
+        list(ui, "Curve", tip, &mut mix.curve);
+        let from = DragValue::new(&mut mix.from)
+            .range(0.0..=mix.to - SHORTEST)
+            .speed(0.005)
+            .fixed_decimals(2);
+        number(ui, "From t", "Until here only the source is seen.", from);
+        let to = DragValue::new(&mut mix.to)
+            .range(mix.from + SHORTEST..=1.0)
+            .speed(0.005)
+            .fixed_decimals(2);
+        number(ui, "To t", "From here on only the target is seen.", to);
+    });
+}
+
+/// How distance fields are made and blended.
+pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
     section(ui, "Distance field", |ui| {
         mixing(ui, &mut field.blend);
         let tip = "What distance means; it shows in the corners.";

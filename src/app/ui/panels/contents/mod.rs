@@ -1,4 +1,0 @@
-//! The options of what is seen.
-
-pub mod colours;
-pub mod field;
