@@ -7,7 +7,7 @@ use crate::app::asking::choices::{CaptureScale, RecordFormat, ThemeChoice};
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{choose, from_right, icon_button, icon_button_sized};
+use crate::app::ui::kit::widgets::{act_button, choose, from_right, icon_button_sized};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::export::FilmKind;
 use crate::names::Choice;
@@ -69,10 +69,8 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         acts.push(Intent::ToggleHelp);
     }
     theme_button(ui, scene, acts);
-    let fit = icon_button(ui, Icon::Fit, "Show the whole transition (Z)");
-    if fit.clicked() {
-        acts.push(Intent::FitView);
-    }
+    let tip = "Show the whole transition (Z)";
+    act_button(ui, Icon::Fit, tip, Intent::FitView, acts);
     ui.add_space(GRID);
     shown_button(
         ui,
@@ -96,17 +94,10 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     ui.add_space(GRID);
     history_buttons(ui, scene, acts);
     ui.add_space(GRID);
-    if icon_button(ui, Icon::Save, "Save the project (Ctrl S)").clicked() {
-        acts.push(Intent::Save);
-    }
-    let open = icon_button(
-        ui,
-        Icon::Open,
-        "Open a project, or one or two designs (Ctrl O)",
-    );
-    if open.clicked() {
-        acts.push(Intent::AskOpen);
-    }
+    let tip = "Save the project (Ctrl S)";
+    act_button(ui, Icon::Save, tip, Intent::Save, acts);
+    let tip = "Open a project, or one or two designs (Ctrl O)";
+    act_button(ui, Icon::Open, tip, Intent::AskOpen, acts);
 }
 
 /// From right to left.
@@ -122,14 +113,9 @@ fn capture_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     if record.clicked() {
         acts.push(Intent::Record);
     }
-    let camera = icon_button(
-        ui,
-        Icon::Camera,
-        "Picture of the stage (S); with the panels: Shift S",
-    );
-    if camera.clicked() {
-        acts.push(Intent::Screenshot { with_panels: false });
-    }
+    let tip = "Picture of the stage (S); with the panels: Shift S";
+    let picture = Intent::Screenshot { with_panels: false };
+    act_button(ui, Icon::Camera, tip, picture, acts);
 }
 
 /// A button that shows or hides something.
@@ -182,9 +168,7 @@ fn history_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         ),
     ] {
         ui.add_enabled_ui(can, |ui| {
-            if icon_button(ui, icon, tip).clicked() {
-                acts.push(intent);
-            }
+            act_button(ui, icon, tip, intent, acts);
         });
     }
 }
@@ -194,9 +178,7 @@ fn theme_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         ThemeChoice::Dark => (Icon::Sun, ThemeChoice::Light, "Light panels"),
         ThemeChoice::Light => (Icon::Moon, ThemeChoice::Dark, "Dark panels"),
     };
-    if icon_button(ui, icon, tip).clicked() {
-        acts.push(Intent::Theme(other));
-    }
+    act_button(ui, icon, tip, Intent::Theme(other), acts);
 }
 
 fn capture_menu(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {

@@ -1,14 +1,15 @@
 //! The few controls that the panels are made of, each with its tooltip.
 
 use bevy_egui::egui::{
-    self, Align, Color32, ComboBox, DragValue, Layout, Rect, Response, RichText, Sense, Slider,
-    Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, vec2,
+    self, Align, Color32, ComboBox, DragValue, Layout, Margin, Rect, Response, RichText, Sense,
+    Slider, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, vec2,
 };
 use std::ops::RangeInclusive;
 
+use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::icons::Icon;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette, RADIUS};
+use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, Palette, RADIUS};
 use crate::names::Choice;
 
 /// Width of the column of labels.
@@ -221,6 +222,22 @@ pub fn icon_button_sized(
     });
     icons::paint(ui.painter(), icon, rect, colour);
     response.on_hover_text(tip).on_disabled_hover_text(tip)
+}
+
+/// A square button with an icon that asks for something.
+pub fn act_button(ui: &mut Ui, icon: Icon, tip: &str, intent: Intent, acts: &mut Vec<Intent>) {
+    if icon_button(ui, icon, tip).clicked() {
+        acts.push(intent);
+    }
+}
+
+/// A card above the stage: rounded, with room of so many points around what stands on it.
+pub fn card<R>(ui: &mut Ui, room: impl Into<Margin>, content: impl FnOnce(&mut Ui) -> R) -> R {
+    egui::Frame::window(ui.style())
+        .corner_radius(CARD_RADIUS)
+        .inner_margin(room)
+        .show(ui, content)
+        .inner
 }
 
 /// A line of text that explains, wrapped.

@@ -4,8 +4,8 @@ use bevy_egui::egui::{self, Align2, Area, Context, Order, Rect, vec2};
 
 use crate::app::asking::acts::{EditorAct, Tool};
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID};
-use crate::app::ui::kit::widgets::{choice, primary_button};
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
+use crate::app::ui::kit::widgets::{card, choice, primary_button};
 use crate::app::ui::scene::{Intents, Scene};
 
 /// Its height with the space above it.
@@ -21,15 +21,12 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
         .pivot(Align2::CENTER_TOP)
         .fixed_pos(stage.center_top() + vec2(0.0, GRID))
         .show(ctx, |ui| {
-            egui::Frame::window(ui.style())
-                .corner_radius(CARD_RADIUS)
-                .inner_margin(egui::Margin::symmetric(8, 6))
-                .show(ui, |ui| {
-                    ui.horizontal(|ui| {
-                        ui.spacing_mut().item_spacing.x = 4.0;
-                        tools(ui, scene, acts);
-                    });
+            card(ui, egui::Margin::symmetric(8, 6), |ui| {
+                ui.horizontal(|ui| {
+                    ui.spacing_mut().item_spacing.x = 4.0;
+                    tools(ui, scene, acts);
                 });
+            });
         });
 }
 

@@ -5,8 +5,8 @@ use bevy_egui::egui::{self, Align2, Area, Context, Label, Order, Rect, RichText,
 use crate::app::asking::intent::Intent;
 use crate::app::telling::notices::{Kind, Notice};
 use crate::app::ui::kit::icons::Icon;
-use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette};
-use crate::app::ui::kit::widgets::icon_button_sized;
+use crate::app::ui::kit::theme::{GRID, Palette};
+use crate::app::ui::kit::widgets::{card, icon_button_sized};
 use crate::app::ui::scene::{Intents, Scene};
 
 /// The most that are shown at once; older ones wait until a newer one is closed.
@@ -25,36 +25,33 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
         .fixed_pos(stage.center_bottom() - vec2(0.0, 2.0 * GRID))
         .show(ctx, |ui| {
             for notice in &list[list.len().saturating_sub(MOST)..] {
-                card(ui, notice, width, acts);
+                message(ui, notice, width, acts);
             }
         });
 }
 
-fn card(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
+fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
     let palette = Palette::of(ui);
     let (icon, colour) = match notice.kind {
         Kind::Problem => (Icon::Warning, palette.problem),
         Kind::Done => (Icon::Tick, palette.accent),
     };
-    egui::Frame::window(ui.style())
-        .corner_radius(CARD_RADIUS)
-        .inner_margin(egui::Margin::symmetric(12, 8))
-        .show(ui, |ui| {
-            ui.set_width(width);
-            ui.horizontal_top(|ui| {
-                let (rect, _) = ui.allocate_exact_size(vec2(24.0, 24.0), egui::Sense::hover());
-                crate::app::ui::kit::icons::paint(ui.painter(), icon, rect, colour);
-                let text = RichText::new(&notice.text).color(palette.text);
-                let text_width = width - 24.0 - 24.0 - 2.0 * GRID;
-                ui.allocate_ui(vec2(text_width, 0.0), |ui| {
-                    ui.set_width(text_width);
-                    ui.add_space(3.0);
-                    ui.add(Label::new(text).wrap().selectable(true));
-                });
-                let close = icon_button_sized(ui, Icon::Close, "Close", vec2(24.0, 24.0), None);
-                if close.clicked() {
-                    acts.push(Intent::Dismiss(notice.id));
-                }
+    card(ui, egui::Margin::symmetric(12, 8), |ui| {
+        ui.set_width(width);
+        ui.horizontal_top(|ui| {
+            let (rect, _) = ui.allocate_exact_size(vec2(24.0, 24.0), egui::Sense::hover());
+            crate::app::ui::kit::icons::paint(ui.painter(), icon, rect, colour);
+            let text = RichText::new(&notice.text).color(palette.text);
+            let text_width = width - 24.0 - 24.0 - 2.0 * GRID;
+            ui.allocate_ui(vec2(text_width, 0.0), |ui| {
+                ui.set_width(text_width);
+                ui.add_space(3.0);
+                ui.add(Label::new(text).wrap().selectable(true));
             });
+            let close = icon_button_sized(ui, Icon::Close, "Close", vec2(24.0, 24.0), None);
+            if close.clicked() {
+                acts.push(Intent::Dismiss(notice.id));
+            }
         });
+    });
 }

@@ -5,7 +5,8 @@ use std::time::Duration;
 use bevy_egui::egui::{self, Align2, Area, Context, Order, ProgressBar, Rect, RichText, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette};
+use crate::app::ui::kit::theme::{GRID, Palette};
+use crate::app::ui::kit::widgets::card;
 use crate::app::ui::scene::{Intents, Scene};
 
 /// What is done sooner is not worth a word: while a slider or a pin is dragged, one build follows
@@ -46,21 +47,18 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
 
 fn pill(ui: &mut Ui, stage: &str, fraction: f64, cancel: Intent, acts: &mut Intents) {
     let palette = Palette::of(ui);
-    egui::Frame::window(ui.style())
-        .corner_radius(CARD_RADIUS)
-        .inner_margin(egui::Margin::symmetric(16, 8))
-        .show(ui, |ui| {
-            ui.horizontal(|ui| {
-                ui.label(RichText::new(stage).color(palette.text));
-                let bar = ProgressBar::new(fraction as f32)
-                    .desired_width(120.0)
-                    .desired_height(6.0)
-                    .fill(palette.accent);
-                ui.add(bar);
-                let tip = "Stops this work; what is on the stage stays.";
-                if ui.button("Cancel").on_hover_text(tip).clicked() {
-                    acts.push(cancel);
-                }
-            });
+    card(ui, egui::Margin::symmetric(16, 8), |ui| {
+        ui.horizontal(|ui| {
+            ui.label(RichText::new(stage).color(palette.text));
+            let bar = ProgressBar::new(fraction as f32)
+                .desired_width(120.0)
+                .desired_height(6.0)
+                .fill(palette.accent);
+            ui.add(bar);
+            let tip = "Stops this work; what is on the stage stays.";
+            if ui.button("Cancel").on_hover_text(tip).clicked() {
+                acts.push(cancel);
+            }
         });
+    });
 }

@@ -8,7 +8,8 @@ use crate::app::asking::intent::Intent;
 use crate::app::looking::measuring::{Measures, is_a_click};
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::icons::Icon;
-use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette};
+use crate::app::ui::kit::theme::{GRID, Palette};
+use crate::app::ui::kit::widgets::card;
 use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::stage::area::ink_on;
 use crate::measure::Finding;
@@ -39,10 +40,9 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
         .fixed_pos(stage.left_bottom() + vec2(GRID, -GRID))
         .show(ctx, |ui| {
             ui.set_max_width(stage.width() - 2.0 * GRID);
-            egui::Frame::window(ui.style())
-                .corner_radius(CARD_RADIUS)
-                .inner_margin(egui::Margin::symmetric(8, 4))
-                .show(ui, |ui| lines(ui, scene, measures, acts));
+            card(ui, egui::Margin::symmetric(8, 4), |ui| {
+                lines(ui, scene, measures, acts);
+            });
         });
 }
 

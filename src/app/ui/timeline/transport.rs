@@ -7,7 +7,7 @@ use crate::app::playing::playback::SPEEDS;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
-use crate::app::ui::kit::widgets::{choice, from_right, icon_button, menu};
+use crate::app::ui::kit::widgets::{act_button, choice, from_right, menu};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::names::Choice;
 use crate::transition::{PlayMode, Timing};
@@ -31,31 +31,25 @@ pub fn show(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents)
 }
 
 fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let mut button = |ui: &mut Ui, icon: Icon, tip: &str, intent: Intent| {
-        if icon_button(ui, icon, tip).clicked() {
-            acts.push(intent);
-        }
-    };
-    button(
+    let tip = "Start of the pass (Home)";
+    act_button(ui, Icon::ToStart, tip, Intent::SeekStart, acts);
+    let tip = "Play back to the stop before and wait (Page Up)";
+    act_button(
         ui,
-        Icon::ToStart,
-        "Start of the pass (Home)",
-        Intent::SeekStart,
+        Icon::PreviousStop,
+        tip,
+        Intent::PlayToPreviousStop,
+        acts,
     );
-    let back = "Play back to the stop before and wait (Page Up)";
-    button(ui, Icon::PreviousStop, back, Intent::PlayToPreviousStop);
     if play_button(ui, scene).clicked() {
         acts.push(Intent::TogglePlay);
     }
-    let mut button = |ui: &mut Ui, icon: Icon, tip: &str, intent: Intent| {
-        if icon_button(ui, icon, tip).clicked() {
-            acts.push(intent);
-        }
-    };
-    let next = "Play to the next stop and wait (Page Down)";
-    button(ui, Icon::NextStop, next, Intent::PlayToNextStop);
-    button(ui, Icon::ToEnd, "End of the pass (End)", Intent::SeekEnd);
-    button(ui, Icon::AddStop, "Set a stop here (M)", Intent::AddStop);
+    let tip = "Play to the next stop and wait (Page Down)";
+    act_button(ui, Icon::NextStop, tip, Intent::PlayToNextStop, acts);
+    let tip = "End of the pass (End)";
+    act_button(ui, Icon::ToEnd, tip, Intent::SeekEnd, acts);
+    let tip = "Set a stop here (M)";
+    act_button(ui, Icon::AddStop, tip, Intent::AddStop, acts);
 }
 
 fn play_button(ui: &mut Ui, scene: &Scene) -> Response {
