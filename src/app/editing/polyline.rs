@@ -49,32 +49,22 @@ pub fn nearest<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> Option
 
 /// Whether the rings, taken together, wind around a point an odd number of times.
 pub fn encloses<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> bool {
-    let mut crossings = 0;
-    for points in rings {
-        for (k, a) in points.iter().enumerate() {
-            let b = points[(k + 1) % points.len()];
-            if (a.y > p.y) != (b.y > p.y) {
-                let x = a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
-                crossings += usize::from(x > p.x);
-            }
-        }
-    }
-    crossings % 2 == 1
+    crossings(rings, p.y).filter(|x| *x > p.x).count() % 2 == 1
 }
 
 /// Where a line across the rings at the height of `y` lies inside, from left to right.
 pub fn spans<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> Vec<[f64; 2]> {
-    let mut xs = Vec::new();
-    for points in rings {
-        for (k, a) in points.iter().enumerate() {
-            let b = points[(k + 1) % points.len()];
-            if (a.y > y) != (b.y > y) {
-                xs.push(a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x));
-            }
-        }
-    }
+    let mut xs: Vec<f64> = crossings(rings, y).collect();
     xs.sort_by(f64::total_cmp);
     xs.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
+}
+
+/// Where edges of the rings cross the height of `y`.
+fn crossings<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> impl Iterator<Item = f64> {
+    let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
+    edges
+        .filter(move |(a, b)| (a.y > y) != (b.y > y))
+        .map(move |(a, b)| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
 }
 
 /// A point inside the rings where a word can stand: in the widest place at their middle height.

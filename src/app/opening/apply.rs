@@ -11,13 +11,12 @@ use crate::app::looking::view::KeepsFit;
 use crate::app::opening::closing::Question;
 use crate::app::opening::dialogs::{Drop, is_project};
 use crate::app::playing::playback::{Playback, SAME_T};
-use crate::app::session::loading::Request;
+use crate::app::session::loading::{Request, absolute};
 use crate::app::session::open::Origin;
 use crate::app::session::saving::SaveError;
 use crate::app::session::state::{Outcome, Session};
 use crate::app::telling::notices::Notices;
 use crate::content::ContentKind;
-use crate::design::Source;
 use crate::project::{DesignEntry, Project, gallery};
 use crate::transition::{PlayMode, Stop};
 use crate::warp::WarpKind;
@@ -156,7 +155,7 @@ fn apply(project: &mut Project, intent: &Intent) {
         }
         Intent::ReplaceDesign(index, path) => {
             if let Some(entry) = project.designs.get_mut(*index) {
-                *entry = entry_of(path);
+                *entry = DesignEntry::new(absolute(path));
                 // What was said of points of the old one means nothing in the new one.
                 let matching = &mut project.options.matching;
                 (matching.pins, matching.links, matching.cuts) = Default::default();
@@ -170,12 +169,6 @@ fn apply(project: &mut Project, intent: &Intent) {
 fn set_cell(project: &mut Project, (warp, content): (WarpKind, ContentKind)) {
     project.warp = Some(warp);
     project.content = Some(content);
-}
-
-fn entry_of(path: &std::path::Path) -> DesignEntry {
-    let whole =
-        |file: &std::path::Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-    DesignEntry::new(Source::of(path).at(whole).to_path())
 }
 
 /// The next cell of the table, after the one in use, that can be had.

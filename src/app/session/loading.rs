@@ -118,7 +118,9 @@ impl Request {
     }
 }
 
-fn absolute(path: &Path) -> PathBuf {
+/// A design's path from the root, whatever within the file it names.
+#[must_use]
+pub fn absolute(path: &Path) -> PathBuf {
     let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     Source::of(path).at(whole).to_path()
 }
