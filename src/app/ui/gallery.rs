@@ -4,13 +4,14 @@ use std::collections::HashMap;
 
 use bevy::prelude::Resource;
 use bevy_egui::egui::{
-    self, Color32, ColorImage, Margin, Panel, Rect, Response, RichText, ScrollArea, Sense, Stroke,
+    self, Color32, ColorImage, Panel, Rect, Response, RichText, ScrollArea, Sense, Stroke,
     StrokeKind, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use crate::app::asking::intent::Intent;
 use crate::app::opening::thumbnails::{STRIP_PX, Thumbnail};
 use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette, RADIUS};
+use crate::app::ui::kit::widgets::ground;
 use crate::app::ui::scene::{Intents, Scene};
 use crate::project::gallery;
 
@@ -23,14 +24,7 @@ pub struct Textures(HashMap<String, TextureHandle>);
 
 /// Draws the gallery on the left.
 pub fn show(root: &mut Ui, scene: &Scene, textures: &mut Textures, acts: &mut Intents) {
-    let frame = egui::Frame::new()
-        .fill(Palette::of(root).panel)
-        .inner_margin(Margin {
-            left: 16,
-            right: 8,
-            top: 8,
-            bottom: 0,
-        });
+    let frame = ground(root, [16, 8, 8, 0]);
     Panel::left("gallery")
         .exact_size(WIDTH)
         .resizable(false)

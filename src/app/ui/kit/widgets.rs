@@ -231,6 +231,19 @@ pub fn act_button(ui: &mut Ui, icon: Icon, tip: &str, intent: Intent, acts: &mut
     }
 }
 
+/// The ground of a panel at the window's edge, with this much room around what stands on it.
+pub fn ground(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame {
+    let room = Margin {
+        left,
+        right,
+        top,
+        bottom,
+    };
+    egui::Frame::new()
+        .fill(Palette::of(ui).panel)
+        .inner_margin(room)
+}
+
 /// A card above the stage: rounded, with room of so many points around what stands on it.
 pub fn card<R>(ui: &mut Ui, room: impl Into<Margin>, content: impl FnOnce(&mut Ui) -> R) -> R {
     egui::Frame::window(ui.style())

@@ -3,10 +3,11 @@
 //! Its parts change a copy of the project; where the copy came out different it is sent as one
 //! intent.
 
-use bevy_egui::egui::{self, Margin, Panel, ScrollArea, Ui};
+use bevy_egui::egui::{Panel, ScrollArea, Ui};
 
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::theme::{GRID, Palette};
+use crate::app::ui::kit::theme::GRID;
+use crate::app::ui::kit::widgets::ground;
 use crate::app::ui::panels::{appearance, contents, designs, matching, method, rigid, warps};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
@@ -16,14 +17,7 @@ const WIDTH: f32 = 328.0;
 
 /// Draws the panel.
 pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let frame = egui::Frame::new()
-        .fill(Palette::of(root).panel)
-        .inner_margin(Margin {
-            left: 16,
-            right: 8,
-            top: 0,
-            bottom: 0,
-        });
+    let frame = ground(root, [16, 8, 0, 0]);
     Panel::right("inspector")
         .exact_size(WIDTH)
         .resizable(false)

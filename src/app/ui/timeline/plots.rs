@@ -1,12 +1,11 @@
 //! The measures against t, side by side, with a line where t is; a click goes to a t.
 
-use bevy_egui::egui::{
-    self, Color32, Margin, Panel, PointerButton, RichText, ScrollArea, Ui, vec2,
-};
+use bevy_egui::egui::{Color32, Panel, PointerButton, RichText, ScrollArea, Ui, vec2};
 use egui_plot::{AxisHints, HLine, Line, LineStyle, Plot, PlotPoints, VLine};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
+use crate::app::ui::kit::widgets::ground;
 use crate::app::ui::scene::{Intents, Scene};
 use crate::measure::{FilmReport, Quantity};
 use crate::names::Choice;
@@ -18,14 +17,7 @@ const LEAST_WIDTH: f32 = 208.0;
 
 /// Draws the panel.
 pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let frame = egui::Frame::new()
-        .fill(Palette::of(root).panel)
-        .inner_margin(Margin {
-            left: 16,
-            right: 16,
-            top: 8,
-            bottom: 4,
-        });
+    let frame = ground(root, [16, 16, 8, 4]);
     Panel::bottom("plots")
         .exact_size(HEIGHT)
         .resizable(false)

@@ -1,9 +1,9 @@
 //! The strip at the bottom: transport and track.
 
-use bevy_egui::egui::{self, Margin, Panel, Ui};
+use bevy_egui::egui::{Panel, Ui};
 
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::theme::Palette;
+use crate::app::ui::kit::widgets::ground;
 use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::timeline::{track, transport};
 
@@ -11,14 +11,7 @@ const HEIGHT: f32 = 128.0;
 
 /// Draws the timeline.
 pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let frame = egui::Frame::new()
-        .fill(Palette::of(root).panel)
-        .inner_margin(Margin {
-            left: 16,
-            right: 16,
-            top: 8,
-            bottom: 8,
-        });
+    let frame = ground(root, [16, 16, 8, 8]);
     Panel::bottom("timeline")
         .exact_size(HEIGHT)
         .frame(frame)
