@@ -196,11 +196,6 @@ pub fn list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     });
 }
 
-/// A square button with an icon.
-pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str) -> Response {
-    icon_button_sized(ui, icon, tip, vec2(32.0, 32.0), None)
-}
-
 /// A button with an icon, of that size, with another colour where one is given.
 pub fn icon_button_sized(
     ui: &mut Ui,
@@ -226,7 +221,7 @@ pub fn icon_button_sized(
 
 /// A square button with an icon that asks for something.
 pub fn act_button(ui: &mut Ui, icon: Icon, tip: &str, intent: Intent, acts: &mut Vec<Intent>) {
-    if icon_button(ui, icon, tip).clicked() {
+    if icon_button_sized(ui, icon, tip, vec2(32.0, 32.0), None).clicked() {
         acts.push(intent);
     }
 }
