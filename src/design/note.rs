@@ -108,51 +108,62 @@ impl fmt::Display for OnlyThese {
     }
 }
 
-impl fmt::Display for ImportNote {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let mut left_out = |n: usize, one: &str, many: &str, way_out: &str| {
-            let what = if n == 1 { one } else { many };
-            let were = if n == 1 { "was" } else { "were" };
-            write!(f, "{n} {what} {were} left out{way_out}")
-        };
-        match self {
-            Self::Duplicates(n) => left_out(*n, "outline drawn again", "outlines drawn again", ""),
+impl ImportNote {
+    /// Of what is left out: how many, what one and many are called, and the way
+    /// out; none of what is repaired.
+    fn left_out(&self) -> Option<(usize, [String; 2], String)> {
+        let words = |one: &str, many: &str| [one, many].map(str::to_owned);
+        let (count, what, way_out) = match self {
+            Self::Duplicates(n) => (n, words("outline drawn again", "outlines drawn again"), ""),
             Self::Flat(n) => {
                 let one = "outline that encloses nothing";
-                left_out(*n, one, "outlines that enclose nothing", "")
+                (n, words(one, "outlines that enclose nothing"), "")
             }
             Self::Slivers(n) => {
                 let one = "sliver between touching edges";
-                left_out(*n, one, "slivers between touching edges", "")
+                (n, words(one, "slivers between touching edges"), "")
             }
             Self::IdlePoints(n) => {
                 let one = "point that repeats another or lies on a straight edge";
                 let many = "points that repeat another or lie on a straight edge";
-                left_out(*n, one, many, "")
+                (n, words(one, many), "")
             }
             Self::Strokes(n) => {
                 let way_out = "; set strokes = true to read them as shapes";
-                left_out(*n, "stroke", "strokes", way_out)
+                (n, words("stroke", "strokes"), way_out)
             }
-            Self::Texts(n) => left_out(*n, "text", "texts", "; convert text to paths"),
-            Self::Pictures(n) => left_out(*n, "embedded picture", "embedded pictures", ""),
-            Self::Open { count, at } => {
-                let way_out = format!("; close the gap at ({}, {})", at.x, at.y);
-                let (one, many) = ("curve that does not close", "curves that do not close");
-                left_out(*count, one, many, &way_out)
-            }
+            Self::Texts(n) => (n, words("text", "texts"), "; convert text to paths"),
+            Self::Pictures(n) => (n, words("embedded picture", "embedded pictures"), ""),
             Self::Skipped { kind, count } => {
-                let [one, many] = ["object", "objects"].map(|w| format!("{w} of the kind {kind}"));
-                left_out(*count, &one, &many, "")
+                let what = ["object", "objects"].map(|w| format!("{w} of the kind {kind}"));
+                (count, what, "")
             }
+            Self::Open { count, at } => {
+                let what = words("curve that does not close", "curves that do not close");
+                let way_out = format!("; close the gap at ({}, {})", at.x, at.y);
+                return Some((*count, what, way_out));
+            }
+            Self::Crossings { .. } | Self::Touches { .. } => return None,
+        };
+        Some((*count, what, way_out.to_owned()))
+    }
+}
+
+impl fmt::Display for ImportNote {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some((n, [one, many], way_out)) = self.left_out() {
+            let (what, were) = (number(one, many, n), number("was", "were", n));
+            return write!(f, "{n} {what} {were} left out{way_out}");
+        }
+        match self {
             Self::Crossings {
                 count,
                 at_least,
                 rule,
             } => {
-                let (least, one) = (floor(*at_least), *count == 1);
-                let what = if one { "crossing" } else { "crossings" };
-                let were = if one { "was" } else { "were" };
+                let least = floor(*at_least);
+                let what = number("crossing", "crossings", *count);
+                let were = number("was", "were", *count);
                 let rule = match rule {
                     FillRule::NonZero => "the non-zero winding rule",
                     FillRule::EvenOdd => "the even-odd rule",
@@ -163,16 +174,17 @@ impl fmt::Display for ImportNote {
                 )
             }
             Self::Touches { count, at_least } => {
-                let (least, one) = (floor(*at_least), *count == 1);
-                let what = if one {
-                    "corner that lies"
-                } else {
-                    "corners that lie"
-                };
+                let least = floor(*at_least);
+                let what = number("corner that lies", "corners that lie", *count);
                 write!(f, "{least}{count} {what} on another edge divided it")
             }
+            _ => Ok(()), // left out, and told above
         }
     }
+}
+
+fn number<T>(one: T, many: T, n: usize) -> T {
+    if n == 1 { one } else { many }
 }
 
 fn floor(at_least: bool) -> &'static str {

@@ -61,8 +61,7 @@ impl Rgb {
         let t = t.clamp(0.0, 1.0);
         Self(std::array::from_fn(|k| {
             let (a, b) = (linear(self.0[k]), linear(other.0[k]));
-            let mixed = srgb_from_linear(a * (1.0 - t) + b * t);
-            (mixed * 255.0).round().clamp(0.0, 255.0) as u8
+            encoded(a * (1.0 - t) + b * t)
         }))
     }
 
@@ -76,6 +75,11 @@ impl Rgb {
 /// A channel in linear light, in [0, 1].
 fn linear(channel: u8) -> f64 {
     linear_from_srgb(f64::from(channel) / 255.0)
+}
+
+/// A channel of linear light, from [0, 1].
+fn encoded(light: f64) -> u8 {
+    (srgb_from_linear(light) * 255.0).round().clamp(0.0, 255.0) as u8
 }
 
 /// Colours and marks of a transition.
