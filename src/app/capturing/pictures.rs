@@ -4,21 +4,20 @@
 //! was written, or why not, is said on screen. Nothing is ever overwritten.
 
 use std::collections::HashMap;
-use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::window::PrimaryWindow;
-use image::{DynamicImage, ImageFormat};
+use image::{DynamicImage, ImageError, ImageFormat};
 
 use crate::app::asking::choices::CaptureScale;
 use crate::app::asking::intent::Intent;
-use crate::app::capturing::files::{CaptureFolder, create_new};
+use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new};
 use crate::app::looking::preferences::Preferences;
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
-use crate::app::telling::job::Job;
+use crate::app::telling::job::{Broken, Job};
 use crate::app::telling::notices::Notices;
 use crate::stage::{CaptureStage, StageCaptured, StageView};
 
@@ -33,8 +32,24 @@ pub struct Captures {
     writing: Vec<Job<Result<PathBuf, PictureError>>>,
 }
 
-/// Why a picture was not written; it is only ever said.
-type PictureError = Box<dyn Error + Send + Sync>;
+/// Why a picture was not written.
+#[derive(Debug, thiserror::Error)]
+pub enum PictureError {
+    /// No file could be made for it.
+    #[error(transparent)]
+    File(#[from] NewFileError),
+    /// It could not be encoded or written.
+    #[error("{} was not written: {error}", path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What went wrong.
+        error: ImageError,
+    },
+    /// The work on it broke off.
+    #[error(transparent)]
+    Broken(#[from] Broken),
+}
 
 /// Asks the stage, or the window, for a picture.
 pub fn ask(
@@ -119,7 +134,7 @@ fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, Pict
         Err(error) => {
             // What was begun is no picture; where even that cannot be taken back, it stays.
             std::fs::remove_file(&path).ok();
-            Err(format!("{} was not written: {error}", path.display()).into())
+            Err(PictureError::Write { path, error })
         }
     }
 }
