@@ -1,0 +1,307 @@
+//! The match editor under the hand.
+
+use std::path::Path;
+
+use crate::window::Window;
+use bevy::input::keyboard::{Key, KeyCode};
+use bevy::prelude::{ButtonInput, MouseButton, Vec2};
+use morphospace::app::{EditorAct, Handle, Intent, Tool, Touch};
+use morphospace::correspondence::Matching;
+use morphospace::geometry::{DVec2, Side};
+
+/// An L and the same L stretched, as outlines; and two squares beside each other.
+fn write_outline(folder: &Path, name: &str, d: &str) -> std::path::PathBuf {
+    let path = folder.join(name);
+    let svg = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><path d="{d}"/></svg>"#
+    );
+    std::fs::write(&path, svg).expect("a file");
+    path
+}
+
+const L: &str = "M10 10 H40 V60 H90 V90 H10 Z";
+const TALL_L: &str = "M10 5 H30 V70 H80 V95 H10 Z";
+const TWO: &str = "M10 10 H40 V40 H10 Z M60 60 H90 V90 H60 Z";
+
+fn with_outlines(folder: &Path, source: &str, target: &str) -> Window {
+    let source = write_outline(folder, "source.svg", source);
+    let target = write_outline(folder, "target.svg", target);
+    let mut window = Window::new();
+    window.send(Intent::Open(vec![source, target]));
+    window.wait();
+    assert_eq!(window.problems(), Vec::<String>::new());
+    window.type_char(KeyCode::KeyE, "e");
+    assert!(window.editor().is_open);
+    assert!(!window.sheet().rings.is_empty());
+    window
+}
+
+fn touch(side: Side, x: f64, y: f64) -> Touch {
+    Touch {
+        side,
+        at: DVec2::new(x, y),
+        reach: 3.0,
+        is_free: false,
+    }
+}
+
+/// The corner of the source's part that lies nearest to a point of the file.
+fn corner(window: &Window, side: Side, near: DVec2) -> DVec2 {
+    let sides = window.sheet().sides.as_ref().expect("outlines");
+    let corners = sides[side].corners.iter().copied();
+    corners
+        .min_by(|a, b| a.distance(near).total_cmp(&b.distance(near)))
+        .expect("a corner")
+}
+
+#[test]
+fn meshes_and_trusses_have_no_match_to_edit() {
+    let mut window = Window::with_gallery();
+    if !window.session().can_match() {
+        window.type_char(KeyCode::KeyE, "e");
+        assert!(!window.editor().is_open);
+    }
+}
+
+#[test]
+fn the_match_editor_opens_and_escape_leaves_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), L, TALL_L);
+    let shown = window.sheet().features.len();
+    assert!((4..=16).contains(&shown), "{shown}");
+    window.press(KeyCode::Escape, Key::Escape);
+    assert!(!window.editor().is_open);
+    assert!(window.preferences().panels);
+}
+
+#[test]
+fn a_click_on_a_boundary_pins_it_where_it_is_matched() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), L, TALL_L);
+    let at = corner(&window, Side::Source, DVec2::new(100.0, 0.0));
+    let place = window.sheet().partner(Side::Source, at).expect("a partner");
+    // All features are handles: away from them a click sets a pin.
+    let beside = at + DVec2::new(-12.0, 0.0);
+    let on = window
+        .sheet()
+        .on_boundary(Side::Source, beside)
+        .expect("a boundary");
+    let mut hand = touch(Side::Source, on.point.x, on.point.y);
+    hand.reach = 1.0;
+    window.act(EditorAct::Click(hand));
+    window.wait();
+    assert_eq!(window.matching().pins.len(), 1);
+    assert_eq!(window.editor().selected, Some(Handle::Pin(0)));
+    let pin = window.sheet().pins[0];
+    assert!(pin.source.distance(on.point) < 1e-9);
+    assert!(place.is_finite() && pin.target.is_finite());
+    assert!(window.session().problem().is_none());
+    window.send(Intent::Undo);
+    window.wait();
+    assert_eq!(window.matching(), Matching::default());
+    assert!(window.sheet().pins.is_empty());
+}
+
+#[test]
+fn a_point_that_is_dragged_becomes_a_pin_that_snaps_and_is_honoured() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), L, TALL_L);
+    let from = window.sheet().features[0];
+    let neighbour = |side: Side, p: DVec2| {
+        let sides = window.sheet().sides.as_ref().expect("outlines");
+        let others = sides[side].corners.iter().copied();
+        others
+            .filter(|corner| corner.distance(p) > 5.0)
+            .min_by(|a, b| a.distance(p).total_cmp(&b.distance(p)))
+            .expect("another corner")
+    };
+    let to = neighbour(Side::Target, from.target);
+    let start = touch(Side::Target, from.target.x, from.target.y);
+    let step = Vec2::new(3.0, 0.0);
+    let before = window.session().project().cloned();
+    let mut buttons = window
+        .0
+        .world_mut()
+        .resource_mut::<ButtonInput<MouseButton>>();
+    buttons.press(MouseButton::Left);
+    window.act(EditorAct::Press(start));
+    let halfway = from.target.lerp(to, 0.5);
+    window.act(EditorAct::Drag(
+        touch(Side::Target, halfway.x, halfway.y),
+        step,
+    ));
+    let near = to + DVec2::new(1.0, 1.0);
+    window.act(EditorAct::Drag(touch(Side::Target, near.x, near.y), step));
+    window.act(EditorAct::Release);
+    let mut buttons = window
+        .0
+        .world_mut()
+        .resource_mut::<ButtonInput<MouseButton>>();
+    buttons.release(MouseButton::Left);
+    window.wait();
+    window.wait();
+    assert_eq!(window.matching().pins.len(), 1);
+    assert!(window.sheet().pins[0].target.distance(to) < 1e-9, "snapped");
+    assert!(window.session().problem().is_none());
+    let pin = window.sheet().pins[0];
+    let honoured = window.sheet().partner(Side::Source, pin.source);
+    assert!(honoured.is_some_and(|p| p.distance(pin.target) < 1e-6));
+    window.send(Intent::Undo);
+    assert_eq!(window.session().project().cloned(), before, "one step");
+    window.wait();
+}
+
+#[test]
+fn pins_that_cross_are_said_and_the_old_transition_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), L, TALL_L);
+    let places = window.sheet().features.clone();
+    let [a, b, c] = [places[0], places[1], places[2]];
+    let mut project = window.session().project().cloned().expect("a project");
+    let by = window.sheet().by;
+    let own = |source: DVec2, target: DVec2| morphospace::correspondence::PointPair {
+        source: by[0].inverse().apply(source),
+        target: by[1].inverse().apply(target),
+    };
+    project.options.matching.pins = vec![
+        own(a.source, a.target),
+        own(b.source, c.target),
+        own(c.source, b.target),
+    ];
+    let stage = window
+        .session()
+        .transition()
+        .map(|t| std::ptr::from_ref(t.content()));
+    window.send(Intent::Edit(Box::new(project)));
+    window.wait();
+    let problem = window.session().problem().map(ToString::to_string);
+    assert!(
+        problem.as_ref().is_some_and(|p| p.contains("pins")),
+        "{problem:?}"
+    );
+    assert!(window.problems().is_empty(), "the editor says it");
+    let now = window
+        .session()
+        .transition()
+        .map(|t| std::ptr::from_ref(t.content()));
+    assert_eq!(stage, now);
+    window.send(Intent::Undo);
+    window.wait();
+    assert!(window.session().problem().is_none());
+}
+
+#[test]
+fn delete_and_backspace_take_the_chosen_pin_away() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), L, TALL_L);
+    for (code, key) in [
+        (KeyCode::Delete, Key::Delete),
+        (KeyCode::Backspace, Key::Backspace),
+    ] {
+        let from = window.sheet().features[0];
+        let hand = touch(Side::Source, from.source.x, from.source.y);
+        window.act(EditorAct::Press(hand));
+        window.act(EditorAct::Drag(hand, Vec2::new(1.0, 0.0)));
+        window.act(EditorAct::Release);
+        assert_eq!(window.matching().pins.len(), 1);
+        window.send(Intent::Faster);
+        let speed = window.playback().speed();
+        window.press(code, key);
+        assert!(window.matching().pins.is_empty());
+        assert_eq!(window.playback().speed(), speed, "the key means this only");
+    }
+    window.wait();
+}
+
+#[test]
+fn parts_are_paired_by_two_clicks_and_freed_by_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), TWO, TWO);
+    let inside = |window: &Window, side: Side, part: usize| {
+        let sides = window.sheet().sides.as_ref().expect("outlines");
+        let ring = &sides[side].parts[part][0];
+        ring.iter().sum::<DVec2>() / ring.len() as f64
+    };
+    window.act(EditorAct::Tool(Tool::Parts));
+    let source = inside(&window, Side::Source, 0);
+    let target = inside(&window, Side::Target, 1);
+    let other = inside(&window, Side::Target, 0);
+    window.act(EditorAct::Click(touch(Side::Source, source.x, source.y)));
+    assert!(window.editor().first_part.is_some());
+    window.act(EditorAct::Click(touch(Side::Target, target.x, target.y)));
+    window.wait();
+    assert_eq!(window.matching().links.len(), 1);
+    assert!(window.sheet().pieces.iter().any(|piece| piece.is_linked));
+    // A part has one partner: the new pair replaces the old one.
+    window.act(EditorAct::Click(touch(Side::Target, other.x, other.y)));
+    window.act(EditorAct::Click(touch(Side::Source, source.x, source.y)));
+    window.wait();
+    assert_eq!(window.matching().links.len(), 1);
+    window.act(EditorAct::Remove(touch(Side::Source, source.x, source.y)));
+    assert!(window.matching().links.is_empty());
+    window.wait();
+    assert!(window.session().problem().is_none());
+}
+
+#[test]
+fn a_cut_that_is_dragged_is_asked_for() {
+    const RING: &str = "M10 10 H90 V90 H10 Z M35 35 V65 H65 V35 Z";
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), RING, L);
+    let mut project = window.session().project().cloned().expect("a project");
+    project.options.matching.holes = morphospace::correspondence::HoleRule::Cut;
+    window.send(Intent::Edit(Box::new(project)));
+    window.wait();
+    assert!(window.session().problem().is_none());
+    assert_eq!(window.sheet().cuts.len(), 1);
+    let found = window.sheet().cuts[0];
+    assert_eq!(found.asked, None);
+    let at = found.cut.outer;
+    window.act(EditorAct::Press(touch(Side::Source, at.x, at.y)));
+    let to = at + DVec2::new(2.0, 2.0);
+    window.act(EditorAct::Drag(touch(Side::Source, to.x, to.y), Vec2::ONE));
+    window.act(EditorAct::Release);
+    window.wait();
+    assert_eq!(window.matching().cuts.len(), 1);
+    assert_eq!(window.sheet().cuts[0].asked, Some(0));
+    assert!(window.session().problem().is_none());
+    window.act(EditorAct::Clear);
+    window.wait();
+    assert_eq!(window.sheet().cuts[0].asked, None);
+}
+
+#[test]
+fn another_design_forgets_the_points_of_the_old_one() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), L, TALL_L);
+    let from = window.sheet().features[0];
+    let hand = touch(Side::Source, from.source.x, from.source.y);
+    window.act(EditorAct::Press(hand));
+    window.act(EditorAct::Drag(hand, Vec2::new(1.0, 0.0)));
+    window.act(EditorAct::Release);
+    window.wait();
+    let other = write_outline(folder.path(), "other.svg", TWO);
+    window.send(Intent::ReplaceDesign(1, other));
+    window.wait();
+    assert!(window.matching().pins.is_empty());
+    window.send(Intent::Undo);
+    window.wait();
+    assert_eq!(window.matching().pins.len(), 1);
+}
+
+#[test]
+fn the_editor_zooms_to_the_pointer_and_fits_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), L, TALL_L);
+    let at = Vec2::new(40.0, -30.0);
+    window.act(EditorAct::Zoom { at, factor: 2.0 });
+    // What was under the pointer lies there still: at = pan + zoom * p, before and after.
+    let editor = window.editor().clone();
+    assert_eq!(editor.zoom, 2.0);
+    assert!((editor.pan + 2.0 * at - at).length() < 1e-4);
+    window.send(Intent::FitView);
+    assert_eq!(
+        (window.editor().pan, window.editor().zoom),
+        (Vec2::ZERO, 1.0)
+    );
+}

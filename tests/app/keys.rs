@@ -1,0 +1,206 @@
+//! Keys: what each does to time, stops and panels.
+
+use crate::window::{Window, close};
+use bevy::input::ButtonState;
+use bevy::input::keyboard::{Key, KeyCode};
+use morphospace::app::{Intent, Typing};
+use morphospace::content::ContentKind;
+use morphospace::transition::{Cell, PlayMode};
+
+#[test]
+fn space_plays_and_pauses() {
+    let mut window = Window::with_gallery();
+    window.press(KeyCode::Space, Key::Space);
+    assert!(window.playback().is_playing());
+    for _ in 0..60 {
+        window.update();
+    }
+    assert!(window.t() > 0.0);
+    window.press(KeyCode::Space, Key::Space);
+    let t = window.t();
+    window.update();
+    assert_eq!(window.t(), t);
+}
+
+#[test]
+fn arrows_step_and_repeat_and_shift_makes_ten_of_one() {
+    let mut window = Window::with_gallery();
+    window.press(KeyCode::ArrowRight, Key::ArrowRight);
+    assert!(close(window.t(), 0.01));
+    window.key(
+        ButtonState::Pressed,
+        KeyCode::ArrowRight,
+        Key::ArrowRight,
+        true,
+    );
+    assert!(close(window.t(), 0.02));
+    window.press(KeyCode::ArrowLeft, Key::ArrowLeft);
+    window.hold(KeyCode::ShiftLeft, Key::Shift, |window| {
+        window.press(KeyCode::ArrowLeft, Key::ArrowLeft);
+    });
+    assert!(close(window.t(), -0.09));
+}
+
+#[test]
+fn home_and_end_go_to_the_ends() {
+    let mut window = Window::with_gallery();
+    window.press(KeyCode::End, Key::End);
+    assert_eq!(window.t(), window.session().timing().to);
+    window.press(KeyCode::Home, Key::Home);
+    assert_eq!(window.t(), window.session().timing().from);
+}
+
+#[test]
+fn digits_go_by_their_place_and_signs_by_what_they_print() {
+    let mut window = Window::with_gallery();
+    // A French keyboard prints & on the key of the 1.
+    window.type_char(KeyCode::Digit1, "&");
+    assert!(close(window.t(), 0.1));
+    // A German keyboard prints [ with AltGr on the key of the 8.
+    window.type_char(KeyCode::Digit8, "[");
+    assert!(close(window.t(), 0.1));
+    assert!(window.playback().speed() < 1.0);
+    window.type_char(KeyCode::BracketRight, "]");
+    assert_eq!(window.playback().speed(), 1.0);
+    // A Dvorak keyboard prints s where a US keyboard has the semicolon.
+    window.type_char(KeyCode::Semicolon, "s");
+    assert!(
+        window
+            .messages()
+            .contains(&Intent::Screenshot { with_panels: false })
+    );
+}
+
+#[test]
+fn backspace_is_speed_one_and_r_turns_round() {
+    let mut window = Window::with_gallery();
+    window.type_char(KeyCode::BracketRight, "]");
+    window.press(KeyCode::Backspace, Key::Backspace);
+    assert_eq!(window.playback().speed(), 1.0);
+    window.type_char(KeyCode::KeyR, "r");
+    assert!(window.playback().is_backwards());
+}
+
+#[test]
+fn l_goes_through_the_play_modes() {
+    let mut window = Window::with_gallery();
+    let mut seen = vec![window.session().timing().play];
+    for _ in 0..3 {
+        window.type_char(KeyCode::KeyL, "l");
+        seen.push(window.session().timing().play);
+    }
+    assert_eq!(seen[0], seen[3]);
+    for mode in [PlayMode::Once, PlayMode::Loop, PlayMode::PingPong] {
+        assert!(seen.contains(&mode));
+    }
+}
+
+#[test]
+fn stops_are_set_jumped_to_and_played_to() {
+    let mut window = Window::with_gallery();
+    let before = window.session().stops().len();
+    window.send(Intent::Seek(0.437));
+    window.type_char(KeyCode::KeyM, "m");
+    window.type_char(KeyCode::KeyM, "m");
+    assert_eq!(
+        window.session().stops().len(),
+        before + 1,
+        "one stop at one place"
+    );
+    window.press(KeyCode::Home, Key::Home);
+    window.press(KeyCode::ArrowUp, Key::ArrowUp);
+    let first = window.t();
+    assert!(first > window.session().timing().from);
+    window.press(KeyCode::ArrowDown, Key::ArrowDown);
+    assert_eq!(window.t(), window.session().timing().from);
+    window.press(KeyCode::PageDown, Key::PageDown);
+    assert!(window.playback().is_playing(), "played, not jumped");
+    assert!(window.t() < first);
+    while window.playback().is_playing() {
+        window.update();
+    }
+    assert_eq!(window.t(), first, "waits exactly at the stop");
+    window.press(KeyCode::PageUp, Key::PageUp);
+    while window.playback().is_playing() {
+        window.update();
+    }
+    assert_eq!(window.t(), window.session().timing().from);
+}
+
+#[test]
+fn no_key_acts_while_text_is_written() {
+    let mut window = Window::with_gallery();
+    window.0.insert_resource(Typing(true));
+    window.press(KeyCode::Space, Key::Space);
+    window.type_char(KeyCode::Digit5, "5");
+    window.type_char(KeyCode::KeyS, "s");
+    assert!(!window.playback().is_playing());
+    assert_eq!(window.t(), window.session().timing().from);
+    assert!(window.messages().is_empty());
+    window.0.insert_resource(Typing(false));
+    window.update();
+    assert_eq!(
+        window.t(),
+        window.session().timing().from,
+        "nothing is made up for"
+    );
+}
+
+#[test]
+fn shift_and_control_tell_the_meanings_of_s_apart() {
+    let mut window = Window::with_gallery();
+    window.hold(KeyCode::ShiftRight, Key::Shift, |window| {
+        window.type_char(KeyCode::KeyS, "S");
+        assert!(
+            window
+                .messages()
+                .contains(&Intent::Screenshot { with_panels: true })
+        );
+    });
+    window.update();
+    window.update();
+    window.hold(KeyCode::ControlLeft, Key::Control, |window| {
+        window.type_char(KeyCode::KeyS, "s");
+        assert!(window.messages().contains(&Intent::Save));
+        assert!(
+            !window
+                .messages()
+                .contains(&Intent::Screenshot { with_panels: false })
+        );
+    });
+}
+
+#[test]
+fn escape_goes_back_step_by_step() {
+    let mut window = Window::with_gallery();
+    window.type_char(KeyCode::KeyH, "h");
+    window.press(KeyCode::F1, Key::F1);
+    assert!(!window.preferences().panels && window.preferences().help);
+    window.press(KeyCode::Escape, Key::Escape);
+    assert!(!window.preferences().panels && !window.preferences().help);
+    window.press(KeyCode::Escape, Key::Escape);
+    assert!(window.preferences().panels);
+    window.type_char(KeyCode::Minus, "?");
+    assert!(window.preferences().help);
+}
+
+#[test]
+fn tab_takes_the_next_method_that_can_be_had() {
+    let mut window = Window::with_gallery();
+    let cell = |window: &Window| window.session().transition().map(|t| t.cell());
+    let first = cell(&window);
+    let mut seen = vec![first];
+    loop {
+        window.press(KeyCode::Tab, Key::Tab);
+        window.wait();
+        let next = cell(&window);
+        if next == first {
+            break;
+        }
+        assert!(!seen.contains(&next), "a method comes twice");
+        seen.push(next);
+    }
+    // Two outlines have no colours; everything else can be had.
+    let can = |cell: &Cell| cell.content() != ContentKind::Colours;
+    assert_eq!(seen.len(), Cell::all().filter(can).count());
+}

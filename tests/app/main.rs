@@ -1,0 +1,9 @@
+//! The window's systems without a window: injected keys, intents, and what comes of them.
+#![cfg(feature = "app")]
+
+mod beside;
+mod editor;
+mod history;
+mod keys;
+mod opening;
+mod window;

@@ -1,0 +1,237 @@
+//! Opening, saving, closing and dropping: what is kept, what is asked, what is refused.
+
+use std::path::Path;
+
+use crate::window::{Window, entries};
+use bevy::prelude::{Entity, With};
+use bevy::window::{FileDragAndDrop, WindowCloseRequested};
+use morphospace::app::{Answer, Intent, OnStage, Question};
+use morphospace::content::Content;
+use morphospace::stage::{Blend, StageTransition};
+
+#[test]
+fn what_is_opened_is_on_the_stage_at_t() {
+    let mut window = Window::with_gallery();
+    window.send(Intent::Seek(0.25));
+    let world = window.0.world_mut();
+    let mut staged = world.query_filtered::<(&StageTransition, &Blend), With<OnStage>>();
+    let (_, blend) = staged.single(world).expect("one entity on the stage");
+    assert_eq!(blend.t, 0.25);
+}
+
+#[test]
+fn every_gallery_project_opens() {
+    let mut window = Window::new();
+    for name in entries()
+        .into_iter()
+        .filter(|name| !name.contains("stress"))
+    {
+        window.send(Intent::OpenGallery(name.clone()));
+        window.wait();
+        assert_eq!(window.session().gallery_name(), Some(name.as_str()));
+        assert!(
+            window.session().transition().is_some(),
+            "{name}: {:?}",
+            window.problems()
+        );
+    }
+}
+
+#[test]
+fn a_file_that_is_none_is_said_and_the_open_project_stays() {
+    let mut window = Window::with_gallery();
+    let title = window.session().title();
+    window.send(Intent::Open(vec!["/nowhere/at-all.morph".into()]));
+    window.wait();
+    assert!(
+        window.problems()[0].contains("at-all.morph"),
+        "{:?}",
+        window.problems()
+    );
+    assert_eq!(window.session().title(), title);
+    assert!(window.session().transition().is_some());
+}
+
+#[test]
+fn a_design_that_cannot_be_read_is_not_kept() {
+    let mut window = Window::with_gallery();
+    let before = window.session().project().cloned();
+    window.send(Intent::ReplaceDesign(1, "/nowhere/at-all.svg".into()));
+    window.wait();
+    assert!(!window.problems().is_empty());
+    assert_eq!(window.session().project().cloned(), before);
+}
+
+#[test]
+fn closing_asks_about_changes_and_only_then() {
+    let mut window = Window::with_gallery();
+    window.send(Intent::Seek(0.123));
+    window.send(Intent::AddStop);
+    assert!(window.session().is_dirty());
+    let request = WindowCloseRequested {
+        window: Entity::PLACEHOLDER,
+    };
+    window.0.world_mut().write_message(request.clone());
+    window.update();
+    window.update();
+    assert!(window.0.world().resource::<Question>().text().is_some());
+    assert!(window.0.should_exit().is_none());
+    window.send(Intent::Answer(Answer::Stay));
+    assert!(window.0.world().resource::<Question>().text().is_none());
+    assert!(window.session().is_dirty());
+    window.0.world_mut().write_message(request);
+    window.update();
+    window.update();
+    window.send(Intent::Answer(Answer::Discard));
+    window.update();
+    assert!(window.0.should_exit().is_some());
+}
+
+#[test]
+fn opening_something_else_asks_about_changes() {
+    let mut window = Window::with_gallery();
+    let title = window.session().title();
+    window.send(Intent::Seek(0.123));
+    window.send(Intent::AddStop);
+    let other = entries().pop().expect("a gallery");
+    window.send(Intent::OpenGallery(other));
+    window.wait();
+    assert_eq!(window.session().title(), title);
+    assert!(window.0.world().resource::<Question>().text().is_some());
+}
+
+#[test]
+fn what_is_saved_is_what_is_opened_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("saved.morph");
+    let mut window = Window::with_gallery();
+    window.send(Intent::Seek(0.3));
+    window.send(Intent::AddStop);
+    window.send(Intent::SaveTo(path.clone()));
+    assert!(!window.session().is_dirty());
+    assert_eq!(window.session().path(), Some(Path::new(&path)));
+    let stops = window.session().stops().to_vec();
+    let mut again = Window::new();
+    again.send(Intent::Open(vec![path]));
+    again.wait();
+    assert_eq!(again.problems(), Vec::<String>::new());
+    assert_eq!(again.session().stops(), stops);
+    assert!(again.session().transition().is_some());
+}
+
+#[test]
+fn settings_that_change_while_a_build_runs_are_built_too() {
+    let mut window = Window::with_gallery();
+    window.send(Intent::NextMethod);
+    let mut project = window.session().project().cloned().expect("a project");
+    project.options.arap.subdivisions = 1;
+    project.options.field.cells = 96;
+    window.send(Intent::Edit(Box::new(project.clone())));
+    window.wait();
+    window.wait();
+    assert_eq!(window.session().project(), Some(&project));
+    let transition = window.session().transition().expect("a transition");
+    let shown = (
+        Some(transition.cell().warp()),
+        Some(transition.cell().content()),
+    );
+    assert_eq!(shown, (project.warp, project.content));
+}
+
+#[test]
+fn parts_that_carry_fields_can_turn_on_their_own() {
+    let mut window = Window::new();
+    window.send(Intent::OpenGallery("letters-carried".to_owned()));
+    window.wait();
+    let transition = window.session().transition().expect("a transition");
+    assert!(matches!(transition.content(), Content::Field(_)));
+    assert!(window.session().parts() > 0, "the panel has turns to offer");
+}
+
+#[test]
+fn work_that_is_cancelled_takes_its_settings_back() {
+    let mut window = Window::with_gallery();
+    let before = window.session().project().cloned();
+    window.send(Intent::NextMethod);
+    window.send(Intent::CancelWork);
+    if window.session().work().is_none() {
+        window.wait();
+    }
+    let after = window.session().project().cloned();
+    let transition = window.session().transition().expect("a transition");
+    let shown = (
+        Some(transition.cell().warp()),
+        Some(transition.cell().content()),
+    );
+    assert_eq!(
+        after.as_ref().map(|p| (p.warp, p.content)),
+        Some(shown),
+        "stage and panel agree"
+    );
+    assert!(after == before || window.session().is_dirty());
+}
+
+fn drop_files(window: &mut Window, paths: &[&Path]) {
+    for path in paths {
+        window
+            .0
+            .world_mut()
+            .write_message(FileDragAndDrop::DroppedFile {
+                window: Entity::PLACEHOLDER,
+                path_buf: path.to_path_buf(),
+            });
+        window.update();
+    }
+    for _ in 0..20 {
+        window.update();
+    }
+    window.wait();
+}
+
+fn write_square(folder: &Path, name: &str, side: u32) -> std::path::PathBuf {
+    let path = folder.join(name);
+    let svg = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><rect width="{side}" height="{side}"/></svg>"#
+    );
+    std::fs::write(&path, svg).expect("a file");
+    path
+}
+
+#[test]
+fn two_files_that_are_dropped_are_a_pair_and_one_is_asked_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let small = write_square(folder.path(), "small.svg", 30);
+    let large = write_square(folder.path(), "large.svg", 80);
+    let mut window = Window::with_gallery();
+    drop_files(&mut window, &[&small, &large]);
+    assert_eq!(window.problems(), Vec::<String>::new());
+    let names = |window: &Window| {
+        let designs = window.session().transition().map(|t| t.designs().clone());
+        designs.map(|[a, b]| [a.name.clone(), b.name.clone()])
+    };
+    assert_eq!(
+        names(&window),
+        Some(["small".to_owned(), "large".to_owned()])
+    );
+    drop_files(&mut window, &[&small]);
+    assert_eq!(
+        names(&window),
+        Some(["small".to_owned(), "large".to_owned()]),
+        "asks first"
+    );
+    window.send(Intent::ReplaceDesign(1, small));
+    window.wait();
+    assert_eq!(
+        names(&window),
+        Some(["small".to_owned(), "small".to_owned()])
+    );
+    assert!(window.session().is_dirty());
+}
+
+#[test]
+fn more_files_than_a_pair_are_refused() {
+    let mut window = Window::with_gallery();
+    let nowhere = Path::new("/nowhere/a.svg");
+    drop_files(&mut window, &[nowhere, nowhere, nowhere]);
+    assert_eq!(window.problems().len(), 1);
+}

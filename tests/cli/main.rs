@@ -1,0 +1,242 @@
+//! Drives the built program: each kind of output on small sizes, and what goes
+//! wrong. Needs no graphics card and no display.
+
+mod pictures;
+mod tables;
+mod workshop;
+
+use std::fs;
+
+use crate::workshop::{Workshop, image, words};
+
+#[test]
+fn a_check_is_one_json_object() {
+    let shop = Workshop::new();
+    let json = shop.done("check a.obj b.obj --samples 5 --json");
+    let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(report["vertices"], 4);
+    assert_eq!(report["faces"], 2);
+    assert_eq!(report["warp"], "arap");
+    assert_eq!(report["film"]["samples"].as_array().map(Vec::len), Some(5));
+    for stage in ["import", "build", "frame"] {
+        assert!(report["seconds"][stage].as_f64() > Some(0.0), "{stage}");
+    }
+    for measure in [
+        "asymmetry",
+        "conformal_excess",
+        "worst_crossings",
+        "min_det",
+    ] {
+        assert!(report["film"][measure].is_number(), "{measure}");
+    }
+    assert_eq!(report["verdict"]["words"], "no folds, no crossings");
+    assert_eq!(report["mesh"]["steiner_per_boundary_point"], 0.0);
+    let json = shop.done("check a.svg b.svg --method field --cells 64 --samples 3 --json");
+    let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    assert_eq!(
+        (&report["content"], &report["mesh"]),
+        (&"field".into(), &().into())
+    );
+    assert_eq!(report["grid"][0], 64);
+    let table = shop.done("check a.obj b.obj --samples 5");
+    assert!(table.lines().any(|line| line.starts_with("time  ")));
+    let verdict = "verdict      no folds, no crossings";
+    assert!(table.lines().any(|line| line == verdict), "{table}");
+    assert!(table.lines().count() < 40, "{table}");
+    let long = table.lines().find(|line| line.chars().count() > 110);
+    assert_eq!(long, None);
+}
+
+#[test]
+fn a_check_tells_what_was_done_otherwise_than_asked() {
+    let shop = Workshop::new();
+    let check = "check a.svg b.svg --method field --cells 64 --samples 3 --metric city-block";
+    let said = "boundary runs between cells";
+    let table = shop.done(check);
+    let is_note = |line: &str| line.starts_with("note  ") && line.contains(said);
+    assert!(table.lines().any(is_note), "{table}");
+    let json = shop.done(&format!("{check} --json"));
+    let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let note = report["verdict"]["notes"][0].as_str().expect("a note");
+    assert!(note.contains(said), "{note}");
+    let table = shop.done(&format!("{check} --boundary binary"));
+    assert!(!table.contains(said), "{table}");
+}
+
+#[test]
+fn a_new_project_is_rendered_from_anywhere() {
+    let shop = Workshop::new();
+    fs::create_dir(shop.path("sub")).expect("made");
+    shop.done("new a.svg b.svg --out sub/pair.morph --cells 64 --epsilon 2");
+    let text = fs::read_to_string(shop.path("sub/pair.morph")).expect("text");
+    assert!(
+        text.contains("../a.svg") && text.contains("epsilon = 2.0"),
+        "{text}"
+    );
+    shop.done("render sub/pair.morph --at 0 --size 30x20 --out x.png");
+    assert_eq!(image(&shop.path("x.png")).dimensions(), (30, 20));
+    shop.fails(1, "new a.svg b.svg --out sub/pair.morph", "--force");
+    shop.fails(2, "new a.svg b.svg --out pair.txt", ".morph");
+    shop.fails(1, "new a.svg missing.svg --out p.morph", "missing.svg");
+}
+
+#[test]
+fn text_and_elements_are_designs_like_any_other() {
+    let shop = Workshop::new();
+    let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"40\">\
+        <rect id=\"bar\" width=\"20\" height=\"30\"/><rect x=\"30\" width=\"9\" height=\"9\"/></svg>";
+    shop.put("c.svg", svg);
+    shop.done("render glyph:D glyph:S --method field --cells 40 --at 0.5 --out ds.png");
+    assert!(shop.path("ds.png").is_file());
+    fs::create_dir_all(shop.path("deep")).expect("made");
+    shop.done("new glyph:D%40 c.svg --out deep/p.morph");
+    let text = fs::read_to_string(shop.path("deep/p.morph")).expect("read");
+    assert!(
+        text.contains("\"glyph:D%40\"") && text.contains("\"../c.svg\""),
+        "{text}"
+    );
+    shop.done("render deep/p.morph --cells 40 --at 1 --out out.svg");
+    shop.put("bow.json", "[[0, 0], [20, 20], [20, 0], [0, 20]]");
+    let table = shop.done("check bow.json c.svg#bar --samples 2 --cells 40");
+    assert!(
+        table.contains("1 crossing of edges was resolved"),
+        "{table}"
+    );
+    shop.fails(2, "check glyph:D", "one design");
+    shop.fails(1, "check glyph:D glyph:\u{2603}", "U+2603");
+}
+
+#[test]
+fn the_gallery_is_listed_and_rendered() {
+    let shop = Workshop::new();
+    let json = shop.done("gallery --json");
+    let entries: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let first = entries[0]["name"].as_str().expect("a name");
+    let listed = shop.done("gallery");
+    assert!(listed.starts_with(&format!("gallery:{first} ")));
+    shop.done("render gallery:triangle-polar --at 0.5 --size 20x20 --out x.png");
+    shop.fails(1, "render gallery:no-such --at 0.5 --out x.png", "no-such");
+}
+
+#[test]
+fn wrong_use_ends_with_two() {
+    let shop = Workshop::new();
+    shop.fails(2, "render a.obj b.obj --at 0.5 --out x.jpg", ".png");
+    shop.fails(2, "render a.obj b.obj --out x.png", "--at");
+    shop.fails(2, "render a.obj b.obj --at 0.5 --out x.gif", "--at");
+    shop.fails(2, "render a.obj b.obj --at nan --out x.png", "finite");
+    shop.fails(
+        2,
+        "render a.obj b.obj --at 0.5 --sheet 3 --out x.png",
+        "--sheet",
+    );
+    shop.fails(
+        2,
+        "render a.obj b.obj --at 0.5 --size 99999x99999 --out x.png",
+        "too large",
+    );
+    shop.fails(
+        2,
+        "render a.obj b.obj --at 0.5 --size 0x5 --out x.png",
+        "at least 1",
+    );
+    shop.fails(2, "render a.obj b.obj --frames 0 --out x.gif", "frames");
+    shop.fails(
+        2,
+        "render a.obj b.obj --frames 4 --frames-range 5..2 --out f",
+        "A..B",
+    );
+    shop.fails(
+        2,
+        "render a.obj b.obj --frames 4 --frames-range 2..9 --out f",
+        "0 to 3",
+    );
+    shop.fails(
+        2,
+        "render a.obj b.obj --frames 4 --fps 60 --out x.gif",
+        "50",
+    );
+    shop.fails(
+        2,
+        "render a.obj b.obj --ground puce --at 0 --out x.png",
+        "#rrggbb",
+    );
+    shop.fails(2, "render a.obj --at 0 --out x.png", "one design");
+    shop.fails(2, "render", "--out");
+    shop.fails(2, "check a.obj b.obj --samples 1", "--samples");
+    assert_eq!(shop.names(".").len(), 4, "nothing was written");
+}
+
+#[test]
+fn failures_end_with_one_and_name_the_file() {
+    let shop = Workshop::new();
+    shop.put("empty.svg", "");
+    shop.put("bad.morph", "version = 1\ncolour = 3\n");
+    let at = "--at 0.5 --size 8x8 --out";
+    shop.fails(1, &format!("render a.obj none.obj {at} x.png"), "none.obj");
+    shop.fails(1, &format!("render none.morph {at} x.png"), "none.morph");
+    shop.fails(1, &format!("render bad.morph {at} x.png"), "line 2");
+    shop.fails(
+        1,
+        &format!("render a.svg empty.svg {at} x.png"),
+        "empty.svg",
+    );
+    shop.fails(
+        1,
+        &format!("render a.obj b.obj {at} none/x.png"),
+        "none/x.png",
+    );
+    shop.fails(
+        1,
+        "render a.obj b.obj --frames 2 --size 8x8 --out a.obj/f-#.png",
+        "a.obj",
+    );
+    shop.fails(1, "check a.obj none.obj --json", "none.obj");
+    assert_eq!(shop.names(".").len(), 6, "nothing was written");
+}
+
+#[test]
+fn help_and_version_are_data() {
+    let shop = Workshop::new();
+    assert!(shop.done("--version").starts_with("morphospace "));
+    assert!(shop.done("--help").contains("Examples:"));
+    assert!(shop.done("render --help").contains("--frames-range"));
+}
+
+#[test]
+fn a_verdict_names_t_cause_and_remedy() {
+    let shop = Workshop::new();
+    shop.put(
+        "turned.obj",
+        "v 0 0 0\nv -1 0 0\nv -1 -3 0\nv 0 -3 0\nf 1 2 3\nf 1 3 4\n",
+    );
+    let table = shop.done("check a.obj turned.obj --homotopy linear");
+    for words in [
+        "2 faces fold at t = 0.38, about (",
+        "cause: straight",
+        "polar homotopy",
+    ] {
+        assert!(table.contains(words), "{words}: {table}");
+    }
+    let json = shop.done("check a.obj turned.obj --homotopy linear --json");
+    let report: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let finding = &report["verdict"]["findings"][0];
+    assert_eq!(finding["trouble"]["kind"], "folds");
+    assert_eq!(finding["cause"]["kind"], "straight-paths");
+    assert_eq!(finding["remedy"]["left"], 0);
+    assert!(finding["t"].is_number() && finding["place"][1].is_number());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_closed_pipe_is_no_crash() {
+    let shop = Workshop::new();
+    let mut command = shop.command("check a.obj b.obj --samples 2000 --json");
+    command.stdout(std::process::Stdio::piped());
+    command.stderr(std::process::Stdio::piped());
+    let mut child = command.spawn().expect("the program starts");
+    drop(child.stdout.take());
+    let output = child.wait_with_output().expect("the program ends");
+    assert_eq!(output.status.code(), Some(0), "{}", words(&output));
+    assert_eq!(words(&output), "");
+}
