@@ -41,42 +41,19 @@ pub(super) struct Opened {
 }
 
 impl Inputs {
+    /// Two designs.
+    pub fn pair(source: &Path, target: &Path) -> Self {
+        let inputs = vec![source.to_owned(), target.to_owned()];
+        Self { inputs }
+    }
+
     /// Reads, imports, applies the flags and builds.
     pub fn open(&self, method: &MethodArgs, progress: &dyn Progress) -> Result<Opened, CliError> {
         let start = Instant::now();
-        let loaded = self.load(method)?;
-        Opened::build(loaded, start.elapsed(), progress)
-    }
-
-    fn load(&self, method: &MethodArgs) -> Result<LoadedProject, CliError> {
-        match self.inputs.as_slice() {
-            [source, target] => pair(source, target, method),
-            [project] => match gallery_name(project) {
-                Some(name) => bundled(name, method),
-                None => from_file(project, method),
-            },
-            _ => Err(CliError::Usage("give a project or two designs".to_owned())),
-        }
-    }
-}
-
-impl Opened {
-    /// Reads two designs, applies the flags and builds.
-    pub fn pair(
-        [source, target]: [&Path; 2],
-        method: &MethodArgs,
-        progress: &dyn Progress,
-    ) -> Result<Self, CliError> {
-        let start = Instant::now();
-        let loaded = pair(source, target, method)?;
-        Self::build(loaded, start.elapsed(), progress)
-    }
-
-    fn build(
-        loaded: LoadedProject,
-        import_time: Duration,
-        progress: &dyn Progress,
-    ) -> Result<Self, CliError> {
+        let (mut project, folder) = self.document()?;
+        method.edit(&mut project)?;
+        let loaded = LoadedProject::load(project, folder).map_err(CliError::failed)?;
+        let import_time = start.elapsed();
         let spec = loaded.spec().map_err(CliError::failed)?;
         let start = Instant::now();
         let transition = Transition::build(&spec, progress).map_err(CliError::failed)?;
@@ -87,47 +64,37 @@ impl Opened {
             build_time: start.elapsed(),
         })
     }
-}
 
-fn pair(source: &Path, target: &Path, method: &MethodArgs) -> Result<LoadedProject, CliError> {
-    let project = edited(Project::pair(source, target), method)?;
-    LoadedProject::load(project, PathBuf::new()).map_err(CliError::failed)
-}
-
-fn from_file(path: &Path, method: &MethodArgs) -> Result<LoadedProject, CliError> {
-    if is_design(path) {
-        let path = path.display();
-        return Err(CliError::Usage(format!(
-            "`{path}` is one design: give a second one, or a .morph project"
-        )));
+    /// The document, and what its paths are relative to: nothing if it is
+    /// bundled.
+    fn document(&self) -> Result<(Project, Option<PathBuf>), CliError> {
+        let path = match self.inputs.as_slice() {
+            [source, target] => return Ok((Project::pair(source, target), Some(PathBuf::new()))),
+            [path] => path,
+            _ => return Err(CliError::Usage("give a project or two designs".to_owned())),
+        };
+        if let Some(name) = path.to_str().and_then(|path| path.strip_prefix("gallery:")) {
+            let project = gallery::document(name).map_err(CliError::failed)?;
+            return Ok((project, None));
+        }
+        if is_design(path) {
+            let path = path.display();
+            return Err(CliError::Usage(format!(
+                "`{path}` is one design: give a second one, or a .morph project"
+            )));
+        }
+        let project = Project::read(path).map_err(CliError::failed)?;
+        Ok((project, path.parent().map(Path::to_owned)))
     }
-    let project = Project::read(path).map_err(CliError::failed)?;
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    LoadedProject::load(edited(project, method)?, folder).map_err(CliError::failed)
 }
 
 /// One of them alone is half a pair.
 fn is_design(path: &Path) -> bool {
-    let Source::File {
-        path,
-        element: None,
-    } = Source::of(path)
-    else {
-        return true;
-    };
-    Format::ALL.iter().any(|format| format.ends(&path))
-}
-
-fn bundled(name: &str, method: &MethodArgs) -> Result<LoadedProject, CliError> {
-    let project = gallery::document(name).map_err(CliError::failed)?;
-    gallery::load_document(edited(project, method)?).map_err(CliError::failed)
-}
-
-fn edited(mut project: Project, method: &MethodArgs) -> Result<Project, CliError> {
-    method.edit(&mut project)?;
-    Ok(project)
-}
-
-fn gallery_name(path: &Path) -> Option<&str> {
-    path.to_str()?.strip_prefix("gallery:")
+    match Source::of(path) {
+        Source::File {
+            path,
+            element: None,
+        } => Format::ALL.iter().any(|format| format.ends(&path)),
+        _ => true,
+    }
 }

@@ -57,7 +57,8 @@ fn write(args: &NewArgs) -> Result<(), CliError> {
     let mut project = Project::pair(source?, target?);
     args.method.edit(&mut project)?;
     // A project that cannot be opened is of no use; say so now.
-    let loaded = LoadedProject::load(project, folder.to_owned()).map_err(CliError::failed)?;
+    let loaded = LoadedProject::load(project, Some(folder.to_owned()));
+    let loaded = loaded.map_err(CliError::failed)?;
     let spec = loaded.spec().map_err(CliError::failed)?;
     TransitionSpec::available(spec.cell, &spec.source, &spec.target).map_err(CliError::failed)?;
     let saved = loaded.project.save_atomically(&args.out);

@@ -43,16 +43,7 @@ pub fn list() -> Result<Vec<Entry>, ProjectError> {
 /// # Errors
 /// [`ProjectError::NotInGallery`] for another name.
 pub fn load(name: &str) -> Result<LoadedProject, ProjectError> {
-    load_document(document(name)?)
-}
-
-/// Reads the bundled designs that a document names: a bundled one with other
-/// options, for example.
-///
-/// # Errors
-/// [`ProjectError`] for a design that is not bundled or cannot be read.
-pub fn load_document(project: Project) -> Result<LoadedProject, ProjectError> {
-    LoadedProject::load_bundled(project)
+    LoadedProject::load(document(name)?, None)
 }
 
 /// A bundled document, without its designs.

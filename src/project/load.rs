@@ -40,7 +40,7 @@ impl LoadedProject {
     pub fn open(path: &Path) -> Result<Self, ProjectError> {
         let project = Project::read(path)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-        Self::load(project, folder)
+        Self::load(project, Some(folder))
     }
 
     /// Reads two designs into a project with default options.
@@ -48,16 +48,27 @@ impl LoadedProject {
     /// # Errors
     /// [`ProjectError::Import`] names the file and the place.
     pub fn open_pair(source: &Path, target: &Path) -> Result<Self, ProjectError> {
-        Self::load(Project::pair(source, target), PathBuf::new())
+        Self::load(Project::pair(source, target), Some(PathBuf::new()))
     }
 
-    /// Reads the designs of a document whose paths are relative to `folder`.
+    /// Reads the designs of a document. Its paths are relative to `folder`, or
+    /// where there is none to the gallery.
     ///
     /// # Errors
-    /// [`ProjectError::Import`] names the file and the place.
-    pub fn load(project: Project, folder: PathBuf) -> Result<Self, ProjectError> {
-        Self::load_by(project, Some(folder.clone()), |entry| {
-            Ok(Source::in_folder(&folder, &entry.path).import(&entry.import)?)
+    /// [`ProjectError`] names the file and the place.
+    pub fn load(project: Project, folder: Option<PathBuf>) -> Result<Self, ProjectError> {
+        let read = |entry: &DesignEntry| {
+            let mut design = read(entry, folder.as_deref())?;
+            if !entry.name.is_empty() {
+                design.name.clone_from(&entry.name);
+            }
+            Ok(Arc::new(design))
+        };
+        let designs: Result<_, ProjectError> = project.designs.iter().map(read).collect();
+        Ok(Self {
+            designs: designs?,
+            project,
+            folder,
         })
     }
 
@@ -65,51 +76,9 @@ impl LoadedProject {
     /// or how they are read.
     ///
     /// # Errors
-    /// [`ProjectError::Import`] names the file and the place.
+    /// [`ProjectError`] names the file and the place.
     pub fn reread(self) -> Result<Self, ProjectError> {
-        match self.folder {
-            Some(folder) => Self::load(self.project, folder),
-            None => Self::load_bundled(self.project),
-        }
-    }
-
-    /// Reads the bundled designs that a document names.
-    pub(super) fn load_bundled(project: Project) -> Result<Self, ProjectError> {
-        Self::load_by(project, None, |entry| {
-            // A bundled project whose design a user has replaced by a file.
-            if entry.path.is_absolute() {
-                return Ok(Source::of(&entry.path).import(&entry.import)?);
-            }
-            let source = Source::parse(&entry.path, |path| bytes(path).is_some());
-            let bytes = match source.file() {
-                Some(file) => bytes(file).ok_or_else(|| missing(file))?,
-                None => &[],
-            };
-            Ok(source.import_bytes(bytes, &entry.import)?)
-        })
-    }
-
-    fn load_by(
-        project: Project,
-        folder: Option<PathBuf>,
-        read: impl Fn(&DesignEntry) -> Result<Design, ProjectError>,
-    ) -> Result<Self, ProjectError> {
-        let designs = project
-            .designs
-            .iter()
-            .map(|entry| {
-                let mut design = read(entry)?;
-                if !entry.name.is_empty() {
-                    design.name.clone_from(&entry.name);
-                }
-                Ok(Arc::new(design))
-            })
-            .collect::<Result<Vec<_>, ProjectError>>()?;
-        Ok(Self {
-            project,
-            designs,
-            folder,
-        })
+        Self::load(self.project, self.folder)
     }
 
     /// What the transition is called.
@@ -138,9 +107,10 @@ impl LoadedProject {
             (Some(warp), Some(content)) => Cell::new(warp, content),
             (Some(warp), None) => {
                 let photographs = default.content() == ContentKind::Colours;
-                let cells = Cell::all().filter(|cell| cell.warp() == warp);
                 let suits = |cell: &Cell| (cell.content() == ContentKind::Colours) == photographs;
-                let found = cells.clone().find(suits).or_else(|| cells.clone().next());
+                let cells = Cell::all().filter(|cell| cell.warp() == warp);
+                // The first that suits, or the first of all.
+                let found = cells.min_by_key(|cell| !suits(cell));
                 Ok(found.unwrap_or(default))
             }
             (None, Some(content)) => {
@@ -193,6 +163,21 @@ impl LoadedProject {
     }
 }
 
-fn missing(file: &Path) -> ProjectError {
-    ProjectError::Io(format!("{} is missing", file.display()))
+/// A design that a document in a folder names, or one of the gallery.
+fn read(entry: &DesignEntry, folder: Option<&Path>) -> Result<Design, ProjectError> {
+    let source = match folder {
+        Some(folder) => Source::in_folder(folder, &entry.path),
+        // A bundled project whose design a user has replaced by a file.
+        None if entry.path.is_absolute() => Source::of(&entry.path),
+        None => {
+            let source = Source::parse(&entry.path, |path| bytes(path).is_some());
+            let missing = |file: &Path| ProjectError::Io(format!("{} is missing", file.display()));
+            let bytes = match source.file() {
+                Some(file) => bytes(file).ok_or_else(|| missing(file))?,
+                None => &[],
+            };
+            return Ok(source.import_bytes(bytes, &entry.import)?);
+        }
+    };
+    Ok(source.import(&entry.import)?)
 }

@@ -250,10 +250,10 @@ proptest! {
 fn text_needs_no_file_in_a_bundled_project() {
     let project = Project::pair("glyph:D", "glyph:form");
     assert_eq!(project.title, "D to form");
-    let loaded = gallery::load_document(project).unwrap();
+    let loaded = LoadedProject::load(project, None).unwrap();
     assert_eq!(loaded.designs[1].name, "form");
     let missing = Project::pair("glyph:D", "glyph:S@nowhere.ttf");
-    assert!(gallery::load_document(missing).is_err());
+    assert!(LoadedProject::load(missing, None).is_err());
 }
 
 #[test]
@@ -267,7 +267,7 @@ fn the_font_of_a_text_lies_beside_the_project() {
     )
     .unwrap();
     let project = Project::pair("glyph:D@light.ttf", "./glyph:D");
-    let loaded = LoadedProject::load(project, folder.path().to_owned()).unwrap();
+    let loaded = LoadedProject::load(project, Some(folder.path().to_owned())).unwrap();
     let [thin, file] = [0, 1].map(|k| loaded.designs[k].outline(0.0).unwrap().area());
     assert!(thin > 10_000.0 && file == 0.5, "{thin} {file}");
 }

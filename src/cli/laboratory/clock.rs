@@ -1,12 +1,13 @@
 //! How long each stage of some work took, heard from its progress.
 
+use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::progress::Progress;
 
-/// Stages and the time that they took, in the order of their beginning.
-pub(in crate::cli) type Stages = Vec<(&'static str, Duration)>;
+/// Stages and the seconds that they took.
+pub(in crate::cli) type Stages = BTreeMap<&'static str, f64>;
 
 /// Stages that belong to rigid parts once a mesh is there, and to fields.
 const NOT_TRIANGULATING: [&str; 5] = [
@@ -36,11 +37,8 @@ impl Heard {
     fn change_to(&mut self, stage: Option<&'static str>) {
         let at = Instant::now();
         let before = std::mem::replace(&mut self.now, stage.map(|stage| (stage, at)));
-        let Some((name, begin)) = before else { return };
-        let took = at.duration_since(begin);
-        match self.stages.iter_mut().find(|(other, _)| *other == name) {
-            Some((_, total)) => *total += took,
-            None => self.stages.push((name, took)),
+        if let Some((name, begin)) = before {
+            *self.stages.entry(name).or_default() += at.duration_since(begin).as_secs_f64();
         }
     }
 }
@@ -76,13 +74,13 @@ impl Progress for StageClock<'_> {
     }
 }
 
-/// Time of the stages that match boundaries and parts.
-pub(super) fn matching(stages: &Stages) -> Duration {
+/// Seconds of the stages that match boundaries and parts.
+pub(super) fn matching(stages: &Stages) -> f64 {
     total(stages, is_matching)
 }
 
-/// Time of the stages that make a common triangulation.
-pub(super) fn triangulating(stages: &Stages) -> Duration {
+/// Seconds of the stages that make a common triangulation.
+pub(super) fn triangulating(stages: &Stages) -> f64 {
     total(stages, |stage| {
         !is_matching(stage) && !NOT_TRIANGULATING.contains(&stage)
     })
@@ -92,15 +90,16 @@ fn is_matching(stage: &str) -> bool {
     stage.starts_with("match") || stage.starts_with("pairing")
 }
 
-fn total(stages: &Stages, is: impl Fn(&str) -> bool) -> Duration {
+fn total(stages: &Stages, is: impl Fn(&str) -> bool) -> f64 {
     let chosen = stages.iter().filter(|(stage, _)| is(stage));
-    chosen.map(|(_, time)| *time).sum()
+    chosen.map(|(_, seconds)| seconds).sum()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::progress::Silent;
+    use std::time::Duration;
 
     #[test]
     fn stages_are_told_apart_and_added_up() {
@@ -116,10 +115,10 @@ mod tests {
             std::thread::sleep(Duration::from_millis(2));
         }
         let stages = clock.stages();
-        let names: Vec<_> = stages.iter().map(|(name, _)| *name).collect();
-        assert_eq!(names, ["matching", "triangulating", "factoring"]);
-        assert!(matching(&stages) >= Duration::from_millis(6));
-        assert_eq!(triangulating(&stages), stages[1].1);
-        assert_eq!(clock.stages(), Vec::new());
+        let names: Vec<_> = stages.keys().copied().collect();
+        assert_eq!(names, ["factoring", "matching", "triangulating"]);
+        assert!(matching(&stages) >= 0.006);
+        assert_eq!(triangulating(&stages), stages["triangulating"]);
+        assert_eq!(clock.stages(), Stages::new());
     }
 }

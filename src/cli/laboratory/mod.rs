@@ -2,7 +2,7 @@
 //! in words.
 //!
 //! Guarantees: prints nothing and knows no terminal and no flags but those
-//! that change a project; what comes out is data. Lengths and areas are in the
+//! that say what is measured; what comes out is data. Lengths and areas are in the
 //! units of the designs, angles in degrees (of causes in radians), times in
 //! seconds. A number that is infinite (a folded face is infinitely distorted)
 //! is `null`, as JSON has no other way.
@@ -25,7 +25,6 @@ mod summary;
 mod table;
 mod text;
 
-pub(super) use clock::StageClock;
-pub(super) use pairs::{Batch, Outcome};
-pub(super) use report::Report;
+pub(super) use pairs::Batch;
+pub(super) use report::Measuring;
 pub(super) use text::text;

@@ -7,19 +7,18 @@
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use clap::Args;
 use rayon::prelude::*;
 
-use super::clock::StageClock;
 use super::columns;
-use super::report::Report;
+use super::report::{Measuring, Report};
 use super::summary::Summary;
 use super::table::{self, Row, RowError, Table};
 use crate::cli::error::CliError;
-use crate::cli::inputs::Opened;
-use crate::cli::options::MethodArgs;
+use crate::cli::inputs::{Inputs, Opened};
 use crate::design::Source;
 use crate::export::{
     StillKind, Strip, Target, even_times, pair_sheet, write_atomically, write_still,
@@ -30,22 +29,32 @@ use crate::transition::Style;
 /// Frames of a strip of the sheet.
 const STRIP_FRAMES: usize = 7;
 
-/// A table to be worked through, and how.
-pub(in crate::cli) struct Batch<'a> {
-    /// The table of pairs.
-    pub pairs: &'a Path,
-    /// Where the report goes.
-    pub out: &'a Path,
-    /// Where the contact sheet goes, if there is to be one.
-    pub sheet: Option<&'a Path>,
-    /// Each pair in both directions.
-    pub both: bool,
-    /// One pair after the other.
-    pub one_by_one: bool,
-    /// At how many t each film is measured.
-    pub samples: usize,
-    /// By which method.
-    pub method: &'a MethodArgs,
+/// A table to be worked through, and what comes of it.
+// The fields are needed of a table only, so that the parser must not ask for
+// them.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Batch {
+    /// A table of pairs instead: a CSV file with the columns source and target,
+    /// paths relative to its folder; other columns are carried along
+    #[arg(long, value_name = "FILE.csv", required = false, requires = "out")]
+    pairs: PathBuf,
+
+    /// With --pairs: where the report goes, a row for each pair
+    #[arg(long, value_name = "FILE.csv", required = false, requires = "pairs")]
+    out: PathBuf,
+
+    /// With --pairs: a contact sheet too, a strip for each pair (.png or .svg)
+    #[arg(long, value_name = "FILE.png", requires = "pairs")]
+    sheet: Option<PathBuf>,
+
+    /// With --pairs: each pair in both directions
+    #[arg(long, requires = "pairs")]
+    both: bool,
+
+    /// With --pairs: one pair after the other, so that each has the machine for
+    /// itself and its times are those of the window
+    #[arg(long, requires = "pairs")]
+    one_by_one: bool,
 }
 
 /// What became of a table.
@@ -56,31 +65,6 @@ pub(in crate::cli) struct Outcome {
     pub written: Vec<String>,
     /// The line of the first pair that failed, and why it did.
     pub first_failure: Option<(u64, String)>,
-}
-
-/// Why a pair has no report.
-#[derive(Debug, thiserror::Error)]
-enum PairError {
-    #[error(transparent)]
-    Row(#[from] RowError),
-    #[error(transparent)]
-    Work(#[from] CliError),
-    #[error("internal error ({0}); please report it with both designs")]
-    Panic(String),
-}
-
-impl PairError {
-    fn of_panic(panic: &(dyn Any + Send)) -> Self {
-        let text = panic.downcast_ref::<&str>().copied();
-        let words = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
-        Self::Panic(words.unwrap_or("no words").to_owned())
-    }
-
-    /// In one line, for a cell of the table.
-    fn line(&self) -> String {
-        let words = self.to_string();
-        words.lines().map(str::trim).collect::<Vec<_>>().join("; ")
-    }
 }
 
 /// A row in one direction.
@@ -96,25 +80,25 @@ struct Done<'a> {
     strip: Option<Strip>,
 }
 
-impl Batch<'_> {
+impl Batch {
     /// Measures every pair and writes what was found.
-    pub fn run(&self, progress: &dyn Progress) -> Result<Outcome, CliError> {
-        let sheet = match self.sheet {
+    pub fn run(&self, measuring: &Measuring, progress: &dyn Progress) -> Result<Outcome, CliError> {
+        let sheet = match &self.sheet {
             Some(path) => Some((sheet_kind(path)?, path)),
             None => None,
         };
         self.check_places()?;
-        let table = table::read(self.pairs)
+        let table = table::read(&self.pairs)
             .map_err(|error| CliError::Failed(format!("`{}`: {error}", self.pairs.display())))?;
         let jobs = self.jobs(&table);
-        let done = self.work(&jobs, progress);
+        let done = self.work(&jobs, measuring, progress);
         if progress.is_cancelled() {
             let nothing = "cancelled; nothing was written";
             return Err(CliError::Failed(nothing.to_owned()));
         }
         progress.report("writing", 1.0);
         let bytes = report_bytes(&table, &done).map_err(CliError::failed)?;
-        write_atomically(self.out, &bytes).map_err(CliError::failed)?;
+        write_atomically(&self.out, &bytes).map_err(CliError::failed)?;
         let mut written = vec![self.out.display().to_string()];
         if let Some((kind, path)) = sheet {
             let left_out = write_sheet(&done, kind, path)?;
@@ -135,9 +119,9 @@ impl Batch<'_> {
             (Ok(a), Ok(b)) => a == b,
             _ => a == b,
         };
-        for path in [Some(self.out), self.sheet].into_iter().flatten() {
+        for path in std::iter::once(&self.out).chain(&self.sheet) {
             let shown = path.display();
-            if same(path, self.pairs) {
+            if same(path, &self.pairs) {
                 return Err(CliError::Usage(format!(
                     "`{shown}` is the table itself: choose another name for the output"
                 )));
@@ -149,7 +133,7 @@ impl Batch<'_> {
                 )));
             }
         }
-        if self.sheet.is_some_and(|sheet| same(sheet, self.out)) {
+        if (self.sheet.as_ref()).is_some_and(|sheet| same(sheet, &self.out)) {
             let one = "--out and --sheet are one file: choose two names";
             return Err(CliError::Usage(one.to_owned()));
         }
@@ -165,12 +149,17 @@ impl Batch<'_> {
         table.rows.iter().flat_map(of_row).collect()
     }
 
-    fn work<'a>(&self, jobs: &'a [Job<'a>], progress: &dyn Progress) -> Vec<Done<'a>> {
+    fn work<'a>(
+        &self,
+        jobs: &'a [Job<'a>],
+        measuring: &Measuring,
+        progress: &dyn Progress,
+    ) -> Vec<Done<'a>> {
         const STAGE: &str = "checking pairs";
         let finished = AtomicUsize::new(0);
         progress.report(STAGE, 0.0);
         let one = |job| {
-            let done = self.one(job, progress);
+            let done = self.one(job, measuring, progress);
             let count = finished.fetch_add(1, Ordering::Relaxed) + 1;
             progress.report(STAGE, count as f64 / jobs.len() as f64);
             done
@@ -181,14 +170,25 @@ impl Batch<'_> {
         jobs.par_iter().with_max_len(1).map(one).collect()
     }
 
-    fn one<'a>(&self, job: &'a Job<'a>, progress: &dyn Progress) -> Done<'a> {
+    fn one<'a>(
+        &self,
+        job: &'a Job<'a>,
+        measuring: &Measuring,
+        progress: &dyn Progress,
+    ) -> Done<'a> {
+        let measured = || {
+            let (opened, report) = measuring.of(&job.inputs()?, &Quiet(progress))?;
+            let strip = self.sheet.is_some().then(|| strip(&opened, &report, job));
+            Ok((report.without_samples(), strip))
+        };
         // One pair must not end the work on all others, whatever it is.
-        let caught = catch_unwind(AssertUnwindSafe(|| self.measured(job, progress)));
-        let measured = caught.unwrap_or_else(|panic| Err(PairError::of_panic(&*panic)));
-        let (report, strip) = match measured {
+        let caught = catch_unwind(AssertUnwindSafe(measured));
+        let (report, strip) = match caught.unwrap_or_else(|panic| Err(of_panic(&*panic))) {
             Ok((report, strip)) => (Ok(report), strip),
             Err(error) => {
-                let reason = error.line();
+                let words = error.to_string();
+                // In one line, for a cell of the table.
+                let reason = words.lines().map(str::trim).collect::<Vec<_>>().join("; ");
                 let failed = || Strip::failed(&job.name(), &format!("failed: {reason}"));
                 let strip = self.sheet.is_some().then(failed);
                 (Err(reason), strip)
@@ -196,35 +196,36 @@ impl Batch<'_> {
         };
         Done { job, report, strip }
     }
+}
 
-    fn measured(
-        &self,
-        job: &Job<'_>,
-        progress: &dyn Progress,
-    ) -> Result<(Report, Option<Strip>), PairError> {
-        let [source, target] = job.row.pair.as_ref().map_err(RowError::clone)?;
-        let mut pair = [source.as_path(), target.as_path()];
-        if job.backward {
-            pair.reverse();
-        }
-        let quiet = Quiet(progress);
-        let clock = StageClock::new(&quiet);
-        let opened = Opened::pair(pair, self.method, &clock)?;
-        let report = Report::of(&opened, clock.stages(), self.samples, &quiet)?;
-        let strip = self.sheet.is_some().then(|| strip(&opened, &report, job));
-        Ok((report.without_samples(), strip))
-    }
+fn of_panic(panic: &(dyn Any + Send)) -> CliError {
+    let text = panic.downcast_ref::<&str>().copied();
+    let words = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
+    CliError::Failed(format!(
+        "internal error ({}); please report it with both designs",
+        words.unwrap_or("no words")
+    ))
 }
 
 impl Job<'_> {
+    /// Source and target, the way round that they are taken.
+    fn pair(&self) -> Result<[&Path; 2], &RowError> {
+        let [source, target] = self.row.pair.as_ref()?;
+        Ok(match self.backward {
+            true => [target, source],
+            false => [source, target],
+        })
+    }
+
+    fn inputs(&self) -> Result<Inputs, CliError> {
+        let [source, target] = self.pair().map_err(CliError::failed)?;
+        Ok(Inputs::pair(source, target))
+    }
+
     /// The pair by the names of its designs.
     fn name(&self) -> String {
-        let name = |path: &Path| Source::of(path).name();
-        match &self.row.pair {
-            Ok([source, target]) if self.backward => {
-                format!("{} to {}", name(target), name(source))
-            }
-            Ok([source, target]) => format!("{} to {}", name(source), name(target)),
+        match self.pair() {
+            Ok(pair) => pair.map(|path| Source::of(path).name()).join(" to "),
             Err(_) => format!("line {}", self.row.line),
         }
     }

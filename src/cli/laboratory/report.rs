@@ -1,14 +1,15 @@
 //! Everything that is measured of one transition.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
+use clap::Args;
 use serde::Serialize;
 
-use super::clock::{self, Stages};
+use super::clock::{self, StageClock, Stages};
 use crate::cli::error::CliError;
-use crate::cli::inputs::Opened;
+use crate::cli::inputs::{Inputs, Opened};
+use crate::cli::options::MethodArgs;
 use crate::content::{Content, ContentKind};
 use crate::design::{Design, Form};
 use crate::measure::{self, FilmReport, Finding, MeshReport, Verdict};
@@ -18,6 +19,31 @@ use crate::warp::WarpKind;
 
 /// Frames whose times are taken.
 const TIMED_FRAMES: usize = 15;
+
+/// How transitions are built and measured.
+#[derive(Debug, Args)]
+pub(in crate::cli) struct Measuring {
+    /// At how many values of t, evenly from 0 to 1, the film is measured
+    #[arg(long, value_name = "N", default_value_t = 65, value_parser = clap::value_parser!(u64).range(2..=10_000))]
+    samples: u64,
+
+    #[command(flatten)]
+    method: MethodArgs,
+}
+
+impl Measuring {
+    /// Builds a transition and measures it.
+    pub fn of(
+        &self,
+        inputs: &Inputs,
+        progress: &dyn Progress,
+    ) -> Result<(Opened, Report), CliError> {
+        let clock = StageClock::new(progress);
+        let opened = inputs.open(&self.method, &clock)?;
+        let report = Report::of(&opened, clock.stages(), self.samples as usize, progress)?;
+        Ok((opened, report))
+    }
+}
 
 /// Everything that is measured.
 #[derive(Debug, Serialize)]
@@ -70,7 +96,7 @@ pub(in crate::cli) struct Seconds {
     /// Measuring all that is reported here.
     pub measure: f64,
     /// The stages of building by name.
-    pub stages: BTreeMap<&'static str, f64>,
+    pub stages: Stages,
 }
 
 /// The verdict with its words.
@@ -125,16 +151,13 @@ impl Report {
         let verdict = Verdict::of_film(transition, &film, progress).map_err(CliError::failed)?;
         let seconds = Seconds {
             import: opened.import_time.as_secs_f64(),
-            matching: clock::matching(&stages).as_secs_f64(),
-            triangulate: clock::triangulating(&stages).as_secs_f64(),
+            matching: clock::matching(&stages),
+            triangulate: clock::triangulating(&stages),
             build: opened.build_time.as_secs_f64(),
             frame: frame.as_secs_f64(),
             figure: figure.as_secs_f64(),
             measure: start.elapsed().as_secs_f64(),
-            stages: stages
-                .into_iter()
-                .map(|(s, t)| (s, t.as_secs_f64()))
-                .collect(),
+            stages,
         };
         Ok(Self {
             title: opened.loaded.title(),

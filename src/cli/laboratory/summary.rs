@@ -109,6 +109,7 @@ fn measured(reports: &[&Report], column: &Column) -> Option<Measured> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::clock::Stages;
     use super::*;
     use crate::cli::inputs::Opened;
     use crate::progress::Silent;
@@ -125,7 +126,7 @@ mod tests {
             import_time: Duration::ZERO,
             build_time: Duration::ZERO,
         };
-        Report::of(&opened, Vec::new(), 3, &Silent).expect("measured")
+        Report::of(&opened, Stages::new(), 3, &Silent).expect("measured")
     }
 
     #[test]
