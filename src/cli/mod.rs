@@ -21,7 +21,7 @@ use std::ffi::OsString;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
-use clap::{Parser, Subcommand};
+use clap::{Args, Parser, Subcommand};
 
 use error::CliError;
 
@@ -45,13 +45,8 @@ Examples:
     after_help = EXAMPLES
 )]
 struct Cli {
-    /// A project (.morph, or gallery:NAME), or two designs; opened in the window
-    #[arg(value_name = "FILE", num_args = 0..=2)]
-    files: Vec<PathBuf>,
-
-    /// Folder for pictures taken in the window [default: the pictures folder]
-    #[arg(long, value_name = "DIR")]
-    captures: Option<PathBuf>,
+    #[command(flatten)]
+    window: WindowRequest,
 
     #[command(subcommand)]
     command: Option<Command>,
@@ -70,11 +65,14 @@ enum Command {
 }
 
 /// What the window is to open with.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowRequest {
-    /// No file, a project, or two designs.
+    /// A project (.morph, or gallery:NAME), or two designs; opened in the window
+    #[arg(value_name = "FILE", num_args = 0..=2)]
     pub files: Vec<PathBuf>,
-    /// Where pictures go, if not into the user's pictures folder.
+
+    /// Folder for pictures taken in the window [default: the pictures folder]
+    #[arg(long, value_name = "DIR")]
     pub captures: Option<PathBuf>,
 }
 
@@ -92,10 +90,7 @@ pub enum Launch {
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Launch {
     match Cli::try_parse_from(arguments) {
         Ok(cli) => match cli.command {
-            None => Launch::Window(WindowRequest {
-                files: cli.files,
-                captures: cli.captures,
-            }),
+            None => Launch::Window(cli.window),
             Some(command) => Launch::Done(output::exit_code(execute(&command))),
         },
         Err(error) => Launch::Done(output::say_usage(&error)),
