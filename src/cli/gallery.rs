@@ -17,15 +17,10 @@ pub(super) struct GalleryArgs {
 pub(super) fn run(args: &GalleryArgs) -> Result<(), CliError> {
     let entries = gallery::list().map_err(CliError::failed)?;
     output::data(&if args.json {
-        json(&entries)?
+        output::json(&entries)?
     } else {
         table(&entries)
     })
-}
-
-fn json(entries: &[gallery::Entry]) -> Result<String, CliError> {
-    let text = serde_json::to_string_pretty(entries).map_err(CliError::failed)?;
-    Ok(text + "\n")
 }
 
 fn table(entries: &[gallery::Entry]) -> String {
