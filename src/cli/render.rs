@@ -88,29 +88,26 @@ fn out_help() -> String {
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let target = Target::of_path(&args.out).map_err(CliError::usage)?;
-    let job = job(args, target)?;
+    let shown = shown(args)?;
+    check(args, &target, shown)?;
     let terminal = Terminal::new();
     let opened = args.inputs.open(&args.method, &terminal)?;
-    let written = match job {
-        Job::Still(kind, path, shown) => {
-            let drawing = drawn(args, &opened, &shown, &terminal)?;
+    let written = match (target, shown) {
+        (Target::Still(kind, path), Some(shown)) => {
+            let drawing = drawn(args, &opened, shown, &terminal)?;
             write_still(&drawing, kind, &path).map_err(CliError::failed)?;
             vec![path]
         }
-        Job::Film(target) => film(args, &opened, target, &terminal)?,
+        // A still without anything to show was refused above.
+        (target, _) => film(args, &opened, target, &terminal)?,
     };
     drop(terminal);
     tell(&written);
     Ok(())
 }
 
-/// What is to be made, once the flags are seen to fit the name.
-enum Job {
-    Still(StillKind, PathBuf, Shown),
-    Film(Target),
-}
-
 /// What one picture shows.
+#[derive(Clone, Copy)]
 enum Shown {
     /// The frame at a t.
     Frame(f64),
@@ -120,50 +117,53 @@ enum Shown {
     Methods(usize),
 }
 
-fn job(args: &RenderArgs, target: Target) -> Result<Job, CliError> {
-    let one_picture = |flags: &str| {
-        let (path, endings) = (args.out.display(), endings::<StillKind>());
-        CliError::Usage(format!("{flags} one picture: end `{path}` in {endings}"))
-    };
+/// What the flags want to see in one picture; `None` for a film.
+fn shown(args: &RenderArgs) -> Result<Option<Shown>, CliError> {
     let count = args.sheet.map(|count| count as usize);
-    match (target, args.at, count) {
-        (_, Some(t), _) if !t.is_finite() => Err(CliError::Usage(format!(
+    match args.at {
+        Some(t) if t.is_finite() => Ok(Some(Shown::Frame(t))),
+        Some(t) => Err(CliError::Usage(format!(
             "--at {t} is nowhere: t must be a finite number"
         ))),
-        (Target::Still(kind, path), None, count) if args.compare => {
-            let methods = Shown::Methods(count.unwrap_or(COMPARED));
-            Ok(Job::Still(kind, path, methods))
-        }
-        _ if args.compare => Err(one_picture("--compare makes")),
-        (Target::Still(kind, path), Some(t), _) => Ok(Job::Still(kind, path, Shown::Frame(t))),
-        (Target::Still(kind, path), None, Some(count)) => {
-            Ok(Job::Still(kind, path, Shown::Sheet(count)))
-        }
-        (Target::Still(_, path), None, None) => Err(CliError::Usage(format!(
-            "`{0}` is one picture: add --at T for one moment or --sheet N for a contact sheet, or write name-####.{1} for numbered pictures",
-            path.display(),
-            path.extension().unwrap_or_default().to_string_lossy(),
-        ))),
-        (target, None, None) => Ok(Job::Film(target)),
-        _ => Err(one_picture("--at and --sheet make")),
+        None if args.compare => Ok(Some(Shown::Methods(count.unwrap_or(COMPARED)))),
+        None => Ok(count.map(Shown::Sheet)),
     }
+}
+
+/// Whether the output's name fits the flags, before the work and not after it.
+fn check(args: &RenderArgs, target: &Target, shown: Option<Shown>) -> Result<(), CliError> {
+    let flags = match (target, shown) {
+        (Target::Still(_, path), None) => {
+            return Err(CliError::Usage(format!(
+                "`{0}` is one picture: add --at T for one moment or --sheet N for a contact sheet, or write name-####.{1} for numbered pictures",
+                path.display(),
+                path.extension().unwrap_or_default().to_string_lossy(),
+            )));
+        }
+        (Target::Still(..), Some(_)) | (_, None) => return Ok(()),
+        (_, Some(Shown::Methods(_))) => "--compare makes",
+        (_, Some(_)) => "--at and --sheet make",
+    };
+    let (path, endings) = (args.out.display(), endings::<StillKind>());
+    let words = format!("{flags} one picture: end `{path}` in {endings}");
+    Err(CliError::Usage(words))
 }
 
 fn drawn(
     args: &RenderArgs,
     opened: &Opened,
-    shown: &Shown,
+    shown: Shown,
     progress: &dyn Progress,
 ) -> Result<Drawing, CliError> {
     let project = &opened.loaded.project;
     let (transition, style) = (&opened.transition, &project.style);
     let ground = ground_of(args, project);
     let times = |count| even_times(project.timing.from, project.timing.to, count);
-    Ok(match *shown {
+    Ok(match shown {
         Shown::Frame(t) => {
             // Seen as the film is, so that pictures of one project fit together.
             let seen: Vec<f64> = times(17).into_iter().chain([t]).collect();
-            camera(args, opened, &seen, std::convert::identity).shoot(t)
+            camera(args, opened, &seen, false).shoot(t)
         }
         Shown::Sheet(count) => {
             let times = times(count);
@@ -190,12 +190,7 @@ fn film(
         None => whole.clone(),
     };
     let is_mp4 = matches!(target, Target::Film(FilmKind::Mp4, _));
-    let even = if is_mp4 {
-        PixelSize::to_even
-    } else {
-        std::convert::identity
-    };
-    let camera = camera(args, opened, whole.times(), even);
+    let camera = camera(args, opened, whole.times(), is_mp4);
     if args.size.is_some_and(|size| size != camera.view.size()) {
         output::words(&format!(
             "an MP4 has even sides: {} pixels",
@@ -221,12 +216,7 @@ fn whole_film(args: &RenderArgs, project: &Project, target: &Target) -> Result<F
     film.map_err(CliError::usage)
 }
 
-fn camera(
-    args: &RenderArgs,
-    opened: &Opened,
-    times: &[f64],
-    fitted: impl Fn(PixelSize) -> PixelSize,
-) -> Camera {
+fn camera(args: &RenderArgs, opened: &Opened, times: &[f64], is_even: bool) -> Camera {
     let bounds = framing(&opened.transition, times);
     let size = args
         .size
@@ -234,17 +224,14 @@ fn camera(
     Camera {
         transition: opened.transition.clone(),
         style: opened.loaded.project.style,
-        view: View::fit(bounds, fitted(size)),
+        view: View::fit(bounds, if is_even { size.to_even() } else { size }),
         ground: ground_of(args, &opened.loaded.project),
     }
 }
 
 fn ground_of(args: &RenderArgs, project: &Project) -> Option<Rgb> {
-    match args.ground {
-        None => Some(project.style.ground),
-        Some(Ground::Transparent) => None,
-        Some(Ground::Coloured(colour)) => Some(colour),
-    }
+    let given = args.ground.map(|Ground(ground)| ground);
+    given.unwrap_or(Some(project.style.ground))
 }
 
 fn tell(written: &[PathBuf]) {

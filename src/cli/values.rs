@@ -27,12 +27,11 @@ pub(super) enum ValueError {
     Ground(NoColour),
 }
 
-/// What is behind the shapes.
+/// What is behind the shapes: a colour, or nothing.
+// A type of its own, as the parser takes an `Option` for a flag that may be
+// left out.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Ground {
-    Transparent,
-    Coloured(Rgb),
-}
+pub(super) struct Ground(pub Option<Rgb>);
 
 /// A choice by its key, with the sentence that is said of it in `--help`.
 pub(super) fn one_of<T: Choice + Send + Sync>() -> impl TypedValueParser<Value = T> {
@@ -72,11 +71,11 @@ pub(super) fn line(text: &str) -> Result<LinePair, ValueError> {
 
 pub(super) fn ground(text: &str) -> Result<Ground, ValueError> {
     match text {
-        "transparent" => Ok(Ground::Transparent),
-        colour => colour
-            .parse()
-            .map(Ground::Coloured)
-            .map_err(ValueError::Ground),
+        "transparent" => Ok(Ground(None)),
+        colour => {
+            let colour = colour.parse().map_err(ValueError::Ground)?;
+            Ok(Ground(Some(colour)))
+        }
     }
 }
 
@@ -132,8 +131,8 @@ mod tests {
 
     #[test]
     fn grounds_are_read() {
-        assert_eq!(ground("transparent"), Ok(Ground::Transparent));
-        assert_eq!(ground("#010203"), Ok(Ground::Coloured(Rgb([1, 2, 3]))));
+        assert_eq!(ground("transparent"), Ok(Ground(None)));
+        assert_eq!(ground("#010203"), Ok(Ground(Some(Rgb([1, 2, 3])))));
         assert!(ground("white").is_err());
     }
 }
