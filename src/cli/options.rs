@@ -11,7 +11,7 @@ use crate::field::Metric;
 use crate::homotopy::Homotopy;
 use crate::names::named;
 use crate::project::Project;
-use crate::transition::{Boundary, Easing, Fit, PlayMode, Rgb};
+use crate::transition::{Boundary, Easing, Fit, Options, PlayMode, Rgb};
 use crate::warp::{ArapPath, Course, Travel, WarpKind, Weights};
 
 use super::error::CliError;
@@ -273,117 +273,86 @@ struct StyleArgs {
 impl MethodArgs {
     /// Changes what the flags name and leaves the rest.
     pub fn edit(&self, project: &mut Project) -> Result<(), CliError> {
-        self.placing.edit(project);
-        self.cell.edit(project);
-        self.colours.edit(project);
-        self.arap.edit(project);
-        self.paths.edit(project);
-        self.field.edit(project);
-        self.import.edit(project);
-        self.timing.edit(project);
-        self.style.edit(project);
-        project
-            .timing
-            .check(&project.stops)
-            .map_err(CliError::usage)?;
+        self.edit_cell(project);
+        self.edit_warps(&mut project.options);
+        self.edit_contents(&mut project.options);
+        self.edit_designs(project);
+        self.edit_film(project);
+        let timing = project.timing.check(&project.stops);
+        timing.map_err(CliError::usage)?;
         project.options.colours.check().map_err(CliError::usage)
     }
-}
 
-impl PlacingArgs {
-    fn edit(&self, project: &mut Project) {
-        if let Some(method) = self.method {
-            let (warp, content) = method.kinds();
-            (project.warp, project.content) = (Some(warp), Some(content));
-        }
-        set(&mut project.fit, self.fit);
-        set(&mut project.options.bar_width, self.bar_width);
+    fn edit_cell(&self, project: &mut Project) {
+        let given = &self.placing;
+        let kinds = given.method.map(Method::kinds);
+        set(&mut project.warp, kinds.map(|(warp, _)| Some(warp)));
+        set(
+            &mut project.content,
+            kinds.map(|(_, content)| Some(content)),
+        );
+        set(&mut project.fit, given.fit);
+        set(&mut project.options.bar_width, given.bar_width);
+        let given = &self.cell;
+        set(&mut project.warp, given.warp.map(Some));
+        set(&mut project.content, given.content.map(Some));
+        set(&mut project.options.travel, given.travel);
+        project.options.matching.pins.extend(&given.pin);
+        project.options.matching.lines.extend(&given.line);
     }
-}
 
-impl CellArgs {
-    fn edit(&self, project: &mut Project) {
-        set(&mut project.warp, self.warp.map(Some));
-        set(&mut project.content, self.content.map(Some));
-        set(&mut project.options.travel, self.travel);
-        project.options.matching.pins.extend(&self.pin);
-        project.options.matching.lines.extend(&self.line);
+    fn edit_warps(&self, options: &mut Options) {
+        set(&mut options.paths.course, self.paths.path);
+        let (arap, given) = (&mut options.arap, &self.arap);
+        set(&mut arap.homotopy, given.homotopy);
+        set(&mut arap.weights, given.weights.clone());
+        set(&mut arap.symmetric, given.symmetric.then_some(true));
+        set(&mut arap.symmetric, given.one_sided.then_some(false));
+        set(&mut arap.extra_turns, given.extra_turns.clone());
+        set(&mut arap.path, given.centroid.then_some(ArapPath::Centroid));
+        set(&mut arap.path, given.anchor.map(ArapPath::Anchor));
+        set(&mut arap.subdivisions, given.subdivisions);
     }
-}
 
-impl PathArgs {
-    fn edit(&self, project: &mut Project) {
-        set(&mut project.options.paths.course, self.path);
+    fn edit_contents(&self, options: &mut Options) {
+        let (field, given) = (&mut options.field, &self.field);
+        set(&mut field.metric, given.metric);
+        set(&mut field.boundary, given.boundary);
+        set(&mut field.blend.space, given.space);
+        set(&mut field.blend.epsilon, given.epsilon);
+        set(&mut field.blend.threshold, given.threshold);
+        set(&mut field.cells, given.cells);
+        set(&mut field.margin, given.margin);
+        let (mix, given) = (&mut options.colours, &self.colours);
+        set(&mut mix.curve, given.mix);
+        set(&mut mix.from, given.mix_from);
+        set(&mut mix.to, given.mix_to);
     }
-}
 
-impl ColourArgs {
-    fn edit(&self, project: &mut Project) {
-        let mix = &mut project.options.colours;
-        set(&mut mix.curve, self.mix);
-        set(&mut mix.from, self.mix_from);
-        set(&mut mix.to, self.mix_to);
-    }
-}
-
-impl ArapArgs {
-    fn edit(&self, project: &mut Project) {
-        let arap = &mut project.options.arap;
-        set(&mut arap.homotopy, self.homotopy);
-        set(&mut arap.weights, self.weights.clone());
-        set(&mut arap.symmetric, self.symmetric.then_some(true));
-        set(&mut arap.symmetric, self.one_sided.then_some(false));
-        set(&mut arap.extra_turns, self.extra_turns.clone());
-        set(&mut arap.path, self.centroid.then_some(ArapPath::Centroid));
-        set(&mut arap.path, self.anchor.map(ArapPath::Anchor));
-        set(&mut arap.subdivisions, self.subdivisions);
-    }
-}
-
-impl FieldArgs {
-    fn edit(&self, project: &mut Project) {
-        let field = &mut project.options.field;
-        set(&mut field.metric, self.metric);
-        set(&mut field.boundary, self.boundary);
-        set(&mut field.blend.space, self.space);
-        set(&mut field.blend.epsilon, self.epsilon);
-        set(&mut field.blend.threshold, self.threshold);
-        set(&mut field.cells, self.cells);
-        set(&mut field.margin, self.margin);
-    }
-}
-
-impl ImportArgs {
-    fn edit(&self, project: &mut Project) {
+    fn edit_designs(&self, project: &mut Project) {
+        let given = &self.import;
         for design in &mut project.designs {
             let import = &mut design.import;
-            set(&mut import.threshold, self.image_threshold.map(Some));
-            set(&mut import.invert, self.invert.then_some(true));
-            set(&mut import.specks_px, self.specks);
-            set(&mut import.tolerance, self.tolerance);
-            set(&mut import.strokes, self.strokes.then_some(true));
+            set(&mut import.threshold, given.image_threshold.map(Some));
+            set(&mut import.invert, given.invert.then_some(true));
+            set(&mut import.specks_px, given.specks);
+            set(&mut import.tolerance, given.tolerance);
+            set(&mut import.strokes, given.strokes.then_some(true));
         }
     }
-}
 
-impl TimingArgs {
-    fn edit(&self, project: &mut Project) {
-        let timing = &mut project.timing;
-        set(&mut timing.from, self.from);
-        set(&mut timing.to, self.to);
-        set(&mut timing.duration_secs, self.duration);
-        set(&mut timing.hold_secs, self.hold);
-        set(&mut timing.easing, self.easing);
-        set(&mut timing.play, self.play);
-    }
-}
-
-impl StyleArgs {
-    fn edit(&self, project: &mut Project) {
-        let style = &mut project.style;
-        set(&mut style.source, self.source_colour);
-        set(&mut style.target, self.target_colour);
-        set(&mut style.joints, self.no_joints.then_some(false));
+    fn edit_film(&self, project: &mut Project) {
+        let (timing, given) = (&mut project.timing, &self.timing);
+        set(&mut timing.from, given.from);
+        set(&mut timing.to, given.to);
+        set(&mut timing.duration_secs, given.duration);
+        set(&mut timing.hold_secs, given.hold);
+        set(&mut timing.easing, given.easing);
+        set(&mut timing.play, given.play);
+        let (style, given) = (&mut project.style, &self.style);
+        set(&mut style.source, given.source_colour);
+        set(&mut style.target, given.target_colour);
+        set(&mut style.joints, given.no_joints.then_some(false));
     }
 }
 
