@@ -1,7 +1,5 @@
 //! How the values of a measure are spread, as lines of text.
 
-use std::fmt::Write;
-
 use serde::Serialize;
 
 use super::number::short;
@@ -60,13 +58,12 @@ impl Histogram {
     /// A line for each bar.
     pub fn text(&self) -> String {
         let most = self.counts.iter().copied().max().unwrap_or(0).max(1);
-        let mut text = String::new();
-        for (edges, &count) in self.edges.windows(2).zip(&self.counts) {
+        let line = |(edges, &count): (&[f64], &usize)| {
             let [low, high] = [edges[0], edges[1]].map(short);
             let bar = "\u{2588}".repeat((count * LONGEST).div_ceil(most));
-            writeln!(text, "{low:>9} to {high:<7}{count:>5} {bar}").unwrap_or_default();
-        }
-        text
+            format!("{low:>9} to {high:<7}{count:>5} {bar}\n")
+        };
+        self.edges.windows(2).zip(&self.counts).map(line).collect()
     }
 }
 
@@ -84,12 +81,9 @@ fn fullest(steps: &[i32]) -> Option<(i32, i32)> {
 }
 
 fn edge(step: i32) -> f64 {
-    let series = SERIES[step.rem_euclid(5) as usize];
-    // Powers of ten below one are exact as quotients only.
-    match step.div_euclid(5) {
-        power @ 0.. => series * 10f64.powi(power),
-        power => series / 10f64.powi(-power),
-    }
+    let (series, power) = (SERIES[step.rem_euclid(5) as usize], step.div_euclid(5));
+    // Read as it is written, for products with powers of ten are not exact.
+    format!("{series}e{power}").parse().unwrap_or_default()
 }
 
 fn step_below(value: f64) -> i32 {
