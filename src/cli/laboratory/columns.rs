@@ -20,18 +20,11 @@ pub(super) struct Column {
     name: &'static str,
     unit: Unit,
     read: Read,
-    /// What the summary tells of it, if it does.
-    pub told: Option<Told>,
+    /// What the summary calls it and which of its values are the good ones, if
+    /// it tells of them.
+    pub told: Option<(&'static str, Better)>,
     /// Whether the summary draws its values as bars.
     pub is_drawn: bool,
-}
-
-/// What the summary tells of a column.
-#[derive(Clone, Copy)]
-pub(super) struct Told {
-    words: &'static str,
-    /// Which end of the values is the worst.
-    pub better: Better,
 }
 
 /// Which values are the good ones.
@@ -80,7 +73,7 @@ impl Column {
 
     /// What it is called in the summary, if that tells of it.
     pub fn words(&self) -> Option<String> {
-        let words = self.told?.words;
+        let (words, _) = self.told?;
         Some(format!("{words}{}", self.unit.suffixes()[1]))
     }
 
@@ -103,7 +96,7 @@ impl Column {
 
     const fn told(self, words: &'static str, better: Better) -> Self {
         Self {
-            told: Some(Told { words, better }),
+            told: Some((words, better)),
             ..self
         }
     }

@@ -1,4 +1,4 @@
-//! Numbers as people read them.
+//! Numbers as people read them, and aligned lines of them.
 
 /// Four digits.
 pub(super) fn short(x: f64) -> String {
@@ -21,6 +21,33 @@ pub(super) fn short(x: f64) -> String {
         return trimmed.to_owned();
     }
     fixed
+}
+
+/// Lines of text.
+#[derive(Default)]
+pub(super) struct Lines(pub String);
+
+impl Lines {
+    pub fn line(&mut self, text: &str) {
+        self.0.push_str(text.trim_end());
+        self.0.push('\n');
+    }
+
+    pub fn gap(&mut self) {
+        self.0.push('\n');
+    }
+
+    /// A name that takes so much room, and cells behind it, aligned to the
+    /// right.
+    pub fn cells<C: AsRef<str>>(
+        &mut self,
+        (name, width): (&str, usize),
+        cells: impl IntoIterator<Item = C>,
+    ) {
+        let cell = |cell: C| format!("{:>12}", cell.as_ref());
+        let cells: String = cells.into_iter().map(cell).collect();
+        self.line(&format!("{name:<width$}{cells}"));
+    }
 }
 
 /// A share as per cent.

@@ -1,12 +1,10 @@
 //! What came out of a table of pairs, in short.
 
-use std::fmt::Write;
-
 use serde::Serialize;
 
 use super::columns::{self, Better, Column};
 use super::histogram::Histogram;
-use super::number::short;
+use super::number::{Lines, short};
 use super::report::Report;
 
 /// The fewest values whose spread is drawn.
@@ -59,8 +57,8 @@ impl Summary {
 
     /// In aligned lines.
     pub fn text(&self) -> String {
-        const WIDTH: usize = 36;
-        let mut text = String::new();
+        const NAMES: usize = 36;
+        let mut lines = Lines::default();
         let of = |n: usize| format!("{n} of {}", self.pairs - self.failures);
         for (name, value) in [
             ("pairs", self.pairs.to_string()),
@@ -69,26 +67,28 @@ impl Summary {
             ("with a boundary crossing", of(self.with_crossings)),
             ("with pieces or holes of their own", of(self.with_tears)),
         ] {
-            writeln!(text, "{name:<WIDTH$}{value:>12}").unwrap_or_default();
+            lines.cells((name, NAMES), [value]);
         }
         if !self.measures.is_empty() {
-            writeln!(text, "\n{:<WIDTH$}{:>12}{:>12}", "", "median", "worst").unwrap_or_default();
+            lines.gap();
+            lines.cells(("", NAMES), ["median", "worst"]);
         }
         for told in &self.measures {
-            let (median, worst) = (short(told.median), short(told.worst));
-            writeln!(text, "{:<WIDTH$}{median:>12}{worst:>12}", told.words).unwrap_or_default();
+            lines.cells((&told.words, NAMES), [told.median, told.worst].map(short));
         }
         for told in &self.measures {
             if let Some(spread) = &told.spread {
-                write!(text, "\n{}\n{}", told.words, spread.text()).unwrap_or_default();
+                lines.gap();
+                lines.line(&told.words);
+                lines.line(&spread.text());
             }
         }
-        text
+        lines.0
     }
 }
 
 fn measured(reports: &[&Report], column: &Column) -> Option<Measured> {
-    let told = column.told?;
+    let (_, better) = column.told?;
     let mut all: Vec<f64> = reports.iter().filter_map(|r| column.number(r)).collect();
     all.sort_unstable_by(f64::total_cmp);
     let middle = all.len() / 2;
@@ -99,7 +99,7 @@ fn measured(reports: &[&Report], column: &Column) -> Option<Measured> {
         column: column.heading(),
         words: column.words()?,
         median: 0.5 * (lower + upper),
-        worst: match told.better {
+        worst: match better {
             Better::Small => *all.last()?,
             Better::Large => *all.first()?,
         },

@@ -1,13 +1,14 @@
 //! The report of one transition for people: short, in aligned lines.
 //! Everything else is in the JSON.
 
-use std::fmt::Write;
-
-use super::number::{percent, short};
+use super::number::{Lines, percent, short};
 use super::report::{DesignReport, Report};
 use crate::content::ContentKind;
 use crate::measure::{Distribution, FilmSample, MeshReport, Motion, Quantity};
 use crate::names::Choice;
+
+/// Room for what stands at the left.
+const NAMES: usize = 12;
 
 /// The most samples that are listed.
 const MOST_ROWS: usize = 9;
@@ -42,21 +43,9 @@ pub(in crate::cli) fn text(report: &Report) -> String {
     lines.0
 }
 
-#[derive(Default)]
-struct Lines(String);
-
 impl Lines {
-    fn line(&mut self, text: &str) {
-        self.0.push_str(text.trim_end());
-        self.0.push('\n');
-    }
-
-    fn gap(&mut self) {
-        self.0.push('\n');
-    }
-
     fn row(&mut self, name: &str, text: &str) {
-        self.line(&format!("{name:<12} {text}"));
+        self.line(&format!("{name:<NAMES$} {text}"));
     }
 }
 
@@ -129,10 +118,8 @@ fn verdict(report: &Report, lines: &mut Lines) {
 
 fn distortion(report: &Report, mesh: &MeshReport, lines: &mut Lines) {
     lines.gap();
-    lines.line(&format!(
-        "{:<12}{:>12}{:>12}{:>12}{:>20}",
-        "at t = 1", "median", "95 %", "worst", "worse on the way"
-    ));
+    let heads = ["median", "95 %", "worst", "    worse on the way"];
+    lines.cells(("at t = 1", NAMES), heads);
     let film = &report.film;
     let of = &mesh.distortion;
     let rows: [(&str, &Distribution, Option<f64>); 4] = [
@@ -142,13 +129,9 @@ fn distortion(report: &Report, mesh: &MeshReport, lines: &mut Lines) {
         ("stretch", &mesh.boundary_stretch, None),
     ];
     for (name, d, excess) in rows {
-        lines.line(&format!(
-            "{name:<12}{:>12}{:>12}{:>12}{:>20}",
-            short(d.median),
-            short(d.p95),
-            short(d.worst),
-            excess.map(short).unwrap_or_default()
-        ));
+        let excess = format!("{:>20}", excess.map(short).unwrap_or_default());
+        let [median, p95, worst] = [d.median, d.p95, d.worst].map(short);
+        lines.cells((name, NAMES), [median, p95, worst, excess]);
     }
 }
 
@@ -203,29 +186,15 @@ fn samples(samples: &[FilmSample], lines: &mut Lines) {
         samples.first().is_some_and(|s| quantity.at(s).is_some())
     };
     let columns: Vec<_> = LISTED.iter().filter(known).collect();
-    let mut header = format!("{:<12}", "t");
-    for (name, _) in &columns {
-        push_cell(&mut header, name);
-    }
-    lines.line(&header);
+    lines.cells(("t", NAMES), columns.iter().map(|(name, _)| name));
     let step = (samples.len() - 1).div_ceil(MOST_ROWS - 1).max(1);
     let last = samples.len() - 1;
     let listed = samples.iter().enumerate();
     for (_, sample) in listed.filter(|(i, _)| i % step == 0 || *i == last) {
-        let mut row = format!("{:<12}", short(sample.t));
-        for (_, quantity) in &columns {
-            push_cell(
-                &mut row,
-                &quantity.at(sample).map(short).unwrap_or_default(),
-            );
-        }
-        lines.line(&row);
+        let cells = columns.iter().map(|(_, quantity)| quantity.at(sample));
+        let cells = cells.map(|cell| cell.map(short).unwrap_or_default());
+        lines.cells((&short(sample.t), NAMES), cells);
     }
-}
-
-fn push_cell(row: &mut String, text: &str) {
-    // Writing to a string cannot fail.
-    write!(row, "{text:>12}").unwrap_or_default();
 }
 
 fn times(report: &Report, lines: &mut Lines) {
