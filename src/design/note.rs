@@ -108,82 +108,75 @@ impl fmt::Display for OnlyThese {
     }
 }
 
-impl ImportNote {
-    /// Of what is left out: how many, what one and many are called, and the way
-    /// out; none of what is repaired.
-    fn left_out(&self) -> Option<(usize, [String; 2], String)> {
-        let words = |one: &str, many: &str| [one, many].map(str::to_owned);
-        let (count, what, way_out) = match self {
-            Self::Duplicates(n) => (n, words("outline drawn again", "outlines drawn again"), ""),
-            Self::Flat(n) => {
-                let one = "outline that encloses nothing";
-                (n, words(one, "outlines that enclose nothing"), "")
-            }
-            Self::Slivers(n) => {
-                let one = "sliver between touching edges";
-                (n, words(one, "slivers between touching edges"), "")
-            }
-            Self::IdlePoints(n) => {
-                let one = "point that repeats another or lies on a straight edge";
-                let many = "points that repeat another or lie on a straight edge";
-                (n, words(one, many), "")
-            }
-            Self::Strokes(n) => {
-                let way_out = "; set strokes = true to read them as shapes";
-                (n, words("stroke", "strokes"), way_out)
-            }
-            Self::Texts(n) => (n, words("text", "texts"), "; convert text to paths"),
-            Self::Pictures(n) => (n, words("embedded picture", "embedded pictures"), ""),
-            Self::Skipped { kind, count } => {
-                let what = ["object", "objects"].map(|w| format!("{w} of the kind {kind}"));
-                (count, what, "")
-            }
-            Self::Open { count, at } => {
-                let what = words("curve that does not close", "curves that do not close");
-                let way_out = format!("; close the gap at ({}, {})", at.x, at.y);
-                return Some((*count, what, way_out));
-            }
-            Self::Crossings { .. } | Self::Touches { .. } => return None,
-        };
-        Some((*count, what, way_out.to_owned()))
-    }
-}
-
 impl fmt::Display for ImportNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        if let Some((n, [one, many], way_out)) = self.left_out() {
-            let (what, were) = (number(one, many, n), number("was", "were", n));
-            return write!(f, "{n} {what} {were} left out{way_out}");
-        }
         match self {
             Self::Crossings {
                 count,
                 at_least,
                 rule,
             } => {
-                let least = floor(*at_least);
-                let what = number("crossing", "crossings", *count);
-                let were = number("was", "were", *count);
-                let rule = match rule {
-                    FillRule::NonZero => "the non-zero winding rule",
-                    FillRule::EvenOdd => "the even-odd rule",
-                };
-                write!(
-                    f,
-                    "{least}{count} {what} of edges {were} resolved by {rule}"
-                )
+                let (least, were) = (floor(*at_least), number(["was", "were"], *count));
+                let what = number(["crossing", "crossings"], *count);
+                let by = named(*rule);
+                write!(f, "{least}{count} {what} of edges {were} resolved by {by}")
             }
             Self::Touches { count, at_least } => {
                 let least = floor(*at_least);
-                let what = number("corner that lies", "corners that lie", *count);
+                let what = number(["corner that lies", "corners that lie"], *count);
                 write!(f, "{least}{count} {what} on another edge divided it")
             }
-            _ => Ok(()), // left out, and told above
+            Self::Duplicates(n) => left_out(f, *n, ["outline drawn again", "outlines drawn again"]),
+            Self::Flat(n) => {
+                let one = "outline that encloses nothing";
+                left_out(f, *n, [one, "outlines that enclose nothing"])
+            }
+            Self::Slivers(n) => {
+                let one = "sliver between touching edges";
+                left_out(f, *n, [one, "slivers between touching edges"])
+            }
+            Self::IdlePoints(n) => {
+                let one = "point that repeats another or lies on a straight edge";
+                let many = "points that repeat another or lie on a straight edge";
+                left_out(f, *n, [one, many])
+            }
+            Self::Strokes(n) => {
+                left_out(f, *n, ["stroke", "strokes"])?;
+                f.write_str("; set strokes = true to read them as shapes")
+            }
+            Self::Texts(n) => {
+                left_out(f, *n, ["text", "texts"])?;
+                f.write_str("; convert text to paths")
+            }
+            Self::Pictures(n) => left_out(f, *n, ["embedded picture", "embedded pictures"]),
+            Self::Open { count, at } => {
+                let one = "curve that does not close";
+                left_out(f, *count, [one, "curves that do not close"])?;
+                write!(f, "; close the gap at ({}, {})", at.x, at.y)
+            }
+            Self::Skipped { kind, count } => {
+                let kinds = ["object", "objects"].map(|what| format!("{what} of the kind {kind}"));
+                left_out(f, *count, kinds)
+            }
         }
     }
 }
 
-fn number<T>(one: T, many: T, n: usize) -> T {
+fn named(rule: FillRule) -> &'static str {
+    match rule {
+        FillRule::NonZero => "the non-zero winding rule",
+        FillRule::EvenOdd => "the even-odd rule",
+    }
+}
+
+/// Writes how many of what are not there.
+fn left_out<W: fmt::Display>(f: &mut fmt::Formatter<'_>, n: usize, what: [W; 2]) -> fmt::Result {
+    let (what, were) = (number(what, n), number(["was", "were"], n));
+    write!(f, "{n} {what} {were} left out")
+}
+
+/// The word for one, or for many.
+fn number<W>([one, many]: [W; 2], n: usize) -> W {
     if n == 1 { one } else { many }
 }
 
