@@ -145,9 +145,10 @@ fn truncated_pictures_are_refused() {
 
 #[test]
 fn truncated_texts_are_refused() {
+    // What is no JSON is neither truss nor polygons, and told by its line.
     assert!(matches!(
         problem(&TRUSS.as_bytes()[..40]),
-        Problem::Truss(_)
+        Problem::Polygons(PolygonsError::Json(JsonError { line: 1, .. }))
     ));
     assert!(matches!(
         problem(&SVG.as_bytes()[..90]),
@@ -232,6 +233,11 @@ fn hostile_meshes_and_trusses_are_named() {
     let deep = format!("{{\"nodes\": {}", "[".repeat(100_000));
     assert!(matches!(
         problem(deep.as_bytes()),
+        Problem::Polygons(PolygonsError::Json(JsonError { line: 1, .. }))
+    ));
+    let closed = format!("{{\"nodes\": {}{}}}", "[".repeat(1000), "]".repeat(1000));
+    assert!(matches!(
+        problem(closed.as_bytes()),
         Problem::Truss(TrussInputError::Json(JsonError { line: 1, .. }))
     ));
 }

@@ -3,8 +3,8 @@
 
 use super::format::Format;
 use image::ImageFormat;
-use serde::de::{Deserializer, Error, IgnoredAny, MapAccess, Visitor};
-use std::fmt;
+use serde::de::IgnoredAny;
+use std::collections::HashMap;
 
 /// Content that no reader takes.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -103,42 +103,21 @@ fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
     }
 }
 
-/// What an object of JSON is, by the first member that tells. Where the text
-/// breaks off before, the truss's reader says where.
+/// What an object of JSON is, by its members.
 fn json_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
-    let mut found = None;
-    let mut text = serde_json::Deserializer::from_slice(bytes);
-    let looked = text.deserialize_map(Members(&mut found));
-    match (found, looked) {
-        (Some(format), _) => Ok(format),
-        (None, Ok(())) => Err(UnknownFormat::Json),
-        (None, Err(_)) => Ok(Format::Truss),
-    }
-}
-
-/// Looks through the names of an object's members and keeps nothing else.
-struct Members<'f>(&'f mut Option<Format>);
-
-impl<'de> Visitor<'de> for Members<'_> {
-    type Value = ();
-
-    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        f.write_str("an object")
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut members: A) -> Result<(), A::Error> {
-        while let Some(name) = members.next_key::<String>()? {
-            *self.0 = match name.as_str() {
-                "nodes" | "bars" => Some(Format::Truss),
-                "type" | "rings" | "polygons" => Some(Format::Polygons),
-                _ => None,
-            };
-            if self.0.is_some() {
-                return Err(A::Error::custom("known"));
-            }
-            members.next_value::<IgnoredAny>()?;
-        }
-        Ok(())
+    // Values are passed over without recursion, however deep they are.
+    let Ok(members) = serde_json::from_slice::<HashMap<String, IgnoredAny>>(bytes) else {
+        // The reader of polygons parses everything first, and says where it breaks.
+        return Ok(Format::Polygons);
+    };
+    let has = |names: &[&str]| names.iter().any(|name| members.contains_key(*name));
+    // GeoJSON may have members of any name, a truss has its own alone.
+    if has(&["type", "rings", "polygons"]) {
+        Ok(Format::Polygons)
+    } else if has(&["nodes", "bars"]) {
+        Ok(Format::Truss)
+    } else {
+        Err(UnknownFormat::Json)
     }
 }
 
@@ -199,9 +178,12 @@ mod tests {
             (b"999\r\nby hand\r\n  0\r\nSECTION\r\n", Format::Dxf),
             (b"AutoCAD Binary DXF\r\n\x1a\0\0", Format::Dxf),
             (b"\xef\xbb\xbf { \"nodes\": [] }", Format::Truss),
-            (b"{\"supports\": [{}], \"bars", Format::Truss),
-            (b"{\"supports\": [{}], \"bars\"", Format::Truss),
-            (b"{\"name\": {\"nodes\": 1}, \"rings\": [", Format::Polygons),
+            (b"{\"supports\": [{}], \"bars\": 0}", Format::Truss),
+            (b"{\"supports\": [{}], \"bars\"", Format::Polygons),
+            (
+                b"{\"name\": {\"nodes\": 1}, \"rings\": []}",
+                Format::Polygons,
+            ),
             (b" [[0, 0]", Format::Polygons),
             (b"{\"bbox\": [1], \"type\": \"Feature\"}", Format::Polygons),
         ];
