@@ -32,81 +32,111 @@ struct Block {
 struct Reader {
     hidden_layers: HashSet<Vec<u8>>,
     blocks: HashMap<Vec<u8>, Block>,
+    /// The block that is open, and its name.
+    open: Option<(Vec<u8>, Block)>,
     entities: Vec<Entity>,
     objects: usize,
-    skipped: BTreeMap<String, usize>,
+    drawing: Drawing,
 }
 
 /// Reads a whole file.
 pub(super) fn read(bytes: &[u8]) -> Result<Drawing, DxfError> {
-    let mut pairs = Pairs::of(bytes);
+    let mut records = Records::of(bytes)?;
     let mut reader = Reader::default();
-    while let Some(pair) = pairs.next()? {
-        match (pair.code, pair.text()) {
-            (0, b"SECTION") => reader.section(&mut pairs)?,
-            (0, b"EOF") => break,
+    // Of the section that is open: whether it is read.
+    let mut section = None;
+    loop {
+        let record = records.next()?;
+        match (record.kind, section) {
+            (b"SECTION", _) => {
+                let read: [&[u8]; 3] = [b"TABLES", b"BLOCKS", b"ENTITIES"];
+                section = Some(read.contains(&record.text(2)));
+                // A block that was never ended must not swallow what follows.
+                reader.open = None;
+            }
+            (b"ENDSEC", _) => section = None,
+            (b"EOF", Some(_)) => return Err(DxfError::Truncated(record.at)),
+            (b"EOF", None) => return reader.placed(),
+            (_, Some(true)) => reader.take(&record, &mut records)?,
             _ => {}
         }
     }
-    reader.placed()
 }
 
-/// The next pair of a section, which must not end without an ENDSEC.
-fn inside<'a>(pairs: &mut Pairs<'a>) -> Result<Pair<'a>, DxfError> {
-    let at = pairs.place();
-    let pair = pairs.next()?.ok_or(DxfError::Truncated(at))?;
-    if pair.code == 0 && pair.text() == b"EOF" {
-        return Err(DxfError::Truncated(at));
+/// Reads one record after the other, with a look at the next.
+struct Records<'a> {
+    pairs: Pairs<'a>,
+    /// The pair that the next record begins with; `None` at the file's end.
+    head: Option<Pair<'a>>,
+}
+
+impl<'a> Records<'a> {
+    fn of(bytes: &'a [u8]) -> Result<Self, DxfError> {
+        let mut pairs = Pairs::of(bytes);
+        let mut head = pairs.next()?;
+        while head.is_some_and(|pair| pair.code != 0) {
+            head = pairs.next()?;
+        }
+        Ok(Self { pairs, head })
     }
-    Ok(pair)
+
+    /// The next record; at the file's end one of the kind EOF.
+    fn next(&mut self) -> Result<Record<'a>, DxfError> {
+        let mut record = Record {
+            kind: self.head.map_or(b"EOF", |head| head.text()),
+            at: self.head.map_or(self.pairs.place(), |head| head.at),
+            pairs: Vec::new(),
+        };
+        if record.kind == b"EOF" {
+            return Ok(record); // what follows need not be DXF
+        }
+        loop {
+            let at = self.pairs.place();
+            self.head = self.pairs.next()?;
+            match self.head {
+                // Some programs write no EOF behind the last section.
+                None if record.kind != b"ENDSEC" => return Err(DxfError::Truncated(at)),
+                None | Some(Pair { code: 0, .. }) => return Ok(record),
+                Some(
+                    pair @ Pair {
+                        code: 2 | 8 | 10..=79 | 210..=239,
+                        ..
+                    },
+                ) => {
+                    record.pairs.push(pair);
+                    at_most(record.pairs.len(), MAX_PAIRS)?;
+                }
+                Some(_) => {}
+            }
+        }
+    }
+}
+
+fn at_most(count: usize, most: usize) -> Result<(), DxfError> {
+    match count > most {
+        true => Err(DxfError::TooMany),
+        false => Ok(()),
+    }
 }
 
 impl Reader {
-    fn section(&mut self, pairs: &mut Pairs) -> Result<(), DxfError> {
-        let name = inside(pairs)?;
-        match name.text() {
-            b"TABLES" | b"BLOCKS" | b"ENTITIES" => self.records(pairs),
-            _ => {
-                let is_end = |pair: &Pair| pair.code == 0 && pair.text() == b"ENDSEC";
-                while !is_end(&inside(pairs)?) {}
-                Ok(())
-            }
-        }
-    }
-
-    /// Reads records up to the end of the section.
-    fn records(&mut self, pairs: &mut Pairs) -> Result<(), DxfError> {
-        let mut block: Option<(Vec<u8>, Block)> = None;
-        let mut polyline: Option<(Record, Vec<Record>)> = None;
-        let mut head = first_head(pairs)?;
-        loop {
-            let (record, next) = record(head, pairs)?;
-            match (record.kind, &mut polyline) {
-                (b"VERTEX", Some((_, vertices))) => {
+    fn take(&mut self, record: &Record, records: &mut Records) -> Result<(), DxfError> {
+        match record.kind {
+            b"SEQEND" | b"TABLE" | b"ENDTAB" => {}
+            b"LAYER" => self.layer(record)?,
+            b"BLOCK" => self.open = Some(named_block(record)?),
+            b"ENDBLK" => self.blocks.extend(self.open.take()),
+            b"POLYLINE" => {
+                let mut vertices = Vec::new();
+                while records.head.is_some_and(|head| head.text() == b"VERTEX") {
                     self.count()?;
-                    vertices.push(record);
+                    vertices.push(records.next()?);
                 }
-                (kind, open) => {
-                    if let Some((line, vertices)) = open.take() {
-                        let entity = line.polyline(&vertices)?;
-                        self.keep(&line, entity, block.as_mut())?;
-                    }
-                    match kind {
-                        b"ENDSEC" => return Ok(()),
-                        b"POLYLINE" => polyline = Some((record, Vec::new())),
-                        b"SEQEND" | b"TABLE" | b"ENDTAB" => {}
-                        b"LAYER" => self.layer(&record)?,
-                        b"BLOCK" => block = Some(named_block(&record)?),
-                        b"ENDBLK" => self.blocks.extend(block.take()),
-                        _ => {
-                            let entity = record.entity()?;
-                            self.keep(&record, entity, block.as_mut())?;
-                        }
-                    }
-                }
+                self.keep(record, record.polyline(&vertices)?)?;
             }
-            head = next;
+            _ => self.keep(record, record.entity()?)?,
         }
+        Ok(())
     }
 
     fn layer(&mut self, record: &Record) -> Result<(), DxfError> {
@@ -119,34 +149,26 @@ impl Reader {
     }
 
     /// Takes an object into the block that is open, or into the drawing.
-    fn keep(
-        &mut self,
-        record: &Record,
-        entity: Option<Entity>,
-        block: Option<&mut (Vec<u8>, Block)>,
-    ) -> Result<(), DxfError> {
+    fn keep(&mut self, record: &Record, entity: Option<Entity>) -> Result<(), DxfError> {
         let is_hidden = record.whole(60)? != 0 || self.hidden_layers.contains(record.text(8));
         let is_on_paper = record.whole(67)? != 0;
         if is_hidden || is_on_paper {
             return Ok(());
         }
         self.count()?;
-        match (entity, block) {
+        match (entity, &mut self.open) {
             (Some(entity), Some((_, block))) => block.entities.push(entity),
             (Some(entity), None) => self.entities.push(entity),
             // Layouts, styles and other records without a shape.
             (None, _) if record.text(8).is_empty() => {}
-            (None, _) => skip(&mut self.skipped, record.kind),
+            (None, _) => skip(&mut self.drawing.skipped, record.kind),
         }
         Ok(())
     }
 
     fn count(&mut self) -> Result<(), DxfError> {
         self.objects += 1;
-        match self.objects > MAX_OBJECTS {
-            true => Err(DxfError::TooMany),
-            false => Ok(()),
-        }
+        at_most(self.objects, MAX_OBJECTS)
     }
 
     /// All curves, with blocks copied to their places.
@@ -154,49 +176,10 @@ impl Reader {
         let mut placing = Placing {
             blocks: &self.blocks,
             steps: 0,
-            drawing: Drawing {
-                paths: Vec::new(),
-                skipped: self.skipped,
-            },
+            drawing: self.drawing,
         };
         placing.place(&self.entities, &DAffine2::IDENTITY, 0)?;
         Ok(placing.drawing)
-    }
-}
-
-/// What is yet to be read of the next record: its kind.
-type Head<'a> = Pair<'a>;
-
-fn first_head<'a>(pairs: &mut Pairs<'a>) -> Result<Head<'a>, DxfError> {
-    loop {
-        let pair = inside(pairs)?;
-        if pair.code == 0 {
-            return Ok(pair);
-        }
-    }
-}
-
-/// A record and the head of the next one; after ENDSEC that is none, and it
-/// stands for itself.
-fn record<'a>(head: Head<'a>, pairs: &mut Pairs<'a>) -> Result<(Record<'a>, Head<'a>), DxfError> {
-    let mut record = Record {
-        kind: head.text(),
-        at: head.at,
-        pairs: Vec::new(),
-    };
-    if record.kind == b"ENDSEC" {
-        return Ok((record, head));
-    }
-    loop {
-        let pair = inside(pairs)?;
-        match pair.code {
-            0 => return Ok((record, pair)),
-            2 | 8 | 10..=79 | 210..=239 => record.pairs.push(pair),
-            _ => {}
-        }
-        if record.pairs.len() > MAX_PAIRS {
-            return Err(DxfError::TooMany);
-        }
     }
 }
 
@@ -251,9 +234,6 @@ impl Placing<'_> {
 
     fn count(&mut self, steps: usize) -> Result<(), DxfError> {
         self.steps += 1 + steps;
-        match self.steps > 2 * MAX_OBJECTS {
-            true => Err(DxfError::TooMany),
-            false => Ok(()),
-        }
+        at_most(self.steps, 2 * MAX_OBJECTS)
     }
 }

@@ -14,8 +14,7 @@ const MAX_NUMBER: f64 = 1e60;
 #[derive(Clone, Copy, Debug)]
 enum Value<'a> {
     Text(&'a [u8]),
-    Real(f64),
-    Integer(i64),
+    Number(f64),
 }
 
 /// A group code and its value.
@@ -31,14 +30,13 @@ impl<'a> Pair<'a> {
     pub fn text(&self) -> &'a [u8] {
         match self.value {
             Value::Text(text) => text,
-            _ => b"",
+            Value::Number(_) => b"",
         }
     }
 
     pub fn real(&self) -> Result<f64, DxfError> {
         let number = match self.value {
-            Value::Real(number) => Some(number),
-            Value::Integer(number) => Some(number as f64),
+            Value::Number(number) => Some(number),
             Value::Text(text) => std::str::from_utf8(text).ok().and_then(|t| t.parse().ok()),
         };
         // NaN is in no range.
@@ -148,16 +146,16 @@ impl<'a> Pairs<'a> {
     fn binary_value(&mut self, code: i32) -> Result<Value<'a>, DxfError> {
         Ok(match code {
             10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
-                Value::Real(f64::from_le_bytes(self.take()?))
+                Value::Number(f64::from_le_bytes(self.take()?))
             }
             60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => {
-                Value::Integer(i16::from_le_bytes(self.take()?).into())
+                Value::Number(i16::from_le_bytes(self.take()?).into())
             }
             90..=99 | 420..=429 | 440..=459 | 1071 => {
-                Value::Integer(i32::from_le_bytes(self.take()?).into())
+                Value::Number(i32::from_le_bytes(self.take()?).into())
             }
-            160..=169 => Value::Integer(i64::from_le_bytes(self.take()?)),
-            290..=299 => Value::Integer(self.take::<1>()?[0].into()),
+            160..=169 => Value::Number(i64::from_le_bytes(self.take()?) as f64),
+            290..=299 => Value::Number(self.take::<1>()?[0].into()),
             310..=319 | 1004 => {
                 let [length] = self.take()?;
                 Value::Text(self.slice(length.into())?)
