@@ -17,6 +17,7 @@ use super::options::{ImportOptions, OptionsError};
 use super::simplify;
 use crate::field::{Samples, SamplesError, contour};
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError};
+use crate::mesh::components;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
 use std::io::Cursor;
 
@@ -85,7 +86,7 @@ const MAX_POINTS: usize = 2_000_000;
 pub(super) fn read(picture: &RgbaImage, options: &ImportOptions) -> Result<Regions, PictureError> {
     let (width, height) = picture.dimensions();
     let mut figure = Figure::of(picture, options)?;
-    figure.remove_specks(options.specks_px as usize);
+    figure.remove_specks(options.specks_px);
     figure.trace(options.tolerance * f64::from(width.max(height)))
 }
 
@@ -187,7 +188,7 @@ impl Figure {
 
     /// Islands of fewer pixels than `least` go over to the ground, then holes
     /// to the figure. Ground that reaches the border is no hole.
-    fn remove_specks(&mut self, least: usize) {
+    fn remove_specks(&mut self, least: u32) {
         if least > 1 {
             self.remove_specks_of(1.0, least);
             self.remove_specks_of(-1.0, least);
@@ -196,44 +197,25 @@ impl Figure {
 
     /// Pixels hang together along their sides. A removed pixel's sample
     /// changes sign and keeps its size.
-    fn remove_specks_of(&mut self, sign: f32, least: usize) {
-        let mut seen = vec![false; self.samples.len()];
-        let mut piece = Vec::new();
-        for seed in 0..self.samples.len() {
-            if seen[seed] || self.samples[seed] * sign < 0.0 {
-                continue;
-            }
-            piece.clear();
-            piece.push(seed);
-            seen[seed] = true;
-            let mut next = 0;
-            while let Some(&pixel) = piece.get(next) {
-                next += 1;
-                for other in self.neighbours(pixel).into_iter().flatten() {
-                    if !seen[other] && self.samples[other] * sign > 0.0 {
-                        seen[other] = true;
-                        piece.push(other);
-                    }
-                }
-            }
-            let open = |&pixel: &usize| self.neighbours(pixel).contains(&None);
-            if piece.len() < least && (sign > 0.0 || !piece.iter().any(open)) {
-                for &pixel in &piece {
-                    self.samples[pixel] = -self.samples[pixel];
-                }
+    fn remove_specks_of(&mut self, sign: f32, least: u32) {
+        let (count, width) = (self.samples.len(), self.width as usize);
+        let across = (1..count).filter(|i| !i.is_multiple_of(width));
+        let across = across.map(|i| [i - 1, i]);
+        let upwards = (width..count).map(|i| [i - width, i]);
+        let alike = |&[a, b]: &[usize; 2]| self.samples[a] * self.samples[b] > 0.0;
+        let links = across.chain(upwards).filter(alike);
+        let pieces = components(count, links.map(|ends| ends.map(|i| i as u32)));
+        let mut sizes = vec![0u32; count]; // there are no more pieces than pixels
+        for (i, &piece) in pieces.iter().enumerate() {
+            let is_open = sign < 0.0 && is_on_border(i, width, count);
+            let size = &mut sizes[piece as usize];
+            *size = size.saturating_add(if is_open { u32::MAX } else { 1 });
+        }
+        for (sample, piece) in self.samples.iter_mut().zip(pieces) {
+            if *sample * sign > 0.0 && sizes[piece as usize] < least {
+                *sample = -*sample;
             }
         }
-    }
-
-    fn neighbours(&self, pixel: usize) -> [Option<usize>; 4] {
-        let width = self.width as usize;
-        let column = pixel % width;
-        [
-            (column > 0).then(|| pixel - 1),
-            (column + 1 < width).then_some(pixel + 1),
-            pixel.checked_sub(width),
-            (pixel + width < self.samples.len()).then_some(pixel + width),
-        ]
     }
 
     /// The boundary at level zero, simplified to within `tolerance` pixels.
@@ -316,17 +298,19 @@ fn otsu(tones: &[u8]) -> Option<u8> {
 /// Whether most of the border is at or above the threshold. On a tie it is:
 /// paper is lighter than ink.
 fn border_is_above(tones: &[u8], width: usize, threshold: u8) -> bool {
-    let last_row = tones.len() - width;
-    let on_border = |i: usize| {
-        i < width || i >= last_row || i.is_multiple_of(width) || (i + 1).is_multiple_of(width)
-    };
-    let border = tones.iter().enumerate().filter(|&(i, _)| on_border(i));
+    let border = (tones.iter().enumerate()).filter(|(i, _)| is_on_border(*i, width, tones.len()));
     let (mut above, mut all) = (0usize, 0usize);
     for (_, &tone) in border {
         all += 1;
         above += usize::from(tone >= threshold);
     }
     2 * above >= all
+}
+
+/// Whether a pixel of so many lies on the border of a picture of a width.
+fn is_on_border(pixel: usize, width: usize, count: usize) -> bool {
+    let column = pixel % width;
+    pixel < width || pixel >= count - width || column == 0 || column + 1 == width
 }
 
 #[cfg(test)]
