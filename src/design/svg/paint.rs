@@ -33,21 +33,23 @@ pub(super) struct Painted {
 pub(super) fn painted(tree: &usvg::Tree, brush: &Brush) -> Result<Painted, SvgError> {
     let mut subject = Vec::new();
     collect_paths(tree.root(), brush.element, &mut subject);
+    let is_bare = |p: &&&Path| stroke_is_white(p).is_some() && fill_is_white(p).is_none();
     let strokes_left_out = match brush.strokes {
         true => 0,
-        false => subject
-            .iter()
-            .filter(|p| is_stroked(p) && !is_filled(p))
-            .count(),
+        false => subject.iter().filter(is_bare).count(),
     };
     if let (Some(id), true) = (brush.element, subject.is_empty()) {
         return Err(SvgError::NotDrawn(id.to_owned()));
     }
+    let has_colour = |path: &&Path| {
+        let stroke = stroke_is_white(path).filter(|_| brush.strokes);
+        [fill_is_white(path), stroke].contains(&Some(false))
+    };
     let mut painter = Painter {
         height: tree.size().height().into(),
         flattener: Flattener::new(brush.tolerance),
         brush,
-        white_is_paper: subject.iter().any(|path| has_colour(path, brush.strokes)),
+        white_is_paper: subject.iter().any(has_colour),
         layers: Vec::new(),
         repairs: [FillRule::NonZero, FillRule::EvenOdd].map(|rule| (rule, Repairs::default())),
     };
@@ -131,13 +133,14 @@ impl Painter<'_> {
 
     fn path(&mut self, path: &Path, clip: Option<&Rings>) -> Result<(), SvgError> {
         let fills_first = path.paint_order() == PaintOrder::FillAndStroke;
+        let stroke = stroke_is_white(path).filter(|_| self.brush.strokes);
         for is_fill in [fills_first, !fills_first] {
-            if is_fill && is_filled(path) {
+            if is_fill && let Some(is_white) = fill_is_white(path) {
                 let rings = self.filled(path, Transform::identity())?;
-                self.lay(rings, fill_is_white(path), clip);
-            } else if !is_fill && self.brush.strokes && is_stroked(path) {
+                self.lay(rings, is_white, clip);
+            } else if !is_fill && let Some(is_white) = stroke {
                 let rings = self.stroked(path)?;
-                self.lay(rings, stroke_is_white(path), clip);
+                self.lay(rings, is_white, clip);
             }
         }
         Ok(())
@@ -169,7 +172,9 @@ impl Painter<'_> {
     ) -> Result<(), SvgError> {
         for node in group.children() {
             match node {
-                Node::Path(path) if is_filled(path) => rings.extend(self.filled(path, base)?),
+                Node::Path(path) if fill_is_white(path).is_some() => {
+                    rings.extend(self.filled(path, base)?)
+                }
                 Node::Group(inner) => {
                     let mut own = Vec::new();
                     self.clip_group(inner, base, &mut own)?;
@@ -284,29 +289,20 @@ fn overlaid(subject: &Rings, clip: &Rings, rule: OverlayRule) -> Rings {
         .collect()
 }
 
-fn is_filled(path: &Path) -> bool {
-    path.is_visible() && path.fill().is_some_and(|fill| fill.opacity().get() > 0.0)
+/// Whether a path's fill is white; `None` where it has none that is seen.
+fn fill_is_white(path: &Path) -> Option<bool> {
+    let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0)?;
+    path.is_visible().then(|| is_white(fill.paint()))
 }
 
-fn is_stroked(path: &Path) -> bool {
-    path.is_visible()
-        && path
-            .stroke()
-            .is_some_and(|stroke| stroke.opacity().get() > 0.0)
-}
-
-fn fill_is_white(path: &Path) -> bool {
-    path.fill().is_some_and(|fill| is_white(fill.paint()))
-}
-
-fn stroke_is_white(path: &Path) -> bool {
-    path.stroke().is_some_and(|stroke| is_white(stroke.paint()))
+/// Whether a path's stroke is white; `None` where it has none that is seen.
+fn stroke_is_white(path: &Path) -> Option<bool> {
+    let stroke = path
+        .stroke()
+        .filter(|stroke| stroke.opacity().get() > 0.0)?;
+    path.is_visible().then(|| is_white(stroke.paint()))
 }
 
 fn is_white(paint: &Paint) -> bool {
     matches!(paint, Paint::Color(c) if [c.red, c.green, c.blue] == [u8::MAX; 3])
-}
-
-fn has_colour(path: &Path, strokes: bool) -> bool {
-    is_filled(path) && !fill_is_white(path) || strokes && is_stroked(path) && !stroke_is_white(path)
 }
