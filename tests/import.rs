@@ -3,8 +3,9 @@
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
 use morphospace::design::{
-    Design, DxfError, Form, ImportError, ImportOptions, JsonError, ObjError, PictureError,
-    PolygonsError, Problem, Source, SvgError, TrussInputError, UnknownFormat, import, import_file,
+    Design, DxfError, Form, ImportError, ImportOptions, JsonError, ObjError, ObjFault,
+    PictureError, PolygonsError, Problem, Source, SvgError, TrussInputError, UnknownFormat, import,
+    import_file,
 };
 use proptest::prelude::*;
 use std::io::Cursor;
@@ -156,7 +157,10 @@ fn truncated_texts_are_refused() {
     ));
     assert!(matches!(
         problem(&OBJ.as_bytes()[..OBJ.len() - 4]),
-        Problem::Obj(ObjError::TooFewCorners { line: 6, face: 2 })
+        Problem::Obj(ObjError::Line {
+            line: 6,
+            fault: ObjFault::TooFewCorners(2)
+        })
     ));
 }
 
@@ -212,16 +216,21 @@ fn hostile_meshes_and_trusses_are_named() {
     let nan = OBJ.replace("v 1 1 0", "v NaN 1 0");
     assert!(matches!(
         problem(nan.as_bytes()),
-        Problem::Obj(ObjError::NotFinite { line: 3, vertex: 3 })
+        Problem::Obj(ObjError::Line {
+            line: 3,
+            fault: ObjFault::NotFinite(3)
+        })
     ));
     let outside = OBJ.replace("f 1 3 4", "f 1 3 5");
     assert!(matches!(
         problem(outside.as_bytes()),
-        Problem::Obj(ObjError::OutOfRange {
+        Problem::Obj(ObjError::Line {
             line: 6,
-            face: 2,
-            named: 5,
-            vertices: 4
+            fault: ObjFault::OutOfRange {
+                face: 2,
+                named: 5,
+                vertices: 4
+            }
         })
     ));
     let nowhere = TRUSS.replace("[2, 0]", "[2, 3]");

@@ -40,7 +40,7 @@ pub use import::{import, import_file};
 pub use json::JsonError;
 pub use lettering::TextError;
 pub use note::{ImportNote, OnlyThese};
-pub use obj::ObjError;
+pub use obj::{ObjError, ObjFault};
 pub use options::{ImportOptions, OptionsError};
 pub use picture::Picture;
 pub use polygons::PolygonsError;

@@ -18,79 +18,13 @@ use crate::mesh::{MeshError, TriangleMesh};
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjError {
-    /// A `v` line without two or three numbers.
-    #[error("line {line}: vertex {vertex} needs the numbers x y z; correct the line")]
-    Vertex {
+    /// A line that cannot be used.
+    #[error("line {line}: {fault}")]
+    Line {
         /// The line.
         line: usize,
-        /// The vertex.
-        vertex: usize,
-    },
-    /// NaN, infinity, or a number too large to hold.
-    #[error("line {line}: vertex {vertex} is not a finite point; correct its coordinates")]
-    NotFinite {
-        /// The line.
-        line: usize,
-        /// The vertex.
-        vertex: usize,
-    },
-    /// The vertices do not lie in one plane of constant z.
-    #[error(
-        "line {line}: vertex {vertex} has z = {z}, but vertex 1 has z = {first}; lay the mesh flat, only x and y are used"
-    )]
-    NotFlat {
-        /// The line.
-        line: usize,
-        /// The vertex.
-        vertex: usize,
-        /// Its z.
-        z: f64,
-        /// The z of the first vertex.
-        first: f64,
-    },
-    /// A face with a word that is no vertex.
-    #[error(
-        "line {line}: face {face} has \"{word}\" where a vertex number should be; correct the line"
-    )]
-    Face {
-        /// The line.
-        line: usize,
-        /// The face.
-        face: usize,
-        /// The word, cut short.
-        word: String,
-    },
-    /// A face of one or two vertices.
-    #[error("line {line}: face {face} has fewer than three vertices; remove it or complete it")]
-    TooFewCorners {
-        /// The line.
-        line: usize,
-        /// The face.
-        face: usize,
-    },
-    /// A face that names a vertex that is not there.
-    #[error(
-        "line {line}: face {face} names vertex {named}, but there are {vertices}; correct the face"
-    )]
-    OutOfRange {
-        /// The line.
-        line: usize,
-        /// The face.
-        face: usize,
-        /// The number as it stands in the file.
-        named: i64,
-        /// How many vertices there are.
-        vertices: usize,
-    },
-    /// A face that passes a vertex twice.
-    #[error("line {line}: face {face} names vertex {vertex} twice; correct the face")]
-    Repeated {
-        /// The line.
-        line: usize,
-        /// The face.
-        face: usize,
-        /// The vertex.
-        vertex: usize,
+        /// What is wrong with it.
+        fault: ObjFault,
     },
     /// A vertex that nothing holds.
     #[error("vertex {0} belongs to no face; remove it, or add the face that is missing")]
@@ -111,17 +45,60 @@ pub enum ObjError {
     Mesh(#[from] MeshError),
 }
 
-/// A face as it stands in the file: vertices from 0, not yet triangles.
-struct Polygon {
-    line: usize,
-    corners: Vec<i64>,
+/// What is wrong with a vertex or a face, which is named by its number.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ObjFault {
+    /// A `v` line without two or three numbers.
+    #[error("vertex {0} needs the numbers x y z; correct the line")]
+    Vertex(usize),
+    /// NaN, infinity, or a number too large to hold.
+    #[error("vertex {0} is not a finite point; correct its coordinates")]
+    NotFinite(usize),
+    /// The vertices do not lie in one plane of constant z.
+    #[error(
+        "vertex {vertex} has z = {z}, but vertex 1 has z = {first}; lay the mesh flat, only x and y are used"
+    )]
+    NotFlat {
+        /// The vertex.
+        vertex: usize,
+        /// Its z.
+        z: f64,
+        /// The z of the first vertex.
+        first: f64,
+    },
+    /// A face with a word, cut short, that is no vertex.
+    #[error("face {0} has \"{1}\" where a vertex number should be; correct the line")]
+    Face(usize, String),
+    /// A face of one or two vertices.
+    #[error("face {0} has fewer than three vertices; remove it or complete it")]
+    TooFewCorners(usize),
+    /// A face that names a vertex that is not there.
+    #[error("face {face} names vertex {named}, but there are {vertices}; correct the face")]
+    OutOfRange {
+        /// The face.
+        face: usize,
+        /// The number as it stands in the file.
+        named: i64,
+        /// How many vertices there are.
+        vertices: usize,
+    },
+    /// A face that passes a vertex twice.
+    #[error("face {face} names vertex {vertex} twice; correct the face")]
+    Repeated {
+        /// The face.
+        face: usize,
+        /// The vertex.
+        vertex: usize,
+    },
 }
 
 #[derive(Default)]
 struct Parser {
     positions: Vec<DVec2>,
     first_z: f64,
-    polygons: Vec<Polygon>,
+    /// The line of each face, and its vertices from 0, not yet triangles.
+    polygons: Vec<(usize, Vec<i64>)>,
 }
 
 /// Reads the text of an OBJ file.
@@ -129,11 +106,12 @@ pub(super) fn read(text: &str) -> Result<TriangleMesh, ObjError> {
     let mut parser = Parser::default();
     for (line, words) in logical_lines(text) {
         let mut words = words.split_whitespace();
-        match words.next() {
-            Some("v") => parser.vertex(line, words)?,
-            Some("f") => parser.face(line, words)?,
-            _ => {}
-        }
+        let read = match words.next() {
+            Some("v") => parser.vertex(words),
+            Some("f") => (parser.corners(words)).map(|face| parser.polygons.push((line, face))),
+            _ => Ok(()),
+        };
+        read.map_err(|fault| ObjError::Line { line, fault })?;
     }
     parser.finish()
 }
@@ -160,77 +138,57 @@ fn without_comment(line: &str) -> &str {
 
 impl Parser {
     /// Takes `x y` or `x y z`; a weight or a colour behind them is passed over.
-    fn vertex<'a>(
-        &mut self,
-        line: usize,
-        words: impl Iterator<Item = &'a str>,
-    ) -> Result<(), ObjError> {
+    fn vertex<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<(), ObjFault> {
         let vertex = self.positions.len() + 1;
         let numbers: Result<Vec<f64>, _> = words.take(3).map(str::parse).collect();
         let (p, z) = match numbers.as_deref() {
             Ok(&[x, y, z]) => (DVec2::new(x, y), z),
             Ok(&[x, y]) => (DVec2::new(x, y), 0.0),
-            _ => return Err(ObjError::Vertex { line, vertex }),
+            _ => return Err(ObjFault::Vertex(vertex)),
         };
         if !(p.is_finite() && z.is_finite()) {
-            return Err(ObjError::NotFinite { line, vertex });
+            return Err(ObjFault::NotFinite(vertex));
         }
-        self.check_flat(line, z)?;
+        if self.positions.is_empty() {
+            self.first_z = z;
+        }
+        let first = self.first_z;
+        // Exact: "ignored if constant" has no scale to measure a difference by.
+        if z != first {
+            return Err(ObjFault::NotFlat { vertex, z, first });
+        }
         self.positions.push(p);
         Ok(())
     }
 
-    fn check_flat(&mut self, line: usize, z: f64) -> Result<(), ObjError> {
-        if self.positions.is_empty() {
-            self.first_z = z;
-        }
-        // Exact: "ignored if constant" has no scale to measure a difference by.
-        if z == self.first_z {
-            return Ok(());
-        }
-        Err(ObjError::NotFlat {
-            line,
-            vertex: self.positions.len() + 1,
-            z,
-            first: self.first_z,
-        })
-    }
-
-    fn face<'a>(
-        &mut self,
-        line: usize,
-        words: impl Iterator<Item = &'a str>,
-    ) -> Result<(), ObjError> {
+    /// The vertices of the next face, from 0.
+    fn corners<'a>(&self, words: impl Iterator<Item = &'a str>) -> Result<Vec<i64>, ObjFault> {
         let face = self.polygons.len() + 1;
         let so_far = self.positions.len() as i64;
         let mut corners = Vec::new();
         for word in words {
             let number = word.split('/').next().unwrap_or_default();
-            let named: i64 = number.parse().map_err(|_| ObjError::Face {
-                line,
-                face,
-                word: word.chars().take(24).collect(),
-            })?;
+            let named: i64 = number
+                .parse()
+                .map_err(|_| ObjFault::Face(face, word.chars().take(24).collect()))?;
             // Negative numbers count back from the latest vertex.
-            corners.push(if named < 0 {
-                so_far.saturating_add(named)
-            } else {
-                named - 1
-            });
-            if corners.last().is_some_and(|&c| c < 0) {
-                return Err(self.out_of_range(line, face, named));
+            let corner = match named < 0 {
+                true => so_far.saturating_add(named),
+                false => named - 1,
+            };
+            if corner < 0 {
+                return Err(self.out_of_range(face, named));
             }
+            corners.push(corner);
         }
-        if corners.len() < 3 {
-            return Err(ObjError::TooFewCorners { line, face });
+        match corners.len() < 3 {
+            true => Err(ObjFault::TooFewCorners(face)),
+            false => Ok(corners),
         }
-        self.polygons.push(Polygon { line, corners });
-        Ok(())
     }
 
-    fn out_of_range(&self, line: usize, face: usize, named: i64) -> ObjError {
-        ObjError::OutOfRange {
-            line,
+    fn out_of_range(&self, face: usize, named: i64) -> ObjFault {
+        ObjFault::OutOfRange {
             face,
             named,
             vertices: self.positions.len(),
@@ -249,12 +207,11 @@ impl Parser {
         }
         let mut faces = Vec::new();
         let mut used = vec![false; self.positions.len()];
-        for (index, polygon) in self.polygons.iter().enumerate() {
-            self.check_corners(index + 1, polygon, &mut used)?;
-            let [first, rest @ ..] = polygon.corners.as_slice() else {
-                continue;
-            };
-            let fan = rest.windows(2).map(|w| [*first, w[0], w[1]]);
+        for (face, &(line, ref corners)) in (1..).zip(&self.polygons) {
+            let checked = self.check_corners(face, corners, &mut used);
+            checked.map_err(|fault| ObjError::Line { line, fault })?;
+            // Three at least, so that there is a first and a fan about it.
+            let fan = corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]);
             faces.extend(fan.map(|corners| corners.map(|c| c as u32)));
         }
         if let Some(unused) = used.iter().position(|&used| !used) {
@@ -263,25 +220,24 @@ impl Parser {
         Ok(TriangleMesh::new(self.positions, faces)?)
     }
 
-    /// Corners exist and differ; marks them as used.
+    /// Corners exist and differ; marks them as used. Faces may stand before
+    /// their vertices, so that this waits for the last line.
     fn check_corners(
         &self,
         face: usize,
-        polygon: &Polygon,
+        corners: &[i64],
         used: &mut [bool],
-    ) -> Result<(), ObjError> {
-        let line = polygon.line;
-        for &corner in &polygon.corners {
+    ) -> Result<(), ObjFault> {
+        for &corner in corners {
             let Some(mark) = used.get_mut(corner as usize) else {
-                return Err(self.out_of_range(line, face, corner.saturating_add(1)));
+                return Err(self.out_of_range(face, corner.saturating_add(1)));
             };
             *mark = true;
         }
-        let mut sorted = polygon.corners.clone();
+        let mut sorted = corners.to_vec();
         sorted.sort_unstable();
         match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(pair) => Err(ObjError::Repeated {
-                line,
+            Some(pair) => Err(ObjFault::Repeated {
                 face,
                 vertex: pair[0] as usize + 1,
             }),

@@ -11,57 +11,54 @@ fn numbers_and_order_are_kept_and_quads_become_fans() {
     assert_eq!(relative.faces(), [[0, 1, 2]]);
 }
 
+fn error(text: &str) -> ObjError {
+    read(text).expect_err("bad")
+}
+
+fn fault(text: &str, at: usize) -> ObjFault {
+    match error(text) {
+        ObjError::Line { line, fault } if line == at => fault,
+        other => panic!("{other}"),
+    }
+}
+
 #[test]
 fn a_bad_line_is_named() {
-    let error = |text: &str| read(text).expect_err("bad");
-    assert_eq!(error("v 1\n"), ObjError::Vertex { line: 1, vertex: 1 });
+    assert_eq!(fault("v 1\n", 1), ObjFault::Vertex(1));
     for bad in ["NaN", "inf", "-inf", "1e999"] {
         let text = format!("v 0 0 0\nv {bad} 0 0\n");
-        assert_eq!(error(&text), ObjError::NotFinite { line: 2, vertex: 2 });
+        assert_eq!(fault(&text, 2), ObjFault::NotFinite(2));
     }
     assert!(matches!(
-        error("v 0 0 0\nv 1 0 0.1\n"),
-        ObjError::NotFlat {
-            line: 2,
-            vertex: 2,
-            ..
-        }
+        fault("v 0 0 0\nv 1 0 0.1\n", 2),
+        ObjFault::NotFlat { vertex: 2, .. }
     ));
+    assert_eq!(
+        error("v 1\n").to_string(),
+        "line 1: vertex 1 needs the numbers x y z; correct the line"
+    );
 }
 
 #[test]
 fn a_bad_face_is_named() {
-    let error = |text: &str| read(text).expect_err("bad");
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
-    for (face, named) in [("1 2 4", 4), ("1 2 0", 0), ("1 2 -4", -4)] {
+    let face = |face: &str| fault(&format!("{triangle}f {face}\n"), 4);
+    for (words, named) in [("1 2 4", 4), ("1 2 0", 0), ("1 2 -4", -4)] {
         assert_eq!(
-            error(&format!("{triangle}f {face}\n")),
-            ObjError::OutOfRange {
-                line: 4,
+            face(words),
+            ObjFault::OutOfRange {
                 face: 1,
                 named,
                 vertices: 3
             }
         );
     }
-    let huge = format!("{triangle}f 1 2 9223372036854775807\nf 1 2 -9223372036854775808");
-    assert!(matches!(error(&huge), ObjError::OutOfRange { .. }));
-    assert_eq!(
-        error(&format!("{triangle}f 1 2 2\n")),
-        ObjError::Repeated {
-            line: 4,
-            face: 1,
-            vertex: 2
-        }
-    );
-    assert!(matches!(
-        error(&format!("{triangle}f 1 x 2\n")),
-        ObjError::Face { line: 4, .. }
-    ));
-    assert_eq!(
-        error(&format!("{triangle}f 1 2\n")),
-        ObjError::TooFewCorners { line: 4, face: 1 }
-    );
+    for huge in ["1 2 9223372036854775807", "1 2 -9223372036854775808"] {
+        assert!(matches!(face(huge), ObjFault::OutOfRange { .. }));
+    }
+    assert_eq!(face("1 2 2"), ObjFault::Repeated { face: 1, vertex: 2 });
+    assert_eq!(face("1 x 2"), ObjFault::Face(1, "x".to_owned()));
+    assert_eq!(face("1 2"), ObjFault::TooFewCorners(1));
     assert_eq!(
         error(&format!("{triangle}v 5 5 0\nf 1 2 3\n")),
         ObjError::Unused(4)
