@@ -12,6 +12,10 @@ use usvg::tiny_skia_path::{Path, PathSegment, Point};
 /// Most points of a design after flattening.
 pub(super) const MAX_POINTS: usize = 2_000_000;
 
+/// Smallest tolerance that is worked with, as a fraction of the page: that of
+/// the `f32` coordinates of drawings.
+pub(super) const MIN_TOLERANCE: f64 = 1e-7;
+
 /// Most pieces of one curve: reached at a tolerance of 1e-7 of the page by a
 /// curve that is ten pages long.
 const MAX_PIECES: f64 = 4096.0;

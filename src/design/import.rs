@@ -1,7 +1,7 @@
 //! From the bytes of a file, or text in a font, to a design.
 
 use super::error::{ImportError, MAX_FILE_BYTES, Problem};
-use super::form::{Design, Outlines};
+use super::form::Design;
 use super::format::Format;
 use super::options::ImportOptions;
 use super::sniff::sniff;
@@ -101,14 +101,7 @@ fn letters(
     options: &ImportOptions,
 ) -> Result<Design, Problem> {
     options.check()?;
-    let (regions, extent) = lettering::read(text, font, options.tolerance)?;
-    let notes = Vec::new();
-    let outlines = Outlines {
-        regions,
-        extent,
-        notes,
-    };
-    Ok(outlines.named(name))
+    Ok(lettering::read(text, font, options.tolerance)?.named(name))
 }
 
 /// Reads a file, or the element of it with an id.

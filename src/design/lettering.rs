@@ -12,7 +12,8 @@
 //! character that the font lacks is an error, never a box. Not read: bitmap
 //! and colour glyphs, more than one line.
 
-use super::flatten::{Flattener, TooManyPoints};
+use super::flatten::{Flattener, MIN_TOLERANCE, TooManyPoints};
+use super::form::Outlines;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError};
 use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
 use skrifa::instance::{LocationRef, Size};
@@ -73,11 +74,7 @@ const EM: f64 = 1000.0;
 
 /// Draws `text`. `font` is a font's bytes or `None` for the bundled font,
 /// `tolerance` a fraction of the page's longer side.
-pub(super) fn read(
-    text: &str,
-    font: Option<&[u8]>,
-    tolerance: f64,
-) -> Result<(Regions, Bounds), TextError> {
+pub(super) fn read(text: &str, font: Option<&[u8]>, tolerance: f64) -> Result<Outlines, TextError> {
     let characters = text.chars().count();
     match characters {
         0 => return Err(TextError::Empty),
@@ -157,7 +154,7 @@ impl Line {
         })
     }
 
-    fn outlined(&self, font: &FontRef, tolerance: f64) -> Result<(Regions, Bounds), TextError> {
+    fn outlined(&self, font: &FontRef, tolerance: f64) -> Result<Outlines, TextError> {
         let longer = self.page.size().max_element().max(EM);
         let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * longer);
         let glyphs = font.outline_glyphs();
@@ -171,13 +168,13 @@ impl Line {
             })?);
         }
         let regions = Regions::from_rings(&rings, FillRule::NonZero)?;
-        let page = self.page.union(&regions.bounds());
-        Ok((regions, page))
+        Ok(Outlines {
+            extent: self.page.union(&regions.bounds()),
+            regions,
+            notes: Vec::new(),
+        })
     }
 }
-
-/// Smallest tolerance that is worked with, as in drawings.
-const MIN_TOLERANCE: f64 = 1e-7;
 
 fn drawn(glyphs: &OutlineGlyphCollection, glyph: GlyphId) -> Result<PathBuilder, TextError> {
     let missing = || TextError::NoOutline {
@@ -220,7 +217,7 @@ mod tests {
     use super::*;
 
     fn outline(text: &str) -> Regions {
-        read(text, None, 1e-4).expect("an outline").0
+        read(text, None, 1e-4).expect("an outline").regions
     }
 
     #[test]
@@ -250,7 +247,10 @@ mod tests {
 
     #[test]
     fn words_are_kerned() {
-        let width = |text: &str| read(text, None, 1e-4).expect("an outline").1.size().x;
+        let width = |text: &str| {
+            let found = read(text, None, 1e-4).expect("an outline");
+            found.extent.size().x
+        };
         assert!(width("AV") < width("A").min(width("V")) * 2.0);
         let apart = |text: &str| {
             let found = outline(text);
@@ -263,7 +263,7 @@ mod tests {
 
     #[test]
     fn what_cannot_be_drawn_is_named() {
-        let error = |text: &str| read(text, None, 1e-4).expect_err("no outline");
+        let error = |text: &str| read(text, None, 1e-4).err().expect("no outline");
         assert_eq!(error(""), TextError::Empty);
         assert_eq!(error(" \t"), TextError::OnlySpace);
         assert_eq!(error(&"x".repeat(3000)), TextError::TooLong(3000));
@@ -284,7 +284,7 @@ mod tests {
 
     #[test]
     fn any_font_file_will_do() {
-        let (regions, _) = read("D", Some(epaint_default_fonts::HACK_REGULAR), 1e-4).expect("D");
-        assert_eq!(regions.rings().count(), 2);
+        let found = read("D", Some(epaint_default_fonts::HACK_REGULAR), 1e-4).expect("D");
+        assert_eq!(found.regions.rings().count(), 2);
     }
 }

@@ -30,7 +30,7 @@ mod pairs;
 pub use error::{DxfError, Place};
 pub(super) use pairs::BINARY;
 
-use super::flatten::{MAX_POINTS, TooManyPoints};
+use super::flatten::{MAX_POINTS, MIN_TOLERANCE, TooManyPoints};
 use super::form::Outlines;
 use super::note::{ImportNote, OnlyThese};
 use crate::geometry::{Bounds, DVec2, FillRule, Regions};
@@ -39,9 +39,6 @@ use curve::Curve;
 /// How far ends that belong together may be apart, as a fraction of the
 /// drawing's longer side: what rounding to four digits leaves.
 pub(super) const JOIN_TOLERANCE: f64 = 1e-4;
-
-/// Smallest tolerance that is worked with, as in drawings as SVG.
-const MIN_TOLERANCE: f64 = 1e-7;
 
 /// Points of one polyline nearer than this fraction of the longer side differ
 /// by rounding: a bulge of 1e-7 makes an arc whose ends are good to 3e-10.

@@ -28,16 +28,13 @@ mod paint;
 
 pub use error::SvgError;
 
+use super::flatten::MIN_TOLERANCE;
 use super::form::Outlines;
 use super::note::ImportNote;
 use super::options::ImportOptions;
 use crate::geometry::{Bounds, DVec2};
 use paint::Brush;
 use usvg::roxmltree::{self, Document, Node as Xml};
-
-/// Smallest tolerance that is worked with, as a fraction of the page: that of
-/// the `f32` coordinates.
-const MIN_TOLERANCE: f64 = 1e-7;
 
 /// Ids that an error names.
 const NAMED_IDS: usize = 8;
