@@ -116,12 +116,9 @@ impl ProjectError {
         }
     }
 
-    pub(super) fn newer(text: &str, version: u64) -> Self {
-        let at = text
-            .lines()
-            .position(|line| line.trim_start().starts_with("version"));
+    pub(super) fn newer(text: &str, at: usize, version: u64) -> Self {
         Self::NewerVersion {
-            line: at.map_or(1, |i| i + 1),
+            line: line_of(text, at),
             version,
         }
     }

@@ -23,28 +23,14 @@ impl Project {
     /// # Errors
     /// [`ProjectError`] names the line of what is wrong.
     pub fn parse(text: &str) -> Result<Self, ProjectError> {
-        let project = match read(text) {
-            Ok(project) => project,
-            // A newer version may well have keys that are unknown here; that
-            // it is newer is what its reader needs to hear.
-            Err(error) => {
-                return Err(match version_of(text) {
-                    Some(version) if version > FORMAT_VERSION.into() => {
-                        ProjectError::newer(text, version)
-                    }
-                    _ => error,
-                });
-            }
-        };
-        project.check(text)?;
+        let project = read(text)?;
+        project.check()?;
         Ok(project)
     }
 
-    fn check(&self, text: &str) -> Result<(), ProjectError> {
-        match self.version {
-            0 => return Err(ProjectError::VersionZero),
-            v if v > FORMAT_VERSION => return Err(ProjectError::newer(text, v.into())),
-            _ => {}
+    fn check(&self) -> Result<(), ProjectError> {
+        if self.version == 0 {
+            return Err(ProjectError::VersionZero);
         }
         if self.designs.len() < 2 {
             return Err(ProjectError::TooFewDesigns(self.designs.len()));
@@ -94,18 +80,23 @@ impl Project {
     }
 }
 
-fn version_of(text: &str) -> Option<u64> {
-    let table: toml::Table = text.parse().ok()?;
-    u64::try_from(table.get("version")?.as_integer()?).ok()
-}
-
 /// Reads a document of the version of this program.
 ///
 /// # Errors
-/// [`ProjectError::Syntax`] with the line of what is wrong.
+/// [`ProjectError::NewerVersion`], or [`ProjectError::Syntax`] with the line of
+/// what is wrong.
 fn read(text: &str) -> Result<Project, ProjectError> {
     let wrong = |error: toml::de::Error| ProjectError::syntax(text, &error);
     let document = DeTable::parse(text).map_err(wrong)?;
+    // Before all else, for a newer version may well have keys that are unknown
+    // here; that it is newer is what its reader needs to hear.
+    if let Some(version) = document.get_ref().get("version")
+        && let Some(number) = version.get_ref().as_integer()
+        && let Ok(number) = u64::from_str_radix(number.as_str(), number.radix())
+        && number > FORMAT_VERSION.into()
+    {
+        return Err(ProjectError::newer(text, version.span().start, number));
+    }
     let span = document.span();
     let (own, shared) = (keys_of::<Project>(), keys_of::<Options>());
     let (mut project, mut options) = (DeTable::new(), DeTable::new());
