@@ -61,14 +61,15 @@ impl Source {
         options: &ImportOptions,
     ) -> Result<Design, ImportError> {
         let name = self.name();
-        let design = match self {
+        let read = || match self {
             Self::File { element, .. } => read(name, bytes, element.as_deref(), options),
             Self::Text { text, font } => {
+                options.check()?;
                 let font = font.is_some().then_some(bytes);
-                letters(name, text, font, options)
+                Ok(lettering::read(text, font, options.tolerance)?.named(name))
             }
         };
-        design.map_err(|problem| self.error(problem))
+        read().map_err(|problem| self.error(problem))
     }
 
     fn error(&self, problem: Problem) -> ImportError {
@@ -91,17 +92,6 @@ fn check_size(bytes: u64, most: u64) -> Result<(), Problem> {
         true => Err(Problem::TooLarge { bytes, most }),
         false => Ok(()),
     }
-}
-
-/// Draws text in a font, or in the bundled one.
-fn letters(
-    name: String,
-    text: &str,
-    font: Option<&[u8]>,
-    options: &ImportOptions,
-) -> Result<Design, Problem> {
-    options.check()?;
-    Ok(lettering::read(text, font, options.tolerance)?.named(name))
 }
 
 /// Reads a file, or the element of it with an id.
