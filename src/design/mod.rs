@@ -43,7 +43,7 @@ pub use note::{ImportNote, OnlyThese};
 pub use obj::{ObjError, ObjFault};
 pub use options::{ImportOptions, OptionsError};
 pub use picture::Picture;
-pub use polygons::PolygonsError;
+pub use polygons::{PolygonsError, PolygonsFault};
 pub use silhouette::PictureError;
 pub use sniff::{UnknownFormat, sniff};
 pub use source::Source;

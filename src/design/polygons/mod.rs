@@ -25,26 +25,26 @@
 
 mod value;
 
-pub use value::PolygonsError;
+pub use value::{PolygonsError, PolygonsFault};
 
 use super::form::Outlines;
 use super::json::JsonError;
 use super::note::{ImportNote, OnlyThese};
 use crate::geometry::{FillRule, Regions, RegionsError, Repairs};
-use serde_json::{Map, Value};
+use serde_json::Value;
 use std::collections::BTreeMap;
-use value::{At, POLYGONS, RING, RINGS, Ring, depth, expected, items, required, ring, rings};
+use value::{RING, RINGS, Ring, depth, each, expected, member, polygons, ring, rings};
 
 /// Reads plain polygons or GeoJSON.
 pub(super) fn read(text: &str) -> Result<Outlines, PolygonsError> {
     let value: Value = serde_json::from_str(text).map_err(JsonError::from)?;
     let mut found = Found::default();
-    let root = At::Root;
     match &value {
-        Value::Object(object) if object.contains_key("type") => found.geojson(object, &root)?,
-        Value::Object(object) => found.named(object, &root)?,
-        list => found.list(list, &root)?,
+        Value::Object(object) if object.contains_key("type") => found.geojson(&value)?,
+        Value::Object(_) => found.named(&value)?,
+        _ => found.list(&value)?,
     }
+    // What was found is a copy, and uniting takes room of its own.
     drop(value);
     found.united()
 }
@@ -59,80 +59,67 @@ struct Found {
 }
 
 impl Found {
-    fn named(&mut self, object: &Map<String, Value>, at: &At) -> Result<(), PolygonsError> {
-        if let Some(value) = object.get("rings") {
-            self.polygons.push(rings(value, &At::Key(at, "rings"))?);
-        }
-        if let Some(value) = object.get("polygons") {
-            self.polygons(value, &At::Key(at, "polygons"))?;
-        }
+    fn named(&mut self, object: &Value) -> Result<(), PolygonsError> {
+        self.polygons.extend(member(object, "rings", rings)?);
+        let all = member(object, "polygons", polygons)?;
+        self.polygons.extend(all.into_iter().flatten());
         Ok(())
     }
 
     /// Lists without a name: how deep they are says what they are.
-    fn list(&mut self, value: &Value, at: &At) -> Result<(), PolygonsError> {
-        match depth(value) {
-            0 | 1 => return Err(expected(at, RING, value)),
-            2 => self.polygons.push(vec![ring(value, at)?]),
-            3 => self.polygons.push(rings(value, at)?),
-            _ => self.polygons(value, at)?,
-        }
-        Ok(())
-    }
-
-    fn polygons(&mut self, value: &Value, at: &At) -> Result<(), PolygonsError> {
-        for (i, polygon) in items(value, at, POLYGONS)?.iter().enumerate() {
-            self.polygons.push(rings(polygon, &At::Item(at, i))?);
+    fn list(&mut self, list: &Value) -> Result<(), PolygonsError> {
+        match depth(list) {
+            0 | 1 => return Err(expected(RING, list)),
+            2 => self.polygons.push(vec![ring(list)?]),
+            3 => self.polygons.push(rings(list)?),
+            _ => self.polygons.extend(polygons(list)?),
         }
         Ok(())
     }
 
     /// Any object of GeoJSON. The parser has limited how deep they nest.
-    fn geojson(&mut self, object: &Map<String, Value>, at: &At) -> Result<(), PolygonsError> {
-        let kind = object.get("type").and_then(Value::as_str).unwrap_or("");
+    fn geojson(&mut self, object: &Value) -> Result<(), PolygonsError> {
+        if !object.is_object() {
+            return Err(expected("an object of GeoJSON", object));
+        }
+        let coordinates = PolygonsFault::Missing {
+            key: "coordinates",
+            expected: RINGS,
+        };
+        let kind = object["type"].as_str().unwrap_or("");
         match kind {
             "Polygon" => {
-                let (value, at) = required(object, "coordinates", RINGS, at)?;
-                self.polygons.push(rings(value, &at)?);
+                let rings = member(object, "coordinates", rings)?;
+                self.polygons.push(rings.ok_or(coordinates)?);
             }
             "MultiPolygon" => {
-                let (value, at) = required(object, "coordinates", RINGS, at)?;
-                self.polygons(value, &at)?;
+                let all = member(object, "coordinates", polygons)?;
+                self.polygons.extend(all.ok_or(coordinates)?);
             }
-            "Feature" => match object.get("geometry") {
-                None | Some(Value::Null) => self.skip("Feature without a geometry"),
-                Some(value) => self.member(value, &At::Key(at, "geometry"))?,
+            "Feature" => match &object["geometry"] {
+                Value::Null => self.skip("Feature without a geometry"),
+                geometry => {
+                    let read = self.geojson(geometry);
+                    read.map_err(|error| error.within(".geometry"))?;
+                }
             },
-            "FeatureCollection" => self.members(object, "features", at)?,
-            "GeometryCollection" => self.members(object, "geometries", at)?,
+            "FeatureCollection" => self.members(object, "features")?,
+            "GeometryCollection" => self.members(object, "geometries")?,
             "Point" | "MultiPoint" | "LineString" | "MultiLineString" => self.skip(kind),
             other => {
-                return Err(PolygonsError::Type {
-                    at: at.to_string(),
-                    found: other.chars().take(40).collect(),
-                });
+                let found = other.chars().take(40).collect();
+                return Err(PolygonsFault::Type(found).into());
             }
         }
         Ok(())
     }
 
-    fn members(
-        &mut self,
-        object: &Map<String, Value>,
-        key: &'static str,
-        at: &At,
-    ) -> Result<(), PolygonsError> {
-        let (list, at) = required(object, key, "a list, even if it is empty", at)?;
-        for (i, value) in items(list, &at, "a list")?.iter().enumerate() {
-            self.member(value, &At::Item(&at, i))?;
-        }
+    fn members(&mut self, object: &Value, key: &'static str) -> Result<(), PolygonsError> {
+        let read = |list: &Value| each(list, "a list", |value| self.geojson(value));
+        let expected = "a list, even if it is empty";
+        let missing = PolygonsFault::Missing { key, expected };
+        member(object, key, read)?.ok_or(missing)?;
         Ok(())
-    }
-
-    fn member(&mut self, value: &Value, at: &At) -> Result<(), PolygonsError> {
-        let object = value.as_object();
-        let object = object.ok_or_else(|| expected(at, "an object of GeoJSON", value))?;
-        self.geojson(object, at)
     }
 
     fn skip(&mut self, kind: &str) {

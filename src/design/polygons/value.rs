@@ -1,47 +1,27 @@
-//! Points, rings and lists of rings in JSON, where in it they stand, and why
-//! they give no polygons.
+//! Points, rings and lists of rings in JSON, and why they give no polygons.
+//!
+//! What is wrong is told at once, and where it is on the way out: each value
+//! adds its step to the path of an error from within it.
 
 use crate::design::json::JsonError;
 use crate::design::note::OnlyThese;
 use crate::geometry::{DVec2, RegionsError};
-use serde_json::{Map, Value};
-use std::fmt;
+use serde_json::Value;
 
-/// Why JSON gives no polygons. Places are paths such as
-/// `$.features[2].geometry`, `$` being the document.
+/// Why JSON gives no polygons.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PolygonsError {
     /// Not JSON.
     #[error(transparent)]
     Json(#[from] JsonError),
-    /// Something else stands where something should.
-    #[error("{at} is {found}; give {expected}")]
-    Expected {
-        /// The place.
-        at: String,
-        /// What should be there.
-        expected: &'static str,
-        /// What is there.
-        found: &'static str,
-    },
-    /// A member that must be there is not.
-    #[error("{at} has no \"{key}\"; give {expected}")]
-    Missing {
-        /// The place.
-        at: String,
-        /// The member.
-        key: &'static str,
-        /// What should be there.
-        expected: &'static str,
-    },
-    /// A type that GeoJSON does not have.
-    #[error("{at} is of the type \"{found}\", which GeoJSON does not have; correct the type")]
-    Type {
-        /// The place.
-        at: String,
-        /// The type.
-        found: String,
+    /// A value that cannot be used.
+    #[error("${path} {fault}")]
+    Value {
+        /// The way to it from the document, such as `.features[2].geometry`.
+        path: String,
+        /// What is wrong with it.
+        fault: PolygonsFault,
     },
     /// There is not one polygon.
     #[error("there is no polygon in the file{0}; save filled outlines")]
@@ -51,27 +31,64 @@ pub enum PolygonsError {
     Regions(#[from] RegionsError),
 }
 
-/// Largest coordinate: squares and their products stay finite.
-const MAX_COORDINATE: f64 = 1e60;
-
-/// A place in the document.
-pub(super) enum At<'a> {
-    Root,
-    Key(&'a At<'a>, &'static str),
-    Item(&'a At<'a>, usize),
+/// What is wrong with a value.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PolygonsFault {
+    /// Something else stands where something should.
+    #[error("is {found}; give {expected}")]
+    Expected {
+        /// What should be there.
+        expected: &'static str,
+        /// What is there.
+        found: &'static str,
+    },
+    /// A member that must be there is not.
+    #[error("has no \"{key}\"; give {expected}")]
+    Missing {
+        /// The member.
+        key: &'static str,
+        /// What should be there.
+        expected: &'static str,
+    },
+    /// A type that GeoJSON does not have.
+    #[error("is of the type \"{0}\", which GeoJSON does not have; correct the type")]
+    Type(String),
 }
 
-impl fmt::Display for At<'_> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+impl From<PolygonsFault> for PolygonsError {
+    fn from(fault: PolygonsFault) -> Self {
+        let path = String::new();
+        Self::Value { path, fault }
+    }
+}
+
+impl PolygonsError {
+    /// The same, seen from a step further out.
+    pub(super) fn within(self, step: &str) -> Self {
         match self {
-            Self::Root => f.write_str("$"),
-            Self::Key(up, key) => write!(f, "{up}.{key}"),
-            Self::Item(up, index) => write!(f, "{up}[{index}]"),
+            Self::Value { path, fault } => Self::Value {
+                path: format!("{step}{path}"),
+                fault,
+            },
+            other => other,
         }
     }
 }
 
-pub(super) fn expected(at: &At, expected: &'static str, value: &Value) -> PolygonsError {
+/// Largest coordinate: squares and their products stay finite.
+const MAX_COORDINATE: f64 = 1e60;
+
+pub(super) type Ring = Vec<DVec2>;
+
+type Result<T> = std::result::Result<T, PolygonsError>;
+
+const POINT: &str = "a point, as in [1.5, 2]";
+pub(super) const RING: &str = "a ring, as in [[0, 0], [4, 0], [0, 3]]";
+pub(super) const RINGS: &str = "a list of rings";
+
+/// That something else should be here.
+pub(super) fn expected(expected: &'static str, value: &Value) -> PolygonsError {
     let found = match value {
         Value::Null => "null",
         Value::Bool(_) => "true or false",
@@ -81,48 +98,51 @@ pub(super) fn expected(at: &At, expected: &'static str, value: &Value) -> Polygo
         Value::Array(_) => "a list",
         Value::Object(_) => "an object",
     };
-    PolygonsError::Expected {
-        at: at.to_string(),
-        expected,
-        found,
-    }
+    PolygonsFault::Expected { expected, found }.into()
 }
 
-pub(super) fn items<'v>(
-    value: &'v Value,
-    at: &At,
+/// Reads each value of what should be a list.
+pub(super) fn each<T>(
+    value: &Value,
     what: &'static str,
-) -> Result<&'v [Value], PolygonsError> {
-    let list = value.as_array().ok_or_else(|| expected(at, what, value))?;
-    Ok(list)
+    mut read: impl FnMut(&Value) -> Result<T>,
+) -> Result<Vec<T>> {
+    let list = value.as_array().ok_or_else(|| expected(what, value))?;
+    let read = |(i, value)| read(value).map_err(|error| error.within(&format!("[{i}]")));
+    list.iter().enumerate().map(read).collect()
 }
 
-pub(super) type Ring = Vec<DVec2>;
+/// Reads a member of an object, if it is there.
+pub(super) fn member<T>(
+    object: &Value,
+    key: &'static str,
+    read: impl FnOnce(&Value) -> Result<T>,
+) -> Result<Option<T>> {
+    let read = object.get(key).map(read).transpose();
+    read.map_err(|error| error.within(&format!(".{key}")))
+}
 
-const POINT: &str = "a point, as in [1.5, 2]";
-pub(super) const RING: &str = "a ring, as in [[0, 0], [4, 0], [0, 3]]";
-pub(super) const RINGS: &str = "a list of rings";
-pub(super) const POLYGONS: &str = "a list of polygons, each a list of rings";
-
-fn point(value: &Value, at: &At) -> Result<DVec2, PolygonsError> {
+fn point(value: &Value) -> Result<DVec2> {
     let number = |value: &Value| {
         let number = value.as_f64().filter(|x| x.abs() <= MAX_COORDINATE);
-        number.ok_or_else(|| expected(at, "two numbers of at most 1e60 for a point", value))
+        number.ok_or_else(|| expected("two numbers of at most 1e60 for a point", value))
     };
-    match items(value, at, POINT)? {
-        [x, y, ..] => Ok(DVec2::new(number(x)?, number(y)?)),
-        _ => Err(expected(at, POINT, value)),
+    match value.as_array().map(Vec::as_slice) {
+        Some([x, y, ..]) => Ok(DVec2::new(number(x)?, number(y)?)),
+        _ => Err(expected(POINT, value)),
     }
 }
 
-pub(super) fn ring(value: &Value, at: &At) -> Result<Ring, PolygonsError> {
-    let points = items(value, at, RING)?.iter().enumerate();
-    points.map(|(i, p)| point(p, &At::Item(at, i))).collect()
+pub(super) fn ring(value: &Value) -> Result<Ring> {
+    each(value, RING, point)
 }
 
-pub(super) fn rings(value: &Value, at: &At) -> Result<Vec<Ring>, PolygonsError> {
-    let rings = items(value, at, RINGS)?.iter().enumerate();
-    rings.map(|(i, r)| ring(r, &At::Item(at, i))).collect()
+pub(super) fn rings(value: &Value) -> Result<Vec<Ring>> {
+    each(value, RINGS, ring)
+}
+
+pub(super) fn polygons(value: &Value) -> Result<Vec<Vec<Ring>>> {
+    each(value, "a list of polygons, each a list of rings", rings)
 }
 
 /// Lists in lists down to the first number.
@@ -131,20 +151,4 @@ pub(super) fn depth(value: &Value) -> usize {
         Value::Array(list) => 1 + list.first().map_or(0, depth),
         _ => 0,
     }
-}
-
-/// A member that must be there, and where it stands.
-pub(super) fn required<'v, 'a>(
-    object: &'v Map<String, Value>,
-    key: &'static str,
-    expected: &'static str,
-    at: &'a At<'a>,
-) -> Result<(&'v Value, At<'a>), PolygonsError> {
-    let missing = || PolygonsError::Missing {
-        at: at.to_string(),
-        key,
-        expected,
-    };
-    let value = object.get(key).ok_or_else(missing)?;
-    Ok((value, At::Key(at, key)))
 }
