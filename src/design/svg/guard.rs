@@ -1,8 +1,9 @@
 //! Drawings that would unfold without end, refused before they are unfolded.
 //!
-//! `usvg` copies what `use`, patterns, clip paths and masks refer to, and so a file of a few hundred bytes can stand for 10^10 elements. Here
-//! the elements are counted with all their copies, by one pass over the graph
-//! of references that visits every element once; nothing is copied.
+//! `usvg` copies what `use`, patterns, clip paths and masks refer to, and so a
+//! file of a few hundred bytes can stand for 10^10 elements. Here the elements
+//! are counted with all their copies, by one pass over the graph of references
+//! that visits every element once; nothing is copied.
 //!
 //! The count is an upper bound: what `usvg` keeps in a cache is counted as
 //! often as it is referred to. Markers and filters are not counted, for they
@@ -24,7 +25,6 @@ const MAX_STYLE_TESTS: usize = 50_000_000;
 /// Checks the unfolded size and depth, references in a circle, and the cost
 /// of the style sheet.
 pub(super) fn check(document: &Document) -> Result<(), SvgError> {
-    check_depth(document)?;
     let sheet = StyleSheet::of(document);
     let elements = document.descendants().filter(Node::is_element).count();
     if sheet.rules.saturating_mul(elements) > MAX_STYLE_TESTS {
@@ -43,24 +43,6 @@ pub(super) fn check(document: &Document) -> Result<(), SvgError> {
         sizes: HashMap::new(),
     };
     counter.unfold(document.root_element(), 0).map(|_| ())
-}
-
-fn line(document: &Document, node: Node) -> u32 {
-    document.text_pos_at(node.range().start).row
-}
-
-/// Nesting of the file as it stands, without recursion.
-fn check_depth(document: &Document) -> Result<(), SvgError> {
-    let mut depths: HashMap<_, u32> = HashMap::new();
-    for node in document.descendants().filter(Node::is_element) {
-        let above = node.parent().and_then(|p| depths.get(&p.id()));
-        let depth = above.map_or(0, |d| d + 1);
-        if depth > MAX_DEPTH {
-            return Err(SvgError::TooDeep(line(document, node)));
-        }
-        depths.insert(node.id(), depth);
-    }
-    Ok(())
 }
 
 /// Which ids the style sheet makes elements refer to.
@@ -159,7 +141,7 @@ impl<'d, 'a> Counter<'d, 'a> {
     /// most [`MAX_DEPTH`] levels.
     fn unfold(&mut self, node: Node<'d, 'a>, depth: u32) -> Result<Size, SvgError> {
         let document = self.document;
-        let at = || line(document, node);
+        let at = || document.text_pos_at(node.range().start).row;
         match self.sizes.get(&node.id()) {
             Some(None) => return Err(SvgError::Circular(at())),
             Some(Some(size)) if depth + size.levels > MAX_DEPTH => {
