@@ -34,19 +34,14 @@ pub enum Format {
 
 impl Format {
     /// Pictures.
-    pub const PICTURES: [Self; 4] = [
+    pub const PICTURES: &'static [Self] = Self::ALL.split_at(4).0;
+
+    /// All of them, pictures first.
+    pub const ALL: [Self; 9] = [
         Self::Picture(ImageFormat::Png),
         Self::Picture(ImageFormat::Jpeg),
         Self::Picture(ImageFormat::Bmp),
         Self::Picture(ImageFormat::WebP),
-    ];
-
-    /// All of them, pictures first.
-    pub const ALL: [Self; 9] = [
-        Self::PICTURES[0],
-        Self::PICTURES[1],
-        Self::PICTURES[2],
-        Self::PICTURES[3],
         Self::Svg,
         Self::Dxf,
         Self::Obj,
@@ -129,7 +124,7 @@ mod tests {
 
     #[test]
     fn formats_are_told_in_a_sentence() {
-        assert_eq!(Format::listed(&Format::PICTURES), "PNG, JPEG, BMP or WebP");
+        assert_eq!(Format::listed(Format::PICTURES), "PNG, JPEG, BMP or WebP");
         assert_eq!(Format::listed(&[Format::Svg]), "SVG");
         assert_eq!(Format::listed(&[]), "");
     }

@@ -67,7 +67,7 @@ impl TransitionSpec {
             Some(design) => Err(BuildError::Unavailable(format!(
                 "{} has no colours: open two pictures ({}), or choose fields or solids",
                 design.name,
-                Format::listed(&Format::PICTURES)
+                Format::listed(Format::PICTURES)
             ))),
         }
     }
