@@ -108,10 +108,9 @@ pub(super) fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, Pic
     let mut limits = Limits::default();
     limits.max_alloc = Some(MAX_PIXELS * 8); // 16 bits in each of four channels
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
-    reader.limits(limits.clone());
+    reader.limits(limits);
     let mut decoder = reader.into_decoder().map_err(damaged)?;
     check_size(decoder.dimensions())?;
-    decoder.set_limits(limits).map_err(damaged)?;
     let orientation = decoder.orientation().map_err(damaged)?;
     let mut picture = DynamicImage::from_decoder(decoder).map_err(damaged)?;
     picture.apply_orientation(orientation);
