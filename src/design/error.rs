@@ -7,6 +7,8 @@ use super::{
 use std::io;
 
 /// Largest file that is read, in bytes; of drawings and polygons a quarter.
+/// A bound on memory and no more: a file is held whole while it is read, and
+/// one that a person drew is far smaller.
 pub const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// A file that could not be read as a design. Its message names the file,

@@ -9,7 +9,7 @@
 use crate::geometry::DVec2;
 use usvg::tiny_skia_path::{Path, PathSegment, Point};
 
-/// Most points of a design after flattening.
+/// Most points of a design after flattening: 32 MB of them.
 pub(super) const MAX_POINTS: usize = 2_000_000;
 
 /// Smallest tolerance that is worked with, as a fraction of the page: that of
@@ -51,6 +51,7 @@ impl Flattener {
         let mut rings: Vec<Vec<DVec2>> = Vec::new();
         let mut ring: Vec<DVec2> = Vec::new();
         for segment in path.segments() {
+            // A path begins with a move, so that a curve has a point to begin at.
             let last = ring.last().copied().unwrap_or_default();
             match segment {
                 PathSegment::MoveTo(p) => {
@@ -60,6 +61,7 @@ impl Flattener {
                 PathSegment::LineTo(p) => ring.push(place(p)),
                 PathSegment::QuadTo(b, c) => {
                     let (b, c) = (place(b), place(c));
+                    // The same curve as a cubic one, two thirds of the way to its middle.
                     let third = |q: DVec2| q + (b - q) * (2.0 / 3.0);
                     let bend = 2.0 * (last - 2.0 * b + c).length();
                     self.curve(&mut ring, [third(last), third(c), c], bend);
@@ -71,6 +73,7 @@ impl Flattener {
                         .max((b - 2.0 * c + d).length());
                     self.curve(&mut ring, [b, c, d], 6.0 * bend);
                 }
+                // All rings are closed in the end, and what follows begins with a move.
                 PathSegment::Close => {}
             }
             if self.points + ring.len() > MAX_POINTS {
@@ -79,6 +82,7 @@ impl Flattener {
         }
         self.points += ring.len();
         rings.push(ring);
+        // Points and lines fill nothing.
         rings.retain(|ring| ring.len() >= 3);
         Ok(rings)
     }
@@ -87,6 +91,7 @@ impl Flattener {
     /// length of its second derivative.
     fn curve(&self, ring: &mut Vec<DVec2>, [b, c, d]: [DVec2; 3], bend: f64) {
         let a = ring.last().copied().unwrap_or(b);
+        // Wang's n for this error; the factor d (d - 1) is in the bend.
         let pieces = (bend / (8.0 * self.tolerance)).sqrt().ceil();
         let pieces = pieces.clamp(1.0, MAX_PIECES) as u32;
         ring.extend((1..pieces).map(|k| {
@@ -94,6 +99,7 @@ impl Flattener {
             let s = 1.0 - t;
             s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d
         }));
+        // As it is given: the next curve begins there to the last bit.
         ring.push(d);
     }
 }

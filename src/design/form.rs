@@ -205,12 +205,14 @@ fn of_truss(truss: &Truss, bar_width: f64) -> Result<Regions, RegionsError> {
 
 /// All points within `radius` of the segment, counter-clockwise.
 fn capsule(a: DVec2, b: DVec2, radius: f64) -> Vec<DVec2> {
+    // Bars have a length: a truss is checked for it.
     let along = (b - a).to_angle();
     let cap = move |centre: DVec2, from: f64| {
         (0..=CAP_SIDES).map(move |k| {
             centre + radius * DVec2::from_angle(from + PI * f64::from(k) / f64::from(CAP_SIDES))
         })
     };
+    // Two half circles; the straight sides are what lies between them.
     cap(b, along - 0.5 * PI)
         .chain(cap(a, along + 0.5 * PI))
         .collect()

@@ -83,6 +83,7 @@ fn read_bytes(path: &Path) -> Result<Vec<u8>, Problem> {
     if metadata.is_dir() {
         return Err(Problem::Folder);
     }
+    // By what the system says of it, before it is taken into memory.
     check_size(metadata.len(), MAX_FILE_BYTES)?;
     std::fs::read(path).map_err(Problem::from_io)
 }
@@ -105,6 +106,7 @@ fn read(
     if bytes.is_empty() {
         return Err(Problem::Empty);
     }
+    // Again, for bytes may come from elsewhere than a file.
     check_size(bytes.len() as u64, MAX_FILE_BYTES)?;
     let format = sniff(bytes)?;
     if let Format::Svg | Format::Dxf | Format::Polygons = format {
@@ -128,6 +130,7 @@ fn read(
 /// The bytes as text, without a byte order mark.
 fn text(bytes: &[u8]) -> Result<&str, Problem> {
     std::str::from_utf8(bytes)
+        // JSON with the mark in front is none for its parser.
         .map(|text| text.trim_start_matches('\u{feff}'))
         .map_err(|e| Problem::NotUtf8 {
             line: 1 + bytes[..e.valid_up_to()]

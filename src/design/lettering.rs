@@ -69,7 +69,8 @@ const BUNDLED_FONT: &[u8] = include_bytes!("../../assets/fonts/Roboto-Bold.ttf")
 /// Most characters: a page of text, far beyond what anyone blends.
 const MAX_CHARS: usize = 2000;
 
-/// Units of the design for one em.
+/// Units of the design for one em, as most fonts have it: letters are then as
+/// large as drawings are.
 const EM: f64 = 1000.0;
 
 /// Draws `text`. `font` is a font's bytes or `None` for the bundled font,
@@ -85,12 +86,14 @@ pub(super) fn read(text: &str, font: Option<&[u8]>, tolerance: f64) -> Result<Ou
         return Err(TextError::OnlySpace);
     }
     let font = font_of(font.unwrap_or(BUNDLED_FONT))?;
+    // Shaping would draw a box for what the font lacks.
     check_characters(&font, text)?;
     Line::shaped(&font, text)?.outlined(&font, tolerance)
 }
 
 /// The font in a file, or the first of a collection.
 fn font_of(bytes: &[u8]) -> Result<FontRef<'_>, TextError> {
+    // Named, for it is a font to whoever has it, only packed.
     if bytes.starts_with(b"wOF") {
         return Err(TextError::Font("it is a web font".to_owned()));
     }
@@ -129,13 +132,16 @@ impl Line {
         let data = ShaperData::new(font);
         let mut buffer = UnicodeBuffer::new();
         buffer.push_str(text);
+        // Script and direction, without which Arabic would run left to right.
         buffer.guess_segment_properties();
         let shaper = data.shaper(font).build();
         let shaped = shaper.shape(buffer, ShapeOptions::new());
+        // Where the page begins; a font may claim to end above its base line.
         let below = f64::from(metrics.descent).min(0.0);
         let mut pen = DVec2::new(0.0, -below);
         let places = shaped.glyph_positions().iter();
         let glyphs = shaped.glyph_infos().iter().zip(places).map(|(info, by)| {
+            // Where the glyph is drawn; the pen moves on by its advance alone.
             let offset = DVec2::new(by.x_offset.into(), by.y_offset.into());
             let at = pen + offset;
             pen += DVec2::new(by.x_advance.into(), by.y_advance.into());
@@ -155,6 +161,7 @@ impl Line {
     }
 
     fn outlined(&self, font: &FontRef, tolerance: f64) -> Result<Outlines, TextError> {
+        // One em at least: a single narrow letter is no reason to be finer.
         let longer = self.page.size().max_element().max(EM);
         let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * longer);
         let glyphs = font.outline_glyphs();
@@ -181,6 +188,7 @@ fn drawn(glyphs: &OutlineGlyphCollection, glyph: GlyphId) -> Result<PathBuilder,
         glyph: glyph.to_u32(),
     };
     let mut pen = Pen(PathBuilder::new());
+    // Hints fit an outline to the pixels of a size, and here are none.
     let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
     let outline = glyphs.get(glyph).ok_or_else(missing)?;
     outline.draw(settings, &mut pen).map_err(|_| missing())?;

@@ -74,6 +74,7 @@ impl ImportNote {
             count: found.touches,
             at_least,
         };
+        // Told in this order: what changed the form before what did not.
         let counted = [
             (found.crossings, crossings),
             (found.touches, touches),

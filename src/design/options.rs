@@ -52,9 +52,11 @@ impl ImportOptions {
     /// pixels wide: not seen, and a circle still needs only about 70 points.
     pub const DEFAULT_TOLERANCE: f64 = 0.0002;
 
+    /// At a tenth of the longer side a form is left with a handful of corners.
     const MAX_TOLERANCE: f64 = 0.1;
 
     pub(super) fn check(&self) -> Result<(), OptionsError> {
+        // NaN is in no range, and is refused with the rest.
         if !(0.0..=Self::MAX_TOLERANCE).contains(&self.tolerance) {
             return Err(OptionsError::Tolerance(self.tolerance));
         }

@@ -19,7 +19,8 @@ pub struct Picture {
 /// edge of a silhouette has no more than sixteen greys.
 const MANY_COLOURS: usize = 64;
 
-/// How many pixels are looked at, along each side.
+/// How many pixels are looked at, along each side: some 9,000 show what colours
+/// there are, and a picture of 64 million need not be gone through.
 const LOOKED_AT: u32 = 96;
 
 impl Picture {
@@ -69,6 +70,7 @@ impl Picture {
     #[must_use]
     pub fn is_photograph(&self) -> bool {
         let (width, height) = self.pixels.dimensions();
+        // A step is one at least, even where there is no pixel to take it.
         let steps = |side: u32| (0..side).step_by(side.div_ceil(LOOKED_AT).max(1) as usize);
         let colours = steps(height).flat_map(|y| steps(width).map(move |x| (x, y)));
         let mut seen = HashSet::new();

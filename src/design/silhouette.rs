@@ -155,6 +155,7 @@ impl Figure {
     fn of(picture: &RgbaImage, options: &ImportOptions) -> Result<Self, PictureError> {
         let (width, height) = picture.dimensions();
         let by_opacity = picture.pixels().any(|p| p.0[3] != u8::MAX);
+        // Rows from below, as y points up.
         let tones: Vec<u8> = picture
             .rows()
             .rev()
@@ -203,9 +204,11 @@ impl Figure {
         let upwards = (width..count).map(|i| [i - width, i]);
         let alike = |&[a, b]: &[usize; 2]| self.samples[a] * self.samples[b] > 0.0;
         let links = across.chain(upwards).filter(alike);
+        // The number of a pixel fits: 2^32 of them would take 16 GiB before this.
         let pieces = components(count, links.map(|ends| ends.map(|i| i as u32)));
         let mut sizes = vec![0u32; count]; // there are no more pieces than pixels
         for (i, &piece) in pieces.iter().enumerate() {
+            // A hole that reaches the border is as large as can be.
             let is_open = sign < 0.0 && is_on_border(i, width, count);
             let size = &mut sizes[piece as usize];
             *size = size.saturating_add(if is_open { u32::MAX } else { 1 });
@@ -220,8 +223,10 @@ impl Figure {
     /// The boundary at level zero, simplified to within `tolerance` pixels.
     fn trace(&self, tolerance: f64) -> Result<Regions, PictureError> {
         let threshold = self.threshold;
+        // Before tracing, whose rings would take the room.
         self.check_raggedness()?;
         let samples = Samples::new(self.width, self.height, &self.samples)?;
+        // Samples lie at the middles of pixels, the origin at a corner.
         let corner_from_centre = DVec2::splat(0.5);
         let rings: Vec<Vec<DVec2>> = contour::trace_samples(&samples, 0.0)
             .iter()
@@ -278,6 +283,8 @@ fn otsu(tones: &[u8]) -> Option<u8> {
     for threshold in 1..256 {
         below += histogram[threshold - 1] as f64;
         sum_below += weighted((threshold - 1, &histogram[threshold - 1]));
+        // The variance between the classes, but for a factor that is the same for
+        // all thresholds.
         let apart = sum_below * total - sum * below;
         let classes = below * (total - below);
         let variance = if classes > 0.0 {
@@ -287,6 +294,7 @@ fn otsu(tones: &[u8]) -> Option<u8> {
         };
         if variance > best.0 {
             best = (variance, threshold, threshold);
+        // The run goes on only where it has no gap.
         } else if variance == best.0 && best.0 > 0.0 && best.2 + 1 == threshold {
             best.2 = threshold;
         }

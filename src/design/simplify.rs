@@ -18,9 +18,11 @@ pub(super) fn closed(points: &[DVec2], tolerance: f64) -> Vec<DVec2> {
         .max_by(|&i, &j| from_first(&points[i]).total_cmp(&from_first(&points[j])))
         .unwrap_or(0);
     let end = points.len();
+    // One more than points, for the first one closes the last span.
     let mut keep = vec![false; end + 1];
     keep[0] = true;
     keep[far] = true;
+    // A stack and no recursion: spans lie in spans as often as there are points.
     let mut spans = vec![(0, far), (far, end)];
     while let Some((a, b)) = spans.pop() {
         if let Some(split) = farthest(points, a, b, tolerance) {

@@ -98,6 +98,7 @@ fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
         Some(b'[') => Ok(Format::Polygons),
         Some(b'{') => json_format(bytes),
         Some(_) if is_dxf(bytes) => Ok(Format::Dxf),
+        // Last, for a line that begins with a v stands in many a text.
         Some(_) if is_obj(bytes) => Ok(Format::Obj),
         _ => Err(UnknownFormat::Unknown),
     }
@@ -130,6 +131,8 @@ fn has_svg_element(bytes: &[u8]) -> bool {
             .unwrap_or(tag.len());
         tag[..end].rsplit(|&b| b == b':').next() == Some(b"svg")
     };
+    // Looked for and not parsed: comments and a DOCTYPE may stand before it, and
+    // a broken drawing is to be told as a drawing.
     bytes.split(|&b| b == b'<').skip(1).any(is_svg)
 }
 

@@ -72,6 +72,7 @@ impl Source {
         if let Some(glyphs) = written.strip_prefix(GLYPH) {
             return text_of(glyphs);
         }
+        // The last one, as folders may have it in their names.
         match written.rsplit_once('#') {
             Some((file, id)) if !file.is_empty() && !id.is_empty() && !is_file(path) => {
                 Self::File {
@@ -177,6 +178,7 @@ fn unescaped(text: &str) -> String {
     let mut parts = text.split('%');
     let mut bytes = parts.next().unwrap_or_default().as_bytes().to_vec();
     for part in parts {
+        // Digits alone, for the parser would take a sign, too.
         let code = part
             .get(..2)
             .filter(|c| c.bytes().all(|b| b.is_ascii_hexdigit()));
@@ -184,6 +186,7 @@ fn unescaped(text: &str) -> String {
         bytes.push(byte.unwrap_or(b'%'));
         bytes.extend(&part.as_bytes()[if byte.is_some() { 2 } else { 0 }..]);
     }
+    // Codes that give no text were not meant as codes.
     String::from_utf8(bytes).unwrap_or_else(|_| text.to_owned())
 }
 

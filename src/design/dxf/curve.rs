@@ -12,7 +12,8 @@ use crate::geometry::{DVec2, distance_squared_to_segment};
 use glam::{DAffine2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// Most pieces of an arc, and most halvings of a knot span.
+/// Most pieces of an arc, as of any curve of a drawing, and most halvings of a
+/// knot span, which give it half as many.
 const MAX_ARC_PIECES: f64 = 4096.0;
 const MAX_HALVINGS: u32 = 10;
 
@@ -51,6 +52,7 @@ impl Curve {
     /// clockwise positive.
     pub fn bulging(p: DVec2, q: DVec2, bulge: f64) -> Self {
         let chord = q - p;
+        // The bulge is tan(angle / 4): so many chords the centre lies aside.
         let to_centre = (1.0 - bulge * bulge) / (4.0 * bulge);
         let centre = p + 0.5 * chord + to_centre * chord.perp();
         let u = p - centre;
@@ -127,12 +129,16 @@ impl Arc {
     }
 
     fn flatten(&self, tolerance: f64, points: &mut Vec<DVec2>) {
+        // At least the larger half axis, however u and v lie to each other.
         let radius = self.u.length().hypot(self.v.length());
+        // Beyond the diameter a tolerance would have no cosine.
         let step = 2.0 * (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos();
+        // Quarters at most, so that a small circle is still a square.
         let pieces = (self.sweep.abs() / step.min(0.5 * PI)).ceil();
         // No radius and no angle would give NaN, which is 0 as a whole number.
         let pieces = (pieces.clamp(1.0, MAX_ARC_PIECES) as u32).max(1);
         let share = |k: u32| f64::from(k) / f64::from(pieces);
+        // A whole one ends where it began, and that point is there already.
         let last = if self.is_whole() { pieces - 1 } else { pieces };
         points.extend((0..=last).map(|k| self.at(share(k))));
     }
@@ -179,6 +185,7 @@ impl Spline {
     /// `span`.
     fn at(&self, span: usize, parameter: f64) -> DVec2 {
         let first = span - self.degree;
+        // On the stack, for this is called for every point of every curve.
         let mut points = [DVec3::ZERO; Self::MAX_DEGREE + 1];
         let points = &mut points[..=self.degree];
         points.copy_from_slice(&self.control[first..=span]);
@@ -188,6 +195,7 @@ impl Spline {
                     self.knots[first + j],
                     self.knots[first + j + 1 + self.degree - level],
                 );
+                // The span has a length and lies between these two knots.
                 let share = (parameter - low) / (high - low);
                 points[j] = points[j - 1].lerp(points[j], share);
             }

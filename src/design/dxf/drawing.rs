@@ -8,9 +8,11 @@ use super::pairs::{Pair, Pairs};
 use glam::{DAffine2, DVec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
-/// Most pairs of one object that are kept.
+/// Most pairs of one object that are kept, each of some 40 bytes: a spline of a
+/// million points has x, y, z and a knot for each.
 const MAX_PAIRS: usize = 4_000_000;
-/// Most kinds of objects that are told apart as left out.
+/// Most kinds of objects that are told apart as left out: a file can make up a
+/// new one for each object.
 const MAX_KINDS: usize = 50;
 
 /// A drawing's curves.
@@ -141,6 +143,7 @@ impl Reader {
 
     fn layer(&mut self, record: &Record) -> Result<(), DxfError> {
         let is_frozen = record.whole(70)? & 1 != 0;
+        // The colour, which is negative while the layer is off.
         let is_off = record.whole(62)? < 0;
         if is_frozen || is_off {
             self.hidden_layers.insert(record.text(2).to_owned());
@@ -219,6 +222,7 @@ impl Placing<'_> {
                     None => skip(&mut self.drawing.skipped, b"INSERT"),
                     Some(_) if depth >= MAX_DEPTH => return Err(DxfError::TooDeep),
                     Some(block) => {
+                        // Read from the right: its base to the origin, to its place, to the whole's.
                         let to_base = DAffine2::from_translation(-block.base);
                         for place in places {
                             self.count(1)?;
@@ -233,6 +237,7 @@ impl Placing<'_> {
     }
 
     fn count(&mut self, steps: usize) -> Result<(), DxfError> {
+        // One even for nothing, so that copies of empty blocks come to an end.
         self.steps += 1 + steps;
         at_most(self.steps, 2 * MAX_OBJECTS)
     }

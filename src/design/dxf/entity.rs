@@ -23,7 +23,8 @@ pub(super) enum Entity {
     },
 }
 
-/// Most copies of one INSERT.
+/// Most copies of one INSERT, refused before their places are listed: a field
+/// of a hundred by a hundred is large for a drawing.
 const MAX_COPIES: i64 = 10_000;
 
 /// An object's kind and its pairs.
@@ -75,6 +76,7 @@ impl<'a> Record<'a> {
 
     /// The extrusion direction; upwards where it has no length.
     fn normal(&self) -> Result<DVec3, DxfError> {
+        // Left out it is upwards, where every other number is 0.
         let z = self.real(230, 1.0)?;
         let given = self.point(210)?.with_z(z);
         Ok(given.try_normalize().unwrap_or(DVec3::Z))
@@ -83,6 +85,7 @@ impl<'a> Record<'a> {
     /// From the object's own plane at a height to the plan.
     fn plan(&self, elevation: f64) -> Result<DAffine2, DxfError> {
         let normal = self.normal()?;
+        // The bound is the reference's, to the last digit: all programs must agree.
         let near_z = normal.x.abs() < 1.0 / 64.0 && normal.y.abs() < 1.0 / 64.0;
         let aside = if near_z { DVec3::Y } else { DVec3::Z };
         let x_axis = aside.cross(normal).try_normalize().unwrap_or(DVec3::X);
@@ -180,6 +183,7 @@ impl<'a> Record<'a> {
 
     fn ellipse(&self) -> Result<Entity, DxfError> {
         let (centre, major) = (self.point(10)?, self.point(11)?);
+        // Given in the plan already, unlike a circle's: no plane of its own.
         let minor = self.real(40, 1.0)? * self.normal()?.cross(major);
         let (from, to) = (self.real(41, 0.0)?, self.real(42, TAU)?);
         let arc = Arc {
@@ -211,6 +215,7 @@ impl<'a> Record<'a> {
         let plan = self.plan(at.z)?;
         let scale = DVec2::new(self.real(41, 1.0)?, self.real(42, 1.0)?);
         let turned = DMat2::from_angle(self.real(50, 0.0)?.to_radians());
+        // None is written for one.
         let counts = [self.whole(70)?, self.whole(71)?].map(|n| n.max(1));
         if counts[0].saturating_mul(counts[1]) > MAX_COPIES {
             return Err(self.broken("it stands for too many copies"));
@@ -238,6 +243,7 @@ impl<'a> Record<'a> {
 /// The angle counter-clockwise from one direction to another, in (0, 2π].
 fn turn(from: f64, to: f64) -> f64 {
     let sweep = (to - from).rem_euclid(TAU);
+    // From a direction to itself is once around, or as near as radians come to it.
     if sweep <= 1e-12 { TAU } else { sweep }
 }
 
@@ -262,6 +268,7 @@ struct Corner {
 }
 
 fn polyline(corners: &[Corner], is_closed: bool, plan: &DAffine2) -> Entity {
+    // No corner has no side, and open ones have a side less.
     let last = corners.len().saturating_sub(1);
     let sides = if is_closed { corners.len() } else { last };
     let side = |i: usize| {

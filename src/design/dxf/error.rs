@@ -6,9 +6,11 @@ use crate::design::note::OnlyThese;
 use crate::geometry::{DVec2, RegionsError};
 use std::fmt;
 
-/// Most objects, and most curves after blocks are copied.
+/// Most objects, and most curves after blocks are copied. Some hundred bytes
+/// each: more would fill a small machine's memory.
 pub(super) const MAX_OBJECTS: usize = 1_000_000;
-/// Most blocks in blocks.
+/// Most blocks in blocks. Placing them recurses, and a block in itself
+/// must end somewhere.
 pub(super) const MAX_DEPTH: usize = 16;
 
 /// Why a drawing gives no outline.

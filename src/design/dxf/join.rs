@@ -38,6 +38,7 @@ impl Joined {
         let mut seen = HashSet::new();
         let mut kept = Vec::with_capacity(curves.len());
         for curve in curves {
+            // The same curve drawn the other way is the same.
             let forward: Vec<_> = curve.iter().map(bits).collect();
             let backward = forward.iter().rev().copied().collect();
             if seen.insert(forward.min(backward)) {
@@ -91,6 +92,8 @@ impl Graph {
             let points = &curves[curve];
             loose.push(points[if first == place { 0 } else { points.len() - 1 }]);
             let other = if first == place { last } else { first };
+            // What hung on it alone now hangs loose in turn. A curve that comes back to
+            // its own place counts twice there and is never loose.
             degree[other] -= 1;
             if degree[other] == 1 {
                 ripe.push(other);
@@ -128,6 +131,7 @@ impl Graph {
             here = if is_forward { last } else { first };
             match steps_from.get(&here).copied() {
                 Some(closed) => {
+                    // What the ring took with it may be passed again.
                     for step in &trail[closed + 1..] {
                         steps_from.remove(&step.from);
                     }
@@ -183,8 +187,10 @@ impl Places {
     fn of(&mut self, p: DVec2) -> usize {
         let cell = ((p - self.origin) / self.within).floor();
         let [x, y] = [cell.x as i64, cell.y as i64];
+        // Cells are as wide as the distance, so that nothing nearer lies further out.
         let near = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [i, j]));
         let known = near
+            // Cells too far away for whole numbers keep the last one, and so does this.
             .filter_map(|[i, j]| self.cells.get(&[x.saturating_add(i), y.saturating_add(j)]))
             .flatten()
             .find(|&&place| self.points[place].distance(p) <= self.within);

@@ -50,6 +50,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
     let curves = || drawing.paths.iter().flat_map(|(curves, _)| curves);
     let hull = Bounds::of(curves().flat_map(Curve::hull));
     let side = hull.map_or(0.0, |hull| hull.size().max_element());
+    // Not a curve, or points alone.
     if side <= 0.0 {
         return Err(DxfError::Nothing(OnlyThese(drawing.skipped)));
     }
@@ -62,6 +63,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
         return Err(DxfError::Open { count, at });
     }
     let (regions, mut repairs) = Regions::from_rings_reporting(&rings, FillRule::EvenOdd)?;
+    // Rings that are there twice were counted by the cleaning, curves before it.
     repairs.duplicates += joined.duplicates;
     let mut notes = ImportNote::of_repairs(&repairs, FillRule::EvenOdd);
     notes.extend(joined.loose.first().map(|&at| ImportNote::Open {

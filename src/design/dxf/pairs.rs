@@ -72,6 +72,7 @@ impl<'a> Pairs<'a> {
         let bare = bytes.strip_prefix(BINARY);
         let form = match bare {
             None => Form::Text,
+            // The first code is 0, in two bytes or in one before the S of SECTION.
             Some([0, 0, ..]) => Form::Wide,
             Some(_) => Form::Narrow,
         };
@@ -111,6 +112,7 @@ impl<'a> Pairs<'a> {
         let Some(code) = self.line() else {
             return Ok(None);
         };
+        // Empty lines at the end are no pair that broke off.
         if code.is_empty() && self.bytes[self.position..].trim_ascii().is_empty() {
             return Ok(None);
         }
@@ -134,6 +136,7 @@ impl<'a> Pairs<'a> {
     }
 
     fn binary_code(&mut self) -> Result<i32, DxfError> {
+        // Codes from 255 on follow in two bytes of their own.
         if self.form == Form::Narrow {
             let [code] = self.take()?;
             if code != 255 {

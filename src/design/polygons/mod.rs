@@ -134,11 +134,13 @@ impl Found {
         let mut repairs = Repairs::default();
         let mut united: Vec<Ring> = Vec::new();
         for rings in &self.polygons {
+            // Each by itself, for under this rule two that overlap would leave a hole.
             match Regions::from_rings_reporting(rings, FillRule::EvenOdd) {
                 Ok((regions, found)) => {
                     repairs = repairs.and(found);
                     united.extend(regions.rings().map(|r| r.points().to_vec()));
                 }
+                // A polygon without a ring is one thing that encloses nothing.
                 Err(RegionsError::Empty) => repairs.flat += rings.len().max(1),
                 Err(error) => return Err(error.into()),
             }

@@ -36,7 +36,7 @@ use crate::geometry::{Bounds, DVec2};
 use paint::Brush;
 use usvg::roxmltree::{self, Document, Node as Xml};
 
-/// Ids that an error names.
+/// Ids that an error names: about a line of them.
 const NAMED_IDS: usize = 8;
 
 /// Reads the text of an SVG file: all of it, or the element with an id. The
@@ -62,6 +62,7 @@ pub(super) fn read(
     let brush = Brush {
         tolerance: options.tolerance.max(MIN_TOLERANCE) * size.max_element(),
         strokes: options.strokes,
+        // The root asked for by its id is all of the drawing.
         element: element.filter(|_| top != document.root_element()),
     };
     let painted = paint::painted(&tree, &brush)?;
@@ -124,6 +125,7 @@ fn notes(painted: &paint::Painted, top: Xml) -> Vec<ImportNote> {
 
 fn tree_of(document: &Document) -> Result<usvg::Tree, SvgError> {
     let options = usvg::Options {
+        // Nothing outside the file is opened, and what is embedded fills nothing.
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_data: Box::new(|_, _, _| None),
             resolve_string: Box::new(|_, _| None),

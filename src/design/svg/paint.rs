@@ -73,6 +73,7 @@ fn collect_paths<'t>(group: &'t Group, id: Option<&str>, paths: &mut Vec<&'t Pat
     for node in group.children() {
         match node {
             Node::Group(inner) => {
+                // All that lies in what is asked for belongs to it.
                 let below = if wanted(inner.id()) { None } else { id };
                 collect_paths(inner, below, paths);
             }
@@ -150,6 +151,7 @@ impl Painter<'_> {
         let rings = within(rings, clip);
         let is_paper = self.white_is_paper && is_white;
         match self.layers.last_mut() {
+            // Neighbours of one colour take one Boolean operation together.
             Some(layer) if layer.is_paper == is_paper => layer.rings.extend(rings),
             _ => self.layers.push(Layer { is_paper, rings }),
         }
@@ -196,6 +198,7 @@ impl Painter<'_> {
             _ => 0,
         };
         let (rule, repairs) = &mut self.repairs[at];
+        // Counted here, where the rule is known: once united nothing crosses.
         let found = Repairs::between(&rings);
         repairs.crossings += found.crossings;
         repairs.at_least |= found.at_least;
@@ -257,6 +260,7 @@ fn composed(layers: Vec<Layer>) -> Rings {
         if layer.is_paper {
             return overlaid(&ink, &layer.rings, OverlayRule::Difference);
         }
+        // Not united yet: by winding, overlaps are inside as often as one likes.
         ink.extend(layer.rings);
         ink
     })

@@ -108,6 +108,7 @@ impl Truss {
     /// their size; supports keep holding along x and y.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
+        // A force is no place: it does not move along, and is not scaled.
         let turn = Similarity {
             scale: 1.0,
             offset: DVec2::ZERO,

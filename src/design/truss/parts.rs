@@ -174,6 +174,7 @@ impl TrussParts {
             let nodes = self.nodes.len();
             return Err(TrussInputError::NoBars { nodes });
         }
+        // In this order: bars index nodes, which the checks before have seen to.
         self.check_numbers()?;
         self.check_indices()?;
         self.check_bars()?;
@@ -217,10 +218,12 @@ impl TrussParts {
     fn check_bars(&self) -> Result<(), TrussInputError> {
         let mut seen = HashMap::new();
         for (bar, &[a, b]) in self.bars.iter().enumerate() {
+            // By place and not by number: two nodes at one place give no direction either.
             if self.nodes[a as usize] == self.nodes[b as usize] {
                 let nodes = [a, b];
                 return Err(TrussInputError::NoLength { bar, nodes });
             }
+            // A bar has no direction.
             if let Some(first) = seen.insert([a.min(b), a.max(b)], bar) {
                 let second = bar;
                 return Err(TrussInputError::Duplicate { first, second });
