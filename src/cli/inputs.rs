@@ -53,6 +53,7 @@ impl Inputs {
         let (mut project, folder) = self.document()?;
         method.edit(&mut project)?;
         let loaded = LoadedProject::load(project, folder).map_err(CliError::failed)?;
+        // Laying the designs in one frame belongs to neither time.
         let import_time = start.elapsed();
         let spec = loaded.spec().map_err(CliError::failed)?;
         let start = Instant::now();
@@ -84,6 +85,7 @@ impl Inputs {
             )));
         }
         let project = Project::read(path).map_err(CliError::failed)?;
+        // A file that could be read lies in a folder, so that this is never None.
         Ok((project, path.parent().map(Path::to_owned)))
     }
 }

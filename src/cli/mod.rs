@@ -93,6 +93,7 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Launch {
             None => Launch::Window(cli.window),
             Some(command) => Launch::Done(output::exit_code(execute(&command))),
         },
+        // Help and version come this way, too.
         Err(error) => Launch::Done(output::say_usage(&error)),
     }
 }

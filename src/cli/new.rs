@@ -70,6 +70,7 @@ fn write(args: &NewArgs) -> Result<(), CliError> {
 fn folder_of(path: &Path) -> &Path {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() => parent,
+        // A bare name has an empty parent, which is no folder to the system.
         _ => Path::new("."),
     }
 }
@@ -86,9 +87,11 @@ fn named_from(path: &Path, folder: &Path) -> Result<PathBuf, CliError> {
 
 /// The way to a file from a folder; absolute where they share no root.
 fn relative(path: &Path, folder: &Path) -> Result<PathBuf, CliError> {
+    // Without links and dots, or `..` would lead elsewhere than it seems to.
     let [path, folder] = [absolute(path)?, absolute(folder)?];
     let shared = path.components().zip(folder.components());
     let shared = shared.take_while(|(a, b)| a == b).count();
+    // Two drives of Windows.
     if shared == 0 {
         return Ok(path);
     }

@@ -278,6 +278,7 @@ impl MethodArgs {
         self.edit_contents(&mut project.options);
         self.edit_designs(project);
         self.edit_film(project);
+        // A flag may be right by itself and wrong with what the project says.
         let timing = project.timing.check(&project.stops);
         timing.map_err(CliError::usage)?;
         project.options.colours.check().map_err(CliError::usage)
@@ -294,9 +295,11 @@ impl MethodArgs {
         set(&mut project.fit, given.fit);
         set(&mut project.options.bar_width, given.bar_width);
         let given = &self.cell;
+        // After the method: the parser lets nobody give both.
         set(&mut project.warp, given.warp.map(Some));
         set(&mut project.content, given.content.map(Some));
         set(&mut project.options.travel, given.travel);
+        // Added to the project's, as a flag that is given twice adds to itself.
         project.options.matching.pins.extend(&given.pin);
         project.options.matching.lines.extend(&given.line);
     }
@@ -331,6 +334,7 @@ impl MethodArgs {
 
     fn edit_designs(&self, project: &mut Project) {
         let given = &self.import;
+        // A flag has no way to name one of them.
         for design in &mut project.designs {
             let import = &mut design.import;
             set(&mut import.threshold, given.image_threshold.map(Some));

@@ -23,13 +23,14 @@ use super::output;
 use super::terminal::Terminal;
 use super::values::{Ground, ground, range};
 
-/// The longer side of a picture of free size, in pixels.
+/// The longer side of a picture of free size, in pixels: half a screen's width.
 const LONGER_SIDE_PX: u32 = 960;
 
-/// Columns of a comparison.
+/// Columns of a comparison, as many as a strip of a table's sheet has.
 const COMPARED: usize = 7;
 
-/// The most cells of a contact sheet.
+/// The most cells of a contact sheet: more are frames, and have flags of their
+/// own.
 const MAX_CELLS: u64 = 1_000;
 
 #[derive(Debug, Args)]
@@ -89,6 +90,7 @@ fn out_help() -> String {
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let target = Target::of_path(&args.out).map_err(CliError::usage)?;
     let shown = shown(args)?;
+    // Before the designs are read, which may take long.
     check(args, &target, shown)?;
     let terminal = Terminal::new();
     let opened = args.inputs.open(&args.method, &terminal)?;
@@ -101,6 +103,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
         // A still without anything to show was refused above.
         (target, _) => film(args, &opened, target, &terminal)?,
     };
+    // Its line is wiped before words take its place.
     drop(terminal);
     tell(&written);
     Ok(())
@@ -190,6 +193,7 @@ fn film(
         None => whole.clone(),
     };
     let is_mp4 = matches!(target, Target::Film(FilmKind::Mp4, _));
+    // Framed by the whole film, so that parts made apart fit together.
     let camera = camera(args, opened, whole.times(), is_mp4);
     if args.size.is_some_and(|size| size != camera.view.size()) {
         output::words(&format!(
@@ -198,6 +202,7 @@ fn film(
         ));
     }
     write_film(&camera, &part, &target, progress).map_err(|error| match error {
+        // Flags that do not go with the kind of file; all else is the work's failure.
         ExportError::GifRate(_) | ExportError::Mp4Transparent => CliError::usage(error),
         error => CliError::failed(error),
     })

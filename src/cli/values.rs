@@ -50,6 +50,7 @@ pub(super) fn set<T>(place: &mut T, value: Option<T>) {
 }
 
 pub(super) fn weights(text: &str) -> Result<Weights, ValueError> {
+    // Names as files have them, from the same table.
     let by_name = serde_json::from_value(text.into()).ok();
     let each = || numbers(text).map(Weights::PerFace);
     by_name.or_else(each).ok_or(ValueError::Weights)
@@ -83,6 +84,7 @@ pub(super) fn range(text: &str) -> Result<Range<usize>, ValueError> {
     let ends = text.split_once("..");
     let range = ends.and_then(|(start, end)| Some(start.parse().ok()?..end.parse().ok()?));
     range
+        // A range that runs backwards is empty, too.
         .filter(|range| !range.is_empty())
         .ok_or_else(|| ValueError::Range(text.to_owned()))
 }
@@ -99,6 +101,7 @@ fn halves<const N: usize>(text: &str, wrong: ValueError) -> Result<[[f64; N]; 2]
 
 fn numbers(text: &str) -> Option<Vec<f64>> {
     let each = text.split(',').map(|n| n.trim().parse().ok());
+    // One that is none makes all of them none.
     each.map(|n| n.filter(|n: &f64| n.is_finite())).collect()
 }
 

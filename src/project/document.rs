@@ -115,6 +115,7 @@ impl Project {
     #[must_use]
     pub fn pair(source: impl Into<PathBuf>, target: impl Into<PathBuf>) -> Self {
         let designs = vec![DesignEntry::new(source), DesignEntry::new(target)];
+        // Of the paths, for nothing is read yet.
         let names: Vec<_> = designs.iter().map(|d| Source::of(&d.path).name()).collect();
         Self {
             version: FORMAT_VERSION,

@@ -94,6 +94,7 @@ impl ProjectError {
     }
 
     pub(super) fn syntax(text: &str, error: &toml::de::Error) -> Self {
+        // An error is one line, whatever the parser's is.
         let message = error.message().replace('\n', "; ");
         Self::Syntax {
             line: error.span().map_or(1, |span| line_of(text, span.start)),

@@ -34,6 +34,7 @@ pub fn list() -> Result<Vec<Entry>, ProjectError> {
             })
         })
         .collect::<Result<Vec<_>, ProjectError>>()?;
+    // By name and not by file, whose ending would put `a-b` before `a`.
     entries.sort_by(|a, b| a.name.cmp(&b.name));
     Ok(entries)
 }

@@ -156,6 +156,7 @@ impl LoadedProject {
             target,
             cell: self.cell().map_err(BuildError::from)?,
             options: Options {
+                // Pins are written in the designs' own units, and matched where they are laid.
                 matching: project.options.matching.placed(&by),
                 ..project.options.clone()
             },
@@ -169,6 +170,7 @@ fn read(entry: &DesignEntry, folder: Option<&Path>) -> Result<Design, ProjectErr
         Some(folder) => Source::in_folder(folder, &entry.path),
         // A bundled project whose design a user has replaced by a file.
         None if entry.path.is_absolute() => Source::of(&entry.path),
+        // The binary is its own file system: no path of it is one of the disk's.
         None => {
             let source = Source::parse(&entry.path, |path| bytes(path).is_some());
             let missing = |file: &Path| ProjectError::Io(format!("{} is missing", file.display()));

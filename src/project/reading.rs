@@ -38,6 +38,7 @@ impl Project {
         for entry in &self.designs {
             entry.placement.checked()?;
         }
+        // What Serde cannot see: single numbers and pairs of them that go together.
         self.options.field.blend.check()?;
         self.options.colours.check()?;
         self.timing.check(&self.stops)?;
@@ -73,6 +74,7 @@ impl Project {
         let text = self.to_toml()?;
         let written = AtomicFile::create(path).and_then(|mut file| {
             file.file_mut().write_all(text.as_bytes())?;
+            // On the disk before the old one goes: a power cut leaves one of them.
             file.file_mut().sync_all()?;
             file.commit()
         });
@@ -98,10 +100,12 @@ fn read(text: &str) -> Result<Project, ProjectError> {
         return Err(ProjectError::newer(text, version.span().start, number));
     }
     let span = document.span();
+    // Asked of the structs themselves, so that a new option needs no second list.
     let (own, shared) = (keys_of::<Project>(), keys_of::<Options>());
     let (mut project, mut options) = (DeTable::new(), DeTable::new());
     for (key, value) in document.into_inner() {
         let name = key.get_ref().as_ref();
+        // Spans stay with the values, so that errors still have their lines.
         let table = if shared.contains(&name) {
             &mut options
         } else if own.contains(&name) {

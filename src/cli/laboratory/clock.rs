@@ -53,6 +53,7 @@ impl<'a> StageClock<'a> {
 
     /// Ends the stage that runs, and tells of all.
     pub fn stages(&self) -> Stages {
+        // Times are whole whenever the lock is free, even after a panic.
         let mut heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
         heard.change_to(None);
         std::mem::take(&mut heard.stages)
@@ -65,6 +66,7 @@ impl Progress for StageClock<'_> {
         if heard.now.is_none_or(|(now, _)| now != stage) {
             heard.change_to(Some(stage));
         }
+        // Whoever listens next may take long, and others report meanwhile.
         drop(heard);
         self.inner.report(stage, fraction);
     }

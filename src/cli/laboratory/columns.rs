@@ -87,6 +87,7 @@ impl Column {
 
     /// Its cell: of a number as many digits as it takes to read it back.
     pub fn cell(&self, report: &Report) -> String {
+        // Without a number the cell is empty: 0 would be a measurement.
         let text = match self.read {
             Read::Number(of) => of(report).map(|x| x.to_string()),
             Read::Words(of) => of(report).map(str::to_owned),

@@ -10,7 +10,8 @@ const SERIES: [f64; 5] = [1.0, 1.6, 2.5, 4.0, 6.3];
 /// Most bars: where values spread wider, the outer ones take the rest.
 const MOST: usize = 12;
 
-/// Length of the longest bar, in characters.
+/// Length of the longest bar, in characters: with what stands before it a line
+/// has 66.
 const LONGEST: usize = 40;
 
 /// Counts of values between edges.
@@ -28,6 +29,7 @@ impl Histogram {
     /// one is.
     pub fn of(values: &[f64]) -> Option<Self> {
         let mut sizes: Vec<f64> = values.iter().copied().filter(|v| *v > 0.0).collect();
+        // Infinite ones come last.
         sizes.sort_unstable_by(f64::total_cmp);
         let finite = sizes.partition_point(|size| size.is_finite());
         let steps: Vec<i32> = sizes[..finite].iter().copied().map(step_below).collect();
@@ -87,6 +89,7 @@ fn edge(step: i32) -> f64 {
 }
 
 fn step_below(value: f64) -> i32 {
+    // Off by one at most: the series is rounded, and so is the logarithm.
     let near = (5.0 * value.log10()).floor() as i32;
     (near - 1..=near + 1)
         .rev()

@@ -6,6 +6,7 @@ pub(super) fn short(x: f64) -> String {
     if x == 0.0 || !x.is_finite() {
         return format!("{x:.0}");
     }
+    // Where three decimals would show one digit, or digits would run on.
     if !(5e-4..1e7).contains(&size) {
         return format!("{x:.1e}");
     }

@@ -92,6 +92,7 @@ impl Batch {
             .map_err(|error| CliError::Failed(format!("`{}`: {error}", self.pairs.display())))?;
         let jobs = self.jobs(&table);
         let done = self.work(&jobs, measuring, progress);
+        // Pairs that were cut short are failures to `work`, and would be written.
         if progress.is_cancelled() {
             let nothing = "cancelled; nothing was written";
             return Err(CliError::Failed(nothing.to_owned()));
@@ -116,6 +117,7 @@ impl Batch {
     /// written, and over nothing that goes in.
     fn check_places(&self) -> Result<(), CliError> {
         let same = |a: &Path, b: &Path| match (a.canonicalize(), b.canonicalize()) {
+            // A file that is not there yet is compared as it is written.
             (Ok(a), Ok(b)) => a == b,
             _ => a == b,
         };
@@ -167,6 +169,7 @@ impl Batch {
         if self.one_by_one {
             return jobs.iter().map(one).collect();
         }
+        // One at a time: pairs take unlike long, and a core with none is idle.
         jobs.par_iter().with_max_len(1).map(one).collect()
     }
 

@@ -17,7 +17,8 @@ use crate::progress::Progress;
 use crate::transition::{Note, Transition};
 use crate::warp::WarpKind;
 
-/// Frames whose times are taken.
+/// Frames whose times are taken: an odd number has a middle, and the first few,
+/// which find cold caches, are far from it.
 const TIMED_FRAMES: usize = 15;
 
 /// How transitions are built and measured.
@@ -210,6 +211,7 @@ fn frame_times(transition: &Transition) -> (Duration, Duration) {
         frame.seek((i as f64 + 0.5) / TIMED_FRAMES as f64);
         let moved = start.elapsed();
         let start = Instant::now();
+        // Nobody looks at it, so that it might as well be left out.
         std::hint::black_box(frame.figure());
         (moved, start.elapsed())
     });

@@ -7,7 +7,8 @@ use super::histogram::Histogram;
 use super::number::{Lines, short};
 use super::report::Report;
 
-/// The fewest values whose spread is drawn.
+/// The fewest values whose spread is drawn: of fewer, median and worst say as
+/// much.
 const ENOUGH: usize = 10;
 
 /// The whole table in short.
@@ -92,6 +93,7 @@ fn measured(reports: &[&Report], column: &Column) -> Option<Measured> {
     let mut all: Vec<f64> = reports.iter().filter_map(|r| column.number(r)).collect();
     all.sort_unstable_by(f64::total_cmp);
     let middle = all.len() / 2;
+    // None where no pair has the measure, such as faces of a field.
     let upper = *all.get(middle)?;
     let lower = all[(all.len() - 1) / 2];
     let is_drawn = column.is_drawn && all.len() >= ENOUGH;

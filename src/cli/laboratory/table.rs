@@ -78,6 +78,8 @@ fn parsed(bytes: &[u8], folder: &Path) -> Result<Table, TableError> {
         return Err(TableError::Utf16);
     }
     let bytes = bytes.strip_prefix(UTF8_MARK).unwrap_or(bytes);
+    // A row of another length is that row's error, and the header has errors of
+    // its own.
     let mut reader = csv::ReaderBuilder::new()
         .flexible(true)
         .has_headers(false)
@@ -150,9 +152,12 @@ fn cut(text: &str) -> String {
 
 fn row(record: &csv::ByteRecord, width: usize, pair: [usize; 2], folder: &Path) -> Row {
     let mut cells: Vec<Vec<u8>> = record.iter().take(width).map(<[u8]>::to_vec).collect();
+    // So that the report's own columns stand under their headings.
     cells.resize(width, Vec::new());
     let [source, target] = pair;
     let paths = || {
+        // Before the count of cells: a quote that is not closed swallows the rest,
+        // and is what to look for.
         let source = path(&cells[source], "source", folder)?;
         let target = path(&cells[target], "target", folder)?;
         if record.len() != width {

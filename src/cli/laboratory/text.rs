@@ -56,6 +56,7 @@ fn method(report: &Report, lines: &mut Lines) {
         ContentKind::Colours => "colours",
     };
     let warp = (report.warp.words().name, report.warp.name().key);
+    // Solids go without saying.
     let said = [warp, (content, report.content.name().key)];
     let said = said.into_iter().filter(|(words, _)| !words.is_empty());
     let said: Vec<_> = said
@@ -187,6 +188,7 @@ fn samples(samples: &[FilmSample], lines: &mut Lines) {
     };
     let columns: Vec<_> = LISTED.iter().filter(known).collect();
     lines.cells(("t", NAMES), columns.iter().map(|(name, _)| name));
+    // Two at least, as the parser has it. The ends and about eight steps.
     let step = (samples.len() - 1).div_ceil(MOST_ROWS - 1).max(1);
     let last = samples.len() - 1;
     let listed = samples.iter().enumerate();

@@ -222,10 +222,11 @@ impl Placing<'_> {
                     None => skip(&mut self.drawing.skipped, b"INSERT"),
                     Some(_) if depth >= MAX_DEPTH => return Err(DxfError::TooDeep),
                     Some(block) => {
-                        // Read from the right: its base to the origin, to its place, to the whole's.
                         let to_base = DAffine2::from_translation(-block.base);
                         for place in places {
                             self.count(1)?;
+                            // From the right: its base to the origin, to its place, and along with
+                            // the block that it is in.
                             let inner = *by * *place * to_base;
                             self.place(&block.entities, &inner, depth + 1)?;
                         }
