@@ -125,6 +125,25 @@ mod tests {
     }
 
     #[test]
+    fn a_check_is_of_inputs_or_of_a_table() {
+        let parsed = |line: &str| Cli::try_parse_from(line.split(' '));
+        for (line, missing) in [
+            ("x check", "PROJECT"),
+            ("x check --pairs t.csv", "--out"),
+            ("x check --out r.csv", "--pairs"),
+            ("x check a b --out r.csv", "--pairs"),
+            ("x check a b --both", "--pairs"),
+        ] {
+            let error = parsed(line).expect_err(line).to_string();
+            assert!(error.contains(missing), "{line}: {error}");
+        }
+        assert!(parsed("x check --pairs t.csv --out r.csv --samples 3").is_ok());
+        let both = parsed("x check a b --pairs t.csv --out r.csv").expect("parsed");
+        let refused = execute(&both.command.expect("a check"));
+        assert!(matches!(refused, Err(CliError::Usage(said)) if said.contains("--pairs")));
+    }
+
+    #[test]
     fn files_open_the_window() {
         let launch = run(["morphospace", "a.svg", "b.svg", "--captures", "x"].map(OsString::from));
         let Launch::Window(request) = launch else {
