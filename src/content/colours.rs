@@ -239,6 +239,4 @@ fn covered(k: u32, from: f64, to: f64) -> f32 {
 }
 
 #[cfg(test)]
-mod reference;
-#[cfg(test)]
 mod tests;

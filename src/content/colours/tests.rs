@@ -1,3 +1,5 @@
+mod reference;
+
 use super::*;
 use crate::geometry::Similarity;
 use crate::warp::{Still, Warp};

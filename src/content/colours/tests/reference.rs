@@ -1,7 +1,7 @@
 //! Pictures through placements, slow and obvious, and what is fast held
 //! against it.
 
-use super::*;
+use super::super::*;
 use image::Rgba;
 use proptest::prelude::*;
 
