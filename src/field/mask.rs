@@ -111,7 +111,7 @@ impl Mask {
 
 #[cfg(test)]
 mod tests {
-    use super::super::ascii::{mask, text};
+    use super::super::testing::{mask, text};
     use super::*;
     use crate::geometry::{DVec2, FillRule};
 

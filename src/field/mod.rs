@@ -8,8 +8,6 @@
 //!
 //! Row 0 is the lowest row throughout.
 
-#[cfg(test)]
-mod ascii;
 mod chamfer;
 pub mod contour;
 mod distance_field;
@@ -19,6 +17,8 @@ mod mask;
 mod polygon;
 mod samples;
 mod scan;
+#[cfg(test)]
+mod testing;
 mod transform;
 
 pub use distance_field::{DistanceField, FieldError};

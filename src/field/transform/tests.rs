@@ -1,4 +1,4 @@
-use super::super::ascii::mask;
+use super::super::testing::mask;
 use super::*;
 use crate::progress::Silent;
 use proptest::prelude::*;
