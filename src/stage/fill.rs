@@ -14,20 +14,16 @@ use i_triangle::float::triangulatable::Triangulatable;
 use crate::content::Content;
 use crate::transition::Frame;
 
-/// Farther from the origin nothing is filled: the GPU has 32-bit numbers, and
-/// the grid of integers refuses what comes near the range of `f64`.
+/// Farther from the origin nothing is filled: the GPU has 32-bit numbers, which
+/// end at 3e38, and the grid of integers panics from 2^500 on.
 const FARTHEST: f64 = 1e30;
 
-/// Vertices and faces of filled rings.
-#[derive(Debug, Default, PartialEq)]
-struct Fill {
-    positions: Vec<[f32; 3]>,
-    indices: Vec<u32>,
-}
+/// Vertices and faces of a mesh.
+type Fill = (Vec<[f32; 3]>, Vec<u32>);
 
 /// Vertices and faces of a mesh that shows nothing: an empty one would not be
 /// taken by the GPU.
-pub(super) fn nothing() -> (Vec<[f32; 3]>, Vec<u32>) {
+pub(super) fn nothing() -> Fill {
     (vec![[0.0; 3]; 3], vec![0, 1, 2])
 }
 
@@ -36,43 +32,33 @@ pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
     let Content::Solid(solid) = frame.transition().content() else {
         return;
     };
-    let fill = Fill::of(&solid.rings_at(&frame.placement().in_frame), origin);
-    let (positions, indices) = if fill.indices.is_empty() {
-        nothing()
-    } else {
-        (fill.positions, fill.indices)
-    };
+    let rings = solid.rings_at(&frame.placement().in_frame);
+    let (positions, indices) = filled(&rings, origin);
     mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, positions);
     mesh.insert_indices(Indices::U32(indices));
 }
 
-impl Fill {
-    /// Nothing where there is no area, or a point is [`FARTHEST`] or not
-    /// finite, as far outside [0, 1].
-    fn of(rings: &[Vec<DVec2>], origin: DVec2) -> Self {
-        let of = |ring: &Vec<DVec2>| -> Vec<[f64; 2]> {
-            ring.iter().map(|&p| (p - origin).to_array()).collect()
-        };
-        let has_extent = |ring: &&Vec<DVec2>| ring.iter().any(|p| *p != ring[0]);
-        let contours: Vec<Vec<[f64; 2]>> = rings.iter().filter(has_extent).map(of).collect();
-        let are_near = contours
-            .iter()
-            .flatten()
-            .flatten()
-            .all(|x| x.abs() < FARTHEST);
-        if contours.is_empty() || !are_near {
-            return Self::default();
-        }
-        let found = contours.triangulate_as::<i64>().to_triangulation::<u32>();
-        let vertex = |p: [f64; 2]| {
-            let p = DVec2::from_array(p).as_vec2();
-            [p.x, p.y, 0.0]
-        };
-        Self {
-            positions: found.points.into_iter().map(vertex).collect(),
-            indices: found.indices,
-        }
+/// Nothing where there is no area, or a point is [`FARTHEST`] or not finite, as
+/// far outside [0, 1].
+fn filled(rings: &[Vec<DVec2>], origin: DVec2) -> Fill {
+    let of = |ring: &Vec<DVec2>| -> Vec<[f64; 2]> {
+        ring.iter().map(|&p| (p - origin).to_array()).collect()
+    };
+    let contours: Vec<Vec<[f64; 2]>> = rings.iter().map(of).collect();
+    // Asked this way round NaN is not near either.
+    let mut numbers = contours.iter().flatten().flatten();
+    if !numbers.all(|x| x.abs() < FARTHEST) {
+        return nothing();
     }
+    let found = contours.triangulate_as::<i64>().to_triangulation::<u32>();
+    if found.indices.is_empty() {
+        return nothing();
+    }
+    let vertex = |[x, y]: [f64; 2]| [x as f32, y as f32, 0.0];
+    (
+        found.points.into_iter().map(vertex).collect(),
+        found.indices,
+    )
 }
 
 #[cfg(test)]
@@ -80,9 +66,9 @@ mod tests {
     use super::*;
 
     fn area(rings: &[Vec<DVec2>]) -> f32 {
-        let fill = Fill::of(rings, DVec2::splat(1e6));
-        let at = |v: u32| Vec3::from(fill.positions[v as usize]).truncate();
-        let faces = fill.indices.as_chunks::<3>().0.iter();
+        let (positions, indices) = filled(rings, DVec2::splat(1e6));
+        let at = |v: u32| Vec3::from(positions[v as usize]).truncate();
+        let faces = indices.as_chunks::<3>().0.iter();
         let twice = faces.map(|&[a, b, c]| (at(b) - at(a)).perp_dot(at(c) - at(a)));
         0.5 * twice.sum::<f32>()
     }
