@@ -6,18 +6,16 @@
 //! guarantee the core's last digits: pictures agree to about a step of 255.
 
 use bevy::asset::RenderAssetUsages;
-use bevy::image::{ImageFilterMode, ImageSampler, ImageSamplerDescriptor};
+use bevy::image::{ImageSampler, ToExtents};
 use bevy::prelude::*;
-use bevy::render::render_resource::{
-    AsBindGroup, Extent3d, ShaderType, TextureDimension, TextureFormat,
-};
+use bevy::render::render_resource::{AsBindGroup, ShaderType, TextureDimension, TextureFormat};
 use bevy::shader::ShaderRef;
 use bevy::sprite_render::{AlphaMode2d, Material2d};
 use glam::DVec2;
 
 use crate::content::{Layer, PicturePair};
 
-use super::ink::embedded;
+use super::ink::{embedded, relative};
 
 /// Two pictures and how they are mixed.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
@@ -63,13 +61,8 @@ impl ColourMaterial {
 
 impl ColourLook {
     pub(super) fn new(pair: &PicturePair, t: f64, origin: DVec2) -> Self {
-        let window = pair.window(t);
-        let (low, high) = (
-            (window.min - origin).as_vec2(),
-            (window.max - origin).as_vec2(),
-        );
         Self {
-            window: Vec4::new(low.x, low.y, high.x, high.y),
+            window: relative(pair.window(t), origin),
             share: pair.mix().share(t) as f32,
         }
     }
@@ -80,24 +73,15 @@ impl ColourLook {
 fn texture(layer: &Layer) -> Image {
     let (width, height) = layer.picture().pixels().dimensions();
     let (bytes, levels) = layer.texture();
-    let size = Extent3d {
-        width,
-        height,
-        depth_or_array_layers: 1,
-    };
+    // Not `Image::new`: that wants the bytes of the largest size alone.
     let mut image = Image::new_uninit(
-        size,
+        UVec2::new(width, height).to_extents(),
         TextureDimension::D2,
         TextureFormat::Rgba8UnormSrgb,
         RenderAssetUsages::RENDER_WORLD,
     );
     image.texture_descriptor.mip_level_count = levels;
     image.data = Some(bytes);
-    image.sampler = ImageSampler::Descriptor(ImageSamplerDescriptor {
-        mag_filter: ImageFilterMode::Linear,
-        min_filter: ImageFilterMode::Linear,
-        mipmap_filter: ImageFilterMode::Linear,
-        ..ImageSamplerDescriptor::default()
-    });
+    image.sampler = ImageSampler::linear();
     image
 }

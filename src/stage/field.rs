@@ -7,10 +7,9 @@
 //! last digits: contours agree to a fraction of a pixel.
 
 use bevy::asset::RenderAssetUsages;
+use bevy::image::ToExtents;
 use bevy::prelude::*;
-use bevy::render::render_resource::{
-    AsBindGroup, Extent3d, ShaderType, TextureDimension, TextureFormat,
-};
+use bevy::render::render_resource::{AsBindGroup, ShaderType, TextureDimension, TextureFormat};
 use bevy::shader::ShaderRef;
 use bevy::sprite_render::{AlphaMode2d, Material2d};
 
@@ -101,16 +100,10 @@ impl FieldLook {
 /// A field as a texture of 32-bit floats, row 0 the lowest.
 fn texture(field: &DistanceField) -> Image {
     let grid = field.grid();
-    let size = Extent3d {
-        width: grid.width,
-        height: grid.height,
-        depth_or_array_layers: 1,
-    };
-    let bytes = bytemuck::cast_slice(field.values()).to_vec();
     Image::new(
-        size,
+        UVec2::new(grid.width, grid.height).to_extents(),
         TextureDimension::D2,
-        bytes,
+        bytemuck::cast_slice(field.values()).to_vec(),
         TextureFormat::R32Float,
         RenderAssetUsages::RENDER_WORLD,
     )

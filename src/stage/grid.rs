@@ -14,7 +14,7 @@ use crate::content::Content;
 use crate::transition::Frame;
 
 use super::components::StageStyle;
-use super::ink::{contrasting, embedded};
+use super::ink::{contrasting, embedded, relative};
 
 /// Squares along the longer side of what is shown.
 const SQUARES: f64 = 20.0;
@@ -63,11 +63,10 @@ impl GridLook {
                 (ink, LinearRgba::NONE, all)
             }
         };
-        let [low, high] = [window.min, window.max].map(|p| (p - origin).as_vec2());
         Self {
             colour,
             halo,
-            window: Vec4::new(low.x, low.y, high.x, high.y),
+            window: relative(window, origin),
             spacing: (bounds.size().max_element() / SQUARES) as f32,
         }
     }

@@ -14,6 +14,7 @@ use bevy::render::render_resource::{
 use bevy::shader::ShaderRef;
 use bevy::sprite_render::{AlphaMode2d, Material2d, Material2dKey};
 
+use crate::geometry::Bounds;
 use crate::transition::Rgb;
 
 /// What kind of shape the vertices describe.
@@ -84,6 +85,12 @@ impl Material2d for InkMaterial {
 pub(super) fn embedded(name: &'static str) -> bevy::asset::AssetPath<'static> {
     let beside = embedded_path!("ink.wgsl").with_file_name(name);
     bevy::asset::AssetPath::from_path_buf(beside).with_source("embedded")
+}
+
+/// A window as shaders are told it: least and most x and y, from an origin.
+pub(super) fn relative(window: Bounds, origin: glam::DVec2) -> Vec4 {
+    let [low, high] = [window.min, window.max].map(|p| (p - origin).as_vec2());
+    Vec4::new(low.x, low.y, high.x, high.y)
 }
 
 /// An opaque sRGB colour in linear light.
