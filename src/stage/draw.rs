@@ -64,44 +64,42 @@ pub(super) fn draw_morphs(
     }
 }
 
-/// Brings a part's material up to the frame. Only where it looks otherwise is
-/// it written, so that what stands still is not sent to the graphics card.
+/// Brings a part's material up to the frame.
 fn paint(part: &Part, frame: &Frame, style: &StageStyle, paints: &mut Paints) {
     let (t, origin) = (frame.t(), part.origin);
     match (&part.paint, frame.transition().content()) {
         (Paint::Ink(ink), _) => {
             let colour = linear(part.kind.colour(t, style));
-            if let Some(mut ink) = paints.inks.get_mut(ink)
-                && ink.colour != colour
-            {
-                ink.colour = colour;
-            }
+            renew(&mut paints.inks, ink, |ink| &mut ink.colour, colour);
         }
         (Paint::Grid(grid), _) => {
             let look = GridLook::new(frame, origin, style);
-            if let Some(mut grid) = paints.grids.get_mut(grid)
-                && grid.look != look
-            {
-                grid.look = look;
-            }
+            renew(&mut paints.grids, grid, |grid| &mut grid.look, look);
         }
         (Paint::Field(field), Content::Field(pair)) => {
             let look = FieldLook::new(pair, t, style);
-            if let Some(mut field) = paints.fields.get_mut(field)
-                && field.look != look
-            {
-                field.look = look;
-            }
+            renew(&mut paints.fields, field, |field| &mut field.look, look);
         }
         (Paint::Picture(picture), Content::Colours(pair)) => {
             let look = ColourLook::new(pair, t, origin);
-            if let Some(mut picture) = paints.colours.get_mut(picture)
-                && picture.look != look
-            {
-                picture.look = look;
-            }
+            renew(&mut paints.colours, picture, |part| &mut part.look, look);
         }
         // An entity has parts of one transition only.
         (Paint::Field(_) | Paint::Picture(_), _) => {}
+    }
+}
+
+/// Writes how a material looks only where that is otherwise, so that what
+/// stands still is not sent to the graphics card.
+fn renew<M: Asset, L: PartialEq>(
+    materials: &mut Assets<M>,
+    of: &Handle<M>,
+    look: fn(&mut M) -> &mut L,
+    wanted: L,
+) {
+    if let Some(mut material) = materials.get_mut(of)
+        && *look(material.bypass_change_detection()) != wanted
+    {
+        *look(&mut material) = wanted;
     }
 }
