@@ -47,6 +47,8 @@ mod text;
 mod view;
 mod words;
 
+#[cfg(feature = "bevy")]
+pub(crate) use raster::make_straight;
 #[cfg(feature = "cli")]
 pub(crate) use still::write_atomically;
 

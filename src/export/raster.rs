@@ -29,7 +29,7 @@ pub fn rasterise(drawing: &Drawing) -> RgbaImage {
             paint(item, &mut canvas);
         }
     }
-    make_straight(&mut image);
+    image.pixels_mut().for_each(make_straight);
     image
 }
 
@@ -144,17 +144,19 @@ fn premultiplied(image: &RgbaImage) -> Vec<u8> {
     image.pixels().flat_map(times_alpha).collect()
 }
 
-fn make_straight(image: &mut RgbaImage) {
-    for pixel in image.pixels_mut() {
-        let [r, g, b, a] = pixel.0;
-        if a == 255 || a == 0 {
-            continue;
-        }
-        if let Some(premultiplied) = PremultipliedColorU8::from_rgba(r, g, b, a) {
+/// Takes the alpha out of a pixel whose colour was multiplied by it.
+pub(crate) fn make_straight(pixel: &mut image::Rgba<u8>) {
+    let [r, g, b, a] = pixel.0;
+    // A graphics card may round a colour above its alpha, where there is none.
+    let [r, g, b] = [r, g, b].map(|c| c.min(a));
+    pixel.0 = match (a, PremultipliedColorU8::from_rgba(r, g, b, a)) {
+        (0, _) | (_, None) => [0; 4],
+        (255, _) => return,
+        (_, Some(premultiplied)) => {
             let straight = premultiplied.demultiply();
-            pixel.0 = [straight.red(), straight.green(), straight.blue(), a];
+            [straight.red(), straight.green(), straight.blue(), a]
         }
-    }
+    };
 }
 
 fn plain(colour: Rgb) -> Paint<'static> {
@@ -234,6 +236,19 @@ mod tests {
         assert!(edges.map(|p| p.0[0]).all(|r| r.abs_diff(200) <= 4));
         let plain = painted(vec![], Some(Rgb([1, 2, 3])));
         assert!(plain.pixels().all(|p| p.0 == [1, 2, 3, 255]));
+    }
+
+    #[test]
+    fn straight_alpha_gives_back_the_colour() {
+        let straight = |pixel: [u8; 4]| {
+            let mut pixel = image::Rgba(pixel);
+            make_straight(&mut pixel);
+            pixel.0
+        };
+        assert_eq!(straight([50, 25, 0, 128]), [100, 50, 0, 128]);
+        assert_eq!(straight([3, 0, 0, 0]), [0; 4]);
+        assert_eq!(straight([130, 64, 0, 128]), [255, 128, 0, 128]);
+        assert_eq!(straight([3, 4, 5, 255]), [3, 4, 5, 255]);
     }
 
     #[test]

@@ -15,6 +15,7 @@ use bevy::render::renderer::RenderDevice;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use image::RgbaImage;
 
+use crate::export::make_straight;
 use crate::geometry::Bounds;
 use crate::transition::Rgb;
 
@@ -58,7 +59,6 @@ struct Capture {
     id: u64,
     camera: Entity,
     image: Handle<Image>,
-    size_px: UVec2,
     shot: Option<Entity>,
     t: Option<f64>,
     frames: u32,
@@ -109,7 +109,6 @@ pub(super) fn begin_captures(
             id: request.id,
             camera,
             image,
-            size_px: size,
             shot: None,
             t: None,
             frames: 0,
@@ -189,10 +188,13 @@ fn finish_capture(
     };
     let capture = captures.0.swap_remove(index);
     commands.entity(capture.camera).try_despawn();
+    let UVec2 { x, y } = shot.image.size();
     let data = shot.image.data.clone().unwrap_or_default();
-    let picture = RgbaImage::from_raw(capture.size_px.x, capture.size_px.y, data);
+    let picture = RgbaImage::from_raw(x, y, data);
     answers.write(match picture {
         Some(mut picture) => {
+            // Blending over nothing leaves colours multiplied by their alpha, in
+            // sRGB values, as that is the space the camera composites in.
             picture.pixels_mut().for_each(make_straight);
             StageCaptured {
                 id: capture.id,
@@ -202,35 +204,4 @@ fn finish_capture(
         }
         None => refused(capture.id, "the graphics card gave back too few pixels"),
     });
-}
-
-/// Blending over nothing leaves colours multiplied by their alpha, in sRGB
-/// values, as that is the space the camera composites in.
-fn make_straight(pixel: &mut image::Rgba<u8>) {
-    let [r, g, b, a] = pixel.0;
-    if a == 0 {
-        pixel.0 = [0; 4];
-    } else if a < 255 {
-        let straight = |c: u8| (u32::from(c) * 255 + u32::from(a) / 2) / u32::from(a);
-        let [r, g, b] = [r, g, b].map(|c| straight(c).min(255) as u8);
-        pixel.0 = [r, g, b, a];
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn straight_alpha_gives_back_the_colour() {
-        let mut half = image::Rgba([50, 25, 0, 128]);
-        make_straight(&mut half);
-        assert_eq!(half.0, [100, 50, 0, 128]);
-        let mut none = image::Rgba([3, 0, 0, 0]);
-        make_straight(&mut none);
-        assert_eq!(none.0, [0; 4]);
-        let mut full = image::Rgba([3, 4, 5, 255]);
-        make_straight(&mut full);
-        assert_eq!(full.0, [3, 4, 5, 255]);
-    }
 }
