@@ -12,7 +12,7 @@ use glam::DVec2;
 use crate::content::{Content, Layer};
 use crate::transition::Frame;
 
-use super::shapes::{rewrite, write_points};
+use super::shapes::{positions, write_points};
 
 /// In what the places to look at are told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,7 +26,7 @@ pub(super) enum Lookups {
 /// The lengths are those of the placement's vertices.
 pub(super) fn write(frame: &Frame, origin: DVec2, lookups: Lookups, mesh: &mut Mesh) {
     let places = &frame.placement().in_frame;
-    rewrite(mesh, |positions| write_points(places, origin, positions));
+    write_points(places, origin, positions(mesh));
     if let Some(VertexAttributeValues::Float32x2(coordinates)) =
         mesh.attribute_mut(Mesh::ATTRIBUTE_UV_0)
     {

@@ -27,64 +27,37 @@ use super::shapes::{BarShapes, Segments, corner_coordinates, quad_indices};
 #[derive(Component)]
 pub(super) struct Undressed;
 
-/// Vertices and faces of a render mesh that is yet to be made.
-#[derive(Default)]
-struct Shape {
-    positions: Vec<[f32; 3]>,
-    offsets: Option<Vec<[f32; 3]>>,
-    coordinates: Option<Vec<[f32; 2]>>,
-    lookups: Option<Vec<[f32; 4]>>,
-    indices: Option<Vec<u32>>,
+/// A render mesh of triangles.
+fn mesh(positions: Vec<[f32; 3]>) -> Mesh {
+    // The default usage keeps it in main memory too, to be rewritten.
+    Mesh::new(PrimitiveTopology::TriangleList, default())
+        .with_inserted_attribute(Mesh::ATTRIBUTE_POSITION, positions)
 }
 
-impl Shape {
-    fn quads(coordinates: Vec<[f32; 2]>) -> Self {
-        Self {
-            indices: Some(quad_indices(coordinates.len() / 4)),
-            positions: vec![[0.0; 3]; coordinates.len()],
-            coordinates: Some(coordinates),
-            ..default()
-        }
-    }
+/// One that is yet to be written, with texture coordinates that stay.
+fn unplaced(coordinates: Vec<[f32; 2]>) -> Mesh {
+    mesh(vec![[0.0; 3]; coordinates.len()])
+        .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, coordinates)
+}
 
-    /// The faces of a placement.
-    fn faces(frame: &Frame) -> Self {
-        let placement = frame.placement();
-        Self {
-            positions: vec![[0.0; 3]; placement.in_frame.len()],
-            indices: Some(placement.faces.as_flattened().to_vec()),
-            ..default()
-        }
-    }
+fn quads(coordinates: Vec<[f32; 2]>) -> Mesh {
+    let indices = quad_indices(coordinates.len() / 4);
+    unplaced(coordinates).with_inserted_indices(Indices::U32(indices))
+}
 
-    /// The same, with room for where each vertex looks.
-    fn carried(frame: &Frame) -> Self {
-        let count = frame.placement().in_frame.len();
-        Self {
-            coordinates: Some(vec![[0.0; 2]; count]),
-            lookups: Some(vec![[0.0; 4]; count]),
-            ..Self::faces(frame)
-        }
-    }
+/// The faces of a placement.
+fn faces(frame: &Frame) -> Mesh {
+    let placement = frame.placement();
+    let indices = placement.faces.as_flattened().to_vec();
+    mesh(vec![[0.0; 3]; placement.in_frame.len()]).with_inserted_indices(Indices::U32(indices))
+}
 
-    /// The mesh stays in main memory too, to be rewritten.
-    fn mesh(self) -> Mesh {
-        let mut mesh = Mesh::new(PrimitiveTopology::TriangleList, default());
-        mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, self.positions);
-        if let Some(offsets) = self.offsets {
-            mesh.insert_attribute(Mesh::ATTRIBUTE_NORMAL, offsets);
-        }
-        if let Some(coordinates) = self.coordinates {
-            mesh.insert_attribute(Mesh::ATTRIBUTE_UV_0, coordinates);
-        }
-        if let Some(lookups) = self.lookups {
-            mesh.insert_attribute(Mesh::ATTRIBUTE_COLOR, lookups);
-        }
-        if let Some(indices) = self.indices {
-            mesh.insert_indices(Indices::U32(indices));
-        }
-        mesh
-    }
+/// The same, with room for where each vertex looks.
+fn carried(frame: &Frame) -> Mesh {
+    let count = frame.placement().in_frame.len();
+    faces(frame)
+        .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.0; 2]; count])
+        .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0; 4]; count])
 }
 
 /// Everything that parts are made with.
@@ -120,26 +93,20 @@ impl Wardrobe<'_, '_> {
                 let paints = &mut fitting.wardrobe.paints;
                 let material = FieldMaterial::new(pair, look, &mut paints.images);
                 let material = paints.fields.add(material);
-                fitting.add(
-                    PartKind::Field,
-                    Shape::carried(frame),
-                    material,
-                    Paint::Field,
-                );
+                fitting.add(PartKind::Field, carried(frame), material, Paint::Field);
             }
             Content::Colours(pair) => {
                 let look = ColourLook::new(pair, frame.t(), origin);
                 let paints = &mut fitting.wardrobe.paints;
                 let material = ColourMaterial::new(pair, look, &mut paints.images);
                 let material = paints.colours.add(material);
-                let shape = Shape::carried(frame);
-                fitting.add(PartKind::Picture, shape, material, Paint::Picture);
+                fitting.add(PartKind::Picture, carried(frame), material, Paint::Picture);
             }
         }
         if !frame.placement().faces.is_empty() {
             let look = GridLook::new(frame, origin, style);
             let material = fitting.wardrobe.paints.grids.add(GridMaterial { look });
-            fitting.add(PartKind::Grid, Shape::carried(frame), material, Paint::Grid);
+            fitting.add(PartKind::Grid, carried(frame), material, Paint::Grid);
         }
         let [source, target] = transition.outlines();
         fitting.add_ghost(PartKind::SourceGhost, &source);
@@ -159,63 +126,55 @@ impl Fitting<'_, '_, '_> {
     fn add<M: Material2d>(
         &mut self,
         kind: PartKind,
-        shape: Shape,
+        mesh: Mesh,
         material: Handle<M>,
         paint: fn(Handle<M>) -> Paint,
     ) {
-        let mesh = Mesh2d(self.wardrobe.paints.meshes.add(shape.mesh()));
-        let transform = Transform::from_xyz(0.0, 0.0, kind.layer());
+        let mesh = Mesh2d(self.wardrobe.paints.meshes.add(mesh));
         let part = Part {
-            stale: !kind.is_still(),
             kind,
             paint: paint(material.clone()),
             origin: self.origin,
+            stale: true,
         };
-        let drawn = (mesh, MeshMaterial2d(material), transform);
-        let hidden = (Visibility::Hidden, NoFrustumCulling);
+        // A box to cull by would be measured again after each write, and would
+        // not know how far the shader widens lines.
+        let drawn = (mesh, MeshMaterial2d(material), NoFrustumCulling);
+        let hidden = Visibility::Hidden;
         let parent = ChildOf(self.of);
         self.wardrobe.commands.spawn((part, drawn, hidden, parent));
     }
 
-    fn add_inked(&mut self, kind: PartKind, shape: Shape) {
+    fn add_inked(&mut self, kind: PartKind, mesh: Mesh) {
         let material = self.wardrobe.paints.inks.add(InkMaterial {
             colour: LinearRgba::NONE,
             kind: kind.ink(),
         });
-        self.add(kind, shape, material, Paint::Ink);
+        self.add(kind, mesh, material, Paint::Ink);
     }
 
     fn add_solid(&mut self, solid: &Solid) {
-        let faces = self.frame.placement().faces.len();
+        let count = self.frame.placement().faces.len();
         let has_loops = !solid.loops.is_empty();
-        if has_loops && faces == 0 {
+        if has_loops && count == 0 {
             let (positions, indices) = fill::nothing();
-            let shape = Shape {
-                positions,
-                indices: Some(indices),
-                ..default()
-            };
-            self.add_inked(PartKind::Rings, shape);
+            let nothing = mesh(positions).with_inserted_indices(Indices::U32(indices));
+            self.add_inked(PartKind::Rings, nothing);
         } else if has_loops {
-            self.add_inked(PartKind::Faces, Shape::faces(self.frame));
+            self.add_inked(PartKind::Faces, faces(self.frame));
         }
         if !solid.bars.is_empty() {
             let bars = BarShapes::new(solid);
-            let cores = Shape::quads(bars.core_coordinates());
-            self.add_inked(
-                PartKind::Bars(bars.clone()),
-                Shape::quads(bars.coordinates()),
-            );
+            let (shapes, cores) = (quads(bars.coordinates()), quads(bars.core_coordinates()));
+            self.add_inked(PartKind::Bars(bars.clone()), shapes);
             self.add_inked(PartKind::JointCores(bars), cores);
         }
-        if faces > 0 {
-            let shape = Shape {
-                positions: vec![[0.0; 3]; 3 * faces],
-                coordinates: Some(corner_coordinates(faces)),
-                ..default()
+        if count > 0 {
+            // A truss has panels but no loops: its wires lie on the ground.
+            let wire = PartKind::Wire {
+                on_faces: has_loops,
             };
-            let on_faces = has_loops;
-            self.add_inked(PartKind::Wire { on_faces }, shape);
+            self.add_inked(wire, unplaced(corner_coordinates(count)));
         }
     }
 
@@ -224,13 +183,11 @@ impl Fitting<'_, '_, '_> {
         if segments.quads() == 0 {
             return;
         }
-        let shape = Shape {
-            indices: Some(quad_indices(segments.quads())),
-            positions: segments.positions,
-            offsets: Some(segments.offsets),
-            ..default()
-        };
-        self.add_inked(kind, shape);
+        let indices = Indices::U32(quad_indices(segments.quads()));
+        let lines = mesh(segments.positions)
+            .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, segments.offsets)
+            .with_inserted_indices(indices);
+        self.add_inked(kind, lines);
     }
 }
 

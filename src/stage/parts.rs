@@ -13,7 +13,7 @@ use super::components::StageStyle;
 use super::fill;
 use super::ink::InkKind;
 use super::paint::Paint;
-use super::shapes::{BarShapes, rewrite, write_corners, write_points};
+use super::shapes::{BarShapes, positions, write_corners, write_points};
 use super::view::StageView;
 
 /// A render entity of a transition.
@@ -49,11 +49,6 @@ pub(super) enum PartKind {
 }
 
 impl PartKind {
-    /// Its vertices never move.
-    pub(super) fn is_still(&self) -> bool {
-        matches!(self, Self::SourceGhost | Self::TargetGhost)
-    }
-
     /// What is drawn over what.
     pub(super) fn layer(&self) -> f32 {
         match self {
@@ -69,10 +64,10 @@ impl PartKind {
 
     pub(super) fn ink(&self) -> InkKind {
         match self {
-            Self::Faces | Self::Rings | Self::Field | Self::Picture | Self::Grid => InkKind::Faces,
             Self::Bars(_) | Self::JointCores(_) => InkKind::Round,
             Self::Wire { .. } => InkKind::Wire,
             Self::SourceGhost | Self::TargetGhost => InkKind::Line,
+            _ => InkKind::Faces,
         }
     }
 
@@ -117,7 +112,8 @@ impl Part {
     /// Brings the vertices up to where the frame is.
     pub(super) fn write(&mut self, frame: &Frame, style: &StageStyle, mesh: &mut Mesh) {
         let placement = frame.placement();
-        let (points, origin) = (&placement.in_frame, self.origin);
+        let (points, faces, origin) = (&placement.in_frame, &placement.faces, self.origin);
+        let joints = style.style.joints;
         match &self.kind {
             PartKind::Rings => fill::write(frame, origin, mesh),
             PartKind::Field | PartKind::Picture => {
@@ -125,20 +121,10 @@ impl Part {
             }
             PartKind::Grid => carried::write(frame, origin, Lookups::OfPlane, mesh),
             PartKind::SourceGhost | PartKind::TargetGhost => {}
-            PartKind::Faces => rewrite(mesh, |out| write_points(points, origin, out)),
-            PartKind::Wire { .. } => {
-                rewrite(mesh, |out| {
-                    write_corners(points, &placement.faces, origin, out);
-                });
-            }
-            PartKind::Bars(bars) => {
-                rewrite(mesh, |out| {
-                    bars.write(points, style.style.joints, origin, out);
-                });
-            }
-            PartKind::JointCores(bars) => {
-                rewrite(mesh, |out| bars.write_cores(points, origin, out));
-            }
+            PartKind::Faces => write_points(points, origin, positions(mesh)),
+            PartKind::Wire { .. } => write_corners(points, faces, origin, positions(mesh)),
+            PartKind::Bars(bars) => bars.write(points, joints, origin, positions(mesh)),
+            PartKind::JointCores(bars) => bars.write_cores(points, origin, positions(mesh)),
         }
         self.stale = false;
     }

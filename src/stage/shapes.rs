@@ -27,12 +27,12 @@ fn vertex(p: DVec2, origin: DVec2) -> [f32; 3] {
     [p.x, p.y, 0.0]
 }
 
-/// Lets `write` change a mesh's positions, in place.
-pub(super) fn rewrite(mesh: &mut Mesh, write: impl FnOnce(&mut Positions)) {
-    if let Some(VertexAttributeValues::Float32x3(positions)) =
-        mesh.attribute_mut(Mesh::ATTRIBUTE_POSITION)
-    {
-        write(positions);
+/// A mesh's positions, to be changed in place.
+pub(super) fn positions(mesh: &mut Mesh) -> &mut Positions {
+    match mesh.attribute_mut(Mesh::ATTRIBUTE_POSITION) {
+        Some(VertexAttributeValues::Float32x3(positions)) => positions,
+        // Parts are made with positions of this kind alone.
+        _ => &mut [],
     }
 }
 
