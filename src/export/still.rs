@@ -3,7 +3,6 @@
 use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
-use image::{ExtendedColorType, ImageEncoder};
 
 use crate::atomic_file;
 
@@ -34,22 +33,15 @@ pub(super) fn encoded(
 ) -> Result<Vec<u8>, ExportError> {
     match kind {
         StillKind::Svg => Ok(to_svg(drawing).into_bytes()),
-        StillKind::Png => png(drawing, path),
+        StillKind::Png => {
+            let mut bytes = Vec::new();
+            let (compression, filter) = (CompressionType::Default, FilterType::Adaptive);
+            let encoder = PngEncoder::new_with_quality(&mut bytes, compression, filter);
+            let written = rasterise(drawing).write_with_encoder(encoder);
+            written.map_err(ExportError::encode(path))?;
+            Ok(bytes)
+        }
     }
-}
-
-fn png(drawing: &Drawing, path: &Path) -> Result<Vec<u8>, ExportError> {
-    let image = rasterise(drawing);
-    let mut bytes = Vec::new();
-    PngEncoder::new_with_quality(&mut bytes, CompressionType::Default, FilterType::Adaptive)
-        .write_image(
-            &image,
-            image.width(),
-            image.height(),
-            ExtendedColorType::Rgba8,
-        )
-        .map_err(ExportError::encode(path))?;
-    Ok(bytes)
 }
 
 #[cfg(test)]

@@ -7,7 +7,6 @@
 use std::fmt::{self, Write};
 
 use glam::DVec2;
-use image::ImageEncoder;
 use image::codecs::png::PngEncoder;
 
 use crate::transition::Rgb;
@@ -23,10 +22,7 @@ pub fn to_svg(drawing: &Drawing) -> String {
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n"
     );
     if let Some(ground) = drawing.ground {
-        svg += &format!(
-            "<rect width=\"{width}\" height=\"{height}\" fill=\"{}\"/>\n",
-            ground
-        );
+        svg += &format!("<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n");
     }
     for item in &drawing.items {
         svg += &element(item);
@@ -101,9 +97,7 @@ fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
 
 fn picture(image: &image::RgbaImage, corner: DVec2, size: DVec2) -> String {
     let mut png = Vec::new();
-    let (width, height) = image.dimensions();
-    let encoded =
-        PngEncoder::new(&mut png).write_image(image, width, height, image::ColorType::Rgba8.into());
+    let encoded = image.write_with_encoder(PngEncoder::new(&mut png));
     if encoded.is_err() {
         return String::new(); // it has no pixels, and shows nothing
     }

@@ -9,7 +9,8 @@
 
 use glam::DVec2;
 use skrifa::instance::{LocationRef, Size};
-use skrifa::outline::{DrawSettings, OutlinePen};
+use skrifa::outline::DrawSettings;
+use skrifa::outline::pen::PathElement;
 use skrifa::{FontRef, MetadataProvider};
 
 use super::outline::{Outline, Step};
@@ -17,26 +18,23 @@ use super::outline::{Outline, Step};
 /// Words with the middle of their base line at `base_px` (y down), `height_px`
 /// high from line to line.
 pub fn centred(words: &str, base_px: DVec2, height_px: f64) -> Outline {
-    let start = base_px - DVec2::new(0.5 * width(words, height_px), 0.0);
+    let mut origin = base_px - DVec2::new(0.5 * width(words, height_px), 0.0);
     let font = font();
-    let mut pen = Pen {
-        origin: start,
-        outline: Outline::default(),
-    };
     let glyphs = font.outline_glyphs();
     let size = Size::new(height_px as f32);
+    let mut outline = Outline::default();
     for (glyph_id, advance) in advances(&font, words, height_px) {
         let settings = DrawSettings::unhinted(size, LocationRef::default());
-        let before = pen.outline.steps.len();
-        let drawn = glyphs
-            .get(glyph_id)
-            .is_some_and(|glyph| glyph.draw(settings, &mut pen).is_ok());
-        if !drawn {
-            pen.outline.steps.truncate(before);
+        let mut path = Vec::new();
+        let glyph = glyphs.get(glyph_id);
+        // Half a glyph is worse than none.
+        if glyph.is_some_and(|glyph| glyph.draw(settings, &mut path).is_ok()) {
+            let steps = path.into_iter().map(|element| step(element, origin));
+            outline.steps.extend(steps);
         }
-        pen.origin.x += advance;
+        origin.x += advance;
     }
-    pen.outline
+    outline
 }
 
 /// How wide the words are, in pixels.
@@ -67,39 +65,22 @@ fn advances<'a>(
     })
 }
 
-/// Collects one glyph after the other and turns the font's y downwards.
-struct Pen {
-    origin: DVec2,
-    outline: Outline,
-}
-
-impl Pen {
-    fn at(&self, x: f32, y: f32) -> DVec2 {
-        self.origin + DVec2::new(f64::from(x), -f64::from(y))
-    }
-}
-
-impl OutlinePen for Pen {
-    fn move_to(&mut self, x: f32, y: f32) {
-        self.outline.steps.push(Step::Move(self.at(x, y)));
-    }
-
-    fn line_to(&mut self, x: f32, y: f32) {
-        self.outline.steps.push(Step::Line(self.at(x, y)));
-    }
-
-    fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        let step = Step::Quad(self.at(cx, cy), self.at(x, y));
-        self.outline.steps.push(step);
-    }
-
-    fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
-        let step = Step::Cubic(self.at(cx0, cy0), self.at(cx1, cy1), self.at(x, y));
-        self.outline.steps.push(step);
-    }
-
-    fn close(&mut self) {
-        self.outline.steps.push(Step::Close);
+/// A step of a glyph that stands at `origin`, the font's y turned downwards.
+fn step(element: PathElement, origin: DVec2) -> Step {
+    let at = |x: f32, y: f32| origin + DVec2::new(f64::from(x), -f64::from(y));
+    match element {
+        PathElement::MoveTo { x, y } => Step::Move(at(x, y)),
+        PathElement::LineTo { x, y } => Step::Line(at(x, y)),
+        PathElement::QuadTo { cx0, cy0, x, y } => Step::Quad(at(cx0, cy0), at(x, y)),
+        PathElement::CurveTo {
+            cx0,
+            cy0,
+            cx1,
+            cy1,
+            x,
+            y,
+        } => Step::Cubic(at(cx0, cy0), at(cx1, cy1), at(x, y)),
+        PathElement::Close => Step::Close,
     }
 }
 
