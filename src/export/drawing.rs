@@ -12,6 +12,7 @@
 
 use std::collections::HashSet;
 
+use glam::UVec2;
 use image::RgbaImage;
 
 use crate::content::{Content, Raster};
@@ -62,14 +63,12 @@ pub enum Item {
         /// Their colour.
         colour: Rgb,
     },
-    /// A picture, stretched over a rectangle.
+    /// A picture, pixel for pixel.
     Picture {
         /// Straight (not premultiplied) alpha.
         image: RgbaImage,
-        /// Upper left corner in pixels.
-        corner: DVec2,
-        /// Width and height in pixels.
-        size: DVec2,
+        /// The pixel in its upper left corner.
+        corner: UVec2,
     },
 }
 
@@ -129,21 +128,18 @@ impl Drawing {
         let (low, high) = (covered.min.floor(), covered.max.ceil());
         let low = low.clamp(DVec2::ZERO, self.size.as_dvec2());
         let high = high.clamp(low, self.size.as_dvec2());
-        let size = (high - low).to_array().map(|side| side as u32);
-        if size.contains(&0) {
+        let size = (high - low).as_uvec2();
+        if size.min_element() == 0 {
             return;
         }
         let raster = Raster {
-            size,
+            size: size.to_array(),
             corner: view.to_plane(low),
             pixel: 1.0 / view.px_per_unit(),
         };
         if let Some(image) = frame.picture(&raster) {
-            self.items.push(Item::Picture {
-                image,
-                corner: low,
-                size: high - low,
-            });
+            let corner = low.as_uvec2();
+            self.items.push(Item::Picture { image, corner });
         }
     }
 

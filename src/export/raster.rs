@@ -4,11 +4,11 @@
 //! alpha 0; the same pixels for the same drawing, on any number of threads.
 //! Blending happens on sRGB values, as browsers blend SVG.
 
-use glam::DVec2;
+use glam::{DVec2, UVec2};
 use image::RgbaImage;
 use tiny_skia::{
-    Color, FillRule, FilterQuality, LineCap, Paint, Path, PathBuilder, PixmapMut, PixmapPaint,
-    PixmapRef, PremultipliedColorU8, Stroke, Transform,
+    Color, FillRule, LineCap, Paint, Path, PathBuilder, PixmapMut, PixmapPaint, PixmapRef,
+    PremultipliedColorU8, Stroke, Transform,
 };
 
 use crate::transition::Rgb;
@@ -53,11 +53,7 @@ fn paint(item: &Item, canvas: &mut PixmapMut<'_>) {
                 fill(disc, *colour, canvas);
             }
         }
-        Item::Picture {
-            image,
-            corner,
-            size,
-        } => picture(image, *corner, *size, canvas),
+        Item::Picture { image, corner } => picture(image, *corner, canvas),
     }
 }
 
@@ -119,20 +115,14 @@ fn path_of(outline: &Outline) -> Option<Path> {
     builder.finish()
 }
 
-fn picture(image: &RgbaImage, corner: DVec2, size: DVec2, canvas: &mut PixmapMut<'_>) {
+fn picture(image: &RgbaImage, corner: UVec2, canvas: &mut PixmapMut<'_>) {
     let (width, height) = image.dimensions();
     let premultiplied = premultiplied(image);
-    let Some(pixmap) = PixmapRef::from_bytes(&premultiplied, width, height) else {
-        return;
-    };
-    let scale_x = size.x as f32 / width as f32;
-    let scale_y = size.y as f32 / height as f32;
-    let place = Transform::from_row(scale_x, 0.0, 0.0, scale_y, corner.x as f32, corner.y as f32);
-    let paint = PixmapPaint {
-        quality: FilterQuality::Bilinear,
-        ..PixmapPaint::default()
-    };
-    canvas.draw_pixmap(0, 0, pixmap, &paint, place, None);
+    // It is refused where it has no pixels, and then shows nothing.
+    if let Some(pixmap) = PixmapRef::from_bytes(&premultiplied, width, height) {
+        let ([x, y], paint) = (corner.as_ivec2().to_array(), PixmapPaint::default());
+        canvas.draw_pixmap(x, y, pixmap, &paint, Transform::identity(), None);
+    }
 }
 
 fn premultiplied(image: &RgbaImage) -> Vec<u8> {
@@ -252,18 +242,16 @@ mod tests {
     }
 
     #[test]
-    fn pictures_fill_their_rectangle() {
-        let mut image = RgbaImage::from_pixel(2, 2, image::Rgba([0, 200, 0, 255]));
-        image.put_pixel(1, 1, image::Rgba([0, 0, 0, 0]));
-        let picture = Item::Picture {
-            image,
-            corner: DVec2::new(10.0, 4.0),
-            size: DVec2::new(20.0, 30.0),
-        };
-        let painted = painted(vec![picture], None);
-        assert_eq!(painted.get_pixel(13, 8).0, [0, 200, 0, 255]);
-        assert_eq!(painted.get_pixel(28, 32).0[3], 0);
-        assert_eq!(painted.get_pixel(5, 20).0[3], 0);
+    fn pictures_stand_pixel_for_pixel() {
+        let mut image = RgbaImage::from_pixel(20, 30, image::Rgba([0, 200, 0, 255]));
+        image.put_pixel(19, 29, image::Rgba([0, 0, 0, 0]));
+        let corner = UVec2::new(10, 4);
+        let painted = painted(vec![Item::Picture { image, corner }], None);
+        assert_eq!(painted.get_pixel(10, 4).0, [0, 200, 0, 255]);
+        assert_eq!(painted.get_pixel(28, 33).0, [0, 200, 0, 255]);
+        assert_eq!(painted.get_pixel(29, 33).0[3], 0);
+        assert_eq!(painted.get_pixel(9, 20).0[3], 0);
+        assert_eq!(painted.get_pixel(30, 20).0[3], 0);
     }
 
     #[test]

@@ -6,7 +6,7 @@
 
 use std::fmt::{self, Write};
 
-use glam::DVec2;
+use glam::{DVec2, UVec2};
 use image::codecs::png::PngEncoder;
 
 use crate::transition::Rgb;
@@ -56,11 +56,7 @@ fn element(item: &Item) -> String {
             radius_px,
             colour,
         } => discs(centres, *radius_px, *colour),
-        Item::Picture {
-            image,
-            corner,
-            size,
-        } => picture(image, *corner, *size),
+        Item::Picture { image, corner } => picture(image, *corner),
     }
 }
 
@@ -95,18 +91,15 @@ fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
     format!("<g fill=\"{}\">{circles}</g>", colour)
 }
 
-fn picture(image: &image::RgbaImage, corner: DVec2, size: DVec2) -> String {
+fn picture(image: &image::RgbaImage, UVec2 { x, y }: UVec2) -> String {
     let mut png = Vec::new();
     let encoded = image.write_with_encoder(PngEncoder::new(&mut png));
     if encoded.is_err() {
         return String::new(); // it has no pixels, and shows nothing
     }
+    let (width, height) = image.dimensions();
     format!(
-        "<image x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"/>",
-        Number(corner.x),
-        Number(corner.y),
-        Number(size.x),
-        Number(size.y),
+        "<image x=\"{x}\" y=\"{y}\" width=\"{width}\" height=\"{height}\" preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"/>",
         base64(&png)
     )
 }
