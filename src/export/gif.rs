@@ -92,24 +92,26 @@ fn film_palette(
     let step = runs.len().div_ceil(PALETTE_SAMPLES).max(1);
     let mut sampled: Vec<Run> = runs.iter().step_by(step).copied().collect();
     sampled.extend(runs.last());
-    let mut merged = Histogram::default();
+    let mut counts = Histogram::new();
     camera.shoot_runs(
         &sampled,
         "choosing colours",
         progress,
         |drawing| Ok(histogram(&rasterise(&drawing))),
         |_, of_frame| {
-            merged = std::mem::take(&mut merged).merge(of_frame);
+            for (colour, count) in of_frame {
+                *counts.entry(colour).or_default() += count;
+            }
             Ok(())
         },
     )?;
-    Ok(Palette::of(merged, usize::from(TRANSPARENT)))
+    Ok(Palette::of(counts, usize::from(TRANSPARENT)))
 }
 
 fn histogram(image: &RgbaImage) -> Histogram {
-    let mut histogram = Histogram::default();
+    let mut histogram = Histogram::new();
     for colour in image.pixels().filter_map(|pixel| opaque(pixel.0)) {
-        histogram.add(colour);
+        *histogram.entry(colour).or_default() += 1;
     }
     histogram
 }

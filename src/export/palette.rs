@@ -10,23 +10,7 @@
 use std::collections::HashMap;
 
 /// How often each colour occurs.
-#[derive(Clone, Debug, Default)]
-pub(super) struct Histogram(HashMap<[u8; 3], u64>);
-
-impl Histogram {
-    /// Counts a colour once more.
-    pub fn add(&mut self, colour: [u8; 3]) {
-        *self.0.entry(colour).or_default() += 1;
-    }
-
-    /// Counts all of another histogram.
-    pub fn merge(mut self, other: Self) -> Self {
-        for (colour, count) in other.0 {
-            *self.0.entry(colour).or_default() += count;
-        }
-        self
-    }
-}
+pub(super) type Histogram = HashMap<[u8; 3], u64>;
 
 /// At most 256 colours and, for any colour, which of them is nearest.
 #[derive(Clone, Debug)]
@@ -36,7 +20,7 @@ impl Palette {
     /// At most `limit` colours that stand for those of the histogram; black
     /// alone where it is empty.
     pub fn of(histogram: Histogram, limit: usize) -> Self {
-        let mut colours: Vec<Counted> = histogram.0.into_iter().collect();
+        let mut colours: Vec<Counted> = histogram.into_iter().collect();
         // A map has no order; sorting makes the palette the same at each run.
         colours.sort_unstable();
         if colours.is_empty() {
@@ -120,7 +104,7 @@ mod tests {
     use super::*;
 
     fn histogram(colours: impl IntoIterator<Item = ([u8; 3], u64)>) -> Histogram {
-        Histogram(colours.into_iter().collect())
+        colours.into_iter().collect()
     }
 
     #[test]
