@@ -14,7 +14,7 @@ use super::camera::framing;
 use super::drawing::Drawing;
 use super::size::{LONGEST_SHEET_PX, PixelSize, SizeError};
 use super::view::View;
-use super::words::{BAD, Type, ink_on};
+use super::words::{BAD, Type, ink_on, label};
 
 /// The longer side of a frame, in pixels, where there is room for it.
 const CELL_PX: f64 = 220.0;
@@ -93,12 +93,7 @@ pub fn comparison(
     for (k, row) in rows.iter().enumerate() {
         let left = DVec2::new(corner.x, corner.y + k as f64 * step.y);
         let name_at = DVec2::new(GAP_PX, left.y + 0.5 * cell.y - LINE_PX);
-        TYPE.push(
-            &mut drawing,
-            &TYPE.wrapped(&row.name, NAMES_PX, 3),
-            name_at,
-            ink,
-        );
+        TYPE.push(&mut drawing, &row.name, (NAMES_PX, 3), name_at, ink);
         match (&row.transition, bounds) {
             (Ok(transition), Some(bounds)) => {
                 let mut frame = transition.frame(0.0);
@@ -112,24 +107,17 @@ pub fn comparison(
             (Err(reason), _) => {
                 let room = times.len() as f64 * step.x;
                 let at = DVec2::new(left.x, name_at.y);
-                TYPE.push(&mut drawing, &TYPE.wrapped(reason, room, 4), at, BAD);
+                TYPE.push(&mut drawing, reason, (room, 4), at, BAD);
             }
             (Ok(_), None) => {}
         }
     }
     let middle = DVec2::new(0.5 * cell.x, count.y * step.y + TYPE.letters_px);
-    push_times(&mut drawing, times, corner + middle, step.x);
-    Ok(drawing)
-}
-
-/// Each t below its column.
-fn push_times(drawing: &mut Drawing, times: &[f64], first: DVec2, step: f64) {
-    let ink = ink_on(drawing.ground);
-    for (i, t) in times.iter().enumerate() {
-        let words = format!("t = {}", (t * 100.0).round() / 100.0);
-        let base = first + DVec2::new(i as f64 * step, 0.0);
-        drawing.push_label(&words, base, TYPE.letters_px, ink);
+    for (i, &t) in times.iter().enumerate() {
+        let base = corner + middle + DVec2::new(i as f64 * step.x, 0.0);
+        drawing.push_label(&label(t), base, TYPE.letters_px, ink);
     }
+    Ok(drawing)
 }
 
 /// Width and height of a frame.

@@ -48,7 +48,7 @@ const SHAPE: f64 = 1.4;
 /// assert_eq!(shown, 1);
 /// # Ok::<(), morphospace::export::SizeError>(())
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Strip {
     name: String,
     words: String,
@@ -69,11 +69,10 @@ impl Strip {
         };
         Self {
             name: name.to_owned(),
-            words: String::new(),
-            is_bad: false,
             frames: times.iter().map(&mut shoot).collect(),
             joints: style.joints,
             bounds: Some(framing(transition, times)),
+            ..Self::default()
         }
     }
 
@@ -82,11 +81,7 @@ impl Strip {
     pub fn failed(name: &str, reason: &str) -> Self {
         Self {
             name: name.to_owned(),
-            words: reason.to_owned(),
-            is_bad: true,
-            frames: Vec::new(),
-            joints: false,
-            bounds: None,
+            ..Self::default().saying(reason, true)
         }
     }
 
@@ -201,39 +196,24 @@ fn push_strip(drawing: &mut Drawing, strip: &Strip, layout: &Layout, corner: DVe
     let ink = ink_on(drawing.ground);
     let words = if strip.is_bad { BAD } else { ink };
     let lines = ((layout.strip().y - GAP_PX) / LINE_PX) as usize;
-    let name = TYPE.wrapped(&strip.name, WORDS_PX, lines.min(2));
-    let beside = if strip.frames.is_empty() {
-        Vec::new()
-    } else {
-        TYPE.wrapped(&strip.words, WORDS_PX, lines - name.len())
-    };
-    TYPE.push(drawing, &name, corner, ink);
-    let below = corner + DVec2::new(0.0, name.len() as f64 * LINE_PX);
-    TYPE.push(drawing, &beside, below, words);
+    let named = TYPE.push(drawing, &strip.name, (WORDS_PX, lines.min(2)), corner, ink);
+    let below = corner + DVec2::new(0.0, named as f64 * LINE_PX);
     let frames = corner + DVec2::new(WORDS_PX + 2.0 * GAP_PX, 0.0);
-    match strip.bounds {
-        Some(bounds) => push_frames(drawing, strip, bounds, layout, frames),
-        None => {
-            let width = layout.columns as f64 * (layout.cell_px + GAP_PX);
-            TYPE.push(
-                drawing,
-                &TYPE.wrapped(&strip.words, width, lines),
-                frames,
-                BAD,
-            );
-        }
-    }
-}
-
-fn push_frames(
-    drawing: &mut Drawing,
-    strip: &Strip,
-    bounds: Bounds,
-    layout: &Layout,
-    corner: DVec2,
-) {
+    let step = layout.cell_px + GAP_PX;
+    let Some(bounds) = strip.bounds else {
+        let room = (layout.columns as f64 * step, lines);
+        TYPE.push(drawing, &strip.words, room, frames, words);
+        return;
+    };
+    TYPE.push(
+        drawing,
+        &strip.words,
+        (WORDS_PX, lines - named),
+        below,
+        words,
+    );
     for (i, (figure, colour)) in strip.frames.iter().enumerate() {
-        let at = corner + DVec2::new(i as f64 * (layout.cell_px + GAP_PX), 0.0);
+        let at = frames + DVec2::new(i as f64 * step, 0.0);
         let view = View::fit_cell(bounds, drawing.size, at, DVec2::splat(layout.cell_px));
         drawing.push_figure(figure, *colour, strip.joints, &view);
     }

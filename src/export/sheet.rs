@@ -11,7 +11,7 @@ use crate::transition::{Rgb, Style, Transition};
 use super::drawing::Drawing;
 use super::size::{LONGEST_SHEET_PX, PixelSize};
 use super::view::View;
-use super::words::{Number, ink_on};
+use super::words::{ink_on, label};
 
 /// The longer side of a cell where the sheet's size is free, in pixels.
 const CELL_PX: u32 = 240;
@@ -134,19 +134,11 @@ pub fn sheet(
     for (index, &t) in times.iter().enumerate() {
         let (corner, inner, base) = layout.cell(index);
         frame.seek(t);
-        drawing.push_frame(
-            &frame,
-            style,
-            &View::fit_cell(bounds, layout.size, corner, inner),
-        );
+        let view = View::fit_cell(bounds, layout.size, corner, inner);
+        drawing.push_frame(&frame, style, &view);
         drawing.push_label(&label(t), base, 0.8 * layout.label_px, ink);
     }
     drawing
-}
-
-/// `t = 0.25`: at most three decimals, no trailing zeros.
-fn label(t: f64) -> String {
-    format!("t = {}", Number(t).to_string().replace('-', "\u{2212}"))
 }
 
 #[cfg(test)]
@@ -211,15 +203,5 @@ mod tests {
         };
         let label = |bounds| SheetLayout::new(5, bounds, None).label_px;
         assert_eq!(label(flat), label(square()));
-    }
-
-    #[test]
-    fn labels_are_short() {
-        assert_eq!(label(0.0), "t = 0");
-        assert_eq!(label(-0.0001), "t = 0");
-        assert_eq!(label(0.25), "t = 0.25");
-        assert_eq!(label(1.0 / 3.0), "t = 0.333");
-        assert_eq!(label(-0.5), "t = \u{2212}0.5");
-        assert_eq!(label(100.0), "t = 100");
     }
 }

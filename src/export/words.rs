@@ -22,18 +22,28 @@ pub(super) struct Type {
 }
 
 impl Type {
-    /// Adds lines, one below the other, from an upper left corner on.
-    pub fn push(self, drawing: &mut Drawing, lines: &[String], corner: DVec2, colour: Rgb) {
+    /// Adds words from an upper left corner on, where there is room for lines
+    /// of a width and for so many of them. Returns how many it took.
+    pub fn push(
+        self,
+        drawing: &mut Drawing,
+        words: &str,
+        (width_px, most): (f64, usize),
+        corner: DVec2,
+        colour: Rgb,
+    ) -> usize {
+        let lines = self.wrapped(words, width_px, most);
         for (i, line) in lines.iter().enumerate() {
             let middle = 0.5 * text::width(line, self.letters_px);
             let base = corner + DVec2::new(middle, (i as f64 + 0.8) * self.line_px);
             drawing.push_label(line, base, self.letters_px, colour);
         }
+        lines.len()
     }
 
     /// Words in at most so many lines of a width; what is left over becomes an
     /// ellipsis. Words that are longer than a line are broken.
-    pub fn wrapped(self, words: &str, width_px: f64, most: usize) -> Vec<String> {
+    fn wrapped(self, words: &str, width_px: f64, most: usize) -> Vec<String> {
         let fits = |line: &str| text::width(line, self.letters_px) <= width_px;
         let mut lines: Vec<String> = Vec::new();
         let mut line = String::new();
@@ -80,6 +90,11 @@ pub(super) fn ink_on(ground: Option<Rgb>) -> Rgb {
     }
 }
 
+/// What stands below a frame: `t = 0.25`.
+pub(super) fn label(t: f64) -> String {
+    format!("t = {}", Number(t).to_string().replace('-', "\u{2212}"))
+}
+
 /// At most three decimals, no trailing zeros, no negative zero.
 pub(super) struct Number(pub f64);
 
@@ -112,6 +127,16 @@ mod tests {
             assert!(text::width(&line, TYPE.letters_px) <= 60.0, "{line}");
         }
         assert_eq!(TYPE.wrapped("narrow", 0.0, 2).len(), 2);
+    }
+
+    #[test]
+    fn labels_are_short() {
+        assert_eq!(label(0.0), "t = 0");
+        assert_eq!(label(-0.0001), "t = 0");
+        assert_eq!(label(0.25), "t = 0.25");
+        assert_eq!(label(1.0 / 3.0), "t = 0.333");
+        assert_eq!(label(-0.5), "t = \u{2212}0.5");
+        assert_eq!(label(100.0), "t = 100");
     }
 
     #[test]
