@@ -105,20 +105,15 @@ impl<F: Fn(f64, f64) -> f64 + Sync> Squares<F> {
 
     fn inside(&self) -> Vec<bool> {
         let mut inside = vec![false; self.columns * self.rows];
-        let inner = 1..self.rows - 1;
-        let fill = |(row, out): (usize, &mut [bool])| {
-            if !inner.contains(&row) {
-                return;
-            }
+        let rows = inside.par_chunks_mut(self.columns).enumerate();
+        // The outermost nodes are not asked: they stay outside.
+        let inner = rows.skip(1).take(self.rows - 2);
+        inner.for_each(|(row, out)| {
             for (column, out) in out.iter_mut().enumerate().take(self.columns - 1).skip(1) {
                 let p = self.position(column, row);
                 *out = (self.above)(p.x, p.y) >= 0.0;
             }
-        };
-        inside
-            .par_chunks_mut(self.columns)
-            .enumerate()
-            .for_each(fill);
+        });
         inside
     }
 

@@ -6,7 +6,7 @@
 //! guarantee: between samples it is no distance, and near the medial axis it
 //! is rounded off by up to half a cell.
 
-use super::{Grid, GridError, Mask, MaskError, Metric, Samples, distance_transform};
+use super::{Grid, GridError, Mask, MaskError, Metric, Samples, SamplesError, distance_transform};
 use super::{polygon, scan};
 use crate::geometry::{DVec2, Regions};
 use crate::progress::{Cancelled, Progress};
@@ -43,15 +43,8 @@ pub enum FieldError {
     #[error(transparent)]
     Mask(#[from] MaskError),
     /// There are not as many values as cells.
-    #[error("a field of {width} × {height} cells needs as many values, but {values} were given")]
-    Length {
-        /// Cells along a row.
-        width: u32,
-        /// Rows.
-        height: u32,
-        /// Values given.
-        values: usize,
-    },
+    #[error(transparent)]
+    Length(#[from] SamplesError),
     /// A value is NaN or infinite.
     #[error("the distance at cell ({x}, {y}) is not a finite number; measure the field again")]
     NotFinite {
@@ -74,13 +67,7 @@ impl DistanceField {
     pub fn new(grid: Grid, values: Vec<f32>) -> Result<Self, FieldError> {
         grid.check()?;
         let Grid { width, height, .. } = grid;
-        if values.len() != grid.cells() {
-            return Err(FieldError::Length {
-                width,
-                height,
-                values: values.len(),
-            });
-        }
+        SamplesError::check(width, height, values.len())?;
         if let Some(bad) = values.iter().position(|v| !v.is_finite()) {
             let (x, y) = (bad as u32 % width, bad as u32 / width);
             return Err(FieldError::NotFinite { x, y });
@@ -101,11 +88,14 @@ impl DistanceField {
     ) -> Result<Self, FieldError> {
         grid.check()?;
         if (mask.width(), mask.height()) != (grid.width, grid.height) {
-            return Err(FieldError::Length {
-                width: grid.width,
-                height: grid.height,
-                values: mask.bits().len(),
-            });
+            let (width, height) = (grid.width, grid.height);
+            let values = mask.bits().len();
+            return Err(SamplesError {
+                width,
+                height,
+                values,
+            }
+            .into());
         }
         let values = distance_transform(mask, metric, progress)?;
         Ok(Self { grid, values })
@@ -127,11 +117,9 @@ impl DistanceField {
         let edges = scan::edges(regions, &grid);
         let mut values = polygon::distances(&edges, &grid, progress)?;
         for (value, inside) in values.iter_mut().zip(scan::inside(&edges, &grid)) {
-            *value = if inside || *value == 0.0 {
-                *value
-            } else {
-                -*value
-            };
+            if !inside {
+                *value = 0.0 - *value; // 0 stays 0 and does not become −0
+            }
         }
         Self::new(grid, values)
     }

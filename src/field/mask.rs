@@ -5,8 +5,8 @@
 //! Does not guarantee: parts thinner than a cell may fall between the centres.
 
 use super::scan;
-use super::{Grid, GridError};
-use crate::geometry::Regions;
+use super::{Grid, GridError, SamplesError};
+use crate::geometry::{DVec2, Regions};
 
 /// Which cells are inside, row-major, row 0 the lowest.
 ///
@@ -33,15 +33,8 @@ pub struct Mask {
 #[non_exhaustive]
 pub enum MaskError {
     /// There are not as many bits as cells.
-    #[error("a picture of {width} × {height} cells needs as many bits, but {bits} were given")]
-    Length {
-        /// Cells along a row.
-        width: u32,
-        /// Rows.
-        height: u32,
-        /// Bits given.
-        bits: usize,
-    },
+    #[error(transparent)]
+    Length(#[from] SamplesError),
     /// No cell is inside.
     #[error("no cell is inside the design: choose another threshold, or more cells")]
     Empty,
@@ -57,18 +50,8 @@ impl Mask {
     /// Where a side is 0 or above [`Grid::MAX_SIDE`], there are not as many
     /// bits as cells, or none is set.
     pub fn new(width: u32, height: u32, bits: Vec<bool>) -> Result<Self, MaskError> {
-        let sides = 1..=Grid::MAX_SIDE;
-        if !sides.contains(&width) || !sides.contains(&height) {
-            return Err(GridError::Size { width, height }.into());
-        }
-        if bits.len() != width as usize * height as usize {
-            let bits = bits.len();
-            return Err(MaskError::Length {
-                width,
-                height,
-                bits,
-            });
-        }
+        Grid::new(width, height, DVec2::ZERO, 1.0)?;
+        SamplesError::check(width, height, bits.len())?;
         if !bits.contains(&true) {
             return Err(MaskError::Empty);
         }
@@ -113,7 +96,7 @@ impl Mask {
 mod tests {
     use super::super::testing::{mask, text};
     use super::*;
-    use crate::geometry::{DVec2, FillRule};
+    use crate::geometry::FillRule;
 
     fn regions(rings: &[&[(f64, f64)]]) -> Regions {
         let rings: Vec<Vec<DVec2>> = rings
@@ -173,7 +156,7 @@ mod tests {
         assert_eq!(Mask::new(2, 2, vec![false; 4]), Err(MaskError::Empty));
         assert!(matches!(
             Mask::new(2, 2, vec![true; 3]),
-            Err(MaskError::Length { bits: 3, .. })
+            Err(MaskError::Length(SamplesError { values: 3, .. }))
         ));
         for (width, height) in [
             (0, 1),

@@ -55,7 +55,13 @@ pub(super) fn distances(
                     x: (0, width),
                     y: (0, out.len() / width),
                 };
-                search.fill(block, 0, band * ROWS, width, out);
+                let first_row = band * ROWS;
+                let mut band = Band {
+                    first_row,
+                    width,
+                    out,
+                };
+                search.fill(block, 0, &mut band);
                 Ok(())
             },
         )?;
@@ -133,6 +139,13 @@ impl Rival {
     }
 }
 
+/// Rows of samples that one thread fills.
+struct Band<'a> {
+    first_row: usize,
+    width: usize,
+    out: &'a mut [f32],
+}
+
 /// Half-open ranges of columns and, within a band, of rows.
 #[derive(Clone, Copy, Debug)]
 struct Block {
@@ -183,25 +196,18 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// Fills a block of the band `out` that begins at row `first_row`; the
-    /// edges in question lie on the stack from `bottom` up.
-    fn fill(
-        &mut self,
-        block: Block,
-        bottom: usize,
-        first_row: usize,
-        width: usize,
-        out: &mut [f32],
-    ) {
+    /// Fills a block of a band; the edges in question lie on the stack from
+    /// `bottom` up.
+    fn fill(&mut self, block: Block, bottom: usize, band: &mut Band<'_>) {
         let (columns, rows) = block.size();
         if columns * rows <= LEAF {
-            return self.measure(block, bottom, first_row, width, out);
+            return self.measure(block, bottom, band);
         }
         for half in block.halves() {
             let top = self.stack.len();
-            let (centre, radius) = half.disc(first_row);
+            let (centre, radius) = half.disc(band.first_row);
             self.keep_near(bottom, centre, radius);
-            self.fill(half, top, first_row, width, out);
+            self.fill(half, top, band);
             self.stack.truncate(top);
         }
     }
@@ -230,22 +236,15 @@ impl<'a> Search<'a> {
         }
     }
 
-    fn measure(
-        &self,
-        block: Block,
-        bottom: usize,
-        first_row: usize,
-        width: usize,
-        out: &mut [f32],
-    ) {
+    fn measure(&self, block: Block, bottom: usize, band: &mut Band<'_>) {
         for y in block.y.0..block.y.1 {
             for x in block.x.0..block.x.1 {
-                let p = DVec2::new(x as f64, (first_row + y) as f64);
+                let p = DVec2::new(x as f64, (band.first_row + y) as f64);
                 let square = self.stack[bottom..]
                     .iter()
                     .map(|&i| self.segments[i as usize].to(p).length_squared())
                     .fold(f64::INFINITY, f64::min);
-                out[y * width + x] = square.sqrt() as f32;
+                band.out[y * band.width + x] = square.sqrt() as f32;
             }
         }
     }

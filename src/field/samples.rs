@@ -25,7 +25,7 @@ pub struct Samples<'a> {
     values: &'a [f32],
 }
 
-/// Why a slice is no lattice of samples.
+/// Why values are no lattice of samples: of a field, a mask or a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "a lattice of {width} × {height} samples needs at least one sample and as many values as samples, but {values} values were given"
@@ -35,8 +35,24 @@ pub struct SamplesError {
     pub width: u32,
     /// Rows.
     pub height: u32,
-    /// Length of the slice that was given.
+    /// How many values were given.
     pub values: usize,
+}
+
+impl SamplesError {
+    /// That there is a value for each sample, and one at least.
+    pub(super) fn check(width: u32, height: u32, values: usize) -> Result<(), Self> {
+        // As u64, which no product of two u32 leaves.
+        let samples = u64::from(width) * u64::from(height);
+        if samples == 0 || samples != values as u64 {
+            return Err(Self {
+                width,
+                height,
+                values,
+            });
+        }
+        Ok(())
+    }
 }
 
 impl<'a> Samples<'a> {
@@ -45,14 +61,7 @@ impl<'a> Samples<'a> {
     /// # Errors
     /// Where a side is 0, or `values` is not `width · height` long.
     pub fn new(width: u32, height: u32, values: &'a [f32]) -> Result<Self, SamplesError> {
-        let cells = u64::from(width) * u64::from(height);
-        if cells == 0 || cells != values.len() as u64 {
-            return Err(SamplesError {
-                width,
-                height,
-                values: values.len(),
-            });
-        }
+        SamplesError::check(width, height, values.len())?;
         Ok(Self {
             width: width as usize,
             height: height as usize,

@@ -129,7 +129,7 @@ fn hostile_values_and_sizes_are_refused() {
     let grid = Grid::new(2, 2, DVec2::ZERO, 1.0).expect("a grid");
     assert!(matches!(
         DistanceField::new(grid, vec![0.0; 3]),
-        Err(FieldError::Length { values: 3, .. })
+        Err(FieldError::Length(SamplesError { values: 3, .. }))
     ));
     assert_eq!(
         DistanceField::new(grid, vec![0.0, 1.0, f32::NAN, 0.0]),
