@@ -4,6 +4,7 @@ use super::super::scan::Plane;
 use super::linear::{Light, coded_premultiplied, decoded, mean, mixed};
 use crate::design::Picture;
 use crate::geometry::{Bounds, DMat2, DVec2};
+use glam::DAffine2;
 use image::RgbaImage;
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -15,8 +16,7 @@ pub struct Layer {
     picture: Picture,
     levels: Arc<Vec<Level>>,
     /// From the plane to the picture's own coordinates: x across, y down.
-    linear: DMat2,
-    offset: DVec2,
+    from_plane: DAffine2,
 }
 
 /// The picture at one size, row by row from above.
@@ -39,10 +39,10 @@ impl Layer {
         }
         let inverse = picture.place().inverse();
         let height = f64::from(picture.pixels().height());
-        let flip = DMat2::from_diagonal(DVec2::new(1.0, -1.0));
+        let flip = scaled(DVec2::new(1.0, -1.0), DVec2::new(0.0, height));
+        let own = DAffine2::from_mat2_translation(inverse.linear(), inverse.apply(DVec2::ZERO));
         Self {
-            linear: flip * inverse.linear(),
-            offset: flip * inverse.apply(DVec2::ZERO) + DVec2::new(0.0, height),
+            from_plane: flip * own,
             levels: Arc::new(levels),
             picture: picture.clone(),
         }
@@ -64,7 +64,7 @@ impl Layer {
     /// corner, y down.
     #[must_use]
     pub fn pixel_from_plane(&self, p: DVec2) -> DVec2 {
-        self.linear * p + self.offset
+        self.from_plane.transform_point2(p)
     }
 
     /// All sizes, the largest first and each row by row from above: coded in
@@ -93,26 +93,24 @@ impl Layer {
             0
         };
         let level = wanted.min(self.levels.len() - 1);
-        let shrunk = &self.levels[level];
-        let full = &self.levels[0];
-        let scale = DVec2::new(
-            shrunk.width as f64 / full.width as f64,
-            shrunk.height as f64 / full.height as f64,
-        );
-        Sampler {
-            level: shrunk,
-            linear: DMat2::from_diagonal(scale) * self.linear,
-            offset: scale * self.offset - 0.5,
-        }
+        let level = &self.levels[level];
+        let scale = level.size() / self.levels[0].size();
+        // A sample is at the centre of its pixel, half a one from the corner.
+        let from_plane = scaled(scale, DVec2::splat(-0.5)) * self.from_plane;
+        Sampler { level, from_plane }
     }
+}
+
+/// Stretches along the axes, then moves.
+fn scaled(by: DVec2, offset: DVec2) -> DAffine2 {
+    DAffine2::from_mat2_translation(DMat2::from_diagonal(by), offset)
 }
 
 /// A layer at one of its sizes.
 #[derive(Clone, Copy)]
 pub(super) struct Sampler<'a> {
     level: &'a Level,
-    linear: DMat2,
-    offset: DVec2,
+    from_plane: DAffine2,
 }
 
 /// Fixed point: what a step from one pixel to the next is.
@@ -138,15 +136,18 @@ impl<'a> Sampler<'a> {
         };
         let level = self.level;
         let last = |count: usize| ((count - 1) as i64) << 32;
-        let start = self.linear * plane.at(first[0], first[1]) + self.offset;
+        let at = |by: DVec2| self.from_plane.transform_vector2(by);
+        let start = self
+            .from_plane
+            .transform_point2(plane.at(first[0], first[1]));
         Sight {
             light: &level.light,
             width: level.width,
             last: [last(level.width), last(level.height)],
             first,
             start: fixed(start, FAR),
-            by_x: fixed(self.linear * plane.by_x, farthest),
-            by_y: fixed(self.linear * plane.by_y, farthest),
+            by_x: fixed(at(plane.by_x), farthest),
+            by_y: fixed(at(plane.by_y), farthest),
         }
     }
 }
@@ -221,6 +222,11 @@ impl Level {
         let raw = pixels.as_raw().par_chunks_exact(4);
         let light = raw.map(|p| decoded(image::Rgba([p[0], p[1], p[2], p[3]])));
         Self::new(width, height, light.collect())
+    }
+
+    /// Width and height.
+    fn size(&self) -> DVec2 {
+        DVec2::new(self.width as f64, self.height as f64)
     }
 
     fn pixels(&self) -> &[Light] {
