@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 
 use crate::names::{Choice, keys, named};
 
-/// Digits of the numbers in a folder of frames.
-const FOLDER_DIGITS: usize = 4;
+/// What the pictures in a folder are called.
+const IN_FOLDER: &str = "frame-####.png";
 
 /// A format for one picture; its key is the ending of a name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -107,7 +107,8 @@ impl Target {
     /// [`TargetError`] where the name tells nothing.
     pub fn of_path(path: &Path) -> Result<Self, TargetError> {
         if is_folder(path) {
-            return Ok(Self::Numbered(in_folder(path)));
+            let names = by_pattern(path, IN_FOLDER, StillKind::Png);
+            return Ok(Self::Numbered(names));
         }
         let extension = path.extension().unwrap_or_default();
         let extension = extension.to_string_lossy().to_lowercase();
@@ -115,7 +116,8 @@ impl Target {
         let name = path.file_name().and_then(|name| name.to_str());
         if let Some(name) = name.filter(|name| name.contains('#')) {
             let kind = still.ok_or_else(|| TargetError::NotNumbered(path.to_owned()))?;
-            return Ok(Self::Numbered(by_pattern(path, name, kind)));
+            let folder = path.parent().unwrap_or(Path::new(""));
+            return Ok(Self::Numbered(by_pattern(folder, name, kind)));
         }
         let film = FilmKind::of_key(&extension).ok();
         let still = still.map(|kind| Self::Still(kind, path.to_owned()));
@@ -132,23 +134,13 @@ fn is_folder(path: &Path) -> bool {
     is_bare || text.ends_with(['/', std::path::MAIN_SEPARATOR]) || path.is_dir()
 }
 
-fn in_folder(path: &Path) -> Numbered {
-    Numbered {
-        folder: path.to_owned(),
-        prefix: "frame-".to_owned(),
-        digits: FOLDER_DIGITS,
-        suffix: ".png".to_owned(),
-        kind: StillKind::Png,
-    }
-}
-
 /// The last run of `#` in the name is the number.
-fn by_pattern(path: &Path, name: &str, kind: StillKind) -> Numbered {
+fn by_pattern(folder: &Path, name: &str, kind: StillKind) -> Numbered {
     let end = name.rfind('#').map_or(0, |last| last + 1);
     let before = &name[..end];
     let prefix = before.trim_end_matches('#');
     Numbered {
-        folder: path.parent().map(Path::to_owned).unwrap_or_default(),
+        folder: folder.to_owned(),
         prefix: prefix.to_owned(),
         digits: before.len() - prefix.len(),
         suffix: name[end..].to_owned(),
