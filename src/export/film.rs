@@ -81,8 +81,7 @@ impl Film {
     /// # Errors
     /// [`FilmError`] for a rate or a length that cannot be had.
     pub fn of_timing(timing: &Timing, stops: &[Stop], fps: f64) -> Result<Self, FilmError> {
-        check_rate(fps)?;
-        check_ends(timing.from, timing.to)?;
+        check(fps, timing.from, timing.to)?;
         let pass_secs = timing.pass_secs();
         let steps = (pass_secs * fps).round().max(1.0) as usize;
         if steps >= MAX_FRAMES {
@@ -103,8 +102,7 @@ impl Film {
     /// # Errors
     /// [`FilmError`] for a rate, a count or a t that cannot be had.
     pub fn evenly(from: f64, to: f64, count: usize, fps: f64) -> Result<Self, FilmError> {
-        check_rate(fps)?;
-        check_ends(from, to)?;
+        check(fps, from, to)?;
         if count == 0 || count > MAX_FRAMES {
             return Err(FilmError::Count(count));
         }
@@ -208,20 +206,15 @@ pub fn even_times(from: f64, to: f64, count: usize) -> Vec<f64> {
     (0..count).map(t_of).collect()
 }
 
-fn check_rate(fps: f64) -> Result<(), FilmError> {
-    if fps > 0.0 && fps <= MAX_FPS {
-        Ok(())
-    } else {
-        Err(FilmError::Rate(fps))
+fn check(fps: f64, from: f64, to: f64) -> Result<(), FilmError> {
+    // Asked this way round NaN is refused.
+    if !(fps > 0.0 && fps <= MAX_FPS) {
+        return Err(FilmError::Rate(fps));
     }
-}
-
-fn check_ends(from: f64, to: f64) -> Result<(), FilmError> {
-    if from.is_finite() && to.is_finite() {
-        Ok(())
-    } else {
-        Err(FilmError::Ends { from, to })
+    if !(from.is_finite() && to.is_finite()) {
+        return Err(FilmError::Ends { from, to });
     }
+    Ok(())
 }
 
 #[cfg(test)]
