@@ -67,7 +67,7 @@ struct Ffmpeg {
 impl Ffmpeg {
     fn start(size: PixelSize, fps: f64, output: &Path) -> Result<Self, ExportError> {
         let mut child = Command::new("ffmpeg")
-            .args(arguments(size, fps))
+            .args(arguments(size, fps).split_whitespace())
             .arg(as_file(output))
             .stdin(Stdio::piped())
             .stdout(Stdio::null())
@@ -121,14 +121,11 @@ fn not_started(error: io::Error, output: &Path) -> ExportError {
     }
 }
 
-fn arguments(size: PixelSize, fps: f64) -> Vec<String> {
+fn arguments(size: PixelSize, fps: f64) -> String {
     let input = format!("-f rawvideo -pix_fmt rgb24 -s {size} -r {fps} -i -");
     let colours = "-vf scale=out_color_matrix=bt709:out_range=tv,format=yuv420p \
                    -colorspace bt709 -color_primaries bt709 -color_trc bt709";
-    let all = format!(
-        "-hide_banner -loglevel error -y {input} -an {colours} -movflags +faststart -f mp4"
-    );
-    all.split_whitespace().map(str::to_owned).collect()
+    format!("-hide_banner -loglevel error -y {input} -an {colours} -movflags +faststart -f mp4")
 }
 
 /// `file:` keeps a name with a colon or a leading dash a name.
