@@ -132,7 +132,6 @@ impl Plugin for MorphPlugin {
             build::finish_builds,
             build::adopt_transitions,
         );
-        register_types(app);
         app.init_resource::<FrameTimes>()
             .init_resource::<StageView>()
             .configure_sets(
@@ -147,20 +146,6 @@ impl Plugin for MorphPlugin {
         }
         add_capture(app);
     }
-}
-
-/// For scenes and inspectors; Bevy may have been built without doing so itself.
-fn register_types(app: &mut App) {
-    app.register_type::<SourceMesh>()
-        .register_type::<TargetMesh>()
-        .register_type::<Blend>()
-        .register_type::<MorphOptions>()
-        .register_type::<Morph>()
-        .register_type::<StageTransition>()
-        .register_type::<StageStyle>()
-        .register_type::<StageCamera>()
-        .register_type::<StageView>()
-        .register_type::<FrameTimes>();
 }
 
 fn add_drawing(app: &mut App) {
