@@ -18,7 +18,7 @@ pub(super) fn apply_view(
     mut view: ResMut<StageView>,
     mut cameras: Query<(&Camera, &mut Transform, &mut Projection), With<StageCamera>>,
 ) {
-    for (camera, mut transform, mut projection) in &mut cameras {
+    for (camera, transform, mut projection) in &mut cameras {
         if let Some(viewport_px) = camera.logical_viewport_size()
             && viewport_px.min_element() >= 1.0
             && viewport_px != view.viewport_px
@@ -27,9 +27,8 @@ pub(super) fn apply_view(
         }
         let at = (view.centre - view.anchor()).as_vec2();
         let translation = at.extend(transform.translation.z);
-        if transform.translation != translation {
-            transform.translation = translation;
-        }
+        let mut place = transform.map_unchanged(|transform| &mut transform.translation);
+        place.set_if_neq(translation);
         let scale = view.units_per_px as f32;
         if matches!(&*projection, Projection::Orthographic(p) if p.scale != scale)
             && let Projection::Orthographic(orthographic) = &mut *projection

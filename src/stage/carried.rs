@@ -14,17 +14,10 @@ use crate::transition::Frame;
 
 use super::shapes::{positions, write_points};
 
-/// In what the places to look at are told.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Lookups {
-    /// In samples of the fields, or in shares of the pictures' sides.
-    OfContent,
-    /// In units of the plane, relative to the part's origin.
-    OfPlane,
-}
-
-/// The lengths are those of the placement's vertices.
-pub(super) fn write(frame: &Frame, origin: DVec2, lookups: Lookups, mesh: &mut Mesh) {
+/// Writes a mesh that has as many vertices as the placement. Where to look is
+/// told in samples of the fields of `content` or in shares of its pictures'
+/// sides; without one in units of the plane, relative to `origin`.
+pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mesh: &mut Mesh) {
     let places = &frame.placement().in_frame;
     write_points(places, origin, positions(mesh));
     if let Some(VertexAttributeValues::Float32x2(coordinates)) =
@@ -38,17 +31,17 @@ pub(super) fn write(frame: &Frame, origin: DVec2, lookups: Lookups, mesh: &mut M
     else {
         return;
     };
-    match (lookups, frame.transition().content()) {
-        (Lookups::OfPlane, _) => write_lookups(frame, out, |p| p - origin, |p| p - origin),
-        (Lookups::OfContent, Content::Field(pair)) => {
+    match content {
+        None => write_lookups(frame, out, |p| p - origin, |p| p - origin),
+        Some(Content::Field(pair)) => {
             let in_samples = |p: DVec2| pair.grid().lattice_from_plane(p);
             write_lookups(frame, out, in_samples, in_samples);
         }
-        (Lookups::OfContent, Content::Colours(pair)) => {
+        Some(Content::Colours(pair)) => {
             let [source, target] = pair.layers().each_ref().map(share_of);
             write_lookups(frame, out, source, target);
         }
-        (Lookups::OfContent, Content::Solid(_)) => {}
+        Some(Content::Solid(_)) => {} // has nothing to be looked up
     }
 }
 

@@ -8,7 +8,7 @@ use crate::export::joint_core;
 use crate::transition::{Frame, Rgb};
 use crate::warp::WarpKind;
 
-use super::carried::{self, Lookups};
+use super::carried;
 use super::components::StageStyle;
 use super::fill;
 use super::ink::InkKind;
@@ -117,9 +117,10 @@ impl Part {
         match &self.kind {
             PartKind::Rings => fill::write(frame, origin, mesh),
             PartKind::Field | PartKind::Picture => {
-                carried::write(frame, origin, Lookups::OfContent, mesh);
+                let content = frame.transition().content();
+                carried::write(frame, origin, Some(content), mesh);
             }
-            PartKind::Grid => carried::write(frame, origin, Lookups::OfPlane, mesh),
+            PartKind::Grid => carried::write(frame, origin, None, mesh),
             PartKind::SourceGhost | PartKind::TargetGhost => {}
             PartKind::Faces => write_points(points, origin, positions(mesh)),
             PartKind::Wire { .. } => write_corners(points, faces, origin, positions(mesh)),
@@ -132,11 +133,10 @@ impl Part {
 
 /// Puts parts where they are in Bevy's world.
 pub(super) fn place_parts(view: Res<StageView>, mut parts: Query<(&Part, &mut Transform)>) {
-    for (part, mut transform) in &mut parts {
+    for (part, transform) in &mut parts {
         let at = (part.origin - view.anchor()).as_vec2();
         let translation = at.extend(part.kind.layer());
-        if transform.translation != translation {
-            transform.translation = translation;
-        }
+        let mut place = transform.map_unchanged(|transform| &mut transform.translation);
+        place.set_if_neq(translation);
     }
 }
