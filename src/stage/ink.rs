@@ -32,20 +32,17 @@ pub(super) enum InkKind {
 
 /// One opaque colour.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
-#[bind_group_data(InkKey)]
+#[bind_group_data(InkKind)]
 pub(super) struct InkMaterial {
     #[uniform(0)]
     pub(super) colour: LinearRgba,
     pub(super) kind: InkKind,
 }
 
-/// What the pipeline of an [`InkMaterial`] depends on.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub(super) struct InkKey(InkKind);
-
-impl From<&InkMaterial> for InkKey {
+/// What the pipeline of a material depends on.
+impl From<&InkMaterial> for InkKind {
     fn from(material: &InkMaterial) -> Self {
-        Self(material.kind)
+        material.kind
     }
 }
 
@@ -66,14 +63,14 @@ impl Material2d for InkMaterial {
         let Some(fragment) = &mut descriptor.fragment else {
             return Ok(());
         };
-        let definition = match key.bind_group_data.0 {
+        let definition = match key.bind_group_data {
             InkKind::Faces => return Ok(()),
             InkKind::Round => "ROUND",
             InkKind::Wire => "WIRE",
             InkKind::Line => "LINE",
         };
         fragment.shader_defs.push(definition.into());
-        if key.bind_group_data.0 == InkKind::Line {
+        if key.bind_group_data == InkKind::Line {
             descriptor.vertex.shader = fragment.shader.clone();
             descriptor.vertex.shader_defs.push(definition.into());
         }
