@@ -24,6 +24,7 @@ impl AtomicFile {
     /// Opens a temporary file beside `path`.
     pub(crate) fn create(path: &Path) -> io::Result<Self> {
         let folder = match path.parent() {
+            // A bare name has a parent without a name, which cannot be opened.
             Some(parent) if !parent.as_os_str().is_empty() => parent,
             _ => Path::new("."),
         };
@@ -33,6 +34,7 @@ impl AtomicFile {
             .prefix(".morphospace-")
             .suffix(".part")
             .make_in(folder, |temporary| File::create_new(temporary))?;
+        // No old file, no permissions to take over.
         if let Ok(old) = fs::metadata(path) {
             temporary.as_file().set_permissions(old.permissions())?;
         }

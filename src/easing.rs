@@ -38,6 +38,7 @@ impl Easing {
     /// The inverse of [`Self::apply`].
     #[must_use]
     pub fn inverse(self, y: f64) -> f64 {
+        // Beyond [0, 1] roots and arc sines are NaN.
         let y = y.clamp(0.0, 1.0);
         match self {
             Self::Linear => y,

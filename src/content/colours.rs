@@ -118,6 +118,8 @@ impl PicturePair {
     /// Where the span of the mix is none.
     pub fn new(source: &Picture, target: &Picture, mix: ColourMix) -> Result<Self, ColourMixError> {
         mix.check()?;
+        // Decoding takes as long as several frames, and each knows nothing of
+        // the other.
         let (source, target) = rayon::join(|| Layer::new(source), || Layer::new(target));
         Ok(Self {
             layers: [source, target],
@@ -140,6 +142,8 @@ impl PicturePair {
     /// The rectangle that is shown at t.
     #[must_use]
     pub fn window(&self, t: f64) -> Bounds {
+        // Beyond the ends the window stays: extrapolated, it might turn inside
+        // out.
         let t = t.clamp(0.0, 1.0);
         let [a, b] = [self.layers[0].bounds(), self.layers[1].bounds()];
         Bounds {
@@ -150,6 +154,9 @@ impl PicturePair {
 
     /// What is seen at t: sRGB with straight alpha, transparent where nothing
     /// is. Costs a bilinear look-up in each picture for each pixel.
+    ///
+    /// # Panics
+    /// Where a face of the placement has a vertex without a place.
     #[must_use]
     pub fn render(&self, placement: &Placement, t: f64, raster: &Raster) -> RgbaImage {
         let [width, height] = raster.size;
@@ -163,7 +170,8 @@ impl PicturePair {
     }
 }
 
-/// Pixels that are looked up at a time, in one picture after the other.
+/// Pixels that are looked up at a time, in one picture after the other: their
+/// light takes 512 bytes, and starting over hardly counts any more.
 const CHUNK: usize = 32;
 
 /// How runs of pixels are painted.
@@ -179,6 +187,8 @@ struct Paint<'a> {
 impl<'a> Paint<'a> {
     fn new(pair: &'a PicturePair, t: f64, raster: &Raster) -> Self {
         let window = pair.window(t);
+        // The window is a rectangle: what it shows of a pixel is its share of
+        // the column times that of the row.
         let low = raster.located(DVec2::new(window.min.x, window.max.y));
         let high = raster.located(DVec2::new(window.max.x, window.min.y));
         let shown = |count: u32, low: f64, high: f64| {
@@ -197,12 +207,15 @@ impl<'a> Paint<'a> {
     /// Writes the pixels of a face, a part of a row at a time.
     fn filler(&self, facet: Facet) -> impl FnMut(usize, usize, &mut [[u8; 4]]) {
         let [columns, rows] = &self.shown;
+        // No sample of the output is farther than this from another.
         let reach = columns.len().max(rows.len());
         let [source, target] = &self.layers;
         let source = source.across(&facet.source, facet.first, reach);
         let target = target.across(&facet.target, facet.first, reach);
         let mut lights = [Light::ZERO; CHUNK];
         move |x, y, pixels| {
+            // One picture after the other, so that the rows of only one are
+            // walked at a time.
             let columns = columns[x..].chunks(CHUNK);
             let starts = (x..).step_by(CHUNK);
             for ((x, pixels), columns) in starts.zip(pixels.chunks_mut(CHUNK)).zip(columns) {

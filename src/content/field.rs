@@ -118,6 +118,7 @@ impl FieldBlend {
         let log = if ratio.is_finite() {
             ratio.ln_1p()
         } else {
+            // |x| / ε has overflowed, and 1 is nothing beside it.
             x.abs().ln() - self.epsilon.ln()
         };
         log.copysign(x)
@@ -177,6 +178,8 @@ impl FieldPair {
     ) -> Result<Self, FieldPairError> {
         let (source, target) = (source.into(), target.into());
         blend.check()?;
+        // Distances are in cells: those of another grid would mean something
+        // else.
         if source.grid() != target.grid() {
             return Err(FieldPairError::Grids {
                 source_grid: *source.grid(),
@@ -238,6 +241,7 @@ impl FieldPair {
     /// and the value there is at least the level.
     #[must_use]
     pub fn is_inside(&self, p: DVec2, t: f64) -> bool {
+        // Values are carried on beyond the grid, the contour is cut off there.
         self.grid().bounds().contains(p) && self.value(p, t) >= self.blend.level()
     }
 

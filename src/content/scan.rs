@@ -10,11 +10,12 @@ use crate::geometry::DVec2;
 use crate::warp::Placement;
 use rayon::prelude::*;
 
-/// Rows that one thread works on at a time.
+/// Rows that one thread works on at a time: few enough to go round several
+/// threads, and many enough that a face is set up in few of them.
 const BAND: usize = 32;
 
 /// How far beyond its edges a face reaches, in samples: rounding must not
-/// open gaps.
+/// open gaps. At 8192 a double is exact to 1e-12; nobody sees 1e-7.
 const REACH: f64 = 1e-7;
 
 /// What the samples of one face see.
@@ -46,6 +47,7 @@ impl Plane {
     /// The map that sends the corners to the values.
     fn through(corners: [DVec2; 3], values: [DVec2; 3], det: f64) -> Self {
         let [a, b, c] = corners;
+        // Cramer's rule: how much of each edge makes one column, and one row.
         let (u, v) = ((b - a) / det, (c - a) / det);
         let (du, dv) = (values[1] - values[0], values[2] - values[0]);
         let by_x = du * v.y - dv * u.y;
@@ -97,6 +99,7 @@ impl Edge {
         match self.per_rise {
             Some(per) if per > 0.0 => [f64::NEG_INFINITY, self.begin.x + slack * per],
             Some(per) => [self.begin.x + slack * per, f64::INFINITY],
+            // A level edge has its face above or below all along the row.
             None if slack < 0.0 => [f64::INFINITY, f64::NEG_INFINITY],
             None => [f64::NEG_INFINITY, f64::INFINITY],
         }
@@ -119,6 +122,8 @@ pub(super) fn scan<T: Send, F: FnMut(usize, usize, &mut [T])>(
         return;
     }
     let places: Vec<DVec2> = placement.in_frame.iter().map(|&p| to_lattice(p)).collect();
+    // A band belongs to one thread, which goes through its faces in order: the
+    // last of several that cover a sample is the last on any number of threads.
     let bands = sorted(&placement.faces, &places, out.len() / width);
     let rows = out.par_chunks_mut(width * BAND).zip(bands);
     rows.enumerate().for_each(|(band, (rows, here))| {
@@ -136,9 +141,12 @@ fn patch(face: &[u32; 3], places: &[DVec2], placement: &Placement) -> Option<Pat
     let corners = of(places);
     let [a, b, c] = corners;
     let det = (b - a).perp_dot(c - a);
+    // Below that its inverse overflows.
     if !det.is_normal() {
         return None;
     }
+    // Edges want the face on their left: one that is turned over is gone round
+    // the other way.
     let [b, c] = if det > 0.0 { [b, c] } else { [c, b] };
     Some(Patch {
         source: Plane::through(corners, of(&placement.in_source), det),
@@ -159,6 +167,8 @@ fn sorted(faces: &[[u32; 3]], places: &[DVec2], rows: usize) -> Vec<Vec<u32>> {
         if !is_finite || high + 1.0 < 0.0 || low - 1.0 > rows as f64 {
             continue;
         }
+        // A row more than needed on either side: exactly is asked where rows
+        // are painted.
         let last = ((high + 1.0) as usize / BAND).min(bands.len() - 1);
         for band in &mut bands[(low - 1.0).max(0.0) as usize / BAND..=last] {
             band.push(k as u32);
@@ -205,6 +215,7 @@ fn paint<T, F: FnMut(usize, usize, &mut [T])>(
 
 /// The first whole number from `x` on that is not negative.
 fn at_or_after(x: f64) -> usize {
+    // `as` saturates: what is negative, and NaN, begins at 0.
     let below = x as usize;
     below.saturating_add(usize::from((below as f64) < x))
 }

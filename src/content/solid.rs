@@ -16,6 +16,9 @@ pub struct Solid {
 
 impl Solid {
     /// The boundary walks at the given vertex places.
+    ///
+    /// # Panics
+    /// Where a walk goes by a vertex that has no place.
     #[must_use]
     pub fn rings_at(&self, places: &[DVec2]) -> Vec<Vec<DVec2>> {
         let at = |walk: &Vec<u32>| walk.iter().map(|&v| places[v as usize]).collect();
@@ -23,6 +26,9 @@ impl Solid {
     }
 
     /// The bars at the given vertex places.
+    ///
+    /// # Panics
+    /// Where a bar ends at a vertex that has no place.
     #[must_use]
     pub fn bars_at(&self, places: &[DVec2]) -> Vec<[DVec2; 2]> {
         let at = |bar: &[u32; 2]| bar.map(|v| places[v as usize]);

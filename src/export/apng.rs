@@ -28,6 +28,8 @@ pub fn write_apng(
     path: &Path,
     progress: &dyn Progress,
 ) -> Result<(), ExportError> {
+    // Before anything is drawn: a folder that cannot be written to is told at
+    // once.
     let mut file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let runs = film.runs();
     let mut output = BufWriter::new(file.file_mut());
@@ -47,6 +49,8 @@ pub fn write_apng(
         },
     )?;
     writer.finish().map_err(ExportError::encode(path))?;
+    // Dropped with bytes in it, the buffer would lose the error of writing
+    // them.
     output.flush().map_err(ExportError::write(path))?;
     drop(output);
     file.commit().map_err(ExportError::write(path))
@@ -67,6 +71,7 @@ fn writer<W: Write>(
     encoder.set_depth(BitDepth::Eight);
     let plays = if film.repeats() { 0 } else { 1 };
     encoder.set_animated(frames as u32, plays)?;
+    // Laid over each other, transparent frames would pile up.
     encoder.set_blend_op(BlendOp::Source)?;
     encoder.set_dispose_op(DisposeOp::None)?;
     encoder.write_header()
@@ -80,6 +85,7 @@ fn delay(film: &Film, run: Run) -> (u16, u16) {
     {
         return (count, fps as u16);
     }
+    // A hold beyond 65 s leaves no room for milliseconds.
     let millis = film.ticks(run, 1000.0);
     match u16::try_from(millis) {
         Ok(millis) => (millis, 1000),

@@ -19,10 +19,12 @@ use super::size::PixelSize;
 use super::svg::to_svg;
 use super::view::View;
 
-/// Memory for frames that are drawn ahead of being written, in bytes.
+/// Memory for frames that are drawn ahead of being written, in bytes: 32 of
+/// 1920 × 1080.
 pub const BATCH_BYTES: u64 = 256 << 20;
 
-/// The most frames at which [`framing`] looks.
+/// The most frames at which [`framing`] looks: both ends, and what is between
+/// them halved five times.
 const FRAMING_SAMPLES: usize = 33;
 
 /// The stage of drawing a film's frames, as [`Progress`] is told.
@@ -89,6 +91,8 @@ impl Camera {
         mut take: impl FnMut(Run, T) -> Result<(), ExportError>,
     ) -> Result<(), ExportError> {
         let mut done = 0;
+        // Cores finish frames in any order, files want them in theirs: a batch
+        // is drawn on all, then handed over.
         for batch in runs.chunks(batch_len(self.view.size())) {
             checkpoint(progress, stage, done as f64 / runs.len() as f64)?;
             for (run, made) in batch.iter().zip(self.shoot_batch(batch, progress, &make)?) {
@@ -109,6 +113,8 @@ impl Camera {
         batch
             .par_iter()
             .map_init(
+                // A frame owns the memory that it is evaluated in: one for each
+                // thread.
                 || self.transition.frame(batch[0].t),
                 |frame, run| {
                     if progress.is_cancelled() {
@@ -130,6 +136,7 @@ const MARGIN: f64 = 0.04;
 /// on its way is not cut off; with a little room around.
 pub fn framing(transition: &Transition, times: &[f64]) -> Bounds {
     let step = times.len().div_ceil(FRAMING_SAMPLES).max(1);
+    // The last one stays in, which the steps may jump over.
     let sampled = times.iter().step_by(step).chain(times.last());
     let mut frame = transition.frame(times.first().copied().unwrap_or_default());
     let mut all = transition.bounds();
@@ -141,6 +148,8 @@ pub fn framing(transition: &Transition, times: &[f64]) -> Bounds {
         let on_bars = Bounds::of(figure.bars.iter().flatten().copied());
         let on_bars = on_bars.map(|bounds| bounds.padded(reach));
         for bounds in [on_rings, on_bars].into_iter().flatten() {
+            // Far outside [0, 1] a film overflows, and such a frame would leave
+            // no room for any other.
             if bounds.min.is_finite() && bounds.max.is_finite() {
                 all = all.union(&bounds);
             }
@@ -151,5 +160,7 @@ pub fn framing(transition: &Transition, times: &[f64]) -> Bounds {
 
 fn batch_len(size: PixelSize) -> usize {
     let in_memory = (BATCH_BYTES / (size.pixels() * 4)).max(1);
+    // A few frames for each core even out those that take longer; more would
+    // only make a cancel and the progress wait.
     (in_memory as usize).min(4 * rayon::current_num_threads())
 }

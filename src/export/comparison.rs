@@ -82,6 +82,7 @@ pub fn comparison(
 ) -> Result<Drawing, SizeError> {
     let built = rows.iter().filter_map(|row| row.transition.as_ref().ok());
     let bounds = built.map(|transition| framing(transition, times));
+    // One frame around all methods, so that they can be compared by eye.
     let bounds = bounds.reduce(|a, b| a.union(&b));
     let cell = cell(bounds, rows.len(), times.len());
     let step = cell + DVec2::splat(GAP_PX);
@@ -109,6 +110,7 @@ pub fn comparison(
                 let at = DVec2::new(left.x, name_at.y);
                 TYPE.push(&mut drawing, reason, (room, 4), at, BAD);
             }
+            // Where one was built there are bounds.
             (Ok(_), None) => {}
         }
     }

@@ -125,6 +125,8 @@ impl Drawing {
         let Some(covered) = Bounds::of(places.iter().map(|&p| view.to_px(p))) else {
             return;
         };
+        // Whole pixels, so that the picture is drawn without being sampled
+        // again.
         let (low, high) = (covered.min.floor(), covered.max.ceil());
         let low = low.clamp(DVec2::ZERO, self.size.as_dvec2());
         let high = high.clamp(low, self.size.as_dvec2());
@@ -150,6 +152,7 @@ impl Drawing {
             .bars
             .iter()
             .map(|bar| bar.map(|p| view.to_px(p)))
+            // As rings are: far out, 32-bit rasterisers lose all their digits.
             .filter(|bar| bar.iter().copied().all(is_drawable))
             .collect();
         if !segments.is_empty() {
@@ -214,6 +217,7 @@ pub fn joint_core(colour: Rgb) -> Rgb {
 /// Where the bars meet: each end point once, in the order of the bars.
 fn joint_centres(segments: &[[DVec2; 2]]) -> Vec<DVec2> {
     let mut seen = HashSet::new();
+    // Bars that share a node have its place to the last bit.
     let is_new = |p: &DVec2| seen.insert([p.x.to_bits(), p.y.to_bits()]);
     segments.iter().flatten().copied().filter(is_new).collect()
 }

@@ -84,9 +84,12 @@ impl Film {
         check(fps, timing.from, timing.to)?;
         let pass_secs = timing.pass_secs();
         let steps = (pass_secs * fps).round().max(1.0) as usize;
+        // `as` saturates: a pass of aeons, too, ends here.
         if steps >= MAX_FRAMES {
             return Err(FilmError::Count(steps.saturating_add(1)));
         }
+        // An easing may miss the ends by rounding; the first and the last frame
+        // do not.
         let t_of = |i: usize| match i {
             0 => timing.from,
             i if i == steps => timing.to,
@@ -182,6 +185,7 @@ impl Film {
     /// How long a run stays, in whole ticks of which `ticks_per_sec` make a
     /// second. Ends are rounded, not lengths, so nothing drifts.
     pub fn ticks(&self, run: Run, ticks_per_sec: f64) -> u64 {
+        // By the number in the whole film, so that parts fit together.
         let at = |number: usize| (number as f64 * ticks_per_sec / self.fps).round() as u64;
         at(run.first + run.count) - at(run.first)
     }
@@ -201,6 +205,7 @@ pub fn even_times(from: f64, to: f64, count: usize) -> Vec<f64> {
     let last = count.saturating_sub(1).max(1);
     let t_of = |i: usize| {
         let s = i as f64 / last as f64;
+        // Exact at both ends, which from + s (to − from) is not.
         (1.0 - s) * from + s * to
     };
     (0..count).map(t_of).collect()

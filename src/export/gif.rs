@@ -29,7 +29,8 @@ const TICKS_PER_SEC: f64 = 100.0;
 /// Index of the transparent colour; colours take the indices below it.
 const TRANSPARENT: u8 = 255;
 
-/// The most frames whose colours make the palette.
+/// The most frames whose colours make the palette. They are drawn once more for
+/// it; a colour that only others have gets its nearest.
 const PALETTE_SAMPLES: usize = 24;
 
 /// Writes the film.
@@ -46,6 +47,8 @@ pub fn write_gif(
     if film.fps() > MAX_GIF_FPS {
         return Err(ExportError::GifRate(film.fps()));
     }
+    // Before anything is drawn: a folder that cannot be written to is told at
+    // once.
     let mut file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let palette = film_palette(camera, &film.runs(), progress)?;
     let writer = BufWriter::new(file.file_mut());
@@ -61,6 +64,7 @@ pub fn write_gif(
             written.map_err(ExportError::encode(path))
         },
     )?;
+    // Dropped instead, it would lose the error of writing the end.
     let mut writer = encoder.into_inner().map_err(ExportError::encode(path))?;
     writer.flush().map_err(ExportError::write(path))?;
     drop(writer);
@@ -74,8 +78,10 @@ fn encoder<W: Write>(
     palette: &Palette,
 ) -> Result<Encoder<W>, gif::EncodingError> {
     let mut table = palette.colours().as_flattened().to_vec();
+    // All indices up to the transparent one stand in the table.
     table.resize(3 * 256, 0);
     let size = camera.view.size();
+    // Sides fit in 16 bits: `MAX_SIDE_PX` is 16,384.
     let mut encoder = Encoder::new(writer, size.width() as u16, size.height() as u16, &table)?;
     if film.repeats() {
         encoder.set_repeat(Repeat::Infinite)?;
@@ -91,6 +97,7 @@ fn film_palette(
 ) -> Result<Palette, ExportError> {
     let step = runs.len().div_ceil(PALETTE_SAMPLES).max(1);
     let mut sampled: Vec<Run> = runs.iter().step_by(step).copied().collect();
+    // The steps may jump over the end, whose colours are seen the longest.
     sampled.extend(runs.last());
     let mut counts = Histogram::new();
     camera.shoot_runs(
@@ -122,6 +129,7 @@ fn opaque([r, g, b, a]: [u8; 4]) -> Option<[u8; 3]> {
 }
 
 fn encoded_frame(image: &RgbaImage, palette: &Palette) -> Frame<'static> {
+    // Pictures have few colours and palettes 255 to compare each with.
     let mut known = HashMap::new();
     let mut index_of = |pixel: &image::Rgba<u8>| match opaque(pixel.0) {
         None => TRANSPARENT,
@@ -133,6 +141,8 @@ fn encoded_frame(image: &RgbaImage, palette: &Palette) -> Frame<'static> {
     let mut frame = Frame {
         width: image.width() as u16,
         height: image.height() as u16,
+        // Or the last frame would show through the transparent parts of this
+        // one.
         dispose: DisposalMethod::Background,
         transparent: Some(TRANSPARENT),
         buffer: indices.into(),

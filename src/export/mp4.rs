@@ -34,6 +34,7 @@ pub fn write_mp4(
     if camera.ground.is_none() {
         return Err(ExportError::Mp4Transparent);
     }
+    // The folder is tried before ffmpeg is.
     let file = AtomicFile::create(path).map_err(ExportError::write(path))?;
     let mut ffmpeg = Ffmpeg::start(camera.view.size(), film.fps(), file.temporary_path())?;
     let fed = camera.shoot_runs(
@@ -42,12 +43,14 @@ pub fn write_mp4(
         progress,
         |drawing| Ok(samples(&rasterise(&drawing), true)),
         |run, bytes| {
+            // ffmpeg knows a rate and no holds: a run goes in frame by frame.
             let feed = |_| ffmpeg.stdin.write_all(&bytes);
             (0..run.count)
                 .try_for_each(feed)
                 .map_err(ExportError::write(path))
         },
     );
+    // Told to end instead, it would take its time over what it has.
     if progress.is_cancelled() {
         ffmpeg.kill();
         return Err(Cancelled.into());
@@ -78,6 +81,8 @@ impl Ffmpeg {
             (Some(stdin), Some(stderr)) => Ok(Self {
                 child,
                 stdin,
+                // Read while frames are fed: neither side may wait for a full
+                // pipe.
                 last_line: std::thread::spawn(|| last_line(stderr)),
             }),
             _ => Err(ExportError::NoFfmpeg),
@@ -106,6 +111,7 @@ impl Ffmpeg {
     fn kill(mut self) {
         drop(self.stdin);
         if self.child.kill().is_ok() {
+            // Unwaited for, it would stay in the system's table of processes.
             drop(self.child.wait());
         }
     }
@@ -125,6 +131,7 @@ fn arguments(size: PixelSize, fps: f64) -> String {
     let input = format!("-f rawvideo -pix_fmt rgb24 -s {size} -r {fps} -i -");
     let colours = "-vf scale=out_color_matrix=bt709:out_range=tv,format=yuv420p \
                    -colorspace bt709 -color_primaries bt709 -color_trc bt709";
+    // `-y`: the temporary file is there already.
     format!("-hide_banner -loglevel error -y {input} -an {colours} -movflags +faststart -f mp4")
 }
 

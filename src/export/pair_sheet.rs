@@ -110,6 +110,7 @@ impl Layout {
     /// smallest ones.
     fn new(strips: usize, columns: usize) -> Self {
         let layouts = CELLS_PX.map(|cell_px| Self::balanced(strips.max(1), columns, cell_px));
+        // Largest first: the first that fits is the one.
         let fits = |layout: &&Self| layout.size().max_element() <= LONGEST_SHEET_PX;
         let fitting = layouts.iter().find(fits).copied();
         fitting.unwrap_or_else(|| Self::fullest(columns))
@@ -124,9 +125,11 @@ impl Layout {
         };
         let off = |layout: &Self| {
             let size = layout.size();
+            // As a ratio: twice too wide is as bad as twice too high.
             (size.x / size.y / SHAPE).ln().abs()
         };
         let better = |a: Self, b: Self| if off(&b) < off(&a) { b } else { a };
+        // More blocks than this are wider than the longest sheet.
         let most = strips.min(32);
         (2..=most).map(layout).fold(layout(1), better)
     }
@@ -154,6 +157,8 @@ impl Layout {
         let lines = 4.0 * LINE_PX;
         DVec2::new(
             WORDS_PX + frames + 6.0 * GAP_PX,
+            // Four lines have room beside any frame: two of the name, two of
+            // words.
             self.cell_px.max(lines) + 1.5 * GAP_PX,
         )
     }

@@ -26,6 +26,8 @@ impl Palette {
         if colours.is_empty() {
             return Self(vec![[0; 3]]);
         }
+        // With no more colours than that, the cuts below would run out of what
+        // to cut.
         if colours.len() <= limit {
             return Self(colours.into_iter().map(|(colour, _)| colour).collect());
         }
@@ -33,6 +35,8 @@ impl Palette {
         while boxes.len() < limit {
             let error = |i: &usize| boxes[*i].error;
             let worst = (0..boxes.len()).max_by(|a, b| error(a).total_cmp(&error(b)));
+            // It can be cut: there are more colours than boxes, so the worst
+            // holds two.
             let Some((low, high)) = worst.and_then(|i| boxes.swap_remove(i).cut()) else {
                 break;
             };
@@ -48,6 +52,7 @@ impl Palette {
 
     /// Index of the colour with the least squared distance.
     pub fn nearest(&self, colour: [u8; 3]) -> u8 {
+        // In sRGB values, as the eye's steps are nearer to those than to light.
         let distance = |other: &[u8; 3]| -> i32 {
             let along = |k: usize| i32::from(colour[k]) - i32::from(other[k]);
             (0..3).map(|k| along(k) * along(k)).sum()

@@ -29,6 +29,8 @@ pub fn write_numbered(
 ) -> Result<Vec<PathBuf>, ExportError> {
     fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
     let mut written = Vec::with_capacity(film.times().len());
+    // For the message alone: a frame that cannot be encoded is as large as all
+    // others.
     let first = names.path(film.first_number());
     camera.shoot_runs(
         &film.runs(),

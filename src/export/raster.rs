@@ -60,6 +60,8 @@ fn paint(item: &Item, canvas: &mut PixmapMut<'_>) {
 /// A circle of four cubic curves, 0.03 % of the radius off at most. (tiny-skia's
 /// own is of quadratic ones and visibly too small, by an eighth of a pixel.)
 fn disc(centre: DVec2, radius: f64) -> Outline {
+    // 4/3 (√2 − 1): the curve meets the circle in the middle of the quarter,
+    // too.
     const HANDLE: f64 = 0.552_284_749_830_793_4;
     let quarter = |i: u8| {
         let from = DVec2::from_angle(f64::from(i) * std::f64::consts::FRAC_PI_2);

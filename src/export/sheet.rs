@@ -79,6 +79,7 @@ impl SheetLayout {
         let corner = place * whole + DVec2::splat(0.5 * self.gap_px);
         let inner = whole - DVec2::new(self.gap_px, self.gap_px + self.label_px);
         let base = corner + DVec2::new(0.5 * inner.x, inner.y + 0.8 * self.label_px);
+        // A sheet of a few pixels has no room left for pictures.
         (corner, inner.max(DVec2::ONE), base)
     }
 }
@@ -92,6 +93,7 @@ fn free(count: usize, cell: DVec2) -> SheetLayout {
     let (label_px, gap_px) = (LABEL_SHARE * unit, GAP_SHARE * unit);
     let whole = cell + DVec2::new(gap_px, gap_px + label_px);
     let wanted = whole * DVec2::new(columns as f64, rows as f64);
+    // Scaled as a whole, with its labels and gaps.
     let fitting = (LONGEST_SHEET_PX / wanted.max_element()).min(1.0);
     let sides = (wanted * fitting).round().max(DVec2::ONE);
     let size = PixelSize::holding(sides)
@@ -112,6 +114,7 @@ fn largest_cells(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
         let (_, inner, _) = layout.cell(0);
         (inner / cell).min_element()
     };
+    // Of equals the first stays: fewer columns.
     let better = |a: SheetLayout, b: SheetLayout| if scale(&b) > scale(&a) { b } else { a };
     (2..=count).map(layout).fold(layout(1), better)
 }

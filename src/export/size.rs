@@ -78,8 +78,10 @@ impl PixelSize {
     /// The shape of `bounds`, with the longer side as given (clamped to what is
     /// legal) and the shorter one at least a tenth of it; both even.
     pub fn of_shape(bounds: Bounds, longer_side_px: u32) -> Self {
+        // 8192² is half of `MAX_PIXELS`: no shape leaves the limits.
         let longer = even(longer_side_px.clamp(2, 8_192));
         let size = bounds.size();
+        // Not a number for a point: that is shown in a square.
         let ratio = size.min_element() / size.max_element();
         let ratio = if ratio.is_finite() {
             ratio.max(0.1)
@@ -100,6 +102,7 @@ impl PixelSize {
     /// # Errors
     /// [`SizeError`] where a side is 0 or the picture is too large.
     pub(super) fn holding(sides_px: DVec2) -> Result<Self, SizeError> {
+        // `as` saturates, and what is far too large is refused as such.
         let [width, height] = sides_px.to_array().map(|side| side.ceil() as u32);
         Self::new(width, height)
     }

@@ -93,6 +93,7 @@ fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
 
 fn picture(image: &image::RgbaImage, UVec2 { x, y }: UVec2) -> String {
     let mut png = Vec::new();
+    // Embedded, so that the file needs no other beside it.
     let encoded = image.write_with_encoder(PngEncoder::new(&mut png));
     if encoded.is_err() {
         return String::new(); // it has no pixels, and shows nothing

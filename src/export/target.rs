@@ -119,6 +119,7 @@ impl Target {
             let folder = path.parent().unwrap_or(Path::new(""));
             return Ok(Self::Numbered(by_pattern(folder, name, kind)));
         }
+        // A film's ending in a pattern was refused above: a film is one file.
         let film = FilmKind::of_key(&extension).ok();
         let still = still.map(|kind| Self::Still(kind, path.to_owned()));
         let film = film.map(|kind| Self::Film(kind, path.to_owned()));
@@ -130,12 +131,14 @@ impl Target {
 fn is_folder(path: &Path) -> bool {
     let text = path.to_string_lossy();
     let name = path.file_name().map(|name| name.to_string_lossy());
+    // `name-####` without an ending is more likely a slip than a folder.
     let is_bare = path.extension().is_none() && !name.is_some_and(|name| name.contains('#'));
     is_bare || text.ends_with(['/', std::path::MAIN_SEPARATOR]) || path.is_dir()
 }
 
 /// The last run of `#` in the name is the number.
 fn by_pattern(folder: &Path, name: &str, kind: StillKind) -> Numbered {
+    // There is one in the name: that is what made it a pattern.
     let end = name.rfind('#').map_or(0, |last| last + 1);
     let before = &name[..end];
     let prefix = before.trim_end_matches('#');

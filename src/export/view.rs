@@ -26,6 +26,8 @@ impl View {
         let ratio = cell_px / bounds.size();
         let px_per_unit = [ratio.x, ratio.y]
             .into_iter()
+            // A straight line has no extent along one axis, and a point along
+            // none.
             .filter(|r| r.is_finite() && *r > 0.0)
             .reduce(f64::min);
         Self {

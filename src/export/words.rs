@@ -35,6 +35,7 @@ impl Type {
         let lines = self.wrapped(words, width_px, most);
         for (i, line) in lines.iter().enumerate() {
             let middle = 0.5 * text::width(line, self.letters_px);
+            // What hangs below the base line has the last fifth.
             let base = corner + DVec2::new(middle, (i as f64 + 0.8) * self.line_px);
             drawing.push_label(line, base, self.letters_px, colour);
         }
@@ -56,6 +57,8 @@ impl Type {
             }
             for c in word.chars() {
                 line.push(c);
+                // Letter by letter: a path without a space may be longer than a
+                // line.
                 if !fits(&line) {
                     line.pop();
                     lines.push(std::mem::replace(&mut line, c.to_string()));
@@ -84,6 +87,7 @@ pub(super) fn ink_on(ground: Option<Rgb>) -> Rgb {
     match ground {
         None => grey(0x80),
         Some(Rgb([r, g, b])) => {
+            // The weights of Rec. 601: enough to tell light from dark.
             let luma = 0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b);
             if luma > 128.0 { grey(0x20) } else { grey(0xe8) }
         }

@@ -33,6 +33,7 @@ pub(super) fn distances(
             report(y)?;
         }
         let row = lengths.row(y);
+        // Behind lie the cell to the left and the three below.
         row.for_each(|i| lengths.visit(i, diagonal, |i, step| i - step));
     }
     for y in (0..height).rev() {
@@ -59,6 +60,8 @@ impl Lengths {
     /// The sides, and no distance yet.
     fn of(mask: &Mask) -> Self {
         let (width, height) = (mask.width() as usize, mask.height() as usize);
+        // A ring of outside cells, so that no cell asks whether it has
+        // neighbours.
         let stride = width + 2;
         let cells = stride * (height + 2);
         let mut found = Self {
@@ -96,6 +99,8 @@ impl Lengths {
     }
 
     fn signed(&self, i: usize) -> f32 {
+        // The boundary runs half a cell before the nearest cell of the other
+        // side.
         let distance = (self.lengths[i] - 0.5) as f32;
         if self.sides[i] { distance } else { -distance }
     }

@@ -99,6 +99,8 @@ struct Squares<F> {
 
 impl<F: Fn(f64, f64) -> f64 + Sync> Squares<F> {
     fn position(&self, column: usize, row: usize) -> DVec2 {
+        // The last sample is at count − 5, the picture's border half a sample
+        // beyond.
         let along = |i: usize, count: usize| (i as f64 - 2.0).clamp(-0.5, count as f64 - 4.5);
         DVec2::new(along(column, self.columns), along(row, self.rows))
     }
@@ -134,6 +136,7 @@ impl<F: Fn(f64, f64) -> f64 + Sync> Squares<F> {
         for column in 0..self.columns - 1 {
             let (l, u) = (&lower[column..column + 2], &upper[column..column + 2]);
             let corners = [l[0], l[1], u[1], u[0]];
+            // Nearly all squares have nothing in them.
             if corners != [corners[0]; 4] {
                 self.square(column, row, corners, &mut out);
             }
@@ -176,6 +179,8 @@ impl<F: Fn(f64, f64) -> f64 + Sync> Squares<F> {
         let upright = edge % 2;
         let a = self.position(column, row);
         let b = self.position(column + 1 - upright, row + upright);
+        // The outer ring is in the place of the border: what it crosses is
+        // there.
         if a == b {
             return a;
         }
@@ -191,6 +196,7 @@ impl<F: Fn(f64, f64) -> f64 + Sync> Squares<F> {
 /// the Illinois method, with bisections for the functions that stall it.
 fn root(f: impl Fn(f64) -> f64) -> f64 {
     let (mut lo, mut hi) = ((0.0, f(0.0)), (1.0, f(1.0)));
+    // From the change along the edge, so that functions of any size end alike.
     let near = RESIDUAL * (lo.1 - hi.1).abs();
     let rising = hi.1 >= 0.0;
     let mut last_was_low = None;
@@ -210,6 +216,8 @@ fn root(f: impl Fn(f64) -> f64) -> f64 {
             (&mut hi, &mut lo)
         };
         *moved = (s, value);
+        // The Illinois step: an end that stays twice loses half its weight, or
+        // the chord would creep up on the root from one side.
         if last_was_low == Some(low) {
             kept.1 *= 0.5;
         }
@@ -240,6 +248,8 @@ fn chains(segments: &[Segment]) -> Vec<Vec<Edge>> {
             && !std::mem::replace(&mut used[i], true)
         {
             chain.push(segments[i].0);
+            // One segment starts from each edge that ends one: what leaves a
+            // square enters the next.
             next = segments.binary_search_by_key(&segments[i].1, |s| s.0);
         }
         if !chain.is_empty() {
@@ -266,6 +276,7 @@ fn cleaned(mut points: Vec<DVec2>) -> Vec<DVec2> {
 
 fn straight(before: DVec2, p: DVec2, after: DVec2) -> bool {
     let along_axis = (before.x == p.x && p.x == after.x) || (before.y == p.y && p.y == after.y);
+    // A spike turns back along the axis, and its point is kept.
     along_axis && (p - before).dot(after - p) > 0.0
 }
 

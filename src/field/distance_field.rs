@@ -114,6 +114,7 @@ impl DistanceField {
         progress: &dyn Progress,
     ) -> Result<Self, FieldError> {
         grid.check()?;
+        // In the grid's own units: distances are counted in cells.
         let edges = scan::edges(regions, &grid);
         let mut values = polygon::distances(&edges, &grid, progress)?;
         for (value, inside) in values.iter_mut().zip(scan::inside(&edges, &grid)) {

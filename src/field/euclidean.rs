@@ -38,6 +38,7 @@ pub(super) fn distances(mask: &Mask, progress: &dyn Progress) -> Result<Vec<f32>
         .try_for_each_init(
             || RowPass::new(width),
             |pass, (band, out)| {
+                // Bands end in any order: counted, the progress only grows.
                 let before = done.fetch_add(ROWS, Ordering::Relaxed);
                 let fraction = before as f64 / height as f64;
                 checkpoint(progress, "measuring distances", fraction)?;
@@ -82,6 +83,7 @@ fn sweep<'a>(
         let out = &mut strip[y * STRIP..][..row.len()];
         let columns = out.iter_mut().zip(row).zip(&mut counts).zip(&mut before);
         for (((out, &inside), count), before) in columns {
+            // Without a branch, the compiler counts many columns at once.
             let side = -i16::from(inside); // all bits or none
             *count = (*count & !(side ^ *before)).saturating_add(1);
             *before = side;
@@ -177,6 +179,8 @@ impl RowPass {
             start: first,
         };
         while let Some(top) = self.envelope.last() {
+            // All have one curvature, and the new vertex is farther right: what
+            // beats the top where that starts beats it all along.
             if piece.at(top.start) > top.at(top.start) {
                 piece.start = meeting(top, &piece);
                 break;

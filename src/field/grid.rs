@@ -77,7 +77,8 @@ impl Grid {
     /// and what keeps every squared distance exact in 32 bits.
     pub const MAX_SIDE: u32 = 8192;
 
-    /// Margin at most, in longer sides.
+    /// Margin at most, in longer sides: with it a design has a ninth of its
+    /// grid's side. More is a slip.
     pub const MAX_MARGIN: f64 = 4.0;
 
     /// A share of a cell that rounding may cost where cells are counted: a
@@ -117,9 +118,13 @@ impl Grid {
         if !(0.0..=Self::MAX_MARGIN).contains(&margin) {
             return Err(GridError::Margin(margin));
         }
+        // The same width all around, by the longer side: flat designs have room
+        // above, too.
         let padded = size + DVec2::splat(2.0 * margin * longer);
         let cell = padded.max_element() / f64::from(cells);
         let count = |side: f64| (side / cell - Self::COUNT_SLACK).ceil().max(1.0) as u32;
+        // The longer side is to have `cells`, which rounding could exceed by
+        // one.
         let (width, height) = (count(padded.x).min(cells), count(padded.y).min(cells));
         let half = 0.5 * cell * DVec2::new(f64::from(width), f64::from(height));
         let centre = bounds.min + 0.5 * size;

@@ -50,6 +50,7 @@ impl Mask {
     /// Where a side is 0 or above [`Grid::MAX_SIDE`], there are not as many
     /// bits as cells, or none is set.
     pub fn new(width: u32, height: u32, bits: Vec<bool>) -> Result<Self, MaskError> {
+        // A mask is as large as a grid may be, wherever that lies.
         Grid::new(width, height, DVec2::ZERO, 1.0)?;
         SamplesError::check(width, height, bits.len())?;
         if !bits.contains(&true) {

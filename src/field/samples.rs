@@ -106,6 +106,7 @@ impl<'a> Samples<'a> {
 
 /// The two samples around `x`, and how far it is from the first to the second.
 fn bracket(x: f64, count: usize) -> (usize, usize, f64) {
+    // In this order NaN becomes 0: `max` takes the number.
     let clamped = x.max(0.0).min((count - 1) as f64);
     let first = clamped as usize;
     (first, (first + 1).min(count - 1), clamped - first as f64)

@@ -26,6 +26,8 @@ pub(super) fn edges(regions: &Regions, grid: &Grid) -> Vec<Edge> {
 pub(super) fn inside(edges: &[Edge], grid: &Grid) -> Vec<bool> {
     let mut steps = vec![0_i32; grid.cells()];
     for &(a, b) in edges {
+        // Windings: +1 to the right of an edge that rises, −1 of one that
+        // falls.
         if a.y <= b.y {
             cross(a, b, 1, grid, &mut steps);
         } else {
@@ -37,6 +39,8 @@ pub(super) fn inside(edges: &[Edge], grid: &Grid) -> Vec<bool> {
     bits.par_chunks_mut(width)
         .zip(steps.par_chunks(width))
         .for_each(|(bits, steps)| {
+            // Steps add up along the row: each edge is written once a row, not
+            // once a sample.
             let mut winding = 0;
             for (bit, step) in bits.iter_mut().zip(steps) {
                 winding += step;
@@ -51,6 +55,7 @@ pub(super) fn inside(edges: &[Edge], grid: &Grid) -> Vec<bool> {
 fn cross(low: DVec2, high: DVec2, step: i32, grid: &Grid, steps: &mut [i32]) {
     // `as` saturates, which is what edges outside the grid need.
     let row = |y: f64| (y.ceil() as usize).min(grid.height as usize);
+    // A level edge has no slope, and no row to need it in.
     let slope = (high.x - low.x) / (high.y - low.y);
     for y in row(low.y)..row(high.y) {
         let x = low.x + (y as f64 - low.y) * slope;

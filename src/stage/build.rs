@@ -32,6 +32,7 @@ pub(super) struct Building {
 
 impl Drop for Building {
     fn drop(&mut self) {
+        // No other memory hangs on the flag.
         self.wanted.0.store(false, Ordering::Relaxed);
     }
 }
@@ -52,6 +53,8 @@ type MeshesChanged = (
         Changed<TargetMesh>,
         Changed<MorphOptions>,
     )>,
+    // A transition that was built elsewhere brings its meshes along: they must
+    // not be built again.
     Without<StageTransition>,
 );
 
@@ -65,6 +68,7 @@ pub(super) fn start_builds(
         let options = options.0.clone();
         let wanted = Arc::new(Wanted(AtomicBool::new(true)));
         let progress = Arc::clone(&wanted);
+        // The task owns a share of the flag: it may outlive the entity.
         let task = AsyncComputeTaskPool::get()
             .spawn(async move { build(source, target, options, &*progress) });
         commands
@@ -95,6 +99,8 @@ pub(super) fn finish_builds(
         let Some(result) = check_ready(&mut building.task) else {
             continue;
         };
+        // The entity may be gone when commands are applied: all of them only
+        // try.
         commands.entity(entity).try_remove::<Building>();
         match result {
             Ok(transition) => {
@@ -115,10 +121,13 @@ pub(super) fn adopt_transitions(
         let morph = Morph(transition.frame(blend.t));
         let mut entity = commands.entity(entity);
         entity
+            // A build under way would put its own frame in place of this one
+            // later.
             .try_remove::<Building>()
             .try_insert((morph, Undressed));
         match transition.compatible().and_then(|_| meshes(transition)) {
             Some(meshes) => entity.try_insert(meshes),
+            // Those of the transition before this one would be stale.
             None => entity.try_remove::<(SourceMesh, TargetMesh)>(),
         };
     }

@@ -20,16 +20,21 @@ pub(super) fn apply_view(
 ) {
     for (camera, transform, mut projection) in &mut cameras {
         if let Some(viewport_px) = camera.logical_viewport_size()
+            // A window that is folded away has no pixels; what it showed stays
+            // as it was.
             && viewport_px.min_element() >= 1.0
             && viewport_px != view.viewport_px
         {
             view.viewport_px = viewport_px;
         }
+        // The difference of the two is small wherever the design lies, and fits
+        // single precision.
         let at = (view.centre - view.anchor()).as_vec2();
         let translation = at.extend(transform.translation.z);
         let mut place = transform.map_unchanged(|transform| &mut transform.translation);
         place.set_if_neq(translation);
         let scale = view.units_per_px as f32;
+        // Looked at first: borrowed mutably, it would count as changed.
         if matches!(&*projection, Projection::Orthographic(p) if p.scale != scale)
             && let Projection::Orthographic(orthographic) = &mut *projection
         {

@@ -23,7 +23,9 @@ use super::components::Blend;
 use super::pipelines::PipelinesReady;
 use super::view::{StageView, units_per_px};
 
-/// Frames to wait for the graphics card before a capture is given up.
+/// Frames to wait for the graphics card before a capture is given up: twenty
+/// seconds at 60 a second. Longer and a user waits for nothing, shorter and a
+/// slow machine that compiles its shaders has no picture.
 const PATIENCE: u32 = 1200;
 
 /// Asks for a picture of the stage.
@@ -104,6 +106,8 @@ pub(super) fn begin_captures(
         let format = TextureFormat::Rgba8UnormSrgb;
         let image = images.add(Image::new_target_texture(size.x, size.y, format, None));
         let camera = commands.spawn(camera(request, &image, view.anchor())).id();
+        // Other pipelines than the window's may be wanted: its format is
+        // another.
         ready.start_over();
         captures.0.push(Capture {
             id: request.id,
@@ -160,6 +164,7 @@ pub(super) fn advance_captures(
     captures.0.retain_mut(|capture| {
         capture.frames += 1;
         if is_ready && capture.shot.is_none() {
+            // Of several entities the first one's: an answer tells one t.
             capture.t = blends.iter().next().map(|blend| blend.t);
             let shot = Screenshot::image(capture.image.clone());
             capture.shot = Some(commands.spawn(shot).observe(finish_capture).id());
@@ -167,6 +172,7 @@ pub(super) fn advance_captures(
         if capture.frames <= PATIENCE {
             return true;
         }
+        // Or it would draw into its picture on every frame to come.
         commands.entity(capture.camera).try_despawn();
         if let Some(shot) = capture.shot {
             commands.entity(shot).try_despawn();
@@ -183,6 +189,7 @@ fn finish_capture(
     mut captures: ResMut<Captures>,
 ) {
     let is_it = |capture: &Capture| capture.shot == Some(shot.entity);
+    // It was given up in the meantime, and has its answer.
     let Some(index) = captures.0.iter().position(is_it) else {
         return;
     };

@@ -24,6 +24,7 @@ pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mes
         mesh.attribute_mut(Mesh::ATTRIBUTE_UV_0)
     {
         for (out, &p) in coordinates.iter_mut().zip(places) {
+            // Subtracted in double precision, as positions are.
             *out = (p - origin).as_vec2().to_array();
         }
     }

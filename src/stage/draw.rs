@@ -41,6 +41,8 @@ pub(super) fn draw_morphs(
         let mut parts = parts.iter_many_mut(children);
         while let Some((mut part, mut visibility, mesh)) = parts.fetch_next() {
             let (has_moved, is_restyled) = (morph.is_changed(), style.is_changed());
+            // What is hidden stays stale until it is shown, however far the
+            // frame moves on.
             part.stale |= part.kind.outdated(has_moved, is_restyled, frame);
             let is_shown = part.kind.is_shown(&style);
             visibility.set_if_neq(if is_shown {
@@ -98,6 +100,8 @@ fn renew<M: Asset, L: PartialEq>(
     wanted: L,
 ) {
     if let Some(mut material) = materials.get_mut(of)
+        // Borrowed in the usual way it would count as changed even if it stays
+        // as it is.
         && *look(material.bypass_change_detection()) != wanted
     {
         *look(&mut material) = wanted;

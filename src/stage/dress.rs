@@ -71,6 +71,7 @@ pub(super) struct Wardrobe<'w, 's> {
 impl Wardrobe<'_, '_> {
     fn undress(&mut self, children: Option<&Children>) {
         for &child in children.into_iter().flatten() {
+            // A program may have hung children of its own below the entity.
             if self.parts.contains(child) {
                 self.commands.entity(child).try_despawn();
             }
@@ -79,6 +80,7 @@ impl Wardrobe<'_, '_> {
 
     fn dress(&mut self, of: Entity, frame: &Frame, style: &StageStyle) {
         let transition = frame.transition();
+        // In the midst of the vertices, where single precision is finest.
         let origin = transition.bounds().centre();
         let mut fitting = Fitting {
             wardrobe: self,
@@ -159,6 +161,8 @@ impl Fitting<'_, '_, '_> {
         if has_loops && count == 0 {
             let (positions, indices) = fill::nothing();
             let nothing = mesh(positions).with_inserted_indices(Indices::U32(indices));
+            // How many vertices the rings will need is not known before a frame
+            // is filled.
             self.add_inked(PartKind::Rings, nothing);
         } else if has_loops {
             self.add_inked(PartKind::Faces, faces(self.frame));
@@ -180,6 +184,7 @@ impl Fitting<'_, '_, '_> {
 
     fn add_ghost(&mut self, kind: PartKind, figure: &Figure) {
         let segments = Segments::of(figure, self.origin);
+        // An empty mesh would not be taken by the GPU.
         if segments.quads() == 0 {
             return;
         }
@@ -202,6 +207,7 @@ type Staged = (
 /// Gives new transitions their parts.
 pub(super) fn dress(undressed: Query<Staged, With<Undressed>>, mut wardrobe: Wardrobe) {
     for (entity, morph, style, children) in &undressed {
+        // Of an earlier transition, where this one replaces it.
         wardrobe.undress(children);
         wardrobe.commands.entity(entity).remove::<Undressed>();
         wardrobe.dress(entity, morph.frame(), style);

@@ -24,7 +24,7 @@ use super::ink::{contrasting, embedded, linear};
 const INSIDE: Srgba = Srgba::rgb(0.878, 0.51, 0.078);
 const OUTSIDE: Srgba = Srgba::rgb(0.502, 0.451, 0.675);
 
-/// Lines of equal distance over the longer side of the grid.
+/// Lines of equal distance over the longer side of the grid: a matter of looks.
 const ISO_LINES: f32 = 40.0;
 
 /// Two fields and how they are blended and drawn.
@@ -32,6 +32,8 @@ const ISO_LINES: f32 = 40.0;
 pub(super) struct FieldMaterial {
     #[uniform(0)]
     pub(super) look: FieldLook,
+    // To filter 32-bit floats is an optional feature of graphics cards, and
+    // half the digits are too few: the shader filters by hand.
     #[texture(1, sample_type = "float", filterable = false)]
     source: Handle<Image>,
     #[texture(2, sample_type = "float", filterable = false)]
@@ -49,6 +51,7 @@ pub(super) struct FieldLook {
     epsilon: f32,
     level: f32,
     spacing: f32,
+    // WGSL has no layout for `bool` in a uniform.
     log_space: u32,
     fill_shown: u32,
     lines_shown: u32,
@@ -88,6 +91,8 @@ impl FieldLook {
             t: t as f32,
             epsilon: blend.epsilon as f32,
             level: blend.level() as f32,
+            // Distances are in cells of the grid, whatever units the design
+            // has.
             spacing: grid.width.max(grid.height) as f32 / ISO_LINES,
             log_space: u32::from(matches!(blend.space, BlendSpace::Log)),
             fill_shown: u32::from(show.fill),

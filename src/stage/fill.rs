@@ -34,6 +34,8 @@ pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
     };
     let rings = solid.rings_at(&frame.placement().in_frame);
     let (positions, indices) = filled(&rings, origin);
+    // Other frames have other triangles: there is nothing to be written in
+    // place.
     mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, positions);
     mesh.insert_indices(Indices::U32(indices));
 }

@@ -16,7 +16,7 @@ use crate::transition::Frame;
 use super::components::StageStyle;
 use super::ink::{contrasting, embedded, relative};
 
-/// Squares along the longer side of what is shown.
+/// Squares along the longer side of what is shown: a matter of looks.
 const SQUARES: f64 = 20.0;
 
 /// Lines over the vertices of a placement.
@@ -55,6 +55,8 @@ impl GridLook {
         let (colour, halo, window) = match frame.transition().content() {
             Content::Colours(pair) => {
                 let window = pair.window(frame.t());
+                // A picture may have any colour below the lines, so both are
+                // needed.
                 (LinearRgba::WHITE, LinearRgba::BLACK.with_alpha(0.4), window)
             }
             Content::Solid(_) | Content::Field(_) => {

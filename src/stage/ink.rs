@@ -52,6 +52,7 @@ impl Material2d for InkMaterial {
     }
 
     fn alpha_mode(&self) -> AlphaMode2d {
+        // The colour is opaque, the smooth edges are not.
         AlphaMode2d::Blend
     }
 
@@ -71,6 +72,8 @@ impl Material2d for InkMaterial {
         };
         fragment.shader_defs.push(definition.into());
         if key.bind_group_data == InkKind::Line {
+            // Only lines are widened by a vertex shader of their own, in the
+            // same file.
             descriptor.vertex.shader = fragment.shader.clone();
             descriptor.vertex.shader_defs.push(definition.into());
         }
@@ -98,6 +101,8 @@ pub(super) fn linear(colour: Rgb) -> LinearRgba {
 
 /// What reads well on a ground: near black on light ones, near white on dark.
 pub(super) fn contrasting(ground: Rgb) -> LinearRgba {
+    // Near 0.18, where black and white stand out alike (WCAG 2: √(1.05 · 0.05)
+    // − 0.05).
     if linear(ground).luminance() > 0.2 {
         linear(Rgb([28, 32, 38]))
     } else {

@@ -141,6 +141,8 @@ impl Plugin for MorphPlugin {
             .add_systems(Update, builds.chain().in_set(Build))
             .add_systems(Update, solve::solve_frames.in_set(Solve))
             .add_systems(Update, camera::apply_view.in_set(Draw));
+        // Without assets there are no meshes: such a program builds and solves
+        // alone.
         if app.is_plugin_added::<AssetPlugin>() {
             add_drawing(app);
         }
@@ -162,9 +164,12 @@ fn add_drawing(app: &mut App) {
         Material2dPlugin::<colours::ColourMaterial>::default(),
         Material2dPlugin::<grid::GridMaterial>::default(),
     ))
+    // An observer, so that parts go whenever their frame is taken away.
     .add_observer(dress::undress)
     .add_systems(
         Update,
+        // Between systems of a chain commands are applied, so that parts are
+        // written and placed in the frame that spawns them.
         (dress::dress, draw::draw_morphs, parts::place_parts)
             .chain()
             .in_set(MorphSystems::Draw),

@@ -74,6 +74,7 @@ impl PartKind {
     pub(super) fn is_shown(&self, StageStyle { style, show }: &StageStyle) -> bool {
         match self {
             Self::Faces | Self::Rings | Self::Picture => show.fill,
+            // One shader draws all three, and leaves out what is not asked for.
             Self::Field => show.fill || show.iso_lines || show.signed_colours,
             Self::Bars(_) => show.bars,
             Self::JointCores(_) => show.bars && style.joints,
@@ -98,6 +99,8 @@ impl PartKind {
     pub(super) fn outdated(&self, has_moved: bool, is_restyled: bool, frame: &Frame) -> bool {
         match self {
             Self::SourceGhost | Self::TargetGhost => false,
+            // Where nothing is warped only the material changes, and the first
+            // write is due to `stale`.
             Self::Field | Self::Picture => {
                 has_moved && frame.transition().cell().warp() != WarpKind::None
             }
@@ -134,6 +137,8 @@ impl Part {
 /// Puts parts where they are in Bevy's world.
 pub(super) fn place_parts(view: Res<StageView>, mut parts: Query<(&Part, &mut Transform)>) {
     for (part, transform) in &mut parts {
+        // Subtracted in double precision: designs may lie far from zero, and
+        // the view follows them.
         let at = (part.origin - view.anchor()).as_vec2();
         let translation = at.extend(part.kind.layer());
         let mut place = transform.map_unchanged(|transform| &mut transform.translation);

@@ -37,11 +37,13 @@ pub(super) fn watch_pipelines(app: &mut App) {
     let ready = PipelinesReady::default();
     render_app
         .insert_resource(ready.clone())
+        // After rendering: what a frame was short of is queued by then.
         .add_systems(Render, count_ready_frames.in_set(RenderSystems::Cleanup));
     app.insert_resource(ready);
 }
 
 fn count_ready_frames(cache: Option<Res<PipelineCache>>, ready: Res<PipelinesReady>) {
+    // Before there is a cache nothing can have been drawn.
     let waits = cache.is_none_or(|cache| cache.waiting_pipelines().next().is_some());
     if waits {
         ready.start_over();

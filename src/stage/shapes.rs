@@ -13,10 +13,12 @@ use crate::export::{JOINT_CORE_RADIUS, JOINT_RADIUS};
 use crate::transition::Figure;
 
 /// How far a bar's or disc's quad reaches beyond its edge, as a multiple of its
-/// radius, so that the shader has room to fade it out.
+/// radius, so that the shader has room to fade it out: half a pixel, which
+/// shapes from two pixels across on have.
 const MARGIN: f32 = 1.5;
 
-/// How far a line's corner may stand out, in half line widths.
+/// How far a line's corner may stand out, in half line widths: the usual
+/// limit of SVG.
 const MITRE_LIMIT: f64 = 4.0;
 
 /// Vertices of a render mesh that are rewritten each frame.
@@ -79,6 +81,8 @@ pub(super) struct BarShapes {
 impl BarShapes {
     pub(super) fn new(solid: &Solid) -> Self {
         let mut nodes = solid.bars.as_flattened().to_vec();
+        // Bars that meet share their disc: drawn twice its smooth edge would be
+        // darker.
         nodes.sort_unstable();
         nodes.dedup();
         Self {
@@ -109,6 +113,8 @@ impl BarShapes {
         let (bars, discs) = out.split_at_mut(4 * self.bars.len());
         for (quad, &[a, b]) in bars.as_chunks_mut::<4>().0.iter_mut().zip(&self.bars) {
             let (a, b) = (points[a as usize], points[b as usize]);
+            // A bar without length has no direction, and shows as the disc at
+            // its end.
             let across = (b - a).normalize_or_zero().perp() * half_width * f64::from(MARGIN);
             *quad = [a - across, a + across, b - across, b + across].map(|p| vertex(p, origin));
         }
@@ -191,6 +197,7 @@ impl Segments {
 
     fn push(&mut self, ends: [DVec2; 2], offsets: [DVec2; 2], origin: DVec2) {
         for (p, offset) in ends.into_iter().zip(offsets) {
+            // Two corners in the same place: the vertex shader parts them.
             for side in [-1.0, 1.0] {
                 let offset = offset.as_vec2() * side;
                 self.positions.push(vertex(p, origin));
@@ -205,6 +212,7 @@ impl Segments {
 fn mitre(a: DVec2, b: DVec2) -> DVec2 {
     let sum = a + b;
     let length = (2.0 / sum.length()).min(MITRE_LIMIT);
+    // Where an outline turns straight back, the sum is zero.
     sum.normalize_or(b) * length
 }
 

@@ -17,6 +17,8 @@ pub(super) fn solve_frames(
     let start = Instant::now();
     let mut has_sought = false;
     for (&Blend { t }, mut morph) in &mut morphs {
+        // Read through a shared borrow: only the seek below marks the frame as
+        // changed, and what is drawn goes by that.
         if t.is_finite() && morph.frame().t() != t {
             morph.0.seek(t);
             has_sought = true;

@@ -61,6 +61,7 @@ impl StageView {
     /// logical pixels) allows, and makes its middle the
     /// [anchor](Self::anchor).
     pub fn fit(&mut self, bounds: Bounds, viewport_px: Vec2) {
+        // A window that is folded away has no pixels to divide by.
         self.viewport_px = viewport_px.max(Vec2::ONE);
         self.fitted = units_per_px(bounds, self.viewport_px);
         self.units_per_px = self.fitted;
@@ -84,6 +85,8 @@ impl StageView {
         let under = self.world_from_px(pointer_px);
         let range = (self.fitted * NEAREST, self.fitted * FARTHEST);
         self.units_per_px = (self.units_per_px / factor).clamp(range.0, range.1);
+        // By as much as the new scale moved it; where the scale stopped, by
+        // nothing.
         self.centre += under - self.world_from_px(pointer_px);
     }
 

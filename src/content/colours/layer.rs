@@ -39,6 +39,7 @@ impl Layer {
         }
         let inverse = picture.place().inverse();
         let height = f64::from(picture.pixels().height());
+        // Pictures have y down and their origin above, the plane has not.
         let flip = scaled(DVec2::new(1.0, -1.0), DVec2::new(0.0, height));
         let own = DAffine2::from_mat2_translation(inverse.linear(), inverse.apply(DVec2::ZERO));
         Self {
@@ -87,7 +88,10 @@ impl Layer {
     /// flickers where many of the picture's go into one.
     pub(super) fn sampler(&self, size: f64) -> Sampler<'_> {
         let ratio = (size / self.pixel()).max(1.0);
+        // A picture may have been shrunk to nothing.
         let wanted = if ratio.is_finite() {
+            // Up to 1.7 of a level's pixels go into one of the output (2^0.75),
+            // then the next level is taken.
             (ratio.log2() + 0.25) as usize
         } else {
             0
@@ -128,6 +132,8 @@ impl<'a> Sampler<'a> {
     /// next they are up to 2²⁸ / `reach` pixels apart. Longer steps, which
     /// meet pixels that have nothing to do with each other, are shortened.
     pub fn across(&self, plane: &Plane, first: [usize; 2], reach: usize) -> Sight<'a> {
+        // From the start, at most FAR away, `reach` steps across and as many
+        // down leave it at most twice as far.
         let farthest = 0.5 * FAR / reach.max(1) as f64;
         // NaN goes to 0.
         let fixed = |at: DVec2, limit: f64| {
@@ -175,6 +181,8 @@ impl Sight<'_> {
         lights: &mut [Light],
         with: impl Fn(Light, Light) -> Light,
     ) {
+        // Counted from the face's own first sample: that keeps the products
+        // small, and what they lose.
         let right = (x - self.first[0]) as i64;
         let down = (y - self.first[1]) as i64;
         let place = |k: usize| self.start[k] + right * self.by_x[k] + down * self.by_y[k];
@@ -242,6 +250,7 @@ impl Level {
         let (width, height) = ((self.width / 2).max(1), (self.height / 2).max(1));
         let row = |y: usize| {
             (0..width).map(move |x| {
+                // A side of one pixel has no second one: it counts twice.
                 let (right, below) = (
                     (2 * x + 1).min(self.width - 1),
                     (2 * y + 1).min(self.height - 1),

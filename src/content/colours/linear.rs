@@ -71,9 +71,11 @@ impl Encoder {
         if alpha <= 0.0 {
             return Rgba([0; 4]);
         }
+        // What is opaque is spared the division, and its rounding.
         let straight = if alpha < OPAQUE { light / alpha } else { light };
         let shares = straight.with_w(alpha).max(Vec4::ZERO).min(Vec4::ONE);
         let most = (STEPS - 1) as f32;
+        // Alpha is not light: it has 255 steps and no curve.
         let steps = shares * Vec4::new(most, most, most, 255.0) + WHOLE;
         let [r, g, b, alpha] = steps.to_array().map(f32::to_bits);
         let channel = |step: u32| self.0[usize::from(step as u16)];
@@ -83,6 +85,7 @@ impl Encoder {
 
 /// The bytes of premultiplied light, coded as it is.
 pub(super) fn coded_premultiplied(light: Light) -> [u8; 4] {
+    // As if opaque, so that nothing is divided out.
     let Rgba([r, g, b, _]) = Encoder::new().encoded(light.with_w(1.0));
     [r, g, b, (light.w * 255.0 + 0.5) as u8]
 }

@@ -11,10 +11,12 @@ use crate::field::{Samples, contour};
 use crate::geometry::{Bounds, DVec2};
 use crate::warp::Placement;
 
-/// What no face of the placement covers is outside, this many cells deep.
+/// What no face of the placement covers is outside, this many cells deep: as
+/// deep as a sample beside the boundary.
 const OUTSIDE: f64 = -1.0;
 
-/// How far beyond the fields' grid parts are followed, in its longer sides.
+/// How far beyond the fields' grid parts are followed, in its longer sides. Of
+/// a square grid that makes up to four times as many samples.
 const BEYOND: f64 = 0.5;
 
 impl FieldPair {
@@ -23,6 +25,9 @@ impl FieldPair {
     /// Between samples of the grid the blend is taken as bilinear, and what no
     /// face covers as outside. What moves out of the grid is followed for half
     /// its longer side.
+    ///
+    /// # Panics
+    /// Where a face of the placement has a vertex without a place.
     #[must_use]
     pub fn contour_carried(&self, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
         let (grid, blend) = (self.grid(), &self.blend);
@@ -30,6 +35,8 @@ impl FieldPair {
         // Samples are relative to the level, so that single precision is
         // finest where the contour runs.
         let outside = (blend.curve(OUTSIDE + blend.threshold.min(0.0)) - level) as f32;
+        // The grid grows by the same number on all sides: a shift is all that
+        // tells the two apart.
         let more = self.cells_beyond(placement);
         let [width, height] = [grid.width, grid.height].map(|n| n + 2 * more);
         let shift = DVec2::splat(f64::from(more));
@@ -52,6 +59,7 @@ impl FieldPair {
                 }
             },
         );
+        // Never so: a grid has a cell at least, and there are as many samples.
         let Ok(samples) = Samples::new(width, height, &samples) else {
             return Vec::new();
         };
