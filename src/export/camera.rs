@@ -95,36 +95,25 @@ impl Camera {
         // is drawn on all, then handed over.
         for batch in runs.chunks(batch_len(self.view.size())) {
             checkpoint(progress, stage, done as f64 / runs.len() as f64)?;
-            for (run, made) in batch.iter().zip(self.shoot_batch(batch, progress, &make)?) {
+            let shoot = |frame: &mut Frame, run: &Run| {
+                if progress.is_cancelled() {
+                    return Err(Cancelled.into());
+                }
+                frame.seek(run.t);
+                make(self.drawn(frame))
+            };
+            // A frame owns the memory that it is evaluated in: one for each
+            // thread.
+            let frames = || self.transition.frame(batch[0].t);
+            let made = batch.par_iter().map_init(frames, shoot);
+            let made: Vec<T> = made.collect::<Result<_, ExportError>>()?;
+            for (run, made) in batch.iter().zip(made) {
                 take(*run, made)?;
             }
             done += batch.len();
         }
         checkpoint(progress, stage, 1.0)?;
         Ok(())
-    }
-
-    fn shoot_batch<T: Send>(
-        &self,
-        batch: &[Run],
-        progress: &dyn Progress,
-        make: &(impl Fn(Drawing) -> Result<T, ExportError> + Sync),
-    ) -> Result<Vec<T>, ExportError> {
-        batch
-            .par_iter()
-            .map_init(
-                // A frame owns the memory that it is evaluated in: one for each
-                // thread.
-                || self.transition.frame(batch[0].t),
-                |frame, run| {
-                    if progress.is_cancelled() {
-                        return Err(Cancelled.into());
-                    }
-                    frame.seek(run.t);
-                    make(self.drawn(frame))
-                },
-            )
-            .collect()
     }
 }
 
