@@ -31,7 +31,7 @@ pub(super) struct ColourMaterial {
 }
 
 /// The uniform of [`ColourMaterial`]; the same fields as in `colours.wgsl`.
-#[derive(ShaderType, Clone, Debug, PartialEq)]
+#[derive(ShaderType, Clone, Debug, Default, PartialEq)]
 pub(super) struct ColourLook {
     /// Least and most x and y of what is shown, relative to the part's origin.
     window: Vec4,
@@ -49,10 +49,10 @@ impl Material2d for ColourMaterial {
 }
 
 impl ColourMaterial {
-    pub(super) fn new(pair: &PicturePair, look: ColourLook, images: &mut Assets<Image>) -> Self {
+    pub(super) fn new(pair: &PicturePair, images: &mut Assets<Image>) -> Self {
         let [source, target] = pair.layers();
         Self {
-            look,
+            look: ColourLook::default(), // until it is drawn
             source: images.add(texture(source)),
             target: images.add(texture(target)),
         }

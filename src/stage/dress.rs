@@ -13,11 +13,11 @@ use glam::DVec2;
 use crate::content::{Content, Solid};
 use crate::transition::{Figure, Frame};
 
-use super::colours::{ColourLook, ColourMaterial};
-use super::components::{Morph, StageStyle};
-use super::field::{FieldLook, FieldMaterial};
+use super::colours::ColourMaterial;
+use super::components::Morph;
+use super::field::FieldMaterial;
 use super::fill;
-use super::grid::{GridLook, GridMaterial};
+use super::grid::GridMaterial;
 use super::ink::InkMaterial;
 use super::paint::{Paint, Paints};
 use super::parts::{Part, PartKind};
@@ -78,7 +78,7 @@ impl Wardrobe<'_, '_> {
         }
     }
 
-    fn dress(&mut self, of: Entity, frame: &Frame, style: &StageStyle) {
+    fn dress(&mut self, of: Entity, frame: &Frame) {
         let transition = frame.transition();
         // In the midst of the vertices, where single precision is finest.
         let origin = transition.bounds().centre();
@@ -91,23 +91,21 @@ impl Wardrobe<'_, '_> {
         match transition.content() {
             Content::Solid(solid) => fitting.add_solid(solid),
             Content::Field(pair) => {
-                let look = FieldLook::new(pair, frame.t(), style);
                 let paints = &mut fitting.wardrobe.paints;
-                let material = FieldMaterial::new(pair, look, &mut paints.images);
+                let material = FieldMaterial::new(pair, &mut paints.images);
                 let material = paints.fields.add(material);
                 fitting.add(PartKind::Field, carried(frame), material, Paint::Field);
             }
             Content::Colours(pair) => {
-                let look = ColourLook::new(pair, frame.t(), origin);
                 let paints = &mut fitting.wardrobe.paints;
-                let material = ColourMaterial::new(pair, look, &mut paints.images);
+                let material = ColourMaterial::new(pair, &mut paints.images);
                 let material = paints.colours.add(material);
                 fitting.add(PartKind::Picture, carried(frame), material, Paint::Picture);
             }
         }
         if !frame.placement().faces.is_empty() {
-            let look = GridLook::new(frame, origin, style);
-            let material = fitting.wardrobe.paints.grids.add(GridMaterial { look });
+            let grids = &mut fitting.wardrobe.paints.grids;
+            let material = grids.add(GridMaterial::default());
             fitting.add(PartKind::Grid, carried(frame), material, Paint::Grid);
         }
         let [source, target] = transition.outlines();
@@ -196,21 +194,16 @@ impl Fitting<'_, '_, '_> {
     }
 }
 
-/// An entity, what is to be shown of it, how, and the parts it has.
-type Staged = (
-    Entity,
-    &'static Morph,
-    &'static StageStyle,
-    Option<&'static Children>,
-);
-
-/// Gives new transitions their parts.
-pub(super) fn dress(undressed: Query<Staged, With<Undressed>>, mut wardrobe: Wardrobe) {
-    for (entity, morph, style, children) in &undressed {
+/// Gives new transitions their parts; how they look is for drawing to say.
+pub(super) fn dress(
+    undressed: Query<(Entity, &Morph, Option<&Children>), With<Undressed>>,
+    mut wardrobe: Wardrobe,
+) {
+    for (entity, morph, children) in &undressed {
         // Of an earlier transition, where this one replaces it.
         wardrobe.undress(children);
         wardrobe.commands.entity(entity).remove::<Undressed>();
-        wardrobe.dress(entity, morph.frame(), style);
+        wardrobe.dress(entity, morph.frame());
     }
 }
 

@@ -41,7 +41,7 @@ pub(super) struct FieldMaterial {
 }
 
 /// The uniform of [`FieldMaterial`]; the same fields as in `field.wgsl`.
-#[derive(ShaderType, Clone, Debug, PartialEq)]
+#[derive(ShaderType, Clone, Debug, Default, PartialEq)]
 pub(super) struct FieldLook {
     fill: Vec4,
     inside: Vec4,
@@ -69,9 +69,9 @@ impl Material2d for FieldMaterial {
 }
 
 impl FieldMaterial {
-    pub(super) fn new(pair: &FieldPair, look: FieldLook, images: &mut Assets<Image>) -> Self {
+    pub(super) fn new(pair: &FieldPair, images: &mut Assets<Image>) -> Self {
         Self {
-            look,
+            look: FieldLook::default(), // until it is drawn
             source: images.add(texture(pair.source())),
             target: images.add(texture(pair.target())),
         }

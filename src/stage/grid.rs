@@ -20,14 +20,14 @@ use super::ink::{contrasting, embedded, relative};
 const SQUARES: f64 = 20.0;
 
 /// Lines over the vertices of a placement.
-#[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
+#[derive(Asset, TypePath, AsBindGroup, Clone, Debug, Default)]
 pub(super) struct GridMaterial {
     #[uniform(0)]
     pub(super) look: GridLook,
 }
 
 /// The uniform of [`GridMaterial`]; the same fields as in `grid.wgsl`.
-#[derive(ShaderType, Clone, Debug, PartialEq)]
+#[derive(ShaderType, Clone, Debug, Default, PartialEq)]
 pub(super) struct GridLook {
     colour: LinearRgba,
     /// Around the lines, for pictures of any colour.
