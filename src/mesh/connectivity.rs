@@ -5,6 +5,7 @@
 //! directions. Vertices where several fans of faces touch are allowed.
 
 use super::components::components;
+use super::edges::{sides, undirected};
 
 /// Twins of the half-edges of a list of faces.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -127,9 +128,8 @@ impl Connectivity {
 fn sorted_edges(faces: &[[u32; 3]]) -> Vec<([u32; 2], bool, u32)> {
     let mut edges = Vec::with_capacity(3 * faces.len());
     for (f, face) in faces.iter().enumerate() {
-        for k in 0..3 {
-            let (a, b) = (face[k], face[(k + 1) % 3]);
-            edges.push(([a.min(b), a.max(b)], a < b, (3 * f + k) as u32));
+        for (k, [a, b]) in sides(*face).into_iter().enumerate() {
+            edges.push((undirected([a, b]), a < b, (3 * f + k) as u32));
         }
     }
     edges.sort_unstable();

@@ -7,11 +7,13 @@
 
 mod components;
 mod connectivity;
+mod edges;
 mod subdivide;
 pub mod triangulation;
 
 pub use components::components;
 pub use connectivity::{Connectivity, ConnectivityError};
+pub(crate) use edges::{sides, undirected};
 pub use subdivide::{MAX_VERTICES, Subdivision, TooManyVertices};
 
 use crate::geometry::{Bounds, DVec2, Similarity};

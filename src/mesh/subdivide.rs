@@ -3,6 +3,7 @@
 //! Only indices are decided here; the caller takes the midpoints in as many
 //! embeddings as it has, so that compatible meshes stay compatible.
 
+use super::edges::{sides, undirected};
 use std::collections::HashMap;
 
 /// The most vertices that a subdivision may reach: about 4 GB of factor.
@@ -58,9 +59,9 @@ impl Subdivision {
         let mut between: HashMap<[u32; 2], u32> = HashMap::with_capacity(self.faces.len() * 2);
         let midpoints = &mut self.midpoints;
         let mut next_vertex = first_new;
-        let mut midpoint = |a: u32, b: u32| {
-            *between.entry([a.min(b), a.max(b)]).or_insert_with(|| {
-                midpoints.push([a, b]);
+        let mut midpoint = |edge: [u32; 2]| {
+            *between.entry(undirected(edge)).or_insert_with(|| {
+                midpoints.push(edge);
                 next_vertex += 1;
                 next_vertex - 1
             })
@@ -69,7 +70,7 @@ impl Subdivision {
             .faces
             .iter()
             .flat_map(|&[a, b, c]| {
-                let (ab, bc, ca) = (midpoint(a, b), midpoint(b, c), midpoint(c, a));
+                let [ab, bc, ca] = sides([a, b, c]).map(&mut midpoint);
                 [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
             })
             .collect();

@@ -10,6 +10,7 @@
 
 use super::error::PolygonsError;
 use crate::geometry::{DVec2, Side, orient2d, segments_touch};
+use crate::mesh::sides;
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
 
 /// Up to so many vertices crossings are minimised, in O(n³); beyond, both
@@ -121,7 +122,7 @@ pub(super) fn diagonals(faces: &[[u32; 3]], n: usize) -> Vec<[u32; 2]> {
     let n = n as u32;
     let mut edges: Vec<[u32; 2]> = faces
         .iter()
-        .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+        .flat_map(|&face| sides(face))
         .filter(|&[a, b]| a < b && b - a != 1 && b - a != n - 1)
         .collect();
     edges.sort_unstable();

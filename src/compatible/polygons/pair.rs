@@ -7,6 +7,7 @@
 
 use super::face::{self, Corners};
 use crate::geometry::{Bounds, DVec2};
+use crate::mesh::sides;
 
 /// A face that was removed.
 const GONE: [u32; 3] = [u32::MAX; 3];
@@ -112,7 +113,7 @@ impl PairMesh {
     pub(super) fn inner_edges(&self) -> Vec<[u32; 2]> {
         let mut edges: Vec<[u32; 2]> = self
             .faces()
-            .flat_map(|[a, b, c]| [[a, b], [b, c], [c, a]])
+            .flat_map(sides)
             .filter(|&[a, b]| a < b && self.opposite(b, a).is_some())
             .collect();
         edges.sort_unstable();

@@ -8,6 +8,7 @@ use super::pair::PairMesh;
 use super::relax::relax;
 use super::transfer::split_chords;
 use crate::geometry::{Bounds, DVec2};
+use crate::mesh::sides;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use std::collections::HashSet;
 
@@ -98,7 +99,7 @@ fn longest_inner_edge(mesh: &PairMesh, face: [u32; 3]) -> Option<[u32; 2]> {
     let [p, q] = mesh.corners(face).map(face::shape);
     let points = &mesh.points[usize::from(p <= q)];
     let length = |[a, b]: [u32; 2]| points[a as usize].distance_squared(points[b as usize]);
-    [[face[0], face[1]], [face[1], face[2]], [face[2], face[0]]]
+    sides(face)
         .into_iter()
         .filter(|&edge| mesh.is_inner(edge))
         .max_by(|&a, &b| length(a).total_cmp(&length(b)))
