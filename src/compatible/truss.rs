@@ -30,8 +30,9 @@ mod polygon;
 
 use crate::design::Truss;
 use crate::geometry::{DVec2, Pair, Side, signed_area};
+use crate::mesh::undirected;
 use pieces::Pieces;
-use std::collections::HashMap;
+use std::collections::HashSet;
 
 /// Faces, and bars that are two-point elements.
 pub(super) type Panels = (Vec<[u32; 3]>, Vec<[u32; 2]>);
@@ -111,28 +112,17 @@ fn check_same(source: &Truss, target: &Truss) -> Result<(), TrussError> {
     if counts[0] != counts[1] {
         return Err(TrussError::NodeCounts(counts));
     }
-    let sorted = |truss: &Truss| {
-        let mut bars: Vec<[u32; 2]> = truss.bars().iter().map(|&b| ordered(b)).collect();
-        bars.sort_unstable();
-        bars
-    };
-    let only = |of: &Truss, without: &Truss, only_in| {
-        let others = sorted(without);
-        let mut missing = of
-            .bars()
-            .iter()
-            .filter(|&&bar| others.binary_search(&ordered(bar)).is_err());
-        match missing.next() {
-            Some(&nodes) => Err(TrussError::BarsDiffer { nodes, only_in }),
-            None => Ok(()),
+    for (of, without, only_in) in [
+        (source, target, Side::Source),
+        (target, source, Side::Target),
+    ] {
+        let others: HashSet<_> = without.bars().iter().map(|&b| undirected(b)).collect();
+        let missing = |bar: &&[u32; 2]| !others.contains(&undirected(**bar));
+        if let Some(&nodes) = of.bars().iter().find(missing) {
+            return Err(TrussError::BarsDiffer { nodes, only_in });
         }
-    };
-    only(source, target, Side::Source)?;
-    only(target, source, Side::Target)
-}
-
-fn ordered([a, b]: [u32; 2]) -> [u32; 2] {
-    [a.min(b), a.max(b)]
+    }
+    Ok(())
 }
 
 /// The panels between the bars that are kept, triangulated.
@@ -146,18 +136,14 @@ fn with_kept(
         those.map(|(bar, _)| *bar)
     };
     let plane: Vec<[u32; 2]> = those(true).collect();
-    let Pieces {
-        panels,
-        blocks,
-        bridges,
-    } = Pieces::of(&plane, nodes.source);
-    check_sides(&panels, nodes)?;
+    let pieces = Pieces::of(&plane, nodes.source);
+    check_sides(&pieces.panels, nodes)?;
     let mut faces = Vec::new();
-    for panel in &panels {
+    for panel in &pieces.panels {
         faces.extend(triangles(panel, nodes)?);
     }
-    let mut elements = bridges;
-    elements.extend(outside(those(false), &blocks));
+    let mut elements = pieces.bridges.clone();
+    elements.extend(those(false).filter(|&bar| !pieces.hold(bar)));
     Ok((faces, elements))
 }
 
@@ -181,19 +167,6 @@ fn triangles(cycle: &[u32], nodes: Pair<&[DVec2]>) -> Result<Vec<[u32; 3]>, Trus
         return Err(TrussError::TooLarge(cycle.to_vec()));
     }
     polygon::triangulated(cycle, nodes).ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
-}
-
-/// The bars whose nodes are not both in one block.
-fn outside(bars: impl Iterator<Item = [u32; 2]>, blocks: &[Vec<u32>]) -> Vec<[u32; 2]> {
-    let mut blocks_of: HashMap<u32, Vec<usize>> = HashMap::new();
-    for (block, nodes) in blocks.iter().enumerate() {
-        for &node in nodes {
-            blocks_of.entry(node).or_default().push(block);
-        }
-    }
-    let of = |node: u32| blocks_of.get(&node).map_or(&[][..], Vec::as_slice);
-    bars.filter(|&[a, b]| !of(a).iter().any(|block| of(b).contains(block)))
-        .collect()
 }
 
 #[cfg(test)]

@@ -107,8 +107,9 @@ impl Ring {
     }
 }
 
-/// The edges of a closed polygon in order, the closing one last.
-pub fn ring_edges(points: &[DVec2]) -> impl Iterator<Item = (DVec2, DVec2)> + '_ {
+/// The edges of a closed polygon in order, the closing one last; its corners
+/// may be points or numbers of points.
+pub fn ring_edges<T: Copy>(points: &[T]) -> impl Iterator<Item = (T, T)> + '_ {
     let next = points.iter().skip(1).chain(points.first());
     points.iter().copied().zip(next.copied())
 }

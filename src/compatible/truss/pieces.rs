@@ -1,153 +1,88 @@
 //! A plane graph taken apart into pieces without cut nodes, and their faces.
+//!
+//! A walk around a face of the graph passes a cut node more than once. Parted
+//! wherever it comes back to a node, it falls into simple cycles: each is a
+//! face of one piece, or a bar walked there and back.
 
-use crate::geometry::{DVec2, orient2d};
+use crate::geometry::{DVec2, orient2d, ring_edges};
+use crate::mesh::{components, undirected};
 use std::cmp::Ordering;
 use std::collections::{HashMap, HashSet};
 
 /// What a plane graph consists of.
-#[derive(Default)]
 pub(super) struct Pieces {
     /// Bounded faces, counter-clockwise from their smallest node on.
     pub(super) panels: Vec<Vec<u32>>,
-    /// For each piece with panels its nodes, sorted.
-    pub(super) blocks: Vec<Vec<u32>>,
     /// Bars that are pieces of their own: bridges and dangling ends.
     pub(super) bridges: Vec<[u32; 2]>,
+    /// For each node of a panel the pieces that it is in.
+    pieces_of: HashMap<u32, Vec<u32>>,
 }
 
 impl Pieces {
     /// Takes the graph apart. No two bars may cross.
     pub(super) fn of(bars: &[[u32; 2]], nodes: &[DVec2]) -> Self {
-        let mut all = Self::default();
-        for piece in pieces(bars, nodes.len()) {
-            if let &[bar] = piece.as_slice() {
-                all.bridges.push(bars[bar]);
-                continue;
-            }
-            let edges: Vec<[u32; 2]> = piece.iter().map(|&bar| bars[bar]).collect();
-            let mut block: Vec<u32> = edges.iter().flatten().copied().collect();
-            block.sort_unstable();
-            block.dedup();
-            all.blocks.push(block);
-            all.panels.extend(bounded_faces(&edges, nodes));
-        }
-        all.panels.sort_unstable();
-        all.bridges.sort_unstable();
-        all
-    }
-}
-
-/// A node on the path of the search.
-struct Visit {
-    node: usize,
-    by: Option<usize>,
-    next: usize,
-}
-
-/// The blocks of the graph as lists of bars (Hopcroft and Tarjan 1973),
-/// without recursion.
-fn pieces(bars: &[[u32; 2]], nodes: usize) -> Vec<Vec<usize>> {
-    let mut around: Vec<Vec<usize>> = vec![Vec::new(); nodes];
-    for (bar, ends) in bars.iter().enumerate() {
-        for &end in ends {
-            around[end as usize].push(bar);
-        }
-    }
-    let mut search = Search {
-        bars,
-        order: vec![0; nodes],
-        low: vec![0; nodes],
-        visited: 0,
-        waiting: Vec::new(),
-        pieces: Vec::new(),
-    };
-    for root in 0..nodes {
-        if search.order[root] == 0 {
-            search.run(root, &around);
-        }
-    }
-    search.pieces
-}
-
-struct Search<'a> {
-    bars: &'a [[u32; 2]],
-    /// When a node was first met, from 1; 0 before.
-    order: Vec<usize>,
-    /// The earliest node that can be come back to from below.
-    low: Vec<usize>,
-    visited: usize,
-    waiting: Vec<usize>,
-    pieces: Vec<Vec<usize>>,
-}
-
-impl Search<'_> {
-    fn run(&mut self, root: usize, around: &[Vec<usize>]) {
-        let mut path = vec![self.visit(root, None)];
-        while let Some(top) = path.last_mut() {
-            let (node, by) = (top.node, top.by);
-            if let Some(&bar) = around[node].get(top.next) {
-                top.next += 1;
-                let other = self.other_end(bar, node);
-                if self.order[other] == 0 {
-                    self.waiting.push(bar);
-                    path.push(self.visit(other, Some(bar)));
-                } else if Some(bar) != by && self.order[other] < self.order[node] {
-                    self.waiting.push(bar);
-                    self.low[node] = self.low[node].min(self.order[other]);
-                }
-                continue;
-            }
-            path.pop();
-            if let (Some(above), Some(bar)) = (path.last(), by) {
-                self.leave(node, above.node, bar);
+        let panels = bounded_faces(bars, nodes);
+        let mut panel_at: HashMap<[u32; 2], u32> = HashMap::new();
+        let mut links = Vec::new();
+        for (panel, cycle) in (0..).zip(&panels) {
+            for (a, b) in ring_edges(cycle) {
+                let beside = panel_at.insert(undirected([a, b]), panel);
+                links.extend(beside.map(|other| [panel, other]));
             }
         }
-    }
-
-    fn visit(&mut self, node: usize, by: Option<usize>) -> Visit {
-        self.visited += 1;
-        self.order[node] = self.visited;
-        self.low[node] = self.visited;
-        Visit { node, by, next: 0 }
-    }
-
-    fn other_end(&self, bar: usize, node: usize) -> usize {
-        let [a, b] = self.bars[bar].map(|end| end as usize);
-        if a == node { b } else { a }
-    }
-
-    /// Goes back up from `node` over `bar`; what hangs below is a piece of
-    /// its own if it cannot come back past `above`.
-    fn leave(&mut self, node: usize, above: usize, bar: usize) {
-        self.low[above] = self.low[above].min(self.low[node]);
-        if self.low[node] < self.order[above] {
-            return;
+        // The panels of one piece hang together by bars: its faces meet across
+        // them, and taking out the outer face of a piece without cut nodes
+        // leaves the others connected.
+        let mut pieces_of: HashMap<u32, Vec<u32>> = HashMap::new();
+        for (cycle, piece) in panels.iter().zip(components(panels.len(), links)) {
+            for &node in cycle {
+                pieces_of.entry(node).or_default().push(piece);
+            }
         }
-        let from = self.waiting.iter().rposition(|&b| b == bar).unwrap_or(0);
-        self.pieces.push(self.waiting.split_off(from));
+        let in_no_panel = |bar: &[u32; 2]| !panel_at.contains_key(&undirected(*bar));
+        let mut bridges: Vec<[u32; 2]> = bars.iter().copied().filter(in_no_panel).collect();
+        bridges.sort_unstable();
+        Self {
+            panels,
+            bridges,
+            pieces_of,
+        }
+    }
+
+    /// Whether one piece with panels has both nodes of a bar.
+    pub(super) fn hold(&self, [a, b]: [u32; 2]) -> bool {
+        let of = |node| self.pieces_of.get(&node).map_or(&[][..], Vec::as_slice);
+        of(a).iter().any(|piece| of(b).contains(piece))
     }
 }
 
-/// All faces but the outer one of a plane piece without cut nodes.
-fn bounded_faces(edges: &[[u32; 2]], nodes: &[DVec2]) -> Vec<Vec<u32>> {
-    let follows = successors(edges, nodes);
-    let mut starts: Vec<[u32; 2]> = follows.keys().copied().collect();
-    starts.sort_unstable();
+/// All faces of all pieces but their outer ones.
+fn bounded_faces(bars: &[[u32; 2]], nodes: &[DVec2]) -> Vec<Vec<u32>> {
+    let follows = successors(bars, nodes);
     let mut seen = HashSet::new();
     let mut faces = Vec::new();
-    for start in starts {
-        let mut cycle = Vec::new();
+    for &start in follows.keys() {
+        let mut path = Vec::new();
         let mut edge = start;
         while seen.insert(edge) {
-            cycle.push(edge[0]);
+            let [from, to] = edge;
+            path.push(from);
+            // Back at a node: what was walked since is a cycle of its own.
+            if let Some(back) = path.iter().position(|&node| node == to) {
+                let mut cycle = path.split_off(back);
+                // Outer faces run clockwise; a bar there and back turns nowhere.
+                if is_counter_clockwise(&cycle, nodes) {
+                    let first = (0..cycle.len()).min_by_key(|&i| cycle[i]).unwrap_or(0);
+                    cycle.rotate_left(first);
+                    faces.push(cycle);
+                }
+            }
             edge = follows[&edge];
         }
-        if is_counter_clockwise(&cycle, nodes) {
-            let first = (0..cycle.len()).min_by_key(|&i| cycle[i]).unwrap_or(0);
-            cycle.rotate_left(first);
-            faces.push(cycle);
-        }
     }
+    // The starts came in no order.
+    faces.sort_unstable();
     faces
 }
 
