@@ -6,8 +6,8 @@ use super::domain::{Delaunay, Domain};
 use crate::geometry::{Bounds, DVec2, orient2d};
 use spade::handles::{DirectedEdgeHandle, FaceHandle, FixedVertexHandle, InnerTag};
 use spade::{Point2, Triangulation as _};
-use std::cmp::Ordering;
-use std::collections::{BinaryHeap, HashSet};
+use std::cmp::Reverse;
+use std::collections::{BTreeMap, HashSet};
 
 type Edge<'a> = DirectedEdgeHandle<'a, Point2<f64>, (), spade::CdtEdge<()>, ()>;
 type Face<'a> = FaceHandle<'a, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
@@ -28,34 +28,10 @@ const MIN_ANGLE: f64 = 0.4;
 /// below some 1e-15 the centre of the circumcircle is rounding alone.
 const SMALLEST_SHARE: f64 = 1e-14;
 
-/// A bad face: its vertices and its circumcircle.
-struct Bad {
-    radius_squared: f64,
-    vertices: [FixedVertexHandle; 3],
-    centre: DVec2,
-}
-
-impl Ord for Bad {
-    fn cmp(&self, other: &Self) -> Ordering {
-        let key = |bad: &Self| bad.vertices.map(|v| v.index());
-        let by_radius = self.radius_squared.total_cmp(&other.radius_squared);
-        by_radius.then_with(|| key(other).cmp(&key(self)))
-    }
-}
-
-impl PartialOrd for Bad {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-
-impl PartialEq for Bad {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other).is_eq()
-    }
-}
-
-impl Eq for Bad {}
+/// A face's place among the bad ones: the bits of its circumcircle's squared
+/// radius, which order as it does since it is not negative, and its vertices,
+/// so that of equal circles one is always the first.
+type Rank = (u64, Reverse<[FixedVertexHandle; 3]>);
 
 /// What makes a face bad.
 struct Limits {
@@ -69,7 +45,7 @@ impl Domain {
     pub(super) fn refine(&mut self, refinement: &Refinement) {
         let limits = self.limits(refinement);
         let winding = self.winding();
-        let mut queue: BinaryHeap<Bad> = self
+        let mut bad: BTreeMap<Rank, DVec2> = self
             .delaunay
             .inner_faces()
             .filter(|face| winding[face.index()] == 1)
@@ -77,15 +53,15 @@ impl Domain {
             .collect();
         let mut added = 0;
         while added < refinement.max_points
-            && let Some(bad) = queue.pop()
+            && let Some(((_, Reverse(vertices)), centre)) = bad.pop_last()
         {
-            let Some(vertex) = insert(&mut self.delaunay, &bad) else {
+            let Some(vertex) = insert(&mut self.delaunay, vertices, centre) else {
                 continue;
             };
             added += 1;
             let new = self.delaunay.vertex(vertex).out_edges();
             let faces = new.filter_map(|edge| edge.face().as_inner());
-            queue.extend(faces.filter_map(|face| limits.judge(face)));
+            bad.extend(faces.filter_map(|face| limits.judge(face)));
         }
     }
 
@@ -103,7 +79,8 @@ impl Domain {
 }
 
 impl Limits {
-    fn judge(&self, face: Face<'_>) -> Option<Bad> {
+    /// The rank of a bad face, and its circumcentre.
+    fn judge(&self, face: Face<'_>) -> Option<(Rank, DVec2)> {
         let area = face.area();
         if area <= self.least_area {
             return None;
@@ -115,26 +92,28 @@ impl Limits {
             .into_iter()
             .fold(f64::INFINITY, f64::min);
         let bad = shortest < self.ratio * radius_squared || area > self.area;
-        bad.then(|| Bad {
-            radius_squared,
-            vertices: face.vertices().map(|v| v.fix()),
-            centre: DVec2::new(centre.x, centre.y),
-        })
+        let vertices = face.vertices().map(|v| v.fix());
+        let rank = (radius_squared.to_bits(), Reverse(vertices));
+        bad.then(|| (rank, at(centre)))
     }
 }
 
 /// Puts a vertex into a circumcentre, if the face is still there and the
 /// place is inside and no nearer to the boundary than half its edge.
-fn insert(delaunay: &mut Delaunay, bad: &Bad) -> Option<FixedVertexHandle> {
-    let [a, b, c] = bad.vertices;
+fn insert(
+    delaunay: &mut Delaunay,
+    [a, b, c]: [FixedVertexHandle; 3],
+    centre: DVec2,
+) -> Option<FixedVertexHandle> {
     let edge = delaunay.get_edge_from_neighbors(a, b)?;
     let face = edge.face().as_inner()?;
-    if !face.vertices().iter().any(|v| v.fix() == c) || !is_free(face, bad.centre) {
+    if !face.vertices().iter().any(|v| v.fix() == c) || !is_free(face, centre) {
         return None;
     }
     let before = delaunay.num_vertices();
-    let place = Point2::new(bad.centre.x, bad.centre.y);
-    let vertex = delaunay.insert_with_hint(place, c).ok()?;
+    let vertex = delaunay
+        .insert_with_hint(Point2::new(centre.x, centre.y), c)
+        .ok()?;
     (delaunay.num_vertices() > before).then_some(vertex)
 }
 
