@@ -2,10 +2,10 @@
 //! are merged, and how it is cut open again along its walks.
 
 use crate::geometry::DVec2;
-use crate::mesh::components;
+use crate::mesh::{components, undirected};
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 
 /// Why a piece was not triangulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -34,25 +34,30 @@ const NONE: u32 = u32::MAX;
 
 pub(super) struct Domain {
     pub(super) delaunay: Delaunay,
-    /// For each corner of the walks its merged point.
-    merged: Vec<u32>,
-    /// For each corner the next and the previous one.
-    next: Vec<u32>,
-    previous: Vec<u32>,
+    /// For each corner of the walks the merged points before, at and after it.
+    merged: Vec<[u32; 3]>,
     /// How many merged points there are; added ones follow them.
     fixed: usize,
-    /// For each edge between merged points, smaller first, how often walks
-    /// run along it upwards less downwards: 0 for a slit.
-    net: HashMap<[u32; 2], i32>,
+    /// The walks' edges between merged points, as they are run: a slit's in
+    /// both directions.
+    walked: HashSet<[u32; 2]>,
 }
 
 impl Domain {
     pub(super) fn of<W: AsRef<[DVec2]>>(walks: &[W]) -> Result<Self, TriangulationError> {
         let (points, merged) = merged_points(walks)?;
-        let (next, previous) = neighbours(walks);
-        let net = net_edges(&merged, &next)?;
-        let mut edges: Vec<[usize; 2]> = net.keys().map(|e| e.map(|v| v as usize)).collect();
+        let mut walked = HashSet::new();
+        // Once each way: more would leave no wedge of the piece between them.
+        let is_new = |&[_, a, b]: &[u32; 3]| a != b && walked.insert([a, b]);
+        if !merged.iter().all(is_new) {
+            return Err(TriangulationError::NotSimple);
+        }
+        let mut edges: Vec<[usize; 2]> = (walked.iter())
+            .map(|&edge| undirected(edge).map(|v| v as usize))
+            .collect();
+        // In order: hashing would make another triangulation on every run.
         edges.sort_unstable();
+        edges.dedup();
         let (fixed, constraints) = (points.len(), edges.len());
         let mut conflict = false;
         let delaunay = Delaunay::try_bulk_load_cdt(points, edges, |_| conflict = true)
@@ -67,27 +72,19 @@ impl Domain {
         let domain = Self {
             delaunay,
             merged,
-            next,
-            previous,
             fixed,
-            net,
+            walked,
         };
-        // A point on an edge would have cut it in two.
-        let given = |edge: &[u32; 2]| domain.net.contains_key(edge);
-        if !domain.constraints().all(|edge| given(&edge)) {
+        let edges = domain.delaunay.undirected_edges();
+        let mut kept = (edges.filter(|edge| edge.is_constraint_edge()))
+            .map(|edge| edge.vertices().map(|v| v.index() as u32));
+        // A point on an edge has cut it in two, and neither half was walked.
+        let was_walked = |way: [u32; 2]| domain.walked.contains(&way);
+        if kept.any(|[a, b]| !was_walked([a, b]) && !was_walked([b, a])) {
             return Err(TriangulationError::NotSimple);
         }
         domain.check(walks[0].as_ref().len())?;
         Ok(domain)
-    }
-
-    fn constraints(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
-        let edges = self.delaunay.undirected_edges();
-        let constraints = edges.filter(|edge| edge.is_constraint_edge());
-        constraints.map(|edge| {
-            let [a, b] = edge.vertices().map(|v| v.index() as u32);
-            [a.min(b), a.max(b)]
-        })
     }
 
     /// The walks' corners, then the added points.
@@ -111,7 +108,8 @@ impl Domain {
         let places = self.delaunay.vertices().map(|v| v.position()).enumerate();
         let first = places.min_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         let first = first.map_or(NONE, |(v, _)| v as u32);
-        if !self.merged[..outer].contains(&first) || !self.is_connected(&winding) {
+        let mut outer = self.merged[..outer].iter();
+        if !outer.any(|corner| corner[1] == first) || !self.is_connected(&winding) {
             return Err(TriangulationError::NotOnePiece);
         }
         let unlabelled = |f: usize| winding[f] == 1 && corners[f].contains(&NONE);
@@ -121,40 +119,25 @@ impl Domain {
         Ok(())
     }
 
-    /// How often the walks run from `a` to `b` less back.
-    fn net(&self, a: u32, b: u32) -> i32 {
-        match self.net.get(&[a.min(b), a.max(b)]) {
-            None => 0,
-            Some(&net) if a < b => net,
-            Some(&net) => -net,
-        }
-    }
-
     /// For each face how often the walks run around it.
     pub(super) fn winding(&self) -> Vec<i32> {
         const UNKNOWN: i32 = i32::MAX;
         let mut winding = vec![UNKNOWN; self.delaunay.num_all_faces()];
-        let outer = self.delaunay.outer_face();
-        winding[outer.index()] = 0;
-        let mut open = Vec::new();
-        for edge in self.delaunay.convex_hull() {
-            // The outer face is to its left.
-            let (a, b) = (edge.from().index() as u32, edge.to().index() as u32);
-            if let Some(face) = edge.rev().face().as_inner() {
-                winding[face.index()] = -self.net(a, b);
-                open.push(face);
+        winding[self.delaunay.outer_face().index()] = 0;
+        // Edges with a face on their left that is known: the hull's have the
+        // outer one there.
+        let mut open: Vec<_> = self.delaunay.convex_hull().collect();
+        while let Some(edge) = open.pop() {
+            let beyond = edge.rev().face();
+            if winding[beyond.index()] != UNKNOWN {
+                continue;
             }
-        }
-        while let Some(face) = open.pop() {
-            for edge in face.adjacent_edges() {
-                let (a, b) = (edge.from().index() as u32, edge.to().index() as u32);
-                if let Some(beyond) = edge.rev().face().as_inner()
-                    && winding[beyond.index()] == UNKNOWN
-                {
-                    winding[beyond.index()] = winding[face.index()] - self.net(a, b);
-                    open.push(beyond);
-                }
-            }
+            let [a, b] = edge.vertices().map(|v| v.index() as u32);
+            let runs = |way: [u32; 2]| i32::from(self.walked.contains(&way));
+            // A walk goes once more around what is on its left.
+            winding[beyond.index()] = winding[edge.face().index()] - runs([a, b]) + runs([b, a]);
+            let inner = beyond.as_inner().into_iter();
+            open.extend(inner.flat_map(|face| face.adjacent_edges()));
         }
         winding
     }
@@ -176,15 +159,11 @@ impl Domain {
     /// if a walk's two edges at a corner do not bound one wedge of the piece.
     fn corners(&self, winding: &[i32]) -> Option<Vec<[u32; 3]>> {
         let mut corners = vec![[NONE; 3]; winding.len()];
-        for (corner, &at) in self.merged.iter().enumerate() {
-            let [before, after] =
-                [&self.previous, &self.next].map(|n| self.merged[n[corner] as usize] as usize);
-            let here = FixedVertexHandle::from_index(at as usize);
-            let mut edge = self
-                .delaunay
-                .vertex(here)
-                .out_edges()
-                .find(|edge| edge.to().index() == after)?;
+        for (corner, points) in (0..).zip(&self.merged) {
+            let [before, here, after] = points.map(|v| FixedVertexHandle::from_index(v as usize));
+            let mut edge = self.delaunay.get_edge_from_neighbors(here, after)?;
+            // Counter-clockwise from the walk's next edge to its previous one
+            // lies the piece, since that is on the left of its walks.
             loop {
                 let face = edge.face().as_inner()?;
                 let k = (0..3).find(|&k| face.vertices()[k].fix() == here)?;
@@ -192,13 +171,13 @@ impl Domain {
                 if winding[face.index()] != 1 || *place != NONE {
                     return None;
                 }
-                *place = corner as u32;
+                *place = corner;
                 edge = edge.ccw();
                 if edge.is_constraint_edge() {
                     break;
                 }
             }
-            if edge.to().index() != before {
+            if edge.to().fix() != before {
                 return None;
             }
         }
@@ -229,29 +208,32 @@ impl Domain {
     }
 }
 
-/// Different points and for each corner which of them it is.
+/// Different points, and for each corner those before, at and after it.
 fn merged_points<W: AsRef<[DVec2]>>(
     walks: &[W],
-) -> Result<(Vec<Point2<f64>>, Vec<u32>), TriangulationError> {
+) -> Result<(Vec<Point2<f64>>, Vec<[u32; 3]>), TriangulationError> {
+    let least = walks.iter().map(|w| w.as_ref().len()).min().unwrap_or(0);
+    if least < 3 {
+        return Err(TriangulationError::TooFewPoints(least));
+    }
     let mut numbers: HashMap<[u64; 2], u32> = HashMap::new();
     let mut points = Vec::new();
+    let mut number = |p: &DVec2| {
+        let [x, y] = p.to_array().map(tame);
+        *numbers
+            .entry([x.to_bits(), y.to_bits()])
+            .or_insert_with(|| {
+                points.push(Point2::new(x, y));
+                points.len() as u32 - 1
+            })
+    };
     let mut merged = Vec::new();
     for walk in walks {
-        for p in walk.as_ref() {
-            let [x, y] = [tame(p.x), tame(p.y)];
-            let number = *numbers
-                .entry([x.to_bits(), y.to_bits()])
-                .or_insert_with(|| {
-                    points.push(Point2::new(x, y));
-                    points.len() as u32 - 1
-                });
-            merged.push(number);
-        }
+        let own: Vec<u32> = walk.as_ref().iter().map(&mut number).collect();
+        let n = own.len();
+        merged.extend((0..n).map(|i| [own[(i + n - 1) % n], own[i], own[(i + 1) % n]]));
     }
-    match walks.iter().map(|w| w.as_ref().len()).min() {
-        Some(least) if least >= 3 => Ok((points, merged)),
-        least => Err(TriangulationError::TooFewPoints(least.unwrap_or(0))),
-    }
+    Ok((points, merged))
 }
 
 /// Coordinates below the arithmetic's range become zero, as negative zero
@@ -262,33 +244,4 @@ fn tame(x: f64) -> f64 {
     } else {
         x
     }
-}
-
-fn neighbours<W: AsRef<[DVec2]>>(walks: &[W]) -> (Vec<u32>, Vec<u32>) {
-    let (mut next, mut previous) = (Vec::new(), Vec::new());
-    for walk in walks {
-        let (start, n) = (next.len() as u32, walk.as_ref().len() as u32);
-        next.extend((0..n).map(|i| start + (i + 1) % n));
-        previous.extend((0..n).map(|i| start + (i + n - 1) % n));
-    }
-    (next, previous)
-}
-
-/// Each edge once; refused are edges without length and edges that are
-/// walked twice but not there and back.
-fn net_edges(merged: &[u32], next: &[u32]) -> Result<HashMap<[u32; 2], i32>, TriangulationError> {
-    let mut net: HashMap<[u32; 2], (i32, u32)> = HashMap::new();
-    for (corner, &a) in merged.iter().enumerate() {
-        let b = merged[next[corner] as usize];
-        let entry = net.entry([a.min(b), a.max(b)]).or_default();
-        entry.0 += if a < b { 1 } else { -1 };
-        entry.1 += 1;
-        if a == b || (entry.1 > 1 && entry.0 != 0) || entry.1 > 2 {
-            return Err(TriangulationError::NotSimple);
-        }
-    }
-    Ok(net
-        .into_iter()
-        .map(|(edge, (net, _))| (edge, net))
-        .collect())
 }
