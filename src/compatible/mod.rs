@@ -8,6 +8,7 @@
 mod border;
 mod elements;
 mod outlines;
+mod patchwork;
 mod polygons;
 mod surroundings;
 mod truss;

@@ -1,5 +1,6 @@
 //! A whole match triangulated: piece by piece, joined into one mesh.
 
+use super::patchwork::Patchwork;
 use super::{CompatibleMesh, PolygonOptions, PolygonsError};
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::progress::Progress;
@@ -69,13 +70,15 @@ fn of_piece(
 
 /// The meshes as one, in order.
 fn joined(meshes: &[CompatibleMesh]) -> CompatibleMesh {
-    let (mut faces, mut source, mut target) = (Vec::new(), Vec::new(), Vec::new());
+    let mut whole = Patchwork::default();
     for mesh in meshes {
-        let before = source.len() as u32;
-        faces.extend(mesh.faces.iter().map(|face| face.map(|v| v + before)));
-        source.extend_from_slice(&mesh.source);
-        target.extend_from_slice(&mesh.target);
+        whole.add(
+            &[],
+            [&mesh.source, &mesh.target],
+            mesh.faces.iter().copied(),
+        );
     }
-    CompatibleMesh::new(faces, source, target, Vec::new())
+    let [source, target] = whole.points;
+    CompatibleMesh::new(whole.faces, source, target, Vec::new())
         .unwrap_or_else(|_| unreachable!("each mesh was valid, and they share nothing"))
 }

@@ -7,6 +7,7 @@
 //! is inside.
 
 use super::border::border;
+use super::patchwork::Patchwork;
 use super::{CompatibleError, CompatibleMesh, PolygonOptions, PolygonsError};
 use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch};
 use crate::geometry::{Bounds, DVec2, signed_area, winding};
@@ -146,14 +147,14 @@ fn sewn(
     cells: &[Cell],
     meshes: &[CompatibleMesh],
 ) -> Result<CompatibleMesh, CompatibleError> {
+    let mut whole = Patchwork::default();
     let mut first = Vec::with_capacity(rings.len());
-    let (mut source, mut target) = (Vec::new(), Vec::new());
-    for [a, b] in rings {
-        first.push(source.len() as u32);
-        source.extend_from_slice(a);
-        target.extend_from_slice(b);
+    for ring in rings {
+        first.push(whole.points[0].len() as u32);
+        for (points, ring) in whole.points.iter_mut().zip(ring) {
+            points.extend_from_slice(ring);
+        }
     }
-    let mut faces = Vec::new();
     for (cell, mesh) in cells.iter().zip(meshes) {
         let mut shared = Vec::new();
         for &(ring, backwards) in &cell.0 {
@@ -161,16 +162,11 @@ fn sewn(
             let walk = (0..count).map(|k| first[ring] + if backwards { count - 1 - k } else { k });
             shared.extend(walk);
         }
-        let own = source.len() as u32;
-        let number = |v: u32| match shared.get(v as usize) {
-            Some(&v) => v,
-            None => own + v - shared.len() as u32,
-        };
-        faces.extend(mesh.faces().iter().map(|face| face.map(number)));
-        source.extend_from_slice(&mesh.source()[shared.len()..]);
-        target.extend_from_slice(&mesh.target()[shared.len()..]);
+        let points = [mesh.source(), mesh.target()];
+        whole.add(&shared, points, mesh.faces().iter().copied());
     }
-    CompatibleMesh::new(faces, source, target, Vec::new())
+    let [source, target] = whole.points;
+    CompatibleMesh::new(whole.faces, source, target, Vec::new())
 }
 
 #[cfg(test)]

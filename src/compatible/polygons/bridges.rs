@@ -10,6 +10,7 @@ use super::error::PolygonsError;
 use super::overlay::overlay;
 use super::pair::PairMesh;
 use super::piece::Rings;
+use crate::compatible::patchwork::Patchwork;
 use crate::geometry::{DVec2, Side};
 use crate::mesh::triangulation::constrained_delaunay;
 use std::collections::{HashMap, VecDeque};
@@ -38,13 +39,16 @@ struct Bridge {
 pub(super) fn base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsError> {
     let fixed = source.points.len();
     let mut walks = Walks::of(source, target);
-    let mut extra = [Vec::new(), Vec::new()];
+    let mut whole = Patchwork {
+        points: [source.points.clone(), target.points.clone()],
+        faces: Vec::new(),
+    };
     while walks.0.len() > 1 {
         let bridge = walks.bridge()?;
-        let first = (fixed + extra[0].len()) as u32;
-        for at in &bridge.inner {
-            extra[0].push(at[0]);
-            extra[1].push(at[1]);
+        let first = whole.points[0].len() as u32;
+        for &[p, q] in &bridge.inner {
+            whole.points[0].push(p);
+            whole.points[1].push(q);
         }
         walks.cut(&bridge, first);
     }
@@ -52,34 +56,14 @@ pub(super) fn base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsE
     let points = [0, 1].map(|d| disc.iter().map(|c| c.at[d]).collect::<Vec<_>>());
     let triangulations = chords::triangulations(&points[0], &points[1])?;
     let mesh = overlay(&points[0], &points[1], &triangulations);
+    // Both banks of a bridge are one vertex again.
     let vertices: Vec<u32> = disc.iter().map(|corner| corner.vertex).collect();
-    Ok(welded(&mesh, &vertices, [source, target], extra))
-}
-
-/// The disc's mesh with the bridges' banks joined.
-fn welded(
-    mesh: &PairMesh,
-    vertices: &[u32],
-    rings: [&Rings; 2],
-    extra: [Vec<DVec2>; 2],
-) -> PairMesh {
-    let (fixed, corners) = (rings[0].points.len(), vertices.len());
-    let bridged = fixed + extra[0].len();
-    let number = |v: u32| match (v as usize).checked_sub(corners) {
-        None => vertices[v as usize],
-        Some(inner) => (bridged + inner) as u32,
-    };
-    let faces = mesh.faces().map(|face| face.map(number)).collect();
-    let points = |d: usize| {
-        let (given, inner) = (&rings[d].points, &mesh.points[d][corners..]);
-        given
-            .iter()
-            .chain(&extra[d])
-            .chain(inner)
-            .copied()
-            .collect()
-    };
-    PairMesh::new(fixed, points(0), points(1), faces)
+    whole.add(
+        &vertices,
+        mesh.points.each_ref().map(Vec::as_slice),
+        mesh.faces(),
+    );
+    Ok(PairMesh::new(fixed, whole.points, whole.faces))
 }
 
 impl Walks {

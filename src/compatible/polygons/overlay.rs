@@ -14,89 +14,90 @@
 use super::chords::{diagonals, interleave};
 use super::pair::PairMesh;
 use crate::geometry::DVec2;
+use crate::mesh::{sides, undirected};
 use std::collections::HashMap;
 
 type Chord = [u32; 2];
 
-/// A corner of a cell: a polygon vertex or the crossing of a chord of the
-/// source's triangulation with one of the target's.
-type Names = HashMap<(Chord, Chord), u32>;
+/// Where a chord of the source's triangulation crosses one of the target's.
+struct Crossing {
+    vertex: u32,
+    /// Which of the crossings on its chord it is in either design, counted
+    /// from 1 at the chord's smaller end.
+    ranks: [u32; 2],
+}
 
 /// The common refinement of the triangulations of both polygons.
 pub(super) fn overlay(
     source: &[DVec2],
     target: &[DVec2],
-    [of_source, of_target]: &[Vec<[u32; 3]>; 2],
+    triangulations: &[Vec<[u32; 3]>; 2],
 ) -> PairMesh {
     let n = source.len();
-    let chords = [diagonals(of_source, n), diagonals(of_target, n)];
     let mut vertices = Vertices {
-        names: Names::new(),
-        places: [HashMap::new(), HashMap::new()],
+        crossings: HashMap::new(),
         points: [source.to_vec(), target.to_vec()],
     };
-    vertices.place_crossings(&chords);
+    vertices.place_crossings(&[0, 1].map(|d| diagonals(&triangulations[d], n)));
     let mut faces = Vec::new();
-    for &s in of_source {
-        for &t in of_target {
+    for &s in &triangulations[0] {
+        for &t in &triangulations[1] {
             if let Some(cell) = vertices.cell(s, t) {
                 vertices.fill(&cell, &mut faces);
             }
         }
     }
-    let [source, target] = vertices.points;
-    PairMesh::new(n, source, target, faces)
+    PairMesh::new(n, vertices.points, faces)
 }
 
+/// The corners of all cells: the polygons' vertices and the crossings.
 struct Vertices {
-    names: Names,
-    /// For each chord of either triangulation, where along it, from its
-    /// smaller end, each crossing stands.
-    places: [HashMap<(Chord, u32), u32>; 2],
+    /// By the chords of either design.
+    crossings: HashMap<[Chord; 2], Crossing>,
     points: [Vec<DVec2>; 2],
+}
+
+/// A chord of one design and one of the other, the source's first.
+fn in_order(design: usize, own: Chord, other: Chord) -> [Chord; 2] {
+    if design == 0 {
+        [own, other]
+    } else {
+        [other, own]
+    }
 }
 
 impl Vertices {
     /// Numbers all crossings and places them in both designs.
     fn place_crossings(&mut self, chords: &[Vec<Chord>; 2]) {
         let n = self.points[0].len() as u32;
-        let mut on_source = Vec::new();
-        for &s in &chords[0] {
-            for crossed in along(s, &chords[1], n) {
-                let vertex = n + on_source.len() as u32;
-                self.names.insert((s, crossed), vertex);
-                on_source.push((s, crossed));
+        for design in 0..2 {
+            for &chord in &chords[design] {
+                let crossed = along(chord, &chords[1 - design], n);
+                let count = crossed.len() as f64 + 1.0;
+                let [a, b] = chord.map(|v| self.points[design][v as usize]);
+                for (rank, other) in (1..).zip(crossed) {
+                    let new = || {
+                        let vertex = self.points[0].len() as u32;
+                        self.points.iter_mut().for_each(|p| p.push(DVec2::ZERO));
+                        Crossing {
+                            vertex,
+                            ranks: [0; 2],
+                        }
+                    };
+                    // New from the source's chord, there already from the target's.
+                    let chords = in_order(design, chord, other);
+                    let crossing = self.crossings.entry(chords).or_insert_with(new);
+                    crossing.ranks[design] = rank;
+                    self.points[design][crossing.vertex as usize] =
+                        a.lerp(b, f64::from(rank) / count);
+                }
             }
-        }
-        let placed = DVec2::ZERO;
-        self.points
-            .iter_mut()
-            .for_each(|points| points.resize(n as usize + on_source.len(), placed));
-        for &s in &chords[0] {
-            let crossings = along(s, &chords[1], n).into_iter().map(|t| (s, t));
-            self.place(0, s, crossings.collect());
-        }
-        for &t in &chords[1] {
-            let crossings = along(t, &chords[0], n).into_iter().map(|s| (s, t));
-            self.place(1, t, crossings.collect());
-        }
-    }
-
-    fn place(&mut self, design: usize, chord: Chord, crossings: Vec<(Chord, Chord)>) {
-        let count = crossings.len() as f64 + 1.0;
-        let [a, b] = chord.map(|v| self.points[design][v as usize]);
-        for (rank, crossing) in crossings.into_iter().enumerate() {
-            let vertex = self.names[&crossing];
-            let share = (rank + 1) as f64 / count;
-            self.points[design][vertex as usize] = a.lerp(b, share);
-            self.places[design].insert((chord, vertex), rank as u32 + 1);
         }
     }
 
     /// The corners of the common part of two triangles, counter-clockwise.
     fn cell(&self, s: [u32; 3], t: [u32; 3]) -> Option<Vec<u32>> {
         let mut next: Vec<(u32, u32)> = Vec::with_capacity(6);
-        let sides = |f: [u32; 3]| [[f[0], f[1]], [f[1], f[2]], [f[2], f[0]]];
         for (design, own, other) in [(0, s, t), (1, t, s)] {
             for side in sides(own) {
                 if let Some(edge) = self.piece(design, side, other)
@@ -120,26 +121,16 @@ impl Vertices {
     /// The piece of a side, directed like it, that lies in the other
     /// triangulation's triangle `other`; none if it is a point or nothing.
     fn piece(&self, design: usize, side: [u32; 2], other: [u32; 3]) -> Option<(u32, u32)> {
-        let chord = [side[0].min(side[1]), side[0].max(side[1])];
+        let chord = undirected(side);
         let mut found: Vec<(u32, u32)> = Vec::with_capacity(2);
         let last = u32::MAX;
         for end in side.iter().filter(|end| other.contains(end)) {
             found.push((if *end == chord[0] { 0 } else { last }, *end));
         }
-        for [c, d] in [
-            [other[0], other[1]],
-            [other[1], other[2]],
-            [other[2], other[0]],
-        ] {
-            let crossed = [c.min(d), c.max(d)];
+        for crossed in sides(other).map(undirected) {
             if interleave(chord, crossed) {
-                let key = if design == 0 {
-                    (chord, crossed)
-                } else {
-                    (crossed, chord)
-                };
-                let vertex = self.names[&key];
-                found.push((self.places[design][&(chord, vertex)], vertex));
+                let crossing = &self.crossings[&in_order(design, chord, crossed)];
+                found.push((crossing.ranks[design], crossing.vertex));
             }
         }
         found.sort_unstable();

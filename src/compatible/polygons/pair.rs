@@ -31,13 +31,8 @@ struct Beside {
 }
 
 impl PairMesh {
-    pub(super) fn new(
-        fixed: usize,
-        source: Vec<DVec2>,
-        target: Vec<DVec2>,
-        faces: Vec<[u32; 3]>,
-    ) -> Self {
-        let mut around = vec![Vec::new(); source.len()];
+    pub(super) fn new(fixed: usize, points: [Vec<DVec2>; 2], faces: Vec<[u32; 3]>) -> Self {
+        let mut around = vec![Vec::new(); points[0].len()];
         for (f, face) in faces.iter().enumerate() {
             for &v in face {
                 around[v as usize].push(f as u32);
@@ -45,7 +40,7 @@ impl PairMesh {
         }
         Self {
             fixed,
-            points: [source, target],
+            points,
             faces,
             around,
         }
@@ -288,8 +283,7 @@ mod tests {
         let points = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)].map(DVec2::from);
         PairMesh::new(
             4,
-            points.to_vec(),
-            points.to_vec(),
+            [points.to_vec(), points.to_vec()],
             vec![[0, 1, 2], [0, 2, 3]],
         )
     }

@@ -124,7 +124,7 @@ impl CompatibleMesh {
         let scaled = |points: &[DVec2]| points.iter().map(|p| *p * scale).collect::<Vec<_>>();
         let (source, to) = (scaled(&source), scaled(&given[1]));
         let faces = delaunay(&source)?;
-        let mut mesh = PairMesh::new(fixed, source.clone(), source, faces);
+        let mut mesh = PairMesh::new(fixed, [source.clone(), source], faces);
         transfer::split_chords(&mut mesh);
         // Step by step, so that edges can be flipped on the way.
         for step in 1..=STEPS {

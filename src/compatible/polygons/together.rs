@@ -7,6 +7,7 @@ use super::pair::{PairMesh, to_unit};
 use super::piece::{self, Rings};
 use super::{bridges, coarsen, face, quality, relax, transfer};
 use crate::compatible::CompatibleMesh;
+use crate::compatible::patchwork::Patchwork;
 use crate::geometry::{DVec2, Side, lexicographic};
 use crate::progress::{Cancelled, Progress};
 
@@ -169,19 +170,22 @@ fn folded(mesh: &PairMesh) -> Option<PolygonsError> {
 /// The base of what a front leaves, and the faces behind the front.
 fn coarse_base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsError> {
     let coarse = coarsen::coarsened(source, target, FEW / 2);
-    let mut core = bridges::base(&coarse.core(0), &coarse.core(1))?;
+    let core = bridges::base(&coarse.core(0), &coarse.core(1))?;
     let front: Vec<u32> = coarse.rings.concat();
-    let inner = coarse.points[0].len();
-    let number = |v: u32| match (v as usize).checked_sub(front.len()) {
-        None => front[v as usize],
-        Some(i) => (inner + i) as u32,
+    let mut whole = Patchwork {
+        points: coarse.points,
+        faces: coarse.faces,
     };
-    let mut faces = coarse.faces;
-    faces.extend(core.faces().map(|face| face.map(number)));
-    let [mut p, mut q] = coarse.points;
-    p.extend(core.points[0].drain(front.len()..));
-    q.extend(core.points[1].drain(front.len()..));
-    Ok(PairMesh::new(source.points.len(), p, q, faces))
+    whole.add(
+        &front,
+        core.points.each_ref().map(Vec::as_slice),
+        core.faces(),
+    );
+    Ok(PairMesh::new(
+        source.points.len(),
+        whole.points,
+        whole.faces,
+    ))
 }
 
 /// Mean cost of the faces by their area in both designs: what one mesh is
@@ -204,7 +208,7 @@ mod tests {
         let flat = square.map(|p| DVec2::new(p.x + p.y, p.y));
         let flat = [flat[0], flat[1], 2.0 * flat[1], flat[3]].to_vec();
         let faces = vec![[0, 1, 2], [0, 2, 3]];
-        let mesh = PairMesh::new(4, square.to_vec(), flat, faces);
+        let mesh = PairMesh::new(4, [square.to_vec(), flat], faces);
         let error = folded(&mesh).expect("a flat face");
         let told = error.swapped().enlarged([2.0, 1.0]);
         let (side, place) = (Side::Source, DVec2::new(6.0, 0.0));

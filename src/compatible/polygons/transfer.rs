@@ -39,7 +39,7 @@ pub(super) fn transfer(
         return Ok(None);
     };
     let (n, points) = (from.points.len(), start.points);
-    let mut mesh = PairMesh::new(n, points.clone(), points, start.faces);
+    let mut mesh = PairMesh::new(n, [points.clone(), points], start.faces);
     split_chords(&mut mesh);
     carry(&mut mesh, &to.points, progress)?;
     Ok(mesh.is_valid().then_some(mesh))
