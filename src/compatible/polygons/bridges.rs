@@ -13,6 +13,7 @@ use super::piece::Rings;
 use crate::compatible::patchwork::Patchwork;
 use crate::geometry::{DVec2, Side};
 use crate::mesh::triangulation::constrained_delaunay;
+use crate::mesh::{Connectivity, sides};
 use std::collections::{HashMap, VecDeque};
 
 /// Diagonals tried for each bridge, shortest first.
@@ -68,19 +69,13 @@ pub(super) fn base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsE
 
 impl Walks {
     fn of(source: &Rings, target: &Rings) -> Self {
-        let mut vertex = 0;
-        let mut corner = |(&p, &q): (&DVec2, &DVec2)| {
-            vertex += 1;
-            let at = [p, q];
-            Corner {
-                at,
-                vertex: vertex - 1,
-            }
-        };
-        let pairs = source.walks().into_iter().zip(target.walks());
+        let pairs = source.points.iter().zip(&target.points);
+        let corner = |(vertex, (&p, &q))| Corner { at: [p, q], vertex };
+        let mut corners = (0..).zip(pairs).map(corner);
+        let walks = source.walks().into_iter();
         Self(
-            pairs
-                .map(|(p, q)| p.iter().zip(q).map(&mut corner).collect())
+            walks
+                .map(|walk| corners.by_ref().take(walk.len()).collect())
                 .collect(),
         )
     }
@@ -89,38 +84,24 @@ impl Walks {
         self.0.iter().flatten()
     }
 
-    /// The corner of all that is corner `k` of a walk, and the walk.
-    fn walk_of(&self, mut corner: usize) -> (usize, usize) {
-        for (w, walk) in self.0.iter().enumerate() {
-            if corner < walk.len() {
-                return (w, corner);
-            }
-            corner -= walk.len();
-        }
-        (0, 0)
-    }
-
     /// The bridge from the first walk to another one that needs the fewest
     /// inner points, and is straight in one design.
     fn bridge(&self) -> Result<Bridge, PolygonsError> {
         let nets = [Net::of(self, Side::Source)?, Net::of(self, Side::Target)?];
-        let mut best: Option<Bridge> = None;
-        for straight in 0..2 {
-            for ends in self.diagonals(&nets[straight], straight) {
-                let Some(inner) = nets[1 - straight].path(ends) else {
-                    continue;
-                };
-                if best.as_ref().is_none_or(|b| inner.len() < b.inner.len()) {
-                    let inner = self.along(ends, straight, &inner);
-                    best = Some(Bridge { ends, inner });
-                }
-            }
-        }
-        best.ok_or(PolygonsError::NoBridge)
+        let ways = (0..2).flat_map(|straight| {
+            let diagonals = self.diagonals(&nets[straight], straight).into_iter();
+            let bent = &nets[1 - straight];
+            diagonals.filter_map(move |ends| Some((straight, ends, bent.path(ends)?)))
+        });
+        // Of equal ones the first: straight in the source, and the shortest.
+        let (straight, ends, bent) = ways
+            .min_by_key(|(_, _, bent)| bent.len())
+            .ok_or(PolygonsError::NoBridge)?;
+        let inner = self.along(ends, straight, &bent);
+        Ok(Bridge { ends, inner })
     }
 
-    /// The shortest diagonals from the first walk to the others, as seen
-    /// from the length of the walks' edges beside them.
+    /// The shortest diagonals from the first walk to the others.
     fn diagonals(&self, net: &Net, design: usize) -> Vec<[usize; 2]> {
         let outer = self.0[0].len() as u32;
         let corners: Vec<&Corner> = self.corners().collect();
@@ -131,7 +112,7 @@ impl Walks {
         let mut found: Vec<[usize; 2]> = net
             .faces
             .iter()
-            .flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]])
+            .flat_map(|&face| sides(face))
             .filter(|&[a, b]| a < outer && b >= outer)
             .map(|edge| edge.map(|k| k as usize))
             .collect();
@@ -143,10 +124,8 @@ impl Walks {
     /// The inner points of a bridge, given those in the design where it is
     /// not straight.
     fn along(&self, ends: [usize; 2], straight: usize, inner: &[DVec2]) -> Vec<[DVec2; 2]> {
-        let [a, b] = ends.map(|end| {
-            let (w, k) = self.walk_of(end);
-            self.0[w][k].at[straight]
-        });
+        let corners: Vec<&Corner> = self.corners().collect();
+        let [a, b] = ends.map(|end| corners[end].at[straight]);
         let count = inner.len() as f64 + 1.0;
         let place = |(k, &bent): (usize, &DVec2)| {
             let even = a.lerp(b, (k + 1) as f64 / count);
@@ -161,7 +140,12 @@ impl Walks {
 
     /// Joins a walk to the first one by both banks of a bridge.
     fn cut(&mut self, bridge: &Bridge, first: u32) {
-        let [(_, a), (w, b)] = bridge.ends.map(|end| self.walk_of(end));
+        let [a, mut b] = bridge.ends;
+        let mut w = 0;
+        while b >= self.0[w].len() {
+            b -= self.0[w].len();
+            w += 1;
+        }
         let hole = self.0.remove(w);
         let outer = std::mem::take(&mut self.0[0]);
         let there: Vec<Corner> = bridge
@@ -188,10 +172,13 @@ impl Walks {
 /// midpoint to corner.
 struct Net {
     faces: Vec<[u32; 3]>,
-    /// For each directed edge the face to its left.
-    left: HashMap<[u32; 2], u32>,
+    connectivity: Connectivity,
     points: Vec<DVec2>,
 }
+
+/// For each face that was reached the face and its side by which, if it is
+/// not one of the first.
+type Reached = HashMap<usize, Option<(usize, usize)>>;
 
 impl Net {
     fn of(walks: &Walks, side: Side) -> Result<Self, PolygonsError> {
@@ -199,43 +186,34 @@ impl Net {
         let walks: Vec<Vec<DVec2>> = walks.0.iter().map(points).collect();
         let faces =
             constrained_delaunay(&walks).map_err(|error| PolygonsError::Base { side, error })?;
-        let mut left = HashMap::new();
-        for (f, &[a, b, c]) in faces.iter().enumerate() {
-            left.extend([[a, b], [b, c], [c, a]].map(|edge| (edge, f as u32)));
-        }
+        let connectivity = Connectivity::new(&faces)
+            .unwrap_or_else(|_| unreachable!("faces of a triangulation meet edge to edge"));
         Ok(Self {
             faces,
-            left,
+            connectivity,
             points: walks.concat(),
         })
     }
 
-    /// The fewest midpoints on a way between two corners, in order.
-    fn path(&self, [from, to]: [usize; 2]) -> Option<Vec<DVec2>> {
-        let [from, to] = [from as u32, to as u32];
-        if self.left.contains_key(&[from, to]) || self.left.contains_key(&[to, from]) {
-            return Some(Vec::new());
-        }
-        // The way to a face is through the edge by which it was entered.
-        let mut entered: HashMap<u32, Option<[u32; 2]>> = HashMap::new();
-        let mut open = VecDeque::new();
-        for (f, face) in self.faces.iter().enumerate() {
-            if face.contains(&from) {
-                entered.insert(f as u32, None);
-                open.push_back(f as u32);
-            }
-        }
+    /// The fewest midpoints on a way between two corners, in order; none
+    /// where an edge joins them.
+    fn path(&self, ends: [usize; 2]) -> Option<Vec<DVec2>> {
+        let [from, to] = ends.map(|end| end as u32);
+        // All faces at the start before any other, so that one that has the
+        // end too is found first.
+        let mut open: VecDeque<usize> = (0..self.faces.len())
+            .filter(|&f| self.faces[f].contains(&from))
+            .collect();
+        let mut reached: Reached = open.iter().map(|&f| (f, None)).collect();
         while let Some(f) = open.pop_front() {
-            let face = self.faces[f as usize];
-            if face.contains(&to) {
-                return Some(self.way(f, &entered));
+            if self.faces[f].contains(&to) {
+                return Some(self.way(f, &reached));
             }
-            for [a, b] in [[face[0], face[1]], [face[1], face[2]], [face[2], face[0]]] {
-                // The way crosses the edge from its left to its right.
-                if let Some(&beyond) = self.left.get(&[b, a])
-                    && !entered.contains_key(&beyond)
+            for k in 0..3 {
+                if let Some(beyond) = self.connectivity.neighbour(f, k)
+                    && !reached.contains_key(&beyond)
                 {
-                    entered.insert(beyond, Some([a, b]));
+                    reached.insert(beyond, Some((f, k)));
                     open.push_back(beyond);
                 }
             }
@@ -243,15 +221,12 @@ impl Net {
         None
     }
 
-    fn way(&self, mut face: u32, entered: &HashMap<u32, Option<[u32; 2]>>) -> Vec<DVec2> {
+    fn way(&self, mut face: usize, reached: &Reached) -> Vec<DVec2> {
         let mut points = Vec::new();
-        while let Some(&Some(edge)) = entered.get(&face) {
-            let [a, b] = edge.map(|v| self.points[v as usize]);
+        while let Some(&Some((before, k))) = reached.get(&face) {
+            let [a, b] = sides(self.faces[before])[k].map(|v| self.points[v as usize]);
             points.push(a.midpoint(b));
-            match self.left.get(&edge) {
-                Some(&before) => face = before,
-                None => break,
-            }
+            face = before;
         }
         points.reverse();
         points

@@ -22,15 +22,12 @@ const TURNS: usize = 40;
 /// Moves the front inwards until it has at most `enough` points or gets
 /// stuck.
 pub(super) fn coarsened(source: &Rings, target: &Rings, enough: usize) -> Coarse {
-    let mut first = 0;
-    let ring = |walk: &[DVec2]| -> Vec<u32> {
-        first += walk.len() as u32;
-        (first - walk.len() as u32..first).collect()
-    };
     let mut coarse = Coarse {
         points: [source.points.clone(), target.points.clone()],
         faces: Vec::new(),
-        rings: source.walks().into_iter().map(ring).collect(),
+        rings: (source.ranges.iter().cloned())
+            .map(|ring| ring.map(|v| v as u32).collect())
+            .collect(),
     };
     let kept: HashSet<u32> = coarse.points.iter().flat_map(|p| doubled(p)).collect();
     for turn in 0..TURNS {

@@ -5,50 +5,48 @@ use super::error::{PolygonsError, RingEdge};
 use super::touching::touching_edges;
 use crate::geometry::{DVec2, Side, ring_edges, signed_area};
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
+use std::ops::Range;
 
 /// Boundary rings, one after the other.
 #[derive(Clone, Debug)]
 pub(super) struct Rings {
     pub(super) points: Vec<DVec2>,
-    /// How many points each ring has.
-    lengths: Vec<usize>,
+    /// Which of the points each ring has.
+    pub(super) ranges: Vec<Range<usize>>,
 }
 
 impl Rings {
     pub(super) fn of<R: AsRef<[DVec2]>>(rings: &[R]) -> Self {
+        let mut end = 0;
+        let range = |ring: &R| {
+            end += ring.as_ref().len();
+            end - ring.as_ref().len()..end
+        };
         Self {
+            ranges: rings.iter().map(range).collect(),
             points: rings.iter().flat_map(|r| r.as_ref()).copied().collect(),
-            lengths: rings.iter().map(|r| r.as_ref().len()).collect(),
         }
     }
 
     pub(super) fn scaled(&self, by: f64) -> Self {
         Self {
             points: self.points.iter().map(|&p| p * by).collect(),
-            lengths: self.lengths.clone(),
+            ranges: self.ranges.clone(),
         }
     }
 
     /// The rings, each by its points.
     pub(super) fn walks(&self) -> Vec<&[DVec2]> {
-        let mut rest = &self.points[..];
-        let mut walk = |&length: &usize| {
-            let (walk, after) = rest.split_at(length);
-            rest = after;
-            walk
-        };
-        self.lengths.iter().map(&mut walk).collect()
+        let ranges = self.ranges.iter().cloned();
+        ranges.map(|range| &self.points[range]).collect()
     }
 
     /// Where in its ring a point is.
-    pub(super) fn place(&self, mut point: usize) -> RingEdge {
-        for (ring, &length) in self.lengths.iter().enumerate() {
-            if point < length {
-                return RingEdge { ring, edge: point };
-            }
-            point -= length;
-        }
-        RingEdge { ring: 0, edge: 0 }
+    pub(super) fn place(&self, point: usize) -> RingEdge {
+        let holds = |range: &Range<usize>| range.contains(&point);
+        let ring = self.ranges.iter().position(holds).unwrap_or(0);
+        let edge = point - self.ranges[ring].start;
+        RingEdge { ring, edge }
     }
 }
 
