@@ -6,6 +6,7 @@
 //! there.
 
 use super::face::{self, Corners};
+use crate::compatible::{CompatibleError, CompatibleMesh};
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::sides;
 
@@ -80,13 +81,11 @@ impl PairMesh {
         }
     }
 
-    /// The movable vertices that are there.
-    pub(super) fn steiner(&self) -> impl Iterator<Item = u32> + use<> {
-        let used: Vec<u32> = (self.fixed..self.around.len())
-            .filter(|&v| !self.around[v].is_empty())
-            .map(|v| v as u32)
-            .collect();
-        used.into_iter()
+    /// The movable vertices that are there, in ascending order.
+    pub(super) fn steiner(&self) -> Vec<u32> {
+        (self.fixed as u32..self.around.len() as u32)
+            .filter(|&v| !self.around[v as usize].is_empty())
+            .collect()
     }
 
     /// The faces at a vertex.
@@ -262,6 +261,22 @@ impl PairMesh {
             .map(|face| face.map(|v| new_number[v as usize]));
         let points = [0, 1].map(|d| kept.iter().map(|&v| self.points[d][v as usize]).collect());
         (faces.collect(), points)
+    }
+
+    /// The mesh in the coordinates that were given, of which its own are so
+    /// many times as large: the first vertices are met to the last bit.
+    pub(super) fn finished(
+        &self,
+        scales: [f64; 2],
+        given: [&[DVec2]; 2],
+    ) -> Result<CompatibleMesh, CompatibleError> {
+        let (faces, mut points) = self.compacted();
+        for (d, given) in given.into_iter().enumerate() {
+            points[d].iter_mut().for_each(|p| *p /= scales[d]);
+            points[d][..given.len()].copy_from_slice(given);
+        }
+        let [source, target] = points;
+        CompatibleMesh::new(faces, source, target, Vec::new())
     }
 }
 

@@ -142,13 +142,8 @@ impl CompatibleMesh {
         }
         quality::improve(&mut mesh, &PolygonOptions::default(), progress)?;
         checkpoint(progress, "triangulating", 1.0)?;
-        let (faces, mut points) = mesh.compacted();
-        for (points, given) in points.iter_mut().zip(&given) {
-            points.iter_mut().for_each(|p| *p /= scale);
-            points[..fixed].copy_from_slice(given);
-        }
-        let [in_source, in_target] = points;
-        Ok(Self::new(faces, in_source, in_target, Vec::new())?)
+        let given = given.each_ref().map(Vec::as_slice);
+        Ok(mesh.finished([scale; 2], given)?)
     }
 }
 

@@ -68,9 +68,7 @@ pub(super) fn settle(mesh: &mut PairMesh) {
 /// more doubled the vertices of public pairs and changed no median.
 fn split_costly(mesh: &mut PairMesh, options: &PolygonOptions) {
     let n = mesh.fixed;
-    let room = options
-        .most_points(n)
-        .saturating_sub(mesh.steiner().count());
+    let room = options.most_points(n).saturating_sub(mesh.steiner().len());
     let mut costly: Vec<([u32; 3], f64)> = mesh
         .faces()
         .map(|face| (face, mesh.cost(face)))
@@ -170,7 +168,7 @@ fn split_long(mesh: &mut PairMesh, options: &PolygonOptions) {
     for [a, b] in mesh.inner_edges() {
         let long = (0..2)
             .any(|d| mesh.points[d][a as usize].distance(mesh.points[d][b as usize]) > longest[d]);
-        if long && mesh.steiner().count() < most {
+        if long && mesh.steiner().len() < most {
             mesh.split([a, b]);
         }
     }

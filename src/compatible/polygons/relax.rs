@@ -27,7 +27,7 @@ impl Relaxation {
         let zero = vec![DVec2::ZERO; mesh.points[0].len()];
         Self {
             faces: weighted(mesh),
-            movable: mesh.steiner().collect(),
+            movable: mesh.steiner(),
             start: mesh.points.clone(),
             at: mesh.points.clone(),
             gradients: [zero.clone(), zero],

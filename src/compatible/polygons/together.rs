@@ -58,13 +58,8 @@ impl CompatibleMesh {
             back.map(PairMesh::swapped).map_err(PolygonsError::swapped)
         };
         let mesh = mesh.map_err(|error| error.enlarged(scales.map(f64::recip)))?;
-        let (faces, mut points) = mesh.compacted();
-        for d in 0..2 {
-            points[d].iter_mut().for_each(|p| *p /= scales[d]);
-            points[d][..given[d].points.len()].copy_from_slice(&given[d].points);
-        }
-        let [in_source, in_target] = points;
-        Self::new(faces, in_source, in_target, Vec::new()).map_err(PolygonsError::Mesh)
+        let given = given.each_ref().map(|rings| &rings.points[..]);
+        mesh.finished(scales, given).map_err(PolygonsError::Mesh)
     }
 }
 
