@@ -19,7 +19,7 @@ use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::cholesky::simplicial::SimplicialLltRef;
 use faer::sparse::linalg::cholesky::supernodal::SupernodalLltRef;
 use faer::sparse::linalg::cholesky::{
-    CholeskySymbolicParams, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymbolicCholeskyRaw, SymmetricOrdering,
     factorize_symbolic_cholesky,
 };
 use faer::sparse::{SparseColMat, Triplet};
@@ -225,13 +225,9 @@ impl Cholesky {
     /// If the length of `rhs` is no multiple of [`Self::size`], or if the
     /// workspace was made for fewer columns or for another matrix.
     pub fn solve_ordered(&self, rhs: &mut [f64], workspace: &mut Workspace) {
-        let n = self.size();
-        if n == 0 {
+        let Some(rhs) = self.columns(rhs) else {
             return;
-        }
-        assert_eq!(rhs.len() % n, 0, "right-hand sides have the matrix's size");
-        let columns = rhs.len() / n;
-        let rhs = MatMut::from_column_major_slice_mut(rhs, n, columns);
+        };
         let stack = MemStack::new(&mut workspace.0);
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(symbolic) => {
@@ -253,6 +249,32 @@ impl Cholesky {
         }
     }
 
+    /// As [`Self::solve_ordered`], but right-hand sides and solutions are in
+    /// the caller's numbering.
+    ///
+    /// # Panics
+    /// As [`Self::solve_ordered`].
+    pub fn solve_in_place(&self, rhs: &mut [f64], workspace: &mut Workspace) {
+        let Some(rhs) = self.columns(rhs) else {
+            return;
+        };
+        let stack = MemStack::new(&mut workspace.0);
+        LltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
+            Conj::No,
+            rhs,
+            Par::Seq,
+            stack,
+        );
+    }
+
+    /// Right-hand sides beside each other; none where there are no unknowns.
+    fn columns<'a>(&self, rhs: &'a mut [f64]) -> Option<MatMut<'a, f64>> {
+        let n = self.size();
+        let columns = rhs.len().checked_div(n)?;
+        assert_eq!(rhs.len() % n, 0, "right-hand sides have the matrix's size");
+        Some(MatMut::from_column_major_slice_mut(rhs, n, columns))
+    }
+
     /// Solves for one right-hand side in the caller's numbering; allocates.
     ///
     /// # Panics
@@ -260,12 +282,9 @@ impl Cholesky {
     #[must_use]
     pub fn solve(&self, rhs: &[f64]) -> Vec<f64> {
         assert_eq!(rhs.len(), self.size());
-        let mut ordered = vec![0.0; rhs.len()];
-        for (&place, &value) in self.place.iter().zip(rhs) {
-            ordered[place as usize] = value;
-        }
-        self.solve_ordered(&mut ordered, &mut self.workspace(1));
-        self.place.iter().map(|&p| ordered[p as usize]).collect()
+        let mut solution = rhs.to_vec();
+        self.solve_in_place(&mut solution, &mut self.workspace(1));
+        solution
     }
 }
 

@@ -5,7 +5,7 @@
 //! one, and it is the caller who looks at what is left over. Partial pivoting;
 //! everything runs on the calling thread.
 
-use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::lu::partial_pivoting::{factor, solve};
 use faer::perm::PermRef;
 use faer::{Conj, MatMut, MatRef, Par};
@@ -51,13 +51,8 @@ impl DenseLu {
             n: 0,
             values: Vec::new(),
             rows: [Vec::new(), Vec::new()],
-            memory: MemBuffer::new(factor::lu_in_place_scratch::<u32, f64>(
-                1,
-                1,
-                Par::Seq,
-                Default::default(),
-            )),
-            room: [1, 0],
+            memory: MemBuffer::new(StackReq::EMPTY),
+            room: [0, 0],
         }
     }
 

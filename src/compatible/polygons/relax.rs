@@ -78,24 +78,14 @@ impl Relaxation {
     /// The curvature of the cost where areas are kept, as springs in each
     /// design.
     fn springs(&self) -> Option<[Springs; 2]> {
-        let mut unknown = vec![None; self.start[0].len()];
-        for (i, &v) in self.movable.iter().enumerate() {
-            unknown[v as usize] = Some(i as u32);
-        }
         let of = |d: usize| {
             let springs = self.faces.iter().flat_map(|&(face, weight)| {
                 let [p, q] = [0, 1].map(|d| face.map(|v| self.start[d][v as usize]));
                 let stiffness = face::stiffness(p, q)[d];
-                (0..3).map(move |k| {
-                    (
-                        [face[(k + 1) % 3], face[(k + 2) % 3]],
-                        weight * stiffness[k],
-                    )
-                })
+                let ends = |k: usize| [face[(k + 1) % 3], face[(k + 2) % 3]];
+                [0, 1, 2].map(|k| (ends(k), weight * stiffness[k]))
             });
-            let ends =
-                |(ends, stiffness): ([u32; 2], f64)| (ends.map(|v| unknown[v as usize]), stiffness);
-            Springs::new(self.movable.len(), springs.map(ends)).ok()
+            Springs::new(&self.movable, springs).ok()
         };
         Some([of(0)?, of(1)?])
     }

@@ -12,56 +12,40 @@ const HELD: f64 = 1e-6;
 pub(super) struct Springs {
     factor: Cholesky,
     workspace: Workspace,
-    ordered: Vec<f64>,
 }
 
 impl Springs {
-    /// From springs between vertices, with their stiffness; `None` stands for
-    /// what does not move.
+    /// From springs between vertices, with their stiffness. Only `movable`
+    /// ones move, in ascending order; they are the unknowns.
     pub(super) fn new(
-        vertices: usize,
-        springs: impl Iterator<Item = ([Option<u32>; 2], f64)>,
+        movable: &[u32],
+        springs: impl Iterator<Item = ([u32; 2], f64)>,
     ) -> Result<Self, FactorError> {
-        let mut matrix = SymmetricMatrix::zero(vertices, 16 * vertices);
+        let unknown = |v: u32| movable.binary_search(&v).ok().map(|i| i as u32);
+        let mut matrix = SymmetricMatrix::zero(movable.len(), 16 * movable.len());
         let mut sum = 0.0;
-        for ([a, b], stiffness) in springs {
+        for (ends, stiffness) in springs {
             sum += stiffness.abs();
-            for v in [a, b].into_iter().flatten() {
+            let ends = ends.map(unknown);
+            for v in ends.into_iter().flatten() {
                 matrix.add(v, v, stiffness);
             }
-            if let (Some(a), Some(b)) = (a, b) {
+            if let [Some(a), Some(b)] = ends {
                 matrix.add(a, b, -stiffness);
             }
         }
-        let held = HELD * sum / vertices.max(1) as f64;
-        for v in 0..vertices as u32 {
+        let held = HELD * sum / movable.len().max(1) as f64;
+        for v in 0..movable.len() as u32 {
             matrix.add(v, v, held);
         }
         let factor = Cholesky::factor(&matrix)?;
-        Ok(Self {
-            workspace: factor.workspace(2),
-            ordered: vec![0.0; 2 * vertices],
-            factor,
-        })
+        let workspace = factor.workspace(2);
+        Ok(Self { factor, workspace })
     }
 
     /// Forces along both axes, all of x first, become displacements.
     pub(super) fn solve(&mut self, forces: &mut [f64]) {
-        let n = self.factor.size();
-        for axis in 0..2 {
-            let place = self.factor.place_in_order().iter();
-            for (&place, &force) in place.zip(&forces[axis * n..]) {
-                self.ordered[axis * n + place as usize] = force;
-            }
-        }
-        self.factor
-            .solve_ordered(&mut self.ordered, &mut self.workspace);
-        for axis in 0..2 {
-            let place = self.factor.place_in_order().iter();
-            for (&place, force) in place.zip(&mut forces[axis * n..]) {
-                *force = self.ordered[axis * n + place as usize];
-            }
-        }
+        self.factor.solve_in_place(forces, &mut self.workspace);
     }
 }
 
@@ -71,12 +55,8 @@ mod tests {
 
     #[test]
     fn a_chain_of_springs_is_stretched_evenly() {
-        let links = [
-            ([None, Some(0)], 1.0),
-            ([Some(0), Some(1)], 1.0),
-            ([Some(1), None], 1.0),
-        ];
-        let mut springs = Springs::new(2, links.into_iter()).expect("held");
+        let links = [[0, 1], [1, 2], [2, 3]].map(|ends| (ends, 1.0));
+        let mut springs = Springs::new(&[1, 2], links.into_iter()).expect("held");
         let mut forces = [0.0, 3.0, 3.0, 0.0];
         springs.solve(&mut forces);
         for (found, exact) in forces.into_iter().zip([1.0, 2.0, 2.0, 1.0]) {

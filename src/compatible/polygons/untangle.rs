@@ -61,7 +61,8 @@ pub(super) fn untangle(mesh: &mut PairMesh) -> bool {
         .map(|piece| piece.jacobian(|v| start[v]).determinant())
         .fold(f64::INFINITY, f64::min);
     let epsilon = LEAST_EPSILON.hypot(0.2 * least.min(0.0));
-    let Some(mut springs) = springs(&pieces, start.len(), n) else {
+    let movable: Vec<u32> = (n as u32..start.len() as u32).collect();
+    let Some(mut springs) = springs(&pieces, &movable) else {
         return false;
     };
     let mut x = vec![0.0; 2 * (start.len() - n)];
@@ -77,7 +78,7 @@ pub(super) fn untangle(mesh: &mut PairMesh) -> bool {
 }
 
 /// The curvature of the energy near no distortion, up to a factor.
-fn springs(pieces: &[Piece], vertices: usize, fixed: usize) -> Option<Springs> {
+fn springs(pieces: &[Piece], movable: &[u32]) -> Option<Springs> {
     let springs = pieces.iter().flat_map(|piece| {
         let weight = 2.0 * piece.share;
         // |J|² is a sum over edges of the corners' cotangents.
@@ -87,13 +88,10 @@ fn springs(pieces: &[Piece], vertices: usize, fixed: usize) -> Option<Springs> {
             m.y_axis.y + m.y_axis.x,
             -m.y_axis.x,
         );
-        let [a, b, c] = piece.corners;
-        [([a, b], ab), ([a, c], ac), ([b, c], bc)].map(|(ends, s)| {
-            let unknown = |v: usize| v.checked_sub(fixed).map(|i| i as u32);
-            (ends.map(unknown), weight * s)
-        })
+        let [a, b, c] = piece.corners.map(|v| v as u32);
+        [([a, b], ab), ([a, c], ac), ([b, c], bc)].map(|(ends, s)| (ends, weight * s))
     });
-    Springs::new(vertices - fixed, springs).ok()
+    Springs::new(movable, springs).ok()
 }
 
 fn energy(
