@@ -61,9 +61,13 @@ impl Similarity {
     /// The linear part; its determinant is negative when mirrored.
     #[must_use]
     pub fn linear(&self) -> DMat2 {
-        let flip = if self.mirror { -1.0 } else { 1.0 };
         DMat2::from_angle(self.rotation)
-            * DMat2::from_diagonal(DVec2::new(flip * self.scale, self.scale))
+            * DMat2::from_diagonal(DVec2::new(self.flip() * self.scale, self.scale))
+    }
+
+    /// What left and right are multiplied by, and turns before it.
+    fn flip(&self) -> f64 {
+        if self.mirror { -1.0 } else { 1.0 }
     }
 
     /// Where `p` goes.
@@ -84,15 +88,10 @@ impl Similarity {
     /// This similarity after another, as one.
     #[must_use]
     pub fn after(&self, first: &Self) -> Self {
-        let turn = if self.mirror {
-            -first.rotation
-        } else {
-            first.rotation
-        };
         Self {
             offset: self.apply(first.offset),
             scale: self.scale * first.scale,
-            rotation: self.rotation + turn,
+            rotation: self.rotation + self.flip() * first.rotation,
             mirror: self.mirror != first.mirror,
         }
     }
@@ -103,11 +102,7 @@ impl Similarity {
         let linear = Self {
             offset: DVec2::ZERO,
             scale: 1.0 / self.scale,
-            rotation: if self.mirror {
-                self.rotation
-            } else {
-                -self.rotation
-            },
+            rotation: -self.flip() * self.rotation,
             mirror: self.mirror,
         };
         Self {
