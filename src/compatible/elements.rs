@@ -68,6 +68,7 @@ fn list(faces: &[usize], what: &str) -> String {
     let numbers: Vec<usize> = faces.iter().map(|f| f + 1).collect();
     match numbers[..] {
         [face] => format!("face {face} is {what}"),
+        // Five lead to the place; a fold of thousands would fill the screen.
         _ => format!("faces {} are {what}", listed(&numbers, 5)),
     }
 }

@@ -20,10 +20,15 @@ pub(super) struct Cost {
     pub(super) gradients: [Corners; 2],
 }
 
+/// Twice the area in plain floating point.
+pub(super) fn doubled(p: Corners) -> f64 {
+    twice_signed_area(p[0], p[1], p[2])
+}
+
 /// Squared edges over the area, 1 for an equilateral triangle; infinite for
 /// one that is not positive.
 pub(super) fn shape(p: Corners) -> f64 {
-    let det = twice_signed_area(p[0], p[1], p[2]);
+    let det = doubled(p);
     if det > 0.0 {
         squares(edges(p)) / (2.0 * 3f64.sqrt() * det)
     } else {
@@ -43,7 +48,7 @@ pub(super) fn value(p: Corners, q: Corners) -> f64 {
 
 /// The cost with its gradients; `None` where a face is not positive in both.
 pub(super) fn evaluate(p: Corners, q: Corners) -> Option<Cost> {
-    let det = [p, q].map(|c| twice_signed_area(c[0], c[1], c[2]));
+    let det = [p, q].map(doubled);
     if !(det[0] > 0.0 && det[1] > 0.0) {
         return None;
     }
@@ -82,7 +87,7 @@ pub(super) fn evaluate(p: Corners, q: Corners) -> Option<Cost> {
 /// the other design are kept: a stiffness for each edge. That of one edge may
 /// be negative, that of the face is not.
 pub(super) fn stiffness(p: Corners, q: Corners) -> [[f64; 3]; 2] {
-    let det = [p, q].map(|c| twice_signed_area(c[0], c[1], c[2]));
+    let det = [p, q].map(doubled);
     let e = [edges(p), edges(q)];
     let products = e.map(products);
     let conformal = dirichlet(products[0], e[1]) / (2.0 * det[0] * det[1]);
@@ -128,8 +133,7 @@ mod tests {
     ];
 
     fn distortion(p: Corners, q: Corners) -> f64 {
-        let dets = twice_signed_area(p[0], p[1], p[2]) * twice_signed_area(q[0], q[1], q[2]);
-        dirichlet(products(edges(p)), edges(q)) / (2.0 * dets)
+        dirichlet(products(edges(p)), edges(q)) / (2.0 * doubled(p) * doubled(q))
     }
 
     #[test]

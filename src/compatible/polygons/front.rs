@@ -3,7 +3,7 @@
 
 use super::face;
 use super::piece::Rings;
-use crate::geometry::{DVec2, orient2d, segments_touch};
+use crate::geometry::{DVec2, orient2d, ring_edges, segments_touch};
 use std::collections::HashSet;
 
 /// Edges of the stretches that are tried, longest first.
@@ -52,10 +52,8 @@ pub(super) struct Front<'a> {
 impl<'a> Front<'a> {
     pub(super) fn of(coarse: &'a mut Coarse, ring: usize, kept: &'a HashSet<u32>) -> Self {
         let rings = coarse.rings.iter().enumerate();
-        let others = rings.filter(|(r, _)| *r != ring).flat_map(|(_, ring)| {
-            let after = ring.iter().cycle().skip(1);
-            ring.iter().zip(after).map(|(&a, &b)| [a, b])
-        });
+        let others = rings.filter(|(r, _)| *r != ring);
+        let others = others.flat_map(|(_, ring)| ring_edges(ring).map(<[u32; 2]>::from));
         Self {
             others: others.collect(),
             coarse,
@@ -93,7 +91,9 @@ impl<'a> Front<'a> {
         if self.cut_corner(at) {
             return Some(2);
         }
-        STRETCHES.into_iter().find(|&k| self.replace(at, k))
+        STRETCHES
+            .into_iter()
+            .find(|&k| self.replace(at, k).is_some())
     }
 
     fn cut_corner(&mut self, at: usize) -> bool {
@@ -124,24 +124,21 @@ impl<'a> Front<'a> {
     }
 
     /// The stretch of `k` edges replaced by two to a point seen from all.
-    fn replace(&mut self, at: usize, k: usize) -> bool {
+    /// None where it does not fit.
+    fn replace(&mut self, at: usize, k: usize) -> Option<()> {
         let stretch: Vec<u32> = (0..=k).map(|i| self.vertex(at + i)).collect();
         if self.len() < k + 2 || self.is_kept(&stretch) {
-            return false;
+            return None;
         }
-        let Some(p) = self.common_point(0, at, &stretch) else {
-            return false;
-        };
-        let Some(q) = self.common_point(1, at, &stretch) else {
-            return false;
-        };
+        let p = self.common_point(0, at, &stretch)?;
+        let q = self.common_point(1, at, &stretch)?;
         let new = self.coarse.points[0].len() as u32;
         self.coarse.points[0].push(p);
         self.coarse.points[1].push(q);
         let faces = stretch.windows(2).map(|edge| [edge[0], edge[1], new]);
         self.coarse.faces.extend(faces);
         self.splice(at, k, Some(new));
-        true
+        Some(())
     }
 
     /// Takes the inner vertices of a stretch out of the ring.
@@ -207,8 +204,7 @@ impl<'a> Front<'a> {
     /// touches no edge of the front but those at the vertex and at `others`.
     fn is_free(&self, d: usize, from: u32, to: DVec2, others: &[u32]) -> bool {
         let ring = &self.coarse.rings[self.ring];
-        let after = ring.iter().cycle().skip(1);
-        let own = ring.iter().zip(after).map(|(&a, &b)| [a, b]);
+        let own = ring_edges(ring).map(<[u32; 2]>::from);
         let way = [self.place(d, from), to];
         own.chain(self.others.iter().copied()).all(|edge| {
             edge.contains(&from)
@@ -242,8 +238,7 @@ fn centre_of_kernel(middle: DVec2, half: f64, sides: &[[DVec2; 2]]) -> Option<DV
     for &[a, b] in sides {
         let height = |p: DVec2| (b - a).perp_dot(p - a);
         let mut cut = Vec::with_capacity(kernel.len() + 1);
-        for (i, &p) in kernel.iter().enumerate() {
-            let q = kernel[(i + 1) % kernel.len()];
+        for (p, q) in ring_edges(&kernel) {
             let (h, g) = (height(p), height(q));
             if h > 0.0 {
                 cut.push(p);

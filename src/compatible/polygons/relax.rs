@@ -8,7 +8,7 @@ use super::face;
 use super::lbfgs::minimise;
 use super::pair::PairMesh;
 use super::springs::Springs;
-use crate::geometry::{DVec2, twice_signed_area};
+use crate::geometry::DVec2;
 
 /// What the minimisation over all movable vertices needs to know. Unknowns
 /// are displacements: source x, source y, target x, target y.
@@ -93,10 +93,7 @@ impl Relaxation {
 
 /// Faces weighted half by their mean share of both areas, half alike.
 pub(super) fn weighted(mesh: &PairMesh) -> Vec<([u32; 3], f64)> {
-    let areas = |face| {
-        mesh.corners(face)
-            .map(|c| twice_signed_area(c[0], c[1], c[2]))
-    };
+    let areas = |face| mesh.corners(face).map(face::doubled);
     let mut total = [0.0; 2];
     let mut count = 0.0;
     for face in mesh.faces() {

@@ -3,10 +3,11 @@
 //! Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, "Foldover-free maps in
 //! 50 lines of code").
 
+use super::face;
 use super::lbfgs::minimise;
 use super::pair::PairMesh;
 use super::springs::Springs;
-use crate::geometry::{DMat2, DVec2, twice_signed_area};
+use crate::geometry::{DMat2, DVec2};
 
 /// Least ε, in units of the mean determinant.
 const LEAST_EPSILON: f64 = 1e-3;
@@ -30,15 +31,11 @@ impl Piece {
 }
 
 fn pieces(mesh: &PairMesh) -> Vec<Piece> {
-    let doubled = |d: usize| -> f64 {
-        let area = |f| mesh.corners(f)[d];
-        mesh.faces()
-            .map(area)
-            .map(|c| twice_signed_area(c[0], c[1], c[2]))
-            .sum()
-    };
-    let total = doubled(0);
-    let scale = (total / doubled(1)).sqrt();
+    let doubled = |d: usize| mesh.faces().map(move |f| face::doubled(mesh.corners(f)[d]));
+    let total: f64 = doubled(0).sum();
+    // Folds cancel in the sum: it is the area of the target's polygon,
+    // whatever its inside does yet.
+    let scale = (total / doubled(1).sum::<f64>()).sqrt();
     let piece = |face: [u32; 3]| {
         let [p, _] = mesh.corners(face);
         let edges = DMat2::from_cols(p[1] - p[0], p[2] - p[0]);
