@@ -66,6 +66,8 @@ impl Homotopy {
             Self::Linear => from_identity(map.matrix()),
             Self::Polar => turned * from_identity(map.stretch),
             Self::Exponential => {
+                // exp(t log S): the eigenvalues are positive, as faces are in
+                // both designs.
                 turned * SymmetricEigen::of(map.stretch).map(|lambda| lambda.powf(t))
             }
             Self::LinearAfterPolar => {

@@ -51,6 +51,7 @@ impl SymmetricMatrix {
 
     /// Adds `value` at (i, j), and by symmetry at (j, i); once on the diagonal.
     pub fn add(&mut self, i: u32, j: u32, value: f64) {
+        // The lower triangle: it is what the factorisation is told to read.
         self.lower.push(Triplet::new(i.max(j), i.min(j), value));
     }
 
@@ -157,6 +158,7 @@ impl Cholesky {
             params,
         )
         .map_err(|_| FactorError::OutOfMemory)?;
+        // The ways back, from unknowns to places; no permutation is the identity.
         let place = match symbolic.perm() {
             Some(perm) => perm.arrays().1.to_vec(),
             None => (0..n as u32).collect(),
@@ -179,6 +181,7 @@ impl Cholesky {
             &mut self.values,
             lower.as_ref(),
             Side::Lower,
+            // None: who asks is told, and may stiffen the matrix.
             LltRegularization::default(),
             Par::Seq,
             MemStack::new(&mut memory),
@@ -229,6 +232,7 @@ impl Cholesky {
             return;
         };
         let stack = MemStack::new(&mut workspace.0);
+        // The library's own solve would permute there and back.
         match self.symbolic.raw() {
             SymbolicCholeskyRaw::Simplicial(symbolic) => {
                 SimplicialLltRef::new(symbolic, &self.values).solve_in_place_with_conj(

@@ -71,6 +71,7 @@ impl Bounds {
     /// most.
     #[must_use]
     pub fn padded(&self, by: f64) -> Self {
+        // What is narrower than it loses becomes a line, never inside out.
         let centre = self.centre();
         Self {
             min: (self.min - by).min(centre),

@@ -28,6 +28,7 @@ impl Polar {
     #[must_use]
     pub fn of(m: DMat2) -> Self {
         let (a, b, c, d) = (m.x_axis.x, m.y_axis.x, m.x_axis.y, m.y_axis.y);
+        // Where both are 0, M only mirrors and scales: any angle is as good.
         let angle = (c - b).atan2(a + d);
         let s = DMat2::from_angle(-angle) * m;
         let off = 0.5 * (s.y_axis.x + s.x_axis.y); // equal but for rounding
@@ -72,6 +73,7 @@ impl SymmetricEigen {
         };
         Self {
             values: [large, small],
+            // (half, b) stands at twice the axis's angle, also where b is 0.
             axis: DVec2::from_angle(0.5 * b.atan2(half)),
         }
     }

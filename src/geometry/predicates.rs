@@ -5,7 +5,8 @@ use super::DVec2;
 use std::cmp::Ordering;
 
 /// Twice the signed area of `abc`: positive when they turn counter-clockwise,
-/// zero exactly when they are collinear. The sign is exact; the value is not.
+/// zero exactly when they are collinear. The sign is exact as long as no
+/// product of differences over- or underflows; the value is not.
 ///
 /// ```
 /// use morphospace::geometry::{DVec2, orient2d};

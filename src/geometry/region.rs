@@ -120,6 +120,7 @@ impl Regions {
             .filter(|ring| ring.len() >= 3)
             .map(|ring| ring.iter().map(|&p| (p - origin).to_array()).collect())
             .collect();
+        // A grid of 32 bits would move points by some 1e-9 of the size.
         let shapes = subject.simplify_shape_as::<i64>(rule.into());
         let found: usize = shapes.iter().map(Vec::len).sum();
         let regions: Vec<Region> = shapes
@@ -129,6 +130,7 @@ impl Regions {
         if regions.is_empty() {
             return Err(RegionsError::Empty);
         }
+        // The holes of an outside that was left out are slivers as well.
         let kept: usize = regions.iter().map(|region| 1 + region.holes.len()).sum();
         Ok((Self(regions), found - kept))
     }
@@ -159,6 +161,7 @@ impl Regions {
     /// The smallest box around all pieces.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
+        // There is a piece: none is an error when regions are made.
         let first = self.0[0].outer.bounds();
         self.0
             .iter()
@@ -168,6 +171,7 @@ impl Regions {
     /// Whether `p` lies inside; on a boundary either answer may come.
     #[must_use]
     pub fn contains(&self, p: DVec2) -> bool {
+        // Holes wind the other way: in them the sum is 0.
         self.rings().map(|ring| ring.winding(p)).sum::<i32>() != 0
     }
 

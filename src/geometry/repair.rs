@@ -68,6 +68,7 @@ impl Repairs {
         let mut kept = Vec::new();
         for ring in rings {
             let (corners, idle) = corners(ring);
+            // Before the duplicates: flat rings have no corners, all alike.
             if corners.len() < 3 {
                 found.flat += 1;
                 continue;
@@ -102,6 +103,7 @@ impl Repairs {
         let mut active: Vec<Edge> = Vec::new();
         for edge in edges {
             active.retain(|other| other.bounds.max.x >= edge.bounds.min.x);
+            // Combs and hatchings stand beside each other all along the sweep.
             if active.len() > tests {
                 self.at_least = true;
                 return;
@@ -123,6 +125,7 @@ impl Repairs {
         if differ(ea, eb) && differ(fa, fb) {
             self.crossings += 1;
         }
+        // First ends only: a last end is the first of the edge after it.
         self.touches += usize::from(ea == 0.0 && f.holds_inside(e.a));
         self.touches += usize::from(fa == 0.0 && e.holds_inside(f.a));
     }
@@ -158,6 +161,7 @@ fn corners(ring: &[DVec2]) -> (Vec<DVec2>, usize) {
     if points.len() > 1 && points.first() == points.last() {
         points.pop();
     }
+    // A closing point is nobody's fault; whatever else goes is idle.
     let given = points.len();
     points.dedup();
     while points.len() > 1 && points.first() == points.last() {
@@ -185,6 +189,7 @@ fn is_flat(points: &[DVec2]) -> bool {
     let Some(&first) = points.first() else {
         return true;
     };
+    // The farthest is another place than the first if any point is.
     let far = |p: &&DVec2| p.distance_squared(first);
     let farthest = points.iter().max_by(|p, q| far(p).total_cmp(&far(q)));
     farthest.is_none_or(|&end| points.iter().all(|&p| orient2d(first, end, p) == 0.0))

@@ -36,6 +36,7 @@ impl Ring {
     /// # Ok::<(), morphospace::geometry::RingError>(())
     /// ```
     pub fn new(mut points: Vec<DVec2>) -> Result<Self, RingError> {
+        // First: the index is that of the points as they were given.
         if let Some(bad) = points.iter().position(|p| !p.is_finite()) {
             return Err(RingError::NotFinite(bad));
         }
@@ -89,6 +90,7 @@ impl Ring {
     /// The smallest box around it.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
+        // A ring has three points at least.
         self.0.iter().fold(Bounds::at(self.0[0]), |b, &p| Bounds {
             min: b.min.min(p),
             max: b.max.max(p),
@@ -143,6 +145,8 @@ pub fn perimeter(points: &[DVec2]) -> f64 {
 pub fn winding(points: &[DVec2], p: DVec2) -> i32 {
     let crossing = |(a, b): (DVec2, DVec2)| {
         let side = (b - a).perp_dot(p - a);
+        // An end as high as `p` counts as below it: a ray through a corner
+        // then meets one of its edges, or both in opposite directions.
         match (a.y <= p.y, b.y <= p.y) {
             (true, false) if side > 0.0 => 1,
             (false, true) if side < 0.0 => -1,

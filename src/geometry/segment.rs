@@ -13,6 +13,7 @@ use super::{DVec2, orient2d};
 #[must_use]
 pub fn along_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let edge = b - a;
+    // 0/0 where the ends are one, or so near that the square underflows.
     let along = (p - a).dot(edge) / edge.length_squared();
     if along.is_finite() {
         along.clamp(0.0, 1.0)
@@ -68,6 +69,7 @@ pub fn segments_cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
 pub(crate) fn along_ray(from: DVec2, direction: DVec2, (a, b): (DVec2, DVec2)) -> Option<f64> {
     let (edge, offset) = (b - a, a - from);
     let across = direction.perp_dot(edge);
+    // Parallel lines: infinite or NaN, and so outside the range.
     let share = offset.perp_dot(direction) / across;
     let far = || offset.perp_dot(edge) / across;
     let meets = (0.0..=1.0).contains(&share);

@@ -65,7 +65,7 @@ impl Similarity {
             * DMat2::from_diagonal(DVec2::new(self.flip() * self.scale, self.scale))
     }
 
-    /// What left and right are multiplied by, and turns before it.
+    /// The sign that x gets, and that a turn gets which is moved past the mirror.
     fn flip(&self) -> f64 {
         if self.mirror { -1.0 } else { 1.0 }
     }
@@ -106,6 +106,7 @@ impl Similarity {
             mirror: self.mirror,
         };
         Self {
+            // The offset was last, so it is undone first.
             offset: -linear.apply(self.offset),
             ..linear
         }

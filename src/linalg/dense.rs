@@ -121,6 +121,8 @@ impl DenseLu {
         if n <= self.room[0] && columns <= self.room[1] {
             return;
         }
+        // Both at their largest, or a small matrix with many columns and a
+        // large one with few would allocate in turns.
         let [n, columns] = [n.max(self.room[0]), columns.max(self.room[1])];
         let factoring = factor::lu_in_place_scratch::<u32, f64>(n, n, Par::Seq, Default::default());
         let solving = solve::solve_in_place_scratch::<u32, f64>(n, columns, Par::Seq);

@@ -39,6 +39,7 @@ impl Connectivity {
     /// [`ConnectivityError`] if an edge has more than two faces, or two that
     /// are wound in opposite directions.
     pub fn new(faces: &[[u32; 3]]) -> Result<Self, ConnectivityError> {
+        // Sorted, the half-edges of one edge stand together.
         let mut edges = sorted_edges(faces);
         let mut twins = vec![NONE; 3 * faces.len()];
         for run in edges.chunk_by_mut(|a, b| a.0 == b.0) {
@@ -116,6 +117,7 @@ impl Connectivity {
     /// Turns about the end of a boundary half-edge, inside its fan, to the
     /// boundary half-edge that leaves it.
     fn next_on_boundary(&self, h: u32) -> u32 {
+        // Ends: a fan that began at the boundary has another end there.
         let mut out = next(h);
         while self.twins[out as usize] != NONE {
             out = next(self.twins[out as usize]);

@@ -136,6 +136,7 @@ impl TriangleMesh {
 
 /// Indices in range and different within each face.
 pub(crate) fn check_faces(faces: &[[u32; 3]], vertices: usize) -> Result<(), MeshError> {
+    // Both are asked of each face in turn, so that the first bad one is told.
     for (face, &[a, b, c]) in faces.iter().enumerate() {
         if let Some(&vertex) = [a, b, c].iter().find(|&&v| v as usize >= vertices) {
             return Err(MeshError::OutOfRange {

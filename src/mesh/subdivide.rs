@@ -46,7 +46,8 @@ impl Subdivision {
         };
         for _ in 0..rounds {
             let so_far = vertices + fine.midpoints.len();
-            // Each face adds three midpoints that at most two faces share.
+            // Before the memory is taken: each face adds three midpoints that
+            // at most two faces share.
             if so_far + fine.faces.len() * 3 / 2 > MAX_VERTICES {
                 return Err(TooManyVertices { rounds });
             }
@@ -71,6 +72,7 @@ impl Subdivision {
             .iter()
             .flat_map(|&[a, b, c]| {
                 let [ab, bc, ca] = sides([a, b, c]).map(&mut midpoint);
+                // All four run as the old one does.
                 [[a, ab, ca], [ab, b, bc], [ca, bc, c], [ab, bc, ca]]
             })
             .collect();

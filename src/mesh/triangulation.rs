@@ -90,6 +90,7 @@ pub fn delaunay(points: &[DVec2]) -> Result<Vec<[u32; 3]>, TriangulationError> {
     let plain: Vec<_> = points.iter().map(|p| Point2::new(p.x, p.y)).collect();
     let delaunay = DelaunayTriangulation::<Point2<f64>>::bulk_load_stable(plain)
         .map_err(|_| TriangulationError::OutOfRange)?;
+    // Equal points have become one; points on a line have no face.
     if delaunay.num_vertices() != points.len() || delaunay.num_inner_faces() == 0 {
         return Err(TriangulationError::NotSimple);
     }

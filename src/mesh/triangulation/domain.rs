@@ -62,6 +62,7 @@ impl Domain {
         let mut conflict = false;
         let delaunay = Delaunay::try_bulk_load_cdt(points, edges, |_| conflict = true)
             .map_err(|_| TriangulationError::OutOfRange)?;
+        // Crossings are conflicts; edges along each other change the count.
         if conflict
             || delaunay.num_vertices() != fixed
             || delaunay.num_constraints() != constraints
@@ -99,6 +100,7 @@ impl Domain {
     /// Whether the walks bound one piece, the first from outside.
     fn check(&self, outer: usize) -> Result<(), TriangulationError> {
         let winding = self.winding();
+        // The first face is the outer one.
         if winding[1..].iter().any(|w| !(0..=1).contains(w)) {
             return Err(TriangulationError::NotOnePiece);
         }
@@ -106,6 +108,7 @@ impl Domain {
         // begins at an edge by which some walk leaves.
         self.corners(&winding)
             .ok_or(TriangulationError::NotSimple)?;
+        // No hole reaches as far left as the outline does.
         let places = self.delaunay.vertices().map(|v| v.position()).enumerate();
         let first = places.min_by(|(_, a), (_, b)| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
         let first = first.map_or(NONE, |(v, _)| v as u32);
@@ -184,6 +187,7 @@ impl Domain {
     /// The faces of the piece by corners of the walks and added points.
     pub(super) fn faces(&self) -> Vec<[u32; 3]> {
         let winding = self.winding();
+        // Some: they were checked, and a refinement cuts no edge of a walk.
         let corners = self.corners(&winding).unwrap_or_default();
         let count = self.merged.len();
         let numbered = |v: usize, corner: u32| {

@@ -21,7 +21,8 @@ pub struct Refinement {
     pub max_points: usize,
 }
 
-/// Smallest angle wanted, in radians; up to about 0.5 it can be reached.
+/// Smallest angle wanted, in radians: 23°. Up to about 0.5 it can be reached;
+/// nearer to that, points are spent on little.
 const MIN_ANGLE: f64 = 0.4;
 
 /// Faces of less than this share of the bounding square stay as they are:
@@ -55,6 +56,8 @@ impl Domain {
         while added < refinement.max_points
             && let Some(((_, Reverse(vertices)), centre)) = bad.pop_last()
         {
+            // A face that cannot be bettered is not asked again: only faces at
+            // new vertices come into the queue.
             let Some(vertex) = insert(&mut self.delaunay, vertices, centre) else {
                 continue;
             };
@@ -71,6 +74,7 @@ impl Domain {
         let least_area = SMALLEST_SHARE * size * size;
         let equilateral = |edge: f64| (0.25 * 3f64.sqrt() * edge * edge).max(least_area);
         Limits {
+            // The least angle α lies opposite the shortest side l: l = 2 R sin α.
             ratio: (2.0 * MIN_ANGLE.sin()).powi(2),
             area: refinement.max_edge.map_or(f64::INFINITY, equilateral),
             least_area,
@@ -105,11 +109,13 @@ fn insert(
     [a, b, c]: [FixedVertexHandle; 3],
     centre: DVec2,
 ) -> Option<FixedVertexHandle> {
+    // Insertions since it was judged may have taken the face away.
     let edge = delaunay.get_edge_from_neighbors(a, b)?;
     let face = edge.face().as_inner()?;
     if !face.vertices().iter().any(|v| v.fix() == c) || !is_free(face, centre) {
         return None;
     }
+    // On a point that is there, the library gives that one back.
     let before = delaunay.num_vertices();
     let vertex = delaunay
         .insert_with_hint(Point2::new(centre.x, centre.y), c)
@@ -124,6 +130,8 @@ fn is_free(face: Face<'_>, centre: DVec2) -> bool {
     let mut open = vec![face];
     let mut reached = false;
     while let Some(face) = open.pop() {
+        // The faces that the point will take away: one of them holds it, or it
+        // lies behind an edge of the boundary.
         let inside = face.adjacent_edges().iter().all(|edge| sees(*edge, centre));
         reached |= inside;
         for edge in face.adjacent_edges() {
