@@ -103,6 +103,7 @@ pub(super) fn oriented(
         let [a, b, c] = face.map(|v| points[v as usize]);
         orient2d(a, b, c)
     };
+    // First: a face without area is of neither orientation.
     for (points, side) in [(source, Side::Source), (target, Side::Target)] {
         let flat = indices(&faces, |face| area(face, points) == 0.0);
         if !flat.is_empty() {

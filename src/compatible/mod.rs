@@ -64,6 +64,7 @@ impl CompatibleMesh {
         if source.len() != target.len() {
             return Err(CompatibleError::VertexCounts([source.len(), target.len()]));
         }
+        // In this order each check may rely on what those before it made sure of.
         elements::check_points(&source, Side::Source)?;
         elements::check_points(&target, Side::Target)?;
         check_faces(&faces, source.len())?;
@@ -156,6 +157,7 @@ impl CompatibleMesh {
     /// do.
     #[must_use]
     pub fn components(&self) -> Vec<u32> {
+        // Two of a face's three edges join its corners.
         let face_edges = self.faces.iter().flat_map(|&[a, b, c]| [[a, b], [a, c]]);
         let links = face_edges.chain(self.elements.iter().copied());
         components(self.source.len(), links)
@@ -191,6 +193,8 @@ impl CompatibleMesh {
                 edges(corners(&self.source, face)),
                 edges(corners(&self.target, face)),
             );
+            // |J|² is σ₁² + σ₂², det J is σ₁σ₂; p has an inverse, its face being
+            // positive.
             let j = q * p.inverse();
             let square = j.x_axis.length_squared() + j.y_axis.length_squared();
             let share = p.determinant() / totals[0] + q.determinant() / totals[1];
@@ -225,6 +229,7 @@ impl CompatibleMesh {
         let fine = Subdivision::new(&self.faces, self.source.len(), rounds)?;
         let extend = |points: &[DVec2]| {
             let mut all = points.to_vec();
+            // In their order: a later round halves edges of an earlier one.
             for &[a, b] in &fine.midpoints {
                 all.push(all[a as usize].midpoint(all[b as usize]));
             }

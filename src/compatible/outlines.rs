@@ -72,6 +72,7 @@ fn of_piece(
 fn joined(meshes: &[CompatibleMesh]) -> CompatibleMesh {
     let mut whole = Patchwork::default();
     for mesh in meshes {
+        // Pieces lie apart: no vertex is shared.
         whole.add(
             &[],
             [&mesh.source, &mesh.target],

@@ -14,7 +14,8 @@ use crate::geometry::{Bounds, DVec2, signed_area, winding};
 use crate::progress::Progress;
 use rayon::prelude::*;
 
-/// Points along the longer side of the frame.
+/// Points along the longer side of the frame: half as many as about pins, since
+/// outlines bring points of their own.
 const ALONG: f64 = 12.0;
 
 /// Why there is no such mesh.
@@ -53,6 +54,7 @@ impl CompatibleMesh {
         let border = border(frame, frame.size().max_element() / ALONG);
         let mut rings = vec![[border.clone(), border]];
         let cells = cells(&matched.pieces, &mut rings).ok_or(SurroundingsError::Nesting)?;
+        // An outline on the border would leave cells without area.
         let inside = |p: &DVec2| frame.padded(-1e-6 * frame.diameter()).contains(*p);
         if !rings[1..].iter().flatten().flatten().all(inside) {
             return Err(SurroundingsError::Nesting);
@@ -89,6 +91,7 @@ fn cells(pieces: &[PieceMatch], rings: &mut Vec<[Vec<DVec2>; 2]>) -> Option<Vec<
         if outer.kind != RingKind::Matched {
             continue;
         }
+        // A cut joins a hole with the outside, which here are cells of their own.
         if !piece.cuts.is_empty() {
             return None;
         }
@@ -126,6 +129,7 @@ fn surrounding(
     outer: usize,
     side: usize,
 ) -> Option<usize> {
+    // Outlines do not cross, so that one point tells for the whole.
     let p = rings[outer][side][0];
     let encloses = |ring: usize| winding(&rings[ring][side], p) != 0;
     let around_it = parts.iter().map(|part| part.0[0].0);
@@ -159,6 +163,7 @@ fn sewn(
         let mut shared = Vec::new();
         for &(ring, backwards) in &cell.0 {
             let count = rings[ring][0].len() as u32;
+            // As its cell has walked it: the outside of a part runs backwards.
             let walk = (0..count).map(|k| first[ring] + if backwards { count - 1 - k } else { k });
             shared.extend(walk);
         }

@@ -16,7 +16,9 @@ use crate::mesh::triangulation::constrained_delaunay;
 use crate::mesh::{Connectivity, sides};
 use std::collections::{HashMap, VecDeque};
 
-/// Diagonals tried for each bridge, shortest first.
+/// Diagonals tried for each bridge, shortest first. Each is a search through
+/// the other design's triangulation; a better bridge only saves points that
+/// are thinned out later.
 const TRIED: usize = 12;
 
 /// A corner of a walk in both designs and the vertex that it is.
@@ -44,6 +46,7 @@ pub(super) fn base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsE
         points: [source.points.clone(), target.points.clone()],
         faces: Vec::new(),
     };
+    // One hole at a time: the next bridge may start on this one's banks.
     while walks.0.len() > 1 {
         let bridge = walks.bridge()?;
         let first = whole.points[0].len() as u32;
@@ -113,6 +116,7 @@ impl Walks {
             .faces
             .iter()
             .flat_map(|&face| sides(face))
+            // Once each: the other face beside it runs the edge the other way.
             .filter(|&[a, b]| a < outer && b >= outer)
             .map(|edge| edge.map(|k| k as usize))
             .collect();
@@ -154,6 +158,8 @@ impl Walks {
             .zip(first..)
             .map(|(&at, vertex)| Corner { at, vertex })
             .collect();
+        // Both walks all around, first corner to first corner, so that either
+        // bank of the bridge has both its ends.
         let around = |walk: &[Corner], from: usize| {
             let n = walk.len();
             (0..=n).map(|k| walk[(from + k) % n]).collect::<Vec<_>>()
@@ -225,6 +231,8 @@ impl Net {
         let mut points = Vec::new();
         while let Some(&Some((before, k))) = reached.get(&face) {
             let [a, b] = sides(self.faces[before])[k].map(|v| self.points[v as usize]);
+            // Halfway, the bridge is as far as can be from both ends: the parts
+            // that it leaves have room.
             points.push(a.midpoint(b));
             face = before;
         }

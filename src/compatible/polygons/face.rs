@@ -10,8 +10,11 @@ use crate::geometry::{DVec2, orient2d, twice_signed_area};
 pub(super) type Corners = [DVec2; 3];
 
 /// What the shape in each design counts against the distortion between them.
+/// Little, since the film is what is seen; at nothing, a face that is as thin
+/// in one design as in the other would cost nothing.
 const SHAPE: f64 = 0.05;
-/// What the change of area counts.
+/// What the change of area counts. Less yet, since parts do grow and shrink;
+/// without it faces could trade their areas for nothing.
 const AREA: f64 = 0.02;
 
 /// A cost and its gradients by the corners in the source and in the target.
@@ -56,13 +59,16 @@ pub(super) fn evaluate(p: Corners, q: Corners) -> Option<Cost> {
     let products = e.map(products);
     let inverse = det.map(|det| 1.0 / det);
     let both = 0.5 * inverse[0] * inverse[1];
+    // (σ₁/σ₂ + σ₂/σ₁) / 2 = |J|² / (2 det J), where det J = det[1] / det[0].
     let conformal = dirichlet(products[0], e[1]) * both;
     let ratios = [det[0] * inverse[1], det[1] * inverse[0]];
     let mut gradients = [[DVec2::ZERO; 3]; 2];
     let mut shapes = [0.0; 2];
     for d in 0..2 {
+        // Sides of 1 have squares of 3 over a doubled area of √3 / 2.
         let equilateral = inverse[d] / (2.0 * 3f64.sqrt());
         shapes[d] = squares(e[d]) * equilateral;
+        // By the doubled area, which both squares are divided by.
         let by_det = -2.0 * conformal * conformal - 2.0 * SHAPE * shapes[d] * shapes[d]
             + AREA * 0.5 * (ratios[d] - ratios[1 - d]);
         let by_det = by_det * inverse[d];
@@ -73,6 +79,8 @@ pub(super) fn evaluate(p: Corners, q: Corners) -> Option<Cost> {
         let pulls = products[1 - d].map(|product| by_dirichlet * product + by_squares);
         for k in 0..3 {
             let (next, last) = ((k + 1) % 3, (k + 2) % 3);
+            // A corner pulls its two sides; the area grows with its height over
+            // the third.
             gradients[d][k] =
                 pulls[next] * e[d][next] - pulls[last] * e[d][last] + by_det * e[d][k].perp();
         }
@@ -80,6 +88,7 @@ pub(super) fn evaluate(p: Corners, q: Corners) -> Option<Cost> {
     let value = conformal * conformal
         + SHAPE * (shapes[0] * shapes[0] + shapes[1] * shapes[1])
         + AREA * 0.5 * (ratios[0] + ratios[1]);
+    // An area may be so small that its inverse is not finite.
     value.is_finite().then_some(Cost { value, gradients })
 }
 
@@ -116,7 +125,7 @@ fn products(e: Corners) -> [f64; 3] {
     [-e[1].dot(e[2]), -e[2].dot(e[0]), -e[0].dot(e[1])]
 }
 
-/// The squared Jacobian times both doubled areas, symmetric in the two.
+/// |J|² / det J times both doubled areas, symmetric in the two.
 fn dirichlet(products: [f64; 3], e: Corners) -> f64 {
     (0..3).map(|k| products[k] * e[k].length_squared()).sum()
 }

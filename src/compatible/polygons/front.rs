@@ -6,14 +6,17 @@ use super::piece::Rings;
 use crate::geometry::{DVec2, orient2d, ring_edges, segments_touch};
 use std::collections::HashSet;
 
-/// Edges of the stretches that are tried, longest first.
+/// Edges of the stretches that are tried, longest first. Any number becomes
+/// two, so that three are the least that gain.
 const STRETCHES: [usize; 4] = [7, 5, 4, 3];
-/// How far from its stretch a point is sought, in units of its extent.
+/// How far from its stretch a point is sought, in units of its extent: as far
+/// in as there is room, for good angles.
 const REACHES: [f64; 5] = [0.6, 0.3, 0.12, 0.04, 0.01];
 /// So much farther in it has to be free, too, so that fronts that meet
 /// leave room.
 const ROOM: f64 = 1.5;
-/// Corners are cut off where both faces are at most so far from equilateral.
+/// Corners are cut off where both faces are at most so far from equilateral
+/// (1): a triangle with a right angle and sides of 1 and 5 is at 3.
 const SHAPELY: f64 = 3.0;
 
 /// What is left to triangulate, and what has been.
@@ -64,6 +67,7 @@ impl<'a> Front<'a> {
 
     /// Once around, from another place at each turn.
     pub(super) fn advance(&mut self, turn: usize) {
+        // The same start would try the same stretches, which have not fitted.
         let len = self.len();
         let mut at = turn % 3;
         let end = at + len;
@@ -88,6 +92,7 @@ impl<'a> Front<'a> {
     /// Replaces a stretch that starts at `at`, and says how many old points
     /// that passes.
     fn step(&mut self, at: usize) -> Option<usize> {
+        // A cut makes no new point, so it is the better of the two.
         if self.cut_corner(at) {
             return Some(2);
         }
@@ -98,6 +103,7 @@ impl<'a> Front<'a> {
 
     fn cut_corner(&mut self, at: usize) -> bool {
         let stretch = [0, 1, 2].map(|k| self.vertex(at + k));
+        // Three corners have to be left for the ring.
         if self.len() < 4 || self.is_kept(&stretch) {
             return false;
         }
@@ -158,6 +164,7 @@ impl<'a> Front<'a> {
     fn sides(&self, d: usize, at: usize, k: usize) -> Vec<[DVec2; 2]> {
         let n = self.len();
         let place = |i: usize| self.place(d, self.vertex(i));
+        // A corner that is cut off gets no vertex that would have to see it.
         let mut sides: Vec<[DVec2; 2]> = (0..k)
             .filter(|_| k > 2)
             .map(|i| [place(at + i), place(at + i + 1)])
@@ -183,6 +190,8 @@ impl<'a> Front<'a> {
             .fold(0.0, f64::max);
         let sides = self.sides(d, at, stretch.len() - 1);
         let last = places.len() - 1;
+        // The square about the middle keeps the kernel near its stretch: an
+        // open one would reach across the piece.
         REACHES.into_iter().find_map(|reach| {
             let point = centre_of_kernel(middle, reach * extent, &sides)?;
             let sees = |p: DVec2| {
@@ -192,6 +201,7 @@ impl<'a> Front<'a> {
                 .windows(2)
                 .map(|edge| [edge[0], edge[1], point])
                 .collect();
+            // Exactly: the clipping was not.
             let fits = sides.iter().all(|&[a, b]| orient2d(a, b, point) > 0.0)
                 && sees(point)
                 && sees(middle + ROOM * (point - middle))
@@ -218,6 +228,7 @@ impl<'a> Front<'a> {
         let rings = self.coarse.rings.iter().enumerate();
         let mut others = rings.filter(|(r, _)| *r != self.ring);
         others.any(|(_, ring)| {
+            // Rings touch no sight line, so that one point tells for all.
             let p = self.place(d, ring[0]);
             triangles.iter().any(|&[a, b, c]| {
                 [[a, b], [b, c], [c, a]]

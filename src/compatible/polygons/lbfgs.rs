@@ -5,13 +5,15 @@
 //! starts finite stays finite. Nothing is promised about how near the
 //! minimum the result is; it is never higher than the start.
 
-/// Pairs of steps and gradient changes that are remembered.
+/// Pairs of steps and gradient changes that are remembered: the literature's
+/// 3 to 20, each two more passes over all unknowns.
 const MEMORY: usize = 12;
-/// Least share of the predicted decrease (Armijo).
+/// Least share of the predicted decrease (Armijo); this and the next are the
+/// values of Nocedal and Wright's "Numerical Optimization" for such methods.
 const DECREASE: f64 = 1e-4;
 /// How much of the slope may be left (Wolfe).
 const CURVATURE: f64 = 0.9;
-/// Trials of one line search.
+/// Trials of one line search: halved so often, a step is 3e-8 of itself.
 const TRIALS: usize = 25;
 
 /// Moves `x` downhill by at most `rounds` steps and returns the value there.
@@ -79,6 +81,8 @@ fn direction(
         add_scaled(&mut d, -share, &pair.change);
         shares.push(share);
     }
+    // Between the two loops: the springs stand for the first guess of the
+    // second derivative's inverse.
     precondition(&mut d);
     let scale = memory.last().map_or(1.0, |last| last.scale);
     d.iter_mut().for_each(|d| *d *= scale);
@@ -96,6 +100,7 @@ fn search(
     direction: &[f64],
     function: &mut impl FnMut(&[f64], &mut [f64]) -> f64,
 ) -> Option<Found> {
+    // Uphill only where rounding has spoilt the memory, or at a minimum.
     let slope = dot(gradient, direction);
     if !value.is_finite() || slope.is_nan() || slope >= 0.0 {
         return None;
@@ -110,10 +115,12 @@ fn search(
         };
         add_scaled(&mut trial.x, length, direction);
         trial.value = function(&trial.x, &mut trial.gradient);
+        // Outside the barrier the value is infinite, or NaN: no descent either.
         let descends = trial.value <= value + DECREASE * length * slope;
         if !descends {
             high = length;
         } else if dot(&trial.gradient, direction) < CURVATURE * slope {
+            // Lower, but still as steep: kept, in case nothing longer is found.
             low = length;
             best = Some(trial);
         } else {
@@ -138,6 +145,8 @@ fn remember(
     let minus = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a - b).collect::<Vec<_>>();
     let (step, change) = (minus(&found.x, x), minus(&found.gradient, gradient));
     let product = dot(&step, &change);
+    // The loops divide by it, and go downhill for sure only where the slope has
+    // risen along the step.
     if product > 1e-14 * dot(&change, &change) {
         if memory.len() == MEMORY {
             memory.remove(0);

@@ -40,6 +40,8 @@ pub(super) fn overlay(
     };
     vertices.place_crossings(&[0, 1].map(|d| diagonals(&triangulations[d], n)));
     let mut faces = Vec::new();
+    // Two triangles of a convex polygon share a cell, a side, a corner or
+    // nothing, and all cells together are the polygon.
     for &s in &triangulations[0] {
         for &t in &triangulations[1] {
             if let Some(cell) = vertices.cell(s, t) {
@@ -100,6 +102,7 @@ impl Vertices {
         let mut next: Vec<(u32, u32)> = Vec::with_capacity(6);
         for (design, own, other) in [(0, s, t), (1, t, s)] {
             for side in sides(own) {
+                // A side of both triangles comes twice.
                 if let Some(edge) = self.piece(design, side, other)
                     && !next.contains(&edge)
                 {
@@ -123,6 +126,7 @@ impl Vertices {
     fn piece(&self, design: usize, side: [u32; 2], other: [u32; 3]) -> Option<(u32, u32)> {
         let chord = undirected(side);
         let mut found: Vec<(u32, u32)> = Vec::with_capacity(2);
+        // Beyond every crossing's rank.
         let last = u32::MAX;
         for end in side.iter().filter(|end| other.contains(end)) {
             found.push((if *end == chord[0] { 0 } else { last }, *end));
@@ -134,6 +138,7 @@ impl Vertices {
             }
         }
         found.sort_unstable();
+        // A line meets a triangle in two places at most, or in one corner.
         match found[..] {
             [(_, low), (_, high)] if side == chord => Some((low, high)),
             [(_, low), (_, high)] => Some((high, low)),
@@ -149,6 +154,7 @@ impl Vertices {
                 .map(|i| [cell[apex], cell[(apex + i) % k], cell[(apex + i + 1) % k]])
                 .collect()
         };
+        // All fans of a triangle are one; any fan of a convex cell is valid.
         let apexes = if k == 3 { 1 } else { k };
         let worth = |fan: &[[u32; 3]]| {
             let worst = |points: &Vec<DVec2>| {
@@ -173,6 +179,8 @@ fn along([a, b]: Chord, others: &[Chord], n: u32) -> Vec<Chord> {
         .filter(|&&other| interleave([a, b], other))
         .map(|&[c, d]| {
             let (near, far) = if a < c && c < b { (c, d) } else { (d, c) };
+            // By the end between a and b; of those that share it, one crosses
+            // nearer to a whose other end is nearer to it.
             (near, n - (far + n - b) % n, [c, d])
         })
         .collect();

@@ -108,6 +108,7 @@ impl PairMesh {
         let mut edges: Vec<[u32; 2]> = self
             .faces()
             .flat_map(sides)
+            // Once each, from the face that runs it upwards.
             .filter(|&[a, b]| a < b && self.opposite(b, a).is_some())
             .collect();
         edges.sort_unstable();
@@ -151,12 +152,14 @@ impl PairMesh {
         let Some(at) = self.beside(edge) else {
             return false;
         };
+        // The turned edge may be there already, beyond a vertex of three faces.
         if self.opposite(at.left, at.right).is_some() || self.opposite(at.right, at.left).is_some()
         {
             return false;
         }
         let new = [[a, at.right, at.left], [at.right, b, at.left]];
         let old = at.faces.map(|f| self.faces[f as usize]);
+        // By more than rounding: else an edge could turn to and fro.
         let better = self.worst(&new) < self.worst(&old) * (1.0 - 1e-9);
         if better {
             self.replace(at.faces.to_vec(), &new);
@@ -179,6 +182,7 @@ impl PairMesh {
             [b, middle, at.right],
             [middle, a, at.right],
         ];
+        // What was folded already may stay so; nothing else may fold.
         let was_valid = at
             .faces
             .iter()
@@ -203,6 +207,8 @@ impl PairMesh {
             .iter()
             .filter(|u| shared.contains(u))
             .count();
+        // Else the collapse would pinch the mesh or close a hole (Dey,
+        // Edelsbrunner, Guha, Nekhayev 1999, the link condition).
         if common != 2 {
             return f64::INFINITY;
         }
@@ -229,6 +235,7 @@ impl PairMesh {
                 self.around[v as usize].retain(|&g| g != f);
             }
         }
+        // Numbers are used again, so that they stay small; a split needs two more.
         let mut free = old.into_iter();
         for &face in new {
             let f = free.next().unwrap_or(self.faces.len() as u32);

@@ -65,6 +65,7 @@ pub(super) fn check(rings: &Rings, side: Side) -> Result<(), PolygonsError> {
     if let Some(point) = rings.points.iter().position(|p| !p.is_finite()) {
         return Err(not_finite(rings, point, side));
     }
+    // It refuses all that is wrong, quickly; only then is it asked what.
     match constrained_delaunay(&walks) {
         Ok(_) => Ok(()),
         Err(TriangulationError::OutOfRange) => {
@@ -93,6 +94,7 @@ fn reason(
     side: Side,
     error: TriangulationError,
 ) -> PolygonsError {
+    // First: which way round crossing rings run says nothing.
     if let Some(edges) = touching_edges(walks) {
         let edges = edges.map(|edge| rings.place(edge));
         return PolygonsError::NotSimple { side, edges };

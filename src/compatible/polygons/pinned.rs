@@ -18,27 +18,33 @@ use crate::geometry::{Bounds, DVec2, Side};
 use crate::mesh::triangulation::{TriangulationError, delaunay};
 use crate::progress::{Cancelled, Progress, checkpoint};
 
-/// Points along the longer side of the frame.
+/// Points along the longer side of the frame: some 700 in all in a square one.
+/// About pins that are near each other they stand closer anyway.
 const ALONG: f64 = 24.0;
 
-/// How near to a pin, in spacings, no other point is put.
+/// How near to another point, in spacings, none is put: less than the 0.87
+/// between two rows, and as much of it as keeps faces from being thin.
 const CLEAR: f64 = 0.6;
 
 /// The narrowest spacing between a pin and the next one, as a share of their
-/// distance, and by how much it widens with the distance from the pin.
+/// distance, and by how much it widens with the distance from the pin: a row
+/// or two between two pins, and sizes that less than double in two rows.
 const NARROWER: f64 = 0.35;
 const GRADING: f64 = 0.35;
 
-/// Rows may be narrower by powers of two.
+/// Rows may be narrower by powers of two: down to 1/32, which is what pins ask
+/// for that are 1/270 of the frame apart.
 const LEVELS: u32 = 6;
 
-/// Most points in all.
+/// Most points in all: each place is held against all points before it.
 const MOST_POINTS: usize = 8_000;
 
-/// Steps on the way to the target.
+/// Steps on the way to the target. Each is a minimisation of its own; in one
+/// step the edges would stay those of the source.
 const STEPS: u32 = 6;
 
-/// Pins nearer than this share of the frame in either design are one.
+/// Pins nearer than this share of the frame in either design are one: no
+/// hand puts them so near, and between them faces would be slivers.
 const SAME: f64 = 1e-6;
 
 /// Why the frame was not triangulated. Pins are counted from 1 in messages.
@@ -129,6 +135,7 @@ impl CompatibleMesh {
         // Step by step, so that edges can be flipped on the way.
         for step in 1..=STEPS {
             let along = f64::from(step) / f64::from(STEPS);
+            // As many as are fixed: the border's, which stay, and the pins.
             let part: Vec<DVec2> = (mesh.points[0].iter().zip(&to))
                 .map(|(p, q)| *p + (*q - *p) * along)
                 .collect();
@@ -174,6 +181,7 @@ fn distinct(
                 kept.push(*pair);
                 numbers.push(pin);
             }
+            // One pin that is given twice is one.
             Some(([true, true], _)) => {}
             Some(([in_source, _], &other)) => {
                 return Err(PinnedError::Coincide {
@@ -219,6 +227,8 @@ fn filling(frame: &Bounds, border: usize, ends: &[Vec<DVec2>; 2]) -> Vec<DVec2> 
         let step = widest / f64::from(1u32 << level);
         let is_last = level + 1 == LEVELS;
         for p in rows(frame, step) {
+            // Each place is filled by the one level whose rows fit it; what is
+            // wanted beyond either end, by the last of that end.
             let size = wanted(p);
             let fits = size < 2.0 * step && (size >= step || is_last) || level == 0 && size >= step;
             let clear = CLEAR * step;
@@ -238,6 +248,7 @@ fn rows(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> {
     let (columns, count) = ((size.x / step.x) as u32 + 1, (size.y / step.y) as u32);
     let low = frame.min;
     let place = move |i: u32, j: u32| {
+        // Every other row half a step on: triangles of equal sides.
         let shift = if j.is_multiple_of(2) { 0.25 } else { 0.75 };
         low + step * DVec2::new(f64::from(i) + shift, f64::from(j) + 0.5)
     };

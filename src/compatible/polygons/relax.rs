@@ -54,6 +54,7 @@ impl Relaxation {
         let mut total = 0.0;
         for &(face, weight) in &self.faces {
             let [p, q] = [0, 1].map(|d| face.map(|v| self.at[d][v as usize]));
+            // The gradient is of no use then: the search only shortens its step.
             let Some(cost) = face::evaluate(p, q) else {
                 return f64::INFINITY;
             };
@@ -87,6 +88,7 @@ impl Relaxation {
             });
             Springs::new(&self.movable, springs).ok()
         };
+        // Each design for itself: what couples the two may be negative.
         Some([of(0)?, of(1)?])
     }
 }
@@ -101,6 +103,7 @@ pub(super) fn weighted(mesh: &PairMesh) -> Vec<([u32; 3], f64)> {
         total = [total[0] + area[0], total[1] + area[1]];
         count += 1.0;
     }
+    // By area alone the small faces of a detail would have hardly a say.
     let weight = |face| {
         let area = areas(face);
         0.25 * (area[0] / total[0] + area[1] / total[1]) + 0.5 / count
@@ -125,6 +128,8 @@ pub(super) fn relax(mesh: &mut PairMesh, steps: usize) {
         relaxation.energy(x, gradient)
     });
     relaxation.place(&x);
+    // The cost knows areas in plain floating point: a face that is flat but
+    // for rounding may be positive to it.
     let before = std::mem::replace(&mut mesh.points, relaxation.at);
     if !mesh.is_valid() {
         mesh.points = before;

@@ -57,7 +57,10 @@ impl Edges {
 pub(super) fn touching_edges(walks: &[&[DVec2]]) -> Option<[usize; 2]> {
     let edges = Edges::of(walks);
     let all: Vec<usize> = (0..edges.next.len()).collect();
+    // Lenient first: where vertices meet is passed over, so that what crosses
+    // is named before it.
     found(&edges, all, true).or_else(|| {
+        // Negative zero is zero.
         let key = |[a, b]: [DVec2; 2]| [a.x, a.y, b.x, b.y].map(|x| (x + 0.0).to_bits());
         let walked: HashSet<[u64; 4]> = (0..edges.next.len()).map(|e| key(edges.ends(e))).collect();
         let slit: Vec<bool> = (0..edges.next.len())

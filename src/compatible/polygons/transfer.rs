@@ -15,9 +15,11 @@ use crate::linalg::{Cholesky, SymmetricMatrix};
 use crate::mesh::triangulation::{Refinement, refined};
 use crate::progress::{Cancelled, Progress, checkpoint};
 
-/// Rounds of shrinking ε.
+/// Rounds of shrinking ε: a bound for those that win a fold now and then; as a
+/// rule [`PATIENCE`] ends it.
 const ROUNDS: usize = 60;
-/// Rounds without fewer folds after which it is given up.
+/// Rounds without fewer folds after which it is given up: a trade, since the
+/// other direction and the base are left.
 const PATIENCE: usize = 6;
 
 /// Both polygons' common mesh, refined in the first and carried to the
@@ -52,6 +54,7 @@ pub(super) fn carry(
     to: &[DVec2],
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
+    // The harmonic map would distort even what is only laid elsewhere.
     mesh.points[1] = fitted(mesh, to);
     if !mesh.is_valid() {
         let Some(harmonic) = harmonic(mesh, to) else {
@@ -110,6 +113,7 @@ fn fitted(mesh: &PairMesh, to: &[DVec2]) -> Vec<DVec2> {
     let mean = |points: &[DVec2]| points.iter().sum::<DVec2>() / n as f64;
     let (p, q) = (&mesh.points[0], to);
     let centres = [mean(&p[..n]), mean(q)];
+    // The least squares' factor as a complex number: Σ p̄ q / Σ |p|².
     let (mut turned, mut square) = (DVec2::ZERO, 0.0);
     for (&p, &q) in p[..n].iter().zip(q) {
         let (p, q) = (p - centres[0], q - centres[1]);
@@ -133,6 +137,7 @@ fn harmonic(mesh: &PairMesh, to: &[DVec2]) -> Option<Vec<DVec2>> {
         for u in mesh.neighbours((i + n) as u32) {
             matrix.add(i as u32, i as u32, 1.0);
             match (u as usize).checked_sub(n) {
+                // Each edge is met from both ends, and added once.
                 Some(j) if j < i => matrix.add(i as u32, j as u32, -1.0),
                 Some(_) => {}
                 None => *sum += to[u as usize],

@@ -9,9 +9,11 @@ use super::pair::PairMesh;
 use super::springs::Springs;
 use crate::geometry::{DMat2, DVec2};
 
-/// Least ε, in units of the mean determinant.
+/// Least ε, in units of the mean determinant. A smaller one lets thinner faces
+/// be, and makes a steeper barrier, which takes shorter steps.
 const LEAST_EPSILON: f64 = 1e-3;
-/// Steps in each round of one ε.
+/// Steps in each round of one ε: the next ε is the better one as soon as the
+/// worst face has moved.
 const STEPS: usize = 30;
 
 /// A face as the energy sees it.
@@ -57,6 +59,7 @@ pub(super) fn untangle(mesh: &mut PairMesh) -> bool {
         .iter()
         .map(|piece| piece.jacobian(|v| start[v]).determinant())
         .fold(f64::INFINITY, f64::min);
+    // A fifth of the worst fold, as in the paper's own code.
     let epsilon = LEAST_EPSILON.hypot(0.2 * least.min(0.0));
     let movable: Vec<u32> = (n as u32..start.len() as u32).collect();
     let Some(mut springs) = springs(&pieces, &movable) else {
@@ -71,6 +74,7 @@ pub(super) fn untangle(mesh: &mut PairMesh) -> bool {
     for (i, point) in mesh.points[1][n..].iter_mut().enumerate() {
         *point += DVec2::new(along_x[i], along_y[i]);
     }
+    // Nothing moved: the same round again would move nothing.
     mesh.points[1] != start
 }
 
@@ -110,6 +114,7 @@ fn energy(
         let j = piece.jacobian(at);
         let (value, by_jacobian) = density(j, epsilon);
         total += piece.share * value;
+        // J = edges · from_edges, and the first corner moves both edges back.
         let by_edges = by_jacobian * piece.from_edges.transpose() * piece.share;
         let corners = [
             -(by_edges.x_axis + by_edges.y_axis),
@@ -142,12 +147,14 @@ fn density(j: DMat2, epsilon: f64) -> (f64, DMat2) {
     let det = j.determinant();
     let root = (epsilon * epsilon + det * det).sqrt();
     let chi = chi(det, epsilon);
+    // The derivative of the determinant.
     let cofactor = DMat2::from_cols(
         DVec2::new(j.y_axis.y, -j.y_axis.x),
         DVec2::new(-j.x_axis.y, j.x_axis.x),
     );
     let square = j.x_axis.length_squared() + j.y_axis.length_squared();
     let value = (square + 1.0 + det * det) / chi;
+    // χ′ = χ / √(ε² + det²).
     let by_det = (2.0 * det - value * chi / root) / chi;
     (value, j * (2.0 / chi) + cofactor * by_det)
 }

@@ -26,6 +26,8 @@ fn in_one(bars: &[[u32; 2]], nodes: &[DVec2]) -> Vec<[usize; 2]> {
         let right = range(i).1;
         let rest = order[place + 1..].iter();
         for &j in rest.take_while(|&&j| range(j).0 <= right) {
+            // Most that overlap along x still lie above each other: the test's
+            // boxes tell that before its exact signs do.
             if meet(bars[i], bars[j], nodes) {
                 found.push([i.min(j), i.max(j)]);
             }
@@ -39,6 +41,7 @@ fn meet(first: [u32; 2], second: [u32; 2], nodes: &[DVec2]) -> bool {
     if let Some(&shared) = first.iter().find(|node| second.contains(node)) {
         let other = |bar: [u32; 2]| at(if bar[0] == shared { bar[1] } else { bar[0] });
         let (n, p, q) = (at(shared), other(first), other(second));
+        // Two bars of one node meet again only if they lie on each other.
         return orient2d(n, p, q) == 0.0 && (p - n).dot(q - n) > 0.0;
     }
     segments_touch(first.map(at), second.map(at))
@@ -60,6 +63,7 @@ pub(super) fn thinned(bars: usize, conflicts: &[[usize; 2]]) -> Vec<bool> {
         kept[worst] = false;
         open[worst] = 0;
         for &other in &against[worst] {
+            // What went before has none left.
             open[other] = open[other].saturating_sub(1);
         }
     }

@@ -99,6 +99,7 @@ fn successors(edges: &[[u32; 2]], nodes: &[DVec2]) -> HashMap<[u32; 2], [u32; 2]
         let centre = nodes[node as usize];
         ends.sort_by(|&p, &q| by_angle(centre, nodes[p as usize], nodes[q as usize]));
         for (i, &end) in ends.iter().enumerate() {
+            // The last one counter-clockwise is the first one clockwise.
             let before = ends[(i + ends.len() - 1) % ends.len()];
             follows.insert([end, node], [node, before]);
         }
@@ -118,6 +119,7 @@ fn by_angle(centre: DVec2, p: DVec2, q: DVec2) -> Ordering {
 /// is convex.
 fn is_counter_clockwise(cycle: &[u32], nodes: &[DVec2]) -> bool {
     let at = |i: usize| nodes[cycle[i % cycle.len()] as usize];
+    // The sign of the area would be rounded; that of one corner is exact.
     let corner = (0..cycle.len()).min_by(|&i, &j| {
         let (p, q) = (at(i), at(j));
         p.x.total_cmp(&q.x).then(p.y.total_cmp(&q.y))

@@ -2,7 +2,7 @@
 
 use crate::geometry::{DVec2, Pair, orient2d};
 
-/// No triangulation of a part of the polygon.
+/// No triangulation of a part of the polygon: less than any sine of its angles.
 const NONE: f64 = -1.0;
 
 /// Triangles between the nodes of a counter-clockwise cycle, all positive in
@@ -39,6 +39,7 @@ impl Table {
         let size = cycle.len();
         let mut table = Self {
             size,
+            // The polygon's own edges have nothing behind them that could be bad.
             cells: vec![(f64::INFINITY, 0); size * size],
         };
         for length in 2..size {
@@ -61,6 +62,7 @@ impl Table {
             let sides = self.cells[self.cell(i, k)]
                 .0
                 .min(self.cells[self.cell(k, j)].0);
+            // Before the exact signs, which are slow: no triangle mends a side.
             if sides <= best.0 {
                 continue;
             }
@@ -83,6 +85,7 @@ fn worth(corners: [usize; 3], nodes: &[DVec2]) -> f64 {
     }
     let mut sides = [a.distance(b), b.distance(c), c.distance(a)];
     sides.sort_by(f64::total_cmp);
+    // The smallest angle lies opposite the shortest side, between the others.
     let sine = twice_area / (sides[1] * sides[2]);
     // Lengths may underflow where the exact sign does not.
     if sine.is_finite() { sine } else { 0.0 }
