@@ -45,6 +45,9 @@ impl CompatibleMesh {
     /// # Errors
     /// [`SurroundingsError`] where outlines lie within each other in different
     /// ways, or if the work is cancelled.
+    ///
+    /// # Panics
+    /// If an outline of the match has no points.
     pub fn around_outlines(
         frame: &Bounds,
         matched: &RegionMatch,

@@ -116,10 +116,10 @@ impl CompatibleMesh {
         pins: &[PointPair],
         progress: &dyn Progress,
     ) -> Result<Self, PinnedError> {
-        let (pins, numbers) = distinct(frame, pins)?;
+        let pins = distinct(frame, pins)?;
         let border = border(frame, spacing(frame));
         let ends = |side: Side| {
-            let ends = pins.iter().map(|pin| pin[side]);
+            let ends = pins.iter().map(|(_, pin)| pin[side]);
             border.iter().copied().chain(ends).collect::<Vec<DVec2>>()
         };
         let given = Side::BOTH.map(ends);
@@ -142,7 +142,7 @@ impl CompatibleMesh {
             transfer::carry_on(&mut mesh, &part, progress)?;
             if !mesh.is_valid() {
                 return Err(PinnedError::Folds {
-                    pins: at_folds(&mesh, border.len(), &numbers),
+                    pins: at_folds(&mesh, border.len(), &pins),
                 });
             }
             quality::settle(&mut mesh);
@@ -154,15 +154,11 @@ impl CompatibleMesh {
     }
 }
 
-/// Pins that are different, each with its number; of equal ones the first.
-fn distinct(
-    frame: &Bounds,
-    pins: &[PointPair],
-) -> Result<(Vec<PointPair>, Vec<usize>), PinnedError> {
+/// Pins that are different, each after its number; of equal ones the first.
+fn distinct(frame: &Bounds, pins: &[PointPair]) -> Result<Vec<(usize, PointPair)>, PinnedError> {
     let same = SAME * frame.diameter();
     let inside = frame.padded(-same);
-    let mut kept: Vec<PointPair> = Vec::new();
-    let mut numbers: Vec<usize> = Vec::new();
+    let mut kept: Vec<(usize, PointPair)> = Vec::new();
     for (pin, pair) in pins.iter().enumerate() {
         for side in Side::BOTH {
             if !inside.contains(pair[side]) {
@@ -171,31 +167,19 @@ fn distinct(
         }
         let near =
             |other: &PointPair| Side::BOTH.map(|side| other[side].distance(pair[side]) <= same);
-        let found = kept
-            .iter()
-            .map(near)
-            .zip(&numbers)
-            .find(|(n, _)| n.contains(&true));
-        match found {
-            None => {
-                kept.push(*pair);
-                numbers.push(pin);
-            }
+        let mut others = kept.iter().map(|(number, other)| (*number, near(other)));
+        match others.find(|(_, near)| near.contains(&true)) {
+            None => kept.push((pin, *pair)),
             // One pin that is given twice is one.
-            Some(([true, true], _)) => {}
-            Some(([in_source, _], &other)) => {
-                return Err(PinnedError::Coincide {
-                    pins: [other, pin],
-                    side: if in_source {
-                        Side::Source
-                    } else {
-                        Side::Target
-                    },
-                });
+            Some((_, [true, true])) => {}
+            Some((other, near)) => {
+                let side = if near[0] { Side::Source } else { Side::Target };
+                let pins = [other, pin];
+                return Err(PinnedError::Coincide { pins, side });
             }
         }
     }
-    Ok((kept, numbers))
+    Ok(kept)
 }
 
 fn spacing(frame: &Bounds) -> f64 {
@@ -259,15 +243,15 @@ fn rows(frame: &Bounds, side: f64) -> impl Iterator<Item = DVec2> {
 }
 
 /// The pins nearest to each folded face, each once.
-fn at_folds(mesh: &PairMesh, first: usize, numbers: &[usize]) -> Vec<usize> {
+fn at_folds(mesh: &PairMesh, first: usize, all: &[(usize, PointPair)]) -> Vec<usize> {
     let targets = &mesh.points[1];
     let mut pins: Vec<usize> = (mesh.faces())
         .filter(|&face| !super::face::is_positive(mesh.corners(face)[1]))
         .filter_map(|face| {
             let middle = face.iter().map(|&v| targets[v as usize]).sum::<DVec2>() / 3.0;
             let far = |pin: &usize| targets[first + pin].distance_squared(middle);
-            let nearest = (0..numbers.len()).min_by(|a, b| far(a).total_cmp(&far(b)))?;
-            Some(numbers[nearest])
+            let nearest = (0..all.len()).min_by(|a, b| far(a).total_cmp(&far(b)))?;
+            Some(all[nearest].0)
         })
         .collect();
     pins.sort_unstable();
