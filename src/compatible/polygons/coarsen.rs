@@ -11,7 +11,6 @@
 use super::chords::doubled;
 use super::front::{Coarse, Front};
 use super::piece::Rings;
-use crate::geometry::DVec2;
 use std::collections::HashSet;
 
 /// Turns of the front stop when fewer points than this share go: at each turn
@@ -51,7 +50,7 @@ pub(super) fn coarsened(source: &Rings, target: &Rings, enough: usize) -> Coarse
 mod tests {
     use super::*;
     use crate::compatible::polygons::{face, piece};
-    use crate::geometry::Side;
+    use crate::geometry::{DVec2, Side};
     use std::f64::consts::TAU;
 
     #[test]

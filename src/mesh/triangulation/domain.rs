@@ -32,10 +32,12 @@ pub(super) type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
 /// No corner of a walk.
 const NONE: u32 = u32::MAX;
 
+/// The merged points before, at and after a corner of a walk.
+type Corner = [u32; 3];
+
 pub(super) struct Domain {
     pub(super) delaunay: Delaunay,
-    /// For each corner of the walks the merged points before, at and after it.
-    merged: Vec<[u32; 3]>,
+    merged: Vec<Corner>,
     /// How many merged points there are; added ones follow them.
     fixed: usize,
     /// The walks' edges between merged points, as they are run: a slit's in
@@ -48,7 +50,7 @@ impl Domain {
         let (points, merged) = merged_points(walks)?;
         let mut walked = HashSet::new();
         // Once each way: more would leave no wedge of the piece between them.
-        let is_new = |&[_, a, b]: &[u32; 3]| a != b && walked.insert([a, b]);
+        let is_new = |&[_, a, b]: &Corner| a != b && walked.insert([a, b]);
         if !merged.iter().all(is_new) {
             return Err(TriangulationError::NotSimple);
         }
@@ -209,10 +211,10 @@ impl Domain {
     }
 }
 
-/// Different points, and for each corner those before, at and after it.
+/// Different points, and which of them each corner has.
 fn merged_points<W: AsRef<[DVec2]>>(
     walks: &[W],
-) -> Result<(Vec<Point2<f64>>, Vec<[u32; 3]>), TriangulationError> {
+) -> Result<(Vec<Point2<f64>>, Vec<Corner>), TriangulationError> {
     let least = walks.iter().map(|w| w.as_ref().len()).min().unwrap_or(0);
     if least < 3 {
         return Err(TriangulationError::TooFewPoints(least));
