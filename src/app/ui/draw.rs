@@ -2,7 +2,8 @@
 
 use bevy::prelude::*;
 use bevy_egui::{
-    EguiContexts, EguiInputSet, EguiPlugin, EguiPreUpdateSet, EguiPrimaryContextPass, egui,
+    EguiContext, EguiContexts, EguiInputSet, EguiPlugin, EguiPreUpdateSet, EguiPrimaryContextPass,
+    egui,
 };
 
 use crate::app::asking::hand::Typing;
@@ -30,12 +31,20 @@ impl Plugin for UiPlugin {
                     .after(EguiInputSet::WriteEguiEvents)
                     .before(EguiPreUpdateSet::BeginPass),
             )
+            .add_observer(dress)
             .add_systems(EguiPrimaryContextPass, draw);
     }
 }
 
 /// A window as wide as this has room for the gallery beside the match editor.
 const ROOMY: f32 = 1200.0;
+
+/// Before the first frame that is drawn: a font is there from the next pass on only, and a family
+/// that is not there makes egui panic.
+fn dress(added: On<Add, EguiContext>, mut contexts: Query<&mut EguiContext>) -> Result {
+    theme::install(contexts.get_mut(added.entity)?.get_mut());
+    Ok(())
+}
 
 fn keep_keys_from_widgets(mut contexts: Query<&mut bevy_egui::EguiInput>, typing: Res<Typing>) {
     if typing.0 {
@@ -55,13 +64,8 @@ fn draw(
     mut typing: ResMut<Typing>,
     mut area: ResMut<StageArea>,
     mut intents: MessageWriter<Intent>,
-    mut is_dressed: Local<bool>,
 ) -> Result {
     let ctx = contexts.ctx_mut()?.clone();
-    if !*is_dressed {
-        theme::install(&ctx);
-        *is_dressed = true;
-    }
     theme::choose(&ctx, scene.preferences.theme);
     let mut acts = Intents::new();
     let mut root = egui::Ui::new(

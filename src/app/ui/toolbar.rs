@@ -5,7 +5,7 @@ use bevy_egui::egui::{self, Align, Color32, Layout, Margin, Panel, Rect, RichTex
 use crate::app::asking::acts::EditorAct;
 use crate::app::asking::choices::{CaptureScale, RecordFormat, ThemeChoice};
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::icons::Icon;
+use crate::app::ui::kit::icons::{self, Icon};
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::kit::widgets::{act_button, choose, from_right, icon_button_sized};
 use crate::app::ui::scene::{Intents, Scene};
@@ -70,11 +70,11 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     }
     theme_button(ui, scene, acts);
     let tip = "Show the whole transition (Z)";
-    act_button(ui, Icon::Fit, tip, Intent::FitView, acts);
+    act_button(ui, icons::FIT, tip, Intent::FitView, acts);
     ui.add_space(GRID);
     shown_button(
         ui,
-        Icon::Twin,
+        icons::TWIN,
         "A second method beside the stage (V)",
         scene.twin.is_shown,
         Intent::ToggleTwin,
@@ -82,7 +82,7 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     );
     shown_button(
         ui,
-        Icon::Plot,
+        icons::PLOT,
         "Plots of the measures against t (P)",
         scene.preferences.plots,
         Intent::TogglePlots,
@@ -95,9 +95,9 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     history_buttons(ui, scene, acts);
     ui.add_space(GRID);
     let tip = "Save the project (Ctrl S)";
-    act_button(ui, Icon::Save, tip, Intent::Save, acts);
+    act_button(ui, icons::SAVE, tip, Intent::Save, acts);
     let tip = "Open a project, or one or two designs (Ctrl O)";
-    act_button(ui, Icon::Open, tip, Intent::AskOpen, acts);
+    act_button(ui, icons::OPEN, tip, Intent::AskOpen, acts);
 }
 
 /// From right to left.
@@ -105,7 +105,7 @@ fn capture_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     capture_menu(ui, scene, acts);
     let record = icon_button_sized(
         ui,
-        Icon::Record,
+        icons::RECORD,
         "Record one pass as a film, in the background (G)",
         vec2(32.0, 32.0),
         Some(Palette::of(ui).problem),
@@ -115,7 +115,7 @@ fn capture_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     }
     let tip = "Picture of the stage (S); with the panels: Shift S";
     let picture = Intent::Screenshot { with_panels: false };
-    act_button(ui, Icon::Camera, tip, picture, acts);
+    act_button(ui, icons::CAMERA, tip, picture, acts);
 }
 
 /// A button that shows or hides something.
@@ -143,7 +143,7 @@ fn match_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     };
     let colour = scene.editor.is_open.then(|| Palette::of(ui).accent);
     ui.add_enabled_ui(can, |ui| {
-        let button = icon_button_sized(ui, Icon::Match, tip, vec2(32.0, 32.0), colour);
+        let button = icon_button_sized(ui, icons::MATCH, tip, vec2(32.0, 32.0), colour);
         if button.clicked() {
             acts.push(Intent::Editor(EditorAct::Toggle));
         }
@@ -155,13 +155,13 @@ fn history_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let session = &scene.session;
     for (icon, tip, can, intent) in [
         (
-            Icon::Redo,
+            icons::REDO,
             "Make the change again that was undone (Ctrl Shift Z or Ctrl Y)",
             session.can_redo(),
             Intent::Redo,
         ),
         (
-            Icon::Undo,
+            icons::UNDO,
             "Undo the last change (Ctrl Z)",
             session.can_undo(),
             Intent::Undo,
@@ -175,15 +175,15 @@ fn history_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
 
 fn theme_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let (icon, other, tip) = match scene.preferences.theme {
-        ThemeChoice::Dark => (Icon::Sun, ThemeChoice::Light, "Light panels"),
-        ThemeChoice::Light => (Icon::Moon, ThemeChoice::Dark, "Dark panels"),
+        ThemeChoice::Dark => (icons::SUN, ThemeChoice::Light, "Light panels"),
+        ThemeChoice::Light => (icons::MOON, ThemeChoice::Dark, "Dark panels"),
     };
     act_button(ui, icon, tip, Intent::Theme(other), acts);
 }
 
 fn capture_menu(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let tip = "Size, ground and kind of pictures and films";
-    let button = icon_button_sized(ui, Icon::More, tip, vec2(20.0, 32.0), None);
+    let button = icon_button_sized(ui, icons::MORE, tip, vec2(20.0, 32.0), None);
     egui::Popup::menu(&button)
         .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
         .show(|ui| {

@@ -10,6 +10,7 @@ use bevy_egui::egui::{
 };
 
 use crate::app::asking::choices::ThemeChoice;
+use crate::app::ui::kit::icons;
 
 /// One step of the grid, in points.
 pub const GRID: f32 = 8.0;
@@ -96,8 +97,10 @@ impl Palette {
     }
 }
 
-/// Teaches egui both themes; to be called once.
+/// Teaches egui both themes and the icons; to be called before its first pass, which is when fonts
+/// come into use.
 pub fn install(ctx: &egui::Context) {
+    ctx.set_fonts(icons::fonts());
     ctx.set_style_of(Theme::Dark, style(DARK, Visuals::dark()));
     ctx.set_style_of(Theme::Light, style(LIGHT, Visuals::light()));
     ctx.options_mut(|options| options.zoom_with_keyboard = false);

@@ -4,7 +4,7 @@ use bevy_egui::egui::{self, Align2, Area, Context, Label, Order, Rect, RichText,
 
 use crate::app::asking::intent::Intent;
 use crate::app::telling::notices::{Kind, Notice};
-use crate::app::ui::kit::icons::Icon;
+use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::kit::widgets::{card, icon_button_sized};
 use crate::app::ui::scene::{Intents, Scene};
@@ -33,14 +33,14 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
 fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
     let palette = Palette::of(ui);
     let (icon, colour) = match notice.kind {
-        Kind::Problem => (Icon::Warning, palette.problem),
-        Kind::Done => (Icon::Tick, palette.accent),
+        Kind::Problem => (icons::WARNING, palette.problem),
+        Kind::Done => (icons::TICK, palette.accent),
     };
     card(ui, egui::Margin::symmetric(12, 8), |ui| {
         ui.set_width(width);
         ui.horizontal_top(|ui| {
             let (rect, _) = ui.allocate_exact_size(vec2(24.0, 24.0), egui::Sense::hover());
-            crate::app::ui::kit::icons::paint(ui.painter(), icon, rect, colour);
+            icons::paint(ui.painter(), icon, rect, colour);
             let text = RichText::new(&notice.text).color(palette.text);
             let text_width = width - 24.0 - 24.0 - 2.0 * GRID;
             ui.allocate_ui(vec2(text_width, 0.0), |ui| {
@@ -48,7 +48,7 @@ fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
                 ui.add_space(3.0);
                 ui.add(Label::new(text).wrap().selectable(true));
             });
-            let close = icon_button_sized(ui, Icon::Close, "Close", vec2(24.0, 24.0), None);
+            let close = icon_button_sized(ui, icons::CLOSE, "Close", vec2(24.0, 24.0), None);
             if close.clicked() {
                 acts.push(Intent::Dismiss(notice.id));
             }

@@ -3,7 +3,7 @@
 use bevy_egui::egui::{Color32, DragValue, Label, RichText, Sense, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::icons::Icon;
+use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
 use crate::app::ui::kit::widgets::{
     from_right, icon_button_sized, number, pick, row, section, slider, toggle,
@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
 
 fn swap(ui: &mut Ui) -> bool {
     let tip = "Exchanges source and target: the film runs the other way.";
-    icon_button_sized(ui, Icon::Swap, tip, vec2(32.0, CONTROL_HEIGHT), None).clicked()
+    icon_button_sized(ui, icons::SWAP, tip, vec2(32.0, CONTROL_HEIGHT), None).clicked()
 }
 
 fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts: &mut Intents) {
@@ -45,7 +45,7 @@ fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts:
         ui.label(RichText::new(role).small().color(palette.weak));
         from_right(ui, |ui| {
             let tip = "Another file in its place";
-            if icon_button_sized(ui, Icon::Open, tip, vec2(24.0, 24.0), None).clicked() {
+            if icon_button_sized(ui, icons::OPEN, tip, vec2(24.0, 24.0), None).clicked() {
                 acts.push(Intent::AskReplace(index));
             }
             let path = entry.path.display().to_string();

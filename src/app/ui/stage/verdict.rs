@@ -7,7 +7,6 @@ use bevy_egui::egui::{
 use crate::app::asking::intent::Intent;
 use crate::app::looking::measuring::{Measures, is_a_click};
 use crate::app::ui::kit::icons;
-use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::kit::widgets::card;
 use crate::app::ui::scene::{Intents, Scene};
@@ -78,9 +77,9 @@ fn lines(ui: &mut Ui, scene: &Scene, measures: &Measures, acts: &mut Intents) {
 fn row(ui: &mut Ui, is_clear: bool, content: impl FnOnce(&mut Ui)) {
     let palette = Palette::of(ui);
     let (icon, colour) = if is_clear {
-        (Icon::Tick, palette.good)
+        (icons::TICK, palette.good)
     } else {
-        (Icon::Warning, palette.amber)
+        (icons::WARNING, palette.amber)
     };
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;

@@ -5,7 +5,6 @@ use bevy_egui::egui::{self, DragValue, Response, RichText, Ui, vec2};
 use crate::app::asking::intent::Intent;
 use crate::app::playing::playback::SPEEDS;
 use crate::app::ui::kit::icons;
-use crate::app::ui::kit::icons::Icon;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
 use crate::app::ui::kit::widgets::{act_button, choice, from_right, menu};
 use crate::app::ui::scene::{Intents, Scene};
@@ -32,11 +31,11 @@ pub fn show(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents)
 
 fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let tip = "Start of the pass (Home)";
-    act_button(ui, Icon::ToStart, tip, Intent::SeekStart, acts);
+    act_button(ui, icons::TO_START, tip, Intent::SeekStart, acts);
     let tip = "Play back to the stop before and wait (Page Up)";
     act_button(
         ui,
-        Icon::PreviousStop,
+        icons::PREVIOUS_STOP,
         tip,
         Intent::PlayToPreviousStop,
         acts,
@@ -45,20 +44,20 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         acts.push(Intent::TogglePlay);
     }
     let tip = "Play to the next stop and wait (Page Down)";
-    act_button(ui, Icon::NextStop, tip, Intent::PlayToNextStop, acts);
+    act_button(ui, icons::NEXT_STOP, tip, Intent::PlayToNextStop, acts);
     let tip = "End of the pass (End)";
-    act_button(ui, Icon::ToEnd, tip, Intent::SeekEnd, acts);
+    act_button(ui, icons::TO_END, tip, Intent::SeekEnd, acts);
     let tip = "Set a stop here (M)";
-    act_button(ui, Icon::AddStop, tip, Intent::AddStop, acts);
+    act_button(ui, icons::ADD_STOP, tip, Intent::AddStop, acts);
 }
 
 fn play_button(ui: &mut Ui, scene: &Scene) -> Response {
     let palette = Palette::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(36.0, 36.0), egui::Sense::click());
     let icon = match (scene.playback.is_playing(), scene.playback.is_backwards()) {
-        (true, _) => Icon::Pause,
-        (false, false) => Icon::Play,
-        (false, true) => Icon::PlayBackwards,
+        (true, _) => icons::PAUSE,
+        (false, false) => icons::PLAY,
+        (false, true) => icons::PLAY_BACKWARDS,
     };
     let fill = if response.hovered() {
         palette.accent
