@@ -1,5 +1,6 @@
 //! The few controls that the panels are made of, each with its tooltip.
 
+use bevy_egui::egui::emath::Numeric;
 use bevy_egui::egui::{
     self, Align, Color32, ComboBox, DragValue, Layout, Margin, Rect, Response, RichText, Sense,
     Slider, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, vec2,
@@ -69,6 +70,20 @@ pub fn slider(
             .show_value(false);
         number | ui.add(slider)
     });
+}
+
+/// A number that is dragged or typed: within its range, at so much a point of the way, with so many
+/// decimals.
+pub fn drag<N: Numeric>(
+    value: &mut N,
+    range: RangeInclusive<N>,
+    speed: f64,
+    decimals: usize,
+) -> DragValue<'_> {
+    DragValue::new(value)
+        .range(range)
+        .speed(speed)
+        .fixed_decimals(decimals)
 }
 
 /// A row with a number alone.

@@ -1,9 +1,9 @@
 //! What is drawn, and in which colours.
 
-use bevy_egui::egui::{DragValue, Ui, vec2};
+use bevy_egui::egui::{Ui, vec2};
 
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::widgets::{choice, number, row, section, toggle};
+use crate::app::ui::kit::widgets::{choice, drag, number, row, section, toggle};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
 use crate::project::Project;
@@ -96,10 +96,7 @@ fn colour(ui: &mut Ui, label: &str, tip: &str, value: &mut Rgb) {
 }
 
 fn bars(ui: &mut Ui, draft: &mut Project) {
-    let width = DragValue::new(&mut draft.options.bar_width)
-        .speed(0.0002)
-        .range(0.001..=0.2)
-        .max_decimals(4);
+    let width = drag(&mut draft.options.bar_width, 0.001..=0.2, 0.0002, 4);
     let tip = "Thickness of the bars, as a part of the design's size; also of the shape that its field is made from.";
     number(ui, "Bar width", tip, width);
     let tip = "Draws a disc where bars meet.";

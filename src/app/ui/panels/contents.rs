@@ -1,8 +1,8 @@
 //! The options of what is seen.
 
-use bevy_egui::egui::{DragValue, Ui};
+use bevy_egui::egui::Ui;
 
-use crate::app::ui::kit::widgets::{list, number, pick, section, slider};
+use crate::app::ui::kit::widgets::{drag, list, number, pick, section, slider};
 use crate::content::{BlendSpace, ColourMix, FieldBlend};
 use crate::field::Metric;
 use crate::transition::{Boundary, FieldOptions};
@@ -15,15 +15,9 @@ pub fn colours(ui: &mut Ui, mix: &mut ColourMix) {
     section(ui, "Colours", |ui| {
         let tip = "How fast one picture gives way to the other.";
         list(ui, "Curve", tip, &mut mix.curve);
-        let from = DragValue::new(&mut mix.from)
-            .range(0.0..=mix.to - SHORTEST)
-            .speed(0.005)
-            .fixed_decimals(2);
+        let from = drag(&mut mix.from, 0.0..=mix.to - SHORTEST, 0.005, 2);
         number(ui, "From t", "Until here only the source is seen.", from);
-        let to = DragValue::new(&mut mix.to)
-            .range(mix.from + SHORTEST..=1.0)
-            .speed(0.005)
-            .fixed_decimals(2);
+        let to = drag(&mut mix.to, mix.from + SHORTEST..=1.0, 0.005, 2);
         number(ui, "To t", "From here on only the target is seen.", to);
     });
 }
@@ -36,7 +30,7 @@ pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
         list(ui, "Metric", tip, &mut field.metric);
         let is_euclidean = field.metric == Metric::Euclidean;
         ui.add_enabled_ui(is_euclidean, |ui| outline(ui, &mut field.boundary));
-        let cells = DragValue::new(&mut field.cells).range(32..=4096).speed(4.0);
+        let cells = drag(&mut field.cells, 32..=4096, 4.0, 0);
         let tip = "Cells along the longer side. More: finer detail, and ε and threshold mean smaller distances.";
         number(ui, "Cells", tip, cells);
         let tip = "Room around the designs, as a part of the longer side. Needed where the shape grows outwards.";

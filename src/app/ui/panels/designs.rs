@@ -6,7 +6,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
 use crate::app::ui::kit::widgets::{
-    from_right, icon_button_sized, number, pick, row, section, slider, toggle,
+    drag, from_right, icon_button_sized, number, pick, row, section, slider, toggle,
 };
 use crate::app::ui::scene::Intents;
 use crate::design::Format;
@@ -122,19 +122,16 @@ fn reading(ui: &mut Ui, entry: &mut DesignEntry) {
         (false, Some(_)) => {}
     }
     if let Some(threshold) = &mut import.threshold {
-        let drag = DragValue::new(threshold).speed(0.5).range(1..=255);
+        let level = drag(threshold, 1..=255, 0.5, 0);
         let tip = "Where shape ends and ground begins, 1 to 255: higher lets more in.";
-        number(ui, "Grey level", tip, drag);
+        number(ui, "Grey level", tip, level);
     }
     let tip = "Takes the ground for the shape.";
     toggle(ui, "Invert", tip, &mut import.invert);
     let specks = DragValue::new(&mut import.specks_px).speed(0.2);
     let tip = "Spots and holes of fewer pixels than this are left out.";
     number(ui, "Specks", tip, specks);
-    let tolerance = DragValue::new(&mut import.tolerance)
-        .speed(0.0001)
-        .range(0.0..=0.1)
-        .max_decimals(4);
+    let tolerance = drag(&mut import.tolerance, 0.0..=0.1, 0.0001, 4);
     let tip = "How far the outline may run from the exact edge, as a part of the longer side: larger has fewer corners.";
     number(ui, "Tolerance", tip, tolerance);
     ui.add_space(GRID);

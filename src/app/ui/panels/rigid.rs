@@ -1,9 +1,11 @@
 //! How parts move: the options of the rigidity-preserving interpolation.
 
+use std::ops::RangeInclusive;
+
 use bevy_egui::egui::{DragValue, Ui};
 
 use crate::app::ui::kit::theme::CONTROL_HEIGHT;
-use crate::app::ui::kit::widgets::{choices, list, number, row, section, toggle};
+use crate::app::ui::kit::widgets::{choices, drag, list, number, row, section, toggle};
 use crate::app::ui::scene::Scene;
 use crate::warp::{ArapOptions, ArapPath, Weights};
 
@@ -12,6 +14,9 @@ const MOST_PARTS: usize = 8;
 
 /// The most times that faces are split in the window: each makes four of one.
 const MOST_SUBDIVISIONS: u32 = 4;
+
+/// Whole turns that the window offers: no film can be followed that turns more.
+const TURNS: RangeInclusive<i32> = -9..=9;
 
 /// Draws the options.
 pub fn show(ui: &mut Ui, scene: &Scene, arap: &mut ArapOptions) {
@@ -24,9 +29,7 @@ pub fn show(ui: &mut Ui, scene: &Scene, arap: &mut ArapOptions) {
         toggle(ui, "Symmetric", tip, &mut arap.symmetric);
         path(ui, &mut arap.path);
         extra_turns(ui, &mut arap.extra_turns, scene.session.parts());
-        let subdivisions = DragValue::new(&mut arap.subdivisions)
-            .range(0..=MOST_SUBDIVISIONS)
-            .speed(0.02);
+        let subdivisions = drag(&mut arap.subdivisions, 0..=MOST_SUBDIVISIONS, 0.02, 0);
         let tip = "Splits each triangle into four, so many times: parts bend more softly, frames take longer.";
         number(ui, "Subdivide", tip, subdivisions);
     });
@@ -100,12 +103,7 @@ fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
     let each = turns.len() > 1;
     if !each {
         let mut all = turns.first().copied().unwrap_or(0);
-        number(
-            ui,
-            "Extra turns",
-            tip,
-            DragValue::new(&mut all).range(-9..=9).speed(0.02),
-        );
+        number(ui, "Extra turns", tip, drag(&mut all, TURNS, 0.02, 0));
         if all != turns.first().copied().unwrap_or(0) {
             *turns = if all == 0 { Vec::new() } else { vec![all] };
         }
@@ -117,12 +115,7 @@ fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
         .filter(|_| each)
     {
         let label = format!("Turns, part {}", part + 1);
-        number(
-            ui,
-            &label,
-            tip,
-            DragValue::new(turn).range(-9..=9).speed(0.02),
-        );
+        number(ui, &label, tip, drag(turn, TURNS, 0.02, 0));
     }
     if parts > 1 && parts <= MOST_PARTS {
         let mut apart = each;

@@ -1,8 +1,8 @@
 //! The options of how it moves: of all warps but rigid parts.
 
-use bevy_egui::egui::{DragValue, Ui};
+use bevy_egui::egui::Ui;
 
-use crate::app::ui::kit::widgets::{list, number, pick, section, toggle};
+use crate::app::ui::kit::widgets::{drag, list, number, pick, section, toggle};
 use crate::warp::{Basis, LatticeOptions, LineOptions, PathOptions, ScatteredOptions, Travel};
 
 /// The coarsest lattice is offered up to so many cells, and levels up to so
@@ -30,23 +30,14 @@ pub fn lines(ui: &mut Ui, lines: &mut LineOptions) {
     section(ui, "Lines", |ui| {
         let tip = "How a line lies between its two.";
         pick(ui, "Between", tip, &mut lines.between);
-        let smoothness = DragValue::new(&mut lines.smoothness)
-            .range(1e-4..=1.0)
-            .speed(0.001)
-            .fixed_decimals(3);
+        let smoothness = drag(&mut lines.smoothness, 1e-4..=1.0, 0.001, 3);
         let tip = "How near a line is followed, in diagonals of the frame. Small follows to the \
                    pixel, large is smooth.";
         number(ui, "Smoothness", tip, smoothness);
-        let falloff = DragValue::new(&mut lines.falloff)
-            .range(0.1..=8.0)
-            .speed(0.02)
-            .fixed_decimals(2);
+        let falloff = drag(&mut lines.falloff, 0.1..=8.0, 0.02, 2);
         let tip = "How fast a line's pull weakens with distance.";
         number(ui, "Falloff", tip, falloff);
-        let exponent = DragValue::new(&mut lines.length_exponent)
-            .range(0.0..=2.0)
-            .speed(0.01)
-            .fixed_decimals(2);
+        let exponent = drag(&mut lines.length_exponent, 0.0..=2.0, 0.01, 2);
         let tip = "How much more long lines weigh: 0 not at all, 1 as their length.";
         number(ui, "Length counts", tip, exponent);
     });
@@ -60,25 +51,16 @@ pub fn scattered(ui: &mut Ui, scattered: &mut ScatteredOptions) {
         match scattered.basis {
             Basis::ThinPlate => {}
             Basis::Gaussian => {
-                let width = DragValue::new(&mut scattered.width)
-                    .range(0.005..=1.0)
-                    .speed(0.002)
-                    .fixed_decimals(3);
+                let width = drag(&mut scattered.width, 0.005..=1.0, 0.002, 3);
                 let tip = "How far a pin reaches, in diagonals of the frame.";
                 number(ui, "Width", tip, width);
             }
             Basis::Multiquadric => {
-                let exponent = DragValue::new(&mut scattered.exponent)
-                    .range(0.1..=0.95)
-                    .speed(0.01)
-                    .fixed_decimals(2);
+                let exponent = drag(&mut scattered.exponent, 0.1..=0.95, 0.01, 2);
                 number(ui, "Exponent", "Small is tight, large is wide.", exponent);
             }
         }
-        let smoothing = DragValue::new(&mut scattered.smoothing)
-            .range(0.0..=10.0)
-            .speed(0.001)
-            .fixed_decimals(3);
+        let smoothing = drag(&mut scattered.smoothing, 0.0..=10.0, 0.001, 3);
         let tip = "How much pins may be missed for a smoother warp. 0 meets each of them.";
         number(ui, "Smoothing", tip, smoothing);
     });
@@ -90,14 +72,10 @@ pub fn lattice(ui: &mut Ui, lattice: &mut LatticeOptions) {
         let tip = "On: the plane never folds, and a pin that cannot be reached is missed. Off: pins \
              are met, and the plane may fold.";
         toggle(ui, "Fold-free", tip, &mut lattice.fold_free);
-        let coarsest = DragValue::new(&mut lattice.coarsest)
-            .range(1..=MOST_CELLS)
-            .speed(0.05);
+        let coarsest = drag(&mut lattice.coarsest, 1..=MOST_CELLS, 0.05, 0);
         let tip = "Cells of the first lattice. Fewer move more of the plane with a pin.";
         number(ui, "Coarsest", tip, coarsest);
-        let levels = DragValue::new(&mut lattice.levels)
-            .range(1..=MOST_LEVELS)
-            .speed(0.05);
+        let levels = drag(&mut lattice.levels, 1..=MOST_LEVELS, 0.05, 0);
         let tip = "How many lattices, each twice as fine as the one before.";
         number(ui, "Levels", tip, levels);
     });
