@@ -4,13 +4,13 @@ use std::collections::HashMap;
 
 use bevy::prelude::Resource;
 use bevy_egui::egui::{
-    self, Color32, ColorImage, Panel, Rect, Response, RichText, ScrollArea, Sense, Stroke,
+    self, Align2, Color32, ColorImage, Panel, Rect, Response, RichText, ScrollArea, Sense,
     StrokeKind, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use crate::app::asking::intent::Intent;
 use crate::app::opening::thumbnails::{STRIP_PX, Thumbnail};
-use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette, RADIUS};
+use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette, RADIUS, SMALL};
 use crate::app::ui::kit::widgets::ground;
 use crate::app::ui::scene::{Intents, Scene};
 use crate::project::gallery;
@@ -60,26 +60,14 @@ fn card(ui: &mut Ui, scene: &Scene, textures: &mut Textures, entry: &gallery::En
         (false, true) => (palette.hover, palette.line),
         (false, false) => (palette.raised, Color32::TRANSPARENT),
     };
-    ui.painter().rect(
-        rect,
-        CARD_RADIUS,
-        fill,
-        Stroke::new(1.0, line),
-        StrokeKind::Inside,
-    );
+    ui.painter()
+        .rect(rect, CARD_RADIUS, fill, (1.0, line), StrokeKind::Inside);
     let picture = Rect::from_min_size(rect.min, vec2(rect.width(), PICTURE_HEIGHT)).shrink(4.0);
     thumbnail(ui, scene, textures, &entry.name, picture);
     let text_at = pos2(rect.left() + 8.0, rect.bottom() - 15.0);
-    let font = egui::TextStyle::Small.resolve(ui.style());
-    let galley = ui
-        .painter()
-        .layout(entry.title.clone(), font, palette.text, rect.width());
     let clip = ui.painter().with_clip_rect(rect.shrink(4.0));
-    clip.galley(
-        text_at - vec2(0.0, galley.size().y / 2.0),
-        galley,
-        palette.text,
-    );
+    let (title, ink) = (&entry.title, palette.text);
+    clip.text(text_at, Align2::LEFT_CENTER, title, SMALL, ink);
     response.on_hover_text(&entry.description)
 }
 

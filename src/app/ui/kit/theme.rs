@@ -5,8 +5,8 @@
 //! "beyond the designs", and no meaning is carried by colour alone.
 
 use bevy_egui::egui::{
-    self, Color32, CornerRadius, FontFamily, FontId, Margin, Shadow, Stroke, Style, TextStyle,
-    Theme, Vec2, Visuals, style::HandleShape, style::ScrollStyle, style::WidgetVisuals,
+    self, Color32, CornerRadius, FontId, Margin, Shadow, Stroke, Style, TextStyle, Theme, Vec2,
+    Visuals, style::HandleShape, style::ScrollStyle, style::WidgetVisuals,
 };
 
 use crate::app::asking::choices::ThemeChoice;
@@ -127,17 +127,16 @@ fn style(palette: Palette, base: Visuals) -> Style {
     style
 }
 
+/// The font of captions, of what stands on buttons, and of words on the stage.
+pub const SMALL: FontId = FontId::proportional(12.5);
+
 fn text_styles() -> std::collections::BTreeMap<TextStyle, FontId> {
-    let proportional = |size| FontId::new(size, FontFamily::Proportional);
     [
-        (TextStyle::Heading, proportional(17.0)),
-        (TextStyle::Body, proportional(14.0)),
-        (TextStyle::Button, proportional(14.0)),
-        (TextStyle::Small, proportional(12.5)),
-        (
-            TextStyle::Monospace,
-            FontId::new(13.0, FontFamily::Monospace),
-        ),
+        (TextStyle::Heading, FontId::proportional(17.0)),
+        (TextStyle::Body, FontId::proportional(14.0)),
+        (TextStyle::Button, FontId::proportional(14.0)),
+        (TextStyle::Small, SMALL),
+        (TextStyle::Monospace, FontId::monospace(13.0)),
     ]
     .into()
 }

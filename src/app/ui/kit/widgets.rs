@@ -2,15 +2,15 @@
 
 use bevy_egui::egui::emath::Numeric;
 use bevy_egui::egui::{
-    self, Align, Color32, ComboBox, DragValue, Layout, Margin, Rect, Response, RichText, Sense,
-    Slider, Stroke, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, vec2,
+    self, Align, Align2, Color32, ComboBox, DragValue, Layout, Margin, Rect, Response, RichText,
+    Sense, Slider, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, vec2,
 };
 use std::ops::RangeInclusive;
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::icons::Icon;
-use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, Palette, RADIUS};
+use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, Palette, RADIUS, SMALL};
 use crate::names::Choice;
 
 /// Width of the column of labels.
@@ -25,7 +25,7 @@ pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> 
     ui.add_space(GRID);
     let line = ui.available_rect_before_wrap();
     ui.painter()
-        .hline(line.x_range(), line.top(), Stroke::new(1.0, palette.line));
+        .hline(line.x_range(), line.top(), (1.0, palette.line));
     body
 }
 
@@ -37,13 +37,8 @@ pub fn row(ui: &mut Ui, label: &str, tip: &str, control: impl FnOnce(&mut Ui) ->
             ui.allocate_exact_size(vec2(LABEL_WIDTH, CONTROL_HEIGHT), Sense::hover());
         let colour = Palette::of(ui).weak;
         let font = egui::TextStyle::Body.resolve(ui.style());
-        ui.painter().text(
-            rect.left_center(),
-            egui::Align2::LEFT_CENTER,
-            label,
-            font,
-            colour,
-        );
+        ui.painter()
+            .text(rect.left_center(), Align2::LEFT_CENTER, label, font, colour);
         response.on_hover_text(tip);
         control(ui).on_hover_text(tip).on_disabled_hover_text(tip);
     });
@@ -111,13 +106,8 @@ pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     let along = ui.ctx().animate_bool_responsive(response.id, is_on);
     let track = Rect::from_center_size(rect.center(), vec2(32.0, 16.0));
     let fill = if is_on { palette.accent } else { palette.hover };
-    ui.painter().rect(
-        track,
-        8.0,
-        fill,
-        Stroke::new(1.0, palette.line),
-        StrokeKind::Inside,
-    );
+    ui.painter()
+        .rect(track, 8.0, fill, (1.0, palette.line), StrokeKind::Inside);
     let knob = egui::pos2(
         egui::lerp(track.left() + 8.0..=track.right() - 8.0, along),
         track.center().y,
@@ -172,14 +162,8 @@ pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
         (true, false, false) => (palette.raised, palette.weak),
     };
     ui.painter().rect_filled(rect, RADIUS, fill);
-    let font = egui::TextStyle::Small.resolve(ui.style());
-    ui.painter().text(
-        rect.center(),
-        egui::Align2::CENTER_CENTER,
-        label,
-        font,
-        text,
-    );
+    ui.painter()
+        .text(rect.center(), Align2::CENTER_CENTER, label, SMALL, text);
     response
 }
 

@@ -163,7 +163,7 @@ impl Half {
         }
         painter.add(Shape::mesh(filled));
         if scene.editor.triangles {
-            let stroke = Stroke::new(0.75, inks.faint);
+            let stroke = (0.75, inks.faint);
             for face in mesh.faces().iter() {
                 for k in 0..3 {
                     let (a, b) = (face[k], face[(k + 1) % 3]);
@@ -179,7 +179,7 @@ impl Half {
         if sheet.rings.is_empty() {
             let parts = sheet.sides.as_ref().map(|sides| &sides[self.side].parts);
             for ring in parts.into_iter().flatten().flatten() {
-                let stroke = Stroke::new(2.0, inks.faint);
+                let stroke = (2.0, inks.faint);
                 painter.add(Shape::closed_line(self.line(ring), stroke));
             }
         }
@@ -241,7 +241,7 @@ impl Half {
         while y <= most {
             for [a, b] in spans(rings.iter().map(Vec::as_slice), y) {
                 let back = |x: f64| pos2(((x - y) / 2.0) as f32, ((x + y) / 2.0) as f32);
-                painter.line_segment([back(a), back(b)], Stroke::new(1.0, colour));
+                painter.line_segment([back(a), back(b)], (1.0, colour));
             }
             y += step;
         }
@@ -257,7 +257,7 @@ impl Half {
                 .flatten()
             {
                 let points = ring.iter().map(|p| self.px(*p)).collect();
-                painter.add(Shape::closed_line(points, Stroke::new(width, inks.accent)));
+                painter.add(Shape::closed_line(points, (width, inks.accent)));
             }
         };
         if let Some((_, part)) = editor.part.filter(|(side, _)| *side == self.side) {
@@ -343,11 +343,11 @@ fn unmatched(painter: &Painter, mut points: Vec<Pos2>, inks: &Inks) {
         return;
     };
     if Rect::from_points(&points).size().max_elem() < 3.0 {
-        painter.circle_stroke(first, 4.0, Stroke::new(1.5, inks.ink));
+        painter.circle_stroke(first, 4.0, (1.5, inks.ink));
         return;
     }
     points.push(first);
-    let stroke = Stroke::new(2.0, inks.ink);
+    let stroke = (2.0, inks.ink);
     painter.extend(Shape::dashed_line(&points, stroke, 5.0, 4.0));
 }
 
@@ -362,7 +362,7 @@ pub fn tag(painter: &Painter, at: Pos2, word: &str, inks: &Inks, is_said: bool) 
         card,
         CornerRadius::same(4),
         inks.ground,
-        Stroke::new(width, frame),
+        (width, frame),
         StrokeKind::Inside,
     );
     painter.galley(card.min + vec2(5.0, 2.0), galley, inks.ink);

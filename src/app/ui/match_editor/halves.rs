@@ -33,7 +33,7 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) {
     }
     let middle = stage.center().x;
     let between = stage.top() + BAR_HEIGHT + GRID..=stage.bottom() - ADVICE_HEIGHT;
-    painter.vline(middle, between, Stroke::new(1.0, inks.faint));
+    painter.vline(middle, between, (1.0, inks.faint));
     marks::draw(&painter, scene, &halves, &inks);
     advice(&painter, scene, stage, &inks);
     for half in &halves {

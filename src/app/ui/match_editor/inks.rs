@@ -4,8 +4,8 @@ use bevy_egui::egui::Color32;
 
 use crate::app::ui::kit::theme::Palette;
 use crate::app::ui::scene::Scene;
-use crate::app::ui::stage::area::ink_on;
-use crate::transition::{Rgb, Style};
+use crate::app::ui::stage::area::{ink_on, is_light};
+use crate::transition::Rgb;
 
 /// The share of a design's colour in its fill: the boundary's colours must stand out from it.
 const FILL: f32 = 0.28;
@@ -30,12 +30,14 @@ pub struct Inks {
 }
 
 impl Inks {
-    /// The inks on a project's ground. The ground is the project's and not the panels', so the
+    /// The inks on the ground of the open project. The ground is the project's and not the panels', so the
     /// palette is the one that goes with it.
-    pub fn new(style: &Style, ink: Color32) -> Self {
+    pub fn of(scene: &Scene) -> Self {
+        let style = scene.session.style();
         let colour = |Rgb([r, g, b]): Rgb| Color32::from_rgb(r, g, b);
         let ground = colour(style.ground);
-        let is_light = ink.r() < 0x80;
+        let ink = ink_on(style.ground);
+        let is_light = is_light(style.ground);
         let on_ground = Palette::on(is_light);
         let fill = |rgb: Rgb| ground.lerp_to_gamma(colour(rgb), FILL);
         Self {
@@ -47,11 +49,5 @@ impl Inks {
             is_light,
             fills: [fill(style.source), fill(style.target)],
         }
-    }
-
-    /// The inks on the ground of the open project.
-    pub fn of(scene: &Scene) -> Self {
-        let style = scene.session.style();
-        Self::new(&style, ink_on(style.ground))
     }
 }

@@ -48,7 +48,7 @@ fn features(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks
             inks.ground.lerp_to_gamma(inks.ink, 0.65)
         };
         let at = half.px(pair[half.side]);
-        painter.circle(at, FEATURE_RADIUS, inks.ground, Stroke::new(1.0, colour));
+        painter.circle(at, FEATURE_RADIUS, inks.ground, (1.0, colour));
         number(painter, at, sheet.pins.len() + k + 1, colour);
     }
 }
@@ -71,7 +71,7 @@ fn pins(painter: &Painter, scene: &Scene, half: &Half, inks: &Inks) {
             (false, true) => inks.accent,
             (false, false) => inks.ink,
         };
-        painter.circle(at, radius, fill, Stroke::new(1.5, inks.ground));
+        painter.circle(at, radius, fill, (1.5, inks.ground));
         number(painter, at, k + 1, inks.ground);
     }
 }
@@ -82,21 +82,16 @@ fn lines(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &
         let ends = line[half.side].map(|p| half.px(p));
         let is_selected = matches!(editor.selected, Some(Handle::Line(of, _)) if of == k);
         let colour = if is_selected { inks.accent } else { inks.ink };
-        painter.line_segment(ends, Stroke::new(5.0, inks.ground));
-        painter.line_segment(ends, Stroke::new(2.0, colour));
+        painter.line_segment(ends, (5.0, inks.ground));
+        painter.line_segment(ends, (2.0, colour));
         for (end, at) in ends.into_iter().enumerate() {
             let is_lit = editor.hovered == Some(Handle::Line(k, end));
             let radius = if is_lit { 6.0 } else { 4.5 };
             let fill = if end == 0 { colour } else { inks.ground };
-            painter.circle(at, radius, fill, Stroke::new(2.0, colour));
+            painter.circle(at, radius, fill, (2.0, colour));
         }
         let middle = ends[0] + 0.5 * (ends[1] - ends[0]);
-        painter.circle(
-            middle,
-            FEATURE_RADIUS,
-            inks.ground,
-            Stroke::new(1.5, colour),
-        );
+        painter.circle(middle, FEATURE_RADIUS, inks.ground, (1.5, colour));
         number(painter, middle, k + 1, inks.ink);
     }
 }
@@ -114,8 +109,8 @@ fn cuts(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &I
             continue;
         }
         let ends = [half.px(cut.outer), half.px(cut.hole)];
-        painter.line_segment(ends, Stroke::new(4.0, inks.ground));
-        let stroke = Stroke::new(2.0, inks.accent);
+        painter.line_segment(ends, (4.0, inks.ground));
+        let stroke = (2.0, inks.accent);
         painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 3.0));
         for (at, end) in ends.into_iter().zip([CutEnd::Outer, CutEnd::Hole]) {
             let handle = Handle::Cut(k, end);
@@ -130,7 +125,7 @@ fn cuts(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &I
                 Rect::from_center_size(at, vec2(size, size)),
                 CornerRadius::same(2),
                 fill,
-                Stroke::new(2.0, inks.accent),
+                (2.0, inks.accent),
                 StrokeKind::Inside,
             );
         }
@@ -156,11 +151,11 @@ fn link(painter: &Painter, sheet: &Sheet, editor: &Editor, halves: &[Half; 2], i
         return;
     };
     let [a, b] = [halves[0].px(ends[0]), halves[1].px(ends[1])];
-    let stroke = Stroke::new(1.25, inks.ground.lerp_to_gamma(inks.ink, 0.7));
+    let stroke = (1.25, inks.ground.lerp_to_gamma(inks.ink, 0.7));
     painter.extend(Shape::dashed_line(&[a, b], stroke, 5.0, 4.0));
     if is_trace {
         for at in [a, b] {
-            painter.circle(at, 5.0, inks.ground, Stroke::new(2.0, inks.ink));
+            painter.circle(at, 5.0, inks.ground, (2.0, inks.ink));
         }
     }
 }
@@ -207,7 +202,7 @@ fn problem_card(painter: &Painter, scene: &Scene, halves: &[Half; 2], problem: &
         card,
         CornerRadius::same(6),
         inks.ground,
-        Stroke::new(1.5, inks.problem),
+        (1.5, inks.problem),
         StrokeKind::Inside,
     );
     painter.galley(card.min + vec2(GRID, 0.75 * GRID), galley, inks.ink);

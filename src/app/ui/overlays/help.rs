@@ -1,10 +1,10 @@
 //! The list of keys, made from the key map that is in use.
 
-use bevy_egui::egui::{self, Align2, Context, Id, Modal, RichText, Stroke, StrokeKind, Ui, vec2};
+use bevy_egui::egui::{self, Align2, Context, Id, Modal, RichText, StrokeKind, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::asking::keymap::Row;
-use crate::app::ui::kit::theme::{GRID, Palette, RADIUS};
+use crate::app::ui::kit::theme::{GRID, Palette, RADIUS, SMALL};
 use crate::app::ui::kit::widgets::from_right;
 use crate::app::ui::scene::{Intents, Scene};
 
@@ -73,18 +73,10 @@ fn group(ui: &mut Ui, rows: &[Row]) {
 
 fn key_cap(ui: &Ui, rect: egui::Rect, keys: &str) {
     let palette = Palette::of(ui);
-    let font = egui::TextStyle::Small.resolve(ui.style());
-    let text = ui
-        .painter()
-        .layout_no_wrap(keys.to_owned(), font, palette.text);
+    let painter = ui.painter();
+    let text = painter.layout_no_wrap(keys.to_owned(), SMALL, palette.text);
     let cap = Align2::LEFT_CENTER.anchor_size(rect.left_center(), text.size() + vec2(12.0, 2.0));
-    ui.painter().rect(
-        cap,
-        RADIUS,
-        palette.raised,
-        Stroke::new(1.0, palette.line),
-        StrokeKind::Inside,
-    );
-    ui.painter()
-        .galley(cap.min + vec2(6.0, 1.0), text, palette.text);
+    let line = (1.0, palette.line);
+    painter.rect(cap, RADIUS, palette.raised, line, StrokeKind::Inside);
+    painter.galley(cap.min + vec2(6.0, 1.0), text, palette.text);
 }

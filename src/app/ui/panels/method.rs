@@ -1,12 +1,11 @@
 //! The table of cells: what moves, and what is seen. Cells that cannot be had are grey and say why.
 
 use bevy_egui::egui::{
-    Align2, FontId, Rect, Response, Sense, Stroke, StrokeKind, TextStyle, Ui, WidgetInfo,
-    WidgetType, pos2, vec2,
+    Align2, Rect, Response, Sense, StrokeKind, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::theme::{GRID, Palette, RADIUS};
+use crate::app::ui::kit::theme::{GRID, Palette, RADIUS, SMALL};
 use crate::app::ui::kit::widgets::{hint, section};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
@@ -42,17 +41,12 @@ pub fn show(ui: &mut Ui, scene: &Scene, project: &Project, acts: &mut Intents) {
 fn heads(ui: &mut Ui, width: f32) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
     let weak = Palette::of(ui).weak;
-    let font = TextStyle::Small.resolve(ui.style());
     let mut left = rect.left() + ROW_LABEL_WIDTH + 4.0;
     for content in ContentKind::ALL {
         let at = pos2(left, rect.center().y);
-        ui.painter().text(
-            at,
-            Align2::LEFT_CENTER,
-            content.name().title,
-            font.clone(),
-            weak,
-        );
+        let title = content.name().title;
+        ui.painter()
+            .text(at, Align2::LEFT_CENTER, title, SMALL, weak);
         left += width;
     }
 }
@@ -61,15 +55,10 @@ fn row_head(ui: &mut Ui, warp: WarpKind) {
     let (rect, response) =
         ui.allocate_exact_size(vec2(ROW_LABEL_WIDTH, CELL_HEIGHT), Sense::hover());
     let name = warp.name();
-    let font = TextStyle::Small.resolve(ui.style());
     let weak = Palette::of(ui).weak;
-    ui.painter().text(
-        rect.left_center(),
-        Align2::LEFT_CENTER,
-        name.title,
-        font,
-        weak,
-    );
+    let at = rect.left_center();
+    ui.painter()
+        .text(at, Align2::LEFT_CENTER, name.title, SMALL, weak);
     response.on_hover_text(name.sentence);
 }
 
@@ -116,7 +105,6 @@ fn cell(
 
 fn paint_cell(ui: &Ui, rect: Rect, name: &str, response: &Response, chosen: bool, can: bool) {
     let palette = Palette::of(ui);
-    let font: FontId = TextStyle::Small.resolve(ui.style());
     let (fill, line, text) = match (can, chosen, response.hovered()) {
         (_, true, _) => (palette.accent_ground, palette.accent, palette.text),
         (false, ..) => (
@@ -127,13 +115,8 @@ fn paint_cell(ui: &Ui, rect: Rect, name: &str, response: &Response, chosen: bool
         (true, false, true) => (palette.hover, palette.line, palette.text),
         (true, false, false) => (palette.raised, palette.raised, palette.text),
     };
-    ui.painter().rect(
-        rect,
-        RADIUS,
-        fill,
-        Stroke::new(1.0, line),
-        StrokeKind::Inside,
-    );
     ui.painter()
-        .text(rect.center(), Align2::CENTER_CENTER, name, font, text);
+        .rect(rect, RADIUS, fill, (1.0, line), StrokeKind::Inside);
+    ui.painter()
+        .text(rect.center(), Align2::CENTER_CENTER, name, SMALL, text);
 }

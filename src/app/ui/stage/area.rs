@@ -15,15 +15,10 @@ pub const ZOOM_PER_POINT: f32 = 0.0025;
 /// it, into intents.
 pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, name: &str, acts: &mut Intents) {
     if let Some(words) = empty_words(scene) {
-        let ground = scene.session.style().ground;
+        let ink = ink_on(scene.session.style().ground);
         let font = FontId::proportional(16.0);
-        root.painter().text(
-            rect.center(),
-            Align2::CENTER_CENTER,
-            words,
-            font,
-            ink_on(ground),
-        );
+        root.painter()
+            .text(rect.center(), Align2::CENTER_CENTER, words, font, ink);
     }
     let response = root.interact(rect, root.id().with(name), Sense::click_and_drag());
     if response.dragged() {
@@ -58,11 +53,16 @@ fn empty_words(scene: &Scene) -> Option<&'static str> {
     })
 }
 
+/// A ground is light where more than 18 % of the light comes back: a middle grey to the eye.
+pub fn is_light(ground: Rgb) -> bool {
+    let [r, g, b] = ground.to_linear();
+    // Relative luminance, after WCAG 2.2.
+    0.2126 * r + 0.7152 * g + 0.0722 * b > 0.18
+}
+
 /// A quiet ink that can be read on a ground.
 pub fn ink_on(ground: Rgb) -> Color32 {
-    let [r, g, b] = ground.to_linear();
-    let is_light = 0.2126 * r + 0.7152 * g + 0.0722 * b > 0.18;
-    if is_light {
+    if is_light(ground) {
         Color32::from_gray(0x50)
     } else {
         Color32::from_gray(0xc8)

@@ -25,9 +25,8 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Re
     area::show(root, scene, left, "stage", acts);
     area::show(root, scene, right, "twin", acts);
     verdict::mark(root, scene, left);
-    let ground = scene.session.style().ground;
-    let ink = ink_on(ground);
-    let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
+    let ink = ink_on(scene.session.style().ground);
+    let line = (1.0, ink.gamma_multiply(0.5));
     root.painter().vline(right.left(), stage.y_range(), line);
     missing(root, scene, right);
     first_name(root, scene, left);
@@ -44,12 +43,12 @@ fn missing(ui: &Ui, scene: &Scene, rect: Rect) {
         (None, None) if twin.is_busy() => "Building …".to_owned(),
         (None, None) => return,
     };
-    let ground = scene.session.style().ground;
-    let font = bevy_egui::egui::FontId::proportional(14.0);
+    let ink = ink_on(scene.session.style().ground);
     let width = rect.width() - 4.0 * GRID;
-    let galley = ui.painter().layout(words, font, ink_on(ground), width);
+    let font = FontId::proportional(14.0);
+    let galley = ui.painter().layout(words, font, ink, width);
     let at = Align2::CENTER_CENTER.anchor_size(rect.center(), galley.size());
-    ui.painter().galley(at.min, galley, ink_on(ground));
+    ui.painter().galley(at.min, galley, ink);
 }
 
 fn first_name(ui: &Ui, scene: &Scene, rect: Rect) {

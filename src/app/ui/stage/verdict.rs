@@ -1,8 +1,6 @@
 //! The verdict on the transition: a line or two at the lower left of the stage, and where it points to.
 
-use bevy_egui::egui::{
-    self, Align2, Area, Context, Label, Order, Rect, RichText, Sense, Stroke, Ui, pos2, vec2,
-};
+use bevy_egui::egui::{self, Align2, Area, Context, Label, Order, Rect, RichText, Sense, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::looking::measuring::{Measures, is_a_click};
@@ -10,7 +8,7 @@ use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::kit::widgets::card;
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::area::ink_on;
+use crate::app::ui::stage::area::is_light;
 use crate::measure::Finding;
 
 /// Height of one line.
@@ -142,12 +140,7 @@ pub fn mark(ui: &Ui, scene: &Scene, stage: Rect) {
     let Some(measures) = scene.measured.measures() else {
         return;
     };
-    let ground = scene.session.project().map(|p| p.style.ground);
-    let Some(ground) = ground else {
-        return;
-    };
-    let is_light = ink_on(ground).r() < 0x80;
-    let colour = Palette::on(is_light).amber;
+    let colour = Palette::on(is_light(scene.session.style().ground)).amber;
     let painter = ui.painter().with_clip_rect(stage);
     for finding in &measures.verdict.findings {
         if (scene.playback.t() - finding.t).abs() > NEAR_T {
@@ -155,11 +148,10 @@ pub fn mark(ui: &Ui, scene: &Scene, stage: Rect) {
         }
         let px = scene.view.px_from_world(finding.place);
         let at = stage.min + vec2(px.x, px.y);
-        painter.circle_stroke(at, 16.0, Stroke::new(2.0, colour));
+        painter.circle_stroke(at, 16.0, (2.0, colour));
         for (dx, dy) in [(-1.0, 0.0), (1.0, 0.0), (0.0, -1.0), (0.0, 1.0)] {
             let ray = vec2(dx, dy);
-            let ends = [at + 16.0 * ray, at + 22.0 * ray];
-            painter.line_segment(ends.map(|p| pos2(p.x, p.y)), Stroke::new(2.0, colour));
+            painter.line_segment([at + 16.0 * ray, at + 22.0 * ray], (2.0, colour));
         }
     }
 }

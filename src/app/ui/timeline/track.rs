@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{
     self, Align2, Color32, DragValue, FontId, Id, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke,
-    TextStyle, Ui, pos2, vec2,
+    Ui, pos2, vec2,
 };
 
 use crate::app::asking::intent::Intent;
@@ -18,6 +18,8 @@ const BEYOND: f64 = 0.25;
 const SNAP: f32 = 5.0;
 
 const BAR_HEIGHT: f32 = 6.0;
+
+const FONT: FontId = FontId::proportional(11.5);
 
 /// From t to the screen and back.
 #[derive(Clone, Copy)]
@@ -94,32 +96,20 @@ fn rounded(t: f64) -> f64 {
     (t * 1000.0).round() / 1000.0
 }
 
-fn font(ui: &Ui) -> FontId {
-    FontId {
-        size: 11.5,
-        ..TextStyle::Small.resolve(ui.style())
-    }
+fn word(ui: &Ui, at: Pos2, word: &str, colour: Color32) {
+    ui.painter()
+        .text(at, Align2::CENTER_CENTER, word, FONT, colour);
 }
 
 fn beyond(ui: &Ui, ruler: Ruler) {
     let palette = Palette::of(ui);
     for (from, to) in [(ruler.from, 0.0), (1.0, ruler.to)] {
         let (a, b) = (pos2(ruler.x(from), ruler.y), pos2(ruler.x(to), ruler.y));
-        let dashes = Shape::dashed_line(
-            &[a, b],
-            Stroke::new(2.0, palette.amber.gamma_multiply(0.6)),
-            4.0,
-            4.0,
-        );
-        ui.painter().extend(dashes);
+        let stroke = (2.0, palette.amber.gamma_multiply(0.6));
+        ui.painter()
+            .extend(Shape::dashed_line(&[a, b], stroke, 4.0, 4.0));
         let middle = a.lerp(b, 0.5) + vec2(0.0, 18.0);
-        ui.painter().text(
-            middle,
-            Align2::CENTER_CENTER,
-            "extrapolation",
-            font(ui),
-            palette.amber,
-        );
+        word(ui, middle, "extrapolation", palette.amber);
     }
 }
 
@@ -150,7 +140,7 @@ fn ticks(ui: &Ui, ruler: Ruler) {
         let length = if tenth % 5 == 0 { 6.0 } else { 4.0 };
         let top = ruler.y + BAR_HEIGHT / 2.0 + 3.0;
         ui.painter()
-            .vline(x, top..=top + length, Stroke::new(1.0, palette.weak));
+            .vline(x, top..=top + length, (1.0, palette.weak));
         let label = match tenth {
             0 => "0 source".to_owned(),
             10 => "1 target".to_owned(),
@@ -158,8 +148,7 @@ fn ticks(ui: &Ui, ruler: Ruler) {
         };
         let colour = if is_end { palette.text } else { palette.weak };
         let at = pos2(x, ruler.y + 20.0);
-        ui.painter()
-            .text(at, Align2::CENTER_CENTER, label, font(ui), colour);
+        word(ui, at, &label, colour);
     }
 }
 
@@ -172,13 +161,9 @@ fn playhead(ui: &Ui, ruler: Ruler, t: f64) {
         palette.amber
     };
     ui.painter()
-        .vline(x, ruler.y - 12.0..=ruler.y + 12.0, Stroke::new(2.0, colour));
-    ui.painter().circle(
-        pos2(x, ruler.y),
-        6.0,
-        palette.panel,
-        Stroke::new(2.0, colour),
-    );
+        .vline(x, ruler.y - 12.0..=ruler.y + 12.0, (2.0, colour));
+    ui.painter()
+        .circle(pos2(x, ruler.y), 6.0, palette.panel, (2.0, colour));
 }
 
 fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
@@ -230,9 +215,7 @@ fn marker(ui: &Ui, at: Pos2, id: Id, name: &str) -> Response {
     let points = diamond.iter().map(|corner| at + *corner).collect();
     ui.painter()
         .add(Shape::convex_polygon(points, colour, Stroke::NONE));
-    let text_at = at - vec2(0.0, 12.0);
-    ui.painter()
-        .text(text_at, Align2::CENTER_CENTER, name, font(ui), colour);
+    word(ui, at - vec2(0.0, 12.0), name, colour);
     response
 }
 
