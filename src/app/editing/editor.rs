@@ -100,6 +100,12 @@ impl Default for Editor {
 }
 
 impl Editor {
+    /// A handle is under the pointer, or is what was clicked last.
+    #[must_use]
+    pub fn is_lit(&self, handle: Handle) -> bool {
+        [self.hovered, self.selected].contains(&Some(handle))
+    }
+
     /// Leaves what was entered last; `false` where there is nothing to leave.
     pub fn back(&mut self) -> bool {
         if self.first_part.take().is_some() {

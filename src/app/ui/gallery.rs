@@ -4,14 +4,14 @@ use std::collections::HashMap;
 
 use bevy::prelude::Resource;
 use bevy_egui::egui::{
-    self, Align2, Color32, ColorImage, Panel, Rect, Response, RichText, ScrollArea, Sense,
-    StrokeKind, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType, pos2, vec2,
+    self, Align2, Color32, ColorImage, Panel, Rect, Response, ScrollArea, Sense, StrokeKind,
+    TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use crate::app::asking::intent::Intent;
 use crate::app::opening::thumbnails::{STRIP_PX, Thumbnail};
 use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette, RADIUS, SMALL};
-use crate::app::ui::kit::widgets::ground;
+use crate::app::ui::kit::widgets::{ground, quiet};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::project::gallery;
 
@@ -30,8 +30,7 @@ pub fn show(root: &mut Ui, scene: &Scene, textures: &mut Textures, acts: &mut In
         .resizable(false)
         .frame(frame)
         .show(root, |ui| {
-            let weak = Palette::of(ui).weak;
-            ui.label(RichText::new("Gallery").small().strong().color(weak));
+            ui.label(quiet(ui, "Gallery").strong());
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 ui.set_width(WIDTH - 32.0);
                 for entry in &scene.gallery.0 {

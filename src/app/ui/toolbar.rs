@@ -7,7 +7,7 @@ use crate::app::asking::choices::{CaptureScale, RecordFormat, ThemeChoice};
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons::{self, Icon};
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{act_button, choose, from_right, icon_button_sized};
+use crate::app::ui::kit::widgets::{act_button, choose, from_right, icon_button_sized, quiet};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::export::FilmKind;
 use crate::names::Choice;
@@ -54,11 +54,9 @@ fn mark(ui: &mut Ui) {
 }
 
 fn title(ui: &mut Ui, scene: &Scene) {
-    let palette = Palette::of(ui);
-    let name = scene.session.title();
-    ui.label(RichText::new(name).color(palette.text));
+    ui.label(scene.session.title());
     if scene.session.is_dirty() {
-        ui.label(RichText::new("edited").small().color(palette.weak))
+        ui.label(quiet(ui, "edited"))
             .on_hover_text("Has changes that are not saved yet. Ctrl S saves them.");
     }
 }

@@ -1,11 +1,14 @@
 //! The few controls that the panels are made of, each with its tooltip.
 
+use std::ops::RangeInclusive;
+use std::sync::Arc;
+
 use bevy_egui::egui::emath::Numeric;
 use bevy_egui::egui::{
-    self, Align, Align2, Color32, ComboBox, DragValue, Layout, Margin, Rect, Response, RichText,
-    Sense, Slider, StrokeKind, Ui, Vec2, WidgetInfo, WidgetType, vec2,
+    self, Align, Align2, Area, Color32, ComboBox, DragValue, Galley, Layout, Margin, Order,
+    Painter, Pos2, Rect, Response, RichText, Sense, Slider, StrokeKind, Ui, Vec2, WidgetInfo,
+    WidgetType, vec2,
 };
-use std::ops::RangeInclusive;
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
@@ -18,14 +21,13 @@ const LABEL_WIDTH: f32 = 88.0;
 
 /// A heading and what stands under it.
 pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> R {
-    let palette = Palette::of(ui);
     ui.add_space(GRID);
-    ui.label(RichText::new(title).size(12.5).strong().color(palette.weak));
+    ui.label(quiet(ui, title).strong());
     let body = ui.vertical(body).inner;
     ui.add_space(GRID);
     let line = ui.available_rect_before_wrap();
-    ui.painter()
-        .hline(line.x_range(), line.top(), (1.0, palette.line));
+    let stroke = (1.0, Palette::of(ui).line);
+    ui.painter().hline(line.x_range(), line.top(), stroke);
     body
 }
 
@@ -247,10 +249,35 @@ pub fn card<R>(ui: &mut Ui, room: impl Into<Margin>, content: impl FnOnce(&mut U
         .inner
 }
 
+/// Words that stand back.
+pub fn quiet(ui: &Ui, words: impl Into<String>) -> RichText {
+    RichText::new(words).small().color(Palette::of(ui).weak)
+}
+
+/// A layer above the panels and below what asks, held there at this corner or edge.
+pub fn pinned(name: &str, pivot: Align2, at: Pos2) -> Area {
+    Area::new(name.into())
+        .order(Order::Middle)
+        .pivot(pivot)
+        .fixed_pos(at)
+}
+
+/// Words in the middle of a card that is painted by hand.
+pub fn words_on_card(
+    painter: &Painter,
+    card: Rect,
+    words: Arc<Galley>,
+    fill: Color32,
+    line: (f32, Color32),
+) {
+    painter.rect(card, RADIUS, fill, line, StrokeKind::Inside);
+    let corner = card.center() - words.size() / 2.0;
+    painter.galley(corner, words, Color32::PLACEHOLDER);
+}
+
 /// A line of text that explains, wrapped.
 pub fn hint(ui: &mut Ui, text: &str) {
-    let colour = Palette::of(ui).weak;
-    ui.add(egui::Label::new(RichText::new(text).small().color(colour)).wrap());
+    ui.add(egui::Label::new(quiet(ui, text)).wrap());
 }
 
 /// Lays its content out from the right.

@@ -1,11 +1,11 @@
 //! The line of tools at the upper edge of the match editor.
 
-use bevy_egui::egui::{self, Align2, Area, Context, Order, Rect, vec2};
+use bevy_egui::egui::{self, Align2, Context, Margin, Rect, vec2};
 
 use crate::app::asking::acts::{EditorAct, Tool};
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
-use crate::app::ui::kit::widgets::{card, choice, primary_button};
+use crate::app::ui::kit::widgets::{card, choice, pinned, primary_button};
 use crate::app::ui::scene::{Intents, Scene};
 
 /// Its height with the space above it.
@@ -16,18 +16,15 @@ pub const ADVICE_HEIGHT: f32 = 40.0;
 
 /// Draws it.
 pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
-    Area::new("match tools".into())
-        .order(Order::Middle)
-        .pivot(Align2::CENTER_TOP)
-        .fixed_pos(stage.center_top() + vec2(0.0, GRID))
-        .show(ctx, |ui| {
-            card(ui, egui::Margin::symmetric(8, 6), |ui| {
-                ui.horizontal(|ui| {
-                    ui.spacing_mut().item_spacing.x = 4.0;
-                    tools(ui, scene, acts);
-                });
+    let at = stage.center_top() + vec2(0.0, GRID);
+    pinned("match tools", Align2::CENTER_TOP, at).show(ctx, |ui| {
+        card(ui, Margin::symmetric(8, 6), |ui| {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 4.0;
+                tools(ui, scene, acts);
             });
         });
+    });
 }
 
 fn tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {

@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use bevy_egui::egui::epaint::Vertex;
 use bevy_egui::egui::{
-    Align2, Color32, ColorImage, CornerRadius, FontId, Id, Mesh, Painter, Pos2, Rect, Shape,
-    Stroke, StrokeKind, TextureHandle, TextureOptions, Vec2, pos2, vec2,
+    Align2, Color32, ColorImage, Id, Mesh, Painter, Pos2, Rect, Shape, TextureHandle,
+    TextureOptions, Vec2, pos2, vec2,
 };
 
 use crate::app::asking::acts::{Tool, Touch};
@@ -13,7 +13,8 @@ use crate::app::editing::editor::Editor;
 use crate::app::editing::polyline::spans;
 use crate::app::editing::ring::SheetRing;
 use crate::app::editing::sheet::{Fate, Sheet, SheetPiece};
-use crate::app::ui::kit::theme::GRID;
+use crate::app::ui::kit::theme::{GRID, SMALL};
+use crate::app::ui::kit::widgets::words_on_card;
 use crate::app::ui::match_editor::bar::BAR_HEIGHT;
 use crate::app::ui::match_editor::boundary;
 use crate::app::ui::match_editor::inks::Inks;
@@ -91,9 +92,14 @@ impl Half {
         }
     }
 
+    /// Draws within this half only.
+    pub fn clip(&self, painter: &Painter) -> Painter {
+        painter.with_clip_rect(self.rect.intersect(painter.clip_rect()))
+    }
+
     /// Draws the design and its match.
     pub fn draw(&self, stage: &Painter, scene: &Scene, inks: &Inks) {
-        let painter = stage.with_clip_rect(self.rect.intersect(stage.clip_rect()));
+        let painter = self.clip(stage);
         let sheet = &scene.sheet;
         self.picture(&painter, sheet);
         if sheet.in_colours() {
@@ -177,8 +183,7 @@ impl Half {
 
     fn boundaries(&self, painter: &Painter, sheet: &Sheet, inks: &Inks) {
         if sheet.rings.is_empty() {
-            let parts = sheet.sides.as_ref().map(|sides| &sides[self.side].parts);
-            for ring in parts.into_iter().flatten().flatten() {
+            for ring in self.parts_of(sheet).iter().flatten() {
                 let stroke = (2.0, inks.faint);
                 painter.add(Shape::closed_line(self.line(ring), stroke));
             }
@@ -196,6 +201,12 @@ impl Half {
                 }
             }
         }
+    }
+
+    /// The parts of the design, each an outline and its holes.
+    fn parts_of<'a>(&self, sheet: &'a Sheet) -> &'a [Vec<Vec<DVec2>>] {
+        let sides = sheet.sides.as_ref();
+        sides.map_or(&[], |sides| &sides[self.side].parts)
     }
 
     fn line(&self, points: &[DVec2]) -> Vec<Pos2> {
@@ -250,14 +261,8 @@ impl Half {
     fn parts(&self, painter: &Painter, scene: &Scene, inks: &Inks) {
         let (sheet, editor) = (&scene.sheet, &scene.editor);
         let outline = |part: usize, width: f32| {
-            let parts = sheet.sides.as_ref().map(|sides| &sides[self.side].parts);
-            for ring in parts
-                .and_then(|parts| parts.get(part))
-                .into_iter()
-                .flatten()
-            {
-                let points = ring.iter().map(|p| self.px(*p)).collect();
-                painter.add(Shape::closed_line(points, (width, inks.accent)));
+            for ring in self.parts_of(sheet).get(part).into_iter().flatten() {
+                painter.add(Shape::closed_line(self.line(ring), (width, inks.accent)));
             }
         };
         if let Some((_, part)) = editor.part.filter(|(side, _)| *side == self.side) {
@@ -267,10 +272,10 @@ impl Half {
             outline(part, 5.0);
         }
         let is_plain = sheet.pieces.len() < 2 && editor.tool != Tool::Parts;
+        if is_plain {
+            return;
+        }
         for (k, piece) in sheet.pieces.iter().enumerate() {
-            if is_plain {
-                break;
-            }
             let word = match (piece.fate, self.is_alone(piece)) {
                 (Fate::Dies, true) => format!("{} dies", piece.name),
                 (Fate::Born, true) => format!("{} is born", piece.name),
@@ -300,14 +305,10 @@ impl Half {
             .transition()
             .map(|t| t.designs()[self.side].name.clone())
             .unwrap_or_default();
-        let role = match self.side {
-            Side::Source => "Source",
-            Side::Target => "Target",
-        };
+        let role = ["Source", "Target"][self.side];
         let at = self.rect.left_top() + vec2(2.0 * GRID, BAR_HEIGHT + 2.0 * GRID);
-        let font = FontId::proportional(12.5);
         let words = format!("{role}  {name}");
-        painter.text(at, Align2::LEFT_TOP, words, font, inks.ink);
+        painter.text(at, Align2::LEFT_TOP, words, SMALL, inks.ink);
     }
 }
 
@@ -353,17 +354,12 @@ fn unmatched(painter: &Painter, mut points: Vec<Pos2>, inks: &Inks) {
 
 /// A word on a card; framed where it was said by hand.
 pub fn tag(painter: &Painter, at: Pos2, word: &str, inks: &Inks, is_said: bool) {
-    let font = FontId::proportional(12.5);
-    let galley = painter.layout_no_wrap(word.to_owned(), font, inks.ink);
+    let galley = painter.layout_no_wrap(word.to_owned(), SMALL, inks.ink);
     let card = Align2::CENTER_CENTER.anchor_size(at, galley.size() + vec2(10.0, 4.0));
-    let frame = if is_said { inks.accent } else { inks.faint };
-    let width = if is_said { 2.0 } else { 1.0 };
-    painter.rect(
-        card,
-        CornerRadius::same(4),
-        inks.ground,
-        (width, frame),
-        StrokeKind::Inside,
-    );
-    painter.galley(card.min + vec2(5.0, 2.0), galley, inks.ink);
+    let line = if is_said {
+        (2.0, inks.accent)
+    } else {
+        (1.0, inks.faint)
+    };
+    words_on_card(painter, card, galley, inks.ground, line);
 }

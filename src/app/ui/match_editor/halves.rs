@@ -2,20 +2,19 @@
 
 use bevy::prelude::Vec2;
 use bevy_egui::egui::{
-    Align2, Context, CornerRadius, FontId, PointerButton, Rect, Response, Sense, Stroke, Ui, pos2,
-    vec2,
+    self, Align2, Context, CornerRadius, Painter, PointerButton, Rect, Response, Sense, Ui, vec2,
 };
 
 use crate::app::asking::acts::{EditorAct, Tool};
 use crate::app::asking::intent::Intent;
 use crate::app::editing::sheet::SheetSide;
-use crate::app::ui::kit::theme::GRID;
+use crate::app::ui::kit::theme::{GRID, SMALL};
 use crate::app::ui::match_editor::bar::{self, ADVICE_HEIGHT, BAR_HEIGHT};
 use crate::app::ui::match_editor::half::Half;
 use crate::app::ui::match_editor::inks::Inks;
 use crate::app::ui::match_editor::marks;
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::area::ZOOM_PER_POINT;
+use crate::app::ui::stage::area::zoom_factor;
 use crate::design::Picture;
 use crate::geometry::Side;
 
@@ -49,10 +48,7 @@ pub fn overlay(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
 }
 
 fn halves(scene: &Scene, stage: Rect, sides: &[SheetSide; 2]) -> [Half; 2] {
-    let [left, right] = [
-        Rect::from_min_max(stage.min, pos2(stage.center().x, stage.bottom())),
-        Rect::from_min_max(pos2(stage.center().x, stage.top()), stage.max),
-    ];
+    let (left, right) = stage.split_left_right_at_fraction(0.5);
     let half = |side: Side, rect: Rect| {
         let room = Rect::from_min_max(
             rect.min + vec2(3.0 * GRID, BAR_HEIGHT + 4.0 * GRID),
@@ -71,7 +67,7 @@ fn hand(ui: &Ui, scene: &Scene, half: &Half, response: &Response, acts: &mut Int
         let pointer = &input.pointer;
         (
             input.modifiers.shift,
-            pointer.delta() != bevy_egui::egui::Vec2::ZERO,
+            pointer.delta() != egui::Vec2::ZERO,
             pointer.press_origin(),
         )
     });
@@ -121,10 +117,8 @@ fn is_left(scene: &Scene, half: &Half, response: &Response) -> bool {
     is_marked && is_elsewhere && editor.grabbed.is_none()
 }
 
-fn zoom(ui: &Ui, half: &Half, from_middle: bevy_egui::egui::Vec2, act: &mut impl FnMut(EditorAct)) {
-    let factor = ui
-        .input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * ZOOM_PER_POINT).exp());
-    if factor != 1.0 {
+fn zoom(ui: &Ui, half: &Half, from_middle: egui::Vec2, act: &mut impl FnMut(EditorAct)) {
+    if let Some(factor) = zoom_factor(ui) {
         let at = from_middle - half.room_offset();
         act(EditorAct::Zoom {
             at: Vec2::new(at.x, at.y),
@@ -134,10 +128,9 @@ fn zoom(ui: &Ui, half: &Half, from_middle: bevy_egui::egui::Vec2, act: &mut impl
 }
 
 /// One line on what can be done now.
-fn advice(painter: &bevy_egui::egui::Painter, scene: &Scene, stage: Rect, inks: &Inks) {
+fn advice(painter: &Painter, scene: &Scene, stage: Rect, inks: &Inks) {
     let editor = &scene.editor;
-    let words = match (editor.tool, editor.first_part) {
-        _ if editor.refusal.is_some() => editor.refusal.unwrap_or_default(),
+    let usual = match (editor.tool, editor.first_part) {
         (Tool::Pins, _) if scene.sheet.is_free() => {
             "Click anywhere to set a pin on both sides, drag it to where it belongs, right-click \
              to delete it."
@@ -156,14 +149,10 @@ fn advice(painter: &bevy_egui::egui::Painter, scene: &Scene, stage: Rect, inks: 
         (Tool::Parts, Some((Side::Source, ..))) => "Now click its partner in the target.",
         (Tool::Parts, Some((Side::Target, ..))) => "Now click its partner in the source.",
     };
-    let colour = if editor.refusal.is_some() {
-        inks.problem
-    } else {
-        inks.ink
-    };
+    let refusal = editor.refusal.map(|words| (words, inks.problem));
+    let (words, colour) = refusal.unwrap_or((usual, inks.ink));
     let width = stage.width() - 4.0 * GRID;
-    let font = FontId::proportional(12.5);
-    let galley = painter.layout(words.to_owned(), font, colour, width);
+    let galley = painter.layout(words.to_owned(), SMALL, colour, width);
     let at = Align2::CENTER_BOTTOM
         .anchor_size(stage.center_bottom() - vec2(0.0, GRID), galley.size())
         .min;

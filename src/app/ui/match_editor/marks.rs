@@ -1,12 +1,11 @@
 //! Points, cuts and what links the two halves.
 
-use bevy_egui::egui::{
-    Align2, Color32, CornerRadius, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, vec2,
-};
+use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, StrokeKind, vec2};
 
 use crate::app::editing::editor::{CutEnd, Editor, Grab, Handle};
 use crate::app::editing::sheet::Sheet;
-use crate::app::ui::kit::theme::GRID;
+use crate::app::ui::kit::theme::{GRID, SMALL};
+use crate::app::ui::kit::widgets::words_on_card;
 use crate::app::ui::match_editor::bar::{ADVICE_HEIGHT, BAR_HEIGHT};
 use crate::app::ui::match_editor::half::Half;
 use crate::app::ui::match_editor::inks::Inks;
@@ -21,7 +20,7 @@ const FEATURE_RADIUS: f32 = 7.0;
 pub fn draw(painter: &Painter, scene: &Scene, halves: &[Half; 2], inks: &Inks) {
     let (sheet, editor) = (&scene.sheet, &scene.editor);
     for half in halves {
-        let clipped = painter.with_clip_rect(half.rect.intersect(painter.clip_rect()));
+        let clipped = half.clip(painter);
         features(&clipped, sheet, editor, half, inks);
         cuts(&clipped, sheet, editor, half, inks);
         if sheet.is_free() {
@@ -30,7 +29,7 @@ pub fn draw(painter: &Painter, scene: &Scene, halves: &[Half; 2], inks: &Inks) {
     }
     link(painter, sheet, editor, halves, inks);
     for half in halves {
-        let clipped = painter.with_clip_rect(half.rect.intersect(painter.clip_rect()));
+        let clipped = half.clip(painter);
         pins(&clipped, scene, half, inks);
     }
     if let Some(problem) = scene.session.problem() {
@@ -41,8 +40,7 @@ pub fn draw(painter: &Painter, scene: &Scene, halves: &[Half; 2], inks: &Inks) {
 fn features(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &Inks) {
     for (k, pair) in sheet.features.iter().enumerate() {
         let handle = Handle::Feature(k);
-        let is_lit = editor.hovered == Some(handle) || editor.selected == Some(handle);
-        let colour = if is_lit {
+        let colour = if editor.is_lit(handle) {
             inks.ink
         } else {
             inks.ground.lerp_to_gamma(inks.ink, 0.65)
@@ -90,7 +88,7 @@ fn lines(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &
             let fill = if end == 0 { colour } else { inks.ground };
             painter.circle(at, radius, fill, (2.0, colour));
         }
-        let middle = ends[0] + 0.5 * (ends[1] - ends[0]);
+        let middle = ends[0].lerp(ends[1], 0.5);
         painter.circle(middle, FEATURE_RADIUS, inks.ground, (1.5, colour));
         number(painter, middle, k + 1, inks.ink);
     }
@@ -113,21 +111,16 @@ fn cuts(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &I
         let stroke = (2.0, inks.accent);
         painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 3.0));
         for (at, end) in ends.into_iter().zip([CutEnd::Outer, CutEnd::Hole]) {
-            let handle = Handle::Cut(k, end);
-            let is_lit = editor.hovered == Some(handle) || editor.selected == Some(handle);
+            let is_lit = editor.is_lit(Handle::Cut(k, end));
             let size = if is_lit { 13.0 } else { 10.0 };
             let fill = if shown.asked.is_some() {
                 inks.accent
             } else {
                 inks.ground
             };
-            painter.rect(
-                Rect::from_center_size(at, vec2(size, size)),
-                CornerRadius::same(2),
-                fill,
-                (2.0, inks.accent),
-                StrokeKind::Inside,
-            );
+            let square = Rect::from_center_size(at, vec2(size, size));
+            let line = (2.0, inks.accent);
+            painter.rect(square, 2, fill, line, StrokeKind::Inside);
         }
     }
 }
@@ -181,13 +174,8 @@ fn problem_card(painter: &Painter, scene: &Scene, halves: &[Half; 2], problem: &
         ""
     };
     let text = format!("{}.{stays}", first_upper(problem));
-    let font = FontId::proportional(12.5);
-    let galley = painter.layout(
-        text,
-        font,
-        inks.ink,
-        WIDTH.min(half.rect.width() - 4.0 * GRID),
-    );
+    let width = WIDTH.min(half.rect.width() - 4.0 * GRID);
+    let galley = painter.layout(text, SMALL, inks.ink, width);
     let size = galley.size() + vec2(2.0 * GRID, 1.5 * GRID);
     let room = half.rect.shrink(GRID);
     let room = Rect::from_min_max(
@@ -198,12 +186,5 @@ fn problem_card(painter: &Painter, scene: &Scene, halves: &[Half; 2], problem: &
     let most = (room.max - size).max(room.min);
     let corner = corner.clamp(room.min, most);
     let card = Rect::from_min_size(corner, size);
-    painter.rect(
-        card,
-        CornerRadius::same(6),
-        inks.ground,
-        (1.5, inks.problem),
-        StrokeKind::Inside,
-    );
-    painter.galley(card.min + vec2(GRID, 0.75 * GRID), galley, inks.ink);
+    words_on_card(painter, card, galley, inks.ground, (1.5, inks.problem));
 }

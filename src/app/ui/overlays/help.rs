@@ -1,11 +1,11 @@
 //! The list of keys, made from the key map that is in use.
 
-use bevy_egui::egui::{self, Align2, Context, Id, Modal, RichText, StrokeKind, Ui, vec2};
+use bevy_egui::egui::{self, Align2, Context, Id, Modal, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::asking::keymap::Row;
-use crate::app::ui::kit::theme::{GRID, Palette, RADIUS, SMALL};
-use crate::app::ui::kit::widgets::from_right;
+use crate::app::ui::kit::theme::{GRID, Palette, SMALL};
+use crate::app::ui::kit::widgets::{from_right, hint, quiet, words_on_card};
 use crate::app::ui::scene::{Intents, Scene};
 
 const KEYS_WIDTH: f32 = 136.0;
@@ -39,7 +39,7 @@ pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
                 });
             }
         });
-        crate::app::ui::kit::widgets::hint(
+        hint(
             ui,
             "Drag the stage to move it, scroll to zoom, double-click to show everything. \
              Drop one or two files anywhere to open them.",
@@ -55,10 +55,9 @@ fn groups(rows: &[Row]) -> Vec<&[Row]> {
 }
 
 fn group(ui: &mut Ui, rows: &[Row]) {
-    let palette = Palette::of(ui);
     ui.spacing_mut().item_spacing.y = 2.0;
     let name = rows.first().map_or("", |row| row.group);
-    ui.label(RichText::new(name).small().strong().color(palette.weak));
+    ui.label(quiet(ui, name).strong());
     for row in rows {
         ui.horizontal(|ui| {
             ui.spacing_mut().interact_size.y = ROW_HEIGHT;
@@ -76,7 +75,5 @@ fn key_cap(ui: &Ui, rect: egui::Rect, keys: &str) {
     let painter = ui.painter();
     let text = painter.layout_no_wrap(keys.to_owned(), SMALL, palette.text);
     let cap = Align2::LEFT_CENTER.anchor_size(rect.left_center(), text.size() + vec2(12.0, 2.0));
-    let line = (1.0, palette.line);
-    painter.rect(cap, RADIUS, palette.raised, line, StrokeKind::Inside);
-    painter.galley(cap.min + vec2(6.0, 1.0), text, palette.text);
+    words_on_card(painter, cap, text, palette.raised, (1.0, palette.line));
 }

@@ -1,12 +1,12 @@
 //! Messages at the lower edge of the stage; problems stay until they are closed.
 
-use bevy_egui::egui::{self, Align2, Area, Context, Label, Order, Rect, RichText, Ui, vec2};
+use bevy_egui::egui::{self, Align2, Context, Label, Order, Rect, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::telling::notices::{Kind, Notice};
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{card, icon_button_sized};
+use crate::app::ui::kit::widgets::{card, icon_button_sized, pinned};
 use crate::app::ui::scene::{Intents, Scene};
 
 /// The most that are shown at once; older ones wait until a newer one is closed.
@@ -19,15 +19,14 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
         return;
     }
     let width = (stage.width() - 4.0 * GRID).clamp(160.0, 480.0);
-    Area::new("notices".into())
-        .order(Order::Foreground)
-        .pivot(Align2::CENTER_BOTTOM)
-        .fixed_pos(stage.center_bottom() - vec2(0.0, 2.0 * GRID))
-        .show(ctx, |ui| {
-            for notice in &list[list.len().saturating_sub(MOST)..] {
-                message(ui, notice, width, acts);
-            }
-        });
+    let at = stage.center_bottom() - vec2(0.0, 2.0 * GRID);
+    // Above the verdict and the work: a problem is read first.
+    let area = pinned("notices", Align2::CENTER_BOTTOM, at).order(Order::Foreground);
+    area.show(ctx, |ui| {
+        for notice in &list[list.len().saturating_sub(MOST)..] {
+            message(ui, notice, width, acts);
+        }
+    });
 }
 
 fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
@@ -41,12 +40,11 @@ fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
         ui.horizontal_top(|ui| {
             let (rect, _) = ui.allocate_exact_size(vec2(24.0, 24.0), egui::Sense::hover());
             icons::paint(ui.painter(), icon, rect, colour);
-            let text = RichText::new(&notice.text).color(palette.text);
             let text_width = width - 24.0 - 24.0 - 2.0 * GRID;
             ui.allocate_ui(vec2(text_width, 0.0), |ui| {
                 ui.set_width(text_width);
                 ui.add_space(3.0);
-                ui.add(Label::new(text).wrap().selectable(true));
+                ui.add(Label::new(&notice.text).wrap().selectable(true));
             });
             let close = icon_button_sized(ui, icons::CLOSE, "Close", vec2(24.0, 24.0), None);
             if close.clicked() {

@@ -2,11 +2,11 @@
 
 use std::time::Duration;
 
-use bevy_egui::egui::{self, Align2, Area, Context, Order, ProgressBar, Rect, RichText, Ui, vec2};
+use bevy_egui::egui::{Align2, Context, Margin, ProgressBar, Rect, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::card;
+use crate::app::ui::kit::widgets::{card, pinned};
 use crate::app::ui::scene::{Intents, Scene};
 
 /// What is done sooner is not worth a word: while a slider or a pin is dragged, one build follows
@@ -34,26 +34,22 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     // Below what else stands at the upper edge.
     let is_taken = scene.twin.is_shown || scene.editor.is_open;
     let above = if is_taken { TAKEN } else { 0.0 };
-    Area::new("work".into())
-        .order(Order::Middle)
-        .pivot(Align2::CENTER_TOP)
-        .fixed_pos(stage.center_top() + vec2(0.0, 2.0 * GRID + above))
-        .show(ctx, |ui| {
-            for ((stage, fraction), cancel) in all {
-                pill(ui, stage, fraction, cancel, acts);
-            }
-        });
+    let at = stage.center_top() + vec2(0.0, 2.0 * GRID + above);
+    pinned("work", Align2::CENTER_TOP, at).show(ctx, |ui| {
+        for ((stage, fraction), cancel) in all {
+            pill(ui, stage, fraction, cancel, acts);
+        }
+    });
 }
 
 fn pill(ui: &mut Ui, stage: &str, fraction: f64, cancel: Intent, acts: &mut Intents) {
-    let palette = Palette::of(ui);
-    card(ui, egui::Margin::symmetric(16, 8), |ui| {
+    card(ui, Margin::symmetric(16, 8), |ui| {
         ui.horizontal(|ui| {
-            ui.label(RichText::new(stage).color(palette.text));
+            ui.label(stage);
             let bar = ProgressBar::new(fraction as f32)
                 .desired_width(120.0)
                 .desired_height(6.0)
-                .fill(palette.accent);
+                .fill(Palette::of(ui).accent);
             ui.add(bar);
             let tip = "Stops this work; what is on the stage stays.";
             if ui.button("Cancel").on_hover_text(tip).clicked() {

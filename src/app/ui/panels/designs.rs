@@ -1,12 +1,12 @@
 //! The two designs: how they are read, and how they lie in one frame.
 
-use bevy_egui::egui::{Color32, DragValue, Label, RichText, Sense, Ui, vec2};
+use bevy_egui::egui::{CollapsingHeader, Color32, DragValue, Label, Sense, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
 use crate::app::ui::kit::widgets::{
-    drag, from_right, icon_button_sized, number, pick, row, section, slider, toggle,
+    drag, from_right, icon_button_sized, number, pick, quiet, row, section, slider, toggle,
 };
 use crate::app::ui::scene::Intents;
 use crate::design::Format;
@@ -35,14 +35,12 @@ fn swap(ui: &mut Ui) -> bool {
 }
 
 fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts: &mut Intents) {
-    let palette = Palette::of(ui);
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         let (dot, _) = ui.allocate_exact_size(vec2(12.0, CONTROL_HEIGHT), Sense::hover());
         let fill = Color32::from_rgb(colour.0[0], colour.0[1], colour.0[2]);
         ui.painter().circle_filled(dot.center(), 5.0, fill);
-        let role = ["Source", "Target"][index];
-        ui.label(RichText::new(role).small().color(palette.weak));
+        ui.label(quiet(ui, ["Source", "Target"][index]));
         from_right(ui, |ui| {
             let tip = "Another file in its place";
             if icon_button_sized(ui, icons::OPEN, tip, vec2(24.0, 24.0), None).clicked() {
@@ -55,11 +53,9 @@ fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts:
     });
     let id = ui.id().with(("placement", index));
     ui.push_id(id, |ui| {
-        bevy_egui::egui::CollapsingHeader::new("Placement").show_unindented(ui, |ui| {
-            placement(ui, entry);
-        });
+        CollapsingHeader::new("Placement").show_unindented(ui, |ui| placement(ui, entry));
         if is_picture(entry) {
-            bevy_egui::egui::CollapsingHeader::new("Reading the picture")
+            CollapsingHeader::new("Reading the picture")
                 .show_unindented(ui, |ui| reading(ui, entry));
         }
     });

@@ -9,7 +9,7 @@ use crate::app::ui::scene::{Intents, Scene};
 use crate::transition::Rgb;
 
 /// One line of the wheel zooms by this exponent; eight lines make a factor of about 2.7.
-pub const ZOOM_PER_POINT: f32 = 0.0025;
+const ZOOM_PER_POINT: f32 = 0.0025;
 
 /// Turns dragging and scrolling over the stage, or over what shows the same of the plane beside
 /// it, into intents.
@@ -31,15 +31,20 @@ pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, name: &str, acts: &mut Int
     let Some(pointer) = response.hover_pos() else {
         return;
     };
-    let factor = root
-        .input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * ZOOM_PER_POINT).exp());
-    if factor != 1.0 {
+    if let Some(factor) = zoom_factor(root) {
         let at = pointer - rect.min;
         acts.push(Intent::Zoom {
             at: Vec2::new(at.x, at.y),
             factor,
         });
     }
+}
+
+/// By how much the hand zooms in this frame, by the wheel or by two fingers; nothing where it does not.
+pub fn zoom_factor(ui: &Ui) -> Option<f32> {
+    let factor = ui
+        .input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * ZOOM_PER_POINT).exp());
+    (factor != 1.0).then_some(factor)
 }
 
 fn empty_words(scene: &Scene) -> Option<&'static str> {

@@ -1,18 +1,15 @@
 //! Two methods side by side: the stage on the left, a second method on the right.
 
-use bevy_egui::egui::{
-    Align2, Area, ComboBox, Frame, Margin, Order, Rect, RichText, Stroke, Ui, pos2, vec2,
-};
+use bevy_egui::egui::{Align2, ComboBox, FontId, Label, Margin, Rect, Ui, vec2};
 
 use crate::app::asking::choices::TwinMethod;
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, Palette};
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
+use crate::app::ui::kit::widgets::{self, pinned, quiet};
 use crate::app::ui::panels::method;
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::area;
-use crate::app::ui::stage::area::ink_on;
-use crate::app::ui::stage::verdict;
-use crate::app::ui::stage::verdict::first_upper;
+use crate::app::ui::stage::area::{self, ink_on};
+use crate::app::ui::stage::verdict::{self, first_upper};
 
 /// Room for the name of a method.
 const NAME_WIDTH: f32 = 168.0;
@@ -57,12 +54,11 @@ fn first_name(ui: &Ui, scene: &Scene, rect: Rect) {
     };
     let name = first_upper(transition.cell().name());
     card(ui, "first method", rect, |ui| {
-        let weak = Palette::of(ui).weak;
-        ui.add_sized(
-            [NAME_WIDTH, CONTROL_HEIGHT],
-            bevy_egui::egui::Label::new(RichText::new(name).small().color(weak)),
-        )
-        .on_hover_text("The method of the project, as it is chosen on the right of the window.");
+        let name = Label::new(quiet(ui, name));
+        ui.add_sized([NAME_WIDTH, CONTROL_HEIGHT], name)
+            .on_hover_text(
+                "The method of the project, as it is chosen on the right of the window.",
+            );
     });
 }
 
@@ -107,14 +103,8 @@ fn tip(method: TwinMethod) -> &'static str {
 
 /// A card at the top of a half.
 fn card(ui: &Ui, name: &'static str, rect: Rect, content: impl FnOnce(&mut Ui)) {
-    Area::new(name.into())
-        .order(Order::Middle)
-        .pivot(Align2::CENTER_TOP)
-        .fixed_pos(pos2(rect.center().x, rect.top() + GRID))
-        .show(ui.ctx(), |ui| {
-            Frame::window(ui.style())
-                .corner_radius(CARD_RADIUS)
-                .inner_margin(Margin::symmetric(6, 4))
-                .show(ui, |ui| ui.horizontal(content));
-        });
+    let at = rect.center_top() + vec2(0.0, GRID);
+    pinned(name, Align2::CENTER_TOP, at).show(ui.ctx(), |ui| {
+        widgets::card(ui, Margin::symmetric(6, 4), |ui| ui.horizontal(content));
+    });
 }

@@ -1,12 +1,12 @@
 //! The verdict on the transition: a line or two at the lower left of the stage, and where it points to.
 
-use bevy_egui::egui::{self, Align2, Area, Context, Label, Order, Rect, RichText, Sense, Ui, vec2};
+use bevy_egui::egui::{self, Align2, Context, Label, Margin, Rect, RichText, Sense, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::looking::measuring::{Measures, is_a_click};
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::card;
+use crate::app::ui::kit::widgets::{card, pinned};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::stage::area::is_light;
 use crate::measure::Finding;
@@ -31,16 +31,13 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     let Some(measures) = scene.measured.measures() else {
         return;
     };
-    Area::new("verdict".into())
-        .order(Order::Middle)
-        .pivot(Align2::LEFT_BOTTOM)
-        .fixed_pos(stage.left_bottom() + vec2(GRID, -GRID))
-        .show(ctx, |ui| {
-            ui.set_max_width(stage.width() - 2.0 * GRID);
-            card(ui, egui::Margin::symmetric(8, 4), |ui| {
-                lines(ui, scene, measures, acts);
-            });
+    let at = stage.left_bottom() + vec2(GRID, -GRID);
+    pinned("verdict", Align2::LEFT_BOTTOM, at).show(ctx, |ui| {
+        ui.set_max_width(stage.width() - 2.0 * GRID);
+        card(ui, Margin::symmetric(8, 4), |ui| {
+            lines(ui, scene, measures, acts);
         });
+    });
 }
 
 /// One line, or one for each kind of trouble, and one for each note.

@@ -1,11 +1,11 @@
 //! The measures against t, side by side, with a line where t is; a click goes to a t.
 
-use bevy_egui::egui::{Color32, Panel, PointerButton, RichText, ScrollArea, Ui, vec2};
+use bevy_egui::egui::{Color32, Panel, PointerButton, ScrollArea, Ui, vec2};
 use egui_plot::{AxisHints, HLine, Line, LineStyle, Plot, PlotPoints, VLine};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::ground;
+use crate::app::ui::kit::widgets::{ground, quiet};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::measure::{FilmReport, Quantity};
 use crate::names::Choice;
@@ -34,8 +34,7 @@ fn waiting(ui: &mut Ui, scene: &Scene) {
     } else {
         "Nothing to measure yet."
     };
-    let weak = Palette::of(ui).weak;
-    ui.centered_and_justified(|ui| ui.label(RichText::new(words).small().color(weak)));
+    ui.centered_and_justified(|ui| ui.label(quiet(ui, words)));
 }
 
 fn row(ui: &mut Ui, scene: &Scene, film: &FilmReport, acts: &mut Intents) {
@@ -165,18 +164,13 @@ fn level(y: f64, colour: Color32) -> HLine {
 
 /// The name, and the value where t is.
 fn heading(ui: &mut Ui, quantity: Quantity, series: &[[f64; 2]], t: f64) {
-    let palette = Palette::of(ui);
     let nearest = series
         .iter()
         .min_by(|a, b| (a[0] - t).abs().total_cmp(&(b[0] - t).abs()));
     ui.horizontal(|ui| {
-        ui.label(
-            RichText::new(quantity.name().title)
-                .small()
-                .color(palette.weak),
-        );
+        ui.label(quiet(ui, quantity.name().title));
         if let Some([_, value]) = nearest.filter(|_| (0.0..=1.0).contains(&t)) {
-            ui.label(RichText::new(short(*value)).small().color(palette.text));
+            ui.small(short(*value));
         }
     });
 }

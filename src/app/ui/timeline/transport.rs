@@ -6,7 +6,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::playing::playback::SPEEDS;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
-use crate::app::ui::kit::widgets::{act_button, choice, from_right, menu};
+use crate::app::ui::kit::widgets::{act_button, choice, from_right, menu, quiet};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::names::Choice;
 use crate::transition::{PlayMode, Timing};
@@ -136,8 +136,7 @@ fn pass(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
 }
 
 fn caption(ui: &mut Ui, text: &str) {
-    let weak = Palette::of(ui).weak;
-    ui.label(RichText::new(text).small().color(weak));
+    ui.label(quiet(ui, text));
     ui.add_space(4.0);
 }
 
