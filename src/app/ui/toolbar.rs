@@ -5,9 +5,9 @@ use bevy_egui::egui::{self, Align, Color32, Layout, Margin, Panel, Rect, RichTex
 use crate::app::asking::acts::EditorAct;
 use crate::app::asking::choices::{CaptureScale, RecordFormat, ThemeChoice};
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::icons::{self, Icon};
+use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{act_button, choose, from_right, icon_button_sized, quiet};
+use crate::app::ui::kit::widgets::{act_button, choose, from_right, icon_button, quiet};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::export::FilmKind;
 use crate::names::Choice;
@@ -70,22 +70,13 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let tip = "Show the whole transition (Z)";
     act_button(ui, icons::FIT, tip, Intent::FitView, acts);
     ui.add_space(GRID);
-    shown_button(
-        ui,
-        icons::TWIN,
-        "A second method beside the stage (V)",
-        scene.twin.is_shown,
-        Intent::ToggleTwin,
-        acts,
-    );
-    shown_button(
-        ui,
-        icons::PLOT,
-        "Plots of the measures against t (P)",
-        scene.preferences.plots,
-        Intent::TogglePlots,
-        acts,
-    );
+    let accent = Palette::of(ui).accent;
+    let tip = "A second method beside the stage (V)";
+    let icon = icons::TWIN.inked(scene.twin.is_shown.then_some(accent));
+    act_button(ui, icon, tip, Intent::ToggleTwin, acts);
+    let tip = "Plots of the measures against t (P)";
+    let icon = icons::PLOT.inked(scene.preferences.plots.then_some(accent));
+    act_button(ui, icon, tip, Intent::TogglePlots, acts);
     match_button(ui, scene, acts);
     ui.add_space(GRID);
     capture_buttons(ui, scene, acts);
@@ -101,34 +92,12 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
 /// From right to left.
 fn capture_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     capture_menu(ui, scene, acts);
-    let record = icon_button_sized(
-        ui,
-        icons::RECORD,
-        "Record one pass as a film, in the background (G)",
-        vec2(32.0, 32.0),
-        Some(Palette::of(ui).problem),
-    );
-    if record.clicked() {
-        acts.push(Intent::Record);
-    }
+    let tip = "Record one pass as a film, in the background (G)";
+    let icon = icons::RECORD.inked(Some(Palette::of(ui).problem));
+    act_button(ui, icon, tip, Intent::Record, acts);
     let tip = "Picture of the stage (S); with the panels: Shift S";
     let picture = Intent::Screenshot { with_panels: false };
     act_button(ui, icons::CAMERA, tip, picture, acts);
-}
-
-/// A button that shows or hides something.
-fn shown_button(
-    ui: &mut Ui,
-    icon: Icon,
-    tip: &str,
-    is_shown: bool,
-    intent: Intent,
-    acts: &mut Intents,
-) {
-    let colour = is_shown.then(|| Palette::of(ui).accent);
-    if icon_button_sized(ui, icon, tip, vec2(32.0, 32.0), colour).clicked() {
-        acts.push(intent);
-    }
 }
 
 fn match_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
@@ -139,12 +108,10 @@ fn match_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         "Not available: there is nothing to match in designs that have triangles or bars of their \
          own"
     };
-    let colour = scene.editor.is_open.then(|| Palette::of(ui).accent);
+    let ink = scene.editor.is_open.then_some(Palette::of(ui).accent);
+    let icon = icons::MATCH.inked(ink);
     ui.add_enabled_ui(can, |ui| {
-        let button = icon_button_sized(ui, icons::MATCH, tip, vec2(32.0, 32.0), colour);
-        if button.clicked() {
-            acts.push(Intent::Editor(EditorAct::Toggle));
-        }
+        act_button(ui, icon, tip, Intent::Editor(EditorAct::Toggle), acts);
     });
 }
 
@@ -181,7 +148,7 @@ fn theme_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
 
 fn capture_menu(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let tip = "Size, ground and kind of pictures and films";
-    let button = icon_button_sized(ui, icons::MORE, tip, vec2(20.0, 32.0), None);
+    let button = icon_button(ui, icons::MORE, tip, vec2(20.0, 32.0));
     egui::Popup::menu(&button)
         .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
         .show(|ui| {

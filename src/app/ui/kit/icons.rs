@@ -17,6 +17,14 @@ pub struct Icon {
     sign: &'static str,
     /// Clockwise, in radians.
     turn: f32,
+    ink: Option<Color32>,
+}
+
+impl Icon {
+    /// In a colour of its own, where one is given.
+    pub const fn inked(self, ink: Option<Color32>) -> Self {
+        Self { ink, ..self }
+    }
 }
 
 const fn lines(sign: &'static str) -> Icon {
@@ -24,6 +32,7 @@ const fn lines(sign: &'static str) -> Icon {
         family: LINES,
         sign,
         turn: 0.0,
+        ink: None,
     }
 }
 
@@ -84,8 +93,10 @@ pub fn fonts() -> FontDefinitions {
     fonts
 }
 
-/// Draws an icon into the middle of a rectangle, 16 points wide.
+/// Draws an icon into the middle of a rectangle, 16 points wide; in this colour, where it has none
+/// of its own.
 pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
+    let colour = icon.ink.unwrap_or(colour);
     let font = FontId::new(SIZE, FontFamily::Name(icon.family.into()));
     let sign = painter.layout_no_wrap(icon.sign.to_owned(), font, colour);
     let corner = rect.center() - sign.size() / 2.0;

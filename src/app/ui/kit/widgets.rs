@@ -197,32 +197,26 @@ pub fn list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     });
 }
 
-/// A button with an icon, of that size, with another colour where one is given.
-pub fn icon_button_sized(
-    ui: &mut Ui,
-    icon: Icon,
-    tip: &str,
-    size: Vec2,
-    colour: Option<Color32>,
-) -> Response {
+/// A button with an icon, of that size.
+pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str, size: Vec2) -> Response {
     let palette = Palette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, ui.is_enabled(), tip));
     if response.hovered() || response.is_pointer_button_down_on() {
         ui.painter().rect_filled(rect, RADIUS, palette.hover);
     }
-    let colour = colour.unwrap_or(if ui.is_enabled() {
+    let colour = if ui.is_enabled() {
         palette.text
     } else {
         palette.weak
-    });
+    };
     icons::paint(ui.painter(), icon, rect, colour);
     response.on_hover_text(tip).on_disabled_hover_text(tip)
 }
 
 /// A square button with an icon that asks for something.
 pub fn act_button(ui: &mut Ui, icon: Icon, tip: &str, intent: Intent, acts: &mut Vec<Intent>) {
-    if icon_button_sized(ui, icon, tip, vec2(32.0, 32.0), None).clicked() {
+    if icon_button(ui, icon, tip, vec2(32.0, 32.0)).clicked() {
         acts.push(intent);
     }
 }

@@ -6,7 +6,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::telling::notices::{Kind, Notice};
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{card, icon_button_sized, pinned};
+use crate::app::ui::kit::widgets::{card, icon_button, pinned};
 use crate::app::ui::scene::{Intents, Scene};
 
 /// The most that are shown at once; older ones wait until a newer one is closed.
@@ -46,7 +46,7 @@ fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
                 ui.add_space(3.0);
                 ui.add(Label::new(&notice.text).wrap().selectable(true));
             });
-            let close = icon_button_sized(ui, icons::CLOSE, "Close", vec2(24.0, 24.0), None);
+            let close = icon_button(ui, icons::CLOSE, "Close", vec2(24.0, 24.0));
             if close.clicked() {
                 acts.push(Intent::Dismiss(notice.id));
             }

@@ -6,7 +6,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
 use crate::app::ui::kit::widgets::{
-    drag, from_right, icon_button_sized, number, pick, quiet, row, section, slider, toggle,
+    drag, from_right, icon_button, number, pick, quiet, row, section, slider, toggle,
 };
 use crate::app::ui::scene::Intents;
 use crate::design::Format;
@@ -31,7 +31,7 @@ pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
 
 fn swap(ui: &mut Ui) -> bool {
     let tip = "Exchanges source and target: the film runs the other way.";
-    icon_button_sized(ui, icons::SWAP, tip, vec2(32.0, CONTROL_HEIGHT), None).clicked()
+    icon_button(ui, icons::SWAP, tip, vec2(32.0, CONTROL_HEIGHT)).clicked()
 }
 
 fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts: &mut Intents) {
@@ -43,7 +43,7 @@ fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts:
         ui.label(quiet(ui, ["Source", "Target"][index]));
         from_right(ui, |ui| {
             let tip = "Another file in its place";
-            if icon_button_sized(ui, icons::OPEN, tip, vec2(24.0, 24.0), None).clicked() {
+            if icon_button(ui, icons::OPEN, tip, vec2(24.0, 24.0)).clicked() {
                 acts.push(Intent::AskReplace(index));
             }
             let path = entry.path.display().to_string();
