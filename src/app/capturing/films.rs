@@ -4,12 +4,11 @@ use std::path::{Path, PathBuf};
 
 use bevy::prelude::{MessageReader, Res, ResMut, Resource};
 
-use crate::app::asking::choices::{CaptureScale, RecordFormat};
+use crate::app::asking::choices::{CaptureScale, Preferences, RecordFormat};
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new, create_new_folder};
-use crate::app::looking::preferences::Preferences;
 use crate::app::session::state::Session;
-use crate::app::telling::job::{Broken, Job};
+use crate::app::telling::job::Job;
 use crate::app::telling::notices::Notices;
 use crate::export::{
     Camera, ExportError, Film, FilmError, MethodRow, PixelSize, SizeError, StillKind, Target,
@@ -25,7 +24,7 @@ const FPS: f64 = 25.0;
 
 /// The recording that is going on, if any.
 #[derive(Resource, Debug, Default)]
-pub struct Recorder(Option<Job<Result<PathBuf, RecordError>>>);
+pub struct Recorder(Option<Job<PathBuf, RecordError>>);
 
 /// Why a film or a sheet was not written.
 #[derive(Debug, thiserror::Error)]
@@ -51,9 +50,6 @@ pub enum RecordError {
     /// It could not be written.
     #[error(transparent)]
     Export(ExportError),
-    /// The work on it broke off.
-    #[error(transparent)]
-    Broken(#[from] Broken),
 }
 
 impl From<Cancelled> for RecordError {
@@ -121,16 +117,10 @@ pub fn apply(
 
 /// Says what was written.
 pub fn report(mut recorder: ResMut<Recorder>, mut notices: ResMut<Notices>) {
-    let Some(answer) = recorder.0.as_ref().and_then(Job::poll) else {
-        return;
-    };
-    recorder.0 = None;
-    match answer
-        .map_err(RecordError::from)
-        .and_then(|written| written)
-    {
-        Ok(path) => notices.done(format!("Wrote {}", path.display())),
-        Err(error) => notices.problem(error.to_string()),
+    match Job::take(&mut recorder.0) {
+        None => {}
+        Some(Ok(path)) => notices.done(format!("Wrote {}", path.display())),
+        Some(Err(error)) => notices.problem(error.to_string()),
     }
 }
 

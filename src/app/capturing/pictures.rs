@@ -11,13 +11,12 @@ use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::window::PrimaryWindow;
 use image::{DynamicImage, ImageError, ImageFormat};
 
-use crate::app::asking::choices::CaptureScale;
+use crate::app::asking::choices::{CaptureScale, Preferences};
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new};
-use crate::app::looking::preferences::Preferences;
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
-use crate::app::telling::job::{Broken, Job};
+use crate::app::telling::job::Job;
 use crate::app::telling::notices::Notices;
 use crate::stage::{CaptureStage, StageCaptured, StageView};
 
@@ -29,7 +28,7 @@ const FOUR_K_PX: f32 = 3840.0;
 pub struct Captures {
     next_id: u64,
     names: HashMap<u64, String>,
-    writing: Vec<Job<Result<PathBuf, PictureError>>>,
+    writing: Vec<Job<PathBuf, PictureError>>,
 }
 
 /// Why a picture was not written.
@@ -46,9 +45,6 @@ pub enum PictureError {
         /// What went wrong.
         error: ImageError,
     },
-    /// The work on it broke off.
-    #[error(transparent)]
-    Broken(#[from] Broken),
 }
 
 /// Asks the stage, or the window, for a picture.
@@ -160,15 +156,10 @@ pub fn receive(
 /// Says what was written.
 pub fn report(mut captures: ResMut<Captures>, mut notices: ResMut<Notices>) {
     captures.bypass_change_detection().writing.retain(|job| {
-        let Some(answer) = job.poll() else {
-            return true;
-        };
-        match answer
-            .map_err(PictureError::from)
-            .and_then(|written| written)
-        {
-            Ok(path) => notices.done(format!("Saved {}", path.display())),
-            Err(error) => notices.problem(error.to_string()),
+        match job.poll() {
+            None => return true,
+            Some(Ok(path)) => notices.done(format!("Saved {}", path.display())),
+            Some(Err(error)) => notices.problem(error.to_string()),
         }
         false
     });

@@ -35,7 +35,7 @@ pub struct Measures {
 #[derive(Resource, Debug, Default)]
 pub struct Measured {
     of: Option<Transition>,
-    job: Option<Job<Result<Measures, Cancelled>>>,
+    job: Option<Job<Measures, Cancelled>>,
     measures: Option<Measures>,
     /// There is an answer, with measures or, where the work broke off, without.
     is_done: bool,
@@ -71,26 +71,23 @@ impl Measured {
             };
         }
         if session.work().is_none() && !self.is_done && self.job.is_none() {
-            self.job = self.of.clone().map(start);
+            self.job = self.of.clone().map(|transition| {
+                Job::start("the measures", move |progress| {
+                    measured(&transition, progress)
+                })
+            });
         }
     }
 
     /// Whether there was an answer.
     fn take(&mut self) -> bool {
-        let Some(answer) = self.job.as_ref().and_then(Job::poll) else {
+        let Some(answer) = Job::take(&mut self.job) else {
             return false;
         };
-        self.job = None;
         self.is_done = true;
-        self.measures = answer.ok().and_then(Result::ok);
+        self.measures = answer.ok();
         true
     }
-}
-
-fn start(transition: Transition) -> Job<Result<Measures, Cancelled>> {
-    Job::start("the measures", move |progress| {
-        measured(&transition, progress)
-    })
 }
 
 fn measured(transition: &Transition, progress: &dyn Progress) -> Result<Measures, Cancelled> {

@@ -12,22 +12,11 @@ use crate::app::asking::choices::TwinMethod;
 use crate::app::asking::intent::Intent;
 use crate::app::session::loading::{Problem, transition_of};
 use crate::app::session::state::Session;
-use crate::app::telling::job::{Broken, Job};
+use crate::app::telling::job::{Job, JobError};
 use crate::homotopy::Homotopy;
 use crate::progress::Progress;
 use crate::project::{LoadedProject, Project};
 use crate::transition::{Cell, Transition};
-
-/// Why there is nothing beside the stage.
-#[derive(Debug, thiserror::Error)]
-pub enum TwinError {
-    /// The method cannot be had of these designs.
-    #[error(transparent)]
-    Problem(#[from] Problem),
-    /// The work on it broke off.
-    #[error(transparent)]
-    Broken(#[from] Broken),
-}
 
 /// What stands beside the stage.
 #[derive(Resource, Debug, Default)]
@@ -37,9 +26,9 @@ pub struct Twin {
     /// By which method, once one was chosen.
     pub method: Option<TwinMethod>,
     settings: Option<Project>,
-    job: Option<Job<Result<Transition, Problem>>>,
+    job: Option<Job<Transition, Problem>>,
     transition: Option<Transition>,
-    problem: Option<TwinError>,
+    problem: Option<JobError<Problem>>,
 }
 
 /// The entity that is beside the stage.
@@ -55,7 +44,7 @@ impl Twin {
 
     /// Why there is nothing beside the stage.
     #[must_use]
-    pub fn problem(&self) -> Option<&TwinError> {
+    pub fn problem(&self) -> Option<&JobError<Problem>> {
         self.problem.as_ref()
     }
 
@@ -104,14 +93,13 @@ impl Twin {
 
     /// Whether something was taken in.
     fn take(&mut self) -> bool {
-        let Some(answer) = self.job.as_ref().and_then(Job::poll) else {
+        let Some(answer) = Job::take(&mut self.job) else {
             return false;
         };
-        self.job = None;
-        match answer.map_err(TwinError::from).and_then(|built| Ok(built?)) {
-            Ok(transition) => self.transition = Some(transition),
-            Err(problem) => (self.transition, self.problem) = (None, Some(problem)),
-        }
+        (self.transition, self.problem) = match answer {
+            Ok(transition) => (Some(transition), None),
+            Err(problem) => (None, Some(problem)),
+        };
         true
     }
 }

@@ -1,6 +1,6 @@
 //! Opening, editing and saving: the intents that change the [`Session`].
 
-use std::path::PathBuf;
+use std::path::Path;
 
 use bevy::prelude::{Commands, DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
@@ -9,10 +9,9 @@ use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
 use crate::app::looking::view::KeepsFit;
 use crate::app::opening::closing::Question;
-use crate::app::opening::dialogs::{Drop, is_project};
+use crate::app::opening::dialogs::Drop;
 use crate::app::playing::playback::{Playback, SAME_T};
 use crate::app::session::loading::{Request, absolute};
-use crate::app::session::open::Origin;
 use crate::app::session::saving::SaveError;
 use crate::app::session::state::{Outcome, Session};
 use crate::app::telling::notices::Notices;
@@ -30,19 +29,21 @@ pub fn open(
     mut notices: ResMut<Notices>,
 ) {
     for intent in intents.read() {
-        let (request, origin) = match intent {
-            Intent::OpenGallery(name) => (
-                Request::Gallery(name.clone()),
-                Origin::Gallery(name.clone()),
-            ),
-            Intent::Open(paths) => match what_to_open(paths, &session) {
-                ToOpen::Request(request, origin) => (request, origin),
-                ToOpen::Ask(path) => {
-                    drop.ask(path);
+        let request = match intent {
+            Intent::OpenGallery(name) => Request::Gallery(name.clone()),
+            Intent::Open(paths) => match paths.as_slice() {
+                [project] if Project::is_named(project) => Request::File(project.clone()),
+                [design] if session.project().is_some() => {
+                    drop.ask(design.clone());
                     continue;
                 }
-                ToOpen::Refuse(error) => {
-                    notices.problem(error.to_string());
+                // A design alone is its own partner until it gets another.
+                [design] => Request::Pair(design.clone(), design.clone()),
+                [source, target] if !paths.iter().any(|path| Project::is_named(path)) => {
+                    Request::Pair(source.clone(), target.clone())
+                }
+                _ => {
+                    notices.problem(too_many(paths.len()));
                     continue;
                 }
             },
@@ -51,7 +52,7 @@ pub fn open(
         if session.is_dirty() {
             question.ask(intent.clone(), session.unsaved_text());
         } else {
-            session.open(request, origin);
+            session.open(request);
         }
     }
 }
@@ -66,34 +67,8 @@ impl Default for Gallery {
     }
 }
 
-enum ToOpen {
-    Request(Request, Origin),
-    Ask(PathBuf),
-    Refuse(TooMany),
-}
-
-/// Files that cannot be opened together.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0} files cannot be opened together: open one project, or one or two designs.")]
-struct TooMany(usize);
-
-fn what_to_open(paths: &[PathBuf], session: &Session) -> ToOpen {
-    match paths {
-        [project] if is_project(project) => {
-            let origin = Origin::File(project.clone());
-            ToOpen::Request(Request::File(project.clone()), origin)
-        }
-        [design] if session.project().is_some() => ToOpen::Ask(design.clone()),
-        [design] => ToOpen::Request(
-            Request::Pair(design.clone(), design.clone()),
-            Origin::Unsaved,
-        ),
-        [source, target] if !is_project(source) && !is_project(target) => ToOpen::Request(
-            Request::Pair(source.clone(), target.clone()),
-            Origin::Unsaved,
-        ),
-        _ => ToOpen::Refuse(TooMany(paths.len())),
-    }
+fn too_many(files: usize) -> String {
+    format!("{files} files cannot be opened together: open one project, or one or two designs.")
 }
 
 /// Acts on the intents that change the open project.
@@ -123,11 +98,15 @@ pub fn edit(
                 let added = add_stop(&mut session, playback.t(), mark);
                 tell(Ok(added), "There is a stop here already.", &mut notices);
             }
-            Intent::Edit(_)
-            | Intent::UseCell(..)
-            | Intent::CyclePlayMode
-            | Intent::ReplaceDesign(..) => {
-                session.change(mark, |project| apply(project, intent));
+            Intent::Edit(changed) => session.change(mark, |project| project.clone_from(changed)),
+            Intent::UseCell(warp, content) => {
+                session.change(mark, |project| set_cell(project, (*warp, *content)));
+            }
+            Intent::CyclePlayMode => {
+                session.change(mark, |project| cycle(&mut project.timing.play));
+            }
+            Intent::ReplaceDesign(index, path) => {
+                session.change(mark, |project| replace_design(project, *index, path));
             }
             _ => {}
         }
@@ -142,27 +121,21 @@ fn tell(went: Result<bool, SaveError>, nothing: &str, notices: &mut Notices) {
     }
 }
 
-fn apply(project: &mut Project, intent: &Intent) {
-    match intent {
-        Intent::Edit(changed) => project.clone_from(changed),
-        Intent::UseCell(warp, content) => set_cell(project, (*warp, *content)),
-        Intent::CyclePlayMode => {
-            project.timing.play = match project.timing.play {
-                PlayMode::Once => PlayMode::Loop,
-                PlayMode::Loop => PlayMode::PingPong,
-                PlayMode::PingPong => PlayMode::Once,
-            };
-        }
-        Intent::ReplaceDesign(index, path) => {
-            if let Some(entry) = project.designs.get_mut(*index) {
-                *entry = DesignEntry::new(absolute(path));
-                // What was said of points of the old one means nothing in the new one.
-                let matching = &mut project.options.matching;
-                (matching.pins, matching.links, matching.cuts) = Default::default();
-                matching.lines.clear();
-            }
-        }
-        _ => {}
+fn cycle(mode: &mut PlayMode) {
+    *mode = match mode {
+        PlayMode::Once => PlayMode::Loop,
+        PlayMode::Loop => PlayMode::PingPong,
+        PlayMode::PingPong => PlayMode::Once,
+    };
+}
+
+fn replace_design(project: &mut Project, index: usize, path: &Path) {
+    if let Some(entry) = project.designs.get_mut(index) {
+        *entry = DesignEntry::new(absolute(path));
+        // What was said of points of the old one means nothing in the new one.
+        let matching = &mut project.options.matching;
+        (matching.pins, matching.links, matching.cuts) = Default::default();
+        matching.lines.clear();
     }
 }
 
@@ -268,12 +241,8 @@ pub fn poll(
         Some(Outcome::Failed(error)) => notices.problem(error.to_string()),
         Some(Outcome::Opened) => {
             say_why_not();
-            begin(&session, &mut playback, &mut keeps_fit);
+            playback.begin(session.timing());
+            keeps_fit.0 = true;
         }
     }
-}
-
-fn begin(session: &Session, playback: &mut Playback, keeps_fit: &mut KeepsFit) {
-    playback.begin(session.timing());
-    keeps_fit.0 = true;
 }

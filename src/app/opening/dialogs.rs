@@ -3,8 +3,9 @@
 //! A dialog never blocks the stage. It is made on the main thread, as macOS demands, and waited
 //! for on a thread of its own.
 
+use std::convert::Infallible;
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 use bevy::ecs::system::NonSendMarker;
 use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource, Time};
@@ -28,9 +29,6 @@ const GATHER_SECS: f32 = 0.15;
 /// Nobody reads, decides and cancels that fast.
 const UNSEEN: Duration = Duration::from_millis(400);
 
-/// The extension of a project.
-pub const PROJECT_EXTENSION: &str = Project::EXTENSION;
-
 /// What the dialog that is open is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Purpose {
@@ -41,15 +39,10 @@ enum Purpose {
 
 /// The dialog that is open, if any; never more than one.
 #[derive(Resource, Debug, Default)]
-pub struct Dialog(Option<Asked>);
+pub struct Dialog(Option<(Purpose, Answer)>);
 
-/// A dialog that is open.
-#[derive(Debug)]
-struct Asked {
-    purpose: Purpose,
-    since: Instant,
-    answer: Job<Vec<PathBuf>>,
-}
+/// The files that are chosen; none where the dialog is left.
+type Answer = Job<Vec<PathBuf>, Infallible>;
 
 impl Dialog {
     /// A dialog is open.
@@ -75,16 +68,12 @@ pub fn open(
         };
         let applies = session.project().is_some() || purpose == Purpose::Open;
         if dialog.0.is_none() && applies {
-            dialog.0 = Some(Asked {
-                purpose,
-                since: Instant::now(),
-                answer: start(purpose, &session),
-            });
+            dialog.0 = Some((purpose, start(purpose, &session)));
         }
     }
 }
 
-fn start(purpose: Purpose, session: &Session) -> Job<Vec<PathBuf>> {
+fn start(purpose: Purpose, session: &Session) -> Answer {
     let (title, kind, extensions) = purpose.asks();
     let asked = AsyncFileDialog::new()
         .set_title(title)
@@ -96,7 +85,7 @@ fn start(purpose: Purpose, session: &Session) -> Job<Vec<PathBuf>> {
             wait_for(async { file.await.map(|file| vec![file]) })
         }
         Purpose::Save => {
-            let name = format!("{}.{PROJECT_EXTENSION}", session.file_stem());
+            let name = format!("{}.{}", session.file_stem(), Project::EXTENSION);
             let file = asked.set_file_name(name).save_file();
             wait_for(async { file.await.map(|file| vec![file]) })
         }
@@ -106,7 +95,7 @@ fn start(purpose: Purpose, session: &Session) -> Job<Vec<PathBuf>> {
 impl Purpose {
     /// The title of the dialog, what files it shows, and how their names end.
     fn asks(self) -> (&'static str, &'static str, Vec<&'static str>) {
-        let project = vec![PROJECT_EXTENSION];
+        let project = vec![Project::EXTENSION];
         match self {
             Self::Open => (
                 "Open a project, or one or two designs",
@@ -120,12 +109,10 @@ impl Purpose {
 }
 
 /// Waits beside the window until the dialog is closed.
-fn wait_for(
-    asked: impl Future<Output = Option<Vec<FileHandle>>> + Send + 'static,
-) -> Job<Vec<PathBuf>> {
+fn wait_for(asked: impl Future<Output = Option<Vec<FileHandle>>> + Send + 'static) -> Answer {
     Job::start("the dialog", move |_| {
         let files = block_on(asked).unwrap_or_default();
-        files.iter().map(|file| file.path().to_owned()).collect()
+        Ok(files.iter().map(|file| file.path().to_owned()).collect())
     })
 }
 
@@ -137,8 +124,8 @@ pub fn finish(
     mut intents: MessageWriter<Intent>,
     (session, folder): (Res<Session>, Res<CaptureFolder>),
 ) {
-    let answered = |asked: &Asked| Some((asked.purpose, asked.since, asked.answer.poll()?));
-    let Some((purpose, since, answer)) = dialog.0.as_ref().and_then(answered) else {
+    let answered = |(purpose, job): &(Purpose, Answer)| Some((*purpose, job.lasts(), job.poll()?));
+    let Some((purpose, lasted, answer)) = dialog.0.as_ref().and_then(answered) else {
         return;
     };
     dialog.0 = None;
@@ -146,7 +133,7 @@ pub fn finish(
         notices.problem(broken.to_string());
         Vec::new()
     });
-    let is_unseen = paths.is_empty() && since.elapsed() < UNSEEN;
+    let is_unseen = paths.is_empty() && lasted < UNSEEN;
     match (purpose, paths.first()) {
         (Purpose::Save, None) if is_unseen => match place_without_asking(&session, &folder) {
             Ok(path) => {
@@ -184,17 +171,14 @@ fn place_without_asking(
     session: &Session,
     folder: &CaptureFolder,
 ) -> Result<PathBuf, NewFileError> {
-    create_new(&folder.0, &session.file_stem(), PROJECT_EXTENSION).map(|(_, path)| path)
+    create_new(&folder.0, &session.file_stem(), Project::EXTENSION).map(|(_, path)| path)
 }
 
 fn with_extension(path: &Path) -> PathBuf {
-    if is_project(path) {
+    if Project::is_named(path) {
         path.to_owned()
     } else {
-        let mut name = path.as_os_str().to_owned();
-        name.push(".");
-        name.push(PROJECT_EXTENSION);
-        name.into()
+        path.with_added_extension(Project::EXTENSION)
     }
 }
 
@@ -224,12 +208,6 @@ impl Drop {
     pub fn ask(&mut self, path: PathBuf) {
         self.undecided = Some(path);
     }
-}
-
-/// Whether a path names a project.
-#[must_use]
-pub fn is_project(path: &Path) -> bool {
-    Project::is_named(path)
 }
 
 /// Gathers dropped files and opens them together.

@@ -12,7 +12,7 @@ use crate::export::{Drawing, PixelSize, SizeError, View, even_times, framing, ra
 use crate::geometry::DVec2;
 use crate::progress::Progress;
 use crate::project::gallery;
-use crate::transition::{Transition, TransitionSpec};
+use crate::transition::{Style, Transition};
 
 /// Width and height of a strip in pixels: twice what is shown at scale factor 1.
 pub const STRIP_PX: (u32, u32) = (384, 128);
@@ -20,21 +20,12 @@ pub const STRIP_PX: (u32, u32) = (384, 128);
 /// How many in-betweens a strip shows.
 const FRAMES: usize = 3;
 
-/// A strip, or that there is none.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Thumbnail {
-    /// Straight alpha, transparent ground.
-    Ready(RgbaImage),
-    /// The project cannot be shown; opening it tells why.
-    Failed,
-}
-
 /// All strips that there are yet.
 #[derive(Resource, Debug)]
 pub struct Thumbnails {
     waiting: VecDeque<String>,
-    running: Option<(String, Job<Option<RgbaImage>>)>,
-    done: HashMap<String, Thumbnail>,
+    running: Option<Job<(String, RgbaImage), StripError>>,
+    done: HashMap<String, RgbaImage>,
 }
 
 impl FromWorld for Thumbnails {
@@ -55,9 +46,9 @@ impl Thumbnails {
         self.running.is_some() || !self.waiting.is_empty()
     }
 
-    /// The strip of a bundled project, once it is there.
+    /// The strip of a bundled project, once it is there: straight alpha, transparent ground.
     #[must_use]
-    pub fn get(&self, name: &str) -> Option<&Thumbnail> {
+    pub fn get(&self, name: &str) -> Option<&RgbaImage> {
         self.done.get(name)
     }
 }
@@ -65,34 +56,27 @@ impl Thumbnails {
 /// Takes in a strip that is done and starts the next, while nothing more urgent is going on.
 pub fn advance(session: Res<Session>, mut thumbnails: ResMut<Thumbnails>) {
     let thumbnails = thumbnails.bypass_change_detection();
-    if let Some((name, answer)) = thumbnails
-        .running
-        .as_ref()
-        .and_then(|(n, job)| Some((n.clone(), job.poll()?)))
-    {
-        let image = answer.ok().flatten();
-        thumbnails
-            .done
-            .insert(name, image.map_or(Thumbnail::Failed, Thumbnail::Ready));
-        thumbnails.running = None;
+    // A project that cannot be shown has no strip; opening it tells why.
+    if let Some(Ok((name, strip))) = Job::take(&mut thumbnails.running) {
+        thumbnails.done.insert(name, strip);
     }
     if thumbnails.running.is_none()
         && session.work().is_none()
         && let Some(name) = thumbnails.waiting.pop_front()
     {
-        let of = name.clone();
-        let job = Job::start("a thumbnail", move |progress| strip(&of, progress).ok());
-        thumbnails.running = Some((name, job));
+        thumbnails.running = Some(Job::start("a thumbnail", move |progress| {
+            let strip = strip(&name, progress)?;
+            Ok((name, strip))
+        }));
     }
 }
 
 /// Why a strip cannot be had; never shown, opening the project tells the same.
-type StripError = Box<dyn std::error::Error>;
+type StripError = Box<dyn std::error::Error + Send + Sync>;
 
 fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let loaded = gallery::load(name)?;
-    let spec: TransitionSpec = loaded.spec()?;
-    let transition = Transition::build(&spec, progress)?;
+    let transition = Transition::build(&loaded.spec()?, progress)?;
     let timing = loaded.project.timing;
     Ok(draw(
         &transition,
@@ -103,7 +87,7 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
 
 fn draw(
     transition: &Transition,
-    style: &crate::transition::Style,
+    style: &Style,
     (from, to): (f64, f64),
 ) -> Result<RgbaImage, SizeError> {
     let size = PixelSize::new(STRIP_PX.0, STRIP_PX.1)?;

@@ -8,15 +8,24 @@ use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 use crate::transition::{BuildError, Cell, Style, Timing, Transition};
 
-/// A project with its designs and, where it could be built, its transition.
+/// A project with its designs.
 #[derive(Debug)]
 pub struct Loaded {
     /// The project and its designs.
     pub project: LoadedProject,
-    /// What can be played.
-    pub transition: Option<Transition>,
-    /// Why there is nothing to play.
-    pub problem: Option<Problem>,
+    /// What can be played, or why there is nothing.
+    pub transition: Result<Transition, Problem>,
+}
+
+/// Where the open project comes from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A bundled project, by its name.
+    Gallery(String),
+    /// A file.
+    File(PathBuf),
+    /// Designs that were opened together, or a project that was changed beyond its file.
+    Unsaved,
 }
 
 /// Why there is nothing to play.
@@ -60,8 +69,7 @@ impl Rebuild {
         if let Some(transition) = self.mixed_otherwise() {
             return Ok(Loaded {
                 project: self.now,
-                transition: Some(transition),
-                problem: None,
+                transition: Ok(transition),
             });
         }
         let mut project = self.now;
@@ -98,6 +106,17 @@ pub enum LoadError {
 }
 
 impl Request {
+    /// Where what it opens comes from; none where that is open already.
+    #[must_use]
+    pub fn origin(&self) -> Option<Origin> {
+        Some(match self {
+            Self::Gallery(name) => Origin::Gallery(name.clone()),
+            Self::File(path) => Origin::File(path.clone()),
+            Self::Pair(..) => Origin::Unsaved,
+            Self::Rebuild(_) => return None,
+        })
+    }
+
     /// Does the work.
     ///
     /// # Errors
@@ -138,14 +157,9 @@ fn choose_cell(loaded: &mut LoadedProject) {
 }
 
 fn built(project: LoadedProject, progress: &dyn Progress) -> Loaded {
-    let (transition, problem) = match transition_of(&project, progress) {
-        Ok(transition) => (Some(transition), None),
-        Err(problem) => (None, Some(problem)),
-    };
     Loaded {
+        transition: transition_of(&project, progress),
         project,
-        transition,
-        problem,
     }
 }
 

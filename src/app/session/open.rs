@@ -4,21 +4,10 @@ use std::path::{Path, PathBuf};
 
 use crate::app::capturing::files::safe;
 use crate::app::session::history::{History, Snapshot};
-use crate::app::session::loading::{self, Loaded, Problem, Rebuild};
+use crate::app::session::loading::{self, Loaded, Origin, Problem, Rebuild};
 use crate::app::session::saving::{self, SaveError};
 use crate::project::{LoadedProject, Project};
 use crate::transition::Transition;
-
-/// Where the open project comes from.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Origin {
-    /// A bundled project, by its name.
-    Gallery(String),
-    /// A file.
-    File(PathBuf),
-    /// Designs that were opened together, or a project that was changed beyond its file.
-    Unsaved,
-}
 
 /// A project that is open.
 #[derive(Debug)]
@@ -43,10 +32,14 @@ impl Open {
     #[must_use]
     pub fn new(loaded: Loaded, origin: Origin) -> Self {
         let project = loaded.project.project.clone();
+        let (transition, problem) = match loaded.transition {
+            Ok(transition) => (Some(transition), None),
+            Err(problem) => (None, Some(problem)),
+        };
         Self {
             loaded: loaded.project,
-            transition: loaded.transition,
-            problem: loaded.problem,
+            transition,
+            problem,
             staged: project.clone(),
             history: History::default(),
             origin,
@@ -153,14 +146,18 @@ impl Open {
     /// Takes in what was built; whether there is a new transition. The settings may have changed
     /// again meanwhile: they stay, and so does what is on the stage where there is nothing new.
     pub fn restage(&mut self, built: Loaded) -> bool {
-        self.problem = built.problem;
-        if self.problem.is_some() {
-            return false;
+        match built.transition {
+            Ok(transition) => {
+                (self.transition, self.problem) = (Some(transition), None);
+                self.loaded.designs = built.project.designs;
+                self.staged = built.project.project;
+                true
+            }
+            Err(problem) => {
+                self.problem = Some(problem);
+                false
+            }
         }
-        self.transition = built.transition;
-        self.loaded.designs = built.project.designs;
-        self.staged = built.project.project;
-        true
     }
 
     /// The settings go back to those of the stage; no step of the history is left of it.

@@ -12,10 +12,11 @@ use std::time::Duration;
 use bevy::prelude::Resource;
 
 use crate::app::session::history::{History, Snapshot};
-use crate::app::session::loading::{Loaded, Problem, Request};
-use crate::app::session::open::{Open, Origin};
+use crate::app::session::loading::{LoadError, Problem, Request};
+use crate::app::session::open::Open;
 use crate::app::session::saving::SaveError;
-use crate::app::session::work::{Work, WorkError, WorkKind};
+use crate::app::session::work::Work;
+use crate::app::telling::job::JobError;
 use crate::content::ContentKind;
 use crate::design::{Design, Form};
 use crate::project::{LoadedProject, Project};
@@ -32,7 +33,7 @@ pub enum Outcome {
     /// The settings make no transition, the old one stays; [`Session::problem`] tells why.
     NotRebuilt,
     /// It did not work.
-    Failed(WorkError),
+    Failed(JobError<LoadError>),
 }
 
 /// Why a method cannot be had.
@@ -269,19 +270,20 @@ impl Session {
     /// What is being worked on and how far it is.
     #[must_use]
     pub fn work(&self) -> Option<(&'static str, f64)> {
-        self.work.as_ref().map(Work::progress)
+        self.work.as_ref().map(|work| work.job.progress())
     }
 
     /// How long the work has been going on.
     #[must_use]
     pub fn work_lasts(&self) -> Duration {
-        self.work.as_ref().map_or(Duration::ZERO, Work::lasts)
+        let work = self.work.as_ref();
+        work.map_or(Duration::ZERO, |work| work.job.lasts())
     }
 
     /// Opens something else, beside the stage.
-    pub fn open(&mut self, request: Request, origin: Origin) {
+    pub fn open(&mut self, request: Request) {
         self.is_stale = false;
-        self.work = Some(Work::start(WorkKind::Open(origin), request));
+        self.work = Some(Work::start(request));
     }
 
     /// Gives up the work; the settings go back to what the stage shows.
@@ -290,7 +292,7 @@ impl Session {
             return;
         };
         self.is_stale = false;
-        if let (WorkKind::Rebuild, Some(open)) = (&work.kind, &mut self.open) {
+        if let (None, Some(open)) = (work.origin, &mut self.open) {
             open.give_up_changes();
         }
     }
@@ -304,35 +306,35 @@ impl Session {
             && let Some(open) = &self.open
         {
             self.is_stale = false;
-            let request = Request::Rebuild(Box::new(open.rebuild()));
-            self.work = Some(Work::start(WorkKind::Rebuild, request));
+            self.work = Some(Work::start(Request::Rebuild(Box::new(open.rebuild()))));
         }
         outcome
     }
 
     fn take_work(&mut self) -> Option<Outcome> {
-        let answer = self.work.as_ref()?.poll()?;
-        let work = self.work.take()?;
-        Some(match (answer, work.kind) {
-            (Ok(loaded), WorkKind::Open(origin)) => {
+        let answer = self.work.as_ref()?.job.poll()?;
+        let origin = self.work.take()?.origin;
+        Some(match (answer, origin, &mut self.open) {
+            (Ok(loaded), Some(origin), open) => {
                 self.is_stale = false;
-                self.open = Some(Open::new(loaded, origin));
+                *open = Some(Open::new(loaded, origin));
                 Outcome::Opened
             }
-            (Ok(loaded), WorkKind::Rebuild) => self.restage(loaded),
-            (Err(error), kind) => {
-                if let (WorkKind::Rebuild, Some(open)) = (kind, &mut self.open) {
+            (Ok(built), None, Some(open)) => {
+                if open.restage(built) {
+                    Outcome::Rebuilt
+                } else {
+                    Outcome::NotRebuilt
+                }
+            }
+            // What is open is never closed, only followed by something else.
+            (Ok(_), None, None) => return None,
+            (Err(error), origin, open) => {
+                if let (None, Some(open)) = (origin, open) {
                     open.give_up_designs();
                 }
                 Outcome::Failed(error)
             }
         })
-    }
-
-    fn restage(&mut self, built: Loaded) -> Outcome {
-        match self.open.as_mut().map(|open| open.restage(built)) {
-            Some(false) => Outcome::NotRebuilt,
-            Some(true) | None => Outcome::Rebuilt,
-        }
     }
 }

@@ -7,6 +7,7 @@
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
 
 use crate::progress::Progress;
 
@@ -30,22 +31,32 @@ impl Progress for Tracker {
     }
 }
 
-/// The work itself did not come back: it panicked, or no thread could be had for it.
+/// Why work came to nothing.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the work on {0} broke off; this is a fault of the program, please report it")]
-pub struct Broken(&'static str);
+pub enum JobError<E> {
+    /// It says so.
+    #[error(transparent)]
+    Failed(E),
+    /// It did not come back: it panicked, or no thread could be had for it.
+    #[error("the work on {0} broke off; this is a fault of the program, please report it")]
+    Broken(&'static str),
+}
 
 /// A piece of work that runs beside the window.
 #[derive(Debug)]
-pub struct Job<T> {
+pub struct Job<T, E> {
     name: &'static str,
+    started: Instant,
     tracker: Arc<Tracker>,
-    answer: Mutex<Receiver<T>>,
+    answer: Mutex<Receiver<Result<T, E>>>,
 }
 
-impl<T: Send + 'static> Job<T> {
+impl<T: Send + 'static, E: Send + 'static> Job<T, E> {
     /// Starts the work on a thread of that name.
-    pub fn start(name: &'static str, work: impl FnOnce(&Tracker) -> T + Send + 'static) -> Self {
+    pub fn start(
+        name: &'static str,
+        work: impl FnOnce(&Tracker) -> Result<T, E> + Send + 'static,
+    ) -> Self {
         let (sender, receiver) = channel();
         let tracker = Arc::new(Tracker::default());
         let theirs = Arc::clone(&tracker);
@@ -59,6 +70,7 @@ impl<T: Send + 'static> Job<T> {
             .ok();
         Self {
             name,
+            started: Instant::now(),
             tracker,
             answer: Mutex::new(receiver),
         }
@@ -67,14 +79,30 @@ impl<T: Send + 'static> Job<T> {
     /// The answer, once, when it is there.
     ///
     /// # Errors
-    /// The work panicked or could not be started.
-    pub fn poll(&self) -> Option<Result<T, Broken>> {
+    /// The work failed, panicked or could not be started.
+    pub fn poll(&self) -> Option<Result<T, JobError<E>>> {
         let answer = self.answer.lock().unwrap_or_else(PoisonError::into_inner);
         match answer.try_recv() {
-            Ok(answer) => Some(Ok(answer)),
+            Ok(answer) => Some(answer.map_err(JobError::Failed)),
             Err(TryRecvError::Empty) => None,
-            Err(TryRecvError::Disconnected) => Some(Err(Broken(self.name))),
+            Err(TryRecvError::Disconnected) => Some(Err(JobError::Broken(self.name))),
         }
+    }
+
+    /// The answer, when it is there; then the job is gone.
+    ///
+    /// # Errors
+    /// As [`poll`](Self::poll).
+    pub fn take(job: &mut Option<Self>) -> Option<Result<T, JobError<E>>> {
+        let answer = job.as_ref()?.poll()?;
+        *job = None;
+        Some(answer)
+    }
+
+    /// How long it has been going on.
+    #[must_use]
+    pub fn lasts(&self) -> Duration {
+        self.started.elapsed()
     }
 
     /// What it is at, and how far, 0 to 1.
@@ -97,8 +125,9 @@ impl<T: Send + 'static> Job<T> {
     }
 }
 
-impl<T> Drop for Job<T> {
+impl<T, E> Drop for Job<T, E> {
     fn drop(&mut self) {
+        // Nobody takes the answer any more, and the thread is not joined: it ends where it looks.
         self.tracker.cancelled.store(true, Ordering::Relaxed);
     }
 }
@@ -106,8 +135,9 @@ impl<T> Drop for Job<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::progress::Cancelled;
 
-    fn wait<T: Send + 'static>(job: &Job<T>) -> Result<T, Broken> {
+    fn wait<T: Send + 'static>(job: &Job<T, Cancelled>) -> Result<T, JobError<Cancelled>> {
         loop {
             if let Some(answer) = job.poll() {
                 return answer;
@@ -118,14 +148,14 @@ mod tests {
 
     #[test]
     fn an_answer_comes_back() {
-        let job = Job::start("sum", |_| 1 + 1);
+        let job = Job::start("sum", |_| Ok(1 + 1));
         assert_eq!(wait(&job), Ok(2));
     }
 
     #[test]
     fn a_panic_is_an_answer() {
-        let job: Job<()> = Job::start("fault", |_| panic!("as the test wants it"));
-        assert_eq!(wait(&job), Err(Broken("fault")));
+        let job: Job<(), _> = Job::start("fault", |_| panic!("as the test wants it"));
+        assert_eq!(wait(&job), Err(JobError::Broken("fault")));
     }
 
     #[test]
@@ -135,9 +165,9 @@ mod tests {
                 tracker.report("waiting", 0.25);
                 std::thread::yield_now();
             }
-            "heard"
+            Err(Cancelled)
         });
         job.cancel();
-        assert_eq!(wait(&job), Ok("heard"));
+        assert_eq!(wait::<()>(&job), Err(JobError::Failed(Cancelled)));
     }
 }

@@ -9,7 +9,7 @@ use bevy_egui::egui::{
 };
 
 use crate::app::asking::intent::Intent;
-use crate::app::opening::thumbnails::{STRIP_PX, Thumbnail};
+use crate::app::opening::thumbnails::STRIP_PX;
 use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette, RADIUS, SMALL};
 use crate::app::ui::kit::widgets::{ground, quiet};
 use crate::app::ui::scene::{Intents, Scene};
@@ -85,24 +85,20 @@ fn show_when_new(ui: &Ui, name: &str, card: &Response) {
 }
 
 fn thumbnail(ui: &Ui, scene: &Scene, textures: &mut Textures, name: &str, rect: Rect) {
-    let palette = Palette::of(ui);
-    match scene.thumbnails.get(name) {
-        Some(Thumbnail::Ready(image)) => {
-            let texture = textures.0.entry(name.to_owned()).or_insert_with(|| {
-                let size = [image.width() as usize, image.height() as usize];
-                let pixels = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
-                ui.ctx().load_texture(name, pixels, TextureOptions::LINEAR)
-            });
-            ui.painter().rect_filled(rect, RADIUS, palette.panel);
-            let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
-            let fitted = fit(rect, STRIP_PX.0 as f32 / STRIP_PX.1 as f32);
-            ui.painter()
-                .image(texture.id(), fitted, whole, Color32::WHITE);
-        }
-        Some(Thumbnail::Failed) | None => {
-            ui.painter().rect_filled(rect, RADIUS, palette.panel);
-        }
-    }
+    ui.painter()
+        .rect_filled(rect, RADIUS, Palette::of(ui).panel);
+    let Some(image) = scene.thumbnails.get(name) else {
+        return;
+    };
+    let texture = textures.0.entry(name.to_owned()).or_insert_with(|| {
+        let size = [image.width() as usize, image.height() as usize];
+        let pixels = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
+        ui.ctx().load_texture(name, pixels, TextureOptions::LINEAR)
+    });
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    let fitted = fit(rect, STRIP_PX.0 as f32 / STRIP_PX.1 as f32);
+    ui.painter()
+        .image(texture.id(), fitted, whole, Color32::WHITE);
 }
 
 fn fit(rect: Rect, aspect: f32) -> Rect {
