@@ -2,6 +2,7 @@
 
 use bevy::prelude::*;
 
+use crate::app::asking::choices::Preferences;
 use crate::app::asking::hand::{self, Typing};
 use crate::app::asking::intent::Intent;
 use crate::app::asking::keymap::{self, KeyMap};
@@ -11,7 +12,7 @@ use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::editing::{apply, refresh};
 use crate::app::looking::measuring::{self, Measured};
-use crate::app::looking::preferences::{self, Preferences};
+use crate::app::looking::preferences;
 use crate::app::looking::times;
 use crate::app::looking::twin::{self, Twin};
 use crate::app::looking::view::{self, KeepsFit, StageArea};

@@ -1,8 +1,50 @@
 //! What there is to choose from at the screen.
 
+use bevy::prelude::Resource;
+
 use crate::content::ContentKind;
 use crate::export::FilmKind;
+use crate::stage::Show;
 use crate::transition::Cell;
+
+/// What the person at the screen chose; not part of any project.
+#[derive(Resource, Clone, Copy, Debug, PartialEq)]
+pub struct Preferences {
+    /// The colours of the panels.
+    pub theme: ThemeChoice,
+    /// What the stage draws.
+    pub show: Show,
+    /// Panels are shown.
+    pub panels: bool,
+    /// The list of keys is shown.
+    pub help: bool,
+    /// The times of a frame are shown.
+    pub times: bool,
+    /// The measures against t are shown.
+    pub plots: bool,
+    /// Size of screenshots.
+    pub capture_scale: CaptureScale,
+    /// Screenshots and films have a transparent ground.
+    pub capture_transparent: bool,
+    /// Kind of file of a recording.
+    pub record_format: RecordFormat,
+}
+
+impl Default for Preferences {
+    fn default() -> Self {
+        Self {
+            theme: ThemeChoice::default(),
+            show: Show::default(),
+            panels: true,
+            help: false,
+            times: false,
+            plots: false,
+            capture_scale: CaptureScale::default(),
+            capture_transparent: false,
+            record_format: RecordFormat::default(),
+        }
+    }
+}
 
 /// The colours of the panels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

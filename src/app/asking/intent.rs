@@ -9,11 +9,9 @@ use std::path::PathBuf;
 use bevy::prelude::{Message, Vec2};
 
 use crate::app::asking::acts::EditorAct;
-use crate::app::asking::choices::TwinMethod;
-use crate::app::asking::choices::{CaptureScale, RecordFormat, ThemeChoice};
+use crate::app::asking::choices::{Preferences, TwinMethod};
 use crate::content::ContentKind;
 use crate::project::Project;
-use crate::stage::Show;
 use crate::warp::WarpKind;
 
 /// One act of the user.
@@ -124,16 +122,8 @@ pub enum Intent {
     Editor(EditorAct),
     /// Show or hide the grid that shows the warp.
     ToggleGrid,
-    /// What the stage draws.
-    Show(Show),
-    /// Dark, light, or as the system has it.
-    Theme(ThemeChoice),
-    /// The size of screenshots.
-    CaptureScale(CaptureScale),
-    /// Whether screenshots and films have a transparent ground.
-    CaptureTransparent(bool),
-    /// The kind of file that a recording writes.
-    RecordFormat(RecordFormat),
+    /// Replace what the person at the screen chose.
+    Prefer(Preferences),
     /// A message was read.
     Dismiss(u64),
     /// Close the window; asks first where something would be lost.

@@ -4,9 +4,9 @@ use bevy::camera::Viewport;
 use bevy::prelude::*;
 use bevy::window::{MonitorSelection, PrimaryWindow, WindowMode};
 
+use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
-use crate::app::looking::preferences::Preferences;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::closing::Question;
 use crate::app::opening::dialogs::Drop;

@@ -6,10 +6,10 @@ use std::time::Duration;
 use bevy::prelude::{DetectChanges, Res, ResMut};
 use bevy::winit::{UpdateMode, WinitSettings};
 
+use crate::app::asking::choices::Preferences;
 use crate::app::capturing::films::Recorder;
 use crate::app::capturing::pictures::Captures;
 use crate::app::looking::measuring::Measured;
-use crate::app::looking::preferences::Preferences;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::dialogs::Dialog;
 use crate::app::opening::thumbnails::Thumbnails;

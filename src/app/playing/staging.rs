@@ -4,7 +4,7 @@ use bevy::app::Propagate;
 use bevy::camera::visibility::RenderLayers;
 use bevy::prelude::*;
 
-use crate::app::looking::preferences::Preferences;
+use crate::app::asking::choices::Preferences;
 use crate::app::looking::twin::{OnTwin, Twin};
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;

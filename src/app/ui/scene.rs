@@ -3,13 +3,13 @@
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::Res;
 
+use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::asking::keymap::KeyMap;
 use crate::app::capturing::films::Recorder;
 use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::looking::measuring::Measured;
-use crate::app::looking::preferences::Preferences;
 use crate::app::looking::times::WholeFrame;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::apply::Gallery;

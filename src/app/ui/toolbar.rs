@@ -3,7 +3,7 @@
 use bevy_egui::egui::{self, Align, Color32, Layout, Margin, Panel, Rect, RichText, Ui, vec2};
 
 use crate::app::asking::acts::EditorAct;
-use crate::app::asking::choices::{CaptureScale, RecordFormat, ThemeChoice};
+use crate::app::asking::choices::{CaptureScale, Preferences, RecordFormat, ThemeChoice};
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
@@ -117,33 +117,26 @@ fn match_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
 
 /// From right to left.
 fn history_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let session = &scene.session;
-    for (icon, tip, can, intent) in [
-        (
-            icons::REDO,
-            "Make the change again that was undone (Ctrl Shift Z or Ctrl Y)",
-            session.can_redo(),
-            Intent::Redo,
-        ),
-        (
-            icons::UNDO,
-            "Undo the last change (Ctrl Z)",
-            session.can_undo(),
-            Intent::Undo,
-        ),
-    ] {
-        ui.add_enabled_ui(can, |ui| {
-            act_button(ui, icon, tip, intent, acts);
-        });
-    }
+    ui.add_enabled_ui(scene.session.can_redo(), |ui| {
+        let tip = "Make the change again that was undone (Ctrl Shift Z or Ctrl Y)";
+        act_button(ui, icons::REDO, tip, Intent::Redo, acts);
+    });
+    ui.add_enabled_ui(scene.session.can_undo(), |ui| {
+        let tip = "Undo the last change (Ctrl Z)";
+        act_button(ui, icons::UNDO, tip, Intent::Undo, acts);
+    });
 }
 
 fn theme_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let (icon, other, tip) = match scene.preferences.theme {
+    let (icon, theme, tip) = match scene.preferences.theme {
         ThemeChoice::Dark => (icons::SUN, ThemeChoice::Light, "Light panels"),
         ThemeChoice::Light => (icons::MOON, ThemeChoice::Dark, "Dark panels"),
     };
-    act_button(ui, icon, tip, Intent::Theme(other), acts);
+    let other = Preferences {
+        theme,
+        ..*scene.preferences
+    };
+    act_button(ui, icon, tip, Intent::Prefer(other), acts);
 }
 
 fn capture_menu(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
@@ -158,50 +151,29 @@ fn capture_menu(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
 }
 
 fn capture_options(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let preferences = &scene.preferences;
-    let mut scale = preferences.capture_scale;
-    choose(
-        ui,
-        "Size",
-        "How many pixels a picture of the stage has.",
-        &mut scale,
-        &[
-            (CaptureScale::One, "1×", "As many as on screen"),
-            (CaptureScale::Two, "2×", "Twice as many along each side"),
-            (CaptureScale::FourK, "4K", "3840 along the longer side"),
-        ],
-    );
-    let mut transparent = preferences.capture_transparent;
-    choose(
-        ui,
-        "Ground",
-        "What lies behind the shape in pictures and films.",
-        &mut transparent,
-        &[
-            (false, "Coloured", "The ground colour of the project"),
-            (
-                true,
-                "Transparent",
-                "Nothing; for placing on a page (MP4 has no transparency)",
-            ),
-        ],
-    );
-    let mut format = preferences.record_format;
-    choose(
-        ui,
-        "Film",
-        "The kind of file that a recording writes.",
-        &mut format,
-        &record_formats(),
-    );
-    if scale != preferences.capture_scale {
-        acts.push(Intent::CaptureScale(scale));
-    }
-    if transparent != preferences.capture_transparent {
-        acts.push(Intent::CaptureTransparent(transparent));
-    }
-    if format != preferences.record_format {
-        acts.push(Intent::RecordFormat(format));
+    let mut draft = *scene.preferences;
+    let tip = "How many pixels a picture of the stage has.";
+    let scales = [
+        (CaptureScale::One, "1×", "As many as on screen"),
+        (CaptureScale::Two, "2×", "Twice as many along each side"),
+        (CaptureScale::FourK, "4K", "3840 along the longer side"),
+    ];
+    choose(ui, "Size", tip, &mut draft.capture_scale, &scales);
+    let tip = "What lies behind the shape in pictures and films.";
+    let grounds = [
+        (false, "Coloured", "The ground colour of the project"),
+        (
+            true,
+            "Transparent",
+            "Nothing; for placing on a page (MP4 has no transparency)",
+        ),
+    ];
+    choose(ui, "Ground", tip, &mut draft.capture_transparent, &grounds);
+    let tip = "The kind of file that a recording writes.";
+    let formats = record_formats();
+    choose(ui, "Film", tip, &mut draft.record_format, &formats);
+    if draft != *scene.preferences {
+        acts.push(Intent::Prefer(draft));
     }
 }
 

@@ -29,7 +29,8 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
 const EQUAL: &str = "Lines of equal blended distance.";
 
 fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
-    let mut show = scene.preferences.show;
+    let mut preferences = *scene.preferences;
+    let show = &mut preferences.show;
     let is_field = draft.content == Some(ContentKind::Field);
     let has_bars = scene.session.has_bars() && !is_field;
     let has_grid = draft.warp != Some(WarpKind::Paths);
@@ -75,8 +76,8 @@ fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
             }
         });
     });
-    if show != scene.preferences.show {
-        acts.push(Intent::Show(show));
+    if preferences != *scene.preferences {
+        acts.push(Intent::Prefer(preferences));
     }
 }
 

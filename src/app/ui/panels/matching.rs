@@ -52,20 +52,16 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
 }
 
 fn rules(ui: &mut Ui, matching: &mut Matching) {
-    choose(
-        ui,
-        "Turning",
-        "Whether a shape may be matched with one that is turned.",
-        &mut matching.keep_up,
-        &[
-            (false, "Free", "A shape is found again however it is turned"),
-            (
-                true,
-                "Keep up",
-                "What points up stays what points up, as with letters",
-            ),
-        ],
-    );
+    let tip = "Whether a shape may be matched with one that is turned.";
+    let turning = [
+        (false, "Free", "A shape is found again however it is turned"),
+        (
+            true,
+            "Keep up",
+            "What points up stays what points up, as with letters",
+        ),
+    ];
+    choose(ui, "Turning", tip, &mut matching.keep_up, &turning);
     let tip = "What becomes of a hole that the other design does not have.";
     pick(ui, "Holes", tip, &mut matching.holes);
     let tip = "What becomes of a part that the other design does not have.";
