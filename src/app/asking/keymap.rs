@@ -10,6 +10,7 @@ use std::fmt;
 use bevy::input::keyboard::{Key, KeyCode, KeyboardFocusLost, KeyboardInput};
 use bevy::prelude::{Local, MessageReader, MessageWriter, Res, Resource};
 
+use crate::app::asking::acts::EditorAct;
 use crate::app::asking::hand::Typing;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
@@ -32,14 +33,8 @@ pub enum Trigger {
 pub struct Binding {
     /// The key.
     pub trigger: Trigger,
-    /// Shift must be held; matters for letters and named keys only.
-    pub shift: bool,
-    /// Control (or Command) must be held; matters for letters and named keys only.
-    pub control: bool,
-    /// Holding the key repeats the act.
-    pub repeats: bool,
-    /// The key means this while the match editor is open, and nothing otherwise.
-    pub in_editor: bool,
+    /// What must be held besides it; matters for letters and named keys only.
+    pub held: Held,
     /// What it means.
     pub intent: Intent,
 }
@@ -106,7 +101,7 @@ impl KeyMap {
         if !input.state.is_pressed() {
             return None;
         }
-        let rank = |binding: &Binding| match (binding.in_editor, &binding.trigger) {
+        let rank = |binding: &Binding| match (binding.in_editor(), &binding.trigger) {
             (true, _) => 0,
             (false, Trigger::Named(_) | Trigger::Letter(_) | Trigger::Sign(_)) => 1,
             (false, Trigger::Digit(_)) => 2,
@@ -114,8 +109,8 @@ impl KeyMap {
         self.0
             .iter()
             .flat_map(|row| &row.bindings)
-            .filter(|binding| is_editing || !binding.in_editor)
-            .filter(|binding| binding.repeats || !input.repeat)
+            .filter(|binding| is_editing || !binding.in_editor())
+            .filter(|binding| binding.repeats() || !input.repeat)
             .filter(|binding| binding.matches(input, held))
             .min_by_key(|binding| rank(binding))
             .map(|binding| &binding.intent)
@@ -174,7 +169,7 @@ impl Binding {
     }
 
     const fn modifiers(&self) -> &'static str {
-        match (self.control, self.shift) {
+        match (self.held.control, self.held.shift) {
             (true, true) => "Ctrl Shift ",
             (true, false) => "Ctrl ",
             (false, true) => "Shift ",
@@ -182,8 +177,22 @@ impl Binding {
         }
     }
 
+    /// Holding the key repeats the act: what goes on by a step may, what is there once or turns
+    /// back and forth may not.
+    const fn repeats(&self) -> bool {
+        matches!(
+            self.intent,
+            Intent::Step(_) | Intent::Slower | Intent::Faster
+        )
+    }
+
+    /// The key means this while the match editor is open, and nothing otherwise.
+    const fn in_editor(&self) -> bool {
+        matches!(self.intent, Intent::Editor(EditorAct::RemoveSelected))
+    }
+
     fn matches(&self, input: &KeyboardInput, held: Held) -> bool {
-        let modifiers_match = held.shift == self.shift && held.control == self.control && !held.alt;
+        let modifiers_match = held == self.held;
         match &self.trigger {
             Trigger::Named(key) => input.logical_key == *key && modifiers_match,
             Trigger::Letter(letter) => {

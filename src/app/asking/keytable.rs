@@ -5,7 +5,7 @@ use bevy::input::keyboard::Key;
 use crate::app::asking::acts::EditorAct;
 use crate::app::asking::intent::Intent;
 use crate::app::asking::keymap::Trigger::{self, Digit, Letter, Named, Sign};
-use crate::app::asking::keymap::{Binding, KeyMap, Row};
+use crate::app::asking::keymap::{Binding, Held, KeyMap, Row};
 
 impl Default for KeyMap {
     fn default() -> Self {
@@ -13,35 +13,22 @@ impl Default for KeyMap {
     }
 }
 
-const fn key(trigger: Trigger, intent: Intent) -> Binding {
+fn key(trigger: Trigger, intent: Intent) -> Binding {
     Binding {
         trigger,
-        shift: false,
-        control: false,
-        repeats: false,
-        in_editor: false,
+        held: Held::default(),
         intent,
     }
 }
 
 impl Binding {
     fn shift(mut self) -> Self {
-        self.shift = true;
+        self.held.shift = true;
         self
     }
 
     fn control(mut self) -> Self {
-        self.control = true;
-        self
-    }
-
-    fn editing(mut self) -> Self {
-        self.in_editor = true;
-        self
-    }
-
-    fn repeating(mut self) -> Self {
-        self.repeats = true;
+        self.held.control = true;
         self
     }
 }
@@ -62,7 +49,7 @@ fn playing() -> Vec<Row> {
     };
     let step = |n: i32| {
         let keys = [(Key::ArrowRight, n), (Key::ArrowLeft, -n)];
-        keys.map(|(arrow, n)| key(Named(arrow), Step(n)).repeating())
+        keys.map(|(arrow, n)| key(Named(arrow), Step(n)))
     };
     let tenth = |n: u8| key(Digit(n), Seek(f64::from(n) / 10.0));
     let ends = [(Key::Home, SeekStart), (Key::End, SeekEnd)];
@@ -79,7 +66,7 @@ fn playing() -> Vec<Row> {
             ),
             (
                 "Slower and faster",
-                speeds.map(|(c, act)| key(Sign(c), act).repeating()).into(),
+                speeds.map(|(c, act)| key(Sign(c), act)).into(),
             ),
             ("Speed 1", vec![key(Named(Key::Backspace), NormalSpeed)]),
             ("Play the other way", vec![key(Letter('r'), Reverse)]),
@@ -119,8 +106,7 @@ fn stops() -> Vec<Row> {
 }
 
 fn changing() -> Vec<Row> {
-    let remove =
-        |trigger: Key| key(Named(trigger), Intent::Editor(EditorAct::RemoveSelected)).editing();
+    let remove = |name: Key| key(Named(name), Intent::Editor(EditorAct::RemoveSelected));
     group(
         "Match and changes",
         [
@@ -253,7 +239,7 @@ mod tests {
         let mut seen = BTreeSet::new();
         for binding in map.rows().iter().flat_map(|row| &row.bindings) {
             assert!(
-                seen.insert((binding.in_editor, binding.chord())),
+                seen.insert((binding.in_editor(), binding.chord())),
                 "{} means two things",
                 binding.chord()
             );

@@ -81,6 +81,22 @@ fn first_free<T>(
     Err(failed(folder, io::ErrorKind::AlreadyExists.into()))
 }
 
+/// The path of what was written. What was only begun is neither picture nor film and is taken away;
+/// where even that cannot be done it stays, and the error says what went wrong first.
+///
+/// # Errors
+/// It was not written.
+pub fn whole<E>(path: PathBuf, written: Result<(), E>) -> Result<PathBuf, E> {
+    if written.is_err() {
+        if path.is_dir() {
+            std::fs::remove_dir_all(&path).ok();
+        } else {
+            std::fs::remove_file(&path).ok();
+        }
+    }
+    written.map(|()| path)
+}
+
 /// A name that every file system takes: signs that mean something to one of them become `-`.
 #[must_use]
 pub fn safe(name: &str) -> String {

@@ -1,12 +1,14 @@
 //! Films of one pass, drawn and written in the background by the same code as on the command line.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use bevy::prelude::{MessageReader, Res, ResMut, Resource};
 
 use crate::app::asking::choices::{CaptureScale, Preferences, RecordFormat};
 use crate::app::asking::intent::Intent;
-use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new, create_new_folder};
+use crate::app::capturing::files::{
+    CaptureFolder, NewFileError, create_new, create_new_folder, whole,
+};
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
 use crate::app::telling::notices::Notices;
@@ -17,7 +19,7 @@ use crate::export::{
 use crate::names::Choice;
 use crate::progress::{Cancelled, Progress};
 use crate::project::{LoadedProject, Project, ProjectError};
-use crate::transition::Transition;
+use crate::transition::{Rgb, Transition};
 
 /// Frames a second; GIF's clock of hundredths keeps it exactly.
 const FPS: f64 = 25.0;
@@ -129,7 +131,8 @@ struct Order {
     project: Project,
     transition: Transition,
     longer_side_px: u32,
-    is_transparent: bool,
+    /// None where it is transparent.
+    ground: Option<Rgb>,
     format: RecordFormat,
     folder: PathBuf,
     stem: String,
@@ -138,15 +141,17 @@ struct Order {
 impl Order {
     /// None where nothing is on the stage.
     fn new(preferences: &Preferences, session: &Session, folder: &CaptureFolder) -> Option<Self> {
+        let project = session.project()?.clone();
+        let ground = project.style.ground;
         Some(Self {
-            project: session.project()?.clone(),
+            project,
             transition: session.transition()?.clone(),
             longer_side_px: match preferences.capture_scale {
                 CaptureScale::One => 960,
                 CaptureScale::Two => 1920,
                 CaptureScale::FourK => 3840,
             },
-            is_transparent: preferences.capture_transparent,
+            ground: (!preferences.capture_transparent).then_some(ground),
             format: preferences.record_format,
             folder: folder.0.clone(),
             stem: session.file_stem(),
@@ -154,13 +159,12 @@ impl Order {
     }
 
     fn carry_out(self, progress: &dyn Progress) -> Result<PathBuf, RecordError> {
-        let (target, path) = self.target()?;
-        let written = self.film(&target, progress);
-        if written.is_err() {
-            // What was begun is no film; where it cannot be taken back, the message still stands.
-            remove(&path);
-        }
-        written.map(|()| path)
+        let path = match self.format {
+            RecordFormat::Film(kind) => create_new(&self.folder, &self.stem, kind.name().key)?.1,
+            RecordFormat::Pngs => create_new_folder(&self.folder, &self.stem)?,
+        };
+        let written = self.film(&Target::of_path(&path)?, progress);
+        whole(path, written)
     }
 
     /// One pass there; where it plays to and fro, the way back too, so that it can be looped.
@@ -172,7 +176,7 @@ impl Order {
             transition: self.transition.clone(),
             style: self.project.style,
             view: View::fit(bounds, size),
-            ground: (!self.is_transparent).then_some(self.project.style.ground),
+            ground: self.ground,
         };
         write_film(&camera, &film, target, progress)?;
         Ok(())
@@ -187,36 +191,10 @@ impl Order {
         let rows = MethodRow::all(&staged.spec()?, progress)?;
         let timing = &self.project.timing;
         let times = even_times(timing.from, timing.to, COLUMNS);
-        let ground = (!self.is_transparent).then_some(self.project.style.ground);
-        let drawing = comparison(&rows, &self.project.style, &times, ground)?;
+        let drawing = comparison(&rows, &self.project.style, &times, self.ground)?;
         let stem = format!("{}-methods", self.stem);
         let (_, path) = create_new(&self.folder, &stem, "png")?;
         let written = write_still(&drawing, StillKind::Png, &path);
-        if written.is_err() {
-            remove(&path);
-        }
-        written?;
-        Ok(path)
+        Ok(whole(path, written)?)
     }
-
-    fn target(&self) -> Result<(Target, PathBuf), RecordError> {
-        let RecordFormat::Film(kind) = self.format else {
-            return self.numbered();
-        };
-        let (_, path) = create_new(&self.folder, &self.stem, kind.name().key)?;
-        Ok((Target::Film(kind, path.clone()), path))
-    }
-
-    fn numbered(&self) -> Result<(Target, PathBuf), RecordError> {
-        let path = create_new_folder(&self.folder, &self.stem)?;
-        Ok((Target::of_path(&path)?, path))
-    }
-}
-
-fn remove(path: &Path) {
-    if path.is_dir() {
-        std::fs::remove_dir_all(path).ok()
-    } else {
-        std::fs::remove_file(path).ok()
-    };
 }

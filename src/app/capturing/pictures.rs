@@ -13,7 +13,7 @@ use image::{DynamicImage, ImageError, ImageFormat};
 
 use crate::app::asking::choices::{CaptureScale, Preferences};
 use crate::app::asking::intent::Intent;
-use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new};
+use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new, whole};
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
@@ -125,14 +125,11 @@ fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, Pict
     let written = image
         .write_to(&mut writer, ImageFormat::Png)
         .and_then(|()| Ok(std::io::Write::flush(&mut writer)?));
-    match written {
-        Ok(()) => Ok(path),
-        Err(error) => {
-            // What was begun is no picture; where even that cannot be taken back, it stays.
-            std::fs::remove_file(&path).ok();
-            Err(PictureError::Write { path, error })
-        }
-    }
+    let written = written.map_err(|error| {
+        let path = path.clone();
+        PictureError::Write { path, error }
+    });
+    whole(path, written)
 }
 
 /// Takes pictures from the stage.

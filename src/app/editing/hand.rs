@@ -4,7 +4,7 @@ use crate::app::asking::acts::Touch;
 use crate::app::editing::editor::{CutEnd, Grab, Handle};
 use crate::app::editing::sheet::{Sheet, SheetCut};
 use crate::correspondence::RingCut;
-use crate::geometry::{DVec2, Side};
+use crate::geometry::{DVec2, Pair, Side};
 
 impl Sheet {
     /// Where a handle is on one side; none where it is on the other side only.
@@ -86,9 +86,6 @@ impl Sheet {
         let foot = self.on_boundary(touch.side, touch.at)?;
         let here = (foot.distance <= touch.reach).then_some(foot.point)?;
         let there = self.partner(touch.side, here)?;
-        Some(match touch.side {
-            Side::Source => [here, there],
-            Side::Target => [there, here],
-        })
+        Some(Pair::on(touch.side, here, there).to_array())
     }
 }

@@ -24,14 +24,9 @@ pub fn refresh(
     if sheet.sides.is_none() {
         editor.is_open = false;
     }
-    let is_there = |handle: &mut Handle| match *handle {
-        Handle::Pin(k) => k < sheet.pins.len(),
-        Handle::Feature(k) => k < sheet.features.len(),
-        Handle::Cut(k, _) => k < sheet.cuts.len(),
-        Handle::Line(k, _) => k < sheet.lines.len(),
-    };
-    editor.selected = editor.selected.take_if(is_there);
-    editor.hovered = editor.hovered.take_if(is_there);
+    let is_there = |handle: &Handle| sheet.handles().any(|other| other == *handle);
+    editor.selected = editor.selected.filter(is_there);
+    editor.hovered = editor.hovered.filter(is_there);
 }
 
 impl Sheet {

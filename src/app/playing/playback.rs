@@ -25,13 +25,16 @@ enum Motion {
     Pass {
         secs: f64,
     },
-    /// To a stop.
-    Leg {
-        from: f64,
-        to: f64,
-        elapsed: f64,
-        secs: f64,
-    },
+    Leg(Leg),
+}
+
+/// The way to a stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Leg {
+    from: f64,
+    to: f64,
+    elapsed: f64,
+    secs: f64,
 }
 
 /// Where t is and how it moves.
@@ -96,7 +99,7 @@ impl Playback {
             Motion::Pass { .. } => Motion::Pass {
                 secs: timing.secs_at(t, stops),
             },
-            Motion::Still | Motion::Leg { .. } => Motion::Still,
+            Motion::Still | Motion::Leg(_) => Motion::Still,
         };
     }
 
@@ -132,24 +135,18 @@ impl Playback {
     /// Plays the other way; a leg to a stop turns back to where it came from.
     pub fn reverse(&mut self, easing: Easing) {
         self.backwards = !self.backwards;
-        if let Motion::Leg {
-            from,
-            to,
-            elapsed,
-            secs,
-        } = self.motion
-        {
+        if let Motion::Leg(leg) = &mut self.motion {
             // Where the way back is as far along as the way there, eased as it is.
-            let there = if secs > 0.0 {
-                easing.apply(elapsed / secs)
+            let there = if leg.secs > 0.0 {
+                easing.apply(leg.elapsed / leg.secs)
             } else {
                 1.0
             };
-            self.motion = Motion::Leg {
-                from: to,
-                to: from,
-                elapsed: secs * easing.inverse(1.0 - there),
-                secs,
+            *leg = Leg {
+                from: leg.to,
+                to: leg.from,
+                elapsed: leg.secs * easing.inverse(1.0 - there),
+                ..*leg
             };
         }
     }
@@ -158,18 +155,18 @@ impl Playback {
     pub fn play_to(&mut self, to: f64, timing: &Timing) {
         let share = (to - self.t).abs() / (timing.to - timing.from).abs().max(SAME_T);
         let secs = timing.duration_secs * share;
-        self.motion = Motion::Leg {
+        self.motion = Motion::Leg(Leg {
             from: self.t,
             to,
             elapsed: 0.0,
             secs,
-        };
+        });
     }
 
     /// The stop that slides go to from here: that after the one which t is already on its way to.
     fn heading(&self) -> f64 {
         match self.motion {
-            Motion::Leg { to, .. } => to,
+            Motion::Leg(leg) => leg.to,
             Motion::Still | Motion::Pass { .. } => self.t,
         }
     }
@@ -196,13 +193,9 @@ impl Playback {
         let step = dt_secs * self.speed;
         match self.motion {
             Motion::Still => {}
-            Motion::Leg {
-                from,
-                to,
-                elapsed,
-                secs,
-            } => {
-                self.advance_leg(from, to, elapsed + step, secs, timing.easing);
+            Motion::Leg(leg) => {
+                let elapsed = leg.elapsed + step;
+                self.advance_leg(Leg { elapsed, ..leg }, timing.easing);
             }
             Motion::Pass { secs } => {
                 let signed = if self.backwards { -step } else { step };
@@ -211,19 +204,15 @@ impl Playback {
         }
     }
 
-    fn advance_leg(&mut self, from: f64, to: f64, elapsed: f64, secs: f64, easing: Easing) {
-        if elapsed >= secs {
-            self.t = to;
+    fn advance_leg(&mut self, leg: Leg, easing: Easing) {
+        // Also where a leg takes no time: what is divided by below is above 0.
+        if leg.elapsed >= leg.secs {
+            self.t = leg.to;
             self.motion = Motion::Still;
             return;
         }
-        self.t = from + (to - from) * easing.apply(elapsed / secs);
-        self.motion = Motion::Leg {
-            from,
-            to,
-            elapsed,
-            secs,
-        };
+        self.t = leg.from + (leg.to - leg.from) * easing.apply(leg.elapsed / leg.secs);
+        self.motion = Motion::Leg(leg);
     }
 
     fn advance_pass(&mut self, raw: f64, timing: &Timing, stops: &[Stop]) {

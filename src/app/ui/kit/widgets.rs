@@ -95,6 +95,17 @@ pub fn toggle(ui: &mut Ui, label: &str, tip: &str, on: &mut bool) {
     row(ui, label, tip, |ui| switch(ui, label, on));
 }
 
+/// A row with a switch for whether the program finds a value itself; off, it starts from the usual one.
+pub fn automatic<T>(ui: &mut Ui, label: &str, tip: &str, value: &mut Option<T>, usual: T) {
+    let mut is_automatic = value.is_none();
+    toggle(ui, label, tip, &mut is_automatic);
+    if is_automatic {
+        *value = None;
+    } else {
+        value.get_or_insert(usual);
+    }
+}
+
 /// A switch.
 pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     let palette = Palette::of(ui);
@@ -167,6 +178,12 @@ pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
     ui.painter()
         .text(rect.center(), Align2::CENTER_CENTER, label, SMALL, text);
     response
+}
+
+/// One choice as wide as this, which tells what it does; whether it was taken.
+pub fn option(ui: &mut Ui, chosen: bool, label: &str, tip: &str, width: f32) -> bool {
+    let response = choice(ui, chosen, label, vec2(width, CONTROL_HEIGHT));
+    response.on_hover_text(tip).clicked()
 }
 
 /// A row of all values of an option.

@@ -4,8 +4,8 @@ use bevy_egui::egui::{self, Align2, Context, Margin, Rect, vec2};
 
 use crate::app::asking::acts::{EditorAct, Tool};
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
-use crate::app::ui::kit::widgets::{card, choice, pinned, primary_button};
+use crate::app::ui::kit::theme::GRID;
+use crate::app::ui::kit::widgets::{card, option, pinned, primary_button};
 use crate::app::ui::scene::{Intents, Scene};
 
 /// Its height with the space above it.
@@ -28,51 +28,41 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
 }
 
 fn tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
-    let editor = &scene.editor;
-    let mut act = |act: EditorAct| acts.push(Intent::Editor(act));
-    let size = vec2(52.0, CONTROL_HEIGHT);
+    let is_free = scene.sheet.is_free();
+    // Lines move the plane, parts are of outlines.
     let tools = [
         (
             Tool::Pins,
+            true,
             "Points",
             "Say which points are the same: click a boundary to pin it, drag a point to move it.",
         ),
         (
             Tool::Lines,
+            is_free,
             "Lines",
             "Say which edges are the same: draw a line along one, then drag the ends of its \
              partner on the other side.",
         ),
         (
             Tool::Parts,
+            !is_free,
             "Parts",
             "Say which parts are the same: click a part, then its partner on the other side.",
         ),
     ];
-    let is_free = scene.sheet.is_free();
-    for (tool, name, tip) in tools {
-        // Lines move the plane, parts are of outlines.
-        let applies = match tool {
-            Tool::Pins => true,
-            Tool::Lines => is_free,
-            Tool::Parts => !is_free,
-        };
-        if !applies {
-            continue;
-        }
-        let response = choice(ui, editor.tool == tool, name, size);
-        if response.on_hover_text(tip).clicked() {
-            act(EditorAct::Tool(tool));
+    for (tool, applies, name, tip) in tools {
+        if applies && option(ui, scene.editor.tool == tool, name, tip, 52.0) {
+            acts.push(Intent::Editor(EditorAct::Tool(tool)));
         }
     }
     if !scene.sheet.in_colours() {
         outline_tools(ui, scene, acts);
     }
     ui.add_space(GRID);
-    let mut act = |act: EditorAct| acts.push(Intent::Editor(act));
     let tip = "Back to the stage (E or Esc). The match is kept.";
     if primary_button(ui, "Done").on_hover_text(tip).clicked() {
-        act(EditorAct::Toggle);
+        acts.push(Intent::Editor(EditorAct::Toggle));
     }
 }
 
@@ -80,21 +70,13 @@ fn tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
 fn outline_tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
     let editor = &scene.editor;
     let mut act = |act: EditorAct| acts.push(Intent::Editor(act));
-    let size = vec2(52.0, CONTROL_HEIGHT);
     ui.add_space(GRID);
     let tip = "Pins jump to corners that are near. Hold Shift to do without for a moment.";
-    if choice(ui, editor.snaps, "Snap", size)
-        .on_hover_text(tip)
-        .clicked()
-    {
+    if option(ui, editor.snaps, "Snap", tip, 52.0) {
         act(EditorAct::Snap(!editor.snaps));
     }
     let tip = "The triangles that both designs are divided into: the same ones on either side.";
-    let size = vec2(68.0, CONTROL_HEIGHT);
-    if choice(ui, editor.triangles, "Triangles", size)
-        .on_hover_text(tip)
-        .clicked()
-    {
+    if option(ui, editor.triangles, "Triangles", tip, 68.0) {
         act(EditorAct::Triangles(!editor.triangles));
     }
 }

@@ -5,7 +5,7 @@ use bevy_egui::egui::Ui;
 use crate::app::ui::kit::widgets::{drag, list, number, pick, section, slider};
 use crate::content::{BlendSpace, ColourMix, FieldBlend};
 use crate::field::Metric;
-use crate::transition::{Boundary, FieldOptions};
+use crate::transition::FieldOptions;
 
 /// The shortest span in which colours change.
 const SHORTEST: f64 = 0.01;
@@ -29,7 +29,11 @@ pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
         let tip = "What distance means; it shows in the corners.";
         list(ui, "Metric", tip, &mut field.metric);
         let is_euclidean = field.metric == Metric::Euclidean;
-        ui.add_enabled_ui(is_euclidean, |ui| outline(ui, &mut field.boundary));
+        let tip = "Where the edge of a shape lies within a cell; metrics other than the Euclidean have \
+             it between cells.";
+        ui.add_enabled_ui(is_euclidean, |ui| {
+            pick(ui, "Outline", tip, &mut field.boundary)
+        });
         let cells = drag(&mut field.cells, 32..=4096, 4.0, 0);
         let tip = "Cells along the longer side. More: finer detail, and ε and threshold mean smaller distances.";
         number(ui, "Cells", tip, cells);
@@ -48,18 +52,6 @@ fn mixing(ui: &mut Ui, blend: &mut FieldBlend) {
         slider(ui, "ε", tip, &mut blend.epsilon, 0.01..=100.0, true);
     });
     let tip = "The distance that is drawn as the outline, in cells. Above 0 the shape grows thinner, below 0 thicker.";
-    slider(
-        ui,
-        "Threshold",
-        tip,
-        &mut blend.threshold,
-        -40.0..=40.0,
-        false,
-    );
-}
-
-fn outline(ui: &mut Ui, boundary: &mut Boundary) {
-    let tip = "Where the edge of a shape lies within a cell; metrics other than the Euclidean have it \
-         between cells.";
-    pick(ui, "Outline", tip, boundary);
+    let threshold = &mut blend.threshold;
+    slider(ui, "Threshold", tip, threshold, -40.0..=40.0, false);
 }

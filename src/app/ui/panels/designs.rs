@@ -6,12 +6,15 @@ use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
 use crate::app::ui::kit::widgets::{
-    drag, from_right, icon_button, number, pick, quiet, row, section, slider, toggle,
+    automatic, drag, from_right, icon_button, number, pick, quiet, row, section, slider, toggle,
 };
 use crate::app::ui::scene::Intents;
 use crate::design::Format;
 use crate::project::{DesignEntry, Project};
 use crate::transition::Rgb;
+
+/// The grey level that is started from when it is set by hand.
+const MIDDLE_GREY: u8 = 128;
 
 /// Draws both designs.
 pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
@@ -109,14 +112,8 @@ fn is_picture(entry: &DesignEntry) -> bool {
 
 fn reading(ui: &mut Ui, entry: &mut DesignEntry) {
     let import = &mut entry.import;
-    let mut is_automatic = import.threshold.is_none();
     let tip = "Finds the grey level that parts shape from ground by itself.";
-    toggle(ui, "Automatic", tip, &mut is_automatic);
-    match (is_automatic, import.threshold) {
-        (true, _) => import.threshold = None,
-        (false, None) => import.threshold = Some(128),
-        (false, Some(_)) => {}
-    }
+    automatic(ui, "Automatic", tip, &mut import.threshold, MIDDLE_GREY);
     if let Some(threshold) = &mut import.threshold {
         let level = drag(threshold, 1..=255, 0.5, 0);
         let tip = "Where shape ends and ground begins, 1 to 255: higher lets more in.";

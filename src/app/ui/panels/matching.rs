@@ -4,7 +4,7 @@ use bevy_egui::egui::Ui;
 
 use crate::app::asking::acts::EditorAct;
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::widgets::{choose, hint, pick, section, slider, toggle};
+use crate::app::ui::kit::widgets::{automatic, choose, hint, pick, section, slider};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
 use crate::correspondence::Matching;
@@ -69,13 +69,8 @@ fn rules(ui: &mut Ui, matching: &mut Matching) {
 }
 
 fn density(ui: &mut Ui, edge_length: &mut Option<f64>) {
-    let mut is_automatic = edge_length.is_none();
     let tip = "Triangles as coarse as good angles allow. Off: a largest edge length of your own.";
-    toggle(ui, "Auto mesh", tip, &mut is_automatic);
-    *edge_length = match (is_automatic, *edge_length) {
-        (true, _) => None,
-        (false, length) => Some(length.unwrap_or(USUAL_EDGE)),
-    };
+    automatic(ui, "Auto mesh", tip, edge_length, USUAL_EDGE);
     if let Some(length) = edge_length {
         let tip = "The longest edge wanted inside, as a share of the design's size: smaller makes more \
              triangles, softer bends and slower frames.";

@@ -64,58 +64,41 @@ fn weights(ui: &mut Ui, weights: &mut Weights) {
 fn path(ui: &mut Ui, path: &mut ArapPath) {
     let tip = "Which point of the whole goes straight from its first place to its last.";
     row(ui, "Path", tip, |ui| {
-        let anchor = if let ArapPath::Anchor(vertex) = *path {
-            vertex
-        } else {
-            0
+        let (anchor, width) = match *path {
+            ArapPath::Anchor(vertex) => (vertex, 112.0),
+            ArapPath::Centroid => (0, ui.available_width()),
         };
-        let width = if matches!(path, ArapPath::Anchor(_)) {
-            112.0
-        } else {
-            ui.available_width()
-        };
-        let chosen = ui
-            .scope(|ui| {
-                ui.set_max_width(width);
-                choices(
-                    ui,
-                    path,
-                    &[
-                        (ArapPath::Centroid, "Centre", "The centre of mass"),
-                        (
-                            ArapPath::Anchor(anchor),
-                            "Vertex",
-                            "One vertex, by its number",
-                        ),
-                    ],
-                )
-            })
-            .inner;
+        let anchor = ArapPath::Anchor(anchor);
+        let options = [
+            (ArapPath::Centroid, "Centre", "The centre of mass"),
+            (anchor, "Vertex", "One vertex, by its number"),
+        ];
+        let chosen = ui.scope(|ui| {
+            ui.set_max_width(width);
+            choices(ui, path, &options)
+        });
         let ArapPath::Anchor(vertex) = path else {
-            return chosen;
+            return chosen.inner;
         };
-        chosen | ui.add_sized([56.0, CONTROL_HEIGHT], DragValue::new(vertex).prefix("# "))
+        chosen.inner | ui.add_sized([56.0, CONTROL_HEIGHT], DragValue::new(vertex).prefix("# "))
     });
 }
 
 fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
     let tip = "Whole turns that are added on the way: the ends stay, the film goes round. Negative: clockwise.";
     let each = turns.len() > 1;
-    if !each {
-        let mut all = turns.first().copied().unwrap_or(0);
+    let first = turns.first().copied().unwrap_or(0);
+    if each {
+        for (part, turn) in turns.iter_mut().enumerate().take(MOST_PARTS) {
+            let label = format!("Turns, part {}", part + 1);
+            number(ui, &label, tip, drag(turn, TURNS, 0.02, 0));
+        }
+    } else {
+        let mut all = first;
         number(ui, "Extra turns", tip, drag(&mut all, TURNS, 0.02, 0));
-        if all != turns.first().copied().unwrap_or(0) {
+        if all != first {
             *turns = if all == 0 { Vec::new() } else { vec![all] };
         }
-    }
-    for (part, turn) in turns
-        .iter_mut()
-        .enumerate()
-        .take(MOST_PARTS)
-        .filter(|_| each)
-    {
-        let label = format!("Turns, part {}", part + 1);
-        number(ui, &label, tip, drag(turn, TURNS, 0.02, 0));
     }
     if parts > 1 && parts <= MOST_PARTS {
         let mut apart = each;

@@ -6,7 +6,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::playing::playback::SPEEDS;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
-use crate::app::ui::kit::widgets::{act_button, choice, from_right, menu, quiet};
+use crate::app::ui::kit::widgets::{act_button, from_right, menu, option, quiet};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::names::Choice;
 use crate::transition::{PlayMode, Timing};
@@ -33,13 +33,8 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let tip = "Start of the pass (Home)";
     act_button(ui, icons::TO_START, tip, Intent::SeekStart, acts);
     let tip = "Play back to the stop before and wait (Page Up)";
-    act_button(
-        ui,
-        icons::PREVIOUS_STOP,
-        tip,
-        Intent::PlayToPreviousStop,
-        acts,
-    );
+    let back = Intent::PlayToPreviousStop;
+    act_button(ui, icons::PREVIOUS_STOP, tip, back, acts);
     if play_button(ui, scene).clicked() {
         acts.push(Intent::TogglePlay);
     }
@@ -59,15 +54,10 @@ fn play_button(ui: &mut Ui, scene: &Scene) -> Response {
         (false, false) => icons::PLAY,
         (false, true) => icons::PLAY_BACKWARDS,
     };
-    let fill = if response.hovered() {
-        palette.accent
+    let (fill, ink) = if response.hovered() {
+        (palette.accent, palette.panel)
     } else {
-        palette.accent_ground
-    };
-    let ink = if response.hovered() {
-        palette.panel
-    } else {
-        palette.text
+        (palette.accent_ground, palette.text)
     };
     ui.painter().circle_filled(rect.center(), 17.0, fill);
     icons::paint(ui.painter(), icon, rect, ink);
@@ -102,19 +92,11 @@ fn pass(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
     ui.spacing_mut().item_spacing.x = 4.0;
     speed(ui, scene, acts);
     caption(ui, "Speed");
-    seconds(
-        ui,
-        &mut timing.hold_secs,
-        0.0,
-        "Waits so long at either end of a pass.",
-    );
+    let tip = "Waits so long at either end of a pass.";
+    seconds(ui, &mut timing.hold_secs, 0.0, tip);
     caption(ui, "Hold");
-    seconds(
-        ui,
-        &mut timing.duration_secs,
-        0.1,
-        "How long one pass takes, without the holds.",
-    );
+    let tip = "How long one pass takes, without the holds.";
+    seconds(ui, &mut timing.duration_secs, 0.1, tip);
     caption(ui, "Lasts");
     menu(ui, "easing", &mut timing.easing, 88.0)
         .on_hover_text("How t speeds up and slows down from stop to stop.");
@@ -126,10 +108,8 @@ fn pass(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
             48.0
         };
         let name = mode.name();
-        let size = vec2(width, CONTROL_HEIGHT);
-        let response = choice(ui, timing.play == mode, name.title, size);
         let tip = format!("{} (L)", name.sentence);
-        if response.on_hover_text(tip).clicked() {
+        if option(ui, timing.play == mode, name.title, &tip, width) {
             timing.play = mode;
         }
     }
