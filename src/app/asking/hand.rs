@@ -43,6 +43,7 @@ pub fn note_gesture(
     typing: Res<Typing>,
     mut gesture: ResMut<Gesture>,
 ) {
+    // What is typed into one field is one step: a field that gets the keyboard is a new movement.
     let begins_typing = typing.0 && !gesture.was_typing;
     let is_new = buttons.get_just_pressed().next().is_some() || begins_typing;
     let goes_on = buttons.get_pressed().next().is_some() || typing.0;

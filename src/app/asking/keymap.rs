@@ -71,6 +71,7 @@ impl Held {
             | KeyCode::ControlRight
             | KeyCode::SuperLeft
             | KeyCode::SuperRight => self.control = is_down,
+            // Not the right one: as AltGr it prints signs on many keyboards, and signs are bound.
             KeyCode::AltLeft => self.alt = is_down,
             _ => {}
         }
@@ -179,7 +180,8 @@ impl Binding {
 
     /// Holding the key repeats the act: what goes on by a step may, what is there once or turns
     /// back and forth may not.
-    const fn repeats(&self) -> bool {
+    #[must_use]
+    pub const fn repeats(&self) -> bool {
         matches!(
             self.intent,
             Intent::Step(_) | Intent::Slower | Intent::Faster
@@ -187,7 +189,8 @@ impl Binding {
     }
 
     /// The key means this while the match editor is open, and nothing otherwise.
-    const fn in_editor(&self) -> bool {
+    #[must_use]
+    pub const fn in_editor(&self) -> bool {
         matches!(self.intent, Intent::Editor(EditorAct::RemoveSelected))
     }
 
@@ -211,6 +214,7 @@ fn printed(input: &KeyboardInput) -> Option<char> {
         return None;
     };
     let mut chars = text.chars();
+    // A composed text of several signs is none that a key is bound to.
     chars.next().filter(|_| chars.next().is_none())
 }
 
@@ -246,9 +250,11 @@ pub fn read_keys(
     mut intents: MessageWriter<Intent>,
 ) {
     if focus_lost.read().count() > 0 {
+        // A key that is let go in another window never tells of it here.
         *held = Held::default();
     }
     for input in inputs.read() {
+        // Also while a text is written: what is held when the field is left still counts.
         held.note(input);
         if let Some(intent) = map
             .intent(input, *held, editor.is_open)

@@ -65,6 +65,7 @@ fn first_free<T>(
     };
     std::fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
     let stem = safe(stem);
+    // Asking which names are taken and making the file after that would not be one act.
     for number in 1u32.. {
         let name = if number == 1 {
             format!("{stem}{suffix}")
@@ -107,7 +108,10 @@ pub fn safe(name: &str) -> String {
             '-'
         }
     };
+    // File systems take names of 255 bytes: 80 signs of three leave room for a number and an
+    // ending.
     let kept: String = name.chars().take(80).map(keep).collect();
+    // A dot in front hides a file on Unix; dots and blanks at the end are dropped on Windows.
     let trimmed = kept.trim_matches(|c| c == '.' || c == ' ');
     if trimmed.is_empty() {
         "untitled".to_owned()

@@ -97,6 +97,8 @@ pub fn apply(
     let new_order = || Order::new(&preferences, &session, &folder);
     for intent in intents.read() {
         match intent {
+            // The job stays until it has taken away what it began, and says then that it was
+            // cancelled.
             Intent::CancelRecording => recorder.cancel(),
             Intent::Record | Intent::Compare if recorder.0.is_some() => {
                 notices.done("A file is being written; wait for it, or cancel it first.");
@@ -147,6 +149,7 @@ impl Order {
             project,
             transition: session.transition()?.clone(),
             longer_side_px: match preferences.capture_scale {
+                // A recording goes on without the window: half of full HD, so that 2× is that and 4K is 4K.
                 CaptureScale::One => 960,
                 CaptureScale::Two => 1920,
                 CaptureScale::FourK => 3840,

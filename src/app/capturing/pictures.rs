@@ -72,6 +72,7 @@ pub fn ask(
         };
         captures.next_id += 1;
         let id = captures.next_id;
+        // Named now: the picture comes some frames later, when t has moved on.
         captures.names.insert(id, name);
         requests.write(CaptureStage {
             id,
@@ -100,6 +101,7 @@ fn window_captured(
         .clone()
         .try_into_dynamic()
     {
+        // The alpha of a window says nothing about what is seen in it.
         Ok(image) => captures.write(&folder, &name, image.to_rgb8().into()),
         Err(error) => notices.problem(format!("The picture of the window was not taken: {error}")),
     }
@@ -124,6 +126,7 @@ fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, Pict
     let mut writer = std::io::BufWriter::new(file);
     let written = image
         .write_to(&mut writer, ImageFormat::Png)
+        // Dropping the writer would flush as well, but swallow the error of a full disk.
         .and_then(|()| Ok(std::io::Write::flush(&mut writer)?));
     let written = written.map_err(|error| {
         let path = path.clone();

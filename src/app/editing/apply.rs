@@ -44,9 +44,12 @@ pub fn apply(
             .project()
             .map(|project| project.options.matching.clone())
             .unwrap_or_default();
+        // Most acts change how it is looked at and not what is said: those are no change of the
+        // project.
         let before = matching.clone();
         editor.act(act, &sheet, &session, &mut matching);
         if *act == EditorAct::Toggle && editor.is_open {
+            // Only on opening: whoever then chooses a method that moves nothing means it.
             session.change(gesture.mark(), choose_what_moves);
             let is_free = session
                 .project()
@@ -112,6 +115,7 @@ impl Editor {
             return;
         }
         let zoom = (self.zoom * factor).clamp(ZOOMS[0], ZOOMS[1]);
+        // What lies under `at` is (at - pan) / zoom from the middle, before and after.
         self.pan = at + (self.pan - at) * (zoom / self.zoom);
         self.zoom = zoom;
     }
@@ -130,6 +134,7 @@ impl Editor {
     fn press(&mut self, touch: Touch, sheet: &Sheet) {
         self.refusal = None;
         let handle = sheet.handle_at(touch);
+        // A press on nothing moves the view, and what is selected stays so.
         self.selected = handle.or(self.selected);
         let grab = match handle {
             None if self.tool == Tool::Lines && sheet.is_free() => Grab::NewLine(touch.at),
@@ -137,6 +142,7 @@ impl Editor {
             Some(Handle::Pin(k)) => Grab::Pin(k),
             Some(Handle::Line(k, end)) => Grab::Line(k, end),
             Some(Handle::Feature(k)) => Grab::Feature(k),
+            // `handle_at` counts the cuts of this very sheet, so there is one of that number.
             Some(Handle::Cut(k, end)) => match sheet.cuts[k].asked {
                 Some(asked) => Grab::Cut(asked, end),
                 None => Grab::FoundCut(k, end),
@@ -149,6 +155,7 @@ impl Editor {
         let Some((side, grab)) = self.grabbed else {
             return;
         };
+        // A hand that crosses the middle goes on in the design that it began in.
         let touch = Touch { side, ..touch };
         let grab = taken(grab, sheet, said);
         self.grabbed = Some((side, grab));
@@ -187,6 +194,7 @@ impl Editor {
                     }
                 }
             }
+            // None is left: `taken` has made them what is asked for.
             Grab::Feature(_) | Grab::FoundCut(..) | Grab::NewLine(_) => {}
         }
     }
@@ -247,6 +255,7 @@ impl Editor {
         self.refusal = None;
         if let Some(handle) = sheet.handle_at(touch) {
             remove_handle(handle, sheet, said);
+            // What came after it in its list has another number now.
             (self.selected, self.hovered) = (None, None);
         } else if self.tool == Tool::Parts {
             let mut parts = [None; 2];
@@ -319,6 +328,7 @@ fn remove_handle(handle: Handle, sheet: &Sheet, said: &mut Matching) {
 /// Drops every pair that one of these parts is in.
 fn unlink(sheet: &Sheet, said: &mut Matching, parts: [Option<usize>; 2]) {
     said.links.retain(|link| {
+        // Kept where no side of it lies in one of the parts.
         Side::BOTH.into_iter().all(|side| {
             let wanted = parts[side];
             wanted.is_none() || sheet.part(side, sheet.framed(link, side), 0.0) != wanted

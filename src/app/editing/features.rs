@@ -38,6 +38,7 @@ pub fn chosen(rings: &[SheetRing], pins: &[PointPair]) -> Vec<PointPair> {
 fn of_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<PointPair> {
     let scores = scores(ring);
     let mut taken: Vec<f64> = pins.iter().filter_map(|pin| ring.place_of(pin)).collect();
+    // Half the gap that there would be if all lay at even distances on the ring of length 1.
     let room = 0.5 / (count + taken.len()) as f64;
     let mut vertices = Vec::new();
     for _ in 0..count {
@@ -47,10 +48,12 @@ fn of_ring(ring: &SheetRing, count: usize, pins: &[PointPair]) -> Vec<PointPair>
             let value = if distance < room {
                 0.0
             } else {
+                // Beyond three times the room it is far enough, and the sharper corner wins.
                 scores[k] * (distance / room).min(3.0)
             };
             (value, k)
         });
+        // The first of equals, so that a shape shows the same points each time.
         let Some((value, k)) = weighed.max_by(|a, b| a.0.total_cmp(&b.0).then(b.1.cmp(&a.1)))
         else {
             break;
@@ -83,6 +86,7 @@ fn scores(ring: &SheetRing) -> Vec<f64> {
         for (k, score) in scores.iter_mut().enumerate() {
             let step = |by: f64| -> DVec2 { polyline::at(points, &places, places[k] + by) };
             let turn = polyline::turn(points[k] - step(-REACH), step(REACH) - points[k]);
+            // A reversal is half a turn, so on both sides together it comes to 1.
             *score += turn.abs() / std::f64::consts::TAU;
         }
     }

@@ -65,6 +65,7 @@ impl Sheet {
         if self.in_colours() {
             return Some(touch.at);
         }
+        // A corner wins over the boundary that it lies on.
         let corner = (snaps && !touch.is_free)
             .then(|| self.corner(touch.side, touch.at, touch.reach))
             .flatten();

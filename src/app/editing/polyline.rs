@@ -56,6 +56,7 @@ pub fn encloses<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> bool 
 pub fn spans<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> Vec<[f64; 2]> {
     let mut xs: Vec<f64> = crossings(rings, y).collect();
     xs.sort_by(f64::total_cmp);
+    // Closed rings cross a height an even number of times: in, out, in, out.
     xs.chunks_exact(2).map(|pair| [pair[0], pair[1]]).collect()
 }
 
@@ -63,6 +64,8 @@ pub fn spans<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> Vec<[f64; 
 fn crossings<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> impl Iterator<Item = f64> {
     let edges = rings.flat_map(|ring| ring.iter().zip(ring.iter().cycle().skip(1)));
     edges
+        // Half open: a vertex at this height counts once, and level edges, which would divide by 0
+        // below, do not count.
         .filter(move |(a, b)| (a.y > y) != (b.y > y))
         .map(move |(a, b)| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
 }
@@ -72,6 +75,7 @@ pub fn inside(rings: &[&[DVec2]]) -> Option<DVec2> {
     let ys = || rings.iter().flat_map(|ring| ring.iter().map(|p| p.y));
     let low = ys().reduce(f64::min)?;
     let high = ys().reduce(f64::max)?;
+    // Where the middle runs along an edge or through a hole, another height has more room.
     let widest = [0.5, 0.4, 0.6, 0.25, 0.75].into_iter().flat_map(|share| {
         let y = low + share * (high - low);
         let spans = spans(rings.iter().copied(), y);
@@ -119,6 +123,7 @@ pub fn places(points: &[DVec2]) -> (Vec<f64>, f64) {
 pub fn at(points: &[DVec2], places: &[f64], place: f64) -> DVec2 {
     let place = place.rem_euclid(1.0);
     let next = places.partition_point(|p| *p <= place);
+    // The first place is 0, so there is always one before.
     let k = next.saturating_sub(1);
     let end = places.get(next).copied().unwrap_or(1.0);
     let gap = end - places[k];

@@ -15,6 +15,7 @@ pub fn refresh(
     mut sheet: ResMut<Sheet>,
     mut was_open: Local<bool>,
 ) {
+    // A closed sheet is not kept up to date.
     let is_opened = editor.is_open && !*was_open;
     *was_open = editor.is_open;
     if !editor.is_open || !(is_opened || session.is_changed()) {
@@ -45,11 +46,14 @@ impl Sheet {
             return None;
         };
         let places = [source_entry.placement, target_entry.placement];
+        // As the stage has it and not as the settings are by now: the match is that of the stage.
         let by = arrangement([source, target], staged.fit, places).ok()?;
         let transition = session.transition();
         let matched = transition.and_then(Transition::matched);
         let mut sheet = Self {
             faulty: session.problem().map_or_else(Vec::new, Problem::pins),
+            // But what pins are for is as the settings are: the tools change with the method at
+            // once.
             content: project.content,
             ..Self::new([source, target], by, &project.options.matching, matched)
         };

@@ -22,6 +22,7 @@ impl SheetRing {
     #[must_use]
     pub fn new(piece: usize, kind: RingKind, sides: [Vec<DVec2>; 2]) -> Self {
         let [(source, _), (target, _)] = [0, 1].map(|k: usize| polyline::places(&sides[k]));
+        // A ring that comes or goes is a point on one side, where all its places are 0.
         let places = match kind {
             RingKind::Closes => source,
             RingKind::Opens => target,
@@ -49,6 +50,8 @@ impl SheetRing {
     #[must_use]
     pub fn place_of(&self, pin: &PointPair) -> Option<f64> {
         let foot = polyline::nearest([self.sides[0].as_slice()].into_iter(), pin.source)?;
+        // Pins were put onto the boundary, but were rounded on the way through the design's own
+        // coordinates; a thousandth of the ring is far below what a hand can aim at.
         let is_on = foot.distance <= 1e-3 * self.length();
         is_on.then(|| self.places[foot.edge])
     }

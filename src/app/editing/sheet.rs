@@ -112,6 +112,7 @@ impl Sheet {
         let diameter = source.bounds.diameter().max(target.bounds.diameter());
         let sides = [source, target];
         Self {
+            // A pin says more than a found point, so points keep away from pins.
             features: features::chosen(&rings, &placed.pins),
             pieces: names(pieces, &sides, &placed.links),
             cuts: cuts(pieces, &placed.cuts, diameter),
@@ -174,6 +175,7 @@ impl Sheet {
     pub fn part(&self, side: Side, p: DVec2, reach: f64) -> Option<usize> {
         let parts = &self.sides.as_ref()?[side].parts;
         let rings = |k: usize| parts[k].iter().map(Vec::as_slice);
+        // Inside wins over near: a part may lie in the hole of another.
         let hit = (0..parts.len()).find(|&k| polyline::encloses(rings(k), p));
         hit.or_else(|| {
             let far = |k: usize| polyline::nearest(rings(k), p).map_or(f64::MAX, |f| f.distance);
@@ -285,6 +287,7 @@ fn middle(piece: &PieceMatch, is_source: bool) -> DVec2 {
         .map(Vec::as_slice)
         .collect();
     let first = rings.first().and_then(|ring| ring.first());
+    // A ring that is a point has no inside.
     polyline::inside(&rings)
         .or(first.copied())
         .unwrap_or_default()
@@ -302,6 +305,7 @@ fn cuts(pieces: &[PieceMatch], asked: &[RingCut], diameter: f64) -> Vec<SheetCut
             .copied()
             .filter(|&k| asked[k].side == cut.side && far(&asked[k], cut) < SAME_CUT * diameter)
             .min_by(|&a, &b| far(&asked[a], cut).total_cmp(&far(&asked[b], cut)));
+        // One asked for is answered by one cut only.
         left.retain(|k| Some(*k) != near);
         cuts.push(SheetCut {
             cut: *cut,

@@ -56,6 +56,7 @@ impl Measured {
 
     fn is_of(&self, transition: Option<&Transition>) -> bool {
         match (&self.of, transition) {
+            // Clones of a transition share what they are made of; comparing that would take longer.
             (Some(old), Some(new)) => std::ptr::eq(old.content(), new.content()),
             (None, None) => true,
             _ => false,
@@ -65,6 +66,7 @@ impl Measured {
     fn follow(&mut self, session: &Session) {
         let transition = session.transition();
         if !self.is_of(transition) {
+            // The job on the old one goes with it, which stops it.
             *self = Self {
                 of: transition.cloned(),
                 ..Self::default()
@@ -98,6 +100,7 @@ fn measured(transition: &Transition, progress: &dyn Progress) -> Result<Measures
 
 /// Starts to measure what is new and takes in what was measured.
 pub fn follow(session: Res<Session>, mut measured: ResMut<Measured>) {
+    // Marked as changed by hand: it is written to in each frame, and seldom new.
     let now = measured.bypass_change_detection();
     let was_busy = now.is_busy();
     let is_taken = now.take();
@@ -161,6 +164,7 @@ fn follow_advice(project: &mut Project, remedy: &Remedy, sheet: &Sheet) {
             project.options.lattice.fold_free = true;
         }
         Remedy::LetFold => project.options.lattice.fold_free = false,
+        // What these advise takes a hand: `is_a_click` gives them no button.
         Remedy::MoveVertices { .. } | Remedy::LayOver | Remedy::MovePins => {}
     }
 }

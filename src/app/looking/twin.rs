@@ -76,9 +76,11 @@ impl Twin {
         let now = staged.project.clone();
         let mut wanted = staged;
         set(self.method_beside(&now), &mut wanted.project);
+        // Also where that came to nothing: the same settings would fail the same way.
         if self.settings.as_ref() == Some(&wanted.project) {
             return;
         }
+        // What is shown stays until the new one is there, as on the stage.
         self.settings = Some(wanted.project.clone());
         self.problem = None;
         if wanted.project == now {
@@ -129,12 +131,14 @@ pub fn follow(session: Res<Session>, mut twin: ResMut<Twin>) {
     let now = twin.bypass_change_detection();
     let is_taken = now.take();
     if !now.is_shown {
+        // Once: what is forgotten each frame would be new each frame.
         if now.settings.is_some() {
             now.forget();
             twin.set_changed();
         }
         return;
     }
+    // While the first is being built, what the second is held against is about to change.
     if is_new && session.work().is_none() {
         twin.follow(&session);
     } else if is_taken {

@@ -76,6 +76,8 @@ pub fn fit(
     mut last: Local<Option<(Bounds, Vec2)>>,
 ) {
     if !keeps_fit.0 {
+        // Forgotten, so that the next fit is made even where nothing has changed since the last
+        // one.
         *last = None;
         return;
     }
@@ -103,6 +105,7 @@ pub fn place_camera(
             (old.physical_position, old.physical_size) == (new.physical_position, new.physical_size)
         })
     };
+    // A camera that is written to counts as changed, and its targets are looked up anew.
     if !camera.viewport.as_ref().is_some_and(is_same) {
         camera.viewport = viewport;
     }
@@ -178,6 +181,7 @@ pub fn window_mode(
     for intent in intents.read() {
         if *intent == Intent::ToggleFullscreen {
             window.mode = match window.mode {
+                // Borderless: the other kind may change the screen's resolution, which takes seconds.
                 WindowMode::Windowed => WindowMode::BorderlessFullscreen(MonitorSelection::Current),
                 _ => WindowMode::Windowed,
             };

@@ -50,6 +50,7 @@ pub fn open(
             _ => continue,
         };
         if session.is_dirty() {
+            // The intent comes again once it is decided, and is then looked at anew.
             question.ask(intent.clone(), session.unsaved_text());
         } else {
             session.open(request);
@@ -154,6 +155,7 @@ fn next_cell(session: &Session) -> Option<(WarpKind, ContentKind)> {
         .collect();
     let here = (project.warp?, project.content?);
     let here = cells.iter().position(|cell| *cell == here)?;
+    // All but the one in use, which would be found again after a full round.
     let after = cells.iter().cycle().skip(here + 1).take(cells.len() - 1);
     after
         .copied()
@@ -164,6 +166,7 @@ fn next_cell(session: &Session) -> Option<(WarpKind, ContentKind)> {
 fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
     let mut is_added = false;
     session.change(mark, |project| {
+        // Stops stand in the order of t.
         let place = project.stops.partition_point(|stop| stop.t < t - SAME_T);
         if project
             .stops
@@ -180,6 +183,7 @@ fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
 
 fn free_name(stops: &[Stop]) -> String {
     let taken = |name: &String| stops.iter().any(|stop| stop.name == *name);
+    // One more name than there are stops: one of them is free.
     (1..=stops.len() + 1)
         .map(|n| format!("Stop {n}"))
         .find(|name| !taken(name))
@@ -224,6 +228,7 @@ pub fn poll(
     mut playback: ResMut<Playback>,
     (mut keeps_fit, editor): (ResMut<KeepsFit>, Res<Editor>),
 ) {
+    // Polled in each frame: only an outcome is a change.
     let outcome = session.bypass_change_detection().poll();
     if outcome.is_some() {
         session.set_changed();

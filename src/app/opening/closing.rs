@@ -1,7 +1,7 @@
 //! Nothing that was not saved is lost without a question.
 //!
-//! Closing the window and opening another project go through here: [`guard`] holds them back
-//! where changes would be lost, asks, and sends them on again once it is decided.
+//! Closing the window and opening another project go through here: a [`Question`] holds
+//! them back where changes would be lost, asks, and sends them on again once it is decided.
 
 use bevy::prelude::{AppExit, Commands, MessageReader, MessageWriter, Res, ResMut, Resource};
 use bevy::window::WindowCloseRequested;
@@ -99,10 +99,12 @@ pub fn answer(
     for intent in intents.read() {
         match intent {
             Intent::Answer(Answer::Stay) | Intent::Back => {
+                // Once a save is under way the question is answered, and Esc is meant for something else.
                 question.held.take_if(|held| !held.waits_for_save);
             }
             Intent::Answer(Answer::Discard) => {
                 if let Some(held) = question.held.take() {
+                    // Else what is sent on would be asked about once more.
                     session.forget_changes();
                     recorder.cancel();
                     next.push(held.intent);
@@ -110,6 +112,8 @@ pub fn answer(
             }
             Intent::Answer(Answer::Save) => {
                 if let Some(held) = &mut question.held {
+                    // A save may ask for a place first and take long; the act waits until it is
+                    // told of its end.
                     held.waits_for_save = true;
                     next.push(Intent::Save);
                 }

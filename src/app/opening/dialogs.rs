@@ -67,6 +67,7 @@ pub fn open(
             _ => continue,
         };
         let applies = session.project().is_some() || purpose == Purpose::Open;
+        // A second one above the first could be answered in the wrong order.
         if dialog.0.is_none() && applies {
             dialog.0 = Some((purpose, start(purpose, &session)));
         }
@@ -145,6 +146,7 @@ pub fn finish(
                 question.not_saved();
             }
         },
+        // Left without a choice: what waited for the save does not go on.
         (Purpose::Save, None) => question.not_saved(),
         (_, None) if is_unseen => notices.problem(NO_DIALOG_TO_OPEN),
         (_, None) => {}
@@ -220,6 +222,7 @@ pub fn read_drops(
     for drop in drops.read() {
         if let FileDragAndDrop::DroppedFile { path_buf, .. } = drop {
             state.arriving.push(path_buf.clone());
+            // Each file that arrives starts the wait anew.
             state.quiet_secs = 0.0;
         }
     }

@@ -55,6 +55,7 @@ impl Thumbnails {
 
 /// Takes in a strip that is done and starts the next, while nothing more urgent is going on.
 pub fn advance(session: Res<Session>, mut thumbnails: ResMut<Thumbnails>) {
+    // Looked at in each frame; nobody asks whether it has changed.
     let thumbnails = thumbnails.bypass_change_detection();
     // A project that cannot be shown has no strip; opening it tells why.
     if let Some(Ok((name, strip))) = Job::take(&mut thumbnails.running) {
@@ -92,6 +93,7 @@ fn draw(
 ) -> Result<RgbaImage, SizeError> {
     let size = PixelSize::new(STRIP_PX.0, STRIP_PX.1)?;
     let times = even_times(from, to, FRAMES);
+    // One frame around all of them, so that what grows is seen to grow.
     let bounds = framing(transition, &times);
     let cell = DVec2::new(f64::from(STRIP_PX.0) / FRAMES as f64, f64::from(STRIP_PX.1));
     let mut drawing = Drawing::new(size, None);
