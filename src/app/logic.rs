@@ -91,9 +91,12 @@ fn init(app: &mut App) {
 /// is taken in before it is played.
 fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     (
+        // Before all that reads intents, so that closing takes no frame longer than a key.
         closing::read_close_requests,
+        // Before what opens or shows anything: Esc leaves what was there when it was pressed.
         view::back,
         preferences::apply,
+        // Questions before what they hold back.
         (closing::answer, closing::close, dialogs::decide).chain(),
         (
             opening::open,

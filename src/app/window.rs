@@ -51,6 +51,7 @@ fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
         [] => gallery.0.first().map(|entry| entry.name.clone()),
         [one] => one
             .to_str()
+            // Also what the command line calls a bundled project in all its subcommands.
             .and_then(|name| name.strip_prefix("gallery:"))
             .map(str::to_owned),
         _ => None,
@@ -65,6 +66,7 @@ fn window() -> WindowPlugin {
             name: Some("morphospace".to_owned()),
             resolution: WindowResolution::new(1280, 720),
             resize_constraints: WindowResizeConstraints {
+                // The list of keys, which is the largest, fits into it.
                 min_width: 960.0,
                 min_height: 540.0,
                 ..default()
@@ -72,6 +74,7 @@ fn window() -> WindowPlugin {
             ..default()
         }),
         exit_condition: ExitCondition::OnPrimaryClosed,
+        // Closing is an intent, which asks first where something would be lost.
         close_when_requested: false,
         ..default()
     }
@@ -88,6 +91,7 @@ impl Plugin for WindowPlugins {
             .init_resource::<dialogs::Dialog>()
             .init_resource::<thumbnails::Thumbnails>()
             .add_systems(Startup, spawn_cameras)
+            // Last: what this frame has begun decides how soon the next one comes.
             .add_systems(Last, pace::keep)
             .add_systems(
                 Update,
@@ -108,6 +112,8 @@ impl Plugin for WindowPlugins {
             )
             .add_systems(
                 PostUpdate,
+                // After the first camera has been placed, and before transforms are passed on: else
+                // the second would lag a frame.
                 view::place_twin.before(TransformSystems::Propagate),
             )
             .add_plugins(HierarchyPropagatePlugin::<RenderLayers>::new(PostUpdate))
@@ -125,6 +131,7 @@ impl Plugin for WindowPlugins {
 /// One camera for the stage, in its part of the window, one for the second method beside it, and
 /// one above them for the panels.
 fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
+    // It would be given to the stage's camera, whose part of the window is not the whole.
     egui.auto_create_primary_context = false;
     commands.spawn(StageCamera);
     commands.spawn((

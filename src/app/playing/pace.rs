@@ -27,7 +27,9 @@ pub fn keep(
     (measured, twin): (Res<Measured>, Res<Twin>),
     mut settings: ResMut<WinitSettings>,
 ) {
+    // Work beside the window sends no event when it is done: it is asked each frame.
     let is_busy = playback.is_playing()
+        // What came of a change is drawn in the next frame, which no event asks for.
         || session.is_changed()
         || session.work().is_some()
         || captures.is_busy()
@@ -44,6 +46,7 @@ pub fn keep(
     };
     if settings.focused_mode != mode {
         settings.focused_mode = mode;
+        // The same behind another window: a film goes on while notes are read.
         settings.unfocused_mode = mode;
     }
 }

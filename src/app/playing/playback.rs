@@ -107,6 +107,7 @@ impl Playback {
     pub fn step(&mut self, hundredths: i32) {
         self.motion = Motion::Still;
         let t = self.t + f64::from(hundredths) / 100.0;
+        // Hundredths are no sums of powers of two: ten steps of them would end beside a tenth.
         self.t = (t * 1e9).round() / 1e9;
     }
 
@@ -124,6 +125,7 @@ impl Playback {
             (0.0, timing.to)
         };
         let at_end = (self.t - end).abs() < SAME_T;
+        // To and fro there is no end: the pass turns round there by itself.
         let secs = if at_end && timing.play != PlayMode::PingPong {
             start
         } else {
@@ -154,6 +156,7 @@ impl Playback {
     /// Plays to `to` and waits there; `backwards` is how a pass would go on from it.
     pub fn play_to(&mut self, to: f64, timing: &Timing) {
         let share = (to - self.t).abs() / (timing.to - timing.from).abs().max(SAME_T);
+        // As fast as a pass runs over the same way.
         let secs = timing.duration_secs * share;
         self.motion = Motion::Leg(Leg {
             from: self.t,
@@ -166,6 +169,7 @@ impl Playback {
     /// The stop that slides go to from here: that after the one which t is already on its way to.
     fn heading(&self) -> f64 {
         match self.motion {
+            // Pressed twice in a row, the second time means the stop after the next.
             Motion::Leg(leg) => leg.to,
             Motion::Still | Motion::Pass { .. } => self.t,
         }
@@ -174,6 +178,7 @@ impl Playback {
     /// The next faster (or slower) speed of the fixed list.
     pub fn change_speed(&mut self, faster: bool) {
         let next = if faster {
+            // From a speed between two of the list, as it may be set, to the next of them.
             SPEEDS.iter().find(|speed| **speed > self.speed)
         } else {
             SPEEDS.iter().rev().find(|speed| **speed < self.speed)
@@ -223,10 +228,12 @@ impl Playback {
             raw >= pass
         };
         let secs = match timing.play {
+            // A pass that takes no time is over at once, and nothing can be divided by it.
             _ if pass <= 0.0 => 0.0,
             PlayMode::Once => raw.clamp(0.0, pass),
             PlayMode::Loop => raw.rem_euclid(pass),
             PlayMode::PingPong => {
+                // A slow frame at ten times the speed may run past more than one end.
                 let turns = (raw / pass).floor();
                 let along = raw - turns * pass;
                 if turns.rem_euclid(2.0) == 0.0 {
@@ -253,6 +260,7 @@ pub fn landmarks(timing: &Timing, stops: &[Stop]) -> Vec<f64> {
     let mut all: Vec<f64> = stops.iter().map(|stop| stop.t).collect();
     all.extend([timing.from, timing.to]);
     all.sort_by(f64::total_cmp);
+    // Sorted before, so that those that are one lie side by side.
     all.dedup_by(|a, b| (*a - *b).abs() < SAME_T);
     all
 }
@@ -261,6 +269,7 @@ pub fn landmarks(timing: &Timing, stops: &[Stop]) -> Vec<f64> {
 #[must_use]
 pub fn next_landmark(t: f64, backwards: bool, timing: &Timing, stops: &[Stop]) -> Option<f64> {
     let all = landmarks(timing, stops);
+    // A pass may run from a larger t to a smaller one: on is then down.
     if backwards != (timing.to < timing.from) {
         all.into_iter().rev().find(|place| *place < t - SAME_T)
     } else {

@@ -58,6 +58,7 @@ fn stage<Of: Component>(
 ) {
     match (transition, staged.single()) {
         (Some(new), Ok((_, StageTransition(old))))
+            // Clones share what they are made of; inserting one would upload its meshes anew.
             if std::ptr::eq(new.content(), old.content()) => {}
         (Some(new), Ok((entity, _))) => {
             let new = (StageTransition(new.clone()), blend);
@@ -77,6 +78,7 @@ type Shown = Or<(With<OnStage>, With<OnTwin>)>;
 /// Moves what is on the stage to t.
 pub fn stage_t(playback: Res<Playback>, mut blends: Query<&mut Blend, Shown>) {
     for mut blend in &mut blends {
+        // A blend that is written to is solved, though it be the same t.
         if blend.t != playback.t() {
             blend.t = playback.t();
         }
@@ -93,6 +95,7 @@ pub fn stage_style(
     let style = session.style();
     let [r, g, b] = style.ground.0;
     let colour = Color::srgb_u8(r, g, b);
+    // Compared first, here and below: what is written to counts as changed and is drawn anew.
     if ground.0 != colour {
         ground.0 = colour;
     }

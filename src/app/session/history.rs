@@ -45,11 +45,13 @@ impl Edit for Step {
     }
 
     fn merge(&mut self, other: Self) -> Merged<Self> {
+        // Without a mark no hand did it, and each is a step of its own.
         let is_same = self.mark.is_some() && self.mark == other.mark;
         if !(is_same || other.amends) {
             return Merged::No(other);
         }
         if self.before == other.after {
+            // A slider that was dragged away and back leaves nothing to undo.
             return Merged::Annul;
         }
         self.after = other.after;

@@ -66,6 +66,7 @@ pub struct Rebuild {
 
 impl Rebuild {
     fn carry_out(self, progress: &dyn Progress) -> Result<Loaded, LoadError> {
+        // Its sliders are dragged, and the distance transforms take far longer than the mixing.
         if let Some(transition) = self.mixed_otherwise() {
             return Ok(Loaded {
                 project: self.now,
@@ -140,6 +141,7 @@ impl Request {
 /// A design's path from the root, whatever within the file it names.
 #[must_use]
 pub fn absolute(path: &Path) -> PathBuf {
+    // Not canonical: a link that is followed later names the file that it then points to.
     let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     Source::of(path).at(whole).to_path()
 }
@@ -149,6 +151,7 @@ pub fn absolute(path: &Path) -> PathBuf {
 fn choose_cell(loaded: &mut LoadedProject) {
     let can = |cell: &Cell| loaded.available(cell.warp(), cell.content()).is_ok();
     let asked = loaded.cell().ok().filter(can);
+    // What asks most of the designs comes first; what asks least is always among them.
     let suited = asked.or_else(|| Cell::all().find(can));
     if let Some(cell) = suited {
         loaded.project.warp = Some(cell.warp());
@@ -184,6 +187,7 @@ impl Problem {
                 PinError::SamePoint(a, b) | PinError::Crossing(a, b) => vec![*a, *b],
             },
             Self::Build(BuildError::Match(RegionMatchError::PinAcross(a))) => vec![*a],
+            // All else is wrong with the designs or the method, and no pin is to blame.
             Self::Build(_) | Self::Project(_) => Vec::new(),
         }
     }
@@ -194,6 +198,8 @@ impl Problem {
 #[must_use]
 pub fn needs_build(staged: &Project, now: &Project) -> bool {
     let built = |project: &Project| Project {
+        // Reset on both sides: a setting that is added later makes a new build, which may be
+        // needless but is never wrong.
         title: String::new(),
         description: String::new(),
         timing: Timing::default(),

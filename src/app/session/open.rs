@@ -74,6 +74,8 @@ impl Open {
     #[must_use]
     pub fn title(&self) -> String {
         let stem = self.stem();
+        // A title that was given says more than the name of a file, and that more than those of the
+        // designs.
         stem.filter(|_| self.loaded.project.title.is_empty())
             .unwrap_or_else(|| self.loaded.title())
     }
@@ -115,6 +117,8 @@ impl Open {
             return Ok(false);
         };
         self.loaded.project = match &self.loaded.folder {
+            // Saved elsewhere since: the step names its designs from a folder that is no longer the
+            // project's.
             Some(now) if folder.as_ref() != Some(now) => {
                 saving::named_from(project, folder.as_deref(), now)?
             }
@@ -149,6 +153,7 @@ impl Open {
         match built.transition {
             Ok(transition) => {
                 (self.transition, self.problem) = (Some(transition), None);
+                // The settings are not taken from what was built: they may be newer.
                 self.loaded.designs = built.project.designs;
                 self.staged = built.project.project;
                 true
@@ -186,6 +191,7 @@ impl Open {
     pub fn save(&mut self, path: PathBuf) -> Result<(), SaveError> {
         saving::save(&mut self.loaded, &path)?;
         self.saved = self.loaded.project.clone();
+        // Only their names have changed, which is no reason to build again.
         self.staged.designs.clone_from(&self.saved.designs);
         self.origin = Origin::File(path);
         Ok(())

@@ -37,6 +37,7 @@ pub enum SaveError {
 pub fn save(loaded: &mut LoadedProject, path: &Path) -> Result<(), SaveError> {
     let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    // A copy, so that a save that fails leaves the open project as it was.
     let project = named_from(loaded.project.clone(), loaded.folder.as_deref(), &folder)?;
     project.save_atomically(&path)?;
     loaded.project = project;
@@ -61,6 +62,7 @@ pub fn named_from(
                 .to_path(),
             // Letters of the bundled font are at home everywhere.
             None if Source::of(&entry.path).file().is_none() => continue,
+            // A file that took the place of a bundled design is where it was.
             None if entry.path.is_absolute() => relative(folder, &entry.path),
             None => written_beside(folder, &entry.path)?,
         };
@@ -75,6 +77,7 @@ fn written_beside(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveError> {
         error,
     };
     let bytes = gallery::bytes(bundled).ok_or_else(|| failed(io::ErrorKind::NotFound.into()))?;
+    // Else each save of a bundled project would write its designs once more, under new names.
     if std::fs::read(folder.join(bundled)).is_ok_and(|there| there == bytes) {
         return Ok(bundled.to_owned());
     }
@@ -92,6 +95,7 @@ fn written_beside(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveError> {
 fn relative(folder: &Path, file: &Path) -> PathBuf {
     let (from, to): (Vec<_>, Vec<_>) = (parts(folder), parts(file));
     let shared = from.iter().zip(&to).take_while(|(a, b)| a == b).count();
+    // Nothing is shared between two drives, not even the root.
     if shared == 0 || !file.is_absolute() {
         return file.to_owned();
     }

@@ -170,6 +170,7 @@ impl Session {
     /// Both designs are outlines: there is something to match.
     #[must_use]
     pub fn can_match(&self) -> bool {
+        // A project may list more than two; a transition is of the first two.
         let pair = self.designs().get(..2).unwrap_or_default();
         !pair.is_empty() && pair.iter().all(|d| matches!(d.form, Form::Outline(_)))
     }
@@ -201,6 +202,7 @@ impl Session {
         let Some(open) = &mut self.open else {
             return;
         };
+        // A copy, so that an edit that comes to nothing is no step of the history.
         let mut changed = open.loaded.project.clone();
         edit(&mut changed);
         if changed != open.loaded.project {
@@ -288,6 +290,7 @@ impl Session {
 
     /// Gives up the work; the settings go back to what the stage shows.
     pub fn cancel(&mut self) {
+        // Dropped, the job hears that it is not wanted; nobody waits for it to end.
         let Some(work) = self.work.take() else {
             return;
         };
@@ -300,6 +303,7 @@ impl Session {
     /// Takes in work that is done and starts what waits for it.
     pub fn poll(&mut self) -> Option<Outcome> {
         let outcome = self.take_work();
+        // A build runs on while a slider is dragged, so that its way is seen; but not for long.
         let is_free = self.work.as_ref().is_none_or(Work::can_be_given_up);
         if self.is_stale
             && is_free
@@ -331,6 +335,7 @@ impl Session {
             (Ok(_), None, None) => return None,
             (Err(error), origin, open) => {
                 if let (None, Some(open)) = (origin, open) {
+                    // What cannot be read would fail at every build from now on.
                     open.give_up_designs();
                 }
                 Outcome::Failed(error)

@@ -22,7 +22,9 @@ pub struct Tracker {
 impl Progress for Tracker {
     fn report(&self, stage: &'static str, fraction: f64) {
         *self.stage.lock().unwrap_or_else(PoisonError::into_inner) = stage;
+        // There is no atomic float, and a bar of 120 points shows no more than a thousandth.
         let permille = (fraction.clamp(0.0, 1.0) * 1000.0) as u32;
+        // Relaxed, here and below: each value stands alone, and nothing is read because of another.
         self.permille.store(permille, Ordering::Relaxed);
     }
 

@@ -53,6 +53,7 @@ impl Notices {
     }
 
     fn push(&mut self, kind: Kind, text: String) {
+        // Said again it is the newest: it moves to the end, and its time begins anew.
         self.list.retain(|notice| notice.text != text);
         self.next_id += 1;
         self.list.push(Notice {

@@ -28,6 +28,7 @@ impl Plugin for UiPlugin {
             .add_systems(
                 PreUpdate,
                 keep_keys_from_widgets
+                    // After the events are there and before the pass that reads them.
                     .after(EguiInputSet::WriteEguiEvents)
                     .before(EguiPreUpdateSet::BeginPass),
             )
@@ -83,8 +84,10 @@ fn draw(
     overlays(&ctx, &scene, stage, &mut acts);
     area.set_if_neq(StageArea::from_points(first.left_top(), first.size()));
     typing.set_if_neq(Typing(
+        // A menu takes arrows and Esc for itself.
         ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx),
     ));
+    // Acted on in the next frame: the panels are drawn when the systems have run.
     intents.write_batch(acts);
     Ok(())
 }
@@ -111,6 +114,8 @@ fn panels(
     acts: &mut Intents,
 ) {
     toolbar::show(root, scene, acts);
+    // Each takes its edge from what the ones before it have left: the timeline is as wide as the
+    // window, the side panels stand between it and the toolbar.
     strip::show(root, scene, acts);
     if scene.preferences.plots {
         plots::show(root, scene, acts);
@@ -123,6 +128,7 @@ fn panels(
 }
 
 fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut Intents) {
+    // What is left in the middle for messages: each layer takes its height from it.
     let mut below = stage;
     if scene.editor.is_open {
         match_editor::overlay(ctx, scene, stage, acts);

@@ -32,6 +32,7 @@ pub fn show(root: &mut Ui, scene: &Scene, textures: &mut Textures, acts: &mut In
         .show(root, |ui| {
             ui.label(quiet(ui, "Gallery").strong());
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+                // Less than there is: the scroll bar stands in the rest.
                 ui.set_width(WIDTH - 32.0);
                 for entry in &scene.gallery.0 {
                     if card(ui, scene, textures, entry).clicked() {
@@ -75,6 +76,7 @@ fn show_when_new(ui: &Ui, name: &str, card: &Response) {
     let shown = egui::Id::new("the card that was scrolled to");
     let is_new = ui.data_mut(|data| {
         let last = data.get_temp_mut_or_default::<String>(shown);
+        // Only when it is another: else the list could not be scrolled away from it.
         let is_new = last != name;
         name.clone_into(last);
         is_new
@@ -90,6 +92,7 @@ fn thumbnail(ui: &Ui, scene: &Scene, textures: &mut Textures, name: &str, rect: 
     let Some(image) = scene.thumbnails.get(name) else {
         return;
     };
+    // Strips never change, so each goes to the graphics card once.
     let texture = textures.0.entry(name.to_owned()).or_insert_with(|| {
         let size = [image.width() as usize, image.height() as usize];
         let pixels = ColorImage::from_rgba_unmultiplied(size, image.as_raw());

@@ -103,6 +103,7 @@ pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(icons::fonts());
     ctx.set_style_of(Theme::Dark, style(DARK, Visuals::dark()));
     ctx.set_style_of(Theme::Light, style(LIGHT, Visuals::light()));
+    // Egui's own zoom would enlarge the panels, while the keys are the stage's.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
 }
 
@@ -122,6 +123,7 @@ fn style(palette: Palette, base: Visuals) -> Style {
     style.text_styles = text_styles();
     spacing(&mut style.spacing);
     style.interaction.tooltip_delay = 0.4;
+    // Else the pointer turns into a text cursor over every label.
     style.interaction.selectable_labels = false;
     style.animation_time = 0.1;
     style
@@ -152,6 +154,7 @@ fn spacing(spacing: &mut egui::style::Spacing) {
     spacing.slider_rail_height = 4.0;
     spacing.tooltip_width = 320.0;
     spacing.scroll = ScrollStyle::thin();
+    // The fade is half-transparent and comes out wrong, as below.
     spacing.scroll.fade.strength = 0.0;
 }
 

@@ -61,6 +61,8 @@ pub fn slider(
             .range(range.clone())
             .max_decimals(3);
         let number = ui.add_sized([56.0, CONTROL_HEIGHT], number);
+        // A slider takes no width of its own accord; what is left of the row, however wide the
+        // panel is.
         ui.spacing_mut().slider_width = (ui.available_width() - GRID).max(40.0);
         let slider = Slider::new(value, range)
             .logarithmic(logarithmic)
@@ -118,6 +120,7 @@ pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
     response.widget_info(|| WidgetInfo::selected(WidgetType::Checkbox, true, is_on, label));
     let along = ui.ctx().animate_bool_responsive(response.id, is_on);
     let track = Rect::from_center_size(rect.center(), vec2(32.0, 16.0));
+    // The place of the knob says the same as the colour, for eyes that do not tell the two apart.
     let fill = if is_on { palette.accent } else { palette.hover };
     ui.painter()
         .rect(track, 8.0, fill, (1.0, palette.line), StrokeKind::Inside);
@@ -139,6 +142,7 @@ pub fn choices<T: PartialEq + Clone>(
     let width = ui.available_width();
     let gap = 2.0;
     let count = options.len().max(1) as f32;
+    // All as wide as each other, so that the rows of a panel line up.
     let each = vec2((width - gap * (count - 1.0)) / count, CONTROL_HEIGHT);
     ui.spacing_mut().item_spacing.x = gap;
     let mut all: Option<Response> = None;
@@ -218,6 +222,7 @@ pub fn list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
 pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str, size: Vec2) -> Response {
     let palette = Palette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    // A picture has no words: those who hear the window hear the tip.
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, ui.is_enabled(), tip));
     if response.hovered() || response.is_pointer_button_down_on() {
         ui.painter().rect_filled(rect, RADIUS, palette.hover);
@@ -266,7 +271,7 @@ pub fn quiet(ui: &Ui, words: impl Into<String>) -> RichText {
 }
 
 /// A layer above the panels and below what asks, held there at this corner or edge.
-pub fn pinned(name: &str, pivot: Align2, at: Pos2) -> Area {
+pub fn pinned(name: &'static str, pivot: Align2, at: Pos2) -> Area {
     Area::new(name.into())
         .order(Order::Middle)
         .pivot(pivot)
@@ -283,6 +288,7 @@ pub fn words_on_card(
 ) {
     painter.rect(card, RADIUS, fill, line, StrokeKind::Inside);
     let corner = card.center() - words.size() / 2.0;
+    // The words were laid out in their colour; this one is for words without any.
     painter.galley(corner, words, Color32::PLACEHOLDER);
 }
 

@@ -20,7 +20,9 @@ const LONGEST_MITRE: f32 = 1.6;
 
 /// The colour at a place of a ring: rings start at different hues.
 pub fn colour(place: f64, ring: usize, is_light: bool) -> Color32 {
+    // 77 and 360 have no common divisor: no ring begins like another before there are 360.
     let hue = (360.0 * place as f32 + 77.0 * ring as f32).rem_euclid(360.0);
+    // A chroma that sRGB has for every hue, 0.10, is too grey; what lies beyond is clamped below.
     let (lightness, chroma) = if is_light { (0.60, 0.15) } else { (0.74, 0.14) };
     let srgb = Srgba::from(Oklcha::lch(lightness, chroma, hue));
     let byte = |v: f32| (v.clamp(0.0, 1.0) * 255.0).round() as u8;
@@ -37,10 +39,12 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
         .zip(places.iter().copied())
         .chain(ends)
     {
+        // Between points that lie on each other there is no direction to be across.
         if way.last().is_none_or(|(q, _)| q.distance(p) >= LEAST) {
             way.push((p, colour(place, ring, is_light)));
         }
     }
+    // Three points and the first again: less encloses nothing.
     if way.len() < 4 {
         return;
     }
@@ -52,6 +56,7 @@ pub fn stripe(painter: &Painter, points: &[Pos2], places: &[f64], ring: usize, i
         let across = mitre(*p - before, after - *p);
         let clear = Color32::TRANSPARENT;
         let half = WIDTH / 2.0;
+        // Egui smooths the edges of shapes and not those of meshes: the outer rows fade.
         mesh.colored_vertex(*p + across * (half + SOFT), clear);
         mesh.colored_vertex(*p + across * half, *colour);
         mesh.colored_vertex(*p - across * half, *colour);

@@ -46,6 +46,7 @@ pub struct Half {
 impl Half {
     /// Fits a box into `room` and looks at it as the editor does.
     pub fn new(side: Side, rect: Rect, room: Rect, bounds: Bounds, editor: &Editor) -> Self {
+        // A level line has no height, and nothing can be fitted into that.
         let size = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));
         let fitted = (f64::from(room.width().max(1.0)) / size.x)
             .min(f64::from(room.height().max(1.0)) / size.y);
@@ -76,6 +77,7 @@ impl Half {
     /// Where a point of the frame is drawn.
     pub fn px(&self, p: DVec2) -> Pos2 {
         let from_centre = (p - self.centre) * self.px_per_unit;
+        // y is up in the frame and down on the screen.
         let offset = vec2(from_centre.x as f32, -from_centre.y as f32);
         self.room.center() + self.pan + offset
     }
@@ -103,6 +105,7 @@ impl Half {
         let sheet = &scene.sheet;
         self.picture(&painter, sheet);
         if sheet.in_colours() {
+            // A picture is what is seen, and its outline only what was found in it.
             return self.title(&painter, scene, inks);
         }
         self.fill(&painter, scene, inks);
@@ -173,6 +176,8 @@ impl Half {
             for face in mesh.faces().iter() {
                 for k in 0..3 {
                     let (a, b) = (face[k], face[(k + 1) % 3]);
+                    // Two faces share an edge and run along it in opposite directions: once is
+                    // enough.
                     if a < b {
                         painter.line_segment([points[a as usize], points[b as usize]], stroke);
                     }
@@ -240,7 +245,9 @@ impl Half {
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
             return;
         };
+        // Turning stretches by the root of two as well: x + y and y - x have no halves.
         let step = f64::from(HATCH) * std::f64::consts::SQRT_2;
+        // Zoomed in a hundred times, most of the lines would lie outside.
         let visible = self.rect.expand(HATCH);
         let mut y = (bounds.min.y / step).ceil() * step;
         let least = f64::from(visible.top() - visible.right());
@@ -271,6 +278,7 @@ impl Half {
         if let Some((_, part, _)) = editor.first_part.filter(|(side, ..)| *side == self.side) {
             outline(part, 5.0);
         }
+        // One part needs no name.
         let is_plain = sheet.pieces.len() < 2 && editor.tool != Tool::Parts;
         if is_plain {
             return;
@@ -317,6 +325,7 @@ fn backdrop(painter: &Painter, side: Side, picture: &Picture) -> TextureHandle {
     const LONGEST_PX: u32 = 1024;
     let id = Id::new(("backdrop", side.index()));
     let pixels = picture.pixels();
+    // Pictures are shared and never changed: another one lies elsewhere.
     let key = Arc::as_ptr(pixels) as usize;
     let ctx = painter.ctx();
     let kept = ctx.data(|data| data.get_temp::<(usize, TextureHandle)>(id));
@@ -325,6 +334,8 @@ fn backdrop(painter: &Painter, side: Side, picture: &Picture) -> TextureHandle {
     {
         return texture;
     }
+    // A half of the window has no more points than that, and a photograph of full size takes long
+    // to upload.
     let small = (pixels.width().max(pixels.height()) > LONGEST_PX).then(|| {
         let share = f64::from(LONGEST_PX) / f64::from(pixels.width().max(pixels.height()));
         let side = |px: u32| ((f64::from(px) * share) as u32).max(1);

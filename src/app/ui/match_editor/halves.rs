@@ -76,6 +76,7 @@ fn hand(ui: &Ui, scene: &Scene, half: &Half, response: &Response, acts: &mut Int
     if response.drag_started_by(primary)
         && let Some(origin) = origin
     {
+        // Where it went down: a drag is told of only when the hand has moved some points.
         act(EditorAct::Press(half.touch(origin, shift)));
     }
     if let Some(pointer) = response.interact_pointer_pos() {
@@ -97,6 +98,7 @@ fn hand(ui: &Ui, scene: &Scene, half: &Half, response: &Response, acts: &mut Int
         act(EditorAct::Release);
     }
     if let Some(pointer) = response.hover_pos() {
+        // Only when it moves: an intent in each frame would keep the window from resting.
         if moved && !response.dragged() {
             act(EditorAct::Hover(Some(half.touch(pointer, shift))));
         }
@@ -110,15 +112,18 @@ fn hand(ui: &Ui, scene: &Scene, half: &Half, response: &Response, acts: &mut Int
 fn is_left(scene: &Scene, half: &Half, response: &Response) -> bool {
     let editor = &scene.editor;
     let is_marked = editor.hovered.is_some() || editor.trace.is_some() || editor.part.is_some();
+    // The other half says itself what is under the pointer there.
     let is_elsewhere = response
         .ctx
         .input(|input| input.pointer.hover_pos())
         .is_none_or(|p| !half.rect.union(half.across()).contains(p));
+    // What is held stays marked wherever the hand goes.
     is_marked && is_elsewhere && editor.grabbed.is_none()
 }
 
 fn zoom(ui: &Ui, half: &Half, from_middle: egui::Vec2, act: &mut impl FnMut(EditorAct)) {
     if let Some(factor) = zoom_factor(ui) {
+        // The view is enlarged about the middle of the room, which the bar above moves down.
         let at = from_middle - half.room_offset();
         act(EditorAct::Zoom {
             at: Vec2::new(at.x, at.y),

@@ -27,6 +27,7 @@ pub fn draw(painter: &Painter, scene: &Scene, halves: &[Half; 2], inks: &Inks) {
             lines(&clipped, sheet, editor, half, inks);
         }
     }
+    // Across both halves, so not clipped to one; and below the pins, which can be taken hold of.
     link(painter, sheet, editor, halves, inks);
     for half in halves {
         let clipped = half.clip(painter);
@@ -80,6 +81,7 @@ fn lines(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &
         let ends = line[half.side].map(|p| half.px(p));
         let is_selected = matches!(editor.selected, Some(Handle::Line(of, _)) if of == k);
         let colour = if is_selected { inks.accent } else { inks.ink };
+        // A wider one in the colour of the ground, so that it can be seen on any fill.
         painter.line_segment(ends, (5.0, inks.ground));
         painter.line_segment(ends, (2.0, colour));
         for (end, at) in ends.into_iter().enumerate() {
@@ -95,6 +97,7 @@ fn lines(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &
 }
 
 fn number(painter: &Painter, at: Pos2, number: usize, colour: Color32) {
+    // Three digits have to fit into the disc too.
     let size = if number < 100 { 10.5 } else { 8.5 };
     let font = FontId::proportional(size);
     painter.text(at, Align2::CENTER_CENTER, number.to_string(), font, colour);
@@ -157,6 +160,7 @@ fn link(painter: &Painter, sheet: &Sheet, editor: &Editor, halves: &[Half; 2], i
 fn problem_card(painter: &Painter, scene: &Scene, halves: &[Half; 2], problem: &str, inks: &Inks) {
     const WIDTH: f32 = 240.0;
     let editor = &scene.editor;
+    // On the side of the hand, which is what caused it.
     let side = editor.grabbed.map_or(Side::Source, |(side, _)| side);
     let half = &halves[side];
     let faulty = scene.sheet.faulty.last().map(|k| Handle::Pin(*k));
@@ -182,7 +186,9 @@ fn problem_card(painter: &Painter, scene: &Scene, halves: &[Half; 2], problem: &
         room.min + vec2(0.0, BAR_HEIGHT + GRID),
         room.max - vec2(0.0, ADVICE_HEIGHT),
     );
+    // Without a pin to blame, in a corner where it covers least.
     let corner = at.unwrap_or_else(|| room.left_bottom() - vec2(0.0, size.y));
+    // A card larger than the room would make a range whose end lies before its start.
     let most = (room.max - size).max(room.min);
     let corner = corner.clamp(room.min, most);
     let card = Rect::from_min_size(corner, size);

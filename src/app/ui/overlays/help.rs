@@ -28,6 +28,7 @@ pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
         });
         ui.add_space(GRID);
         let groups = groups(scene.keys.rows());
+        // Two columns: one would be higher than the smallest window.
         let half = groups.len().div_ceil(2);
         ui.horizontal_top(|ui| {
             for column in groups.chunks(half.max(1)) {

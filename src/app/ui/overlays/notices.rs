@@ -40,10 +40,12 @@ fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
         ui.horizontal_top(|ui| {
             let (rect, _) = ui.allocate_exact_size(vec2(24.0, 24.0), egui::Sense::hover());
             icons::paint(ui.painter(), icon, rect, colour);
+            // The icon and the cross take 24 points each, and a gap beside either.
             let text_width = width - 24.0 - 24.0 - 2.0 * GRID;
             ui.allocate_ui(vec2(text_width, 0.0), |ui| {
                 ui.set_width(text_width);
                 ui.add_space(3.0);
+                // So that an error can be copied into a report.
                 ui.add(Label::new(&notice.text).wrap().selectable(true));
             });
             let close = icon_button(ui, icons::CLOSE, "Close", vec2(24.0, 24.0));

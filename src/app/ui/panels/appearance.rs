@@ -32,7 +32,9 @@ fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
     let mut preferences = *scene.preferences;
     let show = &mut preferences.show;
     let is_field = draft.content == Some(ContentKind::Field);
+    // A field is of the area that the bars cover, and knows of no bars.
     let has_bars = scene.session.has_bars() && !is_field;
+    // Boundary paths move outlines and nothing between them.
     let has_grid = draft.warp != Some(WarpKind::Paths);
     let layers: [(&mut bool, &str, &str, bool); 7] = [
         (&mut show.fill, "Fill", "The shape itself.", true),
@@ -84,6 +86,7 @@ fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
 fn layer(ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool) {
     ui.add_enabled_ui(applies, |ui| {
         let size = vec2(ui.available_width(), 24.0);
+        // What does not apply is grey and off, and is on again where it applies again.
         let response = choice(ui, *on && applies, name, size);
         if response.clicked() {
             *on = !*on;

@@ -15,6 +15,7 @@ pub fn colours(ui: &mut Ui, mix: &mut ColourMix) {
     section(ui, "Colours", |ui| {
         let tip = "How fast one picture gives way to the other.";
         list(ui, "Curve", tip, &mut mix.curve);
+        // The bounds keep the two apart: a span of no length would be a jump.
         let from = drag(&mut mix.from, 0.0..=mix.to - SHORTEST, 0.005, 2);
         number(ui, "From t", "Until here only the source is seen.", from);
         let to = drag(&mut mix.to, mix.from + SHORTEST..=1.0, 0.005, 2);
@@ -28,6 +29,7 @@ pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
         mixing(ui, &mut field.blend);
         let tip = "What distance means; it shows in the corners.";
         list(ui, "Metric", tip, &mut field.metric);
+        // Other metrics are made from cells and know no place within one.
         let is_euclidean = field.metric == Metric::Euclidean;
         let tip = "Where the edge of a shape lies within a cell; metrics other than the Euclidean have \
              it between cells.";

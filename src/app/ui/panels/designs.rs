@@ -27,6 +27,7 @@ pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
         }
         if draft.designs.len() >= 2 && swap(ui) {
             draft.designs.swap(0, 1);
+            // What was said by hand is of points of the designs, and changes sides with them.
             draft.options.matching = draft.options.matching.swapped();
         }
     });
@@ -97,6 +98,7 @@ fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
     let mut degrees = place.rotation.to_degrees();
     let tip = "Turns this design counter-clockwise, in degrees.";
     slider(ui, "Rotation", tip, &mut degrees, -180.0..=180.0, false);
+    // To degrees and back is not the same number: being drawn would change the project.
     if (degrees - place.rotation.to_degrees()).abs() > 1e-9 {
         place.rotation = degrees.to_radians();
     }

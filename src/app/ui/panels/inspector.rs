@@ -35,6 +35,7 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let Some(project) = scene.session.project() else {
         return;
     };
+    // Not of the copy: another method is an intent of its own, which keys send too.
     method::show(ui, scene, project, acts);
     let mut draft = project.clone();
     if scene.session.can_match() && draft.warp != Some(WarpKind::None) {
@@ -62,6 +63,7 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     }
     designs::show(ui, &mut draft, acts);
     appearance::show(ui, scene, &mut draft, acts);
+    // One intent for all, so that one movement of the hand is one step of the history.
     if draft != *project {
         acts.push(Intent::Edit(Box::new(draft)));
     }

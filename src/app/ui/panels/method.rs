@@ -83,6 +83,7 @@ fn cell(
 ) {
     let available = scene.session.available(warp, content);
     let is_chosen = (project.warp, project.content) == (Some(warp), Some(content));
+    // Not a disabled one: it has to tell why it cannot be had.
     let sense = if available.is_ok() {
         Sense::click()
     } else {

@@ -50,6 +50,7 @@ fn weights(ui: &mut Ui, weights: &mut Weights) {
                 "All alike, as in the paper: finely divided parts are stiffer",
             ),
         ];
+        // Numbers of one's own cannot be written here, but must not be lost by a click either.
         if matches!(weights, Weights::PerFace(_)) {
             options.push((
                 weights.clone(),
@@ -65,6 +66,7 @@ fn path(ui: &mut Ui, path: &mut ArapPath) {
     let tip = "Which point of the whole goes straight from its first place to its last.";
     row(ui, "Path", tip, |ui| {
         let (anchor, width) = match *path {
+            // Room beside the two for the number of the vertex.
             ArapPath::Anchor(vertex) => (vertex, 112.0),
             ArapPath::Centroid => (0, ui.available_width()),
         };
@@ -97,6 +99,7 @@ fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
         let mut all = first;
         number(ui, "Extra turns", tip, drag(&mut all, TURNS, 0.02, 0));
         if all != first {
+            // No number is how files say none.
             *turns = if all == 0 { Vec::new() } else { vec![all] };
         }
     }

@@ -32,6 +32,8 @@ pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, name: &str, acts: &mut Int
         return;
     };
     if let Some(factor) = zoom_factor(root) {
+        // From the corner of the part that it lies in: beside the stage the same of the plane is
+        // seen.
         let at = pointer - rect.min;
         acts.push(Intent::Zoom {
             at: Vec2::new(at.x, at.y),

@@ -16,6 +16,7 @@ const NAME_WIDTH: f32 = 168.0;
 
 /// Draws what lies above both; returns the part that the stage takes.
 pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Rect {
+    // Whole points, so that neither half begins within a pixel.
     let half = vec2((stage.width() / 2.0).floor(), stage.height());
     let left = Rect::from_min_size(stage.min, half);
     let right = left.translate(vec2(half.x, 0.0));
@@ -38,6 +39,7 @@ fn missing(ui: &Ui, scene: &Scene, rect: Rect) {
         (Some(_), _) => return,
         (None, Some(problem)) => problem.to_string(),
         (None, None) if twin.is_busy() => "Building …".to_owned(),
+        // Before its work begins; the next frame tells more.
         (None, None) => return,
     };
     let ink = ink_on(scene.session.style().ground);

@@ -21,6 +21,7 @@ const NEAR_T: f64 = 0.02;
 pub fn height(scene: &Scene) -> f32 {
     scene.measured.measures().map_or(0.0, |measures| {
         let verdict = &measures.verdict;
+        // Where nothing was found one line says so.
         let lines = verdict.findings.len().max(1) + verdict.notes.len();
         3.0 * GRID + ROW_HEIGHT * lines as f32
     })

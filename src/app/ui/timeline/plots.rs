@@ -92,6 +92,7 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
     let is_held = response.response.is_pointer_button_down_on()
         || response.response.dragged_by(PointerButton::Primary);
     if let Some(pointer) = response.inner.filter(|_| is_held) {
+        // The axis shows a little more than was measured.
         acts.push(Intent::Seek(pointer.x.clamp(0.0, 1.0)));
     }
     response
@@ -102,6 +103,7 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
 /// The empty plot: it cannot be dragged or zoomed.
 fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
     let plot = Plot::new(("plot", quantity.name().title))
+        // All plots show the same t from edge to edge, so that they can be compared.
         .allow_drag(false)
         .allow_zoom(false)
         .allow_scroll(false)
@@ -143,6 +145,7 @@ fn drawn(quantity: Quantity, value: f64) -> f64 {
 fn value_axis(quantity: Quantity, colour: Color32) -> AxisHints<'static> {
     AxisHints::new_y()
         .tick_label_color(colour)
+        // As wide as the longest number, so that plots do not jump as their numbers change.
         .min_thickness(36.0)
         .formatter(move |mark, _| {
             let value = mark.value;

@@ -22,6 +22,7 @@ pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
             let mut draft = project.clone();
             transport::show(ui, scene, &mut draft.timing, acts);
             track::show(ui, scene, &mut draft, acts);
+            // Times and stops are a change of the project like any other, and can be undone.
             if draft != *project {
                 acts.push(Intent::Edit(Box::new(draft)));
             }

@@ -38,6 +38,7 @@ impl Ruler {
             .iter()
             .map(|stop| stop.t)
             .chain([timing.from, timing.to]);
+        // Also t itself: typed or played far outside, it must be seen.
         let places = places.chain([scene.playback.t()]);
         let (mut from, mut to) = (-BEYOND, 1.0 + BEYOND);
         for t in places {
@@ -77,6 +78,7 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
 }
 
 fn scrub(response: &Response, ruler: Ruler, stops: &[Stop], acts: &mut Intents) {
+    // A press moves t at once, and not only when it has become a drag.
     let is_held = response.dragged() || response.is_pointer_button_down_on();
     let Some(pointer) = response.interact_pointer_pos().filter(|_| is_held) else {
         return;
@@ -85,6 +87,7 @@ fn scrub(response: &Response, ruler: Ruler, stops: &[Stop], acts: &mut Intents) 
     let near = places
         .map(|t| (t, (ruler.x(t) - pointer.x).abs()))
         .filter(|(_, d)| *d < SNAP);
+    // On a screen a point is more than a thousandth of t: ends and stops are meant exactly.
     let snapped = near.min_by(|a, b| a.1.total_cmp(&b.1)).map(|(t, _)| t);
     acts.push(Intent::Seek(
         snapped.unwrap_or_else(|| rounded(ruler.t(pointer.x))),
@@ -167,9 +170,11 @@ fn playhead(ui: &Ui, ruler: Ruler, t: f64) {
 }
 
 fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
+    // Taken out after the loop, which goes through the list that it would be taken out of.
     let mut deleted = None;
     for (index, stop) in stops.iter_mut().enumerate() {
         let at = pos2(ruler.x(stop.t), ruler.y - 14.0);
+        // By number and not by name, which may be written while its menu is open.
         let id = ui.id().with(("stop", index));
         let response = marker(ui, at, id, &stop.name);
         if response.clicked() {

@@ -67,6 +67,7 @@ fn play_button(ui: &mut Ui, scene: &Scene) -> Response {
 fn place(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let palette = Palette::of(ui);
     ui.label(RichText::new("t").color(palette.weak));
+    // A copy: t is changed by the intent, and by nothing else.
     let mut t = scene.playback.t();
     let number = DragValue::new(&mut t)
         .speed(0.002)
@@ -79,6 +80,7 @@ fn place(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     if response.changed() {
         acts.push(Intent::Seek(t));
     }
+    // In words too: what is beyond is not told by colour alone.
     let beyond = match scene.playback.t() {
         t if t < 0.0 => "extrapolated before the source",
         t if t > 1.0 => "extrapolated beyond the target",
