@@ -7,7 +7,8 @@ use bevy::prelude::{MouseButton, Res, ResMut, Resource};
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Typing(pub bool);
 
-/// Frames from the release of a button until the last change that belongs to it was acted on.
+/// Frames from the release of a button until the last change that belongs to it was acted on:
+/// panels are drawn after the systems have run, so what they ask for is acted on a frame later.
 const FRAMES_AFTER: u8 = 2;
 
 /// Which changes belong to one movement of the hand.

@@ -1,9 +1,9 @@
 //! Which key means what.
 //!
 //! The rows of [`keytable`](super::keytable) serve both the keys and the list of keys that the
-//! window shows: what the list calls a key is made from what recognises it. Letters and signs go by what the key prints, digits by where they are, so that
-//! the number row works on a French keyboard and `[` on a German one. While a text field has the
-//! focus no key means anything here.
+//! window shows: what the list calls a key is made from what recognises it. Letters and signs go
+//! by what the key prints, digits by where they are, so that the number row works on a French
+//! keyboard and `[` on a German one. While a text field has the focus no key means anything here.
 
 use std::fmt;
 

@@ -65,7 +65,7 @@ fn first_free<T>(
     };
     std::fs::create_dir_all(folder).map_err(|source| failed(folder, source))?;
     let stem = safe(stem);
-    // Asking which names are taken and making the file after that would not be one act.
+    // Made at once and not looked for first: two programs that look could both find a name free.
     for number in 1u32.. {
         let name = if number == 1 {
             format!("{stem}{suffix}")

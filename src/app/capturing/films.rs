@@ -149,7 +149,8 @@ impl Order {
             project,
             transition: session.transition()?.clone(),
             longer_side_px: match preferences.capture_scale {
-                // A recording goes on without the window: half of full HD, so that 2× is that and 4K is 4K.
+                // A recording goes on without the window, so its size is no part of it: half of
+                // full HD.
                 CaptureScale::One => 960,
                 CaptureScale::Two => 1920,
                 CaptureScale::FourK => 3840,

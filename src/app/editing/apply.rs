@@ -14,7 +14,8 @@ use crate::geometry::{DVec2, Pair, Side};
 use crate::project::Project;
 use crate::warp::WarpKind;
 
-/// The least and the most that the view is enlarged.
+/// The least and the most that the view is enlarged: bounds that keep a slip of the wheel from
+/// losing the design. No test needs these very numbers.
 const ZOOMS: [f32; 2] = [0.2, 100.0];
 
 /// Said of a point that no pin can be set on.
@@ -328,7 +329,6 @@ fn remove_handle(handle: Handle, sheet: &Sheet, said: &mut Matching) {
 /// Drops every pair that one of these parts is in.
 fn unlink(sheet: &Sheet, said: &mut Matching, parts: [Option<usize>; 2]) {
     said.links.retain(|link| {
-        // Kept where no side of it lies in one of the parts.
         Side::BOTH.into_iter().all(|side| {
             let wanted = parts[side];
             wanted.is_none() || sheet.part(side, sheet.framed(link, side), 0.0) != wanted

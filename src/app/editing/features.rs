@@ -6,16 +6,19 @@ use crate::app::editing::ring::SheetRing;
 use crate::correspondence::{PointPair, RingKind};
 use crate::geometry::DVec2;
 
-/// How many points are shown of all rings together, more or less.
+/// How many points are shown of all rings together, more or less: enough to tell a shift along the
+/// boundary, few enough for their numbers not to cover it.
 const MANY: f64 = 12.0;
 
-/// The least that are shown of a ring.
+/// The least that are shown of a ring: the share of a small one may be none.
 const FEW: usize = 2;
 
-/// A corner is what turns over this share of the ring before and after it.
+/// A corner is what turns over this share of the ring before and after it: a rounded one counts,
+/// and what was flattened from a curve hardly does.
 const REACH: f64 = 0.03;
 
-/// What a place that is no corner counts for, against one for a reversal on both sides.
+/// What a place that is no corner counts for, against one for a reversal on both sides: above 0,
+/// so that a circle gets points too, and far below the half of a square's corner.
 const PLAIN: f64 = 0.02;
 
 /// Chooses points of the matched rings; places nearer to a pin than to the next point are left

@@ -120,6 +120,9 @@ pub fn places(points: &[DVec2]) -> (Vec<f64>, f64) {
 }
 
 /// The point at a place, a share of the whole that wraps round.
+///
+/// # Panics
+/// There are no points.
 pub fn at(points: &[DVec2], places: &[f64], place: f64) -> DVec2 {
     let place = place.rem_euclid(1.0);
     let next = places.partition_point(|p| *p <= place);

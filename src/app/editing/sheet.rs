@@ -15,7 +15,7 @@ use crate::design::{Design, Form, Picture};
 use crate::geometry::{Bounds, DVec2, Side, Similarity};
 
 /// A cut that was asked for is shown by the one that came of it where the two are no farther apart
-/// than this share of the design.
+/// than this share of the design: a cut that the match moved is still the one that was asked for.
 const SAME_CUT: f64 = 0.25;
 
 /// Both designs and their match.

@@ -14,7 +14,8 @@ use crate::app::session::state::Session;
 use crate::geometry::Bounds;
 use crate::stage::{StageCamera, StageView};
 
-/// Room around the transition when all of it is shown, as a part of its size.
+/// Room around the transition when all of it is shown, as a part of its size: outlines and the
+/// marks of findings reach beyond the forms.
 const ROOM: f64 = 0.04;
 
 /// The part of the window that the panels leave to the stage, in logical pixels.
@@ -181,7 +182,8 @@ pub fn window_mode(
     for intent in intents.read() {
         if *intent == Intent::ToggleFullscreen {
             window.mode = match window.mode {
-                // Borderless: the other kind may change the screen's resolution, which takes seconds.
+                // Borderless: the other kind may change the screen's resolution, which takes
+                // seconds.
                 WindowMode::Windowed => WindowMode::BorderlessFullscreen(MonitorSelection::Current),
                 _ => WindowMode::Windowed,
             };

@@ -99,7 +99,7 @@ pub fn answer(
     for intent in intents.read() {
         match intent {
             Intent::Answer(Answer::Stay) | Intent::Back => {
-                // Once a save is under way the question is answered, and Esc is meant for something
+                // Once a save is under way the question is answered: Esc is meant for something
                 // else.
                 question.held.take_if(|held| !held.waits_for_save);
             }

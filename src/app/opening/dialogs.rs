@@ -67,7 +67,6 @@ pub fn open(
             _ => continue,
         };
         let applies = session.project().is_some() || purpose == Purpose::Open;
-        // A second one above the first could be answered in the wrong order.
         if dialog.0.is_none() && applies {
             dialog.0 = Some((purpose, start(purpose, &session)));
         }
@@ -222,7 +221,6 @@ pub fn read_drops(
     for drop in drops.read() {
         if let FileDragAndDrop::DroppedFile { path_buf, .. } = drop {
             state.arriving.push(path_buf.clone());
-            // Each file that arrives starts the wait anew.
             state.quiet_secs = 0.0;
         }
     }

@@ -17,7 +17,7 @@ use crate::transition::{Style, Transition};
 /// Width and height of a strip in pixels: twice what is shown at scale factor 1.
 pub const STRIP_PX: (u32, u32) = (384, 128);
 
-/// How many in-betweens a strip shows.
+/// How many forms a strip shows: both ends, and what is between them.
 const FRAMES: usize = 3;
 
 /// All strips that there are yet.

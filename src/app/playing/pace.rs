@@ -16,7 +16,8 @@ use crate::app::opening::thumbnails::Thumbnails;
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
 
-/// While nothing moves, the window looks this often for what no event tells of.
+/// While nothing moves, the window looks this often for what no event tells of: soon enough not to
+/// be noticed, and rarely enough for the processor to rest.
 const IDLE: Duration = Duration::from_millis(100);
 
 /// Chooses the pace of the next frame. Keys and the pointer wake the window at any pace.

@@ -11,7 +11,8 @@ use undo::{Edit, Merged, Record};
 
 use crate::project::Project;
 
-/// The most steps that are kept.
+/// The most steps that are kept: each holds two whole projects, some kilobytes, and more where
+/// faces have weights of their own.
 const MOST_STEPS: usize = 200;
 
 /// A project at one moment.

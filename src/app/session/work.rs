@@ -5,7 +5,8 @@ use std::time::Duration;
 use crate::app::session::loading::{LoadError, Loaded, Origin, Request};
 use crate::app::telling::job::Job;
 
-/// A build that takes longer is given up when the settings change again.
+/// A build that takes longer is given up when the settings change again. Shorter, and a build that
+/// takes a second would never be seen while a slider moves; longer, and the slider seems stuck.
 const PATIENCE: Duration = Duration::from_millis(1500);
 
 /// Work that is going on.

@@ -4,7 +4,7 @@ use bevy::prelude::{MessageReader, Res, ResMut, Resource, Time};
 
 use crate::app::asking::intent::Intent;
 
-/// How long a confirmation stays.
+/// How long a confirmation stays: long enough to read the path of a file.
 const CONFIRMATION_SECS: f32 = 6.0;
 
 /// What a notice is.

@@ -4,7 +4,8 @@ use bevy_egui::egui::epaint::TextShape;
 use bevy_egui::egui::{Align2, Color32, FontDefinitions, FontFamily, FontId, Painter, Rect};
 use egui_phosphor::{Variant, fill, regular};
 
-/// Width of every icon, in points: Phosphor's grid has 16 squares, so that its lines fall on pixels.
+/// Width of every icon, in points: Phosphor's grid has 16 squares, so that its lines fall on
+/// pixels.
 const SIZE: f32 = 16.0;
 
 const LINES: &str = "icons in lines";

@@ -103,7 +103,8 @@ pub fn install(ctx: &egui::Context) {
     ctx.set_fonts(icons::fonts());
     ctx.set_style_of(Theme::Dark, style(DARK, Visuals::dark()));
     ctx.set_style_of(Theme::Light, style(LIGHT, Visuals::light()));
-    // Egui's own zoom would enlarge the panels, while the keys are the stage's.
+    // Egui's own zoom changes what a point is, and the stage's area is told in the window's
+    // points.
     ctx.options_mut(|options| options.zoom_with_keyboard = false);
 }
 

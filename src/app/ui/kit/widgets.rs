@@ -97,7 +97,8 @@ pub fn toggle(ui: &mut Ui, label: &str, tip: &str, on: &mut bool) {
     row(ui, label, tip, |ui| switch(ui, label, on));
 }
 
-/// A row with a switch for whether the program finds a value itself; off, it starts from the usual one.
+/// A row with a switch for whether the program finds a value itself; off, it starts from the usual
+/// one.
 pub fn automatic<T>(ui: &mut Ui, label: &str, tip: &str, value: &mut Option<T>, usual: T) {
     let mut is_automatic = value.is_none();
     toggle(ui, label, tip, &mut is_automatic);
@@ -142,7 +143,6 @@ pub fn choices<T: PartialEq + Clone>(
     let width = ui.available_width();
     let gap = 2.0;
     let count = options.len().max(1) as f32;
-    // All as wide as each other, so that the rows of a panel line up.
     let each = vec2((width - gap * (count - 1.0)) / count, CONTROL_HEIGHT);
     ui.spacing_mut().item_spacing.x = gap;
     let mut all: Option<Response> = None;

@@ -23,10 +23,11 @@ use crate::correspondence::RingKind;
 use crate::design::Picture;
 use crate::geometry::{Bounds, DVec2, Side};
 
-/// How near the pointer must come, in points.
+/// How near the pointer must come, in points: the disc of a pin and its rim.
 const REACH: f32 = 9.0;
 
-/// Distance of the lines of a hatching, in points.
+/// Distance of the lines of a hatching, in points: wide enough for the fill to be seen between
+/// them.
 const HATCH: f32 = 8.0;
 
 /// Where one design lies in the window.
@@ -334,8 +335,7 @@ fn backdrop(painter: &Painter, side: Side, picture: &Picture) -> TextureHandle {
     {
         return texture;
     }
-    // A half of the window has no more points than that, and a photograph of full size takes long
-    // to upload.
+    // Trades sharpness far zoomed in for the time and the memory of a photograph of full size.
     let small = (pixels.width().max(pixels.height()) > LONGEST_PX).then(|| {
         let share = f64::from(LONGEST_PX) / f64::from(pixels.width().max(pixels.height()));
         let side = |px: u32| ((f64::from(px) * share) as u32).max(1);

@@ -30,8 +30,8 @@ pub struct Inks {
 }
 
 impl Inks {
-    /// The inks on the ground of the open project. The ground is the project's and not the panels', so the
-    /// palette is the one that goes with it.
+    /// The inks on the ground of the open project. The ground is the project's and not the
+    /// panels', so the palette is the one that goes with it.
     pub fn of(scene: &Scene) -> Self {
         let style = scene.session.style();
         let colour = |Rgb([r, g, b]): Rgb| Color32::from_rgb(r, g, b);

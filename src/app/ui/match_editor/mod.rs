@@ -1,8 +1,9 @@
 //! The match editor: source and target side by side in place of the stage.
 //!
-//! Drawn over the stage with egui; what the hand does becomes an [`EditorAct`](crate::app::EditorAct) in the coordinates
-//! of the frame. Colours run along the boundary, the same on both sides, and numbers say the same
-//! again, so that nothing hangs on colour alone.
+//! Drawn over the stage with egui; what the hand does becomes an
+//! [`EditorAct`](crate::app::EditorAct) in the coordinates of the frame. Colours run along the
+//! boundary, the same on both sides, and numbers say the same again, so that nothing hangs on
+//! colour alone.
 
 mod bar;
 mod boundary;

@@ -40,7 +40,6 @@ fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
         ui.horizontal_top(|ui| {
             let (rect, _) = ui.allocate_exact_size(vec2(24.0, 24.0), egui::Sense::hover());
             icons::paint(ui.painter(), icon, rect, colour);
-            // The icon and the cross take 24 points each, and a gap beside either.
             let text_width = width - 24.0 - 24.0 - 2.0 * GRID;
             ui.allocate_ui(vec2(text_width, 0.0), |ui| {
                 ui.set_width(text_width);

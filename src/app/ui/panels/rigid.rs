@@ -99,7 +99,6 @@ fn extra_turns(ui: &mut Ui, turns: &mut Vec<i32>, parts: usize) {
         let mut all = first;
         number(ui, "Extra turns", tip, drag(&mut all, TURNS, 0.02, 0));
         if all != first {
-            // No number is how files say none.
             *turns = if all == 0 { Vec::new() } else { vec![all] };
         }
     }

@@ -42,7 +42,8 @@ pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, name: &str, acts: &mut Int
     }
 }
 
-/// By how much the hand zooms in this frame, by the wheel or by two fingers; nothing where it does not.
+/// By how much the hand zooms in this frame, by the wheel or by two fingers; nothing where it does
+/// not.
 pub fn zoom_factor(ui: &Ui) -> Option<f32> {
     let factor = ui
         .input(|input| input.zoom_delta() * (input.smooth_scroll_delta().y * ZOOM_PER_POINT).exp());

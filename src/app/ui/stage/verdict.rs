@@ -1,4 +1,5 @@
-//! The verdict on the transition: a line or two at the lower left of the stage, and where it points to.
+//! The verdict on the transition: a line or two at the lower left of the stage, and where it
+//! points to.
 
 use bevy_egui::egui::{self, Align2, Context, Label, Margin, Rect, RichText, Sense, Ui, vec2};
 
@@ -14,7 +15,8 @@ use crate::measure::Finding;
 /// Height of one line.
 const ROW_HEIGHT: f32 = 24.0;
 
-/// How near t must be for the place of a finding to be marked.
+/// How near t must be for the place of a finding to be marked: wider than the step of the measures,
+/// a 64th, so that playing past it lights it up.
 const NEAR_T: f64 = 0.02;
 
 /// Height that the verdict takes at the lower edge of the stage.

@@ -67,7 +67,6 @@ fn play_button(ui: &mut Ui, scene: &Scene) -> Response {
 fn place(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let palette = Palette::of(ui);
     ui.label(RichText::new("t").color(palette.weak));
-    // A copy: t is changed by the intent, and by nothing else.
     let mut t = scene.playback.t();
     let number = DragValue::new(&mut t)
         .speed(0.002)
