@@ -26,9 +26,9 @@ struct Held {
 impl Question {
     /// What to ask, while a question is open.
     #[must_use]
-    pub fn text(&self) -> Option<String> {
+    pub fn text(&self) -> Option<&str> {
         let held = self.held.as_ref().filter(|held| !held.waits_for_save)?;
-        Some(held.text.clone())
+        Some(&held.text)
     }
 
     /// Holds an act back and asks.
@@ -42,8 +42,8 @@ impl Question {
 
     /// The project has just been saved: what waited for it goes on.
     pub fn after_save(&mut self) -> Option<Intent> {
-        let is_waiting = self.held.as_ref().is_some_and(|held| held.waits_for_save);
-        self.held.take_if(|_| is_waiting).map(|held| held.intent)
+        let waiting = self.held.take_if(|held| held.waits_for_save)?;
+        Some(waiting.intent)
     }
 
     /// The project was not saved after all: what waited for it is dropped.

@@ -198,13 +198,6 @@ impl Drop {
         self.undecided.as_deref()
     }
 
-    /// Its name, for a question.
-    #[must_use]
-    pub fn undecided_name(&self) -> Option<String> {
-        let name = self.undecided.as_deref()?.file_name()?;
-        Some(name.to_string_lossy().into_owned())
-    }
-
     /// Asks what a single design is for.
     pub fn ask(&mut self, path: PathBuf) {
         self.undecided = Some(path);

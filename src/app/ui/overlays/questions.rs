@@ -1,5 +1,7 @@
 //! The two questions that the program asks: about unsaved changes, and what a dropped file is for.
 
+use std::path::Path;
+
 use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Ui};
 
 use crate::app::asking::intent::{Answer, Intent};
@@ -10,9 +12,9 @@ use crate::app::ui::scene::{Intents, Scene};
 /// Draws the question that is open, if any.
 pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
     if let Some(question) = scene.question.text() {
-        ask_unsaved(ctx, &question, acts);
-    } else if let Some(name) = scene.drop.undecided_name() {
-        ask_drop(ctx, scene, &name, acts);
+        ask_unsaved(ctx, question, acts);
+    } else if let Some(path) = scene.drop.undecided() {
+        ask_drop(ctx, path, acts);
     }
 }
 
@@ -36,19 +38,13 @@ fn ask_unsaved(ctx: &Context, question: &str, acts: &mut Intents) {
     });
 }
 
-fn ask_drop(ctx: &Context, scene: &Scene, name: &str, acts: &mut Intents) {
-    let Some(path) = scene.drop.undecided() else {
-        return;
-    };
+fn ask_drop(ctx: &Context, path: &Path, acts: &mut Intents) {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
     Modal::new(Id::new("drop")).show(ctx, |ui| {
         ui.set_width(400.0);
         ui.heading("One design");
-        ui.add(
-            Label::new(format!(
-                "What is {name} for? Drop two files to open a new pair."
-            ))
-            .wrap(),
-        );
+        let words = format!("What is {name} for? Drop two files to open a new pair.");
+        ui.add(Label::new(words).wrap());
         answers(ui, |ui| {
             if primary_button(ui, "Use as target").clicked() {
                 acts.push(Intent::ReplaceDesign(1, path.to_owned()));
