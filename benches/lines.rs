@@ -193,13 +193,12 @@ fn warp(criterion: &mut Criterion) -> Result<()> {
             falloff,
             ..LineOptions::default()
         };
-        let warp = Lines::new(&bounds, &lines, &[], &options)?;
-        let mut maps = warp.maps();
+        let mut warp = Lines::new(&bounds, &lines, &[], &options)?;
         let mut designs = [grid.places().to_vec(), grid.places().to_vec()];
         let name = format!("frame/{} places, b = {falloff}", grid.places().len());
         criterion.bench_function(&name, |bench| {
             let [source, target] = &mut designs;
-            bench.iter(|| warp.look_up(0.4, &mut maps, grid.places(), source, target));
+            bench.iter(|| warp.look_up(0.4, grid.places(), source, target));
         });
     }
     Ok(())

@@ -67,8 +67,7 @@ fn rasters(criterion: &mut Criterion) -> Result<()> {
                     target: value(&source),
                 })
                 .collect();
-            let warp = Scattered::new(&SQUARE, &pairs, &[], with(basis))?;
-            let mut maps = warp.maps();
+            let mut warp = Scattered::new(&SQUARE, &pairs, &[], with(basis))?;
             for threads in [1, 2] {
                 let pool = rayon::ThreadPoolBuilder::new()
                     .num_threads(threads)
@@ -77,7 +76,7 @@ fn rasters(criterion: &mut Criterion) -> Result<()> {
                 group.bench_function(id, |b| {
                     b.iter(|| {
                         pool.install(|| {
-                            warp.look_up(0.5, &mut maps, &raster, &mut source, &mut target);
+                            warp.look_up(0.5, &raster, &mut source, &mut target);
                         });
                     });
                 });
@@ -128,11 +127,11 @@ fn frames(criterion: &mut Criterion) -> Result<()> {
 fn frame<W: PlaneWarp>(warp: &W) -> impl FnMut() {
     let places = PlaneGrid::covering(&SQUARE, 64).places().to_vec();
     let (mut source, mut target) = (places.clone(), places.clone());
-    let mut maps = warp.maps();
+    let mut warp = warp.clone();
     let mut step = 0;
     move || {
         step = (step + 37) % 100;
         let t = f64::from(step) / 100.0;
-        warp.look_up(t, &mut maps, &places, &mut source, &mut target);
+        warp.look_up(t, &places, &mut source, &mut target);
     }
 }

@@ -81,13 +81,9 @@ impl Features {
         })
     }
 
-    pub(super) fn len(&self) -> usize {
-        self.pairs.len()
-    }
-
     /// The features at t, and from there to the source and to the target. At
     /// t = 0 and t = 1 the one or the other is exactly zero.
-    pub(super) fn at(&self, t: f64) -> impl Iterator<Item = (DVec2, [DVec2; 2])> + '_ {
+    pub(super) fn at(&self, t: f64) -> impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone {
         let t = if t.is_nan() { 0.0 } else { t.clamp(-FAR, FAR) };
         self.pairs.iter().map(move |pair| {
             let at = pair.source * (1.0 - t) + pair.target * t;

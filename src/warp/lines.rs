@@ -71,10 +71,9 @@ const CHUNK: usize = 1024;
 ///     target: [DVec2::Y, DVec2::Y + DVec2::X], // one up
 /// };
 /// let frame = Bounds { min: DVec2::NEG_ONE, max: DVec2::ONE };
-/// let lines = Lines::new(&frame, &[line], &[], &LineOptions::default())?;
-/// let mut maps = lines.maps();
+/// let mut lines = Lines::new(&frame, &[line], &[], &LineOptions::default())?;
 /// let [mut in_source, mut in_target] = [[DVec2::ZERO]; 2];
-/// lines.look_up(0.25, &mut maps, &[DVec2::ZERO], &mut in_source, &mut in_target);
+/// lines.look_up(0.25, &[DVec2::ZERO], &mut in_source, &mut in_target);
 /// assert!(in_source[0].distance(DVec2::new(0.0, -0.25)) < 1e-15);
 /// assert!(in_target[0].distance(DVec2::new(0.0, 0.75)) < 1e-15);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
@@ -82,14 +81,13 @@ const CHUNK: usize = 1024;
 #[derive(Clone, Debug)]
 pub struct Lines {
     features: Vec<(Moving, Option<f64>)>,
-    constants: Constants,
     between: Between,
+    at_t: LinesAtT,
 }
 
-/// Memory of one frame of [`Lines`]: the lines at a t, which move the plane
-/// together, into both designs.
+/// The lines at a t, which move the plane together, into both designs.
 #[derive(Clone, Debug)]
-pub struct LinesAtT {
+struct LinesAtT {
     arch: Arch,
     constants: Constants,
     plane: Scaled,
@@ -121,8 +119,8 @@ impl Lines {
         let moving = lines.iter().map(line).chain(points.iter().map(pin));
         Ok(Self {
             features: moving.map(nominal).collect(),
-            constants: options.constants(diameter)?,
             between: options.between,
+            at_t: LinesAtT::new(options.constants(diameter)?),
         })
     }
 }
@@ -138,14 +136,14 @@ fn diameter(frame: &Bounds) -> Result<f64, FeatureError> {
 }
 
 impl LinesAtT {
-    /// No lines, with memory for so many.
-    fn new(constants: Constants, capacity: usize) -> Self {
+    /// No lines yet.
+    fn new(constants: Constants) -> Self {
         Self {
             arch: Arch::new(),
             constants,
             plane: Scaled::default(),
             a: constants.a,
-            lines: Vec::with_capacity(capacity),
+            lines: Vec::new(),
         }
     }
 
@@ -185,28 +183,21 @@ impl LinesAtT {
 }
 
 impl PlaneWarp for Lines {
-    type Maps = LinesAtT;
-
-    fn maps(&self) -> LinesAtT {
-        LinesAtT::new(self.constants, self.features.len())
-    }
-
     fn look_up(
-        &self,
+        &mut self,
         t: f64,
-        maps: &mut LinesAtT,
         frame: &[DVec2],
         in_source: &mut [DVec2],
         in_target: &mut [DVec2],
     ) {
-        maps.fill(self.features.iter().map(|(moving, nominal)| Feature {
+        let lines = &mut self.at_t;
+        lines.fill(self.features.iter().map(|(moving, nominal)| Feature {
             in_frame: moving.at(t, self.between),
             in_designs: [moving.source, moving.target],
             nominal: *nominal,
         }));
-        let maps = &*maps;
         in_chunks(CHUNK, frame, [in_source, in_target], |places, looks| {
-            maps.map_into(places, looks);
+            lines.map_into(places, looks);
         });
     }
 }

@@ -23,13 +23,7 @@ use std::sync::Arc;
 pub struct Split<W> {
     rigid: RigidPart,
     elastic: W,
-}
-
-/// Memory of a frame of a [`Split`] warp: that of the elastic warp, and the
-/// places as it sees them.
-#[derive(Clone, Debug)]
-pub struct SplitMaps<M> {
-    elastic: M,
+    /// The places as the elastic warp sees them.
     rest: Vec<DVec2>,
 }
 
@@ -66,24 +60,15 @@ impl<W> Split<W> {
         Ok(Self {
             rigid,
             elastic: elastic(&rigid.frame_at_rest(frame), &points, &lines)?,
+            rest: Vec::new(),
         })
     }
 }
 
 impl<W: PlaneWarp> PlaneWarp for Split<W> {
-    type Maps = SplitMaps<W::Maps>;
-
-    fn maps(&self) -> Self::Maps {
-        SplitMaps {
-            elastic: self.elastic.maps(),
-            rest: Vec::new(),
-        }
-    }
-
     fn look_up(
-        &self,
+        &mut self,
         t: f64,
-        maps: &mut Self::Maps,
         frame: &[DVec2],
         in_source: &mut [DVec2],
         in_target: &mut [DVec2],
@@ -91,11 +76,10 @@ impl<W: PlaneWarp> PlaneWarp for Split<W> {
         let RigidPart { centres, turn } = self.rigid;
         let t = if t.is_finite() { t } else { 0.0 };
         let (back, centre) = self.rigid.at(t);
-        maps.rest.clear();
+        self.rest.clear();
         let rest = frame.iter().map(|p| back.rotate(*p - centre));
-        maps.rest.extend(rest);
-        self.elastic
-            .look_up(t, &mut maps.elastic, &maps.rest, in_source, in_target);
+        self.rest.extend(rest);
+        self.elastic.look_up(t, &self.rest, in_source, in_target);
         let half = DVec2::from_angle(0.5 * turn);
         for p in in_source.iter_mut() {
             *p = conjugate(half).rotate(*p) + centres[0];
@@ -204,7 +188,7 @@ mod tests {
 
     fn looked<W: PlaneWarp>(warp: &W, t: f64, frame: &[DVec2]) -> [Vec<DVec2>; 2] {
         let [mut source, mut target] = [frame.to_vec(), frame.to_vec()];
-        warp.look_up(t, &mut warp.maps(), frame, &mut source, &mut target);
+        warp.clone().look_up(t, frame, &mut source, &mut target);
         [source, target]
     }
 

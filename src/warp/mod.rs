@@ -22,14 +22,14 @@ mod scattered;
 pub use arap::{AngleError, Arap, ArapError, ArapOptions, ArapPath, Ridge, Weights};
 pub use features::{FeatureError, LINE_SAMPLES, MAX_FEATURES};
 pub use kind::{CellWords, Column, WarpKind, Words};
-pub use lattice::{FINEST, Lattice, LatticeError, LatticeMaps, LatticeOptions, MORE_LEVELS};
-pub use lines::{Between, LineOptions, Lines, LinesAtT, LinesError};
-pub use metamorphosis::{Split, SplitMaps, Turned};
+pub use lattice::{FINEST, Lattice, LatticeError, LatticeOptions, MORE_LEVELS};
+pub use lines::{Between, LineOptions, Lines, LinesError};
+pub use metamorphosis::{Split, Turned};
 pub use none::Still;
 pub use paths::{Course, PathOptions, Paths, PathsError, RingPair};
 pub use plane::{OnGrid, PlaneGrid, PlaneWarp};
 pub use rigid_part::{RigidPart, Travel};
-pub use scattered::{Basis, Scattered, ScatteredError, ScatteredMaps, ScatteredOptions};
+pub use scattered::{Basis, Scattered, ScatteredError, ScatteredOptions};
 
 use crate::geometry::DVec2;
 use std::fmt::Debug;

@@ -11,21 +11,15 @@ use std::fmt::Debug;
 use std::sync::Arc;
 
 /// A family of warps by features: points or lines that lie somewhere between
-/// those of the source and those of the target at t.
-pub trait PlaneWarp: Debug + Send + Sync + 'static {
-    /// Memory of one frame: whatever is solved or allocated for a t.
-    type Maps: Debug + Send + Sync;
-
-    /// Memory for frames to come.
-    fn maps(&self) -> Self::Maps;
-
+/// those of the source and those of the target at t. It holds the memory of
+/// the frame that it was last at; whoever plays it plays a copy.
+pub trait PlaneWarp: Clone + Debug + Send + Sync + 'static {
     /// Where to look in the source and in the target for each place of the
     /// frame at t. All slices have one length. Cannot fail: whatever the
     /// features are and wherever they meet, places are finite.
     fn look_up(
-        &self,
+        &mut self,
         t: f64,
-        maps: &mut Self::Maps,
         frame: &[DVec2],
         in_source: &mut [DVec2],
         in_target: &mut [DVec2],
@@ -99,17 +93,14 @@ impl PlaneGrid {
 /// A plane warp on a grid: a row of the table.
 #[derive(Debug)]
 pub struct OnGrid<W> {
-    warp: Arc<W>,
+    warp: W,
     grid: PlaneGrid,
 }
 
 impl<W: PlaneWarp> OnGrid<W> {
     /// The warp as it is seen in a frame.
-    pub fn new(warp: W, grid: PlaneGrid) -> Self {
-        Self {
-            warp: Arc::new(warp),
-            grid,
-        }
+    pub const fn new(warp: W, grid: PlaneGrid) -> Self {
+        Self { warp, grid }
     }
 }
 
@@ -121,8 +112,7 @@ impl<W: PlaneWarp> Warp for OnGrid<W> {
     fn placer(&self) -> Box<dyn Placer> {
         let places = &self.grid.places;
         let mut placer = GridPlacer {
-            maps: self.warp.maps(),
-            warp: Arc::clone(&self.warp),
+            warp: self.warp.clone(),
             placement: Placement::of_source(Arc::clone(&self.grid.faces), places, places),
         };
         placer.place(0.0);
@@ -132,8 +122,7 @@ impl<W: PlaneWarp> Warp for OnGrid<W> {
 
 #[derive(Debug)]
 struct GridPlacer<W: PlaneWarp> {
-    warp: Arc<W>,
-    maps: W::Maps,
+    warp: W,
     placement: Placement,
 }
 
@@ -145,8 +134,7 @@ impl<W: PlaneWarp> Placer for GridPlacer<W> {
             in_target,
             ..
         } = &mut self.placement;
-        self.warp
-            .look_up(t, &mut self.maps, in_frame, in_source, in_target);
+        self.warp.look_up(t, in_frame, in_source, in_target);
     }
 
     fn placement(&self) -> &Placement {

@@ -61,10 +61,10 @@ const CHUNK: usize = 256;
 ///
 /// let frame = Bounds { min: DVec2::ZERO, max: DVec2::ONE };
 /// let pair = PointPair { source: DVec2::splat(0.25), target: DVec2::splat(0.75) };
-/// let warp = Lattice::new(&frame, &[pair], &[], LatticeOptions::default())?;
+/// let mut warp = Lattice::new(&frame, &[pair], &[], LatticeOptions::default())?;
 /// let (mut source, mut target) = ([DVec2::ZERO], [DVec2::ZERO]);
 /// let halfway = [DVec2::splat(0.5)];
-/// warp.look_up(0.5, &mut warp.maps(), &halfway, &mut source, &mut target);
+/// warp.look_up(0.5, &halfway, &mut source, &mut target);
 /// assert!(source[0].distance(pair.source) < 2e-4);
 /// assert!(target[0].distance(pair.target) < 2e-4);
 /// # Ok::<(), morphospace::warp::LatticeError>(())
@@ -73,7 +73,8 @@ const CHUNK: usize = 256;
 pub struct Lattice {
     features: Features,
     ground: Ground,
-    options: LatticeOptions,
+    /// To the source and to the target, as they last were.
+    towers: [Tower; 2],
 }
 
 impl Lattice {
@@ -91,11 +92,10 @@ impl Lattice {
     ) -> Result<Self, LatticeError> {
         options.check()?;
         let features = Features::new(frame, points, lines)?;
-        let ground = Ground::new(frame, features.unit, options);
         Ok(Self {
+            ground: Ground::new(frame, features.unit, options),
             features,
-            ground,
-            options,
+            towers: Default::default(),
         })
     }
 
@@ -110,47 +110,33 @@ impl Lattice {
     /// from end to end. Builds the maps anew.
     #[must_use]
     pub fn residuals(&self, t: f64) -> Vec<[f64; 2]> {
-        let mut maps = self.maps();
-        self.build(t, &mut maps);
-        let [source, target] = &maps.towers;
+        let mut now = self.clone();
+        now.build(t);
+        let [source, target] = &now.towers;
         let both = source.residuals().zip(target.residuals());
         both.map(<[f64; 2]>::from).collect()
     }
 
-    fn build(&self, t: f64, maps: &mut LatticeMaps) {
-        let [source, target] = &mut maps.towers;
+    fn build(&mut self, t: f64) {
+        let [source, target] = &mut self.towers;
+        let (features, ground) = (&self.features, &self.ground);
         let build = |tower: &mut Tower, side: usize| {
-            let features = self.features.at(t).map(|(at, looks)| (at, looks[side]));
-            tower.build(&self.ground, features);
+            tower.build(ground, features.at(t).map(|(at, looks)| (at, looks[side])));
         };
         rayon::join(|| build(source, 0), || build(target, 1));
     }
 }
 
-/// The memory of one player of a [`Lattice`].
-#[derive(Debug, Default)]
-pub struct LatticeMaps {
-    /// To the source and to the target.
-    towers: [Tower; 2],
-}
-
 impl PlaneWarp for Lattice {
-    type Maps = LatticeMaps;
-
-    fn maps(&self) -> LatticeMaps {
-        LatticeMaps::default()
-    }
-
     fn look_up(
-        &self,
+        &mut self,
         t: f64,
-        maps: &mut LatticeMaps,
         frame: &[DVec2],
         in_source: &mut [DVec2],
         in_target: &mut [DVec2],
     ) {
-        self.build(t, maps);
-        let [to_source, to_target] = &maps.towers;
+        self.build(t);
+        let [to_source, to_target] = &self.towers;
         in_chunks(
             CHUNK,
             frame,
@@ -172,7 +158,7 @@ impl PlaneWarp for Lattice {
             count: missed.len(),
             by: worst.0,
             place: worst.1,
-            unfolded: self.options.fold_free,
+            unfolded: self.ground.options.fold_free,
         })
     }
 }

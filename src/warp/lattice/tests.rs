@@ -25,7 +25,7 @@ fn spread(count: usize, shift: f64) -> Vec<DVec2> {
 
 fn looks(warp: &Lattice, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     let [mut source, mut target] = [(); 2].map(|()| vec![DVec2::NAN; places.len()]);
-    warp.look_up(t, &mut warp.maps(), places, &mut source, &mut target);
+    warp.clone().look_up(t, places, &mut source, &mut target);
     [source, target]
 }
 
@@ -142,19 +142,21 @@ fn features_fade_out_without_a_jump() -> Tested {
 
 /// The determinants of both maps on a fine grid that reaches beyond the frame.
 fn least_determinant(warp: &Lattice, t: f64, steps: u32) -> f64 {
-    let mut maps = warp.maps();
-    warp.build(t, &mut maps);
+    let mut warp = warp.clone();
+    warp.build(t);
     let steps = f64::from(steps);
     let (low, size) = (FRAME.min - 2.0, FRAME.size() + 4.0);
     let mut least = f64::INFINITY;
     for k in 0..(steps * steps) as u32 {
         let (i, j) = (f64::from(k) % steps, (f64::from(k) / steps).floor());
         let place = low + size * DVec2::new(i, j) / steps;
-        for tower in &maps.towers {
+        for tower in &warp.towers {
             let [total, step] = tower.determinants(place);
-            least = least
-                .min(total)
-                .min(if warp.options.fold_free { step } else { total });
+            least = least.min(total).min(if warp.ground.options.fold_free {
+                step
+            } else {
+                total
+            });
         }
     }
     least

@@ -32,7 +32,7 @@ pub(super) struct Ground {
     side: f64,
     /// Lengths, where the options have shares of the diameter.
     pub(super) tolerance: f64,
-    options: LatticeOptions,
+    pub(super) options: LatticeOptions,
 }
 
 impl Ground {
@@ -58,7 +58,7 @@ impl Ground {
 }
 
 /// A map from the plane to the plane.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Tower {
     layers: Vec<Layer>,
     /// How many of the layers are in use.

@@ -45,7 +45,7 @@ fn places() -> Vec<DVec2> {
 fn looked_up(lines: &Lines, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     let mut found = [places.to_vec(), places.to_vec()];
     let [source, target] = &mut found;
-    lines.look_up(t, &mut lines.maps(), places, source, target);
+    lines.clone().look_up(t, places, source, target);
     found
 }
 
@@ -55,7 +55,7 @@ struct Map(LinesAtT);
 
 impl Map {
     fn new(pairs: &[[Segment; 2]], a: f64, b: f64, p: f64) -> Self {
-        let mut bundle = LinesAtT::new(Constants { a, b, p }, pairs.len());
+        let mut bundle = LinesAtT::new(Constants { a, b, p });
         bundle.fill(pairs.iter().map(|&[in_frame, in_design]| Feature {
             in_frame,
             in_designs: [in_design; 2],

@@ -50,9 +50,9 @@ const CHUNK: usize = 1024;
 ///
 /// let frame = Bounds { min: DVec2::ZERO, max: DVec2::ONE };
 /// let pair = PointPair { source: DVec2::ZERO, target: DVec2::X };
-/// let warp = Scattered::new(&frame, &[pair], &[], ScatteredOptions::default())?;
+/// let mut warp = Scattered::new(&frame, &[pair], &[], ScatteredOptions::default())?;
 /// let (mut source, mut target) = ([DVec2::ZERO], [DVec2::ZERO]);
-/// warp.look_up(0.25, &mut warp.maps(), &[DVec2::ONE], &mut source, &mut target);
+/// warp.look_up(0.25, &[DVec2::ONE], &mut source, &mut target);
 /// assert_eq!(source, [DVec2::new(0.75, 1.0)]);
 /// assert_eq!(target, [DVec2::new(1.75, 1.0)]);
 /// # Ok::<(), morphospace::warp::ScatteredError>(())
@@ -60,7 +60,7 @@ const CHUNK: usize = 1024;
 #[derive(Clone, Debug)]
 pub struct Scattered {
     features: Features,
-    options: ScatteredOptions,
+    solver: Solver,
 }
 
 impl Scattered {
@@ -78,48 +78,21 @@ impl Scattered {
     ) -> Result<Self, ScatteredError> {
         options.check()?;
         let features = Features::new(frame, points, lines)?;
-        Ok(Self { features, options })
+        let solver = Solver::new(options, features.unit);
+        Ok(Self { features, solver })
     }
-}
-
-/// The memory of one player of a [`Scattered`].
-#[derive(Debug)]
-pub struct ScatteredMaps {
-    /// Features at t, and from there to source and target.
-    at: Vec<DVec2>,
-    looks: Vec<[DVec2; 2]>,
-    solver: Solver,
 }
 
 impl PlaneWarp for Scattered {
-    type Maps = ScatteredMaps;
-
-    fn maps(&self) -> ScatteredMaps {
-        let room = self.features.len();
-        ScatteredMaps {
-            at: Vec::with_capacity(room),
-            looks: Vec::with_capacity(room),
-            solver: Solver::new(self.options, self.features.unit),
-        }
-    }
-
     fn look_up(
-        &self,
+        &mut self,
         t: f64,
-        maps: &mut ScatteredMaps,
         frame: &[DVec2],
         in_source: &mut [DVec2],
         in_target: &mut [DVec2],
     ) {
-        let ScatteredMaps { at, looks, solver } = maps;
-        at.clear();
-        looks.clear();
-        for (place, look) in self.features.at(t) {
-            at.push(place);
-            looks.push(look);
-        }
-        solver.solve(at, looks);
-        let (sum, arch) = (&solver.sum, solver.arch);
+        self.solver.solve(self.features.at(t));
+        let (sum, arch) = (&self.solver.sum, self.solver.arch);
         in_chunks(CHUNK, frame, [in_source, in_target], |places, looks| {
             sum.evaluate(arch, places, looks);
         });

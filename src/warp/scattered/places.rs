@@ -45,19 +45,24 @@ pub(super) struct Places {
 impl Places {
     /// Each place joins the first one that is near enough; near is a share of
     /// the unit.
-    pub(super) fn merge(&mut self, places: &[DVec2], values: &[[DVec2; 2]], unit: f64) {
+    pub(super) fn merge(
+        &mut self,
+        features: impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone,
+        unit: f64,
+    ) {
         self.at.clear();
         self.values.clear();
         self.counts.clear();
-        let far = places.iter().map(|p| p.distance_squared(places[0]));
+        let first = features.clone().next().map_or(DVec2::ZERO, |(p, _)| p);
+        let far = features.clone().map(|(p, _)| p.distance_squared(first));
         let extent = far.fold(0.0, f64::max).sqrt();
         let near = MERGED * unit.max(1e-3 * extent);
-        for (&place, value) in places.iter().zip(values) {
+        for (place, value) in features {
             let mut known = self.at.iter();
             match known.position(|p| p.distance_squared(place) <= near * near) {
                 Some(at) => {
                     self.counts[at] += 1.0;
-                    for (sum, &value) in self.values[at].iter_mut().zip(value) {
+                    for (sum, value) in self.values[at].iter_mut().zip(value) {
                         *sum += value;
                     }
                     let mean = self.at[at];
@@ -65,7 +70,7 @@ impl Places {
                 }
                 None => {
                     self.at.push(place);
-                    self.values.push(*value);
+                    self.values.push(value);
                     self.counts.push(1.0);
                 }
             }

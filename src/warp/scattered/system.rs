@@ -59,6 +59,13 @@ pub(super) struct Solver {
     pub(super) sum: Sum,
 }
 
+/// Memory of its own, as empty as that of a new one.
+impl Clone for Solver {
+    fn clone(&self) -> Self {
+        Self::new(self.options, self.unit)
+    }
+}
+
 impl Solver {
     pub(super) fn new(options: ScatteredOptions, unit: f64) -> Self {
         Self {
@@ -79,8 +86,8 @@ impl Solver {
     }
 
     /// Solves for finite places and values; cannot fail.
-    pub(super) fn solve(&mut self, places: &[DVec2], values: &[[DVec2; 2]]) {
-        self.places.merge(places, values, self.unit);
+    pub(super) fn solve(&mut self, features: impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone) {
+        self.places.merge(features, self.unit);
         self.places.ease();
         self.places.centre(self.unit, &mut self.sum);
         self.sum.affine = self.places.take_similarity();

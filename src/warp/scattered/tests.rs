@@ -41,7 +41,7 @@ fn pair(source: impl Into<DVec2>, target: impl Into<DVec2>) -> PointPair {
 /// Where a warp looks at t: in the source and in the target.
 fn looks(warp: &Scattered, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     let [mut source, mut target] = [(); 2].map(|()| vec![DVec2::NAN; places.len()]);
-    warp.look_up(t, &mut warp.maps(), places, &mut source, &mut target);
+    warp.clone().look_up(t, places, &mut source, &mut target);
     [source, target]
 }
 
