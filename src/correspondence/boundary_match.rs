@@ -57,13 +57,20 @@ impl BoundaryMatch {
     }
 }
 
-/// The other side's place, linear between knots ascending on both sides.
-pub(super) fn interpolated(knots: &[[f64; 2]], place: f64, side: usize) -> f64 {
-    let after = knots.partition_point(|knot| knot[side] <= place);
+/// Column `there` of knots that ascend in all columns, where column `here` is
+/// at a place: linear between knots.
+pub(super) fn interpolated<const N: usize>(
+    knots: &[[f64; N]],
+    place: f64,
+    [here, there]: [usize; 2],
+) -> f64 {
+    let after = knots.partition_point(|knot| knot[here] <= place);
     let k = after.clamp(1, knots.len() - 1);
     let (from, to) = (knots[k - 1], knots[k]);
-    let along = (place - from[side]) / (to[side] - from[side]);
-    let (start, end) = (from[1 - side], to[1 - side]);
+    let along = (place - from[here]) / (to[here] - from[here]);
+    let (start, end) = (from[there], to[there]);
+    // What lies beyond a knot, by rounding or at an end, is at it to the last
+    // bit.
     if along >= 1.0 {
         end
     } else {

@@ -39,8 +39,12 @@ const SAME: f64 = 1e-12;
 /// Most that spacing may add, whatever it says.
 const MOST_ADDED: f64 = 1e5;
 
-/// Places of the two curves that are one vertex, in the common parameter.
-type Joint = [f64; 2];
+/// Two places that are one: that of the source, that of the target, and the
+/// parameter that both have.
+type Joint = [f64; 3];
+
+/// The column of the parameter.
+const BOTH: usize = 2;
 
 /// A vertex to come: its common parameter and, where it is a curve's own
 /// point or a pin, its place.
@@ -64,7 +68,7 @@ impl BoundaryMatch {
             let places: Vec<f64> = corners(curves[side]).iter().map(|c| c.0).collect();
             common.own(&places, side)
         });
-        let mut joints = vec![[0.0; 2], [1.0; 2]];
+        let mut joints = vec![[0.0; 3], [1.0; 3]];
         for pin in &self.pins {
             insert(&mut joints, [0, 1].map(|s| common.parameter(pin[s], s)));
         }
@@ -74,7 +78,7 @@ impl BoundaryMatch {
         for side in 0..2 {
             let pins = self.pins.iter().map(|pin| pin[side]);
             for place in curves[side].places().iter().copied().chain(pins) {
-                let at = warped(&joints, common.parameter(place, side), side);
+                let at = interpolated(&joints, common.parameter(place, side), [side, BOTH]);
                 let mut places = [None; 2];
                 places[side] = Some(place);
                 vertices.push(Vertex { at, places });
@@ -88,8 +92,7 @@ impl BoundaryMatch {
 /// The common parameter of both curves: the mean of the lengths walked from
 /// the first knot on, in [0, 1].
 struct Common {
-    /// `[source, parameter]` and `[target, parameter]` at the knots.
-    tables: [Vec<[f64; 2]>; 2],
+    knots: Vec<Joint>,
 }
 
 impl Common {
@@ -111,21 +114,19 @@ impl Common {
                 }
             }
         }
-        let mean = |k: &[f64; 2]| 0.5 * ((k[0] - start[0]) + (k[1] - start[1]));
-        let table = |side: usize| knots.iter().map(|k| [k[side], mean(k)]).collect();
+        let joint = |[a, b]: [f64; 2]| [a, b, 0.5 * ((a - start[0]) + (b - start[1]))];
         Self {
-            tables: [table(0), table(1)],
+            knots: knots.into_iter().map(joint).collect(),
         }
     }
 
     fn parameter(&self, place: f64, side: usize) -> f64 {
-        let first = self.tables[side][0][0];
-        let over = f64::from(u8::from(place < first));
-        interpolated(&self.tables[side], place + over, 0)
+        let over = f64::from(u8::from(place < self.knots[0][side]));
+        interpolated(&self.knots, place + over, [side, BOTH])
     }
 
     fn place(&self, parameter: f64, side: usize, curve: &Curve) -> f64 {
-        curve.wrapped(interpolated(&self.tables[side], parameter, 1))
+        curve.wrapped(interpolated(&self.knots, parameter, [BOTH, side]))
     }
 
     /// Parameters of a curve's places, ascending.
@@ -137,8 +138,9 @@ impl Common {
 }
 
 /// Inserts a joint in order, unless it would cross or touch another.
-fn insert(joints: &mut Vec<Joint>, joint: Joint) {
-    let at = joints.partition_point(|j| j[0] < joint[0]);
+fn insert(joints: &mut Vec<Joint>, [a, b]: [f64; 2]) {
+    let joint = [a, b, a.midpoint(b)];
+    let at = joints.partition_point(|j| j[0] < a);
     let fits = |k: usize| (0..2).all(|s| joints[k - 1][s] < joint[s] && joint[s] < joints[k][s]);
     if at > 0 && at < joints.len() && fits(at) {
         joints.insert(at, joint);
@@ -148,8 +150,10 @@ fn insert(joints: &mut Vec<Joint>, joint: Joint) {
 /// Joins vertices that are each other's nearest, as the joints so far bend
 /// the parameter, and within `limit` and the joints on either side.
 fn join(joints: &mut Vec<Joint>, own: &[Vec<f64>; 2], limit: f64) {
-    let bent = [0, 1]
-        .map(|side| -> Vec<f64> { own[side].iter().map(|&t| warped(joints, t, side)).collect() });
+    let bent = [0, 1].map(|side| -> Vec<f64> {
+        let bent = |&t: &f64| interpolated(joints, t, [side, BOTH]);
+        own[side].iter().map(bent).collect()
+    });
     let mut found = Vec::new();
     for (k, &at) in bent[0].iter().enumerate() {
         let Some(other) = nearest(&bent[1], at) else {
@@ -170,32 +174,6 @@ fn nearest(list: &[f64], at: f64) -> Option<usize> {
     let after = list.partition_point(|&x| x < at);
     let candidates = after.saturating_sub(1)..(after + 1).min(list.len());
     candidates.min_by(|&a, &b| (list[a] - at).abs().total_cmp(&(list[b] - at).abs()))
-}
-
-/// The parameter bent so that both sides of each joint fall together.
-fn warped(joints: &[Joint], parameter: f64, side: usize) -> f64 {
-    let k = joints
-        .partition_point(|j| j[side] <= parameter)
-        .clamp(1, joints.len() - 1);
-    let [from, to] = [joints[k - 1], joints[k]];
-    let along = (parameter - from[side]) / (to[side] - from[side]);
-    let mean = |j: Joint| j[0].midpoint(j[1]);
-    if along >= 1.0 {
-        mean(to)
-    } else {
-        mean(from) + along.max(0.0) * (mean(to) - mean(from))
-    }
-}
-
-/// The parameter of one side from the bent one.
-fn unwarped(joints: &[Joint], bent: f64, side: usize) -> f64 {
-    let mean = |j: &Joint| j[0].midpoint(j[1]);
-    let k = joints
-        .partition_point(|j| mean(j) <= bent)
-        .clamp(1, joints.len() - 1);
-    let [from, to] = [joints[k - 1], joints[k]];
-    let along = (bent - mean(&from)) / (mean(&to) - mean(&from));
-    from[side] + along.clamp(0.0, 1.0) * (to[side] - from[side])
 }
 
 /// In order, with vertices at the same parameter as one.
@@ -254,7 +232,10 @@ fn assembled(
     };
     for vertex in vertices {
         let places = [0, 1].map(|side| {
-            let made = || common.place(unwarped(joints, vertex.at, side), side, curves[side]);
+            let made = || {
+                let own = interpolated(joints, vertex.at, [BOTH, side]);
+                common.place(own, side, curves[side])
+            };
             vertex.places[side].unwrap_or_else(made)
         });
         let (p, q) = (curves[0].point_at(places[0]), curves[1].point_at(places[1]));

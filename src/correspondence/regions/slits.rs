@@ -177,7 +177,7 @@ impl Passage<'_> {
                 points_of(shared, self.side)[vertex] = point;
                 shared.places[vertex][self.side] = own;
             } else {
-                let across = self.other.wrapped(interpolated(&known, rung.along, 0));
+                let across = self.other.wrapped(interpolated(&known, rung.along, [0, 1]));
                 let here = Pair::on(self.side, own, across);
                 let points = Pair::on(self.side, point, self.other.point_at(across));
                 added.push(Added {
