@@ -126,38 +126,6 @@ impl RegionMatch {
     pub fn notes(&self) -> impl Iterator<Item = &MatchNote> {
         self.pieces.iter().flat_map(|piece| &piece.notes)
     }
-
-    /// The same match, the designs exchanged.
-    #[must_use]
-    pub fn swapped(&self) -> Self {
-        Self {
-            pieces: self.pieces.iter().map(PieceMatch::swapped).collect(),
-        }
-    }
-}
-
-impl PieceMatch {
-    fn swapped(&self) -> Self {
-        Self {
-            rings: self.rings.iter().map(RingMatch::swapped).collect(),
-            source_part: self.target_part,
-            target_part: self.source_part,
-            cuts: self.cuts.iter().map(RingCut::swapped).collect(),
-            rotation: 0.0 - self.rotation,
-            cost: self.cost,
-            notes: self.notes.iter().map(MatchNote::swapped).collect(),
-        }
-    }
-}
-
-impl MatchNote {
-    fn swapped(&self) -> Self {
-        let mut note = *self;
-        if let Self::Uncut { side, .. } | Self::Unsplit { side, .. } = &mut note {
-            *side = side.other();
-        }
-        note
-    }
 }
 
 impl RingMatch {
@@ -172,18 +140,6 @@ impl RingMatch {
             source,
             target,
             kind,
-        }
-    }
-
-    fn swapped(&self) -> Self {
-        Self {
-            source: self.target.clone(),
-            target: self.source.clone(),
-            kind: match self.kind {
-                RingKind::Matched => RingKind::Matched,
-                RingKind::Closes => RingKind::Opens,
-                RingKind::Opens => RingKind::Closes,
-            },
         }
     }
 }
