@@ -9,7 +9,7 @@ use super::error::BuildError;
 use super::moved::{AnyWarp, Moved};
 use super::spec::TransitionSpec;
 use crate::content::Solid;
-use crate::correspondence::{PieceMatch, RegionMatch, RingKind, match_regions};
+use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch, match_regions};
 use crate::design::Form;
 use crate::geometry::{DVec2, signed_area, winding};
 use crate::mesh::TriangleMesh;
@@ -61,37 +61,26 @@ fn matched(
 /// The rings of a piece. What a match keeps as a tiny ring, so that it can be
 /// triangulated, is a point here.
 fn rings(piece: &PieceMatch) -> Vec<RingPair> {
-    let mut rings: Vec<RingPair> = piece
-        .rings
-        .iter()
-        .map(|ring| RingPair {
-            source: match ring.kind {
-                RingKind::Opens => point(&ring.source),
-                RingKind::Matched | RingKind::Closes => ring.source.clone(),
-            },
-            target: match ring.kind {
-                RingKind::Closes => point(&ring.target),
-                RingKind::Matched | RingKind::Opens => ring.target.clone(),
-            },
-        })
-        .collect();
     let Some(outer) = piece.rings.first() else {
-        return rings;
+        return Vec::new();
     };
-    for ring in &mut rings {
+    let pair = |ring: &RingMatch| {
+        let [mut source, mut target] = [ring.source.clone(), ring.target.clone()];
+        match ring.kind {
+            RingKind::Opens => source.fill(middle(&ring.source)),
+            RingKind::Closes => target.fill(middle(&ring.target)),
+            RingKind::Matched => {}
+        }
+        // A part that is born or dies is one point, its holes included.
         if piece.source_part.is_none() {
-            ring.source.fill(middle(&outer.source));
+            source.fill(middle(&outer.source));
         }
         if piece.target_part.is_none() {
-            ring.target.fill(middle(&outer.target));
+            target.fill(middle(&outer.target));
         }
-    }
-    rings
-}
-
-/// A ring as its middle, so many times.
-fn point(ring: &[DVec2]) -> Vec<DVec2> {
-    vec![middle(ring); ring.len()]
+        RingPair { source, target }
+    };
+    piece.rings.iter().map(pair).collect()
 }
 
 fn middle(ring: &[DVec2]) -> DVec2 {

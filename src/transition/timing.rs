@@ -148,42 +148,18 @@ impl Timing {
         self.hold_secs + self.duration_secs * (even - self.from) / (self.to - self.from)
     }
 
-    /// t after so many seconds of playing, passes repeated as the play mode
-    /// says.
-    #[must_use]
-    pub fn t_in_play(&self, secs: f64, stops: &[Stop]) -> f64 {
-        let pass = self.pass_secs();
-        match self.play {
-            PlayMode::Once => self.t_at(secs, stops),
-            PlayMode::Loop => self.t_at(secs.rem_euclid(pass), stops),
-            PlayMode::PingPong => {
-                let there_and_back = secs.rem_euclid(2.0 * pass);
-                self.t_at(there_and_back.min(2.0 * pass - there_and_back), stops)
-            }
-        }
-    }
-
     /// The two neighbouring stops or ends between which `t` lies, in the
     /// direction of the pass; never equal.
     fn segment(&self, t: f64, stops: &[Stop]) -> (f64, f64) {
-        let forward = self.to > self.from;
-        let inside = stops
-            .iter()
-            .map(|stop| stop.t)
-            .filter(|&s| (s > self.from) == forward && (s < self.to) == forward)
-            .filter(|&s| s != self.from && s != self.to);
-        let mut before = self.from;
-        let mut after = self.to;
-        for s in inside {
-            if (s <= t) == forward || s == t {
-                if (s > before) == forward && s != before {
-                    before = s;
-                }
-            } else if (s < after) == forward && s != after {
-                after = s;
-            }
-        }
-        (before, after)
+        // With its sign exchanged where the pass runs down, t always rises.
+        let sign = (self.to - self.from).signum();
+        let [from, to, t] = [self.from, self.to, t].map(|t| sign * t);
+        let inside = stops.iter().map(|stop| sign * stop.t);
+        let inside = inside.filter(|&s| from < s && s < to);
+        // A stop belongs to the segment that it begins.
+        let before = inside.clone().filter(|&s| s <= t).fold(from, f64::max);
+        let after = inside.filter(|&s| s > t).fold(to, f64::min);
+        (sign * before, sign * after)
     }
 }
 
@@ -212,9 +188,6 @@ mod tests {
         assert_eq!([at(-1.0), at(0.0), at(1.0)], [0.0; 3]);
         assert_eq!(at(2.0), 0.5);
         assert_eq!([at(3.0), at(4.0), at(99.0)], [1.0; 3]);
-        assert_eq!(timing.t_in_play(5.0, &[]), 1.0); // on the way back, resting
-        assert_eq!(timing.t_in_play(6.0, &[]), 0.5);
-        assert_eq!(timing.t_in_play(8.0, &[]), 0.0);
     }
 
     #[test]

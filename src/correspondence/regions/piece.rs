@@ -30,7 +30,7 @@ pub(super) fn matched(task: &Task) -> Result<PieceMatch, RegionMatchError> {
     for &pair in &pairing.pairs {
         rings.push(sides.hole_ring(pair, outer.rotation())?);
     }
-    sides.closing_rings(&mut rings, outer.rotation());
+    sides.closing_rings(&mut rings, &pairing.pairs, outer.rotation());
     Ok(PieceMatch {
         rings,
         source_part: Some(task.parts[0]),
@@ -42,7 +42,7 @@ pub(super) fn matched(task: &Task) -> Result<PieceMatch, RegionMatchError> {
     })
 }
 
-impl<'a> Sides<'a> {
+impl Sides<'_> {
     fn outer_ring(&self, matched: &BoundaryMatch) -> Result<RingMatch, RegionMatchError> {
         let curves = self.curves()?;
         let mut shared = matched.polygons(&curves[0], &curves[1], spacing(1.0));
@@ -85,11 +85,14 @@ impl<'a> Sides<'a> {
     }
 
     /// What is alone and was not opened closes to a point.
-    fn closing_rings(&self, rings: &mut Vec<RingMatch>, rotation: f64) {
-        let paired = rings.len() - 1;
+    fn closing_rings(&self, rings: &mut Vec<RingMatch>, pairs: &[[usize; 2]], rotation: f64) {
         for side in Side::BOTH {
             let mut taken = Vec::new();
-            for hole in self.unpaired(side, rings, paired) {
+            let (numbers, holes) = self.closed_holes(side);
+            for (number, hole) in numbers.into_iter().zip(holes) {
+                if pairs.iter().any(|pair| pair[side] == number) {
+                    continue;
+                }
                 let (from, to) = (&rings[0].source, &rings[0].target);
                 let (outer, turn) = match side {
                     Side::Source => (Vertices { from, to }, rotation),
@@ -103,21 +106,6 @@ impl<'a> Sides<'a> {
                 rings.push(RingMatch::alone(side, whole, point));
             }
         }
-    }
-
-    /// Holes that neither the walk goes around nor a pair holds.
-    fn unpaired(&self, side: Side, rings: &[RingMatch], paired: usize) -> Vec<&'a Ring> {
-        let (_, holes) = self.closed_holes(side);
-        let held = |hole: &Ring| {
-            rings[1..=paired].iter().any(|ring| {
-                let points = match side {
-                    Side::Source => &ring.source,
-                    Side::Target => &ring.target,
-                };
-                points.contains(&hole.points()[0])
-            })
-        };
-        holes.into_iter().filter(|hole| !held(hole)).collect()
     }
 
     /// The ring with its long edges divided.
