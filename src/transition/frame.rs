@@ -11,7 +11,7 @@ use image::RgbaImage;
 #[derive(Debug)]
 pub struct Frame {
     transition: Transition,
-    placer: Box<dyn Placer>,
+    placer: Placer,
     t: f64,
 }
 

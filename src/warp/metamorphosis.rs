@@ -73,19 +73,15 @@ impl<W: PlaneWarp> PlaneWarp for Split<W> {
         in_source: &mut [DVec2],
         in_target: &mut [DVec2],
     ) {
-        let RigidPart { centres, turn } = self.rigid;
         let t = if t.is_finite() { t } else { 0.0 };
         let (back, centre) = self.rigid.at(t);
         self.rest.clear();
         let rest = frame.iter().map(|p| back.rotate(*p - centre));
         self.rest.extend(rest);
         self.elastic.look_up(t, &self.rest, in_source, in_target);
-        let half = DVec2::from_angle(0.5 * turn);
-        for p in in_source.iter_mut() {
-            *p = conjugate(half).rotate(*p) + centres[0];
-        }
-        for p in in_target.iter_mut() {
-            *p = half.rotate(*p) + centres[1];
+        let looks = [&mut *in_source, &mut *in_target];
+        for (places, from_rest) in looks.into_iter().zip(self.rigid.from_rest()) {
+            places.iter_mut().for_each(|p| *p = from_rest(*p));
         }
         // The ends are the designs themselves, not the designs to rounding.
         if t == 0.0 {
@@ -125,47 +121,27 @@ impl<W: Warp> Turned<W> {
 }
 
 impl<W: Warp> Warp for Turned<W> {
-    fn placer(&self) -> Box<dyn Placer> {
-        let at_rest = self.at_rest.placer();
+    fn placer(&self) -> Placer {
+        let mut at_rest = self.at_rest.placer();
         let rest = at_rest.placement();
-        let RigidPart { centres, turn } = self.rigid;
-        let half = DVec2::from_angle(0.5 * turn);
-        let source = |p: &DVec2| conjugate(half).rotate(*p) + centres[0];
-        let target = |p: &DVec2| half.rotate(*p) + centres[1];
-        let mut placer = TurnedPlacer {
-            placement: Placement {
-                faces: Arc::clone(&rest.faces),
-                in_frame: rest.in_frame.clone(),
-                in_source: rest.in_source.iter().map(source).collect(),
-                in_target: rest.in_target.iter().map(target).collect(),
-            },
-            rigid: self.rigid,
-            at_rest,
+        let [source, target] = self.rigid.from_rest();
+        let placement = Placement {
+            faces: Arc::clone(&rest.faces),
+            in_frame: rest.in_frame.clone(),
+            in_source: rest.in_source.iter().copied().map(source).collect(),
+            in_target: rest.in_target.iter().copied().map(target).collect(),
         };
+        let rigid = self.rigid;
+        let mut placer = Placer::new(placement, move |t, placement| {
+            at_rest.place(t);
+            let (back, centre) = rigid.at(if t.is_finite() { t } else { 0.0 });
+            let rest = &at_rest.placement().in_frame;
+            for (p, rest) in placement.in_frame.iter_mut().zip(rest) {
+                *p = conjugate(back).rotate(*rest) + centre;
+            }
+        });
         placer.place(0.0);
-        Box::new(placer)
-    }
-}
-
-#[derive(Debug)]
-struct TurnedPlacer {
-    rigid: RigidPart,
-    at_rest: Box<dyn Placer>,
-    placement: Placement,
-}
-
-impl Placer for TurnedPlacer {
-    fn place(&mut self, t: f64) {
-        self.at_rest.place(t);
-        let (back, centre) = self.rigid.at(if t.is_finite() { t } else { 0.0 });
-        let rest = &self.at_rest.placement().in_frame;
-        for (p, rest) in self.placement.in_frame.iter_mut().zip(rest) {
-            *p = conjugate(back).rotate(*rest) + centre;
-        }
-    }
-
-    fn placement(&self) -> &Placement {
-        &self.placement
+        placer
     }
 }
 

@@ -78,7 +78,7 @@ pub struct Missed {
 /// A row of the table, ready to be played.
 pub trait Warp: Debug + Send + Sync {
     /// A placer with memory of its own, at t = 0.
-    fn placer(&self) -> Box<dyn Placer>;
+    fn placer(&self) -> Placer;
 
     /// The features that are not where they belong at `t`; none where all
     /// are, to the warp's own tolerance.
@@ -88,10 +88,39 @@ pub trait Warp: Debug + Send + Sync {
 }
 
 /// Evaluates a warp. Needs no allocation and cannot fail.
-pub trait Placer: Debug + Send + Sync {
+pub struct Placer {
+    placement: Placement,
+    mover: Box<Mover>,
+}
+
+/// Moves a placement to a t, and owns all memory that this takes.
+type Mover = dyn FnMut(f64, &mut Placement) + Send + Sync;
+
+impl Placer {
+    fn new(
+        placement: Placement,
+        mover: impl FnMut(f64, &mut Placement) + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            placement,
+            mover: Box::new(mover),
+        }
+    }
+
     /// Moves the placement to `t`; outside [0, 1] it extrapolates.
-    fn place(&mut self, t: f64);
+    pub fn place(&mut self, t: f64) {
+        (self.mover)(t, &mut self.placement);
+    }
 
     /// The placement at the last `t`.
-    fn placement(&self) -> &Placement;
+    #[must_use]
+    pub fn placement(&self) -> &Placement {
+        &self.placement
+    }
+}
+
+impl Debug for Placer {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        self.placement.fmt(f)
+    }
 }

@@ -19,18 +19,9 @@ impl Still {
 }
 
 impl Warp for Still {
-    fn placer(&self) -> Box<dyn Placer> {
+    fn placer(&self) -> Placer {
         let corners = self.frame.corners();
         let faces = Arc::new([[0, 1, 2], [0, 2, 3]]);
-        Box::new(Placement::of_source(faces, &corners, &corners))
-    }
-}
-
-/// One that does not change.
-impl Placer for Placement {
-    fn place(&mut self, _t: f64) {}
-
-    fn placement(&self) -> &Placement {
-        self
+        Placer::new(Placement::of_source(faces, &corners, &corners), |_, _| {})
     }
 }

@@ -109,36 +109,21 @@ impl<W: PlaneWarp> Warp for OnGrid<W> {
         self.warp.missed(t)
     }
 
-    fn placer(&self) -> Box<dyn Placer> {
+    fn placer(&self) -> Placer {
         let places = &self.grid.places;
-        let mut placer = GridPlacer {
-            warp: self.warp.clone(),
-            placement: Placement::of_source(Arc::clone(&self.grid.faces), places, places),
-        };
+        let placement = Placement::of_source(Arc::clone(&self.grid.faces), places, places);
+        let mut warp = self.warp.clone();
+        let mut placer = Placer::new(placement, move |t, placement| {
+            let Placement {
+                in_frame,
+                in_source,
+                in_target,
+                ..
+            } = placement;
+            warp.look_up(t, in_frame, in_source, in_target);
+        });
         placer.place(0.0);
-        Box::new(placer)
-    }
-}
-
-#[derive(Debug)]
-struct GridPlacer<W: PlaneWarp> {
-    warp: W,
-    placement: Placement,
-}
-
-impl<W: PlaneWarp> Placer for GridPlacer<W> {
-    fn place(&mut self, t: f64) {
-        let Placement {
-            in_frame,
-            in_source,
-            in_target,
-            ..
-        } = &mut self.placement;
-        self.warp.look_up(t, in_frame, in_source, in_target);
-    }
-
-    fn placement(&self) -> &Placement {
-        &self.placement
+        placer
     }
 }
 

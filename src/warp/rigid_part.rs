@@ -82,6 +82,7 @@ impl RigidPart {
             sum += DVec2::new(p.dot(q), p.perp_dot(q));
             size += p.length() * q.length();
         }
+        // Written so that NaN is refused too: no features give a mean of 0 / 0.
         if !(sum.is_finite() && sum.length() > NO_TURN * size) {
             return None;
         }
@@ -135,6 +136,7 @@ impl RigidPart {
     #[must_use]
     pub fn swept(&self, frame: &Bounds) -> Bounds {
         let mut swept = *frame;
+        // The frame as either design has it at rest.
         for k in 0..=SWEPT {
             let t = f64::from(k) / f64::from(SWEPT);
             let (back, centre) = self.at(t);
@@ -145,6 +147,14 @@ impl RigidPart {
             }
         }
         swept
+    }
+
+    /// Leads places from rest back into the source and into the target.
+    pub(super) fn from_rest(&self) -> [impl Fn(DVec2) -> DVec2; 2] {
+        let half = DVec2::from_angle(0.5 * self.turn);
+        let [source, target] = self.centres;
+        [(conjugate(half), source), (half, target)]
+            .map(|(turn, centre)| move |p: DVec2| turn.rotate(p) + centre)
     }
 
     /// The features as they would be had nothing moved or turned: both about

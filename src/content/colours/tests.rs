@@ -11,7 +11,7 @@ fn picture(seed: u32) -> Picture {
     Picture::new(RgbaImage::from_fn(40, 30, pixel))
 }
 
-fn still(pair: &PicturePair) -> Box<dyn crate::warp::Placer> {
+fn still(pair: &PicturePair) -> crate::warp::Placer {
     let [a, b] = [0, 1].map(|k| pair.layers()[k].bounds());
     Still::new(a.union(&b).padded(2.0)).placer()
 }

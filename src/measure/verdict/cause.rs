@@ -2,7 +2,7 @@
 
 use super::finding::Cause;
 use crate::content::Solid;
-use crate::geometry::{DVec2, Polar, twice_signed_area};
+use crate::geometry::{DVec2, twice_signed_area};
 use crate::homotopy::Homotopy;
 use crate::measure::crossings::{Crossing, RingEdge};
 use crate::measure::distortion::{Strain, edges};
@@ -52,16 +52,6 @@ impl<'a> Scene<'a> {
         Strain::of(edges(&self.places, corners) * edges(mesh.source(), corners).inverse()).det
     }
 
-    pub fn local_map(&self, face: usize) -> Polar {
-        let mesh = self.arap.mesh();
-        let corners = &mesh.faces()[face];
-        let whole = edges(mesh.target(), corners) * edges(mesh.source(), corners).inverse();
-        Polar {
-            angle: self.angles[face],
-            ..Polar::of(whole)
-        }
-    }
-
     /// The face at an edge of the boundary.
     pub fn face_at(&self, edge: RingEdge) -> Option<usize> {
         let walk = &self.solid.loops[edge.ring];
@@ -107,7 +97,8 @@ pub(super) fn straight_paths(scene: &Scene<'_>, face: usize, t: f64) -> Option<C
     if homotopy.keeps_orientation() {
         return None;
     }
-    let map = scene.local_map(face);
+    let map = scene.arap.local_map(face);
+    // Against the polar path, whose area only runs from end to end.
     let left = homotopy.at(&map, t).determinant();
     let kept = Homotopy::Polar.at(&map, t).determinant();
     (left < FLATTENED * kept).then_some(Cause::StraightPaths {
@@ -150,6 +141,7 @@ pub(super) fn uneven_match(scene: &Scene<'_>, face: usize) -> Option<Cause> {
     let mesh = scene.arap.mesh();
     let (source, target) = (mesh.source(), mesh.target());
     let about = scene.centroid(face, source);
+    // In the source: at t the place is bent by the trouble itself.
     let near = NEAR * mesh.diameter();
     let worst = stretch::boundary(mesh)
         .into_iter()

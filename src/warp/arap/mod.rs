@@ -39,9 +39,9 @@ pub use ridge::Ridge;
 
 use super::{Placement, Placer, Warp};
 use crate::compatible::CompatibleMesh;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, Polar};
 use crate::homotopy::Homotopy;
-use crate::linalg::{Cholesky, SymmetricMatrix, Workspace};
+use crate::linalg::{Cholesky, SymmetricMatrix};
 use crate::progress::{Progress, checkpoint};
 use assembly::LocalMaps;
 use drift::Drift;
@@ -99,6 +99,7 @@ impl Arap {
             .subdivided(mesh.faces().len(), options.subdivisions)?;
         checkpoint(progress, "subdividing", 0.0)?;
         let mesh = mesh.subdivided(options.subdivisions)?;
+        // After subdividing: an anchor may be one of the new vertices.
         options.path.check(mesh.source().len())?;
         checkpoint(progress, "decomposing", 0.1)?;
         let options = ArapOptions {
@@ -173,6 +174,11 @@ impl Arap {
             .collect()
     }
 
+    /// The map of a face from source to target, with its consistent angle.
+    pub(crate) fn local_map(&self, face: usize) -> Polar {
+        self.0.maps.faces[face].map
+    }
+
     /// The same interpolation from target to source. It turns back the way it
     /// came: whole turns are kept, not chosen anew.
     ///
@@ -193,69 +199,45 @@ impl Arap {
 }
 
 impl Warp for Arap {
-    fn placer(&self) -> Box<dyn Placer> {
-        Box::new(ArapPlacer::new(Arc::clone(&self.0)))
-    }
-}
-
-/// The memory of one player of an [`Arap`].
-#[derive(Debug)]
-struct ArapPlacer {
-    arap: Arc<Inner>,
-    /// Right-hand sides, then the deviation U: all x, all y, in elimination
-    /// order.
-    deviation: Vec<f64>,
-    workspace: Workspace,
-    /// The shift of each connected part.
-    shifts: Vec<DVec2>,
-    placement: Placement,
-}
-
-impl ArapPlacer {
-    fn new(arap: Arc<Inner>) -> Self {
+    fn placer(&self) -> Placer {
+        let arap = Arc::clone(&self.0);
         let mesh = &arap.mesh;
-        Self {
-            deviation: vec![0.0; 2 * mesh.source().len()],
-            workspace: arap.cholesky.workspace(2),
-            shifts: vec![DVec2::ZERO; arap.drift.part_count()],
-            placement: Placement::of_source(Arc::clone(mesh.faces()), mesh.source(), mesh.target()),
-            arap,
-        }
-    }
-}
-
-impl Placer for ArapPlacer {
-    fn place(&mut self, t: f64) {
-        let arap = &*self.arap;
-        let place = arap.cholesky.place_in_order();
-        let Placement {
-            in_frame,
-            in_source,
-            in_target,
-            ..
-        } = &mut self.placement;
-        // The linear path needs no solve: its deviation is zero.
-        if arap.options.homotopy != Homotopy::Linear {
-            // The forces stand where the positions will stand.
-            arap.stresses
-                .right_hand_sides(t, place, in_frame, &mut self.deviation);
-            arap.cholesky
-                .solve_ordered(&mut self.deviation, &mut self.workspace);
-            arap.drift.shifts(t, &self.deviation, &mut self.shifts);
-        }
-        let (dx, dy) = self.deviation.split_at(place.len());
-        for (run, part) in arap.drift.runs() {
-            let shift = self.shifts[part];
-            let ends = in_source[run.clone()].iter().zip(&in_target[run.clone()]);
-            let rest = in_frame[run.clone()].iter_mut().zip(&place[run]);
-            for ((&p, &q), (out, &at)) in ends.zip(rest) {
-                let u = DVec2::new(dx[at as usize], dy[at as usize]);
-                *out = (p * (1.0 - t) + q * t) + (u + shift);
+        let placement =
+            Placement::of_source(Arc::clone(mesh.faces()), mesh.source(), mesh.target());
+        // Right-hand sides, then the deviation U: all x, all y, in elimination
+        // order.
+        let mut deviation = vec![0.0; 2 * mesh.source().len()];
+        let mut workspace = arap.cholesky.workspace(2);
+        // Of each connected part.
+        let mut shifts = vec![DVec2::ZERO; arap.drift.part_count()];
+        Placer::new(placement, move |t, placement| {
+            let place = arap.cholesky.place_in_order();
+            let Placement {
+                in_frame,
+                in_source,
+                in_target,
+                ..
+            } = placement;
+            // The linear path needs no solve: its deviation is zero.
+            if arap.options.homotopy != Homotopy::Linear {
+                // The forces stand where the positions will stand.
+                arap.stresses
+                    .right_hand_sides(t, place, in_frame, &mut deviation);
+                arap.cholesky.solve_ordered(&mut deviation, &mut workspace);
+                arap.drift.shifts(t, &deviation, &mut shifts);
             }
-        }
-    }
-
-    fn placement(&self) -> &Placement {
-        &self.placement
+            let (dx, dy) = deviation.split_at(place.len());
+            for (run, part) in arap.drift.runs() {
+                let shift = shifts[part];
+                let ends = in_source[run.clone()].iter().zip(&in_target[run.clone()]);
+                let rest = in_frame[run.clone()].iter_mut().zip(&place[run]);
+                for ((&p, &q), (out, &at)) in ends.zip(rest) {
+                    let u = DVec2::new(dx[at as usize], dy[at as usize]);
+                    // What is exactly 0 at an end is added last, so that the
+                    // end is met to the last bit.
+                    *out = (p * (1.0 - t) + q * t) + (u + shift);
+                }
+            }
+        })
     }
 }

@@ -112,43 +112,23 @@ impl Paths {
 }
 
 impl Warp for Paths {
-    fn placer(&self) -> Box<dyn Placer> {
-        Box::new(PathsPlacer {
-            paths: Arc::clone(&self.0),
-            placement: Placement::of_source(Arc::new([]), &self.0.source, &self.0.target),
-        })
-    }
-}
-
-/// The memory of one player of [`Paths`].
-#[derive(Debug)]
-struct PathsPlacer {
-    paths: Arc<Inner>,
-    placement: Placement,
-}
-
-impl Placer for PathsPlacer {
-    fn place(&mut self, t: f64) {
-        let Inner {
-            source,
-            target,
-            intrinsic,
-            ..
-        } = &*self.paths;
-        let out = &mut self.placement.in_frame;
-        match intrinsic {
-            _ if t == 0.0 => out.copy_from_slice(source),
-            _ if t == 1.0 => out.copy_from_slice(target),
-            Some(intrinsic) => intrinsic.write(t, out),
-            None => {
-                for (out, (&p, &q)) in out.iter_mut().zip(source.iter().zip(target)) {
-                    *out = p * (1.0 - t) + q * t;
+    fn placer(&self) -> Placer {
+        let paths = Arc::clone(&self.0);
+        let placement = Placement::of_source(Arc::new([]), &paths.source, &paths.target);
+        Placer::new(placement, move |t, placement| {
+            let Inner { source, target, .. } = &*paths;
+            let out = &mut placement.in_frame;
+            match &paths.intrinsic {
+                // The ends are the designs themselves, not sums of edges.
+                _ if t == 0.0 => out.copy_from_slice(source),
+                _ if t == 1.0 => out.copy_from_slice(target),
+                Some(intrinsic) => intrinsic.write(t, out),
+                None => {
+                    for (out, (&p, &q)) in out.iter_mut().zip(source.iter().zip(target)) {
+                        *out = p * (1.0 - t) + q * t;
+                    }
                 }
             }
-        }
-    }
-
-    fn placement(&self) -> &Placement {
-        &self.placement
+        })
     }
 }
