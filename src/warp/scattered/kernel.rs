@@ -42,67 +42,30 @@ impl Kernel {
     }
 }
 
-/// One of the functions, to compile a loop for.
-trait Phi: Copy {
-    fn of(self, r2: f64, own: f64) -> f64;
-}
-
-#[derive(Clone, Copy)]
-struct ThinPlate;
-#[derive(Clone, Copy)]
-struct Gaussian(f64);
-#[derive(Clone, Copy)]
-struct Root;
-#[derive(Clone, Copy)]
-struct Power(f64);
-
-impl Phi for ThinPlate {
-    /// 0 at 0, since the logarithm is finite there.
-    #[inline(always)]
-    fn of(self, r2: f64, _: f64) -> f64 {
-        0.5 * r2 * ln(r2)
-    }
-}
-
-impl Phi for Gaussian {
-    #[inline(always)]
-    fn of(self, r2: f64, _: f64) -> f64 {
-        exp(-self.0 * r2)
-    }
-}
-
-impl Phi for Root {
-    #[inline(always)]
-    fn of(self, r2: f64, own: f64) -> f64 {
-        (r2 + own).sqrt()
-    }
-}
-
-impl Phi for Power {
-    #[inline(always)]
-    fn of(self, r2: f64, own: f64) -> f64 {
-        exp(self.0 * ln(r2 + own))
-    }
-}
-
-/// What is done with a function once it is known.
+/// What is done with a function once it is known: a loop that is compiled for
+/// each, with φ of r² and of the centre's own radius squared.
 trait Work {
-    fn run<P: Phi>(self, phi: P);
+    fn run(self, phi: impl Fn(f64, f64) -> f64);
 }
 
 /// A work and its function, to be compiled for several widths of vectors.
-struct Dispatched<W>(Kernel, W);
+pub(super) struct Dispatched<W>(pub(super) Kernel, pub(super) W);
 
 impl<W: Work> WithSimd for Dispatched<W> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
+        // φ stands once in each work's loop, so that it is compiled into it.
         match self.0 {
-            Kernel::ThinPlate => self.1.run(ThinPlate),
-            Kernel::Gaussian { rate } => self.1.run(Gaussian(rate)),
-            Kernel::Multiquadric { exponent: 0.5 } => self.1.run(Root),
-            Kernel::Multiquadric { exponent } => self.1.run(Power(exponent)),
+            // 0 at 0, since the logarithm is finite there.
+            Kernel::ThinPlate => self.1.run(|r2, _| 0.5 * r2 * ln(r2)),
+            Kernel::Gaussian { rate } => self.1.run(|r2, _| exp(-rate * r2)),
+            // The exponent of Ruprecht and Müller: a root is cheaper.
+            Kernel::Multiquadric { exponent: 0.5 } => self.1.run(|r2, own| (r2 + own).sqrt()),
+            Kernel::Multiquadric { exponent } => {
+                self.1.run(|r2, own| exp(exponent * ln(r2 + own)));
+            }
         }
     }
 }
@@ -117,40 +80,21 @@ pub(super) struct Centres {
 }
 
 /// φ of one centre at all centres, times `sign`.
-pub(super) fn column(
-    arch: pulp::Arch,
-    kernel: Kernel,
-    centres: &Centres,
-    of: usize,
-    sign: f64,
-    out: &mut [f64],
-) {
-    arch.dispatch(Dispatched(
-        kernel,
-        Column {
-            centres,
-            of,
-            sign,
-            out,
-        },
-    ));
-}
-
-struct Column<'a> {
-    centres: &'a Centres,
-    of: usize,
-    sign: f64,
-    out: &'a mut [f64],
+pub(super) struct Column<'a> {
+    pub(super) centres: &'a Centres,
+    pub(super) of: usize,
+    pub(super) sign: f64,
+    pub(super) out: &'a mut [f64],
 }
 
 impl Work for Column<'_> {
     #[inline(always)]
-    fn run<P: Phi>(self, phi: P) {
+    fn run(self, phi: impl Fn(f64, f64) -> f64) {
         let Centres { x, y, own } = self.centres;
         let (x0, y0, own) = (x[self.of], y[self.of], own[self.of]);
         for ((out, x), y) in self.out.iter_mut().zip(x).zip(y) {
             let (dx, dy) = (x - x0, y - y0);
-            *out = self.sign * phi.of(dx * dx + dy * dy, own);
+            *out = self.sign * phi(dx * dx + dy * dy, own);
         }
     }
 }
@@ -184,7 +128,13 @@ impl Sum {
 
     /// The sums at a few places, in the centres' coordinates.
     #[inline(always)]
-    fn block<P: Phi>(&self, phi: P, x: &[f64], y: &[f64], sums: &mut [[Row; 2]; 2]) {
+    fn block(
+        &self,
+        phi: &impl Fn(f64, f64) -> f64,
+        x: &[f64],
+        y: &[f64],
+        sums: &mut [[Row; 2]; 2],
+    ) {
         let n = x.len().min(LANES);
         let (x, y) = (&x[..n], &y[..n]);
         for (sums, [constant, by_x, by_y]) in sums.iter_mut().zip(&self.affine) {
@@ -201,7 +151,7 @@ impl Sum {
         for (((&x0, &y0), &own), coefficients) in centres {
             for ((value, x), y) in values.iter_mut().zip(x).zip(y) {
                 let (dx, dy) = (x - x0, y - y0);
-                *value = phi.of(dx * dx + dy * dy, own);
+                *value = phi(dx * dx + dy * dy, own);
             }
             for (sums, coefficients) in sums.iter_mut().zip(coefficients) {
                 for (sums, &coefficient) in sums.iter_mut().zip(coefficients) {
@@ -222,7 +172,7 @@ struct Evaluation<'a> {
 
 impl Work for Evaluation<'_> {
     #[inline(always)]
-    fn run<P: Phi>(self, phi: P) {
+    fn run(self, phi: impl Fn(f64, f64) -> f64) {
         let Self {
             sum,
             places,
@@ -236,7 +186,7 @@ impl Work for Evaluation<'_> {
                 (x[lane], y[lane]) = (at.x, at.y);
             }
             let n = places.len();
-            sum.block(phi, &x[..n], &y[..n], &mut sums);
+            sum.block(&phi, &x[..n], &y[..n], &mut sums);
             for (out, [x, y]) in out.iter_mut().zip(&sums) {
                 let out = &mut out[block * LANES..];
                 for (lane, (&place, out)) in places.iter().zip(out).enumerate() {

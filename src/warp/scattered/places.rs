@@ -66,6 +66,7 @@ impl Places {
                         *sum += value;
                     }
                     let mean = self.at[at];
+                    // The mean of all that joined so far.
                     self.at[at] = mean + (place - mean) / self.counts[at];
                 }
                 None => {
@@ -86,6 +87,7 @@ impl Places {
         let Self { at, memory, .. } = self;
         self.too_near.clear();
         memory.clear();
+        // From the values as they were, or the order of the features would count.
         memory.extend_from_slice(&self.values);
         for (i, value) in self.values.iter_mut().enumerate() {
             let (mut sums, mut weights) = (memory[i], [1.0; 2]);
@@ -94,6 +96,7 @@ impl Places {
                 let mut least = 1.0_f64;
                 for k in 0..2 {
                     let difference = memory[i][k].distance_squared(memory[j][k]);
+                    // False for two places with the same look, whatever their distance.
                     if allowed < difference {
                         let shrunk = allowed / difference;
                         // With w at both, a difference shrinks by (1 − w) / (1 + w).

@@ -24,7 +24,7 @@
 //! values. Where the matrix is singular to the last digits, as it is for
 //! Gaussians far wider than their distances, a ridge is added.
 
-use super::kernel::{Centres, Kernel, Sum, column};
+use super::kernel::{Centres, Column, Dispatched, Kernel, Sum};
 use super::options::{Basis, ScatteredOptions};
 use super::places::{Places, STEEPEST};
 use crate::geometry::DVec2;
@@ -95,6 +95,7 @@ impl Solver {
         let n = self.places.at.len();
         self.sum.coefficients.clear();
         self.sum.coefficients.resize(n, [[0.0; 2]; 2]);
+        // Of one feature nothing is left; a solve for zeros is spared.
         let mut looks = self.places.values.iter().flatten();
         if looks.any(|r| *r != DVec2::ZERO) {
             self.assemble();
@@ -172,17 +173,18 @@ impl Solver {
         self.system.matrix.resize(size * size, 0.0);
         let kernel = self.sum.kernel;
         let sign = kernel.sign();
-        for (j, entries) in self
-            .system
-            .matrix
-            .chunks_exact_mut(size)
-            .take(n)
-            .enumerate()
-        {
+        let columns = self.system.matrix.chunks_exact_mut(size);
+        for (of, (entries, p)) in columns.zip(&self.places.at).enumerate() {
+            let (out, affine) = entries.split_at_mut(n);
             let centres = &self.sum.centres;
-            column(self.arch, kernel, centres, j, sign, &mut entries[..n]);
-            let p = self.places.at[j];
-            entries[n..].copy_from_slice(&[1.0, p.x, p.y]);
+            let column = Column {
+                centres,
+                of,
+                sign,
+                out,
+            };
+            self.arch.dispatch(Dispatched(kernel, column));
+            affine.copy_from_slice(&[1.0, p.x, p.y]);
         }
         for (i, p) in self.places.at.iter().enumerate() {
             for (k, value) in [1.0, p.x, p.y].into_iter().enumerate() {
@@ -208,6 +210,7 @@ impl Solver {
             let [i, j] = near.pair;
             let entry = |i: usize, j: usize| self.system.matrix[j * size + i];
             let cost = 0.5 * (entry(i, i) + entry(j, j) - entry(i, j) - entry(j, i));
+            // What two opposite coefficients cost may vanish for wide Gaussians.
             let cost = cost.abs() + self.places.at[i].distance_squared(self.places.at[j]);
             near.tie = (cost * (1.0 / near.shrunk - 1.0)).min(1e12);
         }
