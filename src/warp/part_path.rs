@@ -23,7 +23,7 @@ impl PartPath {
         if let [_] = centres {
             return vec![Self::default()]; // the only part is the whole
         }
-        let [from, to] = centroid(centres, mass);
+        let [from, to] = centroid(centres.iter().copied(), mass);
         let back = DMat2::from_angle(-whole_angle);
         centres
             .iter()
@@ -46,14 +46,28 @@ impl PartPath {
     }
 }
 
-/// The centroid of the whole in source and target.
-pub(super) fn centroid(centres: &[[DVec2; 2]], mass: &[f64]) -> [DVec2; 2] {
+/// The centroids in source and target of pairs of places with masses.
+pub(super) fn centroid(
+    places: impl Iterator<Item = [DVec2; 2]> + Clone,
+    mass: &[f64],
+) -> [DVec2; 2] {
     let total: f64 = mass.iter().sum();
     [0, 1].map(|side| {
-        let weighted = centres
-            .iter()
-            .zip(mass)
-            .map(|(c, &m)| c[side] * (m / total));
-        weighted.sum()
+        let weighted = places.clone().zip(mass);
+        weighted.map(|(p, &m)| p[side] * (m / total)).sum()
     })
+}
+
+/// The angle of the rotation about the centroids that best takes places with
+/// masses from source to target, least squares, in (−π, π].
+pub(super) fn rotation(
+    places: impl Iterator<Item = ([DVec2; 2], f64)>,
+    [from, to]: [DVec2; 2],
+) -> f64 {
+    let (mut sin, mut cos) = (0.0, 0.0);
+    for ([p, q], m) in places {
+        sin += m * (p - from).perp_dot(q - to);
+        cos += m * (p - from).dot(q - to);
+    }
+    sin.atan2(cos)
 }

@@ -11,6 +11,7 @@ use super::options::{ArapError, ArapOptions, Weights};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
 use crate::linalg::SymmetricMatrix;
+use crate::warp::part_path::{centroid, rotation};
 
 /// One face: its local map and W g for its second and third vertex; the first
 /// has minus their sum.
@@ -119,6 +120,7 @@ impl LocalMaps {
     /// has no influence.
     pub(super) fn matrix(&self, mesh: &CompatibleMesh) -> SymmetricMatrix {
         let n = mesh.source().len();
+        // Six entries a face; three a bar, and one for the ground.
         let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
         let mut diagonal = vec![0.0; n];
         for (face, map) in mesh.faces().iter().zip(&self.faces) {
@@ -179,6 +181,7 @@ fn weight_matrix(m: DMat2, [source, target]: [f64; 2], symmetric: bool) -> DMat2
     if !symmetric {
         return DMat2::IDENTITY * source;
     }
+    // M is the map of two positive faces: its determinant is positive.
     let inverse = m.inverse();
     (DMat2::IDENTITY * source + (inverse * inverse.transpose()) * target) * 0.5
 }
@@ -264,19 +267,8 @@ impl Areas {
 
 /// The rotation that best takes the source onto the target, in (−π, π].
 fn best_fit_angle(mesh: &CompatibleMesh, masses: &[f64]) -> f64 {
-    let centroid = |points: &[DVec2]| -> DVec2 {
-        let total: f64 = masses.iter().sum();
-        points
-            .iter()
-            .zip(masses)
-            .map(|(&p, &m)| p * (m / total))
-            .sum()
-    };
-    let (c, d) = (centroid(mesh.source()), centroid(mesh.target()));
-    let (mut sin, mut cos) = (0.0, 0.0);
-    for ((&p, &q), &m) in mesh.source().iter().zip(mesh.target()).zip(masses) {
-        sin += m * (p - c).perp_dot(q - d);
-        cos += m * (p - c).dot(q - d);
-    }
-    sin.atan2(cos)
+    let places = mesh.source().iter().zip(mesh.target());
+    let places = places.map(|(&p, &q)| [p, q]);
+    let centroids = centroid(places.clone(), masses);
+    rotation(places.zip(masses.iter().copied()), centroids)
 }

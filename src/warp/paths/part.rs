@@ -9,28 +9,18 @@ use super::options::RingPair;
 use super::ring::EdgeRing;
 use super::turning::whole_turns;
 use crate::geometry::{Bounds, DVec2};
-use std::ops::Range;
 
 /// A part in source and target, as edges.
 #[derive(Clone, Debug)]
 pub(super) struct EdgePart {
     outer: EdgeRing,
-    /// Its vertices among those of the part.
-    range: Range<usize>,
     holes: Vec<Hole>,
 }
 
+/// A hole, and the bridge from a vertex of the outer ring to its centroid.
 #[derive(Clone, Debug)]
 struct Hole {
     ring: EdgeRing,
-    /// Its vertices among those of the part.
-    range: Range<usize>,
-    bridge: Bridge,
-}
-
-/// From a vertex of the outer ring to the centroid of a hole.
-#[derive(Clone, Copy, Debug)]
-struct Bridge {
     vertex: usize,
     /// In source and target.
     lengths: [f64; 2],
@@ -47,49 +37,53 @@ impl EdgePart {
         let (first, rest) = rings.split_first()?;
         let mut outer = EdgeRing::new(&first.source, &first.target, whole_angle);
         outer.turn_near(whole_angle);
-        let mut end = first.source.len();
-        let hole = |pair: &RingPair| {
-            let begin = end;
-            end += pair.source.len();
-            Hole::new(&outer, first, pair, begin..end)
-        };
+        let hole = |pair: &RingPair| Hole::new(&outer, first, pair);
         Some(Self {
             holes: rest.iter().map(hole).collect(),
-            range: 0..first.source.len(),
             outer,
         })
+    }
+
+    /// How many vertices all rings have.
+    pub(super) fn len(&self) -> usize {
+        let holes = self.holes.iter().map(|hole| hole.ring.len());
+        self.outer.len() + holes.sum::<usize>()
     }
 
     /// Writes the vertices of all rings at t, the outer ring's centroid in
     /// the origin.
     pub(super) fn write(&self, t: f64, out: &mut [DVec2]) {
-        self.outer.write(t, &mut out[self.range.clone()]);
+        let (outer, mut rest) = out.split_at_mut(self.outer.len());
+        self.outer.write(t, outer);
         for hole in &self.holes {
-            let bridge = &hole.bridge;
-            let length = bridge.lengths[0] * (1.0 - t) + bridge.lengths[1] * t;
-            let along = DVec2::from_angle(bridge.angle + t * bridge.turn);
-            let centre = out[bridge.vertex] + length * along;
-            let ring = &mut out[hole.range.clone()];
+            let length = hole.lengths[0] * (1.0 - t) + hole.lengths[1] * t;
+            let along = DVec2::from_angle(hole.angle + t * hole.turn);
+            let centre = outer[hole.vertex] + length * along;
+            let (ring, after) = rest.split_at_mut(hole.ring.len());
             hole.ring.write(t, ring);
             ring.iter_mut().for_each(|p| *p += centre);
+            rest = after;
         }
     }
 }
 
 impl Hole {
-    fn new(outer: &EdgeRing, around: &RingPair, pair: &RingPair, range: Range<usize>) -> Self {
+    fn new(outer: &EdgeRing, around: &RingPair, pair: &RingPair) -> Self {
         let mut ring = EdgeRing::new(&pair.source, &pair.target, 0.0);
         let [a, b] = centres(pair, &ring);
         let vertex = nearest(around, [a, b]);
         let spans = [a - around.source[vertex], b - around.target[vertex]];
         let near = outer.turn_at(vertex);
         let [angle, end] = spans.map(DVec2::to_angle);
+        // A hole whose centroid is on the boundary in one design has a bridge
+        // without a direction there: it turns as the boundary does.
         let has_direction = spans.iter().all(|span| span.length_squared() > 0.0);
         let turn = if has_direction {
             end - angle + whole_turns(end - angle, near)
         } else {
             near
         };
+        // A point has no directions of its own to turn from.
         let is_point = |ring: &[DVec2]| ring.iter().all(|p| *p == ring[0]);
         if is_point(&pair.source) || is_point(&pair.target) {
             ring = EdgeRing::new(&pair.source, &pair.target, turn);
@@ -97,18 +91,15 @@ impl Hole {
         ring.turn_near(turn);
         Self {
             ring,
-            range,
-            bridge: Bridge {
-                vertex,
-                lengths: spans.map(DVec2::length),
-                // Where the source has no direction, that of the target tells.
-                angle: if spans[0] == DVec2::ZERO {
-                    end - turn
-                } else {
-                    angle
-                },
-                turn,
+            vertex,
+            lengths: spans.map(DVec2::length),
+            // Where the source has no direction, that of the target tells.
+            angle: if spans[0] == DVec2::ZERO {
+                end - turn
+            } else {
+                angle
             },
+            turn,
         }
     }
 }

@@ -77,6 +77,11 @@ impl EdgeRing {
         }
     }
 
+    /// How many vertices there are.
+    pub(super) fn len(&self) -> usize {
+        self.edges.len()
+    }
+
     /// The fixed masses of the vertices; their sum is 1.
     pub(super) fn masses(&self) -> impl Iterator<Item = f64> + '_ {
         self.edges.iter().map(|edge| edge.mass)
@@ -105,7 +110,7 @@ impl EdgeRing {
 
     /// The turn about a vertex: the mean of its two edges', in radians.
     pub(super) fn turn_at(&self, vertex: usize) -> f64 {
-        let before = vertex.checked_sub(1).unwrap_or(self.edges.len() - 1);
+        let before = vertex.checked_sub(1).unwrap_or(self.len() - 1);
         self.edges[before].turn.midpoint(self.edges[vertex].turn)
     }
 
@@ -128,6 +133,8 @@ impl EdgeRing {
             *out = at;
             at += (edge.length(t) - edge.freedom * multiplier.dot(along)) * along;
         }
+        // What is left of the gap, by rounding or because all edges run one
+        // way, is shared out along the ring.
         for (edge, out) in self.edges.iter().zip(&mut *out) {
             *out -= edge.before * at;
             centre += edge.mass * *out;

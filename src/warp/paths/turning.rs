@@ -29,6 +29,7 @@ pub(super) fn turns(source: &[DVec2], target: &[DVec2], otherwise: f64) -> Vec<[
     let directions = [lifted(source), lifted(target)];
     let both = |k: usize| Some(directions[1][k]? - directions[0][k]?);
     let count = source.len();
+    // The ring is closed: before the first edge comes the last.
     let known = (0..count).rev().find_map(both);
     let mut turn = known.unwrap_or(otherwise);
     (0..count)
@@ -80,6 +81,7 @@ fn mend(turning: &mut [f64], ring: &[DVec2]) {
     let wanted = TAU.copysign(twice_area);
     let mut missing = ((wanted - turning.iter().sum::<f64>()) / TAU).round();
     for turn in turning.iter_mut() {
+        // Of all turning angles only half turns have two signs to choose from.
         let is_free = PI - turn.abs() < STRAIGHT_BACK && *turn * missing < 0.0;
         if is_free {
             *turn += TAU.copysign(missing);

@@ -10,24 +10,17 @@ use super::part::{self, EdgePart};
 use super::ring::EdgeRing;
 use super::turning;
 use crate::geometry::DVec2;
-use crate::warp::part_path::{PartPath, centroid};
-use std::ops::Range;
+use crate::warp::part_path::{PartPath, centroid, rotation};
 
 /// What intrinsic paths need.
 #[derive(Debug)]
 pub(super) struct Intrinsic {
-    parts: Vec<MovingPart>,
+    /// Each with the path of its centroid.
+    parts: Vec<(EdgePart, PartPath)>,
     /// The design's centroid in source and target.
     centroid: [DVec2; 2],
     /// The rotation that fits the designs best, in radians in (−π, π].
     whole_angle: f64,
-}
-
-#[derive(Debug)]
-struct MovingPart {
-    edges: EdgePart,
-    path: PartPath,
-    vertices: Range<usize>,
 }
 
 impl Intrinsic {
@@ -44,25 +37,18 @@ impl Intrinsic {
             .map(|(pair, ring)| part::centres(pair, ring))
             .collect();
         let masses = masses(&outer);
-        let whole = centroid(&centres, &masses);
-        let whole_angle = rotation(&outer, &rings, &masses, whole);
+        let whole = centroid(centres.iter().copied(), &masses);
+        let parts_with_masses = outer.iter().zip(&rings).zip(&masses);
+        let places = parts_with_masses.flat_map(|((pair, ring), mass)| {
+            let places = pair.source.iter().zip(&pair.target).map(|(&p, &q)| [p, q]);
+            places.zip(ring.masses().map(move |share| mass * share))
+        });
+        let whole_angle = rotation(places, whole);
         let paths = PartPath::all(&centres, &masses, whole_angle);
-        let mut end = 0;
-        let parts = parts
-            .iter()
-            .filter_map(|rings| Some((rings, EdgePart::new(rings, whole_angle)?)))
-            .zip(paths)
-            .map(|((rings, edges), path)| {
-                let begin = end;
-                end += rings.iter().map(|ring| ring.source.len()).sum::<usize>();
-                MovingPart {
-                    edges,
-                    path,
-                    vertices: begin..end,
-                }
-            });
+        let parts = parts.iter();
+        let parts = parts.filter_map(|rings| EdgePart::new(rings, whole_angle));
         Self {
-            parts: parts.collect(),
+            parts: parts.zip(paths).collect(),
             centroid: whole,
             whole_angle,
         }
@@ -71,11 +57,13 @@ impl Intrinsic {
     /// Writes the vertices of all parts at t.
     pub(super) fn write(&self, t: f64, out: &mut [DVec2]) {
         let [from, to] = self.centroid;
-        for part in &self.parts {
-            let at = from * (1.0 - t) + to * t + part.path.at(t, self.whole_angle);
-            let vertices = &mut out[part.vertices.clone()];
-            part.edges.write(t, vertices);
+        let mut rest = out;
+        for (edges, path) in &self.parts {
+            let at = from * (1.0 - t) + to * t + path.at(t, self.whole_angle);
+            let (vertices, after) = rest.split_at_mut(edges.len());
+            edges.write(t, vertices);
             vertices.iter_mut().for_each(|p| *p += at);
+            rest = after;
         }
     }
 }
@@ -97,28 +85,10 @@ fn masses(outer: &[&RingPair]) -> Vec<f64> {
     let totals = [0, 1].map(|side| areas.iter().map(|a| a[side]).sum::<f64>());
     let shares = areas.iter().map(|a| a[0] / totals[0] + a[1] / totals[1]);
     let shares: Vec<f64> = shares.collect();
+    // Rings without any area have no share of it: 0 / 0.
     if shares.iter().all(|share| share.is_finite()) {
         shares
     } else {
         vec![1.0; outer.len()]
     }
-}
-
-/// The angle of the rotation about the centroids that fits the designs best,
-/// in radians in (−π, π].
-fn rotation(
-    outer: &[&RingPair],
-    rings: &[EdgeRing],
-    masses: &[f64],
-    [from, to]: [DVec2; 2],
-) -> f64 {
-    let (mut sin, mut cos) = (0.0, 0.0);
-    for ((pair, ring), mass) in outer.iter().zip(rings).zip(masses) {
-        let points = pair.source.iter().zip(&pair.target);
-        for ((&p, &q), share) in points.zip(ring.masses()) {
-            sin += mass * share * (p - from).perp_dot(q - to);
-            cos += mass * share * (p - from).dot(q - to);
-        }
-    }
-    sin.atan2(cos)
 }
