@@ -59,8 +59,11 @@ pub fn distortion(mesh: &CompatibleMesh, places: &[DVec2]) -> Option<Distortion>
         .iter()
         .map(|face| {
             let rest = edges(mesh.source(), face);
-            let strain = Strain::of(edges(places, face) * rest.inverse());
-            (strain.unless(is_folded(places, face)), rest.determinant())
+            let strain = Strain {
+                folded: is_folded(places, face),
+                ..Strain::of(edges(places, face) * rest.inverse())
+            };
+            (strain, rest.determinant())
         })
         .collect();
     let over = |measure: fn(&Strain) -> f64| {
@@ -112,11 +115,8 @@ impl Strain {
         }
     }
 
-    fn unless(self, folded: bool) -> Self {
-        Self { folded, ..self }
-    }
-
     fn whole(&self, value: f64) -> f64 {
+        // 0 / 0 of a face that collapsed is as bad as a fold.
         if self.folded || value.is_nan() {
             f64::INFINITY
         } else {

@@ -48,6 +48,7 @@ impl fmt::Display for Trouble {
 
 /// A share, with as many digits as tell it from nothing.
 fn percent(share: f64) -> String {
+    // A share of 0.0 % would read as no trouble at all.
     let percent = 100.0 * share;
     if percent >= 10.0 {
         format!("{percent:.0} %")
@@ -136,30 +137,16 @@ impl fmt::Display for Cause {
                 "only {:.0} % of the smaller design lies on the other",
                 100.0 * share
             ),
-            Self::BlindFields
-            | Self::SeenTwice
-            | Self::FeaturesMeet
-            | Self::OutOfReach
-            | Self::NothingInside
-            | Self::Unclear => f.write_str(self.sentence()),
-        }
-    }
-}
-
-impl Cause {
-    /// What is said of a cause without numbers.
-    const fn sentence(&self) -> &'static str {
-        match self {
-            Self::BlindFields => "fields do not know which part becomes which",
-            Self::SeenTwice => {
-                "pins or lines near it pass each other, and the plane is turned over between them"
-            }
-            Self::FeaturesMeet => "pins come too near each other on their way",
-            Self::OutOfReach => "the plane would have to fold to bring it there",
-            Self::NothingInside => {
-                "points of the boundary move on their own, nothing inside keeps them apart"
-            }
-            _ => "no single cause stands out",
+            Self::BlindFields => f.write_str("fields do not know which part becomes which"),
+            Self::SeenTwice => f.write_str(
+                "pins or lines near it pass each other, and the plane is turned over between them",
+            ),
+            Self::FeaturesMeet => f.write_str("pins come too near each other on their way"),
+            Self::OutOfReach => f.write_str("the plane would have to fold to bring it there"),
+            Self::NothingInside => f.write_str(
+                "points of the boundary move on their own, nothing inside keeps them apart",
+            ),
+            Self::Unclear => f.write_str("no single cause stands out"),
         }
     }
 }

@@ -131,6 +131,7 @@ impl Stresses {
             elements: maps.elements.clone(),
             ends: Vec::new(),
         };
+        // By the very operations of a frame: see above.
         let [begin, end] = [0.0, 1.0].map(|t| {
             let mut forces = vec![DVec2::ZERO; mesh.source().len()];
             stresses.forces(t, &mut forces);
@@ -162,11 +163,8 @@ impl Stresses {
     /// from no straight line.
     fn forces(&self, t: f64, forces: &mut [DVec2]) {
         forces.fill(DVec2::ZERO);
-        self.arch.dispatch(Pass {
-            stresses: self,
-            t,
-            forces: &mut *forces,
-        });
+        self.arch.dispatch(Pass(self, t, &mut *forces));
+        // Bars are few beside faces, and take the plain form.
         if self.homotopy != Homotopy::Linear {
             for element in &self.elements {
                 element.add(self.homotopy, t, forces);
@@ -190,23 +188,16 @@ impl Stresses {
     }
 }
 
-/// One pass over all faces, to be compiled for several widths of vectors.
-struct Pass<'a> {
-    stresses: &'a Stresses,
-    t: f64,
-    forces: &'a mut [DVec2],
-}
+/// One pass over all faces at t that adds their forces, to be compiled for
+/// several widths of vectors.
+struct Pass<'a>(&'a Stresses, f64, &'a mut [DVec2]);
 
 impl WithSimd for Pass<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self {
-            stresses,
-            t,
-            forces,
-        } = self;
+        let Self(stresses, t, forces) = self;
         let none = std::iter::repeat(());
         match stresses.homotopy {
             Homotopy::Linear => {}
@@ -230,6 +221,7 @@ impl Block {
             angle,
             weighted: rows(faces, |face| face.weighted.to_cols_array()),
             middle: rows(faces, |face| {
+                // u uᵀ of the larger axis u: exp(t log S) is a sum of it and I.
                 let axis = SymmetricEigen::of(face.map.stretch).axis;
                 let [xx, xy, _, yy] = match homotopy {
                     Homotopy::Exponential => DMat2::from_cols(axis * axis.x, axis * axis.y),
