@@ -18,6 +18,7 @@ pub(super) fn assign(
         let mut least = vec![f64::INFINITY; columns + 1];
         let mut via = vec![0; columns + 1];
         let mut done = vec![false; columns + 1];
+        // Dijkstra over reduced costs, which the prices keep from being negative.
         while row_of[free] != 0 {
             done[free] = true;
             let here = row_of[free];
@@ -42,6 +43,7 @@ pub(super) fn assign(
             }
             free = next;
         }
+        // Each column along the path goes to the row that reached it.
         while free != 0 {
             row_of[free] = row_of[via[free]];
             free = via[free];

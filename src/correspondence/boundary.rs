@@ -49,6 +49,7 @@ pub fn match_curves(
     let there = pins::ordered(pins, source, target)?;
     let inverses: Vec<Pin> = pins.iter().map(|pin| pin.swapped()).collect();
     let back = pins::ordered(&inverses, target, source)?;
+    // Solved in one order and turned round: sums and ties would else differ.
     if order(source, &there, target, &back) == Ordering::Greater {
         return Ok(Problem::new(target, source, back, options)
             .solve([target, source])

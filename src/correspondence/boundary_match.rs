@@ -43,6 +43,7 @@ impl BoundaryMatch {
             pairs.sort_by(|a, b| a[0].total_cmp(&b[0]));
             pairs
         };
+        // −π is no rotation in (−π, π].
         let half_turn = self.rotation == std::f64::consts::PI;
         Self {
             knots: swapped(&self.knots),
@@ -65,6 +66,7 @@ pub(super) fn interpolated<const N: usize>(
     [here, there]: [usize; 2],
 ) -> f64 {
     let after = knots.partition_point(|knot| knot[here] <= place);
+    // A place before the first knot, or behind the last, is by the nearest two.
     let k = after.clamp(1, knots.len() - 1);
     let (from, to) = (knots[k - 1], knots[k]);
     let along = (place - from[here]) / (to[here] - from[here]);

@@ -50,6 +50,7 @@ pub(super) fn settled(
     for round in 0..ROUNDS {
         let landed: Vec<DVec2> = places.iter().map(|&b| target.point_at(b)).collect();
         let fit = Fit::of(&points, &landed)?;
+        // Later rounds only come nearer.
         if round == 0 && fit.residual(&points, &landed) > ALIKE * length {
             return None;
         }
@@ -65,6 +66,7 @@ pub(super) fn settled(
                 let other = target.direction(b - TANGENT_REACH, b + TANGENT_REACH);
                 (own + fit.angle() - other).cos() > SAME_DIRECTION
             };
+            // About the place that was found, not the last one: it must not creep away.
             let (b, distance) = target.nearest_within(p, found - REACH, found + REACH);
             let lands = distance <= NEAR * length && is_same_way(b);
             let next = if lands && (b - found).abs() > EXACT {
@@ -104,6 +106,7 @@ impl Fit {
             factor += DVec2::new(p.dot(q), p.perp_dot(q));
             square += p.length_squared();
         }
+        // 0 / 0 where the points are one.
         let factor = factor / square;
         (factor.is_finite() && factor != DVec2::ZERO).then_some(Self { factor, from, to })
     }
@@ -135,6 +138,7 @@ fn in_order(found: &[[f64; 2]], settled: &[[f64; 2]], pins: &[[f64; 2]]) -> Vec<
     let mut path: Vec<(usize, [f64; 2])> = Vec::with_capacity(found.len());
     let moved = |k: usize| {
         let by = settled[k][1] - found[k][1];
+        // The shorter way over the seam: nothing moves by half a round.
         by - by.round()
     };
     for offset in 0..found.len() {

@@ -91,6 +91,7 @@ impl Curve {
         let e = self.edge_at(place);
         let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
         let along = (place - self.places[e]) / (self.places[e + 1] - self.places[e]);
+        // 0 / 0 on an edge of no length is neither: its first point stands.
         if along >= 1.0 {
             return to;
         }
@@ -179,6 +180,8 @@ impl Curve {
         let rounds = place.floor();
         let rest = place - rounds;
         let whole = rounds * self.integral[self.directions.len()];
+        // Round k lies k times `round` higher: so do `rest` of the last one, and
+        // 0 + 1 + … of the whole ones before it.
         let gained = self.round * rounds * (rest + 0.5 * (rounds - 1.0));
         whole + gained + self.integral_within(rest)
     }

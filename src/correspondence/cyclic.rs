@@ -21,6 +21,7 @@ const FEW: usize = 16;
 pub(super) fn all_starts(prices: &Prices, n: usize) -> Vec<Route> {
     let first = prices.shortest([0, n], |_| [0, n], &mut Scratch::default());
     let mut between = vec![None; n.saturating_sub(1)];
+    // The start n columns on is the first one again, one round later.
     let last = first.shifted(n);
     halve(
         prices,
@@ -48,6 +49,7 @@ fn halve(
     }
     let half = between.len() / 2;
     let middle = left + 1 + half;
+    // Paths of other starts need not be crossed: so narrow is the search.
     let window = |j: usize| [low.rows[j][0], high.rows[j][1]];
     let found = prices.shortest([middle, middle + n], window, scratch);
     let (before, after) = between.split_at_mut(half);

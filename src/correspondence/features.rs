@@ -135,6 +135,7 @@ fn saturated(x: f64, half: f64) -> f64 {
 
 /// About the mean and in units of the root mean squared distance from it.
 fn centred(mut points: Vec<DVec2>) -> Vec<DVec2> {
+    // Scaled first: squares of very large or small coordinates are not finite.
     let scale = points
         .iter()
         .fold(0.0, |s: f64, p| s.max(p.abs().max_element()));

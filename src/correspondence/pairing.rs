@@ -130,12 +130,14 @@ impl Part {
     fn of(ring: &Ring, holes: usize, origin: DVec2, size: f64, turn: f64) -> Self {
         let moments = moments(ring);
         let area = ring.signed_area().abs();
+        // A region without area has no size to compare by.
         let size = if size > 0.0 { size } else { 1.0 };
         let round = 2.0 * TAU * area / ring.perimeter().powi(2);
         let position = DVec2::from_angle(turn).rotate((moments.centre - origin) / size);
         let tame = |x: f64| if x.is_finite() { x } else { 0.0 };
         Self {
             position: DVec2::new(tame(position.x), tame(position.y)),
+            // An area that underflows has a logarithm all the same.
             log_size: tame(0.5 * area.max(f64::MIN_POSITIVE).ln() - size.ln()),
             roundness: tame(round.min(1.0)),
             slenderness: tame(moments.slenderness),
@@ -172,6 +174,7 @@ struct Moments {
 
 /// Taken along the boundary, which has length even where it has no area.
 fn moments(ring: &Ring) -> Moments {
+    // About a point of its own: far from the origin sums lose their digits.
     let base = ring.points()[0];
     let (mut length, mut sum) = (0.0, DVec2::ZERO);
     for (a, b) in ring.edges() {
@@ -214,6 +217,8 @@ fn pair(
     let keys = |parts: &[Part], free: &[usize]| -> Vec<f64> {
         free.iter().flat_map(|&k| parts[k].key()).collect()
     };
+    // `assign` wants no more rows than columns, and one order whichever way it
+    // is asked.
     let order = a
         .len()
         .cmp(&b.len())

@@ -43,6 +43,7 @@ pub(super) fn ordered(
         places.push((place, k));
     }
     places.sort_by(|(a, _), (b, _)| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
+    // A pin that was set twice says nothing new.
     places.dedup_by_key(|(place, _)| *place);
     check_shared(&places)?;
     check_order(&places)?;
@@ -65,6 +66,7 @@ fn check_shared(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
 /// Names a pin outside the longest series in order, and the one it crosses.
 fn check_order(pins: &[([f64; 2], usize)]) -> Result<(), PinError> {
     let n = pins.len();
+    // In order, the target's places fall once in a round: at its seam.
     let falls = |k: usize| pins[k].0[1] > pins[(k + 1) % n].0[1];
     if (0..n).filter(|&k| falls(k)).count() <= 1 {
         return Ok(());

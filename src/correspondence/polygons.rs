@@ -102,6 +102,7 @@ impl Common {
         let is_own =
             |place: f64, c: &Curve| c.places().binary_search_by(|p| p.total_cmp(&place)).is_ok();
         let both = |k: &[f64; 2]| is_own(k[0], curves[0]) && is_own(k[1], curves[1]);
+        // Then the seam adds no vertex of its own.
         let seam = knots.iter().position(both).unwrap_or(0);
         knots.rotate_left(seam);
         knots.push(knots[0].map(|place| place + 1.0));
@@ -159,6 +160,7 @@ fn join(joints: &mut Vec<Joint>, own: &[Vec<f64>; 2], limit: f64) {
         let Some(other) = nearest(&bent[1], at) else {
             continue;
         };
+        // Mutual, or two vertices would be joined to one.
         let mutual = nearest(&bent[0], bent[1][other]) == Some(k);
         if mutual && (at - bent[1][other]).abs() <= limit {
             found.push([own[0][k], own[1][other]]);
@@ -245,6 +247,7 @@ fn assembled(
             shared.places.push(places);
         }
     }
+    // The last vertex has the first as its neighbour.
     while shared.source.len() > 3 && closes_twice(&shared) {
         shared.source.pop();
         shared.target.pop();

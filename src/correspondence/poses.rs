@@ -47,6 +47,7 @@ impl Problem {
         if self.keep_up {
             return self.posed(&blind, 0.0, PoseWeights::FIXED);
         }
+        // A coarse search tells which of many poses are worth a full one.
         let poses = match &self.coarse {
             Some(coarse) => coarse.likely_poses(),
             None => self.poses(&blind),
@@ -61,6 +62,7 @@ impl Problem {
             if (best.rotation - best.pose).cos() > SAME_POSE.cos() {
                 break;
             }
+            // The pose was a guess; that of its match is a better one.
             let next = self.posed(&blind, best.rotation, PoseWeights::FREE);
             if next.score >= best.score {
                 break;
@@ -107,6 +109,7 @@ impl Problem {
         likely.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut poses = distinct(likely.into_iter().map(|(_, pose)| pose));
         poses.truncate(POSES);
+        // As drawn is always tried: most pairs are drawn upright.
         if poses.iter().all(|&p| apart(p, 0.0)) {
             poses.push(0.0);
         }

@@ -82,6 +82,7 @@ impl Problem {
             return visit(cost, &|| nodes.clone());
         }
         let (n, m) = (self.source.places.len(), self.target.places.len());
+        // The source twice round: a path may begin at any of its samples.
         let grid = self.grid(unlike, [0, 0], [2 * n, m]);
         for route in all_starts(&grid.prices(), n) {
             visit(route.cost, &|| route.nodes());
@@ -97,6 +98,7 @@ impl Problem {
         let mut nodes: Vec<[usize; 2]> = self.pins.iter().filter_map(node).collect();
         if let Some(&first) = nodes.first() {
             for node in &mut nodes {
+                // Counted on over the target's seam, so that they ascend.
                 if node[1] < first[1] {
                     node[1] += m;
                 }

@@ -68,6 +68,8 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
         last[j] = last[j].max(i);
     }
     let window = |j: usize| {
+        // First and last columns do not fall from row to row, so that the farthest
+        // row within reach has the least and the greatest.
         let low = first[j.saturating_sub(reach)].saturating_sub(reach);
         let high = (last[(j + reach).min(rows)] + reach).min(columns);
         [low, high]

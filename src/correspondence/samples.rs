@@ -72,6 +72,7 @@ fn anchors(curve: &Curve, spacing: f64, fixed: &[f64]) -> Vec<f64> {
     let mut kept = fixed.to_vec();
     kept.sort_by(f64::total_cmp);
     kept.dedup();
+    // The strongest first: where corners crowd, the weaker give way.
     for (place, _) in corners(curve) {
         insert_apart(&mut kept, place, LEAST_GAP * spacing);
     }

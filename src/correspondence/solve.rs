@@ -39,6 +39,7 @@ impl Problem {
         if fixed.is_empty() {
             let start = self.most_telling(solution);
             let first = self.refined(solution, &self.cut_at(&solution.nodes, start));
+            // The far side is cut in the refined path, whose steps are longer than one.
             let filled = unit_steps(&first);
             let far = first[first.len() / 2];
             return self.refined(solution, &self.cut_at(&filled, far));

@@ -71,9 +71,11 @@ struct Span {
 
 fn sweep(rings: &[Vec<DVec2>], mut found: impl FnMut(RingEdge, RingEdge)) {
     let mut spans = spans(rings);
+    // `total_cmp` puts NaN at an end, and `<=` is false for it.
     spans.sort_unstable_by(|a, b| a.along[0].total_cmp(&b.along[0]));
     for (i, span) in spans.iter().enumerate() {
         let later = spans[i + 1..].iter();
+        // Sorted by where they begin: the first that begins too far ends the search.
         for other in later.take_while(|other| other.along[0] <= span.along[1]) {
             let apart = other.across[0] > span.across[1] || span.across[0] > other.across[1];
             if !apart && segments_cross(span.ends, other.ends) {
@@ -101,6 +103,7 @@ fn spans(rings: &[Vec<DVec2>]) -> Vec<Span> {
         }
         sum / (high - low)
     };
+    // The sweep costs as much as edges overlap along it.
     if crowded(|s| s.along) > crowded(|s| s.across) {
         for span in &mut spans {
             std::mem::swap(&mut span.along, &mut span.across);

@@ -13,6 +13,7 @@ pub(super) fn of_variation(values: impl Iterator<Item = f64>) -> f64 {
     };
     let variation: f64 = values.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
     let scale = first.abs().max(last.abs());
+    // What is 0 at both ends has no scale to be held against.
     if scale > 0.0 {
         ((variation - (last - first).abs()) / scale).max(0.0)
     } else {

@@ -103,6 +103,7 @@ pub fn film(
         checkpoint(progress, "measuring", t)?;
         frame.seek(t);
         found.push(sampler.sample(&frame));
+        // Only vertices of a mesh can be followed: a contour has others at each t.
         if mesh.is_some() {
             paths.push(frame.placement().in_frame.clone());
         }
@@ -134,6 +135,7 @@ impl<'a> Sampler<'a> {
         Self {
             content,
             mesh: transition.compatible(),
+            // The walks are the same at every t, so that one count does.
             topology: match content {
                 Content::Solid(solid) if !solid.loops.is_empty() => {
                     Some(topology(solid, &transition.frame(0.0)))
@@ -240,6 +242,8 @@ fn asymmetry(
     let (Some(arap), Some(mesh)) = (transition.arap(), transition.compatible()) else {
         return Ok(None);
     };
+    // Turned back the same way, whole turns included: what is asked is whether
+    // the energy is symmetric, not whether turns are chosen alike.
     let back = match arap.swapped(progress) {
         Ok(back) => back,
         Err(ArapError::Cancelled(cancelled)) => return Err(cancelled),

@@ -63,6 +63,8 @@ fn stretches(walk: &[u32], source: &[f64], target: &[f64]) -> Vec<Stretch> {
             let (after, before) = ((i + k) % n, (i + 2 * n - 1 - k) % n);
             in_source += (source[after] + source[before]) / whole_source;
             in_target += (target[after] + target[before]) / whole_target;
+            // Long in one of the two is enough: else a squeezed stretch would be
+            // averaged away with its neighbours.
             if in_source + in_target >= WINDOW {
                 break;
             }

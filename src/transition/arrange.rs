@@ -49,6 +49,7 @@ pub fn arrangement(
     fit: Fit,
     [place_source, place_target]: [Similarity; 2],
 ) -> Result<[Similarity; 2], SimilarityError> {
+    // By the form's box: pictures have margins that nobody means.
     let to_middle = middle(source) - middle(target);
     let fitted = match fit {
         Fit::AsDrawn => Similarity::IDENTITY,

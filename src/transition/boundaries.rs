@@ -90,6 +90,7 @@ fn middle(ring: &[DVec2]) -> DVec2 {
 /// The boundary walks of two meshes as parts, where they are the same walks
 /// and run the same way round.
 fn numbered(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<RingPair>>> {
+    // Equal walks number by number: whoever made both meshes meant that match.
     let walks = source.boundary_loops();
     if walks != target.boundary_loops() {
         return None;
@@ -109,6 +110,7 @@ fn numbered(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<Ring
         .iter()
         .map(|ring| [signed_area(&ring.source), signed_area(&ring.target)])
         .collect();
+    // A walk that is turned over in one mesh would pass through itself.
     let has_one_sense = areas.iter().all(|[a, b]| a * b > 0.0);
     has_one_sense.then(|| parts(rings, &areas))
 }
@@ -116,6 +118,7 @@ fn numbered(source: &TriangleMesh, target: &TriangleMesh) -> Option<Vec<Vec<Ring
 /// Each hole with the smallest outer ring that it lies in in the source. A
 /// mesh may list its faces clockwise; then its outer rings are clockwise.
 fn parts(rings: Vec<RingPair>, areas: &[[f64; 2]]) -> Vec<Vec<RingPair>> {
+    // Outer rings enclose more than their holes, so that they settle the sign.
     let sense: f64 = areas.iter().map(|[a, _]| a).sum();
     let (mut outer, mut holes) = (Vec::new(), Vec::new());
     for (ring, [area, _]) in rings.into_iter().zip(areas) {

@@ -38,6 +38,7 @@ impl Transition {
     /// [`BuildError`] says what does not go together, or that the work was
     /// cancelled.
     pub fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Self, BuildError> {
+        // Before any work: a window asks the same to grey a button out.
         TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
         let bar_width = bar_width(spec)?;
         let (mut moved, content, bounds) = match spec.cell.content() {
@@ -108,8 +109,10 @@ fn fields(
     checkpoint(progress, "measuring distances", 0.5)?;
     let target = field_of(&spec.target, spec, grid, bar_width, progress)?;
     let pair = FieldPair::new(source, target, spec.options.field.blend)?;
+    // Over the grid with its margin: a carried field is looked up there too.
     let mut moved = plane::warp(spec, &grid.bounds(), bar_width, progress)?;
     if spec.options.field.is_switched() {
+        // First, as the fields were made before the warp.
         moved.notes.insert(0, Note::BinaryBoundary);
     }
     let bounds = if spec.cell.warp() == WarpKind::None {
@@ -181,6 +184,7 @@ fn field_of(
         DistanceField::from_raster(&outline, grid, spec.options.field.metric, progress)
     };
     field.map_err(|error| match error {
+        // A cancel is nobody's fault: it names no design.
         FieldError::Cancelled(cancelled) => BuildError::Cancelled(cancelled),
         error => BuildError::Field {
             design: design.name.clone(),

@@ -49,6 +49,7 @@ pub(super) fn best(
     let matched = |matching: &Matching| match_regions(source, target, matching, progress);
     let film = |matched| Candidate::new(matched, spec, progress);
     let asked = &spec.options.matching;
+    // What the default match fails with, others would fail with.
     let first = matched(asked)?;
     let is_alike = first.pieces.iter().all(|piece| piece.cost <= ALIKE);
     // The best of a round, the first among equals; none of none.
@@ -58,10 +59,12 @@ pub(super) fn best(
         Ok(found.into_iter().reduce(|best, next| best.or(Some(next))))
     };
     let mut rounds = rounds(asked).into_iter();
+    // Side by side with the first film: most pairs are unlike and need it.
     let beside = if is_alike { None } else { rounds.next() };
     let (first, beside) = rayon::join(|| film(first), || other(&beside.unwrap_or_default()));
     let mut best = first?.or(beside?);
     for round in rounds {
+        // Folds alone: the last prices match worse, and are for want of better.
         if best.folds == 0 {
             break;
         }
@@ -110,6 +113,7 @@ impl Candidate {
     /// The better one, this one among equals.
     fn or(self, other: Option<Self>) -> Self {
         match other {
+            // NaN compares false: what cannot be measured is not better.
             Some(other) if other.trouble() < self.trouble() => other,
             _ => self,
         }

@@ -49,6 +49,7 @@ impl Features {
             lines: asked.lines.clone(),
             ..Self::default()
         };
+        // Outlines of a picture's form are not what is seen of it.
         if spec.cell.content() != ContentKind::Field {
             return Ok(given);
         }
@@ -99,6 +100,7 @@ impl Features {
         matching: &Matching,
         progress: &dyn Progress,
     ) -> Result<Self, BuildError> {
+        // A cancel must not pass for outlines that do not match.
         let matched = match_regions(source, target, matching, progress);
         checkpoint(progress, "matching", 0.5)?;
         match matched {

@@ -107,6 +107,7 @@ fn on_grid<W: PlaneWarp>(
 fn grid(frame: &Bounds, work: usize) -> PlaneGrid {
     let size = frame.size();
     let aspect = size.min_element() / size.max_element();
+    // aspect · cells² places, each at the cost of all features.
     let places = MOST_WORK / (work.max(1) as f64);
     let cells = (places / aspect.max(0.01)).sqrt().min(f64::from(GRID));
     PlaneGrid::covering(frame, (cells as u32).max(24))
@@ -140,6 +141,7 @@ fn rigid(
             of: found,
         });
     }
+    // Pins that somebody set are shown as theirs already.
     pins.retain(|_| features.are_automatic);
     Ok(Moved {
         automatic: pins,
@@ -195,11 +197,13 @@ fn about_outlines(
         Some(rigid) => (&rigid.match_at_rest(matched), rigid.frame_at_rest(frame)),
         None => (matched, *frame),
     };
+    // An outline that leaves the frame at rest could not be an edge of its mesh.
     let frame = around(matched, &frame);
     let made = CompatibleMesh::around_outlines(&frame, matched, &options.triangulation, progress);
     let mesh = match made {
         Ok(mesh) => mesh,
         Err(error) => {
+            // A cancel comes back as an error of the mesh; it must not become a note.
             checkpoint(progress, "triangulating", 0.0)?;
             return Ok(Err(error));
         }

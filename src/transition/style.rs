@@ -18,6 +18,7 @@ impl std::str::FromStr for Rgb {
     fn from_str(text: &str) -> Result<Self, NoColour> {
         let wrong = || NoColour(text.to_owned());
         let hex = text.strip_prefix('#').ok_or_else(wrong)?;
+        // `from_str_radix` alone would take "+f6fb3".
         if hex.len() != 6 || !hex.bytes().all(|b| b.is_ascii_hexdigit()) {
             return Err(wrong());
         }

@@ -116,6 +116,7 @@ pub(super) fn sin_cos(x: f64) -> (f64, f64) {
 /// eˣ, for x beyond ±708 that of ±708.
 #[inline(always)]
 pub(super) fn exp(x: f64) -> f64 {
+    // Without a branch: the exponent below has 11 bits and would wrap around.
     let x = x.clamp(-LARGEST_EXPONENT, LARGEST_EXPONENT);
     let rounded = x * LOG2_E + ROUNDER;
     let n = rounded - ROUNDER;

@@ -68,6 +68,7 @@ impl Features {
             return Err(FeatureError::TooMany { found });
         }
         let unit = if diameter > 0.0 { diameter } else { 1.0 };
+        // Held nearer, not refused: a pin dragged off the screen is no error.
         let centre = frame.centre();
         let near = |p: DVec2| p.clamp(centre - FAR * unit, centre + FAR * unit);
         let pairs = points.iter().copied().chain(lines.iter().flat_map(sampled));
@@ -84,6 +85,7 @@ impl Features {
     /// The features at t, and from there to the source and to the target. At
     /// t = 0 and t = 1 the one or the other is exactly zero.
     pub(super) fn at(&self, t: f64) -> impl Iterator<Item = (DVec2, [DVec2; 2])> + Clone {
+        // Beyond so many films as well, or (1 − t) p + t q would be infinite.
         let t = if t.is_nan() { 0.0 } else { t.clamp(-FAR, FAR) };
         self.pairs.iter().map(move |pair| {
             let at = pair.source * (1.0 - t) + pair.target * t;

@@ -112,6 +112,7 @@ impl Lines {
         check(points, lines)?;
         let line = |line: &LinePair| Moving::new(line.source, line.target);
         let pin = |pin: &PointPair| Moving::new([pin.source; 2], [pin.target; 2]);
+        // A pin has no length to be weighed by.
         let nominal = |moving: Moving| {
             let length = moving.is_point().then_some(PIN_LENGTH * diameter);
             (moving, length)
@@ -152,6 +153,7 @@ impl LinesAtT {
         let features = features.filter(Feature::is_finite);
         self.plane = Scaled::around(features.clone());
         let (plane, a) = (self.plane, self.constants.a * self.plane.per_unit);
+        // The kernel's weights are finite for an a in this range only.
         self.a = a.clamp(LEAST_A, LARGEST_A);
         self.lines.clear();
         let lines = features.map(|feature| Line::new(&plane.feature(&feature), a));
@@ -162,6 +164,8 @@ impl LinesAtT {
     /// Makes strengths of lengths, relative to the greatest.
     fn weigh(&mut self) {
         let lengths = self.lines.iter().map(|line| line.strength);
+        // A factor common to all weights cancels in Σ w D / Σ w, and no power
+        // of a share is above 1.
         let greatest = lengths.fold(0.0, f64::max);
         let exponent = self.constants.b * self.constants.p;
         for line in &mut self.lines {

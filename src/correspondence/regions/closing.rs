@@ -41,6 +41,7 @@ pub(super) fn point_ring(
     }
     let room = places.iter().map(|place| place.1).fold(0.0, f64::max);
     let goal = wanted.unwrap_or_else(|| part.outer.bounds().centre());
+    // Not the roomiest: the hole should close near where it was.
     let roomy = places
         .iter()
         .filter(|place| place.1 >= LEAST_CLEARANCE * room);
@@ -78,6 +79,7 @@ pub(super) fn centre(ring: &Ring) -> DVec2 {
 /// Where mean value coordinates put `p`.
 fn carried(outer: &Vertices, p: DVec2) -> Option<DVec2> {
     let n = outer.from.len();
+    // tan(α/2) from sine and cosine of α, times both lengths, which cancel.
     let half_tangent = |k: usize| {
         let (a, b) = (outer.from[k] - p, outer.from[(k + 1) % n] - p);
         let (cross, dot) = (a.perp_dot(b), a.dot(b));
@@ -90,6 +92,7 @@ fn carried(outer: &Vertices, p: DVec2) -> Option<DVec2> {
         sum += weight * (outer.to[k] - outer.to[0]);
         total += weight;
     }
+    // A place on the outline itself gives 0 / 0: then there is none.
     let place = outer.to[0] + sum / total;
     place.is_finite().then_some(place)
 }

@@ -34,6 +34,7 @@ pub(super) fn grouped(
             .flat_map(|g| g.parts[side][1..].to_vec())
             .collect()
     });
+    // Of a group one part is fixed to one; the others are taken.
     let [source, target] = designs;
     let pairing = pair_parts(source, target, &fixed, [&taken[0], &taken[1]])?;
     for pair in &pairing.pairs {
@@ -47,6 +48,7 @@ pub(super) fn grouped(
     for part in groups.iter_mut().flat_map(|g| &mut g.parts) {
         part.sort_unstable();
     }
+    // Parts that are born have no number in the source: they come last.
     groups.sort_by_key(|group| {
         let first = |side: Side| group.parts[side].first().copied().unwrap_or(usize::MAX);
         Side::BOTH.map(first)
@@ -182,6 +184,7 @@ pub(super) fn pieces(
             } else {
                 Side::Source
             };
+            // Pieces come in the order of the parts that they become.
             let others = &group.parts[side.other()];
             let piece = |k: usize, piece| {
                 let regions = Pair::on(side, piece, several[k]);

@@ -59,6 +59,7 @@ pub(super) fn nearest_ring(design: &Regions, p: DVec2) -> RingAt {
 
 /// The part that a point lies in, else the nearest.
 pub(super) fn part_at(design: &Regions, p: DVec2) -> usize {
+    // A link is clicked into a part, and in its hole it lies in none.
     let inside = design.iter().position(|region| region.contains(p));
     inside.unwrap_or_else(|| nearest_ring(design, p).part)
 }

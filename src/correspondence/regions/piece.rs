@@ -21,6 +21,7 @@ pub(super) fn matched(task: &Task) -> Result<PieceMatch, RegionMatchError> {
     let mut sides = Sides::new(task);
     let blunt = sides.outer_match()?;
     let (pairing, cuts) = sides.paired_and_cut(blunt.rotation())?;
+    // The walks are others once they go around holes.
     let outer = if cuts.is_empty() {
         blunt
     } else {
@@ -73,6 +74,7 @@ impl Sides<'_> {
             let (turn, middle) = (DVec2::from_angle(by), centre(ring));
             curve(&ring.mapped(|p| turn.rotate(p - middle)))
         };
+        // Half of the turn each, so that the way back is the same to the last bit.
         let posed = [
             turned(holes[0], 0.5 * rotation)?,
             turned(holes[1], -0.5 * rotation)?,

@@ -145,6 +145,7 @@ impl<'a> Sides<'a> {
                 cuts.push((side, slit.ok_or(RegionMatchError::Cut(number))?));
             }
             let alone = [&pairing.dying, &pairing.born][side];
+            // Each cut changes the walk: the largest hole matters most to it.
             for hole in self.largest_first(side, alone) {
                 let slit = self.open_if_better(side, hole, false);
                 cuts.extend(slit.map(|ends| (side, ends)));
@@ -212,6 +213,7 @@ impl<'a> Sides<'a> {
             self.tell_uncut(side, hole, forced);
             return None;
         };
+        // Both costs are of coarse matches, so that they compare.
         if rule == HoleRule::Auto && !forced {
             let blunt = self.coarse_cost(side, &other)?;
             let share = holes[at].perimeter() / self.walks[side].ring.perimeter();

@@ -123,6 +123,7 @@ fn spread(mut rungs: Vec<Rung>) -> Vec<Rung> {
         .chain(alongs.iter().copied())
         .chain(std::iter::once(1.0))
         .collect::<Vec<_>>();
+    // Even ones instead: a sliver along a slit has no good triangle.
     let crowded = ends.windows(2).any(|w| w[1] - w[0] < 0.1 / count);
     for (k, rung) in rungs.iter_mut().enumerate() {
         rung.along = if crowded {
@@ -233,6 +234,7 @@ fn insert(shared: &mut SharedPolygons, side: Side, curve: &Curve, mut added: Vec
     let first = shared.places.first().map_or(0.0, |place| place[side]);
     let ahead = |place: f64| curve.wrapped(place - first);
     added.sort_by(|a, b| ahead(a.places[side]).total_cmp(&ahead(b.places[side])));
+    // From the last on, so that earlier ones do not move where later ones go.
     for new in added.into_iter().rev() {
         let at = shared
             .places

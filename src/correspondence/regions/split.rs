@@ -39,6 +39,7 @@ pub(super) fn split(region: &Region, wanted: &[&Region]) -> Option<Vec<Region>> 
         pieces[order[step]] = Some(first);
         rest = left;
     }
+    // `wanted` has two parts at least: one alone is not split.
     pieces[order[order.len() - 1]] = Some(rest);
     pieces.into_iter().collect()
 }
@@ -89,6 +90,7 @@ fn cut_in_two(region: &Region, first: &Region, others: &[&Region]) -> Option<[Re
         let [a, b] = &pieces.1;
         let (straight, swapped) = (rank(&goal, a, b), rank(&goal, b, a));
         let price = LENGTH * pieces.0 / region.area().sqrt();
+        // Which of the pieces is the first is free: the better way round counts.
         if straight <= swapped {
             ranked.push((straight + price, pieces.1));
         } else {
@@ -194,6 +196,7 @@ fn cut_between(
 /// Whether the open segment runs inside the region.
 fn is_free(region: &Region, a: DVec2, b: DVec2) -> bool {
     const END_SHARE: f64 = 1e-6;
+    // Its own ends lie on the boundary.
     let short = [a.lerp(b, END_SHARE), b.lerp(a, END_SHARE)];
     let mut edges = region.rings().flat_map(Ring::edges);
     region.contains(a.midpoint(b)) && !edges.any(|(p, q)| segments_touch(short, [p, q]))

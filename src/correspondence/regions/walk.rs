@@ -81,6 +81,7 @@ impl Walk {
         let short = [a.lerp(b, END_SHARE), b.lerp(a, END_SHARE)];
         let middle = a.midpoint(b);
         let rings = || std::iter::once(&self.ring).chain(holes.iter().copied());
+        // 1 inside: the walk counts 1, and a hole about the place takes 1 away.
         let winding: i32 = rings().map(|ring| ring.winding(middle)).sum();
         let touched = |ring: &Ring| ring.edges().any(|(p, q)| segments_touch(short, [p, q]));
         let length = a.distance(b);
@@ -113,6 +114,7 @@ fn around_from(ring: &Ring, edge: usize, from: DVec2) -> Vec<DVec2> {
     let mut walk = vec![from];
     walk.extend((1..=n).map(|k| points[(edge + k) % n]));
     walk.push(from);
+    // An end that is a vertex stands twice in a row.
     walk.dedup();
     walk
 }
@@ -130,6 +132,7 @@ fn nearest(
             continue;
         }
         let q = match along_segment(p, a, b) {
+            // At a vertex that vertex, to the last bit: slits are found again by it.
             0.0 => a,
             1.0 => b,
             along => a.lerp(b, along),

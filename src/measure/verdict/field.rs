@@ -25,6 +25,7 @@ pub(super) fn findings(
     };
     let ends = |of: scan::Count| of(first).max(of(last));
     let mut troubles = Vec::new();
+    // Not `worst`: what is wrong here is that a count is too small.
     let gone = scan::times(glances, |g| g.pieces == 0);
     if let (Some(&begin), Some(&end)) = (gone.first(), gone.last())
         && ends(|g| g.pieces) > 0
@@ -61,6 +62,7 @@ fn finding(
     span: [f64; 2],
 ) -> Finding {
     let share = overlap(pair);
+    // Fields that do not overlap vanish and appear whatever the space.
     let (cause, remedy) = if share < LITTLE_OVERLAP {
         (Cause::LittleOverlap { share }, Remedy::LayOver)
     } else {

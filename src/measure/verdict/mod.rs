@@ -112,6 +112,7 @@ impl Verdict {
             ),
             Content::Colours(_) => ("no folds", Vec::new()),
         };
+        // Pictures have no glances, and a fold of the plane may be short.
         let steps = glances.len().max(PLANE_STEPS);
         findings.extend(plane::findings(transition, steps, progress)?);
         Ok(Self {

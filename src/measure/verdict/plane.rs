@@ -20,6 +20,7 @@ fn keep(worst: &mut Worst, size: f64, mut finding: Finding) {
     if let Some((before, known)) = worst {
         known.span[1] = finding.t;
         finding.span = known.span;
+        // The earlier of equals stays; its span was carried on already.
         if size <= *before {
             return;
         }

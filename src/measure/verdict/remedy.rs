@@ -42,6 +42,7 @@ pub(super) fn for_rigid_parts(
             finding.remedy = pin(finding);
         }
     }
+    // After the pins: naming them costs nothing.
     if arap.mesh().faces().len() > MOST_FACES {
         return Ok(());
     }
@@ -97,6 +98,7 @@ fn the_other_way(arap: &Arap, part: usize, turn: f64) -> Change {
         [all] => *all,
         each => each.get(p).copied().unwrap_or(0),
     };
+    // Written out for each part: a single number would turn all of them.
     let mut turns: Vec<i32> = (0..arap.part_count()).map(each).collect();
     if let Some(own) = turns.get_mut(part) {
         *own -= if turn > 0.0 { 1 } else { -1 };
@@ -137,6 +139,7 @@ fn take_if_better(finding: &mut Finding, change: &Change, now: &[Glance], then: 
         _ => of,
     };
     let left = scan::most(then, own);
+    // Folds undone at the price of new crossings are no remedy.
     if left < best && scan::most(then, other) <= scan::most(now, other) {
         let change = change.clone();
         finding.remedy = Remedy::Change { change, left, of };

@@ -124,6 +124,7 @@ pub(super) fn most(glances: &[Glance], of: Count) -> usize {
 pub(super) fn worst(glances: &[Glance], of: Count, allowed: usize) -> Option<(f64, [f64; 2])> {
     let top = most(glances, of);
     let beyond: Vec<f64> = times(glances, |g| of(g) > allowed);
+    // Halfway through a trouble it is seen best.
     let at_top = times(glances, |g| of(g) == top);
     let span = [*beyond.first()?, *beyond.last()?];
     Some((at_top[at_top.len() / 2], span))

@@ -52,6 +52,8 @@ fn of_folds(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
     let faces: Vec<usize> = scan::folded(scene.arap, &scene.places).collect();
     let by_det = |a: &&usize, b: &&usize| scene.det(**a).total_cmp(&scene.det(**b));
     let worst = *faces.iter().min_by(by_det)?;
+    // What an option can change comes first, then what a pin can, and last what
+    // only tells where to look.
     let cause = cause::straight_paths(scene, worst, t)
         .or_else(|| cause::far_turn_of_part(scene, worst))
         .or_else(|| cause::uneven_match(scene, worst))

@@ -42,6 +42,7 @@ pub(super) fn make_consistent(
         if std::mem::replace(&mut done[seed], true) {
             continue;
         }
+        // A new part starts with whatever turn it has; `choose_turns` decides.
         queue.push_back(seed);
         while let Some(face) = queue.pop_front() {
             for other in (0..3).filter_map(|k| connectivity.neighbour(face, k)) {
@@ -52,6 +53,8 @@ pub(super) fn make_consistent(
             }
         }
     }
+    // The walk meets each edge of a tree; the edges that close a loop tell
+    // whether the angles wind around it.
     match first_jump(connectivity, angles) {
         Some(faces) => Err(AngleError::Winding(faces)),
         None => Ok(()),
@@ -81,9 +84,11 @@ pub(super) fn choose_turns(
         let sum = &mut sums[part as usize];
         *sum = (sum.0 + area * angle, sum.1 + area);
     }
+    // Faces are positive, so that no part has an area of 0.
     let means: Vec<f64> = sums.iter().map(|(sum, area)| sum / area).collect();
     let principal = |angle: f64| {
         let reduced = nearest(angle, 0.0);
+        // `round` may leave −π, whose film would go the other way than that of π.
         if reduced <= -PI {
             reduced + TAU
         } else {
@@ -91,6 +96,8 @@ pub(super) fn choose_turns(
         }
     };
     let first = means.first().map_or(whole, |&mean| principal(mean));
+    // The first part is on its own branch; the others follow it by way of the
+    // whole, or a part of ±170° would go around the other way than its fellow.
     let whole = nearest(whole, first);
     let extra = |part: usize| match extra_turns {
         [all] => f64::from(*all),

@@ -100,6 +100,7 @@ impl Drift {
     pub(super) fn shifts(&self, t: f64, deviation: &[f64], shifts: &mut [DVec2]) {
         let (dx, dy) = deviation.split_at(deviation.len() / 2);
         shifts.fill(DVec2::ZERO);
+        // By runs, so that `dot` reads rows of numbers and no part for each.
         for Run { range, part } in &self.unknowns {
             let [shares, dx, dy] = [&self.shares, dx, dy].map(|all| &all[range.clone()]);
             shifts[*part] -= DVec2::new(dot(shares, dx), dot(shares, dy));
@@ -108,6 +109,7 @@ impl Drift {
             *shift += part.deviation(t, self.whole_angle);
         }
         if let Some((at, part)) = self.anchor {
+            // All parts move along, or those without the anchor would tear away.
             let of_anchor = DVec2::new(dx[at as usize], dy[at as usize]) + shifts[part as usize];
             shifts.iter_mut().for_each(|shift| *shift -= of_anchor);
         }

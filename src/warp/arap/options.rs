@@ -38,6 +38,7 @@ impl Weights {
         if let Some(bad) = each.iter().position(|w| !(w.is_finite() && *w > 0.0)) {
             return wrong(format!("number {} is {}", bad + 1, each[bad]));
         }
+        // Saturating: rounds come from a file, and 4³² would overflow.
         let children = 4_usize.saturating_pow(rounds);
         if each.len().saturating_mul(children) > 4 * crate::mesh::MAX_VERTICES {
             return Err(TooManyVertices { rounds }.into());

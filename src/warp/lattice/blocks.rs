@@ -38,6 +38,7 @@ impl Block {
 impl Blocks {
     /// Room for so many columns and rows of control points, all of them zero.
     pub(super) fn reset(&mut self, size: [usize; 2]) {
+        // Only what was made is undone: the directory of a fine layer is long.
         for entry in self.made.drain(..) {
             self.directory[entry] = 0;
         }
@@ -88,7 +89,9 @@ impl Blocks {
     pub(super) fn sum(&self, [i0, j0]: [usize; 2], bx: &[f64; 4], by: &[f64; 4]) -> DVec2 {
         let number =
             |i: usize, j: usize| self.directory[(j >> SHIFT) * self.columns + (i >> SHIFT)];
+        // Four by four controls reach into the blocks of their corners, no others.
         let corners = [(0, 0), (3, 0), (0, 3), (3, 3)].map(|(i, j)| number(i0 + i, j0 + j));
+        // Most of a fine layer is empty, and most places leave here.
         if corners == [0; 4] {
             return DVec2::ZERO;
         }

@@ -57,6 +57,8 @@ impl Layer {
     fn reset(&mut self, domain: &Bounds, spacing: f64) {
         let cells = (domain.size() / spacing).ceil();
         self.controls
+            // A cell has its own control point and three more; a place on the far
+            // side is in one cell more.
             .reset(cells.to_array().map(|c| c as usize + 4));
         self.spacing = spacing;
         self.origin = domain.min;

@@ -115,6 +115,7 @@ impl Tower {
         let spacing = ground.side / cells;
         let layers = match (self.composed, level) {
             (false, _) => 1,
+            // So many steps of half a spacing lead across the frame.
             (true, 0) => COMPOSED[0].min(2 * ground.options.coarsest + 2),
             (true, _) if level < ground.options.levels => COMPOSED[1],
             (true, _) => COMPOSED[2],
@@ -133,11 +134,14 @@ impl Tower {
     }
 
     fn layer(&mut self, ground: &Ground, spacing: f64, most: f64) {
+        // Layers are kept from frame to frame, with their memory.
         if self.layers.len() == self.height {
             self.layers.push(Layer::default());
         }
         let layer = &mut self.layers[self.height];
         let composed = self.composed;
+        // Composed, a layer moves what the layers below have moved; summed, each
+        // moves the plane as it was.
         let on = |f: &Feature| if composed { f.now } else { f.from };
         let pulls = self.features.iter().filter(|f| f.weight > 0.0);
         let pulls = pulls.map(|f| Pull {

@@ -55,6 +55,7 @@ impl Moving {
     }
 
     pub(super) fn at(&self, t: f64, between: Between) -> Segment {
+        // By middle, angle and length the ends would be met to rounding only.
         if t == 0.0 {
             return self.source;
         }
@@ -89,6 +90,7 @@ fn polar([from, to]: Segment) -> (Option<DVec2>, f64) {
 fn turn(first: DVec2, last: DVec2) -> f64 {
     let (sine, cosine) = (first.perp_dot(last), first.dot(last));
     let turn = sine.atan2(cosine);
+    // A turn by nearly ±π has a sign that rounding chose.
     if cosine > 0.0 || sine.abs() > NEARLY_HALF_A_TURN {
         return turn;
     }

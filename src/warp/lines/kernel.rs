@@ -127,6 +127,7 @@ impl<F: Falloff> WithSimd for Pass<'_, F> {
         let designs = source.chunks_mut(BLOCK).zip(target.chunks_mut(BLOCK));
         for (places, designs) in places.chunks(BLOCK).zip(designs) {
             let mut block = Block::of(places);
+            // The last block may be short; what is behind it is not computed.
             let used = places.len().div_ceil(GROUP * S::F64_LANES);
             for start in (0..used).step_by(CELLS) {
                 let cells = &mut cells[..CELLS.min(used - start)];
@@ -154,6 +155,7 @@ struct Block {
 impl Block {
     #[inline(always)]
     fn of(places: &[DVec2]) -> Self {
+        // `chunks` yields no empty block.
         let last = places.len() - 1;
         let mut block = Self {
             places: [[0.0; BLOCK]; 2],
@@ -180,6 +182,7 @@ impl Block {
     /// `unit` Σ w D / Σ w of a group.
     #[inline(always)]
     fn take<S: Simd>(&mut self, simd: S, at: usize, cell: &Cell<S>, unit: f64) {
+        // Without lines Σ w and the sums are 0, and 0 / 10⁻³⁰⁰ is no movement.
         let [one, unit, least] = [1.0, unit, LEAST_WEIGHT].map(|x| simd.splat_f64s(x));
         let mut factors = cell.weight;
         for factor in &mut factors {

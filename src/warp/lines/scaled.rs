@@ -55,6 +55,7 @@ fn power_of_two_at(magnitude: f64) -> f64 {
     if magnitude == 0.0 {
         return 1.0;
     }
+    // The sign is 0: only the exponent is left, and a power of two has no more.
     let exponent = magnitude.to_bits() >> 52;
     f64::from_bits(exponent.clamp(2, 2044) << 52)
 }
