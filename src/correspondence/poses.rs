@@ -13,6 +13,7 @@ const REST_RELATIVE: f64 = 0.05;
 const REST: f64 = 0.0005;
 
 /// Poses nearer than this count as one, in radians.
+/// 20°: within that a search finds the pose by its own rounds.
 const POSE_APART: f64 = 0.35;
 
 /// How many poses are tried besides none.

@@ -9,6 +9,7 @@ use super::problem::Problem;
 use super::refine::refine;
 
 /// Samples by which the refined path may leave the coarse one.
+/// One more than the longest step of the refinement.
 const REACH: usize = 9;
 
 impl Problem {

@@ -18,6 +18,7 @@ use std::f64::consts::FRAC_PI_6;
 const RAYS: [f64; 5] = [-2.0, -1.0, 0.0, 1.0, 2.0];
 
 /// Hits nearer than this share of the shape's extent are the point's own edge.
+/// Far above the rounding of a place on an edge, far below any thickness.
 const OWN: f64 = 1e-7;
 
 /// Logarithm of the thickness at each place, less its mean along the curve.

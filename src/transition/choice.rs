@@ -29,6 +29,7 @@ const OTHER_PRICES: [f64; 2] = [0.6, 1.2];
 const LAST_PRICES: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 
 /// Steps of a film that is looked at for folds.
+/// Each costs a frame of every candidate; a fold between two is missed.
 const STEPS: u32 = 16;
 
 /// A match with its film, and how good that is.

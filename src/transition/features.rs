@@ -13,9 +13,11 @@ use crate::progress::{Progress, checkpoint};
 use crate::warp::WarpKind;
 
 /// Pins so near an outline are on it, as a share of the design's diameter.
+/// A few pixels of a window: so far a hand misses that drags along a line.
 const ON_OUTLINE: f64 = 0.005;
 
 /// Pins that are set along each outline where nobody set any.
+/// Each costs a row of the equations.
 const AUTOMATIC: usize = 24;
 
 /// The same of lines, each of which pulls the whole plane along: where many are

@@ -19,10 +19,12 @@ use std::sync::Arc;
 
 /// Squares of the grid along the longer side of the frame, on which a warp is
 /// taken as linear.
+/// Some pixels a square in a window: what is linear within is not seen.
 const GRID: u32 = 160;
 
 /// Work of one frame, in places times features, beyond which the grid is made
 /// coarser.
+/// Some milliseconds on a core or two, so that a film plays at 60 frames.
 const MOST_WORK: f64 = 3e6;
 
 /// Work of a place by lattices, in features: it does not grow with them.
@@ -30,6 +32,7 @@ const LATTICE_WORK: usize = 16;
 
 /// How far a mesh of rigid parts reaches beyond the frame, in longer sides:
 /// its border bends on the way.
+/// More costs faces that nobody sees.
 const BEYOND: f64 = 0.25;
 
 /// The warp of a specification over a frame.

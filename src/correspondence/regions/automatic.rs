@@ -4,6 +4,7 @@ use super::super::PointPair;
 use super::outcome::{RegionMatch, RingKind, RingMatch};
 
 /// A ring of little length is pinned at so many points all the same.
+/// Three would say nothing of how a ring is sheared.
 const FEWEST: usize = 4;
 
 impl RegionMatch {

@@ -9,12 +9,16 @@ use super::outcome::POINT_SIZE;
 use crate::geometry::{Bounds, DVec2, Region, Ring, along_ray};
 
 /// A place keeps at least this share of the best clearance there is.
+/// More would draw holes to the middle of the part, less to its rim, where
+/// triangles are thin.
 const LEAST_CLEARANCE: f64 = 0.25;
 
 /// A tiny ring takes up at most this share of its place's clearance.
+/// Up to ½ would fit; the rest is room for the triangles around it.
 const CLEARANCE_SHARE: f64 = 0.2;
 
 /// How many places of the boundary are searched for room.
+/// Each costs a look at every edge: a bound for outlines of thousands.
 const SEARCHED: usize = 256;
 
 /// Points of one ring on both sides, vertex by vertex.

@@ -11,9 +11,12 @@ use super::slits::mirror;
 use crate::geometry::{DVec2, Ring, Side};
 
 /// Longest edge of a shared outline, as a share of the outer one's length.
+/// 80 edges around: fewer bend coarsely on the way, more cost the inside, which
+/// grows with their square.
 const SPACING: f64 = 0.0125;
 
 /// A ring has at least so many vertices.
+/// A small hole would be a triangle by the spacing of the whole.
 const LEAST_VERTICES: f64 = 10.0;
 
 /// Matches a part with a part.

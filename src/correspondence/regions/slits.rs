@@ -11,6 +11,7 @@ use crate::geometry::{DVec2, Pair, Side};
 
 /// Vertices of the two passages nearer than this share of the slit divided by
 /// their number become one.
+/// Below ½, so that none is near to two of an even row.
 const NEAR: f64 = 0.35;
 
 /// A vertex on one passage.

@@ -13,13 +13,19 @@ use super::cut::coarse;
 use crate::geometry::{DVec2, Region, Ring, segments_touch};
 
 /// Places of the boundary between which cuts are tried.
+/// The cuts grow with its square; a limb thinner than a fiftieth of the
+/// boundary may find none at its root.
 const PLACES: u32 = 56;
 
 /// Cuts that are matched.
+/// Ranking is cheap and matching is not: more would cost time, fewer trust
+/// the ranking more than it deserves.
 const TRIED: usize = 10;
 
 /// What areas, places and length count in the ranking; and what the ranking
 /// counts against the match.
+/// Areas rule, since a piece of the wrong size must grow; no measure fixed
+/// the shares.
 const AREA: f64 = 1.0;
 const PLACE: f64 = 0.6;
 const LENGTH: f64 = 0.35;

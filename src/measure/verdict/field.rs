@@ -9,6 +9,7 @@ use crate::progress::{Cancelled, Progress};
 use crate::transition::Transition;
 
 /// Designs that share less than this have little to do with each other.
+/// Half: below, more of the smaller design appears than moves.
 const LITTLE_OVERLAP: f64 = 0.5;
 
 /// A trouble by its count, and by the count at the larger end.

@@ -50,6 +50,7 @@ use tower::{Ground, Tower};
 const SEEN: f64 = 10.0;
 
 /// How many places a core takes at a time.
+/// A place costs up to some hundred layers: fewer places than other warps take.
 const CHUNK: usize = 256;
 
 /// The row *B-spline lattices*.
