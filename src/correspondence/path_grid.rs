@@ -110,7 +110,7 @@ impl Prices {
         window: impl Fn(usize) -> [usize; 2],
         scratch: &mut Scratch,
     ) -> Route {
-        let window = |j: usize| clipped(window(j), start, end);
+        let window = |j: usize| [window(j)[0].max(start), window(j)[1].min(end)];
         scratch.reset(self.width);
         // As if a row above the first led to the start, and nowhere else.
         scratch.above[1 + start] = 0.0;
@@ -175,10 +175,6 @@ impl Scratch {
         self.came.clear();
         self.starts.clear();
     }
-}
-
-fn clipped([low, high]: [usize; 2], start: usize, end: usize) -> [usize; 2] {
-    [low.max(start), high.min(end)]
 }
 
 /// The path walked back from its end.

@@ -8,29 +8,19 @@
 
 use super::path_grid::PathGrid;
 
-/// Steps in source and target samples: up to 1 : 8, without common factors.
-const STEPS: [[usize; 2]; 21] = [
-    [1, 1],
+/// Steps in source and target samples that are longer in the target, up to
+/// 1 : 8 and without common factors. All are taken the other way round too.
+const LONGER: [[usize; 2]; 10] = [
     [1, 2],
-    [2, 1],
     [1, 3],
-    [3, 1],
     [2, 3],
-    [3, 2],
     [1, 4],
-    [4, 1],
     [3, 4],
-    [4, 3],
     [1, 5],
-    [5, 1],
     [2, 5],
-    [5, 2],
     [1, 6],
-    [6, 1],
     [1, 7],
-    [7, 1],
     [1, 8],
-    [8, 1],
 ];
 
 /// The cheapest strictly monotone path from the first to the last of `nodes`,
@@ -79,7 +69,10 @@ fn windows(nodes: &[[usize; 2]], reach: usize) -> Vec<[usize; 2]> {
 
 fn cheapest(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> {
     let width = grid.source.len();
-    let steps = STEPS.map(|step| Step::new(step, width));
+    let longer = LONGER.into_iter().flat_map(|[a, b]| [[a, b], [b, a]]);
+    // The even step first: of equally cheap ones the first is taken.
+    let steps = std::iter::once([1, 1]).chain(longer);
+    let steps: Vec<Step> = steps.map(|step| Step::new(step, width)).collect();
     let mut cost = vec![f64::INFINITY; width * windows.len()];
     let mut came = vec![usize::MAX; cost.len()];
     cost[0] = 0.0;
@@ -94,8 +87,8 @@ fn cheapest(grid: &PathGrid, windows: &[[usize; 2]]) -> Option<Vec<[usize; 2]>> 
     let (mut i, mut j) = (width - 1, windows.len() - 1);
     let mut nodes = vec![[i, j]];
     while (i, j) != (0, 0) {
-        let [di, dj] = *STEPS.get(came[j * width + i])?;
-        (i, j) = (i - di, j - dj);
+        let step = steps.get(came[j * width + i])?;
+        (i, j) = (i - step.source, j - step.target);
         nodes.push([i, j]);
     }
     nodes.reverse();

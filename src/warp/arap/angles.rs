@@ -86,16 +86,15 @@ pub(super) fn choose_turns(
     }
     // Faces are positive, so that no part has an area of 0.
     let means: Vec<f64> = sums.iter().map(|(sum, area)| sum / area).collect();
-    let principal = |angle: f64| {
-        let reduced = nearest(angle, 0.0);
+    let first = means.first().map_or(whole, |&mean| {
+        let reduced = nearest(mean, 0.0);
         // `round` may leave −π, whose film would go the other way than that of π.
         if reduced <= -PI {
             reduced + TAU
         } else {
             reduced
         }
-    };
-    let first = means.first().map_or(whole, |&mean| principal(mean));
+    });
     // The first part is on its own branch; the others follow it by way of the
     // whole, or a part of ±170° would go around the other way than its fellow.
     let whole = nearest(whole, first);

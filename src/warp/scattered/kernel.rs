@@ -42,10 +42,54 @@ impl Kernel {
     }
 }
 
-/// What is done with a function once it is known: a loop that is compiled for
-/// each, with φ of r² and of the centre's own radius squared.
+/// One of the functions, to compile a loop for.
+trait Phi: Copy {
+    fn of(self, r2: f64, own: f64) -> f64;
+}
+
+#[derive(Clone, Copy)]
+struct ThinPlate;
+#[derive(Clone, Copy)]
+struct Gaussian(f64);
+#[derive(Clone, Copy)]
+struct Root;
+#[derive(Clone, Copy)]
+struct Power(f64);
+
+// Methods that are inlined always, not closures: what stays a call is compiled
+// for no vectors.
+impl Phi for ThinPlate {
+    /// 0 at 0, since the logarithm is finite there.
+    #[inline(always)]
+    fn of(self, r2: f64, _: f64) -> f64 {
+        0.5 * r2 * ln(r2)
+    }
+}
+
+impl Phi for Gaussian {
+    #[inline(always)]
+    fn of(self, r2: f64, _: f64) -> f64 {
+        exp(-self.0 * r2)
+    }
+}
+
+impl Phi for Root {
+    #[inline(always)]
+    fn of(self, r2: f64, own: f64) -> f64 {
+        (r2 + own).sqrt()
+    }
+}
+
+impl Phi for Power {
+    #[inline(always)]
+    fn of(self, r2: f64, own: f64) -> f64 {
+        exp(self.0 * ln(r2 + own))
+    }
+}
+
+/// What is done with a function once it is known.
 trait Work {
-    fn run(self, phi: impl Fn(f64, f64) -> f64);
+    fn run<P: Phi>(self, phi: P);
 }
 
 /// A work and its function, to be compiled for several widths of vectors.
@@ -56,16 +100,12 @@ impl<W: Work> WithSimd for Dispatched<W> {
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        // φ stands once in each work's loop, so that it is compiled into it.
         match self.0 {
-            // 0 at 0, since the logarithm is finite there.
-            Kernel::ThinPlate => self.1.run(|r2, _| 0.5 * r2 * ln(r2)),
-            Kernel::Gaussian { rate } => self.1.run(|r2, _| exp(-rate * r2)),
+            Kernel::ThinPlate => self.1.run(ThinPlate),
+            Kernel::Gaussian { rate } => self.1.run(Gaussian(rate)),
             // The exponent of Ruprecht and Müller: a root is cheaper.
-            Kernel::Multiquadric { exponent: 0.5 } => self.1.run(|r2, own| (r2 + own).sqrt()),
-            Kernel::Multiquadric { exponent } => {
-                self.1.run(|r2, own| exp(exponent * ln(r2 + own)));
-            }
+            Kernel::Multiquadric { exponent: 0.5 } => self.1.run(Root),
+            Kernel::Multiquadric { exponent } => self.1.run(Power(exponent)),
         }
     }
 }
@@ -89,12 +129,12 @@ pub(super) struct Column<'a> {
 
 impl Work for Column<'_> {
     #[inline(always)]
-    fn run(self, phi: impl Fn(f64, f64) -> f64) {
+    fn run<P: Phi>(self, phi: P) {
         let Centres { x, y, own } = self.centres;
         let (x0, y0, own) = (x[self.of], y[self.of], own[self.of]);
         for ((out, x), y) in self.out.iter_mut().zip(x).zip(y) {
             let (dx, dy) = (x - x0, y - y0);
-            *out = self.sign * phi(dx * dx + dy * dy, own);
+            *out = self.sign * phi.of(dx * dx + dy * dy, own);
         }
     }
 }
@@ -116,25 +156,12 @@ pub(super) struct Sum {
 impl Sum {
     /// Each place, moved by the sum there.
     pub(super) fn evaluate(&self, arch: pulp::Arch, places: &[DVec2], out: [&mut [DVec2]; 2]) {
-        arch.dispatch(Dispatched(
-            self.kernel,
-            Evaluation {
-                sum: self,
-                places,
-                out,
-            },
-        ));
+        arch.dispatch(Dispatched(self.kernel, Evaluation(self, places, out)));
     }
 
     /// The sums at a few places, in the centres' coordinates.
     #[inline(always)]
-    fn block(
-        &self,
-        phi: &impl Fn(f64, f64) -> f64,
-        x: &[f64],
-        y: &[f64],
-        sums: &mut [[Row; 2]; 2],
-    ) {
+    fn block<P: Phi>(&self, phi: P, x: &[f64], y: &[f64], sums: &mut [[Row; 2]; 2]) {
         let n = x.len().min(LANES);
         let (x, y) = (&x[..n], &y[..n]);
         for (sums, [constant, by_x, by_y]) in sums.iter_mut().zip(&self.affine) {
@@ -151,7 +178,7 @@ impl Sum {
         for (((&x0, &y0), &own), coefficients) in centres {
             for ((value, x), y) in values.iter_mut().zip(x).zip(y) {
                 let (dx, dy) = (x - x0, y - y0);
-                *value = phi(dx * dx + dy * dy, own);
+                *value = phi.of(dx * dx + dy * dy, own);
             }
             for (sums, coefficients) in sums.iter_mut().zip(coefficients) {
                 for (sums, &coefficient) in sums.iter_mut().zip(coefficients) {
@@ -164,20 +191,13 @@ impl Sum {
     }
 }
 
-struct Evaluation<'a> {
-    sum: &'a Sum,
-    places: &'a [DVec2],
-    out: [&'a mut [DVec2]; 2],
-}
+/// A sum at places, to be written into both designs.
+struct Evaluation<'a>(&'a Sum, &'a [DVec2], [&'a mut [DVec2]; 2]);
 
 impl Work for Evaluation<'_> {
     #[inline(always)]
-    fn run(self, phi: impl Fn(f64, f64) -> f64) {
-        let Self {
-            sum,
-            places,
-            mut out,
-        } = self;
+    fn run<P: Phi>(self, phi: P) {
+        let Self(sum, places, mut out) = self;
         let [mut x, mut y] = [[0.0; LANES]; 2];
         let mut sums = [[[0.0; LANES]; 2]; 2];
         for (block, places) in places.chunks(LANES).enumerate() {
@@ -186,7 +206,7 @@ impl Work for Evaluation<'_> {
                 (x[lane], y[lane]) = (at.x, at.y);
             }
             let n = places.len();
-            sum.block(&phi, &x[..n], &y[..n], &mut sums);
+            sum.block(phi, &x[..n], &y[..n], &mut sums);
             for (out, [x, y]) in out.iter_mut().zip(&sums) {
                 let out = &mut out[block * LANES..];
                 for (lane, (&place, out)) in places.iter().zip(out).enumerate() {
