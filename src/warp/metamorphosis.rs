@@ -80,7 +80,7 @@ impl<W: PlaneWarp> PlaneWarp for Split<W> {
         self.rest.extend(rest);
         self.elastic.look_up(t, &self.rest, in_source, in_target);
         let looks = [&mut *in_source, &mut *in_target];
-        for (places, from_rest) in looks.into_iter().zip(self.rigid.from_rest()) {
+        for (places, from_rest) in looks.into_iter().zip(self.rigid.maps_from_rest()) {
             places.iter_mut().for_each(|p| *p = from_rest(*p));
         }
         // The ends are the designs themselves, not the designs to rounding.
@@ -124,7 +124,7 @@ impl<W: Warp> Warp for Turned<W> {
     fn placer(&self) -> Placer {
         let mut at_rest = self.at_rest.placer();
         let rest = at_rest.placement();
-        let [source, target] = self.rigid.from_rest();
+        let [source, target] = self.rigid.maps_from_rest();
         let placement = Placement {
             faces: Arc::clone(&rest.faces),
             in_frame: rest.in_frame.clone(),

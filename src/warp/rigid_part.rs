@@ -152,7 +152,7 @@ impl RigidPart {
     }
 
     /// Leads places from rest back into the source and into the target.
-    pub(super) fn from_rest(&self) -> [impl Fn(DVec2) -> DVec2; 2] {
+    pub(super) fn maps_from_rest(&self) -> [impl Fn(DVec2) -> DVec2; 2] {
         let half = DVec2::from_angle(0.5 * self.turn);
         let [source, target] = self.centres;
         [(conjugate(half), source), (half, target)]

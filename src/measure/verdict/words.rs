@@ -101,20 +101,17 @@ impl fmt::Display for Cause {
                 "straight paths flatten what turns, here by {}",
                 degrees(turn.abs())
             ),
-            Self::FarTurn {
-                part: Some(part),
-                turn,
-            } => write!(
-                f,
-                "part {} turns by {} against its neighbour, more than half a turn",
-                part + 1,
-                degrees(turn.abs())
-            ),
-            Self::FarTurn { part: None, turn } => write!(
-                f,
-                "this place turns by {} against the whole, more than half a turn",
-                degrees(turn.abs())
-            ),
+            Self::FarTurn { part, turn } => {
+                let (what, other) = match part {
+                    Some(part) => (format!("part {}", part + 1), "its neighbour"),
+                    None => ("this place".to_owned(), "the whole"),
+                };
+                let by = degrees(turn.abs());
+                write!(
+                    f,
+                    "{what} turns by {by} against {other}, more than half a turn"
+                )
+            }
             Self::UnevenMatch { ratio, source, .. } => write!(
                 f,
                 "near {} of the source the boundary becomes {} than elsewhere",
