@@ -6,7 +6,7 @@
 
 use super::distortion::{Distortion, distortion};
 use super::motion::{self, Motion};
-use super::{count_crossings, excess};
+use super::{count_crossings, excess, turning};
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, Solid};
 use crate::geometry::{DVec2, perimeter, signed_area};
@@ -25,6 +25,8 @@ pub struct FilmSample {
     pub area: f64,
     /// Length of all boundaries, in units of the designs.
     pub perimeter: f64,
+    /// By how much all boundaries turn, in radians; 2π for each that is convex.
+    pub turning: f64,
     /// Separate pieces; of a solid as its boundary walks have them.
     pub pieces: Option<usize>,
     /// Holes in them, likewise.
@@ -77,6 +79,9 @@ pub struct FilmReport {
     pub area_variation_excess: f64,
     /// The same of the perimeter.
     pub perimeter_variation_excess: f64,
+    /// Largest excess of the boundaries' turning over what lies between the
+    /// ends, as a share of that: jagged or wavy where neither end is.
+    pub turning_excess: f64,
     /// Pieces beyond the larger end.
     pub pieces_excess: Option<usize>,
     /// Holes beyond the larger end.
@@ -127,6 +132,8 @@ struct Sampler<'a> {
     mesh: Option<&'a CompatibleMesh>,
     /// Pieces and holes of a solid.
     topology: Option<[usize; 2]>,
+    /// Of the larger design.
+    diameter: f64,
 }
 
 impl<'a> Sampler<'a> {
@@ -142,13 +149,16 @@ impl<'a> Sampler<'a> {
                 }
                 _ => None,
             },
+            diameter: larger(transition),
         }
     }
 
     fn sample(&self, frame: &Frame) -> FilmSample {
         match self.content {
             Content::Solid(solid) => self.of_solid(frame.t(), solid, &frame.placement().in_frame),
-            Content::Field(_) | Content::Colours(_) => of_rings(frame.t(), &frame.figure().rings),
+            Content::Field(_) | Content::Colours(_) => {
+                of_rings(frame.t(), &frame.figure().rings, self.diameter)
+            }
         }
     }
 
@@ -161,12 +171,22 @@ impl<'a> Sampler<'a> {
             area: rings.iter().map(|ring| signed_area(ring)).sum::<f64>()
                 + lengths * solid.bar_width,
             perimeter: rings_perimeter(&rings) + 2.0 * lengths,
+            turning: turning::turning(&rings, self.diameter),
             pieces: self.topology.map(|[pieces, _]| pieces),
             holes: self.topology.map(|[_, holes]| holes),
             crossings: (!rings.is_empty()).then(|| count_crossings(&rings)),
             distortion: self.mesh.and_then(|mesh| distortion(mesh, places)),
         }
     }
+}
+
+/// The diameter of the larger design.
+fn larger(transition: &Transition) -> f64 {
+    let diameters = transition
+        .designs()
+        .iter()
+        .map(|d| d.form.bounds().diameter());
+    diameters.fold(0.0, f64::max)
 }
 
 /// Pieces and holes by the sense of each boundary walk; one that is born from
@@ -182,13 +202,14 @@ fn topology(solid: &Solid, frame: &Frame) -> [usize; 2] {
     [ends[0].len() - holes, holes]
 }
 
-fn of_rings(t: f64, rings: &[Vec<DVec2>]) -> FilmSample {
+fn of_rings(t: f64, rings: &[Vec<DVec2>], diameter: f64) -> FilmSample {
     let areas: Vec<f64> = rings.iter().map(|ring| signed_area(ring)).collect();
     let holes = areas.iter().filter(|area| **area < 0.0).count();
     FilmSample {
         t,
         area: areas.iter().sum(),
         perimeter: rings_perimeter(rings),
+        turning: turning::turning(rings, diameter),
         pieces: Some(rings.len() - holes),
         holes: Some(holes),
         crossings: None,
@@ -209,6 +230,7 @@ fn report(
         let is_bad = |s: &&FilmSample| of(s).is_some_and(|n| n > 0);
         samples.iter().find(is_bad).map(|s| s.t)
     };
+    let turning: Vec<_> = samples.iter().map(|s| [s.t, s.turning]).collect();
     let dets = samples.iter().filter_map(|s| Some(s.distortion?.min_det));
     FilmReport {
         worst_folds: worst(&folds),
@@ -222,6 +244,7 @@ fn report(
         asymmetry,
         area_variation_excess: excess::of_variation(samples.iter().map(|s| s.area)),
         perimeter_variation_excess: excess::of_variation(samples.iter().map(|s| s.perimeter)),
+        turning_excess: turning::excess(&turning),
         pieces_excess: excess::of_count(samples.iter().map(|s| s.pieces)),
         holes_excess: excess::of_count(samples.iter().map(|s| s.holes)),
         motion,

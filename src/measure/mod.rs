@@ -4,7 +4,7 @@
 //!   points, how evenly the boundary is stretched, and the distortion of the
 //!   map between them.
 //! - [`FilmReport`]: a transition sampled over t: folds, distortion beyond
-//!   the worse end, self-crossings, how area and perimeter run, pieces and
+//!   the worse end, self-crossings, how area, perimeter and turning run, pieces and
 //!   holes, travel and acceleration with the rigid motion taken out; and each
 //!   of them against t ([`FilmReport::series`]).
 //! - [`Verdict`]: what goes wrong in a film, where, why, and what helps.
@@ -21,6 +21,7 @@ mod series;
 mod stretch;
 #[cfg(test)]
 mod tests;
+mod turning;
 mod verdict;
 
 pub use crossings::{Crossing, RingEdge, count_crossings, crossings};

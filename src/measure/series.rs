@@ -16,6 +16,8 @@ pub enum Quantity {
     Area,
     /// Length of all boundaries, in units of the designs.
     Perimeter,
+    /// By how much all boundaries turn, in radians.
+    Turning,
     /// σ₁/σ₂ of the worst face, at least 1.
     WorstConformal,
     /// max(σ₁, 1/σ₂) of the worst face, at least 1.
@@ -36,6 +38,8 @@ pub enum Quantity {
 named! { Quantity {
     Area: "area", "Area", "The filled area.";
     Perimeter: "perimeter", "Perimeter", "The length of all boundaries.";
+    Turning: "turning", "Turning",
+        "By how much the boundaries turn, to and fro, in radians; a jagged form turns more.";
     WorstConformal: "worst-conformal", "Worst shear",
         "Conformal distortion of the worst triangle: its longer stretch by its shorter; 1 keeps \
          all angles.";
@@ -60,6 +64,7 @@ impl Quantity {
         match self {
             Self::Area => Some(sample.area),
             Self::Perimeter => Some(sample.perimeter),
+            Self::Turning => Some(sample.turning),
             Self::WorstConformal => distortion.map(|d| d.conformal.worst),
             Self::WorstIsometric => distortion.map(|d| d.isometric.worst),
             Self::MinDet => distortion.map(|d| d.min_det),

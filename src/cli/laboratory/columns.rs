@@ -169,7 +169,7 @@ use Better::{Large, Small};
 use Unit::{Cells, Degrees, Diameters, Pure, Seconds, Share};
 
 /// All of them, in the order of the table.
-pub(super) const ALL: [Column; 53] = [
+pub(super) const ALL: [Column; 54] = [
     words("method", |r| {
         Some(Cell::new(r.warp, r.content).ok()?.words().report)
     }),
@@ -260,6 +260,7 @@ pub(super) const ALL: [Column; 53] = [
     number("frame", Seconds, |r| Some(r.seconds.frame)),
     number("figure", Seconds, |r| Some(r.seconds.figure)),
     number("measure", Seconds, |r| Some(r.seconds.measure)),
+    number("turning_excess", Share, |r| Some(r.film.turning_excess)).drawn("turning"),
 ];
 
 #[cfg(test)]
@@ -277,7 +278,8 @@ mod tests {
         asymmetry_diameters area_variation_excess_share perimeter_variation_excess_share \
         pieces_excess holes_excess mean_travel_diameters max_travel_diameters \
         max_acceleration_diameters grid_width_cells grid_height_cells import_s match_s \
-        triangulate_s match_and_triangulate_s build_s frame_s figure_s measure_s";
+        triangulate_s match_and_triangulate_s build_s frame_s figure_s measure_s \
+        turning_excess_share";
 
     #[test]
     fn headings_are_what_they_were() {
@@ -292,6 +294,6 @@ mod tests {
     fn words_say_the_unit() {
         let words: Vec<_> = ALL.iter().filter_map(Column::words).collect();
         assert!(words.contains(&"build in all, seconds".to_owned()));
-        assert_eq!(words.len(), 15);
+        assert_eq!(words.len(), 16);
     }
 }

@@ -14,9 +14,10 @@ const NAMES: usize = 12;
 const MOST_ROWS: usize = 9;
 
 /// Columns of the list of samples.
-const LISTED: [(&str, Quantity); 8] = [
+const LISTED: [(&str, Quantity); 9] = [
     ("area", Quantity::Area),
     ("perimeter", Quantity::Perimeter),
+    ("turning", Quantity::Turning),
     ("pieces", Quantity::Pieces),
     ("holes", Quantity::Holes),
     ("crossings", Quantity::Crossings),
@@ -145,9 +146,10 @@ fn film(report: &Report, lines: &mut Lines) {
     };
     let off = |share: f64| format!("{} of the diameter off", short(share));
     let up_and_down = format!(
-        "area {}, perimeter {} beyond what the ends need",
+        "area {}, perimeter {}, turning {} beyond what the ends need",
         percent(film.area_variation_excess),
-        percent(film.perimeter_variation_excess)
+        percent(film.perimeter_variation_excess),
+        percent(film.turning_excess)
     );
     for (name, text) in [
         ("folds", seen(film.worst_folds, film.first_fold_t)),

@@ -190,7 +190,7 @@ fn runs(series: &[[f64; 2]]) -> Vec<Vec<[f64; 2]>> {
 /// What the axis always shows: counts start at 0 and reach 1, distortions start at 1.
 fn least(quantity: Quantity) -> Vec<f64> {
     match quantity {
-        Quantity::Area | Quantity::Perimeter => vec![0.0],
+        Quantity::Area | Quantity::Perimeter | Quantity::Turning => vec![0.0],
         Quantity::WorstConformal | Quantity::WorstIsometric => vec![1.0, 2.0],
         Quantity::MinDet => vec![0.0, 1.0],
         Quantity::Folds | Quantity::Crossings | Quantity::Pieces | Quantity::Holes => {
