@@ -10,7 +10,7 @@
 //! the same everywhere.
 
 use super::curve::Curve;
-use crate::geometry::{DVec2, along_ray, ring_edges, signed_area};
+use crate::geometry::{DVec2, EdgeBoxes, signed_area};
 use std::f64::consts::FRAC_PI_6;
 
 /// Rays at these multiples of 30° from the inward normal. At a tip those
@@ -35,11 +35,12 @@ pub(super) fn log_thickness(curve: &Curve, places: &[(f64, f64)]) -> Vec<f64> {
         return vec![0.0; places.len()];
     }
     let side = f64::from(turns.signum());
+    let edges = EdgeBoxes::of(points);
     let at = |&(place, direction): &(f64, f64)| {
         let from = curve.point_at(place);
         let mut lengths = RAYS.map(|k| {
             let angle = direction + side * 3.0 * FRAC_PI_6 + k * FRAC_PI_6;
-            ray(points, from, DVec2::from_angle(angle), OWN * size)
+            edges.first_beyond(from, DVec2::from_angle(angle), OWN * size)
         });
         lengths.sort_by(f64::total_cmp);
         let median = lengths[RAYS.len() / 2].min(size);
@@ -63,12 +64,6 @@ fn centred(mut values: Vec<f64>, places: &[(f64, f64)]) -> Vec<f64> {
         values.iter_mut().for_each(|value| *value -= sum / total);
     }
     values
-}
-
-/// How far a ray goes to the first edge beyond `own`; infinite if to none.
-fn ray(points: &[DVec2], from: DVec2, direction: DVec2, own: f64) -> f64 {
-    let met = ring_edges(points).filter_map(|edge| along_ray(from, direction, edge));
-    met.filter(|far| *far > own).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

@@ -6,6 +6,7 @@
 //! counter-clockwise positive.
 
 mod bounds;
+mod edge_boxes;
 mod pair;
 mod polar;
 mod predicates;
@@ -16,6 +17,7 @@ mod segment;
 mod similarity;
 
 pub use bounds::Bounds;
+pub(crate) use edge_boxes::EdgeBoxes;
 pub use glam::{DMat2, DVec2};
 pub use pair::{Pair, Side};
 pub use polar::{Polar, SymmetricEigen};
