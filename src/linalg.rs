@@ -13,6 +13,7 @@ mod dense;
 
 pub use dense::DenseLu;
 
+use crate::progress::{Cancelled, Progress, beside, still_wanted};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::{LltError, LltRegularization};
 use faer::sparse::linalg::SupernodalThreshold;
@@ -77,6 +78,10 @@ impl SymmetricMatrix {
 /// column by column (`cargo bench --bench frame`), so the bar is high.
 const SUPERNODAL_FROM: SupernodalThreshold = SupernodalThreshold(1000.0);
 
+/// Unknowns from which on a factorisation runs beside: a mesh of so many
+/// vertices takes some 50 ms.
+const BESIDE_FROM: usize = 20_000;
+
 /// Why a matrix could not be factored.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -138,6 +143,23 @@ impl Cholesky {
     /// ```
     pub fn factor(matrix: &SymmetricMatrix) -> Result<Self, FactorError> {
         Self::factored(matrix, SUPERNODAL_FROM)
+    }
+
+    /// As [`Self::factor`], and a cancel is answered while it goes on.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if nobody wants the result any more; what
+    /// [`Self::factor`] finds is within.
+    pub fn factor_if_wanted(
+        matrix: &SymmetricMatrix,
+        progress: &dyn Progress,
+    ) -> Result<Result<Self, FactorError>, Cancelled> {
+        still_wanted(progress)?;
+        if matrix.size() < BESIDE_FROM {
+            return Ok(Self::factor(matrix));
+        }
+        let matrix = matrix.clone();
+        beside(progress, move || Self::factor(&matrix))
     }
 
     fn factored(

@@ -2,13 +2,20 @@
 //!
 //! Everything slow in the core (import, matching, triangulation,
 //! factorisation, export) takes a [`Progress`]. It promises to report often
-//! enough for a progress bar and to stop soon after a cancel; it does not
-//! promise that fractions are proportional to time.
+//! enough for a progress bar, with shares of the whole that never go down, and
+//! to stop within half a second of a cancel: what runs for longer than some
+//! milliseconds asks whether it is [`still_wanted`], and a library's long call
+//! runs [`beside`]. It does not promise that shares are proportional to time.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 /// Receives progress and says whether the work is still wanted.
 pub trait Progress: Sync {
     /// The work is in `stage`, a few words for people, and `fraction` in
-    /// [0, 1] of that stage is done.
+    /// [0, 1] of it is done: of all that whoever started it waits for.
     fn report(&self, stage: &'static str, fraction: f64);
 
     /// `true` once nobody wants the result any more.
@@ -47,9 +54,235 @@ pub fn checkpoint(
     fraction: f64,
 ) -> Result<(), Cancelled> {
     progress.report(stage, fraction);
+    still_wanted(progress)
+}
+
+/// Turns a cancel into an error and reports nothing: for loops within a stage,
+/// which may ask at every turn.
+///
+/// # Errors
+/// [`Cancelled`] if nobody wants the result any more.
+pub fn still_wanted(progress: &dyn Progress) -> Result<(), Cancelled> {
     if progress.is_cancelled() {
         Err(Cancelled)
     } else {
         Ok(())
+    }
+}
+
+/// How long a cancel may go unseen while something runs [`beside`].
+const LOOKED_EVERY: Duration = Duration::from_millis(20);
+
+/// Runs a long call that cannot be stopped on a thread of its own. On a cancel
+/// it is left behind, to end when it ends; nobody waits for it.
+///
+/// # Errors
+/// [`Cancelled`] if nobody wants the result any more.
+///
+/// # Panics
+/// If the work does, or if no thread can be had.
+///
+/// ```
+/// use morphospace::progress::{Silent, beside};
+/// assert_eq!(beside(&Silent, || 6 * 7), Ok(42));
+/// ```
+pub fn beside<T: Send + 'static>(
+    progress: &dyn Progress,
+    work: impl FnOnce() -> T + Send + 'static,
+) -> Result<T, Cancelled> {
+    let (sender, answer) = channel();
+    let thread = std::thread::spawn(move || sender.send(work()).is_ok());
+    loop {
+        match answer.recv_timeout(LOOKED_EVERY) {
+            Ok(found) => return Ok(found),
+            Err(RecvTimeoutError::Timeout) => still_wanted(progress)?,
+            // The sender is dropped without a word by a panic alone.
+            Err(RecvTimeoutError::Disconnected) => match thread.join() {
+                Err(panic) => std::panic::resume_unwind(panic),
+                Ok(_) => return Err(Cancelled),
+            },
+        }
+    }
+}
+
+/// A share in [0, 1] that only grows, whoever tells it. Bits of such numbers
+/// are ordered as the numbers are.
+#[derive(Debug, Default)]
+struct Risen(AtomicU64);
+
+impl Risen {
+    fn raise(&self, share: f64) {
+        // Relaxed: the number stands alone.
+        let bits = share.clamp(0.0, 1.0).to_bits();
+        self.0.fetch_max(bits, Ordering::Relaxed);
+    }
+
+    fn get(&self) -> f64 {
+        f64::from_bits(self.0.load(Ordering::Relaxed))
+    }
+}
+
+/// All of some work: passes on what its parts tell as a share that never goes
+/// down.
+pub struct Whole<'a> {
+    inner: &'a dyn Progress,
+    /// Locked while it is told on: else of two threads the one with the smaller
+    /// share might come last.
+    told: Mutex<f64>,
+}
+
+impl<'a> Whole<'a> {
+    /// Nothing is done yet.
+    pub fn new(inner: &'a dyn Progress) -> Self {
+        Self {
+            inner,
+            told: Mutex::default(),
+        }
+    }
+}
+
+impl Progress for Whole<'_> {
+    fn report(&self, stage: &'static str, fraction: f64) {
+        let mut told = self.told.lock().unwrap_or_else(PoisonError::into_inner);
+        *told = told.max(fraction.clamp(0.0, 1.0));
+        self.inner.report(stage, *told);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.inner.is_cancelled()
+    }
+}
+
+/// A part of some work that takes it from one share to another.
+#[derive(Clone, Copy)]
+pub struct Span<'a> {
+    inner: &'a dyn Progress,
+    from: f64,
+    to: f64,
+}
+
+impl<'a> Span<'a> {
+    /// The part from one share of the work to another.
+    ///
+    /// ```
+    /// use morphospace::progress::{Progress, Silent, Span};
+    /// let second_half = Span::new(&Silent, 0.5, 1.0);
+    /// second_half.report("matching", 0.5); // three quarters of the whole
+    /// ```
+    pub fn new(inner: &'a dyn Progress, from: f64, to: f64) -> Self {
+        Self { inner, from, to }
+    }
+}
+
+impl Progress for Span<'_> {
+    fn report(&self, stage: &'static str, fraction: f64) {
+        let whole = self.from + fraction.clamp(0.0, 1.0) * (self.to - self.from);
+        self.inner.report(stage, whole);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.inner.is_cancelled()
+    }
+}
+
+/// Parts of some work that are done in any order, or side by side, and take
+/// alike: what is done is the mean of their shares.
+pub struct Several<'a> {
+    inner: &'a dyn Progress,
+    parts: Vec<Risen>,
+}
+
+/// One of [`Several`].
+#[derive(Clone, Copy)]
+pub struct OneOf<'a> {
+    all: &'a Several<'a>,
+    part: usize,
+}
+
+impl<'a> Several<'a> {
+    /// So many parts, none of them begun.
+    pub fn new(inner: &'a dyn Progress, parts: usize) -> Self {
+        let parts = std::iter::repeat_with(Risen::default).take(parts);
+        Self {
+            inner,
+            parts: parts.collect(),
+        }
+    }
+
+    /// What a part reports to.
+    ///
+    /// ```
+    /// use morphospace::progress::{Progress, Silent, Several};
+    /// let parts = Several::new(&Silent, 4);
+    /// parts.part(2).report("matching", 1.0); // a quarter of the whole
+    /// ```
+    pub fn part(&self, part: usize) -> OneOf<'_> {
+        OneOf { all: self, part }
+    }
+}
+
+impl Progress for OneOf<'_> {
+    fn report(&self, stage: &'static str, fraction: f64) {
+        let parts = &self.all.parts;
+        if let Some(part) = parts.get(self.part) {
+            part.raise(fraction);
+        }
+        let done: f64 = parts.iter().map(Risen::get).sum();
+        self.all.inner.report(stage, done / parts.len() as f64);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.all.inner.is_cancelled()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::AtomicBool;
+    use std::time::Instant;
+
+    #[derive(Default)]
+    struct Heard(Mutex<Vec<f64>>, AtomicBool);
+
+    impl Progress for Heard {
+        fn report(&self, _: &'static str, fraction: f64) {
+            self.0.lock().expect("free").push(fraction);
+        }
+
+        fn is_cancelled(&self) -> bool {
+            self.1.load(Ordering::Relaxed)
+        }
+    }
+
+    #[test]
+    fn parts_within_parts_make_one_share_that_never_goes_down() {
+        let heard = Heard::default();
+        let whole = Whole::new(&heard);
+        Span::new(&whole, 0.0, 0.5).report("first", 1.0);
+        let rest = Span::new(&whole, 0.5, 1.0);
+        let parts = Several::new(&rest, 2);
+        parts.part(1).report("second", 0.5);
+        parts.part(0).report("second", 1.0);
+        parts.part(0).report("again", 0.0);
+        Span::new(&whole, 0.0, 0.5).report("first", 0.2);
+        parts.part(1).report("second", 1.0);
+        assert_eq!(
+            *heard.0.lock().expect("free"),
+            [0.5, 0.625, 0.875, 0.875, 0.875, 1.0]
+        );
+    }
+
+    #[test]
+    fn a_cancel_is_answered_while_work_goes_on_beside() {
+        let heard = Heard::default();
+        heard.1.store(true, Ordering::Relaxed);
+        let begun = Instant::now();
+        let long = Duration::from_secs(20);
+        assert_eq!(
+            beside(&heard, move || std::thread::sleep(long)),
+            Err(Cancelled)
+        );
+        assert!(begun.elapsed() < long / 4);
     }
 }

@@ -6,14 +6,17 @@ use std::time::{Duration, Instant};
 use clap::Args;
 
 use crate::design::{Format, Source};
-use crate::progress::Progress;
+use crate::progress::{Progress, Span, beside, checkpoint};
 use crate::project::{LoadedProject, Project, gallery};
 use crate::transition::Transition;
 
 use super::error::CliError;
 use super::options::MethodArgs;
 
-#[derive(Debug, Args)]
+/// How much is done once the designs are read, as it is told.
+const READ: f64 = 0.1;
+
+#[derive(Clone, Debug, Args)]
 pub(super) struct Inputs {
     #[arg(value_name = "PROJECT | A B", num_args = 1..=2, required = true, help = help())]
     inputs: Vec<PathBuf>,
@@ -49,15 +52,24 @@ impl Inputs {
 
     /// Reads, imports, applies the flags and builds.
     pub fn open(&self, method: &MethodArgs, progress: &dyn Progress) -> Result<Opened, CliError> {
+        checkpoint(progress, "reading", 0.0).map_err(CliError::failed)?;
         let start = Instant::now();
-        let (mut project, folder) = self.document()?;
+        // A pipe that nobody writes to is read for ever: beside, so that a
+        // cancel is answered.
+        let inputs = self.clone();
+        let document = beside(progress, move || inputs.document());
+        let (mut project, folder) = document.map_err(CliError::failed)??;
         method.edit(&mut project)?;
-        let loaded = LoadedProject::load(project, folder).map_err(CliError::failed)?;
+        let loaded = beside(progress, move || LoadedProject::load(project, folder));
+        let loaded = loaded
+            .map_err(CliError::failed)?
+            .map_err(CliError::failed)?;
         // Laying the designs in one frame belongs to neither time.
         let import_time = start.elapsed();
         let spec = loaded.spec().map_err(CliError::failed)?;
         let start = Instant::now();
-        let transition = Transition::build(&spec, progress).map_err(CliError::failed)?;
+        let building = Span::new(progress, READ, 1.0);
+        let transition = Transition::build(&spec, &building).map_err(CliError::failed)?;
         Ok(Opened {
             loaded,
             transition,

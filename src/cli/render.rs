@@ -12,7 +12,7 @@ use crate::export::{
     Camera, Drawing, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View,
     comparison, endings, even_times, framing, sheet, write_film, write_still,
 };
-use crate::progress::Progress;
+use crate::progress::{Progress, Span, Whole};
 use crate::project::Project;
 use crate::transition::{PlayMode, Rgb};
 
@@ -93,15 +93,19 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     // Before the designs are read, which may take long.
     check(args, &target, shown)?;
     let terminal = Terminal::new();
-    let opened = args.inputs.open(&args.method, &terminal)?;
+    let whole = Whole::new(&terminal);
+    let opened = args
+        .inputs
+        .open(&args.method, &Span::new(&whole, 0.0, 0.5))?;
+    let rest = Span::new(&whole, 0.5, 1.0);
     let written = match (target, shown) {
         (Target::Still(kind, path), Some(shown)) => {
-            let drawing = drawn(args, &opened, shown, &terminal)?;
+            let drawing = drawn(args, &opened, shown, &rest)?;
             write_still(&drawing, kind, &path).map_err(CliError::failed)?;
             vec![path]
         }
         // A still without anything to show was refused above.
-        (target, _) => film(args, &opened, target, &terminal)?,
+        (target, _) => film(args, &opened, target, &rest)?,
     };
     // Its line is wiped before words take its place.
     drop(terminal);

@@ -25,6 +25,7 @@ use crate::geometry::{Bounds, DMat2, DVec2, Side};
 use crate::mesh::{
     Connectivity, Subdivision, TooManyVertices, TriangleMesh, check_faces, components,
 };
+use crate::progress::Progress;
 use std::sync::Arc;
 
 /// One connectivity with its two embeddings.
@@ -110,9 +111,14 @@ impl CompatibleMesh {
     ///
     /// # Errors
     /// [`CompatibleError::Truss`] names the first difference or the panel that
-    /// cannot be triangulated in both; otherwise what [`Self::new`] finds.
-    pub fn from_trusses(source: &Truss, target: &Truss) -> Result<Self, CompatibleError> {
-        let (faces, elements) = truss::panels(source, target)?;
+    /// cannot be triangulated in both, or tells of a cancel; otherwise what
+    /// [`Self::new`] finds.
+    pub fn from_trusses(
+        source: &Truss,
+        target: &Truss,
+        progress: &dyn Progress,
+    ) -> Result<Self, CompatibleError> {
+        let (faces, elements) = truss::panels(source, target, progress)?;
         let (source, target) = (source.nodes().to_vec(), target.nodes().to_vec());
         Self::new(faces, source, target, elements)
     }

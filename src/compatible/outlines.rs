@@ -3,7 +3,7 @@
 use super::patchwork::Patchwork;
 use super::{CompatibleMesh, PolygonOptions, PolygonsError};
 use crate::correspondence::{PieceMatch, RegionMatch};
-use crate::progress::Progress;
+use crate::progress::{Progress, Several};
 use rayon::prelude::*;
 
 /// A piece that was not triangulated.
@@ -46,8 +46,9 @@ impl CompatibleMesh {
         progress: &dyn Progress,
     ) -> Result<Self, OutlinesError> {
         let pieces = matched.pieces.len();
+        let shares = Several::new(progress, pieces);
         let meshes = matched.pieces.par_iter().enumerate().map(|(piece, rings)| {
-            of_piece(rings, options, progress).map_err(|error| OutlinesError {
+            of_piece(rings, options, &shares.part(piece)).map_err(|error| OutlinesError {
                 piece,
                 pieces,
                 error,

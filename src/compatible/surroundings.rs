@@ -11,7 +11,7 @@ use super::patchwork::Patchwork;
 use super::{CompatibleError, CompatibleMesh, PolygonOptions, PolygonsError};
 use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch};
 use crate::geometry::{Bounds, DVec2, signed_area, winding};
-use crate::progress::Progress;
+use crate::progress::{Progress, Several};
 use rayon::prelude::*;
 
 /// Points along the longer side of the frame: half as many as about pins, since
@@ -62,7 +62,8 @@ impl CompatibleMesh {
         if !rings[1..].iter().flatten().flatten().all(inside) {
             return Err(SurroundingsError::Nesting);
         }
-        let meshes = cells.par_iter().map(|cell| {
+        let shares = Several::new(progress, cells.len());
+        let meshes = cells.par_iter().enumerate().map(|(k, cell)| {
             let side = |side: usize| -> Vec<Vec<DVec2>> {
                 let walked = |&(ring, backwards): &(usize, bool)| {
                     let mut points = rings[ring][side].clone();
@@ -73,7 +74,7 @@ impl CompatibleMesh {
                 };
                 cell.0.iter().map(walked).collect()
             };
-            Self::from_piece(&side(0), &side(1), options, progress)
+            Self::from_piece(&side(0), &side(1), options, &shares.part(k))
         });
         let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
         Ok(sewn(&rings, &cells, &meshes)?)

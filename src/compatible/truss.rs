@@ -31,6 +31,7 @@ mod polygon;
 use crate::design::Truss;
 use crate::geometry::{DVec2, Pair, Side, signed_area};
 use crate::mesh::undirected;
+use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
 use pieces::Pieces;
 use std::collections::HashSet;
 
@@ -71,6 +72,9 @@ pub enum TrussError {
     /// A panel of very many nodes.
     #[error("the panel of nodes {} has {} nodes, more than {MAX_PANEL_NODES}; divide it by bars", listed(.0, SHOWN), .0.len())]
     TooLarge(Vec<u32>),
+    /// Nobody wants the result.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 /// Most nodes that a message names: a panel can have hundreds, and a few show
@@ -91,23 +95,28 @@ pub(super) fn listed<T: ToString>(numbers: &[T], shown: usize) -> String {
 ///
 /// # Errors
 /// [`TrussError`] names the first difference, or the nodes of a panel that
-/// cannot be triangulated.
-pub(super) fn panels(source: &Truss, target: &Truss) -> Result<Panels, TrussError> {
+/// cannot be triangulated, or tells that the work was cancelled.
+pub(super) fn panels(
+    source: &Truss,
+    target: &Truss,
+    progress: &dyn Progress,
+) -> Result<Panels, TrussError> {
     check_same(source, target)?;
     let nodes = Pair {
         source: source.nodes(),
         target: target.nodes(),
     };
     let bars = source.bars();
-    let conflicts = crossings::in_either(bars, nodes);
-    let thinned = crossings::thinned(bars.len(), &conflicts);
-    let first = with_kept(bars, nodes, &thinned);
+    let conflicts = crossings::in_either(bars, nodes, progress)?;
+    let thinned = crossings::thinned(bars.len(), &conflicts, progress)?;
+    let first = with_kept(bars, nodes, &thinned, progress);
+    still_wanted(progress)?;
     if first.is_ok() || conflicts.is_empty() {
         return first;
     }
     let uncrossed = crossings::uncrossed(bars.len(), &conflicts);
     // Of two failures the first: it is about the bars that are there.
-    with_kept(bars, nodes, &uncrossed).or(first)
+    with_kept(bars, nodes, &uncrossed, progress).or(first)
 }
 
 fn check_same(source: &Truss, target: &Truss) -> Result<(), TrussError> {
@@ -133,6 +142,7 @@ fn with_kept(
     bars: &[[u32; 2]],
     nodes: Pair<&[DVec2]>,
     kept: &[bool],
+    progress: &dyn Progress,
 ) -> Result<Panels, TrussError> {
     let those = |are_kept: bool| {
         let those = bars.iter().zip(kept).filter(move |(_, k)| **k == are_kept);
@@ -142,8 +152,10 @@ fn with_kept(
     let pieces = Pieces::of(&plane, nodes.source);
     check_sides(&pieces.panels, nodes)?;
     let mut faces = Vec::new();
-    for panel in &pieces.panels {
-        faces.extend(triangles(panel, nodes)?);
+    let count = pieces.panels.len() as f64;
+    for (k, panel) in pieces.panels.iter().enumerate() {
+        checkpoint(progress, "triangulating", k as f64 / count)?;
+        faces.extend(triangles(panel, nodes, progress)?);
     }
     let mut elements = pieces.bridges.clone();
     elements.extend(those(false).filter(|&bar| !pieces.hold(bar)));
@@ -167,11 +179,16 @@ fn check_sides(cycles: &[Vec<u32>], nodes: Pair<&[DVec2]>) -> Result<(), TrussEr
     }
 }
 
-fn triangles(cycle: &[u32], nodes: Pair<&[DVec2]>) -> Result<Vec<[u32; 3]>, TrussError> {
+fn triangles(
+    cycle: &[u32],
+    nodes: Pair<&[DVec2]>,
+    progress: &dyn Progress,
+) -> Result<Vec<[u32; 3]>, TrussError> {
     if cycle.len() > MAX_PANEL_NODES {
         return Err(TrussError::TooLarge(cycle.to_vec()));
     }
-    polygon::triangulated(cycle, nodes).ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
+    let found = polygon::triangulated(cycle, nodes, progress)?;
+    found.ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
 }
 
 #[cfg(test)]

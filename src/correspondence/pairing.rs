@@ -46,18 +46,13 @@ const POSITION: f64 = 1.0;
 const SIZE: f64 = 0.15;
 const SHAPE: f64 = 0.25;
 
-/// The centre and the area of a region's outer boundary, relative to a
-/// design's box: what parts are first compared by.
-pub(super) fn relative_centre(region: &Region, design: &Regions) -> DVec2 {
+/// The centre of each region's outer boundary, relative to the design's box:
+/// what parts are first compared by.
+pub(super) fn relative_centres(design: &Regions) -> Vec<DVec2> {
     let bounds = design.bounds();
-    Part::of(
-        &region.outer,
-        0,
-        bounds.centre(),
-        bounds.size().max_element(),
-        0.0,
-    )
-    .position
+    let (origin, size) = (bounds.centre(), bounds.size().max_element());
+    let centre = |region: &Region| Part::of(&region.outer, 0, origin, size, 0.0).position;
+    design.iter().map(centre).collect()
 }
 
 /// Pairs the regions of two designs; `fixed` pairs are kept, and what is

@@ -10,7 +10,7 @@ use super::{count_crossings, excess, turning};
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, Solid};
 use crate::geometry::{DVec2, perimeter, signed_area};
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::progress::{Cancelled, Progress, Span, Whole, checkpoint, still_wanted};
 use crate::transition::{Frame, Transition};
 use crate::warp::{ArapError, Warp};
 use serde::Serialize;
@@ -90,6 +90,9 @@ pub struct FilmReport {
     pub motion: Option<Motion>,
 }
 
+/// How much of the measuring is done once all samples are taken, as it is told.
+const SAMPLED: f64 = 0.8;
+
 /// Measures a transition at `samples` evenly spaced t, at least 2.
 ///
 /// # Errors
@@ -99,13 +102,14 @@ pub fn film(
     samples: usize,
     progress: &dyn Progress,
 ) -> Result<FilmReport, Cancelled> {
+    let progress = &Whole::new(progress);
     let mesh = transition.compatible();
     let sampler = Sampler::of(transition);
     let mut frame = transition.frame(0.0);
     let mut found = Vec::with_capacity(samples);
     let mut paths = Vec::new();
     for t in even_steps(samples) {
-        checkpoint(progress, "measuring", t)?;
+        checkpoint(progress, "measuring", SAMPLED * t)?;
         frame.seek(t);
         found.push(sampler.sample(&frame));
         // Only vertices of a mesh can be followed: a contour has others at each t.
@@ -115,7 +119,8 @@ pub fn film(
     }
     let step = 1.0 / (paths.len().max(2) - 1) as f64;
     let motion = mesh.and_then(|mesh| motion::motion(&paths, step, mesh.diameter()));
-    let asymmetry = asymmetry(transition, &paths, progress)?;
+    still_wanted(progress)?;
+    let asymmetry = asymmetry(transition, &paths, &Span::new(progress, SAMPLED, 1.0))?;
     let excess = mesh.map(|mesh| excess::of_distortion(mesh, &paths));
     Ok(report(found, excess, asymmetry, motion))
 }
@@ -275,6 +280,7 @@ fn asymmetry(
     let mut placer = back.placer();
     let mut worst = 0.0_f64;
     for (t, there) in even_steps(paths.len()).zip(paths) {
+        still_wanted(progress)?;
         placer.place(1.0 - t);
         let here = &placer.placement().in_frame;
         let gaps = there.iter().zip(here).map(|(p, q)| p.distance(*q));

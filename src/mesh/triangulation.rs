@@ -18,6 +18,7 @@ pub use domain::TriangulationError;
 pub use refine::Refinement;
 
 use crate::geometry::DVec2;
+use crate::progress::Progress;
 use domain::Domain;
 use spade::handles::{FaceHandle, InnerTag};
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
@@ -57,13 +58,15 @@ pub fn constrained_delaunay<W: AsRef<[DVec2]>>(
 /// split.
 ///
 /// # Errors
-/// [`TriangulationError`] if the walks bound no single piece.
+/// [`TriangulationError`] if the walks bound no single piece, or if the work
+/// is cancelled.
 pub fn refined<W: AsRef<[DVec2]>>(
     walks: &[W],
     refinement: &Refinement,
+    progress: &dyn Progress,
 ) -> Result<Triangulated, TriangulationError> {
     let mut domain = Domain::of(walks)?;
-    domain.refine(refinement);
+    domain.refine(refinement, progress)?;
     Ok(Triangulated {
         points: domain.points(walks),
         faces: domain.faces(),
@@ -104,6 +107,7 @@ pub fn delaunay(points: &[DVec2]) -> Result<Vec<[u32; 3]>, TriangulationError> {
 mod tests {
     use super::*;
     use crate::geometry::{orient2d, twice_signed_area};
+    use crate::progress::Silent;
 
     fn points<const N: usize>(points: [(f64, f64); N]) -> Vec<DVec2> {
         points.map(DVec2::from).to_vec()
@@ -169,7 +173,7 @@ mod tests {
             max_edge: Some(0.3),
             max_points: 1000,
         };
-        let mesh = refined(std::slice::from_ref(&walk), &fine).expect("a slit");
+        let mesh = refined(std::slice::from_ref(&walk), &fine, &Silent).expect("a slit");
         assert_eq!(mesh.points[..walk.len()], walk);
         assert!((area(&mesh.points, &mesh.faces) - 15.0).abs() < 1e-9);
         assert_eq!(mesh.faces.len() + walk.len() + 2, 2 * mesh.points.len());
@@ -181,7 +185,7 @@ mod tests {
             max_edge: Some(0.3),
             max_points: 1000,
         };
-        let mesh = refined(&[u_shape()], &fine).expect("simple");
+        let mesh = refined(&[u_shape()], &fine, &Silent).expect("simple");
         assert_eq!(mesh.points[..8], u_shape());
         assert!(mesh.faces.len() > 5);
         assert!((area(&mesh.points, &mesh.faces) - 7.0).abs() < 1e-9);

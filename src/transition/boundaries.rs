@@ -13,7 +13,7 @@ use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch, match_
 use crate::design::Form;
 use crate::geometry::{DVec2, signed_area, winding};
 use crate::mesh::TriangleMesh;
-use crate::progress::{Progress, checkpoint};
+use crate::progress::{Progress, Span, checkpoint};
 use crate::warp::{Paths, RingPair};
 use std::sync::Arc;
 
@@ -29,7 +29,7 @@ pub(super) fn paths(
         _ => None,
     }
     .map_or_else(
-        || matched(spec, bar_width, progress),
+        || matched(spec, bar_width, &Span::new(progress, 0.0, 0.9)),
         |parts| Ok((parts, None)),
     )?;
     let paths = Paths::new(&parts, spec.options.paths)?;
@@ -53,7 +53,7 @@ fn matched(
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<Matched, BuildError> {
-    let [source, target] = spec.outlines(bar_width)?;
+    let [source, target] = spec.outlines(bar_width, progress)?;
     let matched = match_regions(&source, &target, &spec.options.matching, progress)?;
     Ok((matched.pieces.iter().map(rings).collect(), Some(matched)))
 }

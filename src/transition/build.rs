@@ -8,12 +8,12 @@ use super::note::Note;
 use super::plane;
 use super::ready::{Inner, Transition};
 use super::solids;
-use super::spec::TransitionSpec;
+use super::spec::{TransitionSpec, outline};
 use crate::content::{Content, ContentKind, FieldPair, PicturePair};
 use crate::design::{Design, Form};
 use crate::field::{DistanceField, FieldError, Grid};
 use crate::geometry::Bounds;
-use crate::progress::{Progress, Silent, checkpoint};
+use crate::progress::{Cancelled, Progress, Silent, Span, Whole, checkpoint, still_wanted};
 use crate::warp::{Arap, Placement, Warp, WarpKind};
 use std::sync::Arc;
 
@@ -40,6 +40,7 @@ impl Transition {
     pub fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Self, BuildError> {
         // Before any work: a window asks the same to grey a button out.
         TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
+        let progress = &Whole::new(progress);
         let bar_width = bar_width(spec)?;
         let (mut moved, content, bounds) = match spec.cell.content() {
             ContentKind::Solid => solids(spec, bar_width, progress)?,
@@ -92,9 +93,8 @@ fn solids(
     let ends = at_rest.placement();
     let ends = Bounds::of(ends.in_source.iter().chain(&ends.in_target).copied())
         .unwrap_or_else(|| unreachable!("a warp of solids has vertices"));
-    let bounds = swept(ends, warp, |placement, _| {
-        Bounds::of(placement.in_frame.iter().copied())
-    });
+    let seen = |placement: &Placement, _| Bounds::of(placement.in_frame.iter().copied());
+    let bounds = swept(ends, warp, seen, progress)?;
     Ok((moved, Content::Solid(solid), bounds.padded(room)))
 }
 
@@ -105,12 +105,14 @@ fn fields(
 ) -> Result<Made, BuildError> {
     let frame = field_frame(spec, bar_width);
     let grid = Grid::covering(&frame, spec.options.field.cells, spec.options.field.margin)?;
-    let source = field_of(&spec.source, spec, grid, bar_width, progress)?;
-    checkpoint(progress, "measuring distances", 0.5)?;
-    let target = field_of(&spec.target, spec, grid, bar_width, progress)?;
+    let span = |from, to| Span::new(progress, from, to);
+    let source = field_of(&spec.source, spec, grid, bar_width, &span(0.0, 0.35))?;
+    checkpoint(progress, "measuring distances", 0.35)?;
+    let target = field_of(&spec.target, spec, grid, bar_width, &span(0.35, 0.7))?;
+    still_wanted(progress)?;
     let pair = FieldPair::new(source, target, spec.options.field.blend)?;
     // Over the grid with its margin: a carried field is looked up there too.
-    let mut moved = plane::warp(spec, &grid.bounds(), bar_width, progress)?;
+    let mut moved = plane::warp(spec, &grid.bounds(), bar_width, &span(0.7, 1.0))?;
     if spec.options.field.is_switched() {
         // First, as the fields were made before the warp.
         moved.notes.insert(0, Note::BinaryBoundary);
@@ -118,9 +120,10 @@ fn fields(
     let bounds = if spec.cell.warp() == WarpKind::None {
         frame
     } else {
-        swept(frame, moved.warp.as_warp(), |placement, t| {
+        let seen = |placement: &Placement, t| {
             Bounds::of(pair.contour_carried(placement, t).into_iter().flatten())
-        })
+        };
+        swept(frame, moved.warp.as_warp(), seen, progress)?
     };
     Ok((moved, Content::Field(pair), bounds))
 }
@@ -146,18 +149,20 @@ fn swept(
     ends: Bounds,
     warp: &dyn Warp,
     seen: impl Fn(&Placement, f64) -> Option<Bounds>,
-) -> Bounds {
+    progress: &dyn Progress,
+) -> Result<Bounds, Cancelled> {
     const SAMPLES: u32 = 8;
     let mut placer = warp.placer();
     let mut bounds = ends;
     for i in 1..SAMPLES {
+        still_wanted(progress)?;
         let t = f64::from(i) / f64::from(SAMPLES);
         placer.place(t);
         if let Some(now) = seen(placer.placement(), t) {
             bounds = bounds.union(&now);
         }
     }
-    bounds
+    Ok(bounds)
 }
 
 /// The rectangle of the fields without their margin: pictures and pages whole,
@@ -171,13 +176,13 @@ fn field_frame(spec: &TransitionSpec, bar_width: f64) -> Bounds {
 }
 
 fn field_of(
-    design: &Design,
+    design: &Arc<Design>,
     spec: &TransitionSpec,
     grid: Grid,
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<DistanceField, BuildError> {
-    let outline = design.outline(bar_width)?;
+    let outline = outline(design, bar_width, progress)?;
     let field = if spec.options.field.is_exact() {
         DistanceField::from_regions(&outline, grid, progress)
     } else {

@@ -11,9 +11,9 @@
 use super::error::BuildError;
 use super::spec::TransitionSpec;
 use crate::compatible::CompatibleMesh;
-use crate::correspondence::{Matching, RegionMatch, match_regions};
+use crate::correspondence::{Matching, Prepared, RegionMatch};
 use crate::geometry::{Regions, orient2d};
-use crate::progress::Progress;
+use crate::progress::{Cancelled, Progress, Several, Span, checkpoint, still_wanted};
 use crate::warp::{Arap, Warp};
 use rayon::prelude::*;
 
@@ -32,6 +32,14 @@ const LAST_PRICES: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 /// Each costs a frame of every candidate; a fold between two is missed.
 const STEPS: u32 = 16;
 
+/// How much is done once the outlines are matched, and once the films are there
+/// that most pairs need, as it is told.
+const FIRST: f64 = 0.1;
+const SECOND: f64 = 0.7;
+
+/// How much of a candidate is done once it has its mesh.
+const MESHED: f64 = 0.9;
+
 /// A match with its film, and how good that is.
 pub(super) struct Candidate {
     pub matched: RegionMatch,
@@ -47,29 +55,46 @@ pub(super) fn best(
     progress: &dyn Progress,
 ) -> Result<Candidate, BuildError> {
     let [source, target] = outlines;
-    let matched = |matching: &Matching| match_regions(source, target, matching, progress);
-    let film = |matched| Candidate::new(matched, spec, progress);
     let asked = &spec.options.matching;
+    let begin = Span::new(progress, 0.0, FIRST);
+    checkpoint(&begin, "matching", 0.0)?;
+    let prepared = Prepared::new([source, target], asked, &begin)?;
     // What the default match fails with, others would fail with.
-    let first = matched(asked)?;
+    let first = prepared.matched(&asked.options(), &begin)?;
     let is_alike = first.pieces.iter().all(|piece| piece.cost <= ALIKE);
+    let film = |matched, share: &dyn Progress| Candidate::new(matched, spec, share);
     // The best of a round, the first among equals; none of none.
-    let other = |round: &[Matching]| -> Result<Option<Candidate>, BuildError> {
-        let found = round.par_iter().map(|matching| film(matched(matching)?));
+    let other = |round: &[Matching], shares: &Several, from: usize| {
+        let found = round.par_iter().enumerate().map(|(k, matching)| {
+            let share = shares.part(from + k);
+            let [begin, rest] = [(0.0, FIRST), (FIRST, 1.0)].map(|(a, b)| Span::new(&share, a, b));
+            film(prepared.matched(&matching.options(), &begin)?, &rest)
+        });
         let found: Vec<Candidate> = found.collect::<Result<_, BuildError>>()?;
-        Ok(found.into_iter().reduce(|best, next| best.or(Some(next))))
+        Ok::<_, BuildError>(found.into_iter().reduce(|best, next| best.or(Some(next))))
     };
-    let mut rounds = rounds(asked).into_iter();
+    let rounds = if prepared.is_crowd() {
+        Vec::new()
+    } else {
+        rounds(asked)
+    };
+    let mut rounds = rounds.into_iter();
     // Side by side with the first film: most pairs are unlike and need it.
-    let beside = if is_alike { None } else { rounds.next() };
-    let (first, beside) = rayon::join(|| film(first), || other(&beside.unwrap_or_default()));
+    let beside = if is_alike { None } else { rounds.next() }.unwrap_or_default();
+    let middle = Span::new(progress, FIRST, SECOND);
+    let shares = Several::new(&middle, 1 + beside.len());
+    let (first, beside) = rayon::join(
+        || film(first, &shares.part(0)),
+        || other(&beside, &shares, 1),
+    );
     let mut best = first?.or(beside?);
+    let last = Span::new(progress, SECOND, 1.0);
     for round in rounds {
         // Folds alone: the last prices match worse, and are for want of better.
         if best.folds == 0 {
             break;
         }
-        best = best.or(other(&round)?);
+        best = best.or(other(&round, &Several::new(&last, round.len()), 0)?);
     }
     Ok(best)
 }
@@ -101,10 +126,12 @@ impl Candidate {
         progress: &dyn Progress,
     ) -> Result<Self, BuildError> {
         let options = &spec.options;
-        let mesh = CompatibleMesh::from_outlines(&matched, &options.triangulation, progress)?;
-        let film = Arap::build(&mesh, &options.arap, progress)?;
+        let [meshing, filming] =
+            [(0.0, MESHED), (MESHED, 1.0)].map(|(from, to)| Span::new(progress, from, to));
+        let mesh = CompatibleMesh::from_outlines(&matched, &options.triangulation, &meshing)?;
+        let film = Arap::build(&mesh, &options.arap, &filming)?;
         Ok(Self {
-            folds: folds(&film),
+            folds: folds(&film, progress)?,
             distortion: mesh.distortion(),
             matched,
             film,
@@ -127,17 +154,18 @@ impl Candidate {
 }
 
 /// Faces that are not positive, over all steps of a film.
-fn folds(arap: &Arap) -> usize {
+fn folds(arap: &Arap, progress: &dyn Progress) -> Result<usize, Cancelled> {
     let mut placer = arap.placer();
-    (1..STEPS)
-        .map(|step| {
-            placer.place(f64::from(step) / f64::from(STEPS));
-            let places = &placer.placement().in_frame;
-            let is_folded = |face: &&[u32; 3]| {
-                let [a, b, c] = face.map(|v| places[v as usize]);
-                orient2d(a, b, c) <= 0.0
-            };
-            arap.mesh().faces().iter().filter(is_folded).count()
-        })
-        .sum()
+    let mut folds = 0;
+    for step in 1..STEPS {
+        still_wanted(progress)?;
+        placer.place(f64::from(step) / f64::from(STEPS));
+        let places = &placer.placement().in_frame;
+        let is_folded = |face: &&[u32; 3]| {
+            let [a, b, c] = face.map(|v| places[v as usize]);
+            orient2d(a, b, c) <= 0.0
+        };
+        folds += arap.mesh().faces().iter().filter(is_folded).count();
+    }
+    Ok(folds)
 }

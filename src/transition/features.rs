@@ -61,7 +61,7 @@ impl Features {
             parts: PartRule::Alone,
             ..asked.clone()
         };
-        let outlines = spec.outlines(bar_width)?;
+        let outlines = spec.outlines(bar_width, progress)?;
         if given.points.is_empty() && given.lines.is_empty() {
             return Self::found(spec.cell.warp(), &outlines, &matching, progress);
         }

@@ -10,7 +10,7 @@ use crate::compatible::{CompatibleMesh, PinnedError, SurroundingsError};
 use crate::content::ContentKind;
 use crate::correspondence::{LinePair, PointPair, RegionMatch};
 use crate::geometry::Bounds;
-use crate::progress::{Progress, checkpoint};
+use crate::progress::{Progress, Span, checkpoint};
 use crate::warp::{
     Arap, Lattice, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart, Scattered, Split, Still, Travel,
     Turned, Warp, WarpKind,
@@ -46,7 +46,8 @@ pub(super) fn warp(
     if kind == WarpKind::None {
         return Ok(AnyWarp::Still(Still::new(*frame)).into());
     }
-    let features = Features::of(spec, bar_width, progress)?;
+    let features = Features::of(spec, bar_width, &Span::new(progress, 0.0, 0.4))?;
+    let progress = &Span::new(progress, 0.4, 1.0);
     let options = &spec.options;
     let work = features.points.len() + 4 * features.lines.len();
     let warp = match kind {

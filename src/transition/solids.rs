@@ -7,7 +7,7 @@ use super::choice;
 use super::error::BuildError;
 use super::moved::{AnyWarp, Moved};
 use super::spec::TransitionSpec;
-use crate::compatible::{CompatibleError, CompatibleMesh};
+use crate::compatible::{CompatibleError, CompatibleMesh, TrussError};
 use crate::content::Solid;
 use crate::design::Form;
 use crate::progress::{Progress, checkpoint};
@@ -29,12 +29,12 @@ pub(super) fn rigid_parts(
         (Form::Truss(a), Form::Truss(b)) => {
             bars = a.bars().to_vec();
             (
-                given(spec, CompatibleMesh::from_trusses(a, b), progress)?,
+                given(spec, CompatibleMesh::from_trusses(a, b, progress), progress)?,
                 None,
             )
         }
         _ => {
-            let best = choice::best(spec, &spec.outlines(bar_width)?, progress)?;
+            let best = choice::best(spec, &spec.outlines(bar_width, progress)?, progress)?;
             (best.film, Some(best.matched))
         }
     };
@@ -60,10 +60,14 @@ fn given(
     mesh: Result<CompatibleMesh, CompatibleError>,
     progress: &dyn Progress,
 ) -> Result<Arap, BuildError> {
-    let mesh = mesh.map_err(|error| BuildError::Compatible {
-        source_name: spec.source.name.clone(),
-        target_name: spec.target.name.clone(),
-        error,
+    let mesh = mesh.map_err(|error| match error {
+        // A cancel is nobody's fault: it names no design.
+        CompatibleError::Truss(TrussError::Cancelled(cancelled)) => cancelled.into(),
+        error => BuildError::Compatible {
+            source_name: spec.source.name.clone(),
+            target_name: spec.target.name.clone(),
+            error,
+        },
     })?;
     Ok(Arap::build(&mesh, &spec.options.arap, progress)?)
 }

@@ -4,8 +4,9 @@ use super::cells::Cell;
 use super::error::BuildError;
 use super::options::Options;
 use crate::content::ContentKind;
-use crate::design::{Design, Format, Picture};
-use crate::geometry::{Regions, RegionsError};
+use crate::design::{Design, Form, Format, Picture};
+use crate::geometry::Regions;
+use crate::progress::{Progress, beside, checkpoint};
 use std::sync::Arc;
 
 /// Everything a transition is built from: two designs laid into one frame, a
@@ -45,10 +46,14 @@ impl TransitionSpec {
     }
 
     /// The outlines of both designs; bars are so wide, in units of the designs.
-    pub(super) fn outlines(&self, bar_width: f64) -> Result<[Regions; 2], RegionsError> {
+    pub(super) fn outlines(
+        &self,
+        bar_width: f64,
+        progress: &dyn Progress,
+    ) -> Result<[Regions; 2], BuildError> {
         Ok([
-            self.source.outline(bar_width)?,
-            self.target.outline(bar_width)?,
+            outline(&self.source, bar_width, progress)?,
+            outline(&self.target, bar_width, progress)?,
         ])
     }
 
@@ -71,4 +76,19 @@ impl TransitionSpec {
             ))),
         }
     }
+}
+
+/// The outline of a design. Uniting bars or faces is a long call of a library,
+/// beside which a cancel is answered.
+pub(super) fn outline(
+    design: &Arc<Design>,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<Regions, BuildError> {
+    if matches!(design.form, Form::Outline(_)) {
+        return Ok(design.outline(bar_width)?);
+    }
+    checkpoint(progress, "uniting", 0.0)?;
+    let design = Arc::clone(design);
+    Ok(beside(progress, move || design.outline(bar_width))??)
 }

@@ -13,13 +13,16 @@ use crate::cli::options::MethodArgs;
 use crate::content::{Content, ContentKind};
 use crate::design::{Design, Form};
 use crate::measure::{self, FilmReport, Finding, MeshReport, Verdict};
-use crate::progress::Progress;
+use crate::progress::{Progress, Span, Whole};
 use crate::transition::{Note, Transition};
 use crate::warp::WarpKind;
 
 /// Frames whose times are taken: an odd number has a middle, and the first few,
 /// which find cold caches, are far from it.
 const TIMED_FRAMES: usize = 15;
+
+/// How much is done once the transition is built, as it is told.
+const BUILT: f64 = 0.6;
 
 /// How transitions are built and measured.
 #[derive(Debug, Args)]
@@ -39,9 +42,12 @@ impl Measuring {
         inputs: &Inputs,
         progress: &dyn Progress,
     ) -> Result<(Opened, Report), CliError> {
-        let clock = StageClock::new(progress);
+        let whole = Whole::new(progress);
+        let building = Span::new(&whole, 0.0, BUILT);
+        let clock = StageClock::new(&building);
         let opened = inputs.open(&self.method, &clock)?;
-        let report = Report::of(&opened, clock.stages(), self.samples as usize, progress)?;
+        let measuring = Span::new(&whole, BUILT, 1.0);
+        let report = Report::of(&opened, clock.stages(), self.samples as usize, &measuring)?;
         Ok((opened, report))
     }
 }
@@ -148,8 +154,9 @@ impl Report {
         let start = Instant::now();
         let mesh = transition.compatible();
         let mesh_report = mesh.and_then(measure::mesh);
-        let film = measure::film(transition, samples, progress).map_err(CliError::failed)?;
-        let verdict = Verdict::of_film(transition, &film, progress).map_err(CliError::failed)?;
+        let [filming, judging] = [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| Span::new(progress, a, b));
+        let film = measure::film(transition, samples, &filming).map_err(CliError::failed)?;
+        let verdict = Verdict::of_film(transition, &film, &judging).map_err(CliError::failed)?;
         let seconds = Seconds {
             import: opened.import_time.as_secs_f64(),
             matching: clock::matching(&stages),

@@ -14,6 +14,7 @@ use crate::compatible::patchwork::Patchwork;
 use crate::geometry::{DVec2, Side};
 use crate::mesh::triangulation::constrained_delaunay;
 use crate::mesh::{Connectivity, sides};
+use crate::progress::{Progress, checkpoint};
 use std::collections::{HashMap, VecDeque};
 
 /// Diagonals tried for each bridge, shortest first. Each is a search through
@@ -39,7 +40,11 @@ struct Bridge {
 }
 
 /// A mesh that is valid over the reals.
-pub(super) fn base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsError> {
+pub(super) fn base(
+    source: &Rings,
+    target: &Rings,
+    progress: &dyn Progress,
+) -> Result<PairMesh, PolygonsError> {
     let fixed = source.points.len();
     let mut walks = Walks::of(source, target);
     let mut whole = Patchwork {
@@ -47,7 +52,10 @@ pub(super) fn base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsE
         faces: Vec::new(),
     };
     // One hole at a time: the next bridge may start on this one's banks.
+    let holes = walks.0.len();
     while walks.0.len() > 1 {
+        let done = 1.0 - walks.0.len() as f64 / holes as f64;
+        checkpoint(progress, "bridging", done)?;
         let bridge = walks.bridge()?;
         let first = whole.points[0].len() as u32;
         for &[p, q] in &bridge.inner {
@@ -58,8 +66,8 @@ pub(super) fn base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsE
     }
     let disc = &walks.0[0];
     let points = [0, 1].map(|d| disc.iter().map(|c| c.at[d]).collect::<Vec<_>>());
-    let triangulations = chords::triangulations(&points[0], &points[1])?;
-    let mesh = overlay(&points[0], &points[1], &triangulations);
+    let triangulations = chords::triangulations(&points[0], &points[1], progress)?;
+    let mesh = overlay(&points[0], &points[1], &triangulations, progress)?;
     // Both banks of a bridge are one vertex again.
     let vertices: Vec<u32> = disc.iter().map(|corner| corner.vertex).collect();
     whole.add(

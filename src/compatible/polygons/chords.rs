@@ -12,6 +12,7 @@ use super::error::PolygonsError;
 use crate::geometry::{DVec2, Side, orient2d, segments_touch};
 use crate::mesh::sides;
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
+use crate::progress::{Cancelled, Progress, still_wanted};
 
 /// Up to so many vertices crossings are minimised, in O(n³): 10 million
 /// triangles, each chord held against all diagonals, at every turn. Beyond,
@@ -34,6 +35,7 @@ const SLIVER: f64 = 1e-7;
 pub(super) fn triangulations(
     source: &[DVec2],
     target: &[DVec2],
+    progress: &dyn Progress,
 ) -> Result<[Vec<[u32; 3]>; 2], PolygonsError> {
     let refused = |side, error| PolygonsError::Base { side, error };
     let has_slits = |points| !doubled(points).is_empty();
@@ -45,15 +47,16 @@ pub(super) fn triangulations(
     }
     // The source first takes what is a chord of both, and then they answer
     // each other, the target first.
-    let chords = [Chords::of(source), Chords::of(target)];
+    let chords = [Chords::of(source, progress)?, Chords::of(target, progress)?];
     let points = [source, target];
     let not_shared = |i, j| f64::from(u8::from(!chords[1].inside(i, j)));
-    let mut faces = [cheapest(points[0], &chords[0], not_shared), Vec::new()];
+    let first = cheapest(points[0], &chords[0], not_shared, progress)?;
+    let mut faces = [first, Vec::new()];
     for turn in 1..=TURNS {
         let (mine, other) = (turn % 2, (turn + 1) % 2);
         let diagonals = diagonals(&faces[other], source.len());
         let crossings = |i, j| crossings(&diagonals, i, j) as f64;
-        faces[mine] = cheapest(points[mine], &chords[mine], crossings);
+        faces[mine] = cheapest(points[mine], &chords[mine], crossings, progress)?;
     }
     // Flat input beyond what the exact predicates see cannot occur: a simple
     // polygon has a triangulation.
@@ -84,15 +87,16 @@ struct Chords {
 }
 
 impl Chords {
-    fn of(points: &[DVec2]) -> Self {
+    fn of(points: &[DVec2], progress: &dyn Progress) -> Result<Self, Cancelled> {
         let n = points.len();
         let mut inside = vec![false; n * n];
         for i in 0..n {
+            still_wanted(progress)?;
             for j in i + 1..n {
                 inside[i * n + j] = j == i + 1 || (i == 0 && j == n - 1) || is_inside(points, i, j);
             }
         }
-        Self { n, inside }
+        Ok(Self { n, inside })
     }
 
     /// For i < j: whether the open chord is inside, or is an edge.
@@ -151,7 +155,8 @@ fn cheapest(
     points: &[DVec2],
     chords: &Chords,
     cost: impl Fn(usize, usize) -> f64,
-) -> Vec<[u32; 3]> {
+    progress: &dyn Progress,
+) -> Result<Vec<[u32; 3]>, Cancelled> {
     let n = points.len();
     // For each chord the least cost of the part from i to j, and its apex.
     let mut best = vec![(f64::INFINITY, 0); n * n];
@@ -161,6 +166,7 @@ fn cheapest(
         }
     }
     for length in 2..n {
+        still_wanted(progress)?;
         for i in 0..n - length {
             let j = i + length;
             if chords.inside(i, j) {
@@ -171,7 +177,7 @@ fn cheapest(
             }
         }
     }
-    collect(&best, n)
+    Ok(collect(&best, n))
 }
 
 fn best_apex(points: &[DVec2], best: &[(f64, usize)], i: usize, j: usize) -> (f64, usize) {
@@ -220,11 +226,12 @@ fn collect(best: &[(f64, usize)], n: usize) -> Vec<[u32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::progress::Silent;
 
     #[test]
     fn equal_polygons_share_their_triangulation() {
         let arrow = [(0.0, 0.0), (2.0, 1.0), (0.0, 2.0), (1.0, 1.0)].map(DVec2::from);
-        let [mut a, mut b] = triangulations(&arrow, &arrow).expect("simple");
+        let [mut a, mut b] = triangulations(&arrow, &arrow, &Silent).expect("simple");
         a.sort_unstable();
         b.sort_unstable();
         assert_eq!(a, b);
@@ -233,7 +240,7 @@ mod tests {
     #[test]
     fn a_chord_through_a_vertex_is_not_inside() {
         let points = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, 1.0), (0.0, 2.0)].map(DVec2::from);
-        let chords = Chords::of(&points);
+        let chords = Chords::of(&points, &Silent).expect("not cancelled");
         assert!(!chords.inside(0, 2) && chords.inside(0, 3) && chords.inside(1, 3));
     }
 }

@@ -11,6 +11,7 @@
 use super::chords::doubled;
 use super::front::{Coarse, Front};
 use super::piece::Rings;
+use crate::progress::{Cancelled, Progress};
 use std::collections::HashSet;
 
 /// Turns of the front stop when fewer points than this share go: at each turn
@@ -22,28 +23,27 @@ const TURNS: usize = 40;
 
 /// Moves the front inwards until it has at most `enough` points or gets
 /// stuck.
-pub(super) fn coarsened(source: &Rings, target: &Rings, enough: usize) -> Coarse {
-    let mut coarse = Coarse {
-        points: [source.points.clone(), target.points.clone()],
-        faces: Vec::new(),
-        rings: (source.ranges.iter().cloned())
-            .map(|ring| ring.map(|v| v as u32).collect())
-            .collect(),
-    };
+pub(super) fn coarsened(
+    source: &Rings,
+    target: &Rings,
+    enough: usize,
+    progress: &dyn Progress,
+) -> Result<Coarse, Cancelled> {
+    let mut coarse = Coarse::of(source, target);
     // Corners of slits stay: one bank lies on the other, and a sight line from
     // either would touch both.
     let kept: HashSet<u32> = coarse.points.iter().flat_map(|p| doubled(p)).collect();
     for turn in 0..TURNS {
         let before = coarse.size();
         for r in 0..coarse.rings.len() {
-            Front::of(&mut coarse, r, &kept).advance(turn);
+            Front::of(&mut coarse, r, &kept).advance(turn, progress)?;
         }
         let size = coarse.size();
         if size <= enough || (before - size) as f64 <= WORTHWHILE * before as f64 {
             break;
         }
     }
-    coarse
+    Ok(coarse)
 }
 
 #[cfg(test)]
@@ -51,6 +51,7 @@ mod tests {
     use super::*;
     use crate::compatible::polygons::{face, piece};
     use crate::geometry::{DVec2, Side};
+    use crate::progress::Silent;
     use std::f64::consts::TAU;
 
     #[test]
@@ -68,7 +69,7 @@ mod tests {
         };
         let source = Rings::of(&[wave(5.0), hole(0.3)]);
         let target = Rings::of(&[wave(3.0), hole(0.5)]);
-        let coarse = coarsened(&source, &target, 60);
+        let coarse = coarsened(&source, &target, 60, &Silent).expect("not cancelled");
         assert!(coarse.size() < 200, "{}", coarse.size());
         for (d, side) in Side::BOTH.into_iter().enumerate() {
             assert_eq!(piece::check(&coarse.core(d), side), Ok(()));

@@ -2,8 +2,10 @@
 //! stretch of it in either design, corners cut off.
 
 use super::face;
+use super::near::NearEdges;
 use super::piece::Rings;
 use crate::geometry::{DVec2, orient2d, ring_edges, segments_touch};
+use crate::progress::{Cancelled, Progress, still_wanted};
 use std::collections::HashSet;
 
 /// Edges of the stretches that are tried, longest first. Any number becomes
@@ -26,9 +28,47 @@ pub(super) struct Coarse {
     pub(super) faces: Vec<[u32; 3]>,
     /// The front's rings, by vertices.
     pub(super) rings: Vec<Vec<u32>>,
+    /// The front's edges in either design.
+    near: [NearEdges; 2],
 }
 
 impl Coarse {
+    /// A front on the boundary.
+    pub(super) fn of(source: &Rings, target: &Rings) -> Self {
+        let rings = source.ranges.iter().cloned();
+        let points = [source, target].map(|rings| rings.points.clone());
+        let near = points.each_ref().map(|p| NearEdges::around(p, p.len()));
+        let mut coarse = Self {
+            points,
+            faces: Vec::new(),
+            rings: rings.map(|ring| ring.map(|v| v as u32).collect()).collect(),
+            near,
+        };
+        let edges = coarse.rings.iter().flat_map(|ring| ring_edges(ring));
+        for edge in edges.map(<[u32; 2]>::from).collect::<Vec<_>>() {
+            coarse.list(edge);
+        }
+        coarse
+    }
+
+    fn ends(&self, design: usize, edge: [u32; 2]) -> [DVec2; 2] {
+        edge.map(|v| self.points[design][v as usize])
+    }
+
+    fn list(&mut self, edge: [u32; 2]) {
+        for d in 0..2 {
+            let ends = self.ends(d, edge);
+            self.near[d].add(edge, ends);
+        }
+    }
+
+    fn strike(&mut self, edge: [u32; 2]) {
+        for d in 0..2 {
+            let ends = self.ends(d, edge);
+            self.near[d].remove(edge, ends);
+        }
+    }
+
     /// The front in one design.
     pub(super) fn core(&self, design: usize) -> Rings {
         let ring = |ring: &Vec<u32>| -> Vec<DVec2> {
@@ -48,32 +88,28 @@ pub(super) struct Front<'a> {
     coarse: &'a mut Coarse,
     ring: usize,
     kept: &'a HashSet<u32>,
-    /// Edges of the other rings.
-    others: Vec<[u32; 2]>,
 }
 
 impl<'a> Front<'a> {
     pub(super) fn of(coarse: &'a mut Coarse, ring: usize, kept: &'a HashSet<u32>) -> Self {
-        let rings = coarse.rings.iter().enumerate();
-        let others = rings.filter(|(r, _)| *r != ring);
-        let others = others.flat_map(|(_, ring)| ring_edges(ring).map(<[u32; 2]>::from));
-        Self {
-            others: others.collect(),
-            coarse,
-            ring,
-            kept,
-        }
+        Self { coarse, ring, kept }
     }
 
     /// Once around, from another place at each turn.
-    pub(super) fn advance(&mut self, turn: usize) {
+    pub(super) fn advance(
+        &mut self,
+        turn: usize,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         // The same start would try the same stretches, which have not fitted.
         let len = self.len();
         let mut at = turn % 3;
         let end = at + len;
         while at < end {
+            still_wanted(progress)?;
             at += self.step(at % self.len()).unwrap_or(1);
         }
+        Ok(())
     }
 
     fn len(&self) -> usize {
@@ -150,6 +186,16 @@ impl<'a> Front<'a> {
     /// Takes the inner vertices of a stretch out of the ring.
     fn splice(&mut self, at: usize, k: usize, new: Option<u32>) {
         let len = self.len();
+        for i in at..at + k {
+            let edge = [self.vertex(i), self.vertex(i + 1)];
+            self.coarse.strike(edge);
+        }
+        let [first, last] = [self.vertex(at), self.vertex(at + k)];
+        let middle = new.unwrap_or(last);
+        self.coarse.list([first, middle]);
+        if new.is_some() {
+            self.coarse.list([middle, last]);
+        }
         let ring = &mut self.coarse.rings[self.ring];
         ring.rotate_left(at);
         ring.splice(1..k, new);
@@ -213,13 +259,11 @@ impl<'a> Front<'a> {
     /// Whether the straight way from a vertex of the front to a point
     /// touches no edge of the front but those at the vertex and at `others`.
     fn is_free(&self, d: usize, from: u32, to: DVec2, others: &[u32]) -> bool {
-        let ring = &self.coarse.rings[self.ring];
-        let own = ring_edges(ring).map(<[u32; 2]>::from);
         let way = [self.place(d, from), to];
-        own.chain(self.others.iter().copied()).all(|edge| {
-            edge.contains(&from)
-                || others.iter().any(|v| edge.contains(v))
-                || !segments_touch(way, edge.map(|v| self.place(d, v)))
+        !self.coarse.near[d].any(way, |edge| {
+            !edge.contains(&from)
+                && !others.iter().any(|v| edge.contains(v))
+                && segments_touch(way, self.coarse.ends(d, edge))
         })
     }
 

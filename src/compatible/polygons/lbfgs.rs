@@ -3,7 +3,10 @@
 //!
 //! The function may be infinite: such steps are shortened, so that what
 //! starts finite stays finite. Nothing is promised about how near the
-//! minimum the result is; it is never higher than the start.
+//! minimum the result is; it is never higher than the start. A cancel ends it
+//! early, at what was reached.
+
+use crate::progress::Progress;
 
 /// Pairs of steps and gradient changes that are remembered: the literature's
 /// 3 to 20, each two more passes over all unknowns.
@@ -19,14 +22,22 @@ const TRIALS: usize = 25;
 /// Moves `x` downhill by at most `rounds` steps and returns the value there.
 /// `function` gives the value and fills the gradient; `precondition` applies
 /// an approximate inverse of its second derivative in place. Stops early when
-/// a step lowers the value by less than the share `enough`.
+/// a step lowers the value by less than the share `enough`, and on a cancel.
 pub(super) fn minimise(
     x: &mut [f64],
     rounds: usize,
     enough: f64,
     mut precondition: impl FnMut(&mut [f64]),
     mut function: impl FnMut(&[f64], &mut [f64]) -> f64,
+    progress: &dyn Progress,
 ) -> f64 {
+    // Infinite values make the search end as a barrier does.
+    let mut function = |x: &[f64], gradient: &mut [f64]| {
+        if progress.is_cancelled() {
+            return f64::INFINITY;
+        }
+        function(x, gradient)
+    };
     let mut gradient = vec![0.0; x.len()];
     let mut value = function(x, &mut gradient);
     let mut memory: Vec<Pair> = Vec::new();
@@ -165,6 +176,7 @@ fn remember(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::progress::Silent;
 
     #[test]
     fn a_curved_valley_is_followed_to_its_end() {
@@ -180,6 +192,7 @@ mod tests {
                 g[1] = 200.0 * b;
                 a * a + 100.0 * b * b
             },
+            &Silent,
         );
         assert!(value < 1e-12 && (x[0] - 1.0).abs() < 1e-5, "{value} {x:?}");
     }
@@ -200,6 +213,7 @@ mod tests {
                     f64::INFINITY
                 }
             },
+            &Silent,
         );
         assert!((value - 2e-3).abs() < 1e-9 && x[0] > 0.0);
     }

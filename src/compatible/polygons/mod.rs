@@ -23,6 +23,7 @@ mod error;
 mod face;
 mod front;
 mod lbfgs;
+mod near;
 mod options;
 mod overlay;
 mod pair;

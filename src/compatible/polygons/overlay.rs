@@ -15,6 +15,7 @@ use super::chords::{diagonals, interleave};
 use super::pair::PairMesh;
 use crate::geometry::DVec2;
 use crate::mesh::{sides, undirected};
+use crate::progress::{Cancelled, Progress, still_wanted};
 use std::collections::HashMap;
 
 type Chord = [u32; 2];
@@ -32,24 +33,27 @@ pub(super) fn overlay(
     source: &[DVec2],
     target: &[DVec2],
     triangulations: &[Vec<[u32; 3]>; 2],
-) -> PairMesh {
+    progress: &dyn Progress,
+) -> Result<PairMesh, Cancelled> {
     let n = source.len();
     let mut vertices = Vertices {
         crossings: HashMap::new(),
         points: [source.to_vec(), target.to_vec()],
     };
-    vertices.place_crossings(&[0, 1].map(|d| diagonals(&triangulations[d], n)));
+    let chords = [0, 1].map(|d| diagonals(&triangulations[d], n));
+    vertices.place_crossings(&chords, progress)?;
     let mut faces = Vec::new();
     // Two triangles of a convex polygon share a cell, a side, a corner or
     // nothing, and all cells together are the polygon.
     for &s in &triangulations[0] {
+        still_wanted(progress)?;
         for &t in &triangulations[1] {
             if let Some(cell) = vertices.cell(s, t) {
                 vertices.fill(&cell, &mut faces);
             }
         }
     }
-    PairMesh::new(n, vertices.points, faces)
+    Ok(PairMesh::new(n, vertices.points, faces))
 }
 
 /// The corners of all cells: the polygons' vertices and the crossings.
@@ -70,10 +74,15 @@ fn in_order(design: usize, own: Chord, other: Chord) -> [Chord; 2] {
 
 impl Vertices {
     /// Numbers all crossings and places them in both designs.
-    fn place_crossings(&mut self, chords: &[Vec<Chord>; 2]) {
+    fn place_crossings(
+        &mut self,
+        chords: &[Vec<Chord>; 2],
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         let n = self.points[0].len() as u32;
         for design in 0..2 {
             for &chord in &chords[design] {
+                still_wanted(progress)?;
                 let crossed = along(chord, &chords[1 - design], n);
                 let count = crossed.len() as f64 + 1.0;
                 let [a, b] = chord.map(|v| self.points[design][v as usize]);
@@ -95,6 +104,7 @@ impl Vertices {
                 }
             }
         }
+        Ok(())
     }
 
     /// The corners of the common part of two triangles, counter-clockwise.

@@ -16,7 +16,7 @@ use crate::compatible::{CompatibleError, CompatibleMesh};
 use crate::correspondence::PointPair;
 use crate::geometry::{Bounds, DVec2, Side};
 use crate::mesh::triangulation::{TriangulationError, delaunay};
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::progress::{Cancelled, Progress, Span, checkpoint, still_wanted};
 
 /// Points along the longer side of the frame: some 700 in all in a square one.
 /// About pins that are near each other they stand closer anyway.
@@ -42,6 +42,9 @@ const MOST_POINTS: usize = 8_000;
 /// Steps on the way to the target. Each is a minimisation of its own; in one
 /// step the edges would stay those of the source.
 const STEPS: u32 = 6;
+
+/// How much of the work is done at the target, as it is told.
+const CARRIED: f64 = 0.7;
 
 /// Pins nearer than this share of the frame in either design are one: no
 /// hand puts them so near, and between them faces would be slivers.
@@ -125,7 +128,7 @@ impl CompatibleMesh {
         let given = Side::BOTH.map(ends);
         let fixed = given[0].len();
         let mut source = given[0].clone();
-        source.extend(filling(frame, border.len(), &given));
+        source.extend(filling(frame, border.len(), &given, progress)?);
         let scale = to_unit(&source);
         let scaled = |points: &[DVec2]| points.iter().map(|p| *p * scale).collect::<Vec<_>>();
         let (source, to) = (scaled(&source), scaled(&given[1]));
@@ -139,15 +142,18 @@ impl CompatibleMesh {
             let part: Vec<DVec2> = (mesh.points[0].iter().zip(&to))
                 .map(|(p, q)| *p + (*q - *p) * along)
                 .collect();
-            transfer::carry_on(&mut mesh, &part, progress)?;
+            let before = f64::from(step - 1) / f64::from(STEPS);
+            let step = Span::new(progress, before * CARRIED, along * CARRIED);
+            transfer::carry_on(&mut mesh, &part, &step)?;
             if !mesh.is_valid() {
                 return Err(PinnedError::Folds {
                     pins: at_folds(&mesh, border.len(), &pins),
                 });
             }
-            quality::settle(&mut mesh);
+            quality::settle(&mut mesh, progress)?;
         }
-        quality::improve(&mut mesh, &PolygonOptions::default(), progress)?;
+        let rest = Span::new(progress, CARRIED, 1.0);
+        quality::improve(&mut mesh, &PolygonOptions::default(), &rest)?;
         checkpoint(progress, "triangulating", 1.0)?;
         let given = given.each_ref().map(Vec::as_slice);
         Ok(mesh.finished([scale; 2], given)?)
@@ -188,7 +194,12 @@ fn spacing(frame: &Bounds) -> f64 {
 
 /// Points in rows of triangles between those that are there: as wide as the
 /// border's, narrower about pins that are near each other in either design.
-fn filling(frame: &Bounds, border: usize, ends: &[Vec<DVec2>; 2]) -> Vec<DVec2> {
+fn filling(
+    frame: &Bounds,
+    border: usize,
+    ends: &[Vec<DVec2>; 2],
+    progress: &dyn Progress,
+) -> Result<Vec<DVec2>, Cancelled> {
     let widest = spacing(frame);
     let narrow = |k: usize| {
         let others = (0..ends[0].len()).filter(|&other| other != k);
@@ -211,6 +222,7 @@ fn filling(frame: &Bounds, border: usize, ends: &[Vec<DVec2>; 2]) -> Vec<DVec2> 
         let step = widest / f64::from(1u32 << level);
         let is_last = level + 1 == LEVELS;
         for p in rows(frame, step) {
+            still_wanted(progress)?;
             // Each place is filled by the one level whose rows fit it; what is
             // wanted beyond either end, by the last of that end.
             let size = wanted(p);
@@ -222,7 +234,7 @@ fn filling(frame: &Bounds, border: usize, ends: &[Vec<DVec2>; 2]) -> Vec<DVec2> 
             }
         }
     }
-    points.split_off(ends[0].len())
+    Ok(points.split_off(ends[0].len()))
 }
 
 /// Points in rows of triangles inside the frame.

@@ -9,7 +9,7 @@ use super::relax::relax;
 use super::transfer::split_chords;
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::sides;
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
 use std::collections::HashSet;
 
 /// Rounds of flips and moves. A trade, as all steps here: further rounds cost
@@ -46,34 +46,39 @@ pub(super) fn improve(
     let most = (MOST_WORK / (1 + mesh.faces().count())).max(1);
     for round in 0..ROUNDS {
         checkpoint(progress, "improving", round as f64 / ROUNDS as f64)?;
-        flip_all(mesh);
+        flip_all(mesh, progress)?;
         // Flips may have made edges between boundary points.
         split_chords(mesh);
         // The last round only settles.
         if round + 1 < ROUNDS {
-            split_long(mesh, options);
-            split_costly(mesh, options);
+            split_long(mesh, options, progress)?;
+            split_costly(mesh, options, progress)?;
         }
-        flip_all(mesh);
+        flip_all(mesh, progress)?;
         let steps = if round + 1 < ROUNDS {
             EARLY_STEPS
         } else {
             STEPS
         };
-        relax(mesh, steps.min(most));
+        relax(mesh, steps.min(most), progress);
     }
-    Ok(())
+    still_wanted(progress)
 }
 
 /// One round, without new vertices.
-pub(super) fn settle(mesh: &mut PairMesh) {
-    flip_all(mesh);
-    relax(mesh, FIRST_STEPS);
+pub(super) fn settle(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
+    flip_all(mesh, progress)?;
+    relax(mesh, FIRST_STEPS, progress);
+    still_wanted(progress)
 }
 
 /// Splits the worst faces: more freedom where it is needed. Splitting many
 /// more doubled the vertices of public pairs and changed no median.
-fn split_costly(mesh: &mut PairMesh, options: &PolygonOptions) {
+fn split_costly(
+    mesh: &mut PairMesh,
+    options: &PolygonOptions,
+    progress: &dyn Progress,
+) -> Result<(), Cancelled> {
     let n = mesh.fixed;
     let room = options.most_points(n).saturating_sub(mesh.steiner().len());
     let mut costly: Vec<([u32; 3], f64)> = mesh
@@ -86,6 +91,7 @@ fn split_costly(mesh: &mut PairMesh, options: &PolygonOptions) {
     let mut touched = HashSet::new();
     let mut splits = 0;
     for (face, _) in costly {
+        still_wanted(progress)?;
         if splits >= room.min(1 + n / 8) {
             break;
         }
@@ -98,6 +104,7 @@ fn split_costly(mesh: &mut PairMesh, options: &PolygonOptions) {
             splits += 1;
         }
     }
+    Ok(())
 }
 
 /// In the design where the face is thinner.
@@ -123,9 +130,9 @@ pub(super) fn thin_out(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(
         if round > 1 && round * mesh.faces().count() > MOST_THINNED {
             break;
         }
-        flip_all(mesh);
-        let removed = collapse_all(mesh);
-        nudge_all(mesh);
+        flip_all(mesh, progress)?;
+        let removed = collapse_all(mesh, progress)?;
+        nudge_all(mesh, progress)?;
         if removed == 0 && round > 1 {
             break;
         }
@@ -133,21 +140,26 @@ pub(super) fn thin_out(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(
     Ok(())
 }
 
-fn flip_all(mesh: &mut PairMesh) {
+fn flip_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
     const PASSES: usize = 6;
     for _ in 0..PASSES {
-        let edges = mesh.inner_edges();
-        // A flip takes away no listed edge but its own.
-        let flipped = edges.into_iter().filter(|&edge| mesh.flip_if_better(edge));
-        if flipped.count() == 0 {
+        let mut flipped = 0;
+        for edge in mesh.inner_edges() {
+            still_wanted(progress)?;
+            // A flip takes away no listed edge but its own.
+            flipped += usize::from(mesh.flip_if_better(edge));
+        }
+        if flipped == 0 {
             break;
         }
     }
+    Ok(())
 }
 
-fn collapse_all(mesh: &mut PairMesh) -> usize {
+fn collapse_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<usize, Cancelled> {
     let mut removed = 0;
     for v in mesh.steiner() {
+        still_wanted(progress)?;
         let present = mesh
             .faces_at(v)
             .map(|face| mesh.cost(face))
@@ -164,36 +176,45 @@ fn collapse_all(mesh: &mut PairMesh) -> usize {
             removed += 1;
         }
     }
-    removed
+    Ok(removed)
 }
 
 /// Splits edges longer than asked for in either design.
-fn split_long(mesh: &mut PairMesh, options: &PolygonOptions) {
+fn split_long(
+    mesh: &mut PairMesh,
+    options: &PolygonOptions,
+    progress: &dyn Progress,
+) -> Result<(), Cancelled> {
     let Some(share) = options.edge_length else {
-        return;
+        return Ok(());
     };
     let n = mesh.fixed;
     // Halves of an edge that is 1.5 times as long as wanted are nearer to what
     // is wanted than the edge is.
     let longest = [0, 1].map(|d| 1.5 * share * Bounds::diameter_of(&mesh.points[d][..n]));
     let most = options.most_points(n);
+    let mut count = mesh.steiner().len();
     for [a, b] in mesh.inner_edges() {
+        still_wanted(progress)?;
         let long = (0..2)
             .any(|d| mesh.points[d][a as usize].distance(mesh.points[d][b as usize]) > longest[d]);
-        if long && mesh.steiner().len() < most {
-            mesh.split([a, b]);
+        if long && count < most && mesh.split([a, b]).is_some() {
+            count += 1;
         }
     }
+    Ok(())
 }
 
 /// Each movable vertex in turn moved downhill, in both designs at once.
-fn nudge_all(mesh: &mut PairMesh) {
+fn nudge_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
     const PASSES: usize = 3;
     for _ in 0..PASSES {
         for v in mesh.steiner() {
+            still_wanted(progress)?;
             nudge(mesh, v);
         }
     }
+    Ok(())
 }
 
 fn nudge(mesh: &mut PairMesh, v: u32) {

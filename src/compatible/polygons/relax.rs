@@ -9,6 +9,7 @@ use super::lbfgs::minimise;
 use super::pair::PairMesh;
 use super::springs::Springs;
 use crate::geometry::DVec2;
+use crate::progress::Progress;
 
 /// What the minimisation over all movable vertices needs to know. Unknowns
 /// are displacements: source x, source y, target x, target y.
@@ -78,7 +79,7 @@ impl Relaxation {
 
     /// The curvature of the cost where areas are kept, as springs in each
     /// design.
-    fn springs(&self) -> Option<[Springs; 2]> {
+    fn springs(&self, progress: &dyn Progress) -> Option<[Springs; 2]> {
         let of = |d: usize| {
             let springs = self.faces.iter().flat_map(|&(face, weight)| {
                 let [p, q] = [0, 1].map(|d| face.map(|v| self.start[d][v as usize]));
@@ -86,7 +87,7 @@ impl Relaxation {
                 let ends = |k: usize| [face[(k + 1) % 3], face[(k + 2) % 3]];
                 [0, 1, 2].map(|k| (ends(k), weight * stiffness[k]))
             });
-            Springs::new(&self.movable, springs).ok()
+            Springs::new(&self.movable, springs, progress)
         };
         // Each design for itself: what couples the two may be negative.
         Some([of(0)?, of(1)?])
@@ -112,10 +113,11 @@ pub(super) fn weighted(mesh: &PairMesh) -> Vec<([u32; 3], f64)> {
 }
 
 /// All movable vertices moved together by at most `steps` steps; given up if
-/// rounding leaves a face that is not exactly positive.
-pub(super) fn relax(mesh: &mut PairMesh, steps: usize) {
+/// rounding leaves a face that is not exactly positive, and ended early by a
+/// cancel.
+pub(super) fn relax(mesh: &mut PairMesh, steps: usize, progress: &dyn Progress) {
     let mut relaxation = Relaxation::of(mesh);
-    let Some([mut source, mut target]) = relaxation.springs() else {
+    let Some([mut source, mut target]) = relaxation.springs(progress) else {
         return;
     };
     let n = relaxation.movable.len();
@@ -124,9 +126,8 @@ pub(super) fn relax(mesh: &mut PairMesh, steps: usize) {
         source.solve(&mut forces[..2 * n]);
         target.solve(&mut forces[2 * n..]);
     };
-    minimise(&mut x, steps, 1e-5, precondition, |x, gradient| {
-        relaxation.energy(x, gradient)
-    });
+    let energy = |x: &[f64], gradient: &mut [f64]| relaxation.energy(x, gradient);
+    minimise(&mut x, steps, 1e-5, precondition, energy, progress);
     relaxation.place(&x);
     // The cost knows areas in plain floating point: a face that is flat but
     // for rounding may be positive to it.

@@ -3,7 +3,8 @@
 //! grow with the mesh (Kovalsky, Galun, Lipman 2016, "Accelerated quadratic
 //! proxy for geometric optimization").
 
-use crate::linalg::{Cholesky, FactorError, SymmetricMatrix, Workspace};
+use crate::linalg::{Cholesky, SymmetricMatrix, Workspace};
+use crate::progress::Progress;
 
 /// Share of the mean stiffness that holds each vertex on its own: keeps the
 /// matrix definite where springs cancel. Six digits below the springs it
@@ -17,11 +18,13 @@ pub(super) struct Springs {
 
 impl Springs {
     /// From springs between vertices, with their stiffness. Only `movable`
-    /// ones move, in ascending order; they are the unknowns.
+    /// ones move, in ascending order; they are the unknowns. None where the
+    /// springs do not hold, or on a cancel.
     pub(super) fn new(
         movable: &[u32],
         springs: impl Iterator<Item = ([u32; 2], f64)>,
-    ) -> Result<Self, FactorError> {
+        progress: &dyn Progress,
+    ) -> Option<Self> {
         let unknown = |v: u32| movable.binary_search(&v).ok().map(|i| i as u32);
         let mut matrix = SymmetricMatrix::zero(movable.len(), 16 * movable.len());
         let mut sum = 0.0;
@@ -40,9 +43,9 @@ impl Springs {
         for v in 0..movable.len() as u32 {
             matrix.add(v, v, held);
         }
-        let factor = Cholesky::factor(&matrix)?;
+        let factor = Cholesky::factor_if_wanted(&matrix, progress).ok()?.ok()?;
         let workspace = factor.workspace(2);
-        Ok(Self { factor, workspace })
+        Some(Self { factor, workspace })
     }
 
     /// Forces along both axes, all of x first, become displacements.
@@ -54,11 +57,12 @@ impl Springs {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::progress::Silent;
 
     #[test]
     fn a_chain_of_springs_is_stretched_evenly() {
         let links = [[0, 1], [1, 2], [2, 3]].map(|ends| (ends, 1.0));
-        let mut springs = Springs::new(&[1, 2], links.into_iter()).expect("held");
+        let mut springs = Springs::new(&[1, 2], links.into_iter(), &Silent).expect("held");
         let mut forces = [0.0, 3.0, 3.0, 0.0];
         springs.solve(&mut forces);
         for (found, exact) in forces.into_iter().zip([1.0, 2.0, 2.0, 1.0]) {

@@ -9,11 +9,16 @@ use super::{bridges, coarsen, face, quality, relax, transfer};
 use crate::compatible::CompatibleMesh;
 use crate::compatible::patchwork::Patchwork;
 use crate::geometry::{DVec2, Side, lexicographic};
-use crate::progress::{Cancelled, Progress};
+use crate::progress::{Cancelled, Progress, Several, Span, checkpoint};
 
 /// With more boundary points the base is made of what a front leaves: 200
 /// corners already cross up to 39,000 times, in as many vertices.
 const FEW: usize = 200;
+
+/// How much of the work is done once the transfers are, and once the base is,
+/// as it is told. Of some pairs' time; no harm is done where it is otherwise.
+const CARRIED: f64 = 0.5;
+const BASED: f64 = 0.7;
 
 impl CompatibleMesh {
     /// Triangulates one connected piece in two designs together. Ring 0 is
@@ -103,10 +108,13 @@ fn triangulated(
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PolygonsError> {
+    checkpoint(progress, "triangulating", 0.0)?;
+    let carrying = Span::new(progress, 0.0, CARRIED);
+    let ways = Several::new(&carrying, 2);
     // Which of both is the better one is not to be seen from the outlines.
     let (forwards, backwards) = rayon::join(
-        || transferred(source, target, options, progress),
-        || transferred(target, source, options, progress),
+        || transferred(source, target, options, &ways.part(0)),
+        || transferred(target, source, options, &ways.part(1)),
     );
     let best = [forwards?, backwards?.map(PairMesh::swapped)]
         .into_iter()
@@ -114,9 +122,9 @@ fn triangulated(
         .min_by(|a, b| badness(a).total_cmp(&badness(b)));
     let mut mesh = match best {
         Some(mesh) => mesh,
-        None => from_base(source, target, progress)?,
+        None => from_base(source, target, &Span::new(progress, CARRIED, BASED))?,
     };
-    quality::improve(&mut mesh, options, progress)?;
+    quality::improve(&mut mesh, options, &Span::new(progress, BASED, 1.0))?;
     Ok(mesh)
 }
 
@@ -129,7 +137,7 @@ fn transferred(
 ) -> Result<Option<PairMesh>, Cancelled> {
     let mut mesh = transfer::transfer(from, to, options, progress)?;
     if let Some(mesh) = &mut mesh {
-        quality::settle(mesh);
+        quality::settle(mesh, progress)?;
     }
     Ok(mesh)
 }
@@ -139,16 +147,17 @@ pub(super) fn from_base(
     target: &Rings,
     progress: &dyn Progress,
 ) -> Result<PairMesh, PolygonsError> {
+    let first = Span::new(progress, 0.0, 0.5);
     let mut mesh = if source.points.len() > FEW {
-        coarse_base(source, target)?
+        coarse_base(source, target, &first)?
     } else {
-        bridges::base(source, target)?
+        bridges::base(source, target, &first)?
     };
     // Over the reals there are none, and no later step mends one.
     if let Some(error) = folded(&mesh) {
         return Err(error);
     }
-    quality::thin_out(&mut mesh, progress)?;
+    quality::thin_out(&mut mesh, &Span::new(progress, 0.5, 1.0))?;
     Ok(mesh)
 }
 
@@ -167,10 +176,15 @@ fn folded(mesh: &PairMesh) -> Option<PolygonsError> {
 }
 
 /// The base of what a front leaves, and the faces behind the front.
-fn coarse_base(source: &Rings, target: &Rings) -> Result<PairMesh, PolygonsError> {
+fn coarse_base(
+    source: &Rings,
+    target: &Rings,
+    progress: &dyn Progress,
+) -> Result<PairMesh, PolygonsError> {
     // Half of it, since bridges to holes add corners again.
-    let coarse = coarsen::coarsened(source, target, FEW / 2);
-    let core = bridges::base(&coarse.core(0), &coarse.core(1))?;
+    checkpoint(progress, "simplifying", 0.0)?;
+    let coarse = coarsen::coarsened(source, target, FEW / 2, progress)?;
+    let core = bridges::base(&coarse.core(0), &coarse.core(1), progress)?;
     let front: Vec<u32> = coarse.rings.concat();
     let mut whole = Patchwork {
         points: coarse.points,

@@ -13,7 +13,7 @@ use super::untangle::untangle;
 use crate::geometry::{Bounds, DVec2};
 use crate::linalg::{Cholesky, SymmetricMatrix};
 use crate::mesh::triangulation::{Refinement, refined};
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
 
 /// Rounds of shrinking ε: a bound for those that win a fold now and then; as a
 /// rule [`PATIENCE`] ends it.
@@ -37,7 +37,9 @@ pub(super) fn transfer(
         max_points: options.most_points(from.points.len()),
     };
     // The base is made of the same walks, and says what is wrong with them.
-    let Ok(start) = refined(&from.walks(), &refinement) else {
+    let start = refined(&from.walks(), &refinement, progress);
+    still_wanted(progress)?;
+    let Ok(start) = start else {
         return Ok(None);
     };
     let (n, points) = (from.points.len(), start.points);
@@ -57,8 +59,8 @@ pub(super) fn carry(
     // The harmonic map would distort even what is only laid elsewhere.
     mesh.points[1] = fitted(mesh, to);
     if !mesh.is_valid() {
-        let Some(harmonic) = harmonic(mesh, to) else {
-            return Ok(());
+        let Some(harmonic) = harmonic(mesh, to, progress) else {
+            return still_wanted(progress);
         };
         mesh.points[1] = harmonic;
     }
@@ -87,11 +89,11 @@ fn remove_folds(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Canc
         since = if folds < fewest { 0 } else { since + 1 };
         fewest = fewest.min(folds);
         checkpoint(progress, "removing folds", round as f64 / ROUNDS as f64)?;
-        if since >= PATIENCE || !untangle(mesh) {
+        if since >= PATIENCE || !untangle(mesh, progress) {
             break;
         }
     }
-    Ok(())
+    still_wanted(progress)
 }
 
 /// Splits every inner edge between two polygon vertices: the faces beside it
@@ -128,7 +130,7 @@ fn fitted(mesh: &PairMesh, to: &[DVec2]) -> Vec<DVec2> {
 
 /// All vertices in the second design, inner ones the mean of their
 /// neighbours.
-fn harmonic(mesh: &PairMesh, to: &[DVec2]) -> Option<Vec<DVec2>> {
+fn harmonic(mesh: &PairMesh, to: &[DVec2], progress: &dyn Progress) -> Option<Vec<DVec2>> {
     let n = mesh.fixed;
     let inner = mesh.points[0].len() - n;
     let mut matrix = SymmetricMatrix::zero(inner, 8 * inner);
@@ -144,7 +146,7 @@ fn harmonic(mesh: &PairMesh, to: &[DVec2]) -> Option<Vec<DVec2>> {
             }
         }
     }
-    let factor = Cholesky::factor(&matrix).ok()?;
+    let factor = Cholesky::factor_if_wanted(&matrix, progress).ok()?.ok()?;
     let solve = |side: fn(&DVec2) -> f64| factor.solve(&rhs.iter().map(side).collect::<Vec<_>>());
     let (x, y) = (solve(|p| p.x), solve(|p| p.y));
     let placed = x.into_iter().zip(y).map(|(x, y)| DVec2::new(x, y));

@@ -8,6 +8,7 @@ use super::lbfgs::minimise;
 use super::pair::PairMesh;
 use super::springs::Springs;
 use crate::geometry::{DMat2, DVec2};
+use crate::progress::Progress;
 
 /// Least ε, in units of the mean determinant. A smaller one lets thinner faces
 /// be, and makes a steeper barrier, which takes shorter steps.
@@ -50,8 +51,8 @@ fn pieces(mesh: &PairMesh) -> Vec<Piece> {
     mesh.faces().map(piece).collect()
 }
 
-/// One round at one ε; `false` if it moved nothing.
-pub(super) fn untangle(mesh: &mut PairMesh) -> bool {
+/// One round at one ε, ended early by a cancel; `false` if it moved nothing.
+pub(super) fn untangle(mesh: &mut PairMesh, progress: &dyn Progress) -> bool {
     let pieces = pieces(mesh);
     let n = mesh.fixed;
     let start = mesh.points[1].clone();
@@ -62,14 +63,13 @@ pub(super) fn untangle(mesh: &mut PairMesh) -> bool {
     // A fifth of the worst fold, as in the paper's own code.
     let epsilon = LEAST_EPSILON.hypot(0.2 * least.min(0.0));
     let movable: Vec<u32> = (n as u32..start.len() as u32).collect();
-    let Some(mut springs) = springs(&pieces, &movable) else {
+    let Some(mut springs) = springs(&pieces, &movable, progress) else {
         return false;
     };
     let mut x = vec![0.0; 2 * (start.len() - n)];
     let precondition = |forces: &mut [f64]| springs.solve(forces);
-    minimise(&mut x, STEPS, 1e-5, precondition, |x, gradient| {
-        energy(&pieces, &start, n, epsilon, x, gradient)
-    });
+    let energy = |x: &[f64], gradient: &mut [f64]| energy(&pieces, &start, n, epsilon, x, gradient);
+    minimise(&mut x, STEPS, 1e-5, precondition, energy, progress);
     let (along_x, along_y) = x.split_at(start.len() - n);
     for (i, point) in mesh.points[1][n..].iter_mut().enumerate() {
         *point += DVec2::new(along_x[i], along_y[i]);
@@ -79,7 +79,7 @@ pub(super) fn untangle(mesh: &mut PairMesh) -> bool {
 }
 
 /// The curvature of the energy near no distortion, up to a factor.
-fn springs(pieces: &[Piece], movable: &[u32]) -> Option<Springs> {
+fn springs(pieces: &[Piece], movable: &[u32], progress: &dyn Progress) -> Option<Springs> {
     let springs = pieces.iter().flat_map(|piece| {
         let weight = 2.0 * piece.share;
         // |J|² is a sum over edges of the corners' cotangents.
@@ -92,7 +92,7 @@ fn springs(pieces: &[Piece], movable: &[u32]) -> Option<Springs> {
         let [a, b, c] = piece.corners.map(|v| v as u32);
         [([a, b], ab), ([a, c], ac), ([b, c], bc)].map(|(ends, s)| (ends, weight * s))
     });
-    Springs::new(movable, springs).ok()
+    Springs::new(movable, springs, progress)
 }
 
 fn energy(

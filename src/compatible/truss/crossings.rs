@@ -1,20 +1,32 @@
 //! Which bars meet away from a common node, and which of them to keep.
 
 use crate::geometry::{DVec2, Pair, orient2d, segments_touch};
+use crate::progress::{Cancelled, Progress, still_wanted};
+
+/// Two bars that cannot both stay; short, since all bars may cross all others.
+pub(super) type Conflict = [u32; 2];
 
 /// Pairs of bars, the smaller index first, that cross, touch or lie on each
 /// other in at least one of the designs, other than by ending at one node.
-pub(super) fn in_either(bars: &[[u32; 2]], nodes: Pair<&[DVec2]>) -> Vec<[usize; 2]> {
-    let mut conflicts = in_one(bars, nodes.source);
-    conflicts.extend(in_one(bars, nodes.target));
+pub(super) fn in_either(
+    bars: &[[u32; 2]],
+    nodes: Pair<&[DVec2]>,
+    progress: &dyn Progress,
+) -> Result<Vec<Conflict>, Cancelled> {
+    let mut conflicts = in_one(bars, nodes.source, progress)?;
+    conflicts.extend(in_one(bars, nodes.target, progress)?);
     conflicts.sort_unstable();
     conflicts.dedup();
-    conflicts
+    Ok(conflicts)
 }
 
 /// Bars sorted by their left ends, each tested against those that begin
 /// before it ends.
-fn in_one(bars: &[[u32; 2]], nodes: &[DVec2]) -> Vec<[usize; 2]> {
+fn in_one(
+    bars: &[[u32; 2]],
+    nodes: &[DVec2],
+    progress: &dyn Progress,
+) -> Result<Vec<Conflict>, Cancelled> {
     let range = |bar: usize| {
         let [a, b] = bars[bar].map(|node| nodes[node as usize].x);
         (a.min(b), a.max(b))
@@ -23,17 +35,18 @@ fn in_one(bars: &[[u32; 2]], nodes: &[DVec2]) -> Vec<[usize; 2]> {
     order.sort_by(|&i, &j| range(i).0.total_cmp(&range(j).0));
     let mut found = Vec::new();
     for (place, &i) in order.iter().enumerate() {
+        still_wanted(progress)?;
         let right = range(i).1;
         let rest = order[place + 1..].iter();
         for &j in rest.take_while(|&&j| range(j).0 <= right) {
             // Most that overlap along x still lie above each other: the test's
             // boxes tell that before its exact signs do.
             if meet(bars[i], bars[j], nodes) {
-                found.push([i.min(j), i.max(j)]);
+                found.push([i.min(j), i.max(j)].map(|bar| bar as u32));
             }
         }
     }
-    found
+    Ok(found)
 }
 
 fn meet(first: [u32; 2], second: [u32; 2], nodes: &[DVec2]) -> bool {
@@ -49,32 +62,38 @@ fn meet(first: [u32; 2], second: [u32; 2], nodes: &[DVec2]) -> bool {
 
 /// Keeps as many bars as the greedy rule leaves: the one with the most
 /// conflicts goes first, of equal ones the last.
-pub(super) fn thinned(bars: usize, conflicts: &[[usize; 2]]) -> Vec<bool> {
-    let mut against: Vec<Vec<usize>> = vec![Vec::new(); bars];
+pub(super) fn thinned(
+    bars: usize,
+    conflicts: &[Conflict],
+    progress: &dyn Progress,
+) -> Result<Vec<bool>, Cancelled> {
+    let mut against: Vec<Vec<u32>> = vec![Vec::new(); bars];
     for &[i, j] in conflicts {
-        against[i].push(j);
-        against[j].push(i);
+        against[i as usize].push(j);
+        against[j as usize].push(i);
     }
     let mut kept = vec![true; bars];
     let mut open: Vec<usize> = against.iter().map(Vec::len).collect();
     while let Some(worst) = (0..bars).max_by_key(|&bar| (open[bar], bar))
         && open[worst] > 0
     {
+        still_wanted(progress)?;
         kept[worst] = false;
         open[worst] = 0;
         for &other in &against[worst] {
             // What went before has none left.
-            open[other] = open[other].saturating_sub(1);
+            let open = &mut open[other as usize];
+            *open = open.saturating_sub(1);
         }
     }
-    kept
+    Ok(kept)
 }
 
 /// Keeps the bars without any conflict.
-pub(super) fn uncrossed(bars: usize, conflicts: &[[usize; 2]]) -> Vec<bool> {
+pub(super) fn uncrossed(bars: usize, conflicts: &[Conflict]) -> Vec<bool> {
     let mut kept = vec![true; bars];
     for &bar in conflicts.iter().flatten() {
-        kept[bar] = false;
+        kept[bar as usize] = false;
     }
     kept
 }
@@ -82,6 +101,7 @@ pub(super) fn uncrossed(bars: usize, conflicts: &[[usize; 2]]) -> Vec<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::progress::Silent;
 
     #[test]
     fn bars_meet_when_they_share_a_point_that_is_no_common_node() {
@@ -114,10 +134,10 @@ mod tests {
     #[test]
     fn the_bar_with_most_crossings_goes_first() {
         assert_eq!(
-            thinned(4, &[[0, 1], [0, 2], [0, 3]]),
-            [false, true, true, true]
+            thinned(4, &[[0, 1], [0, 2], [0, 3]], &Silent),
+            Ok(vec![false, true, true, true])
         );
-        assert_eq!(thinned(3, &[[0, 2]]), [true, true, false]);
+        assert_eq!(thinned(3, &[[0, 2]], &Silent), Ok(vec![true, true, false]));
         assert_eq!(uncrossed(3, &[[0, 2]]), [false, true, false]);
     }
 }

@@ -62,15 +62,19 @@ fn bounded_faces(bars: &[[u32; 2]], nodes: &[DVec2]) -> Vec<Vec<u32>> {
     let follows = successors(bars, nodes);
     let mut seen = HashSet::new();
     let mut faces = Vec::new();
+    // Where in the path each node is: a tree is walked there and back as one.
+    let mut place = vec![None; nodes.len()];
     for &start in follows.keys() {
         let mut path = Vec::new();
         let mut edge = start;
         while seen.insert(edge) {
             let [from, to] = edge;
+            place[from as usize] = Some(path.len());
             path.push(from);
             // Back at a node: what was walked since is a cycle of its own.
-            if let Some(back) = path.iter().position(|&node| node == to) {
+            if let Some(back) = place[to as usize] {
                 let mut cycle = path.split_off(back);
+                cycle.iter().for_each(|&node| place[node as usize] = None);
                 // Outer faces run clockwise; a bar there and back turns nowhere.
                 if is_counter_clockwise(&cycle, nodes) {
                     let first = (0..cycle.len()).min_by_key(|&i| cycle[i]).unwrap_or(0);

@@ -1,6 +1,7 @@
 //! One polygon in two embeddings, cut into triangles.
 
 use crate::geometry::{DVec2, Pair, orient2d};
+use crate::progress::{Cancelled, Progress, still_wanted};
 
 /// No triangulation of a part of the polygon: less than any sine of its angles.
 const NONE: f64 = -1.0;
@@ -8,9 +9,15 @@ const NONE: f64 = -1.0;
 /// Triangles between the nodes of a counter-clockwise cycle, all positive in
 /// both designs, with the largest possible smallest angle; `None` if there
 /// are none.
-pub(super) fn triangulated(cycle: &[u32], nodes: Pair<&[DVec2]>) -> Option<Vec<[u32; 3]>> {
-    let table = Table::filled(cycle, nodes);
-    let last = cycle.len().checked_sub(1)?;
+pub(super) fn triangulated(
+    cycle: &[u32],
+    nodes: Pair<&[DVec2]>,
+    progress: &dyn Progress,
+) -> Result<Option<Vec<[u32; 3]>>, Cancelled> {
+    let table = Table::filled(cycle, nodes, progress)?;
+    let Some(last) = cycle.len().checked_sub(1) else {
+        return Ok(None);
+    };
     let mut faces = Vec::new();
     let mut open = vec![(0, last)];
     while let Some((i, j)) = open.pop() {
@@ -19,12 +26,12 @@ pub(super) fn triangulated(cycle: &[u32], nodes: Pair<&[DVec2]>) -> Option<Vec<[
         }
         let (worth, k) = table.cells[table.cell(i, j)];
         if worth == NONE {
-            return None;
+            return Ok(None);
         }
         faces.push([i, k, j].map(|corner| cycle[corner]));
         open.extend([(k, j), (i, k)]);
     }
-    Some(faces)
+    Ok(Some(faces))
 }
 
 /// For each chord i < j what the part from i to j is worth, and the third
@@ -35,7 +42,11 @@ struct Table {
 }
 
 impl Table {
-    fn filled(cycle: &[u32], nodes: Pair<&[DVec2]>) -> Self {
+    fn filled(
+        cycle: &[u32],
+        nodes: Pair<&[DVec2]>,
+        progress: &dyn Progress,
+    ) -> Result<Self, Cancelled> {
         let size = cycle.len();
         let mut table = Self {
             size,
@@ -43,13 +54,14 @@ impl Table {
             cells: vec![(f64::INFINITY, 0); size * size],
         };
         for length in 2..size {
+            still_wanted(progress)?;
             for i in 0..size - length {
                 let j = i + length;
                 let cell = table.cell(i, j);
                 table.cells[cell] = table.best(cycle, nodes, i, j);
             }
         }
-        table
+        Ok(table)
     }
 
     fn cell(&self, i: usize, j: usize) -> usize {

@@ -1,5 +1,6 @@
 use super::*;
 use crate::geometry::orient2d;
+use crate::progress::Silent;
 
 fn truss(nodes: &[(f64, f64)], bars: &[[u32; 2]]) -> Truss {
     let nodes = nodes.iter().map(|&p| p.into()).collect();
@@ -11,6 +12,10 @@ fn positive(faces: &[[u32; 3]], truss: &Truss) -> bool {
         let [a, b, c] = f.map(|node| truss.nodes()[node as usize]);
         orient2d(a, b, c) > 0.0
     })
+}
+
+fn panels(source: &Truss, target: &Truss) -> Result<Panels, TrussError> {
+    super::panels(source, target, &Silent)
 }
 
 /// Both orders of the designs give the same, valid result.
@@ -248,7 +253,8 @@ proptest::proptest! {
         let (source, target) = (around(|r| r.0), around(|r| r.1));
         let pair = Pair { source: &source[..], target: &target[..] };
         let cycle: Vec<u32> = (0..count as u32).collect();
-        let found = polygon::triangulated(&cycle, pair).map(|faces| {
+        let found = polygon::triangulated(&cycle, pair, &Silent).expect("not cancelled");
+        let found = found.map(|faces| {
             faces.iter().map(|&f| sines(f, pair).unwrap_or(-1.0)).fold(f64::INFINITY, f64::min)
         });
         match (found, brute(&cycle, pair)) {

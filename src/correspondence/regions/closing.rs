@@ -27,35 +27,59 @@ pub(super) struct Vertices<'a> {
     pub(super) to: &'a [DVec2],
 }
 
-/// The tiny ring, similar to `hole`, that it closes to in `part`, which it
-/// does not belong to. `outer` are the matched boundaries around both,
-/// `taken` the points that other holes close to.
-pub(super) fn point_ring(
-    hole: &Ring,
-    outer: &Vertices,
-    part: &Region,
-    taken: &[DVec2],
-    rotation: f64,
-) -> Vec<DVec2> {
-    let wanted = carried(outer, centre(hole));
-    let clear = |p: DVec2| clearance(part, taken, p);
-    let mut places: Vec<(DVec2, f64)> = places(part).map(|p| (p, clear(p))).collect();
-    if let Some(p) = wanted {
-        places.push((p, clear(p)));
+/// The room in a part for holes that close to points of it.
+pub(super) struct Room<'a> {
+    part: &'a Region,
+    /// Places in it with their squared distance to its boundary.
+    places: Vec<(DVec2, f64)>,
+    /// The points that other holes close to.
+    taken: Vec<DVec2>,
+}
+
+impl<'a> Room<'a> {
+    pub(super) fn of(part: &'a Region) -> Self {
+        let places = places(part).map(|p| (p, clearance_squared(part, p)));
+        Self {
+            places: places.collect(),
+            part,
+            taken: Vec::new(),
+        }
     }
-    let room = places.iter().map(|place| place.1).fold(0.0, f64::max);
-    let goal = wanted.unwrap_or_else(|| part.outer.bounds().centre());
-    // Not the roomiest: the hole should close near where it was.
-    let roomy = places
-        .iter()
-        .filter(|place| place.1 >= LEAST_CLEARANCE * room);
-    let nearest = roomy.min_by(|a, b| {
-        let far = |p: &DVec2| p.distance_squared(goal);
-        far(&a.0).total_cmp(&far(&b.0))
-    });
-    let (at, clearance) = nearest.copied().unwrap_or((goal, room));
-    let size = (POINT_SIZE * part.outer.bounds().diameter()).min(CLEARANCE_SHARE * clearance);
-    shrunk(hole.points(), centre(hole), at, size, rotation)
+
+    /// The tiny ring, similar to `hole`, that it closes to in the part, which
+    /// it does not belong to. `outer` are the matched boundaries around both.
+    pub(super) fn point_ring(
+        &mut self,
+        hole: &Ring,
+        outer: &Vertices,
+        rotation: f64,
+    ) -> Vec<DVec2> {
+        let wanted = carried(outer, centre(hole));
+        let clear = |&(p, to_rings): &(DVec2, f64)| {
+            let to_points = self.taken.iter().map(|q| q.distance_squared(p));
+            (p, to_points.fold(to_rings, f64::min).sqrt())
+        };
+        let mut places: Vec<(DVec2, f64)> = self.places.iter().map(clear).collect();
+        if let Some(p) = wanted {
+            places.push(clear(&(p, clearance_squared(self.part, p))));
+        }
+        let room = places.iter().map(|place| place.1).fold(0.0, f64::max);
+        let goal = wanted.unwrap_or_else(|| self.part.outer.bounds().centre());
+        // Not the roomiest: the hole should close near where it was.
+        let roomy = places
+            .iter()
+            .filter(|place| place.1 >= LEAST_CLEARANCE * room);
+        let nearest = roomy.min_by(|a, b| {
+            let far = |p: &DVec2| p.distance_squared(goal);
+            far(&a.0).total_cmp(&far(&b.0))
+        });
+        let (at, clearance) = nearest.copied().unwrap_or((goal, room));
+        let across = self.part.outer.bounds().diameter();
+        let size = (POINT_SIZE * across).min(CLEARANCE_SHARE * clearance);
+        let ring = shrunk(hole.points(), centre(hole), at, size, rotation);
+        self.taken.extend(ring.first());
+        ring
+    }
 }
 
 /// Points about `centre` made as small as `size` across, turned and put down
@@ -120,15 +144,11 @@ fn places(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
     })
 }
 
-/// Distance to the boundary and to the points taken; 0 outside.
-fn clearance(part: &Region, taken: &[DVec2], p: DVec2) -> f64 {
+/// Squared distance to the boundary; 0 outside.
+fn clearance_squared(part: &Region, p: DVec2) -> f64 {
     if !part.contains(p) {
         return 0.0;
     }
     let to_rings = part.rings().map(|ring| ring.distance_squared(p));
-    let to_points = taken.iter().map(|q| q.distance_squared(p));
-    to_rings
-        .chain(to_points)
-        .fold(f64::INFINITY, f64::min)
-        .sqrt()
+    to_rings.fold(f64::INFINITY, f64::min)
 }

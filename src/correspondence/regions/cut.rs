@@ -10,6 +10,7 @@ use super::super::curve::Curve;
 use super::super::options::MatchOptions;
 use super::walk::{Slit, Walk};
 use crate::geometry::Ring;
+use crate::progress::{Progress, still_wanted};
 use rayon::prelude::*;
 
 /// Places of the first round, and samples of each match.
@@ -35,17 +36,19 @@ pub(super) struct Opened {
     pub(super) cost: f64,
 }
 
-/// The best cut of hole `cut`, if there is any.
+/// The best cut of hole `cut`, if there is any; none on a cancel.
 pub(super) fn best(
     walk: &Walk,
     holes: &[&Ring],
     cut: usize,
     other: &Curve,
     options: &MatchOptions,
+    progress: &dyn Progress,
 ) -> Option<Opened> {
     let curve = walk.curve().ok()?;
     let trials = |places: Vec<f64>| {
         let tried = places.into_par_iter().filter_map(|place| {
+            still_wanted(progress).ok()?;
             let slit = walk.slit_from(holes, cut, curve.point_at(place))?;
             let cost = cost(walk, holes[cut], &slit, other, options)?;
             Some((cost, place, slit))
@@ -79,7 +82,7 @@ fn cost(
 /// The same options with few samples: for trials, which compare with trials.
 pub(super) fn coarse(options: &MatchOptions) -> MatchOptions {
     MatchOptions {
-        samples: SAMPLES,
+        samples: SAMPLES.min(options.samples),
         ..options.clone()
     }
 }

@@ -18,11 +18,13 @@
 
 mod automatic;
 mod closing;
+mod crowd;
 mod cut;
 mod groups;
 mod locate;
 mod outcome;
 mod piece;
+mod prepared;
 mod sides;
 mod slits;
 mod split;
@@ -33,6 +35,8 @@ mod walk;
 use super::Matching;
 use crate::geometry::Regions;
 use crate::progress::{Progress, checkpoint};
+pub(crate) use prepared::Prepared;
+
 pub use outcome::{
     MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch,
 };
@@ -59,15 +63,6 @@ pub fn match_regions(
     wanted: &Matching,
     progress: &dyn Progress,
 ) -> Result<RegionMatch, RegionMatchError> {
-    locate::check(wanted)?;
-    let designs = [source, target];
-    let pins = locate::pins(wanted, designs);
-    let groups = groups::grouped(designs, wanted, &pins)?;
-    let mut pieces = Vec::new();
-    let count = groups.len() as f64;
-    for (k, group) in groups.iter().enumerate() {
-        checkpoint(progress, "matching", k as f64 / count)?;
-        pieces.extend(groups::pieces(designs, group, &groups, wanted, &pins)?);
-    }
-    Ok(RegionMatch { pieces })
+    checkpoint(progress, "matching", 0.0)?;
+    Prepared::new([source, target], wanted, progress)?.matched(&wanted.options(), progress)
 }

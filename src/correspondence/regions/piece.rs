@@ -4,11 +4,13 @@ use super::super::boundary_match::BoundaryMatch;
 use super::super::curve::Curve;
 use super::super::options::MatchError;
 use super::super::polygons::SharedPolygons;
-use super::closing::{Vertices, centre, point_ring};
+use super::closing::{Room, Vertices, centre};
 use super::outcome::{PieceMatch, RegionMatchError, RingKind, RingMatch};
 use super::sides::{PinHere, Sides, Task};
 use super::slits::mirror;
 use crate::geometry::{DVec2, Ring, Side};
+use crate::progress::{Cancelled, still_wanted};
+use rayon::prelude::*;
 
 /// Longest edge of a shared outline, as a share of the outer one's length.
 /// 80 edges around: fewer bend coarsely on the way, more cost the inside, which
@@ -31,10 +33,16 @@ pub(super) fn matched(task: &Task) -> Result<PieceMatch, RegionMatchError> {
         sides.outer_match()?
     };
     let mut rings = vec![sides.outer_ring(&outer)?];
-    for &pair in &pairing.pairs {
-        rings.push(sides.hole_ring(pair, outer.rotation())?);
+    let holes = pairing.pairs.par_iter().map(|&pair| {
+        still_wanted(task.progress)?;
+        sides.hole_ring(pair, outer.rotation())
+    });
+    // All first: of several failures it is the first in order that is told.
+    let holes: Vec<Result<RingMatch, RegionMatchError>> = holes.collect();
+    for hole in holes {
+        rings.push(hole?);
     }
-    sides.closing_rings(&mut rings, &pairing.pairs, outer.rotation());
+    sides.closing_rings(&mut rings, &pairing.pairs, outer.rotation())?;
     Ok(PieceMatch {
         rings,
         source_part: Some(task.parts[0]),
@@ -90,10 +98,18 @@ impl Sides<'_> {
     }
 
     /// What is alone and was not opened closes to a point.
-    fn closing_rings(&self, rings: &mut Vec<RingMatch>, pairs: &[[usize; 2]], rotation: f64) {
+    fn closing_rings(
+        &self,
+        rings: &mut Vec<RingMatch>,
+        pairs: &[[usize; 2]],
+        rotation: f64,
+    ) -> Result<(), Cancelled> {
         for side in Side::BOTH {
-            let mut taken = Vec::new();
             let (numbers, holes) = self.closed_holes(side);
+            if holes.len() == pairs.len() {
+                continue;
+            }
+            let mut room = Room::of(self.task.regions[side.other()]);
             for (number, hole) in numbers.into_iter().zip(holes) {
                 if pairs.iter().any(|pair| pair[side] == number) {
                     continue;
@@ -104,13 +120,13 @@ impl Sides<'_> {
                     Side::Target => (Vertices { from: to, to: from }, -rotation),
                 };
                 let hole = self.divided(side, hole);
-                let part = self.task.regions[side.other()];
-                let point = point_ring(&hole, &outer, part, &taken, turn);
-                taken.extend(point.first());
+                let point = room.point_ring(&hole, &outer, turn);
                 let whole = hole.points().to_vec();
                 rings.push(RingMatch::alone(side, whole, point));
+                still_wanted(self.task.progress)?;
             }
         }
+        Ok(())
     }
 
     /// The ring with its long edges divided.

@@ -12,6 +12,7 @@ use super::cut;
 use super::outcome::{MatchNote, RegionMatchError};
 use super::walk::Walk;
 use crate::geometry::{DVec2, Region, Ring, Side};
+use crate::progress::{Progress, still_wanted};
 
 /// What it costs a match to close a hole, in its length over the outer one's.
 /// For a hole as long as the outer boundary it is between what two poses of a
@@ -19,7 +20,6 @@ use crate::geometry::{DVec2, Region, Ring, Side};
 const CLOSING_PRICE: f64 = 0.35;
 
 /// What was said of one part and its partner.
-#[derive(Clone, Debug)]
 pub(super) struct Task<'a> {
     /// Source and target.
     pub(super) regions: [&'a Region; 2],
@@ -31,6 +31,7 @@ pub(super) struct Task<'a> {
     pub(super) cuts: Vec<(usize, RingCut)>,
     pub(super) holes: HoleRule,
     pub(super) options: MatchOptions,
+    pub(super) progress: &'a dyn Progress,
 }
 
 /// A pin with the rings it lies on.
@@ -150,11 +151,13 @@ impl<'a> Sides<'a> {
             // Each cut changes the walk: the largest hole matters most to it.
             for hole in self.largest_first(side, alone) {
                 let slit = self.open_if_better(side, hole, false);
+                still_wanted(self.task.progress)?;
                 cuts.extend(slit.map(|ends| (side, ends)));
             }
             for &hole in &across[side] {
                 if !self.opened[side].contains(&hole) {
                     let slit = self.open_if_better(side, hole, true);
+                    still_wanted(self.task.progress)?;
                     cuts.extend(slit.map(|ends| (side, ends)));
                 }
             }
@@ -210,7 +213,8 @@ impl<'a> Sides<'a> {
         let at = numbers.iter().position(|&k| k == hole)?;
         // Both walks were measured when they were matched as they are.
         let other = self.walks[side.other()].curve().ok()?;
-        let best = cut::best(&self.walks[side], &holes, at, &other, &self.task.options);
+        let (options, progress) = (&self.task.options, self.task.progress);
+        let best = cut::best(&self.walks[side], &holes, at, &other, options, progress);
         let Some(opened) = best else {
             self.tell_uncut(side, hole, forced);
             return None;

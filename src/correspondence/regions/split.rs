@@ -4,13 +4,15 @@
 //! the areas and the places of the two sides agree with what is wanted and by
 //! their length; the best few are then matched, and the best match is kept.
 //! More than two pieces are cut off one after another, along the line on
-//! which the wanted parts lie.
+//! which the wanted parts lie. Many are halved and halved again, and only
+//! ranked: their form says little of a part of a part.
 
 use super::super::boundary::match_curves;
 use super::super::curve::Curve;
 use super::super::options::MatchOptions;
 use super::cut::coarse;
 use crate::geometry::{DVec2, Region, Ring, segments_touch};
+use crate::progress::Progress;
 
 /// Places of the boundary between which cuts are tried.
 /// The cuts grow with its square; a limb thinner than a fiftieth of the
@@ -31,23 +33,59 @@ const PLACE: f64 = 0.6;
 const LENGTH: f64 = 0.35;
 const RANK: f64 = 0.15;
 
-/// The pieces in the order of `wanted`, or none if no straight cut is found.
-pub(super) fn split(region: &Region, wanted: &[&Region]) -> Option<Vec<Region>> {
+/// Up to so many pieces are cut off one after another, each cut with the
+/// matches of the best few: a second for 16, 40 for 100.
+const FEW: usize = 16;
+
+/// The pieces in the order of `wanted`, or none if no straight cut is found,
+/// or on a cancel.
+pub(super) fn split(
+    region: &Region,
+    wanted: &[&Region],
+    progress: &dyn Progress,
+) -> Option<Vec<Region>> {
     let mut order: Vec<usize> = (0..wanted.len()).collect();
     let line = line_of(wanted);
     let along = |k: usize| middle(wanted[k]).dot(line);
     order.sort_by(|&a, &b| along(a).total_cmp(&along(b)));
-    let mut rest = region.clone();
     let mut pieces = vec![None; wanted.len()];
+    if wanted.len() > FEW {
+        halve(region.clone(), wanted, &order, &mut pieces, progress)?;
+        return pieces.into_iter().collect();
+    }
+    let mut rest = region.clone();
     for step in 0..order.len() - 1 {
         let others: Vec<&Region> = order[step + 1..].iter().map(|&k| wanted[k]).collect();
-        let [first, left] = cut_in_two(&rest, wanted[order[step]], &others)?;
+        let first = [wanted[order[step]]];
+        let goal = Goal::of(&first, &others);
+        let [first, left] = cut_in_two(&rest, &goal, TRIED, progress)?;
         pieces[order[step]] = Some(first);
         rest = left;
     }
     // `wanted` has two parts at least: one alone is not split.
     pieces[order[order.len() - 1]] = Some(rest);
     pieces.into_iter().collect()
+}
+
+/// Cuts a region for the parts in `order` into halves, and these again.
+fn halve(
+    region: Region,
+    wanted: &[&Region],
+    order: &[usize],
+    pieces: &mut [Option<Region>],
+    progress: &dyn Progress,
+) -> Option<()> {
+    if let &[only] = order {
+        pieces[only] = Some(region);
+        return Some(());
+    }
+    let (near, far) = order.split_at(order.len() / 2);
+    let those = |order: &[usize]| order.iter().map(|&k| wanted[k]).collect::<Vec<_>>();
+    let (first, others) = (those(near), those(far));
+    // One cut: there is nothing to match it by.
+    let [first, rest] = cut_in_two(&region, &Goal::of(&first, &others), 1, progress)?;
+    halve(first, wanted, near, pieces, progress)?;
+    halve(rest, wanted, far, pieces, progress)
 }
 
 /// The direction along which parts lie: from one of the two farthest apart to
@@ -73,28 +111,42 @@ fn middle(region: &Region) -> DVec2 {
 
 /// What a cut is to bring about.
 struct Goal<'a> {
-    first: &'a Region,
+    first: &'a [&'a Region],
     others: &'a [&'a Region],
     share: f64,
     /// From the first's middle to the others', in units of the root of the area.
     apart: DVec2,
 }
 
-fn cut_in_two(region: &Region, first: &Region, others: &[&Region]) -> Option<[Region; 2]> {
-    let other_area: f64 = others.iter().map(|r| r.area()).sum();
-    let total = first.area() + other_area;
-    let weigh = |r: &&Region| middle(r) * (r.area() / other_area);
-    let middle_of_others: DVec2 = others.iter().map(weigh).sum();
-    let goal = Goal {
-        first,
-        others,
-        share: first.area() / total,
-        apart: (middle_of_others - middle(first)) / total.sqrt(),
-    };
+impl<'a> Goal<'a> {
+    fn of(first: &'a [&'a Region], others: &'a [&'a Region]) -> Self {
+        let area = |parts: &[&Region]| parts.iter().map(|r| r.area()).sum::<f64>();
+        let [first_area, other_area] = [area(first), area(others)];
+        let middle_of = |parts: &[&Region], area: f64| -> DVec2 {
+            parts.iter().map(|r| middle(r) * (r.area() / area)).sum()
+        };
+        let total = first_area + other_area;
+        let apart = middle_of(others, other_area) - middle_of(first, first_area);
+        Self {
+            first,
+            others,
+            share: first_area / total,
+            apart: apart / total.sqrt(),
+        }
+    }
+}
+
+/// The best cut of the `tried` first in rank; of one it is the first.
+fn cut_in_two(
+    region: &Region,
+    goal: &Goal,
+    tried: usize,
+    progress: &dyn Progress,
+) -> Option<[Region; 2]> {
     let mut ranked: Vec<(f64, [Region; 2])> = Vec::new();
-    for pieces in cuts(region) {
+    for pieces in cuts(region, progress) {
         let [a, b] = &pieces.1;
-        let (straight, swapped) = (rank(&goal, a, b), rank(&goal, b, a));
+        let (straight, swapped) = (rank(goal, a, b), rank(goal, b, a));
         let price = LENGTH * pieces.0 / region.area().sqrt();
         // Which of the pieces is the first is free: the better way round counts.
         if straight <= swapped {
@@ -105,12 +157,15 @@ fn cut_in_two(region: &Region, first: &Region, others: &[&Region]) -> Option<[Re
         }
     }
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
-    ranked.truncate(TRIED);
-    let tried = ranked.into_iter().map(|(rank, pieces)| {
-        let cost = match_cost(&goal, &pieces) + RANK * rank;
+    ranked.truncate(tried);
+    let costed = ranked.into_iter().map(|(rank, pieces)| {
+        let cost = match tried {
+            1 => rank,
+            _ => match_cost(goal, &pieces, progress) + RANK * rank,
+        };
         (cost, pieces)
     });
-    tried
+    costed
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, pieces)| pieces)
 }
@@ -125,8 +180,11 @@ fn rank(goal: &Goal, first: &Region, rest: &Region) -> f64 {
 
 /// How unlike the pieces are to what is wanted; only those that stand alone
 /// are matched.
-fn match_cost(goal: &Goal, [first, rest]: &[Region; 2]) -> f64 {
+fn match_cost(goal: &Goal, [first, rest]: &[Region; 2], progress: &dyn Progress) -> f64 {
     let cost = |piece: &Region, wanted: &Region| {
+        if progress.is_cancelled() {
+            return f64::INFINITY;
+        }
         let curves = [Curve::closed(&piece.outer), Curve::closed(&wanted.outer)];
         let [Ok(a), Ok(b)] = curves else {
             return f64::INFINITY;
@@ -134,15 +192,16 @@ fn match_cost(goal: &Goal, [first, rest]: &[Region; 2]) -> f64 {
         let options = coarse(&MatchOptions::default());
         match_curves(&a, &b, &[], &options).map_or(f64::INFINITY, |m| m.cost())
     };
-    let own = goal.share * cost(first, goal.first);
-    match goal.others {
-        [other] => own + (1.0 - goal.share) * cost(rest, other),
-        _ => own,
-    }
+    let alone = |share: f64, piece: &Region, wanted: &[&Region]| match wanted {
+        [wanted] => share * cost(piece, wanted),
+        _ => 0.0,
+    };
+    alone(goal.share, first, goal.first) + alone(1.0 - goal.share, rest, goal.others)
 }
 
-/// All straight cuts tried, with their lengths and the two pieces.
-fn cuts(region: &Region) -> Vec<(f64, [Region; 2])> {
+/// All straight cuts tried, with their lengths and the two pieces; fewer on a
+/// cancel.
+fn cuts(region: &Region, progress: &dyn Progress) -> Vec<(f64, [Region; 2])> {
     let Ok(curve) = Curve::closed(&region.outer) else {
         return Vec::new();
     };
@@ -152,6 +211,9 @@ fn cuts(region: &Region) -> Vec<(f64, [Region; 2])> {
         .collect();
     let mut found = Vec::new();
     for (k, &a) in ends.iter().enumerate() {
+        if progress.is_cancelled() {
+            break;
+        }
         for &b in &ends[k + 1..] {
             if let Some(pieces) = cut_between(region, &curve, a, b) {
                 found.push((a.1.distance(b.1), pieces));

@@ -29,7 +29,7 @@ pub use finding::{Cause, Change, Finding, Remedy, Trouble};
 
 use crate::content::Content;
 use crate::measure::film::FilmReport;
-use crate::progress::{Cancelled, Progress};
+use crate::progress::{Cancelled, Progress, Span, Whole};
 use crate::transition::{Note, Transition};
 use scan::Glance;
 use serde::Serialize;
@@ -75,8 +75,9 @@ impl Verdict {
         steps: usize,
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
-        let glances = scan::transition(transition, steps, progress)?;
-        Self::of_glances(transition, &glances, progress)
+        let whole = Whole::new(progress);
+        let glances = scan::transition(transition, steps, &Span::new(&whole, 0.0, 0.4))?;
+        Self::of_glances(transition, &glances, &Span::new(&whole, 0.4, 1.0))
     }
 
     /// The verdict on a film that has been measured already.
@@ -89,7 +90,7 @@ impl Verdict {
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
         let glances: Vec<_> = film.samples.iter().map(Glance::of_sample).collect();
-        Self::of_glances(transition, &glances, progress)
+        Self::of_glances(transition, &glances, &Whole::new(progress))
     }
 
     fn of_glances(
@@ -97,6 +98,7 @@ impl Verdict {
         glances: &[Glance],
         progress: &dyn Progress,
     ) -> Result<Self, Cancelled> {
+        let of_content = &Span::new(progress, 0.0, 0.8);
         let (clear, mut findings) = match transition.content() {
             Content::Solid(solid) => (
                 match (solid.loops.is_empty(), transition.arap()) {
@@ -104,17 +106,18 @@ impl Verdict {
                     (false, Some(_)) => "no folds, no crossings",
                     (false, None) => "no crossings",
                 },
-                solid::findings(transition, solid, glances, progress)?,
+                solid::findings(transition, solid, glances, of_content)?,
             ),
             Content::Field(pair) => (
                 "no more pieces or holes than at the ends",
-                field::findings(transition, pair, glances, progress)?,
+                field::findings(transition, pair, glances, of_content)?,
             ),
             Content::Colours(_) => ("no folds", Vec::new()),
         };
         // Pictures have no glances, and a fold of the plane may be short.
         let steps = glances.len().max(PLANE_STEPS);
-        findings.extend(plane::findings(transition, steps, progress)?);
+        let of_plane = Span::new(progress, 0.8, 1.0);
+        findings.extend(plane::findings(transition, steps, &of_plane)?);
         Ok(Self {
             steps: glances.len(),
             clear,

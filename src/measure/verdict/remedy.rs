@@ -6,7 +6,7 @@ use super::scan::{self, Glance};
 use crate::content::{BlendSpace, FieldPair, Solid};
 use crate::design::Form;
 use crate::homotopy::Homotopy;
-use crate::progress::{Cancelled, Progress};
+use crate::progress::{Cancelled, Progress, Several};
 use crate::transition::{Options, Transition};
 use crate::warp::{Arap, ArapError};
 
@@ -47,12 +47,14 @@ pub(super) fn for_rigid_parts(
         return Ok(());
     }
     let now = glances;
-    for change in changes(arap, found) {
-        let Some(then) = tried(&change, arap, solid, now.len(), progress)? else {
+    let changes = changes(arap, found);
+    let shares = Several::new(progress, changes.len());
+    for (k, change) in changes.iter().enumerate() {
+        let Some(then) = tried(change, arap, solid, now.len(), &shares.part(k))? else {
             continue;
         };
         for finding in &mut *found {
-            take_if_better(finding, &change, now, &then);
+            take_if_better(finding, change, now, &then);
         }
     }
     Ok(())

@@ -3,6 +3,7 @@
 
 use crate::geometry::DVec2;
 use crate::mesh::{components, undirected};
+use crate::progress::Cancelled;
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 use std::collections::{HashMap, HashSet};
@@ -25,6 +26,9 @@ pub enum TriangulationError {
         "the outlines bound no single piece; the outer one has to run counter-clockwise around all others, those clockwise and beside each other"
     )]
     NotOnePiece,
+    /// Nobody wants the result.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
 }
 
 pub(super) type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;

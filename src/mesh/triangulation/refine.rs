@@ -4,6 +4,7 @@
 
 use super::domain::{Delaunay, Domain};
 use crate::geometry::{Bounds, DVec2, orient2d};
+use crate::progress::{Cancelled, Progress, still_wanted};
 use spade::handles::{DirectedEdgeHandle, FaceHandle, FixedVertexHandle, InnerTag};
 use spade::{Point2, Triangulation as _};
 use std::cmp::Reverse;
@@ -43,7 +44,11 @@ struct Limits {
 }
 
 impl Domain {
-    pub(super) fn refine(&mut self, refinement: &Refinement) {
+    pub(super) fn refine(
+        &mut self,
+        refinement: &Refinement,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         let limits = self.limits(refinement);
         let winding = self.winding();
         let mut bad: BTreeMap<Rank, DVec2> = self
@@ -56,6 +61,7 @@ impl Domain {
         while added < refinement.max_points
             && let Some(((_, Reverse(vertices)), centre)) = bad.pop_last()
         {
+            still_wanted(progress)?;
             // A face that cannot be bettered is not asked again: only faces at
             // new vertices come into the queue.
             let Some(vertex) = insert(&mut self.delaunay, vertices, centre) else {
@@ -66,6 +72,7 @@ impl Domain {
             let faces = new.filter_map(|edge| edge.face().as_inner());
             bad.extend(faces.filter_map(|face| limits.judge(face)));
         }
+        Ok(())
     }
 
     fn limits(&self, refinement: &Refinement) -> Limits {

@@ -42,7 +42,7 @@ use crate::compatible::CompatibleMesh;
 use crate::geometry::{DVec2, Polar};
 use crate::homotopy::Homotopy;
 use crate::linalg::{Cholesky, SymmetricMatrix};
-use crate::progress::{Progress, checkpoint};
+use crate::progress::{Progress, checkpoint, still_wanted};
 use assembly::LocalMaps;
 use drift::Drift;
 use ridge::factored;
@@ -119,10 +119,11 @@ impl Arap {
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         checkpoint(progress, "factoring", 0.3)?;
-        let (cholesky, ridge) = factored(maps.matrix(&mesh))?;
+        let (cholesky, ridge) = factored(maps.matrix(&mesh), progress)??;
         checkpoint(progress, "preparing frames", 0.9)?;
         let place = cholesky.place_in_order();
         let stresses = Stresses::new(&mesh, &maps, options.homotopy);
+        still_wanted(progress)?;
         let drift = Drift::new(&mesh, &maps, place, options.path);
         Ok(Self(Arc::new(Inner {
             mesh,

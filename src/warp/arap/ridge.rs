@@ -6,6 +6,7 @@
 //! that is told.
 
 use crate::linalg::{Cholesky, FactorError, SymmetricMatrix};
+use crate::progress::{Cancelled, Progress};
 
 /// Shares of the diagonal that are added where rounding has eaten a pivot.
 /// Faces a ten-thousandth as large as their neighbours, about a hole that
@@ -25,21 +26,23 @@ pub struct Ridge {
 /// Factors a matrix, with a ridge where it needs one.
 ///
 /// # Errors
-/// [`FactorError`] if it cannot be factored with the largest ridge either.
+/// [`Cancelled`] if nobody wants the result any more; within, [`FactorError`]
+/// if it cannot be factored with the largest ridge either.
 pub(super) fn factored(
     mut matrix: SymmetricMatrix,
-) -> Result<(Cholesky, Option<Ridge>), FactorError> {
-    let first = Cholesky::factor(&matrix);
+    progress: &dyn Progress,
+) -> Result<Result<(Cholesky, Option<Ridge>), FactorError>, Cancelled> {
+    let first = Cholesky::factor_if_wanted(&matrix, progress)?;
     let Err(FactorError::NotPositiveDefinite { index: vertex }) = first else {
-        return first.map(|cholesky| (cholesky, None));
+        return Ok(first.map(|cholesky| (cholesky, None)));
     };
     for share in STIFFER {
         // What was added before is a hundredth of it.
         matrix.stiffen(share);
-        match Cholesky::factor(&matrix) {
+        match Cholesky::factor_if_wanted(&matrix, progress)? {
             Err(FactorError::NotPositiveDefinite { .. }) => {}
-            done => return done.map(|cholesky| (cholesky, Some(Ridge { share, vertex }))),
+            done => return Ok(done.map(|cholesky| (cholesky, Some(Ridge { share, vertex })))),
         }
     }
-    Err(FactorError::NotPositiveDefinite { index: vertex })
+    Ok(Err(FactorError::NotPositiveDefinite { index: vertex }))
 }

@@ -1,0 +1,227 @@
+//! Two designs on the way to being matched: all that is settled before the
+//! prices of a match are, so that several matches share it.
+
+use super::super::{MatchOptions, Matching, RingCut};
+use super::closing::{centre, shrunk};
+use super::crowd;
+use super::groups::{Group, grouped};
+use super::locate::{self, Pinned, nearest_ring};
+use super::outcome::{MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingMatch};
+use super::piece::matched;
+use super::sides::Task;
+use super::split::split;
+use crate::geometry::{DVec2, Pair, Region, Regions, Ring, Side};
+use crate::progress::{Progress, Several, Span, checkpoint, still_wanted};
+use rayon::prelude::*;
+
+/// How much of the work is done once parts are paired and split, as it is told.
+const PREPARED: f64 = 0.2;
+
+/// Two designs with their parts in groups, and split where they are to be.
+pub(crate) struct Prepared<'a> {
+    designs: [&'a Regions; 2],
+    wanted: &'a Matching,
+    pins: Vec<Pinned>,
+    parts: [Parts<'a>; 2],
+    groups: Vec<Group>,
+    /// For each group the pieces that its single part is cut into; none where
+    /// it is not cut.
+    pieces: Vec<Option<Vec<Region>>>,
+    is_crowd: bool,
+}
+
+/// The parts of a design, and their centres.
+struct Parts<'a> {
+    regions: Vec<&'a Region>,
+    centres: Vec<DVec2>,
+}
+
+impl<'a> Parts<'a> {
+    fn of(design: &'a Regions) -> Self {
+        Self {
+            regions: design.iter().collect(),
+            centres: design.iter().map(|r| centre(&r.outer)).collect(),
+        }
+    }
+}
+
+impl<'a> Prepared<'a> {
+    /// Pairs the parts, and splits those that become several.
+    pub(crate) fn new(
+        designs: [&'a Regions; 2],
+        wanted: &'a Matching,
+        progress: &dyn Progress,
+    ) -> Result<Self, RegionMatchError> {
+        locate::check(wanted)?;
+        let pins = locate::pins(wanted, designs);
+        let mut prepared = Self {
+            groups: grouped(designs, wanted, &pins)?,
+            parts: designs.map(Parts::of),
+            is_crowd: crowd::is_crowd(designs),
+            designs,
+            wanted,
+            pins,
+            pieces: Vec::new(),
+        };
+        let groups = prepared.groups.par_iter();
+        prepared.pieces = groups
+            .map(|group| prepared.split(group, progress))
+            .collect();
+        still_wanted(progress)?;
+        Ok(prepared)
+    }
+
+    /// Whether there are so many rings that only one match is worth its time.
+    pub(crate) fn is_crowd(&self) -> bool {
+        self.is_crowd
+    }
+
+    /// The pieces of a group in which one part becomes several.
+    fn split(&self, group: &Group, progress: &dyn Progress) -> Option<Vec<Region>> {
+        let regions = self.regions(group);
+        match [&regions[0][..], &regions[1][..]] {
+            [[_], [_]] => None,
+            [[one], several] | [several, [one]] if !several.is_empty() => {
+                split(one, several, progress)
+            }
+            _ => None,
+        }
+    }
+
+    fn regions(&self, group: &Group) -> [Vec<&'a Region>; 2] {
+        Side::BOTH.map(|side| {
+            let parts = group.parts[side].iter();
+            parts.map(|&part| self.parts[side].regions[part]).collect()
+        })
+    }
+
+    /// The match at these prices.
+    pub(crate) fn matched(
+        &self,
+        options: &MatchOptions,
+        progress: &dyn Progress,
+    ) -> Result<RegionMatch, RegionMatchError> {
+        checkpoint(progress, "matching", PREPARED)?;
+        let rest = Span::new(progress, PREPARED, 1.0);
+        let shares = Several::new(&rest, self.groups.len());
+        let options = crowd::options(options, self.designs);
+        let groups = self.groups.par_iter().zip(&self.pieces).enumerate();
+        let found = groups.map(|(k, (group, cut))| {
+            let share = shares.part(k);
+            let pieces = self.pieces_of(group, cut.as_deref(), &options, &share)?;
+            checkpoint(&share, "matching", 1.0)?;
+            Ok(pieces)
+        });
+        // All first: of several failures it is the first in order that is told.
+        let found: Vec<Result<Vec<PieceMatch>, RegionMatchError>> = found.collect();
+        let pieces: Result<Vec<_>, _> = found.into_iter().collect();
+        Ok(RegionMatch {
+            pieces: pieces?.concat(),
+        })
+    }
+
+    /// The pieces that a group becomes.
+    fn pieces_of(
+        &self,
+        group: &Group,
+        cut: Option<&[Region]>,
+        options: &MatchOptions,
+        progress: &dyn Progress,
+    ) -> Result<Vec<PieceMatch>, RegionMatchError> {
+        still_wanted(progress)?;
+        let regions = self.regions(group);
+        let task = |regions: [&Region; 2], parts: [usize; 2]| {
+            matched(&Task {
+                pins: self.pins_of(parts),
+                cuts: self.cuts_of(parts),
+                holes: crowd::holes(self.wanted.holes, self.is_crowd),
+                options: options.clone(),
+                regions,
+                parts,
+                progress,
+            })
+        };
+        let (one, several, side) = match [&regions[0][..], &regions[1][..]] {
+            [[a], [b]] => return Ok(vec![task([a, b], [group.parts[0][0], group.parts[1][0]])?]),
+            [[_], []] => return Ok(vec![self.alone(Side::Source, group.parts[0][0])]),
+            [[], [_]] => return Ok(vec![self.alone(Side::Target, group.parts[1][0])]),
+            [[one], several] => (one, several, Side::Source),
+            [several, [one]] => (one, several, Side::Target),
+            _ => return Ok(Vec::new()),
+        };
+        // Pieces come in the order of the parts that they become.
+        let others = &group.parts[side.other()];
+        let piece = |k: usize, piece: &Region| {
+            let regions = Pair::on(side, piece, several[k]);
+            let parts = Pair::on(side, group.parts[side][0], others[k]);
+            task(regions.to_array(), parts.to_array())
+        };
+        let Some(cut) = cut else {
+            let mut first = piece(0, one)?;
+            let part = group.parts[side][0];
+            first.notes.push(MatchNote::Unsplit { side, part });
+            let rest = others[1..].iter().map(|&k| self.alone(side.other(), k));
+            return Ok(std::iter::once(first).chain(rest).collect());
+        };
+        let shares = Several::new(progress, cut.len());
+        let pieces = cut.par_iter().enumerate().map(|(k, cut)| {
+            let found = piece(k, cut)?;
+            checkpoint(&shares.part(k), "matching", 1.0)?;
+            Ok(found)
+        });
+        let pieces: Vec<Result<PieceMatch, RegionMatchError>> = pieces.collect();
+        pieces.into_iter().collect()
+    }
+
+    fn pins_of(&self, parts: [usize; 2]) -> Vec<(usize, [DVec2; 2])> {
+        let here = |pin: &&Pinned| pin.on.map(|at| at.part) == parts;
+        let pins = self.pins.iter().filter(here);
+        pins.map(|pin| (pin.index, pin.points)).collect()
+    }
+
+    fn cuts_of(&self, parts: [usize; 2]) -> Vec<(usize, RingCut)> {
+        let here =
+            |cut: &RingCut| nearest_ring(self.designs[cut.side], cut.hole).part == parts[cut.side];
+        let cuts = self.wanted.cuts.iter().copied().enumerate();
+        cuts.filter(|(_, cut)| here(cut)).collect()
+    }
+
+    /// A part that dies into a point, or is born from one: where it stands,
+    /// moved along with its nearest neighbour.
+    fn alone(&self, side: Side, part: usize) -> PieceMatch {
+        let here = self.parts[side].centres[part];
+        let mut nearest = (f64::INFINITY, DVec2::ZERO);
+        for group in &self.groups {
+            for &own in &group.parts[side] {
+                let a = self.parts[side].centres[own];
+                for &other in &group.parts[side.other()] {
+                    let b = self.parts[side.other()].centres[other];
+                    if a.distance_squared(here) < nearest.0 {
+                        nearest = (a.distance_squared(here), b - a);
+                    }
+                }
+            }
+        }
+        let region = self.parts[side].regions[part];
+        let parts = Pair::on(side, Some(part), None);
+        PieceMatch {
+            rings: point_like(region, side, here, nearest.1),
+            source_part: parts.source,
+            target_part: parts.target,
+            ..PieceMatch::default()
+        }
+    }
+}
+
+/// The rings of a part with the similar tiny ones across.
+fn point_like(region: &Region, side: Side, here: DVec2, moved: DVec2) -> Vec<RingMatch> {
+    let size = region.outer.bounds().diameter();
+    let ring = |ring: &Ring| {
+        let whole = ring.points().to_vec();
+        let extent = ring.bounds().diameter();
+        let size = POINT_SIZE * size * (extent / size);
+        let point = shrunk(&whole, here, here + moved, size, 0.0);
+        RingMatch::alone(side, whole, point)
+    };
+    region.rings().map(ring).collect()
+}
