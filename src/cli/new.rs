@@ -11,6 +11,7 @@ use crate::transition::TransitionSpec;
 use super::error::CliError;
 use super::options::MethodArgs;
 use super::output;
+use super::terminal::Terminal;
 
 #[derive(Debug, Args)]
 pub(super) struct NewArgs {
@@ -61,6 +62,8 @@ fn write(args: &NewArgs) -> Result<(), CliError> {
     let loaded = loaded.map_err(CliError::failed)?;
     let spec = loaded.spec().map_err(CliError::failed)?;
     TransitionSpec::available(spec.cell, &spec.source, &spec.target).map_err(CliError::failed)?;
+    // From here on a signal waits: it would leave a half-written file.
+    let _listening = Terminal::new();
     let saved = loaded.project.save_atomically(&args.out);
     saved.map_err(CliError::failed)?;
     output::words(&format!("wrote {}", args.out.display()));

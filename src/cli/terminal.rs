@@ -1,8 +1,12 @@
-//! Progress on stderr where that is a terminal, and Ctrl-C as a cancel.
+//! Progress on stderr where that is a terminal, and a cancel where the program
+//! is asked to end: by Ctrl-C, by SIGTERM or by a terminal that is closed
+//! (SIGHUP).
 
+use std::fs;
 use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::{Duration, Instant};
 
 use crate::progress::Progress;
 
@@ -11,6 +15,11 @@ static CANCELLED: AtomicBool = AtomicBool::new(false);
 /// What a shell reports for a program that Ctrl-C ended.
 const INTERRUPTED: i32 = 130;
 
+/// How long a cancel may take. A second wish within it is the first one told
+/// twice: a terminal that closes tells its programs itself, and so does its
+/// shell.
+const ANSWER_TIME: Duration = Duration::from_millis(500);
+
 /// A line on the terminal that is written over and over.
 #[derive(Debug)]
 pub(super) struct Terminal {
@@ -18,16 +27,22 @@ pub(super) struct Terminal {
 }
 
 impl Terminal {
-    /// Listens to Ctrl-C from now on: the first is a cancel, after which
-    /// temporary files are removed; the second ends the program at once.
+    /// Listens from now on: the first wish is a cancel, after which temporary
+    /// files are removed; one that comes later ends the program at once.
     pub fn new() -> Self {
-        let listening = ctrlc::set_handler(|| {
-            if CANCELLED.swap(true, Ordering::Relaxed) {
-                std::process::exit(INTERRUPTED);
-            }
-        });
-        // Without a handler Ctrl-C ends the program, as it does any other.
-        drop(listening);
+        // `nohup` is to outlive its terminal, and a handler would undo that. What
+        // such a program leaves when it is killed, the next one takes away.
+        if !ignores_hangup() {
+            let mut asked: Option<Instant> = None;
+            let listening = ctrlc::set_handler(move || {
+                CANCELLED.store(true, Ordering::Relaxed);
+                if asked.get_or_insert_with(Instant::now).elapsed() > ANSWER_TIME {
+                    std::process::exit(INTERRUPTED);
+                }
+            });
+            // Without a handler a signal ends the program, as it does any other.
+            drop(listening);
+        }
         Self {
             shown: io::stderr().is_terminal().then(Mutex::default),
         }
@@ -42,6 +57,16 @@ impl Terminal {
             *shown = line;
         }
     }
+}
+
+/// Whether whoever started the program wants it to outlive its terminal; only
+/// Linux tells.
+fn ignores_hangup() -> bool {
+    let status = fs::read_to_string("/proc/self/status").unwrap_or_default();
+    let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));
+    let mask = mask.and_then(|mask| u64::from_str_radix(mask.trim(), 16).ok());
+    // SIGHUP is signal 1, the lowest bit.
+    mask.is_some_and(|mask| mask & 1 == 1)
 }
 
 impl Drop for Terminal {

@@ -2,18 +2,21 @@
 //!
 //! Guarantees: a file's number is the frame's number within the whole film, so
 //! that parts rendered on different machines fit together; each file is there
-//! whole or not at all; their folder is made where it is missing. Files of an
-//! earlier, longer film are left alone.
+//! whole or not at all; they are written in order, so that a run that ended half
+//! way leaves the frames from its first one on without a gap, and
+//! `--frames-range` can go on from there; their folder is made where it is
+//! missing. Files of an earlier, longer film are left alone.
 
 use std::fs;
 use std::path::PathBuf;
 
+use crate::atomic_file;
 use crate::progress::Progress;
 
 use super::camera::{Camera, DRAWING};
 use super::error::ExportError;
 use super::film::Film;
-use super::still::{encoded, write_atomically};
+use super::still::encoded;
 use super::target::Numbered;
 
 /// Writes the frames and returns their paths in order.
@@ -28,6 +31,7 @@ pub fn write_numbered(
     progress: &dyn Progress,
 ) -> Result<Vec<PathBuf>, ExportError> {
     fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
+    atomic_file::remove_leftovers(&names.folder);
     let mut written = Vec::with_capacity(film.times().len());
     // For the message alone: a frame that cannot be encoded is as large as all
     // others.
@@ -40,7 +44,8 @@ pub fn write_numbered(
         |run, bytes| {
             for number in run.first..run.first + run.count {
                 let path = names.path(number);
-                write_atomically(&path, &bytes)?;
+                let written_one = atomic_file::write_one_of_many(&path, &bytes);
+                written_one.map_err(ExportError::write(&path))?;
                 written.push(path);
             }
             Ok(())
