@@ -13,6 +13,7 @@ use crate::atomic_file::AtomicFile;
 use crate::progress::Progress;
 
 use super::camera::{Camera, DRAWING};
+use super::check::check_apng;
 use super::error::ExportError;
 use super::film::{Film, Run};
 use super::raster::{rasterise, samples};
@@ -53,6 +54,8 @@ pub fn write_apng(
     // them.
     output.flush().map_err(ExportError::write(path))?;
     drop(output);
+    let written = file.written().map_err(ExportError::write(path))?;
+    check_apng(written, runs.len(), path, progress)?;
     file.commit().map_err(ExportError::write(path))
 }
 

@@ -1,15 +1,17 @@
 //! What can go wrong while pictures and films are written.
 
+use std::fmt::Display;
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
+use crate::atomic_file::refusal;
 use crate::progress::Cancelled;
 
 /// Why an export did not come to its end. Nothing half-written is left.
 #[derive(Debug, thiserror::Error)]
 pub enum ExportError {
     /// The operating system refused.
-    #[error("cannot write `{}`: {source}; choose a folder that exists and that you may write to", .path.display())]
+    #[error("cannot write `{}`: {}", .path.display(), refusal(.source))]
     Write {
         /// The file that was to be written.
         path: PathBuf,
@@ -22,6 +24,17 @@ pub enum ExportError {
         /// The file that was to be written.
         path: PathBuf,
         /// The encoder's reason.
+        reason: String,
+    },
+    /// What is there is not what was to be written.
+    #[error(
+        "`{}` did not come out whole: {reason}; see whether the disk is full or broken, and write it once more",
+        .path.display()
+    )]
+    NotWhole {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// What is wrong with what was written.
         reason: String,
     },
     /// GIF counts hundredths of a second, and readers slow one of them down to
@@ -61,12 +74,52 @@ impl ExportError {
         move |source| Self::Write { path, source }
     }
 
-    /// An encoder refused to write `path`.
-    pub(super) fn encode<E: std::fmt::Display>(path: impl Into<PathBuf>) -> impl FnOnce(E) -> Self {
+    /// An encoder refused to write `path`, or the system did.
+    pub(super) fn encode<E: Into<Refused>>(path: impl Into<PathBuf>) -> impl FnOnce(E) -> Self {
         let path = path.into();
-        move |error| Self::Encode {
-            path,
-            reason: error.to_string(),
+        move |error| match error.into() {
+            Refused::BySystem(source) => Self::Write { path, source },
+            Refused::ByEncoder(reason) => Self::Encode { path, reason },
         }
+    }
+
+    /// What was written to `path` is not what belongs there.
+    pub(super) fn not_whole(path: &Path, reason: impl Display) -> Self {
+        Self::NotWhole {
+            path: path.to_owned(),
+            reason: reason.to_string(),
+        }
+    }
+}
+
+/// Who did not want to write: the libraries pass the system's reasons on among
+/// their own.
+pub(super) enum Refused {
+    BySystem(io::Error),
+    ByEncoder(String),
+}
+
+impl From<gif::EncodingError> for Refused {
+    fn from(error: gif::EncodingError) -> Self {
+        match error {
+            gif::EncodingError::Io(error) => Self::BySystem(error),
+            error => Self::ByEncoder(error.to_string()),
+        }
+    }
+}
+
+impl From<png::EncodingError> for Refused {
+    fn from(error: png::EncodingError) -> Self {
+        match error {
+            png::EncodingError::IoError(error) => Self::BySystem(error),
+            error => Self::ByEncoder(error.to_string()),
+        }
+    }
+}
+
+impl From<image::ImageError> for Refused {
+    fn from(error: image::ImageError) -> Self {
+        // Its pictures are encoded in memory.
+        Self::ByEncoder(error.to_string())
     }
 }

@@ -15,6 +15,7 @@ use crate::atomic_file::AtomicFile;
 use crate::progress::Progress;
 
 use super::camera::{Camera, DRAWING};
+use super::check::check_gif;
 use super::error::ExportError;
 use super::film::{Film, Run};
 use super::palette::{Histogram, Palette};
@@ -68,6 +69,8 @@ pub fn write_gif(
     let mut writer = encoder.into_inner().map_err(ExportError::encode(path))?;
     writer.flush().map_err(ExportError::write(path))?;
     drop(writer);
+    let written = file.written().map_err(ExportError::write(path))?;
+    check_gif(written, film.runs().len(), path, progress)?;
     file.commit().map_err(ExportError::write(path))
 }
 

@@ -2,7 +2,8 @@
 //! animated PNG and MP4. Needs no graphics card and no display.
 //!
 //! Everything goes through one [`Drawing`], so no two formats can disagree.
-//! Guarantees: files are written whole or not at all; the same transition gives
+//! Guarantees: files are written whole or not at all, and read again before they
+//! take the place of earlier ones, whatever an encoder says; the same transition gives
 //! the same bytes on every run (MP4 apart, which is ffmpeg's); frames are drawn
 //! on all cores and written in order. It knows nothing of windows or command
 //! lines.
@@ -24,6 +25,7 @@
 
 mod apng;
 mod camera;
+mod check;
 mod comparison;
 mod drawing;
 mod error;

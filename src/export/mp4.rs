@@ -2,29 +2,34 @@
 //!
 //! Guarantees: H.264-friendly 4:2:0 colour at even sizes, in the BT.709 colours
 //! that players assume; every frame of the film at its rate; no file unless
-//! ffmpeg ended well. Which encoder and how small is ffmpeg's affair.
+//! ffmpeg ended well, the file has every frame, and ffmpeg can decode it: on a
+//! full disk ffmpeg (5.1) ends well, too. Which encoder and how small is ffmpeg's
+//! affair.
 
-use std::ffi::OsString;
-use std::io::{self, BufRead, BufReader, Read, Write};
+mod boxes;
+mod ffmpeg;
+
+use std::fs::File;
+use std::io::{self, Write};
 use std::path::Path;
-use std::process::{Child, ChildStdin, Command, Stdio};
-use std::thread::JoinHandle;
+use std::process::{ChildStdin, Command};
 
 use crate::atomic_file::AtomicFile;
 use crate::progress::{Cancelled, Progress};
 
 use super::camera::{Camera, DRAWING};
+use super::check::CHECKING;
 use super::error::ExportError;
 use super::film::Film;
 use super::raster::{rasterise, samples};
-use super::size::PixelSize;
+use ffmpeg::Words;
 
 /// Writes the film; the camera's size must be even on both sides
-/// ([`PixelSize::to_even`]), or ffmpeg refuses it.
+/// ([`PixelSize::to_even`](super::PixelSize::to_even)), or ffmpeg refuses it.
 ///
 /// # Errors
 /// [`ExportError`] where the ground is transparent, there is no ffmpeg, it
-/// fails, or nobody wants the film any more.
+/// fails or writes less than it was given, or nobody wants the film any more.
 pub fn write_mp4(
     camera: &Camera,
     film: &Film,
@@ -36,116 +41,98 @@ pub fn write_mp4(
     }
     // The folder is tried before ffmpeg is.
     let file = AtomicFile::create(path).map_err(ExportError::write(path))?;
-    let mut ffmpeg = Ffmpeg::start(camera.view.size(), film.fps(), file.temporary_path())?;
-    let fed = camera.shoot_runs(
-        &film.runs(),
-        DRAWING,
+    let job = Job {
+        path,
+        temporary: file.temporary_path(),
         progress,
-        |drawing| Ok(samples(&rasterise(&drawing), true)),
-        |run, bytes| {
-            // ffmpeg knows a rate and no holds: a run goes in frame by frame.
-            let feed = |_| ffmpeg.stdin.write_all(&bytes);
-            (0..run.count)
-                .try_for_each(feed)
-                .map_err(ExportError::write(path))
-        },
-    );
-    // Told to end instead, it would take its time over what it has.
-    if progress.is_cancelled() {
-        ffmpeg.kill();
-        return Err(Cancelled.into());
-    }
-    // A broken pipe is ffmpeg's end, and its last words say more.
-    ffmpeg.finish(path).and(fed)?;
+    };
+    let command = ffmpeg::encoding(camera.view.size(), film.fps(), job.temporary);
+    let mut fed = Ok(());
+    let words = job.run(command, |mut stdin| {
+        fed = camera.shoot_runs(
+            &film.runs(),
+            DRAWING,
+            progress,
+            |drawing| Ok(samples(&rasterise(&drawing), true)),
+            |run, bytes| {
+                // ffmpeg knows a rate and no holds: a run goes in frame by frame.
+                let feed = |_| stdin.write_all(&bytes);
+                (0..run.count)
+                    .try_for_each(feed)
+                    .map_err(ExportError::write(path))
+            },
+        );
+    })?;
+    job.check(film.times().len(), &words)?;
+    fed?;
     file.commit().map_err(ExportError::write(path))
 }
 
-/// A running ffmpeg.
-struct Ffmpeg {
-    child: Child,
-    stdin: ChildStdin,
-    last_line: JoinHandle<String>,
+/// What ffmpeg has to do with one file.
+struct Job<'a> {
+    /// What it is going to be called.
+    path: &'a Path,
+    /// What it is called until it is whole.
+    temporary: &'a Path,
+    progress: &'a dyn Progress,
 }
 
-impl Ffmpeg {
-    fn start(size: PixelSize, fps: f64, output: &Path) -> Result<Self, ExportError> {
-        let mut child = Command::new("ffmpeg")
-            .args(arguments(size, fps).split_whitespace())
-            .arg(as_file(output))
-            .stdin(Stdio::piped())
-            .stdout(Stdio::null())
-            .stderr(Stdio::piped())
-            .spawn()
-            .map_err(|error| not_started(error, output))?;
-        match (child.stdin.take(), child.stderr.take()) {
-            (Some(stdin), Some(stderr)) => Ok(Self {
-                child,
-                stdin,
-                // Read while frames are fed: neither side may wait for a full
-                // pipe.
-                last_line: std::thread::spawn(|| last_line(stderr)),
-            }),
-            _ => Err(ExportError::NoFfmpeg),
+impl Job<'_> {
+    /// Runs ffmpeg to a good end.
+    fn run(&self, command: Command, feed: impl FnOnce(ChildStdin)) -> Result<Words, ExportError> {
+        let ended = match ffmpeg::run(command, self.progress, feed) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                return Err(ExportError::NoFfmpeg);
+            }
+            Err(error) => return Err(self.failed(&error.to_string())),
+            Ok(ended) => ended,
+        };
+        match ended.words {
+            _ if self.progress.is_cancelled() => Err(Cancelled.into()),
+            words if ended.status.success() => Ok(words),
+            words if words.tell_of_full_disk => Err(self.full()),
+            words if words.last.is_empty() => Err(self.failed(&ended.status.to_string())),
+            words => Err(self.failed(&words.last)),
         }
     }
 
-    /// Tells ffmpeg that this was all and waits for it.
-    fn finish(mut self, path: &Path) -> Result<(), ExportError> {
-        drop(self.stdin);
-        let status = self.child.wait().map_err(ExportError::write(path))?;
-        let last_line = self.last_line.join().unwrap_or_default();
-        if status.success() {
-            return Ok(());
-        }
-        Err(ExportError::Ffmpeg {
-            path: path.to_owned(),
-            last_line: if last_line.is_empty() {
-                status.to_string()
-            } else {
-                last_line
-            },
+    /// Looks at what is there: `words` of whoever wrote it prove nothing.
+    fn check(&self, count: usize, words: &Words) -> Result<(), ExportError> {
+        self.progress.report(CHECKING, 0.0);
+        let reason = match File::open(self.temporary).and_then(|mut file| boxes::frames(&mut file))
+        {
+            // Each is in the file; whether it is a picture only a decoder tells.
+            Ok(found) if found == count => {
+                let decoding = ffmpeg::decoding(self.temporary);
+                return self.run(decoding, drop).map(drop);
+            }
+            Ok(found) => format!("{found} of {count} frames are there"),
+            Err(error) => error.to_string(),
+        };
+        Err(match words.last.as_str() {
+            _ if words.tell_of_full_disk => self.full(),
+            "" => ExportError::not_whole(self.path, reason),
+            last => {
+                let last = self.renamed(last);
+                ExportError::not_whole(self.path, format!("{reason} (ffmpeg said: {last})"))
+            }
         })
     }
 
-    /// Stops it, without interest in how it ends.
-    fn kill(mut self) {
-        drop(self.stdin);
-        if self.child.kill().is_ok() {
-            // Unwaited for, it would stay in the system's table of processes.
-            drop(self.child.wait());
+    fn full(&self) -> ExportError {
+        ExportError::write(self.path)(io::ErrorKind::StorageFull.into())
+    }
+
+    fn failed(&self, words: &str) -> ExportError {
+        ExportError::Ffmpeg {
+            path: self.path.to_owned(),
+            last_line: self.renamed(words),
         }
     }
-}
 
-fn not_started(error: io::Error, output: &Path) -> ExportError {
-    match error.kind() {
-        io::ErrorKind::NotFound => ExportError::NoFfmpeg,
-        _ => ExportError::Ffmpeg {
-            path: output.to_owned(),
-            last_line: error.to_string(),
-        },
+    /// Words with the name that the user knows.
+    fn renamed(&self, words: &str) -> String {
+        let [temporary, path] = [self.temporary, self.path].map(|path| path.display().to_string());
+        words.replace(&temporary, &path)
     }
-}
-
-fn arguments(size: PixelSize, fps: f64) -> String {
-    let input = format!("-f rawvideo -pix_fmt rgb24 -s {size} -r {fps} -i -");
-    let colours = "-vf scale=out_color_matrix=bt709:out_range=tv,format=yuv420p \
-                   -colorspace bt709 -color_primaries bt709 -color_trc bt709";
-    // `-y`: the temporary file is there already.
-    format!("-hide_banner -loglevel error -y {input} -an {colours} -movflags +faststart -f mp4")
-}
-
-/// `file:` keeps a name with a colon or a leading dash a name.
-fn as_file(path: &Path) -> OsString {
-    let mut url = OsString::from("file:");
-    url.push(path);
-    url
-}
-
-/// Reads to the end, so that ffmpeg never waits for a reader, and keeps the
-/// last line that says anything.
-fn last_line(stderr: impl Read) -> String {
-    let lines = BufReader::new(stderr).lines().map_while(Result::ok);
-    let last = lines.filter(|line| !line.trim().is_empty()).last();
-    last.unwrap_or_default().trim().to_owned()
 }

@@ -1,0 +1,134 @@
+//! The program ffmpeg at work: what it is told, what it says, how it ends.
+//!
+//! Guarantees: it does not outlive the wish for its work, even where it takes
+//! nothing and says nothing.
+
+use std::ffi::OsString;
+use std::io::{self, BufRead, BufReader, Read};
+use std::path::Path;
+use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
+use std::thread;
+use std::time::Duration;
+
+use super::super::size::PixelSize;
+use crate::progress::Progress;
+
+/// How often it is looked whether ffmpeg ended and whether it is still wanted: a
+/// tenth of what a cancel may take.
+const LOOK_EVERY: Duration = Duration::from_millis(50);
+
+/// What the C library calls ENOSPC; ffmpeg says it in English everywhere.
+const FULL: &str = "No space left on device";
+
+/// How it ended.
+pub(super) struct Ended {
+    pub status: ExitStatus,
+    pub words: Words,
+}
+
+/// What it said.
+#[derive(Default)]
+pub(super) struct Words {
+    /// The last line that says anything.
+    pub last: String,
+    /// Whether any line says that the disk is full; the last one may not.
+    pub tell_of_full_disk: bool,
+}
+
+/// Encodes raw frames that it is fed.
+pub(super) fn encoding(size: PixelSize, fps: f64, output: &Path) -> Command {
+    let input = format!("-f rawvideo -pix_fmt rgb24 -s {size} -r {fps} -i -");
+    let colours = "-vf scale=out_color_matrix=bt709:out_range=tv,format=yuv420p \
+                   -colorspace bt709 -color_primaries bt709 -color_trc bt709";
+    // `-y`: the temporary file is there already.
+    let line = format!("-y {input} -an {colours} -movflags +faststart -f mp4");
+    let mut command = quiet();
+    command.args(line.split_whitespace()).arg(as_file(output));
+    command
+}
+
+/// Decodes every frame of a file and keeps nothing.
+pub(super) fn decoding(file: &Path) -> Command {
+    let mut command = quiet();
+    command.args(["-xerror", "-i"]).arg(as_file(file));
+    command.args(["-f", "null", "-"]);
+    command
+}
+
+/// Runs it until it ends, by itself or because nobody wants its work any more.
+/// `feed` gets its input, the end of which tells it that this was all.
+///
+/// # Errors
+/// It cannot be started.
+pub(super) fn run(
+    mut command: Command,
+    progress: &dyn Progress,
+    feed: impl FnOnce(ChildStdin),
+) -> io::Result<Ended> {
+    let mut child = command
+        .stdin(Stdio::piped())
+        .stdout(Stdio::null())
+        .stderr(Stdio::piped())
+        .spawn()?;
+    let (stdin, stderr) = (child.stdin.take(), child.stderr.take());
+    // Heard while frames are fed: neither side may wait for a full pipe.
+    let words = thread::spawn(|| stderr.map(heard).unwrap_or_default());
+    let status = thread::scope(|scope| {
+        // And watched: feeding waits for as long as it takes nothing.
+        let watching = scope.spawn(|| end(&mut child, progress));
+        stdin.map(feed);
+        let broke_off = |_| Err(io::Error::other("nobody watched it"));
+        watching.join().unwrap_or_else(broke_off)
+    })?;
+    Ok(Ended {
+        status,
+        words: match progress.is_cancelled() {
+            // Whoever it started itself may hold its stderr open.
+            true => Words::default(),
+            false => words.join().unwrap_or_default(),
+        },
+    })
+}
+
+fn end(child: &mut Child, progress: &dyn Progress) -> io::Result<ExitStatus> {
+    loop {
+        if let Some(status) = child.try_wait()? {
+            return Ok(status);
+        }
+        // Told to end instead, it would take its time over what it has.
+        if progress.is_cancelled() {
+            child.kill()?;
+            return child.wait();
+        }
+        thread::sleep(LOOK_EVERY);
+    }
+}
+
+fn quiet() -> Command {
+    let mut command = Command::new("ffmpeg");
+    command.args(["-hide_banner", "-loglevel", "error"]);
+    command
+}
+
+/// `file:` keeps a name with a colon or a leading dash a name.
+fn as_file(path: &Path) -> OsString {
+    let mut url = OsString::from("file:");
+    url.push(path);
+    url
+}
+
+/// Reads to the end, so that ffmpeg never waits for a reader, whatever it says.
+fn heard(stderr: impl Read) -> Words {
+    let mut words = Words::default();
+    let lines = BufReader::new(stderr).split(b'\n').map_while(Result::ok);
+    for line in lines {
+        let line = String::from_utf8_lossy(&line);
+        let line: String = line.chars().filter(|c| !c.is_control()).collect();
+        words.tell_of_full_disk |= line.contains(FULL);
+        // ffmpeg 6 and later end with this, and say why before it.
+        if !line.trim().is_empty() && line.trim() != "Conversion failed!" {
+            line.trim().clone_into(&mut words.last);
+        }
+    }
+    words
+}
