@@ -20,9 +20,12 @@ pub enum ProjectError {
         /// What is wrong with it.
         error: Box<ProjectError>,
     },
-    /// The system refused.
-    #[error("the file cannot be read or written ({0}); check its name and permissions")]
+    /// The system refused to read it.
+    #[error("the file cannot be read ({0}); check its name and permissions")]
     Io(String),
+    /// The system refused to write it.
+    #[error("the project cannot be written: {0}")]
+    Unwritable(String),
     /// The bytes are no text.
     #[error("this is not a text file; a .morph document is TOML in UTF-8")]
     NotText,

@@ -7,12 +7,11 @@
 
 use super::document::{FORMAT_VERSION, Project};
 use super::error::ProjectError;
-use crate::atomic_file::AtomicFile;
+use crate::atomic_file::{self, refusal};
 use crate::transition::Options;
 use serde::de::value::Error as NoValue;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 use serde::forward_to_deserialize_any;
-use std::io::Write;
 use std::path::Path;
 use toml::Spanned;
 use toml::de::DeTable;
@@ -72,13 +71,8 @@ impl Project {
     /// [`ProjectError`] names the file; the old document is untouched.
     pub fn save_atomically(&self, path: &Path) -> Result<(), ProjectError> {
         let text = self.to_toml()?;
-        let written = AtomicFile::create(path).and_then(|mut file| {
-            file.file_mut().write_all(text.as_bytes())?;
-            // On the disk before the old one goes: a power cut leaves one of them.
-            file.file_mut().sync_all()?;
-            file.commit()
-        });
-        written.map_err(|error| ProjectError::Io(error.to_string()).in_file(path))
+        let written = atomic_file::write(path, text.as_bytes());
+        written.map_err(|error| ProjectError::Unwritable(refusal(&error)).in_file(path))
     }
 }
 

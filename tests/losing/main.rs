@@ -2,6 +2,7 @@
 //! to by encoders and put on full disks, and the earlier files stay.
 #![cfg(unix)]
 
+mod disks;
 mod encoders;
 mod endings;
 #[path = "../cli/workshop.rs"]
