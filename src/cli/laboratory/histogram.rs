@@ -7,7 +7,8 @@ use super::number::short;
 /// Each edge is about 1.6 times the one before (the R5 series of ISO 3).
 const SERIES: [f64; 5] = [1.0, 1.6, 2.5, 4.0, 6.3];
 
-/// Most bars: where values spread wider, the outer ones take the rest.
+/// Most bars of one step: where values spread wider, one before them and one
+/// behind them take the rest.
 const MOST: usize = 12;
 
 /// Length of the longest bar, in characters: with what stands before it a line
@@ -18,7 +19,7 @@ const LONGEST: usize = 40;
 #[derive(Debug, PartialEq, Serialize)]
 pub(in crate::cli) struct Histogram {
     /// One more than there are counts, ascending. The first bar and the last
-    /// reach as far as the values do.
+    /// may be wider than a step, to reach as far as the values do.
     pub edges: Vec<f64>,
     /// How many values lie from one edge to the next, the last included.
     pub counts: Vec<usize>,
@@ -36,23 +37,25 @@ impl Histogram {
         let (first, last) = fullest(&steps)?;
         let mut edges: Vec<f64> = (first..=last + 1).map(edge).collect();
         let mut counts = vec![0; edges.len() - 1];
-        for &step in &steps {
-            counts[(step.clamp(first, last) - first) as usize] += 1;
+        let (below, above) = (
+            steps.partition_point(|step| *step < first),
+            steps.partition_point(|step| *step <= last),
+        );
+        for step in &steps[below..above] {
+            counts[(step - first) as usize] += 1;
         }
-        *counts.last_mut()? += sizes.len() - finite;
-        // One value far off must not press all others into one bar: it lies in
-        // an outer bar, which is as wide as it takes.
-        let [least, most] = [*sizes.first()?, *sizes.last()?];
-        if least < edges[0] {
-            edges[0] = edge(step_below(least));
+        // Values far off must not press all others into one bar, nor be taken
+        // for their neighbours: they have a bar of their own, as wide as it takes.
+        if below > 0 {
+            edges.insert(0, edge(steps[0]));
+            counts.insert(0, below);
         }
-        let end = edges.last_mut()?;
-        if most > *end {
-            *end = if most.is_finite() {
-                edge(step_below(most) + 1)
-            } else {
-                most
-            };
+        if let Some(most) = sizes[above..].last() {
+            edges.push(match most.is_finite() {
+                true => edge(step_below(*most) + 1),
+                false => *most,
+            });
+            counts.push(sizes.len() - above);
         }
         Some(Self { edges, counts })
     }
@@ -122,11 +125,15 @@ mod tests {
     #[test]
     fn values_far_off_leave_the_others_apart() {
         let found = Histogram::of(&[1e-30, 1.0, 1.7, 1.8, 9.0, 1e30]).expect("bars");
-        assert_eq!(found.counts, [2, 2, 0, 0, 2]);
+        assert_eq!(found.counts, [1, 1, 2, 0, 0, 1, 1]);
         assert!(found.edges[0] <= 1e-30 && *found.edges.last().expect("an edge") >= 1e30);
-        assert_eq!(found.edges[1..5], [1.6, 2.5, 4.0, 6.3]);
+        assert_eq!(found.edges[1..7], [1.0, 1.6, 2.5, 4.0, 6.3, 10.0]);
         let found = Histogram::of(&[1.0, 2.0, f64::INFINITY]).expect("bars");
-        assert_eq!(found.counts, [1, 2]);
-        assert_eq!(found.edges, [1.0, 1.6, f64::INFINITY]);
+        assert_eq!(found.counts, [1, 1, 1]);
+        assert_eq!(found.edges, [1.0, 1.6, 2.5, f64::INFINITY]);
+        // All but one in one step: the one is not among them.
+        let found = Histogram::of(&[1.0, 1.1, 1.2, 1e9]).expect("bars");
+        assert_eq!(found.counts, [3, 1]);
+        assert_eq!(found.edges, [1.0, 1.6, 1.6e9]);
     }
 }
