@@ -60,6 +60,9 @@ fn table(args: &CheckArgs, batch: &Batch) -> Result<(), CliError> {
     } else {
         summary.text()
     })?;
+    if let Some(ended) = outcome.ended {
+        return Err(CliError::Failed(ended));
+    }
     output::words(&format!("wrote {}", outcome.written.join(" and ")));
     let Some((line, reason)) = outcome.first_failure else {
         return Ok(());

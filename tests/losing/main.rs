@@ -5,6 +5,7 @@
 mod disks;
 mod encoders;
 mod endings;
+mod tables;
 #[path = "../cli/workshop.rs"]
 #[expect(dead_code, reason = "other tests use the rest")]
 mod workshop;

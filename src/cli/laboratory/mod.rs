@@ -12,6 +12,7 @@
 //! - `text`, `number`: the report for people
 //! - `columns`: the report as a row of a table, and what is said of each column
 //! - `table`: a table of pairs as it is given
+//! - `rows`: its report, kept row by row
 //! - `pairs`: the pairs of a table, over all cores
 //! - `histogram`, `summary`: what came out, in short
 
@@ -21,6 +22,7 @@ mod histogram;
 mod number;
 mod pairs;
 mod report;
+mod rows;
 mod summary;
 mod table;
 mod text;

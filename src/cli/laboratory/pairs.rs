@@ -2,8 +2,8 @@
 //!
 //! Guarantees: a row for each pair and direction, in the order of the table,
 //! whatever happens to it; report and sheet are written whole or not at all,
-//! at the end; a cancel writes nothing. Times are taken while other pairs run
-//! on the other cores, unless they go one by one.
+//! at the end; rows that are done are kept however the work ends. Times are
+//! taken while other pairs run on the other cores, unless they go one by one.
 
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -13,15 +13,15 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clap::Args;
 use rayon::prelude::*;
 
-use super::columns;
 use super::report::{Measuring, Report};
+use super::rows::{self, Partial};
 use super::summary::Summary;
 use super::table::{self, Row, RowError, Table};
 use crate::cli::error::CliError;
 use crate::cli::inputs::{Inputs, Opened};
 use crate::design::Source;
 use crate::export::{
-    StillKind, Strip, Target, even_times, pair_sheet, write_atomically, write_still,
+    ExportError, StillKind, Strip, Target, even_times, pair_sheet, write_atomically, write_still,
 };
 use crate::progress::Progress;
 use crate::transition::Style;
@@ -39,7 +39,8 @@ pub(in crate::cli) struct Batch {
     #[arg(long, value_name = "FILE.csv", required = false, requires = "out")]
     pairs: PathBuf,
 
-    /// With --pairs: where the report goes, a row for each pair
+    /// With --pairs: where the report goes, a row for each pair; until it is
+    /// whole, rows that are done are kept beside it, in FILE.partial.csv
     #[arg(long, value_name = "FILE.csv", required = false, requires = "pairs")]
     out: PathBuf,
 
@@ -65,6 +66,8 @@ pub(in crate::cli) struct Outcome {
     pub written: Vec<String>,
     /// The line of the first pair that failed, and why it did.
     pub first_failure: Option<(u64, String)>,
+    /// How far it came, where it was ended before.
+    pub ended: Option<String>,
 }
 
 /// A row in one direction.
@@ -91,26 +94,49 @@ impl Batch {
         let table = table::read(&self.pairs)
             .map_err(|error| CliError::Failed(format!("`{}`: {error}", self.pairs.display())))?;
         let jobs = self.jobs(&table);
-        let done = self.work(&jobs, measuring, progress);
-        // Pairs that were cut short are failures to `work`, and would be written.
-        if progress.is_cancelled() {
-            let nothing = "cancelled; nothing was written";
-            return Err(CliError::Failed(nothing.to_owned()));
-        }
-        progress.report("writing", 1.0);
-        let bytes = report_bytes(&table, &done).map_err(CliError::failed)?;
-        write_atomically(&self.out, &bytes).map_err(CliError::failed)?;
-        let mut written = vec![self.out.display().to_string()];
-        if let Some((kind, path)) = sheet {
-            let left_out = write_sheet(&done, kind, path)?;
-            written.push(path.display().to_string() + &left_out);
-        }
+        let partial = Partial::begin(&self.out, &rows::header(&table));
+        let partial = partial.map_err(|source| {
+            let path = self.out.clone();
+            CliError::failed(ExportError::Write { path, source })
+        })?;
+        let done = self.work(&jobs, &partial, measuring, progress);
+        let unfinished = jobs.len() - done.len();
+        let (written, ended) = if unfinished > 0 {
+            (Vec::new(), Some(ended(partial, jobs.len())?))
+        } else {
+            progress.report("writing", 1.0);
+            (self.write(&table, &done, partial, sheet)?, None)
+        };
         let failure = |d: &Done<'_>| Some((d.job.row.line, d.report.as_ref().err()?.clone()));
         Ok(Outcome {
-            summary: Summary::of(done.iter().map(|d| d.report.as_ref().ok())),
+            summary: Summary::of(done.iter().map(|d| d.report.as_ref().ok()), unfinished),
             written,
             first_failure: done.iter().find_map(failure),
+            ended,
         })
+    }
+
+    /// Writes report and sheet; what was written, in words.
+    fn write(
+        &self,
+        table: &Table,
+        done: &[Done<'_>],
+        partial: Partial,
+        sheet: Option<(StillKind, &PathBuf)>,
+    ) -> Result<Vec<String>, CliError> {
+        let all = std::iter::once(rows::header(table)).chain(done.iter().map(Done::row));
+        let bytes = all.collect::<Vec<_>>().concat();
+        write_atomically(&self.out, &bytes).map_err(|error| {
+            let kept = partial.path.display();
+            CliError::Failed(format!("{error}; until then the rows are in `{kept}`"))
+        })?;
+        partial.remove().map_err(CliError::failed)?;
+        let mut written = vec![self.out.display().to_string()];
+        if let Some((kind, path)) = sheet {
+            let left_out = write_sheet(done, kind, path)?;
+            written.push(path.display().to_string() + &left_out);
+        }
+        Ok(written)
     }
 
     /// Before the work and not after it: whether what comes out can be
@@ -129,7 +155,8 @@ impl Batch {
                 )));
             }
             let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
-            if path.is_dir() || folder.is_some_and(|folder| !folder.is_dir()) {
+            let is_taken = path.exists() && !path.is_file();
+            if is_taken || folder.is_some_and(|folder| !folder.is_dir()) {
                 return Err(CliError::Failed(format!(
                     "cannot write `{shown}`: name a file in a folder that exists"
                 )));
@@ -151,9 +178,12 @@ impl Batch {
         table.rows.iter().flat_map(of_row).collect()
     }
 
+    /// What came of the jobs, in their order; without those that were not done
+    /// before nobody wanted them any more.
     fn work<'a>(
         &self,
         jobs: &'a [Job<'a>],
+        partial: &Partial,
         measuring: &Measuring,
         progress: &dyn Progress,
     ) -> Vec<Done<'a>> {
@@ -161,16 +191,24 @@ impl Batch {
         let finished = AtomicUsize::new(0);
         progress.report(STAGE, 0.0);
         let one = |job| {
+            if progress.is_cancelled() {
+                return None;
+            }
             let done = self.one(job, measuring, progress);
+            // One that was cut short says so, which is not what became of it.
+            if progress.is_cancelled() && done.report.is_err() {
+                return None;
+            }
+            partial.keep(&done.row());
             let count = finished.fetch_add(1, Ordering::Relaxed) + 1;
             progress.report(STAGE, count as f64 / jobs.len() as f64);
-            done
+            Some(done)
         };
         if self.one_by_one {
-            return jobs.iter().map(one).collect();
+            return jobs.iter().filter_map(one).collect();
         }
         // One at a time: pairs take unlike long, and a core with none is idle.
-        jobs.par_iter().with_max_len(1).map(one).collect()
+        jobs.par_iter().with_max_len(1).filter_map(one).collect()
     }
 
     fn one<'a>(
@@ -201,6 +239,19 @@ impl Batch {
     }
 }
 
+/// Says how far the work came, and where that is.
+fn ended(partial: Partial, of: usize) -> Result<String, CliError> {
+    let count = partial.rows();
+    if count == 0 {
+        partial.remove().map_err(CliError::failed)?;
+        return Ok(format!("cancelled before one of {of} pairs was done"));
+    }
+    let kept = partial.path.display();
+    Ok(format!(
+        "cancelled; {count} of {of} rows are kept in `{kept}`"
+    ))
+}
+
 fn of_panic(panic: &(dyn Any + Send)) -> CliError {
     let text = panic.downcast_ref::<&str>().copied();
     let words = text.or_else(|| panic.downcast_ref::<String>().map(String::as_str));
@@ -208,6 +259,13 @@ fn of_panic(panic: &(dyn Any + Send)) -> CliError {
         "internal error ({}); please report it with both designs",
         words.unwrap_or("no words")
     ))
+}
+
+impl Done<'_> {
+    fn row(&self) -> Vec<u8> {
+        let report = self.report.as_ref().map_err(String::as_str);
+        rows::row(self.job.row, self.job.backward, report)
+    }
 }
 
 impl Job<'_> {
@@ -260,32 +318,6 @@ fn strip(opened: &Opened, report: &Report, job: &Job<'_>) -> Strip {
     let times = even_times(0.0, 1.0, STRIP_FRAMES);
     Strip::of(&job.name(), &opened.transition, style, &times)
         .saying(&report.verdict.words, !report.verdict.findings.is_empty())
-}
-
-fn report_bytes(table: &Table, done: &[Done<'_>]) -> Result<Vec<u8>, csv::Error> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for name in &table.header {
-        writer.write_field(name)?;
-    }
-    for name in [columns::DIRECTION, columns::STATUS] {
-        writer.write_field(name)?;
-    }
-    writer.write_record(columns::ALL.iter().map(|column| column.heading()))?;
-    for Done { job, report, .. } in done {
-        for cell in &job.row.cells {
-            writer.write_field(cell)?;
-        }
-        writer.write_field(if job.backward { "backward" } else { "forward" })?;
-        writer.write_field(report.as_ref().map_or_else(String::as_str, |_| "ok"))?;
-        let cell = |column: &columns::Column| match report {
-            Ok(report) => column.cell(report),
-            Err(_) => String::new(),
-        };
-        writer.write_record(columns::ALL.iter().map(cell))?;
-    }
-    writer
-        .into_inner()
-        .map_err(|error| error.into_error().into())
 }
 
 /// Writes the sheet; words about strips that had no room.

@@ -18,6 +18,8 @@ pub(in crate::cli) struct Summary {
     pub pairs: usize,
     /// Of them those that could not be built.
     pub failures: usize,
+    /// Of them those that were not come to before the work was ended.
+    pub unfinished: usize,
     /// Of them those with a fold at some t.
     pub with_folds: usize,
     /// Of them those whose boundary crosses itself at some t.
@@ -40,15 +42,20 @@ pub(in crate::cli) struct Measured {
 }
 
 impl Summary {
-    /// Of the report on each pair; `None` for those that failed.
-    pub fn of<'a>(reports: impl IntoIterator<Item = Option<&'a Report>>) -> Self {
+    /// Of the report on each pair, `None` for those that failed, and of the number
+    /// of those that there are no reports on.
+    pub fn of<'a>(
+        reports: impl IntoIterator<Item = Option<&'a Report>>,
+        unfinished: usize,
+    ) -> Self {
         let rows: Vec<Option<&Report>> = reports.into_iter().collect();
         let done: Vec<&Report> = rows.iter().copied().flatten().collect();
         let with = |is: fn(&Report) -> bool| done.iter().filter(|report| is(report)).count();
         let columns = columns::ALL.iter();
         Self {
-            pairs: rows.len(),
+            pairs: rows.len() + unfinished,
             failures: rows.len() - done.len(),
+            unfinished,
             with_folds: with(|r| r.film.worst_folds > Some(0)),
             with_crossings: with(|r| r.film.worst_crossings > Some(0)),
             with_tears: with(|r| r.film.pieces_excess.max(r.film.holes_excess) > Some(0)),
@@ -60,15 +67,20 @@ impl Summary {
     pub fn text(&self) -> String {
         const NAMES: usize = 36;
         let mut lines = Lines::default();
-        let of = |n: usize| format!("{n} of {}", self.pairs - self.failures);
+        let built = self.pairs - self.unfinished - self.failures;
+        let of = |n: usize| format!("{n} of {built}");
         for (name, value) in [
             ("pairs", self.pairs.to_string()),
             ("failures", self.failures.to_string()),
+            ("not come to", self.unfinished.to_string()),
             ("with a fold at some t", of(self.with_folds)),
             ("with a boundary crossing", of(self.with_crossings)),
             ("with pieces or holes of their own", of(self.with_tears)),
         ] {
-            lines.cells((name, NAMES), [value]);
+            // Goes without saying where all was done.
+            if name != "not come to" || self.unfinished > 0 {
+                lines.cells((name, NAMES), [value]);
+            }
         }
         if !self.measures.is_empty() {
             lines.gap();
@@ -141,7 +153,7 @@ mod tests {
             report
         };
         let [a, b, c] = [with(1.0, 20.0, 0), with(3.0, 10.0, 4), with(2.0, 15.0, 0)];
-        let summary = Summary::of([Some(&a), None, Some(&b), Some(&c)]);
+        let summary = Summary::of([Some(&a), None, Some(&b), Some(&c)], 0);
         assert_eq!((summary.pairs, summary.failures), (4, 1));
         assert_eq!((summary.with_folds, summary.with_crossings), (1, 0));
         let of = |column: &str| {
@@ -152,5 +164,15 @@ mod tests {
         assert_eq!(of("min_angle_source_deg"), Some((15.0, 10.0)));
         let text = summary.text();
         assert!(text.contains("failures                                       1"));
+        assert!(!text.contains("not come to"));
+        let text = Summary::of([Some(&a), None], 5).text();
+        assert!(
+            text.contains("not come to                                    5"),
+            "{text}"
+        );
+        assert!(
+            text.contains("with a fold at some t                     0 of 1"),
+            "{text}"
+        );
     }
 }
