@@ -66,6 +66,7 @@
 //!
 //! ```text
 //! names                         what the values of options are called
+//! one_line                      what came from elsewhere, told in one line
 //! progress, easing              how work tells how far it is; how a share runs
 //! atomic_file                   files that are there whole or not at all
 //! geometry                      points, matrices, polygons, exact predicates
@@ -93,6 +94,7 @@
 mod atomic_file;
 pub mod easing;
 pub mod names;
+mod one_line;
 pub mod progress;
 
 pub mod geometry;

@@ -88,13 +88,14 @@ pub enum Launch {
 /// Parses the command line (program name first) and does what it says, apart
 /// from opening the window.
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Launch {
-    match Cli::try_parse_from(arguments) {
+    let arguments: Vec<OsString> = arguments.into_iter().collect();
+    match Cli::try_parse_from(&arguments) {
         Ok(cli) => match cli.command {
             None => Launch::Window(cli.window),
             Some(command) => Launch::Done(output::exit_code(execute(&command))),
         },
         // Help and version come this way, too.
-        Err(error) => Launch::Done(output::say_usage(&error)),
+        Err(error) => Launch::Done(output::say_usage(&error, &arguments)),
     }
 }
 

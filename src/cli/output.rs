@@ -1,9 +1,12 @@
 //! Data to stdout, words to stderr, and exit codes.
 
+use std::ffi::OsString;
 use std::io::{self, Write};
 use std::process::ExitCode;
 
 use serde::Serialize;
+
+use crate::one_line::{OneLine, is_hidden};
 
 use super::error::CliError;
 
@@ -26,9 +29,10 @@ pub(super) fn json(value: &impl Serialize) -> Result<String, CliError> {
     Ok(format!("{value:#}\n"))
 }
 
-/// Writes a line of words to stderr. Where even that fails, nobody listens.
+/// Writes a line of words to stderr, whatever has come into them. Where even
+/// that fails, nobody listens.
 pub(super) fn words(line: &str) {
-    writeln!(io::stderr().lock(), "{line}").unwrap_or_default();
+    writeln!(io::stderr().lock(), "{}", OneLine(line)).unwrap_or_default();
 }
 
 /// Tells how a command ended.
@@ -48,10 +52,18 @@ pub(super) fn exit_code(result: Result<(), CliError>) -> ExitCode {
 }
 
 /// Shows help, version or what was wrong about the arguments.
-pub(super) fn say_usage(error: &clap::Error) -> ExitCode {
-    if error.use_stderr() {
-        words(error.render().ansi().to_string().trim_end());
-        return ExitCode::from(WRONG_USE);
+pub(super) fn say_usage(error: &clap::Error, arguments: &[OsString]) -> ExitCode {
+    if !error.use_stderr() {
+        return exit_code(data(&error.render().to_string()));
     }
-    exit_code(data(&error.render().to_string()))
+    // The parser quotes arguments as they are, and its colours are escape
+    // sequences: beside others of the kind there can be none.
+    let acts = |argument: &OsString| argument.to_string_lossy().contains(is_hidden);
+    if arguments.iter().any(acts) {
+        error.render().to_string().lines().for_each(words);
+    } else {
+        // In colours where stderr is a terminal and nobody forbids them.
+        error.print().unwrap_or_default();
+    }
+    ExitCode::from(WRONG_USE)
 }

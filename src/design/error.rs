@@ -4,6 +4,7 @@ use super::{
     DxfError, ObjError, OptionsError, PictureError, PolygonsError, SvgError, TextError,
     TrussInputError, UnknownFormat,
 };
+use crate::one_line::OneLine;
 use std::io;
 
 /// Largest file that is read, in bytes; of drawings and polygons a quarter.
@@ -14,7 +15,7 @@ pub const MAX_FILE_BYTES: u64 = 256 << 20;
 /// A file that could not be read as a design. Its message names the file,
 /// the place and the way out.
 #[derive(Debug, thiserror::Error)]
-#[error("{file}: {problem}")]
+#[error("{}", OneLine(format_args!("{file}: {problem}")))]
 pub struct ImportError {
     /// The file, as it was given.
     pub file: String,

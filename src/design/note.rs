@@ -1,6 +1,7 @@
 //! What was repaired or left out while a design was read, in words.
 
 use crate::geometry::{DVec2, FillRule, Repairs};
+use crate::one_line::OneLine;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -156,7 +157,8 @@ impl fmt::Display for ImportNote {
                 write!(f, "; close the gap at ({}, {})", at.x, at.y)
             }
             Self::Skipped { kind, count } => {
-                let kinds = ["object", "objects"].map(|what| format!("{what} of the kind {kind}"));
+                let kinds = ["object", "objects"]
+                    .map(|what| format!("{what} of the kind {}", OneLine(kind)));
                 left_out(f, *count, kinds)
             }
         }

@@ -12,6 +12,8 @@
 //! called `glyph:FORM` is meant by `./glyph:FORM`. In the text of a glyph
 //! `%40` is `@` and `%25` is `%`: any byte of UTF-8 may be written so.
 
+use crate::one_line::OneLine;
+use std::borrow::Cow;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
@@ -117,19 +119,19 @@ impl Source {
     }
 
     /// What the design is called where nobody names it: the text, the
-    /// element's id, or the file's name without its ending.
+    /// element's id, or the file's name without its ending; in one line.
     #[must_use]
     pub fn name(&self) -> String {
-        match self {
-            Self::Text { text, .. } => text.clone(),
+        let name = match self {
+            Self::Text { text, .. } => Cow::from(text),
             Self::File {
                 element: Some(id), ..
-            } => id.clone(),
+            } => Cow::from(id),
             Self::File { path, .. } => {
-                let name = path.file_stem().unwrap_or(path.as_os_str());
-                name.to_string_lossy().into_owned()
+                (path.file_stem().unwrap_or(path.as_os_str())).to_string_lossy()
             }
-        }
+        };
+        OneLine(name).to_string()
     }
 
     /// As it is written down: [`Source::parse`] gives the same source again,

@@ -4,6 +4,7 @@ use super::document::FORMAT_VERSION;
 use crate::content::{ColourMixError, FieldPairError};
 use crate::design::ImportError;
 use crate::geometry::SimilarityError;
+use crate::one_line::OneLine;
 use crate::transition::{BuildError, TimingError};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -13,7 +14,7 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum ProjectError {
     /// What is wrong, and in which file.
-    #[error("{}: {error}", file.display())]
+    #[error("{}", OneLine(format_args!("{}: {error}", file.display())))]
     InFile {
         /// The document.
         file: PathBuf,
@@ -30,11 +31,11 @@ pub enum ProjectError {
     #[error("this is not a text file; a .morph document is TOML in UTF-8")]
     NotText,
     /// A key or value is wrong.
-    #[error("line {line}: {message}")]
+    #[error("line {line}: {}", OneLine(message))]
     Syntax {
         /// Counted from 1.
         line: usize,
-        /// In the parser's words, on one line.
+        /// In the parser's words.
         message: String,
     },
     /// The version is from the future.
@@ -79,7 +80,7 @@ pub enum ProjectError {
     #[error("the project cannot be written ({0}); correct that value")]
     Write(String),
     /// No bundled project of that name.
-    #[error("the gallery has no project \"{name}\"; it has {known}")]
+    #[error("the gallery has no project \"{}\"; it has {known}", OneLine(name))]
     NotInGallery {
         /// What was asked for.
         name: String,
@@ -97,7 +98,6 @@ impl ProjectError {
     }
 
     pub(super) fn syntax(text: &str, error: &toml::de::Error) -> Self {
-        // An error is one line, whatever the parser's is.
         let message = error.message().replace('\n', "; ");
         Self::Syntax {
             line: error.span().map_or(1, |span| line_of(text, span.start)),
@@ -114,7 +114,7 @@ impl ProjectError {
             line: line_of(text, key.span().start),
             message: format!(
                 "unknown key \"{}\", expected one of {}",
-                key.get_ref().escape_debug(),
+                key.get_ref(),
                 known.concat().join(", ")
             ),
         }

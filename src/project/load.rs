@@ -4,6 +4,7 @@ use super::document::{DesignEntry, Project};
 use super::error::ProjectError;
 use crate::content::ContentKind;
 use crate::design::{Design, Source};
+use crate::one_line::OneLine;
 use crate::transition::{
     BuildError, Cell, NoSuchCell, Options, TransitionSpec, arranged, arrangement,
 };
@@ -60,7 +61,7 @@ impl LoadedProject {
         let read = |entry: &DesignEntry| {
             let mut design = read(entry, folder.as_deref())?;
             if !entry.name.is_empty() {
-                design.name.clone_from(&entry.name);
+                design.name = OneLine(&entry.name).to_string();
             }
             Ok(Arc::new(design))
         };
@@ -81,14 +82,14 @@ impl LoadedProject {
         Self::load(self.project, self.folder)
     }
 
-    /// What the transition is called.
+    /// What the transition is called, in one line.
     #[must_use]
     pub fn title(&self) -> String {
         if self.project.title.is_empty() {
             let names: Vec<_> = self.designs.iter().map(|d| d.name.as_str()).collect();
             names.join(" to ")
         } else {
-            self.project.title.clone()
+            OneLine(&self.project.title).to_string()
         }
     }
 

@@ -6,6 +6,7 @@ use crate::app::capturing::files::safe;
 use crate::app::session::history::{History, Snapshot};
 use crate::app::session::loading::{self, Loaded, Origin, Problem, Rebuild};
 use crate::app::session::saving::{self, SaveError};
+use crate::one_line::OneLine;
 use crate::project::{LoadedProject, Project};
 use crate::transition::Transition;
 
@@ -67,7 +68,7 @@ impl Open {
 
     fn stem(&self) -> Option<String> {
         let stem = self.path().and_then(Path::file_stem);
-        stem.map(|stem| stem.to_string_lossy().into_owned())
+        stem.map(|stem| OneLine(stem.to_string_lossy()).to_string())
     }
 
     /// What it is called.

@@ -3,6 +3,7 @@
 use bevy::prelude::{MessageReader, Res, ResMut, Resource, Time};
 
 use crate::app::asking::intent::Intent;
+use crate::one_line::OneLine;
 
 /// How long a confirmation stays: long enough to read the path of a file.
 const CONFIRMATION_SECS: f32 = 6.0;
@@ -53,6 +54,7 @@ impl Notices {
     }
 
     fn push(&mut self, kind: Kind, text: String) {
+        let text = OneLine(text).to_string();
         // Said again it is the newest: it moves to the end, and its time begins anew.
         self.list.retain(|notice| notice.text != text);
         self.next_id += 1;

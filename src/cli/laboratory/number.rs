@@ -1,5 +1,7 @@
 //! Numbers as people read them, and aligned lines of them.
 
+use crate::one_line::OneLine;
+
 /// Four digits.
 pub(super) fn short(x: f64) -> String {
     let size = x.abs();
@@ -30,7 +32,7 @@ pub(super) struct Lines(pub String);
 
 impl Lines {
     pub fn line(&mut self, text: &str) {
-        self.0.push_str(text.trim_end());
+        self.0 += &OneLine(text.trim_end()).to_string();
         self.0.push('\n');
     }
 

@@ -23,6 +23,7 @@ use crate::design::Source;
 use crate::export::{
     ExportError, StillKind, Strip, Target, even_times, pair_sheet, write_atomically, write_still,
 };
+use crate::one_line::OneLine;
 use crate::progress::Progress;
 use crate::transition::Style;
 
@@ -227,9 +228,8 @@ impl Batch {
         let (report, strip) = match caught.unwrap_or_else(|panic| Err(of_panic(&*panic))) {
             Ok((report, strip)) => (Ok(report), strip),
             Err(error) => {
-                let words = error.to_string();
-                // In one line, for a cell of the table.
-                let reason = words.lines().map(str::trim).collect::<Vec<_>>().join("; ");
+                // For a cell of the table.
+                let reason = OneLine(error).to_string();
                 let failed = || Strip::failed(&job.name(), &format!("failed: {reason}"));
                 let strip = self.sheet.is_some().then(failed);
                 (Err(reason), strip)

@@ -93,7 +93,7 @@ impl Summary {
             if let Some(spread) = &told.spread {
                 lines.gap();
                 lines.line(&told.words);
-                lines.line(&spread.text());
+                spread.text().lines().for_each(|line| lines.line(line));
             }
         }
         lines.0

@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use super::columns;
 use crate::design::Source;
+use crate::one_line::OneLine;
 
 /// A table that can be worked on.
 #[derive(Debug)]
@@ -140,10 +141,7 @@ fn quoted(names: &[String]) -> String {
 /// The beginning of a text that may be very long.
 fn cut(text: &str) -> String {
     const MOST: usize = 60;
-    let line: String = text
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
+    let line = OneLine(text).to_string();
     if line.chars().count() <= MOST {
         return line;
     }
