@@ -281,7 +281,8 @@ impl MethodArgs {
         // A flag may be right by itself and wrong with what the project says.
         let timing = project.timing.check(&project.stops);
         timing.map_err(CliError::usage)?;
-        project.options.colours.check().map_err(CliError::usage)
+        project.options.colours.check().map_err(CliError::usage)?;
+        project.options.matching.check().map_err(CliError::usage)
     }
 
     fn edit_cell(&self, project: &mut Project) {

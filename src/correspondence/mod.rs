@@ -41,4 +41,4 @@ pub use regions::{
     MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch,
     match_regions,
 };
-pub use settings::{HoleRule, LinePair, Matching, PartRule, PointPair, RingCut};
+pub use settings::{HoleRule, LinePair, Matching, PartRule, PlaceError, PointPair, RingCut};

@@ -4,7 +4,7 @@
 //! a design that is drawn anew keeps what was said of it.
 
 use super::MatchOptions;
-use crate::geometry::{DVec2, Pair, Side, Similarity};
+use crate::geometry::{DVec2, Pair, RANGE, Side, Similarity, is_in_range};
 use crate::names::named;
 use serde::{Deserialize, Serialize};
 
@@ -64,6 +64,16 @@ pub struct RingCut {
     pub outer: DVec2,
     /// A point near the end on the hole.
     pub hole: DVec2,
+}
+
+/// A place that cannot be meant. Places count from 1 in messages.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{what} {} {RANGE}", index + 1)]
+pub struct PlaceError {
+    /// What has it: a pin, a line, a link or a cut.
+    pub what: &'static str,
+    /// Its index.
+    pub index: usize,
 }
 
 /// What becomes of a hole without a partner.
@@ -140,6 +150,23 @@ impl RingCut {
 }
 
 impl Matching {
+    /// Checks that all places are numbers that can be reckoned with.
+    ///
+    /// # Errors
+    /// [`PlaceError`] names the first pin, line, link or cut that has others.
+    pub fn check(&self) -> Result<(), PlaceError> {
+        let of_pair = |pair: &PointPair| [pair.source, pair.target].map(is_in_range) == [true; 2];
+        let of_line = |line: &LinePair| {
+            let ends = line.source.iter().chain(&line.target);
+            ends.copied().all(is_in_range)
+        };
+        let of_cut = |cut: &RingCut| is_in_range(cut.outer) && is_in_range(cut.hole);
+        first("pin", &self.pins, of_pair)?;
+        first("line", &self.lines, of_line)?;
+        first("link", &self.links, of_pair)?;
+        first("cut", &self.cuts, of_cut)
+    }
+
     /// How each pair of boundaries is matched.
     #[must_use]
     pub fn options(&self) -> MatchOptions {
@@ -183,6 +210,14 @@ impl Matching {
             cuts: self.cuts.iter().map(RingCut::swapped).collect(),
             ..*self
         }
+    }
+}
+
+/// The first that is not good, as an error.
+fn first<T>(what: &'static str, all: &[T], is_good: impl Fn(&T) -> bool) -> Result<(), PlaceError> {
+    match all.iter().position(|one| !is_good(one)) {
+        Some(index) => Err(PlaceError { what, index }),
+        None => Ok(()),
     }
 }
 

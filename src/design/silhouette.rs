@@ -239,7 +239,7 @@ impl Figure {
         // Rings do not cross, and each lies within those of the other kind.
         Regions::from_rings(&rings, FillRule::EvenOdd).map_err(|error| match error {
             RegionsError::Empty => PictureError::Empty { threshold },
-            RegionsError::NotFinite { .. } => error.into(),
+            error => error.into(),
         })
     }
 

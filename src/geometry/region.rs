@@ -5,7 +5,7 @@
 //! (`i_overlay` on a 64-bit integer grid), which moves points by less than
 //! 1e-15 of the size. It does not simplify: a noisy outline stays noisy.
 
-use super::{Bounds, DVec2, Repairs, Ring, Similarity};
+use super::{Bounds, DVec2, RANGE, Repairs, Ring, Similarity, TooSmall, is_in_range};
 use i_overlay::core::fill_rule::FillRule as OverlayRule;
 use i_overlay::float::simplify::SimplifyShape;
 
@@ -54,14 +54,19 @@ pub enum FillRule {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum RegionsError {
-    /// A coordinate is NaN or infinite.
-    #[error("point {point} of outline {ring} is not a finite number; correct its coordinates")]
-    NotFinite {
+    /// A coordinate is no number, or beyond [`MAX_COORDINATE`].
+    ///
+    /// [`MAX_COORDINATE`]: super::MAX_COORDINATE
+    #[error("point {} of outline {} {RANGE}", point + 1, ring + 1)]
+    OutOfRange {
         /// Index of the ring.
         ring: usize,
         /// Index of the point in it.
         point: usize,
     },
+    /// All points lie on one another, or as good as.
+    #[error(transparent)]
+    TooSmall(#[from] TooSmall),
     /// No area is left.
     #[error("the outlines enclose no area; draw a closed, filled shape")]
     Empty,
@@ -77,7 +82,7 @@ impl Regions {
     /// enclose nothing and are left out.
     ///
     /// # Errors
-    /// [`RegionsError`] if a coordinate is not finite or nothing is enclosed.
+    /// [`RegionsError`] if a coordinate is out of range or nothing is enclosed.
     ///
     /// ```
     /// use morphospace::geometry::{DVec2, FillRule, Regions};
@@ -87,7 +92,7 @@ impl Regions {
     /// # Ok::<(), morphospace::geometry::RegionsError>(())
     /// ```
     pub fn from_rings(rings: &[Vec<DVec2>], rule: FillRule) -> Result<Self, RegionsError> {
-        check_finite(rings)?;
+        check_range(rings)?;
         Self::cleaned(rings, rule).map(|(regions, _)| regions)
     }
 
@@ -100,7 +105,7 @@ impl Regions {
         rings: &[Vec<DVec2>],
         rule: FillRule,
     ) -> Result<(Self, Repairs), RegionsError> {
-        check_finite(rings)?;
+        check_range(rings)?;
         let (kept, found) = Repairs::find(rings);
         let (regions, slivers) = Self::cleaned(&kept, rule)?;
         Ok((regions, Repairs { slivers, ..found }))
@@ -109,10 +114,7 @@ impl Regions {
     /// The regions and how many slivers were left out.
     fn cleaned(rings: &[Vec<DVec2>], rule: FillRule) -> Result<(Self, usize), RegionsError> {
         let bounds = Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
-        let extent = bounds.size().max_element();
-        if extent <= 0.0 || !extent.is_finite() {
-            return Err(RegionsError::Empty);
-        }
+        let extent = TooSmall::check(&bounds)?;
         let smallest = Self::MIN_RELATIVE_AREA * extent * extent;
         let origin = bounds.centre(); // coordinates about zero use the grid best
         let subject: Vec<Vec<[f64; 2]>> = rings
@@ -203,10 +205,10 @@ impl From<FillRule> for OverlayRule {
     }
 }
 
-fn check_finite(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
+fn check_range(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
     for (ring, points) in rings.iter().enumerate() {
-        if let Some(point) = points.iter().position(|p| !p.is_finite()) {
-            return Err(RegionsError::NotFinite { ring, point });
+        if let Some(point) = points.iter().position(|&p| !is_in_range(p)) {
+            return Err(RegionsError::OutOfRange { ring, point });
         }
     }
     Ok(())
@@ -243,6 +245,8 @@ fn oriented(ring: Ring, ccw: bool) -> Ring {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::{MAX_COORDINATE, MIN_SIZE};
+    use proptest::prelude::*;
 
     fn ring(points: &[(f64, f64)]) -> Vec<DVec2> {
         points.iter().map(|&p| p.into()).collect()
@@ -272,6 +276,65 @@ mod tests {
         assert!((mirrored.area() - 12.0).abs() < 1e-9);
     }
 
+    /// Any finite number, the extremes as often as the ordinary.
+    fn finite() -> impl Strategy<Value = f64> {
+        use proptest::num::f64::{NEGATIVE, NORMAL, POSITIVE, SUBNORMAL, ZERO};
+        let bounds = [
+            1e150,
+            1e18,
+            MAX_COORDINATE.next_up(),
+            1e15,
+            1e-18,
+            1e-160,
+            f64::MAX,
+        ];
+        prop_oneof![
+            POSITIVE | NEGATIVE | NORMAL | SUBNORMAL | ZERO,
+            (-4i32..5).prop_map(f64::from),
+            prop::sample::select(bounds.to_vec()),
+            (-4i32..5).prop_map(|i| 1e15 + f64::from(i)),
+        ]
+    }
+
+    proptest! {
+        #[test]
+        fn any_finite_numbers_make_regions_or_are_refused(
+            rings in prop::collection::vec(
+                prop::collection::vec((finite(), finite()).prop_map(DVec2::from), 0..9), 0..4),
+            even_odd in any::<bool>(),
+        ) {
+            let rule = if even_odd { FillRule::EvenOdd } else { FillRule::NonZero };
+            let reported = Regions::from_rings_reporting(&rings, rule);
+            for regions in [Regions::from_rings(&rings, rule), reported.map(|(found, _)| found)] {
+                let Ok(regions) = regions else { continue };
+                prop_assert!(regions.area() > 0.0 && regions.area().is_finite());
+                for region in regions.iter() {
+                    prop_assert!(region.outer.signed_area() > 0.0);
+                    prop_assert!(region.holes.iter().all(|hole| hole.signed_area() < 0.0));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_bound_is_for_large_and_for_small() {
+        let square = |size: f64| {
+            let points = [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)];
+            Regions::from_rings(&[ring(&points)], FillRule::NonZero)
+        };
+        for size in [MAX_COORDINATE, MIN_SIZE] {
+            let area = square(size).expect("in range").area();
+            assert!((area / (size * size) - 1.0).abs() < 1e-9);
+        }
+        let far = square(MAX_COORDINATE.next_up());
+        assert!(matches!(
+            far,
+            Err(RegionsError::OutOfRange { ring: 0, point: 1 })
+        ));
+        let small = square(MIN_SIZE.next_down());
+        assert!(matches!(small, Err(RegionsError::TooSmall(_))));
+    }
+
     #[test]
     fn nothing_enclosed_is_an_error() {
         let line = ring(&[(0.0, 0.0), (1.0, 1.0), (2.0, 2.0)]);
@@ -286,7 +349,7 @@ mod tests {
         let nan = ring(&[(0.0, 0.0), (f64::NAN, 1.0), (2.0, 2.0)]);
         assert!(matches!(
             Regions::from_rings(&[nan], FillRule::NonZero),
-            Err(RegionsError::NotFinite { ring: 0, point: 1 })
+            Err(RegionsError::OutOfRange { ring: 0, point: 1 })
         ));
     }
 }

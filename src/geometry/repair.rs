@@ -60,7 +60,7 @@ impl Repairs {
         }
     }
 
-    /// What is wrong with rings of finite points, and the rings to be cleaned:
+    /// What is wrong with rings of points in range, and the rings to be cleaned:
     /// those that enclose something, each once.
     pub(super) fn find(rings: &[Vec<DVec2>]) -> (Vec<Vec<DVec2>>, Self) {
         let mut found = Self::default();

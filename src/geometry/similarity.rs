@@ -1,6 +1,6 @@
 //! Similarities: how one design is laid over another.
 
-use super::{DMat2, DVec2};
+use super::{Bounds, DMat2, DVec2, RANGE, TooSmall, is_in_range};
 use serde::{Deserialize, Serialize};
 
 /// A mirror, then a scale, then a rotation about the origin, then an offset.
@@ -27,6 +27,12 @@ pub enum SimilarityError {
     /// The offset or the rotation is not finite.
     #[error("the offset and the rotation of a placement must be finite numbers")]
     NotFinite,
+    /// What it lays down is out of range.
+    #[error("laid down, a corner of the design {RANGE}")]
+    OutOfRange,
+    /// What it lays down is too small.
+    #[error(transparent)]
+    TooSmall(#[from] TooSmall),
 }
 
 impl Default for Similarity {
@@ -56,6 +62,19 @@ impl Similarity {
             return Err(SimilarityError::NotFinite);
         }
         Ok(self)
+    }
+
+    /// Checks that what is laid down can be reckoned with.
+    ///
+    /// # Errors
+    /// [`SimilarityError`] says what is wrong with the size or the place.
+    pub fn check_on(&self, bounds: &Bounds) -> Result<(), SimilarityError> {
+        let corners = bounds.corners().map(|p| self.apply(p));
+        if !corners.into_iter().all(is_in_range) {
+            return Err(SimilarityError::OutOfRange);
+        }
+        let laid = Bounds::of(corners).unwrap_or(*bounds);
+        Ok(TooSmall::check(&laid).map(drop)?)
     }
 
     /// The linear part; its determinant is negative when mirrored.

@@ -1,6 +1,6 @@
 //! Triangle meshes in the plane, their connectivity and their subdivision.
 //!
-//! A [`TriangleMesh`] guarantees finite positions and faces whose indices
+//! A [`TriangleMesh`] guarantees positions in range and faces whose indices
 //! exist and differ. It does not promise orientation: that is a matter of
 //! two embeddings and is checked where they meet, in
 //! [`crate::compatible::CompatibleMesh`].
@@ -16,7 +16,7 @@ pub use connectivity::{Connectivity, ConnectivityError};
 pub(crate) use edges::{sides, undirected};
 pub use subdivide::{MAX_VERTICES, Subdivision, TooManyVertices};
 
-use crate::geometry::{Bounds, DVec2, Similarity};
+use crate::geometry::{Bounds, DVec2, RANGE, Similarity, TooSmall, is_in_range};
 
 /// Triangles over points in the plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -33,9 +33,14 @@ pub enum MeshError {
     /// There is no face at all.
     #[error("the mesh has no faces; give at least one triangle")]
     NoFaces,
-    /// A coordinate is NaN or infinite.
-    #[error("vertex {} is not a finite point; correct its coordinates", .0 + 1)]
-    NotFinite(usize),
+    /// A coordinate is no number, or beyond [`MAX_COORDINATE`].
+    ///
+    /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
+    #[error("vertex {} {RANGE}", .0 + 1)]
+    Place(usize),
+    /// All vertices lie on one another, or as good as.
+    #[error(transparent)]
+    TooSmall(#[from] TooSmall),
     /// A face names a vertex that does not exist.
     #[error("face {} names vertex {}, but there are only {vertices}; correct the face", face + 1, u64::from(*vertex) + 1)]
     OutOfRange {
@@ -71,10 +76,12 @@ impl TriangleMesh {
         if faces.is_empty() {
             return Err(MeshError::NoFaces);
         }
-        if let Some(bad) = positions.iter().position(|p| !p.is_finite()) {
-            return Err(MeshError::NotFinite(bad));
+        if let Some(bad) = positions.iter().position(|&p| !is_in_range(p)) {
+            return Err(MeshError::Place(bad));
         }
         check_faces(&faces, positions.len())?;
+        // A face has vertices, and so there is a box around them.
+        Bounds::of(positions.iter().copied()).map_or(Ok(0.0), |all| TooSmall::check(&all))?;
         let connectivity = Connectivity::new(&faces)?;
         Ok(Self {
             positions,

@@ -2,6 +2,7 @@
 
 use super::document::FORMAT_VERSION;
 use crate::content::{ColourMixError, FieldPairError};
+use crate::correspondence::PlaceError;
 use crate::design::ImportError;
 use crate::geometry::SimilarityError;
 use crate::one_line::OneLine;
@@ -67,6 +68,9 @@ pub enum ProjectError {
     /// The span in which colours change is none.
     #[error(transparent)]
     Colours(#[from] ColourMixError),
+    /// A pin or the like is nowhere.
+    #[error(transparent)]
+    Place(#[from] PlaceError),
     /// The timing gives no pass.
     #[error(transparent)]
     Timing(#[from] TimingError),

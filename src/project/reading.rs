@@ -40,6 +40,7 @@ impl Project {
         // What Serde cannot see: single numbers and pairs of them that go together.
         self.options.field.blend.check()?;
         self.options.colours.check()?;
+        self.options.matching.check()?;
         self.timing.check(&self.stops)?;
         Ok(())
     }

@@ -30,13 +30,15 @@ named! { Fit {
 /// each placed about its own middle.
 ///
 /// # Errors
-/// A placement that is not a similarity.
+/// A placement that is not a similarity, or that leads out of range.
 pub fn arranged(
     designs: [&Arc<Design>; 2],
     fit: Fit,
     places: [Similarity; 2],
 ) -> Result<[Arc<Design>; 2], SimilarityError> {
     let [by_source, by_target] = arrangement(designs, fit, places)?;
+    by_source.check_on(&extent(designs[0]))?;
+    by_target.check_on(&extent(designs[1]))?;
     Ok([laid(designs[0], by_source), laid(designs[1], by_target)])
 }
 

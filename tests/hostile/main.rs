@@ -7,4 +7,5 @@
 //! that are good and only laborious.
 
 mod child;
+mod numbers;
 mod words;

@@ -23,8 +23,10 @@ pub enum DxfError {
     /// The file breaks off.
     #[error("{0}: the file ends in the middle; save or copy it again")]
     Truncated(Place),
-    /// A number that is none.
-    #[error("{0}: there is no number that can be used; correct it")]
+    /// A number that is none, or beyond [`MAX_COORDINATE`].
+    ///
+    /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
+    #[error("{0}: there is no number from -1e18 to 1e18 here; correct it, or scale the drawing")]
     Number(Place),
     /// An object whose parts do not fit.
     #[error("{at}: {kind} cannot be used: {what}; correct or remove it")]

@@ -4,12 +4,10 @@
 //! Nothing is copied: values are slices of the file.
 
 use super::error::{DxfError, Place};
+use crate::geometry::MAX_COORDINATE;
 
 /// What a binary file begins with.
 pub(in crate::design) const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
-
-/// Largest number: products of squares stay finite.
-const MAX_NUMBER: f64 = 1e60;
 
 #[derive(Clone, Copy, Debug)]
 enum Value<'a> {
@@ -39,8 +37,8 @@ impl<'a> Pair<'a> {
             Value::Number(number) => Some(number),
             Value::Text(text) => std::str::from_utf8(text).ok().and_then(|t| t.parse().ok()),
         };
-        // NaN is in no range.
-        let number = number.filter(|n: &f64| n.abs() <= MAX_NUMBER);
+        // Of angles and knots too, which are reckoned with. NaN is in no range.
+        let number = number.filter(|n: &f64| n.abs() <= MAX_COORDINATE);
         number.ok_or(DxfError::Number(self.at))
     }
 

@@ -11,7 +11,7 @@
 //! triangulation would not be. Whether faces are oriented alike, and
 //! positively, is checked where two meshes meet.
 
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, RANGE, is_in_range};
 use crate::mesh::{MeshError, TriangleMesh};
 
 /// Why an OBJ file is no plane mesh. Lines, vertices and faces count from 1.
@@ -52,9 +52,11 @@ pub enum ObjFault {
     /// A `v` line without two or three numbers.
     #[error("vertex {0} needs the numbers x y z; correct the line")]
     Vertex(usize),
-    /// NaN, infinity, or a number too large to hold.
-    #[error("vertex {0} is not a finite point; correct its coordinates")]
-    NotFinite(usize),
+    /// A coordinate is no number, or beyond [`MAX_COORDINATE`].
+    ///
+    /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
+    #[error("vertex {0} {RANGE}")]
+    Place(usize),
     /// The vertices do not lie in one plane of constant z.
     #[error(
         "vertex {vertex} has z = {z}, but vertex 1 has z = {first}; lay the mesh flat, only x and y are used"
@@ -146,8 +148,8 @@ impl Parser {
             Ok(&[x, y]) => (DVec2::new(x, y), 0.0),
             _ => return Err(ObjFault::Vertex(vertex)),
         };
-        if !(p.is_finite() && z.is_finite()) {
-            return Err(ObjFault::NotFinite(vertex));
+        if !(is_in_range(p) && z.is_finite()) {
+            return Err(ObjFault::Place(vertex));
         }
         if self.positions.is_empty() {
             self.first_z = z;

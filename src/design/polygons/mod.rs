@@ -133,6 +133,7 @@ impl Found {
         }
         let mut repairs = Repairs::default();
         let mut united: Vec<Ring> = Vec::new();
+        let mut nothing = RegionsError::Empty;
         for rings in &self.polygons {
             // Each by itself, for under this rule two that overlap would leave a hole.
             match Regions::from_rings_reporting(rings, FillRule::EvenOdd) {
@@ -141,9 +142,15 @@ impl Found {
                     united.extend(regions.rings().map(|r| r.points().to_vec()));
                 }
                 // A polygon without a ring is one thing that encloses nothing.
-                Err(RegionsError::Empty) => repairs.flat += rings.len().max(1),
+                Err(error @ (RegionsError::Empty | RegionsError::TooSmall(_))) => {
+                    repairs.flat += rings.len().max(1);
+                    nothing = error;
+                }
                 Err(error) => return Err(error.into()),
             }
+        }
+        if united.is_empty() {
+            return Err(nothing.into());
         }
         let regions = Regions::from_rings(&united, FillRule::NonZero)?;
         let mut notes = ImportNote::of_repairs(&repairs, FillRule::EvenOdd);

@@ -88,7 +88,7 @@ fn each_fault_is_named_with_its_path() {
         ),
         (
             "[[0,0],[1,1e70],[1,1]]",
-            "$[1] is a number; give two numbers",
+            "$[1] has a coordinate that is no number from -1e18 to 1e18",
         ),
         ("[[0,0],[1,1e999],[1,1]]", "line 1, column"),
         (

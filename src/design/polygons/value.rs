@@ -5,7 +5,7 @@
 
 use crate::design::json::JsonError;
 use crate::design::note::OnlyThese;
-use crate::geometry::{DVec2, RegionsError};
+use crate::geometry::{DVec2, RANGE, RegionsError, is_in_range};
 use serde_json::Value;
 
 /// Why JSON gives no polygons.
@@ -51,6 +51,11 @@ pub enum PolygonsFault {
         /// What should be there.
         expected: &'static str,
     },
+    /// A point with a coordinate beyond [`MAX_COORDINATE`].
+    ///
+    /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
+    #[error("{RANGE}")]
+    Place,
     /// A type that GeoJSON does not have.
     #[error("is of the type \"{0}\", which GeoJSON does not have; correct the type")]
     Type(String),
@@ -75,9 +80,6 @@ impl PolygonsError {
         }
     }
 }
-
-/// Largest coordinate: squares and their products stay finite.
-const MAX_COORDINATE: f64 = 1e60;
 
 pub(super) type Ring = Vec<DVec2>;
 
@@ -124,11 +126,15 @@ pub(super) fn member<T>(
 
 fn point(value: &Value) -> Result<DVec2> {
     let number = |value: &Value| {
-        let number = value.as_f64().filter(|x| x.abs() <= MAX_COORDINATE);
-        number.ok_or_else(|| expected("two numbers of at most 1e60 for a point", value))
+        let number = value.as_f64();
+        number.ok_or_else(|| expected("two numbers for a point", value))
     };
     match value.as_array().map(Vec::as_slice) {
-        Some([x, y, ..]) => Ok(DVec2::new(number(x)?, number(y)?)),
+        Some([x, y, ..]) => {
+            let point = DVec2::new(number(x)?, number(y)?);
+            let found = is_in_range(point).then_some(point);
+            found.ok_or_else(|| PolygonsFault::Place.into())
+        }
         _ => Err(expected(POINT, value)),
     }
 }

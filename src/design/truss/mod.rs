@@ -20,7 +20,7 @@
 //! `bar_materials` (an index for each bar, or none) are checked and kept for
 //! analyses to come; nothing here computes with them.
 //!
-//! Guaranteed: coordinates are finite, bars join two different nodes at
+//! Guaranteed: coordinates are in range, bars join two different nodes at
 //! different places, no bar is given twice, every node is held by a bar.
 
 mod parts;

@@ -1,7 +1,7 @@
 //! What a truss consists of, as it stands in a file, and the checks of it.
 
 use crate::design::json::JsonError;
-use crate::geometry::DVec2;
+use crate::geometry::{Bounds, DVec2, RANGE, TooSmall, is_in_range};
 use serde::Deserialize;
 use std::collections::HashMap;
 
@@ -77,6 +77,14 @@ pub enum TrussInputError {
         /// How many nodes there are.
         nodes: usize,
     },
+    /// A coordinate is no number, or beyond [`MAX_COORDINATE`].
+    ///
+    /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
+    #[error("node {0} {RANGE}")]
+    Place(usize),
+    /// All nodes lie on one another, or as good as.
+    #[error(transparent)]
+    TooSmall(#[from] TooSmall),
     /// A number is NaN or infinite, or not positive where it must be.
     #[error("{what} {index} has a number that cannot be used; {rule}")]
     Number {
@@ -178,14 +186,18 @@ impl TrussParts {
         self.check_numbers()?;
         self.check_indices()?;
         self.check_bars()?;
-        self.check_held()
+        self.check_held()?;
+        let all = Bounds::of(self.nodes.iter().copied());
+        Ok(all.map_or(Ok(0.0), |all| TooSmall::check(&all)).map(drop)?)
     }
 
     fn check_numbers(&self) -> Result<(), TrussInputError> {
-        const FINITE: &str = "give finite coordinates";
+        const FINITE: &str = "give finite numbers";
         const POSITIVE: &str = "give finite numbers above zero";
         let positive = |&x: &f64| x.is_finite() && x > 0.0;
-        numbers("node", FINITE, &self.nodes, |p| p.is_finite())?;
+        if let Some(node) = self.nodes.iter().position(|&p| !is_in_range(p)) {
+            return Err(TrussInputError::Place(node));
+        }
         numbers("load", FINITE, &self.loads, |l| l.force.is_finite())?;
         numbers("area", POSITIVE, &self.areas, positive)?;
         numbers("material", POSITIVE, &self.materials, |m| {

@@ -1,0 +1,45 @@
+//! How large coordinates may be, and how small a design: the same for all
+//! formats, and checked where regions, meshes and trusses are made.
+//!
+//! Within these bounds squares, areas, products of four lengths and their
+//! sums are finite and not zero in `f64`, and squares in the `f32` of a
+//! graphics card. The libraries ask for less: `i_overlay` for 2⁵⁰⁰, `spade`
+//! for 2²⁰¹ and no less than 2⁻¹⁴².
+
+use super::{Bounds, DVec2};
+
+/// The largest coordinate, either way: the square of a distance is at most
+/// 8 × 10³⁶, and `f32` ends at 3 × 10³⁸.
+pub const MAX_COORDINATE: f64 = 1e18;
+
+/// The least that the longer side of a design may measure, likewise.
+pub const MIN_SIZE: f64 = 1e-18;
+
+/// What is said of a point that is not [`is_in_range`].
+pub(crate) const RANGE: &str =
+    "has a coordinate that is no number from -1e18 to 1e18; correct it, or scale the design";
+
+/// Points that lie on one another, or as good as.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[error(
+    "all of it lies within {0:e}, less than the least size of {MIN_SIZE:e}; scale the design up"
+)]
+pub struct TooSmall(pub f64);
+
+impl TooSmall {
+    /// The longer side of what can be reckoned with.
+    pub(crate) fn check(bounds: &Bounds) -> Result<f64, Self> {
+        let longer = bounds.size().max_element();
+        match longer >= MIN_SIZE {
+            true => Ok(longer),
+            false => Err(Self(longer)),
+        }
+    }
+}
+
+/// Whether both coordinates are numbers of at most [`MAX_COORDINATE`].
+#[must_use]
+pub fn is_in_range(p: DVec2) -> bool {
+    // What is no number is less than nothing.
+    p.abs().cmple(DVec2::splat(MAX_COORDINATE)).all()
+}
