@@ -10,10 +10,10 @@ use std::path::Path;
 use png::{BitDepth, BlendOp, ColorType, DisposeOp, Encoder, EncodingError, Writer};
 
 use crate::atomic_file::AtomicFile;
-use crate::progress::Progress;
+use crate::progress::{Progress, Span};
 
 use super::camera::{Camera, DRAWING};
-use super::check::check_apng;
+use super::check::{DRAWN, check_apng};
 use super::error::ExportError;
 use super::film::{Film, Run};
 use super::raster::{rasterise, samples};
@@ -39,7 +39,7 @@ pub fn write_apng(
     camera.shoot_runs(
         &runs,
         DRAWING,
-        progress,
+        &Span::new(progress, 0.0, DRAWN),
         |drawing| Ok(samples(&rasterise(&drawing), camera.ground.is_some())),
         |run, pixels| {
             let (numerator, denominator) = delay(film, run);
@@ -55,7 +55,8 @@ pub fn write_apng(
     output.flush().map_err(ExportError::write(path))?;
     drop(output);
     let written = file.written().map_err(ExportError::write(path))?;
-    check_apng(written, runs.len(), path, progress)?;
+    let checking = Span::new(progress, DRAWN, 1.0);
+    check_apng(written, runs.len(), path, &checking)?;
     file.commit().map_err(ExportError::write(path))
 }
 

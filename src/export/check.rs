@@ -13,6 +13,10 @@ use super::error::ExportError;
 /// The stage, as [`Progress`] is told.
 pub(super) const CHECKING: &str = "checking the film";
 
+/// How much is done once all frames are drawn and written, as it is told;
+/// reading them takes about a tenth of that.
+pub(super) const DRAWN: f64 = 0.9;
+
 /// Reads a GIF to its end.
 ///
 /// # Errors
@@ -86,6 +90,7 @@ mod tests {
     use crate::export::testing::camera;
     use crate::export::{Film, write_apng, write_gif};
     use crate::progress::Silent;
+    use std::sync::Mutex;
 
     /// What a check says of a film that lacks its last bytes, or has others.
     fn is_noticed(
@@ -115,6 +120,35 @@ mod tests {
         // Among the frames: nothing tells whether a colour is the right one.
         holed[whole.len() * 2 / 3..whole.len() * 3 / 4].fill(0);
         assert!(check(&holed, 5).is_err(), "zeros in the middle");
+    }
+
+    /// What is told while a film is written.
+    #[derive(Default)]
+    struct Heard(Mutex<Vec<(&'static str, f64)>>);
+
+    impl Progress for Heard {
+        fn report(&self, stage: &'static str, fraction: f64) {
+            self.0.lock().expect("free").push((stage, fraction));
+        }
+
+        fn is_cancelled(&self) -> bool {
+            false
+        }
+    }
+
+    #[test]
+    fn the_share_that_is_told_never_goes_down() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("film");
+        let film = Film::evenly(0.0, 1.0, 30, 25.0).expect("a film");
+        for write in [write_gif, write_apng] {
+            let heard = Heard::default();
+            write(&camera(8, 6, None), &film, &path, &heard).expect("written");
+            let heard = heard.0.into_inner().expect("free");
+            assert!(heard.is_sorted_by(|a, b| a.1 <= b.1), "{heard:?}");
+            let checking = heard.iter().find(|told| told.0 == CHECKING);
+            assert_eq!(checking, Some(&(CHECKING, DRAWN)));
+        }
     }
 
     #[test]

@@ -12,10 +12,10 @@ use gif::{DisposalMethod, Encoder, Frame, Repeat};
 use image::RgbaImage;
 
 use crate::atomic_file::AtomicFile;
-use crate::progress::Progress;
+use crate::progress::{Progress, Span};
 
 use super::camera::{Camera, DRAWING};
-use super::check::check_gif;
+use super::check::{DRAWN, check_gif};
 use super::error::ExportError;
 use super::film::{Film, Run};
 use super::palette::{Histogram, Palette};
@@ -34,6 +34,10 @@ const TRANSPARENT: u8 = 255;
 /// it; a colour that only others have gets its nearest.
 const PALETTE_SAMPLES: usize = 24;
 
+/// How much is done once the colours are chosen, as it is told: three seconds
+/// have some 90 frames, and 24 of them are drawn for it.
+const CHOSEN: f64 = 0.2;
+
 /// Writes the film.
 ///
 /// # Errors
@@ -51,13 +55,14 @@ pub fn write_gif(
     // Before anything is drawn: a folder that cannot be written to is told at
     // once.
     let mut file = AtomicFile::create(path).map_err(ExportError::write(path))?;
-    let palette = film_palette(camera, &film.runs(), progress)?;
+    let choosing = Span::new(progress, 0.0, CHOSEN);
+    let palette = film_palette(camera, &film.runs(), &choosing)?;
     let writer = BufWriter::new(file.file_mut());
     let mut encoder = encoder(writer, camera, film, &palette).map_err(ExportError::encode(path))?;
     camera.shoot_runs(
         &film.runs(),
         DRAWING,
-        progress,
+        &Span::new(progress, CHOSEN, DRAWN),
         |drawing| Ok(encoded_frame(&rasterise(&drawing), &palette)),
         |run, mut frame| {
             frame.delay = u16::try_from(film.ticks(run, TICKS_PER_SEC)).unwrap_or(u16::MAX);
@@ -70,7 +75,8 @@ pub fn write_gif(
     writer.flush().map_err(ExportError::write(path))?;
     drop(writer);
     let written = file.written().map_err(ExportError::write(path))?;
-    check_gif(written, film.runs().len(), path, progress)?;
+    let checking = Span::new(progress, DRAWN, 1.0);
+    check_gif(written, film.runs().len(), path, &checking)?;
     file.commit().map_err(ExportError::write(path))
 }
 

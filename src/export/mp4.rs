@@ -15,10 +15,10 @@ use std::path::Path;
 use std::process::{ChildStdin, Command};
 
 use crate::atomic_file::AtomicFile;
-use crate::progress::{Cancelled, Progress};
+use crate::progress::{Cancelled, Progress, Span};
 
 use super::camera::{Camera, DRAWING};
-use super::check::CHECKING;
+use super::check::{CHECKING, DRAWN};
 use super::error::ExportError;
 use super::film::Film;
 use super::raster::{rasterise, samples};
@@ -52,7 +52,7 @@ pub fn write_mp4(
         fed = camera.shoot_runs(
             &film.runs(),
             DRAWING,
-            progress,
+            &Span::new(progress, 0.0, DRAWN),
             |drawing| Ok(samples(&rasterise(&drawing), true)),
             |run, bytes| {
                 // ffmpeg knows a rate and no holds: a run goes in frame by frame.
@@ -98,7 +98,7 @@ impl Job<'_> {
 
     /// Looks at what is there: `words` of whoever wrote it prove nothing.
     fn check(&self, count: usize, words: &Words) -> Result<(), ExportError> {
-        self.progress.report(CHECKING, 0.0);
+        self.progress.report(CHECKING, DRAWN);
         let reason = match File::open(self.temporary).and_then(|mut file| boxes::frames(&mut file))
         {
             // Each is in the file; whether it is a picture only a decoder tells.
