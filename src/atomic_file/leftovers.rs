@@ -40,14 +40,18 @@ pub(super) fn create_beside(path: &Path, folder: &Path) -> io::Result<(File, Pat
     Err(io::ErrorKind::AlreadyExists.into())
 }
 
-/// Locks a new file; `false` where it was taken away before.
+/// Locks a new file; `false` where another process is about to take it away, or
+/// has.
 #[cfg(unix)]
 fn is_held(file: &File) -> io::Result<bool> {
+    use std::fs::TryLockError;
     use std::os::unix::fs::MetadataExt;
-    // Waits for a process that is about to take it away. Where it fails, it fails
-    // for that process, too.
-    file.lock().unwrap_or_default();
-    Ok(file.metadata()?.nlink() > 0)
+    match file.try_lock() {
+        Ok(()) => Ok(file.metadata()?.nlink() > 0),
+        Err(TryLockError::WouldBlock) => Ok(false),
+        // Without locks nobody takes it away, either.
+        Err(TryLockError::Error(_)) => Ok(true),
+    }
 }
 
 #[cfg(not(unix))]
