@@ -24,6 +24,8 @@ fn a_film_that_is_ended_leaves_the_earlier_one_and_nothing_else() {
             shop.put(name, EARLIER);
             let mut child = started(shop.command(&format!("{ENDLESS} {name}")));
             wait_until("a file on its way", || on_their_way(&shop).len() == 1);
+            // A terminal that closes says so itself, and so does its shell.
+            send(wish, child.id());
             send(wish, child.id());
             wait_until("the end", || child.try_wait().expect("a child").is_some());
             let output = child.wait_with_output().expect("its words");

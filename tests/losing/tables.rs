@@ -104,6 +104,32 @@ fn a_table_that_comes_to_its_end_leaves_its_report_alone() {
 }
 
 #[test]
+#[expect(clippy::print_stderr, reason = "a test that cannot run says so")]
+fn a_terminal_is_told_how_far_a_table_is() {
+    let shop = shop();
+    let rows = "a.obj,b.obj\n".repeat(40);
+    shop.put("pairs.csv", &format!("source,target\n{rows}"));
+    let program = shop.command("").get_program().to_owned();
+    // Gives the command a terminal, and shows what that shows.
+    let mut script = std::process::Command::new("script");
+    let line = format!("'{}' {LINE}", program.display());
+    script.args(["-qec", &line, "/dev/null"]);
+    script.current_dir(shop.path("."));
+    let Ok(output) = script.stdin(std::process::Stdio::null()).output() else {
+        eprintln!("NOT TESTED: what a terminal shows, for there is no `script`");
+        return;
+    };
+    let shown = String::from_utf8_lossy(&output.stdout);
+    for share in ["checking pairs   0 %", "checking pairs  50 %"] {
+        assert!(shown.contains(share), "{share}: {shown:?}");
+    }
+    assert!(
+        shown.contains("wrote report.csv and sheet.svg"),
+        "{shown:?}"
+    );
+}
+
+#[test]
 fn an_end_before_the_first_row_leaves_nothing() {
     let shop = shop();
     // It is ended before any pair is done, and not before it listens.
