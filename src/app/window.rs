@@ -80,9 +80,10 @@ fn window() -> WindowPlugin {
     }
 }
 
-/// What the window adds: cameras, panels, dialogs, pictures.
-#[derive(Debug)]
-struct WindowPlugins;
+/// What the window adds to [`LogicPlugin`]: cameras, panels, dialogs, pictures. Wants Bevy's own
+/// plugins; without a renderer it draws to nowhere.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct WindowPlugins;
 
 impl Plugin for WindowPlugins {
     fn build(&self, app: &mut App) {

@@ -1,6 +1,7 @@
 //! The window's systems without a window: injected keys, intents, and what comes of them.
 #![cfg(feature = "app")]
 
+mod audience;
 mod beside;
 mod editor;
 mod history;

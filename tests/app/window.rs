@@ -4,10 +4,15 @@ use std::time::Duration;
 
 use bevy::input::keyboard::{Key, KeyCode, KeyboardInput};
 use bevy::input::{ButtonState, InputPlugin};
-use bevy::prelude::{App, Entity, Messages, MinimalPlugins};
+use bevy::log::LogPlugin;
+use bevy::prelude::{App, DefaultPlugins, Entity, Messages, MinimalPlugins, PluginGroup};
+use bevy::render::RenderPlugin;
+use bevy::render::settings::{RenderCreation, WgpuSettings};
 use bevy::time::TimeUpdateStrategy;
+use bevy::winit::{WinitPlugin, WinitSettings};
 use morphospace::app::{
-    Editor, EditorAct, Intent, Kind, LogicPlugin, Notices, Playback, Preferences, Session, Sheet,
+    Editor, EditorAct, Gallery, Intent, Kind, LogicPlugin, Notices, Playback, Preferences, Session,
+    Sheet, WindowPlugins,
 };
 use morphospace::correspondence::Matching;
 use morphospace::project::gallery;
@@ -26,8 +31,39 @@ impl Window {
         Self(app)
     }
 
+    /// With its panels, cameras and all: only the screen is missing.
+    pub fn with_panels() -> Self {
+        let mut app = App::new();
+        let render_creation = RenderCreation::Automatic(Box::new(WgpuSettings {
+            backends: None,
+            ..Default::default()
+        }));
+        let unseen = RenderPlugin {
+            render_creation,
+            ..Default::default()
+        };
+        let plugins = DefaultPlugins.set(unseen);
+        app.add_plugins(plugins.disable::<WinitPlugin>().disable::<LogPlugin>());
+        app.insert_resource(WinitSettings::default())
+            // Their strips would be drawn beside the tests.
+            .insert_resource(Gallery(Vec::new()))
+            .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
+            .insert_resource(TimeUpdateStrategy::ManualDuration(FRAME));
+        app.finish();
+        app.cleanup();
+        let mut window = Self(app);
+        window.open_first();
+        window
+    }
+
     pub fn with_gallery() -> Self {
         let mut window = Self::new();
+        window.open_first();
+        window
+    }
+
+    fn open_first(&mut self) {
+        let window = self;
         let name = entries().remove(0);
         window.send(Intent::OpenGallery(name));
         window.wait();
@@ -36,7 +72,6 @@ impl Window {
             "{:?}",
             window.problems()
         );
-        window
     }
 
     pub fn update(&mut self) {

@@ -1,7 +1,8 @@
 //! What the program has to say: errors stay until they are read, confirmations pass.
 
-use bevy::prelude::{MessageReader, Res, ResMut, Resource, Time};
+use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource, Time};
 
+use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::one_line::OneLine;
 
@@ -66,24 +67,41 @@ impl Notices {
         });
     }
 
-    fn pass(&mut self, secs: f32) {
+    /// A confirmation is on its way out.
+    #[must_use]
+    pub fn is_passing(&self) -> bool {
+        self.list.iter().any(|notice| notice.kind == Kind::Done)
+    }
+
+    /// Whether anything has passed.
+    fn pass(&mut self, secs: f32) -> bool {
         for notice in &mut self.list {
             notice.age_secs += secs;
         }
+        let before = self.list.len();
         self.list
             .retain(|notice| notice.kind == Kind::Problem || notice.age_secs < CONFIRMATION_SECS);
+        self.list.len() < before
     }
 }
 
-/// Takes away what was dismissed and what has passed.
-pub fn apply(mut intents: MessageReader<Intent>, time: Res<Time>, mut notices: ResMut<Notices>) {
+/// Takes away what was dismissed and what has passed. While the panels are hidden nothing passes:
+/// it has not been seen.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    time: Res<Time>,
+    preferences: Res<Preferences>,
+    mut notices: ResMut<Notices>,
+) {
     for intent in intents.read() {
         if let Intent::Dismiss(id) = intent {
             notices.list.retain(|notice| notice.id != *id);
         }
     }
-    if !notices.list.is_empty() {
-        notices.pass(time.delta_secs());
+    // Growing older is no change that anybody sees.
+    let now = notices.bypass_change_detection();
+    if preferences.panels && now.pass(time.delta_secs()) {
+        notices.set_changed();
     }
 }
 

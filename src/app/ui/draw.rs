@@ -102,8 +102,11 @@ fn middle(root: &mut egui::Ui, scene: &Scene, stage: egui::Rect, acts: &mut Inte
     if scene.twin.is_shown {
         return twin::show(root, scene, stage, acts);
     }
-    area::show(root, scene, stage, "stage", acts);
-    verdict::mark(root, scene, stage);
+    area::show(root, stage, "stage", acts);
+    if scene.preferences.panels {
+        area::empty(root, scene, stage);
+        verdict::mark(root, scene, stage);
+    }
     stage
 }
 
@@ -128,10 +131,25 @@ fn panels(
 }
 
 fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut Intents) {
+    if scene.editor.is_open {
+        match_editor::overlay(ctx, scene, stage, acts);
+    }
+    // An audience sees the drawing: what there is to tell waits until the panels are back.
+    if scene.preferences.panels {
+        told(ctx, scene, stage, acts);
+    }
+    // These were just asked for, by a key or by closing.
+    if scene.preferences.help {
+        help::show(ctx, scene, acts);
+    }
+    questions::show(ctx, scene, acts);
+}
+
+/// What the program has to tell of itself.
+fn told(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut Intents) {
     // What is left in the middle for messages: each layer takes its height from it.
     let mut below = stage;
     if scene.editor.is_open {
-        match_editor::overlay(ctx, scene, stage, acts);
         below.min.y += match_editor::BAR_HEIGHT;
     }
     work::show(ctx, scene, below, acts);
@@ -145,10 +163,6 @@ fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut In
     if scene.preferences.times {
         times::show(ctx, scene, stage);
     }
-    if scene.preferences.help {
-        help::show(ctx, scene, acts);
-    }
-    questions::show(ctx, scene, acts);
 }
 
 impl StageArea {

@@ -13,13 +13,7 @@ const ZOOM_PER_POINT: f32 = 0.0025;
 
 /// Turns dragging and scrolling over the stage, or over what shows the same of the plane beside
 /// it, into intents.
-pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, name: &str, acts: &mut Intents) {
-    if let Some(words) = empty_words(scene) {
-        let ink = ink_on(scene.session.style().ground);
-        let font = FontId::proportional(16.0);
-        root.painter()
-            .text(rect.center(), Align2::CENTER_CENTER, words, font, ink);
-    }
+pub fn show(root: &mut Ui, rect: Rect, name: &str, acts: &mut Intents) {
     let response = root.interact(rect, root.id().with(name), Sense::click_and_drag());
     if response.dragged() {
         let delta = response.drag_delta();
@@ -39,6 +33,16 @@ pub fn show(root: &mut Ui, scene: &Scene, rect: Rect, name: &str, acts: &mut Int
             at: Vec2::new(at.x, at.y),
             factor,
         });
+    }
+}
+
+/// Says what to do while there is nothing to see.
+pub fn empty(root: &Ui, scene: &Scene, rect: Rect) {
+    if let Some(words) = empty_words(scene) {
+        let ink = ink_on(scene.session.style().ground);
+        let font = FontId::proportional(16.0);
+        root.painter()
+            .text(rect.center(), Align2::CENTER_CENTER, words, font, ink);
     }
 }
 

@@ -20,16 +20,24 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Re
     let half = vec2((stage.width() / 2.0).floor(), stage.height());
     let left = Rect::from_min_size(stage.min, half);
     let right = left.translate(vec2(half.x, 0.0));
-    area::show(root, scene, left, "stage", acts);
-    area::show(root, scene, right, "twin", acts);
+    area::show(root, left, "stage", acts);
+    area::show(root, right, "twin", acts);
+    if scene.preferences.panels {
+        told(root, scene, [left, right], acts);
+    }
+    left
+}
+
+/// What each half is, and what is to be said of it.
+fn told(root: &mut Ui, scene: &Scene, [left, right]: [Rect; 2], acts: &mut Intents) {
+    area::empty(root, scene, left);
     verdict::mark(root, scene, left);
     let ink = ink_on(scene.session.style().ground);
     let line = (1.0, ink.gamma_multiply(0.5));
-    root.painter().vline(right.left(), stage.y_range(), line);
+    root.painter().vline(right.left(), right.y_range(), line);
     missing(root, scene, right);
     first_name(root, scene, left);
     second_name(root, scene, right, acts);
-    left
 }
 
 /// What the right half says while it is empty.
