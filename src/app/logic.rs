@@ -109,7 +109,8 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         )
             .chain(),
         (measuring::follow, twin::apply, twin::follow).chain(),
-        (playback::apply, playback::advance).chain(),
+        // Moved on before it is told where to go: else the time of a rest would be played at once.
+        (playback::advance, playback::apply).chain(),
         (films::apply, films::report).chain(),
         view::apply,
         notices::apply,

@@ -68,6 +68,7 @@ pub use components::{
     Blend, BuildFailed, Morph, MorphOptions, Show, SourceMesh, StageStyle, StageTransition,
     TargetMesh,
 };
+pub use pipelines::PipelinesReady;
 pub use times::{Durations, FrameTimes, REMEMBERED};
 pub use view::StageView;
 

@@ -14,9 +14,11 @@ use bevy::render::{Render, RenderApp, RenderSystems};
 const READY_FRAMES: u32 = 3;
 
 /// Counts frames in a row in which nothing was missing; shared by Bevy's main
-/// and render worlds.
-#[derive(Resource, Clone, Default)]
-pub(super) struct PipelinesReady(Arc<AtomicU32>);
+/// and render worlds, and there only where there is a render world. A program
+/// that draws only when something has changed goes on drawing until it is
+/// ready: what is missing comes without an event.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct PipelinesReady(Arc<AtomicU32>);
 
 impl PipelinesReady {
     /// Something new is to be drawn.
@@ -24,7 +26,9 @@ impl PipelinesReady {
         self.0.store(0, Ordering::Relaxed);
     }
 
-    pub(super) fn is_ready(&self) -> bool {
+    /// Everything that is to be drawn can be drawn.
+    #[must_use]
+    pub fn is_ready(&self) -> bool {
         self.0.load(Ordering::Relaxed) >= READY_FRAMES
     }
 }

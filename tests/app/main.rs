@@ -7,4 +7,5 @@ mod editor;
 mod history;
 mod keys;
 mod opening;
+mod rest;
 mod window;

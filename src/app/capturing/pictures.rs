@@ -108,9 +108,14 @@ fn window_captured(
 }
 
 impl Captures {
-    /// A picture of the stage is awaited, or one is being written.
-    pub fn is_busy(&self) -> bool {
-        !self.names.is_empty() || !self.writing.is_empty()
+    /// A picture of the stage is awaited, which takes frames.
+    pub fn is_awaited(&self) -> bool {
+        !self.names.is_empty()
+    }
+
+    /// A picture is being written.
+    pub fn is_writing(&self) -> bool {
+        !self.writing.is_empty()
     }
 
     fn write(&mut self, folder: &CaptureFolder, name: &str, image: DynamicImage) {

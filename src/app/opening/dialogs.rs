@@ -198,6 +198,12 @@ impl Drop {
         self.undecided.as_deref()
     }
 
+    /// Files are arriving that are not acted on yet.
+    #[must_use]
+    pub fn is_arriving(&self) -> bool {
+        !self.arriving.is_empty()
+    }
+
     /// Asks what a single design is for.
     pub fn ask(&mut self, path: PathBuf) {
         self.undecided = Some(path);

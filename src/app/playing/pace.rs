@@ -1,53 +1,171 @@
-//! How often the window draws: all the time while something moves, and hardly ever while nothing
-//! does, so that a talk does not drain the battery and a fan stays quiet.
+//! How often the window draws: all the time while something moves, now and then while work goes
+//! on, and not at all while nothing does, so that a talk does not drain the battery and a fan
+//! stays quiet.
+//!
+//! Keys, the pointer and whatever else the system tells wake the window at any pace.
 
 use std::time::Duration;
 
-use bevy::prelude::{DetectChanges, Res, ResMut};
-use bevy::winit::{UpdateMode, WinitSettings};
+use bevy::ecs::system::{NonSendMarker, SystemParam};
+use bevy::prelude::{
+    DetectChanges, Entity, Local, MessageReader, Query, Res, ResMut, Resource, With,
+};
+use bevy::render::view::screenshot::Screenshot;
+use bevy::window::{PrimaryWindow, WindowEvent, WindowOccluded};
+use bevy::winit::{UpdateMode, WINIT_WINDOWS, WinitSettings};
 
 use crate::app::asking::choices::Preferences;
+use crate::app::asking::intent::Intent;
 use crate::app::capturing::films::Recorder;
 use crate::app::capturing::pictures::Captures;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
-use crate::app::opening::dialogs::Dialog;
+use crate::app::opening::dialogs::{Dialog, Drop};
 use crate::app::opening::thumbnails::Thumbnails;
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
+use crate::app::telling::notices::Notices;
+use crate::stage::PipelinesReady;
 
-/// While nothing moves, the window looks this often for what no event tells of: soon enough not to
-/// be noticed, and rarely enough for the processor to rest.
-const IDLE: Duration = Duration::from_millis(100);
+/// While work goes on, the window looks this often whether it is done: soon enough not to be
+/// noticed, and rarely enough to leave the processor to the work.
+const LOOK: Duration = Duration::from_millis(50);
 
-/// Chooses the pace of the next frame. Keys and the pointer wake the window at any pace.
+/// At rest nothing is waited for. Not for ever: winit then keeps the time that it was to wake at
+/// before, which has passed, and wakes all the time.
+const REST: Duration = Duration::from_secs(3600);
+
+/// Frames until all that came of an event is on the screen: panels are drawn after the systems
+/// have run, what they ask for is acted on a frame later and seen in the frame after that, and the
+/// renderer is a frame behind, and tells a frame later what it lacked.
+const SETTLING: u8 = 6;
+
+/// How soon the panels want to be drawn again of their own accord; without end where nothing of
+/// them moves.
+#[derive(Resource, Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Repaint(pub Duration);
+
+impl Default for Repaint {
+    fn default() -> Self {
+        Self(Duration::MAX)
+    }
+}
+
+/// What there is to draw for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Pace {
+    /// Something moves, or what has just happened is not on the screen yet.
+    pub moves: bool,
+    /// Something ends without telling: work, or the time that a message stays.
+    pub waits: bool,
+    /// Nobody can see it.
+    pub is_hidden: bool,
+}
+
+impl Pace {
+    /// When the next frame is drawn.
+    #[must_use]
+    pub fn mode(self) -> UpdateMode {
+        match self {
+            Self {
+                is_hidden: true, ..
+            } => UpdateMode::reactive_low_power(REST),
+            Self { moves: true, .. } => UpdateMode::Continuous,
+            Self { waits: true, .. } => UpdateMode::reactive_low_power(LOOK),
+            _ => UpdateMode::reactive_low_power(REST),
+        }
+    }
+}
+
+/// All that the pace hangs on.
+#[derive(SystemParam)]
+pub struct Going<'w, 's> {
+    session: Res<'w, Session>,
+    playback: Res<'w, Playback>,
+    preferences: Res<'w, Preferences>,
+    captures: Res<'w, Captures>,
+    shots: Query<'w, 's, (), With<Screenshot>>,
+    recorder: Res<'w, Recorder>,
+    thumbnails: Res<'w, Thumbnails>,
+    measured: Res<'w, Measured>,
+    twin: Res<'w, Twin>,
+    notices: Res<'w, Notices>,
+    dialog: Res<'w, Dialog>,
+    drop: Res<'w, Drop>,
+    repaint: Res<'w, Repaint>,
+    pipelines: Option<Res<'w, PipelinesReady>>,
+}
+
+impl Going<'_, '_> {
+    fn moves(&self) -> bool {
+        self.playback.is_playing()
+            || (self.preferences.panels && self.preferences.times)
+            || self.captures.is_awaited()
+            || !self.shots.is_empty()
+            || self.repaint.0.is_zero()
+            || self.pipelines.as_ref().is_some_and(|p| !p.is_ready())
+    }
+
+    fn waits(&self) -> bool {
+        // A cursor that blinks, a tip that is about to be shown.
+        self.repaint.0 < REST
+            || self.session.work().is_some()
+            || self.recorder.work().is_some()
+            || self.captures.is_writing()
+            || self.thumbnails.is_busy()
+            || self.measured.is_busy()
+            || self.twin.is_busy()
+            || self.dialog.is_open()
+            || self.drop.is_arriving()
+            // While the panels are hidden they wait themselves.
+            || (self.preferences.panels && self.notices.is_passing())
+    }
+
+    /// Work has an answer: what comes of it is drawn in the frames to come.
+    fn is_new(&self) -> bool {
+        self.session.is_changed()
+            || self.measured.is_changed()
+            || self.twin.is_changed()
+            || self.notices.is_changed()
+    }
+}
+
+/// Chooses the pace of the next frame.
 pub fn keep(
-    (session, playback, preferences): (Res<Session>, Res<Playback>, Res<Preferences>),
-    (captures, recorder): (Res<Captures>, Res<Recorder>),
-    (thumbnails, dialog): (Res<Thumbnails>, Res<Dialog>),
-    (measured, twin): (Res<Measured>, Res<Twin>),
+    going: Going,
+    (mut events, mut intents): (MessageReader<WindowEvent>, MessageReader<Intent>),
+    mut occlusions: MessageReader<WindowOccluded>,
+    window: Query<Entity, With<PrimaryWindow>>,
+    (mut settling, mut is_covered): (Local<u8>, Local<bool>),
     mut settings: ResMut<WinitSettings>,
+    _main_thread: NonSendMarker,
 ) {
-    // Work beside the window sends no event when it is done: it is asked each frame.
-    let is_busy = playback.is_playing()
-        // What came of a change is drawn in the next frame, which no event asks for.
-        || session.is_changed()
-        || session.work().is_some()
-        || captures.is_busy()
-        || recorder.work().is_some()
-        || thumbnails.is_busy()
-        || dialog.is_open()
-        || measured.is_busy()
-        || twin.is_busy()
-        || preferences.times;
-    let mode = if is_busy {
-        UpdateMode::Continuous
+    let is_stirred = events.read().count() + intents.read().count() > 0 || going.is_new();
+    *settling = if is_stirred {
+        SETTLING
     } else {
-        UpdateMode::reactive_low_power(IDLE)
+        settling.saturating_sub(1)
     };
+    if let Some(last) = occlusions.read().last() {
+        *is_covered = last.occluded;
+    }
+    let pace = Pace {
+        moves: *settling > 0 || going.moves(),
+        waits: going.waits(),
+        is_hidden: *is_covered || window.iter().any(is_minimised),
+    };
+    let mode = pace.mode();
     if settings.focused_mode != mode {
         settings.focused_mode = mode;
-        // The same behind another window: a film goes on while notes are read.
+        // The same beside another window: a film goes on while notes are read.
         settings.unfocused_mode = mode;
     }
+}
+
+fn is_minimised(window: Entity) -> bool {
+    WINIT_WINDOWS.with_borrow(|windows| {
+        let window = windows.get_window(window);
+        // None where the system does not tell.
+        window.and_then(|w| w.is_minimized()).unwrap_or(false)
+    })
 }

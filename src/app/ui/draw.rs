@@ -1,14 +1,17 @@
 //! Draws everything around the stage, once a frame.
 
+use std::time::Duration;
+
 use bevy::prelude::*;
 use bevy_egui::{
-    EguiContext, EguiContexts, EguiInputSet, EguiPlugin, EguiPreUpdateSet, EguiPrimaryContextPass,
-    egui,
+    EguiContext, EguiContexts, EguiFullOutput, EguiInputSet, EguiPlugin, EguiPostUpdateSet,
+    EguiPreUpdateSet, EguiPrimaryContextPass, egui,
 };
 
 use crate::app::asking::hand::Typing;
 use crate::app::asking::intent::Intent;
 use crate::app::looking::view::StageArea;
+use crate::app::playing::pace::Repaint;
 use crate::app::ui::kit::theme;
 use crate::app::ui::overlays::{help, notices, questions, times, work};
 use crate::app::ui::panels::inspector;
@@ -33,7 +36,15 @@ impl Plugin for UiPlugin {
                     .before(EguiPreUpdateSet::BeginPass),
             )
             .add_observer(dress)
-            .add_systems(EguiPrimaryContextPass, draw);
+            .add_systems(EguiPrimaryContextPass, draw)
+            .init_resource::<Repaint>()
+            .add_systems(
+                PostUpdate,
+                note_repaint
+                    .after(EguiPostUpdateSet::EndPass)
+                    // Which takes the output away.
+                    .before(EguiPostUpdateSet::ProcessOutput),
+            );
     }
 }
 
@@ -56,6 +67,14 @@ fn keep_keys_from_widgets(mut contexts: Query<&mut bevy_egui::EguiInput>, typing
             .events
             .retain(|event| !matches!(event, egui::Event::Key { .. } | egui::Event::Text(_)));
     }
+}
+
+/// The panels say themselves when they move: a switch that slides, a tip that is about to come.
+fn note_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<Repaint>) {
+    let outputs = outputs.iter().filter_map(|output| output.0.as_ref());
+    let delays = outputs.flat_map(|output| output.viewport_output.values());
+    let soonest = delays.map(|viewport| viewport.repaint_delay).min();
+    repaint.0 = soonest.unwrap_or(Duration::MAX);
 }
 
 fn draw(
