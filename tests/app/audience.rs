@@ -4,7 +4,7 @@ use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{IntoScheduleConfigs, PostUpdate, Query, ResMut, Resource};
 use bevy_egui::egui::Shape;
 use bevy_egui::{EguiFullOutput, EguiPostUpdateSet};
-use morphospace::app::{Answer, Intent, Measured, Notices, Question, Twin};
+use morphospace::app::{About, Answer, Intent, Measured, Notices, Question, Twin};
 
 use crate::window::Window;
 
@@ -75,7 +75,7 @@ fn worry(window: &mut Window) {
         window.update();
     }
     let mut notices = window.0.world_mut().resource_mut::<Notices>();
-    notices.problem("a problem");
+    notices.problem(About::Film, "a problem");
     notices.done("a confirmation");
 }
 

@@ -8,4 +8,5 @@ mod history;
 mod keys;
 mod opening;
 mod rest;
+mod telling;
 mod window;

@@ -112,7 +112,7 @@ impl Window {
         let notices = self.0.world().resource::<Notices>().list();
         notices
             .iter()
-            .filter(|n| n.kind == Kind::Problem)
+            .filter(|n| matches!(n.kind, Kind::Problem(_)))
             .map(|n| n.text.clone())
             .collect()
     }

@@ -128,16 +128,16 @@ pub enum Intent {
     Dismiss(u64),
     /// Close the window; asks first where something would be lost.
     Close,
-    /// The answer to the question about unsaved changes.
+    /// The answer to the question about what would be lost.
     Answer(Answer),
 }
 
-/// An answer to "there are unsaved changes".
+/// An answer to "this would be lost".
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Answer {
-    /// Save, then go on.
+    /// Save it, or wait for it, then go on.
     Save,
-    /// Go on without saving.
+    /// Go on without it.
     Discard,
     /// Do not go on.
     Stay,

@@ -10,8 +10,8 @@ use crate::app::capturing::files::{
     CaptureFolder, NewFileError, create_new, create_new_folder, whole,
 };
 use crate::app::session::state::Session;
-use crate::app::telling::job::Job;
-use crate::app::telling::notices::Notices;
+use crate::app::telling::job::{Job, JobError};
+use crate::app::telling::notices::{About, Notices};
 use crate::export::{
     Camera, ExportError, Film, FilmError, MethodRow, PixelSize, SizeError, StillKind, Target,
     TargetError, View, comparison, even_times, framing, write_film, write_still,
@@ -104,6 +104,7 @@ pub fn apply(
                 notices.done("A file is being written; wait for it, or cancel it first.");
             }
             Intent::Compare => {
+                notices.well(About::Film);
                 if let (Some(order), Some(staged)) = (new_order(), session.staged()) {
                     recorder.0 = Some(Job::start("a sheet", move |progress| {
                         order.compare(&staged, progress)
@@ -111,6 +112,8 @@ pub fn apply(
                 }
             }
             Intent::Record => {
+                // What went wrong with the last one is past: it is tried again.
+                notices.well(About::Film);
                 recorder.0 = new_order()
                     .map(|order| Job::start("a film", move |progress| order.carry_out(progress)));
             }
@@ -124,7 +127,10 @@ pub fn report(mut recorder: ResMut<Recorder>, mut notices: ResMut<Notices>) {
     match Job::take(&mut recorder.0) {
         None => {}
         Some(Ok(path)) => notices.done(format!("Wrote {}", path.display())),
-        Some(Err(error)) => notices.problem(error.to_string()),
+        Some(Err(JobError::Failed(RecordError::Cancelled))) => {
+            notices.done(RecordError::Cancelled.to_string());
+        }
+        Some(Err(error)) => notices.problem(About::Film, error.to_string()),
     }
 }
 

@@ -17,7 +17,7 @@ use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new, whol
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
-use crate::app::telling::notices::Notices;
+use crate::app::telling::notices::{About, Notices};
 use crate::stage::{CaptureStage, StageCaptured, StageView};
 
 /// The longer side of a 4K picture in pixels.
@@ -103,7 +103,10 @@ fn window_captured(
     {
         // The alpha of a window says nothing about what is seen in it.
         Ok(image) => captures.write(&folder, &name, image.to_rgb8().into()),
-        Err(error) => notices.problem(format!("The picture of the window was not taken: {error}")),
+        Err(error) => notices.problem(
+            About::Picture,
+            format!("The picture of the window was not taken: {error}"),
+        ),
     }
 }
 
@@ -153,7 +156,7 @@ pub fn receive(
         };
         match &answer.result {
             Ok(image) => captures.write(&folder, &name, image.clone().into()),
-            Err(error) => notices.problem(error.clone()),
+            Err(error) => notices.problem(About::Picture, error.clone()),
         }
     }
 }
@@ -163,8 +166,11 @@ pub fn report(mut captures: ResMut<Captures>, mut notices: ResMut<Notices>) {
     captures.bypass_change_detection().writing.retain(|job| {
         match job.poll() {
             None => return true,
-            Some(Ok(path)) => notices.done(format!("Saved {}", path.display())),
-            Some(Err(error)) => notices.problem(error.to_string()),
+            Some(Ok(path)) => {
+                notices.well(About::Picture);
+                notices.done(format!("Saved {}", path.display()));
+            }
+            Some(Err(error)) => notices.problem(About::Picture, error.to_string()),
         }
         false
     });

@@ -2,22 +2,22 @@
 
 use std::path::Path;
 
-use bevy::prelude::{Commands, DetectChangesMut, MessageReader, Res, ResMut, Resource};
+use bevy::prelude::{Commands, DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
 use crate::app::asking::hand::Gesture;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
 use crate::app::looking::view::KeepsFit;
-use crate::app::opening::closing::Question;
+use crate::app::opening::closing::{Lost, Question};
 use crate::app::opening::dialogs::Drop;
 use crate::app::playing::playback::{Playback, SAME_T};
-use crate::app::session::loading::{Request, absolute};
+use crate::app::session::loading::{Problem, Request, absolute};
 use crate::app::session::saving::SaveError;
 use crate::app::session::state::{Outcome, Session};
-use crate::app::telling::notices::Notices;
+use crate::app::telling::notices::{About, Notices};
 use crate::content::ContentKind;
 use crate::project::{DesignEntry, Project, gallery};
-use crate::transition::{PlayMode, Stop};
+use crate::transition::{PlayMode, Stop, Transition};
 use crate::warp::WarpKind;
 
 /// Acts on the intents that open something; asks first where changes would be lost.
@@ -43,7 +43,7 @@ pub fn open(
                     Request::Pair(source.clone(), target.clone())
                 }
                 _ => {
-                    notices.problem(too_many(paths.len()));
+                    notices.problem(About::Opening, too_many(paths.len()));
                     continue;
                 }
             },
@@ -51,7 +51,7 @@ pub fn open(
         };
         if session.is_dirty() {
             // The intent comes again once it is decided, and is then looked at anew.
-            question.ask(intent.clone(), session.unsaved_text());
+            question.ask(intent.clone(), Lost::Changes, session.unsaved_text());
         } else {
             session.open(request);
         }
@@ -118,7 +118,7 @@ fn tell(went: Result<bool, SaveError>, nothing: &str, notices: &mut Notices) {
     match went {
         Ok(true) => {}
         Ok(false) => notices.done(nothing),
-        Err(error) => notices.problem(error.to_string()),
+        Err(error) => notices.problem(About::Saving, error.to_string()),
     }
 }
 
@@ -207,11 +207,12 @@ pub fn save(
         };
         match saved {
             Ok(path) => {
+                notices.well(About::Saving);
                 notices.done(format!("Saved {}", path.display()));
-                waiting = question.after_save();
+                waiting = question.safe(Lost::Changes);
             }
             Err(error) => {
-                notices.problem(error.to_string());
+                notices.problem(About::Saving, error.to_string());
                 question.not_saved();
             }
         }
@@ -233,21 +234,33 @@ pub fn poll(
     if outcome.is_some() {
         session.set_changed();
     }
-    let mut say_why_not = || {
-        if let Some(problem) = session.problem() {
-            notices.problem(problem.to_string());
-        }
-    };
+    if session.is_changed() && session.problem().is_none() {
+        notices.well(About::Transition);
+    }
     match outcome {
-        None | Some(Outcome::Rebuilt) => {}
+        None => return,
         // The match editor says it where it was caused.
-        Some(Outcome::NotRebuilt) if editor.is_open => {}
-        Some(Outcome::NotRebuilt) => say_why_not(),
-        Some(Outcome::Failed(error)) => notices.problem(error.to_string()),
+        Some(Outcome::NotRebuilt) if editor.is_open => return,
+        Some(Outcome::NotRebuilt | Outcome::Rebuilt) => {}
+        Some(Outcome::Failed(error)) => {
+            notices.problem(About::Opening, error.to_string());
+            return;
+        }
         Some(Outcome::Opened) => {
-            say_why_not();
             playback.begin(session.timing());
             keeps_fit.0 = true;
         }
     }
+    notices.well(About::Opening);
+    if let Some(problem) = session.problem() {
+        // Only the last one: what was tried before it is no longer asked for.
+        notices.well(About::Transition);
+        notices.problem(About::Transition, why_not(problem, session.transition()));
+    }
+}
+
+/// Why there is nothing to see, or something else than was asked for.
+fn why_not(problem: &Problem, shown: Option<&Transition>) -> String {
+    let instead = shown.map(|shown| format!(" (shown meanwhile: {})", shown.cell().name()));
+    format!("{problem}{}", instead.unwrap_or_default())
 }

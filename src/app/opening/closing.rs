@@ -1,7 +1,7 @@
 //! Nothing that was not saved is lost without a question.
 //!
 //! Closing the window and opening another project go through here: a [`Question`] holds
-//! them back where changes would be lost, asks, and sends them on again once it is decided.
+//! them back where something would be lost, asks, and sends them on again once it is decided.
 
 use bevy::prelude::{AppExit, Commands, MessageReader, MessageWriter, Res, ResMut, Resource};
 use bevy::window::WindowCloseRequested;
@@ -9,6 +9,16 @@ use bevy::window::WindowCloseRequested;
 use crate::app::asking::intent::{Answer, Intent};
 use crate::app::capturing::films::Recorder;
 use crate::app::session::state::Session;
+use crate::app::telling::notices::{About, Notices};
+
+/// What would be lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lost {
+    /// Changes of the project.
+    Changes,
+    /// A film that is being written.
+    Film,
+}
 
 /// What is held back, and why.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
@@ -19,7 +29,9 @@ pub struct Question {
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
     intent: Intent,
-    waits_for_save: bool,
+    lost: Lost,
+    /// It was answered: the act goes on when the project is saved, or the film has ended.
+    is_answered: bool,
     text: String,
 }
 
@@ -27,28 +39,35 @@ impl Question {
     /// What to ask, while a question is open.
     #[must_use]
     pub fn text(&self) -> Option<&str> {
-        let held = self.held.as_ref().filter(|held| !held.waits_for_save)?;
+        let held = self.held.as_ref().filter(|held| !held.is_answered)?;
         Some(&held.text)
     }
 
+    /// What would be lost, while something is held back.
+    #[must_use]
+    pub fn lost(&self) -> Option<Lost> {
+        self.held.as_ref().map(|held| held.lost)
+    }
+
     /// Holds an act back and asks.
-    pub fn ask(&mut self, intent: Intent, text: String) {
+    pub fn ask(&mut self, intent: Intent, lost: Lost, text: String) {
         self.held = Some(Held {
             intent,
-            waits_for_save: false,
+            lost,
+            is_answered: false,
             text,
         });
     }
 
-    /// The project has just been saved: what waited for it goes on.
-    pub fn after_save(&mut self) -> Option<Intent> {
-        let waiting = self.held.take_if(|held| held.waits_for_save)?;
-        Some(waiting.intent)
+    /// What would have been lost is safe now: what waited for it goes on.
+    pub fn safe(&mut self, lost: Lost) -> Option<Intent> {
+        let waits = |held: &mut Held| held.is_answered && held.lost == lost;
+        Some(self.held.take_if(waits)?.intent)
     }
 
     /// The project was not saved after all: what waited for it is dropped.
     pub fn not_saved(&mut self) {
-        self.held.take_if(|held| held.waits_for_save);
+        self.safe(Lost::Changes);
     }
 }
 
@@ -75,12 +94,10 @@ pub fn close(
             continue;
         }
         if session.is_dirty() {
-            question.ask(Intent::Close, session.unsaved_text());
+            question.ask(Intent::Close, Lost::Changes, session.unsaved_text());
         } else if recorder.work().is_some() {
-            question.ask(
-                Intent::Close,
-                "A film is still being written; it would be lost.".into(),
-            );
+            let text = "It would be lost.".to_owned();
+            question.ask(Intent::Close, Lost::Film, text);
         } else {
             exit.write(AppExit::Success);
         }
@@ -91,7 +108,7 @@ pub fn close(
 pub fn answer(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
-    recorder: Res<Recorder>,
+    (recorder, notices): (Res<Recorder>, Res<Notices>),
     mut question: ResMut<Question>,
     mut commands: Commands,
 ) {
@@ -99,28 +116,37 @@ pub fn answer(
     for intent in intents.read() {
         match intent {
             Intent::Answer(Answer::Stay) | Intent::Back => {
-                // Once a save is under way the question is answered: Esc is meant for something
-                // else.
-                question.held.take_if(|held| !held.waits_for_save);
+                // Once it is answered, Esc is meant for something else.
+                question.held.take_if(|held| !held.is_answered);
             }
-            Intent::Answer(Answer::Discard) => {
-                if let Some(held) = question.held.take() {
-                    // Else what is sent on would be asked about once more.
-                    session.forget_changes();
-                    recorder.cancel();
-                    next.push(held.intent);
-                }
-            }
-            Intent::Answer(Answer::Save) => {
+            Intent::Answer(answer) => {
                 if let Some(held) = &mut question.held {
-                    // A save may ask for a place first and take long; the act waits until it is
-                    // told of its end.
-                    held.waits_for_save = true;
-                    next.push(Intent::Save);
+                    held.is_answered = true;
+                    match (held.lost, answer) {
+                        // A save may ask for a place first and take long; the act waits until it is
+                        // told of its end.
+                        (Lost::Changes, Answer::Save) => next.push(Intent::Save),
+                        (Lost::Changes, _) => {
+                            // Else what is sent on would be asked about once more.
+                            session.forget_changes();
+                            next.extend(question.safe(Lost::Changes));
+                        }
+                        (Lost::Film, Answer::Save) => {}
+                        // It takes away what it has begun, and that is waited for.
+                        (Lost::Film, _) => recorder.cancel(),
+                    }
                 }
             }
             _ => {}
         }
+    }
+    // A film that came to nothing is told of, which takes the window.
+    if recorder.work().is_none()
+        && question.lost() == Some(Lost::Film)
+        && let Some(intent) = question.safe(Lost::Film)
+        && !notices.is_ill(About::Film)
+    {
+        next.push(intent);
     }
     for intent in next {
         commands.write_message(intent);

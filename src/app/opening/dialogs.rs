@@ -18,7 +18,7 @@ use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new};
 use crate::app::opening::closing::Question;
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
-use crate::app::telling::notices::Notices;
+use crate::app::telling::notices::{About, Notices};
 use crate::design::extensions;
 use crate::project::Project;
 
@@ -130,24 +130,24 @@ pub fn finish(
     };
     dialog.0 = None;
     let paths = answer.unwrap_or_else(|broken| {
-        notices.problem(broken.to_string());
+        notices.problem(About::Opening, broken.to_string());
         Vec::new()
     });
     let is_unseen = paths.is_empty() && lasted < UNSEEN;
     match (purpose, paths.first()) {
         (Purpose::Save, None) if is_unseen => match place_without_asking(&session, &folder) {
             Ok(path) => {
-                notices.problem(NO_DIALOG_TO_SAVE);
+                notices.problem(About::Saving, NO_DIALOG_TO_SAVE);
                 intents.write(Intent::SaveTo(path));
             }
             Err(error) => {
-                notices.problem(error.to_string());
+                notices.problem(About::Saving, error.to_string());
                 question.not_saved();
             }
         },
         // Left without a choice: what waited for the save does not go on.
         (Purpose::Save, None) => question.not_saved(),
-        (_, None) if is_unseen => notices.problem(NO_DIALOG_TO_OPEN),
+        (_, None) if is_unseen => notices.problem(About::Opening, NO_DIALOG_TO_OPEN),
         (_, None) => {}
         (Purpose::Save, Some(path)) => {
             intents.write(Intent::SaveTo(with_extension(path)));

@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use crate::content::ContentKind;
 use crate::correspondence::{PinError, RegionMatchError};
 use crate::design::Source;
 use crate::progress::{Cancelled, Progress, checkpoint};
@@ -13,8 +14,19 @@ use crate::transition::{BuildError, Cell, Style, Timing, Transition};
 pub struct Loaded {
     /// The project and its designs.
     pub project: LoadedProject,
-    /// What can be played, or why there is nothing.
-    pub transition: Result<Transition, Problem>,
+    /// What can be played, if anything.
+    pub stage: Option<Stage>,
+    /// Why that is not what the project asks for.
+    pub problem: Option<Problem>,
+}
+
+/// What can be played.
+#[derive(Clone, Debug)]
+pub struct Stage {
+    /// What it was built from: the project's settings, or those with the plainest method.
+    pub settings: Project,
+    /// The transition.
+    pub transition: Transition,
 }
 
 /// Where the open project comes from.
@@ -68,17 +80,15 @@ impl Rebuild {
     fn carry_out(self, progress: &dyn Progress) -> Result<Loaded, LoadError> {
         // Its sliders are dragged, and the distance transforms take far longer than the mixing.
         if let Some(transition) = self.mixed_otherwise() {
-            return Ok(Loaded {
-                project: self.now,
-                transition: Ok(transition),
-            });
+            return Ok(built(self.now, Ok(transition)));
         }
         let mut project = self.now;
         if reads_differently(&self.staged, &project.project) {
             project = project.reread()?;
             choose_cell(&mut project);
         }
-        Ok(built(project, progress))
+        let transition = transition_of(&project, progress);
+        Ok(built(project, transition))
     }
 
     /// Where nothing but the mixing of the fields has changed, they need not be measured again.
@@ -118,12 +128,26 @@ impl Request {
         })
     }
 
-    /// Does the work.
+    /// The settings that it builds, where they are known before it is read.
+    #[must_use]
+    pub fn settings(&self) -> Option<&Project> {
+        match self {
+            Self::Rebuild(rebuild) => Some(&rebuild.now.project),
+            Self::Gallery(_) | Self::File(_) | Self::Pair(..) => None,
+        }
+    }
+
+    /// Does the work. Where something is opened, `meanwhile` gets it by the plainest method before
+    /// that which is asked for is built; where that cannot be had, it is the answer.
     ///
     /// # Errors
     /// The project or a design cannot be read. That a transition cannot be built from them is no
     /// error: it stands in the answer.
-    pub fn carry_out(self, progress: &dyn Progress) -> Result<Loaded, LoadError> {
+    pub fn carry_out(
+        self,
+        progress: &dyn Progress,
+        meanwhile: impl FnOnce(Loaded),
+    ) -> Result<Loaded, LoadError> {
         checkpoint(progress, "Reading", 0.0)?;
         let mut project = match self {
             Self::Gallery(name) => gallery::load(&name)?,
@@ -134,7 +158,18 @@ impl Request {
             Self::Rebuild(rebuild) => return rebuild.carry_out(progress),
         };
         choose_cell(&mut project);
-        Ok(built(project, progress))
+        let plain = plainest(&project, progress);
+        if plain.is_some() {
+            meanwhile(Loaded {
+                project: project.clone(),
+                stage: plain.clone(),
+                problem: None,
+            });
+        }
+        let transition = transition_of(&project, progress);
+        let mut built = built(project, transition);
+        built.stage = built.stage.or(plain);
+        Ok(built)
     }
 }
 
@@ -159,10 +194,54 @@ fn choose_cell(loaded: &mut LoadedProject) {
     }
 }
 
-fn built(project: LoadedProject, progress: &dyn Progress) -> Loaded {
+fn built(project: LoadedProject, transition: Result<Transition, Problem>) -> Loaded {
+    let (stage, problem) = match transition {
+        Ok(transition) => {
+            let settings = project.project.clone();
+            let stage = Stage {
+                settings,
+                transition,
+            };
+            (Some(stage), None)
+        }
+        Err(problem) => (None, Some(problem)),
+    };
     Loaded {
-        transition: transition_of(&project, progress),
         project,
+        stage,
+        problem,
+    }
+}
+
+/// The transition of a project by the method that moves nothing, which is had of almost any two
+/// designs, and at once; none where that is what it asks for.
+fn plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<Stage> {
+    let asked = project.cell().ok()?;
+    let cell = match asked.content() {
+        ContentKind::Colours => Cell::CROSS_DISSOLVE,
+        ContentKind::Solid | ContentKind::Field => Cell::FIELD_BLEND,
+    };
+    if cell == asked {
+        return None;
+    }
+    let mut plain = project.clone();
+    plain.project.warp = Some(cell.warp());
+    plain.project.content = Some(cell.content());
+    let transition = transition_of(&plain, &Unsaid(progress)).ok()?;
+    Some(Stage {
+        settings: plain.project,
+        transition,
+    })
+}
+
+/// Hears that it is cancelled and tells nothing: a bar that ran once would run again.
+struct Unsaid<'a>(&'a dyn Progress);
+
+impl Progress for Unsaid<'_> {
+    fn report(&self, _stage: &'static str, _fraction: f64) {}
+
+    fn is_cancelled(&self) -> bool {
+        self.0.is_cancelled()
     }
 }
 

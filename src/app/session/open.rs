@@ -33,15 +33,15 @@ impl Open {
     #[must_use]
     pub fn new(loaded: Loaded, origin: Origin) -> Self {
         let project = loaded.project.project.clone();
-        let (transition, problem) = match loaded.transition {
-            Ok(transition) => (Some(transition), None),
-            Err(problem) => (None, Some(problem)),
+        let (staged, transition) = match loaded.stage {
+            Some(stage) => (stage.settings, Some(stage.transition)),
+            None => (project.clone(), None),
         };
         Self {
             loaded: loaded.project,
             transition,
-            problem,
-            staged: project.clone(),
+            problem: loaded.problem,
+            staged,
             history: History::default(),
             origin,
             saved: project,
@@ -151,19 +151,16 @@ impl Open {
     /// Takes in what was built; whether there is a new transition. The settings may have changed
     /// again meanwhile: they stay, and so does what is on the stage where there is nothing new.
     pub fn restage(&mut self, built: Loaded) -> bool {
-        match built.transition {
-            Ok(transition) => {
-                (self.transition, self.problem) = (Some(transition), None);
-                // The settings are not taken from what was built: they may be newer.
-                self.loaded.designs = built.project.designs;
-                self.staged = built.project.project;
-                true
-            }
-            Err(problem) => {
-                self.problem = Some(problem);
-                false
-            }
+        self.problem = built.problem;
+        // What was built in its place is on the stage already, or something better.
+        let stage = built.stage.filter(|_| self.problem.is_none());
+        let is_new = stage.is_some();
+        if let Some(stage) = stage {
+            // The settings are not taken from what was built: they may be newer.
+            self.loaded.designs = built.project.designs;
+            (self.transition, self.staged) = (Some(stage.transition), stage.settings);
         }
+        is_new
     }
 
     /// The settings go back to those of the stage; no step of the history is left of it.

@@ -207,7 +207,22 @@ impl Session {
         edit(&mut changed);
         if changed != open.loaded.project {
             open.edit(changed, mark);
-            self.is_stale = open.is_stale();
+            self.look();
+        }
+    }
+
+    /// Looks whether the settings, which have changed, make another transition than that which is
+    /// on the stage or on its way there.
+    fn look(&mut self) {
+        let Some(open) = &mut self.open else {
+            return;
+        };
+        self.is_stale = open.is_stale();
+        let building = self.work.take_if(|work| work.origin.is_none());
+        // Where the stage shows again what is asked for, nobody waits for another.
+        if let Some(work) = building.filter(|_| self.is_stale) {
+            self.is_stale = work.is_not_of(&open.loaded.project);
+            self.work = Some(work);
         }
     }
 
@@ -248,7 +263,7 @@ impl Session {
         };
         let is_gone = open.go(step)?;
         if is_gone {
-            self.is_stale = open.is_stale();
+            self.look();
         }
         Ok(is_gone)
     }
@@ -302,7 +317,7 @@ impl Session {
 
     /// Takes in work that is done and starts what waits for it.
     pub fn poll(&mut self) -> Option<Outcome> {
-        let outcome = self.take_work();
+        let outcome = self.take_work().or_else(|| self.take_meanwhile());
         // A build runs on while a slider is dragged, so that its way is seen; but not for long.
         let is_free = self.work.as_ref().is_none_or(Work::can_be_given_up);
         if self.is_stale
@@ -313,6 +328,13 @@ impl Session {
             self.work = Some(Work::start(Request::Rebuild(Box::new(open.rebuild()))));
         }
         outcome
+    }
+
+    fn take_meanwhile(&mut self) -> Option<Outcome> {
+        let (loaded, origin) = self.work.as_mut()?.take_meanwhile()?;
+        self.is_stale = false;
+        self.open = Some(Open::new(loaded, origin));
+        Some(Outcome::Opened)
     }
 
     fn take_work(&mut self) -> Option<Outcome> {

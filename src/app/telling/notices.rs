@@ -1,4 +1,5 @@
-//! What the program has to say: errors stay until they are read, confirmations pass.
+//! What the program has to say: errors stay until they are read or what they are about is well
+//! again, confirmations pass.
 
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource, Time};
 
@@ -9,11 +10,26 @@ use crate::one_line::OneLine;
 /// How long a confirmation stays: long enough to read the path of a file.
 const CONFIRMATION_SECS: f32 = 6.0;
 
+/// What a problem is about: when that is well again, it goes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum About {
+    /// Files that were to be opened.
+    Opening,
+    /// The settings make no transition.
+    Transition,
+    /// The project is not saved.
+    Saving,
+    /// A film, or a sheet of all methods.
+    Film,
+    /// A picture.
+    Picture,
+}
+
 /// What a notice is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
     /// Something went wrong; stays until read.
-    Problem,
+    Problem(About),
     /// Something was done; passes.
     Done,
 }
@@ -39,13 +55,26 @@ pub struct Notices {
 
 impl Notices {
     /// Says that something went wrong. What is already on screen is not said twice.
-    pub fn problem(&mut self, text: impl Into<String>) {
-        self.push(Kind::Problem, text.into());
+    pub fn problem(&mut self, about: About, text: impl Into<String>) {
+        self.push(Kind::Problem(about), text.into());
     }
 
     /// Says that something was done.
     pub fn done(&mut self, text: impl Into<String>) {
         self.push(Kind::Done, text.into());
+    }
+
+    /// There is a problem about this.
+    #[must_use]
+    pub fn is_ill(&self, about: About) -> bool {
+        let kind = Kind::Problem(about);
+        self.list.iter().any(|notice| notice.kind == kind)
+    }
+
+    /// This is well again: its problems go.
+    pub fn well(&mut self, about: About) {
+        let kind = Kind::Problem(about);
+        self.list.retain(|notice| notice.kind != kind);
     }
 
     /// What is to be shown, oldest first.
@@ -80,7 +109,7 @@ impl Notices {
         }
         let before = self.list.len();
         self.list
-            .retain(|notice| notice.kind == Kind::Problem || notice.age_secs < CONFIRMATION_SECS);
+            .retain(|notice| notice.kind != Kind::Done || notice.age_secs < CONFIRMATION_SECS);
         self.list.len() < before
     }
 }
@@ -110,20 +139,24 @@ mod tests {
     use super::*;
 
     #[test]
-    fn problems_stay_and_confirmations_pass() {
+    fn problems_stay_until_what_they_are_about_is_well_and_confirmations_pass() {
         let mut notices = Notices::default();
-        notices.problem("lost");
+        notices.problem(About::Saving, "lost");
+        notices.problem(About::Film, "dark");
         notices.done("saved");
-        notices.pass(1e4);
+        assert!(notices.pass(1e4) && !notices.pass(1e4));
+        assert_eq!(notices.list().len(), 2);
+        notices.well(About::Film);
         assert_eq!(notices.list().len(), 1);
         assert_eq!(notices.list()[0].text, "lost");
+        assert!(notices.is_ill(About::Saving) && !notices.is_ill(About::Film));
     }
 
     #[test]
     fn the_same_thing_is_said_once() {
         let mut notices = Notices::default();
-        notices.problem("lost");
-        notices.problem("lost");
+        notices.problem(About::Saving, "lost");
+        notices.problem(About::Saving, "lost");
         assert_eq!(notices.list().len(), 1);
     }
 }

@@ -32,7 +32,7 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
 fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
     let palette = Palette::of(ui);
     let (icon, colour) = match notice.kind {
-        Kind::Problem => (icons::WARNING, palette.problem),
+        Kind::Problem(_) => (icons::WARNING, palette.problem),
         Kind::Done => (icons::TICK, palette.accent),
     };
     card(ui, egui::Margin::symmetric(12, 8), |ui| {

@@ -1,30 +1,40 @@
-//! The two questions that the program asks: about unsaved changes, and what a dropped file is for.
+//! The questions that the program asks: about what would be lost, and what a dropped file is for.
 
 use std::path::Path;
 
 use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Ui};
 
 use crate::app::asking::intent::{Answer, Intent};
+use crate::app::opening::closing::Lost;
 use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::kit::widgets::primary_button;
 use crate::app::ui::scene::{Intents, Scene};
 
 /// Draws the question that is open, if any.
 pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
-    if let Some(question) = scene.question.text() {
-        ask_unsaved(ctx, question, acts);
+    if let (Some(words), Some(lost)) = (scene.question.text(), scene.question.lost()) {
+        ask_first(ctx, lost, words, acts);
     } else if let Some(path) = scene.drop.undecided() {
         ask_drop(ctx, path, acts);
     }
 }
 
-fn ask_unsaved(ctx: &Context, question: &str, acts: &mut Intents) {
-    Modal::new(Id::new("unsaved")).show(ctx, |ui| {
+/// The heading, and how to keep or give up what would be lost.
+fn words(lost: Lost) -> [&'static str; 3] {
+    match lost {
+        Lost::Changes => ["Unsaved changes", "Save", "Do not save"],
+        Lost::Film => ["A film is being written", "Wait for it", "Stop it"],
+    }
+}
+
+fn ask_first(ctx: &Context, lost: Lost, question: &str, acts: &mut Intents) {
+    let [heading, keep, give_up] = words(lost);
+    Modal::new(Id::new("what would be lost")).show(ctx, |ui| {
         ui.set_width(400.0);
-        ui.heading("Unsaved changes");
+        ui.heading(heading);
         ui.add(Label::new(question).wrap());
         answers(ui, |ui| {
-            if primary_button(ui, "Save").clicked() {
+            if primary_button(ui, keep).clicked() {
                 acts.push(Intent::Answer(Answer::Save));
             }
             let mut answer = |ui: &mut Ui, text: &str, answer: Answer| {
@@ -32,7 +42,7 @@ fn ask_unsaved(ctx: &Context, question: &str, acts: &mut Intents) {
                     acts.push(Intent::Answer(answer));
                 }
             };
-            answer(ui, "Do not save", Answer::Discard);
+            answer(ui, give_up, Answer::Discard);
             answer(ui, "Cancel", Answer::Stay);
         });
     });

@@ -1,0 +1,207 @@
+//! What goes wrong is told, with a way on, and no longer than it is wrong.
+
+use std::path::{Path, PathBuf};
+use std::time::Duration;
+
+use bevy::input::keyboard::{Key, KeyCode};
+use morphospace::app::{Answer, CaptureFolder, Intent, Question, Recorder, Session};
+use morphospace::correspondence::PointPair;
+use morphospace::geometry::DVec2;
+use morphospace::project::Project;
+use morphospace::transition::Cell;
+
+use crate::window::Window;
+
+const SQUARE: &str = "M10 10 H90 V90 H10 Z";
+const TALL_L: &str = "M10 5 H30 V70 H80 V95 H10 Z";
+
+fn write_outline(folder: &Path, name: &str, d: &str) -> PathBuf {
+    let path = folder.join(name);
+    let svg = format!(
+        r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100"><path d="{d}"/></svg>"#
+    );
+    std::fs::write(&path, svg).expect("a file");
+    path
+}
+
+fn with_outlines(folder: &Path) -> Window {
+    let source = write_outline(folder, "source.svg", SQUARE);
+    let target = write_outline(folder, "target.svg", TALL_L);
+    let mut window = Window::new();
+    window.send(Intent::Open(vec![source, target]));
+    window.wait();
+    assert_eq!(window.problems(), Vec::<String>::new());
+    window
+}
+
+/// The open project, changed.
+fn edit(window: &mut Window, change: impl FnOnce(&mut Project)) {
+    let mut project = window.session().project().cloned().expect("a project");
+    change(&mut project);
+    window.send(Intent::Edit(Box::new(project)));
+    window.wait();
+}
+
+/// Three corners of the square, of which two have changed places.
+fn cross_pins(project: &mut Project) {
+    let pin = |[a, b]: [[f64; 2]; 2]| PointPair {
+        source: DVec2::from(a),
+        target: DVec2::from(b),
+    };
+    // SVG files have y down, the project up.
+    project.options.matching.pins = [
+        [[10.0, 90.0], [10.0, 95.0]],
+        [[90.0, 90.0], [80.0, 5.0]],
+        [[90.0, 10.0], [30.0, 95.0]],
+    ]
+    .map(pin)
+    .into();
+}
+
+fn cell(window: &Window) -> Option<Cell> {
+    window.session().transition().map(|t| t.cell())
+}
+
+#[test]
+fn a_problem_goes_with_its_cause() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path());
+    edit(&mut window, cross_pins);
+    assert_eq!(window.problems().len(), 1, "{:?}", window.problems());
+    window.send(Intent::Undo);
+    window.wait();
+    assert_eq!(window.problems(), Vec::<String>::new(), "taken back");
+    window.send(Intent::Redo);
+    window.wait();
+    assert_eq!(window.problems().len(), 1);
+    let field = Cell::FIELD_BLEND;
+    window.send(Intent::UseCell(field.warp(), field.content()));
+    window.wait();
+    assert_eq!(cell(&window), Some(field));
+    assert_eq!(window.problems(), Vec::<String>::new(), "another method");
+    window.send(Intent::Open(vec!["/nowhere/at-all.morph".into()]));
+    window.send(Intent::Answer(Answer::Discard));
+    window.wait();
+    assert_eq!(window.problems().len(), 1);
+    let dissolved = Cell::all().find(|cell| *cell != field).expect("another");
+    window.send(Intent::UseCell(dissolved.warp(), dissolved.content()));
+    window.send(Intent::UseCell(field.warp(), field.content()));
+    window.wait();
+}
+
+fn record(window: &mut Window, folder: PathBuf) {
+    window.0.insert_resource(CaptureFolder(folder));
+    window.send(Intent::Record);
+    while window.0.world().resource::<Recorder>().work().is_some() {
+        std::thread::sleep(Duration::from_millis(1));
+        window.update();
+    }
+    window.update();
+}
+
+#[test]
+fn a_film_that_is_written_takes_back_that_one_was_not() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path());
+    edit(&mut window, |project| project.timing.duration_secs = 0.1);
+    let file = folder.path().join("source.svg");
+    record(&mut window, file.join("below"));
+    assert_eq!(window.problems().len(), 1);
+    record(&mut window, folder.path().join("films"));
+    assert_eq!(window.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn not_saving_before_another_project_opens_leaves_a_film_alone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path());
+    edit(&mut window, |project| project.timing.duration_secs = 600.0);
+    window
+        .0
+        .insert_resource(CaptureFolder(folder.path().join("films")));
+    window.send(Intent::Record);
+    let other = write_outline(folder.path(), "other.svg", SQUARE);
+    window.send(Intent::Open(vec![other.clone(), other]));
+    assert!(window.0.world().resource::<Question>().text().is_some());
+    window.send(Intent::Answer(Answer::Discard));
+    window.wait();
+    assert!(!window.session().is_dirty());
+    let is_recording = |window: &Window| window.0.world().resource::<Recorder>().work().is_some();
+    for _ in 0..20 {
+        std::thread::sleep(Duration::from_millis(5));
+        window.update();
+    }
+    assert!(is_recording(&window));
+    // Closing asks about it, and waits until what was begun is taken away.
+    window.send(Intent::Close);
+    assert!(window.0.world().resource::<Question>().text().is_some());
+    window.press(KeyCode::Escape, Key::Escape);
+    assert!(is_recording(&window) && window.0.should_exit().is_none());
+    window.send(Intent::Close);
+    window.send(Intent::Answer(Answer::Discard));
+    while window.0.should_exit().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+        window.update();
+    }
+    let films = std::fs::read_dir(folder.path().join("films")).expect("a folder");
+    assert_eq!(films.count(), 0);
+}
+
+#[test]
+fn a_method_that_cannot_be_had_is_replaced_by_one_that_can() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path());
+    let asked = cell(&window);
+    edit(&mut window, cross_pins);
+    let path = folder.path().join("crossed.morph");
+    window.send(Intent::SaveTo(path.clone()));
+    let mut again = Window::new();
+    again.send(Intent::Open(vec![path]));
+    again.wait();
+    assert_eq!(cell(&again), Some(Cell::FIELD_BLEND));
+    let [problem] = &again.problems()[..] else {
+        panic!("one problem");
+    };
+    assert!(problem.contains("pin") && problem.contains(Cell::FIELD_BLEND.name()));
+    assert!(!again.session().is_dirty(), "the document is as it was");
+    edit(&mut again, |project| {
+        project.options.matching.pins.clear();
+    });
+    assert_eq!(cell(&again), asked);
+    assert_eq!(again.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn what_takes_long_to_open_is_shown_by_the_plainest_method_meanwhile() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path());
+    let mut project = window.session().project().cloned().expect("a project");
+    // Half a million triangles.
+    project.options.arap.subdivisions = 7;
+    window.send(Intent::Edit(Box::new(project.clone())));
+    let path = folder.path().join("fine.morph");
+    window.send(Intent::SaveTo(path.clone()));
+    let mut again = Window::new();
+    again.send(Intent::Open(vec![path]));
+    let session = |window: &Window| {
+        let session: &Session = window.session();
+        (session.work().is_some(), session.transition().is_some())
+    };
+    while session(&again) == (true, false) {
+        std::thread::sleep(Duration::from_millis(1));
+        again.update();
+    }
+    assert_eq!(session(&again), (true, true), "it is still being built");
+    assert_eq!(cell(&again), Some(Cell::FIELD_BLEND));
+    let asked = again.session().project().map(|p| p.options.arap.subdivisions);
+    assert_eq!(asked, Some(7));
+    // What is painted is no other film: the work goes on.
+    let mut painted = again.session().project().cloned().expect("a project");
+    painted.style.joints = !painted.style.joints;
+    again.send(Intent::Edit(Box::new(painted)));
+    again.send(Intent::CancelWork);
+    assert_eq!(session(&again), (false, true));
+    let now = again.session().project().and_then(|p| Some((p.warp?, p.content?)));
+    let field = Cell::FIELD_BLEND;
+    assert_eq!(now, Some((field.warp(), field.content())));
+}
