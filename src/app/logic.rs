@@ -18,7 +18,7 @@ use crate::app::looking::twin::{self, Twin};
 use crate::app::looking::view::{self, KeepsFit, StageArea};
 use crate::app::opening::apply::{self as opening, Gallery};
 use crate::app::opening::closing::{self, Question};
-use crate::app::opening::dialogs;
+use crate::app::opening::{dialogs, drops};
 use crate::app::playing::playback::{self, Playback};
 use crate::app::playing::staging;
 use crate::app::session::state::Session;
@@ -40,7 +40,7 @@ impl Plugin for LogicPlugin {
                     times::record,
                     hand::note_gesture,
                     keymap::read_keys,
-                    dialogs::read_drops,
+                    drops::read_drops,
                 )
                     .in_set(Input),
             )
@@ -79,7 +79,8 @@ fn init(app: &mut App) {
         .init_resource::<Twin>()
         .init_resource::<Notices>()
         .init_resource::<Question>()
-        .init_resource::<dialogs::Drop>()
+        .init_resource::<drops::Drop>()
+        .init_resource::<dialogs::Dialog>()
         .init_resource::<films::Recorder>()
         .init_resource::<StageArea>()
         .init_resource::<KeepsFit>()
@@ -97,7 +98,8 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         view::back,
         preferences::apply,
         // Questions before what they hold back.
-        (closing::answer, closing::close, dialogs::decide).chain(),
+        (closing::answer, closing::close, drops::decide).chain(),
+        (dialogs::choose, dialogs::open).chain(),
         (
             opening::open,
             opening::edit,

@@ -44,6 +44,7 @@ pub use looking::twin::{OnTwin, Twin};
 pub use looking::view::{KeepsFit, StageArea};
 pub use opening::apply::Gallery;
 pub use opening::closing::{Lost, Question};
+pub use opening::dialogs::{Dialog, Purpose};
 pub use playing::pace::{Pace, Repaint};
 pub use playing::playback::Playback;
 pub use playing::staging::OnStage;

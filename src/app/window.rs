@@ -16,7 +16,7 @@ use crate::app::capturing::pictures;
 use crate::app::logic::LogicPlugin;
 use crate::app::looking::view;
 use crate::app::opening::apply::Gallery;
-use crate::app::opening::{dialogs, thumbnails};
+use crate::app::opening::thumbnails;
 use crate::app::playing::{pace, staging};
 use crate::app::ui::draw::UiPlugin;
 use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
@@ -89,7 +89,6 @@ impl Plugin for WindowPlugins {
     fn build(&self, app: &mut App) {
         app.add_plugins(UiPlugin)
             .init_resource::<pictures::Captures>()
-            .init_resource::<dialogs::Dialog>()
             .init_resource::<thumbnails::Thumbnails>()
             .add_systems(Startup, spawn_cameras)
             // Last: what this frame has begun decides how soon the next one comes.
@@ -97,7 +96,6 @@ impl Plugin for WindowPlugins {
             .add_systems(
                 Update,
                 (
-                    (dialogs::open, dialogs::finish).chain(),
                     view::window_mode,
                     (view::fit, view::place_camera).chain(),
                     thumbnails::advance,

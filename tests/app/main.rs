@@ -8,5 +8,6 @@ mod history;
 mod keys;
 mod opening;
 mod rest;
+mod saving;
 mod telling;
 mod window;

@@ -5,10 +5,11 @@ use std::time::Duration;
 use bevy::input::keyboard::{Key, KeyCode, KeyboardInput};
 use bevy::input::{ButtonState, InputPlugin};
 use bevy::log::LogPlugin;
-use bevy::prelude::{App, DefaultPlugins, Entity, Messages, MinimalPlugins, PluginGroup};
+use bevy::prelude::{App, DefaultPlugins, Entity, Messages, MinimalPlugins, PluginGroup, With};
 use bevy::render::RenderPlugin;
 use bevy::render::settings::{RenderCreation, WgpuSettings};
 use bevy::time::TimeUpdateStrategy;
+use bevy::window::PrimaryWindow;
 use bevy::winit::{WinitPlugin, WinitSettings};
 use morphospace::app::{
     Editor, EditorAct, Gallery, Intent, Kind, LogicPlugin, Notices, Playback, Preferences, Session,
@@ -118,13 +119,15 @@ impl Window {
     }
 
     pub fn key(&mut self, state: ButtonState, key_code: KeyCode, logical_key: Key, repeat: bool) {
+        let mut windows = self.0.world_mut().query_filtered::<Entity, With<PrimaryWindow>>();
+        let window = windows.single(self.0.world()).unwrap_or(Entity::PLACEHOLDER);
         let input = KeyboardInput {
             key_code,
             logical_key,
             state,
             text: None,
             repeat,
-            window: Entity::PLACEHOLDER,
+            window,
         };
         self.0.world_mut().write_message(input);
         self.update();

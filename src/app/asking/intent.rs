@@ -61,6 +61,8 @@ pub enum Intent {
     NextMethod,
     /// Ask for files to open.
     AskOpen,
+    /// The answer of the dialog that asked for files; none where it was left.
+    Choose(Vec<PathBuf>),
     /// Open these files: one project, or one or two designs.
     Open(Vec<PathBuf>),
     /// Open a bundled project by its name.

@@ -9,7 +9,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::closing::Question;
-use crate::app::opening::dialogs::Drop;
+use crate::app::opening::drops::Drop;
 use crate::app::session::state::Session;
 use crate::geometry::Bounds;
 use crate::stage::{StageCamera, StageView};

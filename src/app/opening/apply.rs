@@ -9,7 +9,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
 use crate::app::looking::view::KeepsFit;
 use crate::app::opening::closing::{Lost, Question};
-use crate::app::opening::dialogs::Drop;
+use crate::app::opening::drops::Drop;
 use crate::app::playing::playback::{Playback, SAME_T};
 use crate::app::session::loading::{Problem, Request, absolute};
 use crate::app::session::saving::SaveError;

@@ -3,4 +3,5 @@
 pub mod apply;
 pub mod closing;
 pub mod dialogs;
+pub mod drops;
 pub mod thumbnails;

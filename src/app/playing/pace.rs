@@ -20,7 +20,8 @@ use crate::app::capturing::films::Recorder;
 use crate::app::capturing::pictures::Captures;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
-use crate::app::opening::dialogs::{Dialog, Drop};
+use crate::app::opening::dialogs::Dialog;
+use crate::app::opening::drops::Drop;
 use crate::app::opening::thumbnails::Thumbnails;
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
@@ -115,7 +116,7 @@ impl Going<'_, '_> {
             || self.thumbnails.is_busy()
             || self.measured.is_busy()
             || self.twin.is_busy()
-            || self.dialog.is_open()
+            || self.dialog.asks().is_some()
             || self.drop.is_arriving()
             // While the panels are hidden they wait themselves.
             || (self.preferences.panels && self.notices.is_passing())

@@ -13,7 +13,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::looking::view::StageArea;
 use crate::app::playing::pace::Repaint;
 use crate::app::ui::kit::theme;
-use crate::app::ui::overlays::{help, notices, questions, times, work};
+use crate::app::ui::overlays::{files, help, notices, questions, times, work};
 use crate::app::ui::panels::inspector;
 use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::stage::{area, twin, verdict};
@@ -28,6 +28,7 @@ impl Plugin for UiPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins(EguiPlugin::default())
             .init_resource::<gallery::Textures>()
+            .init_resource::<files::Files>()
             .add_systems(
                 PreUpdate,
                 keep_keys_from_widgets
@@ -80,7 +81,7 @@ fn note_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<Repaint>) {
 fn draw(
     mut contexts: EguiContexts,
     scene: Scene,
-    mut textures: ResMut<gallery::Textures>,
+    (mut textures, mut files): (ResMut<gallery::Textures>, ResMut<files::Files>),
     mut typing: ResMut<Typing>,
     mut area: ResMut<StageArea>,
     mut intents: MessageWriter<Intent>,
@@ -101,10 +102,11 @@ fn draw(
     let stage = root.available_rect_before_wrap();
     let first = middle(&mut root, &scene, stage, &mut acts);
     overlays(&ctx, &scene, stage, &mut acts);
+    files::show(&ctx, &scene, &mut files, &mut acts);
     area.set_if_neq(StageArea::from_points(first.left_top(), first.size()));
     typing.set_if_neq(Typing(
-        // A menu takes arrows and Esc for itself.
-        ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx),
+        // A menu takes arrows and Esc for itself, and so does what asks for files.
+        ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx) || scene.dialog.asks().is_some(),
     ));
     // Acted on in the next frame: the panels are drawn when the systems have run.
     intents.write_batch(acts);

@@ -14,7 +14,8 @@ use crate::app::looking::times::WholeFrame;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::apply::Gallery;
 use crate::app::opening::closing::Question;
-use crate::app::opening::dialogs::Drop;
+use crate::app::opening::dialogs::Dialog;
+use crate::app::opening::drops::Drop;
 use crate::app::opening::thumbnails::Thumbnails;
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
@@ -37,6 +38,7 @@ pub struct Scene<'w> {
     pub thumbnails: Res<'w, Thumbnails>,
     pub recorder: Res<'w, Recorder>,
     pub question: Res<'w, Question>,
+    pub dialog: Res<'w, Dialog>,
     pub drop: Res<'w, Drop>,
     pub keys: Res<'w, KeyMap>,
     pub times: Res<'w, FrameTimes>,

@@ -1,5 +1,6 @@
-//! What lies above everything: help, questions, notices, work, times.
+//! What lies above everything: files, help, questions, notices, work, times.
 
+pub mod files;
 pub mod help;
 pub mod notices;
 pub mod questions;

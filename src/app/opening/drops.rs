@@ -1,0 +1,68 @@
+//! Files that are dropped on the window.
+
+use std::path::{Path, PathBuf};
+
+use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource, Time};
+use bevy::window::FileDragAndDrop;
+
+use crate::app::asking::intent::Intent;
+
+/// Files that are dropped together arrive one by one; so long is waited for the next.
+const GATHER_SECS: f32 = 0.15;
+
+/// Files that were dropped: those still arriving, and one of which nobody knows what it is for.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct Drop {
+    arriving: Vec<PathBuf>,
+    quiet_secs: f32,
+    undecided: Option<PathBuf>,
+}
+
+impl Drop {
+    /// A single design that may become source or target.
+    #[must_use]
+    pub fn undecided(&self) -> Option<&Path> {
+        self.undecided.as_deref()
+    }
+
+    /// Files are arriving that are not acted on yet.
+    #[must_use]
+    pub fn is_arriving(&self) -> bool {
+        !self.arriving.is_empty()
+    }
+
+    /// Asks what a single design is for.
+    pub fn ask(&mut self, path: PathBuf) {
+        self.undecided = Some(path);
+    }
+}
+
+/// Gathers dropped files and opens them together.
+pub fn read_drops(
+    mut drops: MessageReader<FileDragAndDrop>,
+    time: Res<Time>,
+    mut state: ResMut<Drop>,
+    mut intents: MessageWriter<Intent>,
+) {
+    for drop in drops.read() {
+        if let FileDragAndDrop::DroppedFile { path_buf, .. } = drop {
+            state.arriving.push(path_buf.clone());
+            state.quiet_secs = 0.0;
+        }
+    }
+    if state.arriving.is_empty() {
+        return;
+    }
+    state.quiet_secs += time.delta_secs();
+    if state.quiet_secs >= GATHER_SECS {
+        intents.write(Intent::Open(std::mem::take(&mut state.arriving)));
+    }
+}
+
+/// Forgets the undecided file once it is decided.
+pub fn decide(mut intents: MessageReader<Intent>, mut state: ResMut<Drop>) {
+    let is_decided = |intent: &Intent| matches!(intent, Intent::ReplaceDesign(..) | Intent::Back);
+    if intents.read().any(is_decided) && state.undecided.is_some() {
+        state.undecided = None;
+    }
+}

@@ -1,0 +1,158 @@
+//! Every way to save ends in words: where it was saved, or that it was not.
+
+use std::path::{Path, PathBuf};
+
+use bevy::input::keyboard::{Key, KeyCode};
+use morphospace::app::{Answer, Dialog, Intent, Kind, Notices, Purpose};
+
+use crate::window::{Window, entries};
+
+fn asks(window: &Window) -> Option<Purpose> {
+    window.0.world().resource::<Dialog>().asks().cloned()
+}
+
+fn said(window: &Window) -> Vec<String> {
+    let notices = window.0.world().resource::<Notices>().list();
+    let done = notices.iter().filter(|notice| notice.kind == Kind::Done);
+    done.map(|notice| notice.text.clone()).collect()
+}
+
+/// What the dialog answers.
+fn choose(window: &mut Window, paths: &[&Path]) {
+    let paths = paths.iter().map(|path| path.to_path_buf()).collect();
+    window.send(Intent::Choose(paths));
+    for _ in 0..3 {
+        window.update();
+    }
+}
+
+fn changed() -> Window {
+    let mut window = Window::with_gallery();
+    window.send(Intent::CyclePlayMode);
+    assert!(window.session().is_dirty());
+    window
+}
+
+fn name() -> String {
+    format!("{}.morph", entries().remove(0))
+}
+
+#[test]
+fn a_project_without_a_file_is_asked_for_a_place_and_told_where_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = changed();
+    window.send(Intent::Save);
+    assert_eq!(asks(&window), Some(Purpose::Save(name())));
+    let path = folder.path().join("mine");
+    choose(&mut window, &[&path]);
+    let path = path.with_extension("morph");
+    assert!(path.is_file() && !window.session().is_dirty());
+    assert!(said(&window).contains(&format!("Saved {}", path.display())));
+    assert_eq!(asks(&window), None);
+    // From now on it has a place, and the next dialog opens there.
+    window.send(Intent::CyclePlayMode);
+    window.send(Intent::Save);
+    assert!(asks(&window).is_none() && !window.session().is_dirty());
+    window.send(Intent::AskOpen);
+    let dialog: &Dialog = window.0.world().resource();
+    assert_eq!(dialog.folder(), Some(folder.path()));
+}
+
+#[test]
+fn leaving_the_dialog_is_told_and_nothing_is_closed() {
+    let mut window = changed();
+    window.send(Intent::Close);
+    window.send(Intent::Answer(Answer::Save));
+    window.update();
+    assert!(matches!(asks(&window), Some(Purpose::Save(_))));
+    choose(&mut window, &[]);
+    assert!(said(&window).iter().any(|words| words.contains("not saved")));
+    assert!(window.session().is_dirty() && window.0.should_exit().is_none());
+    // Nothing waits any more.
+    let folder = tempfile::tempdir().expect("a folder");
+    window.send(Intent::SaveTo(folder.path().join("later.morph")));
+    window.update();
+    assert!(window.0.should_exit().is_none());
+}
+
+#[test]
+fn closing_waits_for_the_save_and_an_error_keeps_the_window() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("file");
+    std::fs::write(&file, "").expect("a file");
+    let mut window = changed();
+    let mut close_and_save_to = |path: PathBuf| {
+        window.send(Intent::Close);
+        window.send(Intent::Answer(Answer::Save));
+        window.update();
+        choose(&mut window, &[&path]);
+        (window.problems(), window.0.should_exit().is_some())
+    };
+    let (problems, is_closed) = close_and_save_to(file.join("below.morph"));
+    assert!(problems.len() == 1 && problems[0].contains("file"), "{problems:?}");
+    assert!(!is_closed);
+    let path = folder.path().join("mine.morph");
+    let (problems, is_closed) = close_and_save_to(path.clone());
+    assert!(problems.is_empty() && is_closed && path.is_file());
+}
+
+#[test]
+fn a_name_that_becomes_that_of_another_file_is_asked_about() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let taken = folder.path().join("taken.morph");
+    std::fs::write(&taken, "precious").expect("a file");
+    let mut window = changed();
+    window.send(Intent::SaveAs);
+    choose(&mut window, &[&folder.path().join("taken")]);
+    assert_eq!(std::fs::read_to_string(&taken).expect("text"), "precious");
+    assert!(window.problems()[0].contains("taken.morph"));
+    assert_eq!(asks(&window), Some(Purpose::Save("taken.morph".into())));
+    // The dialog asks itself about a file that is pointed at.
+    choose(&mut window, &[&taken]);
+    assert!(!window.session().is_dirty() && window.problems().is_empty());
+    assert_ne!(std::fs::read_to_string(&taken).expect("text"), "precious");
+}
+
+#[test]
+fn what_is_chosen_is_opened() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("mine.morph");
+    let mut window = changed();
+    window.send(Intent::SaveTo(path.clone()));
+    let mut again = Window::new();
+    again.send(Intent::SaveAs);
+    assert_eq!(asks(&again), None, "there is nothing to save");
+    again.send(Intent::AskOpen);
+    assert_eq!(asks(&again), Some(Purpose::Open));
+    choose(&mut again, &[&path]);
+    again.wait();
+    assert_eq!(again.session().path(), Some(path.as_path()));
+}
+
+/// With the dialog itself: keys belong to it while it is there.
+#[test]
+fn the_keyboard_leaves_the_dialog_and_takes_what_it_offers() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = Window::with_panels();
+    window.send(Intent::SaveTo(folder.path().join("first.morph")));
+    let mut press = |window: &mut Window, code: KeyCode, key: Key| {
+        // It lists its folder beside the window.
+        for _ in 0..20 {
+            std::thread::sleep(std::time::Duration::from_millis(5));
+            window.update();
+        }
+        window.press(code, key);
+        window.update();
+        window.update();
+    };
+    window.send(Intent::SaveAs);
+    press(&mut window, KeyCode::Escape, Key::Escape);
+    assert_eq!(asks(&window), None);
+    assert!(said(&window).iter().any(|words| words.contains("not saved")));
+    window.send(Intent::SaveAs);
+    press(&mut window, KeyCode::Enter, Key::Enter);
+    // The name that it offers is taken: it asks, and Enter says yes.
+    press(&mut window, KeyCode::Enter, Key::Enter);
+    assert_eq!(asks(&window), None);
+    assert!(said(&window).iter().any(|words| words.contains("first.morph")));
+}
