@@ -84,7 +84,12 @@ fn with_the_panels_hidden_nothing_but_the_drawing_is_there() {
     let mut window = watched();
     worry(&mut window);
     let seen = drawn(&mut window);
-    let told = ["a problem", "a confirmation", "Whole frame", "Straight lines"];
+    let told = [
+        "a problem",
+        "a confirmation",
+        "Whole frame",
+        "Straight lines",
+    ];
     for words in told {
         assert!(seen.says(words), "{words}: {:?}", seen.words);
     }

@@ -35,7 +35,7 @@ const LONG: Duration = Duration::from_secs(60);
 
 /// Frames until the window rests.
 fn settle(window: &mut Window) -> usize {
-    (0..20_000)
+    (0..5_000)
         .find(|_| {
             window.update();
             if !is_moving(window) {

@@ -193,7 +193,10 @@ fn what_takes_long_to_open_is_shown_by_the_plainest_method_meanwhile() {
     }
     assert_eq!(session(&again), (true, true), "it is still being built");
     assert_eq!(cell(&again), Some(Cell::FIELD_BLEND));
-    let asked = again.session().project().map(|p| p.options.arap.subdivisions);
+    let asked = again
+        .session()
+        .project()
+        .map(|p| p.options.arap.subdivisions);
     assert_eq!(asked, Some(7));
     // What is painted is no other film: the work goes on.
     let mut painted = again.session().project().cloned().expect("a project");
@@ -201,7 +204,10 @@ fn what_takes_long_to_open_is_shown_by_the_plainest_method_meanwhile() {
     again.send(Intent::Edit(Box::new(painted)));
     again.send(Intent::CancelWork);
     assert_eq!(session(&again), (false, true));
-    let now = again.session().project().and_then(|p| Some((p.warp?, p.content?)));
+    let now = again
+        .session()
+        .project()
+        .and_then(|p| Some((p.warp?, p.content?)));
     let field = Cell::FIELD_BLEND;
     assert_eq!(now, Some((field.warp(), field.content())));
 }

@@ -119,8 +119,13 @@ impl Window {
     }
 
     pub fn key(&mut self, state: ButtonState, key_code: KeyCode, logical_key: Key, repeat: bool) {
-        let mut windows = self.0.world_mut().query_filtered::<Entity, With<PrimaryWindow>>();
-        let window = windows.single(self.0.world()).unwrap_or(Entity::PLACEHOLDER);
+        let mut windows = self
+            .0
+            .world_mut()
+            .query_filtered::<Entity, With<PrimaryWindow>>();
+        let window = windows
+            .single(self.0.world())
+            .unwrap_or(Entity::PLACEHOLDER);
         let input = KeyboardInput {
             key_code,
             logical_key,

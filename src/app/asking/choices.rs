@@ -77,6 +77,11 @@ pub enum RecordFormat {
     Pngs,
 }
 
+impl RecordFormat {
+    /// That which has no transparency: its films get the ground colour whatever was chosen.
+    pub const OPAQUE: Self = Self::Film(FilmKind::Mp4);
+}
+
 impl Default for RecordFormat {
     /// What plays everywhere.
     fn default() -> Self {

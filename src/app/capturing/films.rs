@@ -182,11 +182,13 @@ impl Order {
         let film = Film::of_timing(&self.project.timing, &self.project.stops, FPS)?;
         let bounds = framing(&self.transition, film.times());
         let size = PixelSize::of_shape(bounds, self.longer_side_px);
+        let style = self.project.style;
+        let is_opaque = self.format == RecordFormat::OPAQUE;
         let camera = Camera {
             transition: self.transition.clone(),
-            style: self.project.style,
+            style,
             view: View::fit(bounds, size),
-            ground: self.ground,
+            ground: self.ground.or(is_opaque.then_some(style.ground)),
         };
         write_film(&camera, &film, target, progress)?;
         Ok(())

@@ -2,7 +2,9 @@
 
 use std::path::Path;
 
-use bevy::prelude::{Commands, DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource};
+use bevy::prelude::{
+    Commands, DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource,
+};
 
 use crate::app::asking::hand::Gesture;
 use crate::app::asking::intent::Intent;

@@ -6,7 +6,7 @@
 
 use std::path::{Path, PathBuf};
 
-use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource};
+use bevy::prelude::{Commands, MessageReader, Res, ResMut, Resource};
 
 use crate::app::asking::intent::Intent;
 use crate::app::opening::closing::Question;
@@ -41,7 +41,8 @@ impl Purpose {
     #[must_use]
     pub fn filters(&self) -> Vec<(String, Vec<&'static str>)> {
         let projects = ("Projects".to_owned(), vec![Project::EXTENSION]);
-        let formats = Format::ALL.map(|format| (format.name().to_owned(), format.extensions().into()));
+        let formats =
+            Format::ALL.map(|format| (format.name().to_owned(), format.extensions().into()));
         match self {
             Self::Save(_) => vec![projects],
             Self::Replace(_) => {
@@ -79,11 +80,7 @@ impl Dialog {
 }
 
 /// Opens dialogs.
-pub fn open(
-    mut intents: MessageReader<Intent>,
-    mut dialog: ResMut<Dialog>,
-    session: Res<Session>,
-) {
+pub fn open(mut intents: MessageReader<Intent>, mut dialog: ResMut<Dialog>, session: Res<Session>) {
     for intent in intents.read() {
         let asks = match intent {
             Intent::AskOpen => Purpose::Open,
@@ -117,7 +114,7 @@ pub fn choose(
     mut dialog: ResMut<Dialog>,
     mut question: ResMut<Question>,
     mut notices: ResMut<Notices>,
-    mut next: MessageWriter<Intent>,
+    mut commands: Commands,
 ) {
     for intent in intents.read() {
         let Intent::Choose(paths) = intent else {
@@ -134,10 +131,10 @@ pub fn choose(
             }
             (None, _) | (_, None) => {}
             (Some(Purpose::Open), Some(_)) => {
-                next.write(Intent::Open(paths.clone()));
+                commands.write_message(Intent::Open(paths.clone()));
             }
             (Some(Purpose::Replace(index)), Some(path)) => {
-                next.write(Intent::ReplaceDesign(index, path.clone()));
+                commands.write_message(Intent::ReplaceDesign(index, path.clone()));
             }
             (Some(Purpose::Save(_)), Some(path)) => match with_extension(path) {
                 // Asked about another file than that which would be lost.
@@ -145,12 +142,15 @@ pub fn choose(
                     let name = whole.file_name().unwrap_or_default().to_string_lossy();
                     notices.problem(
                         About::Saving,
-                        format!("{} is there already: choose it to replace it, or another name.", whole.display()),
+                        format!(
+                            "{} is there already: choose it to replace it, or another name.",
+                            whole.display()
+                        ),
                     );
                     dialog.asks = Some(Purpose::Save(name.into_owned()));
                 }
                 whole => {
-                    next.write(Intent::SaveTo(whole));
+                    commands.write_message(Intent::SaveTo(whole));
                 }
             },
         }

@@ -156,10 +156,10 @@ pub fn keep(
         is_hidden: *is_covered || window.iter().any(is_minimised),
     };
     let mode = pace.mode();
-    if settings.focused_mode != mode {
-        settings.focused_mode = mode;
-        // The same beside another window: a film goes on while notes are read.
-        settings.unfocused_mode = mode;
+    // The same beside another window: a film goes on while notes are read. Looked at first:
+    // nobody else is to think that they have changed.
+    if (settings.focused_mode, settings.unfocused_mode) != (mode, mode) {
+        (settings.focused_mode, settings.unfocused_mode) = (mode, mode);
     }
 }
 

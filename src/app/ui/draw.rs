@@ -59,14 +59,18 @@ fn dress(added: On<Add, EguiContext>, mut contexts: Query<&mut EguiContext>) -> 
     Ok(())
 }
 
-fn keep_keys_from_widgets(mut contexts: Query<&mut bevy_egui::EguiInput>, typing: Res<Typing>) {
-    if typing.0 {
-        return;
-    }
+fn keep_keys_from_widgets(
+    mut contexts: Query<&mut bevy_egui::EguiInput>,
+    typing: Res<Typing>,
+    mut held: Local<egui::Modifiers>,
+) {
     for mut input in &mut contexts {
-        input
-            .events
-            .retain(|event| !matches!(event, egui::Event::Key { .. } | egui::Event::Text(_)));
+        input.events.retain(|event| match event {
+            egui::Event::Key { .. } | egui::Event::Text(_) => typing.0,
+            // Told in each frame; and egui draws once more after whatever it is told of.
+            egui::Event::ModifiersChanged(now) => std::mem::replace(&mut *held, *now) != *now,
+            _ => true,
+        });
     }
 }
 

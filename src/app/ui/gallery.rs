@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use bevy::prelude::Resource;
 use bevy_egui::egui::{
-    self, Align2, Color32, ColorImage, Panel, Rect, Response, ScrollArea, Sense, StrokeKind,
-    TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType, pos2, vec2,
+    self, Color32, ColorImage, Panel, Rect, Response, ScrollArea, Sense, StrokeKind, TextureHandle,
+    TextureOptions, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use crate::app::asking::intent::Intent;
@@ -46,7 +46,12 @@ pub fn show(root: &mut Ui, scene: &Scene, textures: &mut Textures, acts: &mut In
 
 fn card(ui: &mut Ui, scene: &Scene, textures: &mut Textures, entry: &gallery::Entry) -> Response {
     let palette = Palette::of(ui);
-    let size = vec2(ui.available_width(), PICTURE_HEIGHT + 28.0);
+    let (width, ink) = (ui.available_width(), palette.text);
+    // Wrapped: what tells two of them apart may stand at the end.
+    let title = ui
+        .painter()
+        .layout(entry.title.clone(), SMALL, ink, width - 16.0);
+    let size = vec2(width, PICTURE_HEIGHT + 12.0 + title.size().y);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let is_open = scene.session.gallery_name() == Some(entry.name.as_str());
     if is_open {
@@ -64,10 +69,8 @@ fn card(ui: &mut Ui, scene: &Scene, textures: &mut Textures, entry: &gallery::En
         .rect(rect, CARD_RADIUS, fill, (1.0, line), StrokeKind::Inside);
     let picture = Rect::from_min_size(rect.min, vec2(rect.width(), PICTURE_HEIGHT)).shrink(4.0);
     thumbnail(ui, scene, textures, &entry.name, picture);
-    let text_at = pos2(rect.left() + 8.0, rect.bottom() - 15.0);
-    let clip = ui.painter().with_clip_rect(rect.shrink(4.0));
-    let (title, ink) = (&entry.title, palette.text);
-    clip.text(text_at, Align2::LEFT_CENTER, title, SMALL, ink);
+    let text_at = rect.left_top() + vec2(8.0, PICTURE_HEIGHT + 4.0);
+    ui.painter().galley(text_at, title, ink);
     response.on_hover_text(&entry.description)
 }
 

@@ -7,7 +7,7 @@ use crate::app::asking::choices::{CaptureScale, Preferences, RecordFormat, Theme
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{act_button, choose, from_right, icon_button, quiet};
+use crate::app::ui::kit::widgets::{act_button, choose, from_right, hint, icon_button, quiet};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::export::FilmKind;
 use crate::names::Choice;
@@ -162,16 +162,18 @@ fn capture_options(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let tip = "What lies behind the shape in pictures and films.";
     let grounds = [
         (false, "Coloured", "The ground colour of the project"),
-        (
-            true,
-            "Transparent",
-            "Nothing; for placing on a page (MP4 has no transparency)",
-        ),
+        (true, "Transparent", "Nothing; for placing on a page"),
     ];
     choose(ui, "Ground", tip, &mut draft.capture_transparent, &grounds);
     let tip = "The kind of file that a recording writes.";
     let formats = record_formats();
     choose(ui, "Film", tip, &mut draft.record_format, &formats);
+    if draft.capture_transparent && draft.record_format == RecordFormat::OPAQUE {
+        hint(
+            ui,
+            "MP4 has no transparency: films get the ground colour. GIF, APNG and PNGs have it.",
+        );
+    }
     if draft != *scene.preferences {
         acts.push(Intent::Prefer(draft));
     }

@@ -90,6 +90,12 @@ impl Palette {
         if is_light { LIGHT } else { DARK }
     }
 
+    /// What cannot be had now.
+    #[must_use]
+    pub fn faint(&self) -> Color32 {
+        self.weak.lerp_to_gamma(self.panel, 0.45)
+    }
+
     /// The palette that a piece of the window is drawn with.
     #[must_use]
     pub fn of(ui: &egui::Ui) -> Self {

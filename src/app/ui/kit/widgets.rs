@@ -173,7 +173,7 @@ pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, chosen, label));
     let (fill, text) = match (ui.is_enabled(), chosen, response.hovered()) {
-        (false, ..) => (palette.panel, palette.weak.gamma_multiply(0.6)),
+        (false, ..) => (palette.panel, palette.faint()),
         (true, true, _) => (palette.accent_ground, palette.text),
         (true, false, true) => (palette.hover, palette.text),
         (true, false, false) => (palette.raised, palette.weak),

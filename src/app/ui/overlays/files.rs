@@ -1,7 +1,7 @@
 //! The dialog that asks for files.
 
 use bevy::prelude::Resource;
-use bevy_egui::egui::{Align2, Context, Vec2, vec2};
+use bevy_egui::egui::{Align2, Context, Key, Vec2, vec2};
 use egui_file_dialog::{DialogState, FileDialog, OpeningMode};
 
 use crate::app::asking::intent::Intent;
@@ -24,6 +24,11 @@ pub fn show(ctx: &Context, scene: &Scene, files: &mut Files, acts: &mut Intents)
     files.0.take_if(|(shown, _)| shown != asks);
     let new = || (asks.clone(), dialog(asks, &scene.dialog));
     let (_, shown) = files.0.get_or_insert_with(new);
+    // At once: the dialog itself lets go of its text field first.
+    if ctx.input(|input| input.key_pressed(Key::Escape)) {
+        acts.push(Intent::Choose(Vec::new()));
+        return;
+    }
     match shown.update(ctx).state() {
         DialogState::Open => {}
         DialogState::Picked(path) => acts.push(Intent::Choose(vec![path.clone()])),

@@ -43,7 +43,10 @@ fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
             let text_width = width - 24.0 - 24.0 - 2.0 * GRID;
             ui.allocate_ui(vec2(text_width, 0.0), |ui| {
                 ui.set_width(text_width);
-                ui.add_space(3.0);
+                ui.spacing_mut().item_spacing.y = 0.0;
+                // A line in the middle of the icons' square; more lines go on below it.
+                let line = ui.text_style_height(&egui::TextStyle::Body);
+                ui.add_space((24.0 - line) / 2.0);
                 // So that an error can be copied into a report.
                 ui.add(Label::new(&notice.text).wrap().selectable(true));
             });

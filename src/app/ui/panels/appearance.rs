@@ -7,6 +7,7 @@ use crate::app::ui::kit::widgets::{choice, drag, number, row, section, toggle};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
 use crate::project::Project;
+use crate::stage::Show;
 use crate::transition::Rgb;
 use crate::warp::WarpKind;
 
@@ -28,15 +29,16 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
 
 const EQUAL: &str = "Lines of equal blended distance.";
 
-fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
-    let mut preferences = *scene.preferences;
-    let show = &mut preferences.show;
-    let is_field = draft.content == Some(ContentKind::Field);
+/// One layer: whether it is on, its name, what it shows, and whether there is any.
+type Layer<'a> = (&'a mut bool, &'static str, &'static str, bool);
+
+fn table<'a>(scene: &Scene, project: &Project, show: &'a mut Show) -> [Layer<'a>; 7] {
+    let is_field = project.content == Some(ContentKind::Field);
     // A field is of the area that the bars cover, and knows of no bars.
     let has_bars = scene.session.has_bars() && !is_field;
     // Boundary paths move outlines and nothing between them.
-    let has_grid = draft.warp != Some(WarpKind::Paths);
-    let layers: [(&mut bool, &str, &str, bool); 7] = [
+    let has_grid = project.warp != Some(WarpKind::Paths);
+    [
         (&mut show.fill, "Fill", "The shape itself.", true),
         (
             &mut show.ghosts,
@@ -69,7 +71,22 @@ fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
             "A square grid of the source, where the warp carries it (W).",
             has_grid,
         ),
-    ];
+    ]
+}
+
+/// Nothing of the project is shown.
+pub fn is_blank(scene: &Scene) -> bool {
+    let mut show = scene.preferences.show;
+    let project = scene.session.project();
+    project.is_some_and(|project| {
+        let layers = table(scene, project, &mut show);
+        !layers.into_iter().any(|(on, .., applies)| *on && applies)
+    })
+}
+
+fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
+    let mut preferences = *scene.preferences;
+    let layers = table(scene, draft, &mut preferences.show);
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
         ui.columns(3, |columns| {

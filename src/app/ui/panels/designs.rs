@@ -1,5 +1,7 @@
 //! The two designs: how they are read, and how they lie in one frame.
 
+use std::ops::RangeInclusive;
+
 use bevy_egui::egui::{CollapsingHeader, Color32, DragValue, Label, Sense, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
@@ -15,6 +17,10 @@ use crate::transition::Rgb;
 
 /// The grey level that is started from when it is set by hand.
 const MIDDLE_GREY: u8 = 128;
+
+/// The scales that the slider runs over, which is some hundred points long: over more, and a hand
+/// cannot set one.
+const SCALES: RangeInclusive<f64> = 0.25..=4.0;
 
 /// Draws both designs.
 pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
@@ -94,7 +100,7 @@ fn placement(ui: &mut Ui, entry: &mut DesignEntry) {
         },
     );
     let tip = "Enlarges this design about its own middle.";
-    slider(ui, "Scale", tip, &mut place.scale, 0.05..=20.0, true);
+    slider(ui, "Scale", tip, &mut place.scale, SCALES, true);
     let mut degrees = place.rotation.to_degrees();
     let tip = "Turns this design counter-clockwise, in degrees.";
     slider(ui, "Rotation", tip, &mut degrees, -180.0..=180.0, false);

@@ -5,6 +5,7 @@ use bevy::prelude::Vec2;
 use bevy_egui::egui::{Align2, Color32, FontId, Rect, Sense, Ui};
 
 use crate::app::asking::intent::Intent;
+use crate::app::ui::panels::appearance;
 use crate::app::ui::scene::{Intents, Scene};
 use crate::transition::Rgb;
 
@@ -56,13 +57,16 @@ pub fn zoom_factor(ui: &Ui) -> Option<f32> {
 
 fn empty_words(scene: &Scene) -> Option<&'static str> {
     let session = &scene.session;
-    if session.transition().is_some() || session.work().is_some() {
+    if session.work().is_some() {
         return None;
     }
-    Some(match session.project() {
-        None => "Choose a project from the gallery, or drop one or two files here.",
-        Some(_) => "Nothing to show yet: choose another method, or other designs.",
-    })
+    if session.transition().is_none() {
+        return Some(match session.project() {
+            None => "Choose a project from the gallery, or drop one or two files here.",
+            Some(_) => "Nothing to show yet: choose another method, or other designs.",
+        });
+    }
+    appearance::is_blank(scene).then_some("Everything is hidden: show the fill under Appearance.")
 }
 
 /// A ground is light where more than 18 % of the light comes back: a middle grey to the eye.

@@ -1,10 +1,10 @@
 //! Two methods side by side: the stage on the left, a second method on the right.
 
-use bevy_egui::egui::{Align2, ComboBox, FontId, Label, Margin, Rect, Ui, vec2};
+use bevy_egui::egui::{Align2, ComboBox, FontId, Label, Margin, Rect, RichText, Ui, vec2};
 
 use crate::app::asking::choices::TwinMethod;
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
 use crate::app::ui::kit::widgets::{self, pinned, quiet};
 use crate::app::ui::panels::method;
 use crate::app::ui::scene::{Intents, Scene};
@@ -86,7 +86,10 @@ fn second_name(ui: &Ui, scene: &Scene, rect: Rect, acts: &mut Intents) {
                 for method in TwinMethod::all() {
                     let cell = method.cell();
                     let available = scene.session.available(cell.warp(), cell.content());
-                    let name = first_upper(method.name());
+                    let mut name = RichText::new(first_upper(method.name()));
+                    if available.is_err() {
+                        name = name.color(Palette::of(ui).faint());
+                    }
                     ui.add_enabled_ui(available.is_ok(), |ui| {
                         let response = ui.selectable_label(chosen == method, name);
                         if let Err(reason) = &available {
