@@ -68,6 +68,7 @@
 //! names                         what the values of options are called
 //! one_line                      what came from elsewhere, told in one line
 //! progress, easing              how work tells how far it is; how a share runs
+//! budget                        what is too much to begin without being asked twice
 //! atomic_file                   files that are there whole or not at all
 //! geometry                      points, matrices, polygons, exact predicates
 //! linalg                        sparse positive definite systems (faer)
@@ -92,6 +93,7 @@
 //! nothing and prints nothing.
 
 mod atomic_file;
+pub mod budget;
 pub mod easing;
 pub mod names;
 mod one_line;

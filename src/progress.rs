@@ -20,6 +20,12 @@ pub trait Progress: Sync {
 
     /// `true` once nobody wants the result any more.
     fn is_cancelled(&self) -> bool;
+
+    /// Whether whoever waits was told that it takes long, and wants it all the
+    /// same, or has not been asked; see [`crate::budget`].
+    fn is_patient(&self) -> bool {
+        true
+    }
 }
 
 /// Reports to nobody and is never cancelled.
@@ -129,6 +135,7 @@ pub struct Whole<'a> {
     /// Locked while it is told on: else of two threads the one with the smaller
     /// share might come last.
     told: Mutex<f64>,
+    patient: bool,
 }
 
 impl<'a> Whole<'a> {
@@ -137,7 +144,15 @@ impl<'a> Whole<'a> {
         Self {
             inner,
             told: Mutex::default(),
+            patient: inner.is_patient(),
         }
+    }
+
+    /// The same for somebody who is patient, or is not.
+    #[must_use]
+    pub fn patient(mut self, patient: bool) -> Self {
+        self.patient = patient;
+        self
     }
 }
 
@@ -150,6 +165,10 @@ impl Progress for Whole<'_> {
 
     fn is_cancelled(&self) -> bool {
         self.inner.is_cancelled()
+    }
+
+    fn is_patient(&self) -> bool {
+        self.patient
     }
 }
 
@@ -182,6 +201,10 @@ impl Progress for Span<'_> {
 
     fn is_cancelled(&self) -> bool {
         self.inner.is_cancelled()
+    }
+
+    fn is_patient(&self) -> bool {
+        self.inner.is_patient()
     }
 }
 
@@ -233,6 +256,10 @@ impl Progress for OneOf<'_> {
 
     fn is_cancelled(&self) -> bool {
         self.all.inner.is_cancelled()
+    }
+
+    fn is_patient(&self) -> bool {
+        self.all.inner.is_patient()
     }
 }
 

@@ -1,5 +1,5 @@
-//! The program answers: a cancel at every stage of everything, and what it is
-//! at from the first moment on.
+//! The program answers: a cancel at every stage of everything, what it is at
+//! from the first moment on, and before it begins what would take very long.
 //!
 //! The promise is half a second; the bounds here are five times as large, and
 //! the library under test is hardly optimised.
@@ -14,7 +14,7 @@ use morphospace::design::Truss;
 use morphospace::measure::{self, Verdict};
 use morphospace::mesh::TriangleMesh;
 use morphospace::progress::{Progress, Silent};
-use morphospace::transition::TransitionSpec;
+use morphospace::transition::{BuildError, TransitionSpec};
 use morphospace::{Cell, DVec2, Design, Transition};
 
 /// Five times the half second that is promised.
@@ -228,4 +228,37 @@ fn measuring_is_cancelled_at_every_stage() {
         let verdict = Verdict::of_film(&transition, &film, progress);
         assert!(verdict.is_ok() || progress.is_cancelled());
     });
+}
+
+#[test]
+fn what_would_take_very_long_is_said_in_advance_and_the_plain_blend_is_there() {
+    let net = everything_joined(32);
+    let disc = gear("disc", 6000, 0.01, 0);
+    let mut spec = spec(&disc, &disc);
+    let refused = Transition::build(&spec, &Silent).expect_err("too much");
+    assert!(matches!(refused, BuildError::TooMuch(_)), "{refused}");
+    assert!(
+        refused.to_string().contains("simplify the outlines"),
+        "{refused}"
+    );
+    let plain = Transition::build_or_plain(&spec, &Silent).expect("a blend");
+    assert_eq!(plain.cell(), Cell::FIELD_BLEND);
+    let note = plain.notes()[0].to_string();
+    assert!(note.contains("not by rigid parts: 48000 points"), "{note}");
+    // Subdivisions are counted before anything is done.
+    spec.source = Arc::clone(&net);
+    spec.target = net;
+    spec.options.arap.subdivisions = u32::MAX;
+    let begun = Instant::now();
+    let refused = Transition::build(&spec, &Silent).expect_err("too much");
+    assert!(matches!(refused, BuildError::TooMuch(_)), "{refused}");
+    spec.options.arap.subdivisions = 0;
+    spec.cell = Cell::FIELD_BLEND;
+    spec.options.field.cells = 8192;
+    let refused = Transition::build(&spec, &Silent).expect_err("too much");
+    assert!(
+        refused.to_string().contains("choose fewer cells"),
+        "{refused}"
+    );
+    assert!(begun.elapsed() < BOUND);
 }

@@ -8,7 +8,7 @@ use clap::Args;
 use crate::design::{Format, Source};
 use crate::progress::{Progress, Span, beside, checkpoint};
 use crate::project::{LoadedProject, Project, gallery};
-use crate::transition::Transition;
+use crate::transition::{BuildError, Transition, TransitionSpec};
 
 use super::error::CliError;
 use super::options::MethodArgs;
@@ -66,10 +66,13 @@ impl Inputs {
             .map_err(CliError::failed)?;
         // Laying the designs in one frame belongs to neither time.
         let import_time = start.elapsed();
-        let spec = loaded.spec().map_err(CliError::failed)?;
+        let spec = TransitionSpec {
+            patient: method.patient,
+            ..loaded.spec().map_err(CliError::failed)?
+        };
         let start = Instant::now();
         let building = Span::new(progress, READ, 1.0);
-        let transition = Transition::build(&spec, &building).map_err(CliError::failed)?;
+        let transition = Transition::build(&spec, &building).map_err(not_built)?;
         Ok(Opened {
             loaded,
             transition,
@@ -99,6 +102,14 @@ impl Inputs {
         let project = Project::read(path).map_err(CliError::failed)?;
         // A file that could be read lies in a folder, so that this is never None.
         Ok((project, path.parent().map(Path::to_owned)))
+    }
+}
+
+/// Why there is no transition, and which flag goes on all the same.
+fn not_built(error: BuildError) -> CliError {
+    match error {
+        BuildError::TooMuch(_) => CliError::Failed(format!("{error}, or go on with --patient")),
+        error => CliError::failed(error),
     }
 }
 

@@ -41,6 +41,10 @@ impl Method {
 /// Flags that change a project.
 #[derive(Debug, Args)]
 pub(super) struct MethodArgs {
+    /// Begin what takes longer than ten seconds, or more than a gibibyte, too
+    #[arg(long)]
+    pub patient: bool,
+
     #[command(flatten)]
     placing: PlacingArgs,
     #[command(flatten)]

@@ -25,70 +25,22 @@
 //! pieces which lie inside a panel without a bar to it move with it.
 
 mod crossings;
+mod error;
 mod pieces;
 mod polygon;
 
 use crate::design::Truss;
 use crate::geometry::{DVec2, Pair, Side, signed_area};
 use crate::mesh::undirected;
-use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
+use crate::progress::{Progress, checkpoint, still_wanted};
+use error::MAX_PANEL_NODES;
+pub use error::TrussError;
+pub(super) use error::listed;
 use pieces::Pieces;
 use std::collections::HashSet;
 
 /// Faces, and bars that are two-point elements.
 pub(super) type Panels = (Vec<[u32; 3]>, Vec<[u32; 2]>);
-
-/// Most nodes of one panel; the program takes about a second then, over 160
-/// million triangles.
-const MAX_PANEL_NODES: usize = 1000;
-
-/// Why two trusses have no common triangulation. Nodes and bars count from 0,
-/// as in the file.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum TrussError {
-    /// Different numbers of nodes.
-    #[error("the source truss has {} nodes and the target {}; both need the same nodes in the same order", .0[0], .0[1])]
-    NodeCounts([usize; 2]),
-    /// A bar of one design that is not in the other.
-    #[error("the bar between nodes {} and {} is only in the {only_in}; both trusses need the same bars", nodes[0], nodes[1])]
-    BarsDiffer {
-        /// Its nodes.
-        nodes: [u32; 2],
-        /// The design that has it.
-        only_in: Side,
-    },
-    /// Every panel is turned over.
-    #[error(
-        "the target truss is a mirror image of the source; mirror one of them (placement, mirror = true)"
-    )]
-    Mirrored,
-    /// A panel is turned over.
-    #[error("the panel of nodes {} is turned over between source and target; move its nodes in one design", listed(.0, SHOWN))]
-    Flipped(Vec<u32>),
-    /// No diagonals are valid in both designs.
-    #[error("the panel of nodes {} has no triangles that are valid in both designs; add a bar or a node inside it", listed(.0, SHOWN))]
-    NoTriangulation(Vec<u32>),
-    /// A panel of very many nodes.
-    #[error("the panel of nodes {} has {} nodes, more than {MAX_PANEL_NODES}; divide it by bars", listed(.0, SHOWN), .0.len())]
-    TooLarge(Vec<u32>),
-    /// Nobody wants the result.
-    #[error(transparent)]
-    Cancelled(#[from] Cancelled),
-}
-
-/// Most nodes that a message names: a panel can have hundreds, and a few show
-/// where it is.
-const SHOWN: usize = 8;
-
-/// "0, 4, 5 and 9 more".
-pub(super) fn listed<T: ToString>(numbers: &[T], shown: usize) -> String {
-    let names: Vec<String> = numbers.iter().take(shown).map(T::to_string).collect();
-    match numbers.len().saturating_sub(shown) {
-        0 => names.join(", "),
-        more => format!("{} and {more} more", names.join(", ")),
-    }
-}
 
 /// Triangles between the bars, positive in both designs, and the bars that
 /// are in no panel.

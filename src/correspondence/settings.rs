@@ -80,7 +80,8 @@ pub struct PlaceError {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum HoleRule {
-    /// Whichever of the two matches better.
+    /// Whichever of the two matches better; where a design has more than 32
+    /// rings, it closes.
     #[default]
     Auto,
     /// The hole closes to a point, or opens from one.

@@ -40,6 +40,15 @@ impl Subdivision {
     /// # Ok::<(), morphospace::mesh::TooManyVertices>(())
     /// ```
     pub fn new(faces: &[[u32; 3]], vertices: usize, rounds: u32) -> Result<Self, TooManyVertices> {
+        let (mut most, mut count) = (vertices, faces.len());
+        // All rounds first: what ends as too many need not be begun.
+        for _ in 0..rounds.min(32) {
+            most += count * 3 / 2;
+            count *= 4;
+            if most > MAX_VERTICES {
+                return Err(TooManyVertices { rounds });
+            }
+        }
         let mut fine = Self {
             faces: faces.to_vec(),
             midpoints: Vec::new(),

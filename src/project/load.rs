@@ -161,6 +161,7 @@ impl LoadedProject {
                 matching: project.options.matching.placed(&by),
                 ..project.options.clone()
             },
+            patient: false,
         })
     }
 }

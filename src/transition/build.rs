@@ -9,6 +9,7 @@ use super::plane;
 use super::ready::{Inner, Transition};
 use super::solids;
 use super::spec::{TransitionSpec, outline};
+use crate::budget::Load;
 use crate::content::{Content, ContentKind, FieldPair, PicturePair};
 use crate::design::{Design, Form};
 use crate::field::{DistanceField, FieldError, Grid};
@@ -27,7 +28,10 @@ impl Transition {
     /// # Errors
     /// [`BuildError`] says what does not go together.
     pub fn between(source: Design, target: Design) -> Result<Self, BuildError> {
-        let spec = TransitionSpec::new(Arc::new(source), Arc::new(target));
+        let spec = TransitionSpec {
+            patient: true,
+            ..TransitionSpec::new(Arc::new(source), Arc::new(target))
+        };
         Self::build(&spec, &Silent)
     }
 
@@ -35,33 +39,75 @@ impl Transition {
     /// nothing, decides everything.
     ///
     /// # Errors
-    /// [`BuildError`] says what does not go together, or that the work was
-    /// cancelled.
+    /// [`BuildError`] says what does not go together, that it would take very
+    /// long and nobody is patient, or that the work was cancelled.
     pub fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Self, BuildError> {
-        // Before any work: a window asks the same to grey a button out.
-        TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
-        let progress = &Whole::new(progress);
-        let bar_width = bar_width(spec)?;
-        let (mut moved, content, bounds) = match spec.cell.content() {
-            ContentKind::Solid => solids(spec, bar_width, progress)?,
-            ContentKind::Field => fields(spec, bar_width, progress)?,
-            ContentKind::Colours => colours(spec, progress)?,
-        };
-        let of_match = moved.matched.iter().flat_map(Note::of_match);
-        moved.notes.extend(of_match);
-        let ridge = moved.warp.arap().and_then(Arap::ridge);
-        moved
-            .notes
-            .extend(ridge.map(|ridge| Note::Stiffened { share: ridge.share }));
-        Ok(Self::from(Inner {
-            cell: spec.cell,
-            designs: [spec.source.clone(), spec.target.clone()],
-            moved,
-            content,
-            bounds,
-            bar_width,
-        }))
+        built(spec, progress).map(Self::from)
     }
+
+    /// As [`Self::build`]; where that cell cannot be had, at once the one that
+    /// can ([`Cell::plain`]), and a note says why. For who looks at something
+    /// rather than at nothing; who asked for a method is better told that there
+    /// is none.
+    ///
+    /// # Errors
+    /// What [`Self::build`] finds, where the plain cell cannot be had either,
+    /// or if the work was cancelled.
+    pub fn build_or_plain(
+        spec: &TransitionSpec,
+        progress: &dyn Progress,
+    ) -> Result<Self, BuildError> {
+        let (cell, progress) = (spec.cell.plain(), &Whole::new(progress));
+        let error = match built(spec, progress) {
+            Err(error) if cell != spec.cell && !progress.is_cancelled() => error,
+            done => return done.map(Self::from),
+        };
+        let plain = TransitionSpec {
+            cell,
+            ..spec.clone()
+        };
+        let Ok(mut instead) = built(&plain, progress) else {
+            return Err(error);
+        };
+        let note = Note::Instead {
+            asked: spec.cell,
+            reason: error.to_string(),
+        };
+        instead.moved.notes.insert(0, note);
+        Ok(instead.into())
+    }
+}
+
+/// What [`Transition::build`] builds.
+fn built(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildError> {
+    // Before any work: a window asks the same to grey a button out.
+    TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
+    let progress = &Whole::new(progress).patient(spec.patient);
+    if spec.cell.warp() == WarpKind::Arap {
+        // Four times as many at each round: at ten a single face is too much.
+        let children = 4_usize.saturating_pow(spec.options.arap.subdivisions);
+        Load::Faces.allow(children, progress)?;
+    }
+    let bar_width = bar_width(spec)?;
+    let (mut moved, content, bounds) = match spec.cell.content() {
+        ContentKind::Solid => solids(spec, bar_width, progress)?,
+        ContentKind::Field => fields(spec, bar_width, progress)?,
+        ContentKind::Colours => colours(spec, progress)?,
+    };
+    let of_match = moved.matched.iter().flat_map(Note::of_match);
+    moved.notes.extend(of_match);
+    let ridge = moved.warp.arap().and_then(Arap::ridge);
+    moved
+        .notes
+        .extend(ridge.map(|ridge| Note::Stiffened { share: ridge.share }));
+    Ok(Inner {
+        cell: spec.cell,
+        designs: [spec.source.clone(), spec.target.clone()],
+        moved,
+        content,
+        bounds,
+        bar_width,
+    })
 }
 
 /// The width of bars, in units of the designs.
@@ -105,6 +151,7 @@ fn fields(
 ) -> Result<Made, BuildError> {
     let frame = field_frame(spec, bar_width);
     let grid = Grid::covering(&frame, spec.options.field.cells, spec.options.field.margin)?;
+    Load::Cells.allow(grid.cells(), progress)?;
     let span = |from, to| Span::new(progress, from, to);
     let source = field_of(&spec.source, spec, grid, bar_width, &span(0.0, 0.35))?;
     checkpoint(progress, "measuring distances", 0.35)?;

@@ -36,6 +36,22 @@ impl Cell {
         content: ContentKind::Colours,
     };
 
+    /// What can be had where this cell cannot: nothing moves, so that nothing
+    /// need be matched. Solids are blended as fields.
+    ///
+    /// ```
+    /// use morphospace::transition::Cell;
+    /// assert_eq!(Cell::RIGID_PARTS.plain(), Cell::FIELD_BLEND);
+    /// assert_eq!(Cell::CROSS_DISSOLVE.plain(), Cell::CROSS_DISSOLVE);
+    /// ```
+    #[must_use]
+    pub const fn plain(self) -> Self {
+        match self.content {
+            ContentKind::Solid | ContentKind::Field => Self::FIELD_BLEND,
+            ContentKind::Colours => Self::CROSS_DISSOLVE,
+        }
+    }
+
     /// The cells, those that ask least of the designs last in each column.
     pub fn all() -> impl Iterator<Item = Self> + Clone {
         let cells = |content| {

@@ -9,6 +9,7 @@
 //! its steps, then the least distortion, then the earliest.
 
 use super::error::BuildError;
+use super::rigid::arap;
 use super::spec::TransitionSpec;
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::{Matching, Prepared, RegionMatch};
@@ -129,7 +130,7 @@ impl Candidate {
         let [meshing, filming] =
             [(0.0, MESHED), (MESHED, 1.0)].map(|(from, to)| Span::new(progress, from, to));
         let mesh = CompatibleMesh::from_outlines(&matched, &options.triangulation, &meshing)?;
-        let film = Arap::build(&mesh, &options.arap, &filming)?;
+        let film = arap(&mesh, &options.arap, &filming)?;
         Ok(Self {
             folds: folds(&film, progress)?,
             distortion: mesh.distortion(),

@@ -1,6 +1,7 @@
 //! Why there is no transition.
 
 use super::cells::NoSuchCell;
+use crate::budget::TooMuch;
 use crate::compatible::{CompatibleError, OutlinesError, PinnedError};
 use crate::content::{ColourMixError, FieldPairError};
 use crate::correspondence::RegionMatchError;
@@ -76,6 +77,9 @@ pub enum BuildError {
     /// The width of bars is no positive number.
     #[error("the bar width {0} is not between 0 and 1; give a fraction of the design's size")]
     BarWidth(f64),
+    /// It would take very long, or very much memory.
+    #[error(transparent)]
+    TooMuch(#[from] TooMuch),
     /// Nobody wants the result.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

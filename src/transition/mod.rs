@@ -12,7 +12,8 @@
 //!   designs are laid into one frame
 //! - `build`: from a specification to a transition, by way of `solids`
 //!   (rigid parts, or `boundaries` alone) and `plane` (warps of the plane,
-//!   from the `features` that they go by)
+//!   from the `features` that they go by); `rigid`: a mesh that is not too
+//!   large
 //! - `choice`: of several matches the one whose film has the least trouble
 //! - `note`: what was done otherwise than asked
 //! - `ready`, `frame`: the transition and its moments
@@ -31,6 +32,7 @@ mod note;
 mod options;
 mod plane;
 mod ready;
+mod rigid;
 mod solids;
 mod spec;
 mod style;

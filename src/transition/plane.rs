@@ -5,14 +5,15 @@ use super::error::BuildError;
 use super::features::Features;
 use super::moved::{AnyWarp, Moved};
 use super::note::Note;
+use super::rigid::arap;
 use super::spec::TransitionSpec;
 use crate::compatible::{CompatibleMesh, PinnedError, SurroundingsError};
 use crate::content::ContentKind;
 use crate::correspondence::{LinePair, PointPair, RegionMatch};
 use crate::geometry::Bounds;
-use crate::progress::{Progress, Span, checkpoint};
+use crate::progress::{Progress, Span, beside, checkpoint};
 use crate::warp::{
-    Arap, Lattice, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart, Scattered, Split, Still, Travel,
+    Lattice, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart, Scattered, Split, Still, Travel,
     Turned, Warp, WarpKind,
 };
 use std::sync::Arc;
@@ -48,34 +49,48 @@ pub(super) fn warp(
     }
     let features = Features::of(spec, bar_width, &Span::new(progress, 0.0, 0.4))?;
     let progress = &Span::new(progress, 0.4, 1.0);
+    if kind == WarpKind::Arap {
+        return rigid(spec, frame, features, progress);
+    }
+    checkpoint(progress, "warping", 0.0)?;
+    // Equations of all features at once: beside, so that a cancel is answered.
+    let (spec, frame, features) = (spec.clone(), *frame, Arc::new(features));
+    let theirs = Arc::clone(&features);
+    let warp = beside(progress, move || of_features(&spec, &frame, &theirs))?;
+    Ok(Moved {
+        automatic: features.automatic(),
+        notes: features.notes.clone(),
+        ..AnyWarp::Plane(warp?).into()
+    })
+}
+
+/// The warp that takes its features along.
+fn of_features(
+    spec: &TransitionSpec,
+    frame: &Bounds,
+    features: &Features,
+) -> Result<Arc<dyn Warp>, BuildError> {
     let options = &spec.options;
     let work = features.points.len() + 4 * features.lines.len();
-    let warp = match kind {
-        WarpKind::Arap => return rigid(spec, frame, features, progress),
-        WarpKind::Lines => on_grid(spec, frame, &features, work, |frame, points, lines| {
+    match spec.cell.warp() {
+        WarpKind::Lines => on_grid(spec, frame, features, work, |frame, points, lines| {
             Ok(Lines::new(frame, lines, points, &options.lines)?)
         }),
-        WarpKind::Scattered => on_grid(spec, frame, &features, work, |frame, points, lines| {
+        WarpKind::Scattered => on_grid(spec, frame, features, work, |frame, points, lines| {
             Ok(Scattered::new(frame, points, lines, options.scattered)?)
         }),
-        WarpKind::Lattice => on_grid(
-            spec,
-            frame,
-            &features,
-            LATTICE_WORK,
-            |frame, points, lines| Ok(Lattice::new(frame, points, lines, options.lattice)?),
-        ),
+        WarpKind::Lattice => {
+            let work = LATTICE_WORK;
+            on_grid(spec, frame, features, work, |frame, points, lines| {
+                Ok(Lattice::new(frame, points, lines, options.lattice)?)
+            })
+        }
         // The table has no such cell; one that is added must be built.
-        WarpKind::None | WarpKind::Paths => Err(BuildError::Unavailable(format!(
+        WarpKind::None | WarpKind::Paths | WarpKind::Arap => Err(BuildError::Unavailable(format!(
             "{} cannot be built; choose another method",
             spec.cell.name()
         ))),
-    };
-    Ok(Moved {
-        automatic: features.automatic(),
-        notes: features.notes,
-        ..AnyWarp::Plane(warp?).into()
-    })
+    }
 }
 
 /// A warp of the features on a grid; behind their common motion where they
@@ -179,7 +194,7 @@ fn about_pins(
             Err(error) => return Err(error.into()),
         }
     };
-    let arap = Arap::build(&mesh, &spec.options.arap, progress)?;
+    let arap = arap(&mesh, &spec.options.arap, progress)?;
     Ok(AnyWarp::Rigid(arap))
 }
 
@@ -212,7 +227,7 @@ fn about_outlines(
             return Ok(Err(error));
         }
     };
-    let arap = Arap::build(&mesh, &options.arap, progress)?;
+    let arap = arap(&mesh, &options.arap, progress)?;
     Ok(Ok(match rigid {
         Some(rigid) => AnyWarp::Turned(Turned::new(rigid, arap)),
         None => AnyWarp::Rigid(arap),

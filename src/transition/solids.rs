@@ -6,6 +6,7 @@
 use super::choice;
 use super::error::BuildError;
 use super::moved::{AnyWarp, Moved};
+use super::rigid::arap;
 use super::spec::TransitionSpec;
 use crate::compatible::{CompatibleError, CompatibleMesh, TrussError};
 use crate::content::Solid;
@@ -63,11 +64,12 @@ fn given(
     let mesh = mesh.map_err(|error| match error {
         // A cancel is nobody's fault: it names no design.
         CompatibleError::Truss(TrussError::Cancelled(cancelled)) => cancelled.into(),
+        CompatibleError::Truss(TrussError::TooMuch(too_much)) => too_much.into(),
         error => BuildError::Compatible {
             source_name: spec.source.name.clone(),
             target_name: spec.target.name.clone(),
             error,
         },
     })?;
-    Ok(Arap::build(&mesh, &spec.options.arap, progress)?)
+    arap(&mesh, &spec.options.arap, progress)
 }

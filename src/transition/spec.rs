@@ -3,6 +3,7 @@
 use super::cells::Cell;
 use super::error::BuildError;
 use super::options::Options;
+use crate::budget::Load;
 use crate::content::ContentKind;
 use crate::design::{Design, Form, Format, Picture};
 use crate::geometry::Regions;
@@ -23,6 +24,9 @@ pub struct TransitionSpec {
     /// The options of all methods; places of the match are in the common
     /// frame.
     pub options: Options,
+    /// Whether what takes very long is begun all the same; see
+    /// [`crate::budget`].
+    pub patient: bool,
 }
 
 impl TransitionSpec {
@@ -42,6 +46,7 @@ impl TransitionSpec {
             target,
             cell,
             options: Options::default(),
+            patient: false,
         }
     }
 
@@ -51,10 +56,15 @@ impl TransitionSpec {
         bar_width: f64,
         progress: &dyn Progress,
     ) -> Result<[Regions; 2], BuildError> {
-        Ok([
+        let outlines = [
             outline(&self.source, bar_width, progress)?,
             outline(&self.target, bar_width, progress)?,
-        ])
+        ];
+        let sizes = outlines.iter().flat_map(Regions::rings);
+        let sizes: Vec<usize> = sizes.map(|ring| ring.points().len()).collect();
+        Load::Rings.allow(sizes.len(), progress)?;
+        Load::Points.allow(sizes.iter().sum(), progress)?;
+        Ok(outlines)
     }
 
     /// Whether designs of these kinds can be interpolated by `cell`, without
@@ -87,6 +97,9 @@ pub(super) fn outline(
 ) -> Result<Regions, BuildError> {
     if matches!(design.form, Form::Outline(_)) {
         return Ok(design.outline(bar_width)?);
+    }
+    if let Form::Truss(truss) = &design.form {
+        Load::Bars.allow(truss.bars().len(), progress)?;
     }
     checkpoint(progress, "uniting", 0.0)?;
     let design = Arc::clone(design);

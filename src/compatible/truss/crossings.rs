@@ -1,5 +1,7 @@
 //! Which bars meet away from a common node, and which of them to keep.
 
+use super::error::TrussError;
+use crate::budget::Load;
 use crate::geometry::{DVec2, Pair, orient2d, segments_touch};
 use crate::progress::{Cancelled, Progress, still_wanted};
 
@@ -12,7 +14,7 @@ pub(super) fn in_either(
     bars: &[[u32; 2]],
     nodes: Pair<&[DVec2]>,
     progress: &dyn Progress,
-) -> Result<Vec<Conflict>, Cancelled> {
+) -> Result<Vec<Conflict>, TrussError> {
     let mut conflicts = in_one(bars, nodes.source, progress)?;
     conflicts.extend(in_one(bars, nodes.target, progress)?);
     conflicts.sort_unstable();
@@ -26,7 +28,7 @@ fn in_one(
     bars: &[[u32; 2]],
     nodes: &[DVec2],
     progress: &dyn Progress,
-) -> Result<Vec<Conflict>, Cancelled> {
+) -> Result<Vec<Conflict>, TrussError> {
     let range = |bar: usize| {
         let [a, b] = bars[bar].map(|node| nodes[node as usize].x);
         (a.min(b), a.max(b))
@@ -36,6 +38,7 @@ fn in_one(
     let mut found = Vec::new();
     for (place, &i) in order.iter().enumerate() {
         still_wanted(progress)?;
+        Load::CrossingBars.allow(found.len(), progress)?;
         let right = range(i).1;
         let rest = order[place + 1..].iter();
         for &j in rest.take_while(|&&j| range(j).0 <= right) {

@@ -1,0 +1,108 @@
+//! What is too much to begin without being asked twice.
+//!
+//! Work that takes longer than ten seconds, or more than a gibibyte, says so
+//! before it begins, and goes on only for who is patient
+//! ([`Progress::is_patient`]). All limits stand here, each with the measurement
+//! that set it: on two cores that others used too, as well optimised as a
+//! release but for its dependencies.
+
+use crate::progress::Progress;
+
+/// What there can be too much of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Load {
+    /// Points of both designs' outlines that are to be matched and
+    /// triangulated.
+    Points,
+    /// Outlines and holes of both designs that are to be matched and
+    /// triangulated.
+    Rings,
+    /// Bars of a truss whose outline is wanted.
+    Bars,
+    /// Pairs of bars that cross without a node.
+    CrossingBars,
+    /// Cells of a grid of distances.
+    Cells,
+    /// Faces of a mesh that is to move.
+    Faces,
+}
+
+impl Load {
+    /// The most that is begun without being asked twice.
+    #[must_use]
+    pub const fn most(self) -> usize {
+        match self {
+            // A coastline of 2,000 points against a square took 2.5 s, one of
+            // 5,000 took 4.0 s (`check coast.json square.json`).
+            Self::Points => 12_000,
+            // 200 holes against none took 9.6 s, 200 rings in rings 6.7 s, 100
+            // pieces against one 1.4 s.
+            Self::Rings => 300,
+            // 20,000 bars that all overlap 240 others were not done after 15 s.
+            Self::Bars => 5_000,
+            // 200 nodes, each joined to each other, have 60 million, in two
+            // gigabytes; 4 million are counted in a second.
+            Self::CrossingBars => 4_000_000,
+            // 8192 × 8192 cells took more than 40 s: a seventh of that.
+            Self::Cells => 3072 * 3072,
+            // A factor of 4 million vertices takes about 4 GB, and there are
+            // half as many vertices as faces; the mesh takes as much again.
+            Self::Faces => 1_000_000,
+        }
+    }
+
+    const fn words(self) -> &'static str {
+        match self {
+            Self::Points => "points of outlines",
+            Self::Rings => "outlines and holes",
+            Self::Bars => "bars",
+            Self::CrossingBars => "crossings of bars without a node",
+            Self::Cells => "cells",
+            Self::Faces => "faces",
+        }
+    }
+
+    const fn way_out(self) -> &'static str {
+        match self {
+            Self::Points => "simplify the outlines, or blend distance fields",
+            Self::Rings => "leave small parts and holes out, or blend distance fields",
+            Self::Bars => "leave bars out",
+            Self::CrossingBars => "put nodes where bars cross, or leave bars out",
+            Self::Cells => "choose fewer cells",
+            Self::Faces => "subdivide less, or use a coarser mesh",
+        }
+    }
+
+    /// Whether so many may be begun.
+    ///
+    /// # Errors
+    /// [`TooMuch`] if there are more than the limit, unless who asked is
+    /// patient.
+    ///
+    /// ```
+    /// use morphospace::budget::Load;
+    /// use morphospace::progress::Silent;
+    /// // Nobody waits who listens to nothing.
+    /// assert!(Load::Bars.allow(1_000_000, &Silent).is_ok());
+    /// ```
+    pub fn allow(self, count: usize, progress: &dyn Progress) -> Result<(), TooMuch> {
+        if count > self.most() && !progress.is_patient() {
+            return Err(TooMuch { load: self, count });
+        }
+        Ok(())
+    }
+}
+
+/// More than is begun without being asked twice.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "{count} {} take longer than ten seconds, or more than a gibibyte; up to {} do not: {}",
+    .load.words(), .load.most(), .load.way_out()
+)]
+pub struct TooMuch {
+    /// What there is too much of.
+    pub load: Load,
+    /// How much there is, or how much was counted before it was given up.
+    pub count: usize,
+}

@@ -1,0 +1,18 @@
+//! Rigid parts of a mesh that is not too large.
+
+use super::error::BuildError;
+use crate::budget::Load;
+use crate::compatible::CompatibleMesh;
+use crate::progress::Progress;
+use crate::warp::{Arap, ArapOptions};
+
+/// The interpolation of a mesh that is not too large once it is subdivided.
+pub(super) fn arap(
+    mesh: &CompatibleMesh,
+    options: &ArapOptions,
+    progress: &dyn Progress,
+) -> Result<Arap, BuildError> {
+    let children = 4_usize.saturating_pow(options.subdivisions);
+    Load::Faces.allow(mesh.faces().len().saturating_mul(children), progress)?;
+    Ok(Arap::build(mesh, options, progress)?)
+}
