@@ -69,7 +69,7 @@
 //! one_line                      what came from elsewhere, told in one line
 //! progress, easing              how work tells how far it is; how a share runs
 //! budget                        what is too much to begin without being asked twice
-//! atomic_file                   files that are there whole or not at all
+//! atomic_file, reading          files that are there whole or not at all, and read so
 //! geometry                      points, matrices, polygons, exact predicates
 //! linalg                        sparse positive definite systems (faer)
 //! mesh                          triangles, connectivity, subdivision
@@ -98,6 +98,7 @@ pub mod easing;
 pub mod names;
 mod one_line;
 pub mod progress;
+mod reading;
 
 pub mod geometry;
 pub mod linalg;

@@ -4,8 +4,8 @@
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
 use morphospace::design::{
     Design, DxfError, Form, ImportError, ImportOptions, JsonError, ObjError, ObjFault,
-    PictureError, PolygonsError, Problem, Source, SvgError, TrussInputError, UnknownFormat, import,
-    import_file,
+    PictureError, PolygonsError, Problem, ReadError, Source, SvgError, TrussInputError,
+    UnknownFormat, import, import_file,
 };
 use proptest::prelude::*;
 use std::io::Cursor;
@@ -86,14 +86,14 @@ fn a_missing_file_a_folder_and_an_empty_file_are_named() {
     let options = ImportOptions::default();
     let missing = folder.path().join("nowhere.png");
     let error = import_file(&missing, &options).expect_err("missing");
-    assert!(matches!(error.problem, Problem::Missing));
+    assert!(matches!(error.problem, Problem::Read(ReadError::Missing)));
     assert!(
         error
             .to_string()
             .contains("nowhere.png: there is no such file")
     );
     let error = import_file(folder.path(), &options).expect_err("a folder");
-    assert!(matches!(error.problem, Problem::Folder));
+    assert!(matches!(error.problem, Problem::Read(ReadError::Folder)));
     let empty = folder.path().join("empty.svg");
     std::fs::write(&empty, "").expect("written");
     let error = import_file(&empty, &options).expect_err("empty");
@@ -511,5 +511,5 @@ fn an_element_is_asked_for_of_drawings_only() {
     // A file of that very name is that file.
     assert!(import_file(&at("b.svg#u"), &options).is_ok());
     let error = import_file(&at("c.svg#u"), &options).expect_err("no file");
-    assert!(matches!(error.problem, Problem::Missing));
+    assert!(matches!(error.problem, Problem::Read(ReadError::Missing)));
 }

@@ -5,12 +5,7 @@ use super::{
     TrussInputError, UnknownFormat,
 };
 use crate::one_line::OneLine;
-use std::io;
-
-/// Largest file that is read, in bytes; of drawings and polygons a quarter.
-/// A bound on memory and no more: a file is held whole while it is read, and
-/// one that a person drew is far smaller.
-pub const MAX_FILE_BYTES: u64 = 256 << 20;
+use crate::reading::ReadError;
 
 /// A file that could not be read as a design. Its message names the file,
 /// the place and the way out.
@@ -27,30 +22,12 @@ pub struct ImportError {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Problem {
-    /// There is no such file.
-    #[error("there is no such file; check the path, or choose another file")]
-    Missing,
-    /// It is a folder.
-    #[error("this is a folder; choose a file in it")]
-    Folder,
-    /// The system refuses to hand it out.
-    #[error("the file cannot be read ({0}); check that it may be opened")]
-    Unreadable(#[source] io::Error),
+    /// The file is not there, is no file, or is too large.
+    #[error(transparent)]
+    Read(#[from] ReadError),
     /// It holds nothing.
     #[error("the file is empty; save it again from where it was made")]
     Empty,
-    /// It is larger than any design should be.
-    #[error(
-        "the file has {} MiB, more than the {} MiB that are read; save a smaller or simpler version",
-        bytes >> 20,
-        most >> 20
-    )]
-    TooLarge {
-        /// Its size.
-        bytes: u64,
-        /// What is read at most.
-        most: u64,
-    },
     /// Text that is not text.
     #[error("line {line} is not UTF-8 text; save the file with the encoding UTF-8")]
     NotUtf8 {
@@ -90,13 +67,4 @@ pub enum Problem {
     /// A truss that is none.
     #[error(transparent)]
     Truss(#[from] TrussInputError),
-}
-
-impl Problem {
-    pub(super) fn from_io(error: io::Error) -> Self {
-        match error.kind() {
-            io::ErrorKind::NotFound => Self::Missing,
-            _ => Self::Unreadable(error),
-        }
-    }
 }

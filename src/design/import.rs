@@ -1,6 +1,6 @@
 //! From the bytes of a file, or text in a font, to a design.
 
-use super::error::{ImportError, MAX_FILE_BYTES, Problem};
+use super::error::{ImportError, Problem};
 use super::form::Design;
 use super::format::Format;
 use super::options::ImportOptions;
@@ -8,6 +8,7 @@ use super::sniff::sniff;
 use super::source::Source;
 use super::truss::Truss;
 use super::{dxf, lettering, obj, polygons, silhouette, svg};
+use crate::reading::{self, check_size};
 use std::path::Path;
 
 /// Reads a design from the bytes of a file, whatever its format. `name`
@@ -44,7 +45,7 @@ impl Source {
     /// [`ImportError`] names the source, the place in it and the way out.
     pub fn import(&self, options: &ImportOptions) -> Result<Design, ImportError> {
         let bytes = match self.file() {
-            Some(path) => read_bytes(path).map_err(|problem| self.error(problem))?,
+            Some(path) => reading::read(path).map_err(|error| self.error(error.into()))?,
             None => Vec::new(),
         };
         self.import_bytes(&bytes, options)
@@ -78,23 +79,6 @@ impl Source {
     }
 }
 
-fn read_bytes(path: &Path) -> Result<Vec<u8>, Problem> {
-    let metadata = std::fs::metadata(path).map_err(Problem::from_io)?;
-    if metadata.is_dir() {
-        return Err(Problem::Folder);
-    }
-    // By what the system says of it, before it is taken into memory.
-    check_size(metadata.len(), MAX_FILE_BYTES)?;
-    std::fs::read(path).map_err(Problem::from_io)
-}
-
-fn check_size(bytes: u64, most: u64) -> Result<(), Problem> {
-    match bytes > most {
-        true => Err(Problem::TooLarge { bytes, most }),
-        false => Ok(()),
-    }
-}
-
 /// Reads a file, or the element of it with an id.
 fn read(
     name: String,
@@ -107,11 +91,8 @@ fn read(
         return Err(Problem::Empty);
     }
     // Again, for bytes may come from elsewhere than a file.
-    check_size(bytes.len() as u64, MAX_FILE_BYTES)?;
+    check_size(bytes)?;
     let format = sniff(bytes)?;
-    if let Format::Svg | Format::Dxf | Format::Polygons = format {
-        check_size(bytes.len() as u64, MAX_FILE_BYTES / 4)?; // they take more room once read
-    }
     if let (Some(id), true) = (element, format != Format::Svg) {
         return Err(Problem::NoElements { id: id.to_owned() });
     }

@@ -30,8 +30,9 @@ mod source;
 mod svg;
 mod truss;
 
+pub use crate::reading::{MAX_FILE_BYTES, ReadError};
 pub use dxf::{DxfError, Place as DxfPlace};
-pub use error::{ImportError, MAX_FILE_BYTES, Problem};
+pub use error::{ImportError, Problem};
 pub use flatten::TooManyPoints;
 pub use form::{Design, Form};
 pub(crate) use format::any_of;

@@ -6,6 +6,7 @@ use crate::correspondence::PlaceError;
 use crate::design::ImportError;
 use crate::geometry::SimilarityError;
 use crate::one_line::OneLine;
+use crate::reading::ReadError;
 use crate::transition::{BuildError, TimingError};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -22,9 +23,9 @@ pub enum ProjectError {
         /// What is wrong with it.
         error: Box<ProjectError>,
     },
-    /// The system refused to read it.
-    #[error("the file cannot be read ({0}); check its name and permissions")]
-    Io(String),
+    /// The file is not there, is no file, or is too large.
+    #[error(transparent)]
+    Read(#[from] ReadError),
     /// The system refused to write it.
     #[error("the project cannot be written: {0}")]
     Unwritable(String),

@@ -5,6 +5,7 @@ use super::error::ProjectError;
 use crate::content::ContentKind;
 use crate::design::{Design, Source};
 use crate::one_line::OneLine;
+use crate::reading::ReadError;
 use crate::transition::{
     BuildError, Cell, NoSuchCell, Options, TransitionSpec, arranged, arrangement,
 };
@@ -175,7 +176,7 @@ fn read(entry: &DesignEntry, folder: Option<&Path>) -> Result<Design, ProjectErr
         // The binary is its own file system: no path of it is one of the disk's.
         None => {
             let source = Source::parse(&entry.path, |path| bytes(path).is_some());
-            let missing = |file: &Path| ProjectError::Io(format!("{} is missing", file.display()));
+            let missing = |file: &Path| ProjectError::from(ReadError::Missing).in_file(file);
             let bytes = match source.file() {
                 Some(file) => bytes(file).ok_or_else(|| missing(file))?,
                 None => &[],

@@ -8,6 +8,7 @@
 use super::document::{FORMAT_VERSION, Project};
 use super::error::ProjectError;
 use crate::atomic_file::{self, refusal};
+use crate::reading;
 use crate::transition::Options;
 use serde::de::value::Error as NoValue;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
@@ -51,7 +52,7 @@ impl Project {
     /// [`ProjectError`] names the file and, where there is one, the line.
     pub fn read(path: &Path) -> Result<Self, ProjectError> {
         let in_file = |error: ProjectError| error.in_file(path);
-        let bytes = std::fs::read(path).map_err(|e| in_file(ProjectError::Io(e.to_string())))?;
+        let bytes = reading::read(path).map_err(|error| in_file(error.into()))?;
         let text = String::from_utf8(bytes).map_err(|_| in_file(ProjectError::NotText))?;
         Self::parse(&text).map_err(in_file)
     }

@@ -102,7 +102,7 @@ fn hostile_tables_are_refused_in_words() {
     let shop = Workshop::new();
     let go = |name: &str| format!("check --pairs {name} --out out.csv");
     shop.fails(1, &go("missing.csv"), "missing.csv");
-    shop.fails(1, &go("."), "cannot be read");
+    shop.fails(1, &go("."), "choose a file in it");
     for (text, said) in [
         ("", "empty"),
         ("source,target\n", "no pairs"),

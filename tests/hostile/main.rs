@@ -7,5 +7,6 @@
 //! that are good and only laborious.
 
 mod child;
+mod kinds;
 mod numbers;
 mod words;

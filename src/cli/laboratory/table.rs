@@ -4,12 +4,12 @@
 //! becomes that row's error, so that the others are worked on.
 
 use std::collections::HashSet;
-use std::io;
 use std::path::{Path, PathBuf};
 
 use super::columns;
 use crate::design::Source;
 use crate::one_line::OneLine;
+use crate::reading::{self, ReadError};
 
 /// A table that can be worked on.
 #[derive(Debug)]
@@ -33,8 +33,8 @@ pub(super) struct Row {
 /// Why there is no table.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum TableError {
-    #[error("the table cannot be read ({0}); check its name and permissions")]
-    Unreadable(io::Error),
+    #[error(transparent)]
+    Read(#[from] ReadError),
     #[error("the table is UTF-16; save it as CSV in UTF-8")]
     Utf16,
     #[error("the table is empty; its first line names the columns: source,target")]
@@ -68,7 +68,7 @@ pub(super) enum RowError {
 
 /// Reads a table; its paths are relative to its folder.
 pub(super) fn read(path: &Path) -> Result<Table, TableError> {
-    let bytes = std::fs::read(path).map_err(TableError::Unreadable)?;
+    let bytes = reading::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     parsed(&bytes, folder)
 }
