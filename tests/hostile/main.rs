@@ -6,6 +6,7 @@
 //! All of them are made here, small ones of their kinds. Not here: designs
 //! that are good and only laborious.
 
+mod bombs;
 mod child;
 mod kinds;
 mod numbers;

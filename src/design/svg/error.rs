@@ -6,6 +6,9 @@ use usvg::roxmltree;
 
 /// Most elements with all copies; 200,000 paths take about a second.
 pub(super) const MAX_ELEMENTS: u64 = 200_000;
+/// Most XML nodes in the file, text between elements included: what is never
+/// drawn may be ten times what is.
+pub(super) const MAX_NODES: u32 = 2_000_000;
 /// Most levels, copies included. Reading recurses: a stack of 2 MiB, as
 /// threads have, holds more than twice as many, even unoptimised.
 pub(super) const MAX_DEPTH: u32 = 96;
@@ -14,6 +17,28 @@ pub(super) const MAX_DEPTH: u32 = 96;
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SvgError {
+    /// More elements or attributes than anything that is drawn has.
+    #[error(
+        "the drawing has more than {MAX_NODES} elements or attributes; save only what is to be seen"
+    )]
+    TooManyNodes,
+    /// An element with attributes without end: its line, from 1.
+    #[error("line {line}: an element has {attributes} attributes; save the drawing as plain SVG")]
+    TooManyAttributes {
+        /// The line at which it begins.
+        line: usize,
+        /// How many there are.
+        attributes: u64,
+    },
+    /// Namespaces without end.
+    #[error("the drawing declares {0} namespaces over and over; save it as plain SVG")]
+    TooManyNamespaces(usize),
+    /// Entities that stand for text without end.
+    #[error("the drawing's entities stand for too much text; save it without entities")]
+    TooMuchText,
+    /// An entity that stands for elements: its line, from 1.
+    #[error("line {0}: an entity stands for elements; save the drawing without entities")]
+    EntityOfElements(usize),
     /// Not well-formed XML.
     #[error("the drawing is not well-formed ({0}); save it again as plain SVG")]
     Xml(#[source] roxmltree::Error),

@@ -17,9 +17,6 @@ use usvg::roxmltree::{Document, Node};
 /// and filters do not change what is filled, but could unfold without end.
 pub(super) const STYLE: &str = "* { marker: none !important; filter: none !important }";
 
-/// Most XML nodes in the file, text between elements included: what is never
-/// drawn may be ten times what is.
-pub(super) const MAX_NODES: u32 = 2_000_000;
 /// Most tests of a style rule on an element. The 20,000 rules
 /// on as many elements of a test would be eight times as many.
 const MAX_STYLE_TESTS: usize = 50_000_000;

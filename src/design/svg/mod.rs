@@ -11,7 +11,8 @@
 //! kept.
 //!
 //! Guaranteed: nothing is loaded from outside the file, and a file that would
-//! unfold into too many elements is refused before it is unfolded.
+//! unfold into too much text or too many elements is refused before it is
+//! unfolded.
 //!
 //! Strokes count where they are asked for, with their dashes, joins and ends.
 //! Of a drawing one element may be asked for by its id: what lies in it, cut by
@@ -25,6 +26,7 @@
 mod error;
 mod guard;
 mod paint;
+mod text;
 
 pub use error::SvgError;
 
@@ -46,9 +48,10 @@ pub(super) fn read(
     element: Option<&str>,
     options: &ImportOptions,
 ) -> Result<Outlines, SvgError> {
+    text::check(text)?;
     let xml = roxmltree::ParsingOptions {
-        allow_dtd: true, // drawing programs write a DOCTYPE; entities are limited
-        nodes_limit: guard::MAX_NODES,
+        allow_dtd: true, // drawing programs write a DOCTYPE; entities were counted
+        nodes_limit: error::MAX_NODES,
         ..Default::default()
     };
     let document = roxmltree::Document::parse_with_options(text, xml).map_err(SvgError::Xml)?;
