@@ -18,7 +18,7 @@ const READ: f64 = 0.1;
 
 #[derive(Clone, Debug, Args)]
 pub(super) struct Inputs {
-    #[arg(value_name = "PROJECT | A B", num_args = 1..=2, required = true, help = help())]
+    #[arg(value_name = "PROJECT | A B", num_args = 1.., required = true, help = help())]
     inputs: Vec<PathBuf>,
 }
 
@@ -87,7 +87,7 @@ impl Inputs {
         let path = match self.inputs.as_slice() {
             [source, target] => return Ok((Project::pair(source, target), Some(PathBuf::new()))),
             [path] => path,
-            _ => return Err(CliError::Usage("give a project or two designs".to_owned())),
+            many => return Err(CliError::too_many(many.len())),
         };
         if let Some(name) = path.to_str().and_then(|path| path.strip_prefix("gallery:")) {
             let project = gallery::document(name).map_err(CliError::failed)?;

@@ -68,7 +68,7 @@ enum Command {
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowRequest {
     /// A project (.morph, or gallery:NAME), or two designs; opened in the window
-    #[arg(value_name = "FILE", num_args = 0..=2)]
+    #[arg(value_name = "FILE", num_args = 0..)]
     pub files: Vec<PathBuf>,
 
     /// Folder for pictures taken in the window [default: the pictures folder]
@@ -91,6 +91,9 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Launch {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     match Cli::try_parse_from(&arguments) {
         Ok(cli) => match cli.command {
+            None if cli.window.files.len() > 2 => Launch::Done(output::exit_code(Err(
+                CliError::too_many(cli.window.files.len()),
+            ))),
             None => Launch::Window(cli.window),
             Some(command) => Launch::Done(output::exit_code(execute(&command))),
         },

@@ -23,6 +23,10 @@ pub(super) struct NewArgs {
     #[arg(value_name = "B")]
     target: PathBuf,
 
+    /// More than a transition is between: refused in a sentence of our own
+    #[arg(hide = true)]
+    more: Vec<PathBuf>,
+
     /// The project to write; designs are named relative to its folder
     #[arg(long, value_name = "PATH.morph")]
     out: PathBuf,
@@ -36,6 +40,9 @@ pub(super) struct NewArgs {
 }
 
 pub(super) fn run(args: &NewArgs) -> Result<(), CliError> {
+    if !args.more.is_empty() {
+        return Err(CliError::too_many(2 + args.more.len()));
+    }
     if !Project::is_named(&args.out) {
         let path = args.out.display();
         return Err(CliError::Usage(format!(

@@ -139,6 +139,12 @@ fn shown(args: &RenderArgs) -> Result<Option<Shown>, CliError> {
 
 /// Whether the output's name fits the flags, before the work and not after it.
 fn check(args: &RenderArgs, target: &Target, shown: Option<Shown>) -> Result<(), CliError> {
+    if shown.is_some() && args.out.is_dir() {
+        let (path, endings) = (args.out.display(), endings::<StillKind>());
+        return Err(CliError::Usage(format!(
+            "`{path}` is a folder: name a file in it, one that ends in {endings}"
+        )));
+    }
     let flags = match (target, shown) {
         (Target::Still(_, path), None) => {
             return Err(CliError::Usage(format!(
