@@ -176,7 +176,7 @@ fn png_claiming(width: u32, height: u32) -> Vec<u8> {
 
 #[test]
 fn a_picture_that_claims_to_be_huge_is_refused_by_its_size() {
-    for (width, height) in [(100_000, 100_000), (u32::MAX >> 1, 1), (8193, 8192)] {
+    for (width, height) in [(100_000, 100_000), (u32::MAX >> 1, 1), (8192, 6145)] {
         let found = problem(&png_claiming(width, height));
         let message = found.to_string();
         assert!(
@@ -190,7 +190,7 @@ fn a_picture_that_claims_to_be_huge_is_refused_by_its_size() {
     }
     // The largest that is read gets as far as its missing pixels.
     assert!(matches!(
-        problem(&png_claiming(8192, 8192)),
+        problem(&png_claiming(8192, 6144)),
         Problem::Picture(PictureError::Damaged(_))
     ));
 }

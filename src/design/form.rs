@@ -98,6 +98,8 @@ impl Design {
 
     /// The silhouette in a picture, and the picture with it. Pixels are sRGB
     /// with straight alpha, row 0 the uppermost; one is a unit of the design.
+    /// The outline is that of all pixels; of the colours of more than 16
+    /// million every fourth is kept, or fewer, and that is told.
     ///
     /// # Errors
     /// [`PictureError`] if an option is out of range or no figure stands out.
@@ -108,10 +110,14 @@ impl Design {
     ) -> Result<Self, PictureError> {
         options.check()?;
         let regions = silhouette::read(&pixels, options)?;
-        let picture = Picture::new(pixels);
+        let given = pixels.dimensions();
+        let picture = Picture::bounded(pixels);
+        let kept = picture.pixels().dimensions();
+        let smaller = (kept != given).then_some(ImportNote::Smaller { given, kept });
         Ok(Self {
             extent: picture.bounds(),
             picture: Some(picture),
+            notes: smaller.into_iter().collect(),
             ..Self::new(name, regions)
         })
     }

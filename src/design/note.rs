@@ -46,6 +46,13 @@ pub enum ImportNote {
     Texts(usize),
     /// Pictures in a drawing.
     Pictures(usize),
+    /// A large picture's colours, kept at a smaller size.
+    Smaller {
+        /// Its width and height.
+        given: (u32, u32),
+        /// Those that are kept.
+        kept: (u32, u32),
+    },
     /// Curves that do not close.
     Open {
         /// How many.
@@ -117,12 +124,7 @@ impl fmt::Display for ImportNote {
                 count,
                 at_least,
                 rule,
-            } => {
-                let (least, were) = (floor(*at_least), number(["was", "were"], *count));
-                let what = number(["crossing", "crossings"], *count);
-                let by = named(*rule);
-                write!(f, "{least}{count} {what} of edges {were} resolved by {by}")
-            }
+            } => resolved(f, *count, *at_least, *rule),
             Self::Touches { count, at_least } => {
                 let least = floor(*at_least);
                 let what = number(["corner that lies", "corners that lie"], *count);
@@ -151,6 +153,7 @@ impl fmt::Display for ImportNote {
                 f.write_str("; convert text to paths")
             }
             Self::Pictures(n) => left_out(f, *n, ["embedded picture", "embedded pictures"]),
+            Self::Smaller { given, kept } => smaller(f, *given, *kept),
             Self::Open { count, at } => {
                 let one = "curve that does not close";
                 left_out(f, *count, [one, "curves that do not close"])?;
@@ -163,6 +166,28 @@ impl fmt::Display for ImportNote {
             }
         }
     }
+}
+
+/// Writes how many crossings there were.
+fn resolved(
+    f: &mut fmt::Formatter<'_>,
+    count: usize,
+    at_least: bool,
+    rule: FillRule,
+) -> fmt::Result {
+    let (least, were) = (floor(at_least), number(["was", "were"], count));
+    let what = number(["crossing", "crossings"], count);
+    let by = named(rule);
+    write!(f, "{least}{count} {what} of edges {were} resolved by {by}")
+}
+
+/// Writes that a picture of one size is kept at another.
+fn smaller(f: &mut fmt::Formatter<'_>, given: (u32, u32), kept: (u32, u32)) -> fmt::Result {
+    let ((w, h), (x, y)) = (given, kept);
+    write!(
+        f,
+        "the colours of its {w} × {h} pixels are kept as {x} × {y}"
+    )
 }
 
 fn named(rule: FillRule) -> &'static str {

@@ -2,6 +2,7 @@
 
 use crate::geometry::{Bounds, DVec2, Similarity};
 use image::RgbaImage;
+use image::imageops::thumbnail;
 use std::collections::HashSet;
 use std::sync::Arc;
 
@@ -14,6 +15,10 @@ pub struct Picture {
     pixels: Arc<RgbaImage>,
     place: Similarity,
 }
+
+/// Most pixels that are kept of a design's picture: decoded, as colours are
+/// mixed, one takes 26 bytes, and two pictures of so many 0.8 GiB.
+const MOST_KEPT: u64 = 1 << 24;
 
 /// So many colours, of four bits a channel, make a photograph: the smoothed
 /// edge of a silhouette has no more than sixteen greys.
@@ -30,6 +35,25 @@ impl Picture {
         Self {
             pixels: Arc::new(pixels),
             place: Similarity::default(),
+        }
+    }
+
+    /// The same at half the size, or less, if it has more pixels than are kept;
+    /// it lies where it would have lain.
+    pub(super) fn bounded(mut pixels: RgbaImage) -> Self {
+        let mut scale = 1.0;
+        while u64::from(pixels.width()) * u64::from(pixels.height()) > MOST_KEPT {
+            let half = |side: u32| (side / 2).max(1);
+            pixels = thumbnail(&pixels, half(pixels.width()), half(pixels.height()));
+            scale *= 2.0;
+        }
+        let place = Similarity {
+            scale,
+            ..Similarity::default()
+        };
+        Self {
+            pixels: Arc::new(pixels),
+            place,
         }
     }
 
@@ -91,6 +115,18 @@ mod tests {
         assert!(!Picture::new(RgbaImage::from_fn(64, 64, grey)).is_photograph());
         let sky = |x: u32, y: u32| Rgba([(x * 4) as u8, (y * 4) as u8, 90, 255]);
         assert!(Picture::new(RgbaImage::from_fn(64, 64, sky)).is_photograph());
+    }
+
+    #[test]
+    fn a_large_one_is_kept_at_half_its_size_in_its_place() {
+        let large = Picture::bounded(RgbaImage::new(6000, 4000));
+        assert_eq!(large.pixels().dimensions(), (3000, 2000));
+        assert_eq!(large.bounds().max, DVec2::new(6000.0, 4000.0));
+        let small = Picture::bounded(RgbaImage::new(4096, 4096));
+        assert_eq!(small, Picture::new(RgbaImage::new(4096, 4096)));
+        // A line is as long as it is, however thin.
+        let thin = Picture::bounded(RgbaImage::new(1 << 25, 1));
+        assert_eq!(thin.pixels().dimensions(), (1 << 24, 1));
     }
 
     #[test]

@@ -74,9 +74,10 @@ pub enum PictureError {
     Regions(#[from] RegionsError),
 }
 
-/// Most pixels that are read: 8192 × 8192. At about 20 bytes a pixel while the
-/// silhouette is traced this is 1.3 GB.
-const MAX_PIXELS: u64 = 8192 * 8192;
+/// Most pixels that are read: 8192 × 6144, more than all but the largest
+/// cameras have. At up to 20 bytes a pixel, while specks are looked for in the
+/// silhouette, this is 1 GB.
+const MAX_PIXELS: u64 = 8192 * 6144;
 
 /// Most boundary points before simplification; a photograph of gravel, parted
 /// at its median, has about this many at 2048 × 2048.

@@ -41,10 +41,13 @@ impl Folder {
     }
 
     /// Asks the program, within its bounds.
-    pub fn ask<S: AsRef<str>>(&self, arguments: &[S]) -> Answer {
-        let arguments: Vec<&str> = arguments.iter().map(AsRef::as_ref).collect();
-        let output = waited(self.command(&arguments), &arguments);
-        Answer::of(output)
+    pub fn ask(&self, arguments: &[&str]) -> Answer {
+        Answer::of(waited(self.command(arguments), arguments, PATIENCE))
+    }
+
+    /// The same where it has work to do, which nobody has made fast here.
+    pub fn ask_patiently(&self, arguments: &[&str]) -> Answer {
+        Answer::of(waited(self.command(arguments), arguments, 9 * PATIENCE))
     }
 
     fn command(&self, arguments: &[&str]) -> Child {
@@ -123,15 +126,15 @@ pub fn acting(line: &str) -> Option<char> {
     line.chars().find(|&c| c.is_control() || turns(c))
 }
 
-/// Waits no longer than [`PATIENCE`].
-fn waited(mut child: Child, arguments: &[&str]) -> Output {
+/// Waits no longer than that.
+fn waited(mut child: Child, arguments: &[&str], patience: Duration) -> Output {
     let start = Instant::now();
     // What it says is less than a pipe holds, so that it can be read at the end.
     let ended = |child: &mut Child| -> Option<ExitStatus> { child.try_wait().expect("a child") };
     while ended(&mut child).is_none() {
-        if start.elapsed() > PATIENCE {
+        if start.elapsed() > patience {
             child.kill().expect("killed");
-            panic!("no answer within {PATIENCE:?}: {arguments:?}");
+            panic!("no answer within {patience:?}: {arguments:?}");
         }
         sleep(Duration::from_millis(10));
     }

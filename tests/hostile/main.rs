@@ -10,4 +10,5 @@ mod bombs;
 mod child;
 mod kinds;
 mod numbers;
+mod pictures;
 mod words;
