@@ -107,9 +107,9 @@ impl Inputs {
 
 /// Why there is no transition, and which flag goes on all the same.
 fn not_built(error: BuildError) -> CliError {
-    match error {
+    match error.reason() {
         BuildError::TooMuch(_) => CliError::Failed(format!("{error}, or go on with --patient")),
-        error => CliError::failed(error),
+        _ => CliError::failed(error),
     }
 }
 

@@ -286,7 +286,8 @@ impl MethodArgs {
         let timing = project.timing.check(&project.stops);
         timing.map_err(CliError::usage)?;
         project.options.colours.check().map_err(CliError::usage)?;
-        project.options.matching.check().map_err(CliError::usage)
+        project.options.matching.check().map_err(CliError::usage)?;
+        project.options.arap.check().map_err(CliError::usage)
     }
 
     fn edit_cell(&self, project: &mut Project) {

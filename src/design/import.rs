@@ -66,6 +66,9 @@ impl Source {
             Self::File { element, .. } => read(name, bytes, element.as_deref(), options),
             Self::Text { text, font } => {
                 options.check()?;
+                if font.is_some() && bytes.is_empty() {
+                    return Err(Problem::Empty);
+                }
                 let font = font.is_some().then_some(bytes);
                 Ok(lettering::read(text, font, options.tolerance)?.named(name))
             }

@@ -36,8 +36,8 @@ pub enum TextError {
     #[error("the text has {0} characters, more than the {MAX_CHARS} that are drawn; shorten it")]
     TooLong(usize),
     /// The font's bytes are no font.
-    #[error("the font cannot be read ({0}); choose a TrueType or OpenType font (.ttf, .otf)")]
-    Font(String),
+    #[error("the font cannot be read: {0}; choose a TrueType or OpenType font (.ttf, .otf)")]
+    Font(&'static str),
     /// The font has no glyph for a character.
     #[error(
         "the font has no glyph for {character:?} (U+{:04X}); choose another character, or a font that has it as in glyph:TEXT@FONT.ttf",
@@ -95,14 +95,14 @@ pub(super) fn read(text: &str, font: Option<&[u8]>, tolerance: f64) -> Result<Ou
 fn font_of(bytes: &[u8]) -> Result<FontRef<'_>, TextError> {
     // Named, for it is a font to whoever has it, only packed.
     if bytes.starts_with(b"wOF") {
-        return Err(TextError::Font("it is a web font".to_owned()));
+        return Err(TextError::Font("it is a web font"));
     }
     let font = match FileRef::new(bytes) {
         Ok(FileRef::Font(font)) => Ok(font),
         Ok(FileRef::Collection(fonts)) => fonts.get(0),
         Err(error) => Err(error),
     };
-    font.map_err(|error| TextError::Font(error.to_string()))
+    font.map_err(|_| TextError::Font("it is damaged, or no font"))
 }
 
 fn check_characters(font: &FontRef, text: &str) -> Result<(), TextError> {
@@ -126,7 +126,7 @@ impl Line {
     fn shaped(font: &FontRef, text: &str) -> Result<Self, TextError> {
         let metrics = font.metrics(Size::unscaled(), LocationRef::default());
         if metrics.units_per_em == 0 {
-            return Err(TextError::Font("it has no size of its em".to_owned()));
+            return Err(TextError::Font("it has no size of its em"));
         }
         let scale = EM / f64::from(metrics.units_per_em);
         let data = ShaperData::new(font);

@@ -24,7 +24,7 @@ pub use pair::{Pair, Side};
 pub use polar::{Polar, SymmetricEigen};
 pub(crate) use predicates::lexicographic;
 pub use predicates::{orient2d, twice_signed_area};
-pub(crate) use range::RANGE;
+pub(crate) use range::{About, RANGE};
 pub use range::{MAX_COORDINATE, MIN_SIZE, TooSmall, is_in_range};
 pub use region::{FillRule, Region, Regions, RegionsError};
 pub use repair::Repairs;

@@ -7,6 +7,7 @@
 //! for 2²⁰¹ and no less than 2⁻¹⁴².
 
 use super::{Bounds, DVec2};
+use std::fmt;
 
 /// The largest coordinate, either way: the square of a distance is at most
 /// 8 × 10³⁶, and `f32` ends at 3 × 10³⁸.
@@ -42,4 +43,31 @@ impl TooSmall {
 pub fn is_in_range(p: DVec2) -> bool {
     // What is no number is less than nothing.
     p.abs().cmple(DVec2::splat(MAX_COORDINATE)).all()
+}
+
+/// A place as messages have it: with four digits, at whatever size.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct About(pub DVec2);
+
+impl fmt::Display for About {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let rounded = |x: f64| format!("{x:.3e}").parse().unwrap_or(x);
+        write!(f, "about ({}, {})", rounded(self.0.x), rounded(self.0.y))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_told_with_four_digits() {
+        for (x, y, told) in [
+            (0.1 + 0.2, -0.0, "about (0.3, -0)"),
+            (1.0 / 3.0, 1234.56, "about (0.3333, 1235)"),
+            (1e15, -2.5e-7, "about (1000000000000000, -0.00000025)"),
+        ] {
+            assert_eq!(About(DVec2::new(x, y)).to_string(), told);
+        }
+    }
 }

@@ -14,7 +14,7 @@ pub mod triangulation;
 pub use components::components;
 pub use connectivity::{Connectivity, ConnectivityError};
 pub(crate) use edges::{sides, undirected};
-pub use subdivide::{MAX_VERTICES, Subdivision, TooManyVertices};
+pub use subdivide::{MAX_ROUNDS, MAX_VERTICES, Subdivision, TooManyVertices};
 
 use crate::geometry::{Bounds, DVec2, RANGE, Similarity, TooSmall, is_in_range};
 

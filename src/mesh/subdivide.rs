@@ -9,6 +9,10 @@ use std::collections::HashMap;
 /// The most vertices that a subdivision may reach: about 4 GB of factor.
 pub const MAX_VERTICES: usize = 4_000_000;
 
+/// Most rounds: a single triangle has 2 million vertices after 11, and 8 after
+/// one more.
+pub const MAX_ROUNDS: u32 = 11;
+
 /// Faces after subdivision, and where the new vertices lie.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Subdivision {

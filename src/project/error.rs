@@ -5,6 +5,7 @@ use crate::content::{ColourMixError, FieldPairError};
 use crate::correspondence::PlaceError;
 use crate::design::ImportError;
 use crate::geometry::SimilarityError;
+use crate::mesh::TooManyVertices;
 use crate::one_line::OneLine;
 use crate::reading::ReadError;
 use crate::transition::{BuildError, TimingError};
@@ -72,6 +73,9 @@ pub enum ProjectError {
     /// A pin or the like is nowhere.
     #[error(transparent)]
     Place(#[from] PlaceError),
+    /// There are too many subdivisions.
+    #[error(transparent)]
+    Subdivisions(#[from] TooManyVertices),
     /// The timing gives no pass.
     #[error(transparent)]
     Timing(#[from] TimingError),

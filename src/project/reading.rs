@@ -42,6 +42,7 @@ impl Project {
         self.options.field.blend.check()?;
         self.options.colours.check()?;
         self.options.matching.check()?;
+        self.options.arap.check()?;
         self.timing.check(&self.stops)?;
         Ok(())
     }

@@ -13,7 +13,7 @@ use crate::budget::Load;
 use crate::content::{Content, ContentKind, FieldPair, PicturePair};
 use crate::design::{Design, Form};
 use crate::field::{DistanceField, FieldError, Grid};
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, Side};
 use crate::progress::{Cancelled, Progress, Silent, Span, Whole, checkpoint, still_wanted};
 use crate::warp::{Arap, Placement, Warp, WarpKind};
 use std::sync::Arc;
@@ -39,8 +39,9 @@ impl Transition {
     /// nothing, decides everything.
     ///
     /// # Errors
-    /// [`BuildError`] says what does not go together, that it would take very
-    /// long and nobody is patient, or that the work was cancelled.
+    /// [`BuildError::Between`] names the designs and says what does not go
+    /// together, or that it would take very long and nobody is patient; of
+    /// work that was cancelled another says so.
     pub fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Self, BuildError> {
         built(spec, progress).map(Self::from)
     }
@@ -71,15 +72,23 @@ impl Transition {
         };
         let note = Note::Instead {
             asked: spec.cell,
-            reason: error.to_string(),
+            reason: error.reason().to_string(),
         };
         instead.moved.notes.insert(0, note);
         Ok(instead.into())
     }
 }
 
-/// What [`Transition::build`] builds.
+/// What [`Transition::build`] builds, or why it cannot, by the designs' names.
 fn built(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildError> {
+    made(spec, progress).map_err(|error| match progress.is_cancelled() {
+        // A cancel is nobody's fault: it names no design.
+        true => error,
+        false => error.between(&spec.source, &spec.target),
+    })
+}
+
+fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildError> {
     // Before any work: a window asks the same to grey a button out.
     TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
     let progress = &Whole::new(progress).patient(spec.patient);
@@ -153,9 +162,9 @@ fn fields(
     let grid = Grid::covering(&frame, spec.options.field.cells, spec.options.field.margin)?;
     Load::Cells.allow(grid.cells(), progress)?;
     let span = |from, to| Span::new(progress, from, to);
-    let source = field_of(&spec.source, spec, grid, bar_width, &span(0.0, 0.35))?;
+    let source = field_of(Side::Source, spec, grid, bar_width, &span(0.0, 0.35))?;
     checkpoint(progress, "measuring distances", 0.35)?;
-    let target = field_of(&spec.target, spec, grid, bar_width, &span(0.35, 0.7))?;
+    let target = field_of(Side::Target, spec, grid, bar_width, &span(0.35, 0.7))?;
     still_wanted(progress)?;
     let pair = FieldPair::new(source, target, spec.options.field.blend)?;
     // Over the grid with its margin: a carried field is looked up there too.
@@ -223,12 +232,13 @@ fn field_frame(spec: &TransitionSpec, bar_width: f64) -> Bounds {
 }
 
 fn field_of(
-    design: &Arc<Design>,
+    side: Side,
     spec: &TransitionSpec,
     grid: Grid,
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<DistanceField, BuildError> {
+    let design = [&spec.source, &spec.target][side];
     let outline = outline(design, bar_width, progress)?;
     let field = if spec.options.field.is_exact() {
         DistanceField::from_regions(&outline, grid, progress)
@@ -236,11 +246,7 @@ fn field_of(
         DistanceField::from_raster(&outline, grid, spec.options.field.metric, progress)
     };
     field.map_err(|error| match error {
-        // A cancel is nobody's fault: it names no design.
         FieldError::Cancelled(cancelled) => BuildError::Cancelled(cancelled),
-        error => BuildError::Field {
-            design: design.name.clone(),
-            error,
-        },
+        error => BuildError::Field { side, error },
     })
 }

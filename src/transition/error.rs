@@ -5,8 +5,10 @@ use crate::budget::TooMuch;
 use crate::compatible::{CompatibleError, OutlinesError, PinnedError};
 use crate::content::{ColourMixError, FieldPairError};
 use crate::correspondence::RegionMatchError;
+use crate::design::Design;
 use crate::field::{FieldError, GridError};
-use crate::geometry::RegionsError;
+use crate::geometry::{RegionsError, Side};
+use crate::one_line::OneLine;
 use crate::progress::Cancelled;
 use crate::warp::{ArapError, LatticeError, LinesError, PathsError, ScatteredError};
 
@@ -20,16 +22,19 @@ pub enum BuildError {
     /// The warp and the content do not go together.
     #[error(transparent)]
     NoSuchCell(#[from] NoSuchCell),
-    /// The designs do not share a triangulation.
-    #[error("{source_name} and {target_name}: {error}")]
-    Compatible {
+    /// Which designs do not go together, and why.
+    #[error("{}", OneLine(format_args!("{source_name} to {target_name}: {error}")))]
+    Between {
         /// Name of the source.
         source_name: String,
         /// Name of the target.
         target_name: String,
         /// What does not fit.
-        error: CompatibleError,
+        error: Box<BuildError>,
     },
+    /// The designs do not share a triangulation.
+    #[error(transparent)]
+    Compatible(#[from] CompatibleError),
     /// The outlines were not matched.
     #[error(transparent)]
     Match(#[from] RegionMatchError),
@@ -46,10 +51,10 @@ pub enum BuildError {
     #[error(transparent)]
     Grid(#[from] GridError),
     /// A distance field could not be made.
-    #[error("{design}: {error}")]
+    #[error("the {side}: {error}")]
     Field {
-        /// Name of the design.
-        design: String,
+        /// Of which design.
+        side: Side,
         /// What went wrong.
         error: FieldError,
     },
@@ -83,4 +88,24 @@ pub enum BuildError {
     /// Nobody wants the result.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
+}
+
+impl BuildError {
+    /// The same with the names of the designs.
+    pub(super) fn between(self, source: &Design, target: &Design) -> Self {
+        Self::Between {
+            source_name: source.name.clone(),
+            target_name: target.name.clone(),
+            error: Box::new(self),
+        }
+    }
+
+    /// What does not fit, whatever the designs are called.
+    #[must_use]
+    pub fn reason(&self) -> &Self {
+        match self {
+            Self::Between { error, .. } => error.reason(),
+            error => error,
+        }
+    }
 }

@@ -62,14 +62,9 @@ fn given(
     progress: &dyn Progress,
 ) -> Result<Arap, BuildError> {
     let mesh = mesh.map_err(|error| match error {
-        // A cancel is nobody's fault: it names no design.
         CompatibleError::Truss(TrussError::Cancelled(cancelled)) => cancelled.into(),
         CompatibleError::Truss(TrussError::TooMuch(too_much)) => too_much.into(),
-        error => BuildError::Compatible {
-            source_name: spec.source.name.clone(),
-            target_name: spec.target.name.clone(),
-            error,
-        },
+        error => BuildError::from(error),
     })?;
     arap(&mesh, &spec.options.arap, progress)
 }

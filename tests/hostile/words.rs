@@ -171,3 +171,33 @@ fn colour_is_for_terminals_that_want_it() {
     let piped = Folder::new().ask(&["render"]);
     assert!(!coloured(&piped.words), "{piped:?}");
 }
+
+#[test]
+fn what_does_not_go_together_is_told_by_its_names() {
+    let folder = Folder::new();
+    folder.put(
+        "bar.json",
+        "{\"nodes\": [[0, 0], [1, 0]], \"bars\": [[0, 1]]}",
+    );
+    folder.put(
+        "tri.json",
+        "{\"nodes\": [[0, 0], [1, 0], [0, 1]], \"bars\": [[0, 1], [1, 2]]}",
+    );
+    let pair = ["bar.json", "tri.json", "--method", "arap"];
+    folder.refused_with(&pair, "bar to tri: ", "has 2 nodes");
+    folder.put("empty.ttf", "");
+    folder.refused("glyph:A@empty.ttf", "the file is empty");
+    folder.put("cut.ttf", [0, 1, 0, 0, 0, 9]);
+    folder.refused("glyph:A@cut.ttf", "damaged, or no font");
+    let many = [
+        "check",
+        "square.json",
+        "square.json",
+        "--subdivisions",
+        "4294967295",
+    ];
+    let answer = folder.ask(&many);
+    answer.is_one_line();
+    assert_eq!(answer.code, Some(2), "{answer:?}");
+    assert!(answer.words.contains("choose fewer"), "{answer:?}");
+}

@@ -260,14 +260,17 @@ impl Problem {
     /// The pins that it comes from, by their numbers in the project.
     #[must_use]
     pub fn pins(&self) -> Vec<usize> {
-        match self {
-            Self::Build(BuildError::Match(RegionMatchError::Pins(error))) => match error {
+        let Self::Build(error) = self else {
+            return Vec::new();
+        };
+        match error.reason() {
+            BuildError::Match(RegionMatchError::Pins(error)) => match error {
                 PinError::NotFinite(a) => vec![*a],
                 PinError::SamePoint(a, b) | PinError::Crossing(a, b) => vec![*a, *b],
             },
-            Self::Build(BuildError::Match(RegionMatchError::PinAcross(a))) => vec![*a],
+            BuildError::Match(RegionMatchError::PinAcross(a)) => vec![*a],
             // All else is wrong with the designs or the method, and no pin is to blame.
-            Self::Build(_) | Self::Project(_) => Vec::new(),
+            _ => Vec::new(),
         }
     }
 }

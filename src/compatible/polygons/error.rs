@@ -1,7 +1,7 @@
 //! Why two pieces were not triangulated together.
 
 use crate::compatible::elements::CompatibleError;
-use crate::geometry::{DVec2, Side};
+use crate::geometry::{About, DVec2, Side};
 use crate::mesh::triangulation::TriangulationError;
 use crate::progress::Cancelled;
 
@@ -65,12 +65,14 @@ pub enum PolygonsError {
         vertex: usize,
     },
     /// Two edges touch, or points coincide, other than along a slit.
-    #[error("{} and {} touch in the {side}; repair the outline", edges[0], edges[1])]
+    #[error("outlines of the {side} touch or cross {}, where they are matched by more points than they were drawn with: keep them further apart there, or choose another method", About(*place))]
     NotSimple {
         /// In which design.
         side: Side,
-        /// The edges.
+        /// The edges, of the rings that were given.
         edges: [RingEdge; 2],
+        /// Where the first of them begins.
+        place: DVec2,
     },
     /// The outer boundary runs clockwise.
     #[error("the outline of the {0} runs clockwise; reverse its points")]
@@ -93,13 +95,16 @@ pub enum PolygonsError {
     EdgeLength(f64),
     /// A design's rings were refused, and no fault of theirs was found.
     #[error(
-        "the outline of the {side} was not triangulated: {error}; {shortest} is the shortest, leave out one of its ends"
+        "the outline of the {side} was not triangulated: {error}; it is finest {}, leave out a point there",
+        About(*place)
     )]
     Refused {
         /// Which design.
         side: Side,
         /// Its shortest edge: the likeliest cause.
         shortest: RingEdge,
+        /// Where that begins.
+        place: DVec2,
         /// What the triangulation says.
         error: TriangulationError,
     },
@@ -119,7 +124,7 @@ pub enum PolygonsError {
         error: TriangulationError,
     },
     /// Faces of the guaranteed base that rounding left without area.
-    #[error("{} without area in the {side}, about ({}, {}): the outline is thinner there than its coordinates are exact; thicken it there, or move the match of that place", if *faces == 1 { "a common face is".to_owned() } else { format!("{faces} common faces are") }, place.x, place.y)]
+    #[error("{} without area in the {side}, {}: the outline is thinner there than its coordinates are exact; thicken it there, or move the match of that place", if *faces == 1 { "a common face is".to_owned() } else { format!("{faces} common faces are") }, About(*place))]
     Folded {
         /// In which design.
         side: Side,
@@ -149,7 +154,10 @@ impl PolygonsError {
 
     /// The same said of designs so many times as large.
     pub(super) fn enlarged(mut self, by: [f64; 2]) -> Self {
-        if let Self::Folded { side, place, .. } = &mut self {
+        if let Self::Folded { side, place, .. }
+        | Self::NotSimple { side, place, .. }
+        | Self::Refused { side, place, .. } = &mut self
+        {
             *place *= by[*side];
         }
         self

@@ -96,8 +96,11 @@ fn reason(
 ) -> PolygonsError {
     // First: which way round crossing rings run says nothing.
     if let Some(edges) = touching_edges(walks) {
-        let edges = edges.map(|edge| rings.place(edge));
-        return PolygonsError::NotSimple { side, edges };
+        return PolygonsError::NotSimple {
+            side,
+            place: rings.points[edges[0]],
+            edges: edges.map(|edge| rings.place(edge)),
+        };
     }
     if signed_area(walks[0]) < 0.0 {
         return PolygonsError::Clockwise(side);
@@ -107,19 +110,24 @@ fn reason(
         None if walks.len() > 1 && error == TriangulationError::NotOnePiece => {
             PolygonsError::HoleOutside(side)
         }
-        None => PolygonsError::Refused {
-            side,
-            shortest: shortest(rings, walks),
-            error,
-        },
+        None => {
+            let shortest = shortest(walks);
+            PolygonsError::Refused {
+                side,
+                place: rings.points[shortest],
+                shortest: rings.place(shortest),
+                error,
+            }
+        }
     }
 }
 
-fn shortest(rings: &Rings, walks: &[&[DVec2]]) -> RingEdge {
+/// The point that the shortest edge begins at.
+fn shortest(walks: &[&[DVec2]]) -> usize {
     let edges = walks.iter().flat_map(|walk| ring_edges(walk));
     let lengths = edges.map(|(a, b)| a.distance(b)).enumerate();
     let least = lengths.min_by(|a, b| a.1.total_cmp(&b.1));
-    rings.place(least.map_or(0, |(edge, _)| edge))
+    least.map_or(0, |(edge, _)| edge)
 }
 
 #[cfg(test)]
@@ -131,10 +139,11 @@ mod tests {
         check(&Rings::of(&rings), Side::Source)
     }
 
-    fn not_simple(edges: [(usize, usize); 2]) -> Result<(), PolygonsError> {
+    fn not_simple(edges: [(usize, usize); 2], place: (f64, f64)) -> Result<(), PolygonsError> {
         Err(PolygonsError::NotSimple {
             side: Side::Source,
             edges: edges.map(|(ring, edge)| RingEdge { ring, edge }),
+            place: place.into(),
         })
     }
 
@@ -149,11 +158,11 @@ mod tests {
     #[test]
     fn spikes_touches_and_wrong_direction_are_named() {
         let spike = [(0.0, 0.0), (2.0, 0.0), (1.0, 0.0), (1.0, 1.0)];
-        assert_eq!(verdict([&spike]), not_simple([(0, 0), (0, 1)]));
+        assert_eq!(verdict([&spike]), not_simple([(0, 0), (0, 1)], (0.0, 0.0)));
         let touch = [(0.0, 0.0), (4.0, 0.0), (4.0, 2.0), (2.0, 0.0), (0.0, 2.0)];
-        assert_eq!(verdict([&touch]), not_simple([(0, 0), (0, 3)]));
+        assert_eq!(verdict([&touch]), not_simple([(0, 0), (0, 3)], (0.0, 0.0)));
         let twice = [(0.0, 0.0), (4.0, 0.0), (4.0, 0.0), (0.0, 2.0)];
-        assert_eq!(verdict([&twice]), not_simple([(0, 0), (0, 1)]));
+        assert_eq!(verdict([&twice]), not_simple([(0, 0), (0, 1)], (0.0, 0.0)));
         let clockwise = [(0.0, 0.0), (0.0, 1.0), (1.0, 0.0)];
         assert_eq!(
             verdict([&clockwise]),
@@ -168,6 +177,7 @@ mod tests {
         let refused = PolygonsError::Refused {
             side: Side::Source,
             shortest: RingEdge { ring: 0, edge: 1 },
+            place: DVec2::X,
             error: TriangulationError::NotSimple,
         };
         assert_eq!(verdict([&thin]), Err(refused));
@@ -189,9 +199,15 @@ mod tests {
             Err(PolygonsError::CounterClockwise { side, hole: 1 })
         );
         let touching = inside.map(|(x, y)| (x - 1.0, y));
-        assert_eq!(verdict([&SQUARE, &touching]), not_simple([(0, 3), (1, 0)]));
+        assert_eq!(
+            verdict([&SQUARE, &touching]),
+            not_simple([(0, 3), (1, 0)], (0.0, 4.0))
+        );
         let corner = [(0.0, 0.0), (1.0, 2.0), (2.0, 1.0)];
-        assert_eq!(verdict([&SQUARE, &corner]), not_simple([(0, 0), (1, 0)]));
+        assert_eq!(
+            verdict([&SQUARE, &corner]),
+            not_simple([(0, 0), (1, 0)], (0.0, 0.0))
+        );
         let same = [inside; 2];
         assert!(verdict([&SQUARE, &same[0], &same[1]]).is_err());
     }

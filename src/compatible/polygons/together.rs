@@ -56,15 +56,16 @@ impl CompatibleMesh {
         // Near 1 no product under- or overflows, which exact signs need.
         let scales = [&given[0], &given[1]].map(|rings| to_unit(&rings.points));
         let [p, q] = [0, 1].map(|d| given[d].scaled(scales[d]));
-        piece::check(&p, Side::Source)?;
-        piece::check(&q, Side::Target)?;
+        let enlarged = |error: PolygonsError| error.enlarged(scales.map(f64::recip));
+        piece::check(&p, Side::Source).map_err(enlarged)?;
+        piece::check(&q, Side::Target).map_err(enlarged)?;
         let mesh = if goes_first(&p, &q) {
             triangulated(&p, &q, options, progress)
         } else {
             let back = triangulated(&q, &p, options, progress);
             back.map(PairMesh::swapped).map_err(PolygonsError::swapped)
         };
-        let mesh = mesh.map_err(|error| error.enlarged(scales.map(f64::recip)))?;
+        let mesh = mesh.map_err(enlarged)?;
         let given = given.each_ref().map(|rings| &rings.points[..]);
         mesh.finished(scales, given).map_err(PolygonsError::Mesh)
     }
@@ -228,6 +229,6 @@ mod tests {
         let (side, place) = (Side::Source, DVec2::new(6.0, 0.0));
         let faces = 1;
         assert_eq!(told, PolygonsError::Folded { side, faces, place });
-        assert!(told.to_string().contains("in the source, about (6, 0)"));
+        assert!(told.to_string().contains("in the source, about (6, 0):"));
     }
 }

@@ -41,7 +41,7 @@ use super::{Placement, Placer, Warp};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DVec2, Polar};
 use crate::homotopy::Homotopy;
-use crate::linalg::{Cholesky, SymmetricMatrix};
+use crate::linalg::{Cholesky, FactorError, SymmetricMatrix};
 use crate::progress::{Progress, checkpoint, still_wanted};
 use assembly::LocalMaps;
 use drift::Drift;
@@ -119,7 +119,12 @@ impl Arap {
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         checkpoint(progress, "factoring", 0.3)?;
-        let (cholesky, ridge) = factored(maps.matrix(&mesh), progress)??;
+        let thin = |vertex: usize| [mesh.source()[vertex], mesh.target()[vertex]];
+        let done = factored(maps.matrix(&mesh), progress)?;
+        let (cholesky, ridge) = done.map_err(|error| match error {
+            FactorError::NotPositiveDefinite { index } => ArapError::Thin(thin(index)),
+            error => ArapError::Factor(error),
+        })?;
         checkpoint(progress, "preparing frames", 0.9)?;
         let place = cholesky.place_in_order();
         let stresses = Stresses::new(&mesh, &maps, options.homotopy);

@@ -1,9 +1,10 @@
 //! How rigid parts move: options, and what may be wrong with them.
 
 use super::angles::AngleError;
+use crate::geometry::{About, DVec2};
 use crate::homotopy::Homotopy;
 use crate::linalg::FactorError;
-use crate::mesh::TooManyVertices;
+use crate::mesh::{MAX_ROUNDS, TooManyVertices};
 use crate::progress::Cancelled;
 use serde::{Deserialize, Serialize};
 
@@ -107,6 +108,19 @@ impl Default for ArapOptions {
     }
 }
 
+impl ArapOptions {
+    /// Checks what is wrong with them for whatever mesh.
+    ///
+    /// # Errors
+    /// [`TooManyVertices`] for more subdivisions than a single face bears.
+    pub fn check(&self) -> Result<(), TooManyVertices> {
+        match self.subdivisions {
+            rounds if rounds > MAX_ROUNDS => Err(TooManyVertices { rounds }),
+            _ => Ok(()),
+        }
+    }
+}
+
 /// Why a rigidity-preserving interpolation could not be built.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -133,9 +147,16 @@ pub enum ArapError {
     /// The mesh would become too large.
     #[error(transparent)]
     TooManyVertices(#[from] TooManyVertices),
+    /// Faces that are too thin, or too unlike their neighbours, for the
+    /// equations: a place of them in the source and in the target.
+    #[error(
+        "the equations have no solution: what lies {} in the source and {} in the target is too thin to move; thicken it, match it otherwise, or choose another method",
+        About(.0[0]), About(.0[1])
+    )]
+    Thin([DVec2; 2]),
     /// The matrix could not be factored.
     #[error(transparent)]
-    Factor(#[from] FactorError),
+    Factor(FactorError),
     /// Nobody wants the result.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
