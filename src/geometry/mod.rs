@@ -25,7 +25,7 @@ pub use polar::{Polar, SymmetricEigen};
 pub(crate) use predicates::lexicographic;
 pub use predicates::{orient2d, twice_signed_area};
 pub(crate) use range::{About, RANGE};
-pub use range::{MAX_COORDINATE, MIN_SIZE, TooSmall, is_in_range};
+pub use range::{MAX_COORDINATE, MIN_SIZE, SizeError, is_in_range};
 pub use region::{FillRule, Region, Regions, RegionsError};
 pub use repair::Repairs;
 pub use ring::{Ring, RingError, perimeter, ring_edges, signed_area, winding};

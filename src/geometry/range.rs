@@ -1,5 +1,5 @@
-//! How large coordinates may be, and how small a design: the same for all
-//! formats, and checked where regions, meshes and trusses are made.
+//! How large coordinates may be, how small a design, and how far away it may
+//! lie: the same for all formats, and checked where regions, meshes and trusses are made.
 //!
 //! Within these bounds squares, areas, products of four lengths and their
 //! sums are finite and not zero in `f64`, and squares in the `f32` of a
@@ -20,20 +20,41 @@ pub const MIN_SIZE: f64 = 1e-18;
 pub(crate) const RANGE: &str =
     "has a coordinate that is no number from -1e18 to 1e18; correct it, or scale the design";
 
-/// Points that lie on one another, or as good as.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-#[error(
-    "all of it lies within {0:e}, less than the least size of {MIN_SIZE:e}; scale the design up"
-)]
-pub struct TooSmall(pub f64);
+/// How far away from the origin a design may lie, in its longer sides: there
+/// some thousand numbers are left along it, as many as a match puts points on
+/// an outline. A unit square at 1e15 has nine, and its points became one.
+const MAX_DISTANCE: f64 = 1e12;
 
-impl TooSmall {
+/// Why a size cannot be reckoned with.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SizeError {
+    /// Points that lie on one another, or as good as.
+    #[error(
+        "all of it lies within {0:e}, less than the least size of {MIN_SIZE:e}; scale the design up"
+    )]
+    TooSmall(f64),
+    /// Points that are too far away for how near to each other they are.
+    #[error(
+        "it is {size:e} large and lies {away:e} away from the origin, where numbers are too coarse for that; move the design to the origin"
+    )]
+    TooFar {
+        /// The longer side.
+        size: f64,
+        /// The largest coordinate.
+        away: f64,
+    },
+}
+
+impl SizeError {
     /// The longer side of what can be reckoned with.
     pub(crate) fn check(bounds: &Bounds) -> Result<f64, Self> {
-        let longer = bounds.size().max_element();
-        match longer >= MIN_SIZE {
-            true => Ok(longer),
-            false => Err(Self(longer)),
+        let size = bounds.size().max_element();
+        let away = bounds.min.abs().max(bounds.max.abs()).max_element();
+        match size {
+            _ if size < MIN_SIZE => Err(Self::TooSmall(size)),
+            _ if size * MAX_DISTANCE < away => Err(Self::TooFar { size, away }),
+            _ => Ok(size),
         }
     }
 }

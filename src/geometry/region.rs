@@ -5,7 +5,7 @@
 //! (`i_overlay` on a 64-bit integer grid), which moves points by less than
 //! 1e-15 of the size. It does not simplify: a noisy outline stays noisy.
 
-use super::{Bounds, DVec2, RANGE, Repairs, Ring, Similarity, TooSmall, is_in_range};
+use super::{Bounds, DVec2, RANGE, Repairs, Ring, Similarity, SizeError, is_in_range};
 use i_overlay::core::fill_rule::FillRule as OverlayRule;
 use i_overlay::float::simplify::SimplifyShape;
 
@@ -66,7 +66,7 @@ pub enum RegionsError {
     },
     /// All points lie on one another, or as good as.
     #[error(transparent)]
-    TooSmall(#[from] TooSmall),
+    Size(#[from] SizeError),
     /// No area is left.
     #[error("the outlines enclose no area; draw a closed, filled shape")]
     Empty,
@@ -114,7 +114,7 @@ impl Regions {
     /// The regions and how many slivers were left out.
     fn cleaned(rings: &[Vec<DVec2>], rule: FillRule) -> Result<(Self, usize), RegionsError> {
         let bounds = Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
-        let extent = TooSmall::check(&bounds)?;
+        let extent = SizeError::check(&bounds)?;
         let smallest = Self::MIN_RELATIVE_AREA * extent * extent;
         let origin = bounds.centre(); // coordinates about zero use the grid best
         let subject: Vec<Vec<[f64; 2]>> = rings
@@ -332,7 +332,19 @@ mod tests {
             Err(RegionsError::OutOfRange { ring: 0, point: 1 })
         ));
         let small = square(MIN_SIZE.next_down());
-        assert!(matches!(small, Err(RegionsError::TooSmall(_))));
+        assert!(matches!(small, Err(RegionsError::Size(_))));
+        let away = |size: f64| {
+            let points = [(0.0, 0.0), (size, 0.0), (size, size), (0.0, size)];
+            let points = points.map(|(x, y)| (1e15 + x, y));
+            Regions::from_rings(&[ring(&points)], FillRule::NonZero)
+        };
+        let area = away(2000.0).expect("fine enough").area();
+        assert!((area / 4e6 - 1.0).abs() < 1e-3, "{area}");
+        let coarse = away(10.0).expect_err("too coarse").to_string();
+        assert!(
+            coarse.contains("1e15 away") && coarse.contains("move"),
+            "{coarse}"
+        );
     }
 
     #[test]

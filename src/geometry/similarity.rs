@@ -1,6 +1,6 @@
 //! Similarities: how one design is laid over another.
 
-use super::{Bounds, DMat2, DVec2, RANGE, TooSmall, is_in_range};
+use super::{Bounds, DMat2, DVec2, RANGE, SizeError, is_in_range};
 use serde::{Deserialize, Serialize};
 
 /// A mirror, then a scale, then a rotation about the origin, then an offset.
@@ -32,7 +32,7 @@ pub enum SimilarityError {
     OutOfRange,
     /// What it lays down is too small.
     #[error(transparent)]
-    TooSmall(#[from] TooSmall),
+    Size(#[from] SizeError),
 }
 
 impl Default for Similarity {
@@ -74,7 +74,7 @@ impl Similarity {
             return Err(SimilarityError::OutOfRange);
         }
         let laid = Bounds::of(corners).unwrap_or(*bounds);
-        Ok(TooSmall::check(&laid).map(drop)?)
+        Ok(SizeError::check(&laid).map(drop)?)
     }
 
     /// The linear part; its determinant is negative when mirrored.

@@ -16,7 +16,7 @@ pub use connectivity::{Connectivity, ConnectivityError};
 pub(crate) use edges::{sides, undirected};
 pub use subdivide::{MAX_ROUNDS, MAX_VERTICES, Subdivision, TooManyVertices};
 
-use crate::geometry::{Bounds, DVec2, RANGE, Similarity, TooSmall, is_in_range};
+use crate::geometry::{Bounds, DVec2, RANGE, Similarity, SizeError, is_in_range};
 
 /// Triangles over points in the plane.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +40,7 @@ pub enum MeshError {
     Place(usize),
     /// All vertices lie on one another, or as good as.
     #[error(transparent)]
-    TooSmall(#[from] TooSmall),
+    Size(#[from] SizeError),
     /// A face names a vertex that does not exist.
     #[error("face {} names vertex {}, but there are only {vertices}; correct the face", face + 1, u64::from(*vertex) + 1)]
     OutOfRange {
@@ -81,7 +81,7 @@ impl TriangleMesh {
         }
         check_faces(&faces, positions.len())?;
         // A face has vertices, and so there is a box around them.
-        Bounds::of(positions.iter().copied()).map_or(Ok(0.0), |all| TooSmall::check(&all))?;
+        Bounds::of(positions.iter().copied()).map_or(Ok(0.0), |all| SizeError::check(&all))?;
         let connectivity = Connectivity::new(&faces)?;
         Ok(Self {
             positions,

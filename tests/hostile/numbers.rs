@@ -74,9 +74,47 @@ fn numbers_out_of_range_are_refused_in_projects() {
             "[designs.placement]\nscale = 1e-300\n",
             "least size",
         ),
+        (
+            "away.morph",
+            "[designs.placement]\noffset = [1e16, 0]\n",
+            "too coarse",
+        ),
         ("stop.morph", "[[stops]]\nt = inf\n", "stop 1"),
     ] {
         folder.put(file, format!("version = 1\n{designs}{end}"));
         folder.refused_with(&[file], "", said);
     }
+}
+
+#[test]
+fn far_away_is_no_obstacle_to_what_is_large_enough() {
+    let folder = Folder::new();
+    let kite = |size: &str| {
+        let at = |x: &str, y: &str| format!("[1000000000000{x}, {y}]");
+        let [a, b, c] = ["000", size, "999"];
+        format!(
+            "[{}, {}, {}, {}]",
+            at(a, "0"),
+            at(b, "100"),
+            at(c, "2000"),
+            at(a, "500")
+        )
+    };
+    folder.put("a.json", kite("700"));
+    folder.put("b.json", kite("800"));
+    for method in ["arap", "field"] {
+        let away = [
+            "check",
+            "a.json",
+            "b.json",
+            "--samples",
+            "2",
+            "--method",
+            method,
+        ];
+        let answer = folder.ask(&away);
+        assert_eq!(answer.code, Some(0), "{answer:?}");
+    }
+    folder.put("c.json", "[[1e15, 0], [1000000000000004, 0], [1e15, 4]]");
+    folder.refused("c.json", "move the design to the origin");
 }

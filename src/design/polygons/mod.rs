@@ -142,7 +142,7 @@ impl Found {
                     united.extend(regions.rings().map(|r| r.points().to_vec()));
                 }
                 // A polygon without a ring is one thing that encloses nothing.
-                Err(error @ (RegionsError::Empty | RegionsError::TooSmall(_))) => {
+                Err(error @ (RegionsError::Empty | RegionsError::Size(_))) => {
                     repairs.flat += rings.len().max(1);
                     nothing = error;
                 }

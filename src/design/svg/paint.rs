@@ -249,7 +249,7 @@ const MAX_RESOLUTION: f64 = 1e6;
 fn cleaned(rings: &Rings, rule: FillRule) -> Result<Rings, SvgError> {
     match Regions::from_rings(rings, rule) {
         Ok(regions) => Ok(regions.rings().map(|r| r.points().to_vec()).collect()),
-        Err(RegionsError::Empty | RegionsError::TooSmall(_)) => Ok(Vec::new()), // a filled line
+        Err(RegionsError::Empty | RegionsError::Size(_)) => Ok(Vec::new()), // a filled line
         Err(error) => Err(error.into()),
     }
 }

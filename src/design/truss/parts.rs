@@ -1,7 +1,7 @@
 //! What a truss consists of, as it stands in a file, and the checks of it.
 
 use crate::design::json::JsonError;
-use crate::geometry::{Bounds, DVec2, RANGE, TooSmall, is_in_range};
+use crate::geometry::{Bounds, DVec2, RANGE, SizeError, is_in_range};
 use serde::Deserialize;
 use std::collections::HashMap;
 
@@ -84,7 +84,7 @@ pub enum TrussInputError {
     Place(usize),
     /// All nodes lie on one another, or as good as.
     #[error(transparent)]
-    TooSmall(#[from] TooSmall),
+    Size(#[from] SizeError),
     /// A number is NaN or infinite, or not positive where it must be.
     #[error("{what} {index} has a number that cannot be used; {rule}")]
     Number {
@@ -188,7 +188,9 @@ impl TrussParts {
         self.check_bars()?;
         self.check_held()?;
         let all = Bounds::of(self.nodes.iter().copied());
-        Ok(all.map_or(Ok(0.0), |all| TooSmall::check(&all)).map(drop)?)
+        Ok(all
+            .map_or(Ok(0.0), |all| SizeError::check(&all))
+            .map(drop)?)
     }
 
     fn check_numbers(&self) -> Result<(), TrussInputError> {
