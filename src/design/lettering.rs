@@ -35,6 +35,9 @@ pub enum TextError {
     /// More text than a design should have.
     #[error("the text has {0} characters, more than the {MAX_CHARS} that are drawn; shorten it")]
     TooLong(usize),
+    /// More marks on a letter than any text has.
+    #[error("more than {MAX_MARKS} marks stand on one letter; leave some out")]
+    TooManyMarks,
     /// The font's bytes are no font.
     #[error("the font cannot be read: {0}; choose a TrueType or OpenType font (.ttf, .otf)")]
     Font(&'static str),
@@ -68,6 +71,10 @@ const BUNDLED_FONT: &[u8] = include_bytes!("../../assets/fonts/Roboto-Bold.ttf")
 
 /// Most characters: a page of text, far beyond what anyone blends.
 const MAX_CHARS: usize = 2000;
+
+/// Most accents and other marks on one letter, as of text that may be streamed
+/// (Unicode, UAX #15). A thousand on an A are a thousand parts.
+const MAX_MARKS: usize = 30;
 
 /// Units of the design for one em, as most fonts have it: letters are then as
 /// large as drawings are.
@@ -136,6 +143,10 @@ impl Line {
         buffer.guess_segment_properties();
         let shaper = data.shaper(font).build();
         let shaped = shaper.shape(buffer, ShapeOptions::new());
+        let mut letters = (shaped.glyph_infos()).chunk_by(|a, b| a.cluster == b.cluster);
+        if letters.any(|letter| letter.len() > 1 + MAX_MARKS) {
+            return Err(TextError::TooManyMarks);
+        }
         // Where the page begins; a font may claim to end above its base line.
         let below = f64::from(metrics.descent).min(0.0);
         let mut pen = DVec2::new(0.0, -below);
@@ -282,6 +293,9 @@ mod tests {
             }
         );
         assert!(error("a\nb").to_string().contains("U+000A"));
+        let marked = |count: usize| format!("A{}", "\u{301}".repeat(count));
+        assert_eq!(error(&marked(32)), TextError::TooManyMarks);
+        assert!(outline(&marked(20)).len() > 2);
         for bytes in [&b""[..], b"wOF2rest", b"no font", &BUNDLED_FONT[..40]] {
             assert!(matches!(
                 read("D", Some(bytes), 1e-4),

@@ -187,6 +187,8 @@ fn what_does_not_go_together_is_told_by_its_names() {
     folder.refused_with(&pair, "bar to tri: ", "has 2 nodes");
     folder.put("empty.ttf", "");
     folder.refused("glyph:A@empty.ttf", "the file is empty");
+    let accents = format!("glyph:A{}", "\u{301}".repeat(500));
+    folder.refused(&accents, "marks stand on one letter");
     folder.put("cut.ttf", [0, 1, 0, 0, 0, 9]);
     folder.refused("glyph:A@cut.ttf", "damaged, or no font");
     let many = [
