@@ -25,6 +25,7 @@
 
 mod error;
 mod guard;
+mod layers;
 mod paint;
 mod text;
 

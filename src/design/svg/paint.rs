@@ -2,11 +2,9 @@
 //! ink and paper, and paints in the drawing's order.
 
 use super::error::SvgError;
+use super::layers::{Layers, Rings, within};
 use crate::design::flatten::Flattener;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
-use i_overlay::core::fill_rule::FillRule as OverlayFill;
-use i_overlay::core::overlay_rule::OverlayRule;
-use i_overlay::float::single::SingleFloatOverlay;
 use usvg::{ClipPath, Group, Node, Paint, PaintOrder, Path, Stroke, Transform, tiny_skia_path};
 
 /// What of a drawing is read, and how.
@@ -16,9 +14,6 @@ pub(super) struct Brush<'o> {
     pub strokes: bool,
     pub element: Option<&'o str>,
 }
-
-/// Polygons to be filled by winding.
-type Rings = Vec<Vec<DVec2>>;
 
 /// What is filled with ink in the end, and what was wrong with it.
 pub(super) struct Painted {
@@ -50,7 +45,10 @@ pub(super) fn painted(tree: &usvg::Tree, brush: &Brush) -> Result<Painted, SvgEr
         flattener: Flattener::new(brush.tolerance),
         brush,
         white_is_paper: subject.iter().any(has_colour),
-        layers: Vec::new(),
+        layers: Layers::of_page(DVec2::new(
+            tree.size().width().into(),
+            tree.size().height().into(),
+        )),
         repairs: [FillRule::NonZero, FillRule::EvenOdd].map(|rule| (rule, Repairs::default())),
     };
     painter.group(tree.root(), None, brush.element.is_none())?;
@@ -59,7 +57,7 @@ pub(super) fn painted(tree: &usvg::Tree, brush: &Brush) -> Result<Painted, SvgEr
         return Err(SvgError::NothingFilled { strokes });
     }
     let repairs = painter.repairs;
-    let ink = composed(painter.layers);
+    let ink = painter.layers.composed();
     Ok(Painted {
         regions: Regions::from_rings(&ink, FillRule::NonZero)?,
         repairs,
@@ -83,18 +81,12 @@ fn collect_paths<'t>(group: &'t Group, id: Option<&str>, paths: &mut Vec<&'t Pat
     }
 }
 
-/// Neighbouring shapes that are of one colour.
-struct Layer {
-    is_paper: bool,
-    rings: Rings,
-}
-
 struct Painter<'b> {
     height: f64,
     flattener: Flattener,
     brush: &'b Brush<'b>,
     white_is_paper: bool,
-    layers: Vec<Layer>,
+    layers: Layers,
     repairs: [(FillRule, Repairs); 2],
 }
 
@@ -149,12 +141,7 @@ impl Painter<'_> {
 
     fn lay(&mut self, rings: Rings, is_white: bool, clip: Option<&Rings>) {
         let rings = within(rings, clip);
-        let is_paper = self.white_is_paper && is_white;
-        match self.layers.last_mut() {
-            // Neighbours of one colour take one Boolean operation together.
-            Some(layer) if layer.is_paper == is_paper => layer.rings.extend(rings),
-            _ => self.layers.push(Layer { is_paper, rings }),
-        }
+        self.layers.lay(rings, self.white_is_paper && is_white);
     }
 
     /// What a clip path lets through.
@@ -252,45 +239,6 @@ fn cleaned(rings: &Rings, rule: FillRule) -> Result<Rings, SvgError> {
         Err(RegionsError::Empty | RegionsError::Size(_)) => Ok(Vec::new()), // a filled line
         Err(error) => Err(error.into()),
     }
-}
-
-/// Ink is added, paper taken away, from the lowest layer up.
-fn composed(layers: Vec<Layer>) -> Rings {
-    layers.into_iter().fold(Vec::new(), |mut ink, layer| {
-        if layer.is_paper {
-            return overlaid(&ink, &layer.rings, OverlayRule::Difference);
-        }
-        // Not united yet: by winding, overlaps are inside as often as one likes.
-        ink.extend(layer.rings);
-        ink
-    })
-}
-
-/// What a clip path lets through, if there is one.
-fn within(rings: Rings, clip: Option<&Rings>) -> Rings {
-    match clip {
-        Some(clip) => overlaid(&rings, clip, OverlayRule::Intersect),
-        None => rings,
-    }
-}
-
-/// A Boolean operation on areas filled by winding.
-fn overlaid(subject: &Rings, clip: &Rings, rule: OverlayRule) -> Rings {
-    if subject.is_empty() {
-        return Vec::new();
-    }
-    let plain = |rings: &Rings| -> Vec<Vec<[f64; 2]>> {
-        rings
-            .iter()
-            .map(|ring| ring.iter().map(|p| p.to_array()).collect())
-            .collect()
-    };
-    plain(subject)
-        .overlay_as::<i64>(&plain(clip), rule, OverlayFill::NonZero)
-        .into_iter()
-        .flatten()
-        .map(|ring| ring.into_iter().map(DVec2::from).collect())
-        .collect()
 }
 
 /// Whether a path's fill is white; `None` where it has none that is seen.

@@ -1,0 +1,165 @@
+//! Ink and paper in as few layers as their order asks for.
+//!
+//! What is painted later hides what lies under it, and each change of colour
+//! costs a Boolean operation on all that is there so far. Shapes that do not
+//! overlap may change places: each goes into the lowest layer that is above
+//! all it might hide, so that a page of ten thousand dots, black and white in
+//! turns, is two layers and not ten thousand.
+
+use crate::geometry::{Bounds, DVec2};
+use i_overlay::core::fill_rule::FillRule as OverlayFill;
+use i_overlay::core::overlay_rule::OverlayRule;
+use i_overlay::float::single::SingleFloatOverlay;
+
+/// Polygons to be filled by winding.
+pub(super) type Rings = Vec<Vec<DVec2>>;
+
+/// Cells of the page along each side, in which it is kept how high it is
+/// painted. More would tell more shapes apart, and cost more for large ones:
+/// 200,000 shapes as large as the page take a second.
+const CELLS: usize = 64;
+
+/// Shapes by the layer they are in: ink in the even ones, paper in the odd.
+pub(super) struct Layers {
+    page: DVec2,
+    layers: Vec<Rings>,
+    /// For each cell one more than the highest layer in it.
+    heights: Vec<usize>,
+}
+
+impl Layers {
+    pub(super) fn of_page(size: DVec2) -> Self {
+        Self {
+            page: size,
+            layers: Vec::new(),
+            heights: vec![0; CELLS * CELLS],
+        }
+    }
+
+    pub(super) fn is_empty(&self) -> bool {
+        self.layers.is_empty()
+    }
+
+    /// Lays a shape over all that is there.
+    pub(super) fn lay(&mut self, rings: Rings, is_paper: bool) {
+        let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
+            // A filled line: there is a layer, and nothing is in it.
+            return self.reach(0);
+        };
+        let cells = self.cells(&bounds);
+        let height = cells.clone().map(|cell| self.heights[cell]).max();
+        // Beside what is of its colour, or above what is not.
+        let top = height.unwrap_or(0).saturating_sub(1);
+        let layer = top + usize::from((top % 2 == 1) != is_paper);
+        for cell in cells {
+            self.heights[cell] = layer + 1;
+        }
+        self.reach(layer);
+        self.layers[layer].extend(rings);
+    }
+
+    fn reach(&mut self, layer: usize) {
+        let count = self.layers.len().max(layer + 1);
+        self.layers.resize_with(count, Vec::new);
+    }
+
+    /// The cells that a box covers; beyond the page those at its edge.
+    fn cells(&self, bounds: &Bounds) -> impl Iterator<Item = usize> + Clone + use<> {
+        let cell = |p: DVec2| {
+            let along = p / self.page * CELLS as f64;
+            // What is negative or no number is 0.
+            along.to_array().map(|x| (x as usize).min(CELLS - 1))
+        };
+        let [[left, low], [right, high]] = [cell(bounds.min), cell(bounds.max)];
+        (low..=high).flat_map(move |y| (left..=right).map(move |x| y * CELLS + x))
+    }
+
+    /// Ink is added, paper taken away, from the lowest layer up.
+    pub(super) fn composed(self) -> Rings {
+        let layers = self.layers.into_iter().enumerate();
+        layers.fold(Vec::new(), |mut ink, (layer, rings)| {
+            if layer % 2 == 1 {
+                return overlaid(&ink, &rings, OverlayRule::Difference);
+            }
+            // Not united yet: by winding, overlaps are inside as often as one likes.
+            ink.extend(rings);
+            ink
+        })
+    }
+}
+
+/// What a clip path lets through, if there is one.
+pub(super) fn within(rings: Rings, clip: Option<&Rings>) -> Rings {
+    match clip {
+        Some(clip) => overlaid(&rings, clip, OverlayRule::Intersect),
+        None => rings,
+    }
+}
+
+/// A Boolean operation on areas filled by winding.
+fn overlaid(subject: &Rings, clip: &Rings, rule: OverlayRule) -> Rings {
+    if subject.is_empty() {
+        return Vec::new();
+    }
+    let plain = |rings: &Rings| -> Vec<Vec<[f64; 2]>> {
+        rings
+            .iter()
+            .map(|ring| ring.iter().map(|p| p.to_array()).collect())
+            .collect()
+    };
+    plain(subject)
+        .overlay_as::<i64>(&plain(clip), rule, OverlayFill::NonZero)
+        .into_iter()
+        .flatten()
+        .map(|ring| ring.into_iter().map(DVec2::from).collect())
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::{FillRule, Regions};
+
+    fn square(x: f64, y: f64, size: f64) -> Rings {
+        let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+        vec![
+            corners
+                .map(|(u, v)| DVec2::new(x + size * u, y + size * v))
+                .to_vec(),
+        ]
+    }
+
+    fn area(layers: Layers) -> f64 {
+        let ink = layers.composed();
+        Regions::from_rings(&ink, FillRule::NonZero)
+            .expect("ink")
+            .area()
+    }
+
+    #[test]
+    fn what_is_later_hides_what_it_overlaps() {
+        let mut layers = Layers::of_page(DVec2::splat(100.0));
+        layers.lay(square(50.0, 50.0, 10.0), true); // on nothing
+        layers.lay(square(0.0, 0.0, 100.0), false);
+        layers.lay(square(10.0, 10.0, 40.0), true);
+        layers.lay(square(20.0, 20.0, 20.0), false);
+        layers.lay(square(25.0, 25.0, 10.0), true);
+        layers.lay(square(-50.0, 90.0, 60.0), true);
+        assert_eq!(layers.layers.len(), 6);
+        let expected = 10_000.0 - 1600.0 + 400.0 - 100.0 - 100.0;
+        assert!((area(layers) - expected).abs() < 1e-6);
+    }
+
+    #[test]
+    fn shapes_apart_share_their_layers_whatever_their_order() {
+        let mut layers = Layers::of_page(DVec2::splat(100.0));
+        for k in 0..800 {
+            let at = |step: i32| f64::from(step % 20) * 5.0;
+            let (x, y) = (at(k / 2), at(k / 40));
+            let is_paper = k % 2 == 1;
+            layers.lay(square(x, y, if is_paper { 2.0 } else { 4.0 }), is_paper);
+        }
+        assert_eq!(layers.layers.len(), 2);
+        assert!((area(layers) - 400.0 * 12.0).abs() < 1e-6);
+    }
+}
