@@ -27,3 +27,17 @@ fn drawings_that_unfold_are_refused() {
     );
     folder.refused("signs.svg", "more than 2000000 elements");
 }
+
+#[test]
+fn objects_without_end_are_refused() {
+    let folder = Folder::new();
+    folder.put(
+        "objects.json",
+        format!("[{}0]", "{\"\":0},".repeat(1_200_000)),
+    );
+    folder.refused("objects.json", "more than 1000000 objects");
+    folder.put("lists.json", format!("[{}0]", "[],".repeat(3_000_000)));
+    folder.refused("lists.json", "lists.json");
+    folder.put("deep.json", "[".repeat(5_000_000));
+    folder.refused("deep.json", "deep.json: line 1");
+}

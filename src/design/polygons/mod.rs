@@ -33,10 +33,13 @@ use super::note::{ImportNote, OnlyThese};
 use crate::geometry::{FillRule, Regions, RegionsError, Repairs};
 use serde_json::Value;
 use std::collections::BTreeMap;
-use value::{RING, RINGS, Ring, depth, each, expected, member, polygons, ring, rings};
+use value::{MAX_OBJECTS, RING, RINGS, Ring, depth, each, expected, member, polygons, ring, rings};
 
 /// Reads plain polygons or GeoJSON.
 pub(super) fn read(text: &str) -> Result<Outlines, PolygonsError> {
+    if text.matches('{').count() > MAX_OBJECTS {
+        return Err(PolygonsError::TooManyObjects);
+    }
     let value: Value = serde_json::from_str(text).map_err(JsonError::from)?;
     let mut found = Found::default();
     match &value {

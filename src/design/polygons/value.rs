@@ -23,6 +23,11 @@ pub enum PolygonsError {
         /// What is wrong with it.
         fault: PolygonsFault,
     },
+    /// More objects than are read.
+    #[error(
+        "there are more than {MAX_OBJECTS} objects in the file; save its polygons as one multi-polygon"
+    )]
+    TooManyObjects,
     /// There is not one polygon.
     #[error("there is no polygon in the file{0}; save filled outlines")]
     NoPolygon(OnlyThese),
@@ -80,6 +85,10 @@ impl PolygonsError {
         }
     }
 }
+
+/// Most objects in a file: each takes some 600 bytes while it is read, however
+/// few it has there.
+pub(super) const MAX_OBJECTS: usize = 1_000_000;
 
 pub(super) type Ring = Vec<DVec2>;
 
