@@ -30,19 +30,22 @@ pub(super) struct Vertices<'a> {
 /// The room in a part for holes that close to points of it.
 pub(super) struct Room<'a> {
     part: &'a Region,
-    /// Places in it with their squared distance to its boundary.
+    /// Places in it with their distance to its boundary.
     places: Vec<(DVec2, f64)>,
-    /// The points that other holes close to.
+    /// The middles of what other holes close to.
     taken: Vec<DVec2>,
+    /// How large that is at most.
+    size: f64,
 }
 
 impl<'a> Room<'a> {
     pub(super) fn of(part: &'a Region) -> Self {
-        let places = places(part).map(|p| (p, clearance_squared(part, p)));
+        let places = places(part).map(|p| (p, to_boundary(part, p)));
         Self {
             places: places.collect(),
             part,
             taken: Vec::new(),
+            size: POINT_SIZE * part.outer.bounds().diameter(),
         }
     }
 
@@ -55,30 +58,45 @@ impl<'a> Room<'a> {
         rotation: f64,
     ) -> Vec<DVec2> {
         let wanted = carried(outer, centre(hole));
-        let clear = |&(p, to_rings): &(DVec2, f64)| {
-            let to_points = self.taken.iter().map(|q| q.distance_squared(p));
-            (p, to_points.fold(to_rings, f64::min).sqrt())
-        };
-        let mut places: Vec<(DVec2, f64)> = self.places.iter().map(clear).collect();
-        if let Some(p) = wanted {
-            places.push(clear(&(p, clearance_squared(self.part, p))));
-        }
-        let room = places.iter().map(|place| place.1).fold(0.0, f64::max);
+        let own = wanted.map(|p| (p, to_boundary(self.part, p)));
         let goal = wanted.unwrap_or_else(|| self.part.outer.bounds().centre());
+        let nearest = |places: &mut dyn Iterator<Item = (DVec2, f64)>| {
+            let far = |place: &(DVec2, f64)| place.0.distance_squared(goal);
+            places.min_by(|a, b| far(a).total_cmp(&far(b)))
+        };
+        let inside = self.places.iter().copied().chain(own);
+        let nearest_inside = nearest(&mut inside.clone().filter(|place| place.1 > 0.0));
+        let beside = nearest_inside.and_then(|place| self.beside(place));
+        let clear = |(p, to_boundary): (DVec2, f64)| (p, self.clear(p, to_boundary));
+        let places: Vec<(DVec2, f64)> = inside.chain(beside).map(clear).collect();
+        let room = places.iter().map(|place| place.1).fold(0.0, f64::max);
         // Not the roomiest: the hole should close near where it was.
-        let roomy = places
+        let mut roomy = places
             .iter()
+            .copied()
             .filter(|place| place.1 >= LEAST_CLEARANCE * room);
-        let nearest = roomy.min_by(|a, b| {
-            let far = |p: &DVec2| p.distance_squared(goal);
-            far(&a.0).total_cmp(&far(&b.0))
-        });
-        let (at, clearance) = nearest.copied().unwrap_or((goal, room));
-        let across = self.part.outer.bounds().diameter();
-        let size = (POINT_SIZE * across).min(CLEARANCE_SHARE * clearance);
-        let ring = shrunk(hole.points(), centre(hole), at, size, rotation);
-        self.taken.extend(ring.first());
-        ring
+        let (at, clearance) = nearest(&mut roomy).unwrap_or((goal, room));
+        let size = self.size.min(CLEARANCE_SHARE * clearance);
+        self.taken.push(at);
+        shrunk(hole.points(), centre(hole), at, size, rotation)
+    }
+
+    /// What is left of a distance to the boundary where other holes close.
+    fn clear(&self, p: DVec2, to_boundary: f64) -> f64 {
+        let to_holes = self.taken.iter().map(|q| q.distance(p) - self.size);
+        to_holes.fold(to_boundary, f64::min).max(0.0)
+    }
+
+    /// The place beside one where another hole closes, as far from it as from
+    /// all else; `None` where none does.
+    fn beside(&self, (p, to_boundary): (DVec2, f64)) -> Option<(DVec2, f64)> {
+        if self.clear(p, to_boundary) > 0.0 {
+            return None;
+        }
+        let others = self.taken.iter().map(|q| q.distance(p));
+        let apart = others.filter(|&far| far > self.size);
+        let p = p + DVec2::new(0.5 * apart.fold(to_boundary, f64::min), 0.0);
+        Some((p, self::to_boundary(self.part, p)))
     }
 }
 
@@ -144,11 +162,11 @@ fn places(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
     })
 }
 
-/// Squared distance to the boundary; 0 outside.
-fn clearance_squared(part: &Region, p: DVec2) -> f64 {
+/// Distance to the boundary; 0 outside.
+fn to_boundary(part: &Region, p: DVec2) -> f64 {
     if !part.contains(p) {
         return 0.0;
     }
     let to_rings = part.rings().map(|ring| ring.distance_squared(p));
-    to_rings.fold(f64::INFINITY, f64::min)
+    to_rings.fold(f64::INFINITY, f64::min).sqrt()
 }

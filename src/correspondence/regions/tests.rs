@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::correspondence::{HoleRule, PartRule, PointPair, RingCut};
-use crate::geometry::{DVec2, FillRule, Ring, Side};
+use crate::geometry::{Bounds, DVec2, FillRule, Ring, Side};
 use crate::progress::Silent;
 
 fn block(x: f64, y: f64, w: f64, h: f64) -> Vec<DVec2> {
@@ -38,6 +38,38 @@ fn area(points: &[DVec2]) -> f64 {
 
 fn kinds(piece: &PieceMatch) -> Vec<RingKind> {
     piece.rings.iter().map(|ring| ring.kind).collect()
+}
+
+#[test]
+fn holes_close_beside_each_other_and_not_in_one_another() {
+    // An odd grid: the middle is wanted by the hole there, and taken by the
+    // first, which has little room of its own.
+    let places = (0..25).map(|k| (f64::from(k % 5), f64::from(k / 5)));
+    let holes = places.map(|(x, y)| block(2.0 * x + 0.5, 2.0 * y + 0.5, 1.0, 1.0));
+    let rings: Vec<_> = [block(0.0, 0.0, 10.0, 10.0)]
+        .into_iter()
+        .chain(holes)
+        .collect();
+    let (full, bare) = (design(&rings), design(&rings[..1]));
+    let wanted = Matching {
+        holes: HoleRule::Close,
+        ..Matching::default()
+    };
+    for (matched, side) in [
+        (run(&full, &bare, &wanted), Side::Target),
+        (run(&bare, &full, &wanted), Side::Source),
+    ] {
+        let points = |ring: &RingMatch| Bounds::of([&ring.source, &ring.target][side].clone());
+        let closed = matched.pieces[0].rings[1..].iter().filter_map(points);
+        let closed: Vec<Bounds> = closed.collect();
+        assert_eq!(closed.len(), 25);
+        for (i, a) in closed.iter().enumerate() {
+            assert!(a.diameter() > 1e-4 && bare.contains(a.centre()));
+            let apart = |b: &Bounds| a.centre().distance(b.centre());
+            let nearest = closed[..i].iter().map(apart).fold(f64::INFINITY, f64::min);
+            assert!(nearest > 2.0 * a.diameter(), "{a:?}");
+        }
+    }
 }
 
 #[test]
