@@ -14,10 +14,9 @@ const NAMES: usize = 12;
 const MOST_ROWS: usize = 9;
 
 /// Columns of the list of samples.
-const LISTED: [(&str, Quantity); 9] = [
+const LISTED: [(&str, Quantity); 8] = [
     ("area", Quantity::Area),
     ("perimeter", Quantity::Perimeter),
-    ("turning", Quantity::Turning),
     ("pieces", Quantity::Pieces),
     ("holes", Quantity::Holes),
     ("crossings", Quantity::Crossings),
