@@ -1,0 +1,10 @@
+//! Any bytes that are taken for OBJ meshes: a design or an error in one line.
+#![no_main]
+
+mod importing;
+
+use morphospace::design::Format;
+
+libfuzzer_sys::fuzz_target!(|bytes: &[u8]| {
+    importing::import_if(bytes, |format| matches!(format, Format::Obj));
+});
