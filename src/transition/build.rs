@@ -47,7 +47,7 @@ impl Transition {
     }
 
     /// As [`Self::build`]; where that cell cannot be had, at once the one that
-    /// can ([`Cell::plain`]), and a note says why. For who looks at something
+    /// can ([`Cell::plain`](super::Cell::plain)), and a note says why. For who looks at something
     /// rather than at nothing; who asked for a method is better told that there
     /// is none.
     ///
