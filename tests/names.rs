@@ -66,6 +66,7 @@ fn keys_are_those_of_the_files_that_there_are() {
     table::<FilmKind>("apng gif mp4");
     table::<StillKind>("png svg");
     table::<Quantity>(
-        "area crossings folds holes min-det perimeter pieces worst-conformal worst-isometric",
+        "area crossings folds holes min-det perimeter pieces turning worst-conformal \
+         worst-isometric",
     );
 }

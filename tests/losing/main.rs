@@ -80,9 +80,32 @@ fn is_alive(process: &str) -> bool {
 }
 
 /// Starts a command with its words kept.
-fn started(mut command: Command) -> Child {
+fn started(command: Command) -> Child {
+    let mut command = listening(&command);
     let command = command.stdout(Stdio::null()).stderr(Stdio::piped());
     command.spawn().expect("the program starts")
+}
+
+/// The same command, that hears signals: whoever runs the tests may ignore some
+/// (`nohup`, a shell's background), and what it starts inherits that.
+fn listening(command: &Command) -> Command {
+    let mut listening = Command::new("env");
+    if cfg!(target_os = "linux") {
+        listening.arg("--default-signal=HUP,INT,TERM");
+    }
+    listening
+        .arg(command.get_program())
+        .args(command.get_args());
+    if let Some(folder) = command.get_current_dir() {
+        listening.current_dir(folder);
+    }
+    for (name, value) in command.get_envs() {
+        match value {
+            Some(value) => listening.env(name, value),
+            None => listening.env_remove(name),
+        };
+    }
+    listening
 }
 
 /// The files on their way in the workshop's folder.

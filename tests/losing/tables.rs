@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use crate::workshop::{Workshop, words};
-use crate::{send, started, wait_until, with_own};
+use crate::{listening, send, started, wait_until, with_own};
 
 const EARLIER: &str = "the report of last week";
 
@@ -39,7 +39,7 @@ fn a_table_that_is_ended_keeps_the_rows_that_are_done() {
     for wish in ["INT", "TERM", "HUP"] {
         let shop = shop();
         let partial = shop.path("report.partial.csv");
-        let mut command = shop.command(LINE);
+        let mut command = listening(&shop.command(LINE));
         command.stdout(fs::File::create(shop.path("summary.json")).expect("made"));
         command.stderr(std::process::Stdio::piped());
         let child = command.spawn().expect("the program starts");
