@@ -8,7 +8,7 @@ use clap::Args;
 use crate::design::{Format, Source};
 use crate::progress::{Progress, Span, beside, checkpoint};
 use crate::project::{LoadedProject, Project, gallery};
-use crate::transition::{BuildError, Transition, TransitionSpec};
+use crate::transition::{BuildError, Transition};
 
 use super::error::CliError;
 use super::options::MethodArgs;
@@ -61,15 +61,13 @@ impl Inputs {
         let (mut project, folder) = document.map_err(CliError::failed)??;
         method.edit(&mut project)?;
         let loaded = beside(progress, move || LoadedProject::load(project, folder));
-        let loaded = loaded
+        let mut loaded = loaded
             .map_err(CliError::failed)?
             .map_err(CliError::failed)?;
+        loaded.patient = method.patient;
         // Laying the designs in one frame belongs to neither time.
         let import_time = start.elapsed();
-        let spec = TransitionSpec {
-            patient: method.patient,
-            ..loaded.spec().map_err(CliError::failed)?
-        };
+        let spec = loaded.spec().map_err(CliError::failed)?;
         let start = Instant::now();
         let building = Span::new(progress, READ, 1.0);
         let transition = Transition::build(&spec, &building).map_err(not_built)?;

@@ -32,6 +32,9 @@ pub struct LoadedProject {
     pub designs: Vec<Arc<Design>>,
     /// What relative paths are relative to; `None` for a bundled project.
     pub folder: Option<PathBuf>,
+    /// Whether what takes very long is begun all the same; see
+    /// [`crate::budget`].
+    pub patient: bool,
 }
 
 impl LoadedProject {
@@ -71,6 +74,7 @@ impl LoadedProject {
             designs: designs?,
             project,
             folder,
+            patient: false,
         })
     }
 
@@ -80,7 +84,9 @@ impl LoadedProject {
     /// # Errors
     /// [`ProjectError`] names the file and the place.
     pub fn reread(self) -> Result<Self, ProjectError> {
-        Self::load(self.project, self.folder)
+        let patient = self.patient;
+        let read = Self::load(self.project, self.folder)?;
+        Ok(Self { patient, ..read })
     }
 
     /// What the transition is called, in one line.
@@ -162,7 +168,7 @@ impl LoadedProject {
                 matching: project.options.matching.placed(&by),
                 ..project.options.clone()
             },
-            patient: false,
+            patient: self.patient,
         })
     }
 }

@@ -45,38 +45,6 @@ impl Transition {
     pub fn build(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Self, BuildError> {
         built(spec, progress).map(Self::from)
     }
-
-    /// As [`Self::build`]; where that cell cannot be had, at once the one that
-    /// can ([`Cell::plain`](super::Cell::plain)), and a note says why. For who looks at something
-    /// rather than at nothing; who asked for a method is better told that there
-    /// is none.
-    ///
-    /// # Errors
-    /// What [`Self::build`] finds, where the plain cell cannot be had either,
-    /// or if the work was cancelled.
-    pub fn build_or_plain(
-        spec: &TransitionSpec,
-        progress: &dyn Progress,
-    ) -> Result<Self, BuildError> {
-        let (cell, progress) = (spec.cell.plain(), &Whole::new(progress));
-        let error = match built(spec, progress) {
-            Err(error) if cell != spec.cell && !progress.is_cancelled() => error,
-            done => return done.map(Self::from),
-        };
-        let plain = TransitionSpec {
-            cell,
-            ..spec.clone()
-        };
-        let Ok(mut instead) = built(&plain, progress) else {
-            return Err(error);
-        };
-        let note = Note::Instead {
-            asked: spec.cell,
-            reason: error.reason().to_string(),
-        };
-        instead.moved.notes.insert(0, note);
-        Ok(instead.into())
-    }
 }
 
 /// What [`Transition::build`] builds, or why it cannot, by the designs' names.

@@ -1,6 +1,5 @@
 //! What was done otherwise than asked while a transition was built.
 
-use super::cells::Cell;
 use crate::compatible::SurroundingsError;
 use crate::correspondence::{MatchNote, RegionMatch, RegionMatchError};
 use serde::{Serialize, Serializer};
@@ -28,14 +27,6 @@ pub enum Note {
     /// Fields of distances that are not Euclidean have their boundary between
     /// cells, although it was to be exact.
     BinaryBoundary,
-    /// The cell that was asked for cannot be had; the plain one of its column
-    /// is there instead.
-    Instead {
-        /// What was asked for.
-        asked: Cell,
-        /// Why it cannot be had.
-        reason: String,
-    },
     /// The equations of rigid parts could only be solved with a little added
     /// to their diagonal.
     Stiffened {
@@ -70,11 +61,6 @@ impl fmt::Display for Note {
             Self::BinaryBoundary => write!(
                 f,
                 "the boundary runs between cells: only Euclidean distances have it exactly"
-            ),
-            Self::Instead { asked, reason } => write!(
-                f,
-                "the designs are blended where they are, not by {}: {reason}",
-                asked.name()
             ),
             Self::Stiffened { share } => write!(
                 f,

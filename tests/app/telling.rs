@@ -211,3 +211,29 @@ fn what_takes_long_to_open_is_shown_by_the_plainest_method_meanwhile() {
     let field = Cell::FIELD_BLEND;
     assert_eq!(now, Some((field.warp(), field.content())));
 }
+
+#[test]
+fn what_takes_very_long_is_begun_when_it_is_wanted_all_the_same_and_esc_ends_it() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path());
+    edit(&mut window, |project| {
+        let field = Cell::FIELD_BLEND;
+        (project.warp, project.content) = (Some(field.warp()), Some(field.content()));
+    });
+    assert_eq!(cell(&window), Some(Cell::FIELD_BLEND));
+    let cells = |window: &Window| window.session().project().map(|p| p.options.field.cells);
+    let before = cells(&window);
+    edit(&mut window, |project| project.options.field.cells = 4000);
+    let problems = window.problems();
+    assert!(problems[0].contains("choose fewer cells"), "{problems:?}");
+    window.send(Intent::Insist);
+    while window.session().told_work().is_none() {
+        assert!(window.session().work().is_some(), "it is refused again");
+        std::thread::sleep(Duration::from_millis(1));
+        window.update();
+    }
+    window.press(KeyCode::Escape, Key::Escape);
+    assert_eq!(window.session().work(), None);
+    assert_eq!(cells(&window), before);
+    assert_eq!(window.problems(), Vec::<String>::new());
+}

@@ -88,6 +88,8 @@ pub enum Intent {
     Compare,
     /// Stop the work that is going on.
     CancelWork,
+    /// Build all the same what would take very long.
+    Insist,
     /// Stop the recording that is going on.
     CancelRecording,
     /// Whole screen, or window.

@@ -6,6 +6,7 @@ use bevy::window::{MonitorSelection, PrimaryWindow, WindowMode};
 
 use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
+use crate::app::capturing::films::Recorder;
 use crate::app::editing::editor::Editor;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::closing::Question;
@@ -191,13 +192,15 @@ pub fn window_mode(
     }
 }
 
-/// Esc: the help goes first, then what hid the panels, then the whole screen.
+/// Esc: the help goes first, then work that is told of, then what hid the panels, then the whole
+/// screen, and when nothing else is left to leave a recording.
 pub fn back(
     mut intents: MessageReader<Intent>,
     mut preferences: ResMut<Preferences>,
     mut window: Query<&mut Window, With<PrimaryWindow>>,
     (mut editor, mut twin): (ResMut<Editor>, ResMut<Twin>),
     (question, drop): (Res<Question>, Res<Drop>),
+    (mut session, recorder): (ResMut<Session>, Res<Recorder>),
 ) {
     if question.text().is_some() || drop.undecided().is_some() {
         intents.clear(); // Esc answers the question and nothing else.
@@ -210,6 +213,8 @@ pub fn back(
     for _ in 0..backs {
         if preferences.help {
             preferences.help = false;
+        } else if preferences.panels && session.told_work().is_some() {
+            session.cancel();
         } else if editor.bypass_change_detection().back() {
             editor.set_changed();
         } else if std::mem::take(&mut twin.is_shown) {
@@ -222,6 +227,8 @@ pub fn back(
             window.mode = WindowMode::Windowed;
         } else if preferences.times {
             preferences.times = false;
+        } else {
+            recorder.cancel();
         }
     }
 }

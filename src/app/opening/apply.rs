@@ -85,6 +85,7 @@ pub fn edit(
     for intent in intents.read() {
         match intent {
             Intent::CancelWork => session.cancel(),
+            Intent::Insist => session.insist(),
             Intent::Undo => {
                 let undone = session.undo();
                 tell(undone, "There is nothing to undo.", &mut notices);

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::content::ContentKind;
 use crate::correspondence::{PinError, RegionMatchError};
 use crate::design::Source;
 use crate::progress::{Cancelled, Progress, checkpoint};
@@ -217,10 +216,7 @@ fn built(project: LoadedProject, transition: Result<Transition, Problem>) -> Loa
 /// designs, and at once; none where that is what it asks for.
 fn plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<Stage> {
     let asked = project.cell().ok()?;
-    let cell = match asked.content() {
-        ContentKind::Colours => Cell::CROSS_DISSOLVE,
-        ContentKind::Solid | ContentKind::Field => Cell::FIELD_BLEND,
-    };
+    let cell = asked.plain();
     if cell == asked {
         return None;
     }
@@ -257,6 +253,12 @@ pub fn transition_of(
 }
 
 impl Problem {
+    /// It would take very long, or much memory, and can be had all the same.
+    #[must_use]
+    pub fn is_too_much(&self) -> bool {
+        matches!(self, Self::Build(error) if matches!(error.reason(), BuildError::TooMuch(_)))
+    }
+
     /// The pins that it comes from, by their numbers in the project.
     #[must_use]
     pub fn pins(&self) -> Vec<usize> {

@@ -55,6 +55,10 @@ pub struct Session {
     is_stale: bool,
 }
 
+/// What is done sooner is not worth a word: while a slider or a pin is dragged, one build follows
+/// the other.
+const WORTH_A_WORD: Duration = Duration::from_millis(300);
+
 static NO_TIMING: LazyLock<Timing> = LazyLock::new(Timing::default);
 
 /// What is open.
@@ -290,11 +294,20 @@ impl Session {
         self.work.as_ref().map(|work| work.job.progress())
     }
 
-    /// How long the work has been going on.
+    /// The work, once it is worth a word.
     #[must_use]
-    pub fn work_lasts(&self) -> Duration {
-        let work = self.work.as_ref();
-        work.map_or(Duration::ZERO, |work| work.job.lasts())
+    pub fn told_work(&self) -> Option<(&'static str, f64)> {
+        let work = self.work.as_ref()?;
+        (work.job.lasts() > WORTH_A_WORD).then(|| work.job.progress())
+    }
+
+    /// Builds what would take very long, which was refused for that, and from now on whatever is
+    /// asked for of this project.
+    pub fn insist(&mut self) {
+        if let Some(open) = &mut self.open {
+            open.loaded.patient = true;
+            self.is_stale = true;
+        }
     }
 
     /// Opens something else, beside the stage.

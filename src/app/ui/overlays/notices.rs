@@ -3,7 +3,8 @@
 use bevy_egui::egui::{self, Align2, Context, Label, Order, Rect, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
-use crate::app::telling::notices::{Kind, Notice};
+use crate::app::session::loading::Problem;
+use crate::app::telling::notices::{About, Kind, Notice};
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::kit::widgets::{card, icon_button, pinned};
@@ -24,12 +25,19 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     let area = pinned("notices", Align2::CENTER_BOTTOM, at).order(Order::Foreground);
     area.show(ctx, |ui| {
         for notice in &list[list.len().saturating_sub(MOST)..] {
-            message(ui, notice, width, acts);
+            let too_much = is_too_much(scene, notice);
+            message(ui, notice, too_much, width, acts);
         }
     });
 }
 
-fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
+/// The problem is but that it takes long.
+fn is_too_much(scene: &Scene, notice: &Notice) -> bool {
+    let problem = scene.session.problem();
+    notice.kind == Kind::Problem(About::Transition) && problem.is_some_and(Problem::is_too_much)
+}
+
+fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, acts: &mut Intents) {
     let palette = Palette::of(ui);
     let (icon, colour) = match notice.kind {
         Kind::Problem(_) => (icons::WARNING, palette.problem),
@@ -49,6 +57,17 @@ fn message(ui: &mut Ui, notice: &Notice, width: f32, acts: &mut Intents) {
                 ui.add_space((24.0 - line) / 2.0);
                 // So that an error can be copied into a report.
                 ui.add(Label::new(&notice.text).wrap().selectable(true));
+                if too_much {
+                    ui.add_space(GRID);
+                    let tip = "Builds it however long it takes; it can be cancelled.";
+                    if ui
+                        .button("Build it all the same")
+                        .on_hover_text(tip)
+                        .clicked()
+                    {
+                        acts.push(Intent::Insist);
+                    }
+                }
             });
             let close = icon_button(ui, icons::CLOSE, "Close", vec2(24.0, 24.0));
             if close.clicked() {

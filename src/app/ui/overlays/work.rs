@@ -1,17 +1,11 @@
 //! What is being worked on, how far it is, and a way to stop it.
 
-use std::time::Duration;
-
 use bevy_egui::egui::{Align2, Context, Margin, ProgressBar, Rect, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::kit::widgets::{card, pinned};
 use crate::app::ui::scene::{Intents, Scene};
-
-/// What is done sooner is not worth a word: while a slider or a pin is dragged, one build follows
-/// the other.
-const PATIENCE: Duration = Duration::from_millis(300);
 
 /// Height of the names of two methods, or of the editor's tools.
 const TAKEN: f32 = 40.0;
@@ -20,8 +14,7 @@ const TAKEN: f32 = 40.0;
 pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     let build = scene
         .session
-        .work()
-        .filter(|_| scene.session.work_lasts() > PATIENCE)
+        .told_work()
         .map(|work| (work, Intent::CancelWork));
     let film = scene
         .recorder
@@ -51,7 +44,7 @@ fn pill(ui: &mut Ui, stage: &str, fraction: f64, cancel: Intent, acts: &mut Inte
                 .desired_height(6.0)
                 .fill(Palette::of(ui).accent);
             ui.add(bar);
-            let tip = "Stops this work; what is on the stage stays.";
+            let tip = "Stops this work; what is on the stage stays (Esc).";
             if ui.button("Cancel").on_hover_text(tip).clicked() {
                 acts.push(cancel);
             }
