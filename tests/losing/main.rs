@@ -87,13 +87,22 @@ fn started(command: Command) -> Child {
 }
 
 /// The same command, that hears signals: whoever runs the tests may ignore some
-/// (`nohup`, a shell's background), and what it starts inherits that.
+/// (`nohup`, a shell's background), and what it starts inherits that. It ends
+/// with its test: what a test that fails has started would go on for hours.
 fn listening(command: &Command) -> Command {
-    let mut listening = Command::new("env");
-    if cfg!(target_os = "linux") {
-        listening.arg("--default-signal=HUP,INT,TERM");
-    }
+    let words: &[&str] = if cfg!(target_os = "linux") {
+        &[
+            "setpriv",
+            "--pdeathsig=KILL",
+            "env",
+            "--default-signal=HUP,INT,TERM",
+        ]
+    } else {
+        &["env"]
+    };
+    let mut listening = Command::new(words[0]);
     listening
+        .args(&words[1..])
         .arg(command.get_program())
         .args(command.get_args());
     if let Some(folder) = command.get_current_dir() {
