@@ -8,7 +8,7 @@ use rayon::prelude::*;
 
 /// A piece that was not triangulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{}{error}", if *.pieces > 1 { format!("piece {} of {pieces}: ", piece + 1) } else { String::new() })]
+#[error("{}{error}", self.place())]
 pub struct OutlinesError {
     /// Its index.
     pub piece: usize,
@@ -16,6 +16,17 @@ pub struct OutlinesError {
     pub pieces: usize,
     /// What is wrong with it.
     pub error: PolygonsError,
+}
+
+impl OutlinesError {
+    /// Which piece it is, where there are several and it is to blame.
+    fn place(&self) -> String {
+        match self.error {
+            PolygonsError::Cancelled(_) => String::new(),
+            _ if self.pieces == 1 => String::new(),
+            _ => format!("piece {} of {}: ", self.piece + 1, self.pieces),
+        }
+    }
 }
 
 impl CompatibleMesh {
