@@ -215,11 +215,9 @@ impl<'a> Prepared<'a> {
 
 /// The rings of a part with the similar tiny ones across.
 fn point_like(region: &Region, side: Side, here: DVec2, moved: DVec2) -> Vec<RingMatch> {
-    let size = region.outer.bounds().diameter();
     let ring = |ring: &Ring| {
         let whole = ring.points().to_vec();
-        let extent = ring.bounds().diameter();
-        let size = POINT_SIZE * size * (extent / size);
+        let size = POINT_SIZE * ring.bounds().diameter();
         let point = shrunk(&whole, here, here + moved, size, 0.0);
         RingMatch::alone(side, whole, point)
     };
