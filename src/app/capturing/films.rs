@@ -1,6 +1,7 @@
 //! Films of one pass, drawn and written in the background by the same code as on the command line.
 
 use std::path::PathBuf;
+use std::time::{Duration, Instant};
 
 use bevy::prelude::{MessageReader, Res, ResMut, Resource};
 
@@ -69,6 +70,9 @@ impl From<ExportError> for RecordError {
     }
 }
 
+/// How long the end of the program waits for a cancelled recording: four times what it is to take.
+const LAST_WAIT: Duration = Duration::from_secs(2);
+
 /// The t of a sheet of all methods.
 const COLUMNS: usize = 7;
 
@@ -83,6 +87,17 @@ impl Recorder {
     pub fn cancel(&self) {
         if let Some(job) = &self.0 {
             job.cancel();
+        }
+    }
+}
+
+impl Drop for Recorder {
+    /// What was begun is taken away before the program ends.
+    fn drop(&mut self) {
+        self.cancel();
+        let begun = Instant::now();
+        while Job::take(&mut self.0).is_none() && self.0.is_some() && begun.elapsed() < LAST_WAIT {
+            std::thread::sleep(LAST_WAIT / 200);
         }
     }
 }
