@@ -6,7 +6,7 @@
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
-use crate::app::capturing::files::create_new;
+use crate::app::capturing::files::{create_new, whole};
 use crate::design::Source;
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 
@@ -86,7 +86,7 @@ fn written_beside(folder: &Path, bundled: &Path) -> Result<PathBuf, SaveError> {
     let (stem, extension) = (text(bundled.file_stem()), text(bundled.extension()));
     let (_, path) =
         create_new(folder, &stem, &extension).map_err(|error| failed(io::Error::other(error)))?;
-    std::fs::write(&path, bytes).map_err(failed)?;
+    let path = whole(path.clone(), std::fs::write(&path, bytes)).map_err(failed)?;
     Ok(path.file_name().map(PathBuf::from).unwrap_or(path))
 }
 
