@@ -8,6 +8,7 @@ use bevy_egui::egui::{
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::scene::{Intents, Scene};
+use crate::one_line::OneLine;
 use crate::project::Project;
 use crate::transition::{Stop, Style};
 
@@ -177,7 +178,8 @@ fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
         let at = pos2(ruler.x(stop.t), ruler.y - 14.0);
         // By number and not by name, which may be written while its menu is open.
         let id = ui.id().with(("stop", index));
-        let response = marker(ui, at, id, &stop.name);
+        let name = OneLine(&stop.name).to_string();
+        let response = marker(ui, at, id, &name);
         if response.clicked() {
             acts.push(Intent::Seek(stop.t));
         }
@@ -189,7 +191,7 @@ fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
         }
         let tip = format!(
             "{} at t = {:.3}. Click to go there, drag to move, right-click to rename or delete.",
-            stop.name, stop.t
+            name, stop.t
         );
         let response = response.on_hover_text(tip);
         response.context_menu(|ui| {
