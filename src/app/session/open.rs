@@ -166,6 +166,8 @@ impl Open {
     /// The settings go back to those of the stage; no step of the history is left of it.
     pub fn give_up_changes(&mut self) {
         self.amend(|now, staged| now.clone_from(staged));
+        // What could not be had is not asked for any more.
+        self.problem.take_if(|_| self.transition.is_some());
     }
 
     /// The designs go back to those of the stage: a file that cannot be read is not kept.
