@@ -6,8 +6,8 @@
 //!
 //! Guarantees: at t = 0 and t = 1, and where a pixel of the output lies on one
 //! of the picture, its value is the picture's. A picture goes on beyond its
-//! edge with the colours of the edge; what is shown is cut to a rectangle on
-//! its way from the source's to the target's.
+//! edge as its mirror image, where the edge's colours alone would smear; what
+//! is shown is cut to a rectangle on its way from the source's to the target's.
 
 mod layer;
 mod linear;

@@ -6,7 +6,7 @@
 //! guarantee the core's last digits: pictures agree to about a step of 255.
 
 use bevy::asset::RenderAssetUsages;
-use bevy::image::{ImageSampler, ToExtents};
+use bevy::image::{ImageAddressMode, ImageSampler, ImageSamplerDescriptor, ToExtents};
 use bevy::prelude::*;
 use bevy::render::render_resource::{AsBindGroup, ShaderType, TextureDimension, TextureFormat};
 use bevy::shader::ShaderRef;
@@ -82,6 +82,10 @@ fn texture(layer: &Layer) -> Image {
     );
     image.texture_descriptor.mip_level_count = levels;
     image.data = Some(bytes);
-    image.sampler = ImageSampler::linear();
+    image.sampler = ImageSampler::Descriptor(ImageSamplerDescriptor {
+        address_mode_u: ImageAddressMode::MirrorRepeat,
+        address_mode_v: ImageAddressMode::MirrorRepeat,
+        ..ImageSamplerDescriptor::linear()
+    });
     image
 }

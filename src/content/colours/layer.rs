@@ -173,7 +173,7 @@ pub(super) struct Sight<'a> {
 impl Sight<'_> {
     /// For each of `lights` what `with` makes of it and of the light that the
     /// samples of row `y` see from column `x` on: bilinear between pixel
-    /// centres, beyond the picture that of its edge.
+    /// centres, beyond the picture its mirror image.
     #[inline]
     pub fn look(
         &self,
@@ -195,7 +195,7 @@ impl Sight<'_> {
 
     #[inline]
     fn at(&self, x: i64, y: i64) -> Light {
-        let (x, y) = (x.clamp(0, self.last[0]), y.clamp(0, self.last[1]));
+        let (x, y) = (mirrored(x, self.last[0]), mirrored(y, self.last[1]));
         let at = (y >> 32) as usize * self.width + (x >> 32) as usize;
         let (u, v) = (behind_the_point(x), behind_the_point(y));
         // In the last column u = 0: what is right of it does not matter. So it
@@ -206,6 +206,24 @@ impl Sight<'_> {
         };
         mixed(row(at), row(at + self.width), v)
     }
+}
+
+/// Half a pixel in fixed point.
+const HALF: i64 = 1 << 31;
+
+/// The place between the first pixel's centre and the last's that mirrors at
+/// the picture's edges bring to `x`, however often.
+#[inline]
+fn mirrored(x: i64, last: i64) -> i64 {
+    // Nearly all samples lie in the picture, and a division takes longer than
+    // the rest of the look-up.
+    if (0..=last).contains(&x) {
+        return x;
+    }
+    let size = last + 2 * HALF;
+    let from_edge = (x + HALF).rem_euclid(2 * size);
+    let folded = from_edge.min(2 * size - from_edge);
+    (folded - HALF).clamp(0, last)
 }
 
 /// What a number in fixed point has over a whole one; to 24 bits.
@@ -293,7 +311,7 @@ mod tests {
     }
 
     #[test]
-    fn pixels_are_met_at_their_centres_and_edges_go_on() {
+    fn pixels_are_met_at_their_centres_and_edges_are_mirrors() {
         let image = RgbaImage::from_fn(5, 3, |x, y| Rgba([50 * x as u8, 80 * y as u8, 7, 255]));
         let layer = Layer::new(&Picture::new(image.clone()));
         let sampler = layer.sampler(1.0);
@@ -301,10 +319,10 @@ mod tests {
             let centre = DVec2::new(f64::from(x) + 0.5, 3.0 - f64::from(y) - 0.5);
             assert_eq!(encoded(at(&sampler, centre)), *pixel);
         }
-        assert_eq!(
-            encoded(at(&sampler, DVec2::new(-9.0, 99.0))),
-            *image.get_pixel(0, 0)
-        );
+        let beyond = |x, y| encoded(at(&sampler, DVec2::new(x, y)));
+        assert_eq!(beyond(-1.5, 4.5), *image.get_pixel(1, 1));
+        assert_eq!(beyond(7.5, -0.5), *image.get_pixel(2, 2));
+        assert_eq!(beyond(-10.5, 10.5), *image.get_pixel(0, 1));
         assert!(at(&sampler, DVec2::splat(f64::NAN)).is_finite());
     }
 
