@@ -5,7 +5,7 @@
 //! the library under test is hardly optimised.
 
 use std::f64::consts::TAU;
-use std::sync::{Arc, Mutex};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 use morphospace::content::ContentKind;
@@ -65,8 +65,13 @@ impl Progress for Impatient {
     }
 }
 
+/// Held while work is cancelled: all tests share the threads that it runs on,
+/// and one would wait for what another does.
+static ALONE: Mutex<()> = Mutex::new(());
+
 /// Cancels the work in each of its stages; the stages by name.
 fn cancel_everywhere(name: &str, work: impl Fn(&dyn Progress)) -> Vec<&'static str> {
+    let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
     for stage in 1.. {
         let progress = Impatient::at(stage);
         let begun = Instant::now();
