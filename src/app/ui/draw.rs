@@ -153,6 +153,15 @@ fn panels(
         gallery::show(root, scene, textures, acts);
     }
     inspector::show(root, scene, acts);
+    if scene.preferences.times {
+        times::strip(root, scene);
+    }
+    if !scene.editor.is_open {
+        if scene.twin.is_shown {
+            twin::strip(root, scene, acts);
+        }
+        verdict::strip(root, scene, acts);
+    }
 }
 
 fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut Intents) {
@@ -180,14 +189,8 @@ fn told(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut Intent
     work::show(ctx, scene, below, acts);
     if scene.editor.is_open {
         below.max.y -= match_editor::ADVICE_HEIGHT;
-    } else {
-        verdict::show(ctx, scene, stage, acts);
-        below.max.y -= verdict::height(scene);
     }
     notices::show(ctx, scene, below, acts);
-    if scene.preferences.times {
-        times::show(ctx, scene, stage);
-    }
 }
 
 impl StageArea {

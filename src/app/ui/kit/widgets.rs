@@ -6,8 +6,8 @@ use std::sync::Arc;
 use bevy_egui::egui::emath::Numeric;
 use bevy_egui::egui::{
     self, Align, Align2, Area, Color32, ComboBox, DragValue, Galley, Layout, Margin, Order,
-    Painter, Pos2, Rect, Response, RichText, Sense, Slider, StrokeKind, Ui, Vec2, WidgetInfo,
-    WidgetType, vec2,
+    Painter, Pos2, Rect, RectAlign, Response, RichText, Sense, Slider, StrokeKind, Tooltip, Ui,
+    Vec2, WidgetInfo, WidgetType, vec2,
 };
 
 use crate::app::asking::intent::Intent;
@@ -41,9 +41,40 @@ pub fn row(ui: &mut Ui, label: &str, tip: &str, control: impl FnOnce(&mut Ui) ->
         let font = egui::TextStyle::Body.resolve(ui.style());
         ui.painter()
             .text(rect.left_center(), Align2::LEFT_CENTER, label, font, colour);
-        response.on_hover_text(tip);
-        control(ui).on_hover_text(tip).on_disabled_hover_text(tip);
+        beside(&response, rect.left(), tip);
+        beside(&control(ui), rect.left(), tip);
     });
+}
+
+/// A tip to the left of a panel that begins there: below, it would cover the next control.
+pub fn beside(response: &Response, left: f32, tip: &str) {
+    let panel = Rect::from_x_y_ranges(left..=response.rect.right(), response.rect.y_range());
+    for mut tooltip in [
+        Tooltip::for_enabled(response),
+        Tooltip::for_disabled(response),
+    ] {
+        tooltip.popup = tooltip.popup.anchor(panel).align(RectAlign::LEFT_START);
+        tooltip.gap(GRID).show(|ui| ui.label(tip));
+    }
+}
+
+/// A tip on the side of the nearer edge of the window's middle, where no control lies: below what
+/// is at the top, above what is at the bottom.
+pub fn tipped(response: Response, tip: &str) -> Response {
+    let is_low = response.rect.center().y > response.ctx.content_rect().center().y;
+    let align = if is_low {
+        RectAlign::TOP_START
+    } else {
+        RectAlign::BOTTOM_START
+    };
+    for mut tooltip in [
+        Tooltip::for_enabled(&response),
+        Tooltip::for_disabled(&response),
+    ] {
+        tooltip.popup = tooltip.popup.align(align);
+        tooltip.show(|ui| ui.label(tip));
+    }
+    response
 }
 
 /// A row with a slider and a number.
@@ -140,14 +171,15 @@ pub fn choices<T: PartialEq + Clone>(
     value: &mut T,
     options: &[(T, &str, &str)],
 ) -> Response {
-    let width = ui.available_width();
+    let (left, width) = (ui.min_rect().left(), ui.available_width());
     let gap = 2.0;
     let count = options.len().max(1) as f32;
     let each = vec2((width - gap * (count - 1.0)) / count, CONTROL_HEIGHT);
     ui.spacing_mut().item_spacing.x = gap;
     let mut all: Option<Response> = None;
     for (option, label, tip) in options {
-        let response = choice(ui, *value == *option, label, each).on_hover_text(*tip);
+        let response = choice(ui, *value == *option, label, each);
+        beside(&response, left, tip);
         if response.clicked() {
             *value = option.clone();
         }
@@ -187,7 +219,7 @@ pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
 /// One choice as wide as this, which tells what it does; whether it was taken.
 pub fn option(ui: &mut Ui, chosen: bool, label: &str, tip: &str, width: f32) -> bool {
     let response = choice(ui, chosen, label, vec2(width, CONTROL_HEIGHT));
-    response.on_hover_text(tip).clicked()
+    tipped(response, tip).clicked()
 }
 
 /// A row of all values of an option.
@@ -204,8 +236,8 @@ pub fn menu<T: Choice>(ui: &mut Ui, salt: &str, value: &mut T, width: f32) -> Re
         .selected_text(value.name().title)
         .show_ui(ui, |ui| {
             for choice in T::CHOICES {
-                ui.selectable_value(value, *choice, choice.name().title)
-                    .on_hover_text(choice.name().sentence);
+                let response = ui.selectable_value(value, *choice, choice.name().title);
+                beside(&response, response.rect.left(), choice.name().sentence);
             }
         })
         .response
@@ -233,7 +265,7 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str, size: Vec2) -> Response {
         palette.weak
     };
     icons::paint(ui.painter(), icon, rect, colour);
-    response.on_hover_text(tip).on_disabled_hover_text(tip)
+    tipped(response, tip)
 }
 
 /// A square button with an icon that asks for something.

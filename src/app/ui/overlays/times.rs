@@ -1,32 +1,35 @@
 //! Where a frame's time goes.
 
-use bevy_egui::egui::{Align2, Context, Grid, Rect, Ui, vec2};
+use bevy_egui::egui::{Panel, Ui};
 
 use crate::app::ui::kit::theme::GRID;
-use crate::app::ui::kit::widgets::{card, pinned, quiet};
+use crate::app::ui::kit::widgets::{ground, quiet};
 use crate::app::ui::scene::Scene;
 
-/// Draws the table of times at the upper right of the stage.
-pub fn show(ctx: &Context, scene: &Scene, stage: Rect) {
-    let at = stage.right_top() + vec2(-2.0 * GRID, 2.0 * GRID);
-    let area = pinned("times", Align2::RIGHT_TOP, at).interactable(false);
-    area.show(ctx, |ui| card(ui, 12, |ui| table(ui, scene)));
+const HEIGHT: f32 = 32.0;
+
+/// Draws the times in a line above the stage.
+pub fn strip(root: &mut Ui, scene: &Scene) {
+    let frame = ground(root, [16, 16, 4, 4]);
+    Panel::top("times")
+        .exact_size(HEIGHT)
+        .resizable(false)
+        .frame(frame)
+        .show(root, |ui| ui.horizontal_centered(|ui| line(ui, scene)));
 }
 
-fn table(ui: &mut Ui, scene: &Scene) {
+fn line(ui: &mut Ui, scene: &Scene) {
     ui.label(quiet(ui, "Median of the last frames"));
     let stages = [
         ("Solve", &scene.times.solve),
         ("Draw", &scene.times.draw),
         ("Whole frame", &scene.whole.0),
     ];
-    Grid::new("times").spacing([24.0, 4.0]).show(ui, |ui| {
-        for (stage, durations) in stages {
-            ui.label(stage);
-            let time = durations.median().map(|time| time.as_secs_f64() * 1e3);
-            let text = time.map_or("–".to_owned(), |ms| format!("{ms:7.2} ms"));
-            ui.monospace(text);
-            ui.end_row();
-        }
-    });
+    for (stage, durations) in stages {
+        ui.add_space(GRID);
+        ui.label(stage);
+        let time = durations.median().map(|time| time.as_secs_f64() * 1e3);
+        let text = time.map_or("–".to_owned(), |ms| format!("{ms:7.2} ms"));
+        ui.monospace(text);
+    }
 }

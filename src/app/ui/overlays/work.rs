@@ -7,9 +7,6 @@ use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::kit::widgets::{card, pinned};
 use crate::app::ui::scene::{Intents, Scene};
 
-/// Height of the names of two methods, or of the editor's tools.
-const TAKEN: f32 = 40.0;
-
 /// Draws a pill at the top of the stage for each piece of work.
 pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     let build = scene
@@ -24,10 +21,7 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     if all.is_empty() {
         return;
     }
-    // Below what else stands at the upper edge.
-    let is_taken = scene.twin.is_shown || scene.editor.is_open;
-    let above = if is_taken { TAKEN } else { 0.0 };
-    let at = stage.center_top() + vec2(0.0, 2.0 * GRID + above);
+    let at = stage.center_top() + vec2(0.0, 2.0 * GRID);
     pinned("work", Align2::CENTER_TOP, at).show(ctx, |ui| {
         for ((stage, fraction), cancel) in all {
             pill(ui, stage, fraction, cancel, acts);

@@ -3,7 +3,7 @@
 use bevy_egui::egui::{Ui, vec2};
 
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::widgets::{choice, drag, number, row, section, toggle};
+use crate::app::ui::kit::widgets::{choice, drag, number, row, section, tipped, toggle};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
 use crate::project::Project;
@@ -108,7 +108,7 @@ fn layer(ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool) {
         if response.clicked() {
             *on = !*on;
         }
-        response.on_hover_text(tip).on_disabled_hover_text(tip);
+        tipped(response, tip);
     });
 }
 

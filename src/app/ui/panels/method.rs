@@ -6,7 +6,7 @@ use bevy_egui::egui::{
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette, RADIUS, SMALL};
-use crate::app::ui::kit::widgets::{hint, section};
+use crate::app::ui::kit::widgets::{beside, hint, section};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
 use crate::names::Choice;
@@ -98,21 +98,18 @@ fn cell(
     if response.clicked() && !is_chosen {
         acts.push(Intent::UseCell(warp, content));
     }
-    match available {
-        Ok(()) => response.on_hover_text(description(warp, content)),
-        Err(reason) => response.on_hover_text(format!("Not available: {reason}")),
+    let tip = match available {
+        Ok(()) => description(warp, content).to_owned(),
+        Err(reason) => format!("Not available: {reason}"),
     };
+    beside(&response, ui.min_rect().left(), &tip);
 }
 
 fn paint_cell(ui: &Ui, rect: Rect, name: &str, response: &Response, chosen: bool, can: bool) {
     let palette = Palette::of(ui);
     let (fill, line, text) = match (can, chosen, response.hovered()) {
         (_, true, _) => (palette.accent_ground, palette.accent, palette.text),
-        (false, ..) => (
-            palette.panel,
-            palette.line,
-            palette.weak.gamma_multiply(0.6),
-        ),
+        (false, ..) => (palette.panel, palette.line, palette.faint()),
         (true, false, true) => (palette.hover, palette.line, palette.text),
         (true, false, false) => (palette.raised, palette.raised, palette.text),
     };

@@ -1,11 +1,11 @@
 //! Two methods side by side: the stage on the left, a second method on the right.
 
-use bevy_egui::egui::{Align2, ComboBox, FontId, Label, Margin, Rect, RichText, Ui, vec2};
+use bevy_egui::egui::{Align2, ComboBox, FontId, Label, Panel, Rect, RichText, Ui, vec2};
 
 use crate::app::asking::choices::TwinMethod;
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
-use crate::app::ui::kit::widgets::{self, pinned, quiet};
+use crate::app::ui::kit::widgets::{ground, quiet};
 use crate::app::ui::panels::method;
 use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::stage::area::{self, ink_on};
@@ -23,21 +23,34 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Re
     area::show(root, left, "stage", acts);
     area::show(root, right, "twin", acts);
     if scene.preferences.panels {
-        told(root, scene, [left, right], acts);
+        told(root, scene, [left, right]);
     }
     left
 }
 
-/// What each half is, and what is to be said of it.
-fn told(root: &mut Ui, scene: &Scene, [left, right]: [Rect; 2], acts: &mut Intents) {
+/// What is to be said of each half.
+fn told(root: &mut Ui, scene: &Scene, [left, right]: [Rect; 2]) {
     area::empty(root, scene, left);
     verdict::mark(root, scene, left);
     let ink = ink_on(scene.session.style().ground);
     let line = (1.0, ink.gamma_multiply(0.5));
     root.painter().vline(right.left(), right.y_range(), line);
     missing(root, scene, right);
-    first_name(root, scene, left);
-    second_name(root, scene, right, acts);
+}
+
+/// Draws the names of both above them.
+pub fn strip(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let frame = ground(root, [8, 8, 4, 4]);
+    Panel::top("methods")
+        .exact_size(CONTROL_HEIGHT + GRID)
+        .resizable(false)
+        .frame(frame)
+        .show(root, |ui| {
+            ui.columns(2, |halves| {
+                halves[0].vertical_centered(|ui| first_name(ui, scene));
+                halves[1].vertical_centered(|ui| second_name(ui, scene, acts));
+            });
+        });
 }
 
 /// What the right half says while it is empty.
@@ -58,51 +71,44 @@ fn missing(ui: &Ui, scene: &Scene, rect: Rect) {
     ui.painter().galley(at.min, galley, ink);
 }
 
-fn first_name(ui: &Ui, scene: &Scene, rect: Rect) {
+fn first_name(ui: &mut Ui, scene: &Scene) {
     let Some(transition) = scene.session.transition() else {
         return;
     };
-    let name = first_upper(transition.cell().name());
-    card(ui, "first method", rect, |ui| {
-        let name = Label::new(quiet(ui, name));
-        ui.add_sized([NAME_WIDTH, CONTROL_HEIGHT], name)
-            .on_hover_text(
-                "The method of the project, as it is chosen on the right of the window.",
-            );
-    });
+    let name = Label::new(quiet(ui, first_upper(transition.cell().name())));
+    ui.add_sized([NAME_WIDTH, CONTROL_HEIGHT], name)
+        .on_hover_text("The method of the project, as it is chosen on the right of the window.");
 }
 
-fn second_name(ui: &Ui, scene: &Scene, rect: Rect, acts: &mut Intents) {
+fn second_name(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let Some(project) = scene.session.project() else {
         return;
     };
     let chosen = scene.twin.method_beside(project);
-    card(ui, "second method", rect, |ui| {
-        ComboBox::from_id_salt("second method")
-            .width(NAME_WIDTH)
-            .selected_text(first_upper(chosen.name()))
-            .height(400.0)
-            .show_ui(ui, |ui| {
-                for method in TwinMethod::all() {
-                    let cell = method.cell();
-                    let available = scene.session.available(cell.warp(), cell.content());
-                    let mut name = RichText::new(first_upper(method.name()));
-                    if available.is_err() {
-                        name = name.color(Palette::of(ui).faint());
-                    }
-                    ui.add_enabled_ui(available.is_ok(), |ui| {
-                        let response = ui.selectable_label(chosen == method, name);
-                        if let Err(reason) = &available {
-                            response.on_disabled_hover_text(format!("Not available: {reason}"));
-                        } else if response.on_hover_text(tip(method)).clicked() {
-                            acts.push(Intent::TwinMethod(method));
-                        }
-                    });
+    ComboBox::from_id_salt("second method")
+        .width(NAME_WIDTH)
+        .selected_text(first_upper(chosen.name()))
+        .height(400.0)
+        .show_ui(ui, |ui| {
+            for method in TwinMethod::all() {
+                let cell = method.cell();
+                let available = scene.session.available(cell.warp(), cell.content());
+                let mut name = RichText::new(first_upper(method.name()));
+                if available.is_err() {
+                    name = name.color(Palette::of(ui).faint());
                 }
-            })
-            .response
-            .on_hover_text("The method beside the one of the project.");
-    });
+                ui.add_enabled_ui(available.is_ok(), |ui| {
+                    let response = ui.selectable_label(chosen == method, name);
+                    if let Err(reason) = &available {
+                        response.on_disabled_hover_text(format!("Not available: {reason}"));
+                    } else if response.on_hover_text(tip(method)).clicked() {
+                        acts.push(Intent::TwinMethod(method));
+                    }
+                });
+            }
+        })
+        .response
+        .on_hover_text("The method beside the one of the project.");
 }
 
 fn tip(method: TwinMethod) -> &'static str {
@@ -112,12 +118,4 @@ fn tip(method: TwinMethod) -> &'static str {
         }
         TwinMethod::Cell(cell) => method::description(cell.warp(), cell.content()),
     }
-}
-
-/// A card at the top of a half.
-fn card(ui: &Ui, name: &'static str, rect: Rect, content: impl FnOnce(&mut Ui)) {
-    let at = rect.center_top() + vec2(0.0, GRID);
-    pinned(name, Align2::CENTER_TOP, at).show(ui.ctx(), |ui| {
-        widgets::card(ui, Margin::symmetric(6, 4), |ui| ui.horizontal(content));
-    });
 }

@@ -1,13 +1,12 @@
-//! The verdict on the transition: a line or two at the lower left of the stage, and where it
-//! points to.
+//! The verdict on the transition: a line or two below the stage, and where it points to.
 
-use bevy_egui::egui::{self, Align2, Context, Label, Margin, Rect, RichText, Sense, Ui, vec2};
+use bevy_egui::egui::{self, Label, Panel, Rect, RichText, Sense, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::looking::measuring::{Measures, is_a_click};
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{card, pinned};
+use crate::app::ui::kit::widgets::{ground, quiet};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::stage::area::is_light;
 use crate::measure::Finding;
@@ -19,32 +18,32 @@ const ROW_HEIGHT: f32 = 24.0;
 /// a 64th, so that playing past it lights it up.
 const NEAR_T: f64 = 0.02;
 
-/// Height that the verdict takes at the lower edge of the stage.
-pub fn height(scene: &Scene) -> f32 {
-    scene.measured.measures().map_or(0.0, |measures| {
+/// Draws the lines below the stage: above it they would cover what they speak of.
+pub fn strip(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    if scene.session.transition().is_none() {
+        return;
+    }
+    let measures = scene.measured.measures();
+    let lines = measures.map_or(1, |measures| {
         let verdict = &measures.verdict;
         // Where nothing was found one line says so.
-        let lines = verdict.findings.len().max(1) + verdict.notes.len();
-        3.0 * GRID + ROW_HEIGHT * lines as f32
-    })
-}
-
-/// Draws the lines.
-pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
-    let Some(measures) = scene.measured.measures() else {
-        return;
-    };
-    let at = stage.left_bottom() + vec2(GRID, -GRID);
-    pinned("verdict", Align2::LEFT_BOTTOM, at).show(ctx, |ui| {
-        ui.set_max_width(stage.width() - 2.0 * GRID);
-        card(ui, Margin::symmetric(8, 4), |ui| {
-            lines(ui, scene, measures, acts);
-        });
+        verdict.findings.len().max(1) + verdict.notes.len()
     });
+    let frame = ground(root, [8, 8, 4, 4]);
+    Panel::bottom("verdict")
+        .exact_size(GRID + ROW_HEIGHT * lines as f32)
+        .resizable(false)
+        .frame(frame)
+        .show(root, |ui| match measures {
+            Some(measures) => show(ui, scene, measures, acts),
+            None => {
+                ui.label(quiet(ui, "Measuring …"));
+            }
+        });
 }
 
 /// One line, or one for each kind of trouble, and one for each note.
-fn lines(ui: &mut Ui, scene: &Scene, measures: &Measures, acts: &mut Intents) {
+fn show(ui: &mut Ui, scene: &Scene, measures: &Measures, acts: &mut Intents) {
     let verdict = &measures.verdict;
     ui.spacing_mut().item_spacing.y = 0.0;
     if verdict.is_clear() {

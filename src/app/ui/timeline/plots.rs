@@ -1,7 +1,7 @@
 //! The measures against t, side by side, with a line where t is; a click goes to a t.
 
-use bevy_egui::egui::{Color32, Panel, PointerButton, ScrollArea, Ui, vec2};
-use egui_plot::{AxisHints, HLine, Line, LineStyle, Plot, PlotPoints, VLine};
+use bevy_egui::egui::{Color32, Label, Panel, PointerButton, ScrollArea, Ui, vec2};
+use egui_plot::{AxisHints, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, VLine};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
@@ -61,11 +61,18 @@ fn row(ui: &mut Ui, scene: &Scene, film: &FilmReport, acts: &mut Intents) {
     });
 }
 
+const NOWHERE: &str = "Without bound at every t: some triangle has no area or is turned over, \
+    and what shrinks to nothing is sheared and stretched without end.";
+
 fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts: &mut Intents) {
     let palette = Palette::of(ui);
     let t = scene.playback.t();
     ui.spacing_mut().item_spacing.y = 2.0;
     heading(ui, quantity, series, t);
+    if !series.iter().any(|[_, value]| value.is_finite()) {
+        ui.add(Label::new(quiet(ui, NOWHERE)).wrap());
+        return;
+    }
     let plot = axes(quantity, palette.weak).height(ui.available_height().min(HEIGHT - 52.0));
     let on_axis = |value: f64| drawn(quantity, value);
     let response = plot.show(ui, |plot| {
@@ -115,9 +122,11 @@ fn axes(quantity: Quantity, colour: Color32) -> Plot<'static> {
         .grid_color(colour)
         .include_x(0.0)
         .include_x(1.0)
-        .set_margin_fraction(vec2(0.02, 0.08))
+        // Room for half of the last label.
+        .set_margin_fraction(vec2(0.04, 0.08))
         .label_formatter(|_| None)
-        .custom_x_axes(vec![AxisHints::new_x().tick_label_color(colour)])
+        .y_grid_spacer(|input| marks(input.bounds))
+        .custom_x_axes(vec![t_axis(colour)])
         .custom_y_axes(vec![value_axis(quantity, colour)]);
     least(quantity)
         .into_iter()
@@ -140,6 +149,31 @@ fn drawn(quantity: Quantity, value: f64) -> f64 {
     } else {
         value
     }
+}
+
+fn t_axis(colour: Color32) -> AxisHints<'static> {
+    AxisHints::new_x()
+        .tick_label_color(colour)
+        .formatter(|mark, _| format!("{}", (mark.value * 100.0).round() / 100.0))
+}
+
+/// Two to five marks from the least to the greatest value, a round step apart: tenfold steps alone
+/// leave an axis up to 9,000 without any that there is room for.
+fn marks((least, greatest): (f64, f64)) -> Vec<GridMark> {
+    let rough = (greatest - least) / 4.0;
+    let ten = 10_f64.powf(rough.log10().floor());
+    let round = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * ten);
+    let wide = |step: &f64| *step > 0.0 && *step >= rough;
+    let Some(step_size) = round.into_iter().find(wide) else {
+        return Vec::new(); // of an axis without a length
+    };
+    let first = (least / step_size).ceil() as i64;
+    let last = (greatest / step_size).floor() as i64;
+    let at = |k: i64| GridMark {
+        value: k as f64 * step_size,
+        step_size,
+    };
+    (first..=last).map(at).collect()
 }
 
 fn value_axis(quantity: Quantity, colour: Color32) -> AxisHints<'static> {
@@ -222,6 +256,15 @@ mod tests {
             runs(&series),
             [vec![[0.0, 1.0]], vec![[0.5, 2.0], [0.75, 3.0]]]
         );
+    }
+
+    #[test]
+    fn every_axis_has_marks_and_room_for_them() {
+        for greatest in (1..200).map(|k| 1.3_f64.powi(k - 100)) {
+            let marks = marks((0.0, greatest));
+            assert!((3..=6).contains(&marks.len()), "{greatest}: {marks:?}");
+        }
+        assert!(marks((2.0, 2.0)).is_empty() && marks((f64::NAN, 1.0)).is_empty());
     }
 
     #[test]

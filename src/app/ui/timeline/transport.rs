@@ -6,7 +6,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::playing::playback::SPEEDS;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
-use crate::app::ui::kit::widgets::{act_button, from_right, menu, option, quiet};
+use crate::app::ui::kit::widgets::{act_button, from_right, menu, option, quiet, tipped};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::names::Choice;
 use crate::transition::{PlayMode, Timing};
@@ -61,7 +61,7 @@ fn play_button(ui: &mut Ui, scene: &Scene) -> Response {
     };
     ui.painter().circle_filled(rect.center(), 17.0, fill);
     icons::paint(ui.painter(), icon, rect, ink);
-    response.on_hover_text("Play or pause (Space); play the other way (R)")
+    tipped(response, "Play or pause (Space); play the other way (R)")
 }
 
 fn place(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
@@ -72,10 +72,9 @@ fn place(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         .speed(0.002)
         .fixed_decimals(3)
         .update_while_editing(false);
-    let response = ui.add_sized([72.0, CONTROL_HEIGHT], number).on_hover_text(
-        "Where the transition is: 0 is the source, 1 the target. Click to type, drag to move; \
-         values below 0 and above 1 extrapolate.",
-    );
+    let tip = "Where the transition is: 0 is the source, 1 the target. Click to type, drag to \
+               move; values below 0 and above 1 extrapolate.";
+    let response = tipped(ui.add_sized([72.0, CONTROL_HEIGHT], number), tip);
     if response.changed() {
         acts.push(Intent::Seek(t));
     }
@@ -99,8 +98,8 @@ fn pass(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
     let tip = "How long one pass takes, without the holds.";
     seconds(ui, &mut timing.duration_secs, 0.1, tip);
     caption(ui, "Lasts");
-    menu(ui, "easing", &mut timing.easing, 88.0)
-        .on_hover_text("How t speeds up and slows down from stop to stop.");
+    let easing = menu(ui, "easing", &mut timing.easing, 88.0);
+    tipped(easing, "How t speeds up and slows down from stop to stop.");
     ui.add_space(GRID);
     for mode in PlayMode::ALL {
         let width = if mode == PlayMode::PingPong {
@@ -128,8 +127,7 @@ fn seconds(ui: &mut Ui, value: &mut f64, least: f64, tip: &str) {
         .max_decimals(2)
         .suffix(" s")
         .update_while_editing(false);
-    ui.add_sized([60.0, CONTROL_HEIGHT], number)
-        .on_hover_text(tip);
+    tipped(ui.add_sized([60.0, CONTROL_HEIGHT], number), tip);
 }
 
 fn speed(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
@@ -147,7 +145,6 @@ fn speed(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
             }
         }
     });
-    shown.response.on_hover_text(
-        "Speed of playing only ([ and ]); Backspace is 1. Recordings keep the duration.",
-    );
+    let tip = "Speed of playing only ([ and ]); Backspace is 1. Recordings keep the duration.";
+    tipped(shown.response, tip);
 }
