@@ -10,7 +10,8 @@ use std::sync::Arc;
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum Fit {
-    /// Coordinates as they stand in the files.
+    /// Coordinates as they stand in the files; photographs, which have none,
+    /// middle on middle.
     #[default]
     AsDrawn,
     /// The middles of both boxes meet.
@@ -54,7 +55,11 @@ pub fn arrangement(
     // By the form's box: pictures have margins that nobody means.
     let to_middle = middle(source) - middle(target);
     let fitted = match fit {
-        Fit::AsDrawn => Similarity::IDENTITY,
+        Fit::AsDrawn => Similarity {
+            offset: photographs([source, target])
+                .map_or(DVec2::ZERO, |[a, b]| a.centre() - b.centre()),
+            ..Similarity::IDENTITY
+        },
         Fit::Centred => Similarity {
             offset: to_middle,
             ..Similarity::IDENTITY
@@ -66,6 +71,16 @@ pub fn arrangement(
         about(middle(source), place_source.checked()?),
         about(centre, place_target.checked()?).after(&fitted),
     ])
+}
+
+/// The boxes of two photographs. They are drawn nowhere: that their lower left
+/// corners lie on each other means nothing, and cuts them on the other sides.
+fn photographs(designs: [&Design; 2]) -> Option<[Bounds; 2]> {
+    let [a, b] = designs.map(|design| {
+        let picture = design.picture.as_ref();
+        picture.filter(|picture| picture.is_photograph())
+    });
+    Some([a?.bounds(), b?.bounds()])
 }
 
 fn scaled_to(source: &Design, target: &Design) -> Result<Similarity, SimilarityError> {
