@@ -61,14 +61,21 @@ fn sum(parts: &[(f64, [f64; 4])]) -> [f64; 4] {
     std::array::from_fn(|k| parts.iter().map(|(share, light)| share * light[k]).sum())
 }
 
-/// Bilinear between pixel centres; pixels of the plane are those of the picture.
+/// Bilinear between pixel centres, mirrored at the edges; pixels of the plane
+/// are those of the picture.
 fn look(picture: &Picture, p: DVec2) -> [f64; 4] {
     let pixels = picture.pixels();
     let last = DVec2::new(
         f64::from(pixels.width() - 1),
         f64::from(pixels.height() - 1),
     );
-    let at = DVec2::new(p.x - 0.5, last.y + 0.5 - p.y).clamp(DVec2::ZERO, last);
+    let size = last + 1.0;
+    let mirrored = |x: f64, size: f64| {
+        let x = x.rem_euclid(2.0 * size);
+        x.min(2.0 * size - x) - 0.5
+    };
+    let at = DVec2::new(mirrored(p.x, size.x), mirrored(size.y - p.y, size.y));
+    let at = at.clamp(DVec2::ZERO, last);
     let low = at.floor();
     let [u, v] = (at - low).to_array();
     let pixel = |dx: f64, dy: f64| {
