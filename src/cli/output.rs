@@ -22,11 +22,30 @@ pub(super) fn data(text: &str) -> Result<(), CliError> {
         .map_err(CliError::Stdout)
 }
 
-/// A value as JSON for [`data`].
+/// A value as JSON for [`data`], with nothing in it that acts on a terminal.
 pub(super) fn json(value: &impl Serialize) -> Result<String, CliError> {
     // By way of a value, whose keys are in alphabetical order.
     let value = serde_json::to_value(value).map_err(CliError::failed)?;
-    Ok(format!("{value:#}\n"))
+    Ok(shown(&format!("{value:#}\n")))
+}
+
+/// JSON with all hidden characters escaped: it asks that of those below space
+/// alone, and some terminals take others for the beginning of a command.
+fn shown(json: &str) -> String {
+    let mut shown = String::with_capacity(json.len());
+    for c in json.chars() {
+        // Within a text a line break is escaped already.
+        if is_hidden(c) && c != '\n' {
+            shown.extend(
+                c.encode_utf16(&mut [0; 2])
+                    .iter()
+                    .map(|unit| format!("\\u{unit:04x}")),
+            );
+        } else {
+            shown.push(c);
+        }
+    }
+    shown
 }
 
 /// Writes a line of words to stderr, whatever has come into them. Where even
@@ -66,4 +85,21 @@ pub(super) fn say_usage(error: &clap::Error, arguments: &[OsString]) -> ExitCode
         error.print().unwrap_or_default();
     }
     ExitCode::from(WRONG_USE)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn json_holds_nothing_that_acts_on_a_terminal_and_reads_as_before() {
+        let name = "a\u{9b}2J\u{1b}[0m\u{202e}\n\u{7f}é";
+        let text = json(&serde_json::json!({ "name": name })).expect("a value");
+        assert!(
+            !text.trim_end().contains(|c| is_hidden(c) && c != '\n'),
+            "{text:?}"
+        );
+        let back: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+        assert_eq!(back["name"], name);
+    }
 }
