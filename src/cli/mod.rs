@@ -91,15 +91,27 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Launch {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     match Cli::try_parse_from(&arguments) {
         Ok(cli) => match cli.command {
-            None if cli.window.files.len() > 2 => Launch::Done(output::exit_code(Err(
-                CliError::too_many(cli.window.files.len()),
-            ))),
+            None if cli.window.files.len() > 2 => {
+                Launch::Done(output::exit_code(Err(too_many(&cli.window.files))))
+            }
             None => Launch::Window(cli.window),
             Some(command) => Launch::Done(output::exit_code(execute(&command))),
         },
         // Help and version come this way, too.
         Err(error) => Launch::Done(output::say_usage(&error, &arguments)),
     }
+}
+
+/// Why so many words are no designs: the first may be meant for a subcommand.
+fn too_many(words: &[PathBuf]) -> CliError {
+    let first = &words[0];
+    if first.extension().is_some() || first.exists() {
+        return CliError::too_many(words.len());
+    }
+    CliError::Usage(format!(
+        "`{}` is neither a subcommand nor a file; see `morphospace --help`",
+        first.display()
+    ))
 }
 
 fn execute(command: &Command) -> Result<(), CliError> {

@@ -183,6 +183,11 @@ fn a_folder_and_many_designs_are_wrong_use() {
         shop.fails(2, &line, "3 designs");
         assert_eq!(words(&shop.run(&line)).lines().count(), 1, "{line}");
     }
+    shop.fails(
+        2,
+        "chek a.obj b.obj",
+        "`chek` is neither a subcommand nor a file",
+    );
 }
 
 #[test]
