@@ -306,6 +306,8 @@ impl Session {
     pub fn insist(&mut self) {
         if let Some(open) = &mut self.open {
             open.loaded.patient = true;
+            // It is tried again, and says anew what is wrong.
+            open.problem = None;
             self.is_stale = true;
         }
     }

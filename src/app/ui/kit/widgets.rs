@@ -171,7 +171,8 @@ pub fn choices<T: PartialEq + Clone>(
     value: &mut T,
     options: &[(T, &str, &str)],
 ) -> Response {
-    let (left, width) = (ui.min_rect().left(), ui.available_width());
+    // That of the panel: beside the row it would cover the label.
+    let (left, width) = (ui.clip_rect().left(), ui.available_width());
     let gap = 2.0;
     let count = options.len().max(1) as f32;
     let each = vec2((width - gap * (count - 1.0)) / count, CONTROL_HEIGHT);
