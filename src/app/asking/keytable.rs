@@ -153,7 +153,10 @@ fn view() -> Vec<Row> {
                 ],
             ),
             ("Hide everything but the stage", letter('h', TogglePanels)),
-            ("Back", vec![named(Key::Escape, Back)]),
+            (
+                "Back, or stop what is being built",
+                vec![named(Key::Escape, Back)],
+            ),
             (
                 "This list",
                 vec![key(Sign('?'), ToggleHelp), named(Key::F1, ToggleHelp)],
