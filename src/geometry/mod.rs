@@ -6,6 +6,7 @@
 //! counter-clockwise positive.
 
 mod bounds;
+mod crossings;
 mod edge_boxes;
 mod pair;
 mod polar;
@@ -18,6 +19,7 @@ mod segment;
 mod similarity;
 
 pub use bounds::Bounds;
+pub use crossings::{Crossing, RingEdge, count_crossings, crossings};
 pub(crate) use edge_boxes::EdgeBoxes;
 pub use glam::{DMat2, DVec2};
 pub use pair::{Pair, Side};

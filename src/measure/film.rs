@@ -6,10 +6,10 @@
 
 use super::distortion::{Distortion, distortion};
 use super::motion::{self, Motion};
-use super::{count_crossings, excess, turning};
+use super::{excess, turning};
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, Solid};
-use crate::geometry::{DVec2, perimeter, signed_area};
+use crate::geometry::{DVec2, count_crossings, perimeter, signed_area};
 use crate::progress::{Cancelled, Progress, Span, Whole, checkpoint, still_wanted};
 use crate::transition::{Frame, Transition};
 use crate::warp::{ArapError, Warp};

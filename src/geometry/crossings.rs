@@ -6,7 +6,9 @@
 //! crossing, by exact predicates. Not counted: touching, coincident edges and
 //! an edge that runs exactly through a vertex.
 
-use crate::geometry::{DVec2, orient2d, segments_cross};
+use super::DVec2;
+use super::predicates::orient2d;
+use super::segment::segments_cross;
 use serde::Serialize;
 
 /// An edge of closed polygons, from a point to the next one.
