@@ -19,7 +19,7 @@ mod plane;
 mod rigid_part;
 mod scattered;
 
-pub use arap::{AngleError, Arap, ArapError, ArapOptions, ArapPath, Ridge, Weights};
+pub use arap::{AngleError, Arap, ArapError, ArapOptions, ArapPath, Life, Ridge, Weights};
 pub use features::{FeatureError, LINE_SAMPLES, MAX_FEATURES};
 pub use kind::{CellWords, Column, WarpKind, Words};
 pub use lattice::{FINEST, Lattice, LatticeError, LatticeOptions, MORE_LEVELS};

@@ -23,20 +23,28 @@ impl PartPath {
         if let [_] = centres {
             return vec![Self::default()]; // the only part is the whole
         }
-        let [from, to] = centroid(centres.iter().copied(), mass);
-        let back = DMat2::from_angle(-whole_angle);
-        centres
-            .iter()
-            .map(|[begin, end]| Self {
-                begin: *begin - from,
-                turned_end: back * (*end - to),
-            })
-            .collect()
+        let whole = centroid(centres.iter().copied(), mass);
+        let path = |ends: &[DVec2; 2]| Self::of(*ends, whole, whole_angle);
+        centres.iter().map(path).collect()
+    }
+
+    /// The path between two places in a whole with the given centroid.
+    pub(super) fn of([begin, end]: [DVec2; 2], [from, to]: [DVec2; 2], whole_angle: f64) -> Self {
+        Self {
+            begin: begin - from,
+            turned_end: DMat2::from_angle(-whole_angle) * (end - to),
+        }
     }
 
     /// The offset from the whole's centroid.
     pub(super) fn at(&self, t: f64, whole_angle: f64) -> DVec2 {
-        DMat2::from_angle(t * whole_angle) * (self.begin * (1.0 - t) + self.turned_end * t)
+        self.at_share(t, t, whole_angle)
+    }
+
+    /// The same where so much of its own way is done, from 0 to 1.
+    pub(super) fn at_share(&self, t: f64, share: f64, whole_angle: f64) -> DVec2 {
+        let own = self.begin * (1.0 - share) + self.turned_end * share;
+        DMat2::from_angle(t * whole_angle) * own
     }
 
     /// How far from its straight line the part is; exactly 0 at both ends.

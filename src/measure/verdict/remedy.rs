@@ -121,7 +121,7 @@ fn tried(
         ..Options::default()
     };
     change.apply(&mut options);
-    match Arap::build(arap.mesh(), &options.arap, progress) {
+    match Arap::with_lives(arap.mesh(), &options.arap, arap.lives(), progress) {
         Ok(other) => scan::rigid_parts(&other, solid, steps, progress).map(Some),
         Err(ArapError::Cancelled(cancelled)) => Err(cancelled),
         Err(_) => Ok(None),

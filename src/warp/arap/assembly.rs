@@ -7,6 +7,7 @@
 //! ½ |Δv − e(t)|², an area like length²/2 times a relative stretch squared.
 
 use super::angles::{self, choose_turns};
+use super::life::Life;
 use super::options::{ArapError, ArapOptions, Weights};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
@@ -50,7 +51,11 @@ pub(super) struct LocalMaps {
 }
 
 impl LocalMaps {
-    pub(super) fn new(mesh: &CompatibleMesh, options: &ArapOptions) -> Result<Self, ArapError> {
+    pub(super) fn new(
+        mesh: &CompatibleMesh,
+        options: &ArapOptions,
+        lives: &[Option<Life>],
+    ) -> Result<Self, ArapError> {
         let areas = Areas::of(mesh);
         let maps: Vec<DMat2> = mesh.faces().iter().map(|f| local_map(mesh, *f)).collect();
         let polars: Vec<Polar> = maps.iter().map(|&m| Polar::of(m)).collect();
@@ -62,7 +67,7 @@ impl LocalMaps {
             &mut face_angles,
             &areas.face_masses(),
             &part_of,
-            best_fit_angle(mesh, &masses),
+            best_fit_angle(mesh, &counted(mesh, &masses, lives)),
             &options.extra_turns,
         );
         let faces = (0..maps.len())
@@ -263,6 +268,24 @@ impl Areas {
         }
         masses
     }
+}
+
+/// The masses without those of parts that are points in one of the designs:
+/// they say nothing of how it turns.
+fn counted(mesh: &CompatibleMesh, masses: &[f64], lives: &[Option<Life>]) -> Vec<f64> {
+    if lives.iter().all(Option::is_none) {
+        return masses.to_vec();
+    }
+    let is_point = |part: u32| lives.get(part as usize).is_some_and(Option::is_some);
+    let parts = mesh.components();
+    let each = masses.iter().zip(&parts);
+    let counted: Vec<f64> = each
+        .map(|(&m, &part)| if is_point(part) { 0.0 } else { m })
+        .collect();
+    if counted.iter().all(|&m| m == 0.0) {
+        return masses.to_vec();
+    }
+    counted
 }
 
 /// The rotation that best takes the source onto the target, in (−π, π].

@@ -4,16 +4,23 @@
 //! centroid is 0/0 where a path collapses.
 
 use super::assembly::LocalMaps;
+use super::life::Life;
 use super::options::ArapPath;
 use crate::compatible::CompatibleMesh;
-use crate::geometry::DVec2;
-use crate::warp::part_path::PartPath;
+use crate::geometry::{DMat2, DVec2};
+use crate::warp::part_path::{PartPath, centroid};
 use std::ops::Range;
 
 /// The connected parts and how they drift.
 #[derive(Clone, Debug)]
 pub(super) struct Drift {
     parts: Vec<PartPath>,
+    /// Of parts that are points in one of the designs.
+    lives: Vec<Option<Life>>,
+    /// The centroids of each part in source and target.
+    centres: Vec<[DVec2; 2]>,
+    /// The design's centroid in source and target.
+    centroid: [DVec2; 2],
     /// Vertices by part.
     vertices: Vec<Run>,
     /// Unknowns in elimination order by part.
@@ -52,6 +59,7 @@ impl Drift {
         maps: &LocalMaps,
         place: &[u32],
         path: ArapPath,
+        lives: Vec<Option<Life>>,
     ) -> Self {
         let component = mesh.components();
         let count = component.iter().max().map_or(0, |&last| last as usize + 1);
@@ -73,8 +81,17 @@ impl Drift {
             ArapPath::Centroid => None,
             ArapPath::Anchor(v) => Some((place[v as usize], component[v as usize])),
         };
+        // Where the whole is does not depend on where points are put.
+        let counted = |part: usize| lives.get(part).is_none_or(Option::is_none);
+        if (0..count).any(counted) {
+            let points = (0..count).filter(|&part| !counted(part));
+            points.for_each(|part| mass[part] = 0.0);
+        }
         Self {
             parts: PartPath::all(&centres, &mass, maps.whole_angle),
+            centroid: centroid(centres.iter().copied(), &mass),
+            centres,
+            lives,
             vertices: Run::all(&component),
             unknowns: Run::all(&part_of_unknown),
             shares,
@@ -86,6 +103,32 @@ impl Drift {
     /// How many connected parts there are.
     pub(super) fn part_count(&self) -> usize {
         self.parts.len()
+    }
+
+    /// The time in which a part changes its size, if it is a point in one of
+    /// the designs.
+    pub(super) fn life(&self, part: usize) -> Option<Life> {
+        self.lives.get(part).copied().flatten()
+    }
+
+    pub(super) fn lives(&self) -> &[Option<Life>] {
+        &self.lives
+    }
+
+    /// Where a part with these centroids is at t, when so much of its own way
+    /// is done.
+    pub(super) fn carried(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
+        let [from, to] = self.centroid;
+        let path = PartPath::of(ends, self.centroid, self.whole_angle);
+        from * (1.0 - t) + to * t + path.at_share(t, share, self.whole_angle)
+    }
+
+    /// The places in source and target that the whole carries to one at t.
+    pub(super) fn carried_back(&self, place: DVec2, t: f64) -> [DVec2; 2] {
+        let [from, to] = self.centroid;
+        let offset = place - (from * (1.0 - t) + to * t);
+        let turned = |by: f64| DMat2::from_angle(by * self.whole_angle) * offset;
+        [from + turned(-t), to + turned(1.0 - t)]
     }
 
     /// Ranges that hold every vertex once, and the part of each range.
@@ -105,8 +148,17 @@ impl Drift {
             let [shares, dx, dy] = [&self.shares, dx, dy].map(|all| &all[range.clone()]);
             shifts[*part] -= DVec2::new(dot(shares, dx), dot(shares, dy));
         }
-        for (shift, part) in shifts.iter_mut().zip(&self.parts) {
-            *shift += part.deviation(t, self.whole_angle);
+        for (part, shift) in shifts.iter_mut().enumerate() {
+            match self.life(part) {
+                // The ends are met to the last bit.
+                Some(_) if t == 0.0 || t == 1.0 => *shift = DVec2::ZERO,
+                Some(life) => {
+                    let ([from, to], share) = (self.centres[part], life.share(t));
+                    let straight = from * (1.0 - share) + to * share;
+                    *shift = self.carried([from, to], share, t) - straight;
+                }
+                None => *shift += self.parts[part].deviation(t, self.whole_angle),
+            }
         }
         if let Some((at, part)) = self.anchor {
             // All parts move along, or those without the anchor would tear away.

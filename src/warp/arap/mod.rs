@@ -22,10 +22,12 @@
 //! - `stresses`: the right-hand side of a frame, many faces at a time
 //! - `ridge`: what is added to a matrix that rounding has eaten at
 //! - `drift`: where parts as a whole are at t
+//! - `life`: when parts grow from points and shrink to them
 
 mod angles;
 mod assembly;
 mod drift;
+mod life;
 mod options;
 mod ridge;
 mod stresses;
@@ -34,6 +36,7 @@ mod stresses;
 mod tests;
 
 pub use angles::AngleError;
+pub use life::Life;
 pub use options::{ArapError, ArapOptions, ArapPath, Weights};
 pub use ridge::Ridge;
 
@@ -94,6 +97,24 @@ impl Arap {
         options: &ArapOptions,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
+        Self::with_lives(mesh, options, &[], progress)
+    }
+
+    /// As [`Self::build`], of a mesh some of whose connected parts are points
+    /// in one of the designs, and have a time in which they change their size;
+    /// none for those that are not, and for parts beyond the list. Where the
+    /// design is as a whole, and how it turns, is then decided by the others.
+    /// By the linear homotopy, which knows of no whole, they wait where they
+    /// are points.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub fn with_lives(
+        mesh: &CompatibleMesh,
+        options: &ArapOptions,
+        lives: &[Option<Life>],
+        progress: &dyn Progress,
+    ) -> Result<Self, ArapError> {
         let weights = options
             .weights
             .subdivided(mesh.faces().len(), options.subdivisions)?;
@@ -107,8 +128,8 @@ impl Arap {
             subdivisions: 0,
             ..options.clone()
         };
-        let maps = LocalMaps::new(&mesh, &options)?;
-        Self::from_maps(mesh, maps, options, progress)
+        let maps = LocalMaps::new(&mesh, &options, lives)?;
+        Self::from_maps(mesh, maps, options, lives.to_vec(), progress)
     }
 
     /// Assembles and factors: `options` are those of the mesh as it is.
@@ -116,6 +137,7 @@ impl Arap {
         mesh: CompatibleMesh,
         maps: LocalMaps,
         options: ArapOptions,
+        lives: Vec<Option<Life>>,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         checkpoint(progress, "factoring", 0.3)?;
@@ -129,7 +151,7 @@ impl Arap {
         let place = cholesky.place_in_order();
         let stresses = Stresses::new(&mesh, &maps, options.homotopy);
         still_wanted(progress)?;
-        let drift = Drift::new(&mesh, &maps, place, options.path);
+        let drift = Drift::new(&mesh, &maps, place, options.path, lives);
         Ok(Self(Arc::new(Inner {
             mesh,
             cholesky,
@@ -193,8 +215,29 @@ impl Arap {
     pub fn swapped(&self, progress: &dyn Progress) -> Result<Self, ArapError> {
         let inner = &*self.0;
         let mesh = inner.mesh.swapped();
-        let maps = LocalMaps::new(&mesh, &inner.options)?.turning_back(&inner.maps);
-        Self::from_maps(mesh, maps, inner.options.clone(), progress)
+        let lives = inner.drift.lives().iter();
+        let lives: Vec<_> = lives.map(|life| life.map(Life::backwards)).collect();
+        let maps = LocalMaps::new(&mesh, &inner.options, &lives)?.turning_back(&inner.maps);
+        Self::from_maps(mesh, maps, inner.options.clone(), lives, progress)
+    }
+
+    /// When each connected part changes its size, if it is a point in one of
+    /// the designs; none beyond the list.
+    #[must_use]
+    pub fn lives(&self) -> &[Option<Life>] {
+        self.0.drift.lives()
+    }
+
+    /// Where at `t` a part is that moves with the whole, when `share` of its own
+    /// way is done from a place in the source to one in the target.
+    pub(crate) fn carried(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
+        self.0.drift.carried(ends, share, t)
+    }
+
+    /// The place in the source and in the target from which the whole carries
+    /// a part to a place at `t`.
+    pub(crate) fn carried_back(&self, place: DVec2, t: f64) -> [DVec2; 2] {
+        self.0.drift.carried_back(place, t)
     }
 
     /// How many parts there are whose extra turns can be chosen apart.
@@ -235,13 +278,19 @@ impl Warp for Arap {
             let (dx, dy) = deviation.split_at(place.len());
             for (run, part) in arap.drift.runs() {
                 let shift = shifts[part];
+                // Of what only changes its size every map is that change: it
+                // deviates by nothing but rounding.
+                let (t, weight) = match arap.drift.life(part) {
+                    Some(life) => (life.share(t), 0.0),
+                    None => (t, 1.0),
+                };
                 let ends = in_source[run.clone()].iter().zip(&in_target[run.clone()]);
                 let rest = in_frame[run.clone()].iter_mut().zip(&place[run]);
                 for ((&p, &q), (out, &at)) in ends.zip(rest) {
                     let u = DVec2::new(dx[at as usize], dy[at as usize]);
                     // What is exactly 0 at an end is added last, so that the
                     // end is met to the last bit.
-                    *out = (p * (1.0 - t) + q * t) + (u + shift);
+                    *out = (p * (1.0 - t) + q * t) + (u * weight + shift);
                 }
             }
         })

@@ -308,7 +308,7 @@ mod tests {
             [[v, v + 2, v + 3], [v, v + 3, v + 1]] // 28: three blocks and a half
         });
         let mesh = CompatibleMesh::new(faces.collect(), source, target, vec![])?;
-        let maps = LocalMaps::new(&mesh, &ArapOptions::default())?;
+        let maps = LocalMaps::new(&mesh, &ArapOptions::default(), &[])?;
         for homotopy in Homotopy::ALL {
             let chosen = Stresses::new(&mesh, &maps, homotopy);
             let plain = Stresses {

@@ -371,7 +371,7 @@ fn an_anchor_runs_straight() {
 #[test]
 fn the_centroid_of_fixed_masses_runs_straight() {
     let mesh = bent_pair();
-    let masses = LocalMaps::new(&mesh, &ArapOptions::default())
+    let masses = LocalMaps::new(&mesh, &ArapOptions::default(), &[])
         .unwrap()
         .masses;
     let centroid = |v: &[DVec2]| -> DVec2 { v.iter().zip(&masses).map(|(&p, &m)| p * m).sum() };
@@ -479,4 +479,49 @@ fn what_is_added_to_a_matrix_is_told() {
     // The bar's stiffness is lost beside that of the second triangle.
     let (share, vertex) = (1e-13, 3);
     assert_eq!(ridge(on_a_thread(1e10)), Some(Ridge { share, vertex }));
+}
+
+#[test]
+fn a_part_that_is_a_point_waits_and_moves_with_the_whole() {
+    // The second strip is a speck in the source, and grows in the last quarter.
+    let turn = DMat2::from_angle(1.0);
+    let whole = parts(|p| turn * p);
+    let components = whole.components();
+    let (speck, middle) = (components[8], DVec2::new(6.0, 2.5));
+    let places = || whole.source().iter().zip(&components);
+    let small = |(&p, &part): (&DVec2, &u32)| match part == speck {
+        true => middle + (p - middle) * 1e-4,
+        false => p,
+    };
+    let moved = |(&p, &part): (&DVec2, &u32)| match part == speck {
+        true => p + DVec2::X,
+        false => turn * p,
+    };
+    let (source, target) = (places().map(small).collect(), places().map(moved).collect());
+    let faces = whole.faces().to_vec();
+    let mesh = CompatibleMesh::new(faces, source, target, whole.elements().to_vec()).unwrap();
+    let late = Life {
+        from: 0.75,
+        to: 1.0,
+    };
+    let lives = [None, Some(late)];
+    let arap = Arap::with_lives(&mesh, &ArapOptions::default(), &lives, &Silent).unwrap();
+    let back = arap.swapped(&Silent).unwrap();
+    let at = |arap: &Arap, t: f64| {
+        let mut placer = arap.placer();
+        placer.place(t);
+        placer.placement().in_frame.clone()
+    };
+    assert_eq!(at(&arap, 0.0), mesh.source());
+    assert_eq!(at(&arap, 1.0), mesh.target());
+    let length = |places: &[DVec2]| places[8].distance(places[12]);
+    assert!(length(&at(&arap, 0.75)) < 3e-4);
+    assert!((length(&at(&arap, 0.875)) - 1.0).abs() < 1e-3);
+    // What waits turns about the others' centroid as they do.
+    let from_the_first = |places: &[DVec2]| places[8].distance(places[0]);
+    let waiting = from_the_first(&at(&arap, 0.5));
+    assert!((waiting - from_the_first(mesh.source())).abs() < 1e-3);
+    for t in TIMES {
+        assert!(largest_distance(&at(&arap, t), &at(&back, 1.0 - t)) < 1e-9);
+    }
 }
