@@ -15,13 +15,14 @@ mod truss;
 
 pub use elements::{BarElement, CompatibleError};
 pub use outlines::OutlinesError;
+pub(crate) use outlines::PieceMeshes;
 pub use polygons::{PinnedError, PolygonOptions, PolygonsError, RingEdge};
 
 pub use surroundings::SurroundingsError;
 pub use truss::TrussError;
 
 use crate::design::Truss;
-use crate::geometry::{Bounds, DMat2, DVec2, Side};
+use crate::geometry::{Bounds, DMat2, DVec2, Side, orient2d};
 use crate::mesh::{
     Connectivity, Subdivision, TooManyVertices, TriangleMesh, check_faces, components,
 };
@@ -221,6 +222,31 @@ impl CompatibleMesh {
             target: self.source.clone(),
             ..self.clone()
         }
+    }
+
+    /// With each connected part moved in the source and in the target; none if
+    /// rounding turns a face over.
+    pub(crate) fn with_parts_moved(&self, by: &[[DVec2; 2]]) -> Option<Self> {
+        let parts = self.components();
+        let moved = |side: Side, points: &[DVec2]| -> Vec<DVec2> {
+            let places = points.iter().zip(&parts);
+            places
+                .map(|(&p, &part)| p + by[part as usize][side])
+                .collect()
+        };
+        let moved = Self {
+            source: moved(Side::Source, &self.source),
+            target: moved(Side::Target, &self.target),
+            ..self.clone()
+        };
+        let is_positive = |points: &[DVec2]| {
+            let corners = moved
+                .faces
+                .iter()
+                .map(|face| face.map(|v| points[v as usize]));
+            corners.into_iter().all(|[a, b, c]| orient2d(a, b, c) > 0.0)
+        };
+        (is_positive(&moved.source) && is_positive(&moved.target)).then_some(moved)
     }
 
     /// Every face split into four, `rounds` times; neither shape changes,

@@ -56,9 +56,33 @@ impl CompatibleMesh {
         options: &PolygonOptions,
         progress: &dyn Progress,
     ) -> Result<Self, OutlinesError> {
+        PieceMeshes::default().of(matched, options, progress)
+    }
+}
+
+/// The meshes of pieces that were triangulated before, for a match that has
+/// them still.
+#[derive(Debug, Default)]
+pub(crate) struct PieceMeshes(Vec<(PieceMatch, CompatibleMesh)>);
+
+impl PieceMeshes {
+    /// As [`CompatibleMesh::from_outlines`], with the meshes of the pieces
+    /// that are known; those of this match are known then.
+    ///
+    /// # Errors
+    /// As [`CompatibleMesh::from_outlines`].
+    pub(crate) fn of(
+        &mut self,
+        matched: &RegionMatch,
+        options: &PolygonOptions,
+        progress: &dyn Progress,
+    ) -> Result<CompatibleMesh, OutlinesError> {
         let pieces = matched.pieces.len();
         let shares = Several::new(progress, pieces);
         let meshes = matched.pieces.par_iter().enumerate().map(|(piece, rings)| {
+            if let Some((_, mesh)) = self.0.iter().find(|known| known.0 == *rings) {
+                return Ok(mesh.clone());
+            }
             of_piece(rings, options, &shares.part(piece)).map_err(|error| OutlinesError {
                 piece,
                 pieces,
@@ -66,7 +90,9 @@ impl CompatibleMesh {
             })
         });
         let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
-        Ok(joined(&meshes))
+        let whole = joined(&meshes);
+        self.0 = matched.pieces.iter().cloned().zip(meshes).collect();
+        Ok(whole)
     }
 }
 

@@ -3,17 +3,21 @@
 //!
 //! No measure of two boundaries alone tells what becomes of the inside, so a
 //! match is judged by its film. Candidates come in rounds: first the match at
-//! the prices that were asked for, and at other prices beside it where the
-//! shapes are unlike; then, as long as the best film folds, the others. Of
-//! all films so far the best is the one with the fewest folded faces over all
-//! its steps, then the least distortion, then the earliest.
+//! the prices that were asked for, its parts out of each other's way, and at
+//! other prices beside it where the shapes are unlike; then, as long as the
+//! best film folds or crosses, the others. Of all films so far the best is the
+//! one with the fewest folded faces and crossings over all its steps, then the
+//! least distortion, then the earliest.
 
+use super::births::lives;
+use super::conflicts::Walks;
 use super::error::BuildError;
 use super::rigid::arap;
+use super::settled::{parted, placed};
 use super::spec::TransitionSpec;
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::{Matching, Prepared, RegionMatch};
-use crate::geometry::{Regions, orient2d};
+use crate::geometry::{Regions, count_crossings, orient2d};
 use crate::progress::{Cancelled, Progress, Several, Span, checkpoint, still_wanted};
 use crate::warp::{Arap, Warp};
 use rayon::prelude::*;
@@ -29,7 +33,7 @@ const OTHER_PRICES: [f64; 2] = [0.6, 1.2];
 /// thickness, which of a thick body and thin arms makes one arm the body.
 const LAST_PRICES: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 
-/// Steps of a film that is looked at for folds.
+/// Steps of a film that is looked at for folds and crossings.
 /// Each costs a frame of every candidate; a fold between two is missed.
 const STEPS: u32 = 16;
 
@@ -42,27 +46,29 @@ const SECOND: f64 = 0.7;
 const MESHED: f64 = 0.9;
 
 /// A match with its film, and how good that is.
-pub(super) struct Candidate {
-    pub matched: RegionMatch,
-    pub film: Arap,
+struct Candidate {
+    matched: RegionMatch,
+    film: Arap,
     folds: usize,
     distortion: f64,
 }
 
-/// The match of both outlines that is kept, with its film.
+/// The match of both outlines that is kept, and its film, settled.
 pub(super) fn best(
     spec: &TransitionSpec,
     outlines: &[Regions; 2],
     progress: &dyn Progress,
-) -> Result<Candidate, BuildError> {
+) -> Result<(RegionMatch, Arap), BuildError> {
     let [source, target] = outlines;
     let asked = &spec.options.matching;
     let begin = Span::new(progress, 0.0, FIRST);
     checkpoint(&begin, "matching", 0.0)?;
-    let prepared = Prepared::new([source, target], asked, &begin)?;
+    let mut prepared = Prepared::new([source, target], asked, &begin)?;
+    let middle = Span::new(progress, FIRST, SECOND);
+    let shares = Several::new(&middle, 1 + OTHER_PRICES.len());
     // What the default match fails with, others would fail with.
-    let first = prepared.matched(&asked.options(), &begin)?;
-    let is_alike = first.pieces.iter().all(|piece| piece.cost <= ALIKE);
+    let first = parted(&mut prepared, spec, &shares.part(0))?;
+    let is_alike = first.0.pieces.iter().all(|piece| piece.cost <= ALIKE);
     let film = |matched, share: &dyn Progress| Candidate::new(matched, spec, share);
     // The best of a round, the first among equals; none of none.
     let other = |round: &[Matching], shares: &Several, from: usize| {
@@ -80,15 +86,9 @@ pub(super) fn best(
         rounds(asked)
     };
     let mut rounds = rounds.into_iter();
-    // Side by side with the first film: most pairs are unlike and need it.
     let beside = if is_alike { None } else { rounds.next() }.unwrap_or_default();
-    let middle = Span::new(progress, FIRST, SECOND);
-    let shares = Several::new(&middle, 1 + beside.len());
-    let (first, beside) = rayon::join(
-        || film(first, &shares.part(0)),
-        || other(&beside, &shares, 1),
-    );
-    let mut best = first?.or(beside?);
+    let first = Candidate::of(first, progress)?;
+    let mut best = first.or(other(&beside, &shares, 1)?);
     let last = Span::new(progress, SECOND, 1.0);
     for round in rounds {
         // Folds alone: the last prices match worse, and are for want of better.
@@ -97,7 +97,7 @@ pub(super) fn best(
         }
         best = best.or(other(&round, &Several::new(&last, round.len()), 0)?);
     }
-    Ok(best)
+    placed((best.matched, best.film), progress)
 }
 
 /// What is tried after the match that was asked for, round by round; nothing
@@ -130,7 +130,14 @@ impl Candidate {
         let [meshing, filming] =
             [(0.0, MESHED), (MESHED, 1.0)].map(|(from, to)| Span::new(progress, from, to));
         let mesh = CompatibleMesh::from_outlines(&matched, &options.triangulation, &meshing)?;
-        let film = arap(&mesh, &options.arap, &filming)?;
+        let film = arap(&mesh, &options.arap, &lives(&matched), &filming)?;
+        Self::of((matched, mesh, film), progress)
+    }
+
+    fn of(
+        (matched, mesh, film): (RegionMatch, CompatibleMesh, Arap),
+        progress: &dyn Progress,
+    ) -> Result<Self, BuildError> {
         Ok(Self {
             folds: folds(&film, progress)?,
             distortion: mesh.distortion(),
@@ -154,9 +161,11 @@ impl Candidate {
     }
 }
 
-/// Faces that are not positive, over all steps of a film.
+/// Faces that are not positive, and crossings of the outlines of what both
+/// designs have, over all steps of a film.
 fn folds(arap: &Arap, progress: &dyn Progress) -> Result<usize, Cancelled> {
     let mut placer = arap.placer();
+    let walks = Walks::of(arap);
     let mut folds = 0;
     for step in 1..STEPS {
         still_wanted(progress)?;
@@ -167,6 +176,7 @@ fn folds(arap: &Arap, progress: &dyn Progress) -> Result<usize, Cancelled> {
             orient2d(a, b, c) <= 0.0
         };
         folds += arap.mesh().faces().iter().filter(is_folded).count();
+        folds += count_crossings(&walks.rings(arap, places));
     }
     Ok(folds)
 }

@@ -14,16 +14,20 @@
 //!   (rigid parts, or `boundaries` alone) and `plane` (warps of the plane,
 //!   from the `features` that they go by); `rigid`: a mesh that is not too
 //!   large
-//! - `choice`: of several matches the one whose film has the least trouble
+//! - `choice`: of several matches the one whose film has the least trouble;
+//!   `settled`: its parts out of each other's way, by the `conflicts` that it
+//!   has and the places and times of `births`
 //! - `note`: what was done otherwise than asked
 //! - `ready`, `frame`: the transition and its moments
 //! - `timing`, `style`: how it is played and painted
 
 mod arrange;
+mod births;
 mod boundaries;
 mod build;
 mod cells;
 mod choice;
+mod conflicts;
 mod error;
 mod features;
 mod frame;
@@ -33,6 +37,7 @@ mod options;
 mod plane;
 mod ready;
 mod rigid;
+mod settled;
 mod solids;
 mod spec;
 mod style;

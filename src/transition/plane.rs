@@ -194,7 +194,7 @@ fn about_pins(
             Err(error) => return Err(error.into()),
         }
     };
-    let arap = arap(&mesh, &spec.options.arap, progress)?;
+    let arap = arap(&mesh, &spec.options.arap, &[], progress)?;
     Ok(AnyWarp::Rigid(arap))
 }
 
@@ -227,7 +227,7 @@ fn about_outlines(
             return Ok(Err(error));
         }
     };
-    let arap = arap(&mesh, &options.arap, progress)?;
+    let arap = arap(&mesh, &options.arap, &[], progress)?;
     Ok(Ok(match rigid {
         Some(rigid) => AnyWarp::Turned(Turned::new(rigid, arap)),
         None => AnyWarp::Rigid(arap),

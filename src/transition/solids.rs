@@ -35,8 +35,9 @@ pub(super) fn rigid_parts(
             )
         }
         _ => {
-            let best = choice::best(spec, &spec.outlines(bar_width, progress)?, progress)?;
-            (best.film, Some(best.matched))
+            let outlines = spec.outlines(bar_width, progress)?;
+            let (matched, film) = choice::best(spec, &outlines, progress)?;
+            (film, Some(matched))
         }
     };
     let solid = Solid {
@@ -66,5 +67,5 @@ fn given(
         CompatibleError::Truss(TrussError::TooMuch(too_much)) => too_much.into(),
         error => BuildError::from(error),
     })?;
-    arap(&mesh, &spec.options.arap, progress)
+    arap(&mesh, &spec.options.arap, &[], progress)
 }

@@ -3,9 +3,9 @@
 
 use super::*;
 use crate::content::ContentKind;
-use crate::correspondence::{HoleRule, MatchNote};
+use crate::correspondence::{HoleRule, MatchNote, PartRule};
 use crate::design::{Design, ImportOptions, import};
-use crate::geometry::{DVec2, Similarity};
+use crate::geometry::{DVec2, Similarity, count_crossings};
 use crate::progress::{Progress, Silent};
 use crate::warp::WarpKind;
 use std::sync::Arc;
@@ -525,4 +525,38 @@ fn what_a_match_could_not_do_is_told() {
         "{:?}",
         transition.notes()
     );
+}
+
+/// The most crossings at any of many steps.
+fn most_crossings(source: &Arc<Design>, target: &Arc<Design>) -> usize {
+    let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    let mut frame = transition.frame(0.0);
+    let steps = (0..=50).map(|step| {
+        frame.seek(f64::from(step) / 50.0);
+        count_crossings(&frame.figure().rings)
+    });
+    steps.max().unwrap()
+}
+
+#[test]
+fn parts_keep_out_of_each_others_way() {
+    let two = svg("M35 35h30v30h-30z M5 5h10v10h-10z");
+    let badge = svg("M10 10h80v80h-80z M20 20v60h60v-60z M40 40h20v20h-20z");
+    let bar = svg("M10 40h80v20h-80z");
+    let column = svg("M40 10h20v20h-20z M40 40h20v20h-20z M40 70h20v20h-20z");
+    for (a, b) in [(&two, &badge), (&bar, &badge), (&bar, &column)] {
+        assert_eq!([most_crossings(a, b), most_crossings(b, a)], [0, 0]);
+    }
+}
+
+#[test]
+fn parts_that_somebody_had_split_stay_together() {
+    let bar = svg("M10 40h80v20h-80z");
+    let column = svg("M40 10h20v20h-20z M40 40h20v20h-20z M40 70h20v20h-20z");
+    let mut spec = TransitionSpec::new(bar, column);
+    spec.options.matching.parts = PartRule::Split;
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    let pieces = &transition.matched().unwrap().pieces;
+    assert!(pieces.iter().all(|piece| piece.source_part == Some(0)));
 }

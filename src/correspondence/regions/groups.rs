@@ -13,6 +13,14 @@ pub(super) struct Group {
     pub(super) parts: [Vec<usize>; 2],
 }
 
+impl Group {
+    /// What groups are sorted by: their first parts, none last.
+    pub(super) fn key(&self) -> [usize; 2] {
+        let first = |side: Side| self.parts[side].first().copied().unwrap_or(usize::MAX);
+        Side::BOTH.map(first)
+    }
+}
+
 /// All parts of both designs in groups, in the order of the source's parts.
 pub(super) fn grouped(
     designs: [&Regions; 2],
@@ -45,19 +53,16 @@ pub(super) fn grouped(
         part.sort_unstable();
     }
     // Parts that are born have no number in the source: they come last.
-    groups.sort_by_key(|group| {
-        let first = |side: Side| group.parts[side].first().copied().unwrap_or(usize::MAX);
-        Side::BOTH.map(first)
-    });
+    groups.sort_by_key(Group::key);
     Ok(groups)
 }
 
-/// The groups that links and pins name.
-fn said(
+/// The pairs of parts that links and pins name, each once, ascending.
+pub(super) fn said_pairs(
     designs: [&Regions; 2],
     wanted: &Matching,
     pins: &[Pinned],
-) -> Result<Vec<Group>, RegionMatchError> {
+) -> Vec<[usize; 2]> {
     let linked = wanted
         .links
         .iter()
@@ -66,8 +71,17 @@ fn said(
     let mut pairs: Vec<[usize; 2]> = linked.chain(pinned).collect();
     pairs.sort_unstable();
     pairs.dedup();
+    pairs
+}
+
+/// The groups that links and pins name.
+fn said(
+    designs: [&Regions; 2],
+    wanted: &Matching,
+    pins: &[Pinned],
+) -> Result<Vec<Group>, RegionMatchError> {
     let mut groups: Vec<Group> = Vec::new();
-    for pair in pairs {
+    for pair in said_pairs(designs, wanted, pins) {
         let touching = groups.iter_mut().find(|g| {
             Side::BOTH
                 .iter()

@@ -25,6 +25,7 @@ mod locate;
 mod outcome;
 mod piece;
 mod prepared;
+mod released;
 mod sides;
 mod slits;
 mod split;

@@ -4,7 +4,7 @@
 use super::super::{MatchOptions, Matching, RingCut};
 use super::closing::{centre, shrunk};
 use super::crowd;
-use super::groups::{Group, grouped};
+use super::groups::{Group, grouped, said_pairs};
 use super::locate::{self, Pinned, nearest_ring};
 use super::outcome::{MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingMatch};
 use super::piece::matched;
@@ -20,13 +20,18 @@ const PREPARED: f64 = 0.2;
 /// Two designs with their parts in groups, and split where they are to be.
 pub(crate) struct Prepared<'a> {
     designs: [&'a Regions; 2],
-    wanted: &'a Matching,
+    pub(super) wanted: &'a Matching,
+    /// Parts that somebody linked or pinned to each other.
+    pub(super) said: Vec<[usize; 2]>,
     pins: Vec<Pinned>,
     parts: [Parts<'a>; 2],
-    groups: Vec<Group>,
+    pub(super) groups: Vec<Group>,
     /// For each group the pieces that its single part is cut into; none where
     /// it is not cut.
-    pieces: Vec<Option<Vec<Region>>>,
+    pub(super) pieces: Vec<Option<Vec<Region>>>,
+    /// For each group what it was matched to at the prices asked for, once it
+    /// was.
+    pub(super) found: Vec<Option<Vec<PieceMatch>>>,
     is_crowd: bool,
 }
 
@@ -56,17 +61,20 @@ impl<'a> Prepared<'a> {
         let pins = locate::pins(wanted, designs);
         let mut prepared = Self {
             groups: grouped(designs, wanted, &pins)?,
+            said: said_pairs(designs, wanted, &pins),
             parts: designs.map(Parts::of),
             is_crowd: crowd::is_crowd(designs),
             designs,
             wanted,
             pins,
             pieces: Vec::new(),
+            found: Vec::new(),
         };
         let groups = prepared.groups.par_iter();
         prepared.pieces = groups
             .map(|group| prepared.split(group, progress))
             .collect();
+        prepared.found = vec![None; prepared.groups.len()];
         still_wanted(progress)?;
         Ok(prepared)
     }
@@ -77,7 +85,7 @@ impl<'a> Prepared<'a> {
     }
 
     /// The pieces of a group in which one part becomes several.
-    fn split(&self, group: &Group, progress: &dyn Progress) -> Option<Vec<Region>> {
+    pub(super) fn split(&self, group: &Group, progress: &dyn Progress) -> Option<Vec<Region>> {
         let regions = self.regions(group);
         match [&regions[0][..], &regions[1][..]] {
             [[_], [_]] => None,
@@ -86,6 +94,11 @@ impl<'a> Prepared<'a> {
             }
             _ => None,
         }
+    }
+
+    /// What the outer ring of a part encloses.
+    pub(super) fn area(&self, side: Side, part: usize) -> f64 {
+        self.parts[side].regions[part].outer.signed_area()
     }
 
     fn regions(&self, group: &Group) -> [Vec<&'a Region>; 2] {
@@ -101,12 +114,39 @@ impl<'a> Prepared<'a> {
         options: &MatchOptions,
         progress: &dyn Progress,
     ) -> Result<RegionMatch, RegionMatchError> {
+        let unknown = vec![None; self.groups.len()];
+        let pieces = self.by_group(options, &unknown, progress)?.concat();
+        Ok(RegionMatch { pieces })
+    }
+
+    /// The match at the prices that were asked for, which is kept: what stays
+    /// of it when pieces are let go is not found anew.
+    pub(crate) fn matched_as_asked(
+        &mut self,
+        progress: &dyn Progress,
+    ) -> Result<RegionMatch, RegionMatchError> {
+        let found = self.by_group(&self.wanted.options(), &self.found, progress)?;
+        let pieces = found.concat();
+        self.found = found.into_iter().map(Some).collect();
+        Ok(RegionMatch { pieces })
+    }
+
+    /// The pieces of each group at these prices, but for those that are known.
+    fn by_group(
+        &self,
+        options: &MatchOptions,
+        known: &[Option<Vec<PieceMatch>>],
+        progress: &dyn Progress,
+    ) -> Result<Vec<Vec<PieceMatch>>, RegionMatchError> {
         checkpoint(progress, "matching", PREPARED)?;
         let rest = Span::new(progress, PREPARED, 1.0);
         let shares = Several::new(&rest, self.groups.len());
         let options = crowd::options(options, self.designs);
         let groups = self.groups.par_iter().zip(&self.pieces).enumerate();
         let found = groups.map(|(k, (group, cut))| {
+            if let Some(known) = &known[k] {
+                return Ok(known.clone());
+            }
             let share = shares.part(k);
             let pieces = self.pieces_of(group, cut.as_deref(), &options, &share)?;
             checkpoint(&share, "matching", 1.0)?;
@@ -114,10 +154,7 @@ impl<'a> Prepared<'a> {
         });
         // All first: of several failures it is the first in order that is told.
         let found: Vec<Result<Vec<PieceMatch>, RegionMatchError>> = found.collect();
-        let pieces: Result<Vec<_>, _> = found.into_iter().collect();
-        Ok(RegionMatch {
-            pieces: pieces?.concat(),
-        })
+        found.into_iter().collect()
     }
 
     /// The pieces that a group becomes.

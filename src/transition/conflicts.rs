@@ -1,0 +1,138 @@
+//! Which pieces of a film are in each other's way, and which of them to let
+//! go so that the others are not.
+//!
+//! Looked at at a few steps: what is crossed between two is missed. The
+//! pieces let go are a cover of the pairs in conflict, found by taking the one
+//! with the most conflicts for its area first (the greedy cover of Chvátal
+//! 1979): small, not the smallest.
+
+use crate::correspondence::{PieceMatch, RegionMatch};
+use crate::geometry::{DVec2, Side, crossings, signed_area};
+use crate::progress::{Cancelled, Progress, still_wanted};
+use crate::warp::{Arap, Warp};
+use std::collections::BTreeSet;
+
+/// Steps of a film that is looked at.
+pub(super) const STEPS: u32 = 32;
+
+/// The boundary walks of a film, and the piece that each belongs to.
+pub(super) struct Walks {
+    pub walks: Vec<Vec<u32>>,
+    pub pieces: Vec<usize>,
+}
+
+impl Walks {
+    pub(super) fn of(film: &Arap) -> Self {
+        let parts = film.mesh().components();
+        let walks = film.mesh().boundary_loops();
+        let piece = |walk: &Vec<u32>| walk.first().map_or(0, |&v| parts[v as usize] as usize);
+        Self {
+            pieces: walks.iter().map(piece).collect(),
+            walks,
+        }
+    }
+}
+
+impl Walks {
+    /// Where the walks of the parts that both designs have are.
+    pub(super) fn rings(&self, film: &Arap, places: &[DVec2]) -> Vec<Vec<DVec2>> {
+        let all = self.walks.iter().zip(&self.pieces);
+        let both = all.filter(|(_, piece)| film.lives().get(**piece).is_none_or(Option::is_none));
+        both.map(|(walk, _)| walk.iter().map(|&v| places[v as usize]).collect())
+            .collect()
+    }
+}
+
+/// Whether a piece is a part of both designs.
+pub(super) fn is_in_both(piece: &PieceMatch) -> bool {
+    piece.source_part.is_some() && piece.target_part.is_some()
+}
+
+/// The pieces to let go; none where no two parts of both designs meet.
+pub(super) fn in_the_way(
+    matched: &RegionMatch,
+    film: &Arap,
+    progress: &dyn Progress,
+) -> Result<Vec<usize>, Cancelled> {
+    let conflicts = conflicts(matched, film, progress)?;
+    Ok(cover(conflicts, &worths(matched)))
+}
+
+/// The pairs of pieces that cross at any step, those that are born or die
+/// left out: where these are is not settled yet.
+fn conflicts(
+    matched: &RegionMatch,
+    film: &Arap,
+    progress: &dyn Progress,
+) -> Result<BTreeSet<[usize; 2]>, Cancelled> {
+    let Walks { walks, pieces } = Walks::of(film);
+    let both = (0..walks.len()).filter(|&k| is_in_both(&matched.pieces[pieces[k]]));
+    let both: Vec<usize> = both.collect();
+    let mut placer = film.placer();
+    let mut found = BTreeSet::new();
+    for step in 1..STEPS {
+        still_wanted(progress)?;
+        placer.place(f64::from(step) / f64::from(STEPS));
+        let places = &placer.placement().in_frame;
+        let ring = |&k: &usize| walks[k].iter().map(|&v| places[v as usize]).collect();
+        let rings: Vec<Vec<_>> = both.iter().map(ring).collect();
+        for crossing in crossings(&rings) {
+            let [a, b] = crossing.edges.map(|edge| pieces[both[edge.ring]]);
+            if a != b {
+                found.insert([a.min(b), a.max(b)]);
+            }
+        }
+    }
+    Ok(found)
+}
+
+/// What each piece is worth: the mean of both designs' shares of what the
+/// outer rings enclose. A badge is worth as much as what it goes around, which
+/// can grow in it while it cannot grow around that.
+fn worths(matched: &RegionMatch) -> Vec<f64> {
+    let shares = |side: Side| -> Vec<f64> {
+        let outer = |piece: &PieceMatch| {
+            let ring = piece.rings.first();
+            ring.map_or(0.0, |r| signed_area([&r.source, &r.target][side]))
+        };
+        let areas: Vec<f64> = matched.pieces.iter().map(outer).collect();
+        let total: f64 = areas.iter().sum();
+        areas.into_iter().map(|area| area / total).collect()
+    };
+    let [a, b] = Side::BOTH.map(shares);
+    a.iter().zip(&b).map(|(a, b)| 0.5 * (a + b)).collect()
+}
+
+/// Pieces without which no conflict is left, ascending.
+fn cover(mut conflicts: BTreeSet<[usize; 2]>, worths: &[f64]) -> Vec<usize> {
+    let mut gone = Vec::new();
+    while !conflicts.is_empty() {
+        let worth = |k: usize| {
+            let count = conflicts.iter().filter(|pair| pair.contains(&k)).count();
+            count as f64 / worths[k]
+        };
+        let members: BTreeSet<usize> = conflicts.iter().flatten().copied().collect();
+        let Some(worst) = members
+            .into_iter()
+            .reduce(|a, b| if worth(b) > worth(a) { b } else { a })
+        else {
+            break;
+        };
+        conflicts.retain(|pair| !pair.contains(&worst));
+        gone.push(worst);
+    }
+    gone.sort_unstable();
+    gone
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_small_one_that_meets_many_goes_before_the_large_ones() {
+        let conflicts = BTreeSet::from([[0, 2], [1, 2], [0, 3]]);
+        assert_eq!(cover(conflicts, &[0.4, 0.4, 0.1, 0.1]), [2, 3]);
+        assert_eq!(cover(BTreeSet::new(), &[]), Vec::<usize>::new());
+    }
+}
