@@ -6,6 +6,7 @@
 //! counter-clockwise positive.
 
 mod bounds;
+mod crossings;
 mod edge_boxes;
 mod pair;
 mod polar;
@@ -16,8 +17,10 @@ mod repair;
 mod ring;
 mod segment;
 mod similarity;
+mod turning;
 
 pub use bounds::Bounds;
+pub use crossings::{Crossing, RingEdge, count_crossings, crossings};
 pub(crate) use edge_boxes::EdgeBoxes;
 pub use glam::{DMat2, DVec2};
 pub use pair::{Pair, Side};
@@ -32,3 +35,4 @@ pub use ring::{Ring, RingError, perimeter, ring_edges, signed_area, winding};
 pub(crate) use segment::along_ray;
 pub use segment::{along_segment, distance_squared_to_segment, segments_cross, segments_touch};
 pub use similarity::{Similarity, SimilarityError};
+pub(crate) use turning::{turning, turning_excess};

@@ -11,7 +11,6 @@
 //!
 //! Measures are taken at samples: a fold between two samples is not seen.
 
-mod crossings;
 mod distortion;
 mod excess;
 mod film;
@@ -21,10 +20,9 @@ mod series;
 mod stretch;
 #[cfg(test)]
 mod tests;
-mod turning;
 mod verdict;
 
-pub use crossings::{Crossing, RingEdge, count_crossings, crossings};
+pub use crate::geometry::{Crossing, RingEdge, count_crossings, crossings};
 pub use distortion::{Distortion, Distribution, distortion};
 pub use film::{FilmReport, FilmSample, film};
 pub use mesh::{MeshReport, mesh};

@@ -2,9 +2,9 @@
 
 use super::finding::Cause;
 use crate::content::Solid;
+use crate::geometry::{Crossing, RingEdge};
 use crate::geometry::{DVec2, twice_signed_area};
 use crate::homotopy::Homotopy;
-use crate::measure::crossings::{Crossing, RingEdge};
 use crate::measure::distortion::{Strain, edges};
 use crate::measure::stretch;
 use crate::transition::Transition;

@@ -1,9 +1,9 @@
 //! What can be found in a film: trouble, its cause and what helps.
 
 use crate::content::BlendSpace;
+use crate::geometry::Crossing;
 use crate::geometry::DVec2;
 use crate::homotopy::Homotopy;
-use crate::measure::crossings::Crossing;
 use crate::transition::Options;
 use serde::Serialize;
 

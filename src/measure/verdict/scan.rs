@@ -1,8 +1,8 @@
 //! How much is wrong at each t, as cheaply as it can be known.
 
 use crate::content::{Content, Solid};
+use crate::geometry::count_crossings;
 use crate::geometry::{DVec2, signed_area};
-use crate::measure::crossings::count_crossings;
 use crate::measure::distortion::is_folded;
 use crate::measure::film::{FilmSample, even_steps};
 use crate::progress::{Cancelled, Progress, checkpoint};

@@ -5,7 +5,7 @@ use super::finding::{Cause, Finding, Remedy, Trouble};
 use super::remedy;
 use super::scan::{self, Glance};
 use crate::content::Solid;
-use crate::measure::crossings::crossings;
+use crate::geometry::crossings;
 use crate::progress::{Cancelled, Progress};
 use crate::transition::Transition;
 
