@@ -53,7 +53,7 @@
 //!
 //! One direction, no way back. Where outlines are unlike, a transition of rigid
 //! parts is built from several matches: each gets its mesh and its film, and
-//! the one that folds least, then distorts least, then came first is kept.
+//! the one that folds least, then crosses itself least, then distorts least is kept.
 //! Everything that can fail fails while a [`Transition`] is built; a [`Frame`]
 //! cannot fail and allocates nothing when it moves to another t. It is
 //! unevaluated: the stage evaluates it on the GPU, export and tests on the CPU.
