@@ -53,9 +53,9 @@
 //!
 //! One direction, no way back. Where outlines are unlike, a transition of rigid
 //! parts is built from several matches: each gets its mesh and its film, and
-//! the one that folds and crosses least, then distorts least, then came first
-//! is kept. Parts in each other's way are let go: they die and are born, where
-//! and when there is room.
+//! the one that folds least, then crosses itself least, then distorts least is
+//! kept. Parts in each other's way are let go: they die and are born, where and
+//! when there is room.
 //! Everything that can fail fails while a [`Transition`] is built; a [`Frame`]
 //! cannot fail and allocates nothing when it moves to another t. It is
 //! unevaluated: the stage evaluates it on the GPU, export and tests on the CPU.

@@ -183,35 +183,39 @@ impl CompatibleMesh {
         Bounds::diameter_of(&self.source).max(Bounds::diameter_of(&self.target))
     }
 
-    /// How much the map between the embeddings distorts shapes: the mean of
-    /// (σ₁/σ₂ + σ₂/σ₁)/2 over the faces, weighted by their share of the area
-    /// in both; 1 for a similarity. Without faces 1.
+    /// How much the map between the embeddings distorts shapes: the largest
+    /// σ₁/σ₂ of a face but for a share of the area, which is that of the source
+    /// and of the target in equal parts; 1 for a similarity. Without faces 1.
     #[must_use]
-    pub fn distortion(&self) -> f64 {
-        let corners = |points: &[DVec2], face: &[u32; 3]| face.map(|v| points[v as usize]);
-        let edges = |[a, b, c]: [DVec2; 3]| DMat2::from_cols(b - a, c - a);
-        let areas = |points: &[DVec2]| -> f64 {
-            let area = |face| edges(corners(points, face)).determinant();
-            self.faces.iter().map(area).sum()
+    pub fn distortion(&self, but_for: f64) -> f64 {
+        let edges = |points: &[DVec2], face: &[u32; 3]| {
+            let [a, b, c] = face.map(|v| points[v as usize]);
+            DMat2::from_cols(b - a, c - a)
         };
-        let totals = [areas(&self.source), areas(&self.target)];
-        let of = |face: &[u32; 3]| {
-            let (p, q) = (
-                edges(corners(&self.source, face)),
-                edges(corners(&self.target, face)),
-            );
+        let of = |face| {
+            let [p, q] = [&self.source, &self.target].map(|points| edges(points, face));
             // |J|² is σ₁² + σ₂², det J is σ₁σ₂; p has an inverse, its face being
             // positive.
             let j = q * p.inverse();
             let square = j.x_axis.length_squared() + j.y_axis.length_squared();
-            let share = p.determinant() / totals[0] + q.determinant() / totals[1];
-            0.5 * share * (0.5 * square / j.determinant())
+            let mean = 0.5 * square / j.determinant();
+            (mean, [p, q].map(|edges| edges.determinant()))
         };
-        if self.faces.is_empty() {
-            1.0
-        } else {
-            self.faces.iter().map(of).sum()
-        }
+        let mut faces: Vec<(f64, [f64; 2])> = self.faces.iter().map(of).collect();
+        faces.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let total = |side: usize| faces.iter().map(|face| face.1[side]).sum::<f64>();
+        let totals = [total(0), total(1)];
+        let mut share = 0.0;
+        let mut is_beyond = |face: &&(f64, [f64; 2])| {
+            share += 0.5 * (face.1[0] / totals[0] + face.1[1] / totals[1]);
+            share > but_for
+        };
+        let mean = faces
+            .iter()
+            .find(|face| is_beyond(face))
+            .map_or(1.0, |face| face.0);
+        // Of r and 1/r: rounding may leave it below 1.
+        mean + (mean * mean - 1.0).max(0.0).sqrt()
     }
 
     /// The designs exchanged.

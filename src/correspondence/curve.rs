@@ -192,7 +192,7 @@ impl Curve {
     }
 
     /// The last edge that starts at or before the place.
-    fn edge_at(&self, place: f64) -> usize {
+    pub(super) fn edge_at(&self, place: f64) -> usize {
         let after = self.places.partition_point(|&start| start <= place);
         after.clamp(1, self.directions.len()) - 1
     }

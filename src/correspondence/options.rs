@@ -17,6 +17,9 @@ pub struct MatchOptions {
     pub stretch: f64,
     /// Price of differing thickness, at least 0; 1 unless stated.
     pub thickness: f64,
+    /// Price of differing inner distances, at least 0; 0 unless stated, and
+    /// then the boundary alone is compared. With a price no pose is guessed.
+    pub inner: f64,
 }
 
 impl Default for MatchOptions {
@@ -26,6 +29,7 @@ impl Default for MatchOptions {
             keep_up: false,
             stretch: 0.25,
             thickness: 1.0,
+            inner: 0.0,
         }
     }
 }
@@ -52,6 +56,9 @@ pub enum MatchError {
     /// The price of differing thickness is negative or not finite.
     #[error("the price of thickness {0} is not a number of at least 0; choose one such as 1")]
     Thickness(f64),
+    /// The price of inner distances is negative or not finite.
+    #[error("the price of inner distances {0} is not a number of at least 0; choose one such as 8")]
+    Inner(f64),
 }
 
 /// Whether two curves can be matched at all, pins aside.
@@ -71,6 +78,9 @@ pub(super) fn check(
     }
     if !(options.thickness.is_finite() && options.thickness >= 0.0) {
         return Err(MatchError::Thickness(options.thickness));
+    }
+    if !(options.inner.is_finite() && options.inner >= 0.0) {
+        return Err(MatchError::Inner(options.inner));
     }
     Ok(())
 }

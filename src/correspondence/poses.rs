@@ -83,6 +83,16 @@ impl Problem {
         distinct(good.map(|solution| solution.rotation))
     }
 
+    /// How unlike samples are where no pose is guessed.
+    pub(super) fn unposed(&self) -> Vec<f64> {
+        let blind = self.blind();
+        if !self.keep_up {
+            return blind;
+        }
+        let [a, b] = [&self.source_features, &self.target_features];
+        a.unlike_posed(b, &blind, 0.0, PoseWeights::FIXED)
+    }
+
     /// How unlike samples are whatever the pose.
     fn blind(&self) -> Vec<f64> {
         (self.source_features).unlike(&self.target_features, self.thickness)
@@ -117,7 +127,8 @@ impl Problem {
         poses
     }
 
-    fn best_path(&self, unlike: Vec<f64>) -> Solution {
+    /// The best path by how unlike samples are, over all starts.
+    pub(super) fn best_path(&self, unlike: Vec<f64>) -> Solution {
         let mut best: Option<Solution> = None;
         self.visit_paths(&unlike, |cost, nodes| {
             if best.as_ref().is_some_and(|b| cost >= b.score) {

@@ -6,6 +6,7 @@
 use super::curve::Curve;
 use super::cyclic::all_starts;
 use super::features::Features;
+use super::inner::Inner;
 use super::options::MatchOptions;
 use super::path_grid::{PathGrid, Route, Scratch};
 use super::samples::Samples;
@@ -26,6 +27,9 @@ pub(super) struct Problem {
     stretch: f64,
     pub(super) thickness: f64,
     pub(super) keep_up: bool,
+    pub(super) price_inside: f64,
+    /// None where they have no price.
+    pub(super) inner: Option<[Inner; 2]>,
     /// The same with fewer samples, to tell which poses are worth a full
     /// search; none where the full one is small.
     pub(super) coarse: Option<Box<Self>>,
@@ -42,7 +46,11 @@ impl Problem {
         let fixed = |side: usize| pins.iter().map(|pin| pin[side]).collect::<Vec<_>>();
         let a = Samples::of(source, options.samples, &fixed(0));
         let b = Samples::of(target, options.samples, &fixed(1));
+        let is_priced = options.inner > 0.0;
+        let inner = |curve, samples| is_priced.then(|| Inner::of(curve, samples)).flatten();
         Self {
+            price_inside: options.inner,
+            inner: inner(source, &a).zip(inner(target, &b)).map(<[_; 2]>::from),
             source_features: Features::of(source, &a),
             target_features: Features::of(target, &b),
             source: a,

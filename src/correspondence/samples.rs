@@ -51,6 +51,15 @@ impl Samples {
         self.places.binary_search_by(|p| p.total_cmp(&place)).ok()
     }
 
+    /// The sample nearest to a place, both counted on over the seam.
+    pub fn nearest(&self, place: f64) -> usize {
+        let round = place.floor();
+        let after = self.places.partition_point(|&p| p < place - round);
+        let after = after + self.places.len() * round as usize;
+        let is_before = |k: &usize| place - self.unrolled(*k) < self.unrolled(after) - place;
+        after.checked_sub(1).filter(is_before).unwrap_or(after)
+    }
+
     /// Place of a sample counted on over the seam.
     pub fn unrolled(&self, index: usize) -> f64 {
         let n = self.places.len();

@@ -15,7 +15,8 @@ const REACH: usize = 9;
 impl Problem {
     /// The match of the two curves, which are those it was made of.
     pub fn solve(self, curves: [&Curve; 2]) -> BoundaryMatch {
-        let solution = self.posed_solution();
+        let inside = self.solution_inside();
+        let solution = inside.unwrap_or_else(|| self.posed_solution());
         let nodes = self.strict(&solution);
         let place = |&[i, j]: &[usize; 2]| {
             let (n, m) = (self.source.places.len(), self.target.places.len());

@@ -6,9 +6,7 @@
 //! crossing, by exact predicates. Not counted: touching, coincident edges and
 //! an edge that runs exactly through a vertex.
 
-use super::DVec2;
-use super::predicates::orient2d;
-use super::segment::segments_cross;
+use super::{DVec2, orient2d, segments_cross};
 use serde::Serialize;
 
 /// An edge of closed polygons, from a point to the next one.
@@ -33,7 +31,7 @@ pub struct Crossing {
 /// itself and with the others.
 ///
 /// ```
-/// use morphospace::{geometry::DVec2, measure::count_crossings};
+/// use morphospace::geometry::{DVec2, count_crossings};
 /// let bow = [(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)].map(DVec2::from).to_vec();
 /// assert_eq!(count_crossings(&[bow]), 1);
 /// ```
@@ -47,7 +45,7 @@ pub fn count_crossings(rings: &[Vec<DVec2>]) -> usize {
 /// The proper crossings themselves, in the order of their edges.
 ///
 /// ```
-/// use morphospace::{geometry::DVec2, measure::crossings};
+/// use morphospace::geometry::{DVec2, crossings};
 /// let bow = [(0.0, 0.0), (1.0, 1.0), (1.0, 0.0), (0.0, 1.0)].map(DVec2::from).to_vec();
 /// assert_eq!(crossings(&[bow])[0].place, DVec2::splat(0.5));
 /// ```

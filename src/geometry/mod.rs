@@ -17,6 +17,7 @@ mod repair;
 mod ring;
 mod segment;
 mod similarity;
+mod turning;
 
 pub use bounds::Bounds;
 pub use crossings::{Crossing, RingEdge, count_crossings, crossings};
@@ -34,3 +35,4 @@ pub use ring::{Ring, RingError, perimeter, ring_edges, signed_area, winding};
 pub(crate) use segment::along_ray;
 pub use segment::{along_segment, distance_squared_to_segment, segments_cross, segments_touch};
 pub use similarity::{Similarity, SimilarityError};
+pub(crate) use turning::{turning, turning_excess};

@@ -5,11 +5,11 @@
 //! parts some microseconds a face and sample, for fields a contour each.
 
 use super::distortion::{Distortion, distortion};
+use super::excess;
 use super::motion::{self, Motion};
-use super::{excess, turning};
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, Solid};
-use crate::geometry::{DVec2, count_crossings, perimeter, signed_area};
+use crate::geometry::{DVec2, count_crossings, perimeter, signed_area, turning, turning_excess};
 use crate::progress::{Cancelled, Progress, Span, Whole, checkpoint, still_wanted};
 use crate::transition::{Frame, Transition};
 use crate::warp::{ArapError, Warp};
@@ -176,7 +176,7 @@ impl<'a> Sampler<'a> {
             area: rings.iter().map(|ring| signed_area(ring)).sum::<f64>()
                 + lengths * solid.bar_width,
             perimeter: rings_perimeter(&rings) + 2.0 * lengths,
-            turning: turning::turning(&rings, self.diameter),
+            turning: turning(&rings, self.diameter),
             pieces: self.topology.map(|[pieces, _]| pieces),
             holes: self.topology.map(|[_, holes]| holes),
             crossings: (!rings.is_empty()).then(|| count_crossings(&rings)),
@@ -214,7 +214,7 @@ fn of_rings(t: f64, rings: &[Vec<DVec2>], diameter: f64) -> FilmSample {
         t,
         area: areas.iter().sum(),
         perimeter: rings_perimeter(rings),
-        turning: turning::turning(rings, diameter),
+        turning: turning(rings, diameter),
         pieces: Some(rings.len() - holes),
         holes: Some(holes),
         crossings: None,
@@ -249,7 +249,7 @@ fn report(
         asymmetry,
         area_variation_excess: excess::of_variation(samples.iter().map(|s| s.area)),
         perimeter_variation_excess: excess::of_variation(samples.iter().map(|s| s.perimeter)),
-        turning_excess: turning::excess(&turning),
+        turning_excess: turning_excess(&turning),
         pieces_excess: excess::of_count(samples.iter().map(|s| s.pieces)),
         holes_excess: excess::of_count(samples.iter().map(|s| s.holes)),
         motion,

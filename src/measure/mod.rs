@@ -20,7 +20,6 @@ mod series;
 mod stretch;
 #[cfg(test)]
 mod tests;
-mod turning;
 mod verdict;
 
 pub use crate::geometry::{Crossing, RingEdge, count_crossings, crossings};

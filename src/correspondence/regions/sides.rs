@@ -213,7 +213,7 @@ impl<'a> Sides<'a> {
         let at = numbers.iter().position(|&k| k == hole)?;
         // Both walks were measured when they were matched as they are.
         let other = self.walks[side.other()].curve().ok()?;
-        let (options, progress) = (&self.task.options, self.task.progress);
+        let (options, progress) = (&self.along_boundary(), self.task.progress);
         let best = cut::best(&self.walks[side], &holes, at, &other, options, progress);
         let Some(opened) = best else {
             self.tell_uncut(side, hole, forced);
@@ -244,9 +244,17 @@ impl<'a> Sides<'a> {
         self.notes.extend(pins.map(MatchNote::PinLeftOut));
     }
 
+    /// How matches that are many are tried: by the boundary alone.
+    fn along_boundary(&self) -> MatchOptions {
+        MatchOptions {
+            inner: 0.0,
+            ..self.task.options.clone()
+        }
+    }
+
     fn coarse_cost(&self, side: Side, other: &Curve) -> Option<f64> {
         let curve = self.walks[side].curve().ok()?;
-        let coarse = cut::coarse(&self.task.options);
+        let coarse = cut::coarse(&self.along_boundary());
         let matched = match_curves(&curve, other, &[], &coarse).ok()?;
         Some(matched.cost())
     }

@@ -4,14 +4,14 @@
 //! W = Σ |exterior angle|, 2π for each convex ring. Outlines are sampled
 //! evenly first, so that a corner counts and noise finer than the eye does not.
 
-use crate::geometry::{DVec2, perimeter};
+use super::{DVec2, perimeter};
 use std::f64::consts::TAU;
 
 /// Samples along the diameter of what is drawn.
 const ALONG_DIAMETER: f64 = 200.0;
 
 /// By how much all rings turn, in radians; `diameter` is that of the whole.
-pub(super) fn turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
+pub(crate) fn turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
     let step = diameter / ALONG_DIAMETER;
     let of = |ring: &Vec<DVec2>| {
         let points = sampled(ring, step);
@@ -29,7 +29,7 @@ pub(super) fn turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
 
 /// By how much the turning at `t` exceeds what lies between the ends, as a
 /// share of that, where it does so most; pairs `[t, W]`, t from 0 to 1.
-pub(super) fn excess(turning: &[[f64; 2]]) -> f64 {
+pub(crate) fn turning_excess(turning: &[[f64; 2]]) -> f64 {
     let (Some([_, first]), Some([_, last])) = (turning.first(), turning.last()) else {
         return 0.0;
     };
@@ -99,8 +99,8 @@ mod tests {
 
     #[test]
     fn only_what_lies_above_the_line_between_the_ends_is_too_much() {
-        assert_eq!(excess(&[[0.0, 6.0], [0.5, 7.0], [1.0, 8.0]]), 0.0);
-        assert_eq!(excess(&[[0.0, 6.0], [0.5, 14.0], [1.0, 8.0]]), 1.0);
-        assert_eq!(excess(&[]), 0.0);
+        assert_eq!(turning_excess(&[[0.0, 6.0], [0.5, 7.0], [1.0, 8.0]]), 0.0);
+        assert_eq!(turning_excess(&[[0.0, 6.0], [0.5, 14.0], [1.0, 8.0]]), 1.0);
+        assert_eq!(turning_excess(&[]), 0.0);
     }
 }
