@@ -244,16 +244,13 @@ mod tests {
     fn slow(points: &[DVec2], ends: [DVec2; 2]) -> f64 {
         let nodes: Vec<DVec2> = ends.into_iter().chain(points.iter().copied()).collect();
         let ring = Ring::new(points.to_vec()).expect("a ring");
+        // Looked at closely, and not by crossings: a place lies on its edge to
+        // rounding only.
         let sees = |a: DVec2, b: DVec2| {
-            // A place lies on its edge to rounding only.
-            let short = [a.lerp(b, 1e-9), b.lerp(a, 1e-9)];
-            let crosses = |(p, q)| crate::geometry::segments_cross(short, [p, q]);
-            // Often enough for corners that are far apart.
-            let inside = |k: u32| {
-                let p = a.lerp(b, (f64::from(k) + 0.5) / 64.0);
-                ring.winding(p) != 0 || ring.distance_squared(p) < 1e-12
-            };
-            !ring.edges().any(crosses) && (0..64).all(inside)
+            (0..200).all(|k| {
+                let p = a.lerp(b, (f64::from(k) + 0.5) / 200.0);
+                ring.winding(p) != 0 || ring.distance_squared(p) < 1e-14
+            })
         };
         let mut best = vec![f64::INFINITY; nodes.len()];
         best[0] = 0.0;
@@ -291,7 +288,7 @@ mod tests {
             (0.0, 1.5),
         ];
         let spiral = curve(&spiral);
-        let places: Vec<f64> = (0..23).map(|k| (f64::from(k) + 0.37) / 23.0).collect();
+        let places: Vec<f64> = (0..9).map(|k| (f64::from(k) + 0.37) / 9.0).collect();
         let found = InnerDistances::of(&spiral, &places).expect("simple");
         for i in 0..places.len() {
             for k in 0..i {
