@@ -157,10 +157,10 @@ fn t_axis(colour: Color32) -> AxisHints<'static> {
         .formatter(|mark, _| format!("{}", (mark.value * 100.0).round() / 100.0))
 }
 
-/// Two to five marks from the least to the greatest value, a round step apart: tenfold steps alone
+/// Three to six marks from the least to the greatest value, a round step apart: tenfold steps alone
 /// leave an axis up to 9,000 without any that there is room for.
 fn marks((least, greatest): (f64, f64)) -> Vec<GridMark> {
-    let rough = (greatest - least) / 4.0;
+    let rough = (greatest - least) / 5.0;
     let ten = 10_f64.powf(rough.log10().floor());
     let round = [1.0, 2.0, 5.0, 10.0].map(|digit| digit * ten);
     let wide = |step: &f64| *step > 0.0 && *step >= rough;
