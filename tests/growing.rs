@@ -1,6 +1,7 @@
 //! Families of designs that grow: holes, pieces, rings in rings, stars, bars.
 //! The built program takes no longer for them than the square of their size
-//! allows, and less than a gibibyte.
+//! allows, and less than a gibibyte. All of them with
+//! `cargo test --release --test growing`; without `--release` the quick ones.
 
 use std::f64::consts::TAU;
 use std::fs;
@@ -118,6 +119,7 @@ fn places(count: u32) -> impl Iterator<Item = DVec2> {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn many_holes_take_no_more_than_their_square() {
     grows_slowly("holes", |n| {
         let sheet = [(0.0, 0.0), (10.0, 0.0), (10.0, 8.0), (0.0, 8.0)].map(DVec2::from);
@@ -127,11 +129,13 @@ fn many_holes_take_no_more_than_their_square() {
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn many_pieces_take_no_more_than_their_square() {
     grows_slowly("pieces", |n| polygons(places(n).map(|p| around(p, 0.3, 6))));
 }
 
 #[test]
+#[cfg_attr(debug_assertions, ignore = "takes minutes unless optimised")]
 fn rings_in_rings_take_no_more_than_their_square() {
     grows_slowly("nested", |n| {
         polygons((1..=n).map(|k| around(DVec2::ZERO, f64::from(k), 6)))
