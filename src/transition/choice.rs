@@ -99,10 +99,16 @@ pub(super) fn best(
         let found = round.par_iter().enumerate().map(|(k, options)| {
             let share = shares.part(from + k);
             let [begin, rest] = [(0.0, FIRST), (FIRST, 1.0)].map(|(a, b)| Span::new(&share, a, b));
-            film(prepared.matched(options, &begin)?, &rest)
+            let tried = prepared.matched(options, &begin).map_err(BuildError::from);
+            let tried = tried.and_then(|matched| film(matched, &rest));
+            // What cannot be had is no better: there is the first one. But a
+            // cancel is an answer.
+            still_wanted(progress)?;
+            Ok(tried.ok())
         });
-        let found: Vec<Candidate> = found.collect::<Result<_, BuildError>>()?;
-        Ok::<_, BuildError>(found.into_iter().reduce(|best, next| best.or(Some(next))))
+        let found: Vec<Option<Candidate>> = found.collect::<Result<_, BuildError>>()?;
+        let found = found.into_iter().flatten();
+        Ok::<_, BuildError>(found.reduce(|best, next| best.or(Some(next))))
     };
     let rounds = if prepared.is_crowd() {
         Vec::new()
