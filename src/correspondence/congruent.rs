@@ -10,7 +10,7 @@
 //! that was found.
 
 use super::curve::Curve;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, Fit};
 
 /// Curves count as nearly the same where matched points are off by no more
 /// than this, as a root of the mean square in lengths of the target.
@@ -85,45 +85,6 @@ pub(super) fn settled(
     let kept = in_order(knots, &settled, pins);
     // What loses many knots did not settle.
     (2 * kept.len() > knots.len()).then_some(kept)
-}
-
-/// A similarity: a rotation and scaling as a complex factor about two means.
-struct Fit {
-    factor: DVec2,
-    from: DVec2,
-    to: DVec2,
-}
-
-impl Fit {
-    /// The least squares fit; none where the points are one.
-    fn of(points: &[DVec2], landed: &[DVec2]) -> Option<Self> {
-        let count = points.len() as f64;
-        let from = points.iter().sum::<DVec2>() / count;
-        let to = landed.iter().sum::<DVec2>() / count;
-        let (mut factor, mut square) = (DVec2::ZERO, 0.0);
-        for (p, q) in points.iter().zip(landed) {
-            let (p, q) = (*p - from, *q - to);
-            factor += DVec2::new(p.dot(q), p.perp_dot(q));
-            square += p.length_squared();
-        }
-        // 0 / 0 where the points are one.
-        let factor = factor / square;
-        (factor.is_finite() && factor != DVec2::ZERO).then_some(Self { factor, from, to })
-    }
-
-    fn apply(&self, p: DVec2) -> DVec2 {
-        self.to + self.factor.rotate(p - self.from)
-    }
-
-    fn angle(&self) -> f64 {
-        self.factor.to_angle()
-    }
-
-    fn residual(&self, points: &[DVec2], landed: &[DVec2]) -> f64 {
-        let off = |(p, q): (&DVec2, &DVec2)| self.apply(*p).distance_squared(*q);
-        let sum: f64 = points.iter().zip(landed).map(off).sum();
-        (sum / points.len() as f64).sqrt()
-    }
 }
 
 fn is_pin(pins: &[[f64; 2]], knot: [f64; 2]) -> bool {

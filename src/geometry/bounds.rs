@@ -85,6 +85,12 @@ impl Bounds {
         p.cmpge(self.min).all() && p.cmple(self.max).all()
     }
 
+    /// Whether the closed boxes have a point in common.
+    #[must_use]
+    pub fn meets(&self, other: &Self) -> bool {
+        self.min.cmple(other.max).all() && other.min.cmple(self.max).all()
+    }
+
     /// The corners, counter-clockwise from the lower left.
     #[must_use]
     pub fn corners(&self) -> [DVec2; 4] {

@@ -8,6 +8,7 @@
 mod bounds;
 mod crossings;
 mod edge_boxes;
+mod fit;
 mod pair;
 mod polar;
 mod predicates;
@@ -22,6 +23,7 @@ mod turning;
 pub use bounds::Bounds;
 pub use crossings::{Crossing, RingEdge, count_crossings, crossings};
 pub(crate) use edge_boxes::EdgeBoxes;
+pub(crate) use fit::Fit;
 pub use glam::{DMat2, DVec2};
 pub use pair::{Pair, Side};
 pub use polar::{Polar, SymmetricEigen};

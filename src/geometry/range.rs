@@ -1,5 +1,6 @@
 //! How large coordinates may be, how small a design, and how far away it may
-//! lie: the same for all formats, and checked where regions, meshes and trusses are made.
+//! lie: the same for all formats, and checked where regions, meshes and trusses
+//! are made.
 //!
 //! Within these bounds squares, areas, products of four lengths and their
 //! sums are finite and not zero in `f64`, and squares in the `f32` of a

@@ -10,7 +10,7 @@ use super::options::PolygonOptions;
 use super::pair::PairMesh;
 use super::piece::Rings;
 use super::untangle::untangle;
-use crate::geometry::{Bounds, DVec2};
+use crate::geometry::{Bounds, DVec2, Fit};
 use crate::linalg::{Cholesky, SymmetricMatrix};
 use crate::mesh::triangulation::{Refinement, refined};
 use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
@@ -57,7 +57,7 @@ pub(super) fn carry(
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
     // The harmonic map would distort even what is only laid elsewhere.
-    mesh.points[1] = fitted(mesh, to);
+    lay(mesh, to);
     if !mesh.is_valid() {
         let Some(harmonic) = harmonic(mesh, to, progress) else {
             return still_wanted(progress);
@@ -108,24 +108,22 @@ pub(super) fn split_chords(mesh: &mut PairMesh) {
     }
 }
 
-/// All vertices in the second design, inner ones by the similarity that fits
-/// the polygons best: similar polygons stay undistorted.
-fn fitted(mesh: &PairMesh, to: &[DVec2]) -> Vec<DVec2> {
+/// Lays a mesh onto `to` in the second design, inner vertices by the
+/// similarity that fits the polygons best: similar polygons stay undistorted.
+fn lay(mesh: &mut PairMesh, to: &[DVec2]) {
     let n = mesh.fixed;
-    let mean = |points: &[DVec2]| points.iter().sum::<DVec2>() / n as f64;
-    let (p, q) = (&mesh.points[0], to);
-    let centres = [mean(&p[..n]), mean(q)];
-    // The least squares' factor as a complex number: Σ p̄ q / Σ |p|².
-    let (mut turned, mut square) = (DVec2::ZERO, 0.0);
-    for (&p, &q) in p[..n].iter().zip(q) {
-        let (p, q) = (p - centres[0], q - centres[1]);
-        turned += DVec2::new(p.dot(q), p.perp_dot(q));
-        square += p.length_squared();
-    }
+    let [points, placed] = &mut mesh.points;
+    placed[..n].copy_from_slice(to);
+    // What has no size has no similarity; it is no valid mesh either.
+    let Some(fit) = Fit::of(&points[..n], to) else {
+        return;
+    };
+    let [from, to] = fit.means;
     // As a change, so that equal polygons leave every bit as it is.
-    let turn = turned / square - DVec2::X;
-    let place = |&p: &DVec2| p + turn.rotate(p - centres[0]) + (centres[1] - centres[0]);
-    q.iter().copied().chain(p[n..].iter().map(place)).collect()
+    let turn = fit.factor - DVec2::X;
+    for (place, &p) in placed[n..].iter_mut().zip(&points[n..]) {
+        *place = p + turn.rotate(p - from) + (to - from);
+    }
 }
 
 /// All vertices in the second design, inner ones the mean of their
