@@ -221,7 +221,7 @@ impl Trouble {
             // The ends are the designs.
             if step > 0 && step < STEPS {
                 folds += folded(arap, places);
-                crossings += count_crossings(&walks.rings(arap, places));
+                crossings += count_crossings(&walks.rings(places));
             }
         }
         Ok(Self {

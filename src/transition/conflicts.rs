@@ -15,31 +15,30 @@ use std::collections::BTreeSet;
 /// Steps of a film that is looked at.
 pub(super) const STEPS: u32 = 32;
 
-/// The boundary walks of a film, and the piece that each belongs to.
+/// The boundary walks of the parts of a film that both designs have, and the
+/// piece that each belongs to.
 pub(super) struct Walks {
-    pub walks: Vec<Vec<u32>>,
-    pub pieces: Vec<usize>,
+    walks: Vec<Vec<u32>>,
+    pieces: Vec<usize>,
 }
 
 impl Walks {
     pub(super) fn of(film: &Arap) -> Self {
         let parts = film.mesh().components();
-        let walks = film.mesh().boundary_loops();
         let piece = |walk: &Vec<u32>| walk.first().map_or(0, |&v| parts[v as usize] as usize);
-        Self {
-            pieces: walks.iter().map(piece).collect(),
-            walks,
-        }
+        let is_in_both = |piece: usize| film.lives().get(piece).is_none_or(Option::is_none);
+        let (walks, pieces) = (film.mesh().boundary_loops().into_iter())
+            .map(|walk| (piece(&walk), walk))
+            .filter(|(piece, _)| is_in_both(*piece))
+            .map(|(piece, walk)| (walk, piece))
+            .unzip();
+        Self { walks, pieces }
     }
-}
 
-impl Walks {
-    /// Where the walks of the parts that both designs have are.
-    pub(super) fn rings(&self, film: &Arap, places: &[DVec2]) -> Vec<Vec<DVec2>> {
-        let all = self.walks.iter().zip(&self.pieces);
-        let both = all.filter(|(_, piece)| film.lives().get(**piece).is_none_or(Option::is_none));
-        both.map(|(walk, _)| walk.iter().map(|&v| places[v as usize]).collect())
-            .collect()
+    /// Where the walks are.
+    pub(super) fn rings(&self, places: &[DVec2]) -> Vec<Vec<DVec2>> {
+        let ring = |walk: &Vec<u32>| walk.iter().map(|&v| places[v as usize]).collect();
+        self.walks.iter().map(ring).collect()
     }
 }
 
@@ -54,30 +53,22 @@ pub(super) fn in_the_way(
     film: &Arap,
     progress: &dyn Progress,
 ) -> Result<Vec<usize>, Cancelled> {
-    let conflicts = conflicts(matched, film, progress)?;
+    let conflicts = conflicts(film, progress)?;
     Ok(cover(conflicts, &worths(matched)))
 }
 
 /// The pairs of pieces that cross at any step, those that are born or die
 /// left out: where these are is not settled yet.
-fn conflicts(
-    matched: &RegionMatch,
-    film: &Arap,
-    progress: &dyn Progress,
-) -> Result<BTreeSet<[usize; 2]>, Cancelled> {
-    let Walks { walks, pieces } = Walks::of(film);
-    let both = (0..walks.len()).filter(|&k| is_in_both(&matched.pieces[pieces[k]]));
-    let both: Vec<usize> = both.collect();
+fn conflicts(film: &Arap, progress: &dyn Progress) -> Result<BTreeSet<[usize; 2]>, Cancelled> {
+    let walks = Walks::of(film);
     let mut placer = film.placer();
     let mut found = BTreeSet::new();
     for step in 1..STEPS {
         still_wanted(progress)?;
         placer.place(f64::from(step) / f64::from(STEPS));
-        let places = &placer.placement().in_frame;
-        let ring = |&k: &usize| walks[k].iter().map(|&v| places[v as usize]).collect();
-        let rings: Vec<Vec<_>> = both.iter().map(ring).collect();
+        let rings = walks.rings(&placer.placement().in_frame);
         for crossing in crossings(&rings) {
-            let [a, b] = crossing.edges.map(|edge| pieces[both[edge.ring]]);
+            let [a, b] = crossing.edges.map(|edge| walks.pieces[edge.ring]);
             if a != b {
                 found.insert([a.min(b), a.max(b)]);
             }

@@ -6,7 +6,6 @@
 //! how the contents mix at t. The stage evaluates it on the GPU, export and
 //! tests on the CPU through [`Frame::figure`], so that there is one way to a
 //! frame and the two can be held against each other.
-
 //!
 //! - `options`, `spec`: what a transition is built from; `arrange`: how the
 //!   designs are laid into one frame

@@ -28,7 +28,8 @@ pub(super) fn parted(
 ) -> Result<(RegionMatch, CompatibleMesh, Arap), BuildError> {
     let options = &spec.options;
     let mut meshes = PieceMeshes::default();
-    for round in 0..=ROUNDS {
+    let mut round = 0;
+    loop {
         // Most films need one round, few the last.
         let done = |rounds: u32| 1.0 - 0.5_f64.powi(rounds as i32);
         let progress = &Span::new(progress, done(round), done(round + 1));
@@ -41,8 +42,8 @@ pub(super) fn parted(
         if round == ROUNDS || !prepared.let_go(&matched, &gone, progress) {
             return Ok((matched, mesh, film));
         }
+        round += 1;
     }
-    unreachable!("there is a last round")
 }
 
 /// The match and its film with all that is born or dies in its place and time.

@@ -1,0 +1,82 @@
+//! Where and when the parts that one design has alone are born and die.
+//!
+//! Such a part is a [`Speck`] in the other design, at a place that nobody
+//! drew, and is free to change its size within a time of its own. Both are
+//! chosen in the [`Scene`] so that it meets nothing as it grows: the largest
+//! part first, against the film of the parts that both designs have and of
+//! those placed before it.
+//!
+//! Guaranteed: exchanging the designs gives the same places, and the times
+//! reversed, unless two parts are equal in size. Not guaranteed: that there
+//! is a free place; nor anything between the steps that are looked at.
+
+mod carried;
+mod outline;
+mod scene;
+mod speck;
+
+use self::scene::Scene;
+use self::speck::Speck;
+use super::conflicts::is_in_both;
+use crate::compatible::CompatibleMesh;
+use crate::correspondence::{PieceMatch, RegionMatch};
+use crate::geometry::DVec2;
+use crate::progress::{Cancelled, Progress, still_wanted};
+use crate::warp::{Arap, Life};
+
+/// Parts beyond so many are not searched a place for; each costs a
+/// look at all others at every step.
+const SEARCHED: usize = 24;
+
+/// When each piece changes its size, before anything is chosen: a part of one
+/// design alone all the time.
+pub(super) fn lives(matched: &RegionMatch) -> Vec<Option<Life>> {
+    let life = |piece: &PieceMatch| (!is_in_both(piece)).then_some(Life::WHOLE);
+    matched.pieces.iter().map(life).collect()
+}
+
+/// A match and its mesh with all that is born or dies in its place.
+pub(super) struct Placed {
+    pub matched: RegionMatch,
+    pub mesh: CompatibleMesh,
+    /// When each piece changes its size, if it is born or dies.
+    pub lives: Vec<Option<Life>>,
+}
+
+/// The match and its mesh with all parts that are born or die in their places
+/// and times; `None` where there are none.
+pub(super) fn placed(
+    matched: &RegionMatch,
+    mesh: &CompatibleMesh,
+    film: &Arap,
+    progress: &dyn Progress,
+) -> Result<Option<Placed>, Cancelled> {
+    let mut lives = lives(matched);
+    if lives.iter().all(Option::is_none) {
+        return Ok(None);
+    }
+    let mut scene = Scene::of(film);
+    let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
+    for (rank, speck) in Speck::all(matched).into_iter().enumerate() {
+        still_wanted(progress)?;
+        let (place, life) = scene.best(&speck, film, rank < SEARCHED);
+        by[speck.piece][speck.side.other()] = place - speck.ends[speck.side.other()];
+        lives[speck.piece] = Some(life);
+        scene.add(&speck, place, life, film);
+    }
+    let Some(mesh) = mesh.with_parts_moved(&by) else {
+        return Ok(None);
+    };
+    let mut matched = matched.clone();
+    for (piece, by) in matched.pieces.iter_mut().zip(&by) {
+        for ring in &mut piece.rings {
+            ring.source.iter_mut().for_each(|p| *p += by[0]);
+            ring.target.iter_mut().for_each(|p| *p += by[1]);
+        }
+    }
+    Ok(Some(Placed {
+        matched,
+        mesh,
+        lives,
+    }))
+}

@@ -1,0 +1,138 @@
+//! A part of one design alone: a speck in the other.
+
+use super::outline::Outline;
+use crate::correspondence::{PieceMatch, RegionMatch};
+use crate::geometry::{DVec2, Side, ring_edges, signed_area};
+use crate::transition::conflicts::is_in_both;
+use crate::warp::Life;
+
+/// A part changes its size within so many eighths of the film at least.
+/// Shorter would be a jump.
+const SHORTEST: u32 = 1;
+const EIGHTHS: u32 = 8;
+
+/// Places along its own outline that are searched.
+const OWN_PLACES: usize = 12;
+
+/// A part of one design alone.
+pub(super) struct Speck {
+    pub(super) piece: usize,
+    /// The design that has it.
+    pub(super) side: Side,
+    area: f64,
+    /// Its centroids in source and target.
+    pub(super) ends: [DVec2; 2],
+    /// Its rings about its centroid, as large as they are.
+    rings: Vec<Vec<DVec2>>,
+    /// Its size across as a share of its own.
+    least: f64,
+}
+
+impl Speck {
+    /// All of a match, the largest first.
+    pub(super) fn all(matched: &RegionMatch) -> Vec<Self> {
+        let pieces = matched.pieces.iter().enumerate();
+        let mut all: Vec<Self> = pieces
+            .filter(|(_, piece)| !is_in_both(piece))
+            .map(|(k, piece)| Self::of(k, piece))
+            .collect();
+        let key = |s: &Self| [s.ends[s.side].x, s.ends[s.side].y];
+        all.sort_by(|a, b| {
+            let order = b.area.total_cmp(&a.area);
+            // The order of the pieces is another in the film run backwards.
+            let [p, q] = [key(a), key(b)];
+            order
+                .then(p[0].total_cmp(&q[0]))
+                .then(p[1].total_cmp(&q[1]))
+        });
+        all
+    }
+
+    fn of(piece: usize, matched: &PieceMatch) -> Self {
+        let side = match matched.source_part {
+            Some(_) => Side::Source,
+            None => Side::Target,
+        };
+        let rings = |side: Side| {
+            matched
+                .rings
+                .iter()
+                .map(move |r| [&r.source, &r.target][side])
+        };
+        let ends = Side::BOTH.map(|side| centroid(rings(side)));
+        let area = |side: Side| rings(side).map(|r| signed_area(r)).sum::<f64>();
+        let whole = area(side);
+        let about = |ring: &Vec<DVec2>| ring.iter().map(|&p| p - ends[side]).collect();
+        Self {
+            rings: rings(side).map(about).collect(),
+            least: (area(side.other()) / whole).abs().sqrt(),
+            area: whole,
+            piece,
+            side,
+            ends,
+        }
+    }
+
+    /// How large it is where so much of its change is done.
+    pub(super) fn size(&self, share: f64) -> f64 {
+        let grown = match self.side {
+            Side::Source => 1.0 - share,
+            Side::Target => share,
+        };
+        self.least * (1.0 - grown) + grown
+    }
+
+    pub(super) fn ends_at(&self, place: DVec2) -> [DVec2; 2] {
+        match self.side {
+            Side::Source => [self.ends[0], place],
+            Side::Target => [place, self.ends[1]],
+        }
+    }
+
+    /// Places along its own outline, were it at `place`: from a tip a crescent
+    /// grows around what lies in it.
+    pub(super) fn own_places(&self, place: DVec2) -> Vec<DVec2> {
+        let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
+        let step = outer.len().div_ceil(OWN_PLACES).max(1);
+        outer.iter().step_by(step).map(|&p| place + p).collect()
+    }
+
+    pub(super) fn at(&self, centre: DVec2, size: f64) -> Vec<Outline> {
+        let placed = |ring: &Vec<DVec2>| ring.iter().map(|&p| centre + p * size).collect();
+        self.rings.iter().map(placed).map(Outline::of).collect()
+    }
+
+    /// The times in which it may change its size, the longest first.
+    pub(super) fn times(&self) -> impl Iterator<Item = Life> {
+        let side = self.side;
+        (SHORTEST..=EIGHTHS).rev().map(move |eighths| {
+            let long = f64::from(eighths) / f64::from(EIGHTHS);
+            match side {
+                Side::Source => Life {
+                    from: 0.0,
+                    to: long,
+                },
+                Side::Target => Life {
+                    from: 1.0 - long,
+                    to: 1.0,
+                },
+            }
+        })
+    }
+}
+
+/// The centroid of what some rings enclose together.
+fn centroid<'a>(rings: impl Iterator<Item = &'a Vec<DVec2>>) -> DVec2 {
+    let (mut sum, mut total, mut base) = (DVec2::ZERO, 0.0, None);
+    for ring in rings {
+        // About a point of its own: far from the origin sums lose their digits.
+        let base = *base.get_or_insert(ring[0]);
+        for (a, b) in ring_edges(ring) {
+            let (a, b) = (a - base, b - base);
+            let twice = a.perp_dot(b);
+            sum += twice * (a + b) / 3.0;
+            total += twice;
+        }
+    }
+    base.unwrap_or_default() + sum / total
+}
