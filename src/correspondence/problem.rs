@@ -6,7 +6,7 @@
 use super::curve::Curve;
 use super::cyclic::all_starts;
 use super::features::Features;
-use super::inner::Inner;
+use super::inner_rows::InnerRows;
 use super::options::MatchOptions;
 use super::path_grid::{PathGrid, Route, Scratch};
 use super::samples::Samples;
@@ -29,7 +29,7 @@ pub(super) struct Problem {
     pub(super) keep_up: bool,
     pub(super) price_inside: f64,
     /// None where they have no price.
-    pub(super) inner: Option<[Inner; 2]>,
+    pub(super) inner: Option<[InnerRows; 2]>,
     /// The same with fewer samples, to tell which poses are worth a full
     /// search; none where the full one is small.
     pub(super) coarse: Option<Box<Self>>,
@@ -47,7 +47,7 @@ impl Problem {
         let a = Samples::of(source, options.samples, &fixed(0));
         let b = Samples::of(target, options.samples, &fixed(1));
         let is_priced = options.inner > 0.0;
-        let inner = |curve, samples| is_priced.then(|| Inner::of(curve, samples)).flatten();
+        let inner = |curve, samples| is_priced.then(|| InnerRows::of(curve, samples)).flatten();
         Self {
             price_inside: options.inner,
             inner: inner(source, &a).zip(inner(target, &b)).map(<[_; 2]>::from),

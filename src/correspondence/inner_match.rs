@@ -11,7 +11,7 @@
 //! Guaranteed: deterministic. Not guaranteed: the best of all paths;
 //! alternating ends where nothing more is gained, or after some rounds.
 
-use super::inner::{AHEAD, unlike};
+use super::inner_rows::{AHEAD, unlike};
 use super::poses::Solution;
 use super::problem::Problem;
 

@@ -23,13 +23,13 @@ pub(super) const AHEAD: u32 = 48;
 
 /// Inner distances between the samples of a curve.
 #[derive(Clone, Debug)]
-pub(super) struct Inner {
+pub(super) struct InnerRows {
     count: usize,
     /// Logarithms of the distances in medians, a row for each sample.
     logs: Vec<f64>,
 }
 
-impl Inner {
+impl InnerRows {
     /// Those of a curve's samples; none if it is no simple polygon.
     pub fn of(curve: &Curve, samples: &Samples) -> Option<Self> {
         let found = InnerDistances::of(curve, &samples.places)?;
