@@ -49,16 +49,13 @@ pub fn row(ui: &mut Ui, label: &str, tip: &str, control: impl FnOnce(&mut Ui) ->
 /// A tip to the left of a panel that begins there: below, it would cover the next control.
 pub fn beside(response: &Response, left: f32, tip: &str) {
     let panel = Rect::from_x_y_ranges(left..=response.rect.right(), response.rect.y_range());
-    for mut tooltip in [
-        Tooltip::for_enabled(response),
-        Tooltip::for_disabled(response),
-    ] {
+    shown(response, tip, |mut tooltip| {
         tooltip.popup = tooltip.popup.anchor(panel).align(RectAlign::LEFT_START);
-        tooltip.gap(GRID).show(|ui| ui.label(tip));
-    }
+        tooltip.gap(GRID)
+    });
 }
 
-/// A tip on the side of the nearer edge of the window's middle, where no control lies: below what
+/// A tip towards the middle of the window, where no control lies: below what
 /// is at the top, above what is at the bottom.
 pub fn tipped(response: Response, tip: &str) -> Response {
     let is_low = response.rect.center().y > response.ctx.content_rect().center().y;
@@ -67,14 +64,21 @@ pub fn tipped(response: Response, tip: &str) -> Response {
     } else {
         RectAlign::BOTTOM_START
     };
-    for mut tooltip in [
-        Tooltip::for_enabled(&response),
-        Tooltip::for_disabled(&response),
-    ] {
+    shown(&response, tip, |mut tooltip| {
         tooltip.popup = tooltip.popup.align(align);
-        tooltip.show(|ui| ui.label(tip));
-    }
+        tooltip
+    });
     response
+}
+
+/// A tip of a control, whether it can be used or not.
+fn shown(response: &Response, tip: &str, placed: impl Fn(Tooltip<'_>) -> Tooltip<'_>) {
+    for tooltip in [
+        Tooltip::for_enabled(response),
+        Tooltip::for_disabled(response),
+    ] {
+        placed(tooltip).show(|ui| ui.label(tip));
+    }
 }
 
 /// A row with a slider and a number.
