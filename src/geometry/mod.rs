@@ -18,6 +18,7 @@ mod repair;
 mod ring;
 mod segment;
 mod similarity;
+mod touching;
 mod turning;
 
 pub use bounds::Bounds;

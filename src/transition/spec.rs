@@ -64,7 +64,8 @@ impl TransitionSpec {
         let sizes: Vec<usize> = sizes.map(|ring| ring.points().len()).collect();
         Load::Rings.allow(sizes.len(), progress)?;
         Load::Points.allow(sizes.iter().sum(), progress)?;
-        Ok(outlines)
+        // What is drawn well may be no piece to a triangulation.
+        Ok(outlines.map(|outline| outline.pulled_apart()))
     }
 
     /// Whether designs of these kinds can be interpolated by `cell`, without
