@@ -121,7 +121,7 @@ fn tried(
         ..Options::default()
     };
     change.apply(&mut options);
-    match Arap::with_lives(arap.mesh(), &options.arap, arap.lives(), progress) {
+    match arap.rebuilt(&options.arap, progress) {
         Ok(other) => scan::rigid_parts(&other, solid, steps, progress).map(Some),
         Err(ArapError::Cancelled(cancelled)) => Err(cancelled),
         Err(_) => Ok(None),

@@ -9,6 +9,7 @@
 use super::angles::{self, choose_turns};
 use super::life::Life;
 use super::options::{ArapError, ArapOptions, Weights};
+use super::sides::{self, Outlined};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
 use crate::linalg::SymmetricMatrix;
@@ -123,7 +124,7 @@ impl LocalMaps {
     /// The right-hand sides add up to zero over a component, so that a
     /// grounded vertex stays exactly where it is and the choice of the ground
     /// has no influence.
-    pub(super) fn matrix(&self, mesh: &CompatibleMesh) -> SymmetricMatrix {
+    pub(super) fn matrix(&self, mesh: &CompatibleMesh, outlined: Outlined) -> SymmetricMatrix {
         let n = mesh.source().len();
         // Six entries a face; three a bar, and one for the ground.
         let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
@@ -152,6 +153,9 @@ impl LocalMaps {
             if !std::mem::replace(&mut grounded[component as usize], true) {
                 matrix.add(v as u32, v as u32, diagonal[v]);
             }
+        }
+        if outlined == Outlined::Yes {
+            sides::hold(mesh, &diagonal, &mut matrix);
         }
         matrix
     }

@@ -20,6 +20,7 @@
 //! - `angles`: one consistent rotation angle for each face
 //! - `assembly`: gradients, weights and the matrix
 //! - `stresses`: the right-hand side of a frame, many faces at a time
+//! - `sides`: what keeps straight sides straight
 //! - `ridge`: what is added to a matrix that rounding has eaten at
 //! - `drift`: where parts as a whole are at t
 //! - `life`: when parts grow from points and shrink to them
@@ -30,6 +31,7 @@ mod drift;
 mod life;
 mod options;
 mod ridge;
+mod sides;
 mod stresses;
 
 #[cfg(test)]
@@ -49,6 +51,7 @@ use crate::progress::{Progress, checkpoint, still_wanted};
 use assembly::LocalMaps;
 use drift::Drift;
 use ridge::factored;
+use sides::Outlined;
 use std::sync::Arc;
 use stresses::Stresses;
 
@@ -84,6 +87,7 @@ struct Inner {
     maps: LocalMaps,
     /// Options of the mesh as it is: nothing left to subdivide.
     options: ArapOptions,
+    outlined: Outlined,
 }
 
 impl Arap {
@@ -97,10 +101,12 @@ impl Arap {
         options: &ArapOptions,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        Self::with_lives(mesh, options, &[], progress)
+        Self::prepared(mesh, options, &[], Outlined::No, progress)
     }
 
-    /// As [`Self::build`], of a mesh some of whose connected parts are points
+    /// As [`Self::build`], of a mesh of drawn outlines: what is straight in both
+    /// designs, and divided alike, stays straight. Some of its connected parts
+    /// may be points
     /// in one of the designs, and have a time in which they change their size;
     /// none for those that are not, and for parts beyond the list. Where the
     /// design is as a whole, and how it turns, is then decided by the others.
@@ -109,10 +115,33 @@ impl Arap {
     ///
     /// # Errors
     /// As [`Self::build`].
-    pub fn with_lives(
+    pub fn of_outlines(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
         lives: &[Option<Life>],
+        progress: &dyn Progress,
+    ) -> Result<Self, ArapError> {
+        Self::prepared(mesh, options, lives, Outlined::Yes, progress)
+    }
+
+    /// The same mesh with other options.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub(crate) fn rebuilt(
+        &self,
+        options: &ArapOptions,
+        progress: &dyn Progress,
+    ) -> Result<Self, ArapError> {
+        let inner = &*self.0;
+        Self::prepared(&inner.mesh, options, self.lives(), inner.outlined, progress)
+    }
+
+    fn prepared(
+        mesh: &CompatibleMesh,
+        options: &ArapOptions,
+        lives: &[Option<Life>],
+        outlined: Outlined,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let weights = options
@@ -129,7 +158,7 @@ impl Arap {
             ..options.clone()
         };
         let maps = LocalMaps::new(&mesh, &options, lives)?;
-        Self::from_maps(mesh, maps, options, lives.to_vec(), progress)
+        Self::from_maps(mesh, maps, options, (lives.to_vec(), outlined), progress)
     }
 
     /// Assembles and factors: `options` are those of the mesh as it is.
@@ -137,12 +166,12 @@ impl Arap {
         mesh: CompatibleMesh,
         maps: LocalMaps,
         options: ArapOptions,
-        lives: Vec<Option<Life>>,
+        (lives, outlined): (Vec<Option<Life>>, Outlined),
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         checkpoint(progress, "factoring", 0.3)?;
         let thin = |vertex: usize| [mesh.source()[vertex], mesh.target()[vertex]];
-        let done = factored(maps.matrix(&mesh), progress)?;
+        let done = factored(maps.matrix(&mesh, outlined), progress)?;
         let (cholesky, ridge) = done.map_err(|error| match error {
             FactorError::NotPositiveDefinite { index } => ArapError::Thin(thin(index)),
             error => ArapError::Factor(error),
@@ -160,6 +189,7 @@ impl Arap {
             drift,
             maps,
             options,
+            outlined,
         })))
     }
 
@@ -179,7 +209,7 @@ impl Arap {
     /// The matrix of the energy, assembled anew; for measurements.
     #[must_use]
     pub fn system(&self) -> SymmetricMatrix {
-        self.0.maps.matrix(&self.0.mesh)
+        self.0.maps.matrix(&self.0.mesh, self.0.outlined)
     }
 
     /// What had to be added to the matrix to factor it; none in all but the
@@ -218,7 +248,8 @@ impl Arap {
         let lives = inner.drift.lives().iter();
         let lives: Vec<_> = lives.map(|life| life.map(Life::backwards)).collect();
         let maps = LocalMaps::new(&mesh, &inner.options, &lives)?.turning_back(&inner.maps);
-        Self::from_maps(mesh, maps, inner.options.clone(), lives, progress)
+        let drawn = (lives, inner.outlined);
+        Self::from_maps(mesh, maps, inner.options.clone(), drawn, progress)
     }
 
     /// When each connected part changes its size, if it is a point in one of

@@ -505,7 +505,7 @@ fn a_part_that_is_a_point_waits_and_moves_with_the_whole() {
         to: 1.0,
     };
     let lives = [None, Some(late)];
-    let arap = Arap::with_lives(&mesh, &ArapOptions::default(), &lives, &Silent).unwrap();
+    let arap = Arap::of_outlines(&mesh, &ArapOptions::default(), &lives, &Silent).unwrap();
     let back = arap.swapped(&Silent).unwrap();
     let at = |arap: &Arap, t: f64| {
         let mut placer = arap.placer();
