@@ -11,8 +11,12 @@
 use crate::geometry::{DVec2, Ring, along_segment, perimeter};
 use std::f64::consts::TAU;
 
+/// A bend below this is none, in radians: a pixel over the width of twenty
+/// thousand screens; coordinates with seven digits are straight to it.
+const LEAST_BEND: f64 = 1e-5;
+
 /// A closed polyline that knows its places by arc length.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Curve {
     points: Vec<DVec2>,
     /// Place of each point, and at the end the place 1.
@@ -83,6 +87,15 @@ impl Curve {
         &self.places[..self.points.len()]
     }
 
+    /// Whether the curve bends at a point of its own, by more than rounding.
+    pub(super) fn bends_at(&self, point: usize) -> bool {
+        let before = match point {
+            0 => self.directions[self.directions.len() - 1] - self.round,
+            _ => self.directions[point - 1],
+        };
+        (self.directions[point] - before).abs() > LEAST_BEND
+    }
+
     /// The point at a place, exact at the curve's own points. Places
     /// are taken modulo 1.
     #[must_use]
@@ -99,6 +112,19 @@ impl Curve {
             from.lerp(to, along)
         } else {
             from
+        }
+    }
+
+    /// How the point moves with its place: along its edge, by the curve's length.
+    pub(crate) fn velocity_at(&self, place: f64) -> DVec2 {
+        let e = self.edge_at(self.wrapped(place));
+        let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
+        let span = self.places[e + 1] - self.places[e];
+        // An edge of no length moves nothing.
+        if span > 0.0 {
+            (to - from) / span
+        } else {
+            DVec2::ZERO
         }
     }
 
@@ -161,7 +187,7 @@ impl Curve {
     }
 
     /// `place` in [0, 1).
-    pub(super) fn wrapped(&self, place: f64) -> f64 {
+    pub(crate) fn wrapped(&self, place: f64) -> f64 {
         let place = place.rem_euclid(1.0);
         if place < 1.0 { place } else { 0.0 } // -1e-20 is rounded up to 1
     }

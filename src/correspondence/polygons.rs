@@ -36,6 +36,9 @@ pub struct SharedPolygons {
 /// Gap of the common parameter below which two vertices are one.
 const SAME: f64 = 1e-12;
 
+/// A direction along which no drawing lies.
+const ASKEW: DVec2 = DVec2::new(0.754_877_666, 0.569_840_291);
+
 /// Most that spacing may add, whatever it says.
 const MOST_ADDED: f64 = 1e5;
 
@@ -52,6 +55,15 @@ const BOTH: usize = 2;
 struct Vertex {
     at: f64,
     places: [Option<f64>; 2],
+    /// Whether an outline bends there, or somebody pinned it.
+    is_bend: bool,
+}
+
+impl Vertex {
+    /// Whether its partner is where the match has it.
+    fn is_fixed(&self) -> bool {
+        self.is_bend || self.places.iter().all(Option::is_some)
+    }
 }
 
 impl BoundaryMatch {
@@ -76,16 +88,78 @@ impl BoundaryMatch {
         join(&mut joints, &all, SNAP);
         let mut vertices: Vec<Vertex> = Vec::new();
         for side in 0..2 {
-            let pins = self.pins.iter().map(|pin| pin[side]);
-            for place in curves[side].places().iter().copied().chain(pins) {
+            let curve = curves[side];
+            let own = (curve.places().iter().enumerate()).map(|(k, &at)| (at, curve.bends_at(k)));
+            let pins = self.pins.iter().map(|pin| (pin[side], true));
+            for (place, is_bend) in own.chain(pins) {
                 let at = interpolated(&joints, common.parameter(place, side), [side, BOTH]);
                 let mut places = [None; 2];
                 places[side] = Some(place);
-                vertices.push(Vertex { at, places });
+                vertices.push(Vertex {
+                    at,
+                    places,
+                    is_bend,
+                });
             }
         }
-        let vertices = spaced(merged(vertices), spacing);
-        assembled(&vertices, &joints, &common, curves)
+        let mut vertices = merged(vertices);
+        if !vertices.iter().any(Vertex::is_fixed) {
+            // So many points that none bends.
+            vertices.iter_mut().for_each(|vertex| vertex.is_bend = true);
+        }
+        let straight = Straight::between(&vertices, |vertex| {
+            [0, 1].map(|side| {
+                let own = interpolated(&joints, vertex.at, [BOTH, side]);
+                vertex.places[side].unwrap_or_else(|| common.place(own, side, curves[side]))
+            })
+        });
+        let vertices = spaced(straight.laid(vertices), spacing);
+        assembled(&vertices, &straight, curves)
+    }
+}
+
+/// Straight sides stay straight where both are: between vertices at which one
+/// of the outlines bends, or which both have, the match is proportional.
+struct Straight {
+    /// The places of those vertices, counted on over the seam, and their
+    /// parameters; the first again at the end.
+    bends: Vec<Joint>,
+}
+
+impl Straight {
+    fn between(vertices: &[Vertex], places: impl Fn(&Vertex) -> [f64; 2]) -> Self {
+        let mut bends: Vec<Joint> = Vec::with_capacity(vertices.len() + 1);
+        for vertex in vertices.iter().filter(|vertex| vertex.is_fixed()) {
+            let [mut a, mut b] = places(vertex);
+            if let Some(first) = bends.first() {
+                a += f64::from(u8::from(a < first[0]));
+                b += f64::from(u8::from(b < first[1]));
+            }
+            // Rounding must not make a step back.
+            if bends.last().is_none_or(|last| last[0] < a && last[1] < b) {
+                bends.push([a, b, vertex.at]);
+            }
+        }
+        bends.extend(bends.first().map(|first| first.map(|at| at + 1.0)));
+        Self { bends }
+    }
+
+    /// The vertices, those between bends at the parameters of their own places.
+    fn laid(&self, mut vertices: Vec<Vertex>) -> Vec<Vertex> {
+        for vertex in vertices.iter_mut().filter(|vertex| !vertex.is_fixed()) {
+            let own = (0..2).find_map(|side| Some((side, vertex.places[side]?)));
+            if let Some((side, place)) = own {
+                let over = f64::from(u8::from(place < self.bends[0][side]));
+                vertex.at = interpolated(&self.bends, place + over, [side, BOTH]);
+            }
+        }
+        vertices.sort_by(|a, b| a.at.total_cmp(&b.at));
+        vertices
+    }
+
+    fn place(&self, at: f64, side: usize, curve: &Curve) -> f64 {
+        let at = at + f64::from(u8::from(at < self.bends[0][BOTH]));
+        curve.wrapped(interpolated(&self.bends, at, [BOTH, side]))
     }
 }
 
@@ -102,8 +176,18 @@ impl Common {
         let is_own =
             |place: f64, c: &Curve| c.places().binary_search_by(|p| p.total_cmp(&place)).is_ok();
         let both = |k: &[f64; 2]| is_own(k[0], curves[0]) && is_own(k[1], curves[1]);
-        // Then the seam adds no vertex of its own.
-        let seam = knots.iter().position(both).unwrap_or(0);
+        let along = |k: &[f64; 2]| {
+            let [p, q] = [0, 1].map(|side| curves[side].point_at(k[side]));
+            (p + q).dot(ASKEW)
+        };
+        // Of points of both, so that the seam adds no vertex of its own; and
+        // the same for the designs exchanged, to the last bit.
+        let order = |a: &[f64; 2], b: &[f64; 2]| {
+            let is_other = both(b).cmp(&both(a));
+            is_other.then(along(a).total_cmp(&along(b)))
+        };
+        let seam = (0..knots.len()).min_by(|&a, &b| order(&knots[a], &knots[b]));
+        let seam = seam.unwrap_or(0);
         knots.rotate_left(seam);
         knots.push(knots[0].map(|place| place + 1.0));
         let start = knots[0];
@@ -194,6 +278,7 @@ fn merged(mut vertices: Vec<Vertex>) -> Vec<Vertex> {
                 for side in 0..2 {
                     last.places[side] = last.places[side].or(vertex.places[side]);
                 }
+                last.is_bend |= vertex.is_bend;
             }
             _ => merged.push(vertex),
         }
@@ -214,19 +299,15 @@ fn spaced(vertices: Vec<Vertex>, spacing: f64) -> Vec<Vertex> {
         let at = |k: u32| vertex.at + gap * f64::from(k) / f64::from(pieces);
         let places = [None; 2];
         spaced.extend((1..pieces).map(|k| Vertex {
-            at: at(k) % 1.0,
+            at: at(k),
             places,
+            is_bend: false,
         }));
     }
     spaced
 }
 
-fn assembled(
-    vertices: &[Vertex],
-    joints: &[Joint],
-    common: &Common,
-    curves: [&Curve; 2],
-) -> SharedPolygons {
+fn assembled(vertices: &[Vertex], straight: &Straight, curves: [&Curve; 2]) -> SharedPolygons {
     let mut shared = SharedPolygons {
         source: Vec::with_capacity(vertices.len()),
         target: Vec::with_capacity(vertices.len()),
@@ -234,10 +315,7 @@ fn assembled(
     };
     for vertex in vertices {
         let places = [0, 1].map(|side| {
-            let made = || {
-                let own = interpolated(joints, vertex.at, [BOTH, side]);
-                common.place(own, side, curves[side])
-            };
+            let made = || straight.place(vertex.at, side, curves[side]);
             vertex.places[side].unwrap_or_else(made)
         });
         let (p, q) = (curves[0].point_at(places[0]), curves[1].point_at(places[1]));
