@@ -15,7 +15,8 @@ mod truss;
 
 pub use elements::{BarElement, CompatibleError};
 pub use outlines::OutlinesError;
-pub(crate) use outlines::PieceMeshes;
+pub(crate) use outlines::{joined, of_piece};
+pub(crate) use polygons::slid;
 pub use polygons::{PinnedError, PolygonOptions, PolygonsError, RingEdge};
 
 pub use surroundings::SurroundingsError;

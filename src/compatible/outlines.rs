@@ -56,47 +56,21 @@ impl CompatibleMesh {
         options: &PolygonOptions,
         progress: &dyn Progress,
     ) -> Result<Self, OutlinesError> {
-        PieceMeshes::default().of(matched, options, progress)
-    }
-}
-
-/// The meshes of pieces that were triangulated before, for a match that has
-/// them still.
-#[derive(Debug, Default)]
-pub(crate) struct PieceMeshes(Vec<(PieceMatch, CompatibleMesh)>);
-
-impl PieceMeshes {
-    /// As [`CompatibleMesh::from_outlines`], with the meshes of the pieces
-    /// that are known; those of this match are known then.
-    ///
-    /// # Errors
-    /// As [`CompatibleMesh::from_outlines`].
-    pub(crate) fn of(
-        &mut self,
-        matched: &RegionMatch,
-        options: &PolygonOptions,
-        progress: &dyn Progress,
-    ) -> Result<CompatibleMesh, OutlinesError> {
         let pieces = matched.pieces.len();
         let shares = Several::new(progress, pieces);
         let meshes = matched.pieces.par_iter().enumerate().map(|(piece, rings)| {
-            if let Some((_, mesh)) = self.0.iter().find(|known| known.0 == *rings) {
-                return Ok(mesh.clone());
-            }
             of_piece(rings, options, &shares.part(piece)).map_err(|error| OutlinesError {
                 piece,
                 pieces,
                 error,
             })
         });
-        let meshes = meshes.collect::<Result<Vec<_>, _>>()?;
-        let whole = joined(&meshes);
-        self.0 = matched.pieces.iter().cloned().zip(meshes).collect();
-        Ok(whole)
+        Ok(joined(&meshes.collect::<Result<Vec<_>, _>>()?))
     }
 }
 
-fn of_piece(
+/// The mesh of one piece.
+pub(crate) fn of_piece(
     piece: &PieceMatch,
     options: &PolygonOptions,
     progress: &dyn Progress,
@@ -107,7 +81,7 @@ fn of_piece(
 }
 
 /// The meshes as one, in order.
-fn joined(meshes: &[CompatibleMesh]) -> CompatibleMesh {
+pub(crate) fn joined<'a>(meshes: impl IntoIterator<Item = &'a CompatibleMesh>) -> CompatibleMesh {
     let mut whole = Patchwork::default();
     for mesh in meshes {
         // Pieces lie apart: no vertex is shared.

@@ -1,26 +1,23 @@
-//! Choosing among matches: candidates, the film of each, and the one whose
-//! film has the least trouble.
+//! Choosing among matches: for each piece the one whose film has the least
+//! trouble.
 //!
 //! No measure of two boundaries alone tells what becomes of the inside, so a
-//! match is judged by its film. Candidates come in rounds: first the match at
-//! the prices that were asked for, its parts out of each other's way, and at
-//! other prices beside it where the shapes are unlike; then, as long as the
-//! best film folds, the others. Of all films so far the best is the
-//! one with the fewest folded faces over all its steps, then the fewest
-//! crossings of its outlines, then the least distortion, outlines that grow
-//! jagged on the way included, then the earliest.
+//! match is judged by its film. Each piece moves by itself, so that each is
+//! chosen for itself. Candidates come in rounds: first the match at
+//! the prices that were asked for, and at other prices beside it where the
+//! shapes are unlike; then, as long as the best film folds, the others. The best
+//! of all so far is the one with the fewest folded faces over all its steps,
+//! then the fewest crossings of its outlines, then the least distortion,
+//! outlines that grow jagged on the way included, then the earliest. What was
+//! chosen then slides, as long as that makes it better.
 
-use super::births::lives;
-use super::conflicts::Walks;
+use super::candidate::{Candidate, NoCandidate};
+use super::conflicts::is_in_both;
 use super::error::BuildError;
-use super::rigid::arap;
-use super::settled::{parted, placed};
 use super::spec::TransitionSpec;
-use crate::compatible::CompatibleMesh;
-use crate::correspondence::{MatchOptions, Matching, Prepared, RegionMatch};
-use crate::geometry::{DVec2, Regions, count_crossings, orient2d, turning, turning_excess};
-use crate::progress::{Cancelled, Progress, Several, Span, checkpoint, still_wanted};
-use crate::warp::{Arap, Warp};
+use crate::compatible::{PolygonsError, slid};
+use crate::correspondence::{MatchOptions, Matching, PieceMatch, Prepared};
+use crate::progress::{Progress, Several, Span, still_wanted};
 use rayon::prelude::*;
 
 /// A match of at most this cost whose film does not fold is taken at once.
@@ -38,98 +35,150 @@ const INNER: f64 = 8.0;
 /// thickness, which of a thick body and thin arms makes one arm the body.
 const LAST_PRICES: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 
-/// Steps of a film that is looked at for folds and crossings.
-/// Each costs a frame of every candidate; a fold between two is missed.
-const STEPS: u32 = 16;
+/// How much is done once the match that was asked for has its film, and
+/// once those beside it have theirs, as it is told.
+const FIRST: f64 = 0.2;
+const SECOND: f64 = 0.5;
+const THIRD: f64 = 0.7;
 
-/// How much is done once the outlines are matched, and once the films are there
-/// that most pairs need, as it is told.
-const FIRST: f64 = 0.1;
-const SECOND: f64 = 0.7;
+/// How often a piece slides.
+const SLIDES: u32 = 3;
 
-/// How much of a candidate is done once it has its mesh.
-const MESHED: f64 = 0.9;
+/// Maps that distort less are left as they are: two drawings of one thing.
+const FAITHFUL: f64 = 1.02;
 
-/// The share of the area whose distortion is not looked at: the corners of
-/// any triangulation hold some.
-const WORST: f64 = 0.05;
+/// What became of a piece: its best candidate, or why there is none.
+pub(super) type Chosen = Result<Candidate, (PieceMatch, PolygonsError)>;
 
-/// The power of the outlines' turning, as a ratio to that between the ends,
-/// by which distortion counts as more. By 5 the worst tenth of the distortion of
-/// 60 pairs of silhouettes grew from 22 to 24.
-const JAGGED: i32 = 3;
-
-/// A match with its film, and how good that is.
-struct Candidate {
-    matched: RegionMatch,
-    film: Arap,
-    trouble: Trouble,
-    distortion: f64,
-}
-
-/// What is seen of a film.
-struct Trouble {
-    /// Faces that are not positive, over all steps.
-    folds: usize,
-    /// Crossings of the outlines of what both designs have, over all steps.
-    crossings: usize,
-    /// The share by which the outlines turn more than between the ends.
-    turning: f64,
-}
-
-/// The match of both outlines that is kept, and its film, settled.
-pub(super) fn best(
+/// The best of each piece of a group of parts.
+pub(super) fn best_of_group(
+    prepared: &Prepared,
+    group: usize,
     spec: &TransitionSpec,
-    outlines: &[Regions; 2],
     progress: &dyn Progress,
-) -> Result<(RegionMatch, Arap), BuildError> {
-    let [source, target] = outlines;
+) -> Result<Vec<Chosen>, BuildError> {
     let asked = &spec.options.matching;
     let begin = Span::new(progress, 0.0, FIRST);
-    checkpoint(&begin, "matching", 0.0)?;
-    let mut prepared = Prepared::new([source, target], asked, &begin)?;
-    let middle = Span::new(progress, FIRST, SECOND);
-    let shares = Several::new(&middle, 2 + OTHER_PRICES.len());
-    // What the default match fails with, others would fail with.
-    let first = parted(&mut prepared, spec, &shares.part(0))?;
-    let is_alike = first.0.pieces.iter().all(|piece| piece.cost <= ALIKE);
-    let film = |matched, share: &dyn Progress| Candidate::new(matched, spec, share);
-    // The best of a round, the first among equals; none of none.
-    let other = |round: &[MatchOptions], shares: &Several, from: usize| {
-        let found = round.par_iter().enumerate().map(|(k, options)| {
-            let share = shares.part(from + k);
-            let [begin, rest] = [(0.0, FIRST), (FIRST, 1.0)].map(|(a, b)| Span::new(&share, a, b));
-            let tried = prepared.matched(options, &begin).map_err(BuildError::from);
-            let tried = tried.and_then(|matched| film(matched, &rest));
-            // What cannot be had is no better: there is the first one. But a
-            // cancel is an answer.
-            still_wanted(progress)?;
-            Ok(tried.ok())
-        });
-        let found: Vec<Option<Candidate>> = found.collect::<Result<_, BuildError>>()?;
-        let found = found.into_iter().flatten();
-        Ok::<_, BuildError>(found.reduce(|best, next| best.or(Some(next))))
-    };
-    let rounds = if prepared.is_crowd() {
+    let first = prepared.matched_group(group, &asked.options(), &begin)?;
+    let shares = Several::new(&begin, first.len());
+    let candidates = first.into_par_iter().enumerate();
+    let candidates = candidates.map(|(k, piece)| candidate(piece, spec, &shares.part(k)));
+    let mut chosen = candidates.collect::<Result<Vec<Chosen>, BuildError>>()?;
+    let mut rounds = if prepared.is_crowd() {
         Vec::new()
     } else {
         rounds(asked)
+    }
+    .into_iter();
+    let others = |round: &[MatchOptions], wants: &[bool], progress: &dyn Progress| {
+        others(prepared, group, spec, round, wants, progress)
     };
-    let mut rounds = rounds.into_iter();
-    let beside = if is_alike { None } else { rounds.next() }.unwrap_or_default();
-    let first = Candidate::of(first, progress)?;
-    let mut best = first.or(other(&beside, &shares, 1)?);
-    let last = Span::new(progress, SECOND, 1.0);
-    for round in rounds {
-        // Folds alone: the last prices match worse, and are for want of better.
-        // Tried against crossings too they take twice as long and help one
-        // pair of icons of 58.
-        if best.trouble.folds == 0 {
+    let spans = [(FIRST, SECOND), (SECOND, THIRD)].map(|(a, b)| Span::new(progress, a, b));
+    for (k, span) in spans.iter().enumerate() {
+        let wants = |chosen: &Chosen| match chosen {
+            Err(_) => true,
+            Ok(best) if k == 0 => is_in_both(&best.matched) && best.matched.cost > ALIKE,
+            // Folds alone: the last prices match worse, and are for want of better.
+            // Tried against crossings too they take twice as long and help one
+            // pair of icons of 58.
+            Ok(best) => best.folds(),
+        };
+        let wants: Vec<bool> = chosen.iter().map(wants).collect();
+        let round = rounds.next().unwrap_or_default();
+        if !wants.contains(&true) || round.is_empty() {
+            continue;
+        }
+        for found in others(&round, &wants, span)? {
+            for (chosen, found) in chosen.iter_mut().zip(found) {
+                let Some(found) = found else { continue };
+                if chosen
+                    .as_ref()
+                    .map_or(true, |best| found.is_better_than(best))
+                {
+                    *chosen = Ok(found);
+                }
+            }
+        }
+    }
+    let last = Span::new(progress, THIRD, 1.0);
+    let shares = Several::new(&last, chosen.len());
+    let settled = chosen.into_par_iter().enumerate();
+    settled
+        .map(|(k, chosen)| match chosen {
+            Ok(best) => Ok(Ok(settled_by_sliding(best, spec, &shares.part(k))?)),
+            none => Ok(none),
+        })
+        .collect()
+}
+
+fn candidate(
+    piece: PieceMatch,
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<Chosen, BuildError> {
+    match Candidate::new(piece.clone(), &spec.options, progress) {
+        Ok(candidate) => Ok(Ok(candidate)),
+        Err(NoCandidate::Build(error)) => Err(error),
+        Err(NoCandidate::Mesh(PolygonsError::Cancelled(cancelled))) => Err(cancelled.into()),
+        Err(NoCandidate::Mesh(error)) => Ok(Err((piece, error))),
+    }
+}
+
+/// For each of these matches the candidates of the pieces that want one.
+fn others(
+    prepared: &Prepared,
+    group: usize,
+    spec: &TransitionSpec,
+    round: &[MatchOptions],
+    wants: &[bool],
+    progress: &dyn Progress,
+) -> Result<Vec<Vec<Option<Candidate>>>, BuildError> {
+    let shares = Several::new(progress, round.len());
+    let found = round.par_iter().enumerate().map(|(k, options)| {
+        let share = shares.part(k);
+        let [begin, rest] = [(0.0, FIRST), (FIRST, 1.0)].map(|(a, b)| Span::new(&share, a, b));
+        let matched = prepared.matched_group(group, options, &begin);
+        still_wanted(progress)?;
+        // What cannot be had is no better: there is the first one.
+        let pieces = matched.unwrap_or_default();
+        let shares = Several::new(&rest, pieces.len());
+        let pieces = pieces.into_par_iter().zip(wants).enumerate();
+        let candidates = pieces.map(|(k, (piece, wanted))| {
+            let made = wanted.then(|| Candidate::new(piece, &spec.options, &shares.part(k)).ok());
+            // But a cancel is an answer.
+            still_wanted(progress)?;
+            Ok(made.flatten())
+        });
+        candidates.collect::<Result<Vec<_>, BuildError>>()
+    });
+    found.collect()
+}
+
+/// What was chosen, its correspondence and its map improved together as long
+/// as its film is the better for it.
+fn settled_by_sliding(
+    mut best: Candidate,
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<Candidate, BuildError> {
+    for round in 0..SLIDES {
+        if !is_in_both(&best.matched) || best.distortion < FAITHFUL {
             break;
         }
-        best = best.or(other(&round, &Several::new(&last, round.len()), 0)?);
+        let share = |k: u32| f64::from(k) / f64::from(SLIDES);
+        let progress = &Span::new(progress, share(round), share(round + 1));
+        let options = &spec.options.triangulation;
+        let places = slid(&best.matched, &best.mesh, options, progress);
+        still_wanted(progress)?;
+        let Some(places) = places else { break };
+        let moved = Candidate::new(best.matched.moved(&places), &spec.options, progress).ok();
+        still_wanted(progress)?;
+        match moved {
+            Some(moved) if moved.is_better_than(&best) => best = moved,
+            _ => break,
+        }
     }
-    placed((best.matched, best.film), progress)
+    Ok(best)
 }
 
 /// What is tried after the match that was asked for, round by round; nothing
@@ -153,90 +202,4 @@ fn rounds(asked: &Matching) -> Vec<Vec<MatchOptions>> {
         .to_vec();
     others.push(inside);
     vec![others, LAST_PRICES.map(|price| priced(price, 0.0)).to_vec()]
-}
-
-impl Candidate {
-    fn new(
-        matched: RegionMatch,
-        spec: &TransitionSpec,
-        progress: &dyn Progress,
-    ) -> Result<Self, BuildError> {
-        let options = &spec.options;
-        let [meshing, filming] =
-            [(0.0, MESHED), (MESHED, 1.0)].map(|(from, to)| Span::new(progress, from, to));
-        let mesh = CompatibleMesh::from_outlines(&matched, &options.triangulation, &meshing)?;
-        let film = arap(&mesh, &options.arap, &lives(&matched), &filming)?;
-        Self::of((matched, mesh, film), progress)
-    }
-
-    fn of(
-        (matched, mesh, film): (RegionMatch, CompatibleMesh, Arap),
-        progress: &dyn Progress,
-    ) -> Result<Self, BuildError> {
-        Ok(Self {
-            trouble: Trouble::of(&film, progress)?,
-            distortion: mesh.distortion(WORST),
-            matched,
-            film,
-        })
-    }
-
-    /// The better one, this one among equals.
-    fn or(self, other: Option<Self>) -> Self {
-        match other {
-            // NaN compares false: what cannot be measured is not better.
-            Some(other) if other.trouble() < self.trouble() => other,
-            _ => self,
-        }
-    }
-
-    /// What makes one film worse than another, first things first.
-    fn trouble(&self) -> (usize, usize, f64) {
-        let Trouble {
-            folds,
-            crossings,
-            turning,
-        } = self.trouble;
-        let jagged = (1.0 + turning).powi(JAGGED);
-        (folds, crossings, self.distortion * jagged)
-    }
-}
-
-impl Trouble {
-    fn of(arap: &Arap, progress: &dyn Progress) -> Result<Self, Cancelled> {
-        let mesh = arap.mesh();
-        let (loops, diameter) = (mesh.boundary_loops(), mesh.diameter());
-        let [mut folds, mut crossings] = [0; 2];
-        let mut turned = Vec::new();
-        let walks = Walks::of(arap);
-        let mut placer = arap.placer();
-        for step in 0..=STEPS {
-            still_wanted(progress)?;
-            let t = f64::from(step) / f64::from(STEPS);
-            placer.place(t);
-            let places = &placer.placement().in_frame;
-            let ring = |ring: &Vec<u32>| ring.iter().map(|&v| places[v as usize]).collect();
-            let rings: Vec<Vec<DVec2>> = loops.iter().map(ring).collect();
-            turned.push([t, turning(&rings, diameter)]);
-            // The ends are the designs.
-            if step > 0 && step < STEPS {
-                folds += folded(arap, places);
-                crossings += count_crossings(&walks.rings(places));
-            }
-        }
-        Ok(Self {
-            folds,
-            crossings,
-            turning: turning_excess(&turned),
-        })
-    }
-}
-
-/// Faces that are not positive.
-fn folded(arap: &Arap, places: &[DVec2]) -> usize {
-    let is_folded = |face: &&[u32; 3]| {
-        let [a, b, c] = face.map(|v| places[v as usize]);
-        orient2d(a, b, c) <= 0.0
-    };
-    arap.mesh().faces().iter().filter(is_folded).count()
 }

@@ -24,6 +24,7 @@ mod arrange;
 mod births;
 mod boundaries;
 mod build;
+mod candidate;
 mod cells;
 mod choice;
 mod conflicts;

@@ -1,53 +1,143 @@
 //! Parts that keep out of each other's way.
 //!
-//! Parts of both designs that would go through each other are let go, before
-//! anything else is chosen: what is there dies, and what it was to become is
-//! born. In the film that is chosen all that is born or dies then gets its
-//! place and its time.
+//! Each piece has its best match by itself. Parts of both designs that would
+//! then go through each other are let go: what is there dies, and what it was
+//! to become is born. So is a piece of which there is no mesh. In the film
+//! that is left all that is born or dies gets its place and its time.
 
 use super::births::{self, lives};
+use super::candidate::Candidate;
+use super::choice::{Chosen, best_of_group};
 use super::conflicts::in_the_way;
 use super::error::BuildError;
 use super::rigid::arap;
 use super::spec::TransitionSpec;
-use crate::compatible::{CompatibleMesh, PieceMeshes};
-use crate::correspondence::{Prepared, RegionMatch};
-use crate::progress::{Progress, Span};
+use crate::compatible::{OutlinesError, joined};
+use crate::correspondence::{Group, Prepared, RegionMatch};
+use crate::geometry::Regions;
+use crate::progress::{Progress, Several, Span, checkpoint};
 use crate::warp::Arap;
+use rayon::prelude::*;
+use std::collections::BTreeMap;
 
 /// How often pieces are let go: what was split is split anew, and may meet
 /// anew.
 const ROUNDS: u32 = 3;
 
-/// The match that was asked for, once what would go through other parts in
-/// its film is let go, with its mesh and its film.
-pub(super) fn parted(
+/// How much of a round is done once the pieces have their matches.
+const CHOSEN: f64 = 0.9;
+
+/// The match of both outlines that is kept, and its film, settled.
+pub(super) fn best(
+    spec: &TransitionSpec,
+    outlines: &[Regions; 2],
+    progress: &dyn Progress,
+) -> Result<(RegionMatch, Arap), BuildError> {
+    let [source, target] = outlines;
+    checkpoint(progress, "matching", 0.0)?;
+    let mut prepared = Prepared::new([source, target], &spec.options.matching, progress)?;
+    placed(parted(&mut prepared, spec, progress)?, progress)
+}
+
+/// The best match of each piece, once what would go through other parts is
+/// let go, and the film of all.
+fn parted(
     prepared: &mut Prepared,
     spec: &TransitionSpec,
     progress: &dyn Progress,
-) -> Result<(RegionMatch, CompatibleMesh, Arap), BuildError> {
-    let options = &spec.options;
-    let mut meshes = PieceMeshes::default();
-    let mut round = 0;
+) -> Result<(RegionMatch, Arap), BuildError> {
+    let mut known = Known::new();
+    let (mut round, mut mended) = (0, 0);
     loop {
         // Most films need one round, few the last.
         let done = |rounds: u32| 1.0 - 0.5_f64.powi(rounds as i32);
         let progress = &Span::new(progress, done(round), done(round + 1));
-        let [matching, meshing, filming] =
-            [(0.0, 0.2), (0.2, 0.9), (0.9, 1.0)].map(|(from, to)| Span::new(progress, from, to));
-        let matched = prepared.matched_as_asked(&matching)?;
-        let mesh = meshes.of(&matched, &options.triangulation, &meshing)?;
-        let film = arap(&mesh, &options.arap, &lives(&matched), &filming)?;
+        let [choosing, filming] =
+            [(0.0, CHOSEN), (CHOSEN, 1.0)].map(|(from, to)| Span::new(progress, from, to));
+        let groups = chosen(prepared, &known, spec, &choosing)?;
+        let asked = prepared.groups().to_vec();
+        let matched = match_of(&groups);
+        if prepared.let_go(&matched, &broken(&groups, mended), progress) {
+            known = asked.into_iter().zip(groups).collect();
+            mended += 1;
+            continue;
+        }
+        let candidates = meshed(groups.concat())?;
+        let mesh = joined(candidates.iter().map(|best| &best.mesh));
+        let film = arap(&mesh, &spec.options.arap, &lives(&matched), &filming)?;
         let gone = in_the_way(&matched, &film, progress)?;
         if round == ROUNDS || !prepared.let_go(&matched, &gone, progress) {
-            return Ok((matched, mesh, film));
+            return Ok((matched, film));
         }
+        known = asked.into_iter().zip(groups).collect();
         round += 1;
     }
 }
 
+/// The groups of parts whose pieces are chosen already.
+type Known = BTreeMap<Group, Vec<Chosen>>;
+
+/// The pieces of each group, but for those that are known the best.
+fn chosen(
+    prepared: &Prepared,
+    known: &Known,
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<Vec<Vec<Chosen>>, BuildError> {
+    let shares = Several::new(progress, prepared.groups().len());
+    let groups = prepared.groups().par_iter().enumerate();
+    let chosen = groups.map(|(k, group)| match known.get(group) {
+        Some(known) => Ok(known.clone()),
+        None => best_of_group(prepared, k, spec, &shares.part(k)),
+    });
+    // All first: of several failures it is the first in order that is told.
+    let chosen: Vec<Result<Vec<Chosen>, BuildError>> = chosen.collect();
+    chosen.into_iter().collect()
+}
+
+fn match_of(groups: &[Vec<Chosen>]) -> RegionMatch {
+    let piece = |chosen: &Chosen| match chosen {
+        Ok(best) => best.matched.clone(),
+        Err((piece, _)) => piece.clone(),
+    };
+    RegionMatch {
+        pieces: groups.iter().flatten().map(piece).collect(),
+    }
+}
+
+/// The pieces to let go because there is no mesh of them; where that was done
+/// before, with all that they were split from: what is split anew may break
+/// anew.
+fn broken(groups: &[Vec<Chosen>], mended: u32) -> Vec<usize> {
+    let mut first = 0;
+    let mut broken = Vec::new();
+    for group in groups {
+        let is_broken = group.iter().any(Result::is_err);
+        let is_let_go = |k: &usize| group[*k].is_err() || (is_broken && mended > 0);
+        broken.extend((0..group.len()).filter(is_let_go).map(|k| first + k));
+        first += group.len();
+    }
+    broken
+}
+
+/// All pieces, or what is wrong with the first that has no mesh.
+fn meshed(chosen: Vec<Chosen>) -> Result<Vec<Candidate>, BuildError> {
+    let pieces = chosen.len();
+    let candidates = chosen.into_iter().enumerate().map(|(piece, chosen)| {
+        chosen.map_err(|(_, error)| {
+            let error = OutlinesError {
+                piece,
+                pieces,
+                error,
+            };
+            error.into()
+        })
+    });
+    candidates.collect()
+}
+
 /// The match and its film with all that is born or dies in its place and time.
-pub(super) fn placed(
+fn placed(
     (matched, film): (RegionMatch, Arap),
     progress: &dyn Progress,
 ) -> Result<(RegionMatch, Arap), BuildError> {

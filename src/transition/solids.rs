@@ -3,10 +3,10 @@
 //! Two meshes bring their triangulation along, two trusses their panels; all
 //! other forms are matched as outlines.
 
-use super::choice;
 use super::error::BuildError;
 use super::moved::{AnyWarp, Moved};
-use super::rigid::arap;
+use super::rigid::allow;
+use super::settled;
 use super::spec::TransitionSpec;
 use crate::compatible::{CompatibleError, CompatibleMesh, TrussError};
 use crate::content::Solid;
@@ -36,7 +36,7 @@ pub(super) fn rigid_parts(
         }
         _ => {
             let outlines = spec.outlines(bar_width, progress)?;
-            let (matched, film) = choice::best(spec, &outlines, progress)?;
+            let (matched, film) = settled::best(spec, &outlines, progress)?;
             (film, Some(matched))
         }
     };
@@ -67,5 +67,7 @@ fn given(
         CompatibleError::Truss(TrussError::TooMuch(too_much)) => too_much.into(),
         error => BuildError::from(error),
     })?;
-    arap(&mesh, &spec.options.arap, &[], progress)
+    let options = &spec.options.arap;
+    allow(&mesh, options, progress)?;
+    Ok(Arap::build(&mesh, options, progress)?)
 }

@@ -15,7 +15,7 @@ pub(super) type Corners = [DVec2; 3];
 const SHAPE: f64 = 0.05;
 /// What the change of area counts. Less yet, since parts do grow and shrink;
 /// without it faces could trade their areas for nothing.
-const AREA: f64 = 0.02;
+pub(super) const AREA: f64 = 0.02;
 
 /// A cost and its gradients by the corners in the source and in the target.
 pub(super) struct Cost {
@@ -46,11 +46,11 @@ pub(super) fn is_positive(p: Corners) -> bool {
 
 /// The cost alone; infinite where a face is not positive in both.
 pub(super) fn value(p: Corners, q: Corners) -> f64 {
-    evaluate(p, q).map_or(f64::INFINITY, |cost| cost.value)
+    evaluate(p, q, AREA).map_or(f64::INFINITY, |cost| cost.value)
 }
 
-/// The cost with its gradients; `None` where a face is not positive in both.
-pub(super) fn evaluate(p: Corners, q: Corners) -> Option<Cost> {
+/// The cost with its gradients, at this price of the change of area; `None` where a face is not positive in both.
+pub(super) fn evaluate(p: Corners, q: Corners, area: f64) -> Option<Cost> {
     let det = [p, q].map(doubled);
     if !(det[0] > 0.0 && det[1] > 0.0) {
         return None;
@@ -70,7 +70,7 @@ pub(super) fn evaluate(p: Corners, q: Corners) -> Option<Cost> {
         shapes[d] = squares(e[d]) * equilateral;
         // By the doubled area, which both squares are divided by.
         let by_det = -2.0 * conformal * conformal - 2.0 * SHAPE * shapes[d] * shapes[d]
-            + AREA * 0.5 * (ratios[d] - ratios[1 - d]);
+            + area * 0.5 * (ratios[d] - ratios[1 - d]);
         let by_det = by_det * inverse[d];
         let (by_dirichlet, by_squares) = (
             4.0 * conformal * both,
@@ -87,7 +87,7 @@ pub(super) fn evaluate(p: Corners, q: Corners) -> Option<Cost> {
     }
     let value = conformal * conformal
         + SHAPE * (shapes[0] * shapes[0] + shapes[1] * shapes[1])
-        + AREA * 0.5 * (ratios[0] + ratios[1]);
+        + area * 0.5 * (ratios[0] + ratios[1]);
     // An area may be so small that its inverse is not finite.
     value.is_finite().then_some(Cost { value, gradients })
 }
@@ -154,7 +154,7 @@ mod tests {
 
     #[test]
     fn gradients_agree_with_differences() {
-        let cost = evaluate(P, Q).expect("positive");
+        let cost = evaluate(P, Q, AREA).expect("positive");
         let h = 1e-6;
         for design in 0..2 {
             for corner in 0..3 {

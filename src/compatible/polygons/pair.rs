@@ -81,6 +81,18 @@ impl PairMesh {
         }
     }
 
+    /// Puts the vertices there, unless a face is then not positive; whether it
+    /// was done. Costs know areas in plain floating point: a face that is flat
+    /// but for rounding may be positive to them.
+    pub(super) fn move_to(&mut self, points: [Vec<DVec2>; 2]) -> bool {
+        let before = std::mem::replace(&mut self.points, points);
+        let is_valid = self.is_valid();
+        if !is_valid {
+            self.points = before;
+        }
+        is_valid
+    }
+
     /// The movable vertices that are there, in ascending order.
     pub(super) fn steiner(&self) -> Vec<u32> {
         (self.fixed as u32..self.around.len() as u32)

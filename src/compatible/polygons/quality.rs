@@ -65,6 +65,19 @@ pub(super) fn improve(
     still_wanted(progress)
 }
 
+/// Flips, and splits of what is costly: the mesh changed to what its vertices
+/// have become.
+pub(super) fn refit(
+    mesh: &mut PairMesh,
+    options: &PolygonOptions,
+    progress: &dyn Progress,
+) -> Result<(), Cancelled> {
+    flip_all(mesh, progress)?;
+    split_chords(mesh);
+    split_costly(mesh, options, progress)?;
+    flip_all(mesh, progress)
+}
+
 /// One round, without new vertices.
 pub(super) fn settle(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<(), Cancelled> {
     flip_all(mesh, progress)?;
@@ -249,7 +262,7 @@ fn descent(mesh: &PairMesh, v: u32, faces: &[[u32; 3]]) -> [DVec2; 2] {
     let mut reach = [f64::INFINITY; 2];
     for &face in faces {
         let [p, q] = mesh.corners(face);
-        let Some(cost) = face::evaluate(p, q) else {
+        let Some(cost) = face::evaluate(p, q, face::AREA) else {
             continue;
         };
         for (k, &u) in face.iter().enumerate() {

@@ -5,7 +5,7 @@ use super::error::PolygonsError;
 use super::options::PolygonOptions;
 use super::pair::{PairMesh, to_unit};
 use super::piece::{self, Rings};
-use super::{bridges, coarsen, face, quality, relax, transfer};
+use super::{bridges, coarsen, face, motion, quality, transfer};
 use crate::compatible::CompatibleMesh;
 use crate::compatible::patchwork::Patchwork;
 use crate::geometry::{DVec2, Side, lexicographic};
@@ -94,7 +94,7 @@ fn check<R: AsRef<[DVec2]>>(
 
 /// A total order, so that a pair is solved in one order whichever way it is
 /// asked for.
-fn goes_first(a: &Rings, b: &Rings) -> bool {
+pub(super) fn goes_first(a: &Rings, b: &Rings) -> bool {
     // Negative zero is zero.
     let coordinates = |rings: &Rings| -> Vec<f64> {
         let points = rings.points.iter();
@@ -206,7 +206,7 @@ fn coarse_base(
 /// Mean cost of the faces by their area in both designs: what one mesh is
 /// preferred to another by.
 fn badness(mesh: &PairMesh) -> f64 {
-    let weighted = relax::weighted(mesh);
+    let weighted = motion::weighted(mesh);
     weighted
         .iter()
         .map(|&(face, weight)| weight * mesh.cost(face))

@@ -7,8 +7,8 @@ use super::outcome::RegionMatchError;
 use crate::geometry::{DVec2, Regions, Side};
 
 /// Parts that belong together: one with one, one with several, or one alone.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub(super) struct Group {
+#[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct Group {
     /// For source and target, ascending.
     pub(super) parts: [Vec<usize>; 2],
 }

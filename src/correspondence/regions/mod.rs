@@ -18,6 +18,7 @@
 
 mod automatic;
 mod closing;
+mod course;
 mod crowd;
 mod cut;
 mod groups;
@@ -36,6 +37,7 @@ mod walk;
 use super::Matching;
 use crate::geometry::Regions;
 use crate::progress::{Progress, checkpoint};
+pub(crate) use groups::Group;
 pub(crate) use prepared::Prepared;
 
 pub use outcome::{

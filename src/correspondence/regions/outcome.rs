@@ -1,6 +1,8 @@
 //! What the match of two designs is, and why there is none.
 
+use super::super::polygons::SharedPolygons;
 use super::super::{MatchError, PairError, PinError, RingCut};
+use super::course::Course;
 use crate::geometry::{DVec2, Pair, Side};
 use crate::progress::Cancelled;
 
@@ -78,6 +80,8 @@ pub struct RingMatch {
     pub target: Vec<DVec2>,
     /// What becomes of the ring.
     pub kind: RingKind,
+    /// How it was matched; none where it is alone.
+    pub(crate) course: Option<Course>,
 }
 
 /// What becomes of a ring.
@@ -128,7 +132,31 @@ impl RegionMatch {
     }
 }
 
+impl PieceMatch {
+    /// The piece with the vertices of its rings at other places, ring by ring as
+    /// `Course::places` has them.
+    pub(crate) fn moved(&self, places: &[Vec<[f64; 2]>]) -> Self {
+        let mut moved = self.clone();
+        for (ring, places) in moved.rings.iter_mut().zip(places) {
+            if let Some(course) = &ring.course {
+                *ring = RingMatch::along(course.moved(places));
+            }
+        }
+        moved
+    }
+}
+
 impl RingMatch {
+    /// A ring along two matched curves.
+    pub(super) fn along((course, shared): (Course, SharedPolygons)) -> Self {
+        Self {
+            source: shared.source,
+            target: shared.target,
+            kind: RingKind::Matched,
+            course: Some(course),
+        }
+    }
+
     /// A ring of one design that is a point in the other.
     pub(super) fn alone(side: Side, whole: Vec<DVec2>, point: Vec<DVec2>) -> Self {
         let kind = match side {
@@ -140,6 +168,7 @@ impl RingMatch {
             source,
             target,
             kind,
+            course: None,
         }
     }
 }

@@ -3,11 +3,10 @@
 use super::super::boundary_match::BoundaryMatch;
 use super::super::curve::Curve;
 use super::super::options::MatchError;
-use super::super::polygons::SharedPolygons;
 use super::closing::{Room, Vertices, centre};
-use super::outcome::{PieceMatch, RegionMatchError, RingKind, RingMatch};
+use super::course::Course;
+use super::outcome::{PieceMatch, RegionMatchError, RingMatch};
 use super::sides::{PinHere, Sides, Task};
-use super::slits::mirror;
 use crate::geometry::{DVec2, Ring, Side};
 use crate::progress::{Cancelled, still_wanted};
 use rayon::prelude::*;
@@ -57,19 +56,9 @@ pub(super) fn matched(task: &Task) -> Result<PieceMatch, RegionMatchError> {
 impl Sides<'_> {
     fn outer_ring(&self, matched: &BoundaryMatch) -> Result<RingMatch, RegionMatchError> {
         let curves = self.curves()?;
-        let mut shared = matched.polygons(&curves[0], &curves[1], spacing(1.0));
-        for side in Side::BOTH {
-            for &slit in &self.walks[side].slits {
-                mirror(
-                    &mut shared,
-                    side,
-                    &curves[side],
-                    slit,
-                    &curves[side.other()],
-                );
-            }
-        }
-        Ok(ring_of(shared))
+        let slits = Side::BOTH.map(|side| self.walks[side].slits.clone());
+        let course = Course::new(curves, matched.clone(), spacing(1.0), slits);
+        Ok(RingMatch::along(course))
     }
 
     /// Two holes that belong together. Where their form leaves the rotation
@@ -94,7 +83,8 @@ impl Sides<'_> {
         let matched = self.matched(is_here, &curves, &posed)?;
         let share = |side: Side| holes[side].perimeter() / self.walks[side].ring.perimeter();
         let spacing = spacing(0.5 * (share(Side::Source) + share(Side::Target)));
-        Ok(ring_of(matched.polygons(&curves[0], &curves[1], spacing)))
+        let course = Course::new(curves, matched, spacing, [vec![], vec![]]);
+        Ok(RingMatch::along(course))
     }
 
     /// What is alone and was not opened closes to a point.
@@ -145,12 +135,4 @@ impl Sides<'_> {
 /// How far apart vertices are on a ring that is `share` as long as the outer one.
 fn spacing(share: f64) -> f64 {
     (SPACING / share).min(1.0 / LEAST_VERTICES)
-}
-
-fn ring_of(shared: SharedPolygons) -> RingMatch {
-    RingMatch {
-        source: shared.source,
-        target: shared.target,
-        kind: RingKind::Matched,
-    }
 }

@@ -29,9 +29,6 @@ pub(crate) struct Prepared<'a> {
     /// For each group the pieces that its single part is cut into; none where
     /// it is not cut.
     pub(super) pieces: Vec<Option<Vec<Region>>>,
-    /// For each group what it was matched to at the prices asked for, once it
-    /// was.
-    pub(super) found: Vec<Option<Vec<PieceMatch>>>,
     is_crowd: bool,
 }
 
@@ -68,13 +65,11 @@ impl<'a> Prepared<'a> {
             wanted,
             pins,
             pieces: Vec::new(),
-            found: Vec::new(),
         };
         let groups = prepared.groups.par_iter();
         prepared.pieces = groups
             .map(|group| prepared.split(group, progress))
             .collect();
-        prepared.found = vec![None; prepared.groups.len()];
         still_wanted(progress)?;
         Ok(prepared)
     }
@@ -108,53 +103,42 @@ impl<'a> Prepared<'a> {
         })
     }
 
+    pub(crate) fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
     /// The match at these prices.
     pub(crate) fn matched(
         &self,
         options: &MatchOptions,
         progress: &dyn Progress,
     ) -> Result<RegionMatch, RegionMatchError> {
-        let unknown = vec![None; self.groups.len()];
-        let pieces = self.by_group(options, &unknown, progress)?.concat();
-        Ok(RegionMatch { pieces })
-    }
-
-    /// The match at the prices that were asked for, which is kept: what stays
-    /// of it when pieces are let go is not found anew.
-    pub(crate) fn matched_as_asked(
-        &mut self,
-        progress: &dyn Progress,
-    ) -> Result<RegionMatch, RegionMatchError> {
-        let found = self.by_group(&self.wanted.options(), &self.found, progress)?;
-        let pieces = found.concat();
-        self.found = found.into_iter().map(Some).collect();
-        Ok(RegionMatch { pieces })
-    }
-
-    /// The pieces of each group at these prices, but for those that are known.
-    fn by_group(
-        &self,
-        options: &MatchOptions,
-        known: &[Option<Vec<PieceMatch>>],
-        progress: &dyn Progress,
-    ) -> Result<Vec<Vec<PieceMatch>>, RegionMatchError> {
         checkpoint(progress, "matching", PREPARED)?;
         let rest = Span::new(progress, PREPARED, 1.0);
         let shares = Several::new(&rest, self.groups.len());
-        let options = crowd::options(options, self.designs);
-        let groups = self.groups.par_iter().zip(&self.pieces).enumerate();
-        let found = groups.map(|(k, (group, cut))| {
-            if let Some(known) = &known[k] {
-                return Ok(known.clone());
-            }
-            let share = shares.part(k);
-            let pieces = self.pieces_of(group, cut.as_deref(), &options, &share)?;
-            checkpoint(&share, "matching", 1.0)?;
-            Ok(pieces)
-        });
+        let groups = (0..self.groups.len()).into_par_iter();
+        let pieces = groups.map(|group| self.matched_group(group, options, &shares.part(group)));
         // All first: of several failures it is the first in order that is told.
-        let found: Vec<Result<Vec<PieceMatch>, RegionMatchError>> = found.collect();
-        found.into_iter().collect()
+        let pieces: Vec<Result<Vec<PieceMatch>, RegionMatchError>> = pieces.collect();
+        let pieces: Vec<_> = pieces.into_iter().collect::<Result<_, _>>()?;
+        Ok(RegionMatch {
+            pieces: pieces.concat(),
+        })
+    }
+
+    /// The pieces that the group of this number becomes at these prices, in an
+    /// order that does not depend on them.
+    pub(crate) fn matched_group(
+        &self,
+        group: usize,
+        options: &MatchOptions,
+        progress: &dyn Progress,
+    ) -> Result<Vec<PieceMatch>, RegionMatchError> {
+        let options = crowd::options(options, self.designs);
+        let cut = self.pieces[group].as_deref();
+        let pieces = self.pieces_of(&self.groups[group], cut, &options, progress)?;
+        checkpoint(progress, "matching", 1.0)?;
+        Ok(pieces)
     }
 
     /// The pieces that a group becomes.

@@ -24,28 +24,25 @@ impl Prepared<'_> {
             return false;
         }
         let gone = |group: &Group| of_pieces(matched, gone, group);
-        let pieces = std::mem::take(&mut self.pieces).into_iter();
-        let known = pieces.zip(std::mem::take(&mut self.found));
+        let pieces = std::mem::take(&mut self.pieces);
         let mut groups = Vec::new();
         let mut is_other = false;
-        for (group, known) in std::mem::take(&mut self.groups).into_iter().zip(known) {
+        for (group, cut) in std::mem::take(&mut self.groups).into_iter().zip(pieces) {
             let gone = gone(&group);
             if gone == Group::default() || self.is_said(&group) {
-                groups.push((group, known));
+                groups.push((group, cut));
                 continue;
             }
             let (kept, alone) = self.parted(&group, &gone);
             is_other |= kept != group;
             if kept != Group::default() {
                 let pieces = self.split(&kept, progress);
-                groups.push((kept, (pieces, None)));
+                groups.push((kept, pieces));
             }
-            groups.extend(each(&alone).map(|group| (group, (None, None))));
+            groups.extend(each(&alone).map(|group| (group, None)));
         }
         groups.sort_by_key(|(group, _)| group.key());
-        let known: Vec<_>;
-        (self.groups, known) = groups.into_iter().unzip();
-        (self.pieces, self.found) = known.into_iter().unzip();
+        (self.groups, self.pieces) = groups.into_iter().unzip();
         is_other
     }
 
