@@ -13,9 +13,10 @@
 //!   (rigid parts, or `boundaries` alone) and `plane` (warps of the plane,
 //!   from the `features` that they go by); `rigid`: a mesh that is not too
 //!   large
-//! - `choice`: of several matches the one whose film has the least trouble;
-//!   `settled`: its parts out of each other's way, by the `conflicts` that it
-//!   has and the places and times of `births`
+//! - `candidate`: a matched piece and what is seen of its film; `choice`: of
+//!   several the one with the least trouble; `settled`: all pieces out of each
+//!   other's way, by the `conflicts` that they have and the places and times of
+//!   `births`
 //! - `note`: what was done otherwise than asked
 //! - `ready`, `frame`: the transition and its moments
 //! - `timing`, `style`: how it is played and painted

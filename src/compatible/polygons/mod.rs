@@ -6,6 +6,8 @@
 //! to the other ([`transfer`]): good angles, no guarantee. Where it fails in
 //! both directions, the guaranteed base ([`overlay`] of discs, [`bridges`] for
 //! holes), thinned out. Then quality in both designs at once ([`quality`]).
+//! What is triangulated may [`slide`]: the outlines' vertices then find places
+//! by which the two triangulations are more alike.
 //!
 //! Guaranteed: every face is positive in both designs by exact predicates;
 //! the polygons' vertices come first, in order and unmoved, and their edges
