@@ -101,6 +101,27 @@ fn opening_something_else_asks_about_changes() {
 }
 
 #[test]
+fn what_is_beyond_the_panels_controls_is_left_as_it_was_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut document = "version = 1\nwarp = \"arap\"\ncontent = \"solid\"\n".to_owned();
+    for (name, x) in [("a.json", 0), ("b.json", 2)] {
+        let polygon = format!("{{\"polygons\": [[[[0, 0], [4, 0], [{x}, 3]]]]}}");
+        std::fs::write(folder.path().join(name), polygon).expect("room");
+        document.push_str(&format!("[[designs]]\npath = \"{name}\"\n"));
+    }
+    document.push_str("[arap]\nsubdivisions = 5\n");
+    let path = folder.path().join("fine.morph");
+    std::fs::write(&path, document).expect("room");
+    let mut window = Window::with_panels();
+    window.send(Intent::Open(vec![path]));
+    window.wait();
+    (0..3).for_each(|_| window.update());
+    let project = window.session().project().expect("a project");
+    assert_eq!(project.options.arap.subdivisions, 5);
+    assert!(!window.session().is_dirty());
+}
+
+#[test]
 fn what_is_saved_is_what_is_opened_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("saved.morph");

@@ -6,8 +6,8 @@ use std::sync::Arc;
 use bevy_egui::egui::emath::Numeric;
 use bevy_egui::egui::{
     self, Align, Align2, Area, Color32, ComboBox, DragValue, Galley, Layout, Margin, Order,
-    Painter, Pos2, Rect, RectAlign, Response, RichText, Sense, Slider, StrokeKind, Tooltip, Ui,
-    Vec2, WidgetInfo, WidgetType, vec2,
+    Painter, Pos2, Rect, RectAlign, Response, RichText, Sense, Slider, SliderClamping, StrokeKind,
+    Tooltip, Ui, Vec2, WidgetInfo, WidgetType, vec2,
 };
 
 use crate::app::asking::intent::Intent;
@@ -94,6 +94,7 @@ pub fn slider(
         let number = DragValue::new(value)
             .speed((range.end() - range.start()) / 400.0)
             .range(range.clone())
+            .clamp_existing_to_range(false)
             .max_decimals(3);
         let number = ui.add_sized([56.0, CONTROL_HEIGHT], number);
         // A slider takes no width of its own accord; what is left of the row, however wide the
@@ -101,6 +102,7 @@ pub fn slider(
         ui.spacing_mut().slider_width = (ui.available_width() - GRID).max(40.0);
         let slider = Slider::new(value, range)
             .logarithmic(logarithmic)
+            .clamping(SliderClamping::Edits)
             .show_value(false);
         number | ui.add(slider)
     });
@@ -116,6 +118,7 @@ pub fn drag<N: Numeric>(
 ) -> DragValue<'_> {
     DragValue::new(value)
         .range(range)
+        .clamp_existing_to_range(false)
         .speed(speed)
         .fixed_decimals(decimals)
 }

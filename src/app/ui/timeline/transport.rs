@@ -124,6 +124,7 @@ fn seconds(ui: &mut Ui, value: &mut f64, least: f64, tip: &str) {
     let number = DragValue::new(value)
         .speed(0.02)
         .range(least..=LONGEST_SECS)
+        .clamp_existing_to_range(false)
         .max_decimals(2)
         .suffix(" s")
         .update_while_editing(false);
