@@ -10,6 +10,7 @@
 //! that was found.
 
 use super::curve::Curve;
+use super::in_order::{in_order, is_pin};
 use crate::geometry::{DVec2, Fit};
 
 /// Curves count as nearly the same where matched points are off by no more
@@ -31,9 +32,6 @@ const SAME_DIRECTION: f64 = 0.5;
 
 /// A knot that moves less keeps its place to the last bit: corner on corner.
 const EXACT: f64 = 1e-9;
-
-/// The smallest step between knots, as a share of the length.
-const LEAST_STEP: f64 = 1e-6;
 
 /// Knots with each source point matched to where it falls on the target,
 /// where the curves are nearly the same; none where they are not. `knots` is
@@ -87,44 +85,6 @@ pub(super) fn settled(
     (2 * kept.len() > knots.len()).then_some(kept)
 }
 
-fn is_pin(pins: &[[f64; 2]], knot: [f64; 2]) -> bool {
-    pins.iter().any(|pin| pin[0] == knot[0])
-}
-
-/// The settled knots without those that would step back, pins first. Each is
-/// near the knot that was found, so that none is taken for one a round ahead.
-fn in_order(found: &[[f64; 2]], settled: &[[f64; 2]], pins: &[[f64; 2]]) -> Vec<[f64; 2]> {
-    let is_held = |k: usize| is_pin(pins, found[k]);
-    let start = (0..found.len()).find(|&k| is_held(k)).unwrap_or(0);
-    let mut path: Vec<(usize, [f64; 2])> = Vec::with_capacity(found.len());
-    let moved = |k: usize| {
-        let by = settled[k][1] - found[k][1];
-        // The shorter way over the seam: nothing moves by half a round.
-        by - by.round()
-    };
-    for offset in 0..found.len() {
-        let k = (start + offset) % found.len();
-        // Counted on from the start, so that ascending has a meaning.
-        let ahead = |side: usize| (found[k][side] - found[start][side]).rem_euclid(1.0);
-        let place = [ahead(0), ahead(1) + moved(k)];
-        let follows = |last: [f64; 2]| {
-            let is_within = place[1] < moved(start) + 1.0 - LEAST_STEP;
-            is_within && (0..2).all(|s| place[s] > last[s] + LEAST_STEP)
-        };
-        if is_held(k) {
-            while path.len() > 1 && path.last().is_some_and(|l| !is_held(l.0) && !follows(l.1)) {
-                path.pop();
-            }
-        }
-        if offset == 0 || is_held(k) || path.last().is_some_and(|last| follows(last.1)) {
-            path.push((k, place));
-        }
-    }
-    let mut kept: Vec<[f64; 2]> = path.into_iter().map(|(k, _)| settled[k]).collect();
-    kept.sort_by(|a, b| a[0].total_cmp(&b[0]));
-    kept
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -158,26 +118,5 @@ mod tests {
             let off = shape.point_at(a).distance(shape.point_at(b));
             assert!(off < 1e-3 * shape.length(), "{a} at {b}: {off}");
         }
-    }
-
-    #[test]
-    fn order_is_kept_around_pins() {
-        let knots = [[0.1, 0.9], [0.2, 0.05], [0.3, 0.04], [0.4, 0.3], [0.5, 0.2]];
-        let pins = [[0.5, 0.2]];
-        let found = [[0.1, 0.9], [0.2, 0.02], [0.3, 0.1], [0.4, 0.15], [0.5, 0.2]];
-        let kept = in_order(&found, &knots, &pins);
-        assert_eq!(kept, [[0.1, 0.9], [0.2, 0.05], [0.5, 0.2]]);
-    }
-
-    #[test]
-    fn a_first_knot_that_steps_over_the_second_costs_one_knot() {
-        let found: Vec<[f64; 2]> = (0..200).map(|k| [f64::from(k) / 200.0; 2]).collect();
-        let mut moved = found.clone();
-        moved[0][1] = 0.006;
-        let kept = in_order(&found, &moved, &[]);
-        assert_eq!(kept.len(), 199);
-        moved[0][1] = 0.993;
-        let kept = in_order(&found, &moved, &[]);
-        assert_eq!(kept.len(), 199, "the last one would meet the first");
     }
 }

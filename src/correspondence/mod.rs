@@ -13,6 +13,7 @@ mod congruent;
 mod curve;
 mod cyclic;
 mod features;
+mod in_order;
 mod inner_distance;
 mod inner_match;
 mod inner_rows;
@@ -28,6 +29,7 @@ mod regions;
 mod samples;
 mod settings;
 mod solve;
+mod straight;
 #[cfg(test)]
 mod tests;
 mod thickness;

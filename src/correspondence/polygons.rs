@@ -12,6 +12,7 @@
 use super::boundary_match::{BoundaryMatch, interpolated};
 use super::curve::Curve;
 use super::samples::corners;
+use super::straight::{BOTH, Joint, Straight, Vertex};
 use crate::geometry::DVec2;
 
 /// Corners of the two curves nearer than this become one vertex, in fractions
@@ -41,30 +42,6 @@ const ASKEW: DVec2 = DVec2::new(0.754_877_666, 0.569_840_291);
 
 /// Most that spacing may add, whatever it says.
 const MOST_ADDED: f64 = 1e5;
-
-/// Two places that are one: that of the source, that of the target, and the
-/// parameter that both have.
-type Joint = [f64; 3];
-
-/// The column of the parameter.
-const BOTH: usize = 2;
-
-/// A vertex to come: its common parameter and, where it is a curve's own
-/// point or a pin, its place.
-#[derive(Clone, Copy)]
-struct Vertex {
-    at: f64,
-    places: [Option<f64>; 2],
-    /// Whether an outline bends there, or somebody pinned it.
-    is_bend: bool,
-}
-
-impl Vertex {
-    /// Whether its partner is where the match has it.
-    fn is_fixed(&self) -> bool {
-        self.is_bend || self.places.iter().all(Option::is_some)
-    }
-}
 
 impl BoundaryMatch {
     /// Both curves as polygons with corresponding vertices, in order. The
@@ -115,51 +92,6 @@ impl BoundaryMatch {
         });
         let vertices = spaced(straight.laid(vertices), spacing);
         assembled(&vertices, &straight, curves)
-    }
-}
-
-/// Straight sides stay straight where both are: between vertices at which one
-/// of the outlines bends, or which both have, the match is proportional.
-struct Straight {
-    /// The places of those vertices, counted on over the seam, and their
-    /// parameters; the first again at the end.
-    bends: Vec<Joint>,
-}
-
-impl Straight {
-    fn between(vertices: &[Vertex], places: impl Fn(&Vertex) -> [f64; 2]) -> Self {
-        let mut bends: Vec<Joint> = Vec::with_capacity(vertices.len() + 1);
-        for vertex in vertices.iter().filter(|vertex| vertex.is_fixed()) {
-            let [mut a, mut b] = places(vertex);
-            if let Some(first) = bends.first() {
-                a += f64::from(u8::from(a < first[0]));
-                b += f64::from(u8::from(b < first[1]));
-            }
-            // Rounding must not make a step back.
-            if bends.last().is_none_or(|last| last[0] < a && last[1] < b) {
-                bends.push([a, b, vertex.at]);
-            }
-        }
-        bends.extend(bends.first().map(|first| first.map(|at| at + 1.0)));
-        Self { bends }
-    }
-
-    /// The vertices, those between bends at the parameters of their own places.
-    fn laid(&self, mut vertices: Vec<Vertex>) -> Vec<Vertex> {
-        for vertex in vertices.iter_mut().filter(|vertex| !vertex.is_fixed()) {
-            let own = (0..2).find_map(|side| Some((side, vertex.places[side]?)));
-            if let Some((side, place)) = own {
-                let over = f64::from(u8::from(place < self.bends[0][side]));
-                vertex.at = interpolated(&self.bends, place + over, [side, BOTH]);
-            }
-        }
-        vertices.sort_by(|a, b| a.at.total_cmp(&b.at));
-        vertices
-    }
-
-    fn place(&self, at: f64, side: usize, curve: &Curve) -> f64 {
-        let at = at + f64::from(u8::from(at < self.bends[0][BOTH]));
-        curve.wrapped(interpolated(&self.bends, at, [BOTH, side]))
     }
 }
 

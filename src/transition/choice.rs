@@ -35,8 +35,8 @@ const INNER: f64 = 8.0;
 /// thickness, which of a thick body and thin arms makes one arm the body.
 const LAST_PRICES: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 
-/// How much is done once the match that was asked for has its film, and
-/// once those beside it have theirs, as it is told.
+/// How much is done once the match that was asked for has its film, those
+/// beside it have theirs, and the last ones, as it is told.
 const FIRST: f64 = 0.2;
 const SECOND: f64 = 0.5;
 const THIRD: f64 = 0.7;
@@ -59,22 +59,14 @@ pub(super) fn best_of_group(
 ) -> Result<Vec<Chosen>, BuildError> {
     let asked = &spec.options.matching;
     let begin = Span::new(progress, 0.0, FIRST);
-    let first = prepared.matched_group(group, &asked.options(), &begin)?;
-    let shares = Several::new(&begin, first.len());
-    let candidates = first.into_par_iter().enumerate();
-    let candidates = candidates.map(|(k, piece)| candidate(piece, spec, &shares.part(k)));
-    let mut chosen = candidates.collect::<Result<Vec<Chosen>, BuildError>>()?;
-    let mut rounds = if prepared.is_crowd() {
+    let mut chosen = as_asked(prepared, group, spec, &begin)?;
+    let rounds = if prepared.is_crowd() {
         Vec::new()
     } else {
         rounds(asked)
-    }
-    .into_iter();
-    let others = |round: &[MatchOptions], wants: &[bool], progress: &dyn Progress| {
-        others(prepared, group, spec, round, wants, progress)
     };
     let spans = [(FIRST, SECOND), (SECOND, THIRD)].map(|(a, b)| Span::new(progress, a, b));
-    for (k, span) in spans.iter().enumerate() {
+    for (k, (round, span)) in rounds.iter().zip(&spans).enumerate() {
         let wants = |chosen: &Chosen| match chosen {
             Err(_) => true,
             Ok(best) if k == 0 => is_in_both(&best.matched) && best.matched.cost > ALIKE,
@@ -84,20 +76,11 @@ pub(super) fn best_of_group(
             Ok(best) => best.folds(),
         };
         let wants: Vec<bool> = chosen.iter().map(wants).collect();
-        let round = rounds.next().unwrap_or_default();
-        if !wants.contains(&true) || round.is_empty() {
-            continue;
-        }
-        for found in others(&round, &wants, span)? {
-            for (chosen, found) in chosen.iter_mut().zip(found) {
-                let Some(found) = found else { continue };
-                if chosen
-                    .as_ref()
-                    .map_or(true, |best| found.is_better_than(best))
-                {
-                    *chosen = Ok(found);
-                }
-            }
+        if wants.contains(&true) {
+            let found = others(prepared, group, spec, round, &wants, span)?;
+            found
+                .into_iter()
+                .for_each(|found| take_better(&mut chosen, found));
         }
     }
     let last = Span::new(progress, THIRD, 1.0);
@@ -109,6 +92,35 @@ pub(super) fn best_of_group(
             none => Ok(none),
         })
         .collect()
+}
+
+/// The pieces of a group at the prices that were asked for.
+fn as_asked(
+    prepared: &Prepared,
+    group: usize,
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<Vec<Chosen>, BuildError> {
+    let prices = spec.options.matching.options();
+    let pieces = prepared.matched_group(group, &prices, progress)?;
+    let shares = Several::new(progress, pieces.len());
+    let pieces = pieces.into_par_iter().enumerate();
+    pieces
+        .map(|(k, piece)| candidate(piece, spec, &shares.part(k)))
+        .collect()
+}
+
+/// Takes those that are better, piece by piece, and the earlier among equals.
+fn take_better(chosen: &mut [Chosen], found: Vec<Option<Candidate>>) {
+    for (chosen, found) in chosen.iter_mut().zip(found) {
+        let is_better = |found: &Candidate| match &*chosen {
+            Ok(best) => found.is_better_than(best),
+            Err(_) => true,
+        };
+        if let Some(found) = found.filter(is_better) {
+            *chosen = Ok(found);
+        }
+    }
 }
 
 fn candidate(

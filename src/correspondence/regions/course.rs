@@ -3,13 +3,10 @@
 
 use super::super::boundary_match::BoundaryMatch;
 use super::super::curve::Curve;
+use super::super::in_order::{in_order, is_pin};
 use super::super::polygons::SharedPolygons;
 use super::slits::mirror;
 use crate::geometry::{DVec2, Side};
-
-/// The least step between places of a match that was moved, as a share of the
-/// curve's length. Far below what is seen, far above rounding.
-const LEAST_STEP: f64 = 1e-6;
 
 /// Two matched curves.
 #[derive(Clone, Debug, PartialEq)]
@@ -61,57 +58,21 @@ impl Course {
 
     /// Whether somebody pinned this vertex.
     pub(crate) fn is_pinned(&self, vertex: usize) -> bool {
-        self.matched.pins.contains(&self.places[vertex])
+        is_pin(&self.matched.pins, self.places[vertex])
     }
 
     /// The same once its vertices belong to other places, as many as it has
-    /// and near where they were. What would step back is left out, pins last.
+    /// and near where they were. What would step back is left out, pins never.
     pub(super) fn moved(&self, places: &[[f64; 2]]) -> (Self, SharedPolygons) {
+        let wrapped = |place: &[f64; 2]| [0, 1].map(|side| self.curves[side].wrapped(place[side]));
+        let places: Vec<[f64; 2]> = places.iter().map(wrapped).collect();
         let mut matched = self.matched.clone();
-        matched.knots = self.in_order(places);
+        matched.knots = in_order(&self.places, &places, &matched.pins);
         Self::new(
             self.curves.clone(),
             matched,
             self.spacing,
             self.slits.clone(),
         )
-    }
-
-    fn in_order(&self, places: &[[f64; 2]]) -> Vec<[f64; 2]> {
-        let n = places.len();
-        let start = (0..n).find(|&k| self.is_pinned(k)).unwrap_or(0);
-        // Counted on from the start, so that ascending has a meaning.
-        let mut last = [0.0; 2];
-        let mut kept: Vec<(usize, [f64; 2])> = Vec::with_capacity(n);
-        for offset in 0..n {
-            let k = (start + offset) % n;
-            // The shorter way from the one before: nothing moves by half a round.
-            let at = [0, 1].map(|side| {
-                let by = places[k][side] - places[start][side] - last[side];
-                last[side] + (by - by.round())
-            });
-            let follows = |before: [f64; 2]| {
-                (0..2).all(|s| before[s] + LEAST_STEP < at[s] && at[s] < 1.0 - LEAST_STEP)
-            };
-            if self.is_pinned(k) {
-                while kept.len() > 1
-                    && kept
-                        .last()
-                        .is_some_and(|l| !self.is_pinned(l.0) && !follows(l.1))
-                {
-                    kept.pop();
-                }
-            }
-            if offset == 0 || kept.last().is_some_and(|before| follows(before.1)) {
-                kept.push((k, at));
-                last = at;
-            }
-        }
-        let mut kept: Vec<[f64; 2]> = kept
-            .into_iter()
-            .map(|(k, _)| [0, 1].map(|side| self.curves[side].wrapped(places[k][side])))
-            .collect();
-        kept.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        kept
     }
 }
