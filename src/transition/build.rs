@@ -126,6 +126,7 @@ fn fields(
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<Made, BuildError> {
+    checkpoint(progress, "measuring distances", 0.0)?;
     let frame = field_frame(spec, bar_width);
     let grid = Grid::covering(&frame, spec.options.field.cells, spec.options.field.margin)?;
     Load::Cells.allow(grid.cells(), progress)?;
