@@ -20,7 +20,7 @@ use morphospace::geometry::{Bounds, DVec2};
 use morphospace::stage::Show;
 use morphospace::transition::Rgb;
 
-use scenes::{field, of_gallery, solid, truss};
+use scenes::{field, of_gallery, perforated, solid, truss};
 use studio::{Scene, Studio};
 
 /// What the issue allows: pixels whose channels differ by more than this …
@@ -34,6 +34,10 @@ const TESTS: &[Test] = &[
     (
         "a_mesh_looks_the_same_on_both",
         a_mesh_looks_the_same_on_both,
+    ),
+    (
+        "holes_that_vanish_look_the_same_on_both",
+        holes_that_vanish_look_the_same_on_both,
     ),
     (
         "a_truss_looks_the_same_on_both",
@@ -78,6 +82,13 @@ const TESTS: &[Test] = &[
 fn a_mesh_looks_the_same_on_both(studio: &mut Studio) {
     let scene = Scene::new("mesh", solid(0.0));
     for t in [-0.25, 0.0, 0.35, 1.0] {
+        studio.compare(&scene, t);
+    }
+}
+
+fn holes_that_vanish_look_the_same_on_both(studio: &mut Studio) {
+    let scene = Scene::new("perforated", perforated());
+    for t in [0.0, 0.4, 0.9, 1.0] {
         studio.compare(&scene, t);
     }
 }

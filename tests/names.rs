@@ -11,7 +11,7 @@ use morphospace::field::Metric;
 use morphospace::homotopy::Homotopy;
 use morphospace::measure::Quantity;
 use morphospace::names::{Choice, keys};
-use morphospace::transition::{Boundary, Fit, PlayMode};
+use morphospace::transition::{Boundary, Fit, PlayMode, Quality};
 use morphospace::warp::{Basis, Between, Course, Travel, WarpKind};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -50,7 +50,7 @@ where
 fn keys_are_those_of_the_files_that_there_are() {
     table::<BlendSpace>("log real");
     table::<ContentKind>("colours field solid");
-    table::<HoleRule>("auto close cut");
+    table::<HoleRule>("alone auto close cut");
     table::<PartRule>("alone auto split");
     table::<Easing>("ease-in ease-out linear smooth");
     table::<Metric>("chessboard city-block euclidean quasi-euclidean");
@@ -58,6 +58,7 @@ fn keys_are_those_of_the_files_that_there_are() {
     table::<Boundary>("binary exact");
     table::<Fit>("as-drawn centred same-area");
     table::<PlayMode>("loop once ping-pong");
+    table::<Quality>("best draft");
     table::<Basis>("gaussian multiquadric thin-plate");
     table::<Between>("ends middle-and-angle");
     table::<Course>("intrinsic straight");

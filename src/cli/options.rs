@@ -11,7 +11,7 @@ use crate::field::Metric;
 use crate::homotopy::Homotopy;
 use crate::names::named;
 use crate::project::Project;
-use crate::transition::{Boundary, Easing, Fit, Options, PlayMode, Rgb};
+use crate::transition::{Boundary, Easing, Fit, Options, PlayMode, Quality, Rgb};
 use crate::warp::{ArapPath, Course, Travel, WarpKind, Weights};
 
 use super::error::CliError;
@@ -75,6 +75,10 @@ struct PlacingArgs {
     /// How the target is laid over the source
     #[arg(long, value_parser = one_of::<Fit>())]
     fit: Option<Fit>,
+
+    /// How much is tried for a film of outlines as rigid parts [default: best]
+    #[arg(long, value_parser = one_of::<Quality>())]
+    quality: Option<Quality>,
 
     /// Width of a truss's bars, as a fraction of the design's diameter
     #[arg(long, value_name = "FRACTION")]
@@ -299,6 +303,7 @@ impl MethodArgs {
             kinds.map(|(_, content)| Some(content)),
         );
         set(&mut project.fit, given.fit);
+        set(&mut project.options.quality, given.quality);
         set(&mut project.options.bar_width, given.bar_width);
         let given = &self.cell;
         // After the method: the parser lets nobody give both.
@@ -406,7 +411,7 @@ mod tests {
     #[test]
     fn flags_reach_their_options() {
         let project = edited(
-            "--method field --fit same-area --bar-width 0.02 --homotopy exponential \
+            "--method field --fit same-area --quality draft --bar-width 0.02 --homotopy exponential \
              --weights 1,2.5 --one-sided --extra-turns 0,-1 --anchor 3 --subdivisions 1 \
              --metric chessboard --boundary binary --space real --epsilon 2 --threshold -1.5 \
              --cells 64 --margin 0.2 --path straight",
@@ -420,6 +425,7 @@ mod tests {
             (project.fit, project.options.bar_width),
             (Fit::SameArea, 0.02)
         );
+        assert_eq!(project.options.quality, Quality::Draft);
         assert_eq!(project.options.arap.homotopy, Homotopy::Exponential);
         assert_eq!(
             project.options.arap.weights,

@@ -3,12 +3,14 @@
 
 mod colours;
 mod field;
+mod hole;
 mod scan;
 mod solid;
 
 pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
 pub(crate) use colours::{linear_from_srgb, srgb_from_linear};
 pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError};
+pub use hole::Hole;
 pub use solid::Solid;
 
 use crate::names::named;

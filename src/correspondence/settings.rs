@@ -80,20 +80,25 @@ pub struct PlaceError {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum HoleRule {
-    /// Whichever of the two matches better; where a design has more than 32
-    /// rings, it closes.
+    /// Whichever of these gives the better film; without one, whichever of the
+    /// first two matches better, and where a design has more than 32 rings, it
+    /// closes.
     #[default]
     Auto,
     /// The hole closes to a point, or opens from one.
     Close,
     /// The ring around it is cut open.
     Cut,
+    /// The part moves as if it had no such hole, which shrinks away in it, or
+    /// grows, without bending it.
+    Alone,
 }
 
 named! { HoleRule {
-    Auto: "auto", "Auto", "Whichever of the two fits better";
-    Close: "close", "Close", "The hole shrinks to a point, or grows from one";
+    Auto: "auto", "Auto", "Whichever of these gives the better film";
+    Close: "close", "Close", "The part flows together around it, or apart";
     Cut: "cut", "Cut", "The ring around the hole is cut open and uncoils";
+    Alone: "alone", "Alone", "It shrinks away, or grows, in a part that moves as without it";
 } }
 
 /// What becomes of a part without a partner.

@@ -1,5 +1,5 @@
-//! The edges of a closed polygon in boxes within boxes, so that a ray looks at
-//! few of them.
+//! The edges of a closed polygon in boxes within boxes, so that a ray, or
+//! whoever asks for the edges near a place, looks at few of them.
 //!
 //! Runs of edges that follow each other lie near each other: they are halved
 //! as they are listed, without sorting. A ray costs about the logarithm of the
@@ -18,6 +18,7 @@ const RUN: usize = 8;
 const SLACK: f64 = 1e-9;
 
 /// A closed polygon's edges.
+#[derive(Debug)]
 pub(crate) struct EdgeBoxes {
     edges: Vec<(DVec2, DVec2)>,
     /// A tree in depth-first order: the box of the first half follows at once,
@@ -69,6 +70,32 @@ impl EdgeBoxes {
         nearest
     }
 
+    /// Whether `is` holds for an edge near `place`: all whose box meets it are
+    /// asked, and some more, until one says so.
+    pub(crate) fn any_near(&self, place: &Bounds, is: &dyn Fn([DVec2; 2]) -> bool) -> bool {
+        !self.boxes.is_empty() && self.any_within(place, is, 0, 0, self.edges.len())
+    }
+
+    fn any_within(
+        &self,
+        place: &Bounds,
+        is: &dyn Fn([DVec2; 2]) -> bool,
+        node: usize,
+        from: usize,
+        to: usize,
+    ) -> bool {
+        let (bounds, second) = &self.boxes[node];
+        if !bounds.meets(place) {
+            return false;
+        }
+        if to - from <= RUN {
+            return self.edges[from..to].iter().any(|&(a, b)| is([a, b]));
+        }
+        let middle = from + (to - from) / 2;
+        self.any_within(place, is, node + 1, from, middle)
+            || self.any_within(place, is, *second, middle, to)
+    }
+
     fn visit(&self, ray: &Ray, node: usize, from: usize, to: usize, nearest: &mut f64) {
         let (bounds, second) = &self.boxes[node];
         if !ray.enters(bounds, *nearest) {
@@ -116,6 +143,7 @@ impl Ray {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::segments_cross;
     use proptest::prelude::*;
 
     proptest! {
@@ -132,6 +160,21 @@ mod tests {
             let slow = met.filter(|far| *far > own).fold(f64::INFINITY, f64::min);
             let fast = EdgeBoxes::of(&points).first_beyond(from, direction, own);
             prop_assert_eq!(slow, fast);
+        }
+
+        #[test]
+        fn what_crosses_an_edge_near_it_crosses_one_of_all(
+            points in prop::collection::vec((-1.0f64..1.0, -1.0f64..1.0), 1..80),
+            from in (-1.5f64..1.5, -1.5f64..1.5),
+            by in (-0.3f64..0.3, -0.3f64..0.3),
+        ) {
+            let points: Vec<DVec2> = points.into_iter().map(DVec2::from).collect();
+            let a = DVec2::from(from);
+            let segment = [a, a + DVec2::from(by)];
+            let crosses = |edge: [DVec2; 2]| segments_cross(segment, edge);
+            let slow = ring_edges(&points).any(|(a, b)| crosses([a, b]));
+            let place = Bounds::of(segment).expect("two points");
+            prop_assert_eq!(slow, EdgeBoxes::of(&points).any_near(&place, &crosses));
         }
 
         #[test]

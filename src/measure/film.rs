@@ -14,6 +14,7 @@ use crate::progress::{Cancelled, Progress, Span, Whole, checkpoint, still_wanted
 use crate::transition::{Frame, Transition};
 use crate::warp::{ArapError, Warp};
 use serde::Serialize;
+use std::f64::consts::TAU;
 
 /// What is measured at one t.
 #[derive(Clone, Debug, Serialize)]
@@ -168,7 +169,7 @@ impl<'a> Sampler<'a> {
     }
 
     fn of_solid(&self, t: f64, solid: &Solid, places: &[DVec2]) -> FilmSample {
-        let rings = solid.rings_at(places);
+        let rings = solid.rings_at(places, t);
         let bars = solid.bars_at(places);
         let lengths: f64 = bars.iter().map(|[a, b]| a.distance(*b)).sum();
         FilmSample {
@@ -176,13 +177,23 @@ impl<'a> Sampler<'a> {
             area: rings.iter().map(|ring| signed_area(ring)).sum::<f64>()
                 + lengths * solid.bar_width,
             perimeter: rings_perimeter(&rings) + 2.0 * lengths,
-            turning: turning(&rings, self.diameter),
+            turning: turning(&rings, self.diameter) + TAU * solid.gone_at(t) as f64,
             pieces: self.topology.map(|[pieces, _]| pieces),
             holes: self.topology.map(|[_, holes]| holes),
-            crossings: (!rings.is_empty()).then(|| count_crossings(&rings)),
+            crossings: (!rings.is_empty()).then(|| crossings_at(t, &rings)),
             distortion: self.mesh.and_then(|mesh| distortion(mesh, places)),
         }
     }
+}
+
+/// How often rings cross at `t`. At its ends a film is the designs: parts that
+/// one of them was cut into share their seams there, to the last digit and no
+/// further.
+pub(super) fn crossings_at(t: f64, rings: &[Vec<DVec2>]) -> usize {
+    if t == 0.0 || t == 1.0 {
+        return 0;
+    }
+    count_crossings(rings)
 }
 
 /// The diameter of the larger design.
@@ -198,13 +209,18 @@ fn larger(transition: &Transition) -> f64 {
 /// a point has it from its larger end.
 fn topology(solid: &Solid, frame: &Frame) -> [usize; 2] {
     let placement = frame.placement();
-    let ends = [&placement.in_source, &placement.in_target].map(|places| solid.rings_at(places));
+    let at = |places: &Vec<DVec2>| {
+        let walk = |walk: &Vec<u32>| walk.iter().map(|&v| places[v as usize]).collect();
+        solid.loops.iter().map(walk).collect::<Vec<Vec<DVec2>>>()
+    };
+    let ends = [&placement.in_source, &placement.in_target].map(at);
     let is_hole = |(a, b): &(&Vec<DVec2>, &Vec<DVec2>)| {
         let areas = [signed_area(a), signed_area(b)];
         areas[usize::from(areas[1].abs() > areas[0].abs())] < 0.0
     };
     let holes = ends[0].iter().zip(&ends[1]).filter(is_hole).count();
-    [ends[0].len() - holes, holes]
+    // One that comes or goes is a point where it is not, like one that closes.
+    [ends[0].len() - holes, holes + solid.holes.len()]
 }
 
 fn of_rings(t: f64, rings: &[Vec<DVec2>], diameter: f64) -> FilmSample {

@@ -1,5 +1,5 @@
-//! The render mesh of boundaries that bring no faces: their rings, filled
-//! together by the non-zero rule.
+//! The render mesh of boundaries that bring no faces, or have holes in them that
+//! come and go: their rings, filled together by the non-zero rule.
 //!
 //! The rings may cross themselves and each other, so each frame is triangulated
 //! anew (`i_triangle`, a sweep over a grid of 64-bit integers; some
@@ -32,7 +32,7 @@ pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
     let Content::Solid(solid) = frame.transition().content() else {
         return;
     };
-    let rings = solid.rings_at(&frame.placement().in_frame);
+    let rings = solid.rings_at(&frame.placement().in_frame, frame.t());
     let (positions, indices) = filled(&rings, origin);
     // Other frames have other triangles: there is nothing to be written in
     // place.

@@ -32,7 +32,7 @@ pub(super) struct Part {
 #[derive(Clone, Debug)]
 pub(super) enum PartKind {
     Faces,
-    /// Boundaries that bring no faces.
+    /// Boundaries that bring no faces, or more holes than those.
     Rings,
     Field,
     Picture,

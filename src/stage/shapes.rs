@@ -226,6 +226,7 @@ mod tests {
             loops: vec![],
             bars: vec![[0, 1], [1, 2], [2, 0]],
             bar_width: 0.2,
+            ..Solid::default()
         };
         (points, BarShapes::new(&solid))
     }

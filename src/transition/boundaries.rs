@@ -80,7 +80,7 @@ fn rings(piece: &PieceMatch) -> Vec<RingPair> {
         }
         RingPair { source, target }
     };
-    piece.rings.iter().map(pair).collect()
+    piece.rings.iter().chain(&piece.lone).map(pair).collect()
 }
 
 fn middle(ring: &[DVec2]) -> DVec2 {

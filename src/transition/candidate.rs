@@ -1,18 +1,19 @@
 //! One way to match a piece: its mesh, and what is seen of its film.
 
-use super::conflicts::is_in_both;
 use super::error::BuildError;
+use super::holes::{HoleOf, timed};
 use super::options::Options;
 use super::rigid::arap;
 use crate::compatible::{CompatibleMesh, PolygonsError, of_piece};
-use crate::correspondence::PieceMatch;
+use crate::correspondence::{Holes, PieceMatch};
 use crate::geometry::{DVec2, count_crossings, orient2d, turning, turning_excess};
 use crate::progress::{Cancelled, Progress, Span, still_wanted};
 use crate::warp::{Arap, ArapOptions, Warp};
+use std::f64::consts::TAU;
 
 /// Steps of a film that is looked at for folds and crossings.
 /// Each costs a frame of every candidate; a fold between two is missed.
-const STEPS: u32 = 16;
+const STEPS: u32 = 32;
 
 /// How much of a candidate is done once it has its mesh.
 const MESHED: f64 = 0.9;
@@ -30,6 +31,8 @@ const JAGGED: i32 = 3;
 #[derive(Clone)]
 pub(super) struct Candidate {
     pub(super) matched: PieceMatch,
+    /// How its holes were treated.
+    pub(super) holes: Holes,
     pub(super) mesh: CompatibleMesh,
     trouble: Trouble,
     /// As [`CompatibleMesh::distortion`].
@@ -70,6 +73,7 @@ impl From<Cancelled> for NoCandidate {
 impl Candidate {
     pub(super) fn new(
         matched: PieceMatch,
+        holes: Holes,
         options: &Options,
         progress: &dyn Progress,
     ) -> Result<Self, NoCandidate> {
@@ -77,20 +81,23 @@ impl Candidate {
             [(0.0, MESHED), (MESHED, 1.0)].map(|(from, to)| Span::new(progress, from, to));
         let mesh =
             of_piece(&matched, &options.triangulation, &meshing).map_err(NoCandidate::Mesh)?;
-        let trouble = if is_in_both(&matched) {
+        let trouble = if matched.is_in_both() {
             // As it moves by itself: weights and anchors are said of the whole.
             let alone = ArapOptions {
                 homotopy: options.arap.homotopy,
                 symmetric: options.arap.symmetric,
                 ..ArapOptions::default()
             };
-            Trouble::of(&arap(&mesh, &alone, &[], &filming)?, progress)?
+            let film = arap(&mesh, &alone, &[], &filming)?;
+            let lone = timed(std::slice::from_ref(&matched), &film, progress)?;
+            Trouble::of(&film, &lone, progress)?
         } else {
             Trouble::default()
         };
         Ok(Self {
             trouble,
             distortion: mesh.distortion(WORST),
+            holes,
             matched,
             mesh,
         })
@@ -118,7 +125,7 @@ impl Candidate {
 }
 
 impl Trouble {
-    fn of(arap: &Arap, progress: &dyn Progress) -> Result<Self, Cancelled> {
+    fn of(arap: &Arap, lone: &[HoleOf], progress: &dyn Progress) -> Result<Self, Cancelled> {
         let mesh = arap.mesh();
         let (loops, diameter) = (mesh.boundary_loops(), mesh.diameter());
         let [mut folds, mut crossings] = [0; 2];
@@ -130,8 +137,11 @@ impl Trouble {
             placer.place(t);
             let places = &placer.placement().in_frame;
             let ring = |ring: &Vec<u32>| ring.iter().map(|&v| places[v as usize]).collect();
-            let rings: Vec<Vec<DVec2>> = loops.iter().map(ring).collect();
-            turned.push([t, turning(&rings, diameter)]);
+            let holes = lone.iter().filter_map(|(_, hole)| hole.at(places, t));
+            let rings: Vec<Vec<DVec2>> = loops.iter().map(ring).chain(holes).collect();
+            // What is gone still counts as a point, which turns once.
+            let gone = loops.len() + lone.len() - rings.len();
+            turned.push([t, turning(&rings, diameter) + TAU * gone as f64]);
             // The ends are the designs.
             if step > 0 && step < STEPS {
                 folds += folded(arap, places);

@@ -3,20 +3,23 @@
 //!
 //! No measure of two boundaries alone tells what becomes of the inside, so a
 //! match is judged by its film. Each piece moves by itself, so that each is
-//! chosen for itself. Candidates come in rounds: first the match at
-//! the prices that were asked for, and at other prices beside it where the
-//! shapes are unlike; then, as long as the best film folds, the others. The best
-//! of all so far is the one with the fewest folded faces over all its steps,
+//! chosen for itself. Candidates come in rounds: first the match at the prices
+//! that were asked for, without the holes that have no partner; with these cut
+//! open or closed; where it folds, without any hole. Then other prices, where
+//! the shapes are unlike, and as long as the best film folds the last ones. The
+//! best of all so far is the one with the fewest folded faces over all its steps,
 //! then the fewest crossings of its outlines, then the least distortion,
 //! outlines that grow jagged on the way included, then the earliest. What was
-//! chosen then slides, as long as that makes it better.
+//! chosen then slides, as long as that makes it better. A draft is the match
+//! that was asked for, and nothing else is tried.
 
-use super::candidate::{Candidate, NoCandidate};
-use super::conflicts::is_in_both;
+use super::candidate::Candidate;
 use super::error::BuildError;
+use super::group::{Chosen, GroupOf, Way, piece};
+use super::options::Quality;
 use super::spec::TransitionSpec;
-use crate::compatible::{PolygonsError, slid};
-use crate::correspondence::{MatchOptions, Matching, PieceMatch, Prepared};
+use crate::compatible::slid;
+use crate::correspondence::{HoleRule, Holes, MatchOptions, Matching, Prepared};
 use crate::progress::{Progress, Several, Span, still_wanted};
 use rayon::prelude::*;
 
@@ -35,20 +38,24 @@ const INNER: f64 = 8.0;
 /// thickness, which of a thick body and thin arms makes one arm the body.
 const LAST_PRICES: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 
+/// A round of films of the pieces of a group may cost so much: the number of
+/// films times the square of a piece's boundary vertices. A film of 700 vertices
+/// takes some 0.3 s, those of drawings that fold whatever is tried up to 2 s.
+/// Without a bound a pair of icons took 24 s, and folded.
+const MOST_WORK: usize = 2_500_000;
+
 /// How much is done once the match that was asked for has its film, those
 /// beside it have theirs, and the last ones, as it is told.
 const FIRST: f64 = 0.2;
-const SECOND: f64 = 0.5;
-const THIRD: f64 = 0.7;
+const SECOND: f64 = 0.3;
+const THIRD: f64 = 0.6;
+const FOURTH: f64 = 0.7;
 
 /// How often a piece slides.
 const SLIDES: u32 = 3;
 
 /// Maps that distort less are left as they are: two drawings of one thing.
 const FAITHFUL: f64 = 1.02;
-
-/// What became of a piece: its best candidate, or why there is none.
-pub(super) type Chosen = Result<Candidate, (PieceMatch, PolygonsError)>;
 
 /// The best of each piece of a group of parts.
 pub(super) fn best_of_group(
@@ -57,33 +64,29 @@ pub(super) fn best_of_group(
     spec: &TransitionSpec,
     progress: &dyn Progress,
 ) -> Result<Vec<Chosen>, BuildError> {
-    let asked = &spec.options.matching;
-    let begin = Span::new(progress, 0.0, FIRST);
-    let mut chosen = as_asked(prepared, group, spec, &begin)?;
-    let rounds = if prepared.is_crowd() {
-        Vec::new()
-    } else {
-        rounds(asked)
+    let group = &GroupOf {
+        prepared,
+        group,
+        spec,
     };
-    let spans = [(FIRST, SECOND), (SECOND, THIRD)].map(|(a, b)| Span::new(progress, a, b));
-    for (k, (round, span)) in rounds.iter().zip(&spans).enumerate() {
-        let wants = |chosen: &Chosen| match chosen {
-            Err(_) => true,
-            Ok(best) if k == 0 => is_in_both(&best.matched) && best.matched.cost > ALIKE,
-            // Folds alone: the last prices match worse, and are for want of better.
-            // Tried against crossings too they take twice as long and help one
-            // pair of icons of 58.
-            Ok(best) => best.folds(),
-        };
-        let wants: Vec<bool> = chosen.iter().map(wants).collect();
-        if wants.contains(&true) {
-            let found = others(prepared, group, spec, round, &wants, span)?;
-            found
-                .into_iter()
-                .for_each(|found| take_better(&mut chosen, found));
-        }
+    if spec.options.quality == Quality::Draft {
+        return group.as_asked(progress);
     }
-    let last = Span::new(progress, THIRD, 1.0);
+    let span = |from, to| Span::new(progress, from, to);
+    let mut chosen = group.as_asked(&span(0.0, FIRST))?;
+    if !prepared.is_crowd() {
+        let cut = Holes::By(HoleRule::Auto);
+        group.try_holes(&mut chosen, cut, &has_lone_holes, &span(FIRST, SECOND))?;
+        let unpaired = Holes::Unpaired;
+        group.try_holes(
+            &mut chosen,
+            unpaired,
+            &has_folding_holes,
+            &span(SECOND, THIRD),
+        )?;
+        group.try_other_prices(&mut chosen, &span(THIRD, FOURTH))?;
+    }
+    let last = span(FOURTH, 1.0);
     let shares = Several::new(&last, chosen.len());
     let settled = chosen.into_par_iter().enumerate();
     settled
@@ -94,76 +97,103 @@ pub(super) fn best_of_group(
         .collect()
 }
 
-/// The pieces of a group at the prices that were asked for.
-fn as_asked(
-    prepared: &Prepared,
-    group: usize,
-    spec: &TransitionSpec,
-    progress: &dyn Progress,
-) -> Result<Vec<Chosen>, BuildError> {
-    let prices = spec.options.matching.options();
-    let pieces = prepared.matched_group(group, &prices, progress)?;
-    let shares = Several::new(progress, pieces.len());
-    let pieces = pieces.into_par_iter().enumerate();
-    pieces
-        .map(|(k, piece)| candidate(piece, spec, &shares.part(k)))
-        .collect()
-}
-
-/// Takes those that are better, piece by piece, and the earlier among equals.
-fn take_better(chosen: &mut [Chosen], found: Vec<Option<Candidate>>) {
-    for (chosen, found) in chosen.iter_mut().zip(found) {
-        let is_better = |found: &Candidate| match &*chosen {
-            Ok(best) => found.is_better_than(best),
-            Err(_) => true,
-        };
-        if let Some(found) = found.filter(is_better) {
-            *chosen = Ok(found);
+impl GroupOf<'_> {
+    /// Tries the pieces that want it at the prices that were asked for, with
+    /// their holes treated so.
+    fn try_holes(
+        &self,
+        chosen: &mut [Chosen],
+        holes: Holes,
+        wants: &dyn Fn(&Chosen) -> bool,
+        progress: &dyn Progress,
+    ) -> Result<(), BuildError> {
+        let asked = &self.spec.options.matching;
+        if asked.holes != HoleRule::Auto {
+            return Ok(());
         }
+        let options = asked.options();
+        let wants: Vec<bool> = chosen.iter().map(wants).collect();
+        self.try_ways(chosen, &[Way { options, holes }], &wants, progress)
+    }
+
+    /// Tries other prices where the shapes are unlike, and then those for want
+    /// of better.
+    fn try_other_prices(
+        &self,
+        chosen: &mut [Chosen],
+        progress: &dyn Progress,
+    ) -> Result<(), BuildError> {
+        let spans = [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| Span::new(progress, a, b));
+        let rounds = rounds(&self.spec.options.matching);
+        for (k, (round, span)) in rounds.iter().zip(&spans).enumerate() {
+            let wants = |chosen: &Chosen| match chosen {
+                Err(_) => true,
+                Ok(best) if k == 0 => best.matched.is_in_both() && best.matched.cost > ALIKE,
+                // Folds alone: the last prices match worse, and are for want of better.
+                // Tried against crossings too they take twice as long and help one
+                // pair of icons of 58.
+                Ok(best) => best.folds(),
+            };
+            let wants = affordable(chosen, &wants, round.len());
+            // Each piece with its holes as they were best so far.
+            let holes = |chosen: &Chosen| match chosen {
+                Ok(best) => best.holes,
+                Err(_) => self.first_holes(),
+            };
+            let holes: Vec<Holes> = chosen.iter().map(holes).collect();
+            let mut treated: Vec<Holes> = Vec::new();
+            for now in holes.iter().zip(&wants).filter(|(_, wants)| **wants) {
+                if !treated.contains(now.0) {
+                    treated.push(*now.0);
+                }
+            }
+            for now in treated {
+                let way = |options: &MatchOptions| Way {
+                    options: options.clone(),
+                    holes: now,
+                };
+                let ways: Vec<Way> = round.iter().map(way).collect();
+                let wants = holes
+                    .iter()
+                    .zip(&wants)
+                    .map(|(holes, wants)| *wants && *holes == now);
+                let wants: Vec<bool> = wants.collect();
+                self.try_ways(chosen, &ways, &wants, span)?;
+            }
+        }
+        Ok(())
     }
 }
 
-fn candidate(
-    piece: PieceMatch,
-    spec: &TransitionSpec,
-    progress: &dyn Progress,
-) -> Result<Chosen, BuildError> {
-    match Candidate::new(piece.clone(), &spec.options, progress) {
-        Ok(candidate) => Ok(Ok(candidate)),
-        Err(NoCandidate::Build(error)) => Err(error),
-        Err(NoCandidate::Mesh(PolygonsError::Cancelled(cancelled))) => Err(cancelled.into()),
-        Err(NoCandidate::Mesh(error)) => Ok(Err((piece, error))),
+/// Which of the pieces that want so many more films get them: the smallest, for
+/// as much work as a round may cost.
+fn affordable(chosen: &[Chosen], wants: &dyn Fn(&Chosen) -> bool, films: usize) -> Vec<bool> {
+    let work = |k: usize| {
+        let rings = piece(&chosen[k]).rings.iter();
+        let vertices: usize = rings.map(|ring| ring.source.len()).sum();
+        films * vertices * vertices
+    };
+    let mut wanting: Vec<usize> = (0..chosen.len()).filter(|&k| wants(&chosen[k])).collect();
+    wanting.sort_by_key(|&k| work(k));
+    let (mut done, mut get) = (0, vec![false; chosen.len()]);
+    for k in wanting {
+        done += work(k);
+        get[k] = done <= MOST_WORK;
     }
+    get
 }
 
-/// For each of these matches the candidates of the pieces that want one.
-fn others(
-    prepared: &Prepared,
-    group: usize,
-    spec: &TransitionSpec,
-    round: &[MatchOptions],
-    wants: &[bool],
-    progress: &dyn Progress,
-) -> Result<Vec<Vec<Option<Candidate>>>, BuildError> {
-    let shares = Several::new(progress, round.len());
-    let found = round.par_iter().enumerate().map(|(k, options)| {
-        let share = shares.part(k);
-        let [begin, rest] = [(0.0, FIRST), (FIRST, 1.0)].map(|(a, b)| Span::new(&share, a, b));
-        let matched = prepared.matched_group(group, options, &begin);
-        still_wanted(progress)?;
-        // What cannot be had is no better: there is the first one.
-        let pieces = matched.unwrap_or_default();
-        let shares = Several::new(&rest, pieces.len());
-        let pieces = pieces.into_par_iter().zip(wants).enumerate();
-        let candidates = pieces.map(|(k, (piece, wanted))| {
-            let made = wanted.then(|| Candidate::new(piece, &spec.options, &shares.part(k)).ok());
-            // But a cancel is an answer.
-            still_wanted(progress)?;
-            Ok(made.flatten())
-        });
-        candidates.collect::<Result<Vec<_>, BuildError>>()
-    });
-    found.collect()
+/// A hole of the piece has no partner.
+fn has_lone_holes(chosen: &Chosen) -> bool {
+    let piece = piece(chosen);
+    piece.is_in_both() && !piece.lone.is_empty()
+}
+
+/// Holes of the piece have partners, and it folds with them.
+fn has_folding_holes(chosen: &Chosen) -> bool {
+    let piece = piece(chosen);
+    let folds = chosen.as_ref().map_or(true, Candidate::folds);
+    piece.is_in_both() && piece.rings.len() > 1 && folds
 }
 
 /// What was chosen, its correspondence and its map improved together as long
@@ -174,7 +204,7 @@ fn settled_by_sliding(
     progress: &dyn Progress,
 ) -> Result<Candidate, BuildError> {
     for round in 0..SLIDES {
-        if !is_in_both(&best.matched) || best.distortion < FAITHFUL {
+        if !best.matched.is_in_both() || best.distortion < FAITHFUL {
             break;
         }
         let share = |k: u32| f64::from(k) / f64::from(SLIDES);
@@ -183,7 +213,8 @@ fn settled_by_sliding(
         let places = slid(&best.matched, &best.mesh, options, progress);
         still_wanted(progress)?;
         let Some(places) = places else { break };
-        let moved = Candidate::new(best.matched.moved(&places), &spec.options, progress).ok();
+        let moved = best.matched.moved(&places);
+        let moved = Candidate::new(moved, best.holes, &spec.options, progress).ok();
         still_wanted(progress)?;
         match moved {
             Some(moved) if moved.is_better_than(&best) => best = moved,

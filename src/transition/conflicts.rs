@@ -6,8 +6,10 @@
 //! with the most conflicts for its area first (the greedy cover of Chvátal
 //! 1979): small, not the smallest.
 
+use super::holes::HoleOf;
+use super::walks::Walks;
 use crate::correspondence::{PieceMatch, RegionMatch};
-use crate::geometry::{DVec2, Side, crossings, signed_area};
+use crate::geometry::{Side, crossings, signed_area};
 use crate::progress::{Cancelled, Progress, still_wanted};
 use crate::warp::{Arap, Warp};
 use std::collections::BTreeSet;
@@ -15,60 +17,41 @@ use std::collections::BTreeSet;
 /// Steps of a film that is looked at.
 pub(super) const STEPS: u32 = 32;
 
-/// The boundary walks of the parts of a film that both designs have, and the
-/// piece that each belongs to.
-pub(super) struct Walks {
-    walks: Vec<Vec<u32>>,
-    pieces: Vec<usize>,
-}
-
-impl Walks {
-    pub(super) fn of(film: &Arap) -> Self {
-        let parts = film.mesh().components();
-        let piece = |walk: &Vec<u32>| walk.first().map_or(0, |&v| parts[v as usize] as usize);
-        let is_in_both = |piece: usize| film.lives().get(piece).is_none_or(Option::is_none);
-        let (walks, pieces) = (film.mesh().boundary_loops().into_iter())
-            .map(|walk| (piece(&walk), walk))
-            .filter(|(piece, _)| is_in_both(*piece))
-            .map(|(piece, walk)| (walk, piece))
-            .unzip();
-        Self { walks, pieces }
-    }
-
-    /// Where the walks are.
-    pub(super) fn rings(&self, places: &[DVec2]) -> Vec<Vec<DVec2>> {
-        let ring = |walk: &Vec<u32>| walk.iter().map(|&v| places[v as usize]).collect();
-        self.walks.iter().map(ring).collect()
-    }
-}
-
-/// Whether a piece is a part of both designs.
-pub(super) fn is_in_both(piece: &PieceMatch) -> bool {
-    piece.source_part.is_some() && piece.target_part.is_some()
-}
-
 /// The pieces to let go; none where no two parts of both designs meet.
 pub(super) fn in_the_way(
     matched: &RegionMatch,
     film: &Arap,
+    holes: &[HoleOf],
     progress: &dyn Progress,
 ) -> Result<Vec<usize>, Cancelled> {
-    let conflicts = conflicts(film, progress)?;
+    let conflicts = conflicts(film, holes, progress)?;
     Ok(cover(conflicts, &worths(matched)))
 }
 
 /// The pairs of pieces that cross at any step, those that are born or die
 /// left out: where these are is not settled yet.
-fn conflicts(film: &Arap, progress: &dyn Progress) -> Result<BTreeSet<[usize; 2]>, Cancelled> {
+fn conflicts(
+    film: &Arap,
+    holes: &[HoleOf],
+    progress: &dyn Progress,
+) -> Result<BTreeSet<[usize; 2]>, Cancelled> {
     let walks = Walks::of(film);
     let mut placer = film.placer();
     let mut found = BTreeSet::new();
     for step in 1..STEPS {
         still_wanted(progress)?;
-        placer.place(f64::from(step) / f64::from(STEPS));
-        let rings = walks.rings(&placer.placement().in_frame);
+        let t = f64::from(step) / f64::from(STEPS);
+        placer.place(t);
+        let places = &placer.placement().in_frame;
+        let (mut rings, mut pieces) = (walks.rings(places), walks.pieces().to_vec());
+        for (piece, hole) in holes {
+            if let Some(ring) = hole.at(places, t) {
+                rings.push(ring);
+                pieces.push(*piece);
+            }
+        }
         for crossing in crossings(&rings) {
-            let [a, b] = crossing.edges.map(|edge| walks.pieces[edge.ring]);
+            let [a, b] = crossing.edges.map(|edge| pieces[edge.ring]);
             if a != b {
                 found.insert([a.min(b), a.max(b)]);
             }

@@ -87,7 +87,7 @@ impl Frame {
             Content::Solid(solid) => {
                 let places = &self.placement().in_frame;
                 Figure {
-                    rings: solid.rings_at(places),
+                    rings: solid.rings_at(places, self.t),
                     bars: solid.bars_at(places),
                     bar_width: solid.bar_width,
                 }

@@ -13,10 +13,12 @@
 //!   (rigid parts, or `boundaries` alone) and `plane` (warps of the plane,
 //!   from the `features` that they go by); `rigid`: a mesh that is not too
 //!   large
-//! - `candidate`: a matched piece and what is seen of its film; `choice`: of
-//!   several the one with the least trouble; `settled`: all pieces out of each
+//! - `candidate`: a matched piece and what is seen of its film; `group`: the
+//!   pieces of some parts, matched in several ways; `choice`: of several the one
+//!   with the least trouble; `settled`: all pieces out of each
 //!   other's way, by the `conflicts` that they have and the places and times of
-//!   `births`
+//!   `births`, and `holes` in them that come and go, by where their `walks` and
+//!   `outline`s are
 //! - `note`: what was done otherwise than asked
 //! - `ready`, `frame`: the transition and its moments
 //! - `timing`, `style`: how it is played and painted
@@ -32,9 +34,12 @@ mod conflicts;
 mod error;
 mod features;
 mod frame;
+mod group;
+mod holes;
 mod moved;
 mod note;
 mod options;
+mod outline;
 mod plane;
 mod ready;
 mod rigid;
@@ -43,6 +48,7 @@ mod solids;
 mod spec;
 mod style;
 mod timing;
+mod walks;
 
 #[cfg(test)]
 mod tests;
@@ -54,7 +60,7 @@ pub use cells::{Cell, NoSuchCell};
 pub use error::BuildError;
 pub use frame::{Figure, Frame};
 pub use note::Note;
-pub use options::{Boundary, FieldOptions, Options};
+pub use options::{Boundary, FieldOptions, Options, Quality};
 pub use ready::Transition;
 pub use spec::TransitionSpec;
 pub use style::{NoColour, Rgb, Style};

@@ -34,6 +34,9 @@ pub struct Options {
     /// design, in a specification in those of the common frame.
     #[serde(rename = "match", skip_serializing_if = "is_default")]
     pub matching: Matching,
+    /// How much is tried for a film of outlines.
+    #[serde(skip_serializing_if = "is_default")]
+    pub quality: Quality,
     /// How matched outlines are triangulated.
     #[serde(skip_serializing_if = "is_default")]
     pub triangulation: PolygonOptions,
@@ -64,6 +67,7 @@ impl Default for Options {
             travel: Travel::default(),
             bar_width: 0.012,
             matching: Matching::default(),
+            quality: Quality::default(),
             triangulation: PolygonOptions::default(),
             arap: ArapOptions::default(),
             paths: PathOptions::default(),
@@ -79,6 +83,22 @@ impl Default for Options {
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
+
+/// How much is tried for a film of rigid parts of outlines.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Quality {
+    /// One match, and its film as it comes.
+    Draft,
+    /// Several matches; the one whose film has the least trouble is improved.
+    #[default]
+    Best,
+}
+
+named! { Quality {
+    Draft: "draft", "Draft", "The first film, at once";
+    Best: "best", "Best", "Several matches are tried, and the best film is improved";
+} }
 
 /// Where the boundary of a distance field runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -7,9 +7,11 @@
 
 use super::births::{self, lives};
 use super::candidate::Candidate;
-use super::choice::{Chosen, best_of_group};
+use super::choice::best_of_group;
 use super::conflicts::in_the_way;
 use super::error::BuildError;
+use super::group::Chosen;
+use super::holes::{HoleOf, timed};
 use super::rigid::arap;
 use super::spec::TransitionSpec;
 use crate::compatible::{OutlinesError, joined};
@@ -27,12 +29,21 @@ const ROUNDS: u32 = 3;
 /// How much of a round is done once the pieces have their matches.
 const CHOSEN: f64 = 0.9;
 
+/// The film of both outlines.
+pub(super) struct Film {
+    /// The match that was kept.
+    pub matched: RegionMatch,
+    pub arap: Arap,
+    /// Holes that one of the designs has alone.
+    pub holes: Vec<HoleOf>,
+}
+
 /// The match of both outlines that is kept, and its film, settled.
 pub(super) fn best(
     spec: &TransitionSpec,
     outlines: &[Regions; 2],
     progress: &dyn Progress,
-) -> Result<(RegionMatch, Arap), BuildError> {
+) -> Result<Film, BuildError> {
     let [source, target] = outlines;
     checkpoint(progress, "matching", 0.0)?;
     let mut prepared = Prepared::new([source, target], &spec.options.matching, progress)?;
@@ -45,7 +56,7 @@ fn parted(
     prepared: &mut Prepared,
     spec: &TransitionSpec,
     progress: &dyn Progress,
-) -> Result<(RegionMatch, Arap), BuildError> {
+) -> Result<Film, BuildError> {
     let mut known = Known::new();
     let (mut round, mut mended) = (0, 0);
     loop {
@@ -64,10 +75,15 @@ fn parted(
         }
         let candidates = meshed(groups.concat())?;
         let mesh = joined(candidates.iter().map(|best| &best.mesh));
-        let film = arap(&mesh, &spec.options.arap, &lives(&matched), &filming)?;
-        let gone = in_the_way(&matched, &film, progress)?;
+        let arap = arap(&mesh, &spec.options.arap, &lives(&matched), &filming)?;
+        let holes = timed(&matched.pieces, &arap, progress)?;
+        let gone = in_the_way(&matched, &arap, &holes, progress)?;
         if round == ROUNDS || !prepared.let_go(&matched, &gone, progress) {
-            return Ok((matched, film));
+            return Ok(Film {
+                matched,
+                arap,
+                holes,
+            });
         }
         known = asked.into_iter().zip(groups).collect();
         round += 1;
@@ -136,18 +152,18 @@ fn meshed(chosen: Vec<Chosen>) -> Result<Vec<Candidate>, BuildError> {
     candidates.collect()
 }
 
-/// The match and its film with all that is born or dies in its place and time.
-fn placed(
-    (matched, film): (RegionMatch, Arap),
-    progress: &dyn Progress,
-) -> Result<(RegionMatch, Arap), BuildError> {
+/// A film with all that is born or dies in its place and time.
+fn placed(film: Film, progress: &dyn Progress) -> Result<Film, BuildError> {
     // Where the film is subdivided its mesh is too: it is not divided again.
-    let (mesh, once) = (film.mesh(), film.options());
-    Ok(match births::placed(&matched, mesh, &film, progress)? {
-        Some(placed) => {
-            let film = arap(&placed.mesh, once, &placed.lives, progress)?;
-            (placed.matched, film)
-        }
-        None => (matched, film),
+    let once = film.arap.options();
+    let placed = births::placed(&film.matched, &film.arap, &film.holes, progress)?;
+    Ok(match placed {
+        Some(placed) => Film {
+            arap: arap(&placed.mesh, once, &placed.lives, progress)?,
+            matched: placed.matched,
+            // They lie in none of what was moved.
+            holes: film.holes,
+        },
+        None => film,
     })
 }

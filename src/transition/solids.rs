@@ -22,6 +22,7 @@ pub(super) fn rigid_parts(
 ) -> Result<(Moved, Solid), BuildError> {
     checkpoint(progress, "triangulating", 0.0)?;
     let mut bars = Vec::new();
+    let mut holes = Vec::new();
     let (arap, matched) = match (&spec.source.form, &spec.target.form) {
         (Form::Mesh(a), Form::Mesh(b)) => (
             given(spec, CompatibleMesh::from_meshes(a, b), progress)?,
@@ -36,8 +37,9 @@ pub(super) fn rigid_parts(
         }
         _ => {
             let outlines = spec.outlines(bar_width, progress)?;
-            let (matched, film) = settled::best(spec, &outlines, progress)?;
-            (film, Some(matched))
+            let best = settled::best(spec, &outlines, progress)?;
+            holes = best.holes.into_iter().map(|(_, hole)| hole).collect();
+            (best.arap, Some(best.matched))
         }
     };
     let solid = Solid {
@@ -48,6 +50,7 @@ pub(super) fn rigid_parts(
         },
         bars,
         bar_width,
+        holes,
     };
     let moved = Moved {
         matched,

@@ -2,7 +2,7 @@
 
 use super::cells::Cell;
 use super::error::BuildError;
-use super::options::Options;
+use super::options::{Options, Quality};
 use crate::budget::Load;
 use crate::content::ContentKind;
 use crate::design::{Design, Form, Format, Picture};
@@ -48,6 +48,22 @@ impl TransitionSpec {
             options: Options::default(),
             patient: false,
         }
+    }
+
+    /// The same as a draft, which is there sooner; `None` where nothing is
+    /// tried for a better one.
+    #[must_use]
+    pub fn draft(&self) -> Option<Self> {
+        let are_given = matches!(
+            (&self.source.form, &self.target.form),
+            (Form::Mesh(_), Form::Mesh(_)) | (Form::Truss(_), Form::Truss(_))
+        );
+        let is_tried = self.cell == Cell::RIGID_PARTS && !are_given;
+        (is_tried && self.options.quality != Quality::Draft).then(|| {
+            let mut draft = self.clone();
+            draft.options.quality = Quality::Draft;
+            draft
+        })
     }
 
     /// The outlines of both designs; bars are so wide, in units of the designs.

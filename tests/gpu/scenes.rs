@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use image::{Rgba, RgbaImage};
 use morphospace::content::{BlendSpace, ContentKind, FieldBlend};
+use morphospace::correspondence::HoleRule;
 use morphospace::design::{Design, Form, Picture, Truss};
 use morphospace::geometry::{DVec2, FillRule, Regions};
 use morphospace::mesh::TriangleMesh;
@@ -43,6 +44,32 @@ pub fn solid(offset: f64) -> Transition {
     let source = design(mesh(&|p| p));
     let target = design(mesh(&bent));
     build(&TransitionSpec::new(source, target))
+}
+
+/// A plate with holes that vanish while it bends.
+pub fn perforated() -> Transition {
+    let block = |x: f64, y: f64, w: f64, h: f64| {
+        let corners = [(x, y), (x + w, y), (x + w, y + h), (x, y + h)];
+        corners.map(DVec2::from).to_vec()
+    };
+    let mut plate = vec![block(0.0, 0.0, 9.0, 3.0)];
+    plate.extend((0..4).map(|k| block(0.6 + 2.2 * f64::from(k), 1.0, 1.2, 1.0)));
+    let corner = [
+        (0.0, 0.0),
+        (6.0, 0.0),
+        (6.0, 6.0),
+        (3.5, 6.0),
+        (3.5, 2.5),
+        (0.0, 2.5),
+    ];
+    let corner = vec![corner.map(DVec2::from).to_vec()];
+    let [source, target] = [plate, corner].map(|rings| {
+        let regions = Regions::from_rings(&rings, FillRule::EvenOdd).expect("regions");
+        design(Form::Outline(regions))
+    });
+    let mut spec = TransitionSpec::new(source, target);
+    spec.options.matching.holes = HoleRule::Alone;
+    build(&spec)
 }
 
 /// A girder whose upper chord rises into an arch.

@@ -39,6 +39,7 @@ use crate::geometry::Regions;
 use crate::progress::{Progress, checkpoint};
 pub(crate) use groups::Group;
 pub(crate) use prepared::Prepared;
+pub(crate) use sides::Holes;
 
 pub use outcome::{
     MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch,

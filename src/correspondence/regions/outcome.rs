@@ -1,5 +1,7 @@
 //! What the match of two designs is, and why there is none.
 
+#[cfg(doc)]
+use super::super::HoleRule;
 use super::super::polygons::SharedPolygons;
 use super::super::{MatchError, PairError, PinError, RingCut};
 use super::course::Course;
@@ -22,6 +24,9 @@ pub struct RegionMatch {
 pub struct PieceMatch {
     /// The outer ring first, counter-clockwise, then holes, clockwise.
     pub rings: Vec<RingMatch>,
+    /// Holes that one of the designs has alone, clockwise there and a point in
+    /// the other, which the rest is matched without: [`HoleRule::Alone`].
+    pub lone: Vec<RingMatch>,
     /// Which of the source's parts it is, or is cut from; none if it is born.
     pub source_part: Option<usize>,
     /// Which of the target's parts it is, or is cut from; none if it dies.
@@ -133,6 +138,12 @@ impl RegionMatch {
 }
 
 impl PieceMatch {
+    /// Whether it is a part of both designs, neither born nor dying.
+    #[must_use]
+    pub fn is_in_both(&self) -> bool {
+        self.source_part.is_some() && self.target_part.is_some()
+    }
+
     /// The piece with the vertices of its rings at other places, ring by ring as
     /// `Course::places` has them.
     pub(crate) fn moved(&self, places: &[Vec<[f64; 2]>]) -> Self {
@@ -147,6 +158,16 @@ impl PieceMatch {
 }
 
 impl RingMatch {
+    /// The design that has it, and its vertices there, where only one has.
+    #[must_use]
+    pub fn whole(&self) -> Option<(Side, &[DVec2])> {
+        match self.kind {
+            RingKind::Matched => None,
+            RingKind::Closes => Some((Side::Source, &self.source)),
+            RingKind::Opens => Some((Side::Target, &self.target)),
+        }
+    }
+
     /// A ring along two matched curves.
     pub(super) fn along((course, shared): (Course, SharedPolygons)) -> Self {
         Self {

@@ -41,9 +41,16 @@ pub(super) fn matched(task: &Task) -> Result<PieceMatch, RegionMatchError> {
     for hole in holes {
         rings.push(hole?);
     }
-    sides.closing_rings(&mut rings, &pairing.pairs, outer.rotation())?;
+    let closing = sides.closing_rings(&rings[0], &pairing.pairs, outer.rotation())?;
+    let lone = if task.holes.leaves_alone() {
+        closing
+    } else {
+        rings.extend(closing);
+        Vec::new()
+    };
     Ok(PieceMatch {
         rings,
+        lone,
         source_part: Some(task.parts[0]),
         target_part: Some(task.parts[1]),
         cuts,
@@ -90,10 +97,11 @@ impl Sides<'_> {
     /// What is alone and was not opened closes to a point.
     fn closing_rings(
         &self,
-        rings: &mut Vec<RingMatch>,
+        around: &RingMatch,
         pairs: &[[usize; 2]],
         rotation: f64,
-    ) -> Result<(), Cancelled> {
+    ) -> Result<Vec<RingMatch>, Cancelled> {
+        let mut rings = Vec::new();
         for side in Side::BOTH {
             let (numbers, holes) = self.closed_holes(side);
             if holes.len() == pairs.len() {
@@ -104,7 +112,7 @@ impl Sides<'_> {
                 if pairs.iter().any(|pair| pair[side] == number) {
                     continue;
                 }
-                let (from, to) = (&rings[0].source, &rings[0].target);
+                let (from, to) = (&around.source, &around.target);
                 let (outer, turn) = match side {
                     Side::Source => (Vertices { from, to }, rotation),
                     Side::Target => (Vertices { from: to, to: from }, -rotation),
@@ -116,7 +124,7 @@ impl Sides<'_> {
                 still_wanted(self.task.progress)?;
             }
         }
-        Ok(())
+        Ok(rings)
     }
 
     /// The ring with its long edges divided.

@@ -8,7 +8,7 @@ use super::groups::{Group, grouped, said_pairs};
 use super::locate::{self, Pinned, nearest_ring};
 use super::outcome::{MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingMatch};
 use super::piece::matched;
-use super::sides::Task;
+use super::sides::{Holes, Task};
 use super::split::split;
 use crate::geometry::{DVec2, Pair, Region, Regions, Ring, Side};
 use crate::progress::{Progress, Several, Span, checkpoint, still_wanted};
@@ -117,7 +117,9 @@ impl<'a> Prepared<'a> {
         let rest = Span::new(progress, PREPARED, 1.0);
         let shares = Several::new(&rest, self.groups.len());
         let groups = (0..self.groups.len()).into_par_iter();
-        let pieces = groups.map(|group| self.matched_group(group, options, &shares.part(group)));
+        let holes = Holes::By(crowd::holes(self.wanted.holes, self.is_crowd));
+        let pieces =
+            groups.map(|group| self.matched_group(group, options, holes, &shares.part(group)));
         // All first: of several failures it is the first in order that is told.
         let pieces: Vec<Result<Vec<PieceMatch>, RegionMatchError>> = pieces.collect();
         let pieces: Vec<_> = pieces.into_iter().collect::<Result<_, _>>()?;
@@ -132,11 +134,12 @@ impl<'a> Prepared<'a> {
         &self,
         group: usize,
         options: &MatchOptions,
+        holes: Holes,
         progress: &dyn Progress,
     ) -> Result<Vec<PieceMatch>, RegionMatchError> {
         let options = crowd::options(options, self.designs);
         let cut = self.pieces[group].as_deref();
-        let pieces = self.pieces_of(&self.groups[group], cut, &options, progress)?;
+        let pieces = self.pieces_of(&self.groups[group], cut, (&options, holes), progress)?;
         checkpoint(progress, "matching", 1.0)?;
         Ok(pieces)
     }
@@ -146,7 +149,7 @@ impl<'a> Prepared<'a> {
         &self,
         group: &Group,
         cut: Option<&[Region]>,
-        options: &MatchOptions,
+        (options, holes): (&MatchOptions, Holes),
         progress: &dyn Progress,
     ) -> Result<Vec<PieceMatch>, RegionMatchError> {
         still_wanted(progress)?;
@@ -155,7 +158,7 @@ impl<'a> Prepared<'a> {
             matched(&Task {
                 pins: self.pins_of(parts),
                 cuts: self.cuts_of(parts),
-                holes: crowd::holes(self.wanted.holes, self.is_crowd),
+                holes,
                 options: options.clone(),
                 regions,
                 parts,

@@ -19,6 +19,27 @@ use crate::progress::{Progress, still_wanted};
 /// thing cost as matched, up to 0.3, and what unlike things do, 0.4 and more.
 const CLOSING_PRICE: f64 = 0.35;
 
+/// What is done with the holes of two parts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Holes {
+    /// They are paired, and what is left is treated by a rule.
+    By(HoleRule),
+    /// None of them is paired; all are alone.
+    Unpaired,
+}
+
+impl Holes {
+    /// Whether a ring may be cut open.
+    fn cuts(self) -> bool {
+        matches!(self, Self::By(HoleRule::Auto | HoleRule::Cut))
+    }
+
+    /// Whether holes without a partner are no part of the piece.
+    pub(super) fn leaves_alone(self) -> bool {
+        matches!(self, Self::By(HoleRule::Alone) | Self::Unpaired)
+    }
+}
+
 /// What was said of one part and its partner.
 pub(super) struct Task<'a> {
     /// Source and target.
@@ -29,7 +50,7 @@ pub(super) struct Task<'a> {
     pub(super) pins: Vec<(usize, [DVec2; 2])>,
     /// Number of each cut through one of them.
     pub(super) cuts: Vec<(usize, RingCut)>,
-    pub(super) holes: HoleRule,
+    pub(super) holes: Holes,
     pub(super) options: MatchOptions,
     pub(super) progress: &'a dyn Progress,
 }
@@ -90,7 +111,7 @@ impl<'a> Sides<'a> {
             let Some(side) = Side::BOTH.into_iter().find(|&side| pin.is_across(side)) else {
                 continue;
             };
-            if self.task.holes == HoleRule::Close {
+            if self.task.holes == Holes::By(HoleRule::Close) {
                 return Err(RegionMatchError::PinAcross(pin.index));
             }
             across[side].push(pin.rings[side] - 1);
@@ -140,7 +161,14 @@ impl<'a> Sides<'a> {
         let [source, target] = self.task.regions;
         let fixed = self.pinned_holes(&taken);
         let taken = [&taken[0][..], &taken[1]];
-        let pairing = pair_holes(source, target, rotation, &fixed, taken)?;
+        let pairing = match self.task.holes {
+            Holes::By(_) => pair_holes(source, target, rotation, &fixed, taken)?,
+            // None but those that somebody pinned.
+            Holes::Unpaired => Pairing {
+                pairs: fixed,
+                ..Pairing::default()
+            },
+        };
         let mut cuts: Vec<(Side, [DVec2; 2])> = Vec::new();
         for side in Side::BOTH {
             for &(number, hole, ends) in &asked[side] {
@@ -206,7 +234,7 @@ impl<'a> Sides<'a> {
     /// closing it.
     fn open_if_better(&mut self, side: Side, hole: usize, forced: bool) -> Option<[DVec2; 2]> {
         let rule = self.task.holes;
-        if rule == HoleRule::Close && !forced {
+        if !rule.cuts() && !forced {
             return None;
         }
         let (numbers, holes) = self.closed_holes(side);
@@ -220,7 +248,7 @@ impl<'a> Sides<'a> {
             return None;
         };
         // Both costs are of coarse matches, so that they compare.
-        if rule == HoleRule::Auto && !forced {
+        if rule == Holes::By(HoleRule::Auto) && !forced {
             let blunt = self.coarse_cost(side, &other)?;
             let share = holes[at].perimeter() / self.walks[side].ring.perimeter();
             if blunt + CLOSING_PRICE * share <= opened.cost {
@@ -236,7 +264,7 @@ impl<'a> Sides<'a> {
     /// that leaves out.
     fn tell_uncut(&mut self, side: Side, hole: usize, forced: bool) {
         let part = self.task.parts[side];
-        if forced || self.task.holes == HoleRule::Cut {
+        if forced || self.task.holes == Holes::By(HoleRule::Cut) {
             self.notes.push(MatchNote::Uncut { side, part, hole });
         }
         let lost = |pin: &&PinHere| forced && pin.is_across(side) && pin.rings[side] == hole + 1;

@@ -269,3 +269,37 @@ fn a_hole_that_no_straight_cut_reaches_closes_and_is_told() {
     let notes = uncut(&run(&source, &target, &wanted));
     assert_eq!(notes, [MatchNote::PinLeftOut(0)]);
 }
+
+#[test]
+fn holes_that_are_alone_are_left_out_of_the_piece() {
+    let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(1.0, 2.0)]));
+    let wanted = Matching {
+        holes: HoleRule::Alone,
+        ..Matching::default()
+    };
+    for (matched, side) in [
+        (run(&two, &one, &wanted), Side::Source),
+        (run(&one, &two, &wanted), Side::Target),
+    ] {
+        let piece = &matched.pieces[0];
+        assert_eq!(kinds(piece), [RingKind::Matched; 2]);
+        let [lone] = &piece.lone[..] else {
+            panic!("{:?}", piece.lone);
+        };
+        let (whole, points) = lone.whole().expect("not matched");
+        assert_eq!(whole, side);
+        assert!((area(points) + 2.25).abs() < 1e-9, "clockwise");
+        assert!(points.iter().all(|p| (7.0..=8.5).contains(&p.x)));
+    }
+}
+
+#[test]
+fn without_pairs_all_holes_are_alone() {
+    let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(1.0, 2.0)]));
+    let wanted = Matching::default();
+    let prepared = Prepared::new([&two, &one], &wanted, &Silent).expect("prepared");
+    let options = wanted.options();
+    let pieces = prepared.matched_group(0, &options, Holes::Unpaired, &Silent);
+    let pieces = pieces.expect("matched");
+    assert_eq!((pieces[0].rings.len(), pieces[0].lone.len()), (1, 3));
+}

@@ -24,6 +24,7 @@ const FLATTENED: f64 = 0.1;
 pub(super) struct Scene<'a> {
     pub arap: &'a Arap,
     pub solid: &'a Solid,
+    pub t: f64,
     pub places: Vec<DVec2>,
     pub angles: Vec<f64>,
     pub part_of: Vec<u32>,
@@ -34,6 +35,7 @@ impl<'a> Scene<'a> {
         Self {
             arap,
             solid,
+            t,
             places: transition.frame(t).placement().in_frame.clone(),
             angles: arap.face_angles(),
             part_of: arap.mesh().connectivity().dual_components(),
@@ -54,10 +56,11 @@ impl<'a> Scene<'a> {
 
     /// The face at an edge of the boundary.
     pub fn face_at(&self, edge: RingEdge) -> Option<usize> {
-        let walk = &self.solid.loops[edge.ring];
-        let (a, b) = (walk[edge.point], walk[(edge.point + 1) % walk.len()]);
+        let corners = self.solid.corners_at(edge, self.t)?;
         let faces = self.arap.mesh().faces();
-        faces.iter().position(|f| f.contains(&a) && f.contains(&b))
+        faces
+            .iter()
+            .position(|face| corners.iter().all(|v| face.contains(v)))
     }
 
     /// The area-weighted mean angle of the faces that are chosen.
@@ -169,7 +172,7 @@ pub(super) fn unlike_neighbours(scene: &Scene<'_>, faces: &[usize]) -> Option<Ca
 /// Whether two edges of one ring are less than a tenth of it apart.
 pub(super) fn near_each_other(scene: &Scene<'_>, crossing: &Crossing) -> bool {
     let [a, b] = crossing.edges;
-    let n = scene.solid.loops[a.ring].len();
+    let n = scene.solid.loops.get(a.ring).map_or(0, Vec::len);
     let between = a.point.abs_diff(b.point);
-    a.ring == b.ring && 10 * between.min(n - between) < n
+    a.ring == b.ring && between < n && 10 * between.min(n - between) < n
 }

@@ -1,10 +1,9 @@
 //! How much is wrong at each t, as cheaply as it can be known.
 
 use crate::content::{Content, Solid};
-use crate::geometry::count_crossings;
 use crate::geometry::{DVec2, signed_area};
 use crate::measure::distortion::is_folded;
-use crate::measure::film::{FilmSample, even_steps};
+use crate::measure::film::{FilmSample, crossings_at, even_steps};
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::transition::Transition;
 use crate::warp::{Arap, Warp};
@@ -61,7 +60,7 @@ pub(super) fn transition(
             looks(steps, "looking for crossings", progress, |t| {
                 frame.seek(t);
                 Glance {
-                    crossings: count_crossings(&solid.rings_at(&frame.placement().in_frame)),
+                    crossings: crossings_at(t, &solid.rings_at(&frame.placement().in_frame, t)),
                     ..Glance::default()
                 }
             })
@@ -82,7 +81,7 @@ pub(super) fn rigid_parts(
         let places = &placer.placement().in_frame;
         Glance {
             folds: folded(arap, places).count(),
-            crossings: count_crossings(&solid.rings_at(places)),
+            crossings: crossings_at(t, &solid.rings_at(places, t)),
             ..Glance::default()
         }
     })

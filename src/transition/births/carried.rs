@@ -1,7 +1,7 @@
 //! Where a place goes that nothing lies at, by what lies around it.
 
-use super::outline::Outline;
 use crate::geometry::{DVec2, Fit, signed_area};
+use crate::transition::outline::Outline;
 
 /// Where outlines, as they are and as they are then, take a place.
 pub(super) fn carried_among(here: DVec2, now: &[Outline], then: &[Outline]) -> DVec2 {

@@ -11,13 +11,13 @@
 //! is a free place; nor anything between the steps that are looked at.
 
 mod carried;
-mod outline;
 mod scene;
 mod speck;
 
 use self::scene::Scene;
 use self::speck::Speck;
-use super::conflicts::is_in_both;
+pub(super) use self::speck::times;
+use super::holes::HoleOf;
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::DVec2;
@@ -31,7 +31,7 @@ const SEARCHED: usize = 24;
 /// When each piece changes its size, before anything is chosen: a part of one
 /// design alone all the time.
 pub(super) fn lives(matched: &RegionMatch) -> Vec<Option<Life>> {
-    let life = |piece: &PieceMatch| (!is_in_both(piece)).then_some(Life::WHOLE);
+    let life = |piece: &PieceMatch| (!piece.is_in_both()).then_some(Life::WHOLE);
     matched.pieces.iter().map(life).collect()
 }
 
@@ -43,19 +43,19 @@ pub(super) struct Placed {
     pub lives: Vec<Option<Life>>,
 }
 
-/// The match and its mesh with all parts that are born or die in their places
-/// and times; `None` where there are none.
+/// The match and the film's mesh with all parts that are born or die in their
+/// places and times; `None` where there are none.
 pub(super) fn placed(
     matched: &RegionMatch,
-    mesh: &CompatibleMesh,
     film: &Arap,
+    holes: &[HoleOf],
     progress: &dyn Progress,
 ) -> Result<Option<Placed>, Cancelled> {
     let mut lives = lives(matched);
     if lives.iter().all(Option::is_none) {
         return Ok(None);
     }
-    let mut scene = Scene::of(film);
+    let mut scene = Scene::of(film, holes);
     let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
     for (rank, speck) in Speck::all(matched).into_iter().enumerate() {
         still_wanted(progress)?;
@@ -64,7 +64,7 @@ pub(super) fn placed(
         lives[speck.piece] = Some(life);
         scene.add(&speck, place, life, film);
     }
-    let Some(mesh) = mesh.with_parts_moved(&by) else {
+    let Some(mesh) = film.mesh().with_parts_moved(&by) else {
         return Ok(None);
     };
     let mut matched = matched.clone();

@@ -4,10 +4,12 @@
 //! part's own place in the whole, and of the times the longest.
 
 use super::carried::carried_among;
-use super::outline::Outline;
 use super::speck::Speck;
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::conflicts::{STEPS, Walks};
+use crate::transition::conflicts::STEPS;
+use crate::transition::holes::HoleOf;
+use crate::transition::outline::Outline;
+use crate::transition::walks::Walks;
 use crate::warp::{Arap, Life, Warp};
 
 /// A growing part keeps this share of its size free around itself, less the
@@ -26,21 +28,29 @@ const DISTANCE: f64 = 2.0;
 /// What is there at each step, both ends included.
 pub(super) struct Scene {
     steps: Vec<Vec<Outline>>,
+    /// Of holes that come and go: as many as there are at each step.
+    holes: Vec<Vec<Outline>>,
     bounds: Bounds,
 }
 
 impl Scene {
     /// Of the pieces that both designs have.
-    pub(super) fn of(film: &Arap) -> Self {
+    pub(super) fn of(film: &Arap, holes: &[HoleOf]) -> Self {
         let walks = Walks::of(film);
         let mut placer = film.placer();
         let steps = (0..=STEPS).map(|step| {
             placer.place(time(step));
-            let rings = walks.rings(&placer.placement().in_frame);
-            rings.into_iter().map(Outline::of).collect()
+            let places = &placer.placement().in_frame;
+            let rings = walks.rings(places).into_iter().map(Outline::of).collect();
+            let there = holes
+                .iter()
+                .filter_map(|(_, hole)| hole.at(places, time(step)));
+            (rings, there.map(Outline::of).collect())
         });
+        let (steps, holes) = steps.unzip();
         Self {
-            steps: steps.collect(),
+            steps,
+            holes,
             bounds: film.mesh().bounds(),
         }
     }
@@ -113,8 +123,11 @@ impl Scene {
     }
 
     fn crosses_none(&self, step: u32, rings: &[Outline]) -> bool {
-        let others = &self.steps[step as usize];
-        let crosses = |ring: &Outline| others.iter().any(|other| ring.crosses(other));
+        let others = || {
+            let [rings, holes] = [&self.steps, &self.holes].map(|all| &all[step as usize]);
+            rings.iter().chain(holes)
+        };
+        let crosses = |ring: &Outline| others().any(|other| ring.crosses(other));
         !rings.iter().any(crosses)
     }
 
@@ -122,9 +135,11 @@ impl Scene {
     fn is_apart(&self, step: u32, rings: &[Outline]) -> bool {
         let others = &self.steps[step as usize];
         let around = |p: DVec2, all: &[Outline]| all.iter().map(|o| o.winding(p)).sum::<i32>();
-        let is_within = rings
-            .first()
-            .is_some_and(|outer| around(outer.points[0], others) != 0);
+        let holes = &self.holes[step as usize];
+        let is_within = rings.first().is_some_and(|outer| {
+            let place = outer.points[0];
+            around(place, others) + around(place, holes) != 0
+        });
         !is_within
             && !others
                 .iter()

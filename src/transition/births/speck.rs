@@ -1,9 +1,8 @@
 //! A part of one design alone: a speck in the other.
 
-use super::outline::Outline;
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side, ring_edges, signed_area};
-use crate::transition::conflicts::is_in_both;
+use crate::transition::outline::Outline;
 use crate::warp::Life;
 
 /// A part changes its size within so many eighths of the film at least.
@@ -33,7 +32,7 @@ impl Speck {
     pub(super) fn all(matched: &RegionMatch) -> Vec<Self> {
         let pieces = matched.pieces.iter().enumerate();
         let mut all: Vec<Self> = pieces
-            .filter(|(_, piece)| !is_in_both(piece))
+            .filter(|(_, piece)| !piece.is_in_both())
             .map(|(k, piece)| Self::of(k, piece))
             .collect();
         let key = |s: &Self| [s.ends[s.side].x, s.ends[s.side].y];
@@ -104,21 +103,26 @@ impl Speck {
 
     /// The times in which it may change its size, the longest first.
     pub(super) fn times(&self) -> impl Iterator<Item = Life> {
-        let side = self.side;
-        (SHORTEST..=EIGHTHS).rev().map(move |eighths| {
-            let long = f64::from(eighths) / f64::from(EIGHTHS);
-            match side {
-                Side::Source => Life {
-                    from: 0.0,
-                    to: long,
-                },
-                Side::Target => Life {
-                    from: 1.0 - long,
-                    to: 1.0,
-                },
-            }
-        })
+        times(self.side)
     }
+}
+
+/// The times in which what one design has alone may change its size, the
+/// longest first: all of them begin or end where that design is.
+pub(in crate::transition) fn times(side: Side) -> impl Iterator<Item = Life> {
+    (SHORTEST..=EIGHTHS).rev().map(move |eighths| {
+        let long = f64::from(eighths) / f64::from(EIGHTHS);
+        match side {
+            Side::Source => Life {
+                from: 0.0,
+                to: long,
+            },
+            Side::Target => Life {
+                from: 1.0 - long,
+                to: 1.0,
+            },
+        }
+    })
 }
 
 /// The centroid of what some rings enclose together.

@@ -1,30 +1,37 @@
 //! Closed walks that are asked where they cross and what they hold.
 
-use crate::geometry::{Bounds, DVec2, ring_edges, segments_cross, winding};
+use crate::geometry::{Bounds, DVec2, EdgeBoxes, ring_edges, segments_cross, winding};
+use std::sync::OnceLock;
 
 /// A closed walk and the box around it.
 pub(super) struct Outline {
     pub(super) points: Vec<DVec2>,
     bounds: Bounds,
+    /// Its edges, once somebody asks which of them are near.
+    edges: OnceLock<EdgeBoxes>,
 }
 
 impl Outline {
     pub(super) fn of(points: Vec<DVec2>) -> Self {
         let bounds = Bounds::of(points.iter().copied()).unwrap_or_else(|| Bounds::at(DVec2::ZERO));
-        Self { points, bounds }
+        Self {
+            points,
+            bounds,
+            edges: OnceLock::new(),
+        }
     }
 
     pub(super) fn crosses(&self, other: &Self) -> bool {
         if !self.bounds.meets(&other.bounds) {
             return false;
         }
+        let edges = other.edges.get_or_init(|| EdgeBoxes::of(&other.points));
         ring_edges(&self.points).any(|(a, b)| {
             let edge = Bounds {
                 min: a.min(b),
                 max: a.max(b),
             };
-            edge.meets(&other.bounds)
-                && ring_edges(&other.points).any(|(p, q)| segments_cross([a, b], [p, q]))
+            edges.any_near(&edge, &|other| segments_cross([a, b], other))
         })
     }
 

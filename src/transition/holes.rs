@@ -1,0 +1,126 @@
+//! Holes that one design has alone, and which the film moves as if they were
+//! not there: where they are in it, and when they come and go.
+//!
+//! The largest first, each takes as much of the film as it can without crossing
+//! a boundary or a hole that has its time. Looked at at a few steps: what is
+//! crossed between two is missed.
+
+use super::births::times;
+use super::outline::Outline;
+use super::walks::Walks;
+use crate::compatible::CompatibleMesh;
+use crate::content::Hole;
+use crate::correspondence::{PieceMatch, RingMatch};
+use crate::geometry::DVec2;
+use crate::progress::{Cancelled, Progress, still_wanted};
+use crate::warp::{Arap, Life, Warp};
+
+/// Steps of a film that is looked at, both ends left out.
+const STEPS: u32 = 32;
+
+/// A hole, and the number of the piece that it is in.
+pub(super) type HoleOf = (usize, Hole);
+
+/// All holes that one design has alone, in their times. Piece k is component k
+/// of the film's mesh.
+pub(super) fn timed(
+    pieces: &[PieceMatch],
+    film: &Arap,
+    progress: &dyn Progress,
+) -> Result<Vec<HoleOf>, Cancelled> {
+    let mut holes = untimed(pieces, film.mesh());
+    if holes.is_empty() {
+        return Ok(holes);
+    }
+    // Of equal ones the order of the pieces decides, which a film run backwards
+    // has as well.
+    holes.sort_by(|(_, a), (_, b)| b.area().total_cmp(&a.area()));
+    let mut scene = Scene::of(film);
+    for (_, hole) in &mut holes {
+        still_wanted(progress)?;
+        hole.life = scene.life(hole);
+        scene.add(hole);
+    }
+    Ok(holes)
+}
+
+fn untimed(pieces: &[PieceMatch], mesh: &CompatibleMesh) -> Vec<HoleOf> {
+    if pieces.iter().all(|piece| piece.lone.is_empty()) {
+        return Vec::new();
+    }
+    let parts = mesh.components();
+    let places = [mesh.source(), mesh.target()];
+    let of_piece = |(k, piece): (usize, &PieceMatch)| -> Vec<HoleOf> {
+        let is_here = |face: &&[u32; 3]| parts[face[0] as usize] as usize == k;
+        let faces: Vec<[u32; 3]> = mesh.faces().iter().filter(is_here).copied().collect();
+        let hole = |ring: &RingMatch| {
+            let (side, points) = ring.whole()?;
+            let hole = Hole::new(side, points, &faces, places[side], Life::WHOLE)?;
+            Some((k, hole))
+        };
+        piece.lone.iter().filter_map(hole).collect()
+    };
+    pieces.iter().enumerate().flat_map(of_piece).collect()
+}
+
+/// What is there at each step.
+struct Scene {
+    /// Where all vertices are.
+    places: Vec<Vec<DVec2>>,
+    outlines: Vec<Vec<Outline>>,
+}
+
+impl Scene {
+    fn of(film: &Arap) -> Self {
+        let walks = Walks::of(film);
+        let mut placer = film.placer();
+        let place = |step: u32| {
+            placer.place(time(step));
+            placer.placement().in_frame.clone()
+        };
+        let places: Vec<Vec<DVec2>> = (1..STEPS).map(place).collect();
+        let outlines = places.iter().map(|places| {
+            let rings = walks.rings(places);
+            rings.into_iter().map(Outline::of).collect()
+        });
+        Self {
+            outlines: outlines.collect(),
+            places,
+        }
+    }
+
+    /// The longest time in which a hole crosses least.
+    fn life(&self, hole: &Hole) -> Life {
+        let mut best = (usize::MAX, Life::WHOLE);
+        for life in times(hole.side()) {
+            let mut hole = hole.clone();
+            hole.life = life;
+            let crossed = self.crossed(&hole, best.0);
+            if crossed < best.0 {
+                best = (crossed, life);
+            }
+        }
+        best.1
+    }
+
+    /// The number of steps at which it crosses something, counted on to `most`.
+    fn crossed(&self, hole: &Hole, most: usize) -> usize {
+        let steps = (1..STEPS).zip(self.places.iter().zip(&self.outlines));
+        let crosses = |(step, (places, others)): (u32, (&Vec<DVec2>, &Vec<Outline>))| {
+            let ring = hole.at(places, time(step)).map(Outline::of);
+            ring.is_some_and(|ring| others.iter().any(|other| ring.crosses(other)))
+        };
+        steps.filter(|&step| crosses(step)).take(most).count()
+    }
+
+    fn add(&mut self, hole: &Hole) {
+        for (step, (places, outlines)) in (1..STEPS).zip(self.places.iter().zip(&mut self.outlines))
+        {
+            outlines.extend(hole.at(places, time(step)).map(Outline::of));
+        }
+    }
+}
+
+fn time(step: u32) -> f64 {
+    f64::from(step) / f64::from(STEPS)
+}
