@@ -8,7 +8,7 @@ use morphospace::app::{Answer, CaptureFolder, Intent, Question, Recorder, Sessio
 use morphospace::correspondence::PointPair;
 use morphospace::geometry::DVec2;
 use morphospace::project::Project;
-use morphospace::transition::Cell;
+use morphospace::transition::{Cell, Quality};
 
 use crate::window::Window;
 
@@ -210,6 +210,65 @@ fn what_takes_long_to_open_is_shown_by_the_plainest_method_meanwhile() {
         .and_then(|p| Some((p.warp?, p.content?)));
     let field = Cell::FIELD_BLEND;
     assert_eq!(now, Some((field.warp(), field.content())));
+}
+
+/// A star of so many tips, thin or thick.
+fn star(tips: u32, inner: f64) -> String {
+    let corner = |k: u32| {
+        let far = if k.is_multiple_of(2) { 45.0 } else { inner };
+        let p = DVec2::from_angle(f64::from(k) * std::f64::consts::PI / f64::from(tips)) * far;
+        format!("L{} {}", 50.0 + p.x, 50.0 + p.y)
+    };
+    let corners: String = (0..2 * tips).map(corner).collect();
+    format!("M{}Z", &corners[1..])
+}
+
+fn staged(window: &Window) -> Option<Quality> {
+    let settings = window.session().staged_settings();
+    settings.map(|settings| settings.options.quality)
+}
+
+/// A window with a draft on its stage, while a better film is made.
+fn with_draft(folder: &Path) -> Window {
+    let source = write_outline(folder, "source.svg", &star(11, 10.0));
+    let target = write_outline(folder, "target.svg", &star(4, 30.0));
+    let mut window = Window::new();
+    window.send(Intent::Open(vec![source, target]));
+    while staged(&window) != Some(Quality::Draft) {
+        assert!(window.session().work().is_some(), "there was no draft");
+        std::thread::sleep(Duration::from_millis(1));
+        window.update();
+    }
+    window
+}
+
+#[test]
+fn a_draft_plays_until_a_better_film_takes_its_place_unseen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_draft(folder.path());
+    let told = window.session().told_work().map(|(stage, _)| stage);
+    assert_eq!(told, Some("improving the film"));
+    let asked = window.session().project().map(|p| p.options.quality);
+    assert_eq!(asked, Some(Quality::Best), "what is asked for stays");
+    window.send(Intent::TogglePlay);
+    while staged(&window) == Some(Quality::Draft) {
+        std::thread::sleep(Duration::from_millis(1));
+        window.update();
+    }
+    let (t, is_playing) = (window.t(), window.playback().is_playing());
+    assert!(!is_playing || !(0.04..=0.96).contains(&t), "seen at {t}");
+    assert_eq!(window.problems(), Vec::<String>::new());
+    assert!(!window.session().is_dirty());
+}
+
+#[test]
+fn a_draft_that_is_good_enough_is_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_draft(folder.path());
+    window.send(Intent::CancelWork);
+    assert!(window.session().work().is_none() && window.session().transition().is_some());
+    let settings = window.session().project().map(|p| p.options.quality);
+    assert_eq!(settings, Some(Quality::Draft), "and says so");
 }
 
 #[test]

@@ -221,7 +221,7 @@ fn rings(pieces: &[PieceMatch]) -> Vec<SheetRing> {
         let ring = |ring: &crate::correspondence::RingMatch| {
             SheetRing::new(k, ring.kind, [ring.source.clone(), ring.target.clone()])
         };
-        piece.rings.iter().map(ring).collect()
+        piece.rings.iter().chain(&piece.lone).map(ring).collect()
     };
     pieces.iter().enumerate().flat_map(of).collect()
 }
@@ -277,6 +277,7 @@ fn middle(piece: &PieceMatch, is_source: bool) -> DVec2 {
     let rings: Vec<&[DVec2]> = piece
         .rings
         .iter()
+        .chain(&piece.lone)
         .map(|ring| {
             if is_source {
                 &ring.source

@@ -233,7 +233,8 @@ pub fn poll(
     (mut keeps_fit, editor): (ResMut<KeepsFit>, Res<Editor>),
 ) {
     // Polled in each frame: only an outcome is a change.
-    let outcome = session.bypass_change_detection().poll();
+    let may_change = playback.may_change_film(session.timing());
+    let outcome = session.bypass_change_detection().poll(may_change);
     if outcome.is_some() {
         session.set_changed();
     }

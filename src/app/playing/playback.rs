@@ -14,6 +14,9 @@ use crate::transition::{Easing, PlayMode, Stop, Timing};
 /// Two stops nearer than this are one; the finest step on screen is a thousandth.
 pub const SAME_T: f64 = 1e-6;
 
+/// So near to an end two films of the same designs look the same: the steps of a slow film.
+const SAME_FILM: f64 = 0.03;
+
 /// The speeds that `[` and `]` go through, as factors of the timing's.
 pub const SPEEDS: [f64; 10] = [0.1, 0.25, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 5.0, 10.0];
 
@@ -68,6 +71,15 @@ impl Playback {
     #[must_use]
     pub fn is_playing(&self) -> bool {
         self.motion != Motion::Still
+    }
+
+    /// Another film of the same designs can take this one's place without being seen to: at rest,
+    /// and where all films are the same. Where the pass never comes there, any time is as good.
+    #[must_use]
+    pub fn may_change_film(&self, timing: &Timing) -> bool {
+        let is_end = |t: f64| t.min(1.0 - t) < SAME_FILM;
+        let meets_an_end = [timing.from, timing.to].into_iter().any(is_end);
+        !self.is_playing() || is_end(self.t) || !meets_an_end
     }
 
     /// A pass runs, or would run, from its end to its start.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::correspondence::{PinError, RegionMatchError};
 use crate::design::Source;
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::progress::{Cancelled, Progress, Span, checkpoint};
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 use crate::transition::{BuildError, Cell, Style, Timing, Transition};
 
@@ -75,8 +75,21 @@ pub struct Rebuild {
     pub transition: Option<Transition>,
 }
 
+/// What is shown until what was asked for is there.
+#[derive(Debug)]
+pub enum Meanwhile {
+    /// By the plainest method.
+    Plain(Loaded),
+    /// The first film of several.
+    Draft(Loaded),
+}
+
 impl Rebuild {
-    fn carry_out(self, progress: &dyn Progress) -> Result<Loaded, LoadError> {
+    fn carry_out(
+        self,
+        progress: &dyn Progress,
+        meanwhile: &mut dyn FnMut(Meanwhile),
+    ) -> Result<Loaded, LoadError> {
         // Its sliders are dragged, and the distance transforms take far longer than the mixing.
         if let Some(transition) = self.mixed_otherwise() {
             return Ok(built(self.now, Ok(transition)));
@@ -86,8 +99,7 @@ impl Rebuild {
             project = project.reread()?;
             choose_cell(&mut project);
         }
-        let transition = transition_of(&project, progress);
-        Ok(built(project, transition))
+        Ok(built_by_steps(project, None, progress, meanwhile))
     }
 
     /// Where nothing but the mixing of the fields has changed, they need not be measured again.
@@ -137,7 +149,8 @@ impl Request {
     }
 
     /// Does the work. Where something is opened, `meanwhile` gets it by the plainest method before
-    /// that which is asked for is built; where that cannot be had, it is the answer.
+    /// that which is asked for is built, and then as a draft; where the whole cannot be had, the
+    /// last of these is the answer.
     ///
     /// # Errors
     /// The project or a design cannot be read. That a transition cannot be built from them is no
@@ -145,7 +158,7 @@ impl Request {
     pub fn carry_out(
         self,
         progress: &dyn Progress,
-        meanwhile: impl FnOnce(Loaded),
+        mut meanwhile: impl FnMut(Meanwhile),
     ) -> Result<Loaded, LoadError> {
         checkpoint(progress, "Reading", 0.0)?;
         let mut project = match self {
@@ -154,21 +167,14 @@ impl Request {
             Self::Pair(source, target) => {
                 LoadedProject::open_pair(&absolute(&source), &absolute(&target))?
             }
-            Self::Rebuild(rebuild) => return rebuild.carry_out(progress),
+            Self::Rebuild(rebuild) => return rebuild.carry_out(progress, &mut meanwhile),
         };
         choose_cell(&mut project);
         let plain = plainest(&project, progress);
         if plain.is_some() {
-            meanwhile(Loaded {
-                project: project.clone(),
-                stage: plain.clone(),
-                problem: None,
-            });
+            meanwhile(Meanwhile::Plain(shown(&project, plain.clone())));
         }
-        let transition = transition_of(&project, progress);
-        let mut built = built(project, transition);
-        built.stage = built.stage.or(plain);
-        Ok(built)
+        Ok(built_by_steps(project, plain, progress, &mut meanwhile))
     }
 }
 
@@ -210,6 +216,50 @@ fn built(project: LoadedProject, transition: Result<Transition, Problem>) -> Loa
         stage,
         problem,
     }
+}
+
+/// How much of the work is done once there is a draft, as it is told: a quarter of most pairs'.
+const DRAFTED: f64 = 0.25;
+
+/// Builds what a project asks for, by way of a draft where that is sooner there; where it cannot be
+/// had, the draft stands in its place, or what there is `already`.
+fn built_by_steps(
+    project: LoadedProject,
+    already: Option<Stage>,
+    progress: &dyn Progress,
+    meanwhile: &mut dyn FnMut(Meanwhile),
+) -> Loaded {
+    let draft = draft(&project, &Span::new(progress, 0.0, DRAFTED));
+    let from = if draft.is_some() { DRAFTED } else { 0.0 };
+    if draft.is_some() {
+        meanwhile(Meanwhile::Draft(shown(&project, draft.clone())));
+    }
+    let transition = transition_of(&project, &Span::new(progress, from, 1.0));
+    let mut built = built(project, transition);
+    built.stage = built.stage.or(draft).or(already);
+    built
+}
+
+/// A project on the way to what it asks for.
+fn shown(project: &LoadedProject, stage: Option<Stage>) -> Loaded {
+    Loaded {
+        project: project.clone(),
+        stage,
+        problem: None,
+    }
+}
+
+/// The first film of a project that asks for the best of several; none where it asks for nothing
+/// of the kind, or it cannot be had.
+fn draft(project: &LoadedProject, progress: &dyn Progress) -> Option<Stage> {
+    let spec = project.spec().ok()?.draft()?;
+    let mut settings = project.project.clone();
+    settings.options.quality = spec.options.quality;
+    let transition = Transition::build(&spec, progress).ok()?;
+    Some(Stage {
+        settings,
+        transition,
+    })
 }
 
 /// The transition of a project by the method that moves nothing, which is had of almost any two

@@ -59,6 +59,9 @@ pub struct Session {
 /// the other.
 const WORTH_A_WORD: Duration = Duration::from_millis(300);
 
+/// What is told of the work once its draft can be played.
+const IMPROVING: &str = "improving the film";
+
 static NO_TIMING: LazyLock<Timing> = LazyLock::new(Timing::default);
 
 /// What is open.
@@ -298,7 +301,9 @@ impl Session {
     #[must_use]
     pub fn told_work(&self) -> Option<(&'static str, f64)> {
         let work = self.work.as_ref()?;
-        (work.job.lasts() > WORTH_A_WORD).then(|| work.job.progress())
+        let (stage, share) = work.job.progress();
+        let stage = if work.has_draft { IMPROVING } else { stage };
+        (work.job.lasts() > WORTH_A_WORD).then_some((stage, share))
     }
 
     /// Builds what would take very long, which was refused for that, and from now on whatever is
@@ -330,9 +335,14 @@ impl Session {
         }
     }
 
-    /// Takes in work that is done and starts what waits for it.
-    pub fn poll(&mut self) -> Option<Outcome> {
-        let outcome = self.take_work().or_else(|| self.take_meanwhile());
+    /// Takes in work that is done and starts what waits for it. A better film than the draft that
+    /// is on the stage waits until it `may_change`, which nobody should see.
+    pub fn poll(&mut self, may_change: bool) -> Option<Outcome> {
+        let is_held = |work: &Work| work.has_draft && !may_change;
+        let outcome = match &self.work {
+            Some(work) if is_held(work) => None,
+            _ => self.take_work().or_else(|| self.take_meanwhile()),
+        };
         // A build runs on while a slider is dragged, so that its way is seen; but not for long.
         let is_free = self.work.as_ref().is_none_or(Work::can_be_given_up);
         if self.is_stale
@@ -346,10 +356,17 @@ impl Session {
     }
 
     fn take_meanwhile(&mut self) -> Option<Outcome> {
-        let (loaded, origin) = self.work.as_mut()?.take_meanwhile()?;
-        self.is_stale = false;
-        self.open = Some(Open::new(loaded, origin));
-        Some(Outcome::Opened)
+        let work = self.work.as_mut()?;
+        let (loaded, origin) = work.take_meanwhile()?;
+        match (origin, &mut self.open) {
+            (Some(origin), open) => {
+                self.is_stale = false;
+                *open = Some(Open::new(loaded, origin));
+                Some(Outcome::Opened)
+            }
+            (None, Some(open)) => open.restage(loaded).then_some(Outcome::Rebuilt),
+            (None, None) => None,
+        }
     }
 
     fn take_work(&mut self) -> Option<Outcome> {

@@ -4,7 +4,7 @@ use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::app::session::loading::{LoadError, Loaded, Origin, Request, needs_build};
+use crate::app::session::loading::{LoadError, Loaded, Meanwhile, Origin, Request, needs_build};
 use crate::app::telling::job::Job;
 use crate::project::Project;
 
@@ -14,7 +14,20 @@ const PATIENCE: Duration = Duration::from_millis(1500);
 
 /// What is opened is shown by the plainest method when it takes longer than this: sooner, and each
 /// project would be seen twice; later, and a stage stays empty that need not.
-const MEANWHILE: Duration = Duration::from_millis(1000);
+const PLAIN_AFTER: Duration = Duration::from_millis(1000);
+
+/// A draft is shown when what it is a draft of takes longer than this: sooner, and while a pin is
+/// dragged each place of it would be seen twice.
+const DRAFT_AFTER: Duration = Duration::from_millis(300);
+
+impl Meanwhile {
+    fn is_shown_after(&self) -> Duration {
+        match self {
+            Self::Plain(_) => PLAIN_AFTER,
+            Self::Draft(_) => DRAFT_AFTER,
+        }
+    }
+}
 
 /// Work that is going on.
 #[derive(Debug)]
@@ -26,8 +39,11 @@ pub struct Work {
     pub wanted: Option<Project>,
     /// The work.
     pub job: Job<Loaded, LoadError>,
-    /// What can be shown before it is done.
-    meanwhile: Mutex<Receiver<Loaded>>,
+    /// A draft of it is on the stage.
+    pub has_draft: bool,
+    /// What can be shown before it is done, and the last that was not shown yet.
+    meanwhile: Mutex<Receiver<Meanwhile>>,
+    waiting: Option<Meanwhile>,
 }
 
 impl Work {
@@ -40,9 +56,11 @@ impl Work {
             wanted: request.settings().cloned(),
             job: Job::start("the transition", move |progress| {
                 // Nobody listens any more once the work was given up.
-                request.carry_out(progress, |loaded| drop(sender.send(loaded)))
+                request.carry_out(progress, |meanwhile| drop(sender.send(meanwhile)))
             }),
+            has_draft: false,
             meanwhile: Mutex::new(receiver),
+            waiting: None,
         }
     }
 
@@ -59,16 +77,19 @@ impl Work {
         wanted.is_none_or(|wanted| needs_build(wanted, project))
     }
 
-    /// What is being opened, by the plainest method, once that is worth showing. From then on it
-    /// is open, and the work builds it with the settings that it asks for.
-    pub fn take_meanwhile(&mut self) -> Option<(Loaded, Origin)> {
-        if self.origin.is_none() || self.job.lasts() < MEANWHILE {
-            return None;
-        }
+    /// What can be shown before it is done, once that is worth showing. What is being opened comes
+    /// with where it is from: from then on it is open, and the work builds it with the settings
+    /// that it asks for.
+    pub fn take_meanwhile(&mut self) -> Option<(Loaded, Option<Origin>)> {
         let receiver = self.meanwhile.get_mut();
         let receiver = receiver.unwrap_or_else(PoisonError::into_inner);
-        let loaded = receiver.try_recv().ok()?;
+        // Of two the last: a draft is better than what moves nothing.
+        self.waiting = receiver.try_iter().last().or(self.waiting.take());
+        let lasts = self.job.lasts();
+        let shown = self.waiting.take_if(|m| lasts >= m.is_shown_after())?;
+        self.has_draft |= matches!(shown, Meanwhile::Draft(_));
+        let (Meanwhile::Plain(loaded) | Meanwhile::Draft(loaded)) = shown;
         self.wanted = Some(loaded.project.project.clone());
-        Some((loaded, self.origin.take()?))
+        Some((loaded, self.origin.take()))
     }
 }

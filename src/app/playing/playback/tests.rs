@@ -126,3 +126,25 @@ fn speed_goes_through_its_steps_and_stays_within_them() {
     }
     assert_eq!(playback.speed(), SPEEDS[0]);
 }
+
+#[test]
+fn a_film_changes_where_nobody_sees_it() {
+    let whole = timing(PlayMode::Loop);
+    let mut playback = Playback::default();
+    playback.toggle(&whole, &[]);
+    assert!(playback.may_change_film(&whole), "at its start");
+    playback.advance(1.0, &whole, &[]);
+    assert!(!playback.may_change_film(&whole), "in its midst");
+    playback.advance(0.98, &whole, &[]);
+    assert!(playback.may_change_film(&whole), "near its end");
+    let midst = Timing {
+        from: 0.2,
+        to: 0.8,
+        ..whole
+    };
+    playback.seek(0.5, &midst, &[]);
+    assert!(playback.may_change_film(&midst), "it never comes to an end");
+    playback.seek(0.5, &whole, &[]);
+    playback.toggle(&whole, &[]);
+    assert!(playback.may_change_film(&whole), "at rest");
+}

@@ -23,6 +23,10 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
         if draft.content != Some(ContentKind::Colours) {
             rules(ui, &mut draft.options.matching);
         }
+        if draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Solid) {
+            let tip = "How much is tried for the film: the first match, or the best of several.";
+            pick(ui, "Film", tip, &mut draft.options.quality);
+        }
         if has_mesh {
             density(ui, &mut draft.options.triangulation.edge_length);
         }
