@@ -19,7 +19,8 @@
 //!   other's way, by the `conflicts` that they have and the places and times of
 //!   `births`, and `holes` in them that come and go, by where their `walks` and
 //!   `outline`s are
-//! - `note`: what was done otherwise than asked
+//! - `note`: what was done otherwise than asked; `mirrored`: what might have been
+//!   meant
 //! - `ready`, `frame`: the transition and its moments
 //! - `timing`, `style`: how it is played and painted
 
@@ -36,6 +37,7 @@ mod features;
 mod frame;
 mod group;
 mod holes;
+mod mirrored;
 mod moved;
 mod note;
 mod options;

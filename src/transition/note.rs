@@ -1,12 +1,14 @@
 //! What was done otherwise than asked while a transition was built.
 
+#[cfg(doc)]
+use crate::compatible::CompatibleMesh;
 use crate::compatible::SurroundingsError;
 use crate::correspondence::{MatchNote, RegionMatch, RegionMatchError};
 use serde::{Serialize, Serializer};
 use std::fmt;
 
 /// Something that could not be done as it was asked for, and what was done
-/// instead. The transition plays all the same. Serialised as its words.
+/// instead, or what might be better. The transition plays all the same. Serialised as its words.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Note {
@@ -24,6 +26,13 @@ pub enum Note {
     NotByOutlines(SurroundingsError),
     /// Pins on the outlines do not match them; the pins alone carry the frame.
     NotMatched(RegionMatchError),
+    /// The designs would match far better if one of them were mirrored.
+    Mirrored {
+        /// The mean distortion as they are, as [`CompatibleMesh::distortion`].
+        as_drawn: f64,
+        /// That of a first film of them.
+        mirrored: f64,
+    },
     /// Fields of distances that are not Euclidean have their boundary between
     /// cells, although it was to be exact.
     BinaryBoundary,
@@ -57,6 +66,10 @@ impl fmt::Display for Note {
             Self::NotMatched(error) => write!(
                 f,
                 "the pins alone carry the plane, not the outlines that they lie on: {error}"
+            ),
+            Self::Mirrored { as_drawn, mirrored } => write!(
+                f,
+                "mirrored, one design would match the other far better (conformal distortion {mirrored:.1} instead of {as_drawn:.1}): mirror a drawing if that is meant"
             ),
             Self::BinaryBoundary => write!(
                 f,
@@ -92,6 +105,13 @@ mod tests {
             (Note::NotMatched(cut), "cut 2 does not run straight"),
             (Note::Match(MatchNote::PinLeftOut(0)), "pin 1 is left out"),
             (Note::BinaryBoundary, "between cells"),
+            (
+                Note::Mirrored {
+                    as_drawn: 8.0,
+                    mirrored: 1.1,
+                },
+                "1.1 instead of 8.0",
+            ),
             (Note::Stiffened { share: 1e-11 }, "1e-11 of the diagonal"),
         ] {
             let said = note.to_string();

@@ -12,6 +12,9 @@ use super::conflicts::in_the_way;
 use super::error::BuildError;
 use super::group::Chosen;
 use super::holes::{HoleOf, timed};
+use super::mirrored;
+use super::note::Note;
+use super::options::Quality;
 use super::rigid::arap;
 use super::spec::TransitionSpec;
 use crate::compatible::{OutlinesError, joined};
@@ -36,6 +39,7 @@ pub(super) struct Film {
     pub arap: Arap,
     /// Holes that one of the designs has alone.
     pub holes: Vec<HoleOf>,
+    pub notes: Vec<Note>,
 }
 
 /// The match of both outlines that is kept, and its film, settled.
@@ -47,7 +51,12 @@ pub(super) fn best(
     let [source, target] = outlines;
     checkpoint(progress, "matching", 0.0)?;
     let mut prepared = Prepared::new([source, target], &spec.options.matching, progress)?;
-    placed(parted(&mut prepared, spec, progress)?, progress)
+    let (mut film, pieces) = parted(&mut prepared, spec, progress)?;
+    if spec.options.quality == Quality::Best {
+        film.notes
+            .extend(mirrored::note(spec, outlines, &pieces, progress)?);
+    }
+    placed(film, progress)
 }
 
 /// The best match of each piece, once what would go through other parts is
@@ -56,7 +65,7 @@ fn parted(
     prepared: &mut Prepared,
     spec: &TransitionSpec,
     progress: &dyn Progress,
-) -> Result<Film, BuildError> {
+) -> Result<(Film, Vec<Candidate>), BuildError> {
     let mut known = Known::new();
     let (mut round, mut mended) = (0, 0);
     loop {
@@ -79,11 +88,13 @@ fn parted(
         let holes = timed(&matched.pieces, &arap, progress)?;
         let gone = in_the_way(&matched, &arap, &holes, progress)?;
         if round == ROUNDS || !prepared.let_go(&matched, &gone, progress) {
-            return Ok(Film {
+            let film = Film {
                 matched,
                 arap,
                 holes,
-            });
+                notes: Vec::new(),
+            };
+            return Ok((film, candidates));
         }
         known = asked.into_iter().zip(groups).collect();
         round += 1;
@@ -162,7 +173,7 @@ fn placed(film: Film, progress: &dyn Progress) -> Result<Film, BuildError> {
             arap: arap(&placed.mesh, once, &placed.lives, progress)?,
             matched: placed.matched,
             // They lie in none of what was moved.
-            holes: film.holes,
+            ..film
         },
         None => film,
     })

@@ -22,7 +22,7 @@ pub(super) fn rigid_parts(
 ) -> Result<(Moved, Solid), BuildError> {
     checkpoint(progress, "triangulating", 0.0)?;
     let mut bars = Vec::new();
-    let mut holes = Vec::new();
+    let (mut holes, mut notes) = (Vec::new(), Vec::new());
     let (arap, matched) = match (&spec.source.form, &spec.target.form) {
         (Form::Mesh(a), Form::Mesh(b)) => (
             given(spec, CompatibleMesh::from_meshes(a, b), progress)?,
@@ -39,6 +39,7 @@ pub(super) fn rigid_parts(
             let outlines = spec.outlines(bar_width, progress)?;
             let best = settled::best(spec, &outlines, progress)?;
             holes = best.holes.into_iter().map(|(_, hole)| hole).collect();
+            notes = best.notes;
             (best.arap, Some(best.matched))
         }
     };
@@ -54,6 +55,7 @@ pub(super) fn rigid_parts(
     };
     let moved = Moved {
         matched,
+        notes,
         ..AnyWarp::Rigid(arap).into()
     };
     Ok((moved, solid))

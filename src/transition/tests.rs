@@ -650,3 +650,21 @@ fn a_draft_is_one_film_of_several_with_the_same_ends() {
     field.cell = Cell::FIELD_BLEND;
     assert!(field.draft().is_none());
 }
+
+#[test]
+fn what_would_match_far_better_mirrored_is_told() {
+    // A spring, wound either way.
+    let spring = "M10 10H90V90H20V40H60V70H40V60H50V50H30V80H80V20H10Z";
+    let over = "M90 10H10V90H80V40H40V70H60V60H50V50H70V80H20V20H90Z";
+    let notes = |source: &str, target: &str| {
+        let spec = TransitionSpec::new(svg(source), svg(target));
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        transition.notes().to_vec()
+    };
+    let said = notes(spring, over);
+    assert!(matches!(said[..], [Note::Mirrored { .. }]), "{said:?}");
+    let star = "M50 5L60 40H95L67 60 78 95 50 73 22 95 33 60 5 40H40z";
+    for (source, target) in [(spring, spring), (spring, star)] {
+        assert_eq!(notes(source, target), []);
+    }
+}
