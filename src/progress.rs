@@ -80,7 +80,9 @@ pub fn still_wanted(progress: &dyn Progress) -> Result<(), Cancelled> {
 const LOOKED_EVERY: Duration = Duration::from_millis(20);
 
 /// Runs a long call that cannot be stopped on a thread of its own. On a cancel
-/// it is left behind, to end when it ends; nobody waits for it.
+/// it is left behind, to end when it ends; nobody waits for it. What it does in
+/// parallel it does on threads of its own where the caller is one of those that
+/// are shared: all of these may be waiting like this one.
 ///
 /// # Errors
 /// [`Cancelled`] if nobody wants the result any more.
@@ -97,7 +99,11 @@ pub fn beside<T: Send + 'static>(
     work: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Cancelled> {
     let (sender, answer) = channel();
-    let thread = std::thread::spawn(move || sender.send(work()).is_ok());
+    let is_shared = rayon::current_thread_index().is_some();
+    let thread = std::thread::spawn(move || {
+        let found = if is_shared { apart(work) } else { work() };
+        sender.send(found).is_ok()
+    });
     loop {
         match answer.recv_timeout(LOOKED_EVERY) {
             Ok(found) => return Ok(found),
@@ -108,6 +114,15 @@ pub fn beside<T: Send + 'static>(
                 Ok(_) => return Err(Cancelled),
             },
         }
+    }
+}
+
+/// Does the work with threads that nobody else waits for.
+fn apart<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    match rayon::ThreadPoolBuilder::new().build() {
+        Ok(pool) => pool.install(work),
+        // One that could not be had is no reason to give up what was asked for.
+        Err(_) => work(),
     }
 }
 
@@ -311,5 +326,16 @@ mod tests {
             Err(Cancelled)
         );
         assert!(begun.elapsed() < long / 4);
+    }
+
+    #[test]
+    fn work_in_parallel_is_done_while_all_threads_wait_for_such() {
+        let sum = || {
+            let (a, b) = rayon::join(|| 1, || 2);
+            a + b
+        };
+        // Each of the shared threads waits for work that is done in parallel.
+        let sums = rayon::broadcast(|_| beside(&Silent, sum));
+        assert!(sums.iter().all(|sum| *sum == Ok(3)));
     }
 }

@@ -46,6 +46,22 @@ fn a_table_of_pairs_gives_a_row_each() {
 }
 
 #[test]
+fn a_table_of_pictures_has_an_end() {
+    let shop = Workshop::new();
+    for (t, name) in [(0, "x.png"), (1, "y.png")] {
+        shop.done(&format!(
+            "render a.svg b.svg --at {t} --size 120x120 --out {name}"
+        ));
+    }
+    let pairs = "x.png,y.png\ny.png,x.png\n".repeat(3);
+    shop.put("pairs.csv", &format!("source,target\n{pairs}"));
+    shop.done("check --pairs pairs.csv --out r.csv --samples 3");
+    let found = rows(&shop.path("r.csv"));
+    assert_eq!(found.len(), 6);
+    assert!(found.iter().all(|row| row["status"] == "ok"), "{found:?}");
+}
+
+#[test]
 fn a_table_of_fields_is_written_over_the_last_one() {
     let shop = Workshop::new();
     shop.put("pairs.csv", "source,target\na.svg,b.obj\n");
