@@ -1,11 +1,11 @@
 //! The match of two designs with all their parts and holes.
 //!
-//! Parts are paired, each pair's outer boundaries and
-//! holes are matched, and what one design alone has is given a partner: a
-//! hole closes to a point or its ring is cut open, a part is split off the
+//! Parts are paired, each pair's outer boundaries and holes are matched, and
+//! what one design alone has is given a partner: a hole closes to a point, its
+//! ring is cut open, or the rest is matched without it; a part is split off the
 //! other design's or is born from a point. The outcome is a list of
-//! [`PieceMatch`]es, each one connected and with as many rings on either
-//! side: what a common triangulation can be made of.
+//! [`PieceMatch`]es, each one connected and with as many rings on either side:
+//! what a common triangulation can be made of.
 //!
 //! Guaranteed: corresponding rings have the same number of vertices; all
 //! points of the given outlines are vertices, bit by bit; pins are honoured
