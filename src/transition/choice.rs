@@ -44,8 +44,11 @@ const LAST_PRICES: [f64; 4] = [0.12, 0.25, 0.5, 1.0];
 /// Without a bound a pair of icons took 24 s, and folded.
 const MOST_WORK: usize = 2_500_000;
 
-/// How much is done once the match that was asked for has its film, those
-/// beside it have theirs, and the last ones, as it is told.
+/// Holes without a partner cut open or closed, whichever matches better.
+const CUT: Holes = Holes::By(HoleRule::Auto);
+
+/// How much is done once the match that was asked for has its film, that with
+/// its holes cut, that without holes, and those at other prices, as it is told.
 const FIRST: f64 = 0.2;
 const SECOND: f64 = 0.3;
 const THIRD: f64 = 0.6;
@@ -75,15 +78,9 @@ pub(super) fn best_of_group(
     let span = |from, to| Span::new(progress, from, to);
     let mut chosen = group.as_asked(&span(0.0, FIRST))?;
     if !prepared.is_crowd() {
-        let cut = Holes::By(HoleRule::Auto);
-        group.try_holes(&mut chosen, cut, &has_lone_holes, &span(FIRST, SECOND))?;
-        let unpaired = Holes::Unpaired;
-        group.try_holes(
-            &mut chosen,
-            unpaired,
-            &has_folding_holes,
-            &span(SECOND, THIRD),
-        )?;
+        let [second, third] = [span(FIRST, SECOND), span(SECOND, THIRD)];
+        group.try_holes(&mut chosen, CUT, &has_lone_holes, &second)?;
+        group.try_holes(&mut chosen, Holes::Unpaired, &has_folding_holes, &third)?;
         group.try_other_prices(&mut chosen, &span(THIRD, FOURTH))?;
     }
     let last = span(FOURTH, 1.0);
@@ -141,13 +138,7 @@ impl GroupOf<'_> {
                 Err(_) => self.first_holes(),
             };
             let holes: Vec<Holes> = chosen.iter().map(holes).collect();
-            let mut treated: Vec<Holes> = Vec::new();
-            for now in holes.iter().zip(&wants).filter(|(_, wants)| **wants) {
-                if !treated.contains(now.0) {
-                    treated.push(*now.0);
-                }
-            }
-            for now in treated {
+            for now in [self.first_holes(), CUT, Holes::Unpaired] {
                 let way = |options: &MatchOptions| Way {
                     options: options.clone(),
                     holes: now,

@@ -11,6 +11,8 @@ use crate::warp::WarpKind;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+mod alone;
+
 fn design(text: &str) -> Arc<Design> {
     Arc::new(import("test", text.as_bytes(), &ImportOptions::default()).unwrap())
 }
@@ -559,112 +561,4 @@ fn parts_that_somebody_had_split_stay_together() {
     let transition = Transition::build(&spec, &Silent).unwrap();
     let pieces = &transition.matched().unwrap().pieces;
     assert!(pieces.iter().all(|piece| piece.source_part == Some(0)));
-}
-
-/// A plate with a row of holes.
-fn perforated(holes: u32) -> Arc<Design> {
-    let hole = |k: u32| format!("M{} 40v20h10v-20z", 15 + 15 * k);
-    let holes: String = (0..holes).map(hole).collect();
-    svg(&format!("M5 20h90v60h-90z {holes}"))
-}
-
-fn sorted(rings: &[Vec<DVec2>]) -> Vec<f64> {
-    let mut areas: Vec<f64> = rings
-        .iter()
-        .map(|r| area(std::slice::from_ref(r)))
-        .collect();
-    areas.sort_by(f64::total_cmp);
-    areas
-}
-
-#[test]
-fn holes_of_one_design_shrink_where_they_are() {
-    let mut spec = TransitionSpec::new(perforated(5), perforated(0));
-    spec.options.matching.holes = HoleRule::Alone;
-    let transition = Transition::build(&spec, &Silent).unwrap();
-    let mut frame = transition.frame(0.0);
-    for (t, wanted) in [(0.0, -200.0), (0.5, -50.0)] {
-        frame.seek(t);
-        let areas = sorted(&frame.figure().rings);
-        assert_eq!(areas.len(), 6);
-        assert!((areas[0] - wanted).abs() < 1e-9, "{t}: {areas:?}");
-        assert!((areas[5] - 5400.0).abs() < 1e-9);
-    }
-    frame.seek(1.0);
-    let last = sorted(&frame.figure().rings);
-    assert!(
-        last.len() == 1 && (last[0] - 5400.0).abs() < 1e-9,
-        "{last:?}"
-    );
-    // Beyond the ends they are as at them.
-    frame.seek(1.5);
-    assert_eq!(frame.figure().rings.len(), 1);
-}
-
-#[test]
-fn films_of_exchanged_designs_have_their_holes_at_the_same_times() {
-    let (a, b) = (
-        perforated(4),
-        svg("M10 10L90 30L70 95L20 80z M40 40v20h20v-20z"),
-    );
-    let rings = |source: &Arc<Design>, target: &Arc<Design>| -> Vec<Vec<f64>> {
-        let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
-        let transition = Transition::build(&spec, &Silent).unwrap();
-        let at = |k: u32| sorted(&transition.frame(f64::from(k) / 8.0).figure().rings);
-        (0..=8).map(at).collect()
-    };
-    let (there, mut back) = (rings(&a, &b), rings(&b, &a));
-    back.reverse();
-    for (there, back) in there.iter().zip(&back) {
-        assert_eq!(there.len(), back.len());
-        for (p, q) in there.iter().zip(back) {
-            assert!((p - q).abs() < 1e-6 * (1.0 + p.abs()), "{p} {q}");
-        }
-    }
-}
-
-#[test]
-fn a_hole_that_is_alone_crosses_nothing_on_its_way() {
-    let frame = svg("M10 10h80v80h-80z M20 20v60h60v-60z");
-    let bend = svg("M10 10h80v20h-60v60h-20z");
-    assert_eq!(
-        [most_crossings(&frame, &bend), most_crossings(&bend, &frame)],
-        [0, 0]
-    );
-}
-
-#[test]
-fn a_draft_is_one_film_of_several_with_the_same_ends() {
-    let (a, b) = (svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
-    let spec = TransitionSpec::new(a, b);
-    let draft = spec.draft().unwrap();
-    assert!(draft.draft().is_none(), "a draft of a draft");
-    let [best, draft] = [&spec, &draft].map(|spec| Transition::build(spec, &Silent).unwrap());
-    for t in [0.0, 1.0] {
-        let [best, draft] = [&best, &draft].map(|made| area(&made.frame(t).figure().rings));
-        assert!((best - draft).abs() < 1e-9 * best, "{best} {draft}");
-    }
-    let given = TransitionSpec::new(design(SQUARE), design(SQUARE));
-    assert!(given.draft().is_none());
-    let mut field = spec;
-    field.cell = Cell::FIELD_BLEND;
-    assert!(field.draft().is_none());
-}
-
-#[test]
-fn what_would_match_far_better_mirrored_is_told() {
-    // A spring, wound either way.
-    let spring = "M10 10H90V90H20V40H60V70H40V60H50V50H30V80H80V20H10Z";
-    let over = "M90 10H10V90H80V40H40V70H60V60H50V50H70V80H20V20H90Z";
-    let notes = |source: &str, target: &str| {
-        let spec = TransitionSpec::new(svg(source), svg(target));
-        let transition = Transition::build(&spec, &Silent).unwrap();
-        transition.notes().to_vec()
-    };
-    let said = notes(spring, over);
-    assert!(matches!(said[..], [Note::Mirrored { .. }]), "{said:?}");
-    let star = "M50 5L60 40H95L67 60 78 95 50 73 22 95 33 60 5 40H40z";
-    for (source, target) in [(spring, spring), (spring, star)] {
-        assert_eq!(notes(source, target), []);
-    }
 }
