@@ -11,15 +11,14 @@
 //! then the fewest crossings of its outlines, then the least distortion,
 //! outlines that grow jagged on the way included, then the earliest. What was
 //! chosen then slides, as long as that makes it better. A draft is the match
-//! that was asked for, and nothing else is tried.
+//! that was asked for alone.
 
 use super::candidate::Candidate;
 use super::error::BuildError;
 use super::group::{Chosen, GroupOf, Way, piece};
-use super::options::Quality;
 use super::spec::TransitionSpec;
 use crate::compatible::slid;
-use crate::correspondence::{HoleRule, Holes, MatchOptions, Matching, Prepared};
+use crate::correspondence::{HoleRule, Holes, MatchOptions, Matching};
 use crate::progress::{Progress, Several, Span, still_wanted};
 use rayon::prelude::*;
 
@@ -60,24 +59,19 @@ const SLIDES: u32 = 3;
 /// Maps that distort less are left as they are: two drawings of one thing.
 const FAITHFUL: f64 = 1.02;
 
-/// The best of each piece of a group of parts.
+/// The best of each piece of a group of parts; `drafts` are the same pieces as
+/// they were asked for, if that is known.
 pub(super) fn best_of_group(
-    prepared: &Prepared,
-    group: usize,
-    spec: &TransitionSpec,
+    group: &GroupOf,
+    drafts: Option<&Vec<Chosen>>,
     progress: &dyn Progress,
 ) -> Result<Vec<Chosen>, BuildError> {
-    let group = &GroupOf {
-        prepared,
-        group,
-        spec,
-    };
-    if spec.options.quality == Quality::Draft {
-        return group.as_asked(progress);
-    }
     let span = |from, to| Span::new(progress, from, to);
-    let mut chosen = group.as_asked(&span(0.0, FIRST))?;
-    if !prepared.is_crowd() {
+    let mut chosen = match drafts {
+        Some(drafts) => drafts.clone(),
+        None => group.as_asked(&span(0.0, FIRST))?,
+    };
+    if !group.prepared.is_crowd() {
         let [second, third] = [span(FIRST, SECOND), span(SECOND, THIRD)];
         group.try_holes(&mut chosen, CUT, &has_lone_holes, &second)?;
         group.try_holes(&mut chosen, Holes::Unpaired, &has_folding_holes, &third)?;
@@ -88,7 +82,7 @@ pub(super) fn best_of_group(
     let settled = chosen.into_par_iter().enumerate();
     settled
         .map(|(k, chosen)| match chosen {
-            Ok(best) => Ok(Ok(settled_by_sliding(best, spec, &shares.part(k))?)),
+            Ok(best) => Ok(Ok(settled_by_sliding(best, group.spec, &shares.part(k))?)),
             none => Ok(none),
         })
         .collect()
