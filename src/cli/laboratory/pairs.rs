@@ -156,8 +156,12 @@ impl Batch {
                 )));
             }
             let folder = path.parent().filter(|f| !f.as_os_str().is_empty());
-            let is_taken = path.exists() && !path.is_file();
-            if is_taken || folder.is_some_and(|folder| !folder.is_dir()) {
+            if path.exists() && !path.is_file() {
+                return Err(CliError::Failed(format!(
+                    "cannot write `{shown}`: it is no file; choose another name for the output"
+                )));
+            }
+            if folder.is_some_and(|folder| !folder.is_dir()) {
                 return Err(CliError::Failed(format!(
                     "cannot write `{shown}`: name a file in a folder that exists"
                 )));
