@@ -24,7 +24,6 @@ mod options;
 mod picture;
 mod polygons;
 mod silhouette;
-mod simplify;
 mod sniff;
 mod source;
 mod svg;
