@@ -50,6 +50,7 @@ mod solids;
 mod spec;
 mod style;
 mod timing;
+mod unfolded;
 mod walks;
 
 #[cfg(test)]

@@ -19,6 +19,7 @@ use super::note::Note;
 use super::options::Quality;
 use super::rigid::arap;
 use super::spec::TransitionSpec;
+use super::unfolded::unfolded;
 use crate::compatible::{OutlinesError, joined};
 use crate::correspondence::{Group, Prepared, RegionMatch};
 use crate::geometry::Regions;
@@ -62,7 +63,11 @@ pub(super) fn best(
         film.notes
             .extend(mirrored::note(spec, outlines, &pieces, progress)?);
     }
-    placed(film, progress)
+    let film = placed(film, progress)?;
+    Ok(Film {
+        arap: unfolded(film.arap, progress)?,
+        ..film
+    })
 }
 
 /// The match of each piece, once what would go through other parts is let go,

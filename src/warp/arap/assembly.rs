@@ -49,6 +49,8 @@ pub(super) struct LocalMaps {
     pub whole_angle: f64,
     /// Fixed vertex masses: the mean of the normalised lumped areas.
     pub masses: Vec<f64>,
+    /// What the weight of each face is multiplied with; 1 beyond the list.
+    pub stiffness: Vec<f64>,
 }
 
 impl LocalMaps {
@@ -104,7 +106,18 @@ impl LocalMaps {
             part_count: part_of.iter().max().map_or(0, |&last| last as usize + 1),
             whole_angle,
             masses,
+            stiffness: Vec::new(),
         })
+    }
+
+    /// With the weights of the faces multiplied by these numbers instead.
+    pub(super) fn stiffened(mut self, by: &[f64]) -> Self {
+        let before = std::mem::replace(&mut self.stiffness, by.to_vec());
+        let factor = |of: &[f64], face: usize| of.get(face).copied().unwrap_or(1.0);
+        for (k, face) in self.faces.iter_mut().enumerate() {
+            face.weighted *= factor(by, k) / factor(&before, k);
+        }
+        self
     }
 
     /// With the angles of the film that is run backwards, turned the other

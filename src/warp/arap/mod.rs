@@ -134,7 +134,11 @@ impl Arap {
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let inner = &*self.0;
-        Self::prepared(&inner.mesh, options, self.lives(), inner.outlined, progress)
+        let rebuilt = Self::prepared(&inner.mesh, options, self.lives(), inner.outlined, progress)?;
+        if self.stiffness().is_empty() {
+            return Ok(rebuilt);
+        }
+        rebuilt.stiffened(self.stiffness(), progress)
     }
 
     fn prepared(
@@ -247,9 +251,35 @@ impl Arap {
         let mesh = inner.mesh.swapped();
         let lives = inner.drift.lives().iter();
         let lives: Vec<_> = lives.map(|life| life.map(Life::backwards)).collect();
-        let maps = LocalMaps::new(&mesh, &inner.options, &lives)?.turning_back(&inner.maps);
+        let maps = LocalMaps::new(&mesh, &inner.options, &lives)?
+            .stiffened(self.stiffness())
+            .turning_back(&inner.maps);
         let drawn = (lives, inner.outlined);
         Self::from_maps(mesh, maps, inner.options.clone(), drawn, progress)
+    }
+
+    /// The same interpolation with the weight of each face multiplied by a positive
+    /// number, 1 for those beyond the list: a stiff one moves as its local map
+    /// says, whatever its neighbours want.
+    ///
+    /// # Errors
+    /// [`ArapError`] on a cancel, or if the other matrix cannot be factored.
+    pub(crate) fn stiffened(&self, by: &[f64], progress: &dyn Progress) -> Result<Self, ArapError> {
+        let inner = &*self.0;
+        let maps = inner.maps.clone().stiffened(by);
+        let drawn = (self.lives().to_vec(), inner.outlined);
+        Self::from_maps(
+            inner.mesh.clone(),
+            maps,
+            inner.options.clone(),
+            drawn,
+            progress,
+        )
+    }
+
+    /// What the weight of each face is multiplied with; 1 beyond the list.
+    pub(crate) fn stiffness(&self) -> &[f64] {
+        &self.0.maps.stiffness
     }
 
     /// When each connected part changes its size, if it is a point in one of
