@@ -6,12 +6,15 @@ mod field;
 mod hole;
 mod scan;
 mod solid;
+mod swell;
 
 pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
 pub(crate) use colours::{linear_from_srgb, srgb_from_linear};
 pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError};
 pub use hole::Hole;
 pub use solid::Solid;
+pub use swell::Swell;
+pub(crate) use swell::middle;
 
 use crate::names::named;
 

@@ -1,6 +1,6 @@
 //! Solid regions and bars that are carried by the vertices of a placement.
 
-use super::Hole;
+use super::{Hole, Swell};
 use crate::geometry::{DVec2, RingEdge};
 
 /// What is drawn over the vertices of a placement.
@@ -15,37 +15,69 @@ pub struct Solid {
     pub bar_width: f64,
     /// Holes in the filled faces that one of the designs has alone.
     pub holes: Vec<Hole>,
+    /// Parts that one of the designs has alone and that swell, each drawn in
+    /// the stead of its walks.
+    pub swells: Vec<Swell>,
 }
 
 impl Solid {
     /// The boundary walks at `t`, when the vertices are at these places; then
-    /// the holes that are there.
+    /// the parts that swell and the holes, those that are there.
     ///
     /// # Panics
     /// Where a walk goes by a vertex that has no place.
     #[must_use]
     pub fn rings_at(&self, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
-        let at = |walk: &Vec<u32>| walk.iter().map(|&v| places[v as usize]).collect();
+        let at = |walk: usize| self.walk_at(walk, places);
+        let swells = self.swelling(t).flat_map(|swell| {
+            let first = swell.walks().first().map(|&walk| at(walk));
+            swell.at(&first.unwrap_or_default(), t)
+        });
         let holes = self.holes.iter().filter_map(|hole| hole.at(places, t));
-        self.loops.iter().map(at).chain(holes).collect()
+        let walks = self.walks(t).map(at);
+        walks.chain(swells).chain(holes).collect()
+    }
+
+    fn walk_at(&self, walk: usize, places: &[DVec2]) -> Vec<DVec2> {
+        self.loops[walk]
+            .iter()
+            .map(|&v| places[v as usize])
+            .collect()
+    }
+
+    /// The walks that are drawn as they are at `t`, by their numbers.
+    fn walks(&self, t: f64) -> impl Iterator<Item = usize> {
+        let is_swelling =
+            move |walk: &usize| self.swelling(t).any(|swell| swell.walks().contains(walk));
+        (0..self.loops.len()).filter(move |walk| !is_swelling(walk))
+    }
+
+    /// The parts that are not as they were drawn at `t`.
+    fn swelling(&self, t: f64) -> impl Iterator<Item = &Swell> {
+        self.swells.iter().filter(move |swell| swell.share(t) < 1.0)
     }
 
     /// The corners of the face at an edge of [`Self::rings_at`], of a boundary
     /// walk its two ends.
-    pub(crate) fn corners_at(&self, edge: RingEdge, t: f64) -> Option<Vec<u32>> {
+    pub(crate) fn corners_at(&self, edge: RingEdge, places: &[DVec2], t: f64) -> Option<Vec<u32>> {
         let RingEdge { ring, point } = edge;
-        if let Some(walk) = self.loops.get(ring) {
+        if let Some(walk) = self.walks(t).nth(ring) {
+            let walk = &self.loops[walk];
             return Some(vec![walk[point], walk[(point + 1) % walk.len()]]);
         }
-        let mut holes = self.holes.iter().filter(|hole| !hole.is_gone(t));
-        let hole = holes.nth(ring - self.loops.len())?;
+        // Of what swells no edge has a face.
+        let seen = self.rings_at(places, t).len();
+        let holes: Vec<&Hole> = self.holes.iter().filter(|hole| !hole.is_gone(t)).collect();
+        let hole = holes.get((ring + holes.len()).checked_sub(seen)?)?;
         Some(hole.face(point).to_vec())
     }
 
-    /// How many of the holes that come and go are not there at `t`: points, to
+    /// How many of the rings that come and go are not there at `t`: points, to
     /// what counts rings.
     pub(crate) fn gone_at(&self, t: f64) -> usize {
-        self.holes.iter().filter(|hole| hole.is_gone(t)).count()
+        let parts = self.swells.iter().filter(|swell| swell.share(t) <= 0.0);
+        let walks: usize = parts.map(|swell| swell.walks().len()).sum();
+        self.holes.iter().filter(|hole| hole.is_gone(t)).count() + walks
     }
 
     /// The bars at the given vertex places.

@@ -156,8 +156,9 @@ impl Fitting<'_, '_, '_> {
     fn add_solid(&mut self, solid: &Solid) {
         let count = self.frame.placement().faces.len();
         let has_loops = !solid.loops.is_empty();
-        // Faces know nothing of holes that come and go.
-        if has_loops && (count == 0 || !solid.holes.is_empty()) {
+        // Faces know nothing of that.
+        let comes_and_goes = !solid.holes.is_empty() || !solid.swells.is_empty();
+        if has_loops && (count == 0 || comes_and_goes) {
             let (positions, indices) = fill::nothing();
             let nothing = mesh(positions).with_inserted_indices(Indices::U32(indices));
             // How many vertices the rings will need is not known before a frame

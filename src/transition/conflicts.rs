@@ -15,7 +15,7 @@ use crate::warp::{Arap, Warp};
 use std::collections::BTreeSet;
 
 /// Steps of a film that is looked at.
-pub(super) const STEPS: u32 = 32;
+const STEPS: u32 = 32;
 
 /// The pieces to let go; none where no two parts of both designs meet.
 pub(super) fn in_the_way(

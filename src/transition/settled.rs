@@ -46,6 +46,8 @@ pub(super) struct Film {
     pub arap: Arap,
     /// Holes that one of the designs has alone.
     pub holes: Vec<HoleOf>,
+    /// The pieces that one of the designs has alone and that swell.
+    pub swelling: Vec<usize>,
     pub notes: Vec<Note>,
 }
 
@@ -137,6 +139,7 @@ fn apart(
                 matched,
                 arap,
                 holes,
+                swelling: Vec::new(),
                 notes: Vec::new(),
             };
             return Ok(((film, candidates), known));
@@ -224,6 +227,7 @@ fn placed(film: Film, progress: &dyn Progress) -> Result<Film, BuildError> {
         Some(placed) => Film {
             arap: arap(&placed.mesh, once, &placed.lives, progress)?,
             matched: placed.matched,
+            swelling: placed.swelling,
             // They lie in none of what was moved.
             ..film
         },

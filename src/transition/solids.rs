@@ -9,8 +9,9 @@ use super::rigid::allow;
 use super::settled;
 use super::spec::TransitionSpec;
 use crate::compatible::{CompatibleError, CompatibleMesh, TrussError};
-use crate::content::Solid;
+use crate::content::{Solid, Swell};
 use crate::design::Form;
+use crate::geometry::{DVec2, Side, signed_area};
 use crate::progress::{Progress, checkpoint};
 use crate::warp::Arap;
 
@@ -22,7 +23,7 @@ pub(super) fn rigid_parts(
 ) -> Result<(Moved, Solid), BuildError> {
     checkpoint(progress, "triangulating", 0.0)?;
     let mut bars = Vec::new();
-    let (mut holes, mut notes) = (Vec::new(), Vec::new());
+    let (mut holes, mut swells, mut notes) = (Vec::new(), Vec::new(), Vec::new());
     let (arap, matched) = match (&spec.source.form, &spec.target.form) {
         (Form::Mesh(a), Form::Mesh(b)) => (
             given(spec, CompatibleMesh::from_meshes(a, b), progress)?,
@@ -39,6 +40,7 @@ pub(super) fn rigid_parts(
             let outlines = spec.outlines(bar_width, progress)?;
             let best = settled::best(spec, &outlines, progress)?;
             holes = best.holes.into_iter().map(|(_, hole)| hole).collect();
+            swells = swelling(&best.arap, &best.swelling);
             notes = best.notes;
             (best.arap, Some(best.matched))
         }
@@ -52,6 +54,7 @@ pub(super) fn rigid_parts(
         bars,
         bar_width,
         holes,
+        swells,
     };
     let moved = Moved {
         matched,
@@ -59,6 +62,48 @@ pub(super) fn rigid_parts(
         ..AnyWarp::Rigid(arap).into()
     };
     Ok((moved, solid))
+}
+
+/// What swells of a film: the pieces with these numbers, which are the connected
+/// parts of its mesh.
+fn swelling(film: &Arap, pieces: &[usize]) -> Vec<Swell> {
+    let (mesh, walks) = (film.mesh(), film.mesh().boundary_loops());
+    let parts = mesh.components();
+    let swell = |&piece: &usize| {
+        let life = film.lives().get(piece).copied().flatten()?;
+        let is_of_piece = |walk: &usize| {
+            let first = walks[*walk].first();
+            first.is_some_and(|&v| parts[v as usize] as usize == piece)
+        };
+        let numbers: Vec<usize> = (0..walks.len()).filter(is_of_piece).collect();
+        let rings = Side::BOTH.map(|side| {
+            let places = [mesh.source(), mesh.target()][side];
+            let ring = |&walk: &usize| {
+                let walk: &Vec<u32> = &walks[walk];
+                walk.iter().map(|&v| places[v as usize]).collect()
+            };
+            numbers.iter().map(ring).collect::<Vec<Vec<DVec2>>>()
+        });
+        let area = |side: Side| {
+            rings[side]
+                .iter()
+                .map(|ring| signed_area(ring))
+                .sum::<f64>()
+        };
+        let side = if area(Side::Source) > area(Side::Target) {
+            Side::Source
+        } else {
+            Side::Target
+        };
+        // The outer walk first, by which it is placed.
+        let outer = |k: &usize| signed_area(&rings[side][*k]);
+        let first = (0..numbers.len()).max_by(|a, b| outer(a).total_cmp(&outer(b)))?;
+        let (mut numbers, mut rings) = (numbers, rings);
+        numbers.swap(0, first);
+        rings[side].swap(0, first);
+        Some(Swell::new(side, numbers, &rings[side], life))
+    };
+    pieces.iter().filter_map(swell).collect()
 }
 
 /// The interpolation of a triangulation that the designs brought along.

@@ -250,3 +250,45 @@ fn noise_is_refused_before_it_is_traced() {
         Err(Problem::Picture(PictureError::TooRagged))
     ));
 }
+
+/// What a picture shows where each pixel's middle lies in the outline or not.
+fn redrawn(regions: &Regions, size: u32) -> Vec<bool> {
+    let middle = |x: u32, y: u32| DVec2::new(f64::from(x) + 0.5, f64::from(size - y) - 0.5);
+    let pixels = (0..size).flat_map(|y| (0..size).map(move |x| (x, y)));
+    pixels
+        .map(|(x, y)| regions.contains(middle(x, y)))
+        .collect()
+}
+
+#[test]
+fn stairs_are_smoothed_and_the_pixels_stay() {
+    // A leaf: two arcs that meet in sharp tips, without a grey pixel.
+    let size = 200;
+    let is_ink = |x: u32, y: u32| {
+        let p = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
+        [DVec2::new(60.0, 60.0), DVec2::new(140.0, 140.0)]
+            .iter()
+            .all(|c| p.distance(*c) < 85.0)
+    };
+    let leaf = GrayImage::from_fn(size, size, |x, y| {
+        Luma([if is_ink(x, y) { 0 } else { 255 }])
+    });
+    let found = regions(
+        &encoded(leaf.clone(), ImageFormat::Png),
+        &ImportOptions::default(),
+    );
+    let ring = found.rings().next().expect("one ring").points();
+    assert!(ring.len() < 80, "{}", ring.len());
+    // But for some on its very edge all pixels are what they were.
+    let drawn: Vec<bool> = leaf.pixels().map(|p| p.0[0] == 0).collect();
+    let again = redrawn(&found, size);
+    let other = drawn.iter().zip(&again).filter(|(a, b)| a != b).count();
+    assert!(other <= 12, "{other} of {} around it", 2 * 170);
+    // No stairs: it turns once around, and back nowhere but by a hair.
+    let turn = |k: usize| {
+        let [a, b, c] = [k, k + 1, k + 2].map(|k| ring[k % ring.len()]);
+        (b - a).angle_to(c - b)
+    };
+    let back: f64 = (0..ring.len()).map(turn).filter(|turn| *turn < 0.0).sum();
+    assert!(back > -0.3, "{back}");
+}

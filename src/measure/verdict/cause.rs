@@ -56,7 +56,7 @@ impl<'a> Scene<'a> {
 
     /// The face at an edge of the boundary.
     pub fn face_at(&self, edge: RingEdge) -> Option<usize> {
-        let corners = self.solid.corners_at(edge, self.t)?;
+        let corners = self.solid.corners_at(edge, &self.places, self.t)?;
         let faces = self.arap.mesh().faces();
         faces
             .iter()

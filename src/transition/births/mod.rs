@@ -1,10 +1,10 @@
 //! Where and when the parts that one design has alone are born and die.
 //!
 //! Such a part is a [`Speck`] in the other design, at a place that nobody
-//! drew, and is free to change its size within a time of its own. Both are
-//! chosen in the [`Scene`] so that it meets nothing as it grows: the largest
-//! part first, against the film of the parts that both designs have and of
-//! those placed before it.
+//! drew, and is free to change its size within a time of its own; or it
+//! swells, which keeps it within its outline. All are chosen in the [`Scene`] so
+//! that it meets nothing as it grows: the largest part first, against the film of
+//! the parts that both designs have and of those placed before it.
 //!
 //! Guaranteed: exchanging the designs gives the same places, and the times
 //! reversed, unless two parts are equal in size. Not guaranteed: that there
@@ -41,6 +41,8 @@ pub(super) struct Placed {
     pub mesh: CompatibleMesh,
     /// When each piece changes its size, if it is born or dies.
     pub lives: Vec<Option<Life>>,
+    /// The pieces that swell.
+    pub swelling: Vec<usize>,
 }
 
 /// The match and the film's mesh with all parts that are born or die in their
@@ -56,13 +58,15 @@ pub(super) fn placed(
         return Ok(None);
     }
     let mut scene = Scene::of(film, holes);
+    let mut swelling = Vec::new();
     let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
     for (rank, speck) in Speck::all(matched).into_iter().enumerate() {
         still_wanted(progress)?;
-        let (place, life) = scene.best(&speck, film, rank < SEARCHED);
-        by[speck.piece][speck.side.other()] = place - speck.ends[speck.side.other()];
-        lives[speck.piece] = Some(life);
-        scene.add(&speck, place, life, film);
+        let birth = scene.best(&speck, film, rank < SEARCHED);
+        by[speck.piece][speck.side.other()] = birth.place - speck.ends[speck.side.other()];
+        lives[speck.piece] = Some(birth.life);
+        swelling.extend(birth.swells.then_some(speck.piece));
+        scene.add(&speck, &birth, film);
     }
     let Some(mesh) = film.mesh().with_parts_moved(&by) else {
         return Ok(None);
@@ -78,5 +82,6 @@ pub(super) fn placed(
         matched,
         mesh,
         lives,
+        swelling,
     }))
 }

@@ -6,11 +6,14 @@
 use super::carried::carried_among;
 use super::speck::Speck;
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::conflicts::STEPS;
 use crate::transition::holes::HoleOf;
 use crate::transition::outline::Outline;
 use crate::transition::walks::Walks;
 use crate::warp::{Arap, Life, Warp};
+
+/// Steps at which it is looked at what is there. By half as many, parts met
+/// between the last two in three pairs of icons of 60.
+const STEPS: u32 = 64;
 
 /// A growing part keeps this share of its size free around itself, less the
 /// nearer it is to the size that was drawn.
@@ -24,6 +27,33 @@ const PLACES: u32 = 7;
 /// own place, in diameters, against the share of the film that it waits.
 const MEETING: f64 = 10.0;
 const DISTANCE: f64 = 2.0;
+
+/// Where, when and how a part is born or dies.
+#[derive(Clone, Copy)]
+pub(super) struct Birth {
+    /// Where its centroid is where it is a speck.
+    pub(super) place: DVec2,
+    pub(super) life: Life,
+    /// In thickness instead of in size.
+    pub(super) swells: bool,
+}
+
+impl Birth {
+    /// The part at `t`, larger by a share of its size the smaller it is.
+    fn at(&self, speck: &Speck, film: &Arap, t: f64, margin: f64) -> Vec<Outline> {
+        let share = self.life.share(t);
+        // Nothing of what swells is there as a speck.
+        if self.swells && share == [1.0, 0.0][speck.side] {
+            return Vec::new();
+        }
+        let centre = film.carried(speck.ends_at(self.place), share, t);
+        if self.swells {
+            return speck.swollen(centre, share);
+        }
+        let size = speck.size(share);
+        speck.at(centre, size * (1.0 + margin * (1.0 - size)))
+    }
+}
 
 /// What is there at each step, both ends included.
 pub(super) struct Scene {
@@ -55,9 +85,16 @@ impl Scene {
         }
     }
 
-    /// The best place and time, searched for only where it is asked to.
-    pub(super) fn best(&self, speck: &Speck, film: &Arap, is_searched: bool) -> (DVec2, Life) {
-        let mut best = (f64::INFINITY, (speck.ends[speck.side.other()], Life::WHOLE));
+    /// The best birth; its place is searched for only where that is asked for.
+    pub(super) fn best(&self, speck: &Speck, film: &Arap, is_searched: bool) -> Birth {
+        let mut best = (
+            f64::INFINITY,
+            Birth {
+                place: speck.ends[speck.side.other()],
+                life: Life::WHOLE,
+                swells: false,
+            },
+        );
         let places = if is_searched { self.grid() } else { Vec::new() };
         for life in speck.times() {
             let waits = 1.0 - (life.to - life.from);
@@ -70,18 +107,34 @@ impl Scene {
             } else {
                 Vec::new()
             };
-            for place in std::iter::once(own)
+            let growing = std::iter::once(own)
                 .chain(nearby)
                 .chain(places.iter().copied())
-            {
+                .map(|place| (place, false));
+            // In the place that it will have, or along with what is around it.
+            let swelling = [
+                own,
+                film.carried_back(speck.ends[speck.side], begins(speck, life))[speck.side.other()],
+            ];
+            let swelling = swelling.into_iter().map(|place| (place, true));
+            for (place, swells) in growing.chain(swelling) {
                 let known = waits + DISTANCE * place.distance(own) / self.bounds.diameter();
                 if known >= best.0 {
                     continue;
                 }
+                let birth = Birth {
+                    place: if swells {
+                        place + speck.off_middle()
+                    } else {
+                        place
+                    },
+                    life,
+                    swells,
+                };
                 let most = (best.0 - known) / MEETING;
-                let cost = known + MEETING * self.meetings(speck, place, life, film, most);
+                let cost = known + MEETING * self.meetings(speck, &birth, film, most);
                 if cost < best.0 {
-                    best = (cost, (place, life));
+                    best = (cost, birth);
                 }
             }
         }
@@ -99,19 +152,17 @@ impl Scene {
     }
 
     /// The number of steps at which it meets something, counted on to `most`.
-    fn meetings(&self, speck: &Speck, place: DVec2, life: Life, film: &Arap, most: f64) -> f64 {
+    fn meetings(&self, speck: &Speck, birth: &Birth, film: &Arap, most: f64) -> f64 {
         let mut count = 0.0;
         for step in 0..=STEPS {
-            let share = life.share(time(step));
+            let share = birth.life.share(time(step));
             let is_speck = share == [1.0, 0.0][speck.side];
             let is_whole = share == [0.0, 1.0][speck.side];
             // Where it is whole it is as it was drawn.
             if count > most || is_whole {
                 continue;
             }
-            let centre = film.carried(speck.ends_at(place), share, time(step));
-            let size = speck.size(share);
-            let rings = speck.at(centre, size * (1.0 + MARGIN * (1.0 - size)));
+            let rings = birth.at(speck, film, time(step), MARGIN);
             // Nobody sees a pixel that lies in another part.
             let is_free =
                 self.crosses_none(step, &rings) && (is_speck || self.is_apart(step, &rings));
@@ -147,13 +198,9 @@ impl Scene {
     }
 
     /// Adds a speck that has got its place.
-    pub(super) fn add(&mut self, speck: &Speck, place: DVec2, life: Life, film: &Arap) {
+    pub(super) fn add(&mut self, speck: &Speck, birth: &Birth, film: &Arap) {
         for step in 0..=STEPS {
-            let t = time(step);
-            let share = life.share(t);
-            let centre = film.carried(speck.ends_at(place), share, t);
-            let size = speck.size(share);
-            self.steps[step as usize].extend(speck.at(centre, size));
+            self.steps[step as usize].extend(birth.at(speck, film, time(step), 0.0));
         }
     }
 
@@ -161,12 +208,17 @@ impl Scene {
     /// what lies around it.
     fn carried(&self, speck: &Speck, life: Life, film: &Arap) -> DVec2 {
         let (side, here) = (speck.side, speck.ends[speck.side]);
-        let begins = [life.to, life.from][side];
+        let begins = begins(speck, life);
         let then = &self.steps[(f64::from(STEPS) * begins) as usize];
         let now = &self.steps[[0, STEPS as usize][side]];
         let place = carried_among(here, now, then);
         film.carried_back(place, begins)[side.other()]
     }
+}
+
+/// When a part is a speck that grows, or was one.
+fn begins(speck: &Speck, life: Life) -> f64 {
+    [life.to, life.from][speck.side]
 }
 
 fn time(step: u32) -> f64 {

@@ -1,9 +1,11 @@
 //! A part of one design alone: a speck in the other.
 
+use crate::content::middle;
 use crate::correspondence::{PieceMatch, RegionMatch};
-use crate::geometry::{DVec2, Side, ring_edges, signed_area};
+use crate::geometry::{DVec2, Side, inset, inset_depth, ring_edges, signed_area};
 use crate::transition::outline::Outline;
 use crate::warp::Life;
+use std::cell::OnceCell;
 
 /// A part changes its size within so many eighths of the film at least.
 /// Shorter would be a jump.
@@ -12,6 +14,9 @@ const EIGHTHS: u32 = 8;
 
 /// Places along its own outline that are searched.
 const OWN_PLACES: usize = 12;
+
+/// Thicknesses that are looked at of a part that swells.
+const LEVELS: u32 = 16;
 
 /// A part of one design alone.
 pub(super) struct Speck {
@@ -25,6 +30,9 @@ pub(super) struct Speck {
     rings: Vec<Vec<DVec2>>,
     /// Its size across as a share of its own.
     least: f64,
+    /// As it swells, about the middle of its outer ring, from nothing to all of
+    /// it; once somebody asks.
+    swelling: OnceCell<Vec<Vec<Vec<DVec2>>>>,
 }
 
 impl Speck {
@@ -66,6 +74,7 @@ impl Speck {
             rings: rings(side).map(about).collect(),
             least: (area(side.other()) / whole).abs().sqrt(),
             area: whole,
+            swelling: OnceCell::new(),
             piece,
             side,
             ends,
@@ -99,6 +108,42 @@ impl Speck {
     pub(super) fn at(&self, centre: DVec2, size: f64) -> Vec<Outline> {
         let placed = |ring: &Vec<DVec2>| ring.iter().map(|&p| centre + p * size).collect();
         self.rings.iter().map(placed).map(Outline::of).collect()
+    }
+
+    /// What is to be added to a place at which it swells for that to be the
+    /// place of a speck which grows: it keeps its middle, and not its centroid.
+    pub(super) fn off_middle(&self) -> DVec2 {
+        let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
+        middle(outer) * (1.0 - self.least)
+    }
+
+    /// Where so much of its change is done, and its centroid would be at
+    /// `centre` were it a speck that grows: swelling, somewhat thicker than it
+    /// is.
+    pub(super) fn swollen(&self, centre: DVec2, share: f64) -> Vec<Outline> {
+        let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
+        let size = self.size(share);
+        let at = centre + middle(outer) * size;
+        let levels = self.swelling.get_or_init(|| {
+            let depth = inset_depth(&self.rings);
+            let level = |k: u32| {
+                inset(
+                    &self.rings,
+                    depth * (1.0 - f64::from(k) / f64::from(LEVELS)),
+                )
+            };
+            (0..=LEVELS).map(level).collect()
+        });
+        let level = (size * f64::from(LEVELS))
+            .ceil()
+            .clamp(0.0, f64::from(LEVELS));
+        let own = middle(outer);
+        let placed = |ring: &Vec<DVec2>| ring.iter().map(|&p| at + (p - own)).collect();
+        levels[level as usize]
+            .iter()
+            .map(placed)
+            .map(Outline::of)
+            .collect()
     }
 
     /// The times in which it may change its size, the longest first.

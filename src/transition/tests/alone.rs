@@ -110,3 +110,39 @@ fn what_would_match_far_better_mirrored_is_told() {
         assert_eq!(notes(source, target), []);
     }
 }
+
+/// How many parts swell in the film from one design to another.
+fn swelling(transition: &Transition) -> usize {
+    match transition.content() {
+        Content::Solid(solid) => solid.swells.len(),
+        _ => 0,
+    }
+}
+
+#[test]
+fn a_ring_around_what_is_there_comes_as_a_line_that_swells() {
+    let bar = svg("M42 30h16v40h-16z");
+    let badge = svg(
+        "M42 30h16v40h-16z M50 2a48 48 0 0 1 0 96a48 48 0 0 1 0-96 M50 12a38 38 0 0 0 0 76a38 38 0 0 0 0-76",
+    );
+    let film = |source: &Arc<Design>, target: &Arc<Design>| {
+        let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+        Transition::build(&spec, &Silent).unwrap()
+    };
+    let (there, back) = (film(&bar, &badge), film(&badge, &bar));
+    assert_eq!([swelling(&there), swelling(&back)], [1, 1]);
+    let mut before = 0.0;
+    for k in 0..=64 {
+        let t = f64::from(k) / 64.0;
+        let rings = there.frame(t).figure().rings;
+        assert_eq!(count_crossings(&rings), 0, "{t}");
+        let now = area(&rings);
+        // Nothing is done in vain: the ring only grows.
+        assert!(now >= before - 1e-6, "{t}: {now} after {before}");
+        assert!((area(&back.frame(1.0 - t).figure().rings) - now).abs() < 1e-6);
+        before = now;
+    }
+    let drawn = badge.outline(0.0).unwrap();
+    let wanted: f64 = drawn.rings().map(|ring| ring.signed_area()).sum();
+    assert!((before - wanted).abs() < 1e-6 * wanted);
+}

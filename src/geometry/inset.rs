@@ -1,0 +1,79 @@
+//! What is left of a region when its boundary moves inwards.
+
+use super::{DVec2, signed_area};
+use i_overlay::mesh::float::outline::offset::OutlineOffset;
+use i_overlay::mesh::float::style::{LineJoin, OutlineStyle};
+
+/// The sharpest corner that keeps its tip, in radians: sharper ones only come
+/// about where a region is about to vanish.
+const TIP: f64 = 0.2;
+
+/// Halvings in the search for the depth at which nothing is left: to a
+/// thousandth.
+const HALVINGS: u32 = 10;
+
+/// The places of a region that are farther than `depth` from its boundary, as
+/// rings; holes run the other way round. Corners stay sharp.
+pub(crate) fn inset(rings: &[Vec<DVec2>], depth: f64) -> Vec<Vec<DVec2>> {
+    let contours: Vec<Vec<[f64; 2]>> = rings
+        .iter()
+        .map(|ring| ring.iter().map(|p| p.to_array()).collect())
+        .collect();
+    let style = OutlineStyle::new(-depth).line_join(LineJoin::Miter(TIP));
+    let shapes = contours.outline_as::<i64>(&style);
+    let left = shapes.into_iter().flatten();
+    left.map(|ring| ring.into_iter().map(DVec2::from).collect())
+        .collect()
+}
+
+/// The depth of [`inset`] from which on nothing is left: the radius of the
+/// largest disc in a region, to a thousandth.
+pub(crate) fn inset_depth(rings: &[Vec<DVec2>]) -> f64 {
+    let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
+    // No disc is larger than all there is.
+    let (mut some, mut none) = (0.0, (area.max(0.0) / std::f64::consts::PI).sqrt());
+    for _ in 0..HALVINGS {
+        let depth = 0.5 * (some + none);
+        *(if inset(rings, depth).is_empty() {
+            &mut none
+        } else {
+            &mut some
+        }) = depth;
+    }
+    none
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(r: f64) -> Vec<DVec2> {
+        [(-r, -r), (r, -r), (r, r), (-r, r)]
+            .map(DVec2::from)
+            .to_vec()
+    }
+
+    fn area(rings: &[Vec<DVec2>]) -> f64 {
+        rings.iter().map(|ring| signed_area(ring)).sum()
+    }
+
+    #[test]
+    fn a_frame_grows_thin_from_both_sides() {
+        let hole: Vec<DVec2> = square(1.0).into_iter().rev().collect();
+        let frame = [square(3.0), hole];
+        let thin = inset(&frame, 0.5);
+        assert_eq!(thin.len(), 2);
+        assert!((area(&thin) - (25.0 - 9.0)).abs() < 1e-6, "{thin:?}");
+        assert!((inset_depth(&frame) - 1.0).abs() < 2e-3);
+        assert!(inset(&frame, 1.01).is_empty());
+    }
+
+    #[test]
+    fn corners_stay_sharp_and_nothing_is_nothing() {
+        let least = inset(&[square(2.0)], 0.25);
+        assert!((area(&least) - 3.5 * 3.5).abs() < 1e-6);
+        assert!(inset(&[], 1.0).is_empty());
+        assert_eq!(inset_depth(&[]), 0.0);
+        assert!(inset(&[vec![DVec2::ONE; 3]], 1.0).is_empty());
+    }
+}
