@@ -6,13 +6,12 @@
 //! chosen for itself. Candidates come in rounds: first the match at the prices
 //! that were asked for, without the holes that have no partner; with these cut
 //! open or closed; where it folds, without any hole. Then other prices, where
-//! the shapes are unlike, and where the best film still folds or distorts much the
-//! last ones. The
-//! best of all so far is the one with the fewest folded faces over all its steps,
-//! then the fewest crossings of its outlines, then the least distortion,
-//! outlines that grow jagged on the way included, then the earliest. What was
-//! chosen then slides, as long as that makes it better. A draft is the match
-//! that was asked for alone.
+//! the shapes are unlike, and where the best film still folds or distorts much
+//! the last ones. The best of all so far is the one with the fewest folded faces
+//! over all its steps, then the fewest crossings of its outlines, then the least
+//! distortion, outlines that grow jagged on the way included, then the earliest.
+//! What was chosen then slides, as long as that makes it better. A draft is the
+//! match that was asked for alone.
 
 use super::candidate::Candidate;
 use super::error::BuildError;
