@@ -91,9 +91,15 @@ const MAX_POINTS: usize = 2_000_000;
 const FULL: f32 = 0.9;
 
 /// How far a boundary may run from where it crosses, in pixels: between full ink
-/// and bare ground wherever no other pixel's middle is reached, next to a grey
-/// one as well as a straight edge is found in exact coverage.
+/// and bare ground wherever no other pixel's middle is reached.
 const STAIR: f64 = 0.5;
+
+/// A picture of fewer pixels along its longer side was drawn pixel by pixel, and
+/// keeps its stairs.
+const SMALL: u32 = 64;
+
+/// How far next to a grey pixel: as well as a straight edge is found in exact
+/// coverage.
 const GREY: f64 = 0.05;
 
 /// The silhouette that a picture shows, in pixels from its lower left corner.
@@ -252,7 +258,7 @@ impl Figure {
                 slack: known.slack(p).max(flatness),
             };
             let boundary: Vec<Traced> = ring.iter().map(traced).collect();
-            fit::fitted(&boundary, flatness)
+            fit::fitted(&fit::filled_up(&boundary), flatness)
         };
         let traced = contour::trace_samples(&samples, 0.0);
         let rings: Vec<Vec<DVec2>> = traced.par_iter().map(outline).collect();
@@ -317,7 +323,8 @@ impl<'a> Known<'a> {
             // At the picture's border it is closed.
             None => false,
         };
-        if is_full(sample(p.floor())) && is_full(sample(p.ceil())) {
+        let is_small = self.figure.width.max(self.figure.height) < SMALL;
+        if !is_small && is_full(sample(p.floor())) && is_full(sample(p.ceil())) {
             STAIR
         } else {
             GREY

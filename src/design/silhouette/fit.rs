@@ -4,12 +4,12 @@
 //! only so well: [`Traced::slack`]. What is between, stairs and noise, is
 //! nobody's drawing. First the fewest chords from point to point that leave no
 //! point farther than its slack (Imai and Iri 1988, "Polygonal approximations of
-//! a curve", with wedges as Chan and Chin 1996), of these the ones nearest to the
-//! points. Then the corners of those chords that no pixel shows are rounded, as
-//! Selinger 2003 ("Potrace: a polygon-based tracing algorithm") does, here with
-//! parabolas and as far as the slack goes.
+//! a curve", with wedges as Chan and Chin 1996), of these the ones whose points
+//! lie best on lines. Then corners where those lines meet, and what no pixel shows
+//! of them rounded, both as Selinger 2003 ("Potrace: a polygon-based tracing
+//! algorithm") does, here with parabolas and as far as the slack goes.
 
-use crate::geometry::DVec2;
+use crate::geometry::{DMat2, DVec2};
 
 /// A point of a traced boundary.
 #[derive(Clone, Copy, Debug)]
@@ -23,9 +23,35 @@ pub(super) struct Traced {
 /// along one line are as good as one.
 const LONGEST: usize = 1024;
 
+/// A corner may be so many times the slack from the point that was traced there:
+/// between pixels that of a square lies one pixel from each.
+const FARTHEST: f64 = 2.0;
+
+/// The sine of the angle from which on lines meet in a corner, a twelfth of a
+/// turn: where it is less, where they meet is noise.
+const CORNER: f64 = 0.5;
+
 /// Where rounding reaches less than this share of half of the shorter chord, a
 /// corner was drawn.
 const ROUND: f64 = 0.5;
+
+/// A boundary of which no two neighbours are much farther apart than a pixel, as
+/// it was before points on straight runs were left out.
+pub(super) fn filled_up(boundary: &[Traced]) -> Vec<Traced> {
+    let next = boundary.iter().cycle().skip(1);
+    let between = |(a, b): (&Traced, &Traced)| {
+        let pieces = a.point.distance(b.point).round().max(1.0) as u32;
+        let (a, b) = (*a, *b);
+        (0..pieces).map(move |k| match k {
+            0 => a,
+            _ => Traced {
+                point: a.point.lerp(b.point, f64::from(k) / f64::from(pieces)),
+                slack: a.slack.min(b.slack),
+            },
+        })
+    };
+    boundary.iter().zip(next).flat_map(between).collect()
+}
 
 /// The outline of a closed boundary; `flatness` is how far off nobody sees, in
 /// pixels.
@@ -33,15 +59,41 @@ pub(super) fn fitted(boundary: &[Traced], flatness: f64) -> Vec<DVec2> {
     if boundary.len() < 4 {
         return boundary.iter().map(|traced| traced.point).collect();
     }
-    rounded(&fewest_chords(boundary), flatness)
+    rounded(&corners(boundary), flatness)
 }
 
-/// The points between which the fewest chords run.
-fn fewest_chords(boundary: &[Traced]) -> Vec<Traced> {
+/// Where the lines along the fewest chords meet.
+fn corners(boundary: &[Traced]) -> Vec<Traced> {
     let count = boundary.len();
     let first = sharpest(boundary);
     let at = |k: usize| boundary[(first + k) % count];
     let sums = Sums::of((0..=count).map(|k| at(k).point));
+    let kept = fewest_chords(count, &at, &sums);
+    let line = |k: usize| {
+        let to = kept.get(k + 1).copied().unwrap_or(count);
+        // Of fewer points within a line says nothing.
+        (to - kept[k] > 2).then(|| sums.line(kept[k], to))
+    };
+    let lines: Vec<Option<Line>> = (0..kept.len()).map(line).collect();
+    let corner = |k: usize| {
+        let traced = at(kept[k]);
+        let before = &lines[(k + kept.len() - 1) % kept.len()];
+        let met = match (before, &lines[k]) {
+            (Some(before), Some(after)) => met(before, after),
+            _ => None,
+        };
+        // Where lines hardly cross they meet far away.
+        let by = met.map_or(DVec2::ZERO, |met| met - traced.point);
+        Traced {
+            point: traced.point + by.clamp_length_max(FARTHEST * traced.slack),
+            ..traced
+        }
+    };
+    (0..kept.len()).map(corner).collect()
+}
+
+/// The numbers of the points between which the fewest chords run.
+fn fewest_chords(count: usize, at: &dyn Fn(usize) -> Traced, sums: &Sums) -> Vec<usize> {
     // The fewest chords from the first point to each, how far off they are, and
     // where the last of them begins.
     let mut best = vec![(usize::MAX, f64::INFINITY, 0); count + 1];
@@ -51,7 +103,7 @@ fn fewest_chords(boundary: &[Traced]) -> Vec<Traced> {
         let mut wedge = Wedge::at(at(from).point);
         for to in from + 1..=count.min(from + LONGEST) {
             if wedge.reaches(at(to).point) {
-                let off = off + sums.off(from, to);
+                let off = off + sums.line(from, to).off;
                 if (chords + 1, off) < (best[to].0, best[to].1) {
                     best[to] = (chords + 1, off, from);
                 }
@@ -65,7 +117,7 @@ fn fewest_chords(boundary: &[Traced]) -> Vec<Traced> {
     let mut k = count;
     while k > 0 {
         k = best[k].2;
-        kept.push(at(k));
+        kept.push(k);
     }
     kept.reverse();
     kept
@@ -133,10 +185,26 @@ impl Wedge {
     }
 }
 
-/// Sums of coordinates and of their products, from which it follows how far
-/// points are from a chord.
+/// A line through the middle of some points.
+struct Line {
+    through: DVec2,
+    normal: DVec2,
+    /// Σ of the squared distances of the points from it.
+    off: f64,
+}
+
+/// The place where two lines meet, if in a corner.
+fn met(a: &Line, b: &Line) -> Option<DVec2> {
+    let matrix = DMat2::from_cols(a.normal, b.normal).transpose();
+    let away = b.normal.dot(b.through - a.through);
+    let is_corner = matrix.determinant().abs() > CORNER;
+    is_corner.then(|| a.through + matrix.inverse() * DVec2::new(0.0, away))
+}
+
+/// Sums of coordinates and of their products, from which the line through points
+/// follows.
 struct Sums {
-    points: Vec<DVec2>,
+    base: DVec2,
     linear: Vec<DVec2>,
     /// Of x², xy and y².
     products: Vec<[f64; 3]>,
@@ -147,11 +215,10 @@ impl Sums {
         let points: Vec<DVec2> = points.collect();
         // About the first: large coordinates lose their digits.
         let base = points[0];
-        let points: Vec<DVec2> = points.iter().map(|&p| p - base).collect();
         let (mut linear, mut products) = (vec![DVec2::ZERO], vec![[0.0; 3]]);
         let (mut sum, mut product) = (DVec2::ZERO, [0.0; 3]);
-        for p in &points {
-            sum += *p;
+        for p in points.iter().map(|&p| p - base) {
+            sum += p;
             product[0] += p.x * p.x;
             product[1] += p.x * p.y;
             product[2] += p.y * p.y;
@@ -159,25 +226,34 @@ impl Sums {
             products.push(product);
         }
         Self {
-            points,
+            base,
             linear,
             products,
         }
     }
 
-    /// Σ of the squared distances of the points of a chord from its line.
-    fn off(&self, from: usize, to: usize) -> f64 {
-        let (a, b) = (self.points[from], self.points[to]);
-        let Some(normal) = (b - a).perp().try_normalize() else {
-            return 0.0;
+    /// The line from which the points of a chord are least off, its ends left
+    /// out: they belong to the next chord as well.
+    fn line(&self, from: usize, to: usize) -> Line {
+        let (from, to) = if to - from > 2 {
+            (from + 1, to - 1)
+        } else {
+            (from, to)
         };
         let count = (to + 1 - from) as f64;
-        let sum = self.linear[to + 1] - self.linear[from];
-        let [xx, xy, yy] = [0, 1, 2].map(|k| self.products[to + 1][k] - self.products[from][k]);
-        let offset = normal.dot(a);
-        let squares =
-            normal.x * normal.x * xx + 2.0 * normal.x * normal.y * xy + normal.y * normal.y * yy;
-        (squares - 2.0 * offset * normal.dot(sum) + count * offset * offset).max(0.0)
+        let middle = (self.linear[to + 1] - self.linear[from]) / count;
+        let product = |k: usize| self.products[to + 1][k] - self.products[from][k];
+        let xx = product(0) - count * middle.x * middle.x;
+        let xy = product(1) - count * middle.x * middle.y;
+        let yy = product(2) - count * middle.y * middle.y;
+        // The eigenvector of the larger eigenvalue runs along.
+        let (half, spread) = (0.5 * (xx - yy), 0.5 * (xx + yy));
+        let along = DVec2::from_angle(0.5 * xy.atan2(half));
+        Line {
+            through: self.base + middle,
+            normal: along.perp(),
+            off: (spread - half.hypot(xy)).max(0.0),
+        }
     }
 }
 
@@ -233,39 +309,18 @@ mod tests {
     }
 
     #[test]
-    fn stairs_become_straight_sides_and_corners_stay() {
-        // A slope of one in five and back along straight sides, as pixels show it.
-        let stairs = (0..100).map(|x| DVec2::new(f64::from(x), f64::from(x / 5)));
-        let right = (20..100).map(|y| DVec2::new(100.0, f64::from(y)));
-        let top = (0..100).map(|x| DVec2::new(100.0 - f64::from(x), 100.0));
-        let left = (1..100).map(|y| DVec2::new(0.0, f64::from(100 - y)));
-        let outline = fitted(
-            &traced(stairs.chain(right).chain(top).chain(left), 0.5),
-            0.1,
-        );
-        assert!(outline.len() <= 8, "{outline:?}");
-        for corner in [(100.0, 100.0), (0.0, 100.0)] {
-            let far = outline.iter().map(|p| p.distance(DVec2::from(corner)));
-            assert!(far.fold(f64::INFINITY, f64::min) < 1.5, "{outline:?}");
-        }
-    }
-
-    #[test]
-    fn a_circle_of_pixels_is_round() {
-        let circle = (0..720).map(|k| {
-            let p = 100.0 * DVec2::from_angle(f64::from(k) * std::f64::consts::TAU / 720.0);
-            p.round()
-        });
-        let outline = fitted(&traced(circle, 0.5), 0.1);
-        assert!(outline.len() < 120);
-        let turn = |k: usize| {
-            let [a, b, c] = [k, k + 1, k + 2].map(|k| outline[k % outline.len()]);
-            (b - a).angle_to(c - b).abs()
-        };
-        let sharpest = (0..outline.len()).map(turn).fold(0.0, f64::max);
-        assert!(sharpest < 0.2, "{sharpest}");
-        for p in &outline {
-            assert!((p.length() - 100.0).abs() < 1.1, "{p}");
+    fn a_rectangle_has_its_corners_though_none_was_traced() {
+        // As it is crossed between pixels: halfway between their middles.
+        let side =
+            |from: DVec2, along: DVec2| (0..20).map(move |k| from + along * (f64::from(k) + 0.5));
+        let corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(DVec2::from);
+        let along = [DVec2::X, DVec2::Y, DVec2::NEG_X, DVec2::NEG_Y];
+        let sides = corners.into_iter().zip(along);
+        let points = sides.flat_map(|(from, along)| side(from, along));
+        let found = fitted(&traced(points, 0.5), 0.1);
+        assert_eq!(found.len(), 4, "{found:?}");
+        for corner in corners {
+            assert!(found.iter().any(|p| p.distance(corner) < 1e-9), "{found:?}");
         }
     }
 

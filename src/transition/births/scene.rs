@@ -154,7 +154,9 @@ impl Scene {
     /// The number of steps at which it meets something, counted on to `most`.
     fn meetings(&self, speck: &Speck, birth: &Birth, film: &Arap, most: f64) -> f64 {
         let mut count = 0.0;
-        for step in 0..=STEPS {
+        // Every other first: most that meet anything do so for long.
+        let steps = (0..=STEPS).step_by(2).chain((1..STEPS).step_by(2));
+        for step in steps {
             let share = birth.life.share(time(step));
             let is_speck = share == [1.0, 0.0][speck.side];
             let is_whole = share == [0.0, 1.0][speck.side];

@@ -16,7 +16,7 @@ const EIGHTHS: u32 = 8;
 const OWN_PLACES: usize = 12;
 
 /// Thicknesses that are looked at of a part that swells.
-const LEVELS: u32 = 16;
+const LEVELS: usize = 16;
 
 /// A part of one design alone.
 pub(super) struct Speck {
@@ -30,9 +30,24 @@ pub(super) struct Speck {
     rings: Vec<Vec<DVec2>>,
     /// Its size across as a share of its own.
     least: f64,
-    /// As it swells, about the middle of its outer ring, from nothing to all of
-    /// it; once somebody asks.
-    swelling: OnceCell<Vec<Vec<Vec<DVec2>>>>,
+    swelling: Swelling,
+}
+
+/// A part as it swells, from nothing to all of it, once somebody asks.
+#[derive(Default)]
+struct Swelling {
+    depth: OnceCell<f64>,
+    levels: [OnceCell<Vec<Vec<DVec2>>>; LEVELS + 1],
+}
+
+impl Swelling {
+    fn level(&self, level: usize, rings: &[Vec<DVec2>]) -> &[Vec<DVec2>] {
+        self.levels[level].get_or_init(|| {
+            let depth = self.depth.get_or_init(|| inset_depth(rings));
+            let thin = 1.0 - level as f64 / LEVELS as f64;
+            inset(rings, depth * thin)
+        })
+    }
 }
 
 impl Speck {
@@ -74,7 +89,7 @@ impl Speck {
             rings: rings(side).map(about).collect(),
             least: (area(side.other()) / whole).abs().sqrt(),
             area: whole,
-            swelling: OnceCell::new(),
+            swelling: Swelling::default(),
             piece,
             side,
             ends,
@@ -124,22 +139,11 @@ impl Speck {
         let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
         let size = self.size(share);
         let at = centre + middle(outer) * size;
-        let levels = self.swelling.get_or_init(|| {
-            let depth = inset_depth(&self.rings);
-            let level = |k: u32| {
-                inset(
-                    &self.rings,
-                    depth * (1.0 - f64::from(k) / f64::from(LEVELS)),
-                )
-            };
-            (0..=LEVELS).map(level).collect()
-        });
-        let level = (size * f64::from(LEVELS))
-            .ceil()
-            .clamp(0.0, f64::from(LEVELS));
+        let level = (size * LEVELS as f64).ceil().clamp(0.0, LEVELS as f64);
         let own = middle(outer);
         let placed = |ring: &Vec<DVec2>| ring.iter().map(|&p| at + (p - own)).collect();
-        levels[level as usize]
+        self.swelling
+            .level(level as usize, &self.rings)
             .iter()
             .map(placed)
             .map(Outline::of)

@@ -2,6 +2,7 @@
 //! mirrored designs.
 
 use super::*;
+use crate::content::Content;
 
 /// A plate with a row of holes.
 fn perforated(holes: u32) -> Arc<Design> {
@@ -121,15 +122,15 @@ fn swelling(transition: &Transition) -> usize {
 
 #[test]
 fn a_ring_around_what_is_there_comes_as_a_line_that_swells() {
-    let bar = svg("M42 30h16v40h-16z");
+    let bars = svg("M32 30h12v40h-12z M56 30h12v40h-12z");
     let badge = svg(
-        "M42 30h16v40h-16z M50 2a48 48 0 0 1 0 96a48 48 0 0 1 0-96 M50 12a38 38 0 0 0 0 76a38 38 0 0 0 0-76",
+        "M32 30h12v40h-12z M56 30h12v40h-12z M50 2a48 48 0 0 1 0 96a48 48 0 0 1 0-96 M50 12a38 38 0 0 0 0 76a38 38 0 0 0 0-76",
     );
     let film = |source: &Arc<Design>, target: &Arc<Design>| {
         let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
         Transition::build(&spec, &Silent).unwrap()
     };
-    let (there, back) = (film(&bar, &badge), film(&badge, &bar));
+    let (there, back) = (film(&bars, &badge), film(&badge, &bars));
     assert_eq!([swelling(&there), swelling(&back)], [1, 1]);
     let mut before = 0.0;
     for k in 0..=64 {
