@@ -101,11 +101,12 @@ fn fewest_chords(count: usize, at: &dyn Fn(usize) -> Traced, sums: &Sums) -> Vec
     for from in 0..count {
         let (chords, off, _) = best[from];
         let mut wedge = Wedge::at(at(from).point);
-        for to in from + 1..=count.min(from + LONGEST) {
+        let ahead = best.iter_mut().enumerate().skip(from + 1).take(LONGEST);
+        for (to, best) in ahead {
             if wedge.reaches(at(to).point) {
                 let off = off + sums.line(from, to).off;
-                if (chords + 1, off) < (best[to].0, best[to].1) {
-                    best[to] = (chords + 1, off, from);
+                if (chords + 1, off) < (best.0, best.1) {
+                    *best = (chords + 1, off, from);
                 }
             }
             if !wedge.narrow(&at(to)) {

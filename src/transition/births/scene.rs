@@ -95,7 +95,7 @@ impl Scene {
                 swells: false,
             },
         );
-        let places = if is_searched { self.grid() } else { Vec::new() };
+        let grid = if is_searched { self.grid() } else { Vec::new() };
         for life in speck.times() {
             let waits = 1.0 - (life.to - life.from);
             if waits >= best.0 {
@@ -107,27 +107,23 @@ impl Scene {
             } else {
                 Vec::new()
             };
-            let growing = std::iter::once(own)
-                .chain(nearby)
-                .chain(places.iter().copied())
-                .map(|place| (place, false));
+            let growing = std::iter::once(own).chain(nearby);
+            let growing = growing.chain(grid.iter().copied()).map(|p| (p, false));
             // In the place that it will have, or along with what is around it.
-            let swelling = [
-                own,
-                film.carried_back(speck.ends[speck.side], begins(speck, life))[speck.side.other()],
-            ];
-            let swelling = swelling.into_iter().map(|place| (place, true));
+            let drawn = film.carried_back(speck.ends[speck.side], begins(speck, life));
+            let swelling = [own, drawn[speck.side.other()]].map(|p| (p, true));
             for (place, swells) in growing.chain(swelling) {
                 let known = waits + DISTANCE * place.distance(own) / self.bounds.diameter();
                 if known >= best.0 {
                     continue;
                 }
+                let off = if swells {
+                    speck.off_middle()
+                } else {
+                    DVec2::ZERO
+                };
                 let birth = Birth {
-                    place: if swells {
-                        place + speck.off_middle()
-                    } else {
-                        place
-                    },
+                    place: place + off,
                     life,
                     swells,
                 };
