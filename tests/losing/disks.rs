@@ -216,7 +216,7 @@ fn a_folder_a_device_and_a_pipe_are_not_replaced() {
         is_one_line(&output, told, file_of(out));
     }
     let line = "check --pairs pairs.csv --samples 3 --out /dev/full";
-    is_one_line(&shop.run(line), "name a file", "/dev/full");
+    is_one_line(&shop.run(line), "it is no file", "/dev/full");
     assert_eq!(shop.names("."), before);
 }
 
