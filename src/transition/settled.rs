@@ -17,14 +17,14 @@ use super::holes::{HoleOf, timed};
 use super::mirrored;
 use super::note::Note;
 use super::options::Quality;
-use super::rigid::arap;
+use super::rigid::allow;
 use super::spec::TransitionSpec;
 use super::unfolded::unfolded;
 use crate::compatible::{OutlinesError, joined};
 use crate::correspondence::{Group, Prepared, RegionMatch};
 use crate::geometry::Regions;
 use crate::progress::{Progress, Several, Span, checkpoint};
-use crate::warp::Arap;
+use crate::warp::{Arap, ArapOptions, ArapPath};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -66,10 +66,27 @@ pub(super) fn best(
             .extend(mirrored::note(spec, outlines, &pieces, progress)?);
     }
     let film = placed(film, progress)?;
+    let arap = unfolded(film.arap, progress)?;
+    let asked = &spec.options.arap;
     Ok(Film {
-        arap: unfolded(film.arap, progress)?,
+        arap: match arap.options() == asked {
+            true => arap,
+            false => unfolded(arap.rebuilt(asked, progress)?, progress)?,
+        },
         ..film
     })
+}
+
+/// What a film is settled with: of a mesh that is not subdivided. The finer one
+/// moves almost alike, and looking at it would take as many times as long. Its
+/// anchor may be a vertex that is not there yet; where the whole is moves nothing
+/// within it.
+fn coarse(asked: &ArapOptions) -> ArapOptions {
+    ArapOptions {
+        subdivisions: 0,
+        path: ArapPath::default(),
+        ..asked.clone()
+    }
 }
 
 /// The match of each piece, once what would go through other parts is let go,
@@ -131,7 +148,9 @@ fn apart(
         }
         let candidates = meshed(groups.concat())?;
         let mesh = joined(candidates.iter().map(|best| &best.mesh));
-        let arap = arap(&mesh, &spec.options.arap, &lives(&matched), &filming)?;
+        allow(&mesh, &spec.options.arap, progress)?;
+        let coarse = coarse(&spec.options.arap);
+        let arap = Arap::of_outlines(&mesh, &coarse, &lives(&matched), &filming)?;
         let holes = timed(&matched.pieces, &arap, progress)?;
         let gone = in_the_way(&matched, &arap, &holes, progress)?;
         if round == ROUNDS || !prepared.let_go(&matched, &gone, progress) {
@@ -220,12 +239,11 @@ fn meshed(chosen: Vec<Chosen>) -> Result<Vec<Candidate>, BuildError> {
 
 /// A film with all that is born or dies in its place and time.
 fn placed(film: Film, progress: &dyn Progress) -> Result<Film, BuildError> {
-    // Where the film is subdivided its mesh is too: it is not divided again.
-    let once = film.arap.options();
+    let options = film.arap.options();
     let placed = births::placed(&film.matched, &film.arap, &film.holes, progress)?;
     Ok(match placed {
         Some(placed) => Film {
-            arap: arap(&placed.mesh, once, &placed.lives, progress)?,
+            arap: Arap::of_outlines(&placed.mesh, options, &placed.lives, progress)?,
             matched: placed.matched,
             swelling: placed.swelling,
             // They lie in none of what was moved.

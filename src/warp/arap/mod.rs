@@ -52,6 +52,7 @@ use assembly::LocalMaps;
 use drift::Drift;
 use ridge::factored;
 use sides::Outlined;
+use std::iter::repeat_n;
 use std::sync::Arc;
 use stresses::Stresses;
 
@@ -90,6 +91,16 @@ struct Inner {
     outlined: Outlined,
 }
 
+/// What is said of a mesh besides its options.
+#[derive(Clone, Copy, Default)]
+struct Drawn<'a> {
+    /// Of each connected part; none beyond the list.
+    lives: &'a [Option<Life>],
+    outlined: Outlined,
+    /// Of each face; 1 beyond the list.
+    stiffness: &'a [f64],
+}
+
 impl Arap {
     /// Decomposes the local maps, assembles the matrix and factors it.
     ///
@@ -101,7 +112,7 @@ impl Arap {
         options: &ArapOptions,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        Self::prepared(mesh, options, &[], Outlined::No, progress)
+        Self::prepared(mesh, options, Drawn::default(), progress)
     }
 
     /// As [`Self::build`], of a mesh of drawn outlines: what is straight in both
@@ -121,10 +132,16 @@ impl Arap {
         lives: &[Option<Life>],
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        Self::prepared(mesh, options, lives, Outlined::Yes, progress)
+        let drawn = Drawn {
+            lives,
+            outlined: Outlined::Yes,
+            ..Drawn::default()
+        };
+        Self::prepared(mesh, options, drawn, progress)
     }
 
-    /// The same mesh with other options.
+    /// The same mesh with other options, subdivided once more if they ask for it:
+    /// what a face is divided into is as stiff as the face.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -133,19 +150,18 @@ impl Arap {
         options: &ArapOptions,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        let inner = &*self.0;
-        let rebuilt = Self::prepared(&inner.mesh, options, self.lives(), inner.outlined, progress)?;
-        if self.stiffness().is_empty() {
-            return Ok(rebuilt);
-        }
-        rebuilt.stiffened(self.stiffness(), progress)
+        let drawn = Drawn {
+            lives: self.lives(),
+            outlined: self.0.outlined,
+            stiffness: self.stiffness(),
+        };
+        Self::prepared(self.mesh(), options, drawn, progress)
     }
 
     fn prepared(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
-        lives: &[Option<Life>],
-        outlined: Outlined,
+        drawn: Drawn,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let weights = options
@@ -153,6 +169,10 @@ impl Arap {
             .subdivided(mesh.faces().len(), options.subdivisions)?;
         checkpoint(progress, "subdividing", 0.0)?;
         let mesh = mesh.subdivided(options.subdivisions)?;
+        // Subdivision lists the children of a face one after the other.
+        let children = 4_usize.saturating_pow(options.subdivisions);
+        let each = drawn.stiffness.iter();
+        let stiffness: Vec<f64> = each.flat_map(|&by| repeat_n(by, children)).collect();
         // After subdividing: an anchor may be one of the new vertices.
         options.path.check(mesh.source().len())?;
         checkpoint(progress, "decomposing", 0.1)?;
@@ -161,8 +181,9 @@ impl Arap {
             subdivisions: 0,
             ..options.clone()
         };
-        let maps = LocalMaps::new(&mesh, &options, lives)?;
-        Self::from_maps(mesh, maps, options, (lives.to_vec(), outlined), progress)
+        let maps = LocalMaps::new(&mesh, &options, drawn.lives)?.stiffened(&stiffness);
+        let drawn = (drawn.lives.to_vec(), drawn.outlined);
+        Self::from_maps(mesh, maps, options, drawn, progress)
     }
 
     /// Assembles and factors: `options` are those of the mesh as it is.

@@ -21,9 +21,10 @@ const STRAIGHT: f64 = 1e-6;
 
 /// Whether a mesh is of drawn outlines, whose straight sides stay straight, or
 /// is played as it was given: where it is stiff is said by weights.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum Outlined {
     Yes,
+    #[default]
     No,
 }
 
