@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::{Answer, CaptureFolder, Intent, Question, Recorder, Session};
+use morphospace::app::{Answer, CaptureFolder, Intent, Measured, Question, Recorder, Session};
 use morphospace::correspondence::PointPair;
 use morphospace::geometry::DVec2;
 use morphospace::project::Project;
@@ -300,4 +300,31 @@ fn what_takes_very_long_is_begun_when_it_is_wanted_all_the_same_and_esc_ends_it(
     assert_eq!(window.session().work(), None);
     assert_eq!(cells(&window), before);
     assert_eq!(window.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn measuring_is_stopped_and_taken_up_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path());
+    // 16,000 faces, whose measures take many seconds.
+    edit(&mut window, |project| project.options.arap.subdivisions = 4);
+    let measured = |window: &Window| {
+        let measured: &Measured = window.0.world().resource();
+        (measured.told().is_some(), measured.is_broken_off())
+    };
+    while measured(&window) != (true, false) {
+        let found: &Measured = window.0.world().resource();
+        assert!(found.measures().is_none(), "measured too soon");
+        std::thread::sleep(Duration::from_millis(1));
+        window.update();
+    }
+    window.press(KeyCode::Escape, Key::Escape);
+    assert_eq!(measured(&window), (false, true));
+    // It is not begun again by itself.
+    window.update();
+    assert_eq!(measured(&window), (false, true));
+    window.send(Intent::Measure);
+    window.update();
+    let again: &Measured = window.0.world().resource();
+    assert!(again.is_busy() && !again.is_broken_off());
 }

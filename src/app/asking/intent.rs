@@ -104,6 +104,8 @@ pub enum Intent {
     TogglePlots,
     /// Do what the verdict advises about this finding.
     TakeAdvice(usize),
+    /// Measure the transition, which was stopped.
+    Measure,
     /// Show or hide a second method beside the stage.
     ToggleTwin,
     /// The method that is shown beside the stage.

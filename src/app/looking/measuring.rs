@@ -4,6 +4,8 @@
 //! transition stops the work on an older one; while a build is running, as when something is being
 //! dragged, nothing is measured.
 
+use std::time::Duration;
+
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
 use crate::app::asking::hand::Gesture;
@@ -14,7 +16,7 @@ use crate::app::telling::job::Job;
 use crate::content::ContentKind;
 use crate::correspondence::PointPair;
 use crate::measure::{FilmReport, Remedy, Verdict, film};
-use crate::progress::{Cancelled, Progress};
+use crate::progress::{Cancelled, Progress, Span, Whole};
 use crate::project::Project;
 use crate::transition::Transition;
 use crate::warp::WarpKind;
@@ -22,6 +24,10 @@ use crate::warp::WarpKind;
 /// At how many t a film is measured: those of the verdict and of the plots. Both ends and 63
 /// between them, a half and quarters among those; more would find shorter faults and take longer.
 const STEPS: usize = 65;
+
+/// What takes longer is told, and stopped by Esc: what is shorter is over before that is seen, and
+/// Esc meant something else.
+const WORTH_A_WORD: Duration = Duration::from_millis(1000);
 
 /// A film in numbers and in words.
 #[derive(Clone, Debug)]
@@ -53,6 +59,25 @@ impl Measured {
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.job.is_some()
+    }
+
+    /// They were stopped, or the work on them broke off.
+    #[must_use]
+    pub fn is_broken_off(&self) -> bool {
+        self.is_done && self.measures.is_none()
+    }
+
+    /// How far they are, 0 to 1, once that is worth a word.
+    #[must_use]
+    pub fn told(&self) -> Option<f64> {
+        let job = self.job.as_ref().filter(|job| job.lasts() > WORTH_A_WORD)?;
+        Some(job.progress().1)
+    }
+
+    /// Stops measuring what is on the stage.
+    pub fn stop(&mut self) {
+        // Dropped, the job hears that it is not wanted.
+        self.is_done |= self.job.take().is_some();
     }
 
     fn is_of(&self, transition: Option<&Transition>) -> bool {
@@ -93,9 +118,15 @@ impl Measured {
     }
 }
 
+/// How much is done once there are numbers, of most films.
+const SAMPLED: f64 = 0.8;
+
 fn measured(transition: &Transition, progress: &dyn Progress) -> Result<Measures, Cancelled> {
-    let film = film(transition, STEPS, progress)?;
-    let verdict = Verdict::of_film(transition, &film, progress)?;
+    let progress = &Whole::new(progress);
+    let [sampling, judging] =
+        [(0.0, SAMPLED), (SAMPLED, 1.0)].map(|(from, to)| Span::new(progress, from, to));
+    let film = film(transition, STEPS, &sampling)?;
+    let verdict = Verdict::of_film(transition, &film, &judging)?;
     Ok(Measures { film, verdict })
 }
 
@@ -111,13 +142,16 @@ pub fn follow(session: Res<Session>, mut measured: ResMut<Measured>) {
     }
 }
 
-/// Does what the verdict advises.
+/// Does what the verdict advises, and measures what was broken off anew.
 pub fn apply(
     mut intents: MessageReader<Intent>,
     mut session: ResMut<Session>,
-    (measured, gesture): (Res<Measured>, Res<Gesture>),
+    (mut measured, gesture): (ResMut<Measured>, Res<Gesture>),
 ) {
     for intent in intents.read() {
+        if *intent == Intent::Measure && measured.is_broken_off() {
+            *measured = Measured::default();
+        }
         let Intent::TakeAdvice(index) = *intent else {
             continue;
         };

@@ -8,6 +8,7 @@ use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::films::Recorder;
 use crate::app::editing::editor::Editor;
+use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::closing::Question;
 use crate::app::opening::drops::Drop;
@@ -200,7 +201,7 @@ pub fn back(
     mut window: Query<&mut Window, With<PrimaryWindow>>,
     (mut editor, mut twin): (ResMut<Editor>, ResMut<Twin>),
     (question, drop): (Res<Question>, Res<Drop>),
-    (mut session, recorder): (ResMut<Session>, Res<Recorder>),
+    (mut session, mut measured, recorder): (ResMut<Session>, ResMut<Measured>, Res<Recorder>),
 ) {
     if question.text().is_some() || drop.undecided().is_some() {
         intents.clear(); // Esc answers the question and nothing else.
@@ -215,6 +216,8 @@ pub fn back(
             preferences.help = false;
         } else if preferences.panels && session.told_work().is_some() {
             session.cancel();
+        } else if preferences.panels && measured.told().is_some() {
+            measured.stop();
         } else if editor.bypass_change_detection().back() {
             editor.set_changed();
         } else if std::mem::take(&mut twin.is_shown) {

@@ -36,10 +36,30 @@ pub fn strip(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
         .frame(frame)
         .show(root, |ui| match measures {
             Some(measures) => show(ui, scene, measures, acts),
-            None => {
-                ui.label(quiet(ui, "Measuring …"));
-            }
+            None => waiting(ui, scene, acts),
         });
+}
+
+/// There are no measures: they are being taken, or were broken off.
+fn waiting(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    ui.horizontal(|ui| {
+        ui.label(quiet(ui, unmeasured(scene)));
+        let tip = "Look at the whole film for folds, crossings and distortion.";
+        if scene.measured.is_broken_off() && ui.small_button("Measure").on_hover_text(tip).clicked()
+        {
+            acts.push(Intent::Measure);
+        }
+    });
+}
+
+/// Why there are no measures.
+pub fn unmeasured(scene: &Scene) -> String {
+    match scene.measured.told() {
+        _ if scene.session.transition().is_none() => "Nothing to measure yet.".to_owned(),
+        _ if scene.measured.is_broken_off() => "Not measured: it was stopped.".to_owned(),
+        Some(share) => format!("Measuring, {:.0} % … Esc stops it.", 100.0 * share),
+        None => "Measuring …".to_owned(),
+    }
 }
 
 /// One line, or one for each kind of trouble, and one for each note.

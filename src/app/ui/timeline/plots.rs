@@ -7,6 +7,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::kit::widgets::{ground, quiet};
 use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::stage::verdict::unmeasured;
 use crate::measure::{FilmReport, Quantity};
 use crate::names::Choice;
 
@@ -29,11 +30,7 @@ pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
 }
 
 fn waiting(ui: &mut Ui, scene: &Scene) {
-    let words = if scene.session.transition().is_some() {
-        "Measuring …"
-    } else {
-        "Nothing to measure yet."
-    };
+    let words = unmeasured(scene);
     ui.centered_and_justified(|ui| ui.label(quiet(ui, words)));
 }
 
