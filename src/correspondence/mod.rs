@@ -46,4 +46,6 @@ pub use regions::{
     MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch,
     match_regions,
 };
-pub use settings::{HoleRule, LinePair, Matching, PartRule, PlaceError, PointPair, RingCut};
+pub use settings::{
+    HoleRule, LinePair, LonePart, Matching, PartRule, PlaceError, PointPair, RingCut,
+};

@@ -41,6 +41,9 @@ pub struct Matching {
     /// Parts that are the same, each named by a point in or near it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub links: Vec<PointPair>,
+    /// Parts without a partner, whatever looks like one.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub lone: Vec<LonePart>,
     /// Where rings are cut open.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cuts: Vec<RingCut>,
@@ -53,6 +56,16 @@ pub type PointPair = Pair<DVec2>;
 /// A line of the source and one of the target, each from end to end, in each
 /// design's own coordinates.
 pub type LinePair = Pair<[DVec2; 2]>;
+
+/// A part that has no partner: it appears or vanishes.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct LonePart {
+    /// The design that has it.
+    pub side: Side,
+    /// A point in or near it, in the design's own coordinates.
+    pub at: DVec2,
+}
 
 /// A cut that opens a ring: straight from a hole to the boundary around it.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -144,6 +157,17 @@ impl LinePair {
     }
 }
 
+impl LonePart {
+    /// The same part of the designs exchanged.
+    #[must_use]
+    pub fn swapped(&self) -> Self {
+        Self {
+            side: self.side.other(),
+            ..*self
+        }
+    }
+}
+
 impl RingCut {
     /// The same cut of the designs exchanged.
     #[must_use]
@@ -159,7 +183,7 @@ impl Matching {
     /// Checks that all places are numbers that can be reckoned with.
     ///
     /// # Errors
-    /// [`PlaceError`] names the first pin, line, link or cut that has others.
+    /// [`PlaceError`] names the first pin, line, link, lone part or cut that has others.
     pub fn check(&self) -> Result<(), PlaceError> {
         let of_pair = |pair: &PointPair| [pair.source, pair.target].map(is_in_range) == [true; 2];
         let of_line = |line: &LinePair| {
@@ -170,6 +194,7 @@ impl Matching {
         first("pin", &self.pins, of_pair)?;
         first("line", &self.lines, of_line)?;
         first("link", &self.links, of_pair)?;
+        first("lone part", &self.lone, |part| is_in_range(part.at))?;
         first("cut", &self.cuts, of_cut)
     }
 
@@ -197,10 +222,15 @@ impl Matching {
                 hole: by.apply(cut.hole),
             }
         };
+        let lone = |part: &LonePart| LonePart {
+            at: by[part.side].apply(part.at),
+            ..*part
+        };
         Self {
             pins: pairs(&self.pins),
             lines: self.lines.iter().map(|line| line.placed(by)).collect(),
             links: pairs(&self.links),
+            lone: self.lone.iter().map(lone).collect(),
             cuts: self.cuts.iter().map(cut).collect(),
             ..*self
         }
@@ -213,6 +243,7 @@ impl Matching {
             pins: swapped(&self.pins),
             lines: swapped(&self.lines),
             links: swapped(&self.links),
+            lone: self.lone.iter().map(LonePart::swapped).collect(),
             cuts: self.cuts.iter().map(RingCut::swapped).collect(),
             ..*self
         }

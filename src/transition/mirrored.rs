@@ -29,8 +29,10 @@ pub(super) fn note(
     progress: &dyn Progress,
 ) -> Result<Option<Note>, BuildError> {
     let asked = &spec.options.matching;
-    let is_set_by_hand =
-        !(asked.pins.is_empty() && asked.links.is_empty() && asked.cuts.is_empty());
+    let is_set_by_hand = !(asked.pins.is_empty()
+        && asked.links.is_empty()
+        && asked.lone.is_empty()
+        && asked.cuts.is_empty());
     let as_drawn = distortion(best.iter());
     if is_set_by_hand || as_drawn < GOOD {
         return Ok(None);

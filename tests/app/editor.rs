@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::window::Window;
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{ButtonInput, MouseButton, Vec2};
-use morphospace::app::{EditorAct, Handle, Intent, Tool, Touch};
+use morphospace::app::{EditorAct, Fate, Handle, Intent, Tool, Touch};
 use morphospace::correspondence::Matching;
 use morphospace::geometry::{DVec2, Side};
 
@@ -239,6 +239,20 @@ fn parts_are_paired_by_two_clicks_and_freed_by_one() {
     assert_eq!(window.matching().links.len(), 1);
     window.act(EditorAct::Remove(touch(Side::Source, source.x, source.y)));
     assert!(window.matching().links.is_empty());
+    // Two clicks more, the second beside all parts, and it has no partner.
+    window.wait();
+    window.act(EditorAct::Click(touch(Side::Source, source.x, source.y)));
+    window.act(EditorAct::Click(touch(Side::Target, 5000.0, 5000.0)));
+    window.wait();
+    assert_eq!(window.matching().lone.len(), 1);
+    let dies = |window: &Window| {
+        let mut pieces = window.sheet().pieces.iter();
+        pieces.any(|piece| piece.fate == Fate::Dies && piece.is_linked)
+    };
+    assert!(dies(&window));
+    window.act(EditorAct::Remove(touch(Side::Source, source.x, source.y)));
+    window.wait();
+    assert!(window.matching().lone.is_empty() && !dies(&window));
     window.wait();
     assert!(window.session().problem().is_none());
 }

@@ -9,7 +9,7 @@ use crate::app::editing::editor::{CutEnd, Editor, Grab, Handle};
 use crate::app::editing::sheet::Sheet;
 use crate::app::session::state::Session;
 use crate::content::ContentKind;
-use crate::correspondence::{Matching, PointPair, RingCut};
+use crate::correspondence::{LonePart, Matching, PointPair, RingCut};
 use crate::geometry::{DVec2, Pair, Side};
 use crate::project::Project;
 use crate::warp::WarpKind;
@@ -104,6 +104,7 @@ impl Editor {
             EditorAct::Clear => {
                 (said.pins, said.links, said.cuts) = Default::default();
                 said.lines.clear();
+                said.lone.clear();
                 self.selected = None;
             }
             EditorAct::Pan(delta) => self.pan += *delta,
@@ -236,8 +237,15 @@ impl Editor {
 
     fn pair(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
         let Some(part) = sheet.part(touch.side, touch.at, touch.reach) else {
-            self.refusal = Some(NOTHING_TO_PAIR);
-            self.first_part = None;
+            match self.first_part.take() {
+                // A partner was looked for on the other side, and there is none.
+                Some((side, part, at)) if side != touch.side => {
+                    unlink(sheet, said, Pair::on(side, Some(part), None).to_array());
+                    let at = sheet.own(side, at);
+                    said.lone.push(LonePart { side, at });
+                }
+                _ => self.refusal = Some(NOTHING_TO_PAIR),
+            }
             return;
         };
         match self.first_part.take() {
@@ -326,13 +334,17 @@ fn remove_handle(handle: Handle, sheet: &Sheet, said: &mut Matching) {
     }
 }
 
-/// Drops every pair that one of these parts is in.
+/// Drops every pair that one of these parts is in, and that it has none.
 fn unlink(sheet: &Sheet, said: &mut Matching, parts: [Option<usize>; 2]) {
     said.links.retain(|link| {
         Side::BOTH.into_iter().all(|side| {
             let wanted = parts[side];
             wanted.is_none() || sheet.part(side, sheet.framed(link, side), 0.0) != wanted
         })
+    });
+    said.lone.retain(|lone| {
+        let (side, at) = (lone.side, sheet.by[lone.side].apply(lone.at));
+        parts[side].is_none() || sheet.part(side, at, 0.0) != parts[side]
     });
 }
 

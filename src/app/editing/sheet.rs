@@ -67,7 +67,7 @@ pub struct SheetPiece {
     pub fate: Fate,
     /// Where its name stands, in the source and in the target.
     pub at: [DVec2; 2],
-    /// It was paired by hand.
+    /// It was paired by hand, or said to have no partner.
     pub is_linked: bool,
 }
 
@@ -114,7 +114,7 @@ impl Sheet {
         Self {
             // A pin says more than a found point, so points keep away from pins.
             features: features::chosen(&rings, &placed.pins),
-            pieces: names(pieces, &sides, &placed.links),
+            pieces: names(pieces, &sides, &placed),
             cuts: cuts(pieces, &placed.cuts, diameter),
             sides: Some(sides),
             rings,
@@ -226,7 +226,8 @@ fn rings(pieces: &[PieceMatch]) -> Vec<SheetRing> {
     pieces.iter().enumerate().flat_map(of).collect()
 }
 
-fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], links: &[PointPair]) -> Vec<SheetPiece> {
+fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &Matching) -> Vec<SheetPiece> {
+    let Matching { links, lone, .. } = said;
     let mut paired = 0;
     let mut alone = 0;
     let mut name = |fate: Fate| {
@@ -248,6 +249,13 @@ fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], links: &[PointPair]) -> 
             })
         })
     };
+    let is_alone = |piece: &PieceMatch| {
+        let parts = [piece.source_part, piece.target_part];
+        lone.iter().any(|lone| {
+            let part = parts[lone.side].and_then(|k| sides[lone.side].parts.get(k));
+            part.is_some_and(|rings| polyline::encloses(rings.iter().map(Vec::as_slice), lone.at))
+        })
+    };
     let piece = |piece: &PieceMatch| {
         let fate = match (piece.source_part, piece.target_part) {
             (Some(_), None) => Fate::Dies,
@@ -258,7 +266,7 @@ fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], links: &[PointPair]) -> 
             name: name(fate),
             fate,
             at: [true, false].map(|is_source| middle(piece, is_source)),
-            is_linked: is_linked(piece),
+            is_linked: is_linked(piece) || is_alone(piece),
         }
     };
     pieces.iter().map(piece).collect()

@@ -140,6 +140,7 @@ fn replace_design(project: &mut Project, index: usize, path: &Path) {
         let matching = &mut project.options.matching;
         (matching.pins, matching.links, matching.cuts) = Default::default();
         matching.lines.clear();
+        matching.lone.clear();
     }
 }
 

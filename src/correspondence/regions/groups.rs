@@ -32,13 +32,13 @@ pub(super) fn grouped(
         .iter()
         .map(|g| [g.parts[0][0], g.parts[1][0]])
         .collect();
+    // Of a group one part is fixed to one; the others are taken.
+    let lone = lone(designs, wanted, &groups);
     let taken = Side::BOTH.map(|side| -> Vec<usize> {
-        groups
-            .iter()
-            .flat_map(|g| g.parts[side][1..].to_vec())
+        let more = groups.iter().flat_map(|g| g.parts[side][1..].to_vec());
+        more.chain(lone.iter().flat_map(|g| g.parts[side].clone()))
             .collect()
     });
-    // Of a group one part is fixed to one; the others are taken.
     let [source, target] = designs;
     let pairing = pair_parts(source, target, &fixed, [&taken[0], &taken[1]])?;
     for pair in &pairing.pairs {
@@ -49,6 +49,7 @@ pub(super) fn grouped(
         }
     }
     attach(&mut groups, designs, wanted.parts, &pairing);
+    groups.extend(lone);
     for part in groups.iter_mut().flat_map(|g| &mut g.parts) {
         part.sort_unstable();
     }
@@ -106,6 +107,21 @@ fn said(
         }
     }
     Ok(groups)
+}
+
+/// The parts that are said to have no partner, each in a group of its own; a
+/// pair that is said of a part counts more.
+fn lone(designs: [&Regions; 2], wanted: &Matching, said: &[Group]) -> Vec<Group> {
+    let mut lone: Vec<Group> = Vec::new();
+    for part in &wanted.lone {
+        let mut group = Group::default();
+        group.parts[part.side].push(part_at(designs[part.side], part.at));
+        let is_in = |g: &Group| g.parts[part.side].contains(&group.parts[part.side][0]);
+        if !said.iter().chain(&lone).any(is_in) {
+            lone.push(group);
+        }
+    }
+    lone
 }
 
 /// Gives the parts that are left over to a group to be split, or a group of

@@ -24,7 +24,8 @@ pub(super) struct Pinned {
 pub(super) fn check(wanted: &Matching) -> Result<(), RegionMatchError> {
     let pairs = wanted.pins.iter().chain(&wanted.links);
     let cuts = wanted.cuts.iter().map(|cut| [cut.outer, cut.hole]);
-    let points = pairs.map(|pair| pair.to_array()).chain(cuts);
+    let lone = wanted.lone.iter().map(|part| [part.at; 2]);
+    let points = pairs.map(|pair| pair.to_array()).chain(cuts).chain(lone);
     for (k, pair) in points.enumerate() {
         if !pair.iter().all(|p| p.is_finite()) {
             return Err(RegionMatchError::NotFinite(k));

@@ -1,7 +1,7 @@
 //! Whole designs matched: parts, holes, cuts.
 
 use super::*;
-use crate::correspondence::{HoleRule, PartRule, PointPair, RingCut};
+use crate::correspondence::{HoleRule, LonePart, PartRule, PointPair, RingCut};
 use crate::geometry::{Bounds, DVec2, FillRule, Ring, Side};
 use crate::progress::Silent;
 
@@ -197,6 +197,43 @@ fn pins_pair_their_parts_and_links_do() {
         ..Matching::default()
     };
     assert_eq!(parts(&run(&two, &two, &pinned)), parts(&crossed));
+}
+
+#[test]
+fn parts_said_to_be_alone_have_no_partner_unless_one_is_said() {
+    let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
+    let one = design(&[block(0.0, 0.0, 2.0, 1.0)]);
+    let parts = |a: &Regions, b: &Regions, wanted: &Matching| -> Vec<_> {
+        let both = |p: &PieceMatch| [p.source_part, p.target_part];
+        run(a, b, wanted).pieces.iter().map(both).collect()
+    };
+    let at = DVec2::new(1.0, 0.5);
+    let mut wanted = Matching::default();
+    for side in Side::BOTH {
+        wanted.lone.push(LonePart { side, at });
+    }
+    // A single part of several on the other side is not split for the lone one.
+    let found = parts(&two, &one, &wanted);
+    assert_eq!(found, [[Some(0), None], [Some(1), None], [None, Some(0)]]);
+    let found = parts(&two, &two, &wanted);
+    assert_eq!(
+        found,
+        [[Some(0), None], [Some(1), Some(1)], [None, Some(0)]]
+    );
+    wanted.links.push(PointPair {
+        source: at,
+        target: at,
+    });
+    let found = parts(&two, &two, &wanted);
+    assert_eq!(found, [[Some(0), Some(0)], [Some(1), Some(1)]]);
+    let swapped = wanted.swapped().lone;
+    assert_eq!(
+        swapped
+            .iter()
+            .map(|lone| lone.side.index())
+            .collect::<Vec<_>>(),
+        [1, 0]
+    );
 }
 
 #[test]

@@ -3,6 +3,8 @@
 
 use super::*;
 use crate::content::Content;
+use crate::correspondence::LonePart;
+use crate::geometry::Side;
 
 /// A plate with a row of holes.
 fn perforated(holes: u32) -> Arc<Design> {
@@ -146,4 +148,25 @@ fn a_ring_around_what_is_there_comes_as_a_line_that_swells() {
     let drawn = badge.outline(0.0).unwrap();
     let wanted: f64 = drawn.rings().map(|ring| ring.signed_area()).sum();
     assert!((before - wanted).abs() < 1e-6 * wanted);
+}
+
+#[test]
+fn a_film_in_which_nothing_has_a_partner_goes_from_one_design_to_the_other() {
+    let (a, b) = (svg("M10 10h30v30h-30z"), svg("M50 40h40v40h-40z"));
+    let mut spec = TransitionSpec::new(a, b);
+    let matching = &mut spec.options.matching;
+    for side in Side::BOTH {
+        let at = DVec2::new(60.0, 50.0);
+        matching.lone.push(LonePart { side, at });
+    }
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    let mut frame = transition.frame(0.0);
+    // What is not there yet is a speck.
+    for (t, wanted) in [(0.0, 900.0), (1.0, 1600.0)] {
+        frame.seek(t);
+        let found = area(&frame.figure().rings);
+        assert!((found - wanted).abs() < 1e-3, "{t}: {found}");
+    }
+    frame.seek(0.5);
+    assert!(area(&frame.figure().rings).is_finite());
 }

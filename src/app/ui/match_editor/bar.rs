@@ -48,7 +48,7 @@ fn tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
             Tool::Parts,
             !is_free,
             "Parts",
-            "Say which parts are the same: click a part, then its partner on the other side.",
+            "Say which parts are the same: click a part, then its partner on the other side, or beside all parts there if it has none.",
         ),
     ];
     for (tool, applies, name, tip) in tools {

@@ -151,8 +151,12 @@ fn advice(painter: &Painter, scene: &Scene, stage: Rect, inks: &Inks) {
         (Tool::Parts, None) => {
             "Click a part on one side, then its partner on the other. Right-click frees a part."
         }
-        (Tool::Parts, Some((Side::Source, ..))) => "Now click its partner in the target.",
-        (Tool::Parts, Some((Side::Target, ..))) => "Now click its partner in the source.",
+        (Tool::Parts, Some((Side::Source, ..))) => {
+            "Now click its partner in the target, or beside all parts there: it vanishes."
+        }
+        (Tool::Parts, Some((Side::Target, ..))) => {
+            "Now click its partner in the source, or beside all parts there: it appears."
+        }
     };
     let refusal = editor.refusal.map(|words| (words, inks.problem));
     let (words, colour) = refusal.unwrap_or((usual, inks.ink));

@@ -87,10 +87,11 @@ fn has_places(matching: &Matching) -> bool {
         pins,
         lines,
         links,
+        lone,
         cuts,
         ..
     } = matching;
-    !(pins.is_empty() && lines.is_empty() && links.is_empty() && cuts.is_empty())
+    !(pins.is_empty() && lines.is_empty() && links.is_empty() && lone.is_empty() && cuts.is_empty())
 }
 
 fn said(matching: &Matching) -> String {
@@ -108,6 +109,7 @@ fn said(matching: &Matching) -> String {
         count(matching.pins.len(), "pin", "pins"),
         count(matching.lines.len(), "line", "lines"),
         count(matching.links.len(), "pair of parts", "pairs of parts"),
+        count(matching.lone.len(), "part alone", "parts alone"),
         count(matching.cuts.len(), "cut", "cuts"),
     ];
     let all: Vec<String> = all.into_iter().flatten().collect();
