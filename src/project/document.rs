@@ -3,7 +3,7 @@
 use crate::content::ContentKind;
 use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;
-use crate::transition::{Fit, Options, Stop, Style, Timing};
+use crate::transition::{Fit, Found, Options, Stop, Style, Timing};
 use crate::warp::WarpKind;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -63,6 +63,9 @@ pub struct Project {
     /// Named places on the way.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub stops: Vec<Stop>,
+    /// The film that was found for it when it was saved.
+    #[serde(default, skip_serializing_if = "Found::is_none")]
+    pub found: Found,
 }
 
 /// One of the given forms.
@@ -129,6 +132,7 @@ impl Project {
             timing: Timing::default(),
             style: Style::default(),
             stops: Vec::new(),
+            found: Found::default(),
         }
     }
 }

@@ -169,6 +169,7 @@ impl LoadedProject {
                 ..project.options.clone()
             },
             patient: self.patient,
+            found: project.found.clone(),
         })
     }
 }

@@ -8,7 +8,7 @@ use super::note::Note;
 use super::plane;
 use super::ready::{Inner, Transition};
 use super::solids;
-use super::spec::{TransitionSpec, outline};
+use super::spec::{TransitionSpec, bar_width, outline};
 use crate::budget::Load;
 use crate::content::{Content, ContentKind, FieldPair, PicturePair};
 use crate::design::{Design, Form};
@@ -85,16 +85,6 @@ fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildEr
         bounds,
         bar_width,
     })
-}
-
-/// The width of bars, in units of the designs.
-fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
-    let share = spec.options.bar_width;
-    if !(share > 0.0 && share <= 1.0) {
-        return Err(BuildError::BarWidth(share));
-    }
-    let diameter = |design| extent(design).diameter();
-    Ok(share * diameter(&spec.source).max(diameter(&spec.target)))
 }
 
 fn solids(

@@ -32,9 +32,6 @@ pub(super) fn timed(
     if holes.is_empty() {
         return Ok(holes);
     }
-    // Of equal ones the order of the pieces decides, which a film run backwards
-    // has as well.
-    holes.sort_by(|(_, a), (_, b)| b.area().total_cmp(&a.area()));
     let mut scene = Scene::of(film);
     for (_, hole) in &mut holes {
         still_wanted(progress)?;
@@ -44,6 +41,22 @@ pub(super) fn timed(
     Ok(holes)
 }
 
+/// All holes that one design has alone, in times that are known already, in
+/// this order; none if there are not as many.
+pub(super) fn with_lives(
+    pieces: &[PieceMatch],
+    mesh: &CompatibleMesh,
+    lives: &[Life],
+) -> Option<Vec<HoleOf>> {
+    let mut holes = untimed(pieces, mesh);
+    for ((_, hole), &life) in holes.iter_mut().zip(lives) {
+        hole.life = life;
+    }
+    (holes.len() == lives.len()).then_some(holes)
+}
+
+/// The largest first. Of equal ones the order of the pieces decides, which a
+/// film run backwards has as well.
 fn untimed(pieces: &[PieceMatch], mesh: &CompatibleMesh) -> Vec<HoleOf> {
     if pieces.iter().all(|piece| piece.lone.is_empty()) {
         return Vec::new();
@@ -60,7 +73,9 @@ fn untimed(pieces: &[PieceMatch], mesh: &CompatibleMesh) -> Vec<HoleOf> {
         };
         piece.lone.iter().filter_map(hole).collect()
     };
-    pieces.iter().enumerate().flat_map(of_piece).collect()
+    let mut holes: Vec<HoleOf> = pieces.iter().enumerate().flat_map(of_piece).collect();
+    holes.sort_by(|(_, a), (_, b)| b.area().total_cmp(&a.area()));
+    holes
 }
 
 /// What is there at each step.

@@ -19,6 +19,7 @@
 //!   other's way, by the `conflicts` that they have and the places and times of
 //!   `births`, and `holes` in them that come and go, by where their `walks` and
 //!   `outline`s are
+//! - `found`: what was found, as a document keeps it
 //! - `note`: what was done otherwise than asked; `mirrored`: what might have been
 //!   meant
 //! - `ready`, `frame`: the transition and its moments
@@ -34,6 +35,7 @@ mod choice;
 mod conflicts;
 mod error;
 mod features;
+mod found;
 mod frame;
 mod group;
 mod holes;
@@ -61,6 +63,7 @@ pub use crate::easing::Easing;
 pub use arrange::{Fit, arranged, arrangement};
 pub use cells::{Cell, NoSuchCell};
 pub use error::BuildError;
+pub use found::Found;
 pub use frame::{Figure, Frame};
 pub use note::Note;
 pub use options::{Boundary, FieldOptions, Options, Quality};

@@ -1,5 +1,6 @@
 //! The warp that a transition holds, and how it was come by.
 
+use super::found::Kept;
 use super::note::Note;
 use crate::correspondence::{PointPair, RegionMatch};
 use crate::warp::{Arap, Paths, Still, Turned, Warp};
@@ -47,6 +48,8 @@ pub(super) struct Moved {
     pub warp: AnyWarp,
     /// How the outlines of solids were matched, where they were.
     pub matched: Option<RegionMatch>,
+    /// What was found for outlines, where they were matched.
+    pub kept: Option<Arc<Kept>>,
     /// The pins that were found for a warp of the plane, where nobody set any.
     pub automatic: Vec<PointPair>,
     /// What was done otherwise than asked.
@@ -58,6 +61,7 @@ impl From<AnyWarp> for Moved {
         Self {
             warp,
             matched: None,
+            kept: None,
             automatic: Vec::new(),
             notes: Vec::new(),
         }

@@ -1,6 +1,7 @@
 //! A transition that is ready to be played.
 
 use super::cells::Cell;
+use super::found::Found;
 use super::moved::Moved;
 use super::note::Note;
 use crate::compatible::CompatibleMesh;
@@ -103,6 +104,13 @@ impl Transition {
     #[must_use]
     pub fn matched(&self) -> Option<&RegionMatch> {
         self.0.moved.matched.as_ref()
+    }
+
+    /// What was found for the designs, to be kept with a document; none where
+    /// nothing had to be looked for.
+    #[must_use]
+    pub fn found(&self) -> Option<Found> {
+        self.0.moved.kept.as_ref().map(|kept| kept.packed())
     }
 
     /// The pairs of points that a warp of the plane goes by where nobody set

@@ -39,7 +39,8 @@ const DRAFTED: f64 = 0.15;
 /// How much of a round is done once the pieces have their matches.
 const CHOSEN: f64 = 0.9;
 
-/// The film of both outlines.
+/// The film of both outlines, as it is settled: not subdivided.
+#[derive(Clone, Debug)]
 pub(super) struct Film {
     /// The match that was kept.
     pub matched: RegionMatch,
@@ -66,22 +67,29 @@ pub(super) fn best(
             .extend(mirrored::note(spec, outlines, &pieces, progress)?);
     }
     let film = placed(film, progress)?;
-    let arap = unfolded(film.arap, progress)?;
-    let asked = &spec.options.arap;
     Ok(Film {
-        arap: match arap.options() == asked {
-            true => arap,
-            false => unfolded(arap.rebuilt(asked, progress)?, progress)?,
-        },
+        arap: unfolded(film.arap, progress)?,
         ..film
     })
+}
+
+/// A settled film as the options ask for it.
+pub(super) fn as_options_ask(
+    settled: &Arap,
+    asked: &ArapOptions,
+    progress: &dyn Progress,
+) -> Result<Arap, BuildError> {
+    if settled.options() == asked {
+        return Ok(settled.clone());
+    }
+    unfolded(settled.rebuilt(asked, progress)?, progress)
 }
 
 /// What a film is settled with: of a mesh that is not subdivided. The finer one
 /// moves almost alike, and looking at it would take as many times as long. Its
 /// anchor may be a vertex that is not there yet; where the whole is moves nothing
 /// within it.
-fn coarse(asked: &ArapOptions) -> ArapOptions {
+pub(super) fn coarse(asked: &ArapOptions) -> ArapOptions {
     ArapOptions {
         subdivisions: 0,
         path: ArapPath::default(),

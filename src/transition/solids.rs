@@ -4,6 +4,7 @@
 //! other forms are matched as outlines.
 
 use super::error::BuildError;
+use super::found::{self, Kept};
 use super::moved::{AnyWarp, Moved};
 use super::rigid::allow;
 use super::settled;
@@ -11,9 +12,10 @@ use super::spec::TransitionSpec;
 use crate::compatible::{CompatibleError, CompatibleMesh, TrussError};
 use crate::content::{Solid, Swell};
 use crate::design::Form;
-use crate::geometry::{DVec2, Side, signed_area};
+use crate::geometry::{DVec2, Regions, Side, signed_area};
 use crate::progress::{Progress, checkpoint};
 use crate::warp::Arap;
+use std::sync::Arc;
 
 /// The parts, and what is seen of them.
 pub(super) fn rigid_parts(
@@ -23,8 +25,7 @@ pub(super) fn rigid_parts(
 ) -> Result<(Moved, Solid), BuildError> {
     checkpoint(progress, "triangulating", 0.0)?;
     let mut bars = Vec::new();
-    let (mut holes, mut swells, mut notes) = (Vec::new(), Vec::new(), Vec::new());
-    let (arap, matched) = match (&spec.source.form, &spec.target.form) {
+    let (arap, kept) = match (&spec.source.form, &spec.target.form) {
         (Form::Mesh(a), Form::Mesh(b)) => (
             given(spec, CompatibleMesh::from_meshes(a, b), progress)?,
             None,
@@ -38,13 +39,16 @@ pub(super) fn rigid_parts(
         }
         _ => {
             let outlines = spec.outlines(bar_width, progress)?;
-            let best = settled::best(spec, &outlines, progress)?;
-            holes = best.holes.into_iter().map(|(_, hole)| hole).collect();
-            swells = swelling(&best.arap, &best.swelling);
-            notes = best.notes;
-            (best.arap, Some(best.matched))
+            let kept = found_or_best(spec, &outlines, progress)?;
+            let arap = settled::as_options_ask(&kept.film.arap, &spec.options.arap, progress)?;
+            (arap, Some(Arc::new(kept)))
         }
     };
+    let film = kept.as_ref().map(|kept| &kept.film);
+    let holes = film.map_or_else(Vec::new, |film| {
+        film.holes.iter().map(|(_, hole)| hole.clone()).collect()
+    });
+    let swells = film.map_or_else(Vec::new, |film| swelling(&arap, &film.swelling));
     let solid = Solid {
         loops: if bars.is_empty() {
             arap.mesh().boundary_loops()
@@ -57,11 +61,26 @@ pub(super) fn rigid_parts(
         swells,
     };
     let moved = Moved {
-        matched,
-        notes,
+        matched: film.map(|film| film.matched.clone()),
+        notes: film.map_or_else(Vec::new, |film| film.notes.clone()),
+        kept,
         ..AnyWarp::Rigid(arap).into()
     };
     Ok((moved, solid))
+}
+
+/// What was found before for the same outlines and options, or the best film.
+fn found_or_best(
+    spec: &TransitionSpec,
+    outlines: &[Regions; 2],
+    progress: &dyn Progress,
+) -> Result<Kept, BuildError> {
+    let key = found::key(&spec.options, outlines);
+    let film = match spec.found.film(&key, &spec.options, progress)? {
+        Some(film) => film,
+        None => settled::best(spec, outlines, progress)?,
+    };
+    Ok(Kept { key, film })
 }
 
 /// What swells of a film: the pieces with these numbers, which are the connected

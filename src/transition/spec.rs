@@ -1,7 +1,9 @@
 //! What a transition is built from.
 
+use super::arrange::extent;
 use super::cells::Cell;
 use super::error::BuildError;
+use super::found::{self, Found};
 use super::options::{Options, Quality};
 use crate::budget::Load;
 use crate::content::ContentKind;
@@ -27,6 +29,8 @@ pub struct TransitionSpec {
     /// Whether what takes very long is begun all the same; see
     /// [`crate::budget`].
     pub patient: bool,
+    /// What was found before, taken where it was found for this.
+    pub found: Found,
 }
 
 impl TransitionSpec {
@@ -47,23 +51,36 @@ impl TransitionSpec {
             cell,
             options: Options::default(),
             patient: false,
+            found: Found::default(),
         }
     }
 
     /// The same as a draft, which is there sooner; `None` where nothing is
-    /// tried for a better one.
+    /// tried for a better one, or the best was found before.
     #[must_use]
-    pub fn draft(&self) -> Option<Self> {
+    pub fn draft(&self, progress: &dyn Progress) -> Option<Self> {
         let are_given = matches!(
             (&self.source.form, &self.target.form),
             (Form::Mesh(_), Form::Mesh(_)) | (Form::Truss(_), Form::Truss(_))
         );
         let is_tried = self.cell == Cell::RIGID_PARTS && !are_given;
-        (is_tried && self.options.quality != Quality::Draft).then(|| {
+        let is_asked = is_tried && self.options.quality != Quality::Draft;
+        (is_asked && !self.is_found(progress)).then(|| {
             let mut draft = self.clone();
             draft.options.quality = Quality::Draft;
             draft
         })
+    }
+
+    /// Whether what was found before was found for this.
+    fn is_found(&self, progress: &dyn Progress) -> bool {
+        // Outlines are looked at only where there is something to gain.
+        if self.found.is_none() {
+            return false;
+        }
+        let outlines = bar_width(self).and_then(|width| self.outlines(width, progress));
+        let key = outlines.map(|outlines| found::key(&self.options, &outlines));
+        key.is_ok_and(|key| self.found.is_for(&key))
     }
 
     /// The outlines of both designs; bars are so wide, in units of the designs.
@@ -103,6 +120,16 @@ impl TransitionSpec {
             ))),
         }
     }
+}
+
+/// The width of bars, in units of the designs.
+pub(super) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
+    let share = spec.options.bar_width;
+    if !(share > 0.0 && share <= 1.0) {
+        return Err(BuildError::BarWidth(share));
+    }
+    let diameter = |design| extent(design).diameter();
+    Ok(share * diameter(&spec.source).max(diameter(&spec.target)))
 }
 
 /// The outline of a design. Uniting bars or faces is a long call of a library,

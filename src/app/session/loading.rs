@@ -252,7 +252,7 @@ fn shown(project: &LoadedProject, stage: Option<Stage>) -> Loaded {
 /// The first film of a project that asks for the best of several; none where it asks for nothing
 /// of the kind, or it cannot be had.
 fn draft(project: &LoadedProject, progress: &dyn Progress) -> Option<Stage> {
-    let spec = project.spec().ok()?.draft()?;
+    let spec = project.spec().ok()?.draft(progress)?;
     let mut settings = project.project.clone();
     settings.options.quality = spec.options.quality;
     let transition = Transition::build(&spec, progress).ok()?;

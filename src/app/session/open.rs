@@ -189,6 +189,13 @@ impl Open {
     /// # Errors
     /// The document or a bundled design cannot be written; the project is as it was.
     pub fn save(&mut self, path: PathBuf) -> Result<(), SaveError> {
+        let found = self.transition.as_ref().and_then(Transition::found);
+        // What is on the stage may be another film than the project asks for, a draft of it.
+        if let Some(found) =
+            found.filter(|_| !loading::needs_build(&self.staged, &self.loaded.project))
+        {
+            self.loaded.project.found = found;
+        }
         saving::save(&mut self.loaded, &path)?;
         self.saved = self.loaded.project.clone();
         // Only their names have changed, which is no reason to build again.

@@ -7,6 +7,7 @@ use super::super::{MatchError, PairError, PinError, RingCut};
 use super::course::Course;
 use crate::geometry::{DVec2, Pair, Side};
 use crate::progress::Cancelled;
+use serde::{Deserialize, Serialize};
 
 /// Diameter of the tiny ring that a hole closes to, and of the part that is
 /// born, as a share of the design's diameter: a pixel on a screen of 4,000.
@@ -20,7 +21,7 @@ pub struct RegionMatch {
 }
 
 /// One connected piece in both designs.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct PieceMatch {
     /// The outer ring first, counter-clockwise, then holes, clockwise.
     pub rings: Vec<RingMatch>,
@@ -46,7 +47,7 @@ pub struct PieceMatch {
 
 /// What a match could not do as it was asked for, and did otherwise. Parts,
 /// holes and pins are counted from 0, and from 1 in words.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, thiserror::Error, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum MatchNote {
     /// A hole closes, or opens, since no straight cut leads to it.
@@ -77,7 +78,7 @@ pub enum MatchNote {
 ///
 /// A ring that was cut open runs along its cut twice, there and back, through
 /// the same points bit by bit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct RingMatch {
     /// Vertices on the source.
     pub source: Vec<DVec2>,
@@ -85,12 +86,13 @@ pub struct RingMatch {
     pub target: Vec<DVec2>,
     /// What becomes of the ring.
     pub kind: RingKind,
-    /// How it was matched; none where it is alone.
+    /// How it was matched; none where it is alone, or was not matched here.
+    #[serde(skip)]
     pub(crate) course: Option<Course>,
 }
 
 /// What becomes of a ring.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[non_exhaustive]
 pub enum RingKind {
     /// It is matched with another.
@@ -130,6 +132,12 @@ pub enum RegionMatchError {
     Cancelled(#[from] Cancelled),
 }
 
+impl From<Vec<PieceMatch>> for RegionMatch {
+    fn from(pieces: Vec<PieceMatch>) -> Self {
+        Self { pieces }
+    }
+}
+
 impl RegionMatch {
     /// What was not done as it was asked for, piece by piece.
     pub fn notes(&self) -> impl Iterator<Item = &MatchNote> {
@@ -166,6 +174,14 @@ impl RingMatch {
             RingKind::Closes => Some((Side::Source, &self.source)),
             RingKind::Opens => Some((Side::Target, &self.target)),
         }
+    }
+
+    /// Whether both sides have as many vertices, and those a place.
+    pub(crate) fn is_sound(&self) -> bool {
+        let mut points = self.source.iter().chain(&self.target);
+        self.source.len() == self.target.len()
+            && self.source.len() >= 3
+            && points.all(|point| point.is_finite())
     }
 
     /// A ring along two matched curves.

@@ -82,18 +82,18 @@ fn a_hole_that_is_alone_crosses_nothing_on_its_way() {
 fn a_draft_is_one_film_of_several_with_the_same_ends() {
     let (a, b) = (svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
     let spec = TransitionSpec::new(a, b);
-    let draft = spec.draft().unwrap();
-    assert!(draft.draft().is_none(), "a draft of a draft");
+    let draft = spec.draft(&Silent).unwrap();
+    assert!(draft.draft(&Silent).is_none(), "a draft of a draft");
     let [best, draft] = [&spec, &draft].map(|spec| Transition::build(spec, &Silent).unwrap());
     for t in [0.0, 1.0] {
         let [best, draft] = [&best, &draft].map(|made| area(&made.frame(t).figure().rings));
         assert!((best - draft).abs() < 1e-9 * best, "{best} {draft}");
     }
     let given = TransitionSpec::new(design(SQUARE), design(SQUARE));
-    assert!(given.draft().is_none());
+    assert!(given.draft(&Silent).is_none());
     let mut field = spec;
     field.cell = Cell::FIELD_BLEND;
-    assert!(field.draft().is_none());
+    assert!(field.draft(&Silent).is_none());
 }
 
 #[test]

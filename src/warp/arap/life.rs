@@ -6,9 +6,11 @@
 //! place is free, and what dies is gone before others come. Beyond the film it
 //! is as it is at its end.
 
+use serde::{Deserialize, Serialize};
+
 /// The time in which a part changes its size and place from one end to the
 /// other, within [0, 1]. Before and after it keeps those of that end.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Life {
     /// When it begins to change.
     pub from: f64,
@@ -19,6 +21,11 @@ pub struct Life {
 impl Life {
     /// All of the film.
     pub const WHOLE: Self = Self { from: 0.0, to: 1.0 };
+
+    /// Whether it is a time within the film.
+    pub(crate) fn is_sound(&self) -> bool {
+        0.0 <= self.from && self.from < self.to && self.to <= 1.0
+    }
 
     /// How much of the change is done at `t`: exactly 0 and 1 at the ends, and
     /// beyond them, so that nothing turns over there.

@@ -140,6 +140,26 @@ impl Arap {
         Self::prepared(mesh, options, drawn, progress)
     }
 
+    /// As [`Self::of_outlines`], with the stiffness of each face, 1 for those
+    /// beyond the list.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub(crate) fn settled(
+        mesh: &CompatibleMesh,
+        options: &ArapOptions,
+        lives: &[Option<Life>],
+        stiffness: &[f64],
+        progress: &dyn Progress,
+    ) -> Result<Self, ArapError> {
+        let drawn = Drawn {
+            lives,
+            outlined: Outlined::Yes,
+            stiffness,
+        };
+        Self::prepared(mesh, options, drawn, progress)
+    }
+
     /// The same mesh with other options, subdivided once more if they ask for it:
     /// what a face is divided into is as stiff as the face.
     ///
