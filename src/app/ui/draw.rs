@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use bevy::asset::AssetEventSystems;
 use bevy::prelude::*;
 use bevy_egui::{
     EguiContext, EguiContexts, EguiFullOutput, EguiInputSet, EguiPlugin, EguiPostUpdateSet,
@@ -35,6 +36,12 @@ impl Plugin for UiPlugin {
                     // After the events are there and before the pass that reads them.
                     .after(EguiInputSet::WriteEguiEvents)
                     .before(EguiPreUpdateSet::BeginPass),
+            )
+            // A letter that is new would be missing for a frame: the texture that it was put into
+            // is sent to the renderer with the changes that are noted by then.
+            .configure_sets(
+                PostUpdate,
+                EguiPostUpdateSet::PostProcessOutput.before(AssetEventSystems),
             )
             .add_observer(dress)
             .add_systems(EguiPrimaryContextPass, draw)
