@@ -104,7 +104,7 @@ impl Inputs {
 }
 
 /// Why there is no transition, and which flag goes on all the same.
-fn not_built(error: BuildError) -> CliError {
+pub(super) fn not_built(error: BuildError) -> CliError {
     match error.reason() {
         BuildError::TooMuch(_) => CliError::Failed(format!("{error}, or go on with --patient")),
         _ => CliError::failed(error),

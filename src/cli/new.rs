@@ -6,9 +6,10 @@ use clap::Args;
 
 use crate::design::Source;
 use crate::project::{LoadedProject, Project};
-use crate::transition::TransitionSpec;
+use crate::transition::{Transition, TransitionSpec};
 
 use super::error::CliError;
+use super::inputs::not_built;
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
@@ -34,6 +35,11 @@ pub(super) struct NewArgs {
     /// Write over a project that is there already
     #[arg(long)]
     force: bool,
+
+    /// Look for the film now and keep it with the project, which then opens at
+    /// once and plays the same film everywhere
+    #[arg(long)]
+    film: bool,
 
     #[command(flatten)]
     method: MethodArgs,
@@ -66,11 +72,16 @@ fn write(args: &NewArgs) -> Result<(), CliError> {
     args.method.edit(&mut project)?;
     // A project that cannot be opened is of no use; say so now.
     let loaded = LoadedProject::load(project, Some(folder.to_owned()));
-    let loaded = loaded.map_err(CliError::failed)?;
+    let mut loaded = loaded.map_err(CliError::failed)?;
+    loaded.patient = args.method.patient;
     let spec = loaded.spec().map_err(CliError::failed)?;
     TransitionSpec::available(spec.cell, &spec.source, &spec.target).map_err(CliError::failed)?;
     // From here on a signal waits: it would leave a half-written file.
-    let _listening = Terminal::new();
+    let terminal = Terminal::new();
+    if args.film {
+        let transition = Transition::build(&spec, &terminal).map_err(not_built)?;
+        loaded.project.found = transition.found().unwrap_or_default();
+    }
     let saved = loaded.project.save_atomically(&args.out);
     saved.map_err(CliError::failed)?;
     output::words(&format!("wrote {}", args.out.display()));

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use bevy::input::keyboard::{Key, KeyCode};
 use morphospace::app::{Answer, Dialog, Intent, Kind, Notices, Purpose};
+use morphospace::progress::Silent;
 
 use crate::window::{Window, entries};
 
@@ -32,6 +33,49 @@ fn changed() -> Window {
     window.send(Intent::CyclePlayMode);
     assert!(window.session().is_dirty());
     window
+}
+
+#[test]
+fn a_film_that_was_found_is_saved_and_not_looked_for_again() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let drawing = |name: &str, path: &str| {
+        let file = folder.path().join(name);
+        let text = format!("<svg xmlns='http://www.w3.org/2000/svg'><path d='{path}'/></svg>");
+        std::fs::write(&file, text).expect("a file");
+        file
+    };
+    let square = drawing("square.svg", "M10 10h80v80h-80z");
+    let bend = drawing("bend.svg", "M10 10h80v20h-60v60h-20z");
+    let mut window = Window::new();
+    window.send(Intent::Open(vec![square, bend]));
+    window.wait();
+    let path = folder.path().join("kept.morph");
+    window.send(Intent::SaveTo(path.clone()));
+    assert!(!window.session().is_dirty());
+    let mut again = Window::new();
+    again.send(Intent::Open(vec![path.clone()]));
+    again.wait();
+    let spec = again
+        .session()
+        .staged()
+        .expect("a film")
+        .spec()
+        .expect("settings");
+    assert!(!spec.found.is_none());
+    assert!(
+        spec.draft(&Silent).is_none(),
+        "it would be looked for again"
+    );
+    // What is changed is looked for, and what is saved then is that.
+    let before = std::fs::read_to_string(&path).expect("text");
+    let mut project = again.session().project().cloned().expect("a project");
+    project.options.arap.symmetric = false;
+    again.send(Intent::Edit(Box::new(project)));
+    again.wait();
+    again.send(Intent::Save);
+    let found = |text: &str| text.split("[found]").nth(1).map(str::to_owned);
+    let after = std::fs::read_to_string(&path).expect("text");
+    assert!(found(&after).is_some() && found(&after) != found(&before));
 }
 
 fn name() -> String {

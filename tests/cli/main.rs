@@ -81,6 +81,30 @@ fn a_new_project_is_rendered_from_anywhere() {
 }
 
 #[test]
+fn a_new_project_may_keep_its_film() {
+    let shop = Workshop::new();
+    shop.done("new a.svg b.svg --out plain.morph");
+    shop.done("new a.svg b.svg --out kept.morph --film");
+    let [plain, kept] = ["plain", "kept"].map(|name| {
+        let text = fs::read_to_string(shop.path(&format!("{name}.morph"))).expect("text");
+        let report = shop.done(&format!("check {name}.morph --json"));
+        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+        (text.contains("[found]"), report)
+    });
+    assert_eq!([plain.0, kept.0], [false, true]);
+    let stages = |report: &serde_json::Value| report["seconds"]["stages"].as_object().cloned();
+    let is_matched =
+        |report: &serde_json::Value| stages(report).expect("stages").contains_key("matching");
+    assert!(is_matched(&plain.1) && !is_matched(&kept.1));
+    assert_eq!(kept.1["seconds"]["match"].to_string(), "0.0");
+    assert_eq!(plain.1["distortion"], kept.1["distortion"]);
+    // A field needs no film.
+    shop.done("new a.svg b.svg --out field.morph --film --method field");
+    let text = fs::read_to_string(shop.path("field.morph")).expect("text");
+    assert!(!text.contains("[found]"));
+}
+
+#[test]
 fn text_and_elements_are_designs_like_any_other() {
     let shop = Workshop::new();
     let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"40\">\

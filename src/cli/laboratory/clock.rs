@@ -94,7 +94,8 @@ fn is_matching(stage: &str) -> bool {
 
 fn total(stages: &Stages, is: impl Fn(&str) -> bool) -> f64 {
     let chosen = stages.iter().filter(|(stage, _)| is(stage));
-    chosen.map(|(_, seconds)| seconds).sum()
+    // Not summed: of none that is -0.
+    chosen.fold(0.0, |sum, (_, seconds)| sum + seconds)
 }
 
 #[cfg(test)]
