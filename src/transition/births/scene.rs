@@ -9,7 +9,8 @@ use crate::geometry::{Bounds, DVec2};
 use crate::transition::holes::HoleOf;
 use crate::transition::outline::Outline;
 use crate::transition::walks::Walks;
-use crate::warp::{Arap, Life, Warp};
+use crate::warp::{Arap, Life, Placer, Warp};
+use rayon::prelude::*;
 
 /// Steps at which it is looked at what is there. By half as many, parts met
 /// between the last two in three pairs of icons of 60.
@@ -22,6 +23,10 @@ const MARGIN: f64 = 0.05;
 
 /// Places along either side of the box that are searched.
 const PLACES: u32 = 7;
+
+/// Births that are looked at beside each other. More would be looked at without
+/// knowing how good the best of them is.
+const AT_ONCE: usize = 8;
 
 /// What a step at which a part meets another costs, and the distance from its
 /// own place, in diameters, against the share of the film that it waits.
@@ -67,8 +72,7 @@ impl Scene {
     /// Of the pieces that both designs have.
     pub(super) fn of(film: &Arap, holes: &[HoleOf]) -> Self {
         let walks = Walks::of(film);
-        let mut placer = film.placer();
-        let steps = (0..=STEPS).map(|step| {
+        let at = |placer: &mut Placer, step: u32| -> (Vec<Outline>, Vec<Outline>) {
             placer.place(time(step));
             let places = &placer.placement().in_frame;
             let rings = walks.rings(places).into_iter().map(Outline::of).collect();
@@ -76,8 +80,9 @@ impl Scene {
                 .iter()
                 .filter_map(|(_, hole)| hole.at(places, time(step)));
             (rings, there.map(Outline::of).collect())
-        });
-        let (steps, holes) = steps.unzip();
+        };
+        let steps = (0..=STEPS).into_par_iter();
+        let (steps, holes) = steps.map_init(|| film.placer(), at).unzip();
         Self {
             steps,
             holes,
@@ -101,40 +106,64 @@ impl Scene {
             if waits >= best.0 {
                 break; // a shorter time costs more
             }
-            let own = self.carried(speck, life, film);
-            let nearby = if is_searched {
-                speck.own_places(own)
-            } else {
-                Vec::new()
-            };
-            let growing = std::iter::once(own).chain(nearby);
-            let growing = growing.chain(grid.iter().copied()).map(|p| (p, false));
-            // In the place that it will have, or along with what is around it.
-            let drawn = film.carried_back(speck.ends[speck.side], begins(speck, life));
-            let swelling = [own, drawn[speck.side.other()]].map(|p| (p, true));
-            for (place, swells) in growing.chain(swelling) {
-                let known = waits + DISTANCE * place.distance(own) / self.bounds.diameter();
-                if known >= best.0 {
-                    continue;
-                }
-                let off = if swells {
-                    speck.off_middle()
-                } else {
-                    DVec2::ZERO
+            let mut births = self.births(speck, film, life, is_searched.then_some(&grid));
+            // The nearest first: they cost least, and what costs more than they do need
+            // not be looked at to its end. What swells last: it takes longest to look at.
+            births.sort_by(|(a, p), (b, q)| p.swells.cmp(&q.swells).then(a.total_cmp(b)));
+            // Most need no other place than their own.
+            let (own, others) = births.split_at(1);
+            for some in std::iter::once(own).chain(others.chunks(AT_ONCE)) {
+                let cost = |(distance, birth): &(f64, Birth)| {
+                    let known = waits + DISTANCE * distance / self.bounds.diameter();
+                    let most = (best.0 - known) / MEETING;
+                    (known < best.0)
+                        .then(|| known + MEETING * self.meetings(speck, birth, film, most))
                 };
-                let birth = Birth {
-                    place: place + off,
-                    life,
-                    swells,
-                };
-                let most = (best.0 - known) / MEETING;
-                let cost = known + MEETING * self.meetings(speck, &birth, film, most);
-                if cost < best.0 {
-                    best = (cost, birth);
+                let costs: Vec<Option<f64>> = some.par_iter().map(cost).collect();
+                for (cost, (_, birth)) in costs.into_iter().zip(some) {
+                    if let Some(cost) = cost.filter(|&cost| cost < best.0) {
+                        best = (cost, *birth);
+                    }
                 }
             }
         }
         best.1
+    }
+
+    /// The births of a time, with how far each is from the part's own place; also
+    /// those at the places of a grid and along its own outline where there is a
+    /// grid.
+    fn births(
+        &self,
+        speck: &Speck,
+        film: &Arap,
+        life: Life,
+        grid: Option<&Vec<DVec2>>,
+    ) -> Vec<(f64, Birth)> {
+        let own = self.carried(speck, life, film);
+        let nearby = grid.map_or_else(Vec::new, |_| speck.own_places(own));
+        let growing = std::iter::once(own).chain(nearby);
+        let growing = growing.chain(grid.into_iter().flatten().copied());
+        let grows = |place: DVec2| {
+            let birth = Birth {
+                place,
+                life,
+                swells: false,
+            };
+            (place.distance(own), birth)
+        };
+        // In the place that it will have, or along with what is around it.
+        let drawn = film.carried_back(speck.ends[speck.side], begins(speck, life));
+        let swells = |place: DVec2| {
+            let birth = Birth {
+                place: place + speck.off_middle(),
+                life,
+                swells: true,
+            };
+            (place.distance(own), birth)
+        };
+        let swelling = [own, drawn[speck.side.other()]].map(swells);
+        growing.map(grows).chain(swelling).collect()
     }
 
     fn grid(&self) -> Vec<DVec2> {
@@ -153,6 +182,8 @@ impl Scene {
         // Every other first: most that meet anything do so for long.
         let steps = (0..=STEPS).step_by(2).chain((1..STEPS).step_by(2));
         for step in steps {
+            // While it is large it meets most.
+            let step = [step, STEPS - step][speck.side];
             let share = birth.life.share(time(step));
             let is_speck = share == [1.0, 0.0][speck.side];
             let is_whole = share == [0.0, 1.0][speck.side];

@@ -5,7 +5,7 @@ use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side, inset, inset_depth, ring_edges, signed_area};
 use crate::transition::outline::Outline;
 use crate::warp::Life;
-use std::cell::OnceCell;
+use std::sync::OnceLock;
 
 /// A part changes its size within so many eighths of the film at least.
 /// Shorter would be a jump.
@@ -36,8 +36,8 @@ pub(super) struct Speck {
 /// A part as it swells, from nothing to all of it, once somebody asks.
 #[derive(Default)]
 struct Swelling {
-    depth: OnceCell<f64>,
-    levels: [OnceCell<Vec<Vec<DVec2>>>; LEVELS + 1],
+    depth: OnceLock<f64>,
+    levels: [OnceLock<Vec<Vec<DVec2>>>; LEVELS + 1],
 }
 
 impl Swelling {
