@@ -29,10 +29,8 @@ impl Solid {
     #[must_use]
     pub fn rings_at(&self, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
         let at = |walk: usize| self.walk_at(walk, places);
-        let swells = self.swelling(t).flat_map(|swell| {
-            let first = swell.walks().first().map(|&walk| at(walk));
-            swell.at(&first.unwrap_or_default(), t)
-        });
+        let swells = self.swelling(t);
+        let swells = swells.flat_map(|swell| self.swollen(swell, places, t));
         let holes = self.holes.iter().filter_map(|hole| hole.at(places, t));
         let walks = self.walks(t).map(at);
         walks.chain(swells).chain(holes).collect()
@@ -57,19 +55,36 @@ impl Solid {
         self.swells.iter().filter(move |swell| swell.share(t) < 1.0)
     }
 
+    /// A part as far as it has swollen.
+    fn swollen(&self, swell: &Swell, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
+        let first = swell.walks().first();
+        let first = first.map(|&walk| self.walk_at(walk, places));
+        swell.at(&first.unwrap_or_default(), t)
+    }
+
     /// The corners of the face at an edge of [`Self::rings_at`], of a boundary
-    /// walk its two ends.
+    /// walk its two ends; of what swells, whose edges have no faces, those of some
+    /// edge of the part.
     pub(crate) fn corners_at(&self, edge: RingEdge, places: &[DVec2], t: f64) -> Option<Vec<u32>> {
         let RingEdge { ring, point } = edge;
-        if let Some(walk) = self.walks(t).nth(ring) {
+        let ends = |walk: usize, point: usize| {
             let walk = &self.loops[walk];
-            return Some(vec![walk[point], walk[(point + 1) % walk.len()]]);
+            vec![walk[point], walk[(point + 1) % walk.len()]]
+        };
+        let walks: Vec<usize> = self.walks(t).collect();
+        if let Some(&walk) = walks.get(ring) {
+            return Some(ends(walk, point));
         }
-        // Of what swells no edge has a face.
-        let seen = self.rings_at(places, t).len();
-        let holes: Vec<&Hole> = self.holes.iter().filter(|hole| !hole.is_gone(t)).collect();
-        let hole = holes.get((ring + holes.len()).checked_sub(seen)?)?;
-        Some(hole.face(point).to_vec())
+        let mut ring = ring - walks.len();
+        for swell in self.swelling(t) {
+            let rings = self.swollen(swell, places, t).len();
+            if ring < rings {
+                return swell.walks().first().map(|&walk| ends(walk, 0));
+            }
+            ring -= rings;
+        }
+        let mut holes = self.holes.iter().filter(|hole| !hole.is_gone(t));
+        Some(holes.nth(ring)?.face(point).to_vec())
     }
 
     /// How many of the rings that come and go are not there at `t`: points, to

@@ -4,7 +4,7 @@
 use super::*;
 use crate::content::Content;
 use crate::correspondence::LonePart;
-use crate::geometry::Side;
+use crate::geometry::{RingEdge, Side};
 
 /// A plate with a row of holes.
 fn perforated(holes: u32) -> Arc<Design> {
@@ -137,8 +137,17 @@ fn a_ring_around_what_is_there_comes_as_a_line_that_swells() {
     let mut before = 0.0;
     for k in 0..=64 {
         let t = f64::from(k) / 64.0;
-        let rings = there.frame(t).figure().rings;
+        let frame = there.frame(t);
+        let rings = frame.figure().rings;
         assert_eq!(count_crossings(&rings), 0, "{t}");
+        // Whatever it would cross could be told of.
+        if let Content::Solid(solid) = there.content() {
+            let places = &frame.placement().in_frame;
+            for ring in 0..solid.rings_at(places, t).len() {
+                let edge = RingEdge { ring, point: 0 };
+                assert!(solid.corners_at(edge, places, t).is_some(), "{t}: {ring}");
+            }
+        }
         let now = area(&rings);
         // Nothing is done in vain: the ring only grows.
         assert!(now >= before - 1e-6, "{t}: {now} after {before}");
