@@ -12,7 +12,7 @@ pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
 pub(crate) use colours::{linear_from_srgb, srgb_from_linear};
 pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError};
 pub use hole::Hole;
-pub use solid::Solid;
+pub use solid::{Solid, Speck};
 pub use swell::Swell;
 pub(crate) use swell::middle;
 

@@ -1,7 +1,9 @@
 //! Solid regions and bars that are carried by the vertices of a placement.
 
 use super::{Hole, Swell};
-use crate::geometry::{DVec2, RingEdge};
+use crate::geometry::{DVec2, RingEdge, Side};
+use crate::warp::Life;
+use std::collections::BTreeSet;
 
 /// What is drawn over the vertices of a placement.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -18,6 +20,26 @@ pub struct Solid {
     /// Parts that one of the designs has alone and that swell, each drawn in
     /// the stead of its walks.
     pub swells: Vec<Swell>,
+    /// Parts that one of the designs has alone and that grow, which are not
+    /// drawn while they are specks.
+    pub specks: Vec<Speck>,
+}
+
+/// A part that grows from a speck, or shrinks to one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Speck {
+    /// Its boundary walks, by their numbers.
+    pub walks: Vec<usize>,
+    /// The design that has it.
+    pub side: Side,
+    /// When it changes its size.
+    pub life: Life,
+}
+
+impl Speck {
+    fn is_gone(&self, t: f64) -> bool {
+        self.life.share(t) == [1.0, 0.0][self.side]
+    }
 }
 
 impl Solid {
@@ -45,9 +67,14 @@ impl Solid {
 
     /// The walks that are drawn as they are at `t`, by their numbers.
     fn walks(&self, t: f64) -> impl Iterator<Item = usize> {
-        let is_swelling =
-            move |walk: &usize| self.swelling(t).any(|swell| swell.walks().contains(walk));
-        (0..self.loops.len()).filter(move |walk| !is_swelling(walk))
+        let swelling = self.swelling(t).flat_map(Swell::walks);
+        let gone = self.specks.iter().filter(|speck| speck.is_gone(t));
+        let otherwise: BTreeSet<usize> = gone
+            .flat_map(|speck| &speck.walks)
+            .chain(swelling)
+            .copied()
+            .collect();
+        (0..self.loops.len()).filter(move |walk| !otherwise.contains(walk))
     }
 
     /// The parts that are not as they were drawn at `t`.
@@ -91,7 +118,11 @@ impl Solid {
     /// what counts rings.
     pub(crate) fn gone_at(&self, t: f64) -> usize {
         let parts = self.swells.iter().filter(|swell| swell.share(t) <= 0.0);
-        let walks: usize = parts.map(|swell| swell.walks().len()).sum();
+        let specks = self.specks.iter().filter(|speck| speck.is_gone(t));
+        let walks: usize = parts
+            .map(|swell| swell.walks().len())
+            .chain(specks.map(|speck| speck.walks.len()))
+            .sum();
         self.holes.iter().filter(|hole| hole.is_gone(t)).count() + walks
     }
 

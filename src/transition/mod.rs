@@ -10,7 +10,7 @@
 //! - `options`, `spec`: what a transition is built from; `arrange`: how the
 //!   designs are laid into one frame
 //! - `build`: from a specification to a transition, by way of `solids`
-//!   (rigid parts, or `boundaries` alone) and `plane` (warps of the plane,
+//!   (rigid parts, and in `lone` how those of one design are drawn, or `boundaries` alone) and `plane` (warps of the plane,
 //!   from the `features` that they go by); `rigid`: a mesh that is not too
 //!   large
 //! - `candidate`: a matched piece and what is seen of its film; `group`: the
@@ -39,6 +39,7 @@ mod found;
 mod frame;
 mod group;
 mod holes;
+mod lone;
 mod mirrored;
 mod moved;
 mod note;

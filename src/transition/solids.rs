@@ -5,14 +5,15 @@
 
 use super::error::BuildError;
 use super::found::{self, Kept};
+use super::lone;
 use super::moved::{AnyWarp, Moved};
 use super::rigid::allow;
 use super::settled;
 use super::spec::TransitionSpec;
 use crate::compatible::{CompatibleError, CompatibleMesh, TrussError};
-use crate::content::{Solid, Swell};
+use crate::content::Solid;
 use crate::design::Form;
-use crate::geometry::{DVec2, Regions, Side, signed_area};
+use crate::geometry::Regions;
 use crate::progress::{Progress, checkpoint};
 use crate::warp::Arap;
 use std::sync::Arc;
@@ -48,7 +49,8 @@ pub(super) fn rigid_parts(
     let holes = film.map_or_else(Vec::new, |film| {
         film.holes.iter().map(|(_, hole)| hole.clone()).collect()
     });
-    let swells = film.map_or_else(Vec::new, |film| swelling(&arap, &film.swelling));
+    let (swells, specks) =
+        film.map_or_else(Default::default, |film| lone::drawn(&arap, &film.swelling));
     let solid = Solid {
         loops: if bars.is_empty() {
             arap.mesh().boundary_loops()
@@ -59,6 +61,7 @@ pub(super) fn rigid_parts(
         bar_width,
         holes,
         swells,
+        specks,
     };
     let moved = Moved {
         matched: film.map(|film| film.matched.clone()),
@@ -81,48 +84,6 @@ fn found_or_best(
         None => settled::best(spec, outlines, progress)?,
     };
     Ok(Kept { key, film })
-}
-
-/// What swells of a film: the pieces with these numbers, which are the connected
-/// parts of its mesh.
-fn swelling(film: &Arap, pieces: &[usize]) -> Vec<Swell> {
-    let (mesh, walks) = (film.mesh(), film.mesh().boundary_loops());
-    let parts = mesh.components();
-    let swell = |&piece: &usize| {
-        let life = film.lives().get(piece).copied().flatten()?;
-        let is_of_piece = |walk: &usize| {
-            let first = walks[*walk].first();
-            first.is_some_and(|&v| parts[v as usize] as usize == piece)
-        };
-        let numbers: Vec<usize> = (0..walks.len()).filter(is_of_piece).collect();
-        let rings = Side::BOTH.map(|side| {
-            let places = [mesh.source(), mesh.target()][side];
-            let ring = |&walk: &usize| {
-                let walk: &Vec<u32> = &walks[walk];
-                walk.iter().map(|&v| places[v as usize]).collect()
-            };
-            numbers.iter().map(ring).collect::<Vec<Vec<DVec2>>>()
-        });
-        let area = |side: Side| {
-            rings[side]
-                .iter()
-                .map(|ring| signed_area(ring))
-                .sum::<f64>()
-        };
-        let side = if area(Side::Source) > area(Side::Target) {
-            Side::Source
-        } else {
-            Side::Target
-        };
-        // The outer walk first, by which it is placed.
-        let outer = |k: &usize| signed_area(&rings[side][*k]);
-        let first = (0..numbers.len()).max_by(|a, b| outer(a).total_cmp(&outer(b)))?;
-        let (mut numbers, mut rings) = (numbers, rings);
-        numbers.swap(0, first);
-        rings[side].swap(0, first);
-        Some(Swell::new(side, numbers, &rings[side], life))
-    };
-    pieces.iter().filter_map(swell).collect()
 }
 
 /// The interpolation of a triangulation that the designs brought along.

@@ -3,19 +3,30 @@
 use crate::geometry::{DVec2, Fit, signed_area};
 use crate::transition::outline::Outline;
 
-/// Where outlines, as they are and as they are then, take a place.
+/// Where the innermost of some outlines that go around a place takes it, from as
+/// they are now to as they are then, and what that outline encloses.
+pub(super) fn carried_within(
+    here: DVec2,
+    now: &[Outline],
+    then: &[Outline],
+) -> Option<(f64, DVec2)> {
+    let (size, now, then) = now
+        .iter()
+        .zip(then)
+        .filter(|(now, _)| now.winding(here) != 0)
+        .map(|(now, then)| (signed_area(&now.points).abs(), now, then))
+        .min_by(|a, b| a.0.total_cmp(&b.0))?;
+    // A ring of one point has no turn.
+    let place = Fit::of(&now.points, &then.points).map_or(here, |fit| fit.apply(here));
+    Some((size, place))
+}
+
+/// Where outlines take a place that lies beside them.
 pub(super) fn carried_among(here: DVec2, now: &[Outline], then: &[Outline]) -> DVec2 {
-    let both = || now.iter().zip(then);
-    let around = both().filter(|(now, _)| now.winding(here) != 0);
-    let size = |outline: &Outline| signed_area(&outline.points).abs();
-    let innermost = around.min_by(|a, b| size(a.0).total_cmp(&size(b.0)));
-    if let Some((now, then)) = innermost {
-        // A ring of one point has no turn.
-        return Fit::of(&now.points, &then.points).map_or(here, |fit| fit.apply(here));
-    }
+    let both = now.iter().zip(then);
     // Shepard 1968, near neighbours counting most.
     let (mut sum, mut total) = (DVec2::ZERO, 0.0);
-    for (now, then) in both() {
+    for (now, then) in both {
         for (p, q) in now.points.iter().zip(&then.points) {
             let weight = p
                 .distance_squared(here)

@@ -24,8 +24,8 @@ use crate::geometry::DVec2;
 use crate::progress::{Cancelled, Progress, still_wanted};
 use crate::warp::{Arap, Life};
 
-/// Parts beyond so many are not searched a place for; each costs a
-/// look at all others at every step.
+/// Parts beyond so many are not searched a place for; each costs a look at all
+/// others at every step.
 const SEARCHED: usize = 24;
 
 /// When each piece changes its size, before anything is chosen: a part of one
@@ -57,16 +57,17 @@ pub(super) fn placed(
     if lives.iter().all(Option::is_none) {
         return Ok(None);
     }
+    let specks = Speck::all(matched);
     let mut scene = Scene::of(film, holes);
     let mut swelling = Vec::new();
     let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
-    for (rank, speck) in Speck::all(matched).into_iter().enumerate() {
+    for (rank, speck) in specks.iter().enumerate() {
         still_wanted(progress)?;
-        let birth = scene.best(&speck, film, rank < SEARCHED);
+        let birth = scene.best(speck, film, rank < SEARCHED);
         by[speck.piece][speck.side.other()] = birth.place - speck.ends[speck.side.other()];
         lives[speck.piece] = Some(birth.life);
         swelling.extend(birth.swells.then_some(speck.piece));
-        scene.add(&speck, &birth, film);
+        scene.add(speck, &birth, film);
     }
     let Some(mesh) = film.mesh().with_parts_moved(&by) else {
         return Ok(None);

@@ -3,7 +3,7 @@
 //! Of the places that are as free the one is taken that is nearest to a
 //! part's own place in the whole, and of the times the longest.
 
-use super::carried::carried_among;
+use super::carried::{carried_among, carried_within};
 use super::speck::Speck;
 use crate::geometry::{Bounds, DVec2};
 use crate::transition::holes::HoleOf;
@@ -47,8 +47,8 @@ impl Birth {
     /// The part at `t`, larger by a share of its size the smaller it is.
     fn at(&self, speck: &Speck, film: &Arap, t: f64, margin: f64) -> Vec<Outline> {
         let share = self.life.share(t);
-        // Nothing of what swells is there as a speck.
-        if self.swells && share == [1.0, 0.0][speck.side] {
+        // A speck is not drawn.
+        if share == [1.0, 0.0][speck.side] {
             return Vec::new();
         }
         let centre = film.carried(speck.ends_at(self.place), share, t);
@@ -60,15 +60,34 @@ impl Birth {
     }
 }
 
+impl Birth {
+    /// Where at `t` a place is that lies in the part where it is drawn.
+    fn takes(&self, speck: &Speck, film: &Arap, here: DVec2, t: f64) -> DVec2 {
+        let share = self.life.share(t);
+        let centre = film.carried(speck.ends_at(self.place), share, t);
+        let from_centre = here - speck.ends[speck.side];
+        match self.swells {
+            // It goes with its middle.
+            true => centre + speck.off_middle_at(share) + from_centre,
+            false => centre + from_centre * speck.size(share),
+        }
+    }
+}
+
 /// What is there at each step, both ends included.
-pub(super) struct Scene {
+pub(super) struct Scene<'a> {
+    /// First of what both designs have, then of what has got its place.
     steps: Vec<Vec<Outline>>,
+    /// How many outlines both designs have.
+    of_both: usize,
     /// Of holes that come and go: as many as there are at each step.
     holes: Vec<Vec<Outline>>,
+    /// What has got its place.
+    born: Vec<(&'a Speck, Birth)>,
     bounds: Bounds,
 }
 
-impl Scene {
+impl<'a> Scene<'a> {
     /// Of the pieces that both designs have.
     pub(super) fn of(film: &Arap, holes: &[HoleOf]) -> Self {
         let walks = Walks::of(film);
@@ -82,8 +101,10 @@ impl Scene {
             (rings, there.map(Outline::of).collect())
         };
         let steps = (0..=STEPS).into_par_iter();
-        let (steps, holes) = steps.map_init(|| film.placer(), at).unzip();
+        let (steps, holes): (Vec<Vec<Outline>>, _) = steps.map_init(|| film.placer(), at).unzip();
         Self {
+            of_both: steps[0].len(),
+            born: Vec::new(),
             steps,
             holes,
             bounds: film.mesh().bounds(),
@@ -185,17 +206,13 @@ impl Scene {
             // While it is large it meets most.
             let step = [step, STEPS - step][speck.side];
             let share = birth.life.share(time(step));
-            let is_speck = share == [1.0, 0.0][speck.side];
             let is_whole = share == [0.0, 1.0][speck.side];
             // Where it is whole it is as it was drawn.
             if count > most || is_whole {
                 continue;
             }
             let rings = birth.at(speck, film, time(step), MARGIN);
-            // Nobody sees a pixel that lies in another part.
-            let is_free =
-                self.crosses_none(step, &rings) && (is_speck || self.is_apart(step, &rings));
-            if !is_free {
+            if !(self.crosses_none(step, &rings) && self.is_apart(step, &rings)) {
                 count += 1.0;
             }
         }
@@ -227,7 +244,8 @@ impl Scene {
     }
 
     /// Adds a speck that has got its place.
-    pub(super) fn add(&mut self, speck: &Speck, birth: &Birth, film: &Arap) {
+    pub(super) fn add(&mut self, speck: &'a Speck, birth: &Birth, film: &Arap) {
+        self.born.push((speck, *birth));
         for step in 0..=STEPS {
             self.steps[step as usize].extend(birth.at(speck, film, time(step), 0.0));
         }
@@ -238,9 +256,18 @@ impl Scene {
     fn carried(&self, speck: &Speck, life: Life, film: &Arap) -> DVec2 {
         let (side, here) = (speck.side, speck.ends[speck.side]);
         let begins = begins(speck, life);
-        let then = &self.steps[(f64::from(STEPS) * begins) as usize];
-        let now = &self.steps[[0, STEPS as usize][side]];
-        let place = carried_among(here, now, then);
+        // Of what both designs have, which is there in the same order at each step.
+        let both = |step: usize| &self.steps[step][..self.of_both];
+        let then = both((f64::from(STEPS) * begins) as usize);
+        let now = both([0, STEPS as usize][side]);
+        let born = self.born.iter().filter(|(around, _)| around.side == side);
+        let born = born.filter_map(|(around, birth)| {
+            let size = around.size_around(here)?;
+            Some((size, birth.takes(around, film, here, begins)))
+        });
+        let around = born.chain(carried_within(here, now, then));
+        let innermost = around.min_by(|a, b| a.0.total_cmp(&b.0));
+        let place = innermost.map_or_else(|| carried_among(here, now, then), |(_, place)| place);
         film.carried_back(place, begins)[side.other()]
     }
 }

@@ -2,7 +2,7 @@
 
 use crate::content::middle;
 use crate::correspondence::{PieceMatch, RegionMatch};
-use crate::geometry::{DVec2, Side, inset, inset_depth, ring_edges, signed_area};
+use crate::geometry::{DVec2, Side, inset, inset_depth, ring_edges, signed_area, winding};
 use crate::transition::outline::Outline;
 use crate::warp::Life;
 use std::sync::OnceLock;
@@ -125,6 +125,25 @@ impl Speck {
         self.rings.iter().map(placed).map(Outline::of).collect()
     }
 
+    /// What the innermost of its rings encloses that goes around a place where it is
+    /// drawn; none where none does.
+    pub(super) fn size_around(&self, here: DVec2) -> Option<f64> {
+        let around = self.rings.iter().filter(|ring| {
+            let from_centre = here - self.ends[self.side];
+            winding(ring, from_centre) != 0
+        });
+        around
+            .map(|ring| signed_area(ring).abs())
+            .min_by(f64::total_cmp)
+    }
+
+    /// From where its centroid would be, were it a speck that grows, to where it
+    /// is while it swells.
+    pub(super) fn off_middle_at(&self, share: f64) -> DVec2 {
+        let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
+        middle(outer) * (self.size(share) - 1.0)
+    }
+
     /// What is to be added to a place at which it swells for that to be the
     /// place of a speck which grows: it keeps its middle, and not its centroid.
     pub(super) fn off_middle(&self) -> DVec2 {
@@ -136,12 +155,10 @@ impl Speck {
     /// `centre` were it a speck that grows: swelling, somewhat thicker than it
     /// is.
     pub(super) fn swollen(&self, centre: DVec2, share: f64) -> Vec<Outline> {
-        let outer = self.rings.first().map_or(&[][..], Vec::as_slice);
-        let size = self.size(share);
-        let at = centre + middle(outer) * size;
-        let level = (size * LEVELS as f64).ceil().clamp(0.0, LEVELS as f64);
-        let own = middle(outer);
-        let placed = |ring: &Vec<DVec2>| ring.iter().map(|&p| at + (p - own)).collect();
+        let level = (self.size(share) * LEVELS as f64).ceil();
+        let level = level.clamp(0.0, LEVELS as f64);
+        let at = centre + self.off_middle_at(share);
+        let placed = |ring: &Vec<DVec2>| ring.iter().map(|&p| at + p).collect();
         self.swelling
             .level(level as usize, &self.rings)
             .iter()

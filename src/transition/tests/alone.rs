@@ -179,3 +179,21 @@ fn a_film_in_which_nothing_has_a_partner_goes_from_one_design_to_the_other() {
     frame.seek(0.5);
     assert!(area(&frame.figure().rings).is_finite());
 }
+
+#[test]
+fn what_is_born_is_not_drawn_before_it_is() {
+    let (one, two) = (
+        svg("M10 10h40v40h-40z"),
+        svg("M10 10h40v40h-40z M60 60h20v20h-20z"),
+    );
+    for (source, target, wanted) in [(&one, &two, [1, 2]), (&two, &one, [2, 1])] {
+        let mut spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+        spec.options.matching.parts = PartRule::Alone;
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        let rings = |t: f64| transition.frame(t).figure().rings.len();
+        assert_eq!([rings(0.0), rings(1.0)], wanted);
+        // Beyond the film nothing comes to be.
+        assert_eq!([rings(-0.2), rings(1.2)], wanted);
+        assert_eq!(rings(0.5), 2);
+    }
+}
