@@ -15,8 +15,9 @@ use crate::geometry::DVec2;
 use crate::progress::{Cancelled, Progress, still_wanted};
 use crate::warp::{Arap, Life, Warp};
 
-/// Steps of a film that is looked at, both ends left out.
-const STEPS: u32 = 32;
+/// Steps of a film that is looked at, both ends left out. By half as many, a hole
+/// crossed itself or another between two in two pairs of icons of 60.
+const STEPS: u32 = 64;
 
 /// A hole, and the number of the piece that it is in.
 pub(super) type HoleOf = (usize, Hole);
@@ -118,12 +119,14 @@ impl Scene {
         best.1
     }
 
-    /// The number of steps at which it crosses something, counted on to `most`.
+    /// The number of steps at which it crosses something or itself, counted on to `most`.
     fn crossed(&self, hole: &Hole, most: usize) -> usize {
         let steps = (1..STEPS).zip(self.places.iter().zip(&self.outlines));
         let crosses = |(step, (places, others)): (u32, (&Vec<DVec2>, &Vec<Outline>))| {
             let ring = hole.at(places, time(step)).map(Outline::of);
-            ring.is_some_and(|ring| others.iter().any(|other| ring.crosses(other)))
+            ring.is_some_and(|ring| {
+                ring.crosses(&ring) || others.iter().any(|other| ring.crosses(other))
+            })
         };
         steps.filter(|&step| crosses(step)).take(most).count()
     }
