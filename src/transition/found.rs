@@ -246,7 +246,10 @@ impl Record {
         let pieces = self.pieces.len();
         let is_piece = |piece: &PieceMatch| {
             let mut rings = piece.rings.iter().chain(&piece.lone);
-            !piece.rings.is_empty() && rings.all(|ring| ring.is_sound())
+            let mut cuts = piece.cuts.iter().flat_map(|cut| [cut.outer, cut.hole]);
+            !piece.rings.is_empty()
+                && rings.all(|ring| ring.is_sound())
+                && cuts.all(DVec2::is_finite)
         };
         self.pieces.iter().all(is_piece)
             && self.lives.len() <= pieces
@@ -264,6 +267,7 @@ mod tests {
     use crate::design::{Design, ImportOptions, import};
     use crate::progress::Silent;
     use crate::transition::{Quality, Transition, TransitionSpec};
+    use crate::warp::Warp;
 
     fn svg(path: &str) -> Arc<Design> {
         let text = format!("<svg xmlns='http://www.w3.org/2000/svg'><path d='{path}'/></svg>");
@@ -387,5 +391,38 @@ mod tests {
             film: record.packed().expect("text").into(),
         };
         assert_ne!(rings(&built(&spec)), wanted);
+    }
+
+    #[test]
+    fn whatever_the_bytes_are_there_is_a_film_or_none() {
+        let mut spec = spec();
+        spec.options.quality = Quality::Draft;
+        let record = Record::unpacked(&found(&built(&spec)).film.0).expect("a record");
+        let bytes = rmp_serde::to_vec(&record).expect("bytes");
+        let mut state = 1_u64;
+        let mut random = |below: usize| {
+            // Knuth's MMIX: its high bits are random enough.
+            state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
+            (state >> 33) as usize % below
+        };
+        let mut films = 0;
+        for _ in 0..400 {
+            let mut bytes = bytes.clone();
+            for _ in 0..=random(3) {
+                let at = random(bytes.len());
+                bytes[at] = random(256) as u8;
+            }
+            let Ok(record) = rmp_serde::from_slice::<Record>(&bytes) else {
+                continue;
+            };
+            if let Ok(Some(film)) = record.film(&spec.options, &Silent) {
+                films += 1;
+                let mut placer = film.arap.placer();
+                placer.place(0.5);
+                let places = &placer.placement().in_frame;
+                assert!(places.iter().all(|p| p.is_finite()));
+            }
+        }
+        assert!(films > 0, "no number was changed without harm");
     }
 }
