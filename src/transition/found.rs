@@ -1,43 +1,18 @@
-//! What was found for two designs, in a form that a document keeps: it opens at
-//! once, and plays the same film wherever it is opened.
-//!
-//! Kept is the match with the mesh of its film, both as they were settled, from
-//! which the film is one factorisation away. It is taken only for the outlines
-//! and the options that it was found for, and only where all of it is sound;
-//! otherwise the match is looked for anew, and nothing is said.
+//! What was found for two designs, as text that a document keeps, and what it was
+//! found for.
 
-use super::error::BuildError;
-use super::holes;
-use super::note::Note;
 use super::options::Options;
-use super::rigid::allow;
-use super::settled::{Film, coarse};
-use crate::compatible::CompatibleMesh;
-use crate::correspondence::PieceMatch;
+use super::rigid::coarse;
 use crate::geometry::{DVec2, Regions};
-use crate::progress::{Progress, still_wanted};
-use crate::warp::{Arap, Life};
-use base64::Engine;
-use base64::engine::general_purpose::STANDARD;
-use flate2::Compression;
-use flate2::read::{ZlibDecoder, ZlibEncoder};
 use fnv::FnvHasher;
 use serde::{Deserialize, Serialize};
 use std::hash::Hasher;
-use std::io::Read;
 use std::sync::Arc;
 
 /// Outlines are the same where their coordinates are, to this share of the
 /// designs' diameter: importing on another machine may round a last digit
 /// otherwise.
 const SAME: f64 = 1e-7;
-
-/// What is kept unpacks to less: some 50 bytes a face. What is made up of empty
-/// pieces takes 16 times as much memory as it has bytes.
-const MOST_BYTES: u64 = 16 << 20;
-
-/// Characters of a line of what is kept, as of certificates and letters.
-const LINE: usize = 76;
 
 /// The match and the film that were found for two designs, as text for a
 /// document. Any text will do: what is not sound is not taken.
@@ -49,14 +24,14 @@ const LINE: usize = 76;
 pub struct Found {
     /// What it was found for.
     #[serde(rename = "for")]
-    of: String,
-    film: Text,
+    pub(super) of: String,
+    pub(super) film: Text,
 }
 
 /// Text that is cheap to clone: each step of a history has a document.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
 #[serde(from = "String", into = "String")]
-struct Text(Arc<str>);
+pub(super) struct Text(pub(super) Arc<str>);
 
 impl From<String> for Text {
     fn from(text: String) -> Self {
@@ -87,45 +62,6 @@ impl Found {
     pub(super) fn is_for(&self, key: &str) -> bool {
         !self.is_none() && self.of == key
     }
-
-    /// The film that was found for what has this key, if there is one that is
-    /// sound.
-    ///
-    /// # Errors
-    /// A cancel, or the film is too large.
-    pub(super) fn film(
-        &self,
-        key: &str,
-        options: &Options,
-        progress: &dyn Progress,
-    ) -> Result<Option<Film>, BuildError> {
-        let record = if self.is_for(key) {
-            Record::unpacked(&self.film.0)
-        } else {
-            None
-        };
-        let film = record.map(|record| record.film(options, progress));
-        still_wanted(progress)?;
-        Ok(film.transpose()?.flatten())
-    }
-}
-
-/// A settled film and the key of what it was found for.
-#[derive(Clone, Debug)]
-pub(super) struct Kept {
-    pub key: String,
-    pub film: Film,
-}
-
-impl Kept {
-    /// As text for a document.
-    pub fn packed(&self) -> Found {
-        let film = Record::of(&self.film).and_then(|record| record.packed());
-        Found {
-            of: self.key.clone(),
-            film: Text(film.unwrap_or_default().into()),
-        }
-    }
 }
 
 /// What a film is found for: its outlines, and the options that it hangs on.
@@ -146,283 +82,10 @@ pub(super) fn key(options: &Options, outlines: &[Regions; 2]) -> String {
         hasher.write_usize(ring.points().len());
         for &point in ring.points() {
             // Drawings lie on grids: half a step would be on the edge of two.
-            let from_corner = (point - bounds.min) / step + DVec2::splat(0.318_309_886);
+            let from_corner = (point - bounds.min) / step + DVec2::splat(0.381_966);
             hasher.write_i64(from_corner.x.floor() as i64);
             hasher.write_i64(from_corner.y.floor() as i64);
         }
     }
     format!("{:016x}", hasher.finish())
-}
-
-/// A film as it is written. Holes are found again by what is in the match.
-#[derive(Serialize, Deserialize)]
-struct Record {
-    pieces: Vec<PieceMatch>,
-    faces: Vec<[u32; 3]>,
-    places: [Vec<DVec2>; 2],
-    lives: Vec<Option<Life>>,
-    stiffness: Vec<f64>,
-    holes: Vec<Life>,
-    swelling: Vec<usize>,
-    /// Distortion as drawn, and mirrored.
-    mirrored: Option<[f64; 2]>,
-}
-
-impl Record {
-    /// None of a film with more to say than can be written.
-    fn of(film: &Film) -> Option<Self> {
-        let mesh = film.arap.mesh();
-        let mirrored = match film.notes[..] {
-            [] => None,
-            [Note::Mirrored { as_drawn, mirrored }] => Some([as_drawn, mirrored]),
-            _ => return None,
-        };
-        Some(Self {
-            pieces: film.matched.pieces.clone(),
-            faces: mesh.faces().to_vec(),
-            places: [mesh.source().to_vec(), mesh.target().to_vec()],
-            lives: film.arap.lives().to_vec(),
-            stiffness: film.arap.stiffness().to_vec(),
-            holes: film.holes.iter().map(|(_, hole)| hole.life).collect(),
-            swelling: film.swelling.clone(),
-            mirrored,
-        })
-    }
-
-    fn packed(&self) -> Option<String> {
-        let bytes = rmp_serde::to_vec(self).ok()?;
-        let mut packed = Vec::new();
-        let mut encoder = ZlibEncoder::new(&bytes[..], Compression::best());
-        encoder.read_to_end(&mut packed).ok()?;
-        let text = STANDARD.encode(packed);
-        let lines = text.as_bytes().chunks(LINE).map(String::from_utf8_lossy);
-        Some(lines.collect::<Vec<_>>().join("\n"))
-    }
-
-    fn unpacked(text: &str) -> Option<Self> {
-        let text: Vec<u8> = text.bytes().filter(|b| !b.is_ascii_whitespace()).collect();
-        let packed = STANDARD.decode(text).ok()?;
-        let mut bytes = Vec::new();
-        let decoder = ZlibDecoder::new(&packed[..]);
-        decoder.take(MOST_BYTES).read_to_end(&mut bytes).ok()?;
-        rmp_serde::from_slice(&bytes).ok()
-    }
-
-    /// The film; none where something about it is not sound.
-    fn film(self, options: &Options, progress: &dyn Progress) -> Result<Option<Film>, BuildError> {
-        if !self.is_sound() {
-            return Ok(None);
-        }
-        let [source, target] = self.places;
-        let Ok(mesh) = CompatibleMesh::new(self.faces, source, target, Vec::new()) else {
-            return Ok(None);
-        };
-        let parts = mesh.components().into_iter().max().map_or(0, |k| k + 1);
-        if parts as usize != self.pieces.len() {
-            return Ok(None);
-        }
-        allow(&mesh, &options.arap, progress)?;
-        let options = coarse(&options.arap);
-        let arap = Arap::settled(&mesh, &options, &self.lives, &self.stiffness, progress);
-        let Ok(arap) = arap else {
-            return Ok(None);
-        };
-        let holes = holes::with_lives(&self.pieces, arap.mesh(), &self.holes);
-        Ok(holes.map(|holes| Film {
-            matched: self.pieces.into(),
-            arap,
-            holes,
-            swelling: self.swelling,
-            notes: self
-                .mirrored
-                .map(|[as_drawn, mirrored]| Note::Mirrored { as_drawn, mirrored })
-                .into_iter()
-                .collect(),
-        }))
-    }
-
-    /// Whether all numbers are what they could be; the mesh looks after its own.
-    fn is_sound(&self) -> bool {
-        let pieces = self.pieces.len();
-        let is_piece = |piece: &PieceMatch| {
-            let mut rings = piece.rings.iter().chain(&piece.lone);
-            let mut cuts = piece.cuts.iter().flat_map(|cut| [cut.outer, cut.hole]);
-            !piece.rings.is_empty()
-                && rings.all(|ring| ring.is_sound())
-                && cuts.all(DVec2::is_finite)
-        };
-        self.pieces.iter().all(is_piece)
-            && self.lives.len() <= pieces
-            && self.lives.iter().flatten().all(Life::is_sound)
-            && self.holes.iter().all(Life::is_sound)
-            && self.swelling.iter().all(|&piece| piece < pieces)
-            && self.stiffness.len() <= self.faces.len()
-            && self.stiffness.iter().all(|&by| (1.0..1e12).contains(&by))
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::design::{Design, ImportOptions, import};
-    use crate::progress::Silent;
-    use crate::transition::{Quality, Transition, TransitionSpec};
-    use crate::warp::Warp;
-
-    fn svg(path: &str) -> Arc<Design> {
-        let text = format!("<svg xmlns='http://www.w3.org/2000/svg'><path d='{path}'/></svg>");
-        Arc::new(import("a.svg", text.as_bytes(), &ImportOptions::default()).expect("a drawing"))
-    }
-
-    /// Parts that move, a hole of one design alone, a ring that swells, and a
-    /// part that is born.
-    fn spec() -> TransitionSpec {
-        let bars = svg("M32 30h12v40h-12z M56 30h12v40h-12z M34 40v4h4v-4z");
-        let badge = svg(
-            "M32 30h12v40h-12z M56 32h12v38h-12z M50 2a48 48 0 0 1 0 96a48 48 0 0 1 0-96 M50 12a38 38 0 0 0 0 76a38 38 0 0 0 0-76 M2 2h6v6h-6z",
-        );
-        TransitionSpec::new(bars, badge)
-    }
-
-    fn built(spec: &TransitionSpec) -> Transition {
-        Transition::build(spec, &Silent).expect("a film")
-    }
-
-    fn rings(transition: &Transition) -> Vec<Vec<Vec<DVec2>>> {
-        let at = |k: u32| transition.frame(f64::from(k) / 8.0).figure().rings;
-        (0..=8).map(at).collect()
-    }
-
-    /// What was found, as a document has it.
-    fn found(transition: &Transition) -> Found {
-        let found = transition.found().expect("outlines were matched");
-        let text = toml::to_string_pretty(&found).expect("text");
-        assert!(text.lines().all(|line| line.len() < 100), "{text}");
-        toml::from_str(&text).expect("what was written")
-    }
-
-    #[test]
-    fn what_was_found_plays_the_same_film_without_a_draft() {
-        let mut spec = spec();
-        for subdivisions in 0..2 {
-            spec.options.arap.subdivisions = subdivisions;
-            spec.found = Found::default();
-            let first = built(&spec);
-            assert!(spec.draft(&Silent).is_some());
-            spec.found = found(&first);
-            assert!(spec.draft(&Silent).is_none());
-            let again = built(&spec);
-            assert_eq!(rings(&again), rings(&first));
-            assert_eq!(again.notes(), first.notes());
-            assert_eq!(
-                again.found().map(|f| f.film.0),
-                first.found().map(|f| f.film.0)
-            );
-        }
-    }
-
-    #[test]
-    fn it_is_taken_for_what_it_was_found_for_alone() {
-        let mut spec = spec();
-        let outlines = spec.outlines(1.0, &Silent).expect("outlines");
-        let of = |spec: &TransitionSpec| {
-            let outlines = spec.outlines(1.0, &Silent).expect("outlines");
-            key(&spec.options, &outlines)
-        };
-        let asked = key(&spec.options, &outlines);
-        assert_eq!(asked, of(&spec));
-        // Not of what is done with the film once it is settled.
-        spec.options.arap.subdivisions = 2;
-        spec.options.field.cells = 99;
-        assert_eq!(asked, of(&spec));
-        spec.options.arap.symmetric = !spec.options.arap.symmetric;
-        assert_ne!(asked, of(&spec));
-        spec.options.arap.symmetric = !spec.options.arap.symmetric;
-        spec.options.triangulation.edge_length = Some(0.5);
-        assert_ne!(asked, of(&spec));
-        let [source, target] = [Arc::clone(&spec.source), Arc::clone(&spec.target)];
-        assert_ne!(asked, of(&TransitionSpec::new(target, source)));
-    }
-
-    #[test]
-    fn what_is_not_sound_is_looked_for_anew() {
-        let mut spec = spec();
-        // Many films: the quick ones will do.
-        spec.options.quality = Quality::Draft;
-        let first = built(&spec);
-        let wanted = rings(&first);
-        let found = found(&first);
-        let record = || Record::unpacked(&found.film.0).expect("a record");
-        let mut changed: Vec<Record> = Vec::new();
-        let mut change = |by: &dyn Fn(&mut Record)| {
-            let mut record = record();
-            by(&mut record);
-            changed.push(record);
-        };
-        change(&|record| record.faces[0] = [0, 1, 1 << 30]);
-        change(&|record| record.places[1][3].x = f64::NAN);
-        change(&|record| record.places[0].clear());
-        change(&|record| record.pieces.clear());
-        change(&|record| record.pieces[0].rings.clear());
-        change(&|record| record.pieces[0].rings[0].target.truncate(2));
-        change(&|record| record.holes.push(Life::WHOLE));
-        change(&|record| record.lives = vec![Some(Life { from: 0.5, to: 0.5 })]);
-        change(&|record| record.swelling = vec![99]);
-        change(&|record| record.stiffness = vec![-1.0]);
-        let texts = changed.iter().map(|record| record.packed().expect("text"));
-        let cut = |k: usize| found.film.0[..found.film.0.len() * k / 8].to_owned();
-        for text in texts.chain((1..8).map(cut)).chain(["-".to_owned()]) {
-            spec.found = Found {
-                of: found.of.clone(),
-                film: text.into(),
-            };
-            assert_eq!(rings(&built(&spec)), wanted);
-        }
-        // What is sound is taken, so that the films above were no others.
-        let mut record = record();
-        let first = record
-            .lives
-            .iter()
-            .position(Option::is_some)
-            .expect("a birth");
-        record.lives[first] = Some(Life { from: 0.3, to: 0.4 });
-        spec.found = Found {
-            of: found.of.clone(),
-            film: record.packed().expect("text").into(),
-        };
-        assert_ne!(rings(&built(&spec)), wanted);
-    }
-
-    #[test]
-    fn whatever_the_bytes_are_there_is_a_film_or_none() {
-        let mut spec = spec();
-        spec.options.quality = Quality::Draft;
-        let record = Record::unpacked(&found(&built(&spec)).film.0).expect("a record");
-        let bytes = rmp_serde::to_vec(&record).expect("bytes");
-        let mut state = 1_u64;
-        let mut random = |below: usize| {
-            // Knuth's MMIX: its high bits are random enough.
-            state = state.wrapping_mul(0x5851_f42d_4c95_7f2d).wrapping_add(1);
-            (state >> 33) as usize % below
-        };
-        let mut films = 0;
-        for _ in 0..400 {
-            let mut bytes = bytes.clone();
-            for _ in 0..=random(3) {
-                let at = random(bytes.len());
-                bytes[at] = random(256) as u8;
-            }
-            let Ok(record) = rmp_serde::from_slice::<Record>(&bytes) else {
-                continue;
-            };
-            if let Ok(Some(film)) = record.film(&spec.options, &Silent) {
-                films += 1;
-                let mut placer = film.arap.placer();
-                placer.place(0.5);
-                let places = &placer.placement().in_frame;
-                assert!(places.iter().all(|p| p.is_finite()));
-            }
-        }
-        assert!(films > 0, "no number was changed without harm");
-    }
 }

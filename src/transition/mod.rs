@@ -19,7 +19,7 @@
 //!   other's way, by the `conflicts` that they have and the places and times of
 //!   `births`, and `holes` in them that come and go, by where their `walks` and
 //!   `outline`s are
-//! - `found`: what was found, as a document keeps it
+//! - `found`, `kept`: what was found, as a document keeps it
 //! - `note`: what was done otherwise than asked; `mirrored`: what might have been
 //!   meant
 //! - `ready`, `frame`: the transition and its moments
@@ -39,6 +39,7 @@ mod found;
 mod frame;
 mod group;
 mod holes;
+mod kept;
 mod lone;
 mod mirrored;
 mod moved;

@@ -1,6 +1,6 @@
 //! The warp that a transition holds, and how it was come by.
 
-use super::found::Kept;
+use super::kept::Kept;
 use super::note::Note;
 use crate::correspondence::{PointPair, RegionMatch};
 use crate::warp::{Arap, Paths, Still, Turned, Warp};

@@ -1,10 +1,10 @@
-//! Rigid parts of a mesh that is not too large.
+//! Rigid parts of a mesh that is not too large, and what they are settled with.
 
 use super::error::BuildError;
 use crate::budget::Load;
 use crate::compatible::CompatibleMesh;
 use crate::progress::Progress;
-use crate::warp::{Arap, ArapOptions, Life};
+use crate::warp::{Arap, ArapOptions, ArapPath, Life};
 
 /// The interpolation of a mesh of outlines that is not too large; `lives` as
 /// [`Arap::of_outlines`] takes them.
@@ -26,4 +26,16 @@ pub(super) fn allow(
 ) -> Result<(), BuildError> {
     let children = 4_usize.saturating_pow(options.subdivisions);
     Ok(Load::Faces.allow(mesh.faces().len().saturating_mul(children), progress)?)
+}
+
+/// What a film is settled with: of a mesh that is not subdivided. The finer one
+/// moves almost alike, and looking at it would take as many times as long. Its
+/// anchor may be a vertex that is not there yet; where the whole is moves nothing
+/// within it.
+pub(super) fn coarse(asked: &ArapOptions) -> ArapOptions {
+    ArapOptions {
+        subdivisions: 0,
+        path: ArapPath::default(),
+        ..asked.clone()
+    }
 }

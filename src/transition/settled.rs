@@ -17,14 +17,14 @@ use super::holes::{HoleOf, timed};
 use super::mirrored;
 use super::note::Note;
 use super::options::Quality;
-use super::rigid::allow;
+use super::rigid::{allow, coarse};
 use super::spec::TransitionSpec;
 use super::unfolded::unfolded;
 use crate::compatible::{OutlinesError, joined};
 use crate::correspondence::{Group, Prepared, RegionMatch};
 use crate::geometry::Regions;
 use crate::progress::{Progress, Several, Span, checkpoint};
-use crate::warp::{Arap, ArapOptions, ArapPath};
+use crate::warp::{Arap, ArapOptions};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -83,18 +83,6 @@ pub(super) fn as_options_ask(
         return Ok(settled.clone());
     }
     unfolded(settled.rebuilt(asked, progress)?, progress)
-}
-
-/// What a film is settled with: of a mesh that is not subdivided. The finer one
-/// moves almost alike, and looking at it would take as many times as long. Its
-/// anchor may be a vertex that is not there yet; where the whole is moves nothing
-/// within it.
-pub(super) fn coarse(asked: &ArapOptions) -> ArapOptions {
-    ArapOptions {
-        subdivisions: 0,
-        path: ArapPath::default(),
-        ..asked.clone()
-    }
 }
 
 /// The match of each piece, once what would go through other parts is let go,

@@ -4,7 +4,8 @@
 //! other forms are matched as outlines.
 
 use super::error::BuildError;
-use super::found::{self, Kept};
+use super::found;
+use super::kept::{self, Kept};
 use super::lone;
 use super::moved::{AnyWarp, Moved};
 use super::rigid::allow;
@@ -79,7 +80,7 @@ fn found_or_best(
     progress: &dyn Progress,
 ) -> Result<Kept, BuildError> {
     let key = found::key(&spec.options, outlines);
-    let film = match spec.found.film(&key, &spec.options, progress)? {
+    let film = match kept::film(&spec.found, &key, &spec.options, progress)? {
         Some(film) => film,
         None => settled::best(spec, outlines, progress)?,
     };
