@@ -67,10 +67,9 @@ impl Inputs {
         loaded.patient = method.patient;
         // Laying the designs in one frame belongs to neither time.
         let import_time = start.elapsed();
-        let spec = loaded.spec().map_err(CliError::failed)?;
         let start = Instant::now();
         let building = Span::new(progress, READ, 1.0);
-        let transition = Transition::build(&spec, &building).map_err(not_built)?;
+        let transition = method.build(&mut loaded, &building)?;
         Ok(Opened {
             loaded,
             transition,

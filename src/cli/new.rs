@@ -6,10 +6,9 @@ use clap::Args;
 
 use crate::design::Source;
 use crate::project::{LoadedProject, Project};
-use crate::transition::{Transition, TransitionSpec};
+use crate::transition::TransitionSpec;
 
 use super::error::CliError;
-use super::inputs::not_built;
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
@@ -78,9 +77,11 @@ fn write(args: &NewArgs) -> Result<(), CliError> {
     TransitionSpec::available(spec.cell, &spec.source, &spec.target).map_err(CliError::failed)?;
     // From here on a signal waits: it would leave a half-written file.
     let terminal = Terminal::new();
-    if args.film {
-        let transition = Transition::build(&spec, &terminal).map_err(not_built)?;
-        loaded.project.found = transition.found().unwrap_or_default();
+    if args.film || args.method.is_auto() {
+        let transition = args.method.build(&mut loaded, &terminal)?;
+        if args.film {
+            loaded.project.found = transition.found().unwrap_or_default();
+        }
     }
     let saved = loaded.project.save_atomically(&args.out);
     saved.map_err(CliError::failed)?;

@@ -9,31 +9,39 @@ use crate::content::{BlendSpace, ContentKind};
 use crate::correspondence::{LinePair, PointPair};
 use crate::field::Metric;
 use crate::homotopy::Homotopy;
+use crate::measure::auto;
 use crate::names::named;
-use crate::project::Project;
-use crate::transition::{Boundary, Easing, Fit, Options, PlayMode, Quality, Rgb};
+use crate::progress::Progress;
+use crate::project::{LoadedProject, Project};
+use crate::transition::{Boundary, Easing, Fit, Options, PlayMode, Quality, Rgb, Transition};
 use crate::warp::{ArapPath, Course, Travel, WarpKind, Weights};
 
 use super::error::CliError;
+use super::inputs::not_built;
 use super::values::{line, one_of, pin, set, weights};
 
-/// The paper's two methods: cells of the table of warps and contents.
+/// The paper's two methods, which are cells of the table of warps and contents,
+/// or the one whose film is less trouble.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Method {
     Arap,
     Field,
+    Auto,
 }
 
 named! { Method {
     Arap: "arap", "Rigid parts", "Rigid parts: meshes and trusses move as rigidly as possible";
     Field: "field", "Distance fields", "Distance fields: any two outlines";
+    Auto: "auto", "Auto", "Both, and fields that parts carry: the film with the least trouble";
 } }
 
 impl Method {
-    fn kinds(self) -> (WarpKind, ContentKind) {
+    /// None of what is chosen once the films are known.
+    fn kinds(self) -> Option<(WarpKind, ContentKind)> {
         match self {
-            Self::Arap => (WarpKind::Arap, ContentKind::Solid),
-            Self::Field => (WarpKind::None, ContentKind::Field),
+            Self::Arap => Some((WarpKind::Arap, ContentKind::Solid)),
+            Self::Field => Some((WarpKind::None, ContentKind::Field)),
+            Self::Auto => None,
         }
     }
 }
@@ -279,6 +287,28 @@ struct StyleArgs {
 }
 
 impl MethodArgs {
+    /// Builds what a project asks for; of several methods the one whose film is
+    /// the least trouble, which the project then asks for.
+    pub fn build(
+        &self,
+        loaded: &mut LoadedProject,
+        progress: &dyn Progress,
+    ) -> Result<Transition, CliError> {
+        let spec = loaded.spec().map_err(CliError::failed)?;
+        if !self.is_auto() {
+            return Transition::build(&spec, progress).map_err(not_built);
+        }
+        let transition = auto(&spec, progress).map_err(not_built)?;
+        loaded.project.warp = Some(transition.cell().warp());
+        loaded.project.content = Some(transition.cell().content());
+        Ok(transition)
+    }
+
+    /// Whether the films decide on the method.
+    pub fn is_auto(&self) -> bool {
+        self.placing.method == Some(Method::Auto)
+    }
+
     /// Changes what the flags name and leaves the rest.
     pub fn edit(&self, project: &mut Project) -> Result<(), CliError> {
         self.edit_cell(project);
@@ -297,10 +327,13 @@ impl MethodArgs {
     fn edit_cell(&self, project: &mut Project) {
         let given = &self.placing;
         let kinds = given.method.map(Method::kinds);
-        set(&mut project.warp, kinds.map(|(warp, _)| Some(warp)));
+        set(
+            &mut project.warp,
+            kinds.map(|kinds| kinds.map(|(warp, _)| warp)),
+        );
         set(
             &mut project.content,
-            kinds.map(|(_, content)| Some(content)),
+            kinds.map(|kinds| kinds.map(|(_, content)| content)),
         );
         set(&mut project.fit, given.fit);
         set(&mut project.options.quality, given.quality);

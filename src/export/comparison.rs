@@ -7,6 +7,7 @@
 
 use crate::content::ContentKind;
 use crate::geometry::{Bounds, DVec2};
+use crate::measure::Rating;
 use crate::progress::{Cancelled, Progress};
 use crate::transition::{BuildError, Cell, Rgb, Style, Transition, TransitionSpec};
 
@@ -32,6 +33,15 @@ const TYPE: Type = Type {
 };
 const LINE_PX: f64 = TYPE.line_px;
 
+/// How it is told how much trouble a film is.
+const REMARK: Type = Type {
+    letters_px: 12.0,
+    line_px: 15.0,
+};
+
+/// The colour of the one with the least: readable on light and on dark.
+const BEST: Rgb = Rgb([0x2e, 0x8b, 0x57]);
+
 /// A method on the sheet.
 #[derive(Clone, Debug)]
 pub struct MethodRow {
@@ -39,6 +49,8 @@ pub struct MethodRow {
     pub name: String,
     /// The pair by this method, or why there is none, in words.
     pub transition: Result<Transition, String>,
+    /// How much trouble its film is; none of pictures, and where there is none.
+    pub rating: Option<Rating>,
 }
 
 impl MethodRow {
@@ -63,14 +75,23 @@ impl MethodRow {
                 Err(BuildError::Cancelled(cancelled)) => return Err(cancelled),
                 built => built.map_err(|error| error.to_string()),
             };
+            let rating = match &transition {
+                Ok(transition) => Rating::of(transition, progress)?,
+                Err(_) => None,
+            };
             let name = cell.name().to_owned();
-            Ok(Self { name, transition })
+            Ok(Self {
+                name,
+                transition,
+                rating,
+            })
         };
         Cell::all().filter(suits).map(row).collect()
     }
 }
 
-/// Draws a row for each method at the given t.
+/// Draws a row for each method at the given t, tells of each how much trouble its
+/// film is, and marks the one with the least.
 ///
 /// # Errors
 /// [`SizeError`] for more frames than a sheet can have.
@@ -91,10 +112,20 @@ pub fn comparison(
     let size = corner + count * step + DVec2::new(0.0, LINE_PX + GAP_PX);
     let mut drawing = Drawing::new(PixelSize::holding(size)?, ground);
     let ink = ink_on(ground);
+    let ratings: Vec<Option<Rating>> = rows.iter().map(|row| row.rating).collect();
+    let best = Rating::best(&ratings);
     for (k, row) in rows.iter().enumerate() {
         let left = DVec2::new(corner.x, corner.y + k as f64 * step.y);
-        let name_at = DVec2::new(GAP_PX, left.y + 0.5 * cell.y - LINE_PX);
-        TYPE.push(&mut drawing, &row.name, (NAMES_PX, 3), name_at, ink);
+        let name_at = DVec2::new(GAP_PX, left.y + 0.5 * cell.y - 2.0 * LINE_PX);
+        let named = TYPE.push(&mut drawing, &row.name, (NAMES_PX, 2), name_at, ink);
+        if let Some(rating) = &row.rating {
+            let (words, colour) = match best == Some(k) {
+                true => (format!("Least trouble: {rating}"), BEST),
+                false => (rating.to_string(), ink),
+            };
+            let below = name_at + DVec2::new(0.0, named as f64 * LINE_PX);
+            REMARK.push(&mut drawing, &words, (NAMES_PX, 3), below, colour);
+        }
         match (&row.transition, bounds) {
             (Ok(transition), Some(bounds)) => {
                 let mut frame = transition.frame(0.0);
@@ -128,6 +159,7 @@ fn cell(bounds: Option<Bounds>, rows: usize, columns: usize) -> DVec2 {
     let shape = (size / size.max_element()).max(DVec2::splat(0.2));
     let count = DVec2::new(columns.max(1) as f64, rows.max(1) as f64);
     let room = (DVec2::splat(LONGEST_SHEET_PX - NAMES_PX - 8.0 * GAP_PX) / count - GAP_PX) / shape;
-    // Rows are high enough for a name of three lines.
-    (shape * CELL_PX.min(room.min_element()).max(16.0)).max(DVec2::new(16.0, 3.0 * LINE_PX))
+    // Rows are high enough for a name and what is told of it.
+    let words = 2.0 * LINE_PX + 3.0 * REMARK.line_px;
+    (shape * CELL_PX.min(room.min_element()).max(16.0)).max(DVec2::new(16.0, words))
 }

@@ -8,6 +8,7 @@
 //!   holes, travel and acceleration with the rigid motion taken out; and each
 //!   of them against t ([`FilmReport::series`]).
 //! - [`Verdict`]: what goes wrong in a film, where, why, and what helps.
+//! - [`Rating`]: how much trouble a film is, to choose among methods ([`auto`]).
 //!
 //! Measures are taken at samples: a fold between two samples is not seen.
 
@@ -16,6 +17,7 @@ mod excess;
 mod film;
 mod mesh;
 mod motion;
+mod rating;
 mod series;
 mod stretch;
 #[cfg(test)]
@@ -27,5 +29,6 @@ pub use distortion::{Distortion, Distribution, distortion};
 pub use film::{FilmReport, FilmSample, film};
 pub use mesh::{MeshReport, mesh};
 pub use motion::Motion;
+pub use rating::{Rating, auto};
 pub use series::Quantity;
 pub use verdict::{Cause, Change, Finding, Remedy, Trouble, Verdict};

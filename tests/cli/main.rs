@@ -98,6 +98,11 @@ fn a_new_project_may_keep_its_film() {
     assert!(is_matched(&plain.1) && !is_matched(&kept.1));
     assert_eq!(kept.1["seconds"]["match"].to_string(), "0.0");
     assert_eq!(plain.1["distortion"], kept.1["distortion"]);
+    // What the films decide on is written down.
+    shop.done("new a.svg b.svg --out auto.morph --method auto --cells 64");
+    let text = fs::read_to_string(shop.path("auto.morph")).expect("text");
+    assert!(text.contains("warp = \"arap\"") && text.contains("content = \"solid\""));
+    assert!(!text.contains("[found]"), "{text}");
     // A field needs no film.
     shop.done("new a.svg b.svg --out field.morph --film --method field");
     let text = fs::read_to_string(shop.path("field.morph")).expect("text");
