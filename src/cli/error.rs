@@ -2,6 +2,8 @@
 
 use std::io;
 
+use crate::transition::BuildError;
+
 /// Why a command did not do its work.
 #[derive(Debug, thiserror::Error)]
 pub(super) enum CliError {
@@ -20,6 +22,14 @@ impl CliError {
     /// Work that failed, told by its error and what that came from.
     pub fn failed(error: impl std::error::Error) -> Self {
         Self::Failed(error.to_string())
+    }
+
+    /// Why there is no transition, and which flag goes on all the same.
+    pub fn not_built(error: BuildError) -> Self {
+        match error.reason() {
+            BuildError::TooMuch(_) => Self::Failed(format!("{error}, or go on with --patient")),
+            _ => Self::failed(error),
+        }
     }
 
     /// More designs than a transition is between.

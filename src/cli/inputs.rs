@@ -8,7 +8,7 @@ use clap::Args;
 use crate::design::{Format, Source};
 use crate::progress::{Progress, Span, beside, checkpoint};
 use crate::project::{LoadedProject, Project, gallery};
-use crate::transition::{BuildError, Transition};
+use crate::transition::Transition;
 
 use super::error::CliError;
 use super::options::MethodArgs;
@@ -99,14 +99,6 @@ impl Inputs {
         let project = Project::read(path).map_err(CliError::failed)?;
         // A file that could be read lies in a folder, so that this is never None.
         Ok((project, path.parent().map(Path::to_owned)))
-    }
-}
-
-/// Why there is no transition, and which flag goes on all the same.
-pub(super) fn not_built(error: BuildError) -> CliError {
-    match error.reason() {
-        BuildError::TooMuch(_) => CliError::Failed(format!("{error}, or go on with --patient")),
-        _ => CliError::failed(error),
     }
 }
 

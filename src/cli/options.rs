@@ -17,7 +17,6 @@ use crate::transition::{Boundary, Easing, Fit, Options, PlayMode, Quality, Rgb, 
 use crate::warp::{ArapPath, Course, Travel, WarpKind, Weights};
 
 use super::error::CliError;
-use super::inputs::not_built;
 use super::values::{line, one_of, pin, set, weights};
 
 /// The paper's two methods, which are cells of the table of warps and contents,
@@ -296,9 +295,9 @@ impl MethodArgs {
     ) -> Result<Transition, CliError> {
         let spec = loaded.spec().map_err(CliError::failed)?;
         if !self.is_auto() {
-            return Transition::build(&spec, progress).map_err(not_built);
+            return Transition::build(&spec, progress).map_err(CliError::not_built);
         }
-        let transition = auto(&spec, progress).map_err(not_built)?;
+        let transition = auto(&spec, progress).map_err(CliError::not_built)?;
         loaded.project.warp = Some(transition.cell().warp());
         loaded.project.content = Some(transition.cell().content());
         Ok(transition)
