@@ -2,7 +2,8 @@
 //! from the first moment on, and before it begins what would take very long.
 //!
 //! The promise is half a second; the bounds here are five times as large, and
-//! the library under test is hardly optimised.
+//! the library under test is hardly optimised. What is late is tried anew: a
+//! machine that was busy with something else is late once, what is deaf always.
 
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -65,6 +66,35 @@ impl Progress for Impatient {
     }
 }
 
+/// How often what is late is tried.
+const TRIES: u32 = 3;
+
+/// Cancels the work in its stage of a number from 1 and returns its name; none
+/// if it has fewer stages. Fails with what was late.
+fn cancel_in(stage: usize, work: impl Fn(&dyn Progress)) -> Result<Option<&'static str>, String> {
+    let progress = Impatient::at(stage);
+    let begun = Instant::now();
+    work(&progress);
+    let heard = progress.heard.into_inner().expect("free");
+    let shares = heard.shares;
+    assert!(shares.is_sorted(), "the bar goes back: {shares:?}");
+    assert!(shares.iter().all(|share| (0.0..=1.0).contains(share)));
+    // What is done at once need not say what it was at.
+    let first = heard.first.unwrap_or_else(Instant::now) - begun;
+    if first > BOUND {
+        return Err(format!("said nothing for {first:?}"));
+    }
+    let Some(at) = heard.cancel_at else {
+        return Ok(None);
+    };
+    let late = Instant::now().saturating_duration_since(at);
+    let stage = heard.stages[stage - 1];
+    if late > BOUND {
+        return Err(format!("{stage} was cancelled after {late:?} only"));
+    }
+    Ok(Some(stage))
+}
+
 /// Held while work is cancelled: all tests share the threads that it runs on,
 /// and one would wait for what another does.
 static ALONE: Mutex<()> = Mutex::new(());
@@ -72,34 +102,18 @@ static ALONE: Mutex<()> = Mutex::new(());
 /// Cancels the work in each of its stages; the stages by name.
 fn cancel_everywhere(name: &str, work: impl Fn(&dyn Progress)) -> Vec<&'static str> {
     let _alone = ALONE.lock().unwrap_or_else(PoisonError::into_inner);
-    for stage in 1.. {
-        let progress = Impatient::at(stage);
-        let begun = Instant::now();
-        work(&progress);
-        let heard = progress.heard.into_inner().expect("free");
-        assert!(
-            heard.shares.is_sorted(),
-            "{name}: the bar goes back: {:?}",
-            heard.shares
-        );
-        assert!(heard.shares.iter().all(|share| (0.0..=1.0).contains(share)));
-        // What is done at once need not say what it was at.
-        let first = heard
-            .first
-            .unwrap_or_else(Instant::now)
-            .duration_since(begun);
-        assert!(first < BOUND, "{name}: said nothing for {first:?}");
-        let Some(at) = heard.cancel_at else {
-            return heard.stages;
-        };
-        let late = Instant::now().saturating_duration_since(at);
-        let stage = heard.stages[stage - 1];
-        assert!(
-            late < BOUND,
-            "{name}: {stage} was cancelled after {late:?} only"
-        );
+    let mut stages = Vec::new();
+    loop {
+        let mut tried = cancel_in(stages.len() + 1, &work);
+        for _ in 1..TRIES {
+            tried = tried.or_else(|_| cancel_in(stages.len() + 1, &work));
+        }
+        match tried {
+            Ok(Some(stage)) => stages.push(stage),
+            Ok(None) => return stages,
+            Err(late) => panic!("{name}: {late}, {TRIES} times"),
+        }
     }
-    unreachable!("work has an end")
 }
 
 fn build(spec: &TransitionSpec) -> impl Fn(&dyn Progress) {
