@@ -9,7 +9,7 @@ use crate::correspondence::{Holes, PieceMatch};
 use crate::geometry::{DVec2, count_crossings, orient2d, turning, turning_excess};
 use crate::progress::{Cancelled, Progress, Span, still_wanted};
 use crate::warp::{Arap, ArapOptions, Warp};
-use std::f64::consts::TAU;
+use std::f64::consts::{FRAC_PI_6, PI, TAU};
 
 /// Steps of a film that is looked at for folds and crossings.
 /// Each costs a frame of every candidate; a fold between two is missed.
@@ -26,6 +26,15 @@ const WORST: f64 = 0.05;
 /// by which distortion counts as more. By 5 the worst tenth of the distortion of
 /// 60 pairs of silhouettes grew from 22 to 24.
 const JAGGED: i32 = 3;
+
+/// The power of one more than the half turns that a piece makes, by which
+/// distortion counts as more. Of 200 pairs of letters 58 turn by more than a
+/// right angle without it, an O on its way to a c by 166 degrees; 35 by 1 and
+/// 28 by 2, and nothing is distorted more for it.
+const UPSIDE_DOWN: i32 = 2;
+
+/// What turns by no more is upright, in radians.
+const UPRIGHT: f64 = FRAC_PI_6;
 
 /// A matched piece with its mesh, and how good its film is.
 #[derive(Clone)]
@@ -48,6 +57,8 @@ struct Trouble {
     crossings: usize,
     /// The share by which the outlines turn more than between the ends.
     turning: f64,
+    /// How far the piece turns as a whole, in radians.
+    rotation: f64,
 }
 
 /// Why there is no candidate.
@@ -112,15 +123,21 @@ impl Candidate {
         self.trouble.folds > 0
     }
 
+    pub(super) fn is_upright(&self) -> bool {
+        self.trouble.rotation.abs() <= UPRIGHT
+    }
+
     /// What makes one film worse than another, first things first.
     fn order(&self) -> (usize, usize, f64) {
         let Trouble {
             folds,
             crossings,
             turning,
+            rotation,
         } = self.trouble;
         let jagged = (1.0 + turning).powi(JAGGED);
-        (folds, crossings, self.distortion * jagged)
+        let upside_down = (1.0 + rotation.abs() / PI).powi(UPSIDE_DOWN);
+        (folds, crossings, self.distortion * jagged * upside_down)
     }
 }
 
@@ -152,6 +169,7 @@ impl Trouble {
             folds,
             crossings,
             turning: turning_excess(&turned),
+            rotation: arap.rotation(),
         })
     }
 }

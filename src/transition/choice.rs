@@ -52,10 +52,12 @@ const MOST_WORK: usize = 2_500_000;
 const CUT: Holes = Holes::By(HoleRule::Auto);
 
 /// How much is done once the match that was asked for has its film, that with
-/// its holes cut, that without holes, and those at other prices, as it is told.
+/// its holes cut, that without holes, that which keeps up, and those at other
+/// prices, as it is told.
 const FIRST: f64 = 0.2;
 const SECOND: f64 = 0.3;
 const THIRD: f64 = 0.6;
+const UPRIGHT: f64 = 0.62;
 const FOURTH: f64 = 0.7;
 
 /// How often a piece slides.
@@ -80,7 +82,8 @@ pub(super) fn best_of_group(
         let [second, third] = [span(FIRST, SECOND), span(SECOND, THIRD)];
         group.try_holes(&mut chosen, CUT, &has_lone_holes, &second)?;
         group.try_holes(&mut chosen, Holes::Unpaired, &has_folding_holes, &third)?;
-        group.try_other_prices(&mut chosen, &span(THIRD, FOURTH))?;
+        group.try_upright(&mut chosen, &span(THIRD, UPRIGHT))?;
+        group.try_other_prices(&mut chosen, &span(UPRIGHT, FOURTH))?;
     }
     let last = span(FOURTH, 1.0);
     let shares = Several::new(&last, chosen.len());
@@ -131,25 +134,54 @@ impl GroupOf<'_> {
                 Ok(best) => best.folds() || best.distortion > DISTORTED,
             };
             let wants = affordable(chosen, &wants, round.len());
-            // Each piece with its holes as they were best so far.
-            let holes = |chosen: &Chosen| match chosen {
-                Ok(best) => best.holes,
-                Err(_) => self.first_holes(),
+            self.try_with_their_holes(chosen, round, &wants, span)?;
+        }
+        Ok(())
+    }
+
+    /// Tries the pieces that turn far as they were drawn.
+    fn try_upright(
+        &self,
+        chosen: &mut [Chosen],
+        progress: &dyn Progress,
+    ) -> Result<(), BuildError> {
+        let asked = &self.spec.options.matching;
+        if asked.stretch.is_some() || asked.keep_up {
+            return Ok(());
+        }
+        let upright = MatchOptions {
+            keep_up: true,
+            ..asked.options()
+        };
+        let wants = affordable(chosen, &turns_far, 1);
+        self.try_with_their_holes(chosen, &[upright], &wants, progress)
+    }
+
+    /// Tries the pieces that want it in these ways, each with its holes as they
+    /// were best so far.
+    fn try_with_their_holes(
+        &self,
+        chosen: &mut [Chosen],
+        options: &[MatchOptions],
+        wants: &[bool],
+        progress: &dyn Progress,
+    ) -> Result<(), BuildError> {
+        let holes = |chosen: &Chosen| match chosen {
+            Ok(best) => best.holes,
+            Err(_) => self.first_holes(),
+        };
+        let holes: Vec<Holes> = chosen.iter().map(holes).collect();
+        for now in [self.first_holes(), CUT, Holes::Unpaired] {
+            let way = |options: &MatchOptions| Way {
+                options: options.clone(),
+                holes: now,
             };
-            let holes: Vec<Holes> = chosen.iter().map(holes).collect();
-            for now in [self.first_holes(), CUT, Holes::Unpaired] {
-                let way = |options: &MatchOptions| Way {
-                    options: options.clone(),
-                    holes: now,
-                };
-                let ways: Vec<Way> = round.iter().map(way).collect();
-                let wants = holes
-                    .iter()
-                    .zip(&wants)
-                    .map(|(holes, wants)| *wants && *holes == now);
-                let wants: Vec<bool> = wants.collect();
-                self.try_ways(chosen, &ways, &wants, span)?;
-            }
+            let ways: Vec<Way> = options.iter().map(way).collect();
+            let wants = holes.iter().zip(wants);
+            let wants: Vec<bool> = wants
+                .map(|(holes, wants)| *wants && *holes == now)
+                .collect();
+            self.try_ways(chosen, &ways, &wants, progress)?;
         }
         Ok(())
     }
@@ -171,6 +203,12 @@ fn affordable(chosen: &[Chosen], wants: &dyn Fn(&Chosen) -> bool, films: usize) 
         get[k] = done <= MOST_WORK;
     }
     get
+}
+
+/// The piece turns far on its way, and is no copy that was turned.
+fn turns_far(chosen: &Chosen) -> bool {
+    let is_far = |best: &Candidate| !best.is_upright() && best.distortion > FAITHFUL;
+    chosen.as_ref().is_ok_and(is_far)
 }
 
 /// A hole of the piece has no partner.

@@ -12,6 +12,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 mod alone;
+mod upright;
 
 fn design(text: &str) -> Arc<Design> {
     Arc::new(import("test", text.as_bytes(), &ImportOptions::default()).unwrap())

@@ -277,6 +277,12 @@ impl Arap {
             .collect()
     }
 
+    /// The rotation of the design as a whole from source to target, in
+    /// radians, on the branch of the first part.
+    pub(crate) fn rotation(&self) -> f64 {
+        self.0.maps.whole_angle
+    }
+
     /// The map of a face from source to target, with its consistent angle.
     pub(crate) fn local_map(&self, face: usize) -> Polar {
         self.0.maps.faces[face].map
