@@ -11,6 +11,7 @@ use crate::app::capturing::films;
 use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::editing::{apply, refresh};
+use crate::app::looking::choosing::{self, Choosing};
 use crate::app::looking::measuring::{self, Measured};
 use crate::app::looking::preferences;
 use crate::app::looking::times;
@@ -76,6 +77,7 @@ fn init(app: &mut App) {
         .init_resource::<Editor>()
         .init_resource::<Sheet>()
         .init_resource::<Measured>()
+        .init_resource::<Choosing>()
         .init_resource::<Twin>()
         .init_resource::<Notices>()
         .init_resource::<Question>()
@@ -105,6 +107,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             opening::edit,
             apply::apply,
             measuring::apply,
+            choosing::apply,
             opening::save,
             opening::poll,
             refresh::refresh,

@@ -39,6 +39,7 @@ pub use capturing::films::Recorder;
 pub use editing::editor::{CutEnd, Editor, Grab, Handle};
 pub use editing::sheet::{Fate, Sheet};
 pub use logic::LogicPlugin;
+pub use looking::choosing::Choosing;
 pub use looking::measuring::{Measured, Measures};
 pub use looking::twin::{OnTwin, Twin};
 pub use looking::view::{KeepsFit, StageArea};

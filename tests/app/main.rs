@@ -3,6 +3,7 @@
 
 mod audience;
 mod beside;
+mod choosing;
 mod editor;
 mod history;
 mod keys;

@@ -59,6 +59,10 @@ pub enum Intent {
     UseCell(WarpKind, ContentKind),
     /// Show the transition by the next cell that can be had.
     NextMethod,
+    /// Try the methods that could suit, and show the transition by the best.
+    ChooseMethod,
+    /// Stop trying methods.
+    CancelChoice,
     /// Ask for files to open.
     AskOpen,
     /// The answer of the dialog that asked for files; none where it was left.

@@ -1,5 +1,7 @@
-//! How the transition is looked at: the view, what is shown, a second method, measures.
+//! How the transition is looked at: the view, what is shown, a second method, measures, and
+//! which method suits.
 
+pub mod choosing;
 pub mod measuring;
 pub mod preferences;
 pub mod times;

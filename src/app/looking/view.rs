@@ -8,6 +8,7 @@ use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::films::Recorder;
 use crate::app::editing::editor::Editor;
+use crate::app::looking::choosing::Choosing;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::closing::Question;
@@ -201,7 +202,8 @@ pub fn back(
     mut window: Query<&mut Window, With<PrimaryWindow>>,
     (mut editor, mut twin): (ResMut<Editor>, ResMut<Twin>),
     (question, drop): (Res<Question>, Res<Drop>),
-    (mut session, mut measured, recorder): (ResMut<Session>, ResMut<Measured>, Res<Recorder>),
+    (mut session, recorder): (ResMut<Session>, Res<Recorder>),
+    (mut choosing, mut measured): (ResMut<Choosing>, ResMut<Measured>),
 ) {
     if question.text().is_some() || drop.undecided().is_some() {
         intents.clear(); // Esc answers the question and nothing else.
@@ -216,6 +218,8 @@ pub fn back(
             preferences.help = false;
         } else if preferences.panels && session.told_work().is_some() {
             session.cancel();
+        } else if preferences.panels && choosing.told().is_some() {
+            choosing.stop();
         } else if preferences.panels && measured.told().is_some() {
             measured.stop();
         } else if editor.bypass_change_detection().back() {

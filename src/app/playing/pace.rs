@@ -18,6 +18,7 @@ use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::films::Recorder;
 use crate::app::capturing::pictures::Captures;
+use crate::app::looking::choosing::Choosing;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::dialogs::Dialog;
@@ -88,6 +89,7 @@ pub struct Going<'w, 's> {
     shots: Query<'w, 's, (), With<Screenshot>>,
     recorder: Res<'w, Recorder>,
     thumbnails: Res<'w, Thumbnails>,
+    choosing: Res<'w, Choosing>,
     measured: Res<'w, Measured>,
     twin: Res<'w, Twin>,
     notices: Res<'w, Notices>,
@@ -114,6 +116,7 @@ impl Going<'_, '_> {
             || self.recorder.work().is_some()
             || self.captures.is_writing()
             || self.thumbnails.is_busy()
+            || self.choosing.told().is_some()
             || self.measured.is_busy()
             || self.twin.is_busy()
             || self.dialog.asks().is_some()
@@ -125,6 +128,7 @@ impl Going<'_, '_> {
     /// Work has an answer: what comes of it is drawn in the frames to come.
     fn is_new(&self) -> bool {
         self.session.is_changed()
+            || self.choosing.is_changed()
             || self.measured.is_changed()
             || self.twin.is_changed()
             || self.notices.is_changed()

@@ -9,6 +9,7 @@ use crate::app::asking::keymap::KeyMap;
 use crate::app::capturing::films::Recorder;
 use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
+use crate::app::looking::choosing::Choosing;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::times::WholeFrame;
 use crate::app::looking::twin::Twin;
@@ -28,6 +29,7 @@ pub struct Scene<'w> {
     pub session: Res<'w, Session>,
     pub editor: Res<'w, Editor>,
     pub sheet: Res<'w, Sheet>,
+    pub choosing: Res<'w, Choosing>,
     pub measured: Res<'w, Measured>,
     pub twin: Res<'w, Twin>,
     pub view: Res<'w, StageView>,

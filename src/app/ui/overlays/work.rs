@@ -17,7 +17,9 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
         .recorder
         .work()
         .map(|work| (work, Intent::CancelRecording));
-    let all: Vec<_> = build.into_iter().chain(film).collect();
+    let choice = scene.choosing.told();
+    let choice = choice.map(|share| (("trying methods", share), Intent::CancelChoice));
+    let all: Vec<_> = build.into_iter().chain(choice).chain(film).collect();
     if all.is_empty() {
         return;
     }

@@ -1,7 +1,7 @@
 //! The table of cells: what moves, and what is seen. Cells that cannot be had are grey and say why.
 
 use bevy_egui::egui::{
-    Align2, Rect, Response, Sense, StrokeKind, Ui, WidgetInfo, WidgetType, pos2, vec2,
+    Align2, Button, Rect, Response, Sense, StrokeKind, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use crate::app::asking::intent::Intent;
@@ -34,8 +34,26 @@ pub fn show(ui: &mut Ui, scene: &Scene, project: &Project, acts: &mut Intents) {
         ui.add_space(4.0);
         if let (Some(warp), Some(content)) = (project.warp, project.content) {
             hint(ui, description(warp, content));
+            choose(ui, scene, content, acts);
         }
     });
+}
+
+/// A way to have the method chosen, where there are several.
+fn choose(ui: &mut Ui, scene: &Scene, content: ContentKind, acts: &mut Intents) {
+    // Pictures stay pictures: there is one method that suits them.
+    if content == ContentKind::Colours {
+        return;
+    }
+    ui.add_space(4.0);
+    let is_idle = scene.choosing.told().is_none() && scene.session.transition().is_some();
+    let button = ui.add_enabled(is_idle, Button::new("Take the best"));
+    let tip = "Tries rigid parts, the fields that they carry and the plain blend, and takes the \
+               film with the least trouble.";
+    if button.clicked() {
+        acts.push(Intent::ChooseMethod);
+    }
+    beside(&button, ui.min_rect().left(), tip);
 }
 
 fn heads(ui: &mut Ui, width: f32) {
