@@ -98,8 +98,15 @@ fn a_new_project_may_keep_its_film() {
     assert!(is_matched(&plain.1) && !is_matched(&kept.1));
     assert_eq!(kept.1["seconds"]["match"].to_string(), "0.0");
     assert_eq!(plain.1["distortion"], kept.1["distortion"]);
-    // What the films decide on is written down.
-    shop.done("new a.svg b.svg --out auto.morph --method auto --cells 64");
+    // What the films decide on is written down: bars across each other tear as fields.
+    for (name, d) in [
+        ("lying", "M0 40H100V60H0Z"),
+        ("standing", "M40 0H60V100H40Z"),
+    ] {
+        let svg = format!("<svg xmlns='http://www.w3.org/2000/svg'><path d='{d}'/></svg>");
+        shop.put(&format!("{name}.svg"), &svg);
+    }
+    shop.done("new lying.svg standing.svg --out auto.morph --method auto --cells 64");
     let text = fs::read_to_string(shop.path("auto.morph")).expect("text");
     assert!(text.contains("warp = \"arap\"") && text.contains("content = \"solid\""));
     assert!(!text.contains("[found]"), "{text}");
