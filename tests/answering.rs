@@ -220,6 +220,17 @@ fn fields_are_cancelled_at_every_stage() {
 }
 
 #[test]
+fn the_choice_of_a_method_is_cancelled_at_every_stage() {
+    let mut spec = spec(&gear("gear", 20, 0.3, 2), &gear("ring", 17, 0.6, 1));
+    spec.options.field.cells = 200;
+    let stages = cancel_everywhere("auto", |progress| {
+        let chosen = measure::auto(&spec, progress);
+        assert!(chosen.is_ok() || progress.is_cancelled());
+    });
+    assert!(stages.contains(&"measuring"), "{stages:?}");
+}
+
+#[test]
 fn a_plane_about_many_pins_is_cancelled_at_every_stage() {
     let mut spec = spec(&gear("gear", 30, 0.3, 3), &gear("ring", 17, 0.6, 1));
     spec.cell = Cell::all()

@@ -297,7 +297,7 @@ impl MethodArgs {
         if !self.is_auto() {
             return Transition::build(&spec, progress).map_err(CliError::not_built);
         }
-        let transition = auto(&spec, progress).map_err(CliError::not_built)?;
+        let (transition, _) = auto(&spec, progress).map_err(CliError::not_built)?;
         loaded.project.warp = Some(transition.cell().warp());
         loaded.project.content = Some(transition.cell().content());
         Ok(transition)

@@ -2,7 +2,7 @@
 
 use super::film::{FilmReport, film};
 use crate::content::ContentKind;
-use crate::progress::{Progress, Several};
+use crate::progress::{Progress, Several, Span};
 use crate::transition::{BuildError, Cell, Transition, TransitionSpec};
 use crate::warp::WarpKind;
 use std::cmp::Ordering;
@@ -11,6 +11,9 @@ use std::fmt;
 /// Samples of a film that is rated: what lasts for less than a sixteenth of it
 /// tells little of a method.
 const SAMPLES: usize = 17;
+
+/// How much of a method is done once it is built.
+const BUILT: f64 = 0.9;
 
 /// How much trouble a film is. Of two, the lesser is the one with fewer things
 /// that are wrong at its worst t; of two alike, the one whose outlines turn and
@@ -120,15 +123,18 @@ impl fmt::Display for Rating {
 
 /// Builds two designs by each cell that could suit shapes (rigid parts, fields
 /// that rigid parts carry, fields that blend where they are), and keeps the one
-/// whose film is the least trouble, the first of several. Pictures are built as
-/// the specification has them.
+/// whose film is the least trouble, the first of several, with its rating.
+/// Pictures are built as the specification has them, and not rated.
 ///
 /// # Errors
 /// [`BuildError`] where none can be built: why the first cannot; and on a
 /// cancel.
-pub fn auto(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Transition, BuildError> {
+pub fn auto(
+    spec: &TransitionSpec,
+    progress: &dyn Progress,
+) -> Result<(Transition, Option<Rating>), BuildError> {
     if spec.cell.content() == ContentKind::Colours {
-        return Transition::build(spec, progress);
+        return Ok((Transition::build(spec, progress)?, None));
     }
     let carried = Cell::new(WarpKind::Arap, ContentKind::Field)?;
     let cells = [Cell::RIGID_PARTS, carried, Cell::FIELD_BLEND];
@@ -140,9 +146,10 @@ pub fn auto(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Transition
             cell,
             ..spec.clone()
         };
-        match Transition::build(&spec, &shares.part(k)) {
+        let share = shares.part(k);
+        match Transition::build(&spec, &Span::new(&share, 0.0, BUILT)) {
             Ok(transition) => {
-                let rating = Rating::of(&transition, progress)?;
+                let rating = Rating::of(&transition, &Span::new(&share, BUILT, 1.0))?;
                 built.push((transition, rating));
             }
             Err(error) if progress.is_cancelled() => return Err(error),
@@ -152,7 +159,7 @@ pub fn auto(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Transition
     let ratings: Vec<Option<Rating>> = built.iter().map(|(_, rating)| *rating).collect();
     let best = Rating::best(&ratings).unwrap_or(0);
     match (best < built.len(), failed) {
-        (true, _) => Ok(built.swap_remove(best).0),
+        (true, _) => Ok(built.swap_remove(best)),
         (false, Some(error)) => Err(error),
         (false, None) => unreachable!("each cell is built or fails"),
     }

@@ -57,8 +57,8 @@ const CUT: Holes = Holes::By(HoleRule::Auto);
 const FIRST: f64 = 0.2;
 const SECOND: f64 = 0.3;
 const THIRD: f64 = 0.6;
-const UPRIGHT: f64 = 0.62;
-const FOURTH: f64 = 0.7;
+const FOURTH: f64 = 0.62;
+const FIFTH: f64 = 0.7;
 
 /// How often a piece slides.
 const SLIDES: u32 = 3;
@@ -82,10 +82,10 @@ pub(super) fn best_of_group(
         let [second, third] = [span(FIRST, SECOND), span(SECOND, THIRD)];
         group.try_holes(&mut chosen, CUT, &has_lone_holes, &second)?;
         group.try_holes(&mut chosen, Holes::Unpaired, &has_folding_holes, &third)?;
-        group.try_upright(&mut chosen, &span(THIRD, UPRIGHT))?;
-        group.try_other_prices(&mut chosen, &span(UPRIGHT, FOURTH))?;
+        group.try_upright(&mut chosen, &span(THIRD, FOURTH))?;
+        group.try_other_prices(&mut chosen, &span(FOURTH, FIFTH))?;
     }
-    let last = span(FOURTH, 1.0);
+    let last = span(FIFTH, 1.0);
     let shares = Several::new(&last, chosen.len());
     let settled = chosen.into_par_iter().enumerate();
     settled

@@ -68,8 +68,7 @@ impl Choosing {
 
 fn found(loaded: &LoadedProject, progress: &dyn Progress) -> Result<Found, ProjectError> {
     let progress = &Whole::new(progress);
-    let transition = auto(&loaded.spec()?, progress)?;
-    let rating = Rating::of(&transition, progress).ok().flatten();
+    let (transition, rating) = auto(&loaded.spec()?, progress)?;
     Ok((transition.cell(), rating))
 }
 
@@ -79,7 +78,7 @@ pub fn apply(
     (mut session, mut choosing): (ResMut<Session>, ResMut<Choosing>),
     (mut notices, gesture): (ResMut<Notices>, Res<Gesture>),
 ) {
-    // Marked as changed by hand: it is looked at in each frame.
+    // Marked as changed by hand: it is looked at in each frame, and seldom new.
     let trial = choosing.bypass_change_detection();
     let was_busy = trial.told().is_some();
     for intent in intents.read() {
@@ -101,7 +100,7 @@ pub fn apply(
         Some(Err(error)) => notices.problem(About::Transition, error.to_string()),
         None => {}
     }
-    if trial.told().is_some() || was_busy {
+    if trial.told().is_some() != was_busy {
         choosing.set_changed();
     }
 }
