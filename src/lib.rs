@@ -72,6 +72,7 @@
 //! progress, easing              how work tells how far it is; how a share runs
 //! budget                        what is too much to begin without being asked twice
 //! atomic_file, reading          files that are there whole or not at all, and read so
+//! colour                        paints, and the way from one to another
 //! geometry                      points, matrices, polygons, exact predicates
 //! linalg                        sparse positive definite systems (faer)
 //! mesh                          triangles, connectivity, subdivision
@@ -96,6 +97,7 @@
 
 mod atomic_file;
 pub mod budget;
+pub mod colour;
 pub mod easing;
 pub mod names;
 mod one_line;

@@ -5,6 +5,7 @@
 
 use clap::Args;
 
+use crate::colour::Rgb;
 use crate::content::{BlendSpace, ContentKind};
 use crate::correspondence::{LinePair, PointPair};
 use crate::field::Metric;
@@ -13,7 +14,7 @@ use crate::measure::auto;
 use crate::names::named;
 use crate::progress::Progress;
 use crate::project::{LoadedProject, Project};
-use crate::transition::{Boundary, Easing, Fit, Options, PlayMode, Quality, Rgb, Transition};
+use crate::transition::{Boundary, Easing, Fit, Options, PlayMode, Quality, Transition};
 use crate::warp::{ArapPath, Course, Travel, WarpKind, Weights};
 
 use super::error::CliError;
@@ -236,9 +237,9 @@ struct ImportArgs {
     #[arg(long, value_name = "FRACTION")]
     tolerance: Option<f64>,
 
-    /// Take a drawing's strokes for shapes
+    /// Leave a drawing's strokes out of the figure that it makes
     #[arg(long)]
-    strokes: bool,
+    no_strokes: bool,
 }
 
 #[derive(Debug, Args)]
@@ -384,7 +385,7 @@ impl MethodArgs {
             set(&mut import.invert, given.invert.then_some(true));
             set(&mut import.specks_px, given.specks);
             set(&mut import.tolerance, given.tolerance);
-            set(&mut import.strokes, given.strokes.then_some(true));
+            set(&mut import.strokes, given.no_strokes.then_some(false));
         }
     }
 
@@ -492,7 +493,7 @@ mod tests {
     #[test]
     fn flags_reach_import_timing_and_style() {
         let project = edited(
-            "--image-threshold 99 --invert --specks 4 --tolerance 0.01 --strokes \
+            "--image-threshold 99 --invert --specks 4 --tolerance 0.01 --no-strokes \
              --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
              --source-colour #010203 --target-colour #040506 --no-joints",
         )
@@ -500,7 +501,7 @@ mod tests {
         let import = project.designs[1].import;
         assert_eq!((import.threshold, import.invert), (Some(99), true));
         assert_eq!((import.specks_px, import.tolerance), (4, 0.01));
-        assert!(import.strokes);
+        assert!(!import.strokes);
         assert_eq!((project.timing.from, project.timing.to), (-0.5, 1.5));
         assert_eq!(
             (project.timing.duration_secs, project.timing.hold_secs),

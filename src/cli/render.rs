@@ -8,13 +8,14 @@ use std::path::PathBuf;
 
 use clap::Args;
 
+use crate::colour::Rgb;
 use crate::export::{
     Camera, Drawing, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View,
     comparison, endings, even_times, framing, sheet, write_film, write_still,
 };
 use crate::progress::{Progress, Span, Whole};
 use crate::project::Project;
-use crate::transition::{PlayMode, Rgb};
+use crate::transition::PlayMode;
 
 use super::error::CliError;
 use super::inputs::{Inputs, Opened};

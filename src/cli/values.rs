@@ -4,10 +4,10 @@ use std::ops::Range;
 
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 
+use crate::colour::{NoColour, Rgb};
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::DVec2;
 use crate::names::Choice;
-use crate::transition::{NoColour, Rgb};
 use crate::warp::Weights;
 
 /// Why a value is none.

@@ -1,6 +1,7 @@
 //! A design: what it consists of, what area that fills, and how it is made
 //! without a file.
 
+use super::coat::Coat;
 use super::note::ImportNote;
 use super::options::ImportOptions;
 use super::picture::Picture;
@@ -28,6 +29,8 @@ pub struct Design {
     pub extent: Bounds,
     /// The picture that it came as, if it did.
     pub picture: Option<Picture>,
+    /// What it shows in its own paint, the lowest first; none where it has none.
+    pub coats: Vec<Coat>,
     /// What was repaired or left out while it was read.
     pub notes: Vec<ImportNote>,
 }
@@ -61,6 +64,7 @@ impl Design {
             extent: form.bounds(),
             form,
             picture: None,
+            coats: Vec::new(),
             notes: Vec::new(),
         }
     }
@@ -136,6 +140,7 @@ impl Design {
             },
             extent: Bounds::of(corners).unwrap_or(self.extent),
             picture: self.picture.as_ref().map(|picture| picture.transformed(by)),
+            coats: self.coats.iter().map(|coat| coat.transformed(by)).collect(),
             notes: self.notes.clone(),
         }
     }
@@ -247,6 +252,7 @@ fn capsule(a: DVec2, b: DVec2, radius: f64) -> Vec<DVec2> {
 pub(super) struct Outlines {
     pub(super) regions: Regions,
     pub(super) extent: Bounds,
+    pub(super) coats: Vec<Coat>,
     pub(super) notes: Vec<ImportNote>,
 }
 
@@ -254,6 +260,7 @@ impl Outlines {
     pub(super) fn named(self, name: String) -> Design {
         Design {
             extent: self.extent,
+            coats: self.coats,
             notes: self.notes,
             ..Design::new(name, self.regions)
         }

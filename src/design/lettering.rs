@@ -187,6 +187,7 @@ impl Line {
         }
         let regions = Regions::from_rings(&rings, FillRule::NonZero)?;
         Ok(Outlines {
+            coats: Vec::new(),
             extent: self.page.union(&regions.bounds()),
             regions,
             notes: Vec::new(),

@@ -10,6 +10,7 @@
 //! them. Not guaranteed: that two designs go together; that is checked where
 //! they meet.
 
+mod coat;
 mod dxf;
 mod error;
 mod flatten;
@@ -30,6 +31,7 @@ mod svg;
 mod truss;
 
 pub use crate::reading::{MAX_FILE_BYTES, ReadError};
+pub use coat::Coat;
 pub use dxf::{DxfError, Place as DxfPlace};
 pub use error::{ImportError, Problem};
 pub use flatten::TooManyPoints;

@@ -46,6 +46,14 @@ pub enum ImportNote {
     Texts(usize),
     /// Pictures in a drawing.
     Pictures(usize),
+    /// Gradients and patterns, of which the mean colour is shown.
+    Shades(usize),
+    /// Masks of a drawing.
+    Masks(usize),
+    /// Filters of a drawing.
+    Filters(usize),
+    /// Groups that mix with what is below otherwise than by covering it.
+    Blends(usize),
     /// A large picture's colours, kept at a smaller size.
     Smaller {
         /// Its width and height.
@@ -144,15 +152,6 @@ impl fmt::Display for ImportNote {
                 let many = "points that repeat another or lie on a straight edge";
                 left_out(f, *n, [one, many])
             }
-            Self::Strokes(n) => {
-                left_out(f, *n, ["stroke", "strokes"])?;
-                f.write_str("; set strokes = true to read them as shapes")
-            }
-            Self::Texts(n) => {
-                left_out(f, *n, ["text", "texts"])?;
-                f.write_str("; convert text to paths")
-            }
-            Self::Pictures(n) => left_out(f, *n, ["embedded picture", "embedded pictures"]),
             Self::Smaller { given, kept } => smaller(f, *given, *kept),
             Self::Open { count, at } => {
                 let one = "curve that does not close";
@@ -164,6 +163,42 @@ impl fmt::Display for ImportNote {
                     .map(|what| format!("{what} of the kind {}", OneLine(kind)));
                 left_out(f, *count, kinds)
             }
+            Self::Strokes(_)
+            | Self::Texts(_)
+            | Self::Pictures(_)
+            | Self::Shades(_)
+            | Self::Masks(_)
+            | Self::Filters(_)
+            | Self::Blends(_) => self.of_drawing(f),
+        }
+    }
+}
+
+impl ImportNote {
+    /// Writes what is not shown as it was drawn.
+    fn of_drawing(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Strokes(n) => {
+                left_out(f, *n, ["stroke", "strokes"])?;
+                f.write_str(", as strokes = false asks for")
+            }
+            Self::Texts(n) => {
+                left_out(f, *n, ["text", "texts"])?;
+                f.write_str("; convert text to paths")
+            }
+            Self::Pictures(n) => left_out(f, *n, ["embedded picture", "embedded pictures"]),
+            Self::Shades(n) => {
+                let what = ["gradient or pattern", "gradients and patterns"];
+                let (what, were) = (number(what, *n), number(["is", "are"], *n));
+                write!(f, "{n} {what} {were} shown in the mean colour")
+            }
+            Self::Masks(n) => {
+                left_out(f, *n, ["mask", "masks"])?;
+                f.write_str("; apply masks as clip paths")
+            }
+            Self::Filters(n) => left_out(f, *n, ["filter", "filters"]),
+            Self::Blends(n) => left_out(f, *n, ["blend mode", "blend modes"]),
+            _ => Ok(()),
         }
     }
 }

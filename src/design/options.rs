@@ -18,9 +18,14 @@ pub struct ImportOptions {
     /// How far the outline may run from the exact boundary, as a fraction of
     /// the longer side of the picture or the page: 0 to 0.1.
     pub tolerance: f64,
-    /// Takes the strokes of a drawing for shapes: what they cover is filled.
-    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    /// Whether the strokes of a drawing belong to the figure that it makes. Where
+    /// it is shown in its own paint they are seen in any case.
+    #[serde(skip_serializing_if = "is_set")]
     pub strokes: bool,
+}
+
+fn is_set(value: &bool) -> bool {
+    *value
 }
 
 /// An option that is out of its range.
@@ -42,7 +47,7 @@ impl Default for ImportOptions {
             invert: false,
             specks_px: 0,
             tolerance: Self::DEFAULT_TOLERANCE,
-            strokes: false,
+            strokes: true,
         }
     }
 }

@@ -72,6 +72,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
     }));
     notes.extend(ImportNote::of_skipped(drawing.skipped));
     Ok(Outlines {
+        coats: Vec::new(),
         extent: regions.bounds(),
         regions,
         notes,

@@ -159,6 +159,7 @@ impl Found {
         let mut notes = ImportNote::of_repairs(&repairs, FillRule::EvenOdd);
         notes.extend(ImportNote::of_skipped(self.skipped));
         Ok(Outlines {
+            coats: Vec::new(),
             extent: regions.bounds(),
             regions,
             notes,

@@ -64,15 +64,10 @@ pub enum SvgError {
         "the drawing's style sheet is too long for its {0} elements; save it with plain attributes"
     )]
     TooMuchStyle(usize),
-    /// A mask, which has no outline.
-    #[error(
-        "the drawing uses the mask \"{0}\", which has no outline; apply it as a clip path, or remove it"
-    )]
-    Mask(String),
     /// Nothing visible is filled.
     #[error(
         "nothing in the drawing is filled{}; fill shapes, and convert text to paths",
-        if *strokes { ", there are only strokes (set strokes = true to read them as shapes)" } else { "" }
+        if *strokes { ", there are only strokes, and strokes = false" } else { "" }
     )]
     NothingFilled {
         /// Whether there are strokes.

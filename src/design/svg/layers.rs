@@ -6,6 +6,7 @@
 //! all it might hide, so that a page of ten thousand dots, black and white in
 //! turns, is two layers and not ten thousand.
 
+use super::heights::Heights;
 use crate::geometry::{Bounds, DVec2};
 use i_overlay::core::fill_rule::FillRule as OverlayFill;
 use i_overlay::core::overlay_rule::OverlayRule;
@@ -14,25 +15,18 @@ use i_overlay::float::single::SingleFloatOverlay;
 /// Polygons to be filled by winding.
 pub(super) type Rings = Vec<Vec<DVec2>>;
 
-/// Cells of the page along each side, in which it is kept how high it is
-/// painted. More would tell more shapes apart, and cost more for large ones:
-/// 200,000 shapes as large as the page take a second.
-const CELLS: usize = 64;
-
 /// Shapes by the layer they are in: ink in the even ones, paper in the odd.
 pub(super) struct Layers {
-    page: DVec2,
     layers: Vec<Rings>,
-    /// For each cell one more than the highest layer in it.
-    heights: Vec<usize>,
+    /// One more than the highest layer.
+    heights: Heights,
 }
 
 impl Layers {
     pub(super) fn of_page(size: DVec2) -> Self {
         Self {
-            page: size,
             layers: Vec::new(),
-            heights: vec![0; CELLS * CELLS],
+            heights: Heights::of_page(size),
         }
     }
 
@@ -46,14 +40,10 @@ impl Layers {
             // A filled line: there is a layer, and nothing is in it.
             return self.reach(0);
         };
-        let cells = self.cells(&bounds);
-        let height = cells.clone().map(|cell| self.heights[cell]).max();
         // Beside what is of its colour, or above what is not.
-        let top = height.unwrap_or(0).saturating_sub(1);
+        let top = self.heights.highest(&bounds).saturating_sub(1);
         let layer = top + usize::from((top % 2 == 1) != is_paper);
-        for cell in cells {
-            self.heights[cell] = layer + 1;
-        }
+        self.heights.raise(&bounds, layer + 1);
         self.reach(layer);
         self.layers[layer].extend(rings);
     }
@@ -61,17 +51,6 @@ impl Layers {
     fn reach(&mut self, layer: usize) {
         let count = self.layers.len().max(layer + 1);
         self.layers.resize_with(count, Vec::new);
-    }
-
-    /// The cells that a box covers; beyond the page those at its edge.
-    fn cells(&self, bounds: &Bounds) -> impl Iterator<Item = usize> + Clone + use<> {
-        let cell = |p: DVec2| {
-            let along = p / self.page * CELLS as f64;
-            // What is negative or no number is 0.
-            along.to_array().map(|x| (x as usize).min(CELLS - 1))
-        };
-        let [[left, low], [right, high]] = [cell(bounds.min), cell(bounds.max)];
-        (low..=high).flat_map(move |y| (left..=right).map(move |x| y * CELLS + x))
     }
 
     /// Ink is added, paper taken away, from the lowest layer up.
@@ -94,6 +73,16 @@ pub(super) fn within(rings: Rings, clip: Option<&Rings>) -> Rings {
         Some(clip) => overlaid(&rings, clip, OverlayRule::Intersect),
         None => rings,
     }
+}
+
+/// What lies in any of the rings.
+pub(super) fn union(rings: &Rings) -> Rings {
+    overlaid(rings, &Vec::new(), OverlayRule::Subject)
+}
+
+/// What is left of rings where others are taken away.
+pub(super) fn minus(rings: &Rings, others: &Rings) -> Rings {
+    overlaid(rings, others, OverlayRule::Difference)
 }
 
 /// A Boolean operation on areas filled by winding.

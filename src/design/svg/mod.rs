@@ -14,26 +14,35 @@
 //! unfold into too much text or too many elements is refused before it is
 //! unfolded.
 //!
-//! Strokes count where they are asked for, with their dashes, joins and ends.
+//! It is read twice: as the figure that it makes, in which strokes count unless
+//! they are not wanted, and as coats of paint, with all strokes; both with their
+//! dashes, joins and ends. A drawing that names no colour has no coats.
 //! Of a drawing one element may be asked for by its id: what lies in it, cut by
 //! the clip paths around it, where it stands on the page.
 //!
 //! Not read: markers, text (convert it to paths), embedded pictures, filters,
-//! translucency short of invisible. Masks are refused. What was left out is
-//! told. Coordinates pass
-//! through `f32`, so that outlines are good to about 1e-7 of the page.
+//! masks; of gradients and patterns the mean colour is. What was left out is
+//! told. Coordinates pass through `f32`, so that outlines are good to about 1e-7
+//! of the page.
 
+mod coats;
 mod error;
+mod faded;
 mod guard;
+mod heights;
 mod layers;
+mod own_paint;
 mod paint;
+mod shape;
+mod silhouette;
 mod text;
+mod told;
+mod tone;
 
 pub use error::SvgError;
 
 use super::flatten::MIN_TOLERANCE;
 use super::form::Outlines;
-use super::note::ImportNote;
 use super::options::ImportOptions;
 use crate::geometry::{Bounds, DVec2};
 use paint::Brush;
@@ -62,25 +71,31 @@ pub(super) fn read(
         None => document.root_element(),
     };
     let tree = tree_of(&document)?;
-    let size = DVec2::new(tree.size().width().into(), tree.size().height().into());
+    let size = paint::page_of(&tree);
     let brush = Brush {
         tolerance: options.tolerance.max(MIN_TOLERANCE) * size.max_element(),
-        strokes: options.strokes,
         // The root asked for by its id is all of the drawing.
         element: element.filter(|_| top != document.root_element()),
     };
     let painted = paint::painted(&tree, &brush)?;
+    let regions = silhouette::silhouette(&painted, size, options.strokes)?;
+    let notes = told::notes(&painted, top, options.strokes);
     let page = Bounds {
         min: DVec2::ZERO,
         max: size,
     };
+    let mut coats = coats::coats(painted.shapes, size);
+    if !own_paint::is_named(&document) {
+        coats.clear();
+    }
     Ok(Outlines {
-        notes: notes(&painted, top),
+        notes,
         extent: match brush.element {
-            Some(_) => painted.regions.bounds(),
+            Some(_) => regions.bounds(),
             None => page,
         },
-        regions: painted.regions,
+        regions,
+        coats,
     })
 }
 
@@ -97,34 +112,6 @@ fn element_of<'d, 'a>(document: &'d Document<'a>, id: &str) -> Result<Xml<'d, 'a
             id: id.to_owned(),
             known: ids().take(NAMED_IDS).map(str::to_owned).collect(),
         })
-}
-
-fn notes(painted: &paint::Painted, top: Xml) -> Vec<ImportNote> {
-    let repairs = painted.repairs.iter();
-    let mut notes: Vec<_> = repairs
-        .flat_map(|(rule, found)| ImportNote::of_repairs(found, *rule))
-        .collect();
-    let named = |name: &str| {
-        let is_drawn = |node: &Xml| {
-            let hidden = ["defs", "symbol", "clipPath", "mask", "pattern", "marker"];
-            !node
-                .ancestors()
-                .any(|n| hidden.contains(&n.tag_name().name()))
-        };
-        let nodes = top.descendants().filter(|n| n.tag_name().name() == name);
-        nodes.filter(is_drawn).count()
-    };
-    let left_out = [
-        (
-            painted.strokes_left_out,
-            ImportNote::Strokes as fn(usize) -> ImportNote,
-        ),
-        (named("text"), ImportNote::Texts),
-        (named("image"), ImportNote::Pictures),
-    ];
-    let left_out = left_out.into_iter().filter(|&(count, _)| count > 0);
-    notes.extend(left_out.map(|(count, note)| note(count)));
-    notes
 }
 
 fn tree_of(document: &Document) -> Result<usvg::Tree, SvgError> {

@@ -1,93 +1,77 @@
-//! What is filled in a drawing, as regions: a painter who knows two colours,
-//! ink and paper, and paints in the drawing's order.
+//! The shapes of a drawing: what each fill and each stroke covers, in the order
+//! in which they are painted, with their paint.
 
 use super::error::SvgError;
-use super::layers::{Layers, Rings, within};
+use super::faded::faded;
+use super::layers::{Rings, within};
+use super::shape::Shape;
+use super::tone::flat;
+use crate::colour::Paint;
 use crate::design::flatten::Flattener;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
-use usvg::{ClipPath, Group, Node, Paint, PaintOrder, Path, Stroke, Transform, tiny_skia_path};
+use usvg::{ClipPath, Group, Node, PaintOrder, Path, Stroke, Transform, tiny_skia_path};
 
 /// What of a drawing is read, and how.
 pub(super) struct Brush<'o> {
     /// In units of the page.
     pub tolerance: f64,
-    pub strokes: bool,
     pub element: Option<&'o str>,
 }
 
-/// What is filled with ink in the end, and what was wrong with it.
+/// All shapes of a drawing, and what was otherwise in it.
 pub(super) struct Painted {
-    pub regions: Regions,
+    /// The lowest first.
+    pub shapes: Vec<Shape>,
     /// Faults within single shapes, by the rule that resolved them.
     pub repairs: [(FillRule, Repairs); 2],
-    /// Visible strokes of shapes without a fill that were left out.
-    pub strokes_left_out: usize,
+    /// Shapes without a fill whose stroke is seen.
+    pub bare_strokes: usize,
+    pub left_out: LeftOut,
+}
+
+/// How many of what is not shown as it was drawn.
+#[derive(Default)]
+pub(super) struct LeftOut {
+    /// Gradients and patterns, of which the mean is shown.
+    pub shades: usize,
+    pub masks: usize,
+    /// Groups that are mixed with what is below otherwise than by covering it.
+    pub blends: usize,
+}
+
+/// Width and height of a drawing.
+pub(super) fn page_of(tree: &usvg::Tree) -> DVec2 {
+    DVec2::new(tree.size().width().into(), tree.size().height().into())
 }
 
 /// Paints a drawing, or the element of it that is asked for.
 pub(super) fn painted(tree: &usvg::Tree, brush: &Brush) -> Result<Painted, SvgError> {
-    let mut subject = Vec::new();
-    collect_paths(tree.root(), brush.element, &mut subject);
-    let is_bare = |p: &&&Path| stroke_is_white(p).is_some() && fill_is_white(p).is_none();
-    let strokes_left_out = match brush.strokes {
-        true => 0,
-        false => subject.iter().filter(is_bare).count(),
-    };
-    if let (Some(id), true) = (brush.element, subject.is_empty()) {
-        return Err(SvgError::NotDrawn(id.to_owned()));
-    }
-    let has_colour = |path: &&Path| {
-        let stroke = stroke_is_white(path).filter(|_| brush.strokes);
-        [fill_is_white(path), stroke].contains(&Some(false))
-    };
     let mut painter = Painter {
-        height: tree.size().height().into(),
+        page: page_of(tree),
         flattener: Flattener::new(brush.tolerance),
         brush,
-        white_is_paper: subject.iter().any(has_colour),
-        layers: Layers::of_page(DVec2::new(
-            tree.size().width().into(),
-            tree.size().height().into(),
-        )),
-        repairs: [FillRule::NonZero, FillRule::EvenOdd].map(|rule| (rule, Repairs::default())),
+        painted: Painted {
+            shapes: Vec::new(),
+            repairs: [FillRule::NonZero, FillRule::EvenOdd].map(|rule| (rule, Repairs::default())),
+            bare_strokes: 0,
+            left_out: LeftOut::default(),
+        },
+        is_drawn: false,
     };
     painter.group(tree.root(), None, brush.element.is_none())?;
-    if painter.layers.is_empty() {
-        let strokes = strokes_left_out > 0;
-        return Err(SvgError::NothingFilled { strokes });
-    }
-    let repairs = painter.repairs;
-    let ink = painter.layers.composed();
-    Ok(Painted {
-        regions: Regions::from_rings(&ink, FillRule::NonZero)?,
-        repairs,
-        strokes_left_out,
-    })
-}
-
-/// The paths of a group, or of the elements in it with an id.
-fn collect_paths<'t>(group: &'t Group, id: Option<&str>, paths: &mut Vec<&'t Path>) {
-    let wanted = |own: &str| id.is_none_or(|id| id == own);
-    for node in group.children() {
-        match node {
-            Node::Group(inner) => {
-                // All that lies in what is asked for belongs to it.
-                let below = if wanted(inner.id()) { None } else { id };
-                collect_paths(inner, below, paths);
-            }
-            Node::Path(path) if wanted(path.id()) => paths.push(path),
-            _ => {}
-        }
+    match brush.element {
+        Some(id) if !painter.is_drawn => Err(SvgError::NotDrawn(id.to_owned())),
+        _ => Ok(painter.painted),
     }
 }
 
 struct Painter<'b> {
-    height: f64,
+    page: DVec2,
     flattener: Flattener,
     brush: &'b Brush<'b>,
-    white_is_paper: bool,
-    layers: Layers,
-    repairs: [(FillRule, Repairs); 2],
+    painted: Painted,
+    /// Whether there is a path in what is asked for, seen or not.
+    is_drawn: bool,
 }
 
 impl Painter<'_> {
@@ -102,9 +86,7 @@ impl Painter<'_> {
         if group.opacity().get() == 0.0 {
             return Ok(());
         }
-        if let Some(mask) = group.mask() {
-            return Err(SvgError::Mask(mask.id().to_owned()));
-        }
+        self.count_left_out(group);
         let own = match group.clip_path() {
             Some(path) => {
                 let inside = self.clip(path, group.abs_transform())?;
@@ -113,6 +95,7 @@ impl Painter<'_> {
             None => None,
         };
         let clip = own.as_ref().or(clip);
+        let first = self.painted.shapes.len();
         for node in group.children() {
             let is_within = is_within || self.brush.element == Some(node.id());
             match node {
@@ -121,27 +104,61 @@ impl Painter<'_> {
                 Node::Path(_) | Node::Image(_) | Node::Text(_) => {}
             }
         }
+        let opacity = f64::from(group.opacity().get());
+        if opacity < 1.0 {
+            let shapes = self.painted.shapes.split_off(first);
+            self.painted
+                .shapes
+                .extend(faded(shapes, opacity, self.page));
+        }
         Ok(())
     }
 
+    fn count_left_out(&mut self, group: &Group) {
+        let left_out = &mut self.painted.left_out;
+        left_out.masks += usize::from(group.mask().is_some());
+        left_out.blends += usize::from(group.blend_mode() != usvg::BlendMode::Normal);
+    }
+
     fn path(&mut self, path: &Path, clip: Option<&Rings>) -> Result<(), SvgError> {
+        self.is_drawn = true;
+        if !path.is_visible() {
+            return Ok(());
+        }
+        let fill = path
+            .fill()
+            .and_then(|fill| flat(fill.paint(), fill.opacity()));
+        let stroke = path.stroke();
+        let stroke = stroke.and_then(|stroke| flat(stroke.paint(), stroke.opacity()));
+        self.painted.bare_strokes += usize::from(fill.is_none() && stroke.is_some());
+        let shades = [&fill, &stroke].into_iter().flatten();
+        self.painted.left_out.shades += shades.filter(|tone| tone.is_mean).count();
         let fills_first = path.paint_order() == PaintOrder::FillAndStroke;
-        let stroke = stroke_is_white(path).filter(|_| self.brush.strokes);
         for is_fill in [fills_first, !fills_first] {
-            if is_fill && let Some(is_white) = fill_is_white(path) {
+            if is_fill && let Some(tone) = &fill {
                 let rings = self.filled(path, Transform::identity())?;
-                self.lay(rings, is_white, clip);
-            } else if !is_fill && let Some(is_white) = stroke {
+                self.lay(path, (rings, clip), tone.paint, false);
+            } else if !is_fill && let Some(tone) = &stroke {
                 let rings = self.stroked(path)?;
-                self.lay(rings, is_white, clip);
+                self.lay(path, (rings, clip), tone.paint, true);
             }
         }
         Ok(())
     }
 
-    fn lay(&mut self, rings: Rings, is_white: bool, clip: Option<&Rings>) {
-        let rings = within(rings, clip);
-        self.layers.lay(rings, self.white_is_paper && is_white);
+    fn lay(
+        &mut self,
+        path: &Path,
+        (rings, clip): (Rings, Option<&Rings>),
+        paint: Paint,
+        is_stroke: bool,
+    ) {
+        self.painted.shapes.push(Shape {
+            rings: within(rings, clip),
+            paint,
+            is_stroke,
+            name: path.id().to_owned(),
+        });
     }
 
     /// What a clip path lets through.
@@ -161,9 +178,7 @@ impl Painter<'_> {
     ) -> Result<(), SvgError> {
         for node in group.children() {
             match node {
-                Node::Path(path) if fill_is_white(path).is_some() => {
-                    rings.extend(self.filled(path, base)?)
-                }
+                Node::Path(path) if is_filled(path) => rings.extend(self.filled(path, base)?),
                 Node::Group(inner) => {
                     let mut own = Vec::new();
                     self.clip_group(inner, base, &mut own)?;
@@ -184,7 +199,7 @@ impl Painter<'_> {
             Some(usvg::FillRule::EvenOdd) => 1,
             _ => 0,
         };
-        let (rule, repairs) = &mut self.repairs[at];
+        let (rule, repairs) = &mut self.painted.repairs[at];
         // Counted here, where the rule is known: once united nothing crosses.
         let found = Repairs::between(&rings);
         repairs.crossings += found.crossings;
@@ -222,7 +237,7 @@ impl Painter<'_> {
     /// A path as polygons on the page, y up.
     fn rings(&mut self, path: &tiny_skia_path::Path, t: Transform) -> Result<Rings, SvgError> {
         let [sx, ky, kx, sy, tx, ty] = [t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from);
-        let height = self.height;
+        let height = self.page.y;
         Ok(self.flattener.rings(path, |p| {
             let (x, y) = (f64::from(p.x), f64::from(p.y));
             DVec2::new(sx * x + kx * y + tx, height - (ky * x + sy * y + ty))
@@ -241,20 +256,8 @@ fn cleaned(rings: &Rings, rule: FillRule) -> Result<Rings, SvgError> {
     }
 }
 
-/// Whether a path's fill is white; `None` where it has none that is seen.
-fn fill_is_white(path: &Path) -> Option<bool> {
-    let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0)?;
-    path.is_visible().then(|| is_white(fill.paint()))
-}
-
-/// Whether a path's stroke is white; `None` where it has none that is seen.
-fn stroke_is_white(path: &Path) -> Option<bool> {
-    let stroke = path
-        .stroke()
-        .filter(|stroke| stroke.opacity().get() > 0.0)?;
-    path.is_visible().then(|| is_white(stroke.paint()))
-}
-
-fn is_white(paint: &Paint) -> bool {
-    matches!(paint, Paint::Color(c) if [c.red, c.green, c.blue] == [u8::MAX; 3])
+/// Whether a path has a fill that is seen.
+fn is_filled(path: &Path) -> bool {
+    let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0);
+    path.is_visible() && fill.is_some()
 }

@@ -1,4 +1,6 @@
 use super::*;
+use crate::colour::{Paint, Rgb};
+use crate::design::note::ImportNote;
 use crate::geometry::Regions;
 use std::time::{Duration, Instant};
 
@@ -24,6 +26,15 @@ fn stroked(body: &str, element: Option<&str>) -> Result<Outlines, SvgError> {
         ..ImportOptions::default()
     };
     super::read(&page(body), element, &options)
+}
+
+/// What is filled, without strokes.
+fn filled_alone(body: &str) -> Result<Regions, SvgError> {
+    let options = ImportOptions {
+        strokes: false,
+        ..ImportOptions::default()
+    };
+    super::read(&page(body), None, &options).map(|found| found.regions)
 }
 
 fn read_body(body: &str) -> Result<Regions, SvgError> {
@@ -119,16 +130,18 @@ fn what_is_not_filled_is_not_there() {
         );
     }
     let stroke = r#"<path d="M0 0 L50 50" fill="none" stroke="black"/>"#;
-    let error = read_body(stroke).expect_err("strokes only");
+    let error = filled_alone(stroke).expect_err("strokes only");
     assert!(matches!(error, SvgError::NothingFilled { strokes: true }));
     assert!(error.to_string().contains("only strokes"));
 }
 
 #[test]
-fn a_mask_is_refused_by_name() {
+fn a_mask_is_left_out_and_told() {
     let body = r##"<mask id="m"><rect width="9" height="9" fill="white"/></mask>
         <rect width="50" height="50" mask="url(#m)"/>"##;
-    assert!(matches!(read_body(body), Err(SvgError::Mask(id)) if id == "m"));
+    let found = stroked(body, None).expect("an outline");
+    near(found.regions.area(), 2500.0);
+    assert_eq!(found.notes, [ImportNote::Masks(1)]);
 }
 
 /// `levels` groups, each made of `copies` references to the one before.
@@ -230,7 +243,10 @@ fn markers_are_left_out_however_they_are_set() {
         r##"style="marker:url(#m13) !important""##,
         r#"class="m""#,
     ] {
-        near(regions(&shape(attribute)).area(), 100.0);
+        near(
+            filled_alone(&shape(attribute)).expect(attribute).area(),
+            100.0,
+        );
     }
 }
 
@@ -306,10 +322,10 @@ fn broken_drawings_are_errors() {
 }
 
 #[test]
-fn strokes_are_shapes_where_they_are_asked_for() {
+fn strokes_are_shapes_unless_they_are_not_wanted() {
     let body = r#"<path d="M10 10 H50" fill="none" stroke="black" stroke-width="4"/>
         <rect x="10" y="50" width="20" height="20" stroke="red" stroke-width="2"/>"#;
-    near(regions(body).area(), 400.0);
+    near(filled_alone(body).expect("a square").area(), 400.0);
     let with = stroked(body, None).expect("an outline");
     near(with.regions.area(), 160.0 + 22.0 * 22.0);
     assert_eq!(with.notes, []);
@@ -334,7 +350,7 @@ fn strokes_are_shapes_where_they_are_asked_for() {
 fn a_drawing_of_strokes_is_read_as_shapes() {
     let body =
         r#"<path d="M50 10 A40 40 0 1 1 49.9 10" fill="none" stroke="black" stroke-width="10"/>"#;
-    assert!(read_body(body).is_err());
+    assert!(filled_alone(body).is_err());
     let ring = stroked(body, None).expect("an outline").regions;
     assert_eq!(ring.rings().count(), 1); // all but closed
     near(ring.area(), 2.0 * std::f64::consts::PI * 40.0 * 10.0);
@@ -418,4 +434,107 @@ fn nothing_outside_the_file_is_opened() {
         r#"<!DOCTYPE svg [<!ENTITY e SYSTEM "{bait}">]><svg {NS} width="9" height="9">&e;</svg>"#
     );
     assert!(read(&entity, 1e-3).is_err());
+}
+
+/// The paint and the area of each coat.
+fn coats(body: &str) -> Vec<(Paint, f64)> {
+    let found = stroked(body, None).expect("a drawing");
+    let coats = found.coats.into_iter();
+    let painted = coats.map(|coat| (coat.paint.expect("a paint"), coat.regions.area()));
+    painted.collect()
+}
+
+fn paint(rgb: [u8; 3], opacity: f64) -> Paint {
+    Paint {
+        colour: Rgb(rgb),
+        opacity,
+    }
+}
+
+#[test]
+fn shapes_of_one_paint_are_one_coat_where_their_order_allows_it() {
+    let square = |x: u32, fill: &str| {
+        format!(r#"<rect x="{x}" y="10" width="10" height="10" fill="{fill}"/>"#)
+    };
+    let [red, blue] = [paint([255, 0, 0], 1.0), paint([0, 0, 255], 1.0)];
+    // Beside each other, then the second red over the blue.
+    let body = [(0, "red"), (20, "blue"), (40, "red"), (60, "blue")].map(|(x, f)| square(x, f));
+    let found = coats(&body.concat());
+    assert_eq!(found.iter().map(|c| c.0).collect::<Vec<_>>(), [red, blue]);
+    near(found[0].1, 200.0);
+    let body = [(0, "red"), (5, "blue"), (10, "red")].map(|(x, f)| square(x, f));
+    let found = coats(&body.concat());
+    assert_eq!(
+        found.iter().map(|c| c.0).collect::<Vec<_>>(),
+        [red, blue, red]
+    );
+    // What is hidden stays: it may come to be seen on the way.
+    near(found[1].1, 100.0);
+}
+
+#[test]
+fn strokes_opacity_and_order_are_kept() {
+    let body = r##"<g opacity="0.5"><rect width="20" height="20" fill="#102030"/>
+        <rect x="10" width="20" height="20" fill="#405060" fill-opacity="1"/></g>
+        <rect x="50" y="50" width="20" height="20" fill="white" stroke="#ff0000"
+        stroke-width="2" stroke-opacity="0.25" paint-order="stroke"/>"##;
+    let found = coats(body);
+    let paints: Vec<Paint> = found.iter().map(|coat| coat.0).collect();
+    let wanted = [
+        paint([0x10, 0x20, 0x30], 0.5),
+        paint([0x40, 0x50, 0x60], 0.5),
+        paint([255, 0, 0], 0.25),
+        paint([255; 3], 1.0),
+    ];
+    assert_eq!(paints, wanted);
+    // Shapes of one paint in a group are one: it has no seams.
+    let cloud = r##"<g opacity="0.5" fill="#fff"><circle cx="30" cy="30" r="9"/>
+        <circle cx="40" cy="30" r="9"/></g>"##;
+    let cloud = stroked(cloud, None).expect("a cloud").coats;
+    assert_eq!((cloud.len(), cloud[0].regions.len()), (1, 1));
+    // Nothing is seen through one shape of a group of the other one.
+    near(found[0].1, 200.0);
+    near(found[2].1, 22.0 * 22.0 - 18.0 * 18.0);
+}
+
+#[test]
+fn of_gradients_and_patterns_the_mean_is_shown_and_told() {
+    let body = r##"<linearGradient id="g"><stop offset="0.5" stop-color="#000"/>
+        <stop offset="0.5" stop-color="#fff"/></linearGradient>
+        <pattern id="p" width="2" height="2" patternUnits="userSpaceOnUse">
+        <rect width="1" height="1" fill="#00ff00"/></pattern>
+        <rect width="20" height="20" fill="url(#g)"/>
+        <rect x="50" width="20" height="20" fill="url(#p)"/>"##;
+    let paints: Vec<Paint> = coats(body).iter().map(|coat| coat.0).collect();
+    // Half the way from black to white, as it looks.
+    assert_eq!(paints, [paint([99; 3], 1.0), paint([0, 255, 0], 1.0)]);
+    let told = stroked(body, None).expect("a drawing").notes;
+    assert_eq!(told, [ImportNote::Shades(2)]);
+}
+
+#[test]
+fn a_drawing_that_names_no_colour_has_no_coats() {
+    for (body, count) in [
+        (r#"<path d="M0 0h9v9z"/>"#, 0),
+        (
+            r#"<path fill="currentColor" stroke="none" d="M0 0h9v9z"/>"#,
+            0,
+        ),
+        (
+            r#"<path style="fill: inherit; opacity: .5" d="M0 0h9v9z"/>"#,
+            0,
+        ),
+        (r##"<path fill="#000" d="M0 0h9v9z"/>"##, 1),
+        (r#"<g style="fill:teal"><path d="M0 0h9v9z"/></g>"#, 1),
+        (
+            r#"<style>.a { fill: teal }</style><path class="a" d="M0 0h9v9z"/>"#,
+            1,
+        ),
+    ] {
+        assert_eq!(
+            stroked(body, None).expect(body).coats.len(),
+            count,
+            "{body}"
+        );
+    }
 }

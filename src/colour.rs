@@ -1,0 +1,272 @@
+//! Colours, and the way from one to another.
+//!
+//! A [`Paint`] goes to another in OKLab (Ottosson 2020: a space in which equal
+//! steps look equal), its opacity premultiplied, so that what fades in has its
+//! own colour all the while. Blends in one colour by t are mixed in linear light,
+//! as light is.
+
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+/// The curve of IEC 61966-2-1 (sRGB), undone; both in [0, 1].
+pub(crate) fn linear_from_srgb(encoded: f64) -> f64 {
+    if encoded <= 0.04045 {
+        encoded / 12.92
+    } else {
+        ((encoded + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// The curve of IEC 61966-2-1 (sRGB); both in [0, 1].
+pub(crate) fn srgb_from_linear(linear: f64) -> f64 {
+    if linear <= 0.003_130_8 {
+        12.92 * linear
+    } else {
+        1.055 * linear.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+/// An opaque sRGB colour, written as `#rrggbb`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Rgb(pub [u8; 3]);
+
+/// A text that is no colour.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("\"{0}\" is no colour; write it as #rrggbb, for example #3b78c2")]
+pub struct NoColour(String);
+
+impl std::str::FromStr for Rgb {
+    type Err = NoColour;
+
+    fn from_str(text: &str) -> Result<Self, NoColour> {
+        let wrong = || NoColour(text.to_owned());
+        let hex = text.strip_prefix('#').ok_or_else(wrong)?;
+        // `from_str_radix` alone would take "+f6fb3".
+        if hex.len() != 6 || !hex.bytes().all(|b| b.is_ascii_hexdigit()) {
+            return Err(wrong());
+        }
+        let value = u32::from_str_radix(hex, 16).map_err(|_| wrong())?;
+        let [_, r, g, b] = value.to_be_bytes();
+        Ok(Self([r, g, b]))
+    }
+}
+
+impl std::fmt::Display for Rgb {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let [r, g, b] = self.0;
+        write!(f, "#{r:02x}{g:02x}{b:02x}")
+    }
+}
+
+impl Serialize for Rgb {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        serializer.collect_str(self)
+    }
+}
+
+impl<'de> Deserialize<'de> for Rgb {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let text = String::deserialize(deserializer)?;
+        text.parse().map_err(serde::de::Error::custom)
+    }
+}
+
+impl Rgb {
+    /// The colour at `t` in [0, 1] on the way to `other`, mixed in linear
+    /// light; beyond that range the nearer end.
+    ///
+    /// ```
+    /// use morphospace::colour::Rgb;
+    /// let grey = Rgb([0, 0, 0]).mixed(Rgb([255, 255, 255]), 0.5);
+    /// assert_eq!(grey, Rgb([188, 188, 188]));
+    /// ```
+    #[must_use]
+    pub fn mixed(self, other: Self, t: f64) -> Self {
+        let t = t.clamp(0.0, 1.0);
+        Self(std::array::from_fn(|k| {
+            let (a, b) = (linear(self.0[k]), linear(other.0[k]));
+            encoded(a * (1.0 - t) + b * t)
+        }))
+    }
+
+    /// Red, green and blue in linear light, in [0, 1].
+    #[must_use]
+    pub fn to_linear(self) -> [f32; 3] {
+        self.0.map(|channel| linear(channel) as f32)
+    }
+}
+
+/// A channel in linear light, in [0, 1].
+fn linear(channel: u8) -> f64 {
+    linear_from_srgb(f64::from(channel) / 255.0)
+}
+
+/// A channel of linear light, from [0, 1].
+fn encoded(light: f64) -> u8 {
+    (srgb_from_linear(light) * 255.0).round().clamp(0.0, 255.0) as u8
+}
+
+/// A flat paint: a colour, and how much it covers.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Paint {
+    /// Its colour.
+    pub colour: Rgb,
+    /// 1 hides what is below, 0 shows nothing.
+    pub opacity: f64,
+}
+
+impl From<Rgb> for Paint {
+    fn from(colour: Rgb) -> Self {
+        Self {
+            colour,
+            opacity: 1.0,
+        }
+    }
+}
+
+impl Paint {
+    /// The paint at `t` in [0, 1] on the way to `other`, in OKLab with opacity
+    /// premultiplied; beyond that range the nearer end. The ends are exact.
+    ///
+    /// ```
+    /// use morphospace::colour::{Paint, Rgb};
+    /// let [red, none] = [1.0, 0.0].map(|opacity| Paint { colour: Rgb([255, 0, 0]), opacity });
+    /// let half = red.mixed(none, 0.5);
+    /// assert_eq!((half.colour, half.opacity), (red.colour, 0.5));
+    /// ```
+    #[must_use]
+    pub fn mixed(self, other: Self, t: f64) -> Self {
+        let t = t.clamp(0.0, 1.0);
+        if t == 0.0 || self == other {
+            return self;
+        }
+        if t == 1.0 {
+            return other;
+        }
+        let opacity = self.opacity * (1.0 - t) + other.opacity * t;
+        if opacity <= 0.0 {
+            return Self { opacity, ..self };
+        }
+        let share = other.opacity * t / opacity;
+        let [a, b] = [self, other].map(|paint| paint.colour.to_oklab());
+        let lab = std::array::from_fn(|k| a[k] * (1.0 - share) + b[k] * share);
+        Self {
+            colour: Rgb::from_oklab(lab),
+            opacity,
+        }
+    }
+
+    /// Whether nothing below it is seen.
+    #[must_use]
+    pub fn is_opaque(&self) -> bool {
+        self.opacity >= 1.0
+    }
+
+    /// How unlike two paints look: the distance in OKLab, opacity premultiplied,
+    /// between black and white 1.
+    #[must_use]
+    pub fn unlike(&self, other: &Self) -> f64 {
+        let [a, b] = [self, other].map(|paint| {
+            let [l, a, b] = paint.colour.to_oklab();
+            [l, a, b, 1.0].map(|x| x * paint.opacity)
+        });
+        let square = a.iter().zip(b).map(|(a, b)| (a - b).powi(2));
+        square.sum::<f64>().sqrt()
+    }
+}
+
+impl Rgb {
+    /// Lightness in [0, 1], and the two axes of hue.
+    fn to_oklab(self) -> [f64; 3] {
+        let [r, g, b] = self.0.map(linear);
+        let cones = [
+            0.412_221_470_8 * r + 0.536_332_536_3 * g + 0.051_445_992_9 * b,
+            0.211_903_498_2 * r + 0.680_699_545_1 * g + 0.107_396_956_6 * b,
+            0.088_302_461_9 * r + 0.281_718_837_6 * g + 0.629_978_700_5 * b,
+        ];
+        let [l, m, s] = cones.map(f64::cbrt);
+        [
+            0.210_454_255_3 * l + 0.793_617_785_0 * m - 0.004_072_046_8 * s,
+            1.977_998_495_1 * l - 2.428_592_205_0 * m + 0.450_593_709_9 * s,
+            0.025_904_037_1 * l + 0.782_771_766_2 * m - 0.808_675_766_0 * s,
+        ]
+    }
+
+    /// The nearest colour that a screen has, channel by channel.
+    fn from_oklab([light, a, b]: [f64; 3]) -> Self {
+        let cones = [
+            light + 0.396_337_777_4 * a + 0.215_803_757_3 * b,
+            light - 0.105_561_345_8 * a - 0.063_854_172_8 * b,
+            light - 0.089_484_177_5 * a - 1.291_485_548_0 * b,
+        ];
+        let [l, m, s] = cones.map(|cone| cone.powi(3));
+        Self(
+            [
+                4.076_741_662_1 * l - 3.307_711_591_3 * m + 0.230_969_929_2 * s,
+                -1.268_438_004_6 * l + 2.609_757_401_1 * m - 0.341_319_396_5 * s,
+                -0.004_196_086_3 * l - 0.703_418_614_7 * m + 1.707_614_701_0 * s,
+            ]
+            .map(encoded),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn colours_are_read_and_written() {
+        assert_eq!("#2f6fb3".parse(), Ok(Rgb([0x2f, 0x6f, 0xb3])));
+        assert_eq!(Rgb([1, 2, 255]).to_string(), "#0102ff");
+        for wrong in [
+            "2f6fb3",
+            "#2f6fb",
+            "#2f6fb3ff",
+            "#gg0000",
+            "#+f6fb3",
+            "#é0000",
+            "",
+        ] {
+            assert!(wrong.parse::<Rgb>().is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn every_channel_comes_back_from_light_and_from_oklab() {
+        for channel in 0..=255 {
+            assert_eq!(encoded(linear(channel)), channel);
+            let colour = Rgb([channel, 255 - channel, channel / 3]);
+            assert_eq!(Rgb::from_oklab(colour.to_oklab()), colour);
+        }
+    }
+
+    /// The values that Ottosson gives for the reference white and for a red.
+    #[test]
+    fn oklab_is_that_of_its_author() {
+        let [l, a, b] = Rgb([255; 3]).to_oklab();
+        assert!((l - 1.0).abs() < 1e-6 && a.abs() < 1e-6 && b.abs() < 1e-6);
+        let red = Rgb([255, 0, 0]).to_oklab();
+        for (found, wanted) in red.into_iter().zip([0.627_955, 0.224_863, 0.125_846]) {
+            assert!((found - wanted).abs() < 1e-5, "{found} is not {wanted}");
+        }
+    }
+
+    #[test]
+    fn paints_meet_their_ends_and_keep_their_hue_as_they_fade() {
+        let [red, blue] = [Rgb([200, 30, 20]), Rgb([10, 60, 220])].map(Paint::from);
+        let gone = Paint {
+            opacity: 0.0,
+            ..blue
+        };
+        for (from, to) in [(red, blue), (red, gone), (gone, red)] {
+            assert_eq!(from.mixed(to, -1.0), from);
+            assert_eq!(from.mixed(to, 1.0), to);
+            let (there, back) = (from.mixed(to, 0.25), to.mixed(from, 0.75));
+            assert_eq!(there.colour, back.colour);
+        }
+        let faint = gone.mixed(red, 0.1);
+        assert_eq!(faint.colour, red.colour);
+        assert!((faint.opacity - 0.1).abs() < 1e-12);
+        assert!(red.unlike(&blue) > 0.3 && red.unlike(&red) == 0.0);
+    }
+}

@@ -1,0 +1,26 @@
+//! A coat of paint: what a drawing shows is several, one over the other.
+
+use crate::colour::Paint;
+use crate::geometry::{Regions, Similarity};
+
+/// Regions in one paint. What is in one coat neither overlaps nor hides the
+/// rest of it; what is in a later coat hides what lies under it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coat {
+    /// What it covers.
+    pub regions: Regions,
+    /// Its paint; none where the design has no colour of its own.
+    pub paint: Option<Paint>,
+    /// What the file calls it, if it is one shape; or empty.
+    pub name: String,
+}
+
+impl Coat {
+    pub(super) fn transformed(&self, by: &Similarity) -> Self {
+        Self {
+            regions: self.regions.transformed(by),
+            paint: self.paint,
+            name: self.name.clone(),
+        }
+    }
+}
