@@ -7,12 +7,13 @@
 use std::f64::consts::TAU;
 
 use bevy::prelude::*;
+use morphospace::colour::Rgb;
 use morphospace::geometry::DVec2;
 use morphospace::mesh::{MeshError, TriangleMesh};
 use morphospace::stage::{
     Blend, BuildFailed, Morph, MorphPlugin, MorphSystems, Show, SourceMesh, StageStyle, TargetMesh,
 };
-use morphospace::transition::{Rgb, Style};
+use morphospace::transition::Style;
 
 /// Seconds from one star to the other and back.
 const PERIOD_SECS: f64 = 6.0;

@@ -15,10 +15,10 @@ mod studio;
 use std::process::ExitCode;
 
 use image::RgbaImage;
+use morphospace::colour::Rgb;
 use morphospace::content::Content;
 use morphospace::geometry::{Bounds, DVec2};
 use morphospace::stage::Show;
-use morphospace::transition::Rgb;
 
 use scenes::{field, of_gallery, perforated, solid, truss};
 use studio::{Scene, Studio};

@@ -6,6 +6,7 @@ use std::time::{Duration, Instant};
 use bevy::asset::AssetEvent;
 use bevy::mesh::VertexAttributeValues;
 use bevy::prelude::*;
+use morphospace::colour::Rgb;
 use morphospace::content::ContentKind;
 use morphospace::design::Design;
 use morphospace::geometry::{Bounds, DVec2};
@@ -15,7 +16,7 @@ use morphospace::stage::{
     Blend, BuildFailed, CaptureStage, FrameTimes, Morph, MorphPlugin, MorphSystems, Show,
     SourceMesh, StageCamera, StageCaptured, StageStyle, StageTransition, StageView, TargetMesh,
 };
-use morphospace::transition::{Cell, Rgb, Style, Transition, TransitionSpec};
+use morphospace::transition::{Cell, Style, Transition, TransitionSpec};
 use morphospace::warp::WarpKind;
 
 /// A strip of squares, each cut in two.

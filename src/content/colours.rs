@@ -13,7 +13,6 @@ mod layer;
 mod linear;
 
 pub use layer::Layer;
-pub(crate) use linear::{linear_from_srgb, srgb_from_linear};
 
 use super::scan::{Facet, scan};
 use crate::design::Picture;

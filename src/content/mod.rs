@@ -1,6 +1,7 @@
 //! Contents: what is seen where a warp has put things. One file per column of
 //! the table of cells. Contents read placements and nothing else.
 
+mod coating;
 mod colours;
 mod field;
 mod hole;
@@ -8,8 +9,8 @@ mod scan;
 mod solid;
 mod swell;
 
+pub use coating::{Coat, Coating};
 pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
-pub(crate) use colours::{linear_from_srgb, srgb_from_linear};
 pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError};
 pub use hole::Hole;
 pub use solid::{Solid, Speck};

@@ -1,7 +1,7 @@
 //! Solid regions and bars that are carried by the vertices of a placement.
 
-use super::{Hole, Swell};
-use crate::geometry::{DVec2, RingEdge, Side};
+use super::{Coating, Hole, Swell};
+use crate::geometry::{Crossing, DVec2, RingEdge, Side, count_crossings, crossings};
 use crate::warp::Life;
 use std::collections::BTreeSet;
 
@@ -23,6 +23,8 @@ pub struct Solid {
     /// Parts that one of the designs has alone and that grow, which are not
     /// drawn while they are specks.
     pub specks: Vec<Speck>,
+    /// How all that is painted; none where it has one colour.
+    pub coating: Option<Coating>,
 }
 
 /// A part that grows from a speck, or shrinks to one.
@@ -50,12 +52,79 @@ impl Solid {
     /// Where a walk goes by a vertex that has no place.
     #[must_use]
     pub fn rings_at(&self, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
-        let at = |walk: usize| self.walk_at(walk, places);
-        let swells = self.swelling(t);
-        let swells = swells.flat_map(|swell| self.swollen(swell, places, t));
-        let holes = self.holes.iter().filter_map(|hole| hole.at(places, t));
-        let walks = self.walks(t).map(at);
+        let inked = self.inked_at(places, t).into_iter();
+        inked.map(|(_, ring)| ring).collect()
+    }
+
+    /// The rings of [`Self::rings_at`], each with its coat; 0 where there is one
+    /// colour.
+    fn inked_at(&self, places: &[DVec2], t: f64) -> Vec<(usize, Vec<DVec2>)> {
+        let coating = self.coating.as_ref();
+        let of_walk = |walk: usize| coating.map_or(0, |coating| coating.of_walks[walk]);
+        let of_hole = |hole: usize| coating.map_or(0, |coating| coating.of_holes[hole]);
+        let swells = self.swelling(t).flat_map(|swell| {
+            let coat = swell.walks().first().map_or(0, |&walk| of_walk(walk));
+            let rings = self.swollen(swell, places, t).into_iter();
+            rings.map(move |ring| (coat, ring))
+        });
+        let holes = self.holes.iter().enumerate();
+        let holes = holes.filter_map(|(k, hole)| Some((of_hole(k), hole.at(places, t)?)));
+        let walks = self.walks(t);
+        let walks = walks.map(|walk| (of_walk(walk), self.walk_at(walk, places)));
         walks.chain(swells).chain(holes).collect()
+    }
+
+    /// The rings of each coat at `t`, the lowest coat first, and its number; of a
+    /// solid of one colour all in one.
+    ///
+    /// # Panics
+    /// Where a walk goes by a vertex that has no place.
+    #[must_use]
+    pub fn coated_at(&self, places: &[DVec2], t: f64) -> Vec<(usize, Vec<Vec<DVec2>>)> {
+        let Some(coating) = &self.coating else {
+            return vec![(0, self.rings_at(places, t))];
+        };
+        let mut coats = vec![Vec::new(); coating.coats.len()];
+        for (coat, ring) in self.inked_at(places, t) {
+            coats[coat].push(ring);
+        }
+        let order = coating.order(t).into_iter();
+        order
+            .map(|coat| (coat, std::mem::take(&mut coats[coat])))
+            .collect()
+    }
+
+    /// Where rings of [`Self::rings_at`] cross; those of two coats may.
+    ///
+    /// # Panics
+    /// Where a walk goes by a vertex that has no place.
+    #[must_use]
+    pub fn crossings_at(&self, places: &[DVec2], t: f64) -> Vec<Crossing> {
+        let Some(coating) = &self.coating else {
+            return crossings(&self.rings_at(places, t));
+        };
+        let rings = self.inked_at(places, t);
+        let of_coat = |coat: usize| {
+            let is_in_coat = |k: &usize| rings[*k].0 == coat;
+            let members: Vec<usize> = (0..rings.len()).filter(is_in_coat).collect();
+            let own: Vec<Vec<DVec2>> = members.iter().map(|&k| rings[k].1.clone()).collect();
+            let mut found = crossings(&own);
+            for edge in found.iter_mut().flat_map(|crossing| &mut crossing.edges) {
+                edge.ring = members[edge.ring];
+            }
+            found
+        };
+        (0..coating.coats.len()).flat_map(of_coat).collect()
+    }
+
+    /// How often rings cross that are in one coat.
+    ///
+    /// # Panics
+    /// Where a walk goes by a vertex that has no place.
+    #[must_use]
+    pub fn count_crossings(&self, places: &[DVec2], t: f64) -> usize {
+        let coats = self.coated_at(places, t);
+        coats.iter().map(|(_, rings)| count_crossings(rings)).sum()
     }
 
     fn walk_at(&self, walk: usize, places: &[DVec2]) -> Vec<DVec2> {

@@ -9,7 +9,8 @@
 //! several.
 
 use super::assignment::assign;
-use crate::geometry::{DVec2, Region, Regions, Ring, lexicographic};
+use super::regions::{Look, Looks};
+use crate::geometry::{DVec2, Region, Regions, Ring, Side, lexicographic};
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
@@ -64,18 +65,25 @@ pub(super) fn relative_centres(design: &Regions) -> Vec<DVec2> {
 /// # Errors
 /// [`PairError`] if a fixed pair names no part, or a part twice.
 pub(super) fn pair_parts(
-    source: &Regions,
-    target: &Regions,
+    designs: [&Regions; 2],
+    looks: &Looks,
     fixed: &[[usize; 2]],
     taken: [&[usize]; 2],
 ) -> Result<Pairing, PairError> {
-    let parts = |regions: &Regions| {
-        let bounds = regions.bounds();
+    let [source, target] = Side::BOTH.map(|side| {
+        let bounds = designs[side].bounds();
         let (origin, size) = (bounds.centre(), bounds.size().max_element());
-        let part = |r: &Region| Part::of(&r.outer, r.holes.len(), origin, size, 0.0);
-        regions.iter().map(part).collect::<Vec<_>>()
-    };
-    pair(&parts(source), &parts(target), fixed, taken)
+        let part = |(k, region): (usize, &Region)| Part {
+            look: looks.0[side].get(k).cloned().unwrap_or_default(),
+            ..Part::of(&region.outer, region.holes.len(), origin, size, 0.0)
+        };
+        designs[side]
+            .iter()
+            .enumerate()
+            .map(part)
+            .collect::<Vec<_>>()
+    });
+    pair(&source, &target, fixed, taken)
 }
 
 /// Pairs the holes of two regions; `fixed` pairs are kept, and what is `taken`
@@ -108,7 +116,7 @@ pub(super) fn pair_holes(
 }
 
 /// What is compared of a part.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 struct Part {
     /// Centre relative to the design, in its size.
     position: DVec2,
@@ -119,6 +127,8 @@ struct Part {
     /// Shorter over longer axis of inertia.
     slenderness: f64,
     holes: f64,
+    /// How it is painted.
+    look: Look,
 }
 
 impl Part {
@@ -137,27 +147,30 @@ impl Part {
             roundness: tame(round.min(1.0)),
             slenderness: tame(moments.slenderness),
             holes: holes as f64,
+            look: Look::default(),
         }
     }
 
     fn unlike(&self, other: &Self) -> f64 {
         let holes = (self.holes - other.holes).abs().min(2.0);
-        POSITION * self.position.distance(other.position)
+        let form = POSITION * self.position.distance(other.position)
             + SIZE * (self.log_size - other.log_size).abs()
             + SHAPE * (self.roundness - other.roundness).abs()
             + SHAPE * (self.slenderness - other.slenderness).abs()
-            + SHAPE * holes
+            + SHAPE * holes;
+        self.look.cost(&other.look, form)
     }
 
-    fn key(&self) -> [f64; 6] {
+    fn key(&self) -> [f64; 7] {
         let Self {
             position: p,
             log_size,
             roundness,
             slenderness,
             holes,
+            look: Look { height, .. },
         } = *self;
-        [p.x, p.y, log_size, roundness, slenderness, holes]
+        [p.x, p.y, log_size, roundness, slenderness, holes, height]
     }
 }
 
@@ -302,7 +315,7 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         let other = four.transformed(&moved);
-        let pairing = pair_parts(&four, &other, &[], NONE).expect("pairs");
+        let pairing = pair_parts([&four, &other], &Looks::default(), &[], NONE).expect("pairs");
         let (a, b) = (centres(&four), centres(&other));
         assert_eq!(pairing.pairs.len(), 4);
         for [i, j] in pairing.pairs {
@@ -318,14 +331,17 @@ mod tests {
             block(9.0, 0.0, 2.0, 2.0),
         ]);
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
-        let there = pair_parts(&three, &two, &[], NONE).expect("pairs");
+        let there = pair_parts([&three, &two], &Looks::default(), &[], NONE).expect("pairs");
         assert_eq!(
             (there.pairs.len(), there.dying.len(), there.born.len()),
             (2, 1, 0)
         );
         let middle = three.iter().nth(there.dying[0]).expect("a part");
         assert!((middle.outer.signed_area() - 1.0).abs() < 1e-9);
-        assert_eq!(pair_parts(&two, &three, &[], NONE), Ok(swapped(&there)));
+        assert_eq!(
+            pair_parts([&two, &three], &Looks::default(), &[], NONE),
+            Ok(swapped(&there))
+        );
     }
 
     #[test]
@@ -356,13 +372,16 @@ mod tests {
     #[test]
     fn fixed_pairs_are_kept_and_checked() {
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
-        let crossed = pair_parts(&two, &two, &[[0, 1]], NONE).expect("pairs");
+        let crossed = pair_parts([&two, &two], &Looks::default(), &[[0, 1]], NONE).expect("pairs");
         assert_eq!(crossed.pairs, vec![[0, 1], [1, 0]]);
         assert_eq!(
-            pair_parts(&two, &two, &[[0, 1], [0, 0]], NONE),
+            pair_parts([&two, &two], &Looks::default(), &[[0, 1], [0, 0]], NONE),
             Err(PairError::Twice(0))
         );
         let missing = PairError::NoSuchPart { part: 7, count: 2 };
-        assert_eq!(pair_parts(&two, &two, &[[0, 7]], NONE), Err(missing));
+        assert_eq!(
+            pair_parts([&two, &two], &Looks::default(), &[[0, 7]], NONE),
+            Err(missing)
+        );
     }
 }

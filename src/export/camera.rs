@@ -7,9 +7,10 @@
 use image::RgbaImage;
 use rayon::prelude::*;
 
+use crate::colour::Rgb;
 use crate::geometry::Bounds;
 use crate::progress::{Cancelled, Progress, checkpoint};
-use crate::transition::{Frame, Rgb, Style, Transition};
+use crate::transition::{Frame, Style, Transition};
 
 use super::drawing::Drawing;
 use super::error::ExportError;

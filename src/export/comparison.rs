@@ -5,11 +5,12 @@
 //! of t do not overlap; a method that failed has its reason in place of
 //! frames.
 
+use crate::colour::Rgb;
 use crate::content::ContentKind;
 use crate::geometry::{Bounds, DVec2};
 use crate::measure::Rating;
 use crate::progress::{Cancelled, Progress};
-use crate::transition::{BuildError, Cell, Rgb, Style, Transition, TransitionSpec};
+use crate::transition::{BuildError, Cell, Style, Transition, TransitionSpec};
 
 use super::camera::framing;
 use super::drawing::Drawing;

@@ -15,9 +15,10 @@ use std::collections::HashSet;
 use glam::UVec2;
 use image::RgbaImage;
 
+use crate::colour::{Paint, Rgb};
 use crate::content::{Content, Raster};
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::{Figure, Frame, Rgb, Style};
+use crate::transition::{Coated, Figure, Frame, Style};
 
 use super::outline::{Outline, is_drawable};
 use super::size::PixelSize;
@@ -33,15 +34,15 @@ pub const JOINT_CORE_RADIUS: f64 = 0.5;
 /// How far a joint's core runs from the bars' colour to white, in linear light.
 const JOINT_CORE_LIGHTNESS: f64 = 0.6;
 
-/// One shape of a [`Drawing`]; colours are opaque sRGB.
+/// One shape of a [`Drawing`]; what has a colour and no paint is opaque.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// A filled outline; `label` says in words what it shows, where it is text.
     Fill {
         /// What is filled.
         outline: Outline,
-        /// Its colour.
-        colour: Rgb,
+        /// With what.
+        paint: Paint,
         /// The words that the outline spells, for readers that cannot see.
         label: Option<String>,
     },
@@ -115,8 +116,7 @@ impl Drawing {
         if matches!(frame.transition().content(), Content::Colours(_)) {
             return self.push_colours(frame, view);
         }
-        let colour = style.fill_at(frame.t());
-        self.push_figure(&frame.figure(), colour, style.joints, view);
+        self.push_figure(&frame.figure(), frame.t(), style, view);
     }
 
     /// Adds the pixels that the frame's pictures cover.
@@ -145,9 +145,14 @@ impl Drawing {
         }
     }
 
-    /// Adds a figure in one colour, its joints as discs with a lighter core.
-    pub fn push_figure(&mut self, figure: &Figure, colour: Rgb, joints: bool, view: &View) {
-        self.push_rings(figure, colour, view);
+    /// Adds a figure as it looks at `t`: coat by coat, or in the style's one
+    /// colour; joints as discs with a lighter core.
+    pub fn push_figure(&mut self, figure: &Figure, t: f64, style: &Style, view: &View) {
+        let colour = style.fill_at(t);
+        match figure.coats.as_slice() {
+            [] => self.push_rings(&figure.rings, colour.into(), view),
+            coats => self.push_coats(coats, figure, |paints| style.paint_at(paints, t), view),
+        }
         let segments: Vec<[DVec2; 2]> = figure
             .bars
             .iter()
@@ -160,7 +165,7 @@ impl Drawing {
                 segments,
                 figure.bar_width * view.px_per_unit(),
                 colour,
-                joints,
+                style.joints,
             );
         }
     }
@@ -169,20 +174,45 @@ impl Drawing {
     pub fn push_label(&mut self, words: &str, base_px: DVec2, height_px: f64, colour: Rgb) {
         self.items.push(Item::Fill {
             outline: text::centred(words, base_px, height_px),
-            colour,
+            paint: colour.into(),
             label: Some(words.to_owned()),
         });
     }
 
-    fn push_rings(&mut self, figure: &Figure, colour: Rgb, view: &View) {
+    /// Coats that lie on each other in one opaque paint are filled as one: the
+    /// smooth edges of parts that touch would show what is below.
+    fn push_coats(
+        &mut self,
+        coats: &[Coated],
+        figure: &Figure,
+        paint: impl Fn([Option<Paint>; 2]) -> Paint,
+        view: &View,
+    ) {
+        let mut coats = coats
+            .iter()
+            .map(|coat| (coat.rings.clone(), paint(coat.paints)));
+        let mut next = coats.next();
+        while let Some((mut rings, paint)) = next {
+            next = coats.next();
+            while let Some((more, _)) =
+                next.take_if(|(_, other)| *other == paint && paint.is_opaque())
+            {
+                rings.end = more.end;
+                next = coats.next();
+            }
+            self.push_rings(&figure.rings[rings], paint, view);
+        }
+    }
+
+    fn push_rings(&mut self, rings: &[Vec<DVec2>], paint: Paint, view: &View) {
         let mut outline = Outline::default();
-        for ring in &figure.rings {
+        for ring in rings {
             outline.push_ring(ring.iter().map(|&p| view.to_px(p)));
         }
-        if !outline.steps.is_empty() {
+        if !outline.steps.is_empty() && paint.opacity > 0.0 {
             self.items.push(Item::Fill {
                 outline,
-                colour,
+                paint,
                 label: None,
             });
         }
@@ -228,6 +258,44 @@ mod tests {
 
     const BLUE: Rgb = Rgb([59, 125, 216]);
 
+    fn blue() -> Style {
+        Style {
+            source: BLUE,
+            ..Style::default()
+        }
+    }
+
+    #[test]
+    fn coats_are_filled_one_over_the_other_and_touching_ones_as_one() {
+        let square = |x: f64| {
+            [(x, 0.0), (x + 1.0, 0.0), (x + 1.0, 1.0)]
+                .map(DVec2::from)
+                .to_vec()
+        };
+        let [red, none] = [1.0, 0.0].map(|opacity| Paint {
+            colour: Rgb([255, 0, 0]),
+            opacity,
+        });
+        let paints = [red, red, none, BLUE.into()];
+        let coats = paints.iter().enumerate().map(|(k, &paint)| Coated {
+            rings: k..k + 1,
+            paints: [Some(paint), None],
+        });
+        let figure = Figure {
+            rings: [0.0, 1.0, 1.5, 2.0].map(square).to_vec(),
+            coats: coats.collect(),
+            ..Figure::default()
+        };
+        let mut drawing = Drawing::new(PixelSize::new(4, 4).expect("a legal size"), None);
+        drawing.push_figure(&figure, 0.0, &blue(), &view());
+        let filled = |item: &Item| match item {
+            Item::Fill { outline, paint, .. } => (outline.steps.len(), *paint),
+            other => panic!("only fills were expected: {other:?}"),
+        };
+        let found: Vec<_> = drawing.items.iter().map(filled).collect();
+        assert_eq!(found, [(8, red), (4, BLUE.into())]);
+    }
+
     fn view() -> View {
         let bounds = Bounds {
             min: DVec2::new(-1.0, 0.0),
@@ -243,10 +311,11 @@ mod tests {
             rings: vec![],
             bars: vec![[node[0], node[1]], [node[1], node[2]], [node[2], node[0]]],
             bar_width: 0.1,
+            ..Figure::default()
         };
         let size = PixelSize::new(400, 400).expect("a legal size");
         let mut drawing = Drawing::new(size, None);
-        drawing.push_figure(&figure, BLUE, true, &view());
+        drawing.push_figure(&figure, 0.0, &blue(), &view());
         let [
             Item::Bars { width_px, .. },
             Item::Discs { centres, .. },
@@ -272,9 +341,10 @@ mod tests {
             ],
             bars: vec![[DVec2::ZERO, far]],
             bar_width: 0.1,
+            ..Figure::default()
         };
         let mut drawing = Drawing::new(PixelSize::new(4, 4).expect("a legal size"), None);
-        drawing.push_figure(&figure, BLUE, true, &view());
+        drawing.push_figure(&figure, 0.0, &blue(), &view());
         assert!(drawing.items.is_empty());
     }
 }

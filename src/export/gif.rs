@@ -164,9 +164,10 @@ fn encoded_frame(image: &RgbaImage, palette: &Palette) -> Frame<'static> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colour::Rgb;
     use crate::export::testing::camera;
     use crate::progress::Silent;
-    use crate::transition::{PlayMode, Rgb};
+    use crate::transition::PlayMode;
 
     const CREAM: Rgb = Rgb([250, 248, 240]);
 

@@ -7,8 +7,9 @@
 //! which it says. Strips run down in blocks that make the sheet a little wider
 //! than high.
 
+use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::{Figure, Rgb, Style, Transition};
+use crate::transition::{Figure, Style, Transition};
 
 use super::camera::framing;
 use super::drawing::Drawing;
@@ -53,8 +54,8 @@ pub struct Strip {
     name: String,
     words: String,
     is_bad: bool,
-    frames: Vec<(Figure, Rgb)>,
-    joints: bool,
+    frames: Vec<(Figure, f64)>,
+    style: Style,
     bounds: Option<Bounds>,
 }
 
@@ -65,12 +66,12 @@ impl Strip {
         let mut frame = transition.frame(0.0);
         let mut shoot = |&t: &f64| {
             frame.seek(t);
-            (frame.figure(), style.fill_at(t))
+            (frame.figure(), t)
         };
         Self {
             name: name.to_owned(),
             frames: times.iter().map(&mut shoot).collect(),
-            joints: style.joints,
+            style: *style,
             bounds: Some(framing(transition, times)),
             ..Self::default()
         }
@@ -217,10 +218,10 @@ fn push_strip(drawing: &mut Drawing, strip: &Strip, layout: &Layout, corner: DVe
         below,
         words,
     );
-    for (i, (figure, colour)) in strip.frames.iter().enumerate() {
+    for (i, (figure, t)) in strip.frames.iter().enumerate() {
         let at = frames + DVec2::new(i as f64 * step, 0.0);
         let view = View::fit_cell(bounds, drawing.size, at, DVec2::splat(layout.cell_px));
-        drawing.push_figure(figure, *colour, strip.joints, &view);
+        drawing.push_figure(figure, *t, &strip.style, &view);
     }
 }
 

@@ -7,11 +7,11 @@
 use glam::{DVec2, UVec2};
 use image::RgbaImage;
 use tiny_skia::{
-    Color, FillRule, LineCap, Paint, Path, PathBuilder, PixmapMut, PixmapPaint, PixmapRef,
+    Color, FillRule, LineCap, Path, PathBuilder, PixmapMut, PixmapPaint, PixmapRef,
     PremultipliedColorU8, Stroke, Transform,
 };
 
-use crate::transition::Rgb;
+use crate::colour::{Paint, Rgb};
 
 use super::drawing::{Drawing, Item};
 use super::outline::{Outline, Step};
@@ -35,9 +35,7 @@ pub fn rasterise(drawing: &Drawing) -> RgbaImage {
 
 fn paint(item: &Item, canvas: &mut PixmapMut<'_>) {
     match item {
-        Item::Fill {
-            outline, colour, ..
-        } => fill(path_of(outline), *colour, canvas),
+        Item::Fill { outline, paint, .. } => fill(path_of(outline), *paint, canvas),
         Item::Bars {
             segments,
             width_px,
@@ -50,7 +48,7 @@ fn paint(item: &Item, canvas: &mut PixmapMut<'_>) {
         } => {
             for c in centres {
                 let disc = path_of(&disc(*c, *radius_px));
-                fill(disc, *colour, canvas);
+                fill(disc, (*colour).into(), canvas);
             }
         }
         Item::Picture { image, corner } => picture(image, *corner, canvas),
@@ -76,10 +74,10 @@ fn disc(centre: DVec2, radius: f64) -> Outline {
     }
 }
 
-fn fill(path: Option<Path>, colour: Rgb, canvas: &mut PixmapMut<'_>) {
+fn fill(path: Option<Path>, paint: Paint, canvas: &mut PixmapMut<'_>) {
     if let Some(path) = path {
         let rule = FillRule::Winding;
-        canvas.fill_path(&path, &plain(colour), rule, Transform::identity(), None);
+        canvas.fill_path(&path, &plain(paint), rule, Transform::identity(), None);
     }
 }
 
@@ -96,7 +94,13 @@ fn stroke(segments: &[[DVec2; 2]], width_px: f64, colour: Rgb, canvas: &mut Pixm
     };
     // tiny-skia takes a width of 0 for a hairline, SVG for nothing at all.
     if let Some(path) = builder.finish().filter(|_| width_px > 0.0) {
-        canvas.stroke_path(&path, &plain(colour), &stroke, Transform::identity(), None);
+        canvas.stroke_path(
+            &path,
+            &plain(colour.into()),
+            &stroke,
+            Transform::identity(),
+            None,
+        );
     }
 }
 
@@ -151,10 +155,12 @@ pub(crate) fn make_straight(pixel: &mut image::Rgba<u8>) {
     };
 }
 
-fn plain(colour: Rgb) -> Paint<'static> {
-    let mut paint = Paint::default();
-    paint.set_color(color(colour));
-    paint
+fn plain(paint: Paint) -> tiny_skia::Paint<'static> {
+    let mut plain = tiny_skia::Paint::default();
+    let mut colour = color(paint.colour);
+    colour.set_alpha(paint.opacity as f32);
+    plain.set_color(colour);
+    plain
 }
 
 fn color(Rgb([r, g, b]): Rgb) -> Color {
@@ -219,7 +225,7 @@ mod tests {
     fn alpha_is_straight_and_grounds_are_exact() {
         let half = Item::Fill {
             outline: disc(DVec2::splat(20.0), 10.0),
-            colour: RED,
+            paint: RED.into(),
             label: None,
         };
         let image = painted(vec![half], None);

@@ -5,8 +5,9 @@
 //! a last row that is not full starts at the left. It is a [`Drawing`] like any
 //! other, so PNG and SVG show the same.
 
+use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::{Rgb, Style, Transition};
+use crate::transition::{Style, Transition};
 
 use super::drawing::Drawing;
 use super::size::{LONGEST_SHEET_PX, PixelSize};

@@ -9,7 +9,7 @@ use std::fmt::{self, Write};
 use glam::{DVec2, UVec2};
 use image::codecs::png::PngEncoder;
 
-use crate::transition::Rgb;
+use crate::colour::{Paint, Rgb};
 
 use super::drawing::{Drawing, Item};
 use super::outline::{Outline, Step};
@@ -35,9 +35,9 @@ fn element(item: &Item) -> String {
     match item {
         Item::Fill {
             outline,
-            colour,
+            paint,
             label,
-        } => fill(outline, *colour, label.as_deref()),
+        } => fill(outline, paint, label.as_deref()),
         Item::Bars {
             segments,
             width_px,
@@ -60,12 +60,19 @@ fn element(item: &Item) -> String {
     }
 }
 
-fn fill(outline: &Outline, colour: Rgb, label: Option<&str>) -> String {
+fn fill(outline: &Outline, paint: &Paint, label: Option<&str>) -> String {
     let label = label.map_or_else(String::new, |words| {
         format!(" role=\"img\" aria-label=\"{}\"", Escaped(words))
     });
     let steps: String = outline.steps.iter().map(step).collect();
-    format!("<path{label} fill=\"{}\" d=\"{steps}\"/>", colour)
+    let opacity = match paint.is_opaque() {
+        true => String::new(),
+        false => format!(" fill-opacity=\"{}\"", Number(paint.opacity)),
+    };
+    format!(
+        "<path{label} fill=\"{}\"{opacity} d=\"{steps}\"/>",
+        paint.colour
+    )
 }
 
 fn step(step: &Step) -> String {
@@ -159,7 +166,7 @@ mod tests {
     use super::*;
     use crate::export::{PixelSize, View, rasterise};
     use crate::geometry::Bounds;
-    use crate::transition::Figure;
+    use crate::transition::{Figure, Style};
     use tiny_skia::{FillRule, Paint, Pixmap};
 
     #[test]
@@ -243,6 +250,7 @@ mod tests {
                 [corner, DVec2::new(9.5, 1.25)],
             ],
             bar_width: 0.4,
+            ..Figure::default()
         };
         let bounds = Bounds {
             min: DVec2::ZERO,
@@ -250,7 +258,11 @@ mod tests {
         };
         let view = View::fit(bounds, PixelSize::new(200, 120).expect("a legal size"));
         let mut drawing = Drawing::new(view.size(), ground);
-        drawing.push_figure(&figure, Rgb([59, 125, 216]), true, &view);
+        let style = Style {
+            source: Rgb([59, 125, 216]),
+            ..Style::default()
+        };
+        drawing.push_figure(&figure, 0.0, &style, &view);
         let black = Rgb([0; 3]);
         drawing.push_label("t = 0.25", DVec2::new(150.0, 20.0), 16.0, black);
         drawing

@@ -3,9 +3,10 @@
 
 use std::sync::Arc;
 
+use crate::colour::Rgb;
 use crate::design::{ImportOptions, import};
 use crate::progress::Silent;
-use crate::transition::{Rgb, Style, Transition, TransitionSpec};
+use crate::transition::{Style, Transition, TransitionSpec};
 
 use super::{Camera, PixelSize, View, framing};
 

@@ -3,8 +3,8 @@
 
 use std::fmt;
 
+use crate::colour::Rgb;
 use crate::geometry::DVec2;
-use crate::transition::Rgb;
 
 use super::drawing::Drawing;
 use super::text;

@@ -31,7 +31,8 @@ pub struct Region {
     pub holes: Vec<Ring>,
 }
 
-/// One or more disjoint pieces.
+/// One or more disjoint pieces; only those that were [stacked](Regions::stacked)
+/// may lie over each other.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Regions(Vec<Region>);
 
@@ -149,6 +150,14 @@ impl Regions {
         // The holes of an outside that was left out are slivers as well.
         let kept: usize = regions.iter().map(|region| 1 + region.holes.len()).sum();
         Ok((Self(regions), found - kept))
+    }
+
+    /// The pieces of several layers, one layer after the other: pieces of two
+    /// layers may overlap, those of one do not. None of no layers.
+    #[must_use]
+    pub fn stacked(layers: impl IntoIterator<Item = Self>) -> Option<Self> {
+        let pieces: Vec<Region> = layers.into_iter().flat_map(|layer| layer.0).collect();
+        (!pieces.is_empty()).then_some(Self(pieces))
     }
 
     /// Each piece as another.

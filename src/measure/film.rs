@@ -9,7 +9,7 @@ use super::excess;
 use super::motion::{self, Motion};
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, Solid};
-use crate::geometry::{DVec2, count_crossings, perimeter, signed_area, turning, turning_excess};
+use crate::geometry::{DVec2, perimeter, signed_area, turning, turning_excess};
 use crate::progress::{Cancelled, Progress, Span, Whole, checkpoint, still_wanted};
 use crate::transition::{Frame, Transition};
 use crate::warp::{ArapError, Warp};
@@ -180,20 +180,20 @@ impl<'a> Sampler<'a> {
             turning: turning(&rings, self.diameter) + TAU * solid.gone_at(t) as f64,
             pieces: self.topology.map(|[pieces, _]| pieces),
             holes: self.topology.map(|[_, holes]| holes),
-            crossings: (!rings.is_empty()).then(|| crossings_at(t, &rings)),
+            crossings: (!rings.is_empty()).then(|| crossings_at(t, solid, places)),
             distortion: self.mesh.and_then(|mesh| distortion(mesh, places)),
         }
     }
 }
 
-/// How often rings cross at `t`. At its ends a film is the designs: parts that
+/// How often the rings of a solid cross at `t`. At its ends a film is the designs: parts that
 /// one of them was cut into share their seams there, to the last digit and no
 /// further.
-pub(super) fn crossings_at(t: f64, rings: &[Vec<DVec2>]) -> usize {
+pub(super) fn crossings_at(t: f64, solid: &Solid, places: &[DVec2]) -> usize {
     if t == 0.0 || t == 1.0 {
         return 0;
     }
-    count_crossings(rings)
+    solid.count_crossings(places, t)
 }
 
 /// The diameter of the larger design.

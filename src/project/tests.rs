@@ -2,8 +2,9 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use super::*;
+use crate::colour::Rgb;
 use crate::geometry::{DVec2, Similarity};
-use crate::transition::{Easing, Fit, PlayMode, Rgb, Stop};
+use crate::transition::{Easing, Fit, PlayMode, Stop};
 use crate::warp::{ArapPath, Course, WarpKind, Weights};
 use proptest::prelude::*;
 use std::path::Path;

@@ -15,9 +15,9 @@ use bevy::render::renderer::RenderDevice;
 use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use image::RgbaImage;
 
+use crate::colour::Rgb;
 use crate::export::make_straight;
 use crate::geometry::Bounds;
-use crate::transition::Rgb;
 
 use super::components::Blend;
 use super::pipelines::PipelinesReady;

@@ -14,8 +14,8 @@ use bevy::render::render_resource::{
 use bevy::shader::ShaderRef;
 use bevy::sprite_render::{AlphaMode2d, Material2d, Material2dKey};
 
+use crate::colour::Rgb;
 use crate::geometry::Bounds;
-use crate::transition::Rgb;
 
 /// What kind of shape the vertices describe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -4,8 +4,9 @@
 use bevy::prelude::*;
 use glam::DVec2;
 
+use crate::colour::Rgb;
 use crate::export::joint_core;
-use crate::transition::{Frame, Rgb};
+use crate::transition::Frame;
 use crate::warp::WarpKind;
 
 use super::carried;

@@ -281,8 +281,7 @@ mod tests {
     fn an_outline_is_closed() {
         let figure = Figure {
             rings: vec![vec![DVec2::ZERO, DVec2::X, DVec2::Y]],
-            bars: vec![],
-            bar_width: 0.0,
+            ..Figure::default()
         };
         let segments = Segments::of(&figure, DVec2::ZERO);
         assert_eq!(segments.quads(), 3);

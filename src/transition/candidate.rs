@@ -1,5 +1,6 @@
 //! One way to match a piece: its mesh, and what is seen of its film.
 
+use super::coats::Levels;
 use super::error::BuildError;
 use super::holes::{HoleOf, timed};
 use super::options::Options;
@@ -100,7 +101,9 @@ impl Candidate {
                 ..ArapOptions::default()
             };
             let film = arap(&mesh, &alone, &[], &filming)?;
-            let lone = timed(std::slice::from_ref(&matched), &film, progress)?;
+            // Nothing else is there.
+            let alone = Levels::default();
+            let lone = timed(std::slice::from_ref(&matched), &film, &alone, progress)?;
             Trouble::of(&film, &lone, progress)?
         } else {
             Trouble::default()

@@ -6,6 +6,7 @@
 //! with the most conflicts for its area first (the greedy cover of Chvátal
 //! 1979): small, not the smallest.
 
+use super::coats::Levels;
 use super::holes::HoleOf;
 use super::walks::Walks;
 use crate::correspondence::{PieceMatch, RegionMatch};
@@ -17,14 +18,16 @@ use std::collections::BTreeSet;
 /// Steps of a film that is looked at.
 const STEPS: u32 = 32;
 
-/// The pieces to let go; none where no two parts of both designs meet.
+/// The pieces to let go; none where no two parts of both designs meet that are on
+/// one level.
 pub(super) fn in_the_way(
     matched: &RegionMatch,
     film: &Arap,
-    holes: &[HoleOf],
+    (holes, levels): (&[HoleOf], &Levels),
     progress: &dyn Progress,
 ) -> Result<Vec<usize>, Cancelled> {
-    let conflicts = conflicts(film, holes, progress)?;
+    let mut conflicts = conflicts(film, holes, progress)?;
+    conflicts.retain(|pair| levels.of_piece(pair[0]) == levels.of_piece(pair[1]));
     Ok(cover(conflicts, &worths(matched)))
 }
 

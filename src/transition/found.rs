@@ -1,6 +1,7 @@
 //! What was found for two designs, as text that a document keeps, and what it was
 //! found for.
 
+use super::coats::Drawings;
 use super::options::Options;
 use super::rigid::coarse;
 use crate::geometry::{DVec2, Regions};
@@ -64,8 +65,9 @@ impl Found {
     }
 }
 
-/// What a film is found for: its outlines, and the options that it hangs on.
-pub(super) fn key(options: &Options, outlines: &[Regions; 2]) -> String {
+/// What a film is found for: its outlines and how they look, and the options that it hangs on.
+pub(super) fn key(options: &Options, drawings: &Drawings) -> String {
+    let outlines = &drawings.outlines;
     let mut hasher = FnvHasher::default();
     let asked = (
         &options.matching,
@@ -86,6 +88,15 @@ pub(super) fn key(options: &Options, outlines: &[Regions; 2]) -> String {
             hasher.write_i64(from_corner.x.floor() as i64);
             hasher.write_i64(from_corner.y.floor() as i64);
         }
+    }
+    // Nothing of drawings in one colour, so that what was found before they had
+    // others is taken.
+    for look in drawings.looks.0.iter().flatten() {
+        hasher.write_usize(look.coat);
+        let paint = look
+            .paint
+            .map(|paint| (paint.colour.0, paint.opacity.to_bits()));
+        hasher.write(format!("{paint:?} {}", look.name).as_bytes());
     }
     format!("{:016x}", hasher.finish())
 }

@@ -1,11 +1,13 @@
 //! One moment of a transition.
 
 use super::ready::Transition;
-use crate::content::{Content, Raster};
+use crate::colour::Paint;
+use crate::content::{Content, Raster, Solid};
 use crate::design::{Design, Form};
 use crate::geometry::DVec2;
 use crate::warp::{Placement, Placer, WarpKind};
 use image::RgbaImage;
+use std::ops::Range;
 
 /// A transition at one t, unevaluated: a placement and a place in the mix.
 #[derive(Debug)]
@@ -18,12 +20,27 @@ pub struct Frame {
 /// What a frame looks like, evaluated on the CPU.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Figure {
-    /// Closed polygons, to be filled together by the non-zero rule.
+    /// Closed polygons, to be filled together by the non-zero rule; or coat by
+    /// coat where there are coats.
     pub rings: Vec<Vec<DVec2>>,
+    /// What is painted in colours of its own, the lowest first: all rings, or
+    /// none.
+    pub coats: Vec<Coated>,
     /// Bars, from end to end.
     pub bars: Vec<[DVec2; 2]>,
     /// Width of the bars, in units of the designs.
     pub bar_width: f64,
+}
+
+/// Rings of a figure that are painted alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coated {
+    /// Their indices.
+    pub rings: Range<usize>,
+    /// Their paint in source and target; see [`Style::paint_at`].
+    ///
+    /// [`Style::paint_at`]: super::Style::paint_at
+    pub paints: [Option<Paint>; 2],
 }
 
 impl Transition {
@@ -84,14 +101,7 @@ impl Frame {
     #[must_use]
     pub fn figure(&self) -> Figure {
         match self.transition.content() {
-            Content::Solid(solid) => {
-                let places = &self.placement().in_frame;
-                Figure {
-                    rings: solid.rings_at(places, self.t),
-                    bars: solid.bars_at(places),
-                    bar_width: solid.bar_width,
-                }
-            }
+            Content::Solid(solid) => self.solid_figure(solid),
             Content::Field(pair) => Figure {
                 rings: match self.transition.cell().warp() {
                     WarpKind::None => pair.contour(self.t),
@@ -104,6 +114,26 @@ impl Frame {
                 ..Figure::default()
             },
         }
+    }
+
+    fn solid_figure(&self, solid: &Solid) -> Figure {
+        let places = &self.placement().in_frame;
+        let mut figure = Figure {
+            bars: solid.bars_at(places),
+            bar_width: solid.bar_width,
+            ..Figure::default()
+        };
+        for (coat, rings) in solid.coated_at(places, self.t) {
+            let first = figure.rings.len();
+            figure.rings.extend(rings);
+            if let Some(coating) = &solid.coating {
+                figure.coats.push(Coated {
+                    rings: first..figure.rings.len(),
+                    paints: coating.coats[coat].paints,
+                });
+            }
+        }
+        figure
     }
 
     /// The frame as pixels, where pictures are what is seen: sRGB with
@@ -133,9 +163,9 @@ fn ghost(design: &Design, bar_width: f64) -> Figure {
             }
         }
         Form::Truss(truss) => Figure {
-            rings: Vec::new(),
             bars: truss.segments().collect(),
             bar_width,
+            ..Figure::default()
         },
     }
 }

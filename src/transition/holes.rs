@@ -6,6 +6,7 @@
 //! crossed between two is missed.
 
 use super::births::times;
+use super::coats::Levels;
 use super::outline::Outline;
 use super::walks::Walks;
 use crate::compatible::CompatibleMesh;
@@ -27,17 +28,19 @@ pub(super) type HoleOf = (usize, Hole);
 pub(super) fn timed(
     pieces: &[PieceMatch],
     film: &Arap,
+    levels: &Levels,
     progress: &dyn Progress,
 ) -> Result<Vec<HoleOf>, Cancelled> {
     let mut holes = untimed(pieces, film.mesh());
     if holes.is_empty() {
         return Ok(holes);
     }
-    let mut scene = Scene::of(film);
-    for (_, hole) in &mut holes {
+    let mut scene = Scene::of(film, levels);
+    for (piece, hole) in &mut holes {
         still_wanted(progress)?;
-        hole.life = scene.life(hole);
-        scene.add(hole);
+        let level = levels.of_piece(*piece);
+        hole.life = scene.life(hole, level);
+        scene.add(hole, level);
     }
     Ok(holes)
 }
@@ -87,7 +90,7 @@ struct Scene {
 }
 
 impl Scene {
-    fn of(film: &Arap) -> Self {
+    fn of(film: &Arap, levels: &Levels) -> Self {
         let walks = Walks::of(film);
         let mut placer = film.placer();
         let place = |step: u32| {
@@ -95,10 +98,7 @@ impl Scene {
             placer.placement().in_frame.clone()
         };
         let places: Vec<Vec<DVec2>> = (1..STEPS).map(place).collect();
-        let outlines = places.iter().map(|places| {
-            let rings = walks.rings(places);
-            rings.into_iter().map(Outline::of).collect()
-        });
+        let outlines = places.iter().map(|places| walks.outlines(places, levels));
         Self {
             outlines: outlines.collect(),
             places,
@@ -106,12 +106,12 @@ impl Scene {
     }
 
     /// The longest time in which a hole crosses least.
-    fn life(&self, hole: &Hole) -> Life {
+    fn life(&self, hole: &Hole, level: usize) -> Life {
         let mut best = (usize::MAX, Life::WHOLE);
         for life in times(hole.side()) {
             let mut hole = hole.clone();
             hole.life = life;
-            let crossed = self.crossed(&hole, best.0);
+            let crossed = self.crossed(&hole, level, best.0);
             if crossed < best.0 {
                 best = (crossed, life);
             }
@@ -120,10 +120,11 @@ impl Scene {
     }
 
     /// The number of steps at which it crosses something or itself, counted on to `most`.
-    fn crossed(&self, hole: &Hole, most: usize) -> usize {
+    fn crossed(&self, hole: &Hole, level: usize, most: usize) -> usize {
         let steps = (1..STEPS).zip(self.places.iter().zip(&self.outlines));
         let crosses = |(step, (places, others)): (u32, (&Vec<DVec2>, &Vec<Outline>))| {
-            let ring = hole.at(places, time(step)).map(Outline::of);
+            let ring = hole.at(places, time(step));
+            let ring = ring.map(|ring| Outline::of(ring, level));
             ring.is_some_and(|ring| {
                 ring.crosses(&ring) || others.iter().any(|other| ring.crosses(other))
             })
@@ -131,10 +132,11 @@ impl Scene {
         steps.filter(|&step| crosses(step)).take(most).count()
     }
 
-    fn add(&mut self, hole: &Hole) {
+    fn add(&mut self, hole: &Hole, level: usize) {
         for (step, (places, outlines)) in (1..STEPS).zip(self.places.iter().zip(&mut self.outlines))
         {
-            outlines.extend(hole.at(places, time(step)).map(Outline::of));
+            let ring = hole.at(places, time(step));
+            outlines.extend(ring.map(|ring| Outline::of(ring, level)));
         }
     }
 }

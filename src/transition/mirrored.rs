@@ -5,12 +5,13 @@
 //! a letter that is mirrored is no letter.
 
 use super::candidate::Candidate;
+use super::coats::Drawings;
 use super::error::BuildError;
 use super::group::{Chosen, GroupOf};
 use super::note::Note;
 use super::spec::TransitionSpec;
-use crate::correspondence::Prepared;
-use crate::geometry::{DVec2, FillRule, Regions, perimeter};
+use crate::correspondence::{Looks, Prepared};
+use crate::geometry::{Regions, Similarity, perimeter};
 use crate::progress::{Progress, still_wanted};
 
 /// Films that distort less than this are good enough as they are.
@@ -24,7 +25,7 @@ const FAR_BETTER: f64 = 0.4;
 /// What to say of it; none where nobody would gain by it.
 pub(super) fn note(
     spec: &TransitionSpec,
-    outlines: &[Regions; 2],
+    drawings: &Drawings,
     best: &[Candidate],
     progress: &dyn Progress,
 ) -> Result<Option<Note>, BuildError> {
@@ -37,8 +38,9 @@ pub(super) fn note(
     if is_set_by_hand || as_drawn < GOOD {
         return Ok(None);
     }
-    let [source, target] = outlines;
-    let draft = mirrored(target).and_then(|target| draft(spec, [source, &target], progress));
+    let [source, target] = &drawings.outlines;
+    let target = mirrored(target);
+    let draft = draft(spec, [source, &target], &drawings.looks, progress);
     still_wanted(progress)?;
     // A film that was looked for longer may well have less trouble than a draft.
     let draft = draft.filter(|draft| !draft.iter().any(Candidate::folds));
@@ -51,9 +53,10 @@ pub(super) fn note(
 fn draft(
     spec: &TransitionSpec,
     designs: [&Regions; 2],
+    looks: &Looks,
     progress: &dyn Progress,
 ) -> Option<Vec<Candidate>> {
-    let prepared = Prepared::new(designs, &spec.options.matching, progress).ok()?;
+    let prepared = Prepared::new(designs, looks, &spec.options.matching, progress).ok()?;
     let groups = (0..prepared.groups().len()).map(|group| {
         let group = GroupOf {
             prepared: &prepared,
@@ -77,11 +80,11 @@ fn distortion<'a>(pieces: impl Iterator<Item = &'a Candidate>) -> f64 {
     if total > 0.0 { sum / total } else { 1.0 }
 }
 
-/// A design turned over, left for right.
-fn mirrored(design: &Regions) -> Option<Regions> {
-    let axis = design.bounds().centre().x;
-    let over = |p: &DVec2| DVec2::new(2.0 * axis - p.x, p.y);
-    let ring = |points: &[DVec2]| points.iter().rev().map(over).collect();
-    let rings: Vec<Vec<DVec2>> = design.rings().map(|r| ring(r.points())).collect();
-    Regions::from_rings(&rings, FillRule::NonZero).ok()
+/// A design turned over, left for right, its parts in their order.
+fn mirrored(design: &Regions) -> Regions {
+    let over = Similarity {
+        mirror: true,
+        ..Similarity::IDENTITY
+    };
+    design.transformed(&over)
 }

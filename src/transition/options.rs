@@ -34,6 +34,9 @@ pub struct Options {
     /// design, in a specification in those of the common frame.
     #[serde(rename = "match", skip_serializing_if = "is_default")]
     pub matching: Matching,
+    /// Whether drawings are shown in their own colours.
+    #[serde(skip_serializing_if = "is_default")]
+    pub paint: PaintRule,
     /// How much is tried for a film of outlines.
     #[serde(skip_serializing_if = "is_default")]
     pub quality: Quality,
@@ -67,6 +70,7 @@ impl Default for Options {
             travel: Travel::default(),
             bar_width: 0.012,
             matching: Matching::default(),
+            paint: PaintRule::default(),
             quality: Quality::default(),
             triangulation: PolygonOptions::default(),
             arap: ArapOptions::default(),
@@ -98,6 +102,22 @@ pub enum Quality {
 named! { Quality {
     Draft: "draft", "Draft", "The first film, at once";
     Best: "best", "Best", "Several matches are tried, and the best film is improved";
+} }
+
+/// What drawings are painted with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum PaintRule {
+    /// Their own colours, where they have any.
+    #[default]
+    Own,
+    /// The style's colours: each drawing is the figure that it makes.
+    One,
+}
+
+named! { PaintRule {
+    Own: "own", "As drawn", "In the colours of the drawings, one part over the other";
+    One: "one", "One colour", "As a figure, in a colour that goes with t";
 } }
 
 /// Where the boundary of a distance field runs.

@@ -10,6 +10,7 @@
 use super::births::{self, lives};
 use super::candidate::Candidate;
 use super::choice::best_of_group;
+use super::coats::{Drawings, Levels};
 use super::conflicts::in_the_way;
 use super::error::BuildError;
 use super::group::{Chosen, GroupOf};
@@ -22,7 +23,6 @@ use super::spec::TransitionSpec;
 use super::unfolded::unfolded;
 use crate::compatible::{OutlinesError, joined};
 use crate::correspondence::{Group, Prepared, RegionMatch};
-use crate::geometry::Regions;
 use crate::progress::{Progress, Several, Span, checkpoint};
 use crate::warp::{Arap, ArapOptions};
 use rayon::prelude::*;
@@ -55,18 +55,20 @@ pub(super) struct Film {
 /// The match of both outlines that is kept, and its film, settled.
 pub(super) fn best(
     spec: &TransitionSpec,
-    outlines: &[Regions; 2],
+    drawings: &Drawings,
     progress: &dyn Progress,
 ) -> Result<Film, BuildError> {
-    let [source, target] = outlines;
+    let designs = drawings.outlines.each_ref();
     checkpoint(progress, "matching", 0.0)?;
-    let mut prepared = Prepared::new([source, target], &spec.options.matching, progress)?;
+    let asked = &spec.options.matching;
+    let mut prepared = Prepared::new(designs, &drawings.looks, asked, progress)?;
     let (mut film, pieces) = parted(&mut prepared, spec, progress)?;
     if spec.options.quality == Quality::Best {
         film.notes
-            .extend(mirrored::note(spec, outlines, &pieces, progress)?);
+            .extend(mirrored::note(spec, drawings, &pieces, progress)?);
     }
-    let film = placed(film, progress)?;
+    let levels = Levels::of(&film.matched, &drawings.looks);
+    let film = placed(film, &levels, progress)?;
     Ok(Film {
         arap: unfolded(film.arap, progress)?,
         ..film
@@ -147,8 +149,9 @@ fn apart(
         allow(&mesh, &spec.options.arap, progress)?;
         let coarse = coarse(&spec.options.arap);
         let arap = Arap::of_outlines(&mesh, &coarse, &lives(&matched), &filming)?;
-        let holes = timed(&matched.pieces, &arap, progress)?;
-        let gone = in_the_way(&matched, &arap, &holes, progress)?;
+        let levels = Levels::of(&matched, prepared.looks());
+        let holes = timed(&matched.pieces, &arap, &levels, progress)?;
+        let gone = in_the_way(&matched, &arap, (&holes, &levels), progress)?;
         if round == ROUNDS || !prepared.let_go(&matched, &gone, progress) {
             let film = Film {
                 matched,
@@ -234,9 +237,9 @@ fn meshed(chosen: Vec<Chosen>) -> Result<Vec<Candidate>, BuildError> {
 }
 
 /// A film with all that is born or dies in its place and time.
-fn placed(film: Film, progress: &dyn Progress) -> Result<Film, BuildError> {
+fn placed(film: Film, levels: &Levels, progress: &dyn Progress) -> Result<Film, BuildError> {
     let options = film.arap.options();
-    let placed = births::placed(&film.matched, &film.arap, &film.holes, progress)?;
+    let placed = births::placed(&film.matched, &film.arap, (&film.holes, levels), progress)?;
     Ok(match placed {
         Some(placed) => Film {
             arap: Arap::of_outlines(&placed.mesh, options, &placed.lives, progress)?,

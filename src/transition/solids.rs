@@ -3,6 +3,7 @@
 //! Two meshes bring their triangulation along, two trusses their panels; all
 //! other forms are matched as outlines.
 
+use super::coats::{self, Drawings};
 use super::error::BuildError;
 use super::found;
 use super::kept::{self, Kept};
@@ -14,7 +15,6 @@ use super::spec::TransitionSpec;
 use crate::compatible::{CompatibleError, CompatibleMesh, TrussError};
 use crate::content::Solid;
 use crate::design::Form;
-use crate::geometry::Regions;
 use crate::progress::{Progress, checkpoint};
 use crate::warp::Arap;
 use std::sync::Arc;
@@ -27,21 +27,20 @@ pub(super) fn rigid_parts(
 ) -> Result<(Moved, Solid), BuildError> {
     checkpoint(progress, "triangulating", 0.0)?;
     let mut bars = Vec::new();
+    let mut drawings = None;
     let (arap, kept) = match (&spec.source.form, &spec.target.form) {
-        (Form::Mesh(a), Form::Mesh(b)) => (
-            given(spec, CompatibleMesh::from_meshes(a, b), progress)?,
-            None,
-        ),
+        (Form::Mesh(a), Form::Mesh(b)) => {
+            let mesh = CompatibleMesh::from_meshes(a, b);
+            (given(spec, mesh, progress)?, None)
+        }
         (Form::Truss(a), Form::Truss(b)) => {
             bars = a.bars().to_vec();
-            (
-                given(spec, CompatibleMesh::from_trusses(a, b, progress), progress)?,
-                None,
-            )
+            let mesh = CompatibleMesh::from_trusses(a, b, progress);
+            (given(spec, mesh, progress)?, None)
         }
         _ => {
-            let outlines = spec.outlines(bar_width, progress)?;
-            let kept = found_or_best(spec, &outlines, progress)?;
+            let drawn = drawings.insert(spec.drawings(bar_width, progress)?);
+            let kept = found_or_best(spec, drawn, progress)?;
             let arap = settled::as_options_ask(&kept.film.arap, &spec.options.arap, progress)?;
             (arap, Some(Arc::new(kept)))
         }
@@ -52,6 +51,9 @@ pub(super) fn rigid_parts(
     });
     let (swells, specks) =
         film.map_or_else(Default::default, |film| lone::drawn(&arap, &film.swelling));
+    let coating = film
+        .zip(drawings)
+        .and_then(|(film, drawings)| coats::coating(&drawings, &film.matched, &arap, &film.holes));
     let solid = Solid {
         loops: if bars.is_empty() {
             arap.mesh().boundary_loops()
@@ -63,6 +65,7 @@ pub(super) fn rigid_parts(
         holes,
         swells,
         specks,
+        coating,
     };
     let moved = Moved {
         matched: film.map(|film| film.matched.clone()),
@@ -76,13 +79,13 @@ pub(super) fn rigid_parts(
 /// What was found before for the same outlines and options, or the best film.
 fn found_or_best(
     spec: &TransitionSpec,
-    outlines: &[Regions; 2],
+    drawings: &Drawings,
     progress: &dyn Progress,
 ) -> Result<Kept, BuildError> {
-    let key = found::key(&spec.options, outlines);
+    let key = found::key(&spec.options, drawings);
     let film = match kept::film(&spec.found, &key, &spec.options, progress)? {
         Some(film) => film,
-        None => settled::best(spec, outlines, progress)?,
+        None => settled::best(spec, drawings, progress)?,
     };
     Ok(Kept { key, film })
 }

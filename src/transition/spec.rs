@@ -78,8 +78,8 @@ impl TransitionSpec {
         if self.found.is_none() {
             return false;
         }
-        let outlines = bar_width(self).and_then(|width| self.outlines(width, progress));
-        let key = outlines.map(|outlines| found::key(&self.options, &outlines));
+        let drawings = bar_width(self).and_then(|width| self.drawings(width, progress));
+        let key = drawings.map(|drawings| found::key(&self.options, &drawings));
         key.is_ok_and(|key| self.found.is_for(&key))
     }
 
@@ -93,12 +93,21 @@ impl TransitionSpec {
             outline(&self.source, bar_width, progress)?,
             outline(&self.target, bar_width, progress)?,
         ];
+        self.allow(&outlines, progress)?;
+        // What is drawn well may be no piece to a triangulation.
+        Ok(outlines.map(|outline| outline.pulled_apart()))
+    }
+
+    /// Whether outlines are not too much.
+    pub(super) fn allow(
+        &self,
+        outlines: &[Regions; 2],
+        progress: &dyn Progress,
+    ) -> Result<(), BuildError> {
         let sizes = outlines.iter().flat_map(Regions::rings);
         let sizes: Vec<usize> = sizes.map(|ring| ring.points().len()).collect();
         Load::Rings.allow(sizes.len(), progress)?;
-        Load::Points.allow(sizes.iter().sum(), progress)?;
-        // What is drawn well may be no piece to a triangulation.
-        Ok(outlines.map(|outline| outline.pulled_apart()))
+        Ok(Load::Points.allow(sizes.iter().sum(), progress)?)
     }
 
     /// Whether designs of these kinds can be interpolated by `cell`, without

@@ -1,5 +1,7 @@
 //! The boundaries in a film of what both designs have.
 
+use super::coats::Levels;
+use super::outline::Outline;
 use crate::geometry::DVec2;
 use crate::warp::Arap;
 
@@ -26,6 +28,13 @@ impl Walks {
     /// For each walk the piece that it belongs to.
     pub(super) fn pieces(&self) -> &[usize] {
         &self.pieces
+    }
+
+    /// The walks as outlines on their levels.
+    pub(super) fn outlines(&self, places: &[DVec2], levels: &Levels) -> Vec<Outline> {
+        let rings = self.rings(places).into_iter().zip(&self.pieces);
+        let outline = |(ring, &piece)| Outline::of(ring, levels.of_piece(piece));
+        rings.map(outline).collect()
     }
 
     /// Where the walks are.

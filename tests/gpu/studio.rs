@@ -15,12 +15,13 @@ use bevy::render::settings::{Backends, RenderCreation, RenderResources, WgpuSett
 use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
 use image::RgbaImage;
+use morphospace::colour::Rgb;
 use morphospace::export::{Drawing, PixelSize, View, rasterise};
 use morphospace::geometry::Bounds;
 use morphospace::stage::{
     Blend, CaptureStage, MorphPlugin, Show, StageCaptured, StageStyle, StageTransition, StageView,
 };
-use morphospace::transition::{Rgb, Style, Transition};
+use morphospace::transition::{Style, Transition};
 
 use crate::Test;
 

@@ -13,6 +13,7 @@ use crate::app::capturing::files::{
 use crate::app::session::state::Session;
 use crate::app::telling::job::{Job, JobError};
 use crate::app::telling::notices::{About, Notices};
+use crate::colour::Rgb;
 use crate::export::{
     Camera, ExportError, Film, FilmError, MethodRow, PixelSize, SizeError, StillKind, Target,
     TargetError, View, comparison, even_times, framing, write_film, write_still,
@@ -20,7 +21,7 @@ use crate::export::{
 use crate::names::Choice;
 use crate::progress::{Cancelled, Progress};
 use crate::project::{LoadedProject, Project, ProjectError};
-use crate::transition::{Rgb, Transition};
+use crate::transition::Transition;
 
 /// Frames a second; GIF's clock of hundredths keeps it exactly.
 const FPS: f64 = 25.0;

@@ -3,6 +3,7 @@
 //! Guarantees: a pixel of 8 bits a channel there and back is the same pixel,
 //! except for the colour of what is wholly transparent.
 
+use crate::colour::{linear_from_srgb, srgb_from_linear};
 use glam::Vec4;
 use image::Rgba;
 use std::sync::LazyLock;
@@ -20,24 +21,6 @@ const OPAQUE: f32 = 1.0 - 1e-6;
 /// Added to a number below it, it leaves that number, rounded to a whole one,
 /// in the lowest bits: 2^23.
 const WHOLE: f32 = 8_388_608.0;
-
-/// The curve of IEC 61966-2-1 (sRGB), undone; both in [0, 1].
-pub(crate) fn linear_from_srgb(encoded: f64) -> f64 {
-    if encoded <= 0.04045 {
-        encoded / 12.92
-    } else {
-        ((encoded + 0.055) / 1.055).powf(2.4)
-    }
-}
-
-/// The curve of IEC 61966-2-1 (sRGB); both in [0, 1].
-pub(crate) fn srgb_from_linear(linear: f64) -> f64 {
-    if linear <= 0.003_130_8 {
-        12.92 * linear
-    } else {
-        1.055 * linear.powf(1.0 / 2.4) - 0.055
-    }
-}
 
 static LINEAR: LazyLock<[f32; 256]> =
     LazyLock::new(|| std::array::from_fn(|k| linear_from_srgb(k as f64 / 255.0) as f32));

@@ -3,6 +3,7 @@
 use super::super::pairing::{Pairing, pair_parts, relative_centres};
 use super::super::{Matching, PairError, PartRule};
 use super::locate::{Pinned, part_at};
+use super::looks::Looks;
 use super::outcome::RegionMatchError;
 use crate::geometry::{DVec2, Regions, Side};
 
@@ -24,6 +25,7 @@ impl Group {
 /// All parts of both designs in groups, in the order of the source's parts.
 pub(super) fn grouped(
     designs: [&Regions; 2],
+    looks: &Looks,
     wanted: &Matching,
     pins: &[Pinned],
 ) -> Result<Vec<Group>, RegionMatchError> {
@@ -39,8 +41,7 @@ pub(super) fn grouped(
         more.chain(lone.iter().flat_map(|g| g.parts[side].clone()))
             .collect()
     });
-    let [source, target] = designs;
-    let pairing = pair_parts(source, target, &fixed, [&taken[0], &taken[1]])?;
+    let pairing = pair_parts(designs, looks, &fixed, [&taken[0], &taken[1]])?;
     for pair in &pairing.pairs {
         if !fixed.contains(pair) {
             groups.push(Group {
@@ -48,7 +49,7 @@ pub(super) fn grouped(
             });
         }
     }
-    attach(&mut groups, designs, wanted.parts, &pairing);
+    attach(&mut groups, (designs, looks), wanted.parts, &pairing);
     groups.extend(lone);
     for part in groups.iter_mut().flat_map(|g| &mut g.parts) {
         part.sort_unstable();
@@ -124,9 +125,14 @@ fn lone(designs: [&Regions; 2], wanted: &Matching, said: &[Group]) -> Vec<Group>
     lone
 }
 
-/// Gives the parts that are left over to a group to be split, or a group of
-/// their own.
-fn attach(groups: &mut Vec<Group>, designs: [&Regions; 2], rule: PartRule, pairing: &Pairing) {
+/// Gives the parts that are left over to a group to be split, of those that are
+/// in their coat, or a group of their own.
+fn attach(
+    groups: &mut Vec<Group>,
+    (designs, looks): ([&Regions; 2], &Looks),
+    rule: PartRule,
+    pairing: &Pairing,
+) {
     let splits = match rule {
         PartRule::Auto => designs.iter().any(|design| design.len() == 1),
         PartRule::Split => true,
@@ -138,7 +144,7 @@ fn attach(groups: &mut Vec<Group>, designs: [&Regions; 2], rule: PartRule, pairi
         (Side::Target, &pairing.born),
     ] {
         for &part in alone {
-            let near = splits.then(|| nearest_group(groups, &places, side, part));
+            let near = splits.then(|| nearest_group(groups, (&places, looks), side, part));
             match near.flatten() {
                 Some(group) => groups[group].parts[side].push(part),
                 None => {
@@ -151,18 +157,21 @@ fn attach(groups: &mut Vec<Group>, designs: [&Regions; 2], rule: PartRule, pairi
     }
 }
 
-/// The group whose single part on the other side lies nearest.
+/// The group whose single part on the other side lies nearest, of those in the
+/// coat of the part.
 fn nearest_group(
     groups: &[Group],
-    places: &[Vec<DVec2>; 2],
+    (places, looks): (&[Vec<DVec2>; 2], &Looks),
     side: Side,
     part: usize,
 ) -> Option<usize> {
     let here = places[side][part];
+    let coat = |part: usize| looks.coat(side, part);
+    let is_in_coat = |g: &Group| g.parts[side].iter().all(|&own| coat(own) == coat(part));
     let single = groups
         .iter()
         .enumerate()
-        .filter(|(_, g)| g.parts[side.other()].len() == 1);
+        .filter(|(_, g)| g.parts[side.other()].len() == 1 && is_in_coat(g));
     let far = |g: &Group| places[side.other()][g.parts[side.other()][0]].distance_squared(here);
     single
         .min_by(|a, b| far(a.1).total_cmp(&far(b.1)))

@@ -58,9 +58,13 @@ pub(super) fn nearest_ring(design: &Regions, p: DVec2) -> RingAt {
     best.1
 }
 
-/// The part that a point lies in, else the nearest.
+/// The part that a point lies in, the uppermost of several; else the nearest.
 pub(super) fn part_at(design: &Regions, p: DVec2) -> usize {
     // A link is clicked into a part, and in its hole it lies in none.
-    let inside = design.iter().position(|region| region.contains(p));
+    let containing = design
+        .iter()
+        .enumerate()
+        .filter(|(_, region)| region.contains(p));
+    let inside = containing.last().map(|(part, _)| part);
     inside.unwrap_or_else(|| nearest_ring(design, p).part)
 }

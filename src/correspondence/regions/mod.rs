@@ -23,6 +23,7 @@ mod crowd;
 mod cut;
 mod groups;
 mod locate;
+mod looks;
 mod outcome;
 mod piece;
 mod prepared;
@@ -38,6 +39,7 @@ use super::Matching;
 use crate::geometry::Regions;
 use crate::progress::{Progress, checkpoint};
 pub(crate) use groups::Group;
+pub(crate) use looks::{Look, Looks};
 pub(crate) use prepared::Prepared;
 pub(crate) use sides::Holes;
 
@@ -68,5 +70,6 @@ pub fn match_regions(
     progress: &dyn Progress,
 ) -> Result<RegionMatch, RegionMatchError> {
     checkpoint(progress, "matching", 0.0)?;
-    Prepared::new([source, target], wanted, progress)?.matched(&wanted.options(), progress)
+    let alike = Looks::default();
+    Prepared::new([source, target], &alike, wanted, progress)?.matched(&wanted.options(), progress)
 }

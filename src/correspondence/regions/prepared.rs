@@ -6,6 +6,7 @@ use super::closing::{centre, shrunk};
 use super::crowd;
 use super::groups::{Group, grouped, said_pairs};
 use super::locate::{self, Pinned, nearest_ring};
+use super::looks::Looks;
 use super::outcome::{MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingMatch};
 use super::piece::matched;
 use super::sides::{Holes, Task};
@@ -20,6 +21,7 @@ const PREPARED: f64 = 0.2;
 /// Two designs with their parts in groups, and split where they are to be.
 pub(crate) struct Prepared<'a> {
     designs: [&'a Regions; 2],
+    looks: &'a Looks,
     pub(super) wanted: &'a Matching,
     /// Parts that somebody linked or pinned to each other.
     pub(super) said: Vec<[usize; 2]>,
@@ -48,20 +50,23 @@ impl<'a> Parts<'a> {
 }
 
 impl<'a> Prepared<'a> {
-    /// Pairs the parts, and splits those that become several.
+    /// Pairs the parts, by how they look besides, and splits those that become
+    /// several.
     pub(crate) fn new(
         designs: [&'a Regions; 2],
+        looks: &'a Looks,
         wanted: &'a Matching,
         progress: &dyn Progress,
     ) -> Result<Self, RegionMatchError> {
         locate::check(wanted)?;
         let pins = locate::pins(wanted, designs);
         let mut prepared = Self {
-            groups: grouped(designs, wanted, &pins)?,
+            groups: grouped(designs, looks, wanted, &pins)?,
             said: said_pairs(designs, wanted, &pins),
             parts: designs.map(Parts::of),
             is_crowd: crowd::is_crowd(designs),
             designs,
+            looks,
             wanted,
             pins,
             pieces: Vec::new(),
@@ -72,6 +77,11 @@ impl<'a> Prepared<'a> {
             .collect();
         still_wanted(progress)?;
         Ok(prepared)
+    }
+
+    /// How the parts look.
+    pub(crate) fn looks(&self) -> &'a Looks {
+        self.looks
     }
 
     /// Whether there are so many rings that only one match is worth its time.

@@ -334,7 +334,8 @@ fn holes_that_are_alone_are_left_out_of_the_piece() {
 fn without_pairs_all_holes_are_alone() {
     let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(1.0, 2.0)]));
     let wanted = Matching::default();
-    let prepared = Prepared::new([&two, &one], &wanted, &Silent).expect("prepared");
+    let alike = Looks::default();
+    let prepared = Prepared::new([&two, &one], &alike, &wanted, &Silent).expect("prepared");
     let options = wanted.options();
     let pieces = prepared.matched_group(0, &options, Holes::Unpaired, &Silent);
     let pieces = pieces.expect("matched");

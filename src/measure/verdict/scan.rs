@@ -60,7 +60,7 @@ pub(super) fn transition(
             looks(steps, "looking for crossings", progress, |t| {
                 frame.seek(t);
                 Glance {
-                    crossings: crossings_at(t, &solid.rings_at(&frame.placement().in_frame, t)),
+                    crossings: crossings_at(t, solid, &frame.placement().in_frame),
                     ..Glance::default()
                 }
             })
@@ -81,7 +81,7 @@ pub(super) fn rigid_parts(
         let places = &placer.placement().in_frame;
         Glance {
             folds: folded(arap, places).count(),
-            crossings: crossings_at(t, &solid.rings_at(places, t)),
+            crossings: crossings_at(t, solid, places),
             ..Glance::default()
         }
     })

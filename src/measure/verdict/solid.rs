@@ -5,7 +5,6 @@ use super::finding::{Cause, Finding, Remedy, Trouble};
 use super::remedy;
 use super::scan::{self, Glance};
 use crate::content::Solid;
-use crate::geometry::crossings;
 use crate::progress::{Cancelled, Progress};
 use crate::transition::Transition;
 
@@ -37,7 +36,7 @@ pub(super) fn findings(
 fn of_boundaries(transition: &Transition, solid: &Solid, glances: &[Glance]) -> Option<Finding> {
     let (t, span) = scan::worst(glances, |g| g.crossings, 0)?;
     let frame = transition.frame(t);
-    let crossings = crossings(&solid.rings_at(&frame.placement().in_frame, t));
+    let crossings = solid.crossings_at(&frame.placement().in_frame, t);
     Some(Finding {
         place: crossings.first()?.place,
         trouble: Trouble::Crossings { crossings },
@@ -70,7 +69,7 @@ fn of_folds(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
 }
 
 fn of_crossings(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
-    let found = crossings(&scene.solid.rings_at(&scene.places, t));
+    let found = scene.solid.crossings_at(&scene.places, t);
     let first = *found.first()?;
     let faces: Vec<usize> = first
         .edges

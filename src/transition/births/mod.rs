@@ -17,6 +17,7 @@ mod speck;
 use self::scene::Scene;
 use self::speck::Speck;
 pub(super) use self::speck::times;
+use super::coats::Levels;
 use super::holes::HoleOf;
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::{PieceMatch, RegionMatch};
@@ -50,15 +51,15 @@ pub(super) struct Placed {
 pub(super) fn placed(
     matched: &RegionMatch,
     film: &Arap,
-    holes: &[HoleOf],
+    (holes, levels): (&[HoleOf], &Levels),
     progress: &dyn Progress,
 ) -> Result<Option<Placed>, Cancelled> {
     let mut lives = lives(matched);
     if lives.iter().all(Option::is_none) {
         return Ok(None);
     }
-    let specks = Speck::all(matched);
-    let mut scene = Scene::of(film, holes);
+    let specks = Speck::all(matched, levels);
+    let mut scene = Scene::of(film, holes, levels);
     let mut swelling = Vec::new();
     let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
     for (rank, speck) in specks.iter().enumerate() {

@@ -6,6 +6,7 @@
 use super::carried::{carried_among, carried_within};
 use super::speck::Speck;
 use crate::geometry::{Bounds, DVec2};
+use crate::transition::coats::Levels;
 use crate::transition::holes::HoleOf;
 use crate::transition::outline::Outline;
 use crate::transition::walks::Walks;
@@ -89,16 +90,16 @@ pub(super) struct Scene<'a> {
 
 impl<'a> Scene<'a> {
     /// Of the pieces that both designs have.
-    pub(super) fn of(film: &Arap, holes: &[HoleOf]) -> Self {
+    pub(super) fn of(film: &Arap, holes: &[HoleOf], levels: &Levels) -> Self {
         let walks = Walks::of(film);
         let at = |placer: &mut Placer, step: u32| -> (Vec<Outline>, Vec<Outline>) {
             placer.place(time(step));
             let places = &placer.placement().in_frame;
-            let rings = walks.rings(places).into_iter().map(Outline::of).collect();
-            let there = holes
-                .iter()
-                .filter_map(|(_, hole)| hole.at(places, time(step)));
-            (rings, there.map(Outline::of).collect())
+            let there = holes.iter().filter_map(|(piece, hole)| {
+                let ring = hole.at(places, time(step))?;
+                Some(Outline::of(ring, levels.of_piece(*piece)))
+            });
+            (walks.outlines(places, levels), there.collect())
         };
         let steps = (0..=STEPS).into_par_iter();
         let (steps, holes): (Vec<Vec<Outline>>, _) = steps.map_init(|| film.placer(), at).unzip();
@@ -230,17 +231,17 @@ impl<'a> Scene<'a> {
 
     /// Whether it neither lies in another part nor over one.
     fn is_apart(&self, step: u32, rings: &[Outline]) -> bool {
-        let others = &self.steps[step as usize];
-        let around = |p: DVec2, all: &[Outline]| all.iter().map(|o| o.winding(p)).sum::<i32>();
-        let holes = &self.holes[step as usize];
-        let is_within = rings.first().is_some_and(|outer| {
-            let place = outer.points[0];
-            around(place, others) + around(place, holes) != 0
-        });
-        !is_within
-            && !others
-                .iter()
-                .any(|other| around(other.points[0], rings) != 0)
+        let Some(outer) = rings.first() else {
+            return true;
+        };
+        let [rings_there, holes] = [&self.steps, &self.holes].map(|all| &all[step as usize]);
+        let is_beside = |other: &&Outline| other.level == outer.level;
+        let place = outer.points[0];
+        let others = rings_there.iter().chain(holes).filter(is_beside);
+        let is_within = others.map(|o| o.winding(place)).sum::<i32>() != 0;
+        let around = |p: DVec2| rings.iter().map(|o| o.winding(p)).sum::<i32>();
+        let mut others = rings_there.iter().filter(is_beside);
+        !is_within && !others.any(|other| around(other.points[0]) != 0)
     }
 
     /// Adds a speck that has got its place.

@@ -3,6 +3,7 @@
 use crate::content::middle;
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side, inset, inset_depth, ring_edges, signed_area, winding};
+use crate::transition::coats::Levels;
 use crate::transition::outline::Outline;
 use crate::warp::Life;
 use std::sync::OnceLock;
@@ -23,6 +24,8 @@ pub(super) struct Speck {
     pub(super) piece: usize,
     /// The design that has it.
     pub(super) side: Side,
+    /// What is on another level is not in its way.
+    level: usize,
     area: f64,
     /// Its centroids in source and target.
     pub(super) ends: [DVec2; 2],
@@ -52,11 +55,11 @@ impl Swelling {
 
 impl Speck {
     /// All of a match, the largest first.
-    pub(super) fn all(matched: &RegionMatch) -> Vec<Self> {
+    pub(super) fn all(matched: &RegionMatch, levels: &Levels) -> Vec<Self> {
         let pieces = matched.pieces.iter().enumerate();
         let mut all: Vec<Self> = pieces
             .filter(|(_, piece)| !piece.is_in_both())
-            .map(|(k, piece)| Self::of(k, piece))
+            .map(|(k, piece)| Self::of(k, piece, levels.of_piece(k)))
             .collect();
         let key = |s: &Self| [s.ends[s.side].x, s.ends[s.side].y];
         all.sort_by(|a, b| {
@@ -70,7 +73,7 @@ impl Speck {
         all
     }
 
-    fn of(piece: usize, matched: &PieceMatch) -> Self {
+    fn of(piece: usize, matched: &PieceMatch, level: usize) -> Self {
         let side = match matched.source_part {
             Some(_) => Side::Source,
             None => Side::Target,
@@ -92,6 +95,7 @@ impl Speck {
             swelling: Swelling::default(),
             piece,
             side,
+            level,
             ends,
         }
     }
@@ -122,7 +126,8 @@ impl Speck {
 
     pub(super) fn at(&self, centre: DVec2, size: f64) -> Vec<Outline> {
         let placed = |ring: &Vec<DVec2>| ring.iter().map(|&p| centre + p * size).collect();
-        self.rings.iter().map(placed).map(Outline::of).collect()
+        let rings = self.rings.iter().map(placed);
+        rings.map(|ring| Outline::of(ring, self.level)).collect()
     }
 
     /// What the innermost of its rings encloses that goes around a place where it is
@@ -163,7 +168,7 @@ impl Speck {
             .level(level as usize, &self.rings)
             .iter()
             .map(placed)
-            .map(Outline::of)
+            .map(|ring| Outline::of(ring, self.level))
             .collect()
     }
 

@@ -5,7 +5,7 @@ use bevy_egui::egui::Color32;
 use crate::app::ui::kit::theme::Palette;
 use crate::app::ui::scene::Scene;
 use crate::app::ui::stage::area::{ink_on, is_light};
-use crate::transition::Rgb;
+use crate::colour::Rgb;
 
 /// The share of a design's colour in its fill: the boundary's colours must stand out from it.
 const FILL: f32 = 0.28;

@@ -5,10 +5,10 @@ use bevy_egui::egui::{Ui, vec2};
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::widgets::{choice, drag, number, row, section, tipped, toggle};
 use crate::app::ui::scene::{Intents, Scene};
+use crate::colour::Rgb;
 use crate::content::ContentKind;
 use crate::project::Project;
 use crate::stage::Show;
-use crate::transition::Rgb;
 use crate::warp::WarpKind;
 
 /// Draws the options.

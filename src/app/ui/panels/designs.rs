@@ -11,9 +11,9 @@ use crate::app::ui::kit::widgets::{
     automatic, drag, from_right, icon_button, number, pick, quiet, row, section, slider, toggle,
 };
 use crate::app::ui::scene::Intents;
+use crate::colour::Rgb;
 use crate::design::Format;
 use crate::project::{DesignEntry, Project};
-use crate::transition::Rgb;
 
 /// The grey level that is started from when it is set by hand.
 const MIDDLE_GREY: u8 = 128;

@@ -7,7 +7,7 @@ use bevy_egui::egui::{Align2, Color32, FontId, Rect, Sense, Ui};
 use crate::app::asking::intent::Intent;
 use crate::app::ui::panels::appearance;
 use crate::app::ui::scene::{Intents, Scene};
-use crate::transition::Rgb;
+use crate::colour::Rgb;
 
 /// One line of the wheel zooms by this exponent; eight lines make a factor of about 2.7.
 const ZOOM_PER_POINT: f32 = 0.0025;

@@ -1,0 +1,52 @@
+//! How the parts of two designs look, besides their form.
+
+use crate::colour::Paint;
+use crate::geometry::Side;
+
+/// How a part is painted.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Look {
+    /// The coat that it is in, from the lowest, 0.
+    pub(crate) coat: usize,
+    /// How high that is among the design's coats, in [0, 1].
+    pub(crate) height: f64,
+    /// None where the design has no colour of its own.
+    pub(crate) paint: Option<Paint>,
+    /// What somebody calls it; or empty.
+    pub(crate) name: String,
+}
+
+/// The looks of all parts of both designs; without any, all look alike.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct Looks(pub(crate) [Vec<Look>; 2]);
+
+/// What two parts cost to be paired for being unlike in paint, from black to
+/// white, and in height, from the lowest coat to the highest: as far apart in
+/// place as half the design, and a quarter.
+const PAINT: f64 = 0.5;
+const HEIGHT: f64 = 0.25;
+
+/// What two parts cost to be paired that have different names: more than any
+/// place, form and paint.
+const STRANGERS: f64 = 4.0;
+
+impl Look {
+    /// What it costs to pair two parts whose forms and places cost so much.
+    pub(in crate::correspondence) fn cost(&self, other: &Self, form: f64) -> f64 {
+        let paint = self.paint.zip(other.paint);
+        let paint = paint.map_or(0.0, |(a, b)| a.unlike(&b));
+        let cost = form + PAINT * paint + HEIGHT * (self.height - other.height).abs();
+        let is_named = !self.name.is_empty() && !other.name.is_empty();
+        match is_named && self.name != other.name {
+            true => cost + STRANGERS,
+            false => cost,
+        }
+    }
+}
+
+impl Looks {
+    /// The coat of a part, 0 where all look alike.
+    pub(crate) fn coat(&self, side: Side, part: usize) -> usize {
+        self.0[side].get(part).map_or(0, |look| look.coat)
+    }
+}
