@@ -1,4 +1,4 @@
-//! Colours, and the way from one to another.
+//! Colours, paints and lines, and the way from one to another.
 //!
 //! A [`Paint`] goes to another in OKLab (Ottosson 2020: a space in which equal
 //! steps look equal), its opacity premultiplied, so that what fades in has its
@@ -174,6 +174,52 @@ impl Paint {
     }
 }
 
+/// A line along an outline, half of it on either side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Line {
+    /// What it is drawn with.
+    pub paint: Paint,
+    /// How wide it is, in units of the design.
+    pub width: f64,
+    /// What its corners look like.
+    pub join: Join,
+}
+
+/// What the corners of a line look like.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Join {
+    /// Pointed, unless the point is farther from the corner than this many half
+    /// widths: then cut off.
+    Mitre(f64),
+    /// A part of a disc.
+    Round,
+    /// Cut off.
+    Bevel,
+}
+
+impl Line {
+    /// The line at `t` on the way from one to another: paint and width change
+    /// evenly, the corners in the middle. Where there is none at an end it has no
+    /// width there.
+    #[must_use]
+    pub fn between(ends: [Option<Self>; 2], t: f64) -> Option<Self> {
+        let thin = |line: Self| Self { width: 0.0, ..line };
+        let (a, b) = match ends {
+            [None, None] => return None,
+            [Some(a), Some(b)] => (a, b),
+            [Some(a), None] => (a, thin(a)),
+            [None, Some(b)] => (thin(b), b),
+        };
+        let t = t.clamp(0.0, 1.0);
+        Some(Self {
+            paint: a.paint.mixed(b.paint, t),
+            width: a.width * (1.0 - t) + b.width * t,
+            join: if t < 0.5 { a.join } else { b.join },
+        })
+    }
+}
+
 impl Rgb {
     /// Lightness in [0, 1], and the two axes of hue.
     fn to_oklab(self) -> [f64; 3] {
@@ -268,5 +314,25 @@ mod tests {
         assert_eq!(faint.colour, red.colour);
         assert!((faint.opacity - 0.1).abs() < 1e-12);
         assert!(red.unlike(&blue) > 0.3 && red.unlike(&red) == 0.0);
+    }
+
+    #[test]
+    fn a_line_that_one_end_has_alone_grows_in_width() {
+        let line = Line {
+            paint: Rgb([1, 2, 3]).into(),
+            width: 4.0,
+            join: Join::Round,
+        };
+        assert_eq!(Line::between([None, None], 0.5), None);
+        assert_eq!(Line::between([None, Some(line)], 1.0), Some(line));
+        let quarter = Line::between([None, Some(line)], 0.25).expect("a line");
+        assert_eq!((quarter.width, quarter.paint), (1.0, line.paint));
+        let wide = Line {
+            width: 8.0,
+            join: Join::Bevel,
+            ..line
+        };
+        let half = Line::between([Some(line), Some(wide)], 0.5).expect("a line");
+        assert_eq!((half.width, half.join), (6.0, Join::Bevel));
     }
 }

@@ -3,8 +3,8 @@
 use std::path::PathBuf;
 
 use bevy::app::{HierarchyPropagatePlugin, PropagateSet};
-use bevy::camera::CameraOutputMode;
 use bevy::camera::visibility::{RenderLayers, VisibilitySystems};
+use bevy::camera::{CameraOutputMode, CompositingSpace};
 use bevy::prelude::*;
 use bevy::render::render_resource::BlendState;
 use bevy::window::{ExitCondition, WindowResolution};
@@ -137,6 +137,7 @@ fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
         view::TwinCamera,
         Camera2d,
         Msaa::Sample4,
+        CompositingSpace::Srgb,
         staging::TWIN_LAYER,
         Camera {
             order: 1,

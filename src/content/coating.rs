@@ -1,6 +1,6 @@
 //! How the parts of a solid are painted, over and under each other.
 
-use crate::colour::Paint;
+use crate::colour::{Line, Paint};
 
 /// The coats that the rings of a solid are in.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +21,8 @@ pub struct Coating {
 pub struct Coat {
     /// In source and target; none where the design has no colour of its own.
     pub paints: [Option<Paint>; 2],
+    /// The line along their outlines in source and target, where there is one.
+    pub lines: [Option<Line>; 2],
     /// How many coats lie below, in source and target.
     pub heights: [usize; 2],
 }

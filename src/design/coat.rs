@@ -1,6 +1,6 @@
 //! A coat of paint: what a drawing shows is several, one over the other.
 
-use crate::colour::Paint;
+use crate::colour::{Line, Paint};
 use crate::geometry::{Regions, Similarity};
 
 /// Regions in one paint. What is in one coat neither overlaps nor hides the
@@ -11,6 +11,8 @@ pub struct Coat {
     pub regions: Regions,
     /// Its paint; none where the design has no colour of its own.
     pub paint: Option<Paint>,
+    /// The line along all its outlines, if there is one; it covers the paint.
+    pub line: Option<Line>,
     /// What the file calls it, if it is one shape; or empty.
     pub name: String,
 }
@@ -20,6 +22,10 @@ impl Coat {
         Self {
             regions: self.regions.transformed(by),
             paint: self.paint,
+            line: self.line.map(|line| Line {
+                width: by.scale * line.width,
+                ..line
+            }),
             name: self.name.clone(),
         }
     }

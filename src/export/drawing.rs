@@ -15,7 +15,7 @@ use std::collections::HashSet;
 use glam::UVec2;
 use image::RgbaImage;
 
-use crate::colour::{Paint, Rgb};
+use crate::colour::{Line, Paint, Rgb};
 use crate::content::{Content, Raster};
 use crate::geometry::{Bounds, DVec2};
 use crate::transition::{Coated, Figure, Frame, Style};
@@ -45,6 +45,13 @@ pub enum Item {
         paint: Paint,
         /// The words that the outline spells, for readers that cannot see.
         label: Option<String>,
+    },
+    /// A line along closed outlines.
+    Line {
+        /// The outlines.
+        outline: Outline,
+        /// Paint, corners, and the width in pixels.
+        line: Line,
     },
     /// Straight bars with round ends.
     Bars {
@@ -151,7 +158,7 @@ impl Drawing {
         let colour = style.fill_at(t);
         match figure.coats.as_slice() {
             [] => self.push_rings(&figure.rings, colour.into(), view),
-            coats => self.push_coats(coats, figure, |paints| style.paint_at(paints, t), view),
+            coats => self.push_coats(coats, figure, (style, t), view),
         }
         let segments: Vec<[DVec2; 2]> = figure
             .bars
@@ -185,36 +192,49 @@ impl Drawing {
         &mut self,
         coats: &[Coated],
         figure: &Figure,
-        paint: impl Fn([Option<Paint>; 2]) -> Paint,
+        (style, t): (&Style, f64),
         view: &View,
     ) {
-        let mut coats = coats
-            .iter()
-            .map(|coat| (coat.rings.clone(), paint(coat.paints)));
+        let mut coats = coats.iter().map(|coat| {
+            let line = Line::between(coat.lines, t);
+            (coat.rings.clone(), style.paint_at(coat.paints, t), line)
+        });
         let mut next = coats.next();
-        while let Some((mut rings, paint)) = next {
+        while let Some((mut rings, paint, line)) = next {
             next = coats.next();
-            while let Some((more, _)) =
-                next.take_if(|(_, other)| *other == paint && paint.is_opaque())
+            let is_same = |other: &Paint| *other == paint && paint.is_opaque() && line.is_none();
+            while let Some((more, ..)) =
+                next.take_if(|(_, other, line)| line.is_none() && is_same(other))
             {
                 rings.end = more.end;
                 next = coats.next();
             }
-            self.push_rings(&figure.rings[rings], paint, view);
+            self.push_rings(&figure.rings[rings.clone()], paint, view);
+            if let Some(line) = line {
+                self.push_line(&figure.rings[rings], line, view);
+            }
         }
     }
 
     fn push_rings(&mut self, rings: &[Vec<DVec2>], paint: Paint, view: &View) {
-        let mut outline = Outline::default();
-        for ring in rings {
-            outline.push_ring(ring.iter().map(|&p| view.to_px(p)));
-        }
+        let outline = outline_of(rings, view);
         if !outline.steps.is_empty() && paint.opacity > 0.0 {
             self.items.push(Item::Fill {
                 outline,
                 paint,
                 label: None,
             });
+        }
+    }
+
+    fn push_line(&mut self, rings: &[Vec<DVec2>], line: Line, view: &View) {
+        let outline = outline_of(rings, view);
+        let line = Line {
+            width: line.width * view.px_per_unit(),
+            ..line
+        };
+        if !outline.steps.is_empty() && line.paint.opacity > 0.0 && line.width > 0.0 {
+            self.items.push(Item::Line { outline, line });
         }
     }
 
@@ -239,6 +259,14 @@ impl Drawing {
     }
 }
 
+fn outline_of(rings: &[Vec<DVec2>], view: &View) -> Outline {
+    let mut outline = Outline::default();
+    for ring in rings {
+        outline.push_ring(ring.iter().map(|&p| view.to_px(p)));
+    }
+    outline
+}
+
 /// The lighter colour of a joint's core, for bars of the given colour.
 pub fn joint_core(colour: Rgb) -> Rgb {
     colour.mixed(Rgb([255; 3]), JOINT_CORE_LIGHTNESS)
@@ -255,6 +283,7 @@ fn joint_centres(segments: &[[DVec2; 2]]) -> Vec<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::colour::Join;
 
     const BLUE: Rgb = Rgb([59, 125, 216]);
 
@@ -280,6 +309,7 @@ mod tests {
         let coats = paints.iter().enumerate().map(|(k, &paint)| Coated {
             rings: k..k + 1,
             paints: [Some(paint), None],
+            lines: [None; 2],
         });
         let figure = Figure {
             rings: [0.0, 1.0, 1.5, 2.0].map(square).to_vec(),
@@ -294,6 +324,26 @@ mod tests {
         };
         let found: Vec<_> = drawing.items.iter().map(filled).collect();
         assert_eq!(found, [(8, red), (4, BLUE.into())]);
+        // A line is over its own coat and under the next.
+        let line = Line {
+            paint: red,
+            width: 0.02,
+            join: Join::Round,
+        };
+        let mut lined = figure.clone();
+        lined.coats[0].lines = [Some(line), None];
+        drawing.items.clear();
+        drawing.push_figure(&lined, 0.0, &blue(), &view());
+        let [
+            Item::Fill { .. },
+            Item::Line { line, .. },
+            Item::Fill { .. },
+            Item::Fill { .. },
+        ] = drawing.items.as_slice()
+        else {
+            panic!("a line over the first coat: {:?}", drawing.items);
+        };
+        assert!((line.width - 2.0).abs() < 1e-12);
     }
 
     fn view() -> View {

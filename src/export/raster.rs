@@ -7,11 +7,11 @@
 use glam::{DVec2, UVec2};
 use image::RgbaImage;
 use tiny_skia::{
-    Color, FillRule, LineCap, Path, PathBuilder, PixmapMut, PixmapPaint, PixmapRef,
+    Color, FillRule, LineCap, LineJoin, Path, PathBuilder, PixmapMut, PixmapPaint, PixmapRef,
     PremultipliedColorU8, Stroke, Transform,
 };
 
-use crate::colour::{Paint, Rgb};
+use crate::colour::{Join, Line, Paint, Rgb};
 
 use super::drawing::{Drawing, Item};
 use super::outline::{Outline, Step};
@@ -36,6 +36,7 @@ pub fn rasterise(drawing: &Drawing) -> RgbaImage {
 fn paint(item: &Item, canvas: &mut PixmapMut<'_>) {
     match item {
         Item::Fill { outline, paint, .. } => fill(path_of(outline), *paint, canvas),
+        Item::Line { outline, line } => draw_line(path_of(outline), line, canvas),
         Item::Bars {
             segments,
             width_px,
@@ -101,6 +102,26 @@ fn stroke(segments: &[[DVec2; 2]], width_px: f64, colour: Rgb, canvas: &mut Pixm
             Transform::identity(),
             None,
         );
+    }
+}
+
+fn draw_line(path: Option<Path>, line: &Line, canvas: &mut PixmapMut<'_>) {
+    let stroke = Stroke {
+        width: line.width as f32,
+        line_join: match line.join {
+            Join::Mitre(_) => LineJoin::Miter,
+            Join::Round => LineJoin::Round,
+            Join::Bevel => LineJoin::Bevel,
+        },
+        miter_limit: match line.join {
+            Join::Mitre(limit) => limit as f32,
+            Join::Round | Join::Bevel => 1.0,
+        },
+        ..Stroke::default()
+    };
+    if let Some(path) = path {
+        let paint = plain(line.paint);
+        canvas.stroke_path(&path, &paint, &stroke, Transform::identity(), None);
     }
 }
 

@@ -9,7 +9,7 @@ use std::fmt::{self, Write};
 use glam::{DVec2, UVec2};
 use image::codecs::png::PngEncoder;
 
-use crate::colour::{Paint, Rgb};
+use crate::colour::{Join, Line, Paint, Rgb};
 
 use super::drawing::{Drawing, Item};
 use super::outline::{Outline, Step};
@@ -38,6 +38,7 @@ fn element(item: &Item) -> String {
             paint,
             label,
         } => fill(outline, paint, label.as_deref()),
+        Item::Line { outline, line } => drawn_line(outline, line),
         Item::Bars {
             segments,
             width_px,
@@ -72,6 +73,25 @@ fn fill(outline: &Outline, paint: &Paint, label: Option<&str>) -> String {
     format!(
         "<path{label} fill=\"{}\"{opacity} d=\"{steps}\"/>",
         paint.colour
+    )
+}
+
+fn drawn_line(outline: &Outline, line: &Line) -> String {
+    let Line { paint, width, join } = line;
+    let join = match join {
+        Join::Mitre(limit) => format!("miter\" stroke-miterlimit=\"{}", Number(*limit)),
+        Join::Round => "round".to_owned(),
+        Join::Bevel => "bevel".to_owned(),
+    };
+    let opacity = match paint.is_opaque() {
+        true => String::new(),
+        false => format!(" stroke-opacity=\"{}\"", Number(paint.opacity)),
+    };
+    let steps: String = outline.steps.iter().map(step).collect();
+    format!(
+        "<path fill=\"none\" stroke=\"{}\"{opacity} stroke-width=\"{}\" stroke-linejoin=\"{join}\" d=\"{steps}\"/>",
+        paint.colour,
+        Number(*width)
     )
 }
 

@@ -1,5 +1,6 @@
 //! The camera that shows the stage.
 
+use bevy::camera::CompositingSpace;
 use bevy::prelude::*;
 
 use super::view::StageView;
@@ -10,7 +11,8 @@ use super::view::StageView;
 /// leaves all cameras alone.
 #[derive(Component, Clone, Copy, Debug, Default, Reflect)]
 #[reflect(Component, Clone, Debug, Default)]
-#[require(Camera2d, Msaa::Sample4)]
+// What is half transparent is mixed as in files: on sRGB values.
+#[require(Camera2d, Msaa::Sample4, CompositingSpace::Srgb)]
 pub struct StageCamera;
 
 /// Brings stage cameras and the view into line.

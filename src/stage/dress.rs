@@ -13,6 +13,7 @@ use glam::DVec2;
 use crate::content::{Content, Solid};
 use crate::transition::{Figure, Frame};
 
+use super::coats::Coats;
 use super::colours::ColourMaterial;
 use super::components::Morph;
 use super::field::FieldMaterial;
@@ -43,6 +44,12 @@ fn unplaced(coordinates: Vec<[f32; 2]>) -> Mesh {
 fn quads(coordinates: Vec<[f32; 2]>) -> Mesh {
     let indices = quad_indices(coordinates.len() / 4);
     unplaced(coordinates).with_inserted_indices(Indices::U32(indices))
+}
+
+/// Rings: how many vertices they will need is not known before a frame is filled.
+fn nothing() -> Mesh {
+    let (positions, indices) = fill::nothing();
+    mesh(positions).with_inserted_indices(Indices::U32(indices))
 }
 
 /// The faces of a placement.
@@ -158,12 +165,18 @@ impl Fitting<'_, '_, '_> {
         let has_loops = !solid.loops.is_empty();
         // Faces know nothing of that.
         let comes_and_goes = !solid.holes.is_empty() || !solid.swells.is_empty();
-        if has_loops && (count == 0 || comes_and_goes) {
-            let (positions, indices) = fill::nothing();
-            let nothing = mesh(positions).with_inserted_indices(Indices::U32(indices));
-            // How many vertices the rings will need is not known before a frame
-            // is filled.
-            self.add_inked(PartKind::Rings, nothing);
+        if let Some(coating) = &solid.coating {
+            let coats = Coats::new(self.frame, solid, coating);
+            let mesh = match &coats {
+                Coats::Faces(_) => faces(self.frame),
+                Coats::Rings => nothing(),
+            };
+            let count = mesh.count_vertices();
+            let colours = vec![[0.0_f32; 4]; count];
+            let mesh = mesh.with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, colours);
+            self.add_inked(PartKind::Coats(coats), mesh);
+        } else if has_loops && (count == 0 || comes_and_goes) {
+            self.add_inked(PartKind::Rings, nothing());
         } else if has_loops {
             self.add_inked(PartKind::Faces, faces(self.frame));
         }

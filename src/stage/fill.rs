@@ -40,9 +40,9 @@ pub(super) fn write(frame: &Frame, origin: DVec2, mesh: &mut Mesh) {
     mesh.insert_indices(Indices::U32(indices));
 }
 
-/// Nothing where there is no area, or a point is [`FARTHEST`] or not finite, as
+/// The triangles of rings; nothing where there is no area, or a point is [`FARTHEST`] or not finite, as
 /// far outside [0, 1].
-fn filled(rings: &[Vec<DVec2>], origin: DVec2) -> Fill {
+pub(super) fn filled(rings: &[Vec<DVec2>], origin: DVec2) -> Fill {
     let of = |ring: &Vec<DVec2>| -> Vec<[f64; 2]> {
         ring.iter().map(|&p| (p - origin).to_array()).collect()
     };

@@ -1,5 +1,5 @@
 //! The material of everything that has one colour: faces, bars, joints, wires
-//! and outlines.
+//! and outlines; and of faces in coats of paint.
 //!
 //! Guarantees: edges are smooth at any zoom; lines keep their width on the
 //! screen and grow with the height of the picture, so that a capture in 4K
@@ -22,6 +22,8 @@ use crate::geometry::Bounds;
 pub(super) enum InkKind {
     /// The triangles themselves.
     Faces,
+    /// The same, each vertex in a colour of its own.
+    Coats,
     /// Bars and discs: inside is where the texture coordinates' length is below 1.
     Round,
     /// The edges of triangles that share no vertices.
@@ -30,7 +32,7 @@ pub(super) enum InkKind {
     Line,
 }
 
-/// One opaque colour.
+/// One opaque colour, unless the vertices bring theirs.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
 #[bind_group_data(InkKind)]
 pub(super) struct InkMaterial {
@@ -66,6 +68,7 @@ impl Material2d for InkMaterial {
         };
         let definition = match key.bind_group_data {
             InkKind::Faces => return Ok(()),
+            InkKind::Coats => "COATS",
             InkKind::Round => "ROUND",
             InkKind::Wire => "WIRE",
             InkKind::Line => "LINE",

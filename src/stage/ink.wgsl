@@ -1,6 +1,7 @@
 // Faces, bars, discs, wires and outlines in one colour, with smooth edges at
 // any zoom. The kind of shape is a shader definition:
 //   (none)  faces: the triangles are the shape
+//   COATS   faces whose vertices bring their colours
 //   ROUND   `uv` is where the fragment is in units of the shape's radius
 //   WIRE    `uv` holds two barycentric coordinates; the edges are drawn
 //   LINE    segments of constant width on the screen: the vertex shader pushes
@@ -80,7 +81,11 @@ fn coverage(uv: vec2<f32>) -> f32 {
 
 @fragment
 fn fragment(mesh: VertexOutput) -> @location(0) vec4<f32> {
+#ifdef COATS
+    var colour = mesh.color;
+#else
     var colour = vec4(ink.rgb, ink.a * coverage(mesh.uv));
+#endif
 #ifdef SRGB_OUTPUT
     colour = vec4(linear_to_srgb(colour.rgb), colour.a);
 #endif

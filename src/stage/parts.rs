@@ -5,11 +5,13 @@ use bevy::prelude::*;
 use glam::DVec2;
 
 use crate::colour::Rgb;
+use crate::content::Content;
 use crate::export::joint_core;
 use crate::transition::Frame;
 use crate::warp::WarpKind;
 
 use super::carried;
+use super::coats::Coats;
 use super::components::StageStyle;
 use super::fill;
 use super::ink::InkKind;
@@ -35,6 +37,8 @@ pub(super) enum PartKind {
     Faces,
     /// Boundaries that bring no faces, or more holes than those.
     Rings,
+    /// Faces or boundaries in several paints.
+    Coats(Coats),
     Field,
     Picture,
     Bars(BarShapes),
@@ -53,7 +57,7 @@ impl PartKind {
     /// What is drawn over what.
     pub(super) fn layer(&self) -> f32 {
         match self {
-            Self::Faces | Self::Rings | Self::Field | Self::Picture => 0.0,
+            Self::Faces | Self::Rings | Self::Coats(_) | Self::Field | Self::Picture => 0.0,
             Self::Bars(_) => 0.1,
             Self::JointCores(_) => 0.2,
             Self::Wire { .. } => 0.3,
@@ -68,13 +72,14 @@ impl PartKind {
             Self::Bars(_) | Self::JointCores(_) => InkKind::Round,
             Self::Wire { .. } => InkKind::Wire,
             Self::SourceGhost | Self::TargetGhost => InkKind::Line,
+            Self::Coats(_) => InkKind::Coats,
             _ => InkKind::Faces,
         }
     }
 
     pub(super) fn is_shown(&self, StageStyle { style, show }: &StageStyle) -> bool {
         match self {
-            Self::Faces | Self::Rings | Self::Picture => show.fill,
+            Self::Faces | Self::Rings | Self::Coats(_) | Self::Picture => show.fill,
             // One shader draws all three, and leaves out what is not asked for.
             Self::Field => show.fill || show.iso_lines || show.signed_colours,
             Self::Bars(_) => show.bars,
@@ -105,8 +110,9 @@ impl PartKind {
             Self::Field | Self::Picture => {
                 has_moved && frame.transition().cell().warp() != WarpKind::None
             }
-            // Bars are as wide as their joints are drawn.
-            Self::Bars(_) => has_moved || is_restyled,
+            // Bars are as wide as their joints are drawn, and what has no paint of its
+            // own has the style's.
+            Self::Bars(_) | Self::Coats(_) => has_moved || is_restyled,
             _ => has_moved,
         }
     }
@@ -119,6 +125,13 @@ impl Part {
         let (points, faces, origin) = (&placement.in_frame, &placement.faces, self.origin);
         let joints = style.style.joints;
         match &self.kind {
+            PartKind::Coats(coats) => {
+                if let Content::Solid(solid) = frame.transition().content()
+                    && let Some(coating) = &solid.coating
+                {
+                    coats.write(frame, (solid, coating), &style.style, origin, mesh);
+                }
+            }
             PartKind::Rings => fill::write(frame, origin, mesh),
             PartKind::Field | PartKind::Picture => {
                 let content = frame.transition().content();

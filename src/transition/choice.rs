@@ -80,7 +80,9 @@ pub(super) fn best_of_group(
     };
     if !group.prepared.is_crowd() {
         let [second, third] = [span(FIRST, SECOND), span(SECOND, THIRD)];
-        group.try_holes(&mut chosen, CUT, &has_lone_holes, &second)?;
+        if !group.prepared.is_lined(group.group) {
+            group.try_holes(&mut chosen, CUT, &has_lone_holes, &second)?;
+        }
         group.try_holes(&mut chosen, Holes::Unpaired, &has_folding_holes, &third)?;
         group.try_upright(&mut chosen, &span(THIRD, FOURTH))?;
         group.try_other_prices(&mut chosen, &span(FOURTH, FIFTH))?;

@@ -5,7 +5,7 @@ use super::error::BuildError;
 use super::holes::HoleOf;
 use super::options::PaintRule;
 use super::spec::{TransitionSpec, outline};
-use crate::colour::Paint;
+use crate::colour::{Line, Paint};
 use crate::content::{Coat, Coating};
 use crate::correspondence::{Look, Looks, PieceMatch, RegionMatch};
 use crate::design::{Coat as Painted, Design};
@@ -25,8 +25,15 @@ pub(super) struct Drawings {
     pub outlines: [Regions; 2],
     /// Empty where neither design is shown in its own paint.
     pub looks: Looks,
-    /// The paint of each coat, the lowest first; none of such designs.
-    paints: [Vec<Option<Paint>>; 2],
+    /// The inks of each coat, the lowest first; none of such designs.
+    inks: [Vec<Ink>; 2],
+}
+
+/// Paint and line of a coat.
+#[derive(Clone, Copy, Default)]
+struct Ink {
+    paint: Option<Paint>,
+    line: Option<Line>,
 }
 
 impl Drawings {
@@ -35,7 +42,7 @@ impl Drawings {
         Self {
             outlines,
             looks: Looks::default(),
-            paints: Default::default(),
+            inks: Default::default(),
         }
     }
 }
@@ -58,11 +65,15 @@ impl TransitionSpec {
         let outlines = [stacked(&source)?, stacked(&target)?];
         self.allow(&outlines, progress)?;
         let looks = [&source, &target].map(|coats| looks_of(coats));
-        let paints = [source, target].map(|coats| coats.iter().map(|coat| coat.paint).collect());
+        let ink = |coat: &Painted| Ink {
+            paint: coat.paint,
+            line: coat.line,
+        };
+        let inks = [source, target].map(|coats| coats.iter().map(ink).collect());
         Ok(Drawings {
             outlines,
             looks: Looks(looks),
-            paints,
+            inks,
         })
     }
 }
@@ -77,6 +88,7 @@ fn coats_of(
         vec![Painted {
             regions: outline(design, bar_width, progress)?,
             paint: None,
+            line: None,
             name: String::new(),
         }]
     } else {
@@ -102,6 +114,7 @@ fn looks_of(coats: &[Painted]) -> Vec<Look> {
             coat: k,
             height: k as f64 / top,
             paint: coat.paint,
+            is_lined: coat.line.is_some(),
             name: given_name(&coat.name),
         };
         std::iter::repeat_n(look, coat.regions.len())
@@ -193,15 +206,16 @@ pub(super) fn coating(
         return None;
     }
     let levels = Levels::of(matched, &drawings.looks);
-    let paint = |side: Side, coat: Option<usize>| coat.map(|coat| drawings.paints[side][coat]);
+    let ink = |side: Side, coat: Option<usize>| coat.map(|coat| drawings.inks[side][coat]);
     let heights = Side::BOTH.map(|side| heights(&levels.coats, side));
     let coat = |level: usize| {
         let own = levels.coats[level];
-        let paints = Side::BOTH.map(|side| paint(side, own[side]));
-        // What one design has alone keeps its paint.
-        let [source, target] = [paints[0].or(paints[1]), paints[1].or(paints[0])];
+        let inks = Side::BOTH.map(|side| ink(side, own[side]));
+        // What one design has alone keeps its paint, while its line grows with it.
+        let paints = [inks[0].or(inks[1]), inks[1].or(inks[0])];
         Coat {
-            paints: [source.flatten(), target.flatten()],
+            paints: paints.map(|ink| ink.and_then(|ink| ink.paint)),
+            lines: inks.map(|ink| ink.and_then(|ink| ink.line)),
             heights: [heights[0][level], heights[1][level]],
         }
     };

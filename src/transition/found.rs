@@ -96,7 +96,7 @@ pub(super) fn key(options: &Options, drawings: &Drawings) -> String {
         let paint = look
             .paint
             .map(|paint| (paint.colour.0, paint.opacity.to_bits()));
-        hasher.write(format!("{paint:?} {}", look.name).as_bytes());
+        hasher.write(format!("{paint:?} {} {}", look.is_lined, look.name).as_bytes());
     }
     format!("{:016x}", hasher.finish())
 }

@@ -158,7 +158,7 @@ fn attach(
 }
 
 /// The group whose single part on the other side lies nearest, of those in the
-/// coat of the part.
+/// coat of the part that may be cut.
 fn nearest_group(
     groups: &[Group],
     (places, looks): (&[Vec<DVec2>; 2], &Looks),
@@ -168,10 +168,11 @@ fn nearest_group(
     let here = places[side][part];
     let coat = |part: usize| looks.coat(side, part);
     let is_in_coat = |g: &Group| g.parts[side].iter().all(|&own| coat(own) == coat(part));
+    let is_whole = |g: &Group| looks.is_lined(side.other(), g.parts[side.other()][0]);
     let single = groups
         .iter()
         .enumerate()
-        .filter(|(_, g)| g.parts[side.other()].len() == 1 && is_in_coat(g));
+        .filter(|(_, g)| g.parts[side.other()].len() == 1 && is_in_coat(g) && !is_whole(g));
     let far = |g: &Group| places[side.other()][g.parts[side.other()][0]].distance_squared(here);
     single
         .min_by(|a, b| far(a.1).total_cmp(&far(b.1)))

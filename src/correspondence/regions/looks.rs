@@ -12,6 +12,8 @@ pub(crate) struct Look {
     pub(crate) height: f64,
     /// None where the design has no colour of its own.
     pub(crate) paint: Option<Paint>,
+    /// Whether a line runs along it, which a cut would be seen by.
+    pub(crate) is_lined: bool,
     /// What somebody calls it; or empty.
     pub(crate) name: String,
 }
@@ -45,6 +47,11 @@ impl Look {
 }
 
 impl Looks {
+    /// Whether a line runs along a part.
+    pub(crate) fn is_lined(&self, side: Side, part: usize) -> bool {
+        self.0[side].get(part).is_some_and(|look| look.is_lined)
+    }
+
     /// The coat of a part, 0 where all look alike.
     pub(crate) fn coat(&self, side: Side, part: usize) -> usize {
         self.0[side].get(part).map_or(0, |look| look.coat)

@@ -79,6 +79,13 @@ impl<'a> Prepared<'a> {
         Ok(prepared)
     }
 
+    /// Whether a line runs along any part of a group, in which no cut may be seen.
+    pub(crate) fn is_lined(&self, group: usize) -> bool {
+        let parts = &self.groups[group].parts;
+        let is_lined = |side: Side| parts[side].iter().any(|&k| self.looks.is_lined(side, k));
+        Side::BOTH.into_iter().any(is_lined)
+    }
+
     /// How the parts look.
     pub(crate) fn looks(&self) -> &'a Looks {
         self.looks

@@ -7,6 +7,7 @@
 use super::heights::Heights;
 use super::layers::union;
 use super::shape::Shape;
+use crate::colour::Paint;
 use crate::design::coat::Coat;
 use crate::geometry::{DVec2, FillRule, Regions};
 use std::collections::BTreeMap;
@@ -19,6 +20,7 @@ pub(super) fn coats(shapes: Vec<Shape>, page: DVec2) -> Vec<Coat> {
         Some(Coat {
             regions,
             paint: Some(shape.paint),
+            line: shape.edge.map(|edge| edge.line),
             name: shape.name,
         })
     };
@@ -45,11 +47,34 @@ pub(super) fn merged(shapes: Vec<Shape>, page: DVec2) -> Vec<Shape> {
     stack.coats.into_iter().map(united).collect()
 }
 
+/// What shapes of one coat have in common.
+#[derive(PartialEq, Eq, PartialOrd, Ord)]
+struct Key {
+    paint: ([u8; 3], u64),
+    /// Paint, width and join of the line.
+    line: Option<([u8; 3], u64, u64, String)>,
+}
+
+impl Key {
+    fn of(shape: &Shape) -> Self {
+        let bits = |paint: Paint| (paint.colour.0, paint.opacity.to_bits());
+        let line = shape.edge.as_ref().map(|edge| {
+            let (colour, opacity) = bits(edge.line.paint);
+            let (width, join) = (edge.line.width.to_bits(), edge.line.join);
+            (colour, opacity, width, format!("{join:?}"))
+        });
+        Self {
+            paint: bits(shape.paint),
+            line,
+        }
+    }
+}
+
 struct Stack {
     /// With how many shapes each is of.
     coats: Vec<(Shape, usize)>,
     /// The coats of a paint, the lowest first.
-    of_paint: BTreeMap<([u8; 3], u64), Vec<usize>>,
+    of_paint: BTreeMap<Key, Vec<usize>>,
     /// One more than the highest coat.
     heights: Heights,
 }
@@ -60,10 +85,11 @@ impl Stack {
             return; // a filled line
         };
         let above = self.heights.highest(&bounds);
-        // On its own paint, unless what is below would be seen twice through it.
-        let lowest = above.saturating_sub(usize::from(shape.paint.is_opaque()));
-        let key = (shape.paint.colour.0, shape.paint.opacity.to_bits());
-        let own = self.of_paint.entry(key).or_default();
+        // On its own paint, unless what is below would be seen twice through it, or a
+        // line runs along it.
+        let may_unite = shape.paint.is_opaque() && shape.edge.is_none();
+        let lowest = above.saturating_sub(usize::from(may_unite));
+        let own = self.of_paint.entry(Key::of(&shape)).or_default();
         let Some(&at) = own.get(own.partition_point(|&coat| coat < lowest)) else {
             own.push(self.coats.len());
             self.coats.push((shape, 1));
@@ -72,6 +98,9 @@ impl Stack {
         self.heights.raise(&bounds, at + 1);
         let (coat, count) = &mut self.coats[at];
         coat.rings.extend(shape.rings);
+        if let Some((all, more)) = coat.edge.as_mut().zip(shape.edge) {
+            all.rings.extend(more.rings);
+        }
         *count += 1;
     }
 }

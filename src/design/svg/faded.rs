@@ -8,6 +8,7 @@ use crate::geometry::{Bounds, DVec2};
 /// The shapes of a group of so much opacity: what lies under another shape of the
 /// group is not seen through it.
 pub(super) fn faded(shapes: Vec<Shape>, opacity: f64, page: DVec2) -> Vec<Shape> {
+    let shapes = shapes.into_iter().flat_map(Shape::apart).collect();
     // Those of one paint are one, or their seams would be seen.
     let mut shapes = merged(shapes, page);
     for k in 0..shapes.len() {

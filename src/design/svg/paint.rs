@@ -4,12 +4,12 @@
 use super::error::SvgError;
 use super::faded::faded;
 use super::layers::{Rings, within};
-use super::shape::Shape;
+use super::shape::{Edge, Shape};
 use super::tone::flat;
-use crate::colour::Paint;
+use crate::colour::{Join, Line, Paint};
 use crate::design::flatten::Flattener;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
-use usvg::{ClipPath, Group, Node, PaintOrder, Path, Stroke, Transform, tiny_skia_path};
+use usvg::{ClipPath, Group, LineJoin, Node, PaintOrder, Path, Stroke, Transform, tiny_skia_path};
 
 /// What of a drawing is read, and how.
 pub(super) struct Brush<'o> {
@@ -134,6 +134,30 @@ impl Painter<'_> {
         let shades = [&fill, &stroke].into_iter().flatten();
         self.painted.left_out.shades += shades.filter(|tone| tone.is_mean).count();
         let fills_first = path.paint_order() == PaintOrder::FillAndStroke;
+        if let Some(stroke) = &stroke
+            && fills_first
+            && clip.is_none()
+            && let Some(line) = line(path, stroke.paint)
+            && let Some(rings) = self.edged(path)?
+        {
+            let edge = Edge {
+                line,
+                rings: self.stroked(path)?,
+            };
+            let none = Paint {
+                opacity: 0.0,
+                ..line.paint
+            };
+            let paint = fill.map_or(none, |tone| tone.paint);
+            self.painted.shapes.push(Shape {
+                rings,
+                paint,
+                is_stroke: false,
+                edge: Some(edge),
+                name: path.id().to_owned(),
+            });
+            return Ok(());
+        }
         for is_fill in [fills_first, !fills_first] {
             if is_fill && let Some(tone) = &fill {
                 let rings = self.filled(path, Transform::identity())?;
@@ -157,8 +181,26 @@ impl Painter<'_> {
             rings: within(rings, clip),
             paint,
             is_stroke,
+            edge: None,
             name: path.id().to_owned(),
         });
+    }
+
+    /// What a path encloses, if its outlines are those that it draws: closed, and
+    /// none crosses itself or another.
+    fn edged(&mut self, path: &Path) -> Result<Option<Rings>, SvgError> {
+        if !is_closed(path) {
+            return Ok(None);
+        }
+        let rings = self.rings(path.data(), path.abs_transform())?;
+        let rule = match path.fill().map(usvg::Fill::rule) {
+            Some(usvg::FillRule::NonZero) => FillRule::NonZero,
+            // Without a fill all outlines are to stay.
+            Some(usvg::FillRule::EvenOdd) | None => FillRule::EvenOdd,
+        };
+        let crossings = Repairs::between(&rings).crossings;
+        let cleaned = cleaned(&rings, rule)?;
+        Ok((crossings == 0 && cleaned.len() == rings.len()).then_some(cleaned))
     }
 
     /// What a clip path lets through.
@@ -261,3 +303,50 @@ fn is_filled(path: &Path) -> bool {
     let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0);
     path.is_visible() && fill.is_some()
 }
+
+/// Whether every outline of a path is closed.
+fn is_closed(path: &Path) -> bool {
+    use tiny_skia_path::PathSegment::{Close, MoveTo};
+    let mut is_open = false;
+    for segment in path.data().segments() {
+        match segment {
+            MoveTo(_) if is_open => return false,
+            MoveTo(_) | Close => is_open = false,
+            _ => is_open = true,
+        }
+    }
+    !is_open
+}
+
+/// The stroke of a path as a line along its outlines, if it is one: without dashes,
+/// and as wide in all directions.
+fn line(path: &Path, paint: Paint) -> Option<Line> {
+    let stroke = path
+        .stroke()
+        .filter(|stroke| stroke.dasharray().is_none())?;
+    let [x, y] = {
+        let t = path.abs_transform();
+        [
+            DVec2::new(t.sx.into(), t.ky.into()),
+            DVec2::new(t.kx.into(), t.sy.into()),
+        ]
+    };
+    let scale = x.length();
+    let is_even =
+        (y.length() - scale).abs() < EVEN * scale && x.dot(y).abs() < EVEN * scale * scale;
+    let limit = f64::from(stroke.miterlimit().get());
+    let join = match stroke.linejoin() {
+        LineJoin::Miter | LineJoin::MiterClip => Join::Mitre(limit),
+        LineJoin::Round => Join::Round,
+        LineJoin::Bevel => Join::Bevel,
+    };
+    is_even.then(|| Line {
+        paint,
+        width: scale * f64::from(stroke.width().get()),
+        join,
+    })
+}
+
+/// By what share the two axes of a transform may differ in length and from a right
+/// angle: transforms are `f32`.
+const EVEN: f64 = 1e-4;

@@ -1,25 +1,46 @@
 //! What is painted at once.
 
 use super::layers::Rings;
-use crate::colour::{Paint, Rgb};
+use crate::colour::{Line, Paint};
 use crate::geometry::Bounds;
 
-/// What one fill or one stroke covers.
+/// What one fill or one stroke covers, or a fill with the stroke along it.
 pub(super) struct Shape {
     /// To be filled by winding.
     pub rings: Rings,
     pub paint: Paint,
     pub is_stroke: bool,
+    /// The stroke along the rings, if it goes with them.
+    pub edge: Option<Edge>,
     /// The id of its element, if it has one.
     pub name: String,
 }
 
+/// A stroke along the rings of a shape.
+pub(super) struct Edge {
+    pub line: Line,
+    /// What it covers, to be filled by winding.
+    pub rings: Rings,
+}
+
 impl Shape {
-    pub(super) fn is_white(&self) -> bool {
-        self.paint.colour == Rgb([u8::MAX; 3])
+    /// The box around all that it covers.
+    pub(super) fn bounds(&self) -> Option<Bounds> {
+        let edge = self.edge.iter().flat_map(|edge| &edge.rings);
+        Bounds::of(self.rings.iter().chain(edge).flatten().copied())
     }
 
-    pub(super) fn bounds(&self) -> Option<Bounds> {
-        Bounds::of(self.rings.iter().flatten().copied())
+    /// Its fill and its stroke, each for itself, if it is seen.
+    pub(super) fn apart(mut self) -> impl Iterator<Item = Self> {
+        let (edge, fill) = (self.edge.take(), self);
+        let stroke = edge.map(|edge| Self {
+            rings: edge.rings,
+            paint: edge.line.paint,
+            is_stroke: true,
+            edge: None,
+            name: fill.name.clone(),
+        });
+        let fill = (fill.paint.opacity > 0.0).then_some(fill);
+        fill.into_iter().chain(stroke)
     }
 }
