@@ -1,8 +1,8 @@
 //! One way to match a piece: its mesh, and what is seen of its film.
 
-use super::coats::Levels;
 use super::error::BuildError;
 use super::holes::{HoleOf, timed};
+use super::levels::Levels;
 use super::options::Options;
 use super::rigid::arap;
 use crate::compatible::{CompatibleMesh, PolygonsError, of_piece};

@@ -6,8 +6,8 @@
 //! with the most conflicts for its area first (the greedy cover of Chvátal
 //! 1979): small, not the smallest.
 
-use super::coats::Levels;
 use super::holes::HoleOf;
+use super::levels::Levels;
 use super::walks::Walks;
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{Side, crossings, signed_area};

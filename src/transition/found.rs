@@ -1,7 +1,7 @@
 //! What was found for two designs, as text that a document keeps, and what it was
 //! found for.
 
-use super::coats::Drawings;
+use super::drawings::Drawings;
 use super::options::Options;
 use super::rigid::coarse;
 use crate::geometry::{DVec2, Regions};

@@ -6,7 +6,7 @@
 //! crossed between two is missed.
 
 use super::births::times;
-use super::coats::Levels;
+use super::levels::Levels;
 use super::outline::Outline;
 use super::walks::Walks;
 use crate::compatible::CompatibleMesh;

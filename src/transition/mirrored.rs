@@ -5,7 +5,7 @@
 //! a letter that is mirrored is no letter.
 
 use super::candidate::Candidate;
-use super::coats::Drawings;
+use super::drawings::Drawings;
 use super::error::BuildError;
 use super::group::{Chosen, GroupOf};
 use super::note::Note;

@@ -10,11 +10,12 @@
 use super::births::{self, lives};
 use super::candidate::Candidate;
 use super::choice::best_of_group;
-use super::coats::{Drawings, Levels};
 use super::conflicts::in_the_way;
+use super::drawings::Drawings;
 use super::error::BuildError;
 use super::group::{Chosen, GroupOf};
 use super::holes::{HoleOf, timed};
+use super::levels::Levels;
 use super::mirrored;
 use super::note::Note;
 use super::options::Quality;

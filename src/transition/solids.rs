@@ -3,7 +3,8 @@
 //! Two meshes bring their triangulation along, two trusses their panels; all
 //! other forms are matched as outlines.
 
-use super::coats::{self, Drawings};
+use super::coating;
+use super::drawings::Drawings;
 use super::error::BuildError;
 use super::found;
 use super::kept::{self, Kept};
@@ -51,9 +52,9 @@ pub(super) fn rigid_parts(
     });
     let (swells, specks) =
         film.map_or_else(Default::default, |film| lone::drawn(&arap, &film.swelling));
-    let coating = film
-        .zip(drawings)
-        .and_then(|(film, drawings)| coats::coating(&drawings, &film.matched, &arap, &film.holes));
+    let coating = film.zip(drawings).and_then(|(film, drawings)| {
+        coating::coating(&drawings, &film.matched, &arap, &film.holes)
+    });
     let solid = Solid {
         loops: if bars.is_empty() {
             arap.mesh().boundary_loops()

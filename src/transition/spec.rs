@@ -2,13 +2,14 @@
 
 use super::arrange::extent;
 use super::cells::Cell;
+use super::drawings::Drawings;
 use super::error::BuildError;
 use super::found::{self, Found};
-use super::options::{Options, Quality};
+use super::options::{Options, PaintRule, Quality};
 use crate::budget::Load;
 use crate::content::ContentKind;
-use crate::design::{Design, Form, Format, Picture};
-use crate::geometry::Regions;
+use crate::design::{Coat, Design, Form, Format, Picture};
+use crate::geometry::{Regions, RegionsError};
 use crate::progress::{Progress, beside, checkpoint};
 use std::sync::Arc;
 
@@ -98,6 +99,24 @@ impl TransitionSpec {
         Ok(outlines.map(|outline| outline.pulled_apart()))
     }
 
+    /// Both designs as they are matched for rigid parts; bars are so wide, in
+    /// units of the designs.
+    pub(super) fn drawings(
+        &self,
+        bar_width: f64,
+        progress: &dyn Progress,
+    ) -> Result<Drawings, BuildError> {
+        let designs = [&self.source, &self.target];
+        let is_painted = designs.iter().any(|design| !design.coats.is_empty());
+        if self.options.paint == PaintRule::One || !is_painted {
+            return Ok(Drawings::plain(self.outlines(bar_width, progress)?));
+        }
+        let [source, target] = designs.map(|design| coats_of(design, bar_width, progress));
+        let drawings = Drawings::of([source?, target?]).ok_or(RegionsError::Empty)?;
+        self.allow(&drawings.outlines, progress)?;
+        Ok(drawings)
+    }
+
     /// Whether outlines are not too much.
     pub(super) fn allow(
         &self,
@@ -157,4 +176,27 @@ pub(super) fn outline(
     checkpoint(progress, "uniting", 0.0)?;
     let design = Arc::clone(design);
     Ok(beside(progress, move || design.outline(bar_width))??)
+}
+
+/// The coats of a design; one without paint where it has none.
+fn coats_of(
+    design: &Arc<Design>,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<Vec<Coat>, BuildError> {
+    let coats = if design.coats.is_empty() {
+        vec![Coat {
+            regions: outline(design, bar_width, progress)?,
+            paint: None,
+            line: None,
+            name: String::new(),
+        }]
+    } else {
+        design.coats.clone()
+    };
+    let apart = coats.into_iter().map(|coat| Coat {
+        regions: coat.regions.pulled_apart(),
+        ..coat
+    });
+    Ok(apart.collect())
 }

@@ -1,6 +1,6 @@
 //! The boundaries in a film of what both designs have.
 
-use super::coats::Levels;
+use super::levels::Levels;
 use super::outline::Outline;
 use crate::geometry::DVec2;
 use crate::warp::Arap;

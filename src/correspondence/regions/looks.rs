@@ -28,9 +28,9 @@ pub(crate) struct Looks(pub(crate) [Vec<Look>; 2]);
 const PAINT: f64 = 0.5;
 const HEIGHT: f64 = 0.25;
 
-/// What two parts cost to be paired that have different names: more than any
+/// By how much less two parts cost to be paired that have one name: more than any
 /// place, form and paint.
-const STRANGERS: f64 = 4.0;
+const NAMED: f64 = 4.0;
 
 impl Look {
     /// What it costs to pair two parts whose forms and places cost so much.
@@ -38,11 +38,8 @@ impl Look {
         let paint = self.paint.zip(other.paint);
         let paint = paint.map_or(0.0, |(a, b)| a.unlike(&b));
         let cost = form + PAINT * paint + HEIGHT * (self.height - other.height).abs();
-        let is_named = !self.name.is_empty() && !other.name.is_empty();
-        match is_named && self.name != other.name {
-            true => cost + STRANGERS,
-            false => cost,
-        }
+        let is_named = !self.name.is_empty() && self.name == other.name;
+        if is_named { cost - NAMED } else { cost }
     }
 }
 

@@ -6,8 +6,8 @@
 use super::carried::{carried_among, carried_within};
 use super::speck::Speck;
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::coats::Levels;
 use crate::transition::holes::HoleOf;
+use crate::transition::levels::Levels;
 use crate::transition::outline::Outline;
 use crate::transition::walks::Walks;
 use crate::warp::{Arap, Life, Placer, Warp};

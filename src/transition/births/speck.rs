@@ -3,7 +3,7 @@
 use crate::content::middle;
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side, inset, inset_depth, ring_edges, signed_area, winding};
-use crate::transition::coats::Levels;
+use crate::transition::levels::Levels;
 use crate::transition::outline::Outline;
 use crate::warp::Life;
 use std::sync::OnceLock;

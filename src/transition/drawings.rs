@@ -1,0 +1,84 @@
+//! Designs as they are matched: all parts of all coats, and how they look.
+
+use crate::colour::{Line, Paint};
+use crate::correspondence::{Look, Looks};
+use crate::design::Coat;
+use crate::geometry::Regions;
+
+/// Two designs as they are matched.
+pub(super) struct Drawings {
+    /// All parts, of all coats.
+    pub outlines: [Regions; 2],
+    /// Empty where neither design is shown in its own paint.
+    pub looks: Looks,
+    /// The inks of each coat, the lowest first; none of such designs.
+    pub inks: [Vec<Ink>; 2],
+}
+
+/// Paint and line of a coat.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Ink {
+    pub paint: Option<Paint>,
+    pub line: Option<Line>,
+}
+
+impl Drawings {
+    /// Of coats of paint, the lowest first; `None` of a design without any.
+    pub(super) fn of(coats: [Vec<Coat>; 2]) -> Option<Self> {
+        let [source, target] = &coats;
+        let outlines = [stacked(source)?, stacked(target)?];
+        let ink = |coat: &Coat| Ink {
+            paint: coat.paint,
+            line: coat.line,
+        };
+        Some(Self {
+            outlines,
+            looks: Looks(coats.each_ref().map(|coats| looks_of(coats))),
+            inks: coats.map(|coats| coats.iter().map(ink).collect()),
+        })
+    }
+
+    /// Of the outlines of designs that are shown in one colour.
+    pub(super) fn plain(outlines: [Regions; 2]) -> Self {
+        Self {
+            outlines,
+            looks: Looks::default(),
+            inks: Default::default(),
+        }
+    }
+}
+
+fn stacked(coats: &[Coat]) -> Option<Regions> {
+    Regions::stacked(coats.iter().map(|coat| coat.regions.clone()))
+}
+
+fn looks_of(coats: &[Coat]) -> Vec<Look> {
+    let top = coats.len().saturating_sub(1).max(1) as f64;
+    let coats = coats.iter().enumerate();
+    let looks = coats.flat_map(|(k, coat)| {
+        let look = Look {
+            coat: k,
+            height: k as f64 / top,
+            paint: coat.paint,
+            is_lined: coat.line.is_some(),
+            name: given_name(&coat.name),
+        };
+        std::iter::repeat_n(look, coat.regions.len())
+    });
+    looks.collect()
+}
+
+/// What drawing programs call things by themselves.
+const KINDS: [&str; 12] = [
+    "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "shape", "vector", "layer",
+    "group", "g",
+];
+
+/// A name that somebody gave; nothing of one that a program counted, which says
+/// as little of another drawing's.
+fn given_name(name: &str) -> String {
+    let is_counted = name.contains(|c: char| c.is_ascii_digit());
+    let is_kind = KINDS.contains(&name.to_ascii_lowercase().as_str());
+    let given = if is_counted || is_kind { "" } else { name };
+    given.to_owned()
+}
