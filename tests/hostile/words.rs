@@ -12,10 +12,6 @@ fn files() -> Vec<(&'static str, String, &'static str)> {
     let svg = |body: &str| {
         format!("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"9\" height=\"9\">{body}</svg>")
     };
-    let mask = format!(
-        "<mask id=\"{XML_RED}\"><rect width=\"9\" height=\"9\" fill=\"#fff\"/></mask>\
-         <rect width=\"4\" height=\"4\" mask=\"url('#{XML_RED}')\"/>"
-    );
     let spline = "8\n0\n71\n3\n40\n0\n10\n0\n20\n0\n";
     vec![
         (
@@ -44,7 +40,6 @@ fn files() -> Vec<(&'static str, String, &'static str)> {
             "<svg xmlns=\"a\nb.C\n16,2\"\n> </g>\n</svg>".to_owned(),
             "lines.svg",
         ),
-        ("mask.svg", svg(&mask), "the mask"),
         (
             "only.dxf",
             "0\nSECTION\n2\nENTITIES\n0\n\u{1b}[31mTEXT\n8\n0\n0\nENDSEC\n0\nEOF\n".to_owned(),
