@@ -14,7 +14,7 @@ use crate::measure::auto;
 use crate::names::named;
 use crate::progress::Progress;
 use crate::project::{LoadedProject, Project};
-use crate::transition::{Boundary, Easing, Fit, Options, PlayMode, Quality, Transition};
+use crate::transition::{Boundary, Easing, Fit, Options, PaintRule, PlayMode, Quality, Transition};
 use crate::warp::{ArapPath, Course, Travel, WarpKind, Weights};
 
 use super::error::CliError;
@@ -281,6 +281,10 @@ struct StyleArgs {
     #[arg(long, value_name = "#RRGGBB")]
     target_colour: Option<Rgb>,
 
+    /// Whose colours drawings are shown in
+    #[arg(long, value_parser = one_of::<PaintRule>())]
+    paint: Option<PaintRule>,
+
     /// Leave a truss's joints unmarked
     #[arg(long)]
     no_joints: bool,
@@ -400,6 +404,7 @@ impl MethodArgs {
         let (style, given) = (&mut project.style, &self.style);
         set(&mut style.source, given.source_colour);
         set(&mut style.target, given.target_colour);
+        set(&mut project.options.paint, given.paint);
         set(&mut style.joints, given.no_joints.then_some(false));
     }
 }
@@ -495,7 +500,7 @@ mod tests {
         let project = edited(
             "--image-threshold 99 --invert --specks 4 --tolerance 0.01 --no-strokes \
              --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
-             --source-colour #010203 --target-colour #040506 --no-joints",
+             --source-colour #010203 --target-colour #040506 --no-joints --paint one",
         )
         .expect("edited");
         let import = project.designs[1].import;
@@ -516,6 +521,7 @@ mod tests {
             (project.style.target, project.style.joints),
             (Rgb([4, 5, 6]), false)
         );
+        assert_eq!(project.options.paint, PaintRule::One);
     }
 
     #[test]

@@ -28,6 +28,7 @@ const MAX_PIECES: f64 = 4096.0;
 pub struct TooManyPoints;
 
 /// Flattens paths, counting their points.
+#[derive(Clone)]
 pub(super) struct Flattener {
     tolerance: f64,
     points: usize,

@@ -67,7 +67,7 @@ pub enum TextError {
 }
 
 /// The font for text that names none.
-const BUNDLED_FONT: &[u8] = include_bytes!("../../assets/fonts/Roboto-Bold.ttf");
+pub(super) const BUNDLED_FONT: &[u8] = include_bytes!("../../assets/fonts/Roboto-Bold.ttf");
 
 /// Most characters: a page of text, far beyond what anyone blends.
 const MAX_CHARS: usize = 2000;

@@ -44,6 +44,10 @@ pub enum ImportNote {
     Strokes(usize),
     /// Texts of a drawing.
     Texts(usize),
+    /// A font that the machine does not have.
+    Font(String),
+    /// Characters of a drawing that no font has, or that are pictures.
+    Characters(usize),
     /// Pictures in a drawing.
     Pictures(usize),
     /// Gradients and patterns, of which the mean colour is shown.
@@ -52,7 +56,7 @@ pub enum ImportNote {
     Masks(usize),
     /// Filters of a drawing.
     Filters(usize),
-    /// Groups that mix with what is below otherwise than by covering it.
+    /// Groups that are mixed with what is below otherwise than as drawn.
     Blends(usize),
     /// A large picture's colours, kept at a smaller size.
     Smaller {
@@ -165,6 +169,8 @@ impl fmt::Display for ImportNote {
             }
             Self::Strokes(_)
             | Self::Texts(_)
+            | Self::Font(_)
+            | Self::Characters(_)
             | Self::Pictures(_)
             | Self::Shades(_)
             | Self::Masks(_)
@@ -184,7 +190,16 @@ impl ImportNote {
             }
             Self::Texts(n) => {
                 left_out(f, *n, ["text", "texts"])?;
-                f.write_str("; convert text to paths")
+                f.write_str(", too long to be laid out; convert text to paths")
+            }
+            Self::Font(name) => write!(
+                f,
+                "the font {} is not on this machine, another one is shown; install it, or convert text to paths",
+                OneLine(name)
+            ),
+            Self::Characters(n) => {
+                left_out(f, *n, ["character", "characters"])?;
+                f.write_str(", of which no font has an outline; convert text to paths")
             }
             Self::Pictures(n) => left_out(f, *n, ["embedded picture", "embedded pictures"]),
             Self::Shades(n) => {
@@ -197,7 +212,13 @@ impl ImportNote {
                 f.write_str("; apply masks as clip paths")
             }
             Self::Filters(n) => left_out(f, *n, ["filter", "filters"]),
-            Self::Blends(n) => left_out(f, *n, ["blend mode", "blend modes"]),
+            Self::Blends(n) => {
+                let (what, were) = (number(["group", "groups"], *n), number(["is", "are"], *n));
+                write!(
+                    f,
+                    "{n} {what} {were} not mixed with what lies below as drawn"
+                )
+            }
             _ => Ok(()),
         }
     }

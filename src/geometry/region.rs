@@ -91,6 +91,11 @@ impl Regions {
     /// piece. A self-touching outline leaves slivers of about 1e-18.
     const MIN_RELATIVE_AREA: f64 = 1e-14;
 
+    /// Points nearer than this to the one before, relative to the size, are one with
+    /// it. An outline that ends where it began is left with a last edge of about
+    /// 1e-15, which vanishes where the outline is made small.
+    const MIN_RELATIVE_EDGE: f64 = 1e-12;
+
     /// Cleans the rings: self-crossings, overlaps, duplicates and collinear
     /// points are resolved by the fill rule. Rings of fewer than three points
     /// enclose nothing and are left out.
@@ -129,7 +134,10 @@ impl Regions {
     fn cleaned(rings: &[Vec<DVec2>], rule: FillRule) -> Result<(Self, usize), RegionsError> {
         let bounds = Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
         let extent = SizeError::check(&bounds)?;
-        let smallest = Self::MIN_RELATIVE_AREA * extent * extent;
+        let smallest = Smallest {
+            area: Self::MIN_RELATIVE_AREA * extent * extent,
+            edge: Self::MIN_RELATIVE_EDGE * extent,
+        };
         let origin = bounds.centre(); // coordinates about zero use the grid best
         let subject: Vec<Vec<[f64; 2]>> = rings
             .iter()
@@ -242,22 +250,32 @@ fn check_range(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
     Ok(())
 }
 
+/// What is smaller does not count.
+#[derive(Clone, Copy)]
+struct Smallest {
+    area: f64,
+    edge: f64,
+}
+
 /// One cleaned shape, outer contour first; `None` for a sliver.
-fn region_from(shape: Vec<Vec<[f64; 2]>>, origin: DVec2, smallest: f64) -> Option<Region> {
+fn region_from(shape: Vec<Vec<[f64; 2]>>, origin: DVec2, smallest: Smallest) -> Option<Region> {
+    let is_same = |a: DVec2, b: DVec2| a.distance_squared(b) <= smallest.edge * smallest.edge;
     let mut rings = shape.into_iter().filter_map(|contour| {
-        let points = contour
-            .into_iter()
-            .map(|p| DVec2::from(p) + origin)
-            .collect();
+        let points = contour.into_iter().map(|p| DVec2::from(p) + origin);
+        let mut points: Vec<DVec2> = points.collect();
+        points.dedup_by(|b, a| is_same(*a, *b));
+        while points.len() > 1 && is_same(points[0], points[points.len() - 1]) {
+            points.pop();
+        }
         Ring::new(points).ok()
     });
     let outer = oriented(rings.next()?, true);
-    if outer.signed_area() <= smallest {
+    if outer.signed_area() <= smallest.area {
         return None;
     }
     let holes = rings
         .map(|hole| oriented(hole, false))
-        .filter(|hole| -hole.signed_area() > smallest)
+        .filter(|hole| -hole.signed_area() > smallest.area)
         .collect();
     Some(Region { outer, holes })
 }
@@ -373,6 +391,15 @@ mod tests {
             coarse.contains("1e15 away") && coarse.contains("move"),
             "{coarse}"
         );
+    }
+
+    #[test]
+    fn an_outline_that_all_but_ends_where_it_began_has_no_last_edge() {
+        let last = (1.0, 24.0 + 6e-14);
+        let nearly = ring(&[(1.0, 24.0), (0.0, 0.0), (24.0, 0.0), (24.0, 24.0), last]);
+        let regions = Regions::from_rings(&[nearly], FillRule::NonZero).expect("a region");
+        let points = regions.rings().next().expect("an outline").points();
+        assert_eq!(points.len(), 4, "{points:?}");
     }
 
     #[test]

@@ -66,7 +66,7 @@ fn heights(levels: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
         .collect();
     alone.sort_by_key(|&k| levels[k][other]);
     for k in alone {
-        let is_below = |&other_level: &usize| levels[other_level][other] < levels[k][other];
+        let is_below = |&placed: &usize| levels[placed][other] < levels[k][other];
         let at = order.iter().rposition(is_below).map_or(0, |at| at + 1);
         order.insert(at, k);
     }

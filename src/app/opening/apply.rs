@@ -1,9 +1,10 @@
 //! Opening, editing and saving: the intents that change the [`Session`].
 
 use std::path::Path;
+use std::sync::Arc;
 
 use bevy::prelude::{
-    Commands, DetectChanges, DetectChangesMut, MessageReader, Res, ResMut, Resource,
+    Commands, DetectChanges, DetectChangesMut, Local, MessageReader, Res, ResMut, Resource,
 };
 
 use crate::app::asking::hand::Gesture;
@@ -18,6 +19,7 @@ use crate::app::session::saving::SaveError;
 use crate::app::session::state::{Outcome, Session};
 use crate::app::telling::notices::{About, Notices};
 use crate::content::ContentKind;
+use crate::design::Design;
 use crate::project::{DesignEntry, Project, gallery};
 use crate::transition::{PlayMode, Stop, Transition};
 use crate::warp::WarpKind;
@@ -232,6 +234,7 @@ pub fn poll(
     mut notices: ResMut<Notices>,
     mut playback: ResMut<Playback>,
     (mut keeps_fit, editor): (ResMut<KeepsFit>, Res<Editor>),
+    mut told: Local<Vec<Arc<Design>>>,
 ) {
     // Polled in each frame: only an outcome is a change.
     let may_change = playback.may_change_film(session.timing());
@@ -257,11 +260,30 @@ pub fn poll(
         }
     }
     notices.well(About::Opening);
+    tell_notes(session.designs(), &mut told, &mut notices);
     if let Some(problem) = session.problem() {
         // Only the last one: what was tried before it is no longer asked for.
         notices.well(About::Transition);
         notices.problem(About::Transition, why_not(problem, session.transition()));
     }
+}
+
+/// Says what of each design was repaired or left out, once while it is open.
+fn tell_notes(designs: &[Arc<Design>], told: &mut Vec<Arc<Design>>, notices: &mut Notices) {
+    for design in designs {
+        // A design alone is its own partner, read twice.
+        let is_told = told.contains(design);
+        told.push(Arc::clone(design));
+        let mut notes = design.notes.iter().filter(|_| !is_told);
+        if let Some(first) = notes.next() {
+            let more = match notes.count() {
+                0 => String::new(),
+                n => format!(" (and {n} more, see Designs)"),
+            };
+            notices.done(format!("{}: {first}{more}", design.name));
+        }
+    }
+    *told = designs.to_vec();
 }
 
 /// Why there is nothing to see, or something else than was asked for.

@@ -174,6 +174,12 @@ impl Session {
         designs.any(|design| matches!(design.form, Form::Truss(_)))
     }
 
+    /// Some design names its own colours.
+    #[must_use]
+    pub fn has_paints(&self) -> bool {
+        self.designs().iter().any(|design| !design.coats.is_empty())
+    }
+
     /// Both designs are outlines: there is something to match.
     #[must_use]
     pub fn can_match(&self) -> bool {

@@ -7,7 +7,7 @@
 use super::heights::Heights;
 use super::layers::union;
 use super::shape::Shape;
-use crate::colour::Paint;
+use crate::colour::{Join, Paint};
 use crate::design::coat::Coat;
 use crate::geometry::{DVec2, FillRule, Regions};
 use std::collections::BTreeMap;
@@ -50,18 +50,23 @@ pub(super) fn merged(shapes: Vec<Shape>, page: DVec2) -> Vec<Shape> {
 /// What shapes of one coat have in common.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
-    paint: ([u8; 3], u64),
+    paint: PaintKey,
     /// Paint, width and join of the line.
-    line: Option<([u8; 3], u64, u64, String)>,
+    line: Option<(PaintKey, u64, (u8, u64))>,
 }
+
+type PaintKey = ([u8; 3], u64);
 
 impl Key {
     fn of(shape: &Shape) -> Self {
         let bits = |paint: Paint| (paint.colour.0, paint.opacity.to_bits());
         let line = shape.edge.as_ref().map(|edge| {
-            let (colour, opacity) = bits(edge.line.paint);
-            let (width, join) = (edge.line.width.to_bits(), edge.line.join);
-            (colour, opacity, width, format!("{join:?}"))
+            let join = match edge.line.join {
+                Join::Mitre(limit) => (0, limit.to_bits()),
+                Join::Round => (1, 0),
+                Join::Bevel => (2, 0),
+            };
+            (bits(edge.line.paint), edge.line.width.to_bits(), join)
         });
         Self {
             paint: bits(shape.paint),

@@ -66,7 +66,7 @@ pub enum SvgError {
     TooMuchStyle(usize),
     /// Nothing visible is filled.
     #[error(
-        "nothing in the drawing is filled{}; fill shapes, and convert text to paths",
+        "nothing in the drawing is filled{}; fill shapes",
         if *strokes { ", there are only strokes, and strokes = false" } else { "" }
     )]
     NothingFilled {

@@ -21,9 +21,12 @@ pub(super) const STYLE: &str = "* { marker: none !important; filter: none !impor
 /// on as many elements of a test would be eight times as many.
 const MAX_STYLE_TESTS: usize = 50_000_000;
 
+/// Most that laying out all text may take, in steps of a microsecond.
+const MAX_TEXT: u64 = 2_000_000;
+
 /// Checks the unfolded size and depth, references in a circle, and the cost
-/// of the style sheet.
-pub(super) fn check(document: &Document) -> Result<(), SvgError> {
+/// of the style sheet; says whether the text is short enough to be laid out.
+pub(super) fn check(document: &Document) -> Result<bool, SvgError> {
     let sheet = StyleSheet::of(document);
     let elements = document.descendants().filter(Node::is_element).count();
     if sheet.rules.saturating_mul(elements) > MAX_STYLE_TESTS {
@@ -40,8 +43,30 @@ pub(super) fn check(document: &Document) -> Result<(), SvgError> {
         ids,
         sheet,
         sizes: HashMap::new(),
+        font: longest_font(document),
     };
-    counter.unfold(document.root_element(), 0).map(|_| ())
+    let size = counter.unfold(document.root_element(), 0)?;
+    Ok(size.text <= MAX_TEXT)
+}
+
+/// How long the longest text is that names fonts: it is read for every span.
+fn longest_font(document: &Document) -> u64 {
+    let elements = document.descendants();
+    let attributes = elements.clone().flat_map(|node| node.attributes());
+    let sheets = elements.filter(|node| node.tag_name().name() == "style");
+    let declarations = sheets
+        .flat_map(|node| node.children())
+        .filter_map(|node| node.text());
+    let named = attributes
+        .filter(|a| a.name().starts_with("font"))
+        .map(|a| a.value());
+    let styles = document
+        .descendants()
+        .filter_map(|node| node.attribute("style"));
+    let declared = declarations.chain(styles);
+    let declared = declared.flat_map(|text| text.split([';', '{', '}']));
+    let declared = declared.filter(|text| text.trim_start().starts_with("font"));
+    named.chain(declared).map(str::len).max().unwrap_or(0) as u64
 }
 
 /// Which ids the style sheet makes elements refer to.
@@ -126,6 +151,8 @@ struct Size {
     elements: u64,
     /// Levels below and including this one.
     levels: u32,
+    /// What its text costs, in steps of about a microsecond.
+    text: u64,
 }
 
 struct Counter<'d, 'a> {
@@ -134,6 +161,8 @@ struct Counter<'d, 'a> {
     sheet: StyleSheet<'d>,
     /// `None` for elements that are being counted.
     sizes: HashMap<usvg::roxmltree::NodeId, Option<Size>>,
+    /// How long the longest text is that names fonts, in bytes.
+    font: u64,
 }
 
 impl<'d, 'a> Counter<'d, 'a> {
@@ -156,17 +185,32 @@ impl<'d, 'a> Counter<'d, 'a> {
         let mut size = Size {
             elements: 1,
             levels: 1,
+            text: match node.tag_name().name() {
+                "text" => self.cost_of_text(node),
+                _ => 0,
+            },
         };
         for part in self.parts(node) {
             let inner = self.unfold(part, depth + 1)?;
             size.elements = size.elements.saturating_add(inner.elements);
             size.levels = size.levels.max(inner.levels + 1);
+            size.text = size.text.saturating_add(inner.text);
         }
         if size.elements > MAX_ELEMENTS {
             return Err(SvgError::TooManyElements(at()));
         }
         self.sizes.insert(node.id(), Some(size));
         Ok(size)
+    }
+
+    /// What laying out a text takes: every span is the whole text shaped anew, and
+    /// each of its letters is looked for among all.
+    fn cost_of_text(&self, text: Node) -> u64 {
+        let nodes = || text.descendants();
+        let letters: usize = nodes().filter_map(|node| node.text()).map(str::len).sum();
+        let (letters, spans) = (letters as u64, nodes().count() as u64);
+        let shaped = letters.saturating_mul(spans + letters / 1000);
+        shaped.saturating_add(spans.saturating_mul(self.font) / 10)
     }
 
     /// The elements that an element holds and refers to.

@@ -20,17 +20,19 @@
 //! Of a drawing one element may be asked for by its id: what lies in it, cut by
 //! the clip paths around it, where it stands on the page.
 //!
-//! Not read: markers, text (convert it to paths), embedded pictures, filters,
-//! masks; of gradients and patterns the mean colour is. What was left out is
-//! told. Coordinates pass through `f32`, so that outlines are good to about 1e-7
+//! Text is drawn with the fonts of the machine, or the bundled one where it has none.
+//! Not read: markers, embedded pictures, filters, masks, letters that are pictures; of
+//! gradients and patterns the mean colour is. What was left out is told. Coordinates pass through `f32`, so that outlines are good to about 1e-7
 //! of the page.
 
 mod coats;
+mod edge;
 mod error;
 mod faded;
 mod guard;
 mod heights;
 mod layers;
+mod letters;
 mod own_paint;
 mod paint;
 mod shape;
@@ -45,7 +47,9 @@ use super::flatten::MIN_TOLERANCE;
 use super::form::Outlines;
 use super::options::ImportOptions;
 use crate::geometry::{Bounds, DVec2};
+use letters::Letters;
 use paint::Brush;
+use told::Told;
 use usvg::roxmltree::{self, Document, Node as Xml};
 
 /// Ids that an error names: about a line of them.
@@ -65,12 +69,13 @@ pub(super) fn read(
         ..Default::default()
     };
     let document = roxmltree::Document::parse_with_options(text, xml).map_err(SvgError::Xml)?;
-    guard::check(&document)?;
+    let is_lettered = guard::check(&document)?;
     let top = match element {
         Some(id) => element_of(&document, id)?,
         None => document.root_element(),
     };
-    let tree = tree_of(&document)?;
+    let letters = Letters::default();
+    let tree = tree_of(&document, is_lettered.then_some(&letters))?;
     let size = paint::page_of(&tree);
     let brush = Brush {
         tolerance: options.tolerance.max(MIN_TOLERANCE) * size.max_element(),
@@ -79,7 +84,12 @@ pub(super) fn read(
     };
     let painted = paint::painted(&tree, &brush)?;
     let regions = silhouette::silhouette(&painted, size, options.strokes)?;
-    let notes = told::notes(&painted, top, options.strokes);
+    let told = Told {
+        painted: &painted,
+        strokes: options.strokes,
+        absent: is_lettered.then(|| letters.into_absent()),
+    };
+    let notes = told.notes(top);
     let page = Bounds {
         min: DVec2::ZERO,
         max: size,
@@ -114,7 +124,14 @@ fn element_of<'d, 'a>(document: &'d Document<'a>, id: &str) -> Result<Xml<'d, 'a
         })
 }
 
-fn tree_of(document: &Document) -> Result<usvg::Tree, SvgError> {
+/// Unfolds a drawing; text only with letters.
+fn tree_of(document: &Document, letters: Option<&Letters>) -> Result<usvg::Tree, SvgError> {
+    let has_text = || {
+        document
+            .descendants()
+            .any(|node| node.tag_name().name() == "text")
+    };
+    let letters = letters.filter(|_| has_text());
     let options = usvg::Options {
         // Nothing outside the file is opened, and what is embedded fills nothing.
         image_href_resolver: usvg::ImageHrefResolver {
@@ -122,6 +139,8 @@ fn tree_of(document: &Document) -> Result<usvg::Tree, SvgError> {
             resolve_string: Box::new(|_, _| None),
         },
         style_sheet: Some(guard::STYLE.to_owned()),
+        font_resolver: letters.map(Letters::resolver).unwrap_or_default(),
+        fontdb: letters.map(|_| letters::fonts()).unwrap_or_default(),
         ..Default::default()
     };
     usvg::Tree::from_xmltree(document, &options).map_err(SvgError::Svg)

@@ -1,15 +1,16 @@
 //! The shapes of a drawing: what each fill and each stroke covers, in the order
 //! in which they are painted, with their paint.
 
+use super::edge::{self, Edge};
 use super::error::SvgError;
 use super::faded::faded;
 use super::layers::{Rings, within};
-use super::shape::{Edge, Shape};
+use super::shape::Shape;
 use super::tone::flat;
-use crate::colour::{Join, Line, Paint};
+use crate::colour::Paint;
 use crate::design::flatten::Flattener;
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
-use usvg::{ClipPath, Group, LineJoin, Node, PaintOrder, Path, Stroke, Transform, tiny_skia_path};
+use usvg::{ClipPath, Group, Node, PaintOrder, Path, Stroke, Text, Transform, tiny_skia_path};
 
 /// What of a drawing is read, and how.
 pub(super) struct Brush<'o> {
@@ -35,7 +36,9 @@ pub(super) struct LeftOut {
     /// Gradients and patterns, of which the mean is shown.
     pub shades: usize,
     pub masks: usize,
-    /// Groups that are mixed with what is below otherwise than by covering it.
+    /// Letters that are pictures.
+    pub glyphs: usize,
+    /// Groups that are mixed with what is below otherwise than as drawn.
     pub blends: usize,
 }
 
@@ -57,6 +60,7 @@ pub(super) fn painted(tree: &usvg::Tree, brush: &Brush) -> Result<Painted, SvgEr
             left_out: LeftOut::default(),
         },
         is_drawn: false,
+        is_lettering: false,
     };
     painter.group(tree.root(), None, brush.element.is_none())?;
     match brush.element {
@@ -72,6 +76,8 @@ struct Painter<'b> {
     painted: Painted,
     /// Whether there is a path in what is asked for, seen or not.
     is_drawn: bool,
+    /// Whether what is painted is text.
+    is_lettering: bool,
 }
 
 impl Painter<'_> {
@@ -100,16 +106,17 @@ impl Painter<'_> {
             let is_within = is_within || self.brush.element == Some(node.id());
             match node {
                 Node::Group(inner) => self.group(inner, clip, is_within)?,
-                Node::Path(path) if is_within => self.path(path, clip)?,
+                Node::Path(path) if is_within => self.path(path, path.id(), clip)?,
+                Node::Text(text) if is_within => self.text(text, clip)?,
                 Node::Path(_) | Node::Image(_) | Node::Text(_) => {}
             }
         }
         let opacity = f64::from(group.opacity().get());
         if opacity < 1.0 {
             let shapes = self.painted.shapes.split_off(first);
-            self.painted
-                .shapes
-                .extend(faded(shapes, opacity, self.page));
+            let (shapes, is_as_drawn) = faded(shapes, opacity, self.page);
+            self.painted.left_out.blends += usize::from(!is_as_drawn);
+            self.painted.shapes.extend(shapes);
         }
         Ok(())
     }
@@ -120,7 +127,19 @@ impl Painter<'_> {
         left_out.blends += usize::from(group.blend_mode() != usvg::BlendMode::Normal);
     }
 
-    fn path(&mut self, path: &Path, clip: Option<&Rings>) -> Result<(), SvgError> {
+    fn text(&mut self, text: &Text, clip: Option<&Rings>) -> Result<(), SvgError> {
+        self.is_lettering = true;
+        for node in text.flattened().children() {
+            match node {
+                Node::Path(path) => self.path(path, text.id(), clip)?,
+                _ => self.painted.left_out.glyphs += 1,
+            }
+        }
+        self.is_lettering = false;
+        Ok(())
+    }
+
+    fn path(&mut self, path: &Path, name: &str, clip: Option<&Rings>) -> Result<(), SvgError> {
         self.is_drawn = true;
         if !path.is_visible() {
             return Ok(());
@@ -133,38 +152,22 @@ impl Painter<'_> {
         self.painted.bare_strokes += usize::from(fill.is_none() && stroke.is_some());
         let shades = [&fill, &stroke].into_iter().flatten();
         self.painted.left_out.shades += shades.filter(|tone| tone.is_mean).count();
+        let [fill, stroke] = [fill, stroke].map(|tone| tone.map(|tone| tone.paint));
         let fills_first = path.paint_order() == PaintOrder::FillAndStroke;
-        if let Some(stroke) = &stroke
+        if let Some(stroke) = stroke
             && fills_first
             && clip.is_none()
-            && let Some(line) = line(path, stroke.paint)
-            && let Some(rings) = self.edged(path)?
+            && self.edged(path, name, (fill, stroke))?
         {
-            let edge = Edge {
-                line,
-                rings: self.stroked(path)?,
-            };
-            let none = Paint {
-                opacity: 0.0,
-                ..line.paint
-            };
-            let paint = fill.map_or(none, |tone| tone.paint);
-            self.painted.shapes.push(Shape {
-                rings,
-                paint,
-                is_stroke: false,
-                edge: Some(edge),
-                name: path.id().to_owned(),
-            });
             return Ok(());
         }
         for is_fill in [fills_first, !fills_first] {
-            if is_fill && let Some(tone) = &fill {
+            if is_fill && let Some(paint) = fill {
                 let rings = self.filled(path, Transform::identity())?;
-                self.lay(path, (rings, clip), tone.paint, false);
-            } else if !is_fill && let Some(tone) = &stroke {
+                self.lay(name, (rings, clip), paint, false);
+            } else if !is_fill && let Some(paint) = stroke {
                 let rings = self.stroked(path)?;
-                self.lay(path, (rings, clip), tone.paint, true);
+                self.lay(name, (rings, clip), paint, true);
             }
         }
         Ok(())
@@ -172,7 +175,7 @@ impl Painter<'_> {
 
     fn lay(
         &mut self,
-        path: &Path,
+        name: &str,
         (rings, clip): (Rings, Option<&Rings>),
         paint: Paint,
         is_stroke: bool,
@@ -182,16 +185,22 @@ impl Painter<'_> {
             paint,
             is_stroke,
             edge: None,
-            name: path.id().to_owned(),
+            name: name.to_owned(),
         });
     }
 
-    /// What a path encloses, if its outlines are those that it draws: closed, and
-    /// none crosses itself or another.
-    fn edged(&mut self, path: &Path) -> Result<Option<Rings>, SvgError> {
-        if !is_closed(path) {
-            return Ok(None);
-        }
+    /// Paints a path whose stroke goes along what it encloses, and whether it does: its
+    /// outlines are closed, and none crosses itself or another.
+    fn edged(
+        &mut self,
+        path: &Path,
+        name: &str,
+        (fill, stroke): (Option<Paint>, Paint),
+    ) -> Result<bool, SvgError> {
+        let Some(line) = edge::line(path, stroke).filter(|_| edge::is_closed(path)) else {
+            return Ok(false);
+        };
+        let before = self.flattener.clone();
         let rings = self.rings(path.data(), path.abs_transform())?;
         let rule = match path.fill().map(usvg::Fill::rule) {
             Some(usvg::FillRule::NonZero) => FillRule::NonZero,
@@ -200,7 +209,26 @@ impl Painter<'_> {
         };
         let crossings = Repairs::between(&rings).crossings;
         let cleaned = cleaned(&rings, rule)?;
-        Ok((crossings == 0 && cleaned.len() == rings.len()).then_some(cleaned))
+        if crossings > 0 || cleaned.len() != rings.len() {
+            self.flattener = before; // it is flattened again, as what it fills
+            return Ok(false);
+        }
+        let unseen = Paint {
+            opacity: 0.0,
+            ..stroke
+        };
+        let edge = Edge {
+            line,
+            rings: self.stroked(path)?,
+        };
+        self.painted.shapes.push(Shape {
+            rings: cleaned,
+            paint: fill.unwrap_or(unseen),
+            is_stroke: false,
+            edge: Some(edge),
+            name: name.to_owned(),
+        });
+        Ok(true)
     }
 
     /// What a clip path lets through.
@@ -242,10 +270,13 @@ impl Painter<'_> {
             _ => 0,
         };
         let (rule, repairs) = &mut self.painted.repairs[at];
-        // Counted here, where the rule is known: once united nothing crosses.
-        let found = Repairs::between(&rings);
-        repairs.crossings += found.crossings;
-        repairs.at_least |= found.at_least;
+        // Letters may overlap as their font has it: that is no fault.
+        if !self.is_lettering {
+            // Counted here, where the rule is known: once united nothing crosses.
+            let found = Repairs::between(&rings);
+            repairs.crossings += found.crossings;
+            repairs.at_least |= found.at_least;
+        }
         cleaned(&rings, *rule)
     }
 
@@ -303,50 +334,3 @@ fn is_filled(path: &Path) -> bool {
     let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0);
     path.is_visible() && fill.is_some()
 }
-
-/// Whether every outline of a path is closed.
-fn is_closed(path: &Path) -> bool {
-    use tiny_skia_path::PathSegment::{Close, MoveTo};
-    let mut is_open = false;
-    for segment in path.data().segments() {
-        match segment {
-            MoveTo(_) if is_open => return false,
-            MoveTo(_) | Close => is_open = false,
-            _ => is_open = true,
-        }
-    }
-    !is_open
-}
-
-/// The stroke of a path as a line along its outlines, if it is one: without dashes,
-/// and as wide in all directions.
-fn line(path: &Path, paint: Paint) -> Option<Line> {
-    let stroke = path
-        .stroke()
-        .filter(|stroke| stroke.dasharray().is_none())?;
-    let [x, y] = {
-        let t = path.abs_transform();
-        [
-            DVec2::new(t.sx.into(), t.ky.into()),
-            DVec2::new(t.kx.into(), t.sy.into()),
-        ]
-    };
-    let scale = x.length();
-    let is_even =
-        (y.length() - scale).abs() < EVEN * scale && x.dot(y).abs() < EVEN * scale * scale;
-    let limit = f64::from(stroke.miterlimit().get());
-    let join = match stroke.linejoin() {
-        LineJoin::Miter | LineJoin::MiterClip => Join::Mitre(limit),
-        LineJoin::Round => Join::Round,
-        LineJoin::Bevel => Join::Bevel,
-    };
-    is_even.then(|| Line {
-        paint,
-        width: scale * f64::from(stroke.width().get()),
-        join,
-    })
-}
-
-/// By what share the two axes of a transform may differ in length and from a right
-/// angle: transforms are `f32`.
-const EVEN: f64 = 1e-4;

@@ -1,7 +1,8 @@
 //! What is painted at once.
 
+use super::edge::Edge;
 use super::layers::Rings;
-use crate::colour::{Line, Paint};
+use crate::colour::Paint;
 use crate::geometry::Bounds;
 
 /// What one fill or one stroke covers, or a fill with the stroke along it.
@@ -16,18 +17,16 @@ pub(super) struct Shape {
     pub name: String,
 }
 
-/// A stroke along the rings of a shape.
-pub(super) struct Edge {
-    pub line: Line,
-    /// What it covers, to be filled by winding.
-    pub rings: Rings,
-}
-
 impl Shape {
     /// The box around all that it covers.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         let edge = self.edge.iter().flat_map(|edge| &edge.rings);
         Bounds::of(self.rings.iter().chain(edge).flatten().copied())
+    }
+
+    /// How many points it has.
+    pub(super) fn points(&self) -> usize {
+        self.rings.iter().map(Vec::len).sum()
     }
 
     /// Its fill and its stroke, each for itself, if it is seen.

@@ -3,7 +3,7 @@
 use bevy_egui::egui::{Ui, vec2};
 
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::widgets::{choice, drag, number, row, section, tipped, toggle};
+use crate::app::ui::kit::widgets::{choice, drag, number, pick, row, section, tipped, toggle};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::colour::Rgb;
 use crate::content::ContentKind;
@@ -15,6 +15,10 @@ use crate::warp::WarpKind;
 pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
     section(ui, "Appearance", |ui| {
         layers(ui, scene, draft, acts);
+        if scene.session.has_paints() {
+            let tip = "Whether drawings keep their own colours.";
+            pick(ui, "Colours", tip, &mut draft.options.paint);
+        }
         let tip = "Colour of the shape at t = 0.";
         colour(ui, "Source", tip, &mut draft.style.source);
         let tip = "Colour of the shape at t = 1.";

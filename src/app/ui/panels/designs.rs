@@ -2,17 +2,18 @@
 
 use std::ops::RangeInclusive;
 
-use bevy_egui::egui::{CollapsingHeader, Color32, DragValue, Label, Sense, Ui, vec2};
+use bevy_egui::egui::{CollapsingHeader, Color32, DragValue, Label, RichText, Sense, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
 use crate::app::ui::kit::widgets::{
     automatic, drag, from_right, icon_button, number, pick, quiet, row, section, slider, toggle,
 };
-use crate::app::ui::scene::Intents;
+use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::stage::verdict::first_upper;
 use crate::colour::Rgb;
-use crate::design::Format;
+use crate::design::{Format, ImportNote};
 use crate::project::{DesignEntry, Project};
 
 /// The grey level that is started from when it is set by hand.
@@ -23,13 +24,16 @@ const MIDDLE_GREY: u8 = 128;
 const SCALES: RangeInclusive<f64> = 0.25..=4.0;
 
 /// Draws both designs.
-pub fn show(ui: &mut Ui, draft: &mut Project, acts: &mut Intents) {
+pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
     section(ui, "Designs", |ui| {
         let tip = "How unlike designs are laid over each other before anything else.";
         pick(ui, "Frame", tip, &mut draft.fit);
         let colours = [draft.style.source, draft.style.target];
         for (index, entry) in draft.designs.iter_mut().take(2).enumerate() {
             design(ui, index, colours[index], entry, acts);
+            if let Some(design) = scene.session.designs().get(index) {
+                notes(ui, index, &design.notes);
+            }
         }
         if draft.designs.len() >= 2 && swap(ui) {
             draft.designs.swap(0, 1);
@@ -68,6 +72,24 @@ fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts:
             CollapsingHeader::new("Reading the picture")
                 .show_unindented(ui, |ui| reading(ui, entry));
         }
+    });
+}
+
+/// What was repaired or left out when the design was read.
+fn notes(ui: &mut Ui, index: usize, notes: &[ImportNote]) {
+    let title = match notes {
+        [] => return,
+        [_] => "1 note on how it was read".to_owned(),
+        notes => format!("{} notes on how it was read", notes.len()),
+    };
+    let title = RichText::new(title).color(Palette::of(ui).amber);
+    let id = ui.id().with(("notes", index));
+    let header = CollapsingHeader::new(title).id_salt(id);
+    header.show_unindented(ui, |ui| {
+        for note in notes {
+            ui.label(RichText::new(first_upper(&note.to_string())).small());
+        }
+        ui.add_space(GRID);
     });
 }
 

@@ -61,7 +61,7 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         Some(ContentKind::Colours) => contents::colours(ui, &mut draft.options.colours),
         Some(ContentKind::Solid) | None => {}
     }
-    designs::show(ui, &mut draft, acts);
+    designs::show(ui, scene, &mut draft, acts);
     appearance::show(ui, scene, &mut draft, acts);
     // One intent for all, so that one movement of the hand is one step of the history.
     if draft != *project {

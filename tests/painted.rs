@@ -1,0 +1,101 @@
+//! A drawing shown at an end of a film is the drawing: as `resvg` draws the file.
+
+use image::RgbaImage;
+use morphospace::colour::Rgb;
+use morphospace::design::{Design, ImportOptions, import};
+use morphospace::export::{Camera, PixelSize, View};
+use morphospace::progress::Silent;
+use morphospace::transition::{Style, Transition, TransitionSpec};
+use resvg::{tiny_skia, usvg};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The font that comes with the program.
+const FONT: &[u8] = include_bytes!("../assets/fonts/Roboto-Bold.ttf");
+
+/// Most pixels along the longer side of a drawing, of a whole number of them to a
+/// unit.
+const SIDE: f32 = 600.0;
+
+/// The drawing as `resvg` has it, on white.
+fn expected(text: &str) -> RgbaImage {
+    let mut options = usvg::Options::default();
+    options.fontdb_mut().load_font_data(FONT.to_vec());
+    let tree = usvg::Tree::from_str(text, &options).expect("a drawing");
+    let size = tree.size();
+    let scale = (SIDE / size.width().max(size.height())).floor();
+    let [width, height] = [size.width(), size.height()].map(|side| (side * scale).round() as u32);
+    let mut pixmap = tiny_skia::Pixmap::new(width, height).expect("a size");
+    pixmap.fill(tiny_skia::Color::WHITE);
+    let at = usvg::Transform::from_scale(scale, scale);
+    resvg::render(&tree, at, &mut pixmap.as_mut());
+    RgbaImage::from_raw(width, height, pixmap.take()).expect("as large")
+}
+
+/// The drawings in a folder that may be named.
+fn drawings() -> Vec<PathBuf> {
+    let own = || Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/drawings");
+    let folder = std::env::var_os("MORPHOSPACE_TEST_DRAWINGS").map_or_else(own, PathBuf::from);
+    let entries = std::fs::read_dir(folder).expect("the drawings");
+    let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("a file").path()).collect();
+    paths.sort();
+    paths
+}
+
+/// The share of pixels that differ by more than 16 in a channel.
+fn differing(a: &RgbaImage, b: &RgbaImage) -> f64 {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let differs = |(a, b): (&image::Rgba<u8>, &image::Rgba<u8>)| {
+        let channels = a.0.iter().zip(b.0);
+        channels.into_iter().any(|(a, b)| a.abs_diff(b) > 16)
+    };
+    let count = a
+        .pixels()
+        .zip(b.pixels())
+        .filter(|&pair| differs(pair))
+        .count();
+    count as f64 / f64::from(a.width() * a.height())
+}
+
+#[test]
+fn the_ends_of_a_film_look_like_the_drawings() {
+    let read = |path: &PathBuf| {
+        let text = std::fs::read_to_string(path).expect("a file");
+        let name = path.display().to_string();
+        let design = import(&name, text.as_bytes(), &ImportOptions::default()).expect("a design");
+        (name, text, Arc::new(design))
+    };
+    let drawings: Vec<(String, String, Arc<Design>)> = drawings().iter().map(read).collect();
+    let mut worst = 0.0_f64;
+    for (k, a) in drawings.iter().enumerate() {
+        let b = &drawings[(k + 1) % drawings.len()];
+        let spec = TransitionSpec::new(a.2.clone(), b.2.clone());
+        let film = Transition::build(&spec, &Silent).expect("a film");
+        for (t, (name, text, design)) in [(0.0, a), (1.0, b)] {
+            let expected = expected(text);
+            let size = PixelSize::new(expected.width(), expected.height()).expect("a size");
+            let camera = Camera {
+                transition: film.clone(),
+                style: Style::default(),
+                view: View::fit(design.extent, size),
+                ground: Some(Rgb([255; 3])),
+            };
+            let seen = camera.pixels(t);
+            let share = differing(&seen, &expected);
+            println!("{name} at {t}: {:.3} %", 100.0 * share);
+            worst = worst.max(share);
+            if let Ok(folder) = std::env::var("MORPHOSPACE_TEST_PICTURES") {
+                let name = Path::new(name)
+                    .file_stem()
+                    .expect("a name")
+                    .to_string_lossy();
+                seen.save(format!("{folder}/{name}-{t}.png"))
+                    .expect("saved");
+                expected
+                    .save(format!("{folder}/{name}-expected.png"))
+                    .expect("saved");
+            }
+        }
+    }
+    assert!(worst < 0.005, "{worst}");
+}
