@@ -28,6 +28,47 @@ fn drawings_that_unfold_are_refused() {
     folder.refused("signs.svg", "more than 2000000 elements");
 }
 
+/// Squares all over a page, each over a hundred others, in two colours in turns.
+fn heap(count: usize) -> String {
+    let square = |k: usize| {
+        let (x, y) = (k * 37 % 901, k * 101 % 907);
+        let colour = ["#e63946", "#457b9d"][k % 2];
+        format!("<path fill=\"{colour}\" d=\"M{x} {y}h90v90h-90z\"/>")
+    };
+    (0..count).map(square).collect()
+}
+
+#[test]
+fn drawings_that_take_long_are_drawn_more_simply() {
+    let folder = Folder::new();
+    let page = |body: &str| svg("", &format!("<rect width=\"9\" height=\"9\"/>{body}"));
+    let marks = "\u{301}".repeat(5000);
+    let strange: String = (0x4e00..0x5200).filter_map(char::from_u32).collect();
+    let spans: String = (0..900)
+        .map(|k| format!("<tspan font-family=\"f{k}\">ab</tspan>"))
+        .collect();
+    for (name, body, said) in [
+        (
+            "heap.svg",
+            format!("<g opacity=\".5\">{}</g>", heap(10_000)),
+            "not mixed",
+        ),
+        (
+            "long.svg",
+            format!("<text>{}</text>", "word ".repeat(400_000)),
+            "too long",
+        ),
+        ("spans.svg", format!("<text>{spans}</text>"), "too long"),
+        ("marks.svg", format!("<text>a{marks}</text>"), ""),
+        ("strange.svg", format!("<text>{strange}</text>"), ""),
+    ] {
+        folder.put(name, page(&body));
+        let answer = folder.ask_patiently(&["check", name, "square.json", "--method", "field"]);
+        assert_eq!(answer.code, Some(0), "{name}: {answer:?}");
+        assert!(answer.data.contains(said), "{name}: {answer:?}");
+    }
+}
+
 #[test]
 fn objects_without_end_are_refused() {
     let folder = Folder::new();

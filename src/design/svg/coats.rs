@@ -5,7 +5,7 @@
 //! paint that is above all that it might hide.
 
 use super::heights::Heights;
-use super::layers::union;
+use super::layers::{Rings, union};
 use super::shape::Shape;
 use crate::colour::{Join, Paint};
 use crate::design::coat::Coat;
@@ -36,10 +36,10 @@ pub(super) fn merged(shapes: Vec<Shape>, page: DVec2) -> Vec<Shape> {
         heights: Heights::of_page(page),
     };
     shapes.into_iter().for_each(|shape| stack.lay(shape));
-    let united = |(shape, count): (Shape, usize)| match count {
-        1 => shape,
-        _ => Shape {
-            rings: union(&shape.rings),
+    let united = |(shape, more): (Shape, Vec<Rings>)| match more.is_empty() {
+        true => shape,
+        false => Shape {
+            rings: union([vec![shape.rings], more].concat()),
             name: String::new(),
             ..shape
         },
@@ -76,8 +76,8 @@ impl Key {
 }
 
 struct Stack {
-    /// With how many shapes each is of.
-    coats: Vec<(Shape, usize)>,
+    /// Each as its first shape and the rings of the others.
+    coats: Vec<(Shape, Vec<Rings>)>,
     /// The coats of a paint, the lowest first.
     of_paint: BTreeMap<Key, Vec<usize>>,
     /// One more than the highest coat.
@@ -97,15 +97,14 @@ impl Stack {
         let own = self.of_paint.entry(Key::of(&shape)).or_default();
         let Some(&at) = own.get(own.partition_point(|&coat| coat < lowest)) else {
             own.push(self.coats.len());
-            self.coats.push((shape, 1));
+            self.coats.push((shape, Vec::new()));
             return self.heights.raise(&bounds, self.coats.len());
         };
         self.heights.raise(&bounds, at + 1);
-        let (coat, count) = &mut self.coats[at];
-        coat.rings.extend(shape.rings);
+        let (coat, others) = &mut self.coats[at];
+        others.push(shape.rings);
         if let Some((all, more)) = coat.edge.as_mut().zip(shape.edge) {
             all.rings.extend(more.rings);
         }
-        *count += 1;
     }
 }

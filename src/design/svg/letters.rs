@@ -12,6 +12,9 @@ use usvg::{FontFamily, FontResolver};
 /// file.
 const MAX_SEARCHES: usize = 64;
 
+/// The font of text that names none: of the kind that goes by this name.
+pub(super) const UNNAMED: &str = "serif";
+
 /// What of a drawing's text could not be shown as it was meant.
 #[derive(Default)]
 pub(super) struct Letters {
@@ -60,7 +63,7 @@ impl Letters {
     /// none is.
     fn note_fonts(&self, families: &[FontFamily], fonts: &Database) {
         let is_there = |family: &FontFamily| match family {
-            FontFamily::Named(name) => is_there(fonts, Family::Name(name)),
+            FontFamily::Named(name) => name == UNNAMED || is_there(fonts, Family::Name(name)),
             _ => true,
         };
         if let Some(FontFamily::Named(name)) = families.first()

@@ -139,6 +139,7 @@ fn tree_of(document: &Document, letters: Option<&Letters>) -> Result<usvg::Tree,
             resolve_string: Box::new(|_, _| None),
         },
         style_sheet: Some(guard::STYLE.to_owned()),
+        font_family: letters::UNNAMED.to_owned(),
         font_resolver: letters.map(Letters::resolver).unwrap_or_default(),
         fontdb: letters.map(|_| letters::fonts()).unwrap_or_default(),
         ..Default::default()

@@ -118,7 +118,7 @@ fn what_is_not_filled_is_not_there() {
         r#"<rect width="9" height="9" fill-opacity="0"/>"#,
         r#"<rect width="9" height="9" visibility="hidden"/>"#,
         r#"<g opacity="0"><rect width="9" height="9"/></g>"#,
-        r#"<text y="20">words</text>"#,
+        r#"<text y="20"> </text>"#,
         r#"<image href="/etc/passwd" width="9" height="9"/>"#,
         r#"<image href="data:image/svg+xml;base64,PHN2ZyB4bWxucz0iaHR0cDovL3d3dy53My5vcmcvMjAwMC9zdmciIHdpZHRoPSI5IiBoZWlnaHQ9IjkiPjxyZWN0IHdpZHRoPSI5IiBoZWlnaHQ9IjkiLz48L3N2Zz4=" width="9" height="9"/>"#,
     ];
@@ -390,7 +390,7 @@ fn an_element_keeps_the_clip_paths_around_it() {
 #[test]
 fn what_was_repaired_or_left_out_is_told() {
     let body = r#"<path d="M0 0 L40 40 L40 0 L0 40z" fill-rule="evenodd"/>
-        <path d="M0 0 h9" stroke="red"/><text y="9">words</text><image href="a.png"/>"#;
+        <path d="M0 0 h9" stroke="red"/><text y="9" font-family="Nonesuch, Neither">words</text><image href="a.png"/>"#;
     let options = ImportOptions::default();
     let found = super::read(&page(body), None, &options).expect("an outline");
     let words: Vec<_> = found.notes.iter().map(ToString::to_string).collect();
@@ -399,9 +399,34 @@ fn what_was_repaired_or_left_out_is_told() {
         words[0],
         "1 crossing of edges was resolved by the even-odd rule"
     );
-    assert!(words[1].starts_with("1 text was left out"));
+    assert!(words[1].starts_with("the font Nonesuch is not on this machine"));
     let clean = super::read(&page(r#"<circle cx="9" cy="9" r="5"/>"#), None, &options);
     assert_eq!(clean.expect("a disc").notes, []);
+}
+
+#[test]
+fn text_is_drawn_in_its_font_and_its_colour() {
+    let body =
+        r#"<text id="word" x="10" y="60" font-family="Roboto" font-size="40" fill="red">DI</text>"#;
+    let found = stroked(body, None).expect("letters");
+    let [word] = found.coats.as_slice() else {
+        panic!("{:?}", found.coats);
+    };
+    assert_eq!((word.name.as_str(), word.regions.len()), ("word", 2));
+    assert_eq!(word.paint, Some(Rgb([255, 0, 0]).into()));
+    let bounds = word.regions.bounds();
+    // Capitals of Roboto are 1456 of 2048 units high, above the base line.
+    assert!((bounds.min.y - 40.0).abs() < 0.1, "{bounds:?}");
+    assert!(
+        (bounds.size().y - 40.0 * 1456.0 / 2048.0).abs() < 0.1,
+        "{bounds:?}"
+    );
+    let nothing = found
+        .notes
+        .iter()
+        .map(ToString::to_string)
+        .collect::<String>();
+    assert_eq!(nothing, "");
 }
 
 #[test]
