@@ -1,9 +1,13 @@
-//! Colours, paints and lines, and the way from one to another.
+//! Colours, paints, gradients and lines, and the way from one to another.
 //!
 //! A [`Paint`] goes to another in OKLab (Ottosson 2020: a space in which equal
 //! steps look equal), its opacity premultiplied, so that what fades in has its
 //! own colour all the while. Blends in one colour by t are mixed in linear light,
 //! as light is.
+
+mod gradient;
+
+pub use gradient::{Course, Gradient, Spread, Stop};
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 

@@ -1,6 +1,7 @@
 //! How the parts of a solid are painted, over and under each other.
 
-use crate::colour::{Line, Paint};
+use crate::colour::{Gradient, Line, Paint};
+use crate::geometry::{DVec2, affine};
 
 /// The coats that the rings of a solid are in.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,14 +18,53 @@ pub struct Coating {
 }
 
 /// Parts that are painted alike, in both designs.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Coat {
     /// In source and target; none where the design has no colour of its own.
     pub paints: [Option<Paint>; 2],
+    /// What is shaded.
+    pub shading: Shading,
     /// The line along their outlines in source and target, where there is one.
     pub lines: [Option<Line>; 2],
     /// How many coats lie below, in source and target.
     pub heights: [usize; 2],
+}
+
+/// The gradients of a coat, which go with its vertices.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Shading {
+    /// The vertices along its walks.
+    pub vertices: Vec<u32>,
+    /// In source and target, where the paint is the mean of one.
+    pub ends: [Option<Anchored>; 2],
+}
+
+/// A gradient, and where the vertices are in its design.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Anchored {
+    /// As it is in its design.
+    pub gradient: Gradient,
+    /// As many as there are vertices.
+    pub places: Vec<DVec2>,
+}
+
+impl Shading {
+    /// Both gradients, carried to where the vertices are by the affine map that fits
+    /// them best.
+    ///
+    /// # Panics
+    /// Where a vertex has no place.
+    #[must_use]
+    pub fn at(&self, places: &[DVec2]) -> [Option<Gradient>; 2] {
+        if self.ends == [None, None] {
+            return [None, None];
+        }
+        let here: Vec<DVec2> = self.vertices.iter().map(|&v| places[v as usize]).collect();
+        self.ends.each_ref().map(|end| {
+            let end = end.as_ref()?;
+            Some(end.gradient.moved(affine(&end.places, &here)))
+        })
+    }
 }
 
 impl Coating {

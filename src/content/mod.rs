@@ -9,7 +9,7 @@ mod scan;
 mod solid;
 mod swell;
 
-pub use coating::{Coat, Coating};
+pub use coating::{Anchored, Coat, Coating, Shading};
 pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
 pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError};
 pub use hole::Hole;

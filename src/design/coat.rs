@@ -1,6 +1,6 @@
 //! A coat of paint: what a drawing shows is several, one over the other.
 
-use crate::colour::{Line, Paint};
+use crate::colour::{Gradient, Line, Paint};
 use crate::geometry::{Regions, Similarity};
 
 /// Regions in one paint. What is in one coat neither overlaps nor hides the
@@ -11,6 +11,8 @@ pub struct Coat {
     pub regions: Regions,
     /// Its paint; none where the design has no colour of its own.
     pub paint: Option<Paint>,
+    /// The gradient that the paint is the mean of, if it is of one.
+    pub gradient: Option<Gradient>,
     /// The line along all its outlines, if there is one; it covers the paint.
     pub line: Option<Line>,
     /// What the file calls it, if it is one shape; or empty.
@@ -22,6 +24,10 @@ impl Coat {
         Self {
             regions: self.regions.transformed(by),
             paint: self.paint,
+            gradient: self
+                .gradient
+                .as_ref()
+                .map(|gradient| gradient.moved(by.affine())),
             line: self.line.map(|line| Line {
                 width: by.scale * line.width,
                 ..line

@@ -50,7 +50,7 @@ pub enum ImportNote {
     Characters(usize),
     /// Pictures in a drawing.
     Pictures(usize),
-    /// Gradients and patterns, of which the mean colour is shown.
+    /// Patterns, and gradients of strokes, of which the mean colour is shown.
     Shades(usize),
     /// Masks of a drawing.
     Masks(usize),
@@ -203,7 +203,10 @@ impl ImportNote {
             }
             Self::Pictures(n) => left_out(f, *n, ["embedded picture", "embedded pictures"]),
             Self::Shades(n) => {
-                let what = ["gradient or pattern", "gradients and patterns"];
+                let what = [
+                    "pattern or stroke with a gradient",
+                    "patterns and strokes with gradients",
+                ];
                 let (what, were) = (number(what, *n), number(["is", "are"], *n));
                 write!(f, "{n} {what} {were} shown in the mean colour")
             }

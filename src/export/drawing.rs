@@ -15,7 +15,7 @@ use std::collections::HashSet;
 use glam::UVec2;
 use image::RgbaImage;
 
-use crate::colour::{Line, Paint, Rgb};
+use crate::colour::{Gradient, Line, Paint, Rgb};
 use crate::content::{Content, Raster};
 use crate::geometry::{Bounds, DVec2};
 use crate::transition::{Coated, Figure, Frame, Style};
@@ -43,6 +43,8 @@ pub enum Item {
         outline: Outline,
         /// With what.
         paint: Paint,
+        /// The gradient that the paint is the mean of, in pixels, y down.
+        gradient: Option<Gradient>,
         /// The words that the outline spells, for readers that cannot see.
         label: Option<String>,
     },
@@ -157,7 +159,7 @@ impl Drawing {
     pub fn push_figure(&mut self, figure: &Figure, t: f64, style: &Style, view: &View) {
         let colour = style.fill_at(t);
         match figure.coats.as_slice() {
-            [] => self.push_rings(&figure.rings, colour.into(), view),
+            [] => self.push_rings(&figure.rings, (colour.into(), None), view),
             coats => self.push_coats(coats, figure, (style, t), view),
         }
         let segments: Vec<[DVec2; 2]> = figure
@@ -182,6 +184,7 @@ impl Drawing {
         self.items.push(Item::Fill {
             outline: text::centred(words, base_px, height_px),
             paint: colour.into(),
+            gradient: None,
             label: Some(words.to_owned()),
         });
     }
@@ -196,32 +199,41 @@ impl Drawing {
         view: &View,
     ) {
         let mut coats = coats.iter().map(|coat| {
+            let gradients = coat.gradients.each_ref().map(Option::as_ref);
+            let gradient = style.gradient_at(gradients, coat.paints, t);
+            let paint = style.paint_at(coat.paints, t);
             let line = Line::between(coat.lines, t);
-            (coat.rings.clone(), style.paint_at(coat.paints, t), line)
+            (coat.rings.clone(), (paint, gradient), line)
         });
         let mut next = coats.next();
-        while let Some((mut rings, paint, line)) = next {
+        while let Some((mut rings, ink, line)) = next {
             next = coats.next();
-            let is_same = |other: &Paint| *other == paint && paint.is_opaque() && line.is_none();
+            let is_plain = ink.0.is_opaque() && line.is_none();
             while let Some((more, ..)) =
-                next.take_if(|(_, other, line)| line.is_none() && is_same(other))
+                next.take_if(|(_, other, line)| is_plain && line.is_none() && *other == ink)
             {
                 rings.end = more.end;
                 next = coats.next();
             }
-            self.push_rings(&figure.rings[rings.clone()], paint, view);
+            self.push_rings(&figure.rings[rings.clone()], ink, view);
             if let Some(line) = line {
                 self.push_line(&figure.rings[rings], line, view);
             }
         }
     }
 
-    fn push_rings(&mut self, rings: &[Vec<DVec2>], paint: Paint, view: &View) {
+    fn push_rings(
+        &mut self,
+        rings: &[Vec<DVec2>],
+        (paint, gradient): (Paint, Option<Gradient>),
+        view: &View,
+    ) {
         let outline = outline_of(rings, view);
         if !outline.steps.is_empty() && paint.opacity > 0.0 {
             self.items.push(Item::Fill {
                 outline,
                 paint,
+                gradient: gradient.map(|gradient| gradient.moved(view.affine())),
                 label: None,
             });
         }
@@ -309,6 +321,7 @@ mod tests {
         let coats = paints.iter().enumerate().map(|(k, &paint)| Coated {
             rings: k..k + 1,
             paints: [Some(paint), None],
+            gradients: [None, None],
             lines: [None; 2],
         });
         let figure = Figure {

@@ -7,11 +7,12 @@
 use glam::{DVec2, UVec2};
 use image::RgbaImage;
 use tiny_skia::{
-    Color, FillRule, LineCap, LineJoin, Path, PathBuilder, PixmapMut, PixmapPaint, PixmapRef,
-    PremultipliedColorU8, Stroke, Transform,
+    Color, FillRule, GradientStop, LineCap, LineJoin, LinearGradient, Path, PathBuilder, PixmapMut,
+    PixmapPaint, PixmapRef, Point, PremultipliedColorU8, RadialGradient, SpreadMode, Stroke,
+    Transform,
 };
 
-use crate::colour::{Join, Line, Paint, Rgb};
+use crate::colour::{Course, Gradient, Join, Line, Paint, Rgb, Spread};
 
 use super::drawing::{Drawing, Item};
 use super::outline::{Outline, Step};
@@ -35,7 +36,16 @@ pub fn rasterise(drawing: &Drawing) -> RgbaImage {
 
 fn paint(item: &Item, canvas: &mut PixmapMut<'_>) {
     match item {
-        Item::Fill { outline, paint, .. } => fill(path_of(outline), *paint, canvas),
+        Item::Fill {
+            outline,
+            paint,
+            gradient,
+            ..
+        } => {
+            let shaded = gradient.as_ref().and_then(shaded);
+            let paint = shaded.unwrap_or_else(|| plain(*paint));
+            fill(path_of(outline), &paint, canvas);
+        }
         Item::Line { outline, line } => draw_line(path_of(outline), line, canvas),
         Item::Bars {
             segments,
@@ -49,7 +59,7 @@ fn paint(item: &Item, canvas: &mut PixmapMut<'_>) {
         } => {
             for c in centres {
                 let disc = path_of(&disc(*c, *radius_px));
-                fill(disc, (*colour).into(), canvas);
+                fill(disc, &plain((*colour).into()), canvas);
             }
         }
         Item::Picture { image, corner } => picture(image, *corner, canvas),
@@ -75,10 +85,10 @@ fn disc(centre: DVec2, radius: f64) -> Outline {
     }
 }
 
-fn fill(path: Option<Path>, paint: Paint, canvas: &mut PixmapMut<'_>) {
+fn fill(path: Option<Path>, paint: &tiny_skia::Paint, canvas: &mut PixmapMut<'_>) {
     if let Some(path) = path {
         let rule = FillRule::Winding;
-        canvas.fill_path(&path, &plain(paint), rule, Transform::identity(), None);
+        canvas.fill_path(&path, paint, rule, Transform::identity(), None);
     }
 }
 
@@ -176,6 +186,35 @@ pub(crate) fn make_straight(pixel: &mut image::Rgba<u8>) {
     };
 }
 
+/// A gradient; none where it is too flat to be laid out.
+fn shaded(gradient: &Gradient) -> Option<tiny_skia::Paint<'static>> {
+    let stops = gradient.stops.iter().map(|stop| {
+        let mut colour = color(stop.paint.colour);
+        colour.set_alpha(stop.paint.opacity as f32);
+        GradientStop::new(stop.at as f32, colour)
+    });
+    let mode = match gradient.spread {
+        Spread::Pad => SpreadMode::Pad,
+        Spread::Reflect => SpreadMode::Reflect,
+        Spread::Repeat => SpreadMode::Repeat,
+    };
+    let [sx, ky, kx, sy, tx, ty] = gradient.frame.to_cols_array().map(|x| x as f32);
+    let frame = Transform::from_row(sx, ky, kx, sy, tx, ty);
+    let (stops, zero) = (stops.collect(), Point::zero());
+    let shader = match gradient.course {
+        Course::Straight => LinearGradient::new(zero, Point::from_xy(1.0, 0.0), stops, mode, frame),
+        Course::Round { focus, inner } => {
+            let focus = Point::from_xy(focus.x as f32, focus.y as f32);
+            RadialGradient::new(focus, inner as f32, zero, 1.0, stops, mode, frame)
+        }
+    };
+    Some(tiny_skia::Paint {
+        shader: shader?,
+        anti_alias: true,
+        ..tiny_skia::Paint::default()
+    })
+}
+
 fn plain(paint: Paint) -> tiny_skia::Paint<'static> {
     let mut plain = tiny_skia::Paint::default();
     let mut colour = color(paint.colour);
@@ -247,6 +286,7 @@ mod tests {
         let half = Item::Fill {
             outline: disc(DVec2::splat(20.0), 10.0),
             paint: RED.into(),
+            gradient: None,
             label: None,
         };
         let image = painted(vec![half], None);

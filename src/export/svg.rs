@@ -9,7 +9,7 @@ use std::fmt::{self, Write};
 use glam::{DVec2, UVec2};
 use image::codecs::png::PngEncoder;
 
-use crate::colour::{Join, Line, Paint, Rgb};
+use crate::colour::{Course, Gradient, Join, Line, Paint, Rgb, Spread, Stop};
 
 use super::drawing::{Drawing, Item};
 use super::outline::{Outline, Step};
@@ -24,20 +24,31 @@ pub fn to_svg(drawing: &Drawing) -> String {
     if let Some(ground) = drawing.ground {
         svg += &format!("<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n");
     }
-    for item in &drawing.items {
-        svg += &element(item);
+    for (k, item) in drawing.items.iter().enumerate() {
+        svg += &element(k, item);
         svg.push('\n');
     }
     svg + "</svg>\n"
 }
 
-fn element(item: &Item) -> String {
+/// The element of an item with its number.
+fn element(k: usize, item: &Item) -> String {
     match item {
         Item::Fill {
             outline,
             paint,
+            gradient: None,
             label,
-        } => fill(outline, paint, label.as_deref()),
+        } => fill(outline, &painted(paint), label.as_deref()),
+        Item::Fill {
+            outline,
+            gradient: Some(gradient),
+            label,
+            ..
+        } => {
+            let fill = fill(outline, &format!("fill=\"url(#g{k})\""), label.as_deref());
+            format!("{}{fill}", shaded(k, gradient))
+        }
         Item::Line { outline, line } => drawn_line(outline, line),
         Item::Bars {
             segments,
@@ -61,18 +72,62 @@ fn element(item: &Item) -> String {
     }
 }
 
-fn fill(outline: &Outline, paint: &Paint, label: Option<&str>) -> String {
+fn fill(outline: &Outline, ink: &str, label: Option<&str>) -> String {
     let label = label.map_or_else(String::new, |words| {
         format!(" role=\"img\" aria-label=\"{}\"", Escaped(words))
     });
     let steps: String = outline.steps.iter().map(step).collect();
-    let opacity = match paint.is_opaque() {
-        true => String::new(),
-        false => format!(" fill-opacity=\"{}\"", Number(paint.opacity)),
+    format!("<path{label} {ink} d=\"{steps}\"/>")
+}
+
+/// The attributes of what is filled with a paint.
+fn painted(paint: &Paint) -> String {
+    match paint.is_opaque() {
+        true => format!("fill=\"{}\"", paint.colour),
+        false => format!(
+            "fill=\"{}\" fill-opacity=\"{}\"",
+            paint.colour,
+            Number(paint.opacity)
+        ),
+    }
+}
+
+/// A gradient by a number.
+fn shaded(k: usize, gradient: &Gradient) -> String {
+    let stop = |stop: &Stop| {
+        let Paint { colour, opacity } = stop.paint;
+        let opacity = match stop.paint.is_opaque() {
+            true => String::new(),
+            false => format!(" stop-opacity=\"{}\"", Number(opacity)),
+        };
+        let at = Number(100.0 * stop.at);
+        format!("<stop offset=\"{at}%\" stop-color=\"{colour}\"{opacity}/>")
     };
+    let stops: String = gradient.stops.iter().map(stop).collect();
+    let (kind, way) = match gradient.course {
+        Course::Straight => ("linear", "x1=\"0\" y1=\"0\" x2=\"1\" y2=\"0\"".to_owned()),
+        Course::Round { focus, inner } => {
+            let way = format!(
+                "cx=\"0\" cy=\"0\" r=\"1\" fx=\"{}\" fy=\"{}\" fr=\"{}\"",
+                Number(focus.x),
+                Number(focus.y),
+                Number(inner)
+            );
+            ("radial", way)
+        }
+    };
+    let spread = match gradient.spread {
+        Spread::Pad => "",
+        Spread::Reflect => " spreadMethod=\"reflect\"",
+        Spread::Repeat => " spreadMethod=\"repeat\"",
+    };
+    let frame = gradient
+        .frame
+        .to_cols_array()
+        .map(|x| Number(x).to_string());
+    let frame = frame.join(" ");
     format!(
-        "<path{label} fill=\"{}\"{opacity} d=\"{steps}\"/>",
-        paint.colour
+        "<{kind}Gradient id=\"g{k}\" gradientUnits=\"userSpaceOnUse\" {way}{spread} gradientTransform=\"matrix({frame})\">{stops}</{kind}Gradient>"
     )
 }
 

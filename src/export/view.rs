@@ -1,6 +1,6 @@
 //! From the plane, y up, to pixels, y down, and back.
 
-use crate::geometry::{Bounds, DVec2};
+use crate::geometry::{Bounds, DAffine2, DVec2};
 
 use super::size::PixelSize;
 
@@ -52,6 +52,12 @@ impl View {
     pub fn to_plane(&self, px: DVec2) -> DVec2 {
         let d = (px - self.middle_px) / self.px_per_unit;
         self.centre + DVec2::new(d.x, -d.y)
+    }
+
+    /// From the design to pixels, y down.
+    pub fn affine(&self) -> DAffine2 {
+        let scale = DVec2::new(self.px_per_unit, -self.px_per_unit);
+        DAffine2::from_scale_angle_translation(scale, 0.0, self.to_px(DVec2::ZERO))
     }
 
     /// A point of the design in pixels, y down.

@@ -1,6 +1,6 @@
 //! Similarities: how one design is laid over another.
 
-use super::{Bounds, DMat2, DVec2, RANGE, SizeError, is_in_range};
+use super::{Bounds, DAffine2, DMat2, DVec2, RANGE, SizeError, is_in_range};
 use serde::{Deserialize, Serialize};
 
 /// A mirror, then a scale, then a rotation about the origin, then an offset.
@@ -82,6 +82,12 @@ impl Similarity {
     pub fn linear(&self) -> DMat2 {
         DMat2::from_angle(self.rotation)
             * DMat2::from_diagonal(DVec2::new(self.flip() * self.scale, self.scale))
+    }
+
+    /// The same as an affine map.
+    #[must_use]
+    pub fn affine(&self) -> DAffine2 {
+        DAffine2::from_mat2_translation(self.linear(), self.offset)
     }
 
     /// The sign that x gets, and that a turn gets which is moved past the mirror.

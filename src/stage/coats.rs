@@ -6,51 +6,69 @@ use bevy::mesh::{Indices, Mesh};
 use glam::DVec2;
 
 use crate::colour::{Line, Paint};
-use crate::content::{Coating, Solid};
+use crate::content::{Coat, Coating, Solid};
 use crate::transition::{Frame, Style};
 
 use super::fill::filled;
+use super::gradients::{Gradients, Shaded, Table};
 use super::ribbon;
 use super::shapes::write_points;
 
-/// How a coated solid is written.
+/// A solid in coats, as it is written.
 #[derive(Clone, Debug)]
-pub(super) enum Coats {
-    /// As its faces, which stay the same, with lines along them.
-    Faces(CoatFaces),
-    /// As its rings, triangulated anew: faces know nothing of what comes and
-    /// goes.
-    Rings,
+pub(super) struct Coats {
+    /// Its faces, which stay the same. None where its rings are triangulated anew:
+    /// faces know nothing of what comes and goes.
+    faces: Option<CoatFaces>,
+    /// The gradients of the last frame.
+    gradients: Gradients,
 }
 
 /// Which faces and which vertices are in which coat.
 #[derive(Clone, Debug)]
-pub(super) struct CoatFaces {
+struct CoatFaces {
     /// For each coat the corners of its faces.
     corners: Vec<Vec<u32>>,
     /// For each vertex its coat.
     of_vertices: Vec<usize>,
 }
 
-/// A colour in linear light, alpha straight.
-type Ink = [f32; 4];
+/// What a coat is filled with.
+#[derive(Clone, Copy)]
+enum Ink {
+    /// A colour in linear light, alpha straight.
+    Flat([f32; 4]),
+    Shaded(Shaded),
+}
 
 impl Coats {
     /// Of a frame's solid, which has a coating.
     pub(super) fn new(frame: &Frame, solid: &Solid, coating: &Coating) -> Self {
         let comes_and_goes = !solid.holes.is_empty() || !solid.swells.is_empty();
-        match frame.transition().arap().filter(|_| !comes_and_goes) {
-            Some(arap) => {
-                let parts = arap.mesh().components();
-                Self::Faces(CoatFaces::new(frame, solid, coating, &parts))
-            }
-            None => Self::Rings,
+        let arap = frame.transition().arap().filter(|_| !comes_and_goes);
+        let faces = arap.map(|arap| {
+            let parts = arap.mesh().components();
+            CoatFaces::new(frame, solid, coating, &parts)
+        });
+        Self {
+            faces,
+            gradients: Gradients::default(),
         }
+    }
+
+    /// Whether the faces of the frame are drawn.
+    pub(super) fn has_faces(&self) -> bool {
+        self.faces.is_some()
+    }
+
+    /// The gradients of the frame that was written last.
+    pub(super) fn gradients(&self) -> &Gradients {
+        &self.gradients
     }
 
     /// Brings a mesh up to a frame and a style.
     pub(super) fn write(
-        &self,
+        &mut self,
         frame: &Frame,
         (solid, coating): (&Solid, &Coating),
         style: &Style,
@@ -58,25 +76,35 @@ impl Coats {
         mesh: &mut Mesh,
     ) {
         let (t, places) = (frame.t(), &frame.placement().in_frame);
-        let paint = |coat: usize| ink(style.paint_at(coating.coats[coat].paints, t));
-        let mut layers = Layers::default();
-        if let Self::Faces(faces) = self {
+        let mut table = Table::default();
+        let mut ink = |coat: &Coat| {
+            let gradients = coat.shading.at(places);
+            let gradients = gradients.each_ref().map(Option::as_ref);
+            let gradient = style.gradient_at(gradients, coat.paints, t);
+            let shaded = gradient.and_then(|gradient| table.put(&gradient));
+            let flat = || Ink::Flat(flat(style.paint_at(coat.paints, t)));
+            shaded.map_or_else(flat, Ink::Shaded)
+        };
+        let inks: Vec<Ink> = coating.coats.iter().map(&mut ink).collect();
+        let mut layers = Layers::of(origin);
+        if let Some(faces) = &self.faces {
             layers.positions.resize(places.len(), [0.0; 3]);
             write_points(places, origin, &mut layers.positions);
-            let paints: Vec<Ink> = (0..coating.coats.len()).map(paint).collect();
-            let inks = faces.of_vertices.iter().map(|&coat| paints[coat]);
-            layers.colours.extend(inks);
+            for (&coat, &place) in faces.of_vertices.iter().zip(places) {
+                layers.ink(inks[coat], place);
+            }
         }
         for (coat, rings) in solid.coated_at(places, t) {
-            match self {
-                Self::Faces(faces) => layers.indices.extend(&faces.corners[coat]),
-                Self::Rings => layers.fill(&rings, paint(coat), origin),
+            match &self.faces {
+                Some(faces) => layers.indices.extend(&faces.corners[coat]),
+                None => layers.fill(&rings, inks[coat]),
             }
             if let Some(line) = Line::between(coating.coats[coat].lines, t) {
-                layers.draw(&rings, &line, origin);
+                layers.draw(&rings, &line);
             }
         }
         layers.put_into(mesh);
+        self.gradients = table.gradients;
     }
 }
 
@@ -103,38 +131,65 @@ impl CoatFaces {
 }
 
 /// Triangles in the order in which they are drawn.
-#[derive(Default)]
 struct Layers {
+    /// What positions are relative to.
+    origin: DVec2,
     positions: Vec<[f32; 3]>,
-    colours: Vec<Ink>,
+    colours: Vec<[f32; 4]>,
+    /// Where vertices are in their gradients.
+    places: Vec<[f32; 2]>,
     indices: Vec<u32>,
 }
 
 impl Layers {
-    fn fill(&mut self, rings: &[Vec<DVec2>], ink: Ink, origin: DVec2) {
+    fn of(origin: DVec2) -> Self {
+        Self {
+            origin,
+            positions: Vec::new(),
+            colours: Vec::new(),
+            places: Vec::new(),
+            indices: Vec::new(),
+        }
+    }
+
+    /// Adds the ink of the next vertex, which is there.
+    fn ink(&mut self, ink: Ink, at: DVec2) {
+        let (colour, place) = match ink {
+            Ink::Flat(colour) => (colour, [0.0; 2]),
+            Ink::Shaded(shaded) => (shaded.mark(), shaded.place(at)),
+        };
+        self.colours.push(colour);
+        self.places.push(place);
+    }
+
+    fn fill(&mut self, rings: &[Vec<DVec2>], ink: Ink) {
         let first = self.positions.len() as u32;
-        let (points, corners) = filled(rings, origin);
+        let (points, corners) = filled(rings, self.origin);
+        for &[x, y, _] in &points {
+            self.ink(ink, self.origin + DVec2::new(x.into(), y.into()));
+        }
         self.positions.extend(points);
-        self.colours.resize(self.positions.len(), ink);
         let corners = corners.into_iter().map(|corner| first + corner);
         self.indices.extend(corners);
     }
 
-    fn draw(&mut self, rings: &[Vec<DVec2>], line: &Line, origin: DVec2) {
+    fn draw(&mut self, rings: &[Vec<DVec2>], line: &Line) {
         let triangles = (&mut self.positions, &mut self.indices);
-        ribbon::push(rings, line, origin, triangles);
-        self.colours.resize(self.positions.len(), ink(line.paint));
+        ribbon::push(rings, line, self.origin, triangles);
+        self.colours.resize(self.positions.len(), flat(line.paint));
+        self.places.resize(self.positions.len(), [0.0; 2]);
     }
 
     /// Other frames have other triangles: there is little to be written in place.
     fn put_into(self, mesh: &mut Mesh) {
         mesh.insert_attribute(Mesh::ATTRIBUTE_POSITION, self.positions);
         mesh.insert_attribute(Mesh::ATTRIBUTE_COLOR, self.colours);
+        mesh.insert_attribute(Mesh::ATTRIBUTE_UV_0, self.places);
         mesh.insert_indices(Indices::U32(self.indices));
     }
 }
 
-fn ink(paint: Paint) -> Ink {
+fn flat(paint: Paint) -> [f32; 4] {
     let [red, green, blue] = paint.colour.to_linear();
     [red, green, blue, paint.opacity as f32]
 }

@@ -16,7 +16,7 @@ use super::field::FieldLook;
 use super::grid::GridLook;
 use super::ink::linear;
 use super::paint::{Paint, Paints};
-use super::parts::Part;
+use super::parts::{Part, PartKind};
 use super::times::FrameTimes;
 
 type Roots = (
@@ -73,6 +73,10 @@ fn paint(part: &Part, frame: &Frame, style: &StageStyle, paints: &mut Paints) {
         (Paint::Ink(ink), _) => {
             let colour = linear(part.kind.colour(t, style));
             renew(&mut paints.inks, ink, |ink| &mut ink.colour, colour);
+            if let PartKind::Coats(coats) = &part.kind {
+                let gradients = coats.gradients().clone();
+                renew(&mut paints.inks, ink, |ink| &mut ink.gradients, gradients);
+            }
         }
         (Paint::Grid(grid), _) => {
             let look = GridLook::new(frame, origin, style);

@@ -18,6 +18,7 @@ use super::colours::ColourMaterial;
 use super::components::Morph;
 use super::field::FieldMaterial;
 use super::fill;
+use super::gradients::Gradients;
 use super::grid::GridMaterial;
 use super::ink::InkMaterial;
 use super::paint::{Paint, Paints};
@@ -155,6 +156,7 @@ impl Fitting<'_, '_, '_> {
     fn add_inked(&mut self, kind: PartKind, mesh: Mesh) {
         let material = self.wardrobe.paints.inks.add(InkMaterial {
             colour: LinearRgba::NONE,
+            gradients: Gradients::default(),
             kind: kind.ink(),
         });
         self.add(kind, mesh, material, Paint::Ink);
@@ -167,13 +169,14 @@ impl Fitting<'_, '_, '_> {
         let comes_and_goes = !solid.holes.is_empty() || !solid.swells.is_empty();
         if let Some(coating) = &solid.coating {
             let coats = Coats::new(self.frame, solid, coating);
-            let mesh = match &coats {
-                Coats::Faces(_) => faces(self.frame),
-                Coats::Rings => nothing(),
+            let mesh = match coats.has_faces() {
+                true => faces(self.frame),
+                false => nothing(),
             };
             let count = mesh.count_vertices();
-            let colours = vec![[0.0_f32; 4]; count];
-            let mesh = mesh.with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, colours);
+            let mesh = mesh
+                .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0_f32; 4]; count])
+                .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.0_f32; 2]; count]);
             self.add_inked(PartKind::Coats(coats), mesh);
         } else if has_loops && (count == 0 || comes_and_goes) {
             self.add_inked(PartKind::Rings, nothing());

@@ -17,6 +17,8 @@ use bevy::sprite_render::{AlphaMode2d, Material2d, Material2dKey};
 use crate::colour::Rgb;
 use crate::geometry::Bounds;
 
+use super::gradients::Gradients;
+
 /// What kind of shape the vertices describe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) enum InkKind {
@@ -38,6 +40,9 @@ pub(super) enum InkKind {
 pub(super) struct InkMaterial {
     #[uniform(0)]
     pub(super) colour: LinearRgba,
+    /// Those of coats.
+    #[uniform(1)]
+    pub(super) gradients: Gradients,
     pub(super) kind: InkKind,
 }
 

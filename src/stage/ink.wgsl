@@ -1,7 +1,9 @@
 // Faces, bars, discs, wires and outlines in one colour, with smooth edges at
 // any zoom. The kind of shape is a shader definition:
 //   (none)  faces: the triangles are the shape
-//   COATS   faces whose vertices bring their colours
+//   COATS   faces whose vertices bring their colours, or in their stead, with an
+//           opacity below 0, the number of a gradient; `uv` is where the fragment
+//           is in the gradient's own space
 //   ROUND   `uv` is where the fragment is in units of the shape's radius
 //   WIRE    `uv` holds two barycentric coordinates; the edges are drawn
 //   LINE    segments of constant width on the screen: the vertex shader pushes
@@ -16,11 +18,22 @@
 #ifdef SRGB_OUTPUT
 #import bevy_render::color_operations::linear_to_srgb
 #endif
+#ifdef COATS
+#import bevy_render::color_operations::srgb_to_linear_rgb
+#endif
 #ifdef OKLAB_OUTPUT
 #import bevy_render::color_operations::linear_rgb_to_oklab
 #endif
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> ink: vec4<f32>;
+#ifdef COATS
+struct Gradients {
+    // Of each: straight or round, spread, how many stops, inner radius; the focus;
+    // and for each stop its colour and its place.
+    numbers: array<vec4<f32>, 512>,
+}
+@group(#{MATERIAL_BIND_GROUP}) @binding(1) var<uniform> gradients: Gradients;
+#endif
 
 // Lines have these widths on a picture of LINE_HEIGHT pixels and grow with it.
 const WIRE_PX: f32 = 1.0;
@@ -56,6 +69,46 @@ fn vertex(corner: Corner) -> VertexOutput {
 }
 #endif
 
+#ifdef COATS
+// How far along the way of a round gradient a place is: on the circle whose middle
+// and radius run from the focus to the unit circle; below 0 where there is none.
+fn round(p: vec2<f32>, focus: vec2<f32>, inner: f32) -> f32 {
+    let d = p - focus;
+    let grown = 1.0 - inner;
+    let a = dot(focus, focus) - grown * grown;
+    let b = dot(d, focus) - inner * grown;
+    let c = dot(d, d) - inner * inner;
+    if abs(a) < 1e-6 {
+        return -0.5 * c / b;
+    }
+    return (-b - sqrt(max(b * b - a * c, 0.0))) / a;
+}
+
+fn shaded(first: u32, p: vec2<f32>) -> vec4<f32> {
+    let head = gradients.numbers[first];
+    let focus = gradients.numbers[first + 1u].xy;
+    var s = p.x;
+    if head.x > 0.5 {
+        s = round(p, focus, head.w);
+    }
+    if head.y > 1.5 {
+        s = fract(s);
+    } else if head.y > 0.5 {
+        s = 1.0 - abs(2.0 * fract(0.5 * s) - 1.0);
+    }
+    let count = u32(head.z);
+    var colour = gradients.numbers[first + 2u];
+    for (var k = 1u; k < count; k++) {
+        let here = gradients.numbers[first + 1u + 2u * k].x;
+        let next = gradients.numbers[first + 3u + 2u * k].x;
+        let way = select(f32(s >= next), clamp((s - here) / (next - here), 0.0, 1.0), next > here);
+        colour = mix(colour, gradients.numbers[first + 2u + 2u * k], way);
+    }
+    // Mixed as drawings have it, and then as everything else.
+    return vec4(srgb_to_linear_rgb(colour.rgb), colour.a);
+}
+#endif
+
 fn coverage(uv: vec2<f32>) -> f32 {
 #ifdef LINE
     return clamp(half_line_px(OUTLINE_PX) + 0.5 - abs(uv.x), 0.0, 1.0);
@@ -83,6 +136,9 @@ fn coverage(uv: vec2<f32>) -> f32 {
 fn fragment(mesh: VertexOutput) -> @location(0) vec4<f32> {
 #ifdef COATS
     var colour = mesh.color;
+    if colour.a < 0.0 {
+        colour = shaded(u32(colour.r + 0.5), mesh.uv);
+    }
 #else
     var colour = vec4(ink.rgb, ink.a * coverage(mesh.uv));
 #endif

@@ -49,6 +49,7 @@ mod draw;
 mod dress;
 mod field;
 mod fill;
+mod gradients;
 mod grid;
 mod ink;
 mod paint;

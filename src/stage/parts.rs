@@ -124,7 +124,7 @@ impl Part {
         let placement = frame.placement();
         let (points, faces, origin) = (&placement.in_frame, &placement.faces, self.origin);
         let joints = style.style.joints;
-        match &self.kind {
+        match &mut self.kind {
             PartKind::Coats(coats) => {
                 if let Content::Solid(solid) = frame.transition().content()
                     && let Some(coating) = &solid.coating

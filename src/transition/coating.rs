@@ -1,9 +1,10 @@
 //! The coats of a film.
 
-use super::drawings::Drawings;
+use super::drawings::{Drawings, Ink};
 use super::holes::HoleOf;
 use super::levels::Levels;
-use crate::content::{Coat, Coating};
+use crate::compatible::CompatibleMesh;
+use crate::content::{Anchored, Coat, Coating, Shading};
 use crate::correspondence::{Looks, RegionMatch};
 use crate::geometry::Side;
 use crate::warp::Arap;
@@ -23,34 +24,65 @@ pub(super) fn coating(
         return None;
     }
     let levels = Levels::of(matched, &drawings.looks);
-    let ink = |side: Side, coat: Option<usize>| coat.map(|coat| drawings.inks[side][coat]);
     let heights = Side::BOTH.map(|side| heights(&levels.coats, side));
+    let parts = film.mesh().components();
+    let walks = film.mesh().boundary_loops();
+    let level_of = |walk: &Vec<u32>| {
+        let piece = walk.first().map_or(0, |&v| parts[v as usize] as usize);
+        levels.of_piece(piece)
+    };
+    let of_walks: Vec<usize> = walks.iter().map(level_of).collect();
     let coat = |level: usize| {
-        let own = levels.coats[level];
-        let inks = Side::BOTH.map(|side| ink(side, own[side]));
+        let ink = |side: Side| Some(&drawings.inks[side][levels.coats[level][side]?]);
+        let inks = Side::BOTH.map(ink);
+        let own = walks.iter().zip(&of_walks);
+        let own = own
+            .filter(|&(_, of)| *of == level)
+            .flat_map(|(walk, _)| walk);
         // What one design has alone keeps its paint, while its line grows with it.
-        let paints = [inks[0].or(inks[1]), inks[1].or(inks[0])];
+        let paint = |side: Side| inks[side].or(inks[side.other()])?.paint;
         Coat {
-            paints: paints.map(|ink| ink.and_then(|ink| ink.paint)),
-            lines: inks.map(|ink| ink.and_then(|ink| ink.line)),
+            paints: Side::BOTH.map(paint),
+            shading: shading(inks, own.copied().collect(), film.mesh()),
+            lines: inks.map(|ink| ink?.line),
             heights: [heights[0][level], heights[1][level]],
         }
     };
-    let parts = film.mesh().components();
-    let walks = film.mesh().boundary_loops();
-    let piece = |walk: &Vec<u32>| walk.first().map_or(0, |&v| parts[v as usize] as usize);
     Some(Coating {
         coats: (0..levels.coats.len()).map(coat).collect(),
-        of_walks: walks
-            .iter()
-            .map(|walk| levels.of_piece(piece(walk)))
-            .collect(),
         of_holes: holes
             .iter()
             .map(|(piece, _)| levels.of_piece(*piece))
             .collect(),
+        of_walks,
         reordered_at: REORDERED_AT,
     })
+}
+
+/// The gradients of a coat that has these vertices; what one design has alone keeps its
+/// own.
+fn shading(inks: [Option<&Ink>; 2], vertices: Vec<u32>, mesh: &CompatibleMesh) -> Shading {
+    let places = [mesh.source(), mesh.target()];
+    let anchored = |side: Side| {
+        let gradient = inks[side]?.gradient.clone()?;
+        let places = vertices.iter().map(|&v| places[side][v as usize]);
+        Some(Anchored {
+            gradient,
+            places: places.collect(),
+        })
+    };
+    let ends = Side::BOTH.map(|side| {
+        let side = if inks[side].is_some() {
+            side
+        } else {
+            side.other()
+        };
+        anchored(side)
+    });
+    match ends {
+        [None, None] => Shading::default(),
+        ends => Shading { vertices, ends },
+    }
 }
 
 /// How many levels lie below each, in one design; one that it does not have lies

@@ -1,6 +1,6 @@
 //! Designs as they are matched: all parts of all coats, and how they look.
 
-use crate::colour::{Line, Paint};
+use crate::colour::{Gradient, Line, Paint};
 use crate::correspondence::{Look, Looks};
 use crate::design::Coat;
 use crate::geometry::Regions;
@@ -15,10 +15,11 @@ pub(super) struct Drawings {
     pub inks: [Vec<Ink>; 2],
 }
 
-/// Paint and line of a coat.
-#[derive(Clone, Copy, Default)]
+/// Paint, gradient and line of a coat.
+#[derive(Clone, Default)]
 pub(super) struct Ink {
     pub paint: Option<Paint>,
+    pub gradient: Option<Gradient>,
     pub line: Option<Line>,
 }
 
@@ -29,6 +30,7 @@ impl Drawings {
         let outlines = [stacked(source)?, stacked(target)?];
         let ink = |coat: &Coat| Ink {
             paint: coat.paint,
+            gradient: coat.gradient.clone(),
             line: coat.line,
         };
         Some(Self {

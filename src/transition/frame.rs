@@ -1,8 +1,8 @@
 //! One moment of a transition.
 
 use super::ready::Transition;
-use crate::colour::{Line, Paint};
-use crate::content::{Coat, Content, Raster, Solid};
+use crate::colour::{Gradient, Line, Paint};
+use crate::content::{Content, Raster, Solid};
 use crate::design::{Design, Form};
 use crate::geometry::DVec2;
 use crate::warp::{Placement, Placer, WarpKind};
@@ -41,6 +41,11 @@ pub struct Coated {
     ///
     /// [`Style::paint_at`]: super::Style::paint_at
     pub paints: [Option<Paint>; 2],
+    /// Those that their paints are the means of, where they are here; see
+    /// [`Style::gradient_at`].
+    ///
+    /// [`Style::gradient_at`]: super::Style::gradient_at
+    pub gradients: [Option<Gradient>; 2],
     /// The line along them in source and target; see [`Line::between`].
     pub lines: [Option<Line>; 2],
 }
@@ -129,11 +134,12 @@ impl Frame {
             let first = figure.rings.len();
             figure.rings.extend(rings);
             if let Some(coating) = &solid.coating {
-                let Coat { paints, lines, .. } = coating.coats[coat];
+                let coat = &coating.coats[coat];
                 figure.coats.push(Coated {
                     rings: first..figure.rings.len(),
-                    paints,
-                    lines,
+                    paints: coat.paints,
+                    gradients: coat.shading.at(places),
+                    lines: coat.lines,
                 });
             }
         }

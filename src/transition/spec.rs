@@ -188,6 +188,7 @@ fn coats_of(
         vec![Coat {
             regions: outline(design, bar_width, progress)?,
             paint: None,
+            gradient: None,
             line: None,
             name: String::new(),
         }]

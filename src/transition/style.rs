@@ -1,6 +1,6 @@
 //! How a transition is painted: what window and export share.
 
-use crate::colour::{Paint, Rgb};
+use crate::colour::{Gradient, Paint, Rgb};
 use serde::{Deserialize, Serialize};
 
 /// Colours and marks of a transition.
@@ -46,6 +46,29 @@ impl Style {
             [source, target] => {
                 let source = source.unwrap_or(self.source.into());
                 source.mixed(target.unwrap_or(self.target.into()), t)
+            }
+        }
+    }
+    /// At `t` what has these gradients at both ends, or a gradient at one end and a paint
+    /// at the other; none where it has none at either.
+    #[must_use]
+    pub fn gradient_at(
+        &self,
+        ends: [Option<&Gradient>; 2],
+        paints: [Option<Paint>; 2],
+        t: f64,
+    ) -> Option<Gradient> {
+        let t = t.clamp(0.0, 1.0);
+        match ends {
+            [None, None] => None,
+            [Some(source), Some(target)] => Some(source.mixed(target, t)),
+            [Some(source), None] => {
+                let target = self.paint_at(paints, 1.0);
+                Some(source.repainted(|paint| paint.mixed(target, t)))
+            }
+            [None, Some(target)] => {
+                let source = self.paint_at(paints, 0.0);
+                Some(target.repainted(|paint| source.mixed(paint, t)))
             }
         }
     }

@@ -7,7 +7,7 @@
 use super::heights::Heights;
 use super::layers::{Rings, union};
 use super::shape::Shape;
-use crate::colour::{Join, Paint};
+use crate::colour::{Course, Gradient, Join, Paint};
 use crate::design::coat::Coat;
 use crate::geometry::{DVec2, FillRule, Regions};
 use std::collections::BTreeMap;
@@ -20,6 +20,7 @@ pub(super) fn coats(shapes: Vec<Shape>, page: DVec2) -> Vec<Coat> {
         Some(Coat {
             regions,
             paint: Some(shape.paint),
+            gradient: shape.gradient,
             line: shape.edge.map(|edge| edge.line),
             name: shape.name,
         })
@@ -51,6 +52,7 @@ pub(super) fn merged(shapes: Vec<Shape>, page: DVec2) -> Vec<Shape> {
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
     paint: PaintKey,
+    gradient: Option<Vec<u64>>,
     /// Paint, width and join of the line.
     line: Option<(PaintKey, u64, (u8, u64))>,
 }
@@ -70,9 +72,26 @@ impl Key {
         });
         Self {
             paint: bits(shape.paint),
+            gradient: shape.gradient.as_ref().map(numbers),
             line,
         }
     }
+}
+
+/// All that a gradient consists of.
+fn numbers(gradient: &Gradient) -> Vec<u64> {
+    let course = match gradient.course {
+        Course::Straight => [0.0; 3],
+        Course::Round { focus, inner } => [focus.x, focus.y, 1.0 + inner],
+    };
+    let stops = gradient.stops.iter().flat_map(|stop| {
+        let [r, g, b] = stop.paint.colour.0.map(f64::from);
+        [stop.at, r, g, b, stop.paint.opacity]
+    });
+    let spread = [gradient.spread as u8].map(f64::from);
+    let frame = gradient.frame.to_cols_array();
+    let all = course.into_iter().chain(frame).chain(spread).chain(stops);
+    all.map(f64::to_bits).collect()
 }
 
 struct Stack {

@@ -3,6 +3,7 @@
 use super::coats::merged;
 use super::layers::minus;
 use super::shape::Shape;
+use crate::colour::Paint;
 use crate::geometry::{Bounds, DVec2};
 
 /// Most shapes of a group that are taken from each other.
@@ -37,8 +38,16 @@ pub(super) fn faded(shapes: Vec<Shape>, opacity: f64, page: DVec2) -> (Vec<Shape
             shape.rings = minus(&shape.rings, &above.rings);
         }
     }
+    let fade = |paint: Paint| Paint {
+        opacity: opacity * paint.opacity,
+        ..paint
+    };
     for shape in &mut shapes {
-        shape.paint.opacity *= opacity;
+        shape.paint = fade(shape.paint);
+        shape.gradient = shape
+            .gradient
+            .take()
+            .map(|gradient| gradient.repainted(fade));
     }
     (shapes, is_as_drawn)
 }

@@ -22,8 +22,8 @@
 //!
 //! Text is drawn with the fonts of the machine, or the bundled one where it has none.
 //! Not read: markers, embedded pictures, filters, masks, letters that are pictures; of
-//! gradients and patterns the mean colour is. What was left out is told. Coordinates pass through `f32`, so that outlines are good to about 1e-7
-//! of the page.
+//! patterns and strokes with gradients the mean colour is. What was left out is told.
+//! Coordinates pass through `f32`, so that outlines are good to about 1e-7 of the page.
 
 mod coats;
 mod edge;

@@ -6,10 +6,10 @@ use super::error::SvgError;
 use super::faded::faded;
 use super::layers::{Rings, within};
 use super::shape::Shape;
-use super::tone::flat;
+use super::tone::{Tone, affine, tone};
 use crate::colour::Paint;
 use crate::design::flatten::Flattener;
-use crate::geometry::{DVec2, FillRule, Regions, RegionsError, Repairs};
+use crate::geometry::{DAffine2, DVec2, FillRule, Regions, RegionsError, Repairs};
 use usvg::{ClipPath, Group, Node, PaintOrder, Path, Stroke, Text, Transform, tiny_skia_path};
 
 /// What of a drawing is read, and how.
@@ -33,7 +33,7 @@ pub(super) struct Painted {
 /// How many of what is not shown as it was drawn.
 #[derive(Default)]
 pub(super) struct LeftOut {
-    /// Gradients and patterns, of which the mean is shown.
+    /// Patterns, and gradients along lines, of which the mean is shown.
     pub shades: usize,
     pub masks: usize,
     /// Letters that are pictures.
@@ -144,15 +144,43 @@ impl Painter<'_> {
         if !path.is_visible() {
             return Ok(());
         }
-        let fill = path
+        let mut fill = path
             .fill()
-            .and_then(|fill| flat(fill.paint(), fill.opacity()));
+            .and_then(|fill| tone(fill.paint(), fill.opacity()));
         let stroke = path.stroke();
-        let stroke = stroke.and_then(|stroke| flat(stroke.paint(), stroke.opacity()));
+        let stroke = stroke.and_then(|stroke| tone(stroke.paint(), stroke.opacity()));
         self.painted.bare_strokes += usize::from(fill.is_none() && stroke.is_some());
-        let shades = [&fill, &stroke].into_iter().flatten();
-        self.painted.left_out.shades += shades.filter(|tone| tone.is_mean).count();
+        let is_mean = |tone: &Tone| tone.is_mean;
+        // Lines have one paint.
+        let is_lost = |tone: &Tone| tone.is_mean || tone.gradient.is_some();
+        self.painted.left_out.shades += usize::from(fill.as_ref().is_some_and(is_mean));
+        self.painted.left_out.shades += usize::from(stroke.as_ref().is_some_and(is_lost));
+        let gradient = fill.as_mut().and_then(|tone| tone.gradient.take());
+        let gradient = gradient.map(|gradient| gradient.moved(self.on_page(path)));
         let [fill, stroke] = [fill, stroke].map(|tone| tone.map(|tone| tone.paint));
+        let first = self.painted.shapes.len();
+        self.inked(path, (name, clip), (fill, stroke))?;
+        // The fill is the first of them, or the second.
+        let laid = &mut self.painted.shapes[first..];
+        if let Some(shape) = laid.iter_mut().find(|shape| !shape.is_stroke) {
+            shape.gradient = gradient;
+        }
+        Ok(())
+    }
+
+    /// From the space of a path to the page, y up.
+    fn on_page(&self, path: &Path) -> DAffine2 {
+        let up = DAffine2::from_cols_array(&[1.0, 0.0, 0.0, -1.0, 0.0, self.page.y]);
+        up * affine(path.abs_transform())
+    }
+
+    /// Fills and strokes a path, in its order.
+    fn inked(
+        &mut self,
+        path: &Path,
+        (name, clip): (&str, Option<&Rings>),
+        (fill, stroke): (Option<Paint>, Option<Paint>),
+    ) -> Result<(), SvgError> {
         let fills_first = path.paint_order() == PaintOrder::FillAndStroke;
         if let Some(stroke) = stroke
             && fills_first
@@ -183,6 +211,7 @@ impl Painter<'_> {
         self.painted.shapes.push(Shape {
             rings: within(rings, clip),
             paint,
+            gradient: None,
             is_stroke,
             edge: None,
             name: name.to_owned(),
@@ -224,6 +253,7 @@ impl Painter<'_> {
         self.painted.shapes.push(Shape {
             rings: cleaned,
             paint: fill.unwrap_or(unseen),
+            gradient: None,
             is_stroke: false,
             edge: Some(edge),
             name: name.to_owned(),

@@ -2,7 +2,7 @@
 
 use super::edge::Edge;
 use super::layers::Rings;
-use crate::colour::Paint;
+use crate::colour::{Gradient, Paint};
 use crate::geometry::Bounds;
 
 /// What one fill or one stroke covers, or a fill with the stroke along it.
@@ -10,6 +10,8 @@ pub(super) struct Shape {
     /// To be filled by winding.
     pub rings: Rings,
     pub paint: Paint,
+    /// On the page, y up; the paint is its mean.
+    pub gradient: Option<Gradient>,
     pub is_stroke: bool,
     /// The stroke along the rings, if it goes with them.
     pub edge: Option<Edge>,
@@ -35,6 +37,7 @@ impl Shape {
         let stroke = edge.map(|edge| Self {
             rings: edge.rings,
             paint: edge.line.paint,
+            gradient: None,
             is_stroke: true,
             edge: None,
             name: fill.name.clone(),

@@ -523,18 +523,27 @@ fn strokes_opacity_and_order_are_kept() {
 }
 
 #[test]
-fn of_gradients_and_patterns_the_mean_is_shown_and_told() {
+fn of_patterns_the_mean_is_shown_and_told_and_gradients_stay() {
     let body = r##"<linearGradient id="g"><stop offset="0.5" stop-color="#000"/>
         <stop offset="0.5" stop-color="#fff"/></linearGradient>
         <pattern id="p" width="2" height="2" patternUnits="userSpaceOnUse">
         <rect width="1" height="1" fill="#00ff00"/></pattern>
         <rect width="20" height="20" fill="url(#g)"/>
-        <rect x="50" width="20" height="20" fill="url(#p)"/>"##;
+        <rect x="50" width="20" height="20" fill="url(#p)"/>
+        <path d="M0 50h50v9" stroke="url(#g)" fill="none"/>"##;
     let paints: Vec<Paint> = coats(body).iter().map(|coat| coat.0).collect();
     // Half the way from black to white, as it looks.
-    assert_eq!(paints, [paint([99; 3], 1.0), paint([0, 255, 0], 1.0)]);
-    let told = stroked(body, None).expect("a drawing").notes;
-    assert_eq!(told, [ImportNote::Shades(2)]);
+    let mean = paint([99; 3], 1.0);
+    assert_eq!(paints, [mean, paint([0, 255, 0], 1.0), mean]);
+    let found = stroked(body, None).expect("a drawing");
+    assert_eq!(found.notes, [ImportNote::Shades(2)]);
+    let gradient = found.coats[0].gradient.as_ref().expect("a gradient");
+    assert_eq!(gradient.stops.len(), 2);
+    // From the left edge of the square to the right one, where the page has it.
+    let [left, right] = [DVec2::ZERO, DVec2::X].map(|p| gradient.frame.transform_point2(p));
+    assert!(left.distance(DVec2::new(0.0, 100.0)) < 1e-5, "{left}");
+    assert!(right.distance(DVec2::new(20.0, 100.0)) < 1e-5, "{right}");
+    assert_eq!(found.coats[1].gradient, None);
 }
 
 #[test]
