@@ -5,6 +5,8 @@
 //! `MORPHOSPACE_REQUIRE_GPU=1` that is a failure. `MORPHOSPACE_PICTURES=DIR`
 //! keeps every pair of pictures for looking at.
 
+#[path = "gpu/drawings.rs"]
+mod drawings;
 #[path = "gpu/pictures.rs"]
 mod pictures;
 #[path = "gpu/scenes.rs"]
@@ -59,6 +61,10 @@ const TESTS: &[Test] = &[
     (
         "pictures_look_the_same_at_any_zoom",
         pictures::pictures_look_the_same_at_any_zoom,
+    ),
+    (
+        "drawings_look_the_same_on_both",
+        drawings::drawings_look_the_same_on_both,
     ),
     (
         "a_transparent_ground_has_straight_alpha",

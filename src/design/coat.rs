@@ -17,6 +17,8 @@ pub struct Coat {
     pub line: Option<Line>,
     /// What the file calls it, if it is one shape; or empty.
     pub name: String,
+    /// Whether it is text.
+    pub is_text: bool,
 }
 
 impl Coat {
@@ -33,6 +35,7 @@ impl Coat {
                 ..line
             }),
             name: self.name.clone(),
+            is_text: self.is_text,
         }
     }
 }

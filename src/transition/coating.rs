@@ -98,9 +98,14 @@ fn heights(levels: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
         .collect();
     alone.sort_by_key(|&k| levels[k][other]);
     for k in alone {
-        let is_below = |&placed: &usize| levels[placed][other] < levels[k][other];
+        let is_below = |&placed: &usize| {
+            levels[placed][other].is_some() && levels[placed][other] < levels[k][other]
+        };
         let at = order.iter().rposition(is_below).map_or(0, |at| at + 1);
-        order.insert(at, k);
+        // What is born lies over what dies there, in both designs.
+        let is_dying = |&&placed: &&usize| side == Side::Source && levels[placed][other].is_none();
+        let dying = order[at..].iter().take_while(is_dying).count();
+        order.insert(at + dying, k);
     }
     let mut heights = vec![0; levels.len()];
     order
@@ -108,4 +113,27 @@ fn heights(levels: &[[Option<usize>; 2]], side: Side) -> Vec<usize> {
         .enumerate()
         .for_each(|(height, &k)| heights[k] = height);
     heights
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_alone_lies_above_what_is_below_it_and_what_is_born_over_what_dies() {
+        // A sky and a sun in both; a sea that dies over them, and a word that is born.
+        let levels = [
+            [Some(0), Some(0)],
+            [Some(1), Some(1)],
+            [Some(2), None],
+            [None, Some(2)],
+        ];
+        for side in Side::BOTH {
+            assert_eq!(heights(&levels, side), [0, 1, 2, 3], "{side:?}");
+        }
+        // A sun that sinks below its sky, with what only one has between them.
+        let levels = [[Some(0), Some(1)], [Some(1), Some(0)], [None, Some(2)]];
+        assert_eq!(heights(&levels, Side::Source), [0, 1, 2]);
+        assert_eq!(heights(&levels, Side::Target), [1, 0, 2]);
+    }
 }

@@ -64,6 +64,7 @@ fn looks_of(coats: &[Coat]) -> Vec<Look> {
             paint: coat.paint,
             is_lined: coat.line.is_some(),
             name: given_name(&coat.name),
+            is_text: coat.is_text,
         };
         std::iter::repeat_n(look, coat.regions.len())
     });

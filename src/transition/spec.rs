@@ -191,6 +191,7 @@ fn coats_of(
             gradient: None,
             line: None,
             name: String::new(),
+            is_text: false,
         }]
     } else {
         design.coats.clone()

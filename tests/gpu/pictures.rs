@@ -11,12 +11,12 @@ use crate::studio::{Scene, Studio};
 
 /// By how much two pictures differ, alpha premultiplied.
 #[derive(Clone, Copy, Debug)]
-struct Difference {
+pub struct Difference {
     /// Mean over pixels and channels, in steps of 255.
-    mean: f64,
+    pub mean: f64,
     /// The share of pixels with a channel that is off by more than
     /// [`TOLERANCE`].
-    off: f64,
+    pub off: f64,
 }
 
 /// In steps of 255.
@@ -48,7 +48,7 @@ const WARPS: [&str; 5] = [
 ];
 
 impl Difference {
-    fn between(a: &RgbaImage, b: &RgbaImage) -> Self {
+    pub fn between(a: &RgbaImage, b: &RgbaImage) -> Self {
         assert_eq!(a.dimensions(), b.dimensions());
         let premultiplied = |p: &Rgba<u8>, k: usize| match k {
             3 => p[3],
@@ -68,7 +68,7 @@ impl Difference {
         }
     }
 
-    fn check(self, name: &str, allowed: Self) {
+    pub fn check(self, name: &str, allowed: Self) {
         let is_allowed = self.mean <= allowed.mean && self.off <= allowed.off;
         assert!(is_allowed, "{name}: {self:?}, allowed are {allowed:?}");
     }

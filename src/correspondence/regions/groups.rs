@@ -42,6 +42,7 @@ pub(super) fn grouped(
             .collect()
     });
     let pairing = pair_parts(designs, looks, &fixed, [&taken[0], &taken[1]])?;
+    let pairing = looks.parted(pairing, &fixed);
     for pair in &pairing.pairs {
         if !fixed.contains(pair) {
             groups.push(Group {

@@ -1,5 +1,6 @@
 //! How the parts of two designs look, besides their form.
 
+use super::super::pairing::Pairing;
 use crate::colour::Paint;
 use crate::geometry::Side;
 
@@ -16,6 +17,8 @@ pub(crate) struct Look {
     pub(crate) is_lined: bool,
     /// What somebody calls it; or empty.
     pub(crate) name: String,
+    /// Whether it is a letter of a text.
+    pub(crate) is_text: bool,
 }
 
 /// The looks of all parts of both designs; without any, all look alike.
@@ -32,12 +35,17 @@ const HEIGHT: f64 = 0.25;
 /// place, form and paint.
 const NAMED: f64 = 4.0;
 
+/// By how much more a letter and something else cost to be paired: letters become
+/// letters where there are any.
+const TEXT: f64 = 2.0;
+
 impl Look {
     /// What it costs to pair two parts whose forms and places cost so much.
     pub(in crate::correspondence) fn cost(&self, other: &Self, form: f64) -> f64 {
         let paint = self.paint.zip(other.paint);
         let paint = paint.map_or(0.0, |(a, b)| a.unlike(&b));
         let cost = form + PAINT * paint + HEIGHT * (self.height - other.height).abs();
+        let cost = cost + TEXT * f64::from(u8::from(self.is_text != other.is_text));
         let is_named = !self.name.is_empty() && self.name == other.name;
         if is_named { cost - NAMED } else { cost }
     }
@@ -47,6 +55,34 @@ impl Looks {
     /// Whether a line runs along a part.
     pub(crate) fn is_lined(&self, side: Side, part: usize) -> bool {
         self.0[side].get(part).is_some_and(|look| look.is_lined)
+    }
+
+    /// Lets go of pairs of a letter and something else, where anything else is paired:
+    /// of a wave that becomes the second letter of a word neither is recognised.
+    pub(in crate::correspondence) fn parted(
+        &self,
+        pairing: Pairing,
+        fixed: &[[usize; 2]],
+    ) -> Pairing {
+        let is_text = |side: Side, part: usize| self.0[side].get(part).map(|look| look.is_text);
+        let is_mixed = |pair: &[usize; 2]| {
+            let [a, b] = Side::BOTH.map(|side| is_text(side, pair[side]));
+            a != b && !fixed.contains(pair)
+        };
+        let (mixed, pairs): (Vec<_>, Vec<_>) = pairing.pairs.iter().copied().partition(is_mixed);
+        if pairs.is_empty() {
+            return pairing;
+        }
+        let with = |mut alone: Vec<usize>, side: Side| {
+            alone.extend(mixed.iter().map(|pair| pair[side]));
+            alone.sort_unstable();
+            alone
+        };
+        Pairing {
+            dying: with(pairing.dying, Side::Source),
+            born: with(pairing.born, Side::Target),
+            pairs,
+        }
     }
 
     /// The coat of a part, 0 where all look alike.

@@ -23,6 +23,7 @@ pub(super) fn coats(shapes: Vec<Shape>, page: DVec2) -> Vec<Coat> {
             gradient: shape.gradient,
             line: shape.edge.map(|edge| edge.line),
             name: shape.name,
+            is_text: shape.is_text,
         })
     };
     merged(shapes, page).into_iter().filter_map(coat).collect()
@@ -51,6 +52,7 @@ pub(super) fn merged(shapes: Vec<Shape>, page: DVec2) -> Vec<Shape> {
 /// What shapes of one coat have in common.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct Key {
+    is_text: bool,
     paint: PaintKey,
     gradient: Option<Vec<u64>>,
     /// Paint, width and join of the line.
@@ -71,6 +73,7 @@ impl Key {
             (bits(edge.line.paint), edge.line.width.to_bits(), join)
         });
         Self {
+            is_text: shape.is_text,
             paint: bits(shape.paint),
             gradient: shape.gradient.as_ref().map(numbers),
             line,

@@ -213,6 +213,7 @@ impl Painter<'_> {
             paint,
             gradient: None,
             is_stroke,
+            is_text: self.is_lettering,
             edge: None,
             name: name.to_owned(),
         });
@@ -255,6 +256,7 @@ impl Painter<'_> {
             paint: fill.unwrap_or(unseen),
             gradient: None,
             is_stroke: false,
+            is_text: self.is_lettering,
             edge: Some(edge),
             name: name.to_owned(),
         });

@@ -13,6 +13,7 @@ pub(super) struct Shape {
     /// On the page, y up; the paint is its mean.
     pub gradient: Option<Gradient>,
     pub is_stroke: bool,
+    pub is_text: bool,
     /// The stroke along the rings, if it goes with them.
     pub edge: Option<Edge>,
     /// The id of its element, if it has one.
@@ -39,6 +40,7 @@ impl Shape {
             paint: edge.line.paint,
             gradient: None,
             is_stroke: true,
+            is_text: fill.is_text,
             edge: None,
             name: fill.name.clone(),
         });
