@@ -38,6 +38,8 @@ fn drawings() -> Vec<PathBuf> {
     let folder = std::env::var_os("MORPHOSPACE_TEST_DRAWINGS").map_or_else(own, PathBuf::from);
     let entries = std::fs::read_dir(folder).expect("the drawings");
     let mut paths: Vec<PathBuf> = entries.map(|entry| entry.expect("a file").path()).collect();
+    let gallery = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/gallery");
+    paths.extend(["day.svg", "night.svg"].map(|name| gallery.join(name)));
     paths.sort();
     paths
 }

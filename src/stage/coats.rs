@@ -21,7 +21,7 @@ pub(super) struct Coats {
     /// faces know nothing of what comes and goes.
     faces: Option<CoatFaces>,
     /// The gradients of the last frame.
-    gradients: Gradients,
+    gradients: Box<Gradients>,
 }
 
 /// Which faces and which vertices are in which coat.
@@ -52,7 +52,7 @@ impl Coats {
         });
         Self {
             faces,
-            gradients: Gradients::default(),
+            gradients: Box::default(),
         }
     }
 
@@ -104,7 +104,7 @@ impl Coats {
             }
         }
         layers.put_into(mesh);
-        self.gradients = table.gradients;
+        *self.gradients = table.gradients;
     }
 }
 

@@ -280,7 +280,7 @@ fn tell_notes(designs: &[Arc<Design>], told: &mut Vec<Arc<Design>>, notices: &mu
                 0 => String::new(),
                 n => format!(" (and {n} more, see Designs)"),
             };
-            notices.done(format!("{}: {first}{more}", design.name));
+            notices.note(format!("{}: {first}{more}", design.name));
         }
     }
     *told = designs.to_vec();

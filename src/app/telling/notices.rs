@@ -10,6 +10,9 @@ use crate::one_line::OneLine;
 /// How long a confirmation stays: long enough to read the path of a file.
 const CONFIRMATION_SECS: f32 = 6.0;
 
+/// How long a note stays: it is longer, and can be read again where it says.
+const NOTE_SECS: f32 = 10.0;
+
 /// What a problem is about: when that is well again, it goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum About {
@@ -32,6 +35,19 @@ pub enum Kind {
     Problem(About),
     /// Something was done; passes.
     Done,
+    /// Something that its reader may not expect; passes.
+    Note,
+}
+
+impl Kind {
+    /// How long it stays; none for what stays until it is read.
+    fn stays_secs(self) -> Option<f32> {
+        match self {
+            Self::Problem(_) => None,
+            Self::Done => Some(CONFIRMATION_SECS),
+            Self::Note => Some(NOTE_SECS),
+        }
+    }
 }
 
 /// One thing to say.
@@ -62,6 +78,11 @@ impl Notices {
     /// Says that something was done.
     pub fn done(&mut self, text: impl Into<String>) {
         self.push(Kind::Done, text.into());
+    }
+
+    /// Says what may not be expected.
+    pub fn note(&mut self, text: impl Into<String>) {
+        self.push(Kind::Note, text.into());
     }
 
     /// There is a problem about this.
@@ -96,10 +117,12 @@ impl Notices {
         });
     }
 
-    /// A confirmation is on its way out.
+    /// Something is on its way out.
     #[must_use]
     pub fn is_passing(&self) -> bool {
-        self.list.iter().any(|notice| notice.kind == Kind::Done)
+        self.list
+            .iter()
+            .any(|notice| notice.kind.stays_secs().is_some())
     }
 
     /// Whether anything has passed.
@@ -108,8 +131,12 @@ impl Notices {
             notice.age_secs += secs;
         }
         let before = self.list.len();
-        self.list
-            .retain(|notice| notice.kind != Kind::Done || notice.age_secs < CONFIRMATION_SECS);
+        self.list.retain(|notice| {
+            notice
+                .kind
+                .stays_secs()
+                .is_none_or(|stays| notice.age_secs < stays)
+        });
         self.list.len() < before
     }
 }

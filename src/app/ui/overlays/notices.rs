@@ -42,6 +42,7 @@ fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, acts: &mut 
     let (icon, colour) = match notice.kind {
         Kind::Problem(_) => (icons::WARNING, palette.problem),
         Kind::Done => (icons::TICK, palette.accent),
+        Kind::Note => (icons::WARNING, palette.amber),
     };
     card(ui, egui::Margin::symmetric(12, 8), |ui| {
         ui.set_width(width);
