@@ -6,7 +6,7 @@ use std::fmt::{Debug, Display};
 use morphospace::content::{BlendSpace, ContentKind};
 use morphospace::correspondence::{HoleRule, PartRule};
 use morphospace::easing::Easing;
-use morphospace::export::{FilmKind, StillKind};
+use morphospace::export::{Aspect, FilmKind, Purpose, StillKind};
 use morphospace::field::Metric;
 use morphospace::homotopy::Homotopy;
 use morphospace::measure::Quantity;
@@ -65,6 +65,8 @@ fn keys_are_those_of_the_files_that_there_are() {
     table::<Travel>("auto straight whole");
     table::<WarpKind>("arap lattice lines none paths scattered");
     table::<FilmKind>("apng gif mp4");
+    table::<Aspect>("16:9 1:1 4:3 9:16 own");
+    table::<Purpose>("deck page post story");
     table::<StillKind>("png svg");
     table::<Quantity>(
         "area crossings folds holes min-det perimeter pieces turning worst-conformal \

@@ -80,6 +80,7 @@ fn the_ends_of_a_film_look_like_the_drawings() {
                 style: Style::default(),
                 view: View::fit(design.extent, size),
                 ground: Some(Rgb([255; 3])),
+                captions: None,
             };
             let seen = camera.pixels(t);
             let share = differing(&seen, &expected);

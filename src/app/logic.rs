@@ -8,6 +8,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::asking::keymap::{self, KeyMap};
 use crate::app::capturing::files::CaptureFolder;
 use crate::app::capturing::films;
+use crate::app::capturing::framing;
 use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::editing::{apply, refresh};
@@ -84,6 +85,7 @@ fn init(app: &mut App) {
         .init_resource::<drops::Drop>()
         .init_resource::<dialogs::Dialog>()
         .init_resource::<films::Recorder>()
+        .init_resource::<framing::FilmFrame>()
         .init_resource::<StageArea>()
         .init_resource::<KeepsFit>()
         .init_resource::<times::WholeFrame>()
@@ -116,7 +118,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         (measuring::follow, twin::apply, twin::follow).chain(),
         // Moved on before it is told where to go: else the time of a rest would be played at once.
         (playback::advance, playback::apply).chain(),
-        (films::apply, films::report).chain(),
+        (films::apply, films::report, framing::follow).chain(),
         view::apply,
         notices::apply,
     )

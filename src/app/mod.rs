@@ -30,7 +30,9 @@ mod ui;
 mod window;
 
 pub use asking::acts::{EditorAct, Tool, Touch};
-pub use asking::choices::{CaptureScale, Preferences, RecordFormat, ThemeChoice, TwinMethod};
+pub use asking::choices::{
+    CaptureScale, FilmLook, Preferences, RecordFormat, ThemeChoice, TwinMethod,
+};
 pub use asking::hand::Typing;
 pub use asking::intent::{Answer, Intent};
 pub use asking::keymap::{Binding, Held, KeyMap, Row, Trigger};

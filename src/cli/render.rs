@@ -10,8 +10,9 @@ use clap::Args;
 
 use crate::colour::Rgb;
 use crate::export::{
-    Camera, Drawing, ExportError, Film, FilmKind, MethodRow, PixelSize, StillKind, Target, View,
-    comparison, endings, even_times, framing, sheet, write_film, write_still,
+    Aspect, Camera, Captions, Drawing, ExportError, Film, FilmKind, Layout, MethodRow, PixelSize,
+    Purpose, StillKind, Target, View, comparison, endings, even_times, framing, sheet, write_film,
+    write_still,
 };
 use crate::progress::{Progress, Span, Whole};
 use crate::project::Project;
@@ -22,7 +23,7 @@ use super::inputs::{Inputs, Opened};
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
-use super::values::{Ground, ground, range};
+use super::values::{Ground, ground, one_of, range};
 
 /// The longer side of a picture of free size, in pixels: half a screen's width.
 const LONGER_SIDE_PX: u32 = 960;
@@ -71,12 +72,69 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "WxH")]
     size: Option<PixelSize>,
 
+    #[command(flatten)]
+    layout: LayoutArgs,
+
     /// The colour behind: #rrggbb, or transparent [default: the project's]
     #[arg(long, value_name = "COLOUR", value_parser = ground)]
     ground: Option<Ground>,
 
     #[command(flatten)]
     method: MethodArgs,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Layout of pictures and films")]
+#[group(conflicts_with_all = ["sheet", "compare"])]
+struct LayoutArgs {
+    /// What it is made for: a shape, a size, and captions
+    #[arg(long, conflicts_with = "size", value_parser = one_of::<Purpose>())]
+    preset: Option<Purpose>,
+
+    /// The shape of pictures
+    #[arg(long, conflicts_with = "size", value_parser = one_of::<Aspect>())]
+    aspect: Option<Aspect>,
+
+    /// Pixels along the shorter side, as in 720, 1080 or 2160
+    #[arg(long, value_name = "PIXELS", conflicts_with = "size")]
+    lines: Option<u32>,
+
+    /// What is free all around, a fraction of the shorter side
+    #[arg(long, value_name = "FRACTION", conflicts_with = "size", value_parser = margin)]
+    frame_margin: Option<f64>,
+
+    /// The names of the stops below, or of the designs where there are none
+    #[arg(long)]
+    captions: bool,
+}
+
+impl LayoutArgs {
+    /// The layout that is asked for; none where nothing is said of its shape.
+    fn layout(&self) -> Option<Layout> {
+        let is_asked = self.preset.is_some()
+            || self.aspect.is_some()
+            || self.lines.is_some()
+            || self.frame_margin.is_some()
+            || self.captions;
+        let plain = || Layout {
+            aspect: Aspect::Own,
+            ..Layout::default()
+        };
+        let base = self.preset.map_or_else(plain, Purpose::layout);
+        is_asked.then(|| Layout {
+            aspect: self.aspect.unwrap_or(base.aspect),
+            lines: self.lines.unwrap_or(base.lines),
+            margin: self.frame_margin.unwrap_or(base.margin),
+            has_captions: self.captions || base.has_captions,
+        })
+    }
+}
+
+fn margin(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(share) if (0.0..=0.4).contains(&share) => Ok(share),
+        _ => Err("give a fraction from 0 to 0.4, for example 0.05".to_owned()),
+    }
 }
 
 fn out_help() -> String {
@@ -177,7 +235,7 @@ fn drawn(
         Shown::Frame(t) => {
             // Seen as the film is, so that pictures of one project fit together.
             let seen: Vec<f64> = times(17).into_iter().chain([t]).collect();
-            camera(args, opened, &seen, false).shoot(t)
+            camera(args, opened, &seen, false)?.shoot(t)
         }
         Shown::Sheet(count) => {
             let times = times(count);
@@ -205,7 +263,7 @@ fn film(
     };
     let is_mp4 = matches!(target, Target::Film(FilmKind::Mp4, _));
     // Framed by the whole film, so that parts made apart fit together.
-    let camera = camera(args, opened, whole.times(), is_mp4);
+    let camera = camera(args, opened, whole.times(), is_mp4)?;
     if args.size.is_some_and(|size| size != camera.view.size()) {
         output::words(&format!(
             "an MP4 has even sides: {} pixels",
@@ -232,17 +290,44 @@ fn whole_film(args: &RenderArgs, project: &Project, target: &Target) -> Result<F
     film.map_err(CliError::usage)
 }
 
-fn camera(args: &RenderArgs, opened: &Opened, times: &[f64], is_even: bool) -> Camera {
+fn camera(
+    args: &RenderArgs,
+    opened: &Opened,
+    times: &[f64],
+    is_even: bool,
+) -> Result<Camera, CliError> {
     let bounds = framing(&opened.transition, times);
-    let size = args
-        .size
-        .unwrap_or_else(|| PixelSize::of_shape(bounds, LONGER_SIDE_PX));
-    Camera {
+    let layout = args.layout.layout();
+    let view = match (layout, args.size) {
+        (Some(layout), None) => layout.view(bounds).map_err(CliError::usage)?,
+        (Some(layout), Some(size)) => layout.view_of(bounds, size),
+        (None, size) => {
+            let size = size.unwrap_or_else(|| PixelSize::of_shape(bounds, LONGER_SIDE_PX));
+            View::fit(bounds, if is_even { size.to_even() } else { size })
+        }
+    };
+    let project = &opened.loaded.project;
+    let has_captions = layout.is_some_and(|layout| layout.has_captions);
+    Ok(Camera {
         transition: opened.transition.clone(),
-        style: opened.loaded.project.style,
-        view: View::fit(bounds, if is_even { size.to_even() } else { size }),
-        ground: ground_of(args, &opened.loaded.project),
-    }
+        style: project.style,
+        view,
+        ground: ground_of(args, project),
+        captions: has_captions.then(|| captions(args, opened)),
+    })
+}
+
+fn captions(args: &RenderArgs, opened: &Opened) -> Captions {
+    let project = &opened.loaded.project;
+    let name = |k: usize| {
+        opened
+            .loaded
+            .designs
+            .get(k)
+            .map_or("", |design| &design.name)
+    };
+    let ground = ground_of(args, project).unwrap_or(project.style.ground);
+    Captions::new(&project.stops, [name(0), name(1)], ground)
 }
 
 fn ground_of(args: &RenderArgs, project: &Project) -> Option<Rgb> {

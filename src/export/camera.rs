@@ -12,6 +12,7 @@ use crate::geometry::Bounds;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::transition::{Frame, Style, Transition};
 
+use super::captions::Captions;
 use super::drawing::Drawing;
 use super::error::ExportError;
 use super::film::{Run, even_times};
@@ -42,6 +43,8 @@ pub struct Camera {
     pub view: View,
     /// On which ground; `None` is transparent.
     pub ground: Option<Rgb>,
+    /// What stands below.
+    pub captions: Option<Captions>,
 }
 
 impl Camera {
@@ -55,6 +58,7 @@ impl Camera {
             transition,
             style: Style::default(),
             ground: None,
+            captions: None,
         }
     }
 
@@ -74,7 +78,11 @@ impl Camera {
     }
 
     fn drawn(&self, frame: &Frame) -> Drawing {
-        Drawing::of_frame(frame, &self.style, &self.view, self.ground)
+        let mut drawing = Drawing::of_frame(frame, &self.style, &self.view, self.ground);
+        if let Some(captions) = &self.captions {
+            captions.push(&mut drawing, frame.t());
+        }
+        drawing
     }
 
     /// Draws each run's frame once, makes something of it on any thread, and

@@ -180,10 +180,16 @@ impl Drawing {
     }
 
     /// Adds words with the middle of their base line at `base_px`.
-    pub fn push_label(&mut self, words: &str, base_px: DVec2, height_px: f64, colour: Rgb) {
+    pub fn push_label(
+        &mut self,
+        words: &str,
+        base_px: DVec2,
+        height_px: f64,
+        paint: impl Into<Paint>,
+    ) {
         self.items.push(Item::Fill {
             outline: text::centred(words, base_px, height_px),
-            paint: colour.into(),
+            paint: paint.into(),
             gradient: None,
             label: Some(words.to_owned()),
         });

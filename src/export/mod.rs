@@ -17,7 +17,7 @@
 //! let film = Film::evenly(0.0, 1.0, 24, 24.0)?;
 //! let bounds = framing(&transition, film.times());
 //! let view = View::fit(bounds, PixelSize::of_shape(bounds, 960));
-//! let camera = Camera { transition, style: Default::default(), view, ground: None };
+//! let camera = Camera { transition, style: Default::default(), view, ground: None, captions: None };
 //! let target = Target::of_path("film.gif".as_ref())?;
 //! write_film(&camera, &film, &target, &Silent)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())
@@ -25,12 +25,14 @@
 
 mod apng;
 mod camera;
+mod captions;
 mod check;
 mod comparison;
 mod drawing;
 mod error;
 mod film;
 mod gif;
+mod layout;
 #[cfg(not(target_family = "wasm"))]
 mod mp4;
 mod outline;
@@ -60,11 +62,13 @@ use crate::progress::Progress;
 
 pub use apng::write_apng;
 pub use camera::{BATCH_BYTES, Camera, framing};
+pub use captions::Captions;
 pub use comparison::{MethodRow, comparison};
 pub use drawing::{Drawing, Item, JOINT_CORE_RADIUS, JOINT_RADIUS, joint_core};
 pub use error::ExportError;
 pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};
 pub use gif::{MAX_GIF_FPS, write_gif};
+pub use layout::{Aspect, Layout, Purpose};
 #[cfg(not(target_family = "wasm"))]
 pub use mp4::write_mp4;
 pub use outline::{MAX_COORDINATE_PX, Outline, Step};

@@ -20,6 +20,7 @@ pub(super) fn camera(width: u32, height: u32, ground: Option<Rgb>) -> Camera {
         style: Style::default(),
         view,
         ground,
+        captions: None,
     }
 }
 

@@ -1,11 +1,15 @@
 //! What goes wrong is told, with a way on, and no longer than it is wrong.
 
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::{Answer, CaptureFolder, Intent, Measured, Question, Recorder, Session};
+use morphospace::app::{
+    Answer, CaptureFolder, FilmLook, Intent, Measured, Preferences, Question, Recorder, Session,
+};
 use morphospace::correspondence::PointPair;
+use morphospace::export::{Aspect, Layout};
 use morphospace::geometry::DVec2;
 use morphospace::project::Project;
 use morphospace::transition::{Cell, Quality};
@@ -113,6 +117,32 @@ fn a_film_that_is_written_takes_back_that_one_was_not() {
     assert_eq!(window.problems().len(), 1);
     record(&mut window, folder.path().join("films"));
     assert_eq!(window.problems(), Vec::<String>::new());
+}
+
+#[test]
+fn a_film_has_the_shape_that_was_said() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path());
+    edit(&mut window, |project| project.timing.duration_secs = 0.1);
+    let layout = Layout {
+        aspect: Aspect::Tall,
+        lines: 90,
+        ..Layout::default()
+    };
+    window.send(Intent::Prefer(Preferences {
+        film: FilmLook { layout, fps: 25 },
+        film_options: true,
+        ..Preferences::default()
+    }));
+    let films = folder.path().join("films");
+    record(&mut window, films.clone());
+    let written = std::fs::read_dir(films).expect("a folder").next();
+    let file = File::open(written.expect("a film").expect("readable").path());
+    let film = gif::Decoder::new(file.expect("a film")).expect("a GIF");
+    assert_eq!((film.width(), film.height()), (90, 160));
+    // Esc goes back to the options of the transition.
+    window.press(KeyCode::Escape, Key::Escape);
+    assert!(!window.0.world().resource::<Preferences>().film_options);
 }
 
 #[test]

@@ -167,3 +167,23 @@ fn without_ffmpeg_an_mp4_says_what_to_do() {
     assert!(words(&output).contains("ffmpeg"), "{}", words(&output));
     assert_eq!(shop.names(".").len(), 4, "nothing is left");
 }
+
+#[test]
+fn presets_shape_pictures_and_flags_go_before_them() {
+    let shop = Workshop::new();
+    let size = |flags: &str| {
+        shop.done(&format!("render a.obj b.obj --at 0 {flags} --out x.png"));
+        image(&shop.path("x.png")).dimensions()
+    };
+    assert_eq!(size("--preset deck"), (1920, 1080));
+    let story = "--preset story --lines 90 --frame-margin 0.1";
+    assert_eq!(size(story), (90, 160));
+    assert_eq!(size("--aspect 4:3 --lines 30 --captions"), (40, 30));
+    assert_eq!(size("--size 50x20 --captions"), (50, 20));
+    shop.fails(2, "render a.obj b.obj --at 0 --lines 0 --out x.png", "0x0");
+    shop.fails(
+        2,
+        "render a.obj b.obj --at 0 --frame-margin 2 --out x.png",
+        "0.4",
+    );
+}

@@ -3,7 +3,7 @@
 use bevy::prelude::Resource;
 
 use crate::content::ContentKind;
-use crate::export::FilmKind;
+use crate::export::{FilmKind, Layout};
 use crate::stage::Show;
 use crate::transition::Cell;
 
@@ -28,6 +28,10 @@ pub struct Preferences {
     pub capture_transparent: bool,
     /// Kind of file of a recording.
     pub record_format: RecordFormat,
+    /// How films lie in their pictures.
+    pub film: FilmLook,
+    /// The options of pictures and films are shown.
+    pub film_options: bool,
 }
 
 impl Default for Preferences {
@@ -42,6 +46,27 @@ impl Default for Preferences {
             capture_scale: CaptureScale::default(),
             capture_transparent: false,
             record_format: RecordFormat::default(),
+            film: FilmLook::default(),
+            film_options: false,
+        }
+    }
+}
+
+/// How films look, besides what they show.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmLook {
+    /// Their shape and size.
+    pub layout: Layout,
+    /// Frames a second.
+    pub fps: u32,
+}
+
+impl Default for FilmLook {
+    /// For slides, at a rate that GIF's clock of hundredths keeps exactly.
+    fn default() -> Self {
+        Self {
+            layout: Layout::default(),
+            fps: 25,
         }
     }
 }

@@ -5,26 +5,24 @@ use std::time::{Duration, Instant};
 
 use bevy::prelude::{MessageReader, Res, ResMut, Resource};
 
-use crate::app::asking::choices::{CaptureScale, Preferences, RecordFormat};
+use crate::app::asking::choices::{FilmLook, Preferences, RecordFormat};
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::files::{
     CaptureFolder, NewFileError, create_new, create_new_folder, whole,
 };
+use crate::app::capturing::framing::{FramingError, framed};
 use crate::app::session::state::Session;
 use crate::app::telling::job::{Job, JobError};
 use crate::app::telling::notices::{About, Notices};
 use crate::colour::Rgb;
 use crate::export::{
-    Camera, ExportError, Film, FilmError, MethodRow, PixelSize, SizeError, StillKind, Target,
-    TargetError, View, comparison, even_times, framing, write_film, write_still,
+    Camera, Captions, ExportError, MethodRow, SizeError, StillKind, Target, TargetError,
+    comparison, even_times, write_film, write_still,
 };
 use crate::names::Choice;
 use crate::progress::{Cancelled, Progress};
 use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::Transition;
-
-/// Frames a second; GIF's clock of hundredths keeps it exactly.
-const FPS: f64 = 25.0;
 
 /// The recording that is going on, if any.
 #[derive(Resource, Debug, Default)]
@@ -36,9 +34,9 @@ pub enum RecordError {
     /// It was not wanted any more.
     #[error("The recording was cancelled.")]
     Cancelled,
-    /// The timing makes no film.
+    /// The timing or the size make no film.
     #[error(transparent)]
-    Film(#[from] FilmError),
+    Film(#[from] FramingError),
     /// No file could be made for it.
     #[error(transparent)]
     File(#[from] NewFileError),
@@ -154,7 +152,8 @@ pub fn report(mut recorder: ResMut<Recorder>, mut notices: ResMut<Notices>) {
 struct Order {
     project: Project,
     transition: Transition,
-    longer_side_px: u32,
+    look: FilmLook,
+    names: [String; 2],
     /// None where it is transparent.
     ground: Option<Rgb>,
     format: RecordFormat,
@@ -170,13 +169,13 @@ impl Order {
         Some(Self {
             project,
             transition: session.transition()?.clone(),
-            longer_side_px: match preferences.capture_scale {
-                // A recording goes on without the window, so its size is no part of it: half of
-                // full HD.
-                CaptureScale::One => 960,
-                CaptureScale::Two => 1920,
-                CaptureScale::FourK => 3840,
-            },
+            look: preferences.film,
+            names: [0, 1].map(|k| {
+                session
+                    .designs()
+                    .get(k)
+                    .map_or_else(String::new, |d| d.name.clone())
+            }),
             ground: (!preferences.capture_transparent).then_some(ground),
             format: preferences.record_format,
             folder: folder.0.clone(),
@@ -195,16 +194,18 @@ impl Order {
 
     /// One pass there; where it plays to and fro, the way back too, so that it can be looped.
     fn film(&self, target: &Target, progress: &dyn Progress) -> Result<(), RecordError> {
-        let film = Film::of_timing(&self.project.timing, &self.project.stops, FPS)?;
-        let bounds = framing(&self.transition, film.times());
-        let size = PixelSize::of_shape(bounds, self.longer_side_px);
-        let style = self.project.style;
+        let (style, stops) = (self.project.style, &self.project.stops);
+        let timing = (&self.project.timing, stops.as_slice());
+        let (film, view) = framed(&self.transition, timing, &self.look)?;
+        let names = self.names.each_ref().map(String::as_str);
+        let captions = Captions::new(stops, names, style.ground);
         let is_opaque = self.format == RecordFormat::OPAQUE;
         let camera = Camera {
             transition: self.transition.clone(),
             style,
-            view: View::fit(bounds, size),
+            view,
             ground: self.ground.or(is_opaque.then_some(style.ground)),
+            captions: self.look.layout.has_captions.then_some(captions),
         };
         write_film(&camera, &film, target, progress)?;
         Ok(())

@@ -2,4 +2,5 @@
 
 pub mod files;
 pub mod films;
+pub mod framing;
 pub mod pictures;

@@ -7,6 +7,7 @@ use bevy::window::{MonitorSelection, PrimaryWindow, WindowMode};
 use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::films::Recorder;
+use crate::app::capturing::framing::FilmFrame;
 use crate::app::editing::editor::Editor;
 use crate::app::looking::choosing::Choosing;
 use crate::app::looking::measuring::Measured;
@@ -76,6 +77,7 @@ pub fn fit(
     session: Res<Session>,
     area: Res<StageArea>,
     keeps_fit: Res<KeepsFit>,
+    film: Res<FilmFrame>,
     mut view: ResMut<StageView>,
     mut last: Local<Option<(Bounds, Vec2)>>,
 ) {
@@ -89,6 +91,10 @@ pub fn fit(
         return;
     };
     let bounds = transition.bounds();
+    let bounds = match &film.0 {
+        Some(framed) => bounds.union(&framed.bounds()),
+        None => bounds,
+    };
     let bounds = bounds.padded(ROOM * bounds.diameter());
     let now = Some((bounds, area.size));
     if *last != now {
@@ -224,6 +230,8 @@ pub fn back(
             measured.stop();
         } else if editor.bypass_change_detection().back() {
             editor.set_changed();
+        } else if preferences.film_options {
+            preferences.film_options = false;
         } else if std::mem::take(&mut twin.is_shown) {
             // The second method is gone.
         } else if !preferences.panels {

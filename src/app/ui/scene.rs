@@ -7,6 +7,7 @@ use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::asking::keymap::KeyMap;
 use crate::app::capturing::films::Recorder;
+use crate::app::capturing::framing::FilmFrame;
 use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::looking::choosing::Choosing;
@@ -39,6 +40,7 @@ pub struct Scene<'w> {
     pub notices: Res<'w, Notices>,
     pub thumbnails: Res<'w, Thumbnails>,
     pub recorder: Res<'w, Recorder>,
+    pub film: Res<'w, FilmFrame>,
     pub question: Res<'w, Question>,
     pub dialog: Res<'w, Dialog>,
     pub drop: Res<'w, Drop>,

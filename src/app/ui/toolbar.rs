@@ -3,14 +3,12 @@
 use bevy_egui::egui::{self, Align, Color32, Layout, Margin, Panel, Rect, RichText, Ui, vec2};
 
 use crate::app::asking::acts::EditorAct;
-use crate::app::asking::choices::{CaptureScale, Preferences, RecordFormat, ThemeChoice};
+use crate::app::asking::choices::{Preferences, ThemeChoice};
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{act_button, choose, from_right, hint, icon_button, quiet};
+use crate::app::ui::kit::widgets::{act_button, from_right, quiet};
 use crate::app::ui::scene::{Intents, Scene};
-use crate::export::FilmKind;
-use crate::names::Choice;
 
 const HEIGHT: f32 = 48.0;
 
@@ -91,7 +89,22 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
 
 /// From right to left.
 fn capture_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    capture_menu(ui, scene, acts);
+    let options = Preferences {
+        film_options: !scene.preferences.film_options,
+        ..*scene.preferences
+    };
+    let ink = scene
+        .preferences
+        .film_options
+        .then_some(Palette::of(ui).accent);
+    let tip = "Shape, size and kind of pictures and films";
+    act_button(
+        ui,
+        icons::MORE.inked(ink),
+        tip,
+        Intent::Prefer(options),
+        acts,
+    );
     let tip = "Record one pass as a film, in the background (G)";
     let icon = icons::RECORD.inked(Some(Palette::of(ui).problem));
     act_button(ui, icon, tip, Intent::Record, acts);
@@ -137,53 +150,4 @@ fn theme_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         ..*scene.preferences
     };
     act_button(ui, icon, tip, Intent::Prefer(other), acts);
-}
-
-fn capture_menu(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let tip = "Size, ground and kind of pictures and films";
-    let button = icon_button(ui, icons::MORE, tip, vec2(20.0, 32.0));
-    egui::Popup::menu(&button)
-        .close_behavior(egui::PopupCloseBehavior::CloseOnClickOutside)
-        .show(|ui| {
-            ui.set_width(328.0);
-            capture_options(ui, scene, acts);
-        });
-}
-
-fn capture_options(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let mut draft = *scene.preferences;
-    let tip = "How many pixels a picture of the stage has.";
-    let scales = [
-        (CaptureScale::One, "1×", "As many as on screen"),
-        (CaptureScale::Two, "2×", "Twice as many along each side"),
-        (CaptureScale::FourK, "4K", "3840 along the longer side"),
-    ];
-    choose(ui, "Size", tip, &mut draft.capture_scale, &scales);
-    let tip = "What lies behind the shape in pictures and films.";
-    let grounds = [
-        (false, "Coloured", "The ground colour of the project"),
-        (true, "Transparent", "Nothing; for placing on a page"),
-    ];
-    choose(ui, "Ground", tip, &mut draft.capture_transparent, &grounds);
-    let tip = "The kind of file that a recording writes.";
-    let formats = record_formats();
-    choose(ui, "Film", tip, &mut draft.record_format, &formats);
-    if draft.capture_transparent && draft.record_format == RecordFormat::OPAQUE {
-        hint(
-            ui,
-            "MP4 has no transparency: films get the ground colour. GIF, APNG and PNGs have it.",
-        );
-    }
-    if draft != *scene.preferences {
-        acts.push(Intent::Prefer(draft));
-    }
-}
-
-fn record_formats() -> Vec<(RecordFormat, &'static str, &'static str)> {
-    let film = |kind: FilmKind| {
-        let name = kind.name();
-        (RecordFormat::Film(kind), name.title, name.sentence)
-    };
-    let pngs = (RecordFormat::Pngs, "PNGs", "A folder of numbered pictures");
-    FilmKind::ALL.map(film).into_iter().chain([pngs]).collect()
 }

@@ -42,7 +42,7 @@ pub(super) fn grouped(
             .collect()
     });
     let pairing = pair_parts(designs, looks, &fixed, [&taken[0], &taken[1]])?;
-    let pairing = looks.parted(pairing, &fixed);
+    let pairing = unmixed(pairing, looks, &fixed);
     for pair in &pairing.pairs {
         if !fixed.contains(pair) {
             groups.push(Group {
@@ -58,6 +58,29 @@ pub(super) fn grouped(
     // Parts that are born have no number in the source: they come last.
     groups.sort_by_key(Group::key);
     Ok(groups)
+}
+
+/// Lets go of pairs of a letter and something else, where anything else is paired: of a
+/// wave that becomes the second letter of a word neither is recognised.
+fn unmixed(pairing: Pairing, looks: &Looks, fixed: &[[usize; 2]]) -> Pairing {
+    let is_mixed = |pair: &[usize; 2]| {
+        let [a, b] = Side::BOTH.map(|side| looks.is_text(side, pair[side]));
+        a != b && !fixed.contains(pair)
+    };
+    let (mixed, pairs): (Vec<_>, Vec<_>) = pairing.pairs.iter().copied().partition(is_mixed);
+    if pairs.is_empty() {
+        return pairing;
+    }
+    let with = |mut alone: Vec<usize>, side: Side| {
+        alone.extend(mixed.iter().map(|pair| pair[side]));
+        alone.sort_unstable();
+        alone
+    };
+    Pairing {
+        dying: with(pairing.dying, Side::Source),
+        born: with(pairing.born, Side::Target),
+        pairs,
+    }
 }
 
 /// The pairs of parts that links and pins name, each once, ascending.

@@ -1,6 +1,5 @@
 //! How the parts of two designs look, besides their form.
 
-use super::super::pairing::Pairing;
 use crate::colour::Paint;
 use crate::geometry::Side;
 
@@ -57,32 +56,9 @@ impl Looks {
         self.0[side].get(part).is_some_and(|look| look.is_lined)
     }
 
-    /// Lets go of pairs of a letter and something else, where anything else is paired:
-    /// of a wave that becomes the second letter of a word neither is recognised.
-    pub(in crate::correspondence) fn parted(
-        &self,
-        pairing: Pairing,
-        fixed: &[[usize; 2]],
-    ) -> Pairing {
-        let is_text = |side: Side, part: usize| self.0[side].get(part).map(|look| look.is_text);
-        let is_mixed = |pair: &[usize; 2]| {
-            let [a, b] = Side::BOTH.map(|side| is_text(side, pair[side]));
-            a != b && !fixed.contains(pair)
-        };
-        let (mixed, pairs): (Vec<_>, Vec<_>) = pairing.pairs.iter().copied().partition(is_mixed);
-        if pairs.is_empty() {
-            return pairing;
-        }
-        let with = |mut alone: Vec<usize>, side: Side| {
-            alone.extend(mixed.iter().map(|pair| pair[side]));
-            alone.sort_unstable();
-            alone
-        };
-        Pairing {
-            dying: with(pairing.dying, Side::Source),
-            born: with(pairing.born, Side::Target),
-            pairs,
-        }
+    /// Whether a part is a letter of a text; none where all look alike.
+    pub(in crate::correspondence) fn is_text(&self, side: Side, part: usize) -> Option<bool> {
+        self.0[side].get(part).map(|look| look.is_text)
     }
 
     /// The coat of a part, 0 where all look alike.

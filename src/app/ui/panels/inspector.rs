@@ -8,7 +8,7 @@ use bevy_egui::egui::{Panel, ScrollArea, Ui};
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::kit::widgets::ground;
-use crate::app::ui::panels::{appearance, contents, designs, matching, method, rigid, warps};
+use crate::app::ui::panels::{appearance, contents, designs, film, matching, method, rigid, warps};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
 use crate::warp::WarpKind;
@@ -25,7 +25,10 @@ pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
         .show(root, |ui| {
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 ui.set_width(WIDTH - 40.0);
-                sections(ui, scene, acts);
+                match scene.preferences.film_options {
+                    true => film::show(ui, scene, acts),
+                    false => sections(ui, scene, acts),
+                }
                 ui.add_space(2.0 * GRID);
             });
         });

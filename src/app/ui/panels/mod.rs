@@ -3,6 +3,7 @@
 pub mod appearance;
 pub mod contents;
 pub mod designs;
+pub mod film;
 pub mod inspector;
 pub mod matching;
 pub mod method;

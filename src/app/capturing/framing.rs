@@ -1,0 +1,82 @@
+//! How the film that would be written lies over the stage, while its options are open.
+
+use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
+
+use crate::app::asking::choices::{FilmLook, Preferences};
+use crate::app::session::state::Session;
+use crate::export::{Film, FilmError, SizeError, View, framing};
+use crate::geometry::Bounds;
+use crate::transition::{Stop, Timing, Transition};
+
+/// The film that would be written; none while nobody asks.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct FilmFrame(pub Option<Framed>);
+
+/// The frame of a film, and how long it is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Framed {
+    /// What its pictures show.
+    pub view: View,
+    /// How many there are.
+    pub frames: usize,
+    /// How long it runs, in seconds.
+    pub secs: f64,
+}
+
+impl Framed {
+    /// The part of the plane that is seen.
+    #[must_use]
+    pub fn bounds(&self) -> Bounds {
+        let corners = [glam::DVec2::ZERO, self.view.size().as_dvec2()];
+        let [a, b] = corners.map(|px| self.view.to_plane(px));
+        Bounds {
+            min: a.min(b),
+            max: a.max(b),
+        }
+    }
+}
+
+/// Why there is no film.
+#[derive(Debug, thiserror::Error)]
+pub enum FramingError {
+    /// The timing makes none.
+    #[error(transparent)]
+    Film(#[from] FilmError),
+    /// It would have no size.
+    #[error(transparent)]
+    Size(#[from] SizeError),
+}
+
+/// The film of a timing, and what its pictures show: as it is written, and as it is said before.
+///
+/// # Errors
+/// [`FramingError`] where the timing or the size make no film.
+pub fn framed(
+    transition: &Transition,
+    (timing, stops): (&Timing, &[Stop]),
+    look: &FilmLook,
+) -> Result<(Film, View), FramingError> {
+    let film = Film::of_timing(timing, stops, f64::from(look.fps))?;
+    let bounds = framing(transition, film.times());
+    let view = look.layout.view(bounds)?;
+    Ok((film, view))
+}
+
+/// Keeps up with what would be written.
+pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut frame: ResMut<FilmFrame>) {
+    if !session.is_changed() && !preferences.is_changed() {
+        return;
+    }
+    let transition = session.transition().filter(|_| preferences.film_options);
+    let framed = transition.and_then(|transition| {
+        let timing = (session.timing(), session.stops());
+        let (film, view) = framed(transition, timing, &preferences.film).ok()?;
+        let frames = film.times().len();
+        Some(Framed {
+            view,
+            frames,
+            secs: frames as f64 / f64::from(preferences.film.fps),
+        })
+    });
+    frame.set_if_neq(FilmFrame(framed));
+}
