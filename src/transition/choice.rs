@@ -48,6 +48,9 @@ const DISTORTED: f64 = 3.0;
 /// Without a bound a pair of icons took 24 s, and folded.
 const MOST_WORK: usize = 2_500_000;
 
+/// The same for the first film, which is waited for.
+const DRAFT_WORK: usize = 100_000;
+
 /// Holes without a partner cut open or closed, whichever matches better.
 const CUT: Holes = Holes::By(HoleRule::Auto);
 
@@ -84,7 +87,7 @@ pub(super) fn best_of_group(
             group.try_holes(&mut chosen, CUT, &has_lone_holes, &second)?;
         }
         group.try_holes(&mut chosen, Holes::Unpaired, &has_folding_holes, &third)?;
-        group.try_upright(&mut chosen, &span(THIRD, FOURTH))?;
+        group.try_upright(&mut chosen, MOST_WORK, &span(THIRD, FOURTH))?;
         group.try_other_prices(&mut chosen, &span(FOURTH, FIFTH))?;
     }
     let last = span(FIFTH, 1.0);
@@ -96,6 +99,20 @@ pub(super) fn best_of_group(
             none => Ok(none),
         })
         .collect()
+}
+
+/// Each piece as it was asked for, or as it was drawn where it would turn far: the
+/// first film is seen, too.
+pub(super) fn drafts_of_group(
+    group: &GroupOf,
+    progress: &dyn Progress,
+) -> Result<Vec<Chosen>, BuildError> {
+    let [asking, turning] = [(0.0, 0.7), (0.7, 1.0)].map(|(a, b)| Span::new(progress, a, b));
+    let mut chosen = group.as_asked(&asking)?;
+    if !group.prepared.is_crowd() {
+        group.try_upright(&mut chosen, DRAFT_WORK, &turning)?;
+    }
+    Ok(chosen)
 }
 
 impl GroupOf<'_> {
@@ -135,7 +152,7 @@ impl GroupOf<'_> {
                 // of icons of 58.
                 Ok(best) => best.folds() || best.distortion > DISTORTED,
             };
-            let wants = affordable(chosen, &wants, round.len());
+            let wants = affordable(chosen, &wants, round.len(), MOST_WORK);
             self.try_with_their_holes(chosen, round, &wants, span)?;
         }
         Ok(())
@@ -145,6 +162,7 @@ impl GroupOf<'_> {
     fn try_upright(
         &self,
         chosen: &mut [Chosen],
+        most_work: usize,
         progress: &dyn Progress,
     ) -> Result<(), BuildError> {
         let asked = &self.spec.options.matching;
@@ -155,7 +173,7 @@ impl GroupOf<'_> {
             keep_up: true,
             ..asked.options()
         };
-        let wants = affordable(chosen, &turns_far, 1);
+        let wants = affordable(chosen, &turns_far, 1, most_work);
         self.try_with_their_holes(chosen, &[upright], &wants, progress)
     }
 
@@ -191,7 +209,12 @@ impl GroupOf<'_> {
 
 /// Which of the pieces that want so many more films get them: the smallest, for
 /// as much work as a round may cost.
-fn affordable(chosen: &[Chosen], wants: &dyn Fn(&Chosen) -> bool, films: usize) -> Vec<bool> {
+fn affordable(
+    chosen: &[Chosen],
+    wants: &dyn Fn(&Chosen) -> bool,
+    films: usize,
+    most_work: usize,
+) -> Vec<bool> {
     let work = |k: usize| {
         let rings = piece(&chosen[k]).rings.iter();
         let vertices: usize = rings.map(|ring| ring.source.len()).sum();
@@ -202,7 +225,7 @@ fn affordable(chosen: &[Chosen], wants: &dyn Fn(&Chosen) -> bool, films: usize) 
     let (mut done, mut get) = (0, vec![false; chosen.len()]);
     for k in wanting {
         done += work(k);
-        get[k] = done <= MOST_WORK;
+        get[k] = done <= most_work;
     }
     get
 }

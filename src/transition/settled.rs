@@ -9,7 +9,7 @@
 
 use super::births::{self, lives};
 use super::candidate::Candidate;
-use super::choice::best_of_group;
+use super::choice::{best_of_group, drafts_of_group};
 use super::conflicts::in_the_way;
 use super::drawings::Drawings;
 use super::error::BuildError;
@@ -114,7 +114,7 @@ fn parted(
 type Choice<'a> = dyn Fn(&GroupOf, &dyn Progress) -> Result<Vec<Chosen>, BuildError> + Sync + 'a;
 
 fn as_asked(group: &GroupOf, progress: &dyn Progress) -> Result<Vec<Chosen>, BuildError> {
-    group.as_asked(progress)
+    drafts_of_group(group, progress)
 }
 
 /// The pieces so chosen, once those are let go that would go through others,
