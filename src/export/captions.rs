@@ -91,8 +91,7 @@ mod tests {
     use super::*;
 
     fn stop(t: f64, name: &str) -> Stop {
-        let name = name.to_owned();
-        Stop { t, name }
+        Stop::at(t).named(name)
     }
 
     #[test]

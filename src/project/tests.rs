@@ -232,8 +232,8 @@ proptest! {
         project.options.field.blend.threshold = numbers[3];
         project.style.ground = Rgb(colour);
         project.stops = vec![
-            Stop { t: numbers[4], name: names[3].clone() },
-            Stop { t: numbers[5], name: String::new() },
+            Stop { note: names[3].clone(), ..Stop::at(numbers[4]).named(&names[3]) },
+            Stop::at(numbers[5]),
         ];
         let text = project.to_toml().expect("can be written");
         prop_assert_eq!(Project::parse(&text).expect(&text), project);

@@ -36,6 +36,30 @@ pub struct Stop {
     /// What it is called; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub name: String,
+    /// What a speaker says there; may be empty.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub note: String,
+}
+
+impl Stop {
+    /// One without a name.
+    #[must_use]
+    pub fn at(t: f64) -> Self {
+        Self {
+            t,
+            name: String::new(),
+            note: String::new(),
+        }
+    }
+
+    /// The same with a name.
+    #[must_use]
+    pub fn named(self, name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            ..self
+        }
+    }
 }
 
 /// How a transition runs over time.
@@ -169,11 +193,7 @@ mod tests {
     use proptest::prelude::*;
 
     fn stops(at: &[f64]) -> Vec<Stop> {
-        let stop = |&t: &f64| Stop {
-            t,
-            name: String::new(),
-        };
-        at.iter().map(stop).collect()
+        at.iter().copied().map(Stop::at).collect()
     }
 
     #[test]

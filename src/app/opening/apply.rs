@@ -14,7 +14,8 @@ use crate::app::looking::view::KeepsFit;
 use crate::app::opening::closing::{Lost, Question};
 use crate::app::opening::drops::Drop;
 use crate::app::playing::playback::{Playback, SAME_T};
-use crate::app::session::loading::{Problem, Request, absolute};
+use crate::app::session::loading::{Problem, Request};
+use crate::app::session::origin::absolute;
 use crate::app::session::saving::SaveError;
 use crate::app::session::state::{Outcome, Session};
 use crate::app::telling::notices::{About, Notices};
@@ -179,21 +180,11 @@ fn add_stop(session: &mut Session, t: f64, mark: Option<u64>) -> bool {
             .iter()
             .all(|stop| (stop.t - t).abs() >= SAME_T)
         {
-            let name = free_name(&project.stops);
-            project.stops.insert(place, Stop { t, name });
+            project.stops.insert(place, Stop::at(t));
             is_added = true;
         }
     });
     is_added
-}
-
-fn free_name(stops: &[Stop]) -> String {
-    let taken = |name: &String| stops.iter().any(|stop| stop.name == *name);
-    // One more name than there are stops: one of them is free.
-    (1..=stops.len() + 1)
-        .map(|n| format!("Stop {n}"))
-        .find(|name| !taken(name))
-        .unwrap_or_default()
 }
 
 /// Acts on the intents that save; tells what was saved, and lets go on what waited for it.

@@ -13,10 +13,7 @@ fn timing(play: PlayMode) -> Timing {
 }
 
 fn stop(t: f64) -> Stop {
-    Stop {
-        t,
-        name: String::new(),
-    }
+    Stop::at(t)
 }
 
 #[test]

@@ -174,11 +174,12 @@ fn playhead(ui: &Ui, ruler: Ruler, t: f64) {
 fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
     // Taken out after the loop, which goes through the list that it would be taken out of.
     let mut deleted = None;
+    let places: Vec<f64> = stops.iter().map(|stop| stop.t).collect();
     for (index, stop) in stops.iter_mut().enumerate() {
         let at = pos2(ruler.x(stop.t), ruler.y - 14.0);
         // By number and not by name, which may be written while its menu is open.
         let id = ui.id().with(("stop", index));
-        let name = OneLine(&stop.name).to_string();
+        let name = label(stop, &places);
         let response = marker(ui, at, id, &name);
         if response.clicked() {
             acts.push(Intent::Seek(stop.t));
@@ -190,7 +191,8 @@ fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
             stop.t = rounded(ruler.t(pointer.x));
         }
         let tip = format!(
-            "{} at t = {:.3}. Click to go there, drag to move, right-click to rename or delete.",
+            "Stop {} at t = {:.3}. Click to go there, drag to move, right-click for its name, \
+             notes, or to delete it.",
             name, stop.t
         );
         let response = response.on_hover_text(tip);
@@ -203,6 +205,15 @@ fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
     if let Some(index) = deleted {
         stops.remove(index);
     }
+}
+
+/// Its name, or its number from left to right.
+fn label(stop: &Stop, places: &[f64]) -> String {
+    if !stop.name.is_empty() {
+        return OneLine(&stop.name).to_string();
+    }
+    let before = places.iter().filter(|place| **place < stop.t).count();
+    (before + 1).to_string()
 }
 
 fn marker(ui: &Ui, at: Pos2, id: Id, name: &str) -> Response {
@@ -229,13 +240,20 @@ fn marker(ui: &Ui, at: Pos2, id: Id, name: &str) -> Response {
 
 /// Whether the stop is to be deleted.
 fn stop_menu(ui: &mut Ui, stop: &mut Stop) -> bool {
-    ui.set_width(184.0);
+    ui.set_width(240.0);
     ui.add(
         egui::TextEdit::singleline(&mut stop.name)
-            .hint_text("Name")
+            .hint_text("Name, shown as a caption")
             .desired_width(f32::INFINITY),
     )
-    .on_hover_text("Name of the stop");
+    .on_hover_text("The name of the stop: captions in films and talks show it.");
+    ui.add(
+        egui::TextEdit::multiline(&mut stop.note)
+            .hint_text("Notes for the speaker")
+            .desired_rows(3)
+            .desired_width(f32::INFINITY),
+    )
+    .on_hover_text("What to say here: only the speaker sees it, in a window of its own (N).");
     ui.horizontal(|ui| {
         ui.label("t");
         let number = DragValue::new(&mut stop.t).speed(0.002).max_decimals(6);
