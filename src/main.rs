@@ -18,6 +18,7 @@ fn open_window(request: cli::WindowRequest) -> ExitCode {
     run(AppOptions {
         files: request.files,
         captures: request.captures,
+        presents: request.present,
     })
     .report()
 }

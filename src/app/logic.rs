@@ -25,6 +25,7 @@ use crate::app::playing::playback::{self, Playback};
 use crate::app::playing::staging;
 use crate::app::session::state::Session;
 use crate::app::telling::notices::{self, Notices};
+use crate::app::playing::presenting::{self, Presenting};
 use crate::stage::MorphSystems;
 
 /// Everything that needs neither a window nor a graphics card.
@@ -69,12 +70,14 @@ fn init(app: &mut App) {
         .init_resource::<ClearColor>()
         .init_resource::<ButtonInput<MouseButton>>()
         .init_resource::<hand::Gesture>()
+        .add_message::<bevy::window::CursorMoved>()
         .init_resource::<Gallery>()
         .init_resource::<Session>()
         .init_resource::<Playback>()
         .init_resource::<Preferences>()
         .init_resource::<KeyMap>()
         .init_resource::<Typing>()
+        .init_resource::<Presenting>()
         .init_resource::<Editor>()
         .init_resource::<Sheet>()
         .init_resource::<Measured>()
@@ -99,8 +102,8 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         // Before all that reads intents, so that closing takes no frame longer than a key.
         closing::read_close_requests,
         // Before what opens or shows anything: Esc leaves what was there when it was pressed.
-        view::back,
-        preferences::apply,
+        (view::back, presenting::apply).chain(),
+        (preferences::apply, presets::apply).chain(),
         // Questions before what they hold back.
         (closing::answer, closing::close, drops::decide).chain(),
         (dialogs::choose, dialogs::open).chain(),
@@ -117,8 +120,15 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             .chain(),
         (measuring::follow, twin::apply, twin::follow).chain(),
         // Moved on before it is told where to go: else the time of a rest would be played at once.
-        (playback::advance, playback::apply).chain(),
-        (films::apply, films::report, framing::follow).chain(),
+        (playback::advance, presenting::begin, playback::apply).chain(),
+        presenting::hide_pointer,
+        (
+            films::apply,
+            films::report,
+            framing::follow,
+            estimate::follow,
+        )
+            .chain(),
         view::apply,
         notices::apply,
     )

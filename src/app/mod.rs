@@ -54,6 +54,7 @@ pub use playing::staging::OnStage;
 pub use session::loading::Problem;
 pub use session::saving::SaveError;
 pub use session::state::{Session, Unavailable};
+pub use playing::presenting::Presenting;
 pub use telling::job::JobError;
 pub use telling::notices::{About, Kind, Notice, Notices};
 pub use window::{AppOptions, WindowPlugins, run};

@@ -7,7 +7,8 @@ use bevy::camera::visibility::{RenderLayers, VisibilitySystems};
 use bevy::camera::{CameraOutputMode, CompositingSpace};
 use bevy::prelude::*;
 use bevy::render::render_resource::BlendState;
-use bevy::window::{ExitCondition, WindowResolution};
+use bevy::window::{ExitCondition, WindowMode, WindowResolution};
+use bevy::winit::{EventLoopProxyWrapper, WinitUserEvent};
 use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 
 use crate::app::asking::intent::Intent;
@@ -17,7 +18,9 @@ use crate::app::logic::LogicPlugin;
 use crate::app::looking::view;
 use crate::app::opening::apply::Gallery;
 use crate::app::opening::thumbnails;
-use crate::app::playing::{pace, staging};
+use crate::app::opening::watching::Watch;
+use crate::app::playing::presenting::whole_screen;
+use crate::app::playing::{pace, speaker, staging};
 use crate::app::ui::draw::UiPlugin;
 use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
 
@@ -31,10 +34,17 @@ pub struct AppOptions {
 }
 
 /// Opens the window and returns when it was closed.
+    /// A talk begins at once, and the window closes with it.
+    pub presents: bool,
 pub fn run(options: AppOptions) -> AppExit {
-    let AppOptions { files, captures } = options;
+    let AppOptions {
+        files,
+        captures,
+        presents,
+    } = options;
+    let autosave = autosave();
     App::new()
-        .add_plugins(DefaultPlugins.set(window()))
+        .add_plugins(DefaultPlugins.set(window(presents)))
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(CaptureFolder::choose(captures))
         .add_systems(
@@ -47,6 +57,9 @@ pub fn run(options: AppOptions) -> AppExit {
 }
 
 fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
+                if presents {
+                    intents.write(Intent::Present { is_all: true });
+                }
     let bundled = match files {
         [] => gallery.0.first().map(|entry| entry.name.clone()),
         [one] => one
@@ -59,7 +72,7 @@ fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
     bundled.map_or_else(|| Intent::Open(files.to_vec()), Intent::OpenGallery)
 }
 
-fn window() -> WindowPlugin {
+fn window(presents: bool) -> WindowPlugin {
     WindowPlugin {
         primary_window: Some(Window {
             title: "Morphospace".to_owned(),
@@ -91,6 +104,12 @@ impl Plugin for WindowPlugins {
             .init_resource::<pictures::Captures>()
             .init_resource::<thumbnails::Thumbnails>()
             .add_systems(Startup, spawn_cameras)
+            // From its first frame on.
+            mode: if presents {
+                whole_screen()
+            } else {
+                WindowMode::Windowed
+            },
             // Last: what this frame has begun decides how soon the next one comes.
             .add_systems(Last, pace::keep)
             .add_systems(
@@ -118,6 +137,7 @@ impl Plugin for WindowPlugins {
             .add_plugins(HierarchyPropagatePlugin::<RenderLayers>::new(PostUpdate))
             .configure_sets(
                 PostUpdate,
+            .init_resource::<speaker::Speaker>()
                 PropagateSet::<RenderLayers>::default().before(VisibilitySystems::CheckVisibility),
             )
             .add_systems(
@@ -126,6 +146,7 @@ impl Plugin for WindowPlugins {
             );
     }
 }
+                    (speaker::apply, speaker::follow).chain(),
 
 /// One camera for the stage, in its part of the window, one for the second method beside it, and
 /// one above them for the panels.

@@ -29,6 +29,7 @@ const EXAMPLES: &str = "\
 Examples:
   morphospace                                   the gallery, in a window
   morphospace a.svg b.svg                       a pair, in a window
+  morphospace --present talk.morph              a talk, on the whole screen
   morphospace render a.svg b.svg --out film.gif
   morphospace render bridge.morph --at 0.5 --out half.svg
   morphospace render gallery:letters --sheet 7 --out sheet.png
@@ -74,6 +75,10 @@ pub struct WindowRequest {
     /// Folder for pictures taken in the window [default: the pictures folder]
     #[arg(long, value_name = "DIR")]
     pub captures: Option<PathBuf>,
+
+    /// Begin a talk at once: whole screen, nothing but the drawing, from the first stop; Esc ends it
+    #[arg(long, requires = "files")]
+    pub present: bool,
 }
 
 /// What is left to do once the command line is dealt with.

@@ -6,15 +6,6 @@ use crate::colour::{Paint, Rgb};
 use crate::geometry::DVec2;
 use crate::transition::Stop;
 
-/// The height of the band that captions stand in, of a picture's shorter side.
-pub(super) const BAND: f64 = 0.12;
-
-/// The height of a line of letters, of the shorter side.
-const LETTERS: f64 = 0.055;
-
-/// How much of a picture's width a caption may have.
-const WIDEST: f64 = 0.92;
-
 /// The share of the way to the middle between two names that one stays whole, and that
 /// at which it is gone.
 const WHOLE: f64 = 0.5;
@@ -29,6 +20,15 @@ pub struct Captions {
 }
 
 impl Captions {
+    /// How much of a picture's width a caption may have.
+    pub const WIDEST: f64 = 0.92;
+
+    /// The height of a line of letters, of the shorter side.
+    pub const LETTERS: f64 = 0.055;
+
+    /// The height of the band that captions stand in, of a picture's shorter side.
+    pub const BAND: f64 = 0.12;
+
     /// The names of the stops; where none has one, those of the two designs. They are
     /// dark or light, whichever can be read on that ground.
     #[must_use]
@@ -67,6 +67,12 @@ impl Captions {
         (seen > 0.0).then_some((nearest.1.as_str(), seen))
     }
 
+    /// What they are written in.
+    #[must_use]
+    pub fn colour(&self) -> Rgb {
+        self.colour
+    }
+
     /// Adds what stands below the frame at `t`.
     pub(super) fn push(&self, drawing: &mut Drawing, t: f64) {
         let Some((words, seen)) = self.at(t) else {
@@ -74,10 +80,10 @@ impl Captions {
         };
         let size = drawing.size.as_dvec2();
         let shorter = size.min_element();
-        let height = LETTERS * shorter;
+        let height = Self::LETTERS * shorter;
         let width = text::width(words, height);
-        let height = height * (WIDEST * size.x / width).min(1.0);
-        let base = DVec2::new(0.5 * size.x, size.y - 0.45 * BAND * shorter);
+        let height = height * (Self::WIDEST * size.x / width).min(1.0);
+        let base = DVec2::new(0.5 * size.x, size.y - 0.45 * Self::BAND * shorter);
         let paint = Paint {
             opacity: seen,
             ..self.colour.into()

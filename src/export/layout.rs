@@ -4,7 +4,7 @@
 //! pictures are wide, 1080 × 1920 where they are tall and 1080 × 1080 where they are
 //! square.
 
-use super::captions::BAND;
+use super::captions::Captions;
 use super::size::{PixelSize, SizeError};
 use super::view::View;
 use crate::geometry::{Bounds, DVec2};
@@ -100,7 +100,7 @@ impl Layout {
         let shorter = size.as_dvec2().min_element();
         let margin = self.margin.clamp(0.0, 0.4) * shorter;
         let below = if self.has_captions {
-            BAND * shorter
+            Captions::BAND * shorter
         } else {
             0.0
         };
@@ -210,7 +210,7 @@ mod tests {
         let view = layout.view(wide()).expect("a view");
         let [low, high] = [wide().min, wide().max].map(|p| view.to_px(p));
         assert!((low.x - 108.0).abs() < 1e-9 && (high.x - 972.0).abs() < 1e-9);
-        assert!(low.y < 0.9 * 1080.0 - BAND * 1080.0);
+        assert!(low.y < 0.9 * 1080.0 - Captions::BAND * 1080.0);
     }
 
     #[test]

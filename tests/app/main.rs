@@ -11,4 +11,5 @@ mod opening;
 mod rest;
 mod saving;
 mod telling;
+mod talk;
 mod window;

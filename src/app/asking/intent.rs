@@ -100,6 +100,17 @@ pub enum Intent {
     ToggleFullscreen,
     /// Hide everything but the stage, or show it again.
     TogglePanels,
+    /// Begin a talk, or end it.
+    Present {
+        /// The window is there for it, and closes with it.
+        is_all: bool,
+    },
+    /// Make the screen black in a talk, or show the drawing again.
+    Black,
+    /// Show or hide the speaker's window in a talk.
+    ToggleSpeaker,
+    /// Show or hide the captions in a talk.
+    ToggleCaptions,
     /// Show or hide the list of keys.
     ToggleHelp,
     /// Show or hide the times of a frame.
@@ -152,3 +163,45 @@ pub enum Answer {
     /// Do not go on.
     Stay,
 }
+    /// The answer to what can be taken up again.
+    Rescue(Rescue),
+}
+
+/// An answer to "this was not saved when the program ended".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Rescue {
+    /// Open it as it was.
+    Restore,
+    /// It is not wanted.
+    Discard,
+    /// Ask again at the next start.
+    Later,
+}
+
+impl Intent {
+    /// It may be asked for in a talk: it shows nothing but the drawing.
+    #[must_use]
+    pub const fn is_of_a_talk(&self) -> bool {
+        matches!(
+            self,
+            Self::TogglePlay
+                | Self::Reverse
+                | Self::Step(_)
+                | Self::Seek(_)
+                | Self::SeekStart
+                | Self::SeekEnd
+                | Self::JumpToNextStop
+                | Self::JumpToPreviousStop
+                | Self::PlayToNextStop
+                | Self::PlayToPreviousStop
+                | Self::Faster
+                | Self::Slower
+                | Self::NormalSpeed
+                | Self::Present { .. }
+                | Self::Black
+                | Self::ToggleSpeaker
+                | Self::ToggleCaptions
+                | Self::ToggleFullscreen
+                | Self::Back
+        )
+    }

@@ -14,6 +14,7 @@ use crate::app::asking::acts::EditorAct;
 use crate::app::asking::hand::Typing;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
+use crate::app::playing::presenting::Presenting;
 
 /// How a binding recognises its key.
 #[derive(Clone, Debug, PartialEq)]
@@ -245,7 +246,7 @@ pub fn read_keys(
     mut inputs: MessageReader<KeyboardInput>,
     mut focus_lost: MessageReader<KeyboardFocusLost>,
     map: Res<KeyMap>,
-    (typing, editor): (Res<Typing>, Res<Editor>),
+    (typing, editor, presenting): (Res<Typing>, Res<Editor>, Res<Presenting>),
     mut held: Local<Held>,
     mut intents: MessageWriter<Intent>,
 ) {
@@ -256,10 +257,9 @@ pub fn read_keys(
     for input in inputs.read() {
         // Also while a text is written: what is held when the field is left still counts.
         held.note(input);
-        if let Some(intent) = map
-            .intent(input, *held, editor.is_open)
-            .filter(|_| !typing.0)
-        {
+        let meant = map.intent(input, *held, editor.is_open);
+        let may = |intent: &&Intent| !typing.0 && (!presenting.is_on() || intent.is_of_a_talk());
+        if let Some(intent) = meant.filter(may) {
             intents.write(intent.clone());
         }
     }

@@ -9,7 +9,7 @@ use crate::app::asking::keymap::{Binding, Held, KeyMap, Row};
 
 impl Default for KeyMap {
     fn default() -> Self {
-        Self::new([playing(), stops(), changing(), view(), files()].concat())
+        Self::new([playing(), stops(), talk(), changing(), view(), files()].concat())
     }
 }
 
@@ -100,6 +100,29 @@ fn stops() -> Vec<Row> {
             (
                 "Play back to the stop before",
                 vec![key(Named(Key::PageUp), PlayToPreviousStop)],
+            ),
+        ],
+    )
+}
+
+fn talk() -> Vec<Row> {
+    use Intent::{Black, Present, ToggleCaptions, ToggleSpeaker};
+    let present = Present { is_all: false };
+    group(
+        "Talk",
+        [
+            (
+                "Present: the drawing alone, from the first stop",
+                vec![key(Named(Key::F5), present)],
+            ),
+            (
+                "Black, and back",
+                vec![key(Letter('b'), Black), key(Sign('.'), Black)],
+            ),
+            ("Captions", vec![key(Letter('t'), ToggleCaptions)]),
+            (
+                "Notes and the next stop, in a window",
+                vec![key(Letter('n'), ToggleSpeaker)],
             ),
         ],
     )

@@ -14,15 +14,6 @@ use crate::app::capturing::framing::{FramingError, framed};
 use crate::app::session::state::Session;
 use crate::app::telling::job::{Job, JobError};
 use crate::app::telling::notices::{About, Notices};
-use crate::colour::Rgb;
-use crate::export::{
-    Camera, Captions, ExportError, MethodRow, SizeError, StillKind, Target, TargetError,
-    comparison, even_times, write_film, write_still,
-};
-use crate::names::Choice;
-use crate::progress::{Cancelled, Progress};
-use crate::project::{LoadedProject, Project, ProjectError};
-use crate::transition::Transition;
 
 /// The recording that is going on, if any.
 #[derive(Resource, Debug, Default)]
@@ -145,85 +136,5 @@ pub fn report(mut recorder: ResMut<Recorder>, mut notices: ResMut<Notices>) {
             notices.done(RecordError::Cancelled.to_string());
         }
         Some(Err(error)) => notices.problem(About::Film, error.to_string()),
-    }
-}
-
-/// Everything that a recording needs, so that the project can change meanwhile.
-struct Order {
-    project: Project,
-    transition: Transition,
-    look: FilmLook,
-    names: [String; 2],
-    /// None where it is transparent.
-    ground: Option<Rgb>,
-    format: RecordFormat,
-    folder: PathBuf,
-    stem: String,
-}
-
-impl Order {
-    /// None where nothing is on the stage.
-    fn new(preferences: &Preferences, session: &Session, folder: &CaptureFolder) -> Option<Self> {
-        let project = session.project()?.clone();
-        let ground = project.style.ground;
-        Some(Self {
-            project,
-            transition: session.transition()?.clone(),
-            look: preferences.film,
-            names: [0, 1].map(|k| {
-                session
-                    .designs()
-                    .get(k)
-                    .map_or_else(String::new, |d| d.name.clone())
-            }),
-            ground: (!preferences.capture_transparent).then_some(ground),
-            format: preferences.record_format,
-            folder: folder.0.clone(),
-            stem: session.file_stem(),
-        })
-    }
-
-    fn carry_out(self, progress: &dyn Progress) -> Result<PathBuf, RecordError> {
-        let path = match self.format {
-            RecordFormat::Film(kind) => create_new(&self.folder, &self.stem, kind.name().key)?.1,
-            RecordFormat::Pngs => create_new_folder(&self.folder, &self.stem)?,
-        };
-        let written = self.film(&Target::of_path(&path)?, progress);
-        whole(path, written)
-    }
-
-    /// One pass there; where it plays to and fro, the way back too, so that it can be looped.
-    fn film(&self, target: &Target, progress: &dyn Progress) -> Result<(), RecordError> {
-        let (style, stops) = (self.project.style, &self.project.stops);
-        let timing = (&self.project.timing, stops.as_slice());
-        let (film, view) = framed(&self.transition, timing, &self.look)?;
-        let names = self.names.each_ref().map(String::as_str);
-        let captions = Captions::new(stops, names, style.ground);
-        let is_opaque = self.format == RecordFormat::OPAQUE;
-        let camera = Camera {
-            transition: self.transition.clone(),
-            style,
-            view,
-            ground: self.ground.or(is_opaque.then_some(style.ground)),
-            captions: self.look.layout.has_captions.then_some(captions),
-        };
-        write_film(&camera, &film, target, progress)?;
-        Ok(())
-    }
-
-    /// A sheet of every method by which the pair can be seen.
-    fn compare(
-        self,
-        staged: &LoadedProject,
-        progress: &dyn Progress,
-    ) -> Result<PathBuf, RecordError> {
-        let rows = MethodRow::all(&staged.spec()?, progress)?;
-        let timing = &self.project.timing;
-        let times = even_times(timing.from, timing.to, COLUMNS);
-        let drawing = comparison(&rows, &self.project.style, &times, self.ground)?;
-        let stem = format!("{}-methods", self.stem);
-        let (_, path) = create_new(&self.folder, &stem, "png")?;
-        let written = write_still(&drawing, StillKind::Png, &path);
-        Ok(whole(path, written)?)
     }
 }

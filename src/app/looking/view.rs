@@ -2,7 +2,7 @@
 
 use bevy::camera::Viewport;
 use bevy::prelude::*;
-use bevy::window::{MonitorSelection, PrimaryWindow, WindowMode};
+use bevy::window::{PrimaryWindow, WindowMode};
 
 use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
@@ -16,6 +16,7 @@ use crate::app::opening::closing::Question;
 use crate::app::opening::drops::Drop;
 use crate::app::session::state::Session;
 use crate::geometry::Bounds;
+use crate::app::playing::presenting::{Presenting, whole_screen};
 use crate::stage::{StageCamera, StageView};
 
 /// Room around the transition when all of it is shown, as a part of its size: outlines and the
@@ -191,9 +192,7 @@ pub fn window_mode(
     for intent in intents.read() {
         if *intent == Intent::ToggleFullscreen {
             window.mode = match window.mode {
-                // Borderless: the other kind may change the screen's resolution, which takes
-                // seconds.
-                WindowMode::Windowed => WindowMode::BorderlessFullscreen(MonitorSelection::Current),
+                WindowMode::Windowed => whole_screen(),
                 _ => WindowMode::Windowed,
             };
         }
@@ -202,17 +201,34 @@ pub fn window_mode(
 
 /// Esc: the help goes first, then work that is told of, then what hid the panels, then the whole
 /// screen, and when nothing else is left to leave a recording.
+/// What Esc answers before all else.
+type Asking<'w> = (
+    Res<'w, Question>,
+    Res<'w, Drop>,
+    Res<'w, Autosave>,
+    Res<'w, Presenting>,
+);
+
+/// Work that Esc stops.
+type Working<'w> = (
+    ResMut<'w, Choosing>,
+    ResMut<'w, Measured>,
+    ResMut<'w, Helping>,
+);
+
 pub fn back(
     mut intents: MessageReader<Intent>,
     mut preferences: ResMut<Preferences>,
     mut window: Query<&mut Window, With<PrimaryWindow>>,
     (mut editor, mut twin): (ResMut<Editor>, ResMut<Twin>),
-    (question, drop): (Res<Question>, Res<Drop>),
+    (question, drop, autosave, presenting): Asking,
     (mut session, recorder): (ResMut<Session>, Res<Recorder>),
     (mut choosing, mut measured): (ResMut<Choosing>, ResMut<Measured>),
 ) {
-    if question.text().is_some() || drop.undecided().is_some() {
-        intents.clear(); // Esc answers the question and nothing else.
+    let is_asked =
+        question.text().is_some() || drop.undecided().is_some() || autosave.lost().is_some();
+    if is_asked || presenting.is_on() {
+        intents.clear(); // Esc answers the question, or ends the talk, and nothing else.
         return;
     }
     let backs = intents

@@ -3,8 +3,10 @@
 //! Closing the window and opening another project go through here: a [`Question`] holds
 //! them back where something would be lost, asks, and sends them on again once it is decided.
 
-use bevy::prelude::{AppExit, Commands, MessageReader, MessageWriter, Res, ResMut, Resource};
-use bevy::window::WindowCloseRequested;
+use bevy::prelude::{
+    AppExit, Commands, MessageReader, MessageWriter, Query, Res, ResMut, Resource, With, Without,
+};
+use bevy::window::{PrimaryWindow, Window, WindowCloseRequested};
 
 use crate::app::asking::intent::{Answer, Intent};
 use crate::app::capturing::films::Recorder;
@@ -74,9 +76,12 @@ impl Question {
 /// Turns the window's wish to close into an intent.
 pub fn read_close_requests(
     mut requests: MessageReader<WindowCloseRequested>,
+    others: Query<(), (With<Window>, Without<PrimaryWindow>)>,
     mut intents: MessageWriter<Intent>,
 ) {
-    if requests.read().count() > 0 {
+    // The speaker's window only closes itself.
+    let is_all = |request: &&WindowCloseRequested| !others.contains(request.window);
+    if requests.read().filter(is_all).count() > 0 {
         intents.write(Intent::Close);
     }
 }

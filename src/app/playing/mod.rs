@@ -2,4 +2,6 @@
 
 pub mod pace;
 pub mod playback;
+pub mod presenting;
+pub mod speaker;
 pub mod staging;

@@ -28,6 +28,8 @@ use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
 use crate::app::telling::notices::Notices;
 use crate::stage::PipelinesReady;
+use crate::app::playing::presenting::Presenting;
+use crate::app::playing::speaker::Speaker;
 
 /// While work goes on, the window looks this often whether it is done: soon enough not to be
 /// noticed, and rarely enough to leave the processor to the work.
@@ -87,6 +89,8 @@ pub struct Going<'w, 's> {
     preferences: Res<'w, Preferences>,
     captures: Res<'w, Captures>,
     shots: Query<'w, 's, (), With<Screenshot>>,
+    presenting: Res<'w, Presenting>,
+    speaker: Res<'w, Speaker>,
     recorder: Res<'w, Recorder>,
     thumbnails: Res<'w, Thumbnails>,
     choosing: Res<'w, Choosing>,
@@ -118,6 +122,8 @@ impl Going<'_, '_> {
             || self.thumbnails.is_busy()
             || self.choosing.told().is_some()
             || self.measured.is_busy()
+            || self.presenting.waits()
+            || self.speaker.is_open()
             || self.twin.is_busy()
             || self.dialog.asks().is_some()
             || self.drop.is_arriving()

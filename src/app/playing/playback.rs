@@ -187,6 +187,12 @@ impl Playback {
         }
     }
 
+    /// Where slides go to from here; none beyond the last.
+    #[must_use]
+    pub fn next_stop(&self, timing: &Timing, stops: &[Stop]) -> Option<f64> {
+        next_landmark(self.heading(), false, timing, stops)
+    }
+
     /// The next faster (or slower) speed of the fixed list.
     pub fn change_speed(&mut self, faster: bool) {
         let next = if faster {
@@ -275,6 +281,21 @@ pub fn landmarks(timing: &Timing, stops: &[Stop]) -> Vec<f64> {
     // Sorted before, so that those that are one lie side by side.
     all.dedup_by(|a, b| (*a - *b).abs() < SAME_T);
     all
+}
+
+/// Where a talk begins: the first stop in the direction of the pass; the start of the pass where
+/// there is none.
+#[must_use]
+pub fn first_stop(timing: &Timing, stops: &[Stop]) -> f64 {
+    let along = |stop: &Stop| {
+        if timing.to < timing.from {
+            -stop.t
+        } else {
+            stop.t
+        }
+    };
+    let first = stops.iter().min_by(|a, b| along(a).total_cmp(&along(b)));
+    first.map_or(timing.from, |stop| stop.t)
 }
 
 /// The first landmark after `t` in the direction of the pass, or the last before it.

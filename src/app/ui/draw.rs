@@ -17,9 +17,9 @@ use crate::app::ui::kit::theme;
 use crate::app::ui::overlays::{files, help, notices, questions, times, work};
 use crate::app::ui::panels::inspector;
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::{area, film, twin, verdict};
+use crate::app::ui::stage::{area, film, talk, twin, verdict};
 use crate::app::ui::timeline::{plots, strip};
-use crate::app::ui::{gallery, match_editor, toolbar};
+use crate::app::ui::{gallery, match_editor, speaker, toolbar};
 
 /// Draws the panels with egui.
 #[derive(Debug)]
@@ -44,6 +44,8 @@ impl Plugin for UiPlugin {
                 EguiPostUpdateSet::PostProcessOutput.before(AssetEventSystems),
             )
             .add_observer(dress)
+            .add_observer(speaker::join)
+            .add_systems(speaker::SpeakerPass, speaker::draw)
             .add_systems(EguiPrimaryContextPass, draw)
             .init_resource::<Repaint>()
             .add_systems(
@@ -127,6 +129,9 @@ fn draw(
 /// What the panels leave: the stage, a second method beside it, or the match editor. Returns the
 /// part that the stage takes.
 fn middle(root: &mut egui::Ui, scene: &Scene, stage: egui::Rect, acts: &mut Intents) -> egui::Rect {
+    if scene.presenting.is_on() {
+        return talk::show(root, scene, stage, acts);
+    }
     if scene.editor.is_open {
         match_editor::show(root, scene, stage, acts);
         return stage;
@@ -184,7 +189,9 @@ fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut In
     if scene.preferences.help {
         help::show(ctx, scene, acts);
     }
-    questions::show(ctx, scene, acts);
+    if !scene.presenting.is_on() {
+        questions::show(ctx, scene, acts);
+    }
 }
 
 /// What the program has to tell of itself.

@@ -11,6 +11,7 @@ mod match_editor;
 mod overlays;
 mod panels;
 mod scene;
+mod speaker;
 mod stage;
 mod timeline;
 mod toolbar;

@@ -24,6 +24,7 @@ use crate::app::session::state::Session;
 use crate::app::telling::notices::Notices;
 use crate::stage::{FrameTimes, StageView};
 
+use crate::app::playing::presenting::Presenting;
 /// Everything that the panels show.
 #[derive(SystemParam)]
 pub struct Scene<'w> {
@@ -41,6 +42,7 @@ pub struct Scene<'w> {
     pub thumbnails: Res<'w, Thumbnails>,
     pub recorder: Res<'w, Recorder>,
     pub film: Res<'w, FilmFrame>,
+    pub presenting: Res<'w, Presenting>,
     pub question: Res<'w, Question>,
     pub dialog: Res<'w, Dialog>,
     pub drop: Res<'w, Drop>,

@@ -105,6 +105,9 @@ fn capture_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         Intent::Prefer(options),
         acts,
     );
+    let tip = "Present: nothing but the drawing, from the first stop (F5)";
+    let talk = Intent::Present { is_all: false };
+    act_button(ui, icons::PRESENT, tip, talk, acts);
     let tip = "Record one pass as a film, in the background (G)";
     let icon = icons::RECORD.inked(Some(Palette::of(ui).problem));
     act_button(ui, icon, tip, Intent::Record, acts);

@@ -67,6 +67,7 @@ pub const MORE: Icon = lines(regular::CARET_DOWN);
 pub const NEXT_STOP: Icon = lines(regular::CARET_LINE_RIGHT);
 pub const OPEN: Icon = lines(regular::FOLDER_OPEN);
 pub const PLOT: Icon = lines(regular::CHART_LINE);
+pub const PRESENT: Icon = lines(regular::PRESENTATION);
 pub const PREVIOUS_STOP: Icon = lines(regular::CARET_LINE_LEFT);
 pub const REDO: Icon = lines(regular::ARROW_U_UP_RIGHT);
 pub const SAVE: Icon = lines(regular::FLOPPY_DISK);

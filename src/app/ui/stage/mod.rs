@@ -1,6 +1,7 @@
-//! What lies on the stage: the hand on it, the second method beside it, the verdict.
+//! What lies on the stage: the hand on it, the second method beside it, the verdict, a talk.
 
 pub mod area;
 pub mod film;
+pub mod talk;
 pub mod twin;
 pub mod verdict;

@@ -1,0 +1,167 @@
+//! The window that only the speaker sees: how long the talk has run, what to say here, and the next
+//! stop.
+//!
+//! It comes of its own accord where there is a second screen, and then the audience gets that
+//! screen; with one screen it comes when it is asked for, to be dragged to where nobody sees it.
+
+use std::sync::Arc;
+
+use bevy::camera::RenderTarget;
+use bevy::camera::visibility::RenderLayers;
+use bevy::prelude::*;
+use bevy::window::{
+    Monitor, MonitorSelection, PrimaryMonitor, PrimaryWindow, WindowCloseRequested, WindowMode,
+    WindowPosition, WindowRef, WindowResolution,
+};
+use image::RgbaImage;
+
+use crate::app::asking::intent::Intent;
+use crate::app::playing::playback::Playback;
+use crate::app::playing::presenting::Presenting;
+use crate::app::session::state::Session;
+use crate::app::telling::job::Job;
+use crate::colour::Rgb;
+use crate::export::{Camera as FilmCamera, PixelSize, SizeError, View};
+use crate::transition::{Style, Transition};
+
+/// The picture of the next stop, in pixels.
+const PICTURE_PX: (u32, u32) = (640, 360);
+
+/// The camera of the speaker's window.
+#[derive(Component, Debug)]
+pub struct SpeakerCamera;
+
+/// The speaker's window and what it shows.
+#[derive(Resource, Debug, Default)]
+pub struct Speaker {
+    /// The window and its camera.
+    window: Option<(Entity, Entity)>,
+    /// What the picture shows: that film at that t.
+    shown: Option<(Transition, f64)>,
+    picture: Option<Arc<RgbaImage>>,
+    job: Option<Job<RgbaImage, SizeError>>,
+}
+
+impl Speaker {
+    /// It is open.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        self.window.is_some()
+    }
+
+    /// What the next stop looks like.
+    #[must_use]
+    pub fn picture(&self) -> Option<Arc<RgbaImage>> {
+        self.picture.clone()
+    }
+}
+
+/// Opens and closes the window.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    mut closing: MessageReader<WindowCloseRequested>,
+    mut speaker: ResMut<Speaker>,
+    presenting: Res<Presenting>,
+    monitors: Query<(Entity, Has<PrimaryMonitor>), With<Monitor>>,
+    mut audience: Query<&mut Window, With<PrimaryWindow>>,
+    mut commands: Commands,
+) {
+    let second = monitors
+        .iter()
+        .find(|(_, is_primary)| !is_primary)
+        .map(|(screen, _)| screen);
+    for intent in intents.read() {
+        match intent {
+            Intent::Present { .. } if presenting.is_on() && speaker.window.is_none() => {
+                if let (Some(screen), Ok(mut window)) = (second, audience.single_mut()) {
+                    let screen = MonitorSelection::Entity(screen);
+                    window.mode = WindowMode::BorderlessFullscreen(screen);
+                    speaker.window = Some(open(&mut commands));
+                }
+            }
+            Intent::ToggleSpeaker if presenting.is_on() && speaker.window.is_none() => {
+                speaker.window = Some(open(&mut commands));
+            }
+            Intent::ToggleSpeaker => close(&mut speaker, &mut commands),
+            _ => {}
+        }
+    }
+    let is_own = |request: &WindowCloseRequested| {
+        speaker
+            .window
+            .is_some_and(|(window, _)| window == request.window)
+    };
+    let is_closed = closing.read().filter(|request| is_own(request)).count() > 0;
+    if speaker.window.is_some() && (is_closed || !presenting.is_on()) {
+        close(&mut speaker, &mut commands);
+    }
+}
+
+fn open(commands: &mut Commands) -> (Entity, Entity) {
+    let window = Window {
+        title: "Morphospace: for the speaker".to_owned(),
+        name: Some("morphospace".to_owned()),
+        resolution: WindowResolution::new(960, 540),
+        position: WindowPosition::Centered(MonitorSelection::Primary),
+        ..default()
+    };
+    let window = commands.spawn(window).id();
+    let camera = commands.spawn((
+        Camera2d,
+        RenderTarget::Window(WindowRef::Entity(window)),
+        RenderLayers::none(),
+        SpeakerCamera,
+    ));
+    (window, camera.id())
+}
+
+fn close(speaker: &mut Speaker, commands: &mut Commands) {
+    if let Some((window, camera)) = speaker.window.take() {
+        commands.entity(camera).despawn();
+        commands.entity(window).despawn();
+    }
+    *speaker = Speaker::default();
+}
+
+/// Draws the next stop, beside the window, wherever it is another.
+pub fn follow(mut speaker: ResMut<Speaker>, session: Res<Session>, playback: Res<Playback>) {
+    if !speaker.is_open() {
+        return;
+    }
+    // Looked at in each frame; nobody asks whether it has changed.
+    let speaker = speaker.bypass_change_detection();
+    if let Some(picture) = Job::take(&mut speaker.job) {
+        speaker.picture = picture.ok().map(Arc::new);
+    }
+    let next = playback.next_stop(session.timing(), session.stops());
+    let wanted = session.transition().cloned().zip(next);
+    let is_same = match (&wanted, &speaker.shown) {
+        (Some((new, t)), Some((old, shown))) => {
+            t == shown && std::ptr::eq(new.content(), old.content())
+        }
+        (wanted, shown) => wanted.is_none() && shown.is_none(),
+    };
+    if is_same {
+        return;
+    }
+    speaker.shown.clone_from(&wanted);
+    speaker.picture = None;
+    let style = session.style();
+    speaker.job = wanted
+        .map(|(transition, t)| Job::start("the next stop", move |_| drawn(transition, style, t)));
+}
+
+fn drawn(transition: Transition, style: Style, t: f64) -> Result<RgbaImage, SizeError> {
+    let bounds = transition.bounds();
+    let room = bounds.padded(0.04 * bounds.diameter());
+    let view = View::fit(room, PixelSize::new(PICTURE_PX.0, PICTURE_PX.1)?);
+    let ground: Option<Rgb> = Some(style.ground);
+    let camera = FilmCamera {
+        transition,
+        style,
+        view,
+        ground,
+        captions: None,
+    };
+    Ok(camera.pixels(t))
+}
