@@ -12,6 +12,8 @@ use crate::app::capturing::framing;
 use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::editing::{apply, refresh};
+use crate::app::keeping::autosave::{self, Autosave};
+use crate::app::keeping::presets;
 use crate::app::looking::choosing::{self, Choosing};
 use crate::app::looking::measuring::{self, Measured};
 use crate::app::looking::preferences;
@@ -87,6 +89,8 @@ fn init(app: &mut App) {
         .init_resource::<Question>()
         .init_resource::<drops::Drop>()
         .init_resource::<dialogs::Dialog>()
+        .init_resource::<Autosave>()
+        .init_resource::<presets::KeptPresets>()
         .init_resource::<films::Recorder>()
         .init_resource::<framing::FilmFrame>()
         .init_resource::<StageArea>()
@@ -105,7 +109,13 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         (view::back, presenting::apply).chain(),
         (preferences::apply, presets::apply).chain(),
         // Questions before what they hold back.
-        (closing::answer, closing::close, drops::decide).chain(),
+        (
+            closing::answer,
+            closing::close,
+            drops::decide,
+            autosave::rescue,
+        )
+            .chain(),
         (dialogs::choose, dialogs::open).chain(),
         (
             opening::open,
@@ -134,3 +144,6 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     )
         .chain()
 }
+        watching::follow,
+        // After all that changes the project or takes it for saved.
+        autosave::follow,

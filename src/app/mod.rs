@@ -13,6 +13,7 @@
 //! | `opening` | opening, changing, saving, closing; dialogs; the gallery |
 //! | `playing` | t, how it moves, and what it moves on the stage |
 //! | `editing` | the match editor |
+//! | `keeping` | what is kept for the next start |
 //! | `looking` | the view, what is shown, a second method, measures |
 //! | `capturing` | pictures and films |
 //! | `ui` | what is drawn around the stage, with egui |
@@ -20,6 +21,7 @@
 mod asking;
 mod capturing;
 mod editing;
+mod keeping;
 mod logic;
 mod looking;
 mod opening;
@@ -34,12 +36,13 @@ pub use asking::choices::{
     CaptureScale, FilmLook, Preferences, RecordFormat, ThemeChoice, TwinMethod,
 };
 pub use asking::hand::Typing;
-pub use asking::intent::{Answer, Intent};
+pub use asking::intent::{Answer, Intent, Rescue};
 pub use asking::keymap::{Binding, Held, KeyMap, Row, Trigger};
 pub use capturing::files::CaptureFolder;
 pub use capturing::films::Recorder;
 pub use editing::editor::{CutEnd, Editor, Grab, Handle};
 pub use editing::sheet::{Fate, Sheet};
+pub use keeping::autosave::Autosave;
 pub use logic::LogicPlugin;
 pub use looking::choosing::Choosing;
 pub use looking::measuring::{Measured, Measures};

@@ -13,7 +13,9 @@ use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::files::CaptureFolder;
-use crate::app::capturing::pictures;
+use crate::app::capturing::{copying, pictures};
+use crate::app::keeping::autosave::{self, Autosave};
+use crate::app::keeping::presets::KeptPresets;
 use crate::app::logic::LogicPlugin;
 use crate::app::looking::view;
 use crate::app::opening::apply::Gallery;
@@ -48,6 +50,9 @@ pub fn run(options: AppOptions) -> AppExit {
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(CaptureFolder::choose(captures))
         .add_systems(
+        .insert_resource(autosave.workshop())
+        .insert_resource(autosave)
+        .insert_resource(KeptPresets::of_file(Presets::usual_path()))
             Startup,
             move |mut intents: MessageWriter<Intent>, gallery: Res<Gallery>| {
                 intents.write(first(&files, &gallery));
@@ -61,6 +66,26 @@ fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
                     intents.write(Intent::Present { is_all: true });
                 }
     let bundled = match files {
+/// A file that has changed wakes the window, which may be at rest.
+fn watch(watch: Res<Watch>, events: Res<EventLoopProxyWrapper>) {
+    let events = events.clone();
+    watch.start(move || {
+        // The window is gone, and the thread with it.
+        events.send_event(WinitUserEvent::WakeUp).ok();
+    });
+}
+
+/// Where there is no place for it, the program runs without.
+fn autosave() -> Autosave {
+    let Some(folder) = autosave::folder() else {
+        return Autosave::default();
+    };
+    Autosave::enter(&folder).unwrap_or_else(|error| {
+        warn!("changes are not kept in {}: {error}", folder.display());
+        Autosave::default()
+    })
+}
+
         [] => gallery.0.first().map(|entry| entry.name.clone()),
         [one] => one
             .to_str()

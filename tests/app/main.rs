@@ -6,6 +6,7 @@ mod beside;
 mod choosing;
 mod editor;
 mod history;
+mod keeping;
 mod keys;
 mod opening;
 mod rest;

@@ -9,6 +9,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::capturing::films::Recorder;
 use crate::app::capturing::framing::FilmFrame;
 use crate::app::editing::editor::Editor;
+use crate::app::keeping::autosave::Autosave;
 use crate::app::looking::choosing::Choosing;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;

@@ -19,6 +19,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::capturing::films::Recorder;
 use crate::app::capturing::pictures::Captures;
 use crate::app::looking::choosing::Choosing;
+use crate::app::keeping::autosave::Autosave;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::dialogs::Dialog;
@@ -94,6 +95,8 @@ pub struct Going<'w, 's> {
     recorder: Res<'w, Recorder>,
     thumbnails: Res<'w, Thumbnails>,
     choosing: Res<'w, Choosing>,
+    estimate: Res<'w, Estimate>,
+    autosave: Res<'w, Autosave>,
     measured: Res<'w, Measured>,
     twin: Res<'w, Twin>,
     notices: Res<'w, Notices>,
@@ -123,6 +126,8 @@ impl Going<'_, '_> {
             || self.choosing.told().is_some()
             || self.measured.is_busy()
             || self.presenting.waits()
+            || self.estimate.is_busy()
+            || self.autosave.is_behind()
             || self.speaker.is_open()
             || self.twin.is_busy()
             || self.dialog.asks().is_some()

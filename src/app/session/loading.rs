@@ -1,9 +1,10 @@
 //! What takes time: reading files and building transitions, off the main thread.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
+use crate::app::session::origin::{Origin, absolute};
+use crate::app::session::rescue::Kept;
 use crate::correspondence::{PinError, RegionMatchError};
-use crate::design::Source;
 use crate::progress::{Cancelled, Progress, Span, checkpoint};
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
 use crate::transition::{BuildError, Cell, Style, Timing, Transition};
@@ -28,17 +29,6 @@ pub struct Stage {
     pub transition: Transition,
 }
 
-/// Where the open project comes from.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Origin {
-    /// A bundled project, by its name.
-    Gallery(String),
-    /// A file.
-    File(PathBuf),
-    /// Designs that were opened together, or a project that was changed beyond its file.
-    Unsaved,
-}
-
 /// Why there is nothing to play.
 #[derive(Debug, thiserror::Error)]
 pub enum Problem {
@@ -57,6 +47,8 @@ pub enum Request {
     Gallery(String),
     /// Open a project file.
     File(PathBuf),
+    /// Open a project as it was before the program ended without saving it.
+    Rescued(Box<Kept>),
     /// Open two designs as a new project.
     Pair(PathBuf, PathBuf),
     /// Build what is open with its new settings.
@@ -73,6 +65,8 @@ pub struct Rebuild {
     pub staged: Project,
     /// What is on the stage.
     pub transition: Option<Transition>,
+    /// A file of its designs has changed.
+    pub must_reread: bool,
 }
 
 /// What is shown until what was asked for is there.
@@ -91,11 +85,13 @@ impl Rebuild {
         meanwhile: &mut dyn FnMut(Meanwhile),
     ) -> Result<Loaded, LoadError> {
         // Its sliders are dragged, and the distance transforms take far longer than the mixing.
-        if let Some(transition) = self.mixed_otherwise() {
+        if !self.must_reread
+            && let Some(transition) = self.mixed_otherwise()
+        {
             return Ok(built(self.now, Ok(transition)));
         }
         let mut project = self.now;
-        if reads_differently(&self.staged, &project.project) {
+        if self.must_reread || reads_differently(&self.staged, &project.project) {
             project = project.reread()?;
             choose_cell(&mut project);
         }
@@ -134,6 +130,7 @@ impl Request {
         Some(match self {
             Self::Gallery(name) => Origin::Gallery(name.clone()),
             Self::File(path) => Origin::File(path.clone()),
+            Self::Rescued(kept) => kept.origin(),
             Self::Pair(..) => Origin::Unsaved,
             Self::Rebuild(_) => return None,
         })
@@ -144,7 +141,7 @@ impl Request {
     pub fn settings(&self) -> Option<&Project> {
         match self {
             Self::Rebuild(rebuild) => Some(&rebuild.now.project),
-            Self::Gallery(_) | Self::File(_) | Self::Pair(..) => None,
+            Self::Gallery(_) | Self::File(_) | Self::Rescued(_) | Self::Pair(..) => None,
         }
     }
 
@@ -164,6 +161,7 @@ impl Request {
         let mut project = match self {
             Self::Gallery(name) => gallery::load(&name)?,
             Self::File(path) => LoadedProject::open(&path)?,
+            Self::Rescued(kept) => kept.load()?,
             Self::Pair(source, target) => {
                 LoadedProject::open_pair(&absolute(&source), &absolute(&target))?
             }
@@ -176,14 +174,6 @@ impl Request {
         }
         Ok(built_by_steps(project, plain, progress, &mut meanwhile))
     }
-}
-
-/// A design's path from the root, whatever within the file it names.
-#[must_use]
-pub fn absolute(path: &Path) -> PathBuf {
-    // Not canonical: a link that is followed later names the file that it then points to.
-    let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-    Source::of(path).at(whole).to_path()
 }
 
 /// Writes down the cell that suits the designs, where the project names none that they can be

@@ -4,10 +4,13 @@ use std::path::{Path, PathBuf};
 
 use crate::app::capturing::files::safe;
 use crate::app::session::history::{History, Snapshot};
-use crate::app::session::loading::{self, Loaded, Origin, Problem, Rebuild};
+use crate::app::session::loading::{self, Loaded, Problem, Rebuild};
+use crate::app::session::origin::Origin;
+use crate::app::session::rescue::Kept;
 use crate::app::session::saving::{self, SaveError};
+use crate::design::Source;
 use crate::one_line::OneLine;
-use crate::project::{LoadedProject, Project};
+use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::Transition;
 
 /// A project that is open.
@@ -23,6 +26,8 @@ pub struct Open {
     pub staged: Project,
     /// The steps that can be taken back.
     pub history: History,
+    /// A file of its designs has changed.
+    pub must_reread: bool,
     origin: Origin,
     /// As it was opened or saved last.
     saved: Project,
@@ -43,9 +48,27 @@ impl Open {
             problem: loaded.problem,
             staged,
             history: History::default(),
+            must_reread: false,
             origin,
             saved: project,
         }
+    }
+
+    /// The same with changes that no file has: they were made before the program ended.
+    #[must_use]
+    pub fn unsaved(loaded: Loaded, origin: Origin) -> Self {
+        Self {
+            saved: Project::pair("", ""),
+            ..Self::new(loaded, origin)
+        }
+    }
+
+    /// What is kept of it until it is saved.
+    ///
+    /// # Errors
+    /// As [`Kept::new`].
+    pub fn kept(&self) -> Result<Kept, ProjectError> {
+        Kept::new(self.title(), &self.origin, &self.loaded)
     }
 
     /// The file that it is saved to.
@@ -64,6 +87,21 @@ impl Open {
             Origin::Gallery(name) => Some(name),
             Origin::File(_) | Origin::Unsaved => None,
         }
+    }
+
+    /// The files that its designs are read from.
+    #[must_use]
+    pub fn files(&self) -> Vec<PathBuf> {
+        let folder = self.loaded.folder.as_deref();
+        let entries = self.loaded.project.designs.iter();
+        let sources = entries.filter_map(|entry| match folder {
+            Some(folder) => Some(Source::in_folder(folder, &entry.path)),
+            // A file that took the place of a bundled design.
+            None => entry.path.is_absolute().then(|| Source::of(&entry.path)),
+        });
+        sources
+            .filter_map(|source| Some(source.file()?.to_owned()))
+            .collect()
     }
 
     fn stem(&self) -> Option<String> {
@@ -131,7 +169,7 @@ impl Open {
     /// Whether the settings make another transition than that on the stage. Where they are those
     /// of the stage again, there is no problem any more.
     pub fn is_stale(&mut self) -> bool {
-        let is_stale = loading::needs_build(&self.staged, &self.loaded.project);
+        let is_stale = self.must_reread || loading::needs_build(&self.staged, &self.loaded.project);
         if !is_stale && self.transition.is_some() {
             self.problem = None;
         }
@@ -145,6 +183,7 @@ impl Open {
             now: self.loaded.clone(),
             staged: self.staged.clone(),
             transition: self.transition.clone(),
+            must_reread: self.must_reread,
         }
     }
 
@@ -158,6 +197,7 @@ impl Open {
         if let Some(stage) = stage {
             // The settings are not taken from what was built: they may be newer.
             self.loaded.designs = built.project.designs;
+            self.must_reread = false;
             (self.transition, self.staged) = (Some(stage.transition), stage.settings);
         }
         is_new
@@ -172,6 +212,7 @@ impl Open {
 
     /// The designs go back to those of the stage: a file that cannot be read is not kept.
     pub fn give_up_designs(&mut self) {
+        self.must_reread = false;
         self.amend(|now, staged| {
             now.designs.clone_from(&staged.designs);
             now.fit = staged.fit;

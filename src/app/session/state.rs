@@ -14,12 +14,13 @@ use bevy::prelude::Resource;
 use crate::app::session::history::{History, Snapshot};
 use crate::app::session::loading::{LoadError, Problem, Request};
 use crate::app::session::open::Open;
+use crate::app::session::rescue::Kept;
 use crate::app::session::saving::SaveError;
 use crate::app::session::work::Work;
 use crate::app::telling::job::JobError;
 use crate::content::ContentKind;
 use crate::design::{Design, Form};
-use crate::project::{LoadedProject, Project};
+use crate::project::{LoadedProject, Project, ProjectError};
 use crate::transition::{BuildError, Stop, Style, Timing, Transition};
 use crate::warp::{Arap, WarpKind};
 
@@ -138,6 +139,12 @@ impl Session {
         self.open.as_ref()?.gallery_name()
     }
 
+    /// The files that its designs were read from.
+    #[must_use]
+    pub fn files(&self) -> Vec<PathBuf> {
+        self.open.as_ref().map_or_else(Vec::new, Open::files)
+    }
+
     /// What the open project is called.
     #[must_use]
     pub fn title(&self) -> String {
@@ -195,6 +202,15 @@ impl Session {
     #[must_use]
     pub fn is_dirty(&self) -> bool {
         self.open.as_ref().is_some_and(Open::is_dirty)
+    }
+
+    /// What is to be kept of the open project until it is saved.
+    ///
+    /// # Errors
+    /// As [`Kept::new`].
+    #[must_use]
+    pub fn kept(&self) -> Option<Result<Kept, ProjectError>> {
+        self.open.as_ref().map(Open::kept)
     }
 
     /// What to ask about them.
@@ -323,6 +339,14 @@ impl Session {
         }
     }
 
+    /// Reads the designs of the open project again.
+    pub fn reread(&mut self) {
+        if let Some(open) = &mut self.open {
+            open.must_reread = true;
+            self.is_stale = true;
+        }
+    }
+
     /// Opens something else, beside the stage.
     pub fn open(&mut self, request: Request) {
         self.is_stale = false;
@@ -363,11 +387,12 @@ impl Session {
 
     fn take_meanwhile(&mut self) -> Option<Outcome> {
         let work = self.work.as_mut()?;
+        let opened = work.opened();
         let (loaded, origin) = work.take_meanwhile()?;
         match (origin, &mut self.open) {
             (Some(origin), open) => {
                 self.is_stale = false;
-                *open = Some(Open::new(loaded, origin));
+                *open = Some(opened(loaded, origin));
                 Some(Outcome::Opened)
             }
             (None, Some(open)) => open.restage(loaded).then_some(Outcome::Rebuilt),
@@ -377,11 +402,12 @@ impl Session {
 
     fn take_work(&mut self) -> Option<Outcome> {
         let answer = self.work.as_ref()?.job.poll()?;
-        let origin = self.work.take()?.origin;
+        let work = self.work.take()?;
+        let (opened, origin) = (work.opened(), work.origin);
         Some(match (answer, origin, &mut self.open) {
             (Ok(loaded), Some(origin), open) => {
                 self.is_stale = false;
-                *open = Some(Open::new(loaded, origin));
+                *open = Some(opened(loaded, origin));
                 Outcome::Opened
             }
             (Ok(built), None, Some(open)) => {

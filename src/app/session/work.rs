@@ -4,7 +4,9 @@ use std::sync::mpsc::{Receiver, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::Duration;
 
-use crate::app::session::loading::{LoadError, Loaded, Meanwhile, Origin, Request, needs_build};
+use crate::app::session::loading::{LoadError, Loaded, Meanwhile, Request, needs_build};
+use crate::app::session::open::Open;
+use crate::app::session::origin::Origin;
 use crate::app::telling::job::Job;
 use crate::project::Project;
 
@@ -39,6 +41,8 @@ pub struct Work {
     pub wanted: Option<Project>,
     /// The work.
     pub job: Job<Loaded, LoadError>,
+    /// What it opens has changes that no file has.
+    pub is_unsaved: bool,
     /// A draft of it is on the stage.
     pub has_draft: bool,
     /// What can be shown before it is done, and the last that was not shown yet.
@@ -54,6 +58,7 @@ impl Work {
         Self {
             origin: request.origin(),
             wanted: request.settings().cloned(),
+            is_unsaved: matches!(request, Request::Rescued(_)),
             job: Job::start("the transition", move |progress| {
                 // Nobody listens any more once the work was given up.
                 request.carry_out(progress, |meanwhile| drop(sender.send(meanwhile)))
@@ -61,6 +66,16 @@ impl Work {
             has_draft: false,
             meanwhile: Mutex::new(receiver),
             waiting: None,
+        }
+    }
+
+    /// How what it opens is taken in.
+    #[must_use]
+    pub fn opened(&self) -> fn(Loaded, Origin) -> Open {
+        if self.is_unsaved {
+            Open::unsaved
+        } else {
+            Open::new
         }
     }
 

@@ -11,6 +11,8 @@ use crate::app::capturing::framing::FilmFrame;
 use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::looking::choosing::Choosing;
+use crate::app::keeping::autosave::Autosave;
+use crate::app::keeping::presets::KeptPresets;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::times::WholeFrame;
 use crate::app::looking::twin::Twin;
@@ -42,7 +44,9 @@ pub struct Scene<'w> {
     pub thumbnails: Res<'w, Thumbnails>,
     pub recorder: Res<'w, Recorder>,
     pub film: Res<'w, FilmFrame>,
-    pub presenting: Res<'w, Presenting>,
+    pub estimate: Res<'w, Estimate>,
+    pub autosave: Res<'w, Autosave>,
+    pub presets: Res<'w, KeptPresets>,
     pub question: Res<'w, Question>,
     pub dialog: Res<'w, Dialog>,
     pub drop: Res<'w, Drop>,

@@ -1,10 +1,11 @@
 //! The questions that the program asks: about what would be lost, and what a dropped file is for.
 
 use std::path::Path;
+use std::time::Duration;
 
 use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Ui};
 
-use crate::app::asking::intent::{Answer, Intent};
+use crate::app::asking::intent::{Answer, Intent, Rescue};
 use crate::app::opening::closing::Lost;
 use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::kit::widgets::primary_button;
@@ -14,6 +15,8 @@ use crate::app::ui::scene::{Intents, Scene};
 pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
     if let (Some(words), Some(lost)) = (scene.question.text(), scene.question.lost()) {
         ask_first(ctx, lost, words, acts);
+    } else if let Some((title, age)) = scene.autosave.lost() {
+        ask_lost(ctx, title, age, acts);
     } else if let Some(path) = scene.drop.undecided() {
         ask_drop(ctx, path, acts);
     }
@@ -46,6 +49,47 @@ fn ask_first(ctx: &Context, lost: Lost, question: &str, acts: &mut Intents) {
             answer(ui, "Cancel", Answer::Stay);
         });
     });
+}
+
+/// What was not saved when the program ended.
+fn ask_lost(ctx: &Context, title: &str, age: Option<Duration>, acts: &mut Intents) {
+    Modal::new(Id::new("what was lost")).show(ctx, |ui| {
+        ui.set_width(400.0);
+        ui.heading("Not saved last time");
+        let when = age.map_or_else(String::new, |age| format!(", {}", ago(age)));
+        let words = format!(
+            "Morphospace ended while “{title}” had changes that were not saved{when}. They were \
+             kept."
+        );
+        ui.add(Label::new(words).wrap());
+        answers(ui, |ui| {
+            if primary_button(ui, "Restore").clicked() {
+                acts.push(Intent::Rescue(Rescue::Restore));
+            }
+            let mut answer = |ui: &mut Ui, text: &str, tip: &str, answer: Rescue| {
+                if ui.button(text).on_hover_text(tip).clicked() {
+                    acts.push(Intent::Rescue(answer));
+                }
+            };
+            let tip = "Throws the changes away.";
+            answer(ui, "Discard", tip, Rescue::Discard);
+            let tip = "Asks again at the next start (Esc).";
+            answer(ui, "Later", tip, Rescue::Later);
+        });
+    });
+}
+
+fn ago(age: Duration) -> String {
+    let minutes = age.as_secs() / 60;
+    match minutes {
+        0 => "less than a minute ago".to_owned(),
+        1 => "a minute ago".to_owned(),
+        2..=119 => format!("{minutes} minutes ago"),
+        _ => match minutes / 60 {
+            hours @ ..=47 => format!("{hours} hours ago"),
+            hours => format!("{} days ago", hours / 24),
+        },
+    }
 }
 
 fn ask_drop(ctx: &Context, path: &Path, acts: &mut Intents) {
