@@ -22,7 +22,7 @@ use crate::app::looking::twin::{self, Twin};
 use crate::app::looking::view::{self, KeepsFit, StageArea};
 use crate::app::opening::apply::{self as opening, Gallery};
 use crate::app::opening::closing::{self, Question};
-use crate::app::opening::{dialogs, drops};
+use crate::app::opening::{dialogs, drops, watching};
 use crate::app::playing::playback::{self, Playback};
 use crate::app::playing::staging;
 use crate::app::session::state::Session;
@@ -91,6 +91,9 @@ fn init(app: &mut App) {
         .init_resource::<dialogs::Dialog>()
         .init_resource::<Autosave>()
         .init_resource::<presets::KeptPresets>()
+        .init_resource::<drops::Drop>()
+        .init_resource::<watching::Watch>()
+        .init_resource::<dialogs::Dialog>()
         .init_resource::<films::Recorder>()
         .init_resource::<framing::FilmFrame>()
         .init_resource::<StageArea>()

@@ -62,6 +62,7 @@ pub fn run(options: AppOptions) -> AppExit {
 }
 
 fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
+        .add_systems(Startup, watch)
                 if presents {
                     intents.write(Intent::Present { is_all: true });
                 }

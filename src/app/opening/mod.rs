@@ -5,3 +5,4 @@ pub mod closing;
 pub mod dialogs;
 pub mod drops;
 pub mod thumbnails;
+pub mod watching;
