@@ -15,6 +15,7 @@ use crate::app::editing::{apply, refresh};
 use crate::app::keeping::autosave::{self, Autosave};
 use crate::app::keeping::presets;
 use crate::app::looking::choosing::{self, Choosing};
+use crate::app::looking::helping::{self, Helping};
 use crate::app::looking::measuring::{self, Measured};
 use crate::app::looking::preferences;
 use crate::app::looking::times;
@@ -84,6 +85,7 @@ fn init(app: &mut App) {
         .init_resource::<Sheet>()
         .init_resource::<Measured>()
         .init_resource::<Choosing>()
+        .init_resource::<Helping>()
         .init_resource::<Twin>()
         .init_resource::<Notices>()
         .init_resource::<Question>()
@@ -126,12 +128,19 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             apply::apply,
             measuring::apply,
             choosing::apply,
+            helping::apply,
             opening::save,
             opening::poll,
             refresh::refresh,
         )
             .chain(),
-        (measuring::follow, twin::apply, twin::follow).chain(),
+        (
+            measuring::follow,
+            helping::follow,
+            twin::apply,
+            twin::follow,
+        )
+            .chain(),
         // Moved on before it is told where to go: else the time of a rest would be played at once.
         (playback::advance, presenting::begin, playback::apply).chain(),
         presenting::hide_pointer,

@@ -45,6 +45,7 @@ pub use editing::sheet::{Fate, Sheet};
 pub use keeping::autosave::Autosave;
 pub use logic::LogicPlugin;
 pub use looking::choosing::Choosing;
+pub use looking::helping::{Alternative, Helping, Offer};
 pub use looking::measuring::{Measured, Measures};
 pub use looking::twin::{OnTwin, Twin};
 pub use looking::view::{KeepsFit, StageArea};

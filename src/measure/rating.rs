@@ -79,6 +79,18 @@ impl Rating {
         self.folds + self.crossings + self.pieces + self.holes
     }
 
+    /// Nothing is wrong with it.
+    #[must_use]
+    pub fn is_flawless(&self) -> bool {
+        !self.is_gone && self.faults() == 0
+    }
+
+    /// Less is wrong with it, however calm the two are.
+    #[must_use]
+    pub fn has_fewer_faults_than(&self, other: &Self) -> bool {
+        (self.is_gone, self.faults()) < (other.is_gone, other.faults())
+    }
+
     /// Which of two is less trouble.
     #[must_use]
     pub fn compare(&self, other: &Self) -> Ordering {

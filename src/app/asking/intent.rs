@@ -123,6 +123,8 @@ pub enum Intent {
     Measure,
     /// Show or hide a second method beside the stage.
     ToggleTwin,
+    /// Take what was tried and helps, by its number.
+    TakeOffer(usize),
     /// The method that is shown beside the stage.
     TwinMethod(TwinMethod),
     /// Leave what was entered last: help, question, hidden panels, whole screen.

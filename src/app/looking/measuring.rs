@@ -10,11 +10,8 @@ use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
 use crate::app::asking::hand::Gesture;
 use crate::app::asking::intent::Intent;
-use crate::app::editing::sheet::Sheet;
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
-use crate::content::ContentKind;
-use crate::correspondence::PointPair;
 use crate::measure::{FilmReport, Remedy, Verdict, film};
 use crate::progress::{Cancelled, Progress, Span, Whole};
 use crate::project::Project;
@@ -159,47 +156,31 @@ pub fn apply(
         let Some(finding) = findings.and_then(|all| all.get(index)) else {
             continue;
         };
-        let sheet = Sheet::of(&session);
         let remedy = finding.remedy.clone();
         session.change(gesture.mark(), |project| {
-            follow_advice(project, &remedy, &sheet);
+            follow_advice(project, &remedy);
         });
     }
 }
 
-/// Whether a remedy can be taken by a click.
+/// Whether a remedy can be taken by a click: it was tried, or is sure to help.
 #[must_use]
 pub fn is_a_click(remedy: &Remedy) -> bool {
     matches!(
         remedy,
-        Remedy::Change { .. }
-            | Remedy::Pin { .. }
-            | Remedy::RigidParts
-            | Remedy::Lattices
-            | Remedy::LetFold
+        Remedy::Change { .. } | Remedy::Lattices | Remedy::LetFold
     )
 }
 
-fn follow_advice(project: &mut Project, remedy: &Remedy, sheet: &Sheet) {
+fn follow_advice(project: &mut Project, remedy: &Remedy) {
     match remedy {
         Remedy::Change { change, .. } => change.apply(&mut project.options),
-        Remedy::Pin { source, target } => {
-            let [by_source, by_target] = &sheet.by;
-            project.options.matching.pins.push(PointPair {
-                source: by_source.inverse().apply(*source),
-                target: by_target.inverse().apply(*target),
-            });
-        }
-        Remedy::RigidParts => {
-            project.warp = Some(WarpKind::Arap);
-            project.content = Some(ContentKind::Solid);
-        }
         Remedy::Lattices => {
             project.warp = Some(WarpKind::Lattice);
             project.options.lattice.fold_free = true;
         }
         Remedy::LetFold => project.options.lattice.fold_free = false,
-        // What these advise takes a hand: `is_a_click` gives them no button.
-        Remedy::MoveVertices { .. } | Remedy::LayOver | Remedy::MovePins => {}
+        // What these advise takes a hand, or a trial: `is_a_click` gives them no button.
+        _ => {}
     }
 }

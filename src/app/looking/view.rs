@@ -11,6 +11,7 @@ use crate::app::capturing::framing::FilmFrame;
 use crate::app::editing::editor::Editor;
 use crate::app::keeping::autosave::Autosave;
 use crate::app::looking::choosing::Choosing;
+use crate::app::looking::helping::Helping;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::closing::Question;
@@ -224,7 +225,7 @@ pub fn back(
     (mut editor, mut twin): (ResMut<Editor>, ResMut<Twin>),
     (question, drop, autosave, presenting): Asking,
     (mut session, recorder): (ResMut<Session>, Res<Recorder>),
-    (mut choosing, mut measured): (ResMut<Choosing>, ResMut<Measured>),
+    (mut choosing, mut measured, mut helping): Working,
 ) {
     let is_asked =
         question.text().is_some() || drop.undecided().is_some() || autosave.lost().is_some();
@@ -245,6 +246,8 @@ pub fn back(
             choosing.stop();
         } else if preferences.panels && measured.told().is_some() {
             measured.stop();
+        } else if preferences.panels && helping.is_trying() {
+            helping.stop();
         } else if editor.bypass_change_detection().back() {
             editor.set_changed();
         } else if preferences.film_options {

@@ -20,6 +20,8 @@ use crate::app::capturing::films::Recorder;
 use crate::app::capturing::pictures::Captures;
 use crate::app::looking::choosing::Choosing;
 use crate::app::keeping::autosave::Autosave;
+use crate::app::looking::choosing::Choosing;
+use crate::app::looking::helping::Helping;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::dialogs::Dialog;
@@ -98,6 +100,7 @@ pub struct Going<'w, 's> {
     estimate: Res<'w, Estimate>,
     autosave: Res<'w, Autosave>,
     measured: Res<'w, Measured>,
+    helping: Res<'w, Helping>,
     twin: Res<'w, Twin>,
     notices: Res<'w, Notices>,
     dialog: Res<'w, Dialog>,
@@ -125,10 +128,7 @@ impl Going<'_, '_> {
             || self.thumbnails.is_busy()
             || self.choosing.told().is_some()
             || self.measured.is_busy()
-            || self.presenting.waits()
-            || self.estimate.is_busy()
-            || self.autosave.is_behind()
-            || self.speaker.is_open()
+            || self.helping.is_busy()
             || self.twin.is_busy()
             || self.dialog.asks().is_some()
             || self.drop.is_arriving()
@@ -146,6 +146,7 @@ impl Going<'_, '_> {
     }
 }
 
+            || self.helping.is_changed()
 /// Chooses the pace of the next frame.
 pub fn keep(
     going: Going,

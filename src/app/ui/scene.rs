@@ -13,6 +13,8 @@ use crate::app::editing::sheet::Sheet;
 use crate::app::looking::choosing::Choosing;
 use crate::app::keeping::autosave::Autosave;
 use crate::app::keeping::presets::KeptPresets;
+use crate::app::looking::choosing::Choosing;
+use crate::app::looking::helping::Helping;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::times::WholeFrame;
 use crate::app::looking::twin::Twin;
@@ -34,6 +36,7 @@ pub struct Scene<'w> {
     pub editor: Res<'w, Editor>,
     pub sheet: Res<'w, Sheet>,
     pub choosing: Res<'w, Choosing>,
+    pub helping: Res<'w, Helping>,
     pub measured: Res<'w, Measured>,
     pub twin: Res<'w, Twin>,
     pub view: Res<'w, StageView>,

@@ -26,8 +26,8 @@ pub fn strip(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let measures = scene.measured.measures();
     let lines = measures.map_or(1, |measures| {
         let verdict = &measures.verdict;
-        // Where nothing was found one line says so.
-        verdict.findings.len().max(1) + verdict.notes.len()
+        // Where nothing was found one line says so; else one says what helps.
+        verdict.findings.len() + 1 + verdict.notes.len()
     });
     let frame = ground(root, [8, 8, 4, 4]);
     Panel::bottom("verdict")
@@ -82,6 +82,9 @@ fn show(ui: &mut Ui, scene: &Scene, measures: &Measures, acts: &mut Intents) {
             advice(ui, index, finding, acts);
         });
     }
+    if !verdict.is_clear() {
+        help(ui, scene, acts);
+    }
     for note in &verdict.notes {
         row(ui, false, |ui| {
             let note = first_upper(&note.to_string());
@@ -129,6 +132,32 @@ fn headline(ui: &mut Ui, scene: &Scene, finding: &Finding, acts: &mut Intents) {
         finding.cause, finding.remedy
     );
     response.on_hover_text(tip);
+}
+
+/// What was tried and helps: a button for each.
+fn help(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let helping = &scene.helping;
+    ui.horizontal(|ui| {
+        ui.set_min_height(ROW_HEIGHT);
+        ui.spacing_mut().item_spacing.x = 6.0;
+        ui.add_space(22.0);
+        let now = helping.now().map(|now| now.to_string()).unwrap_or_default();
+        let words = match (helping.offers(), helping.is_busy(), helping.is_done()) {
+            ([], true, _) => "Trying what would help: mirrored, turned, other methods …",
+            ([], _, true) => "Nothing that was tried helps: mirrored, turned, other methods.",
+            ([], ..) => "",
+            (_, true, _) => "Helps, of what was tried so far:",
+            (_, false, _) => "Helps:",
+        };
+        ui.label(quiet(ui, words));
+        for (index, offer) in helping.offers().iter().enumerate() {
+            let text = format!("{}: {}", offer.what.words(), offer.rating);
+            let tip = format!("Tried: {} instead of {now}. Can be undone.", offer.rating);
+            if ui.small_button(text).on_hover_text(tip).clicked() {
+                acts.push(Intent::TakeOffer(index));
+            }
+        }
+    });
 }
 
 /// A button for what helps, where a click can do it.

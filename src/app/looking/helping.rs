@@ -1,0 +1,325 @@
+//! Where a film goes wrong, tries beside the window what may help, and offers what does.
+//!
+//! Each alternative is built as it would be shown and rated as what is on the stage is; only those
+//! with fewer faults are offered, with the faults that they leave.
+
+use std::sync::mpsc::{Receiver, Sender, channel};
+use std::sync::{Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
+
+use crate::app::asking::hand::Gesture;
+use crate::app::asking::intent::Intent;
+use crate::app::looking::measuring::Measured;
+use crate::app::session::state::Session;
+use crate::app::telling::job::Job;
+use crate::content::ContentKind;
+use crate::correspondence::{HoleRule, PartRule};
+use crate::measure::Rating;
+use crate::names::Choice;
+use crate::progress::{Progress, still_wanted};
+use crate::project::{LoadedProject, Project, ProjectError};
+use crate::transition::{BuildError, Cell, Fit, Transition};
+use crate::warp::WarpKind;
+
+/// How long the film must have been there: while something is dragged nothing is tried.
+const CALM: Duration = Duration::from_millis(800);
+
+/// The most that are offered: they stand in one line.
+const MOST: usize = 3;
+
+/// Something else that may be asked for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Alternative {
+    /// The target mirrored.
+    Mirror,
+    /// The target turned counter-clockwise, in degrees.
+    Turn(i32),
+    /// The designs laid over each other otherwise.
+    Frame(Fit),
+    /// Holes made otherwise.
+    Holes(HoleRule),
+    /// Parts without a partner made otherwise.
+    Parts(PartRule),
+    /// Another method.
+    Method(Cell),
+}
+
+/// An alternative, and how much trouble its film is.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Offer {
+    /// What to change.
+    pub what: Alternative,
+    /// What it comes to.
+    pub rating: Rating,
+}
+
+impl Alternative {
+    /// What may help with a project, the likeliest first.
+    fn all(loaded: &LoadedProject) -> Vec<Self> {
+        let matching = &loaded.project.options.matching;
+        // What was said by hand of points of a design holds wherever that lies.
+        let mut all = vec![
+            Self::Mirror,
+            Self::Turn(180),
+            Self::Turn(90),
+            Self::Turn(-90),
+        ];
+        if loaded.project.fit == Fit::AsDrawn {
+            all.push(Self::Frame(Fit::Centred));
+        }
+        if matching.holes != HoleRule::Auto {
+            // It looks at all of them.
+            all.push(Self::Holes(HoleRule::Auto));
+        }
+        let others = PartRule::ALL.into_iter();
+        all.extend(
+            others
+                .filter(|other| *other != matching.parts)
+                .map(Self::Parts),
+        );
+        let cells = [
+            (WarpKind::Arap, ContentKind::Solid),
+            (WarpKind::Arap, ContentKind::Field),
+            (WarpKind::None, ContentKind::Field),
+        ];
+        let cells = cells
+            .into_iter()
+            .filter_map(|(warp, content)| Cell::new(warp, content).ok());
+        let now = loaded.cell().ok();
+        let can = |cell: &Cell| {
+            Some(*cell) != now && loaded.available(cell.warp(), cell.content()).is_ok()
+        };
+        all.extend(cells.filter(can).map(Self::Method));
+        all
+    }
+
+    /// Makes the change.
+    pub fn apply(self, project: &mut Project) {
+        match self {
+            Self::Method(cell) => {
+                project.warp = Some(cell.warp());
+                project.content = Some(cell.content());
+            }
+            Self::Frame(fit) => project.fit = fit,
+            Self::Holes(holes) => project.options.matching.holes = holes,
+            Self::Parts(parts) => project.options.matching.parts = parts,
+            Self::Mirror | Self::Turn(_) => {
+                let Some(target) = project.designs.get_mut(1) else {
+                    return;
+                };
+                let place = &mut target.placement;
+                match self {
+                    Self::Turn(degrees) => place.rotation += f64::from(degrees).to_radians(),
+                    _ => place.mirror = !place.mirror,
+                }
+            }
+        }
+    }
+
+    /// What is done, in a few words.
+    #[must_use]
+    pub fn words(self) -> String {
+        match self {
+            Self::Mirror => "Mirror the target".to_owned(),
+            Self::Turn(degrees) => format!("Turn the target by {degrees}°"),
+            Self::Frame(fit) => format!("Frame: {}", fit.name().title.to_lowercase()),
+            Self::Holes(holes) => format!("Holes: {}", holes.name().title.to_lowercase()),
+            Self::Parts(parts) => format!("Odd parts: {}", parts.name().title.to_lowercase()),
+            Self::Method(cell) => format!("Take {}", cell.name()),
+        }
+    }
+}
+
+/// What was tried of the film on the stage.
+#[derive(Resource, Debug, Default)]
+pub struct Helping {
+    of: Option<Transition>,
+    since: Option<Instant>,
+    trial: Option<Trial>,
+    now: Option<Rating>,
+    offers: Vec<Offer>,
+    is_done: bool,
+}
+
+#[derive(Debug)]
+struct Trial {
+    job: Job<(), ProjectError>,
+    found: Mutex<Receiver<Found>>,
+}
+
+#[derive(Debug)]
+enum Found {
+    Now(Rating),
+    Better(Offer),
+}
+
+impl Helping {
+    /// What helps, the best first.
+    #[must_use]
+    pub fn offers(&self) -> &[Offer] {
+        &self.offers[..self.offers.len().min(MOST)]
+    }
+
+    /// How much trouble the film on the stage is, as the offers are rated.
+    #[must_use]
+    pub fn now(&self) -> Option<Rating> {
+        self.now
+    }
+
+    /// Something is being tried, or is about to be.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.trial.is_some() || self.since.is_some()
+    }
+
+    /// Something is being tried.
+    #[must_use]
+    pub fn is_trying(&self) -> bool {
+        self.trial.is_some()
+    }
+
+    /// All that may help was tried.
+    #[must_use]
+    pub fn is_done(&self) -> bool {
+        self.is_done
+    }
+
+    /// Tries nothing more.
+    pub fn stop(&mut self) {
+        self.is_done |= self.is_busy();
+        (self.trial, self.since) = (None, None);
+    }
+
+    fn is_of(&self, transition: Option<&Transition>) -> bool {
+        match (&self.of, transition) {
+            (Some(old), Some(new)) => std::ptr::eq(old.content(), new.content()),
+            (None, None) => true,
+            _ => false,
+        }
+    }
+
+    fn start(&mut self, session: &Session) {
+        self.since = None;
+        let Some(staged) = session.staged() else {
+            return;
+        };
+        let Some(transition) = self.of.clone() else {
+            return;
+        };
+        let (sender, found) = channel();
+        let job = Job::start("what helps", move |progress| {
+            try_all(&staged, &transition, &sender, progress)
+        });
+        self.trial = Some(Trial {
+            job,
+            found: Mutex::new(found),
+        });
+    }
+
+    /// Whether there is anything new.
+    fn take(&mut self) -> bool {
+        let Some(trial) = &self.trial else {
+            return false;
+        };
+        // Asked first: what it has found by then is there.
+        let is_done = trial.job.poll().is_some();
+        let receiver = trial.found.lock().unwrap_or_else(PoisonError::into_inner);
+        let found: Vec<Found> = receiver.try_iter().collect();
+        drop(receiver);
+        let is_new = is_done || !found.is_empty();
+        for found in found {
+            match found {
+                Found::Now(rating) => self.now = Some(rating),
+                Found::Better(offer) => self.offers.push(offer),
+            }
+        }
+        self.offers.sort_by(|a, b| a.rating.compare(&b.rating));
+        if is_done {
+            self.trial = None;
+            self.is_done = true;
+        }
+        is_new
+    }
+}
+
+fn try_all(
+    loaded: &LoadedProject,
+    transition: &Transition,
+    found: &Sender<Found>,
+    progress: &dyn Progress,
+) -> Result<(), ProjectError> {
+    let rating =
+        |transition: &Transition| Rating::of(transition, progress).map_err(BuildError::from);
+    let Some(now) = rating(transition)? else {
+        return Ok(());
+    };
+    // Nobody listens any more once it is not wanted.
+    found.send(Found::Now(now)).ok();
+    let mut flawless = 0;
+    for what in Alternative::all(loaded) {
+        let mut other = loaded.clone();
+        what.apply(&mut other.project);
+        let built = Transition::build(&other.spec()?, progress);
+        still_wanted(progress).map_err(BuildError::from)?;
+        // What cannot be built helps nobody.
+        let Ok(built) = built else {
+            continue;
+        };
+        let Some(rating) = rating(&built)? else {
+            continue;
+        };
+        if rating.has_fewer_faults_than(&now) {
+            flawless += usize::from(rating.is_flawless());
+            found.send(Found::Better(Offer { what, rating })).ok();
+        }
+        if flawless >= MOST {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// Keeps up with what is on the stage, and takes in what was found.
+pub fn follow(session: Res<Session>, measured: Res<Measured>, mut helping: ResMut<Helping>) {
+    // Marked as changed by hand: it is looked at in each frame, and seldom new.
+    let now = helping.bypass_change_detection();
+    let was_busy = now.is_busy();
+    let transition = session.transition();
+    if !now.is_of(transition) {
+        *now = Helping {
+            of: transition.cloned(),
+            ..Helping::default()
+        };
+    }
+    let is_faulty = measured
+        .measures()
+        .is_some_and(|measures| !measures.verdict.is_clear());
+    if session.work().is_some() || !is_faulty {
+        (now.trial, now.since) = (None, None);
+    } else if now.trial.is_none() && !now.is_done {
+        let since = *now.since.get_or_insert_with(Instant::now);
+        if since.elapsed() >= CALM {
+            now.start(&session);
+        }
+    }
+    if now.take() || now.is_busy() != was_busy {
+        helping.set_changed();
+    }
+}
+
+/// Takes what is offered.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    (mut session, helping, gesture): (ResMut<Session>, Res<Helping>, Res<Gesture>),
+) {
+    for intent in intents.read() {
+        let Intent::TakeOffer(index) = *intent else {
+            continue;
+        };
+        if let Some(offer) = helping.offers().get(index) {
+            session.change(gesture.mark(), |project| offer.what.apply(project));
+        }
+    }
+}
