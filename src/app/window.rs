@@ -135,6 +135,7 @@ impl Plugin for WindowPlugins {
                 whole_screen()
             } else {
                 WindowMode::Windowed
+            .init_non_send::<copying::Board>()
             },
             // Last: what this frame has begun decides how soon the next one comes.
             .add_systems(Last, pace::keep)
@@ -150,7 +151,7 @@ impl Plugin for WindowPlugins {
             )
             .add_systems(
                 Update,
-                pictures::ask
+                (pictures::ask, copying::copy_shapes)
                     .after(MorphSystems::Draw)
                     .before(MorphSystems::Capture),
             )

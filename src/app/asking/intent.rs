@@ -86,6 +86,10 @@ pub enum Intent {
         /// With the panels, as the window shows it.
         with_panels: bool,
     },
+    /// Put a picture of the stage on the clipboard.
+    CopyPicture,
+    /// Put what the stage shows on the clipboard, as an SVG document.
+    CopyShapes,
     /// Record one pass as a film in the background.
     Record,
     /// Write a sheet of every method by which the pair can be seen, in the background.

@@ -190,7 +190,7 @@ fn view() -> Vec<Row> {
 }
 
 fn files() -> Vec<Row> {
-    use Intent::{AskOpen, Compare, Record, Save, SaveAs, Screenshot};
+    use Intent::{AskOpen, Compare, CopyPicture, CopyShapes, Record, Save, SaveAs, Screenshot};
     let letter = |c: char, intent: Intent| key(Letter(c), intent);
     let picture = |with_panels: bool| letter('s', Screenshot { with_panels });
     group(
@@ -201,6 +201,13 @@ fn files() -> Vec<Row> {
             ("Save as", vec![letter('s', SaveAs).control().shift()]),
             ("Picture of the stage", vec![picture(false)]),
             ("Picture with the panels", vec![picture(true).shift()]),
+            (
+                "Copy the stage: as a picture, as SVG",
+                vec![
+                    letter('c', CopyPicture).control(),
+                    letter('c', CopyShapes).control().shift(),
+                ],
+            ),
             ("Record one pass", vec![letter('g', Record)]),
             (
                 "Sheet of all methods, side by side",

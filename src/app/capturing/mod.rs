@@ -1,5 +1,7 @@
 //! Pictures and films, and where they go.
 
+pub mod copying;
+pub mod estimate;
 pub mod files;
 pub mod films;
 pub mod framing;

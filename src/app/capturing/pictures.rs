@@ -4,6 +4,7 @@
 //! was written, or why not, is said on screen. Nothing is ever overwritten.
 
 use std::collections::HashMap;
+use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use bevy::prelude::*;
@@ -13,6 +14,7 @@ use image::{DynamicImage, ImageError, ImageFormat};
 
 use crate::app::asking::choices::{CaptureScale, Preferences};
 use crate::app::asking::intent::Intent;
+use crate::app::capturing::copying::Board;
 use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new, whole};
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
@@ -27,8 +29,17 @@ const FOUR_K_PX: f32 = 3840.0;
 #[derive(Resource, Debug, Default)]
 pub struct Captures {
     next_id: u64,
-    names: HashMap<u64, String>,
+    awaited: HashMap<u64, Wish>,
     writing: Vec<Job<PathBuf, PictureError>>,
+}
+
+/// Where a picture of the stage goes.
+#[derive(Debug)]
+enum Wish {
+    /// To a file of this name.
+    File(String),
+    /// To the clipboard.
+    Board,
 }
 
 /// Why a picture was not written.
@@ -57,23 +68,25 @@ pub fn ask(
     (view, window): (Res<StageView>, Single<&Window, With<PrimaryWindow>>),
 ) {
     for intent in intents.read() {
-        let Intent::Screenshot { with_panels } = *intent else {
-            continue;
-        };
+        // Named now: the picture comes some frames later, when t has moved on.
         let name = format!("{}-t{:.3}", session.file_stem(), playback.t());
-        if with_panels {
-            commands
-                .spawn(Screenshot::primary_window())
-                .observe(window_captured(name));
-            continue;
-        }
+        let wish = match intent {
+            Intent::Screenshot { with_panels: true } => {
+                commands
+                    .spawn(Screenshot::primary_window())
+                    .observe(window_captured(name));
+                continue;
+            }
+            Intent::Screenshot { with_panels: false } => Wish::File(name),
+            Intent::CopyPicture => Wish::Board,
+            _ => continue,
+        };
         let Some(project) = session.project() else {
             continue;
         };
         captures.next_id += 1;
         let id = captures.next_id;
-        // Named now: the picture comes some frames later, when t has moved on.
-        captures.names.insert(id, name);
+        captures.awaited.insert(id, wish);
         requests.write(CaptureStage {
             id,
             size_px: size_px(&view, window.scale_factor(), preferences.capture_scale),
@@ -113,7 +126,7 @@ fn window_captured(
 impl Captures {
     /// A picture of the stage is awaited, which takes frames.
     pub fn is_awaited(&self) -> bool {
-        !self.names.is_empty()
+        !self.awaited.is_empty()
     }
 
     /// A picture is being written.
@@ -130,12 +143,11 @@ impl Captures {
 }
 
 fn save(folder: &Path, name: &str, image: &DynamicImage) -> Result<PathBuf, PictureError> {
-    let (file, path) = create_new(folder, name, "png")?;
-    let mut writer = std::io::BufWriter::new(file);
-    let written = image
-        .write_to(&mut writer, ImageFormat::Png)
-        // Dropping the writer would flush as well, but swallow the error of a full disk.
-        .and_then(|()| Ok(std::io::Write::flush(&mut writer)?));
+    // Encoded first: from its first moment to its last, the file is there for a moment only.
+    let mut encoded = std::io::Cursor::new(Vec::new());
+    let encoding = image.write_to(&mut encoded, ImageFormat::Png);
+    let (mut file, path) = create_new(folder, name, "png")?;
+    let written = encoding.and_then(|()| Ok(file.write_all(encoded.get_ref())?));
     let written = written.map_err(|error| {
         let path = path.clone();
         PictureError::Write { path, error }
@@ -148,15 +160,17 @@ pub fn receive(
     mut answers: MessageReader<StageCaptured>,
     mut captures: ResMut<Captures>,
     mut notices: ResMut<Notices>,
+    mut board: NonSendMut<Board>,
     folder: Res<CaptureFolder>,
 ) {
     for answer in answers.read() {
-        let Some(name) = captures.names.remove(&answer.id) else {
+        let Some(wish) = captures.awaited.remove(&answer.id) else {
             continue;
         };
-        match &answer.result {
-            Ok(image) => captures.write(&folder, &name, image.clone().into()),
-            Err(error) => notices.problem(About::Picture, error.clone()),
+        match (&answer.result, wish) {
+            (Ok(image), Wish::File(name)) => captures.write(&folder, &name, image.clone().into()),
+            (Ok(image), Wish::Board) => board.picture(image, &mut notices),
+            (Err(error), _) => notices.problem(About::Picture, error.clone()),
         }
     }
 }
@@ -168,7 +182,7 @@ pub fn report(mut captures: ResMut<Captures>, mut notices: ResMut<Notices>) {
             None => return true,
             Some(Ok(path)) => {
                 notices.well(About::Picture);
-                notices.done(format!("Saved {}", path.display()));
+                notices.wrote(path);
             }
             Some(Err(error)) => notices.problem(About::Picture, error.to_string()),
         }
