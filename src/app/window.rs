@@ -24,6 +24,7 @@ use crate::app::opening::watching::Watch;
 use crate::app::playing::presenting::whole_screen;
 use crate::app::playing::{pace, speaker, staging};
 use crate::app::ui::draw::UiPlugin;
+use crate::export::Presets;
 use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
 
 /// What the command line hands to the window.

@@ -10,10 +10,11 @@ use clap::Args;
 
 use crate::colour::Rgb;
 use crate::export::{
-    Aspect, Camera, Captions, Drawing, ExportError, Film, FilmKind, Layout, MethodRow, PixelSize,
-    Purpose, StillKind, Target, View, comparison, endings, even_times, framing, sheet, write_film,
-    write_still,
+    Aspect, Camera, Captions, Drawing, ExportError, Film, FilmKind, FilmPreset, Layout, MethodRow,
+    PixelSize, Presets, Purpose, StillKind, Target, View, comparison, endings, even_times, framing,
+    sheet, write_film, write_still,
 };
+use crate::names::{Choice, keys};
 use crate::progress::{Progress, Span, Whole};
 use crate::project::Project;
 use crate::transition::PlayMode;
@@ -64,9 +65,9 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "A..B", value_parser = range)]
     frames_range: Option<Range<usize>>,
 
-    /// Frames a second
-    #[arg(long, default_value_t = 30.0)]
-    fps: f64,
+    /// Frames a second [default: 30, or as the preset has it]
+    #[arg(long)]
+    fps: Option<f64>,
 
     /// Size in pixels [default: the design's shape, 960 along the longer side]
     #[arg(long, value_name = "WxH")]
@@ -87,9 +88,10 @@ pub(super) struct RenderArgs {
 #[command(next_help_heading = "Layout of pictures and films")]
 #[group(conflicts_with_all = ["sheet", "compare"])]
 struct LayoutArgs {
-    /// What it is made for: a shape, a size, and captions
-    #[arg(long, conflicts_with = "size", value_parser = one_of::<Purpose>())]
-    preset: Option<Purpose>,
+    /// What it is made for, a shape, a size, and captions: deck, post, story, page, or a look that
+    /// was kept in the window
+    #[arg(long, value_name = "NAME", conflicts_with = "size", value_parser = preset)]
+    preset: Option<Preset>,
 
     /// The shape of pictures
     #[arg(long, conflicts_with = "size", value_parser = one_of::<Aspect>())]
@@ -120,7 +122,11 @@ impl LayoutArgs {
             aspect: Aspect::Own,
             ..Layout::default()
         };
-        let base = self.preset.map_or_else(plain, Purpose::layout);
+        let base = match &self.preset {
+            None => plain(),
+            Some(Preset::Made(purpose)) => purpose.layout(),
+            Some(Preset::Kept(kept)) => kept.layout(),
+        };
         is_asked.then(|| Layout {
             aspect: self.aspect.unwrap_or(base.aspect),
             lines: self.lines.unwrap_or(base.lines),
@@ -130,10 +136,45 @@ impl LayoutArgs {
     }
 }
 
+/// A look by its name.
+#[derive(Clone, Copy, Debug)]
+enum Preset {
+    /// One of those that everybody has.
+    Made(Purpose),
+    /// One that was kept.
+    Kept(FilmPreset),
+}
+
+fn preset(name: &str) -> Result<Preset, String> {
+    if let Ok(purpose) = Purpose::of_key(name) {
+        return Ok(Preset::Made(purpose));
+    }
+    let kept = match Presets::usual_path() {
+        Some(path) => {
+            Presets::read(&path).map_err(|error| format!("{}: {error}", path.display()))?
+        }
+        None => Presets::default(),
+    };
+    let known = keys::<Purpose>().map(str::to_owned);
+    let known: Vec<String> = known.chain(kept.0.keys().cloned()).collect();
+    let found = kept.0.get(name).copied().map(Preset::Kept);
+    found.ok_or_else(|| format!("write {}", known.join(", ")))
+}
+
 fn margin(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(share) if (0.0..=0.4).contains(&share) => Ok(share),
         _ => Err("give a fraction from 0 to 0.4, for example 0.05".to_owned()),
+    }
+}
+
+impl RenderArgs {
+    fn fps(&self) -> f64 {
+        let of_preset = match &self.layout.preset {
+            Some(Preset::Kept(kept)) => f64::from(kept.fps),
+            _ => 30.0,
+        };
+        self.fps.unwrap_or(of_preset)
     }
 }
 
@@ -283,8 +324,8 @@ fn whole_film(args: &RenderArgs, project: &Project, target: &Target) -> Result<F
         timing.play = PlayMode::Once;
     }
     let film = match args.frames {
-        None => Film::of_timing(&timing, &project.stops, args.fps),
-        Some(count) => Film::evenly(timing.from, timing.to, count, args.fps)
+        None => Film::of_timing(&timing, &project.stops, args.fps()),
+        Some(count) => Film::evenly(timing.from, timing.to, count, args.fps())
             .map(|film| film.playing(timing.play)),
     };
     film.map_err(CliError::usage)

@@ -151,6 +151,12 @@ pub enum Intent {
     ToggleGrid,
     /// Replace what the person at the screen chose.
     Prefer(Preferences),
+    /// Make films as was kept under this name.
+    UsePreset(String),
+    /// Keep how films are made under this name.
+    KeepPreset(String),
+    /// Forget what was kept under this name.
+    ForgetPreset(String),
     /// A message was read.
     Dismiss(u64),
     /// Close the window; asks first where something would be lost.

@@ -1,0 +1,103 @@
+//! How films are made, kept under names of the user's own; the command line knows them too.
+
+use std::path::PathBuf;
+
+use bevy::prelude::{MessageReader, Res, ResMut, Resource, warn};
+
+use crate::app::asking::choices::{Preferences, RecordFormat};
+use crate::app::asking::intent::Intent;
+use crate::app::session::state::Session;
+use crate::app::telling::notices::{About, Notices};
+use crate::content::ContentKind;
+use crate::export::{FilmPreset, Presets};
+
+/// All that are kept.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct KeptPresets {
+    presets: Presets,
+    /// None where nothing is to be kept, as in tests.
+    path: Option<PathBuf>,
+}
+
+impl KeptPresets {
+    /// Those of a file. One that cannot be read stays as it is, and nothing is kept.
+    #[must_use]
+    pub fn of_file(path: Option<PathBuf>) -> Self {
+        let read = path.as_deref().map(Presets::read);
+        match read {
+            Some(Ok(presets)) => Self { presets, path },
+            Some(Err(error)) => {
+                warn!("kept looks of films: {error}");
+                Self::default()
+            }
+            None => Self::default(),
+        }
+    }
+
+    /// Their names.
+    pub fn names(&self) -> impl Iterator<Item = &str> {
+        self.presets.0.keys().map(String::as_str)
+    }
+
+    /// The one that is in use, by its name.
+    #[must_use]
+    pub fn in_use(&self, preferences: &Preferences, content: Option<ContentKind>) -> Option<&str> {
+        let now = preset(preferences, content);
+        let same = self.presets.0.iter().find(|(_, preset)| **preset == now);
+        same.map(|(name, _)| name.as_str())
+    }
+}
+
+fn preset(preferences: &Preferences, content: Option<ContentKind>) -> FilmPreset {
+    let format = preferences.format(content);
+    let layout = preferences.film.layout;
+    FilmPreset {
+        aspect: layout.aspect,
+        lines: layout.lines,
+        margin: layout.margin,
+        captions: layout.has_captions,
+        fps: preferences.film.fps,
+        file: match format {
+            RecordFormat::Film(kind) => Some(kind),
+            RecordFormat::Pngs => None,
+        },
+    }
+}
+
+/// Keeps, takes and forgets them.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    mut kept: ResMut<KeptPresets>,
+    mut preferences: ResMut<Preferences>,
+    (session, mut notices): (Res<Session>, ResMut<Notices>),
+) {
+    for intent in intents.read() {
+        match intent {
+            Intent::UsePreset(name) => {
+                if let Some(preset) = kept.presets.0.get(name) {
+                    preferences.film.layout = preset.layout();
+                    preferences.film.fps = preset.fps;
+                    let file = preset.file.map_or(RecordFormat::Pngs, RecordFormat::Film);
+                    preferences.record_format = Some(file);
+                }
+                continue;
+            }
+            Intent::KeepPreset(name) => {
+                let content = session.project().and_then(|project| project.content);
+                let now = preset(&preferences, content);
+                kept.presets.0.insert(name.clone(), now);
+            }
+            Intent::ForgetPreset(name) => {
+                kept.presets.0.remove(name);
+            }
+            _ => continue,
+        }
+        let written = kept.path.as_deref().map(|path| kept.presets.write(path));
+        if let Some(Err(error)) = written {
+            notices.problem(
+                About::Film,
+                format!("It is not kept for the next start: {error}."),
+            );
+        }
+    }
+}

@@ -1,0 +1,132 @@
+//! How films of one kind are made, kept under a name.
+
+use std::collections::BTreeMap;
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::layout::{Aspect, Layout};
+use super::target::FilmKind;
+use crate::atomic_file::AtomicFile;
+
+/// What is kept of how films are made.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+pub struct FilmPreset {
+    /// The shape of the pictures.
+    pub aspect: Aspect,
+    /// Pixels along the shorter side.
+    pub lines: u32,
+    /// What is free all around, a fraction of the shorter side.
+    #[serde(default)]
+    pub margin: f64,
+    /// Whether captions stand below.
+    #[serde(default)]
+    pub captions: bool,
+    /// Frames a second.
+    pub fps: u32,
+    /// The kind of file; numbered PNGs where there is none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub file: Option<FilmKind>,
+}
+
+impl FilmPreset {
+    /// Its layout.
+    #[must_use]
+    pub fn layout(&self) -> Layout {
+        Layout {
+            aspect: self.aspect,
+            lines: self.lines,
+            margin: self.margin,
+            has_captions: self.captions,
+        }
+    }
+}
+
+/// All that is kept, by name.
+///
+/// ```
+/// use morphospace::export::Presets;
+/// let text = "[talk]\naspect = \"4:3\"\nlines = 720\nfps = 25\n";
+/// let presets = Presets::parse(text)?;
+/// assert_eq!(presets.0["talk"].layout().lines, 720);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Presets(pub BTreeMap<String, FilmPreset>);
+
+impl Presets {
+    /// Where the window keeps them; none where the system has no such place.
+    #[cfg(feature = "cli")]
+    #[must_use]
+    pub fn usual_path() -> Option<PathBuf> {
+        Some(dirs::config_dir()?.join("morphospace").join("films.toml"))
+    }
+
+    /// Reads them from text.
+    ///
+    /// # Errors
+    /// The text is not of their form; the message names the line.
+    pub fn parse(text: &str) -> Result<Self, toml::de::Error> {
+        toml::from_str(text)
+    }
+
+    /// Reads a file; there are none where it is not there.
+    ///
+    /// # Errors
+    /// It cannot be read, or is not of their form.
+    pub fn read(path: &Path) -> io::Result<Self> {
+        match std::fs::read_to_string(path) {
+            Ok(text) => Self::parse(&text).map_err(io::Error::other),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(Self::default()),
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Writes them, whole or not at all.
+    ///
+    /// # Errors
+    /// The disk is full, or the folder cannot be written to.
+    pub fn write(&self, path: &Path) -> io::Result<()> {
+        if let Some(folder) = path.parent() {
+            std::fs::create_dir_all(folder)?;
+        }
+        let text = toml::to_string(self).map_err(io::Error::other)?;
+        let mut file = AtomicFile::create(path)?;
+        file.file_mut().write_all(text.as_bytes())?;
+        file.commit()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_was_kept_is_read_back() -> io::Result<()> {
+        let folder = tempfile::tempdir()?;
+        let path = folder.path().join("new").join("films.toml");
+        assert_eq!(Presets::read(&path)?, Presets::default());
+        let preset = FilmPreset {
+            aspect: Aspect::Tall,
+            lines: 1080,
+            margin: 0.05,
+            captions: true,
+            fps: 30,
+            file: Some(FilmKind::Mp4),
+        };
+        let pngs = FilmPreset {
+            file: None,
+            ..preset
+        };
+        let all = [("story, ours", preset), ("frames", pngs)];
+        let presets = Presets(all.map(|(name, preset)| (name.to_owned(), preset)).into());
+        presets.write(&path)?;
+        assert_eq!(Presets::read(&path)?, presets);
+        std::fs::write(&path, "[talk]\naspect = \"round\"\n")?;
+        let error = Presets::read(&path).err().map(|error| error.to_string());
+        assert!(error.is_some_and(|error| error.contains("16:9")));
+        Ok(())
+    }
+}
