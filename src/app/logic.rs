@@ -6,9 +6,9 @@ use crate::app::asking::choices::Preferences;
 use crate::app::asking::hand::{self, Typing};
 use crate::app::asking::intent::Intent;
 use crate::app::asking::keymap::{self, KeyMap};
-use crate::app::capturing::files::CaptureFolder;
+use crate::app::capturing::files::{CaptureFolder, Workshop};
 use crate::app::capturing::films;
-use crate::app::capturing::framing;
+use crate::app::capturing::{estimate, framing};
 use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::editing::{apply, refresh};
@@ -25,10 +25,10 @@ use crate::app::opening::apply::{self as opening, Gallery};
 use crate::app::opening::closing::{self, Question};
 use crate::app::opening::{dialogs, drops, watching};
 use crate::app::playing::playback::{self, Playback};
+use crate::app::playing::presenting::{self, Presenting};
 use crate::app::playing::staging;
 use crate::app::session::state::Session;
 use crate::app::telling::notices::{self, Notices};
-use crate::app::playing::presenting::{self, Presenting};
 use crate::stage::MorphSystems;
 
 /// Everything that needs neither a window nor a graphics card.
@@ -70,17 +70,17 @@ fn init(app: &mut App) {
     app.add_message::<Intent>()
         .add_message::<bevy::window::FileDragAndDrop>()
         .add_message::<bevy::window::WindowCloseRequested>()
+        .add_message::<bevy::window::CursorMoved>()
         .init_resource::<ClearColor>()
         .init_resource::<ButtonInput<MouseButton>>()
         .init_resource::<hand::Gesture>()
-        .add_message::<bevy::window::CursorMoved>()
         .init_resource::<Gallery>()
         .init_resource::<Session>()
         .init_resource::<Playback>()
+        .init_resource::<Presenting>()
         .init_resource::<Preferences>()
         .init_resource::<KeyMap>()
         .init_resource::<Typing>()
-        .init_resource::<Presenting>()
         .init_resource::<Editor>()
         .init_resource::<Sheet>()
         .init_resource::<Measured>()
@@ -89,8 +89,6 @@ fn init(app: &mut App) {
         .init_resource::<Twin>()
         .init_resource::<Notices>()
         .init_resource::<Question>()
-        .init_resource::<drops::Drop>()
-        .init_resource::<dialogs::Dialog>()
         .init_resource::<Autosave>()
         .init_resource::<presets::KeptPresets>()
         .init_resource::<drops::Drop>()
@@ -98,6 +96,8 @@ fn init(app: &mut App) {
         .init_resource::<dialogs::Dialog>()
         .init_resource::<films::Recorder>()
         .init_resource::<framing::FilmFrame>()
+        .init_resource::<Workshop>()
+        .init_resource::<estimate::Estimate>()
         .init_resource::<StageArea>()
         .init_resource::<KeepsFit>()
         .init_resource::<times::WholeFrame>()
@@ -152,10 +152,10 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         )
             .chain(),
         view::apply,
+        watching::follow,
+        // After all that changes the project or takes it for saved.
+        autosave::follow,
         notices::apply,
     )
         .chain()
 }
-        watching::follow,
-        // After all that changes the project or takes it for saved.
-        autosave::follow,

@@ -34,11 +34,11 @@ pub struct AppOptions {
     pub files: Vec<PathBuf>,
     /// The folder for pictures and films, instead of the user's pictures.
     pub captures: Option<PathBuf>,
+    /// A talk begins at once, and the window closes with it.
+    pub presents: bool,
 }
 
 /// Opens the window and returns when it was closed.
-    /// A talk begins at once, and the window closes with it.
-    pub presents: bool,
 pub fn run(options: AppOptions) -> AppExit {
     let AppOptions {
         files,
@@ -50,24 +50,22 @@ pub fn run(options: AppOptions) -> AppExit {
         .add_plugins(DefaultPlugins.set(window(presents)))
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(CaptureFolder::choose(captures))
-        .add_systems(
         .insert_resource(autosave.workshop())
         .insert_resource(autosave)
         .insert_resource(KeptPresets::of_file(Presets::usual_path()))
+        .add_systems(
             Startup,
             move |mut intents: MessageWriter<Intent>, gallery: Res<Gallery>| {
                 intents.write(first(&files, &gallery));
-            },
-        )
-        .run()
-}
-
-fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
-        .add_systems(Startup, watch)
                 if presents {
                     intents.write(Intent::Present { is_all: true });
                 }
-    let bundled = match files {
+            },
+        )
+        .add_systems(Startup, watch)
+        .run()
+}
+
 /// A file that has changed wakes the window, which may be at rest.
 fn watch(watch: Res<Watch>, events: Res<EventLoopProxyWrapper>) {
     let events = events.clone();
@@ -88,6 +86,8 @@ fn autosave() -> Autosave {
     })
 }
 
+fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
+    let bundled = match files {
         [] => gallery.0.first().map(|entry| entry.name.clone()),
         [one] => one
             .to_str()
@@ -104,6 +104,12 @@ fn window(presents: bool) -> WindowPlugin {
         primary_window: Some(Window {
             title: "Morphospace".to_owned(),
             name: Some("morphospace".to_owned()),
+            // From its first frame on.
+            mode: if presents {
+                whole_screen()
+            } else {
+                WindowMode::Windowed
+            },
             resolution: WindowResolution::new(1280, 720),
             resize_constraints: WindowResizeConstraints {
                 // The list of keys, which is the largest, fits into it.
@@ -129,15 +135,10 @@ impl Plugin for WindowPlugins {
     fn build(&self, app: &mut App) {
         app.add_plugins(UiPlugin)
             .init_resource::<pictures::Captures>()
-            .init_resource::<thumbnails::Thumbnails>()
-            .add_systems(Startup, spawn_cameras)
-            // From its first frame on.
-            mode: if presents {
-                whole_screen()
-            } else {
-                WindowMode::Windowed
             .init_non_send::<copying::Board>()
-            },
+            .init_resource::<thumbnails::Thumbnails>()
+            .init_resource::<speaker::Speaker>()
+            .add_systems(Startup, spawn_cameras)
             // Last: what this frame has begun decides how soon the next one comes.
             .add_systems(Last, pace::keep)
             .add_systems(
@@ -145,6 +146,7 @@ impl Plugin for WindowPlugins {
                 (
                     view::window_mode,
                     (view::fit, view::place_camera).chain(),
+                    (speaker::apply, speaker::follow).chain(),
                     thumbnails::advance,
                 )
                     .after(MorphSystems::Playback)
@@ -165,7 +167,6 @@ impl Plugin for WindowPlugins {
             .add_plugins(HierarchyPropagatePlugin::<RenderLayers>::new(PostUpdate))
             .configure_sets(
                 PostUpdate,
-            .init_resource::<speaker::Speaker>()
                 PropagateSet::<RenderLayers>::default().before(VisibilitySystems::CheckVisibility),
             )
             .add_systems(
@@ -174,7 +175,6 @@ impl Plugin for WindowPlugins {
             );
     }
 }
-                    (speaker::apply, speaker::follow).chain(),
 
 /// One camera for the stage, in its part of the window, one for the second method beside it, and
 /// one above them for the panels.

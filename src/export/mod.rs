@@ -71,7 +71,7 @@ pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};
 pub use gif::{MAX_GIF_FPS, write_gif};
 pub use layout::{Aspect, Layout, Purpose};
 #[cfg(not(target_family = "wasm"))]
-pub use mp4::write_mp4;
+pub use mp4::{has_ffmpeg, write_mp4};
 pub use outline::{MAX_COORDINATE_PX, Outline, Step};
 pub use pair_sheet::{Strip, pair_sheet};
 pub use png_sequence::write_numbered;

@@ -13,6 +13,7 @@ use std::fs::File;
 use std::io::{self, Write};
 use std::path::Path;
 use std::process::{ChildStdin, Command};
+use std::sync::OnceLock;
 
 use crate::atomic_file::AtomicFile;
 use crate::progress::{Cancelled, Progress, Span};
@@ -66,6 +67,13 @@ pub fn write_mp4(
     job.check(film.times().len(), &words)?;
     fed?;
     file.commit().map_err(ExportError::write(path))
+}
+
+/// Whether there is an ffmpeg to write MP4s with; it is looked for once.
+#[must_use]
+pub fn has_ffmpeg() -> bool {
+    static FOUND: OnceLock<bool> = OnceLock::new();
+    *FOUND.get_or_init(ffmpeg::is_there)
 }
 
 /// What ffmpeg has to do with one file.

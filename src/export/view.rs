@@ -38,6 +38,20 @@ impl View {
         }
     }
 
+    /// The same in a picture of another size, as large as its shape allows.
+    #[must_use]
+    pub fn scaled_to(&self, size: PixelSize) -> Self {
+        let ratio = size.as_dvec2() / self.size.as_dvec2();
+        let scale = ratio.min_element();
+        let from_middle = self.middle_px - 0.5 * self.size.as_dvec2();
+        Self {
+            size,
+            middle_px: 0.5 * size.as_dvec2() + scale * from_middle,
+            px_per_unit: scale * self.px_per_unit,
+            ..*self
+        }
+    }
+
     /// The picture that this is a view in.
     pub fn size(&self) -> PixelSize {
         self.size

@@ -11,6 +11,6 @@ mod keys;
 mod opening;
 mod rest;
 mod saving;
-mod telling;
 mod talk;
+mod telling;
 mod window;

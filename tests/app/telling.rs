@@ -130,7 +130,10 @@ fn a_film_has_the_shape_that_was_said() {
         ..Layout::default()
     };
     window.send(Intent::Prefer(Preferences {
-        film: FilmLook { layout, fps: 25 },
+        film: FilmLook {
+            layout,
+            ..Default::default()
+        },
         film_options: true,
         ..Preferences::default()
     }));

@@ -3,9 +3,10 @@
 use bevy::prelude::Resource;
 
 use crate::content::ContentKind;
-use crate::export::{FilmKind, Layout};
+use crate::export::{FilmKind, Layout, has_ffmpeg};
+use crate::names::named;
 use crate::stage::Show;
-use crate::transition::Cell;
+use crate::transition::{Cell, PlayMode, Timing};
 
 /// What the person at the screen chose; not part of any project.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
@@ -24,10 +25,10 @@ pub struct Preferences {
     pub plots: bool,
     /// Size of screenshots.
     pub capture_scale: CaptureScale,
-    /// Screenshots and films have a transparent ground.
+    /// Screenshots have a transparent ground.
     pub capture_transparent: bool,
-    /// Kind of file of a recording.
-    pub record_format: RecordFormat,
+    /// Kind of file of a recording; none takes what suits what is seen.
+    pub record_format: Option<RecordFormat>,
     /// How films lie in their pictures.
     pub film: FilmLook,
     /// The options of pictures and films are shown.
@@ -45,7 +46,7 @@ impl Default for Preferences {
             plots: false,
             capture_scale: CaptureScale::default(),
             capture_transparent: false,
-            record_format: RecordFormat::default(),
+            record_format: None,
             film: FilmLook::default(),
             film_options: false,
         }
@@ -59,6 +60,12 @@ pub struct FilmLook {
     pub layout: Layout,
     /// Frames a second.
     pub fps: u32,
+    /// The t that it begins at and that it ends at, where that is not those of the pass.
+    pub span: [Option<f64>; 2],
+    /// How it goes on at its end.
+    pub ending: Ending,
+    /// Nothing lies behind it, where the file can have that.
+    pub is_transparent: bool,
 }
 
 impl Default for FilmLook {
@@ -67,9 +74,51 @@ impl Default for FilmLook {
         Self {
             layout: Layout::default(),
             fps: 25,
+            span: [None; 2],
+            ending: Ending::default(),
+            is_transparent: false,
         }
     }
 }
+
+impl FilmLook {
+    /// The timing of the film: a part of the pass runs as fast as the pass does.
+    #[must_use]
+    pub fn timing(&self, pass: &Timing) -> Timing {
+        let [from, to] = self.span;
+        let (from, to) = (from.unwrap_or(pass.from), to.unwrap_or(pass.to));
+        let share = (to - from).abs() / (pass.to - pass.from).abs();
+        Timing {
+            from,
+            to,
+            duration_secs: pass.duration_secs * share,
+            play: match self.ending {
+                Ending::AsPlayed => pass.play,
+                Ending::Once => PlayMode::Once,
+                Ending::Seamless => PlayMode::PingPong,
+            },
+            ..*pass
+        }
+    }
+}
+
+/// How a film goes on at its end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Ending {
+    /// As the pass on the stage.
+    #[default]
+    AsPlayed,
+    /// It ends.
+    Once,
+    /// It comes back, and begins again where it began.
+    Seamless,
+}
+
+named! { Ending {
+    AsPlayed: "as-played", "As played", "As the stage plays: set below, beside Lasts";
+    Once: "once", "One way", "From the first form to the last, and no further";
+    Seamless: "seamless", "Loop", "There and back, so that it can go round without a jump";
+} }
 
 /// The colours of the panels.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -107,10 +156,23 @@ impl RecordFormat {
     pub const OPAQUE: Self = Self::Film(FilmKind::Mp4);
 }
 
-impl Default for RecordFormat {
-    /// What plays everywhere.
-    fn default() -> Self {
-        Self::Film(FilmKind::Gif)
+impl Preferences {
+    /// The kind of file that a recording of this content writes.
+    #[must_use]
+    pub fn format(&self, content: Option<ContentKind>) -> RecordFormat {
+        self.record_format
+            .unwrap_or_else(|| RecordFormat::suited(content))
+    }
+}
+
+impl RecordFormat {
+    /// What plays everywhere; of photographs that would be large, and lack colours.
+    fn suited(content: Option<ContentKind>) -> Self {
+        Self::Film(match content {
+            Some(ContentKind::Colours) if has_ffmpeg() => FilmKind::Mp4,
+            Some(ContentKind::Colours) => FilmKind::Apng,
+            _ => FilmKind::Gif,
+        })
     }
 }
 

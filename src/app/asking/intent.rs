@@ -100,10 +100,6 @@ pub enum Intent {
     Insist,
     /// Stop the recording that is going on.
     CancelRecording,
-    /// Whole screen, or window.
-    ToggleFullscreen,
-    /// Hide everything but the stage, or show it again.
-    TogglePanels,
     /// Begin a talk, or end it.
     Present {
         /// The window is there for it, and closes with it.
@@ -115,6 +111,10 @@ pub enum Intent {
     ToggleSpeaker,
     /// Show or hide the captions in a talk.
     ToggleCaptions,
+    /// Whole screen, or window.
+    ToggleFullscreen,
+    /// Hide everything but the stage, or show it again.
+    TogglePanels,
     /// Show or hide the list of keys.
     ToggleHelp,
     /// Show or hide the times of a frame.
@@ -123,12 +123,12 @@ pub enum Intent {
     TogglePlots,
     /// Do what the verdict advises about this finding.
     TakeAdvice(usize),
+    /// Take what was tried and helps, by its number.
+    TakeOffer(usize),
     /// Measure the transition, which was stopped.
     Measure,
     /// Show or hide a second method beside the stage.
     ToggleTwin,
-    /// Take what was tried and helps, by its number.
-    TakeOffer(usize),
     /// The method that is shown beside the stage.
     TwinMethod(TwinMethod),
     /// Leave what was entered last: help, question, hidden panels, whole screen.
@@ -163,18 +163,6 @@ pub enum Intent {
     Close,
     /// The answer to the question about what would be lost.
     Answer(Answer),
-}
-
-/// An answer to "this would be lost".
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Answer {
-    /// Save it, or wait for it, then go on.
-    Save,
-    /// Go on without it.
-    Discard,
-    /// Do not go on.
-    Stay,
-}
     /// The answer to what can be taken up again.
     Rescue(Rescue),
 }
@@ -217,3 +205,15 @@ impl Intent {
                 | Self::Back
         )
     }
+}
+
+/// An answer to "this would be lost".
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Answer {
+    /// Save it, or wait for it, then go on.
+    Save,
+    /// Go on without it.
+    Discard,
+    /// Do not go on.
+    Stay,
+}

@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 
 use bevy::prelude::Resource;
 
+use crate::atomic_file::AtomicFile;
+
 /// The folder for pictures and films.
 #[derive(Resource, Clone, Debug, PartialEq, Eq)]
 pub struct CaptureFolder(pub PathBuf);
@@ -45,14 +47,6 @@ pub fn create_new(
     first_free(folder, stem, &format!(".{extension}"), create)
 }
 
-/// Makes a new folder `stem`, or `stem-2` and so on.
-///
-/// # Errors
-/// The parent cannot be made or written to.
-pub fn create_new_folder(folder: &Path, stem: &str) -> Result<PathBuf, NewFileError> {
-    first_free(folder, stem, "", |path| std::fs::create_dir(path)).map(|(_, path)| path)
-}
-
 fn first_free<T>(
     folder: &Path,
     stem: &str,
@@ -80,6 +74,92 @@ fn first_free<T>(
         }
     }
     Err(failed(folder, io::ErrorKind::AlreadyExists.into()))
+}
+
+/// Where films are written before they are moved to their place: a program that is killed leaves
+/// nothing half done among the user's pictures, and the next start clears this up. None takes the
+/// system's folder for such things.
+#[derive(Resource, Clone, Debug, Default, PartialEq, Eq)]
+pub struct Workshop(pub Option<PathBuf>);
+
+impl Workshop {
+    /// A folder of its own for one piece of work, which goes with it.
+    ///
+    /// # Errors
+    /// It cannot be made.
+    pub fn begin(&self) -> io::Result<tempfile::TempDir> {
+        match &self.0 {
+            None => tempfile::tempdir(),
+            Some(folder) => {
+                std::fs::create_dir_all(folder)?;
+                tempfile::tempdir_in(folder)
+            }
+        }
+    }
+}
+
+/// Whether something could be written into a folder, which is made where it is missing: seen before
+/// long work and not after it.
+///
+/// # Errors
+/// The folder cannot be made or written to.
+pub fn try_folder(folder: &Path) -> Result<(), NewFileError> {
+    let tried = std::fs::create_dir_all(folder).and_then(|()| tempfile::tempfile_in(folder));
+    tried.map(drop).map_err(|source| NewFileError {
+        path: folder.display().to_string(),
+        source,
+    })
+}
+
+/// Moves what was made, a file or a folder, to a name that nothing has yet; returns where it is.
+///
+/// # Errors
+/// The folder cannot be made or written to; nothing is left there then.
+pub fn deliver(made: &Path, folder: &Path, stem: &str) -> Result<PathBuf, NewFileError> {
+    if made.is_dir() {
+        let (_, path) = first_free(folder, stem, "", |path| move_folder(made, path))?;
+        return Ok(path);
+    }
+    let ending = made.extension().unwrap_or_default().to_string_lossy();
+    let (_, path) = first_free(folder, stem, &format!(".{ending}"), |path| {
+        // Never over a file that is there, and whole from its first moment on.
+        match std::fs::hard_link(made, path) {
+            Err(error) if error.kind() != io::ErrorKind::AlreadyExists => copy_new(made, path),
+            linked => linked,
+        }
+    })?;
+    Ok(path)
+}
+
+/// For other disks, and those that know no links.
+fn copy_new(made: &Path, path: &Path) -> io::Result<()> {
+    drop(OpenOptions::new().write(true).create_new(true).open(path)?);
+    let copy = || {
+        let mut file = AtomicFile::create(path)?;
+        io::copy(&mut File::open(made)?, file.file_mut())?;
+        file.commit()
+    };
+    copy().inspect_err(|_| {
+        std::fs::remove_file(path).ok();
+    })
+}
+
+fn move_folder(made: &Path, path: &Path) -> io::Result<()> {
+    // Taken first, for a folder may be moved over an empty one.
+    std::fs::create_dir(path)?;
+    if std::fs::rename(made, path).is_ok() {
+        return Ok(());
+    }
+    let copy = || {
+        for entry in made.read_dir()? {
+            let entry = entry?;
+            copy_new(&entry.path(), &path.join(entry.file_name()))?;
+        }
+        Ok(())
+    };
+    copy().inspect_err(|_| {
+        std::fs::remove_dir_all(path).ok();
+    })
 }
 
 /// The path of what was written. What was only begun is neither picture nor film and is taken away;
@@ -135,6 +215,28 @@ mod tests {
             .filter_map(|p| p.file_name().map(|n| n.to_owned()))
             .collect();
         assert_eq!(names, ["a.png", "a-2.png", "a-3.png"]);
+        Ok(())
+    }
+
+    #[test]
+    fn what_is_delivered_takes_a_free_name() -> Result<(), Box<dyn std::error::Error>> {
+        let (from, to) = (tempfile::tempdir()?, tempfile::tempdir()?);
+        let film = from.path().join("film.gif");
+        std::fs::write(&film, "frames")?;
+        let frames = from.path().join("frames");
+        std::fs::create_dir(&frames)?;
+        std::fs::write(frames.join("0.png"), "frame")?;
+        let folder = to.path().join("films");
+        let name = |path: PathBuf| path.file_name().map(|name| name.to_owned());
+        assert_eq!(name(deliver(&film, &folder, "a")?), Some("a.gif".into()));
+        assert_eq!(name(deliver(&film, &folder, "a")?), Some("a-2.gif".into()));
+        assert_eq!(name(deliver(&frames, &folder, "a")?), Some("a".into()));
+        assert_eq!(std::fs::read(folder.join("a-2.gif"))?, b"frames");
+        assert_eq!(std::fs::read(folder.join("a").join("0.png"))?, b"frame");
+        // As between two disks.
+        copy_new(&film, &folder.join("b.gif"))?;
+        assert_eq!(std::fs::read(folder.join("b.gif"))?, b"frames");
+        assert!(copy_new(&film, &folder.join("b.gif")).is_err());
         Ok(())
     }
 

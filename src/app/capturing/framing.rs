@@ -6,7 +6,7 @@ use crate::app::asking::choices::{FilmLook, Preferences};
 use crate::app::session::state::Session;
 use crate::export::{Film, FilmError, SizeError, View, framing};
 use crate::geometry::Bounds;
-use crate::transition::{Stop, Timing, Transition};
+use crate::transition::{Stop, Timing, TimingError, Transition};
 
 /// The film that would be written; none while nobody asks.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
@@ -39,6 +39,9 @@ impl Framed {
 /// Why there is no film.
 #[derive(Debug, thiserror::Error)]
 pub enum FramingError {
+    /// It would begin where it ends.
+    #[error(transparent)]
+    Timing(#[from] TimingError),
     /// The timing makes none.
     #[error(transparent)]
     Film(#[from] FilmError),
@@ -56,7 +59,9 @@ pub fn framed(
     (timing, stops): (&Timing, &[Stop]),
     look: &FilmLook,
 ) -> Result<(Film, View), FramingError> {
-    let film = Film::of_timing(timing, stops, f64::from(look.fps))?;
+    let timing = look.timing(timing);
+    timing.check(stops)?;
+    let film = Film::of_timing(&timing, stops, f64::from(look.fps))?;
     let bounds = framing(transition, film.times());
     let view = look.layout.view(bounds)?;
     Ok((film, view))

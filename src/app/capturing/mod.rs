@@ -5,4 +5,5 @@ pub mod estimate;
 pub mod files;
 pub mod films;
 pub mod framing;
+pub mod order;
 pub mod pictures;

@@ -16,9 +16,9 @@ use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::closing::Question;
 use crate::app::opening::drops::Drop;
+use crate::app::playing::presenting::{Presenting, whole_screen};
 use crate::app::session::state::Session;
 use crate::geometry::Bounds;
-use crate::app::playing::presenting::{Presenting, whole_screen};
 use crate::stage::{StageCamera, StageView};
 
 /// Room around the transition when all of it is shown, as a part of its size: outlines and the
@@ -201,8 +201,6 @@ pub fn window_mode(
     }
 }
 
-/// Esc: the help goes first, then work that is told of, then what hid the panels, then the whole
-/// screen, and when nothing else is left to leave a recording.
 /// What Esc answers before all else.
 type Asking<'w> = (
     Res<'w, Question>,
@@ -218,6 +216,8 @@ type Working<'w> = (
     ResMut<'w, Helping>,
 );
 
+/// Esc: the help goes first, then work that is told of, then what hid the panels, then the whole
+/// screen, and when nothing else is left to leave a recording.
 pub fn back(
     mut intents: MessageReader<Intent>,
     mut preferences: ResMut<Preferences>,

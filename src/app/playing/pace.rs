@@ -16,9 +16,9 @@ use bevy::winit::{UpdateMode, WINIT_WINDOWS, WinitSettings};
 
 use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
+use crate::app::capturing::estimate::Estimate;
 use crate::app::capturing::films::Recorder;
 use crate::app::capturing::pictures::Captures;
-use crate::app::looking::choosing::Choosing;
 use crate::app::keeping::autosave::Autosave;
 use crate::app::looking::choosing::Choosing;
 use crate::app::looking::helping::Helping;
@@ -28,11 +28,11 @@ use crate::app::opening::dialogs::Dialog;
 use crate::app::opening::drops::Drop;
 use crate::app::opening::thumbnails::Thumbnails;
 use crate::app::playing::playback::Playback;
+use crate::app::playing::presenting::Presenting;
+use crate::app::playing::speaker::Speaker;
 use crate::app::session::state::Session;
 use crate::app::telling::notices::Notices;
 use crate::stage::PipelinesReady;
-use crate::app::playing::presenting::Presenting;
-use crate::app::playing::speaker::Speaker;
 
 /// While work goes on, the window looks this often whether it is done: soon enough not to be
 /// noticed, and rarely enough to leave the processor to the work.
@@ -89,16 +89,16 @@ impl Pace {
 pub struct Going<'w, 's> {
     session: Res<'w, Session>,
     playback: Res<'w, Playback>,
+    presenting: Res<'w, Presenting>,
+    speaker: Res<'w, Speaker>,
     preferences: Res<'w, Preferences>,
     captures: Res<'w, Captures>,
     shots: Query<'w, 's, (), With<Screenshot>>,
-    presenting: Res<'w, Presenting>,
-    speaker: Res<'w, Speaker>,
     recorder: Res<'w, Recorder>,
-    thumbnails: Res<'w, Thumbnails>,
-    choosing: Res<'w, Choosing>,
     estimate: Res<'w, Estimate>,
     autosave: Res<'w, Autosave>,
+    thumbnails: Res<'w, Thumbnails>,
+    choosing: Res<'w, Choosing>,
     measured: Res<'w, Measured>,
     helping: Res<'w, Helping>,
     twin: Res<'w, Twin>,
@@ -122,8 +122,12 @@ impl Going<'_, '_> {
     fn waits(&self) -> bool {
         // A cursor that blinks, a tip that is about to be shown.
         self.repaint.0 < REST
+            || self.presenting.waits()
+            || self.speaker.is_open()
             || self.session.work().is_some()
             || self.recorder.work().is_some()
+            || self.estimate.is_busy()
+            || self.autosave.is_behind()
             || self.captures.is_writing()
             || self.thumbnails.is_busy()
             || self.choosing.told().is_some()
@@ -140,13 +144,14 @@ impl Going<'_, '_> {
     fn is_new(&self) -> bool {
         self.session.is_changed()
             || self.choosing.is_changed()
+            || self.estimate.is_changed()
             || self.measured.is_changed()
+            || self.helping.is_changed()
             || self.twin.is_changed()
             || self.notices.is_changed()
     }
 }
 
-            || self.helping.is_changed()
 /// Chooses the pace of the next frame.
 pub fn keep(
     going: Going,

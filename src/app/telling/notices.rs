@@ -1,6 +1,8 @@
 //! What the program has to say: errors stay until they are read or what they are about is well
 //! again, confirmations pass.
 
+use std::path::PathBuf;
+
 use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource, Time};
 
 use crate::app::asking::choices::Preferences;
@@ -10,7 +12,7 @@ use crate::one_line::OneLine;
 /// How long a confirmation stays: long enough to read the path of a file.
 const CONFIRMATION_SECS: f32 = 6.0;
 
-/// How long a note stays: it is longer, and can be read again where it says.
+/// How long a note stays, which is longer, and what can be acted on.
 const NOTE_SECS: f32 = 10.0;
 
 /// What a problem is about: when that is well again, it goes.
@@ -35,6 +37,8 @@ pub enum Kind {
     Problem(About),
     /// Something was done; passes.
     Done,
+    /// A file was written; passes, after some time to go to it.
+    Wrote,
     /// Something that its reader may not expect; passes.
     Note,
 }
@@ -45,7 +49,7 @@ impl Kind {
         match self {
             Self::Problem(_) => None,
             Self::Done => Some(CONFIRMATION_SECS),
-            Self::Note => Some(NOTE_SECS),
+            Self::Note | Self::Wrote => Some(NOTE_SECS),
         }
     }
 }
@@ -59,6 +63,8 @@ pub struct Notice {
     pub kind: Kind,
     /// One sentence.
     pub text: String,
+    /// The file that it is about, which can be shown in its folder.
+    pub file: Option<PathBuf>,
     age_secs: f32,
 }
 
@@ -78,6 +84,14 @@ impl Notices {
     /// Says that something was done.
     pub fn done(&mut self, text: impl Into<String>) {
         self.push(Kind::Done, text.into());
+    }
+
+    /// Says that a file was written.
+    pub fn wrote(&mut self, file: PathBuf) {
+        self.push(Kind::Wrote, format!("Wrote {}", file.display()));
+        if let Some(notice) = self.list.last_mut() {
+            notice.file = Some(file);
+        }
     }
 
     /// Says what may not be expected.
@@ -113,6 +127,7 @@ impl Notices {
             id: self.next_id,
             kind,
             text,
+            file: None,
             age_secs: 0.0,
         });
     }

@@ -6,11 +6,11 @@ use bevy::prelude::Res;
 use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::asking::keymap::KeyMap;
+use crate::app::capturing::estimate::Estimate;
 use crate::app::capturing::films::Recorder;
 use crate::app::capturing::framing::FilmFrame;
 use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
-use crate::app::looking::choosing::Choosing;
 use crate::app::keeping::autosave::Autosave;
 use crate::app::keeping::presets::KeptPresets;
 use crate::app::looking::choosing::Choosing;
@@ -24,11 +24,11 @@ use crate::app::opening::dialogs::Dialog;
 use crate::app::opening::drops::Drop;
 use crate::app::opening::thumbnails::Thumbnails;
 use crate::app::playing::playback::Playback;
+use crate::app::playing::presenting::Presenting;
 use crate::app::session::state::Session;
 use crate::app::telling::notices::Notices;
 use crate::stage::{FrameTimes, StageView};
 
-use crate::app::playing::presenting::Presenting;
 /// Everything that the panels show.
 #[derive(SystemParam)]
 pub struct Scene<'w> {
@@ -42,6 +42,7 @@ pub struct Scene<'w> {
     pub view: Res<'w, StageView>,
     pub gallery: Res<'w, Gallery>,
     pub playback: Res<'w, Playback>,
+    pub presenting: Res<'w, Presenting>,
     pub preferences: Res<'w, Preferences>,
     pub notices: Res<'w, Notices>,
     pub thumbnails: Res<'w, Thumbnails>,

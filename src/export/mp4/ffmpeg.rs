@@ -35,6 +35,14 @@ pub(super) struct Words {
     pub tell_of_full_disk: bool,
 }
 
+/// It can be started.
+pub(super) fn is_there() -> bool {
+    let mut command = quiet();
+    command.arg("-version").stdin(Stdio::null());
+    command.stdout(Stdio::null()).stderr(Stdio::null());
+    command.status().is_ok_and(|status| status.success())
+}
+
 /// Encodes raw frames that it is fed.
 pub(super) fn encoding(size: PixelSize, fps: f64, output: &Path) -> Command {
     let input = format!("-f rawvideo -pix_fmt rgb24 -s {size} -r {fps} -i -");

@@ -5,10 +5,13 @@ use std::sync::Arc;
 
 use bevy_egui::egui::emath::Numeric;
 use bevy_egui::egui::{
-    self, Align, Align2, Area, Color32, ComboBox, DragValue, Galley, Layout, Margin, Order,
-    Painter, Pos2, Rect, RectAlign, Response, RichText, Sense, Slider, SliderClamping, StrokeKind,
-    Tooltip, Ui, Vec2, WidgetInfo, WidgetType, vec2,
+    self, Align, Align2, Area, Color32, ColorImage, ComboBox, Context, DragValue, Galley, Id,
+    Layout, Margin, Order, Painter, Pos2, Rect, RectAlign, Response, RichText, Sense, Slider,
+    SliderClamping, StrokeKind, TextureHandle, TextureOptions, Tooltip, Ui, Vec2, WidgetInfo,
+    WidgetType, vec2,
 };
+
+use image::RgbaImage;
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
@@ -178,6 +181,16 @@ pub fn choices<T: PartialEq + Clone>(
     value: &mut T,
     options: &[(T, &str, &str)],
 ) -> Response {
+    choices_of(ui, value, options, |_| true)
+}
+
+/// The same, of which only some can be chosen.
+pub fn choices_of<T: PartialEq + Clone>(
+    ui: &mut Ui,
+    value: &mut T,
+    options: &[(T, &str, &str)],
+    can: impl Fn(&T) -> bool,
+) -> Response {
     // That of the panel: beside the row it would cover the label.
     let (left, width) = (ui.clip_rect().left(), ui.available_width());
     let gap = 2.0;
@@ -186,7 +199,9 @@ pub fn choices<T: PartialEq + Clone>(
     ui.spacing_mut().item_spacing.x = gap;
     let mut all: Option<Response> = None;
     for (option, label, tip) in options {
-        let response = choice(ui, *value == *option, label, each);
+        let chosen = *value == *option;
+        let cell = ui.add_enabled_ui(can(option), |ui| choice(ui, chosen, label, each));
+        let response = cell.inner;
         beside(&response, left, tip);
         if response.clicked() {
             *value = option.clone();
@@ -348,4 +363,18 @@ pub fn primary_button(ui: &mut Ui, text: &str) -> Response {
     let palette = Palette::of(ui);
     let text = RichText::new(text).color(palette.text);
     ui.add(egui::Button::new(text).fill(palette.accent_ground))
+}
+
+/// The picture on the graphics card; it is sent there once.
+pub fn texture(ctx: &Context, name: &str, picture: Arc<RgbaImage>) -> TextureHandle {
+    let id = Id::new(name);
+    let kept: Option<(Arc<RgbaImage>, TextureHandle)> = ctx.data(|data| data.get_temp(id));
+    if let Some((_, texture)) = kept.filter(|(last, _)| Arc::ptr_eq(last, &picture)) {
+        return texture;
+    }
+    let [width, height] = [picture.width(), picture.height()].map(|side| side as usize);
+    let image = ColorImage::from_rgba_unmultiplied([width, height], picture.as_raw());
+    let texture = ctx.load_texture(name, image, TextureOptions::LINEAR);
+    ctx.data_mut(|data| data.insert_temp(id, (picture, texture.clone())));
+    texture
 }

@@ -1,5 +1,7 @@
 //! Messages at the lower edge of the stage; problems stay until they are closed.
 
+use std::path::Path;
+
 use bevy_egui::egui::{self, Align2, Context, Label, Order, Rect, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
@@ -41,7 +43,7 @@ fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, acts: &mut 
     let palette = Palette::of(ui);
     let (icon, colour) = match notice.kind {
         Kind::Problem(_) => (icons::WARNING, palette.problem),
-        Kind::Done => (icons::TICK, palette.accent),
+        Kind::Done | Kind::Wrote => (icons::TICK, palette.accent),
         Kind::Note => (icons::WARNING, palette.amber),
     };
     card(ui, egui::Margin::symmetric(12, 8), |ui| {
@@ -58,6 +60,10 @@ fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, acts: &mut 
                 ui.add_space((24.0 - line) / 2.0);
                 // So that an error can be copied into a report.
                 ui.add(Label::new(&notice.text).wrap().selectable(true));
+                if let Some(file) = &notice.file {
+                    ui.add_space(GRID);
+                    go_to(ui, file);
+                }
                 if too_much {
                     ui.add_space(GRID);
                     let tip = "Builds it however long it takes; it can be cancelled.";
@@ -75,5 +81,27 @@ fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, acts: &mut 
                 acts.push(Intent::Dismiss(notice.id));
             }
         });
+    });
+}
+
+/// Ways to a file that was written.
+fn go_to(ui: &mut Ui, file: &Path) {
+    ui.horizontal(|ui| {
+        let folder = if file.is_dir() {
+            Some(file)
+        } else {
+            file.parent()
+        };
+        let tip = "Opens the folder that it lies in.";
+        if ui.button("Show folder").on_hover_text(tip).clicked()
+            && let Some(folder) = folder
+        {
+            // Where the system has nothing to show folders with, the path still says where it is.
+            open::that_detached(folder).ok();
+        }
+        let tip = "Puts the path where Ctrl V takes it from.";
+        if ui.button("Copy path").on_hover_text(tip).clicked() {
+            ui.copy_text(file.display().to_string());
+        }
     });
 }

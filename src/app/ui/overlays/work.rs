@@ -1,22 +1,24 @@
 //! What is being worked on, how far it is, and a way to stop it.
 
+use std::sync::Arc;
+
 use bevy_egui::egui::{Align2, Context, Margin, ProgressBar, Rect, Ui, vec2};
+use image::RgbaImage;
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{card, pinned};
+use crate::app::ui::kit::widgets::{card, pinned, texture};
 use crate::app::ui::scene::{Intents, Scene};
+
+/// The longer side of the frame that a film has come to, in points.
+const PICTURE: f32 = 120.0;
 
 /// Draws a pill at the top of the stage for each piece of work.
 pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
-    let build = scene
-        .session
-        .told_work()
-        .map(|work| (work, Intent::CancelWork));
-    let film = scene
-        .recorder
-        .work()
-        .map(|work| (work, Intent::CancelRecording));
+    let build = scene.session.told_work();
+    let build = build.map(|work| (work, Intent::CancelWork));
+    let film = scene.recorder.work();
+    let film = film.map(|work| (work, Intent::CancelRecording));
     let choice = scene.choosing.told();
     let choice = choice.map(|share| (("trying methods", share), Intent::CancelChoice));
     let all: Vec<_> = build.into_iter().chain(choice).chain(film).collect();
@@ -26,14 +28,29 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     let at = stage.center_top() + vec2(0.0, 2.0 * GRID);
     pinned("work", Align2::CENTER_TOP, at).show(ctx, |ui| {
         for ((stage, fraction), cancel) in all {
-            pill(ui, stage, fraction, cancel, acts);
+            let picture = match cancel {
+                Intent::CancelRecording => scene.recorder.preview(),
+                _ => None,
+            };
+            pill(ui, (stage, fraction), picture, cancel, acts);
         }
     });
 }
 
-fn pill(ui: &mut Ui, stage: &str, fraction: f64, cancel: Intent, acts: &mut Intents) {
+fn pill(
+    ui: &mut Ui,
+    (stage, fraction): (&str, f64),
+    picture: Option<Arc<RgbaImage>>,
+    cancel: Intent,
+    acts: &mut Intents,
+) {
     card(ui, Margin::symmetric(16, 8), |ui| {
         ui.horizontal(|ui| {
+            if let Some(picture) = picture {
+                let texture = texture(ui.ctx(), "film", picture);
+                let size = texture.size_vec2();
+                ui.image((texture.id(), size * (PICTURE / size.max_elem())));
+            }
             ui.label(stage);
             let bar = ProgressBar::new(fraction as f32)
                 .desired_width(120.0)

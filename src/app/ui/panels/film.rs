@@ -1,18 +1,32 @@
 //! Pictures and films: what they are made for, how they lie, and what comes of it.
 
-use bevy_egui::egui::{Ui, vec2};
+use bevy_egui::egui::{Button, ComboBox, Key, Response, TextEdit, Ui, vec2};
 
-use crate::app::asking::choices::{CaptureScale, Preferences, RecordFormat};
+use crate::app::asking::choices::{CaptureScale, FilmLook, Preferences, RecordFormat};
 use crate::app::asking::intent::Intent;
+use crate::app::playing::playback::landmarks;
 use crate::app::ui::kit::icons;
-use crate::app::ui::kit::theme::GRID;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
 use crate::app::ui::kit::widgets::{
-    choose, from_right, hint, icon_button, pick, primary_button, quiet, section, slider, toggle,
+    choices, choices_of, choose, drag, from_right, hint, icon_button, pick, primary_button, quiet,
+    row, section, slider, toggle,
 };
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
-use crate::export::{FilmKind, Purpose};
+use crate::export::{FilmKind, Purpose, has_ffmpeg};
 use crate::names::Choice;
+use crate::one_line::OneLine;
+
+/// The sides that are offered by name, in pixels along the shorter one.
+const SIDES: [(u32, &str, &str); 4] = [
+    (480, "480", "480 pixels along the shorter side"),
+    (720, "720", "720 pixels along the shorter side: HD"),
+    (1080, "1080", "1080 pixels along the shorter side: Full HD"),
+    (2160, "4K", "2160 pixels along the shorter side: 4K"),
+];
+
+/// The fastest film that a GIF can be, in frames a second.
+const GIF_FPS: u32 = 50;
 
 /// Draws the options, in the place of the transition's.
 pub fn show(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
@@ -20,39 +34,105 @@ pub fn show(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     ui.horizontal(|ui| {
         ui.label(quiet(ui, "Pictures and films"));
         from_right(ui, |ui| {
-            let close = icon_button(
-                ui,
-                icons::CLOSE,
-                "Back to the options (Esc)",
-                vec2(24.0, 24.0),
-            );
+            let tip = "Back to the options (Esc)";
+            let close = icon_button(ui, icons::CLOSE, tip, vec2(24.0, 24.0));
             if close.clicked() {
                 draft.film_options = false;
             }
         });
     });
     section(ui, "Film", |ui| film(ui, scene, &mut draft, acts));
-    section(ui, "Both", |ui| {
-        let tip = "What lies behind the shape in pictures and films.";
-        let grounds = [
-            (false, "Coloured", "The ground colour of the project"),
-            (true, "Transparent", "Nothing; for placing on a page"),
-        ];
-        choose(ui, "Ground", tip, &mut draft.capture_transparent, &grounds);
-        if draft.capture_transparent && draft.record_format == RecordFormat::OPAQUE {
-            hint(
-                ui,
-                "MP4 has no transparency: films get the ground colour. GIF, APNG and PNGs have it.",
-            );
-        }
+    section(ui, "Picture of the stage", |ui| {
+        picture(ui, &mut draft, acts);
     });
-    section(ui, "Picture", |ui| picture(ui, &mut draft, acts));
     if draft != *scene.preferences {
         acts.push(Intent::Prefer(draft));
     }
 }
 
 fn film(ui: &mut Ui, scene: &Scene, draft: &mut Preferences, acts: &mut Intents) {
+    purpose(ui, draft);
+    kept(ui, scene, acts);
+    let layout = &mut draft.film.layout;
+    let tip = "The shape of the film's pictures; the stage shows it.";
+    pick(ui, "Shape", tip, &mut layout.aspect);
+    let tip = "Pixels along the shorter side: one of these, or your own number.";
+    row(ui, "Size", tip, |ui| {
+        let own = drag(&mut layout.lines, 16..=4320, 4.0, 0);
+        let own = ui.add_sized([48.0, CONTROL_HEIGHT], own);
+        own | choices(ui, &mut layout.lines, &SIDES)
+    });
+    let tip = "What is free all around, as a part of the shorter side.";
+    slider(ui, "Margin", tip, &mut layout.margin, 0.0..=0.3, false);
+    let tip = "The names of the stops below, each while the film is near it; of the designs, where there are no named stops.";
+    toggle(ui, "Captions", tip, &mut layout.has_captions);
+    span(ui, scene, &mut draft.film);
+    let tip = "How the film goes on at its end.";
+    pick(ui, "Then", tip, &mut draft.film.ending);
+    file(ui, scene, draft);
+    advice(ui, scene, draft);
+    told(ui, scene);
+    ui.add_space(GRID);
+    let is_free = scene.recorder.work().is_none() && scene.film.0.is_some();
+    ui.add_enabled_ui(is_free, |ui| {
+        if primary_button(ui, "Write the film").clicked() {
+            acts.push(Intent::Record);
+        }
+    });
+}
+
+/// What is seen on the stage.
+fn content(scene: &Scene) -> Option<ContentKind> {
+    scene.session.project().and_then(|project| project.content)
+}
+
+const GIF: RecordFormat = RecordFormat::Film(FilmKind::Gif);
+
+/// The kind of file, and what goes with it.
+fn file(ui: &mut Ui, scene: &Scene, draft: &mut Preferences) {
+    let before = draft.format(content(scene));
+    let mut format = before;
+    row(
+        ui,
+        "File",
+        "The kind of file that a recording writes.",
+        |ui| {
+            let can = |format: &RecordFormat| *format != RecordFormat::OPAQUE || has_ffmpeg();
+            choices_of(ui, &mut format, &formats(), can)
+        },
+    );
+    if format != before {
+        draft.record_format = Some(format);
+    }
+    let is_gif = format == GIF;
+    if is_gif {
+        draft.film.fps = draft.film.fps.min(GIF_FPS);
+    }
+    let rates = [
+        (25, "25", "As films in Europe"),
+        (30, "30", "As films in America, and half of most screens"),
+        (50, "50", "Very smooth; the fastest that a GIF can be"),
+        (60, "60", "As fast as most screens; too fast for a GIF"),
+    ];
+    row(ui, "Rate", "Frames a second.", |ui| {
+        let can = |fps: &u32| !is_gif || *fps <= GIF_FPS;
+        choices_of(ui, &mut draft.film.fps, &rates, can)
+    });
+    let is_opaque = format == RecordFormat::OPAQUE;
+    let mut is_transparent = draft.film.is_transparent && !is_opaque;
+    row(ui, "Ground", "What lies behind the shapes.", |ui| {
+        choices_of(ui, &mut is_transparent, &GROUNDS, |wish| {
+            !wish || !is_opaque
+        })
+    });
+    // An MP4 has none; what was wished is there again with another file.
+    if !is_opaque {
+        draft.film.is_transparent = is_transparent;
+    }
+}
+
+/// What it is made for sets most of what follows.
+fn purpose(ui: &mut Ui, draft: &mut Preferences) {
     let layout = &mut draft.film.layout;
     let before = Purpose::ALL.into_iter().find(|p| p.layout() == *layout);
     let mut purpose = before;
@@ -61,60 +141,111 @@ fn film(ui: &mut Ui, scene: &Scene, draft: &mut Preferences, acts: &mut Intents)
     choose(ui, "Made for", tip, &mut purpose, &purposes);
     if let Some(purpose) = purpose.filter(|_| purpose != before) {
         *layout = purpose.layout();
-        // What slides and posts take; and what a page shows without a player.
+        // What slides and posts take; and what a page shows without a player, which hangs on what
+        // is seen.
         draft.record_format = match purpose {
-            Purpose::Page => RecordFormat::Film(FilmKind::Gif),
-            _ => RecordFormat::Film(FilmKind::Mp4),
+            Purpose::Page => None,
+            _ if has_ffmpeg() => Some(RecordFormat::Film(FilmKind::Mp4)),
+            _ => None,
         };
     }
-    let tip = "The shape of the film's pictures; the stage shows it.";
-    pick(ui, "Shape", tip, &mut layout.aspect);
-    let sizes = [
-        (480, "480", "480 pixels along the shorter side"),
-        (720, "720", "720 pixels along the shorter side: HD"),
-        (1080, "1080", "1080 pixels along the shorter side: Full HD"),
-        (2160, "4K", "2160 pixels along the shorter side: 4K"),
-    ];
-    choose(
-        ui,
-        "Size",
-        "Pixels along the shorter side.",
-        &mut layout.lines,
-        &sizes,
-    );
-    let tip = "What is free all around, as a part of the shorter side.";
-    slider(ui, "Margin", tip, &mut layout.margin, 0.0..=0.3, false);
-    let tip = "The names of the stops below, each while the film is near it; of the designs, where there are no named stops.";
-    toggle(ui, "Captions", tip, &mut layout.has_captions);
-    let rates = [
-        (25, "25", "As films in Europe"),
-        (30, "30", "As films in America, and most screens' half"),
-        (50, "50", "Very smooth; GIF's fastest"),
-        (60, "60", "As fast as most screens; not for GIF"),
-    ];
-    choose(ui, "Rate", "Frames a second.", &mut draft.film.fps, &rates);
-    let tip = "The kind of file that a recording writes.";
-    choose(ui, "File", tip, &mut draft.record_format, &formats());
-    advice(ui, scene, draft);
-    told(ui, scene);
-    ui.add_space(GRID);
-    ui.add_enabled_ui(scene.recorder.work().is_none(), |ui| {
-        if primary_button(ui, "Write the film").clicked() {
-            acts.push(Intent::Record);
-        }
+}
+
+/// Looks of films that were kept, and a way to keep this one.
+fn kept(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let in_use = scene.presets.in_use(&scene.preferences, content(scene));
+    let tip = "Looks of films that you have kept, also for --preset on the command line.";
+    row(ui, "Kept", tip, |ui| {
+        let list = ComboBox::from_id_salt("kept looks")
+            .width(ui.available_width())
+            .truncate()
+            .selected_text(in_use.unwrap_or("–"));
+        let shown = list.show_ui(ui, |ui| {
+            for name in scene.presets.names() {
+                let chosen = ui.selectable_label(in_use == Some(name), name);
+                if chosen.clicked() {
+                    acts.push(Intent::UsePreset(name.to_owned()));
+                }
+            }
+            ui.separator();
+            match in_use {
+                Some(name) => {
+                    if ui.button(format!("Forget “{name}”")).clicked() {
+                        acts.push(Intent::ForgetPreset(name.to_owned()));
+                        ui.close();
+                    }
+                }
+                None => keep(ui, acts),
+            }
+        });
+        shown.response
     });
 }
 
-/// What does not go together, or comes out large.
+/// A name for what is set now.
+fn keep(ui: &mut Ui, acts: &mut Intents) {
+    let id = ui.id().with("name of a look");
+    let mut name: String = ui.data(|data| data.get_temp(id)).unwrap_or_default();
+    let field = TextEdit::singleline(&mut name)
+        .hint_text("Name")
+        .desired_width(120.0);
+    let field = ui.add(field);
+    let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    let can = !name.trim().is_empty();
+    let button = ui.add_enabled(can, Button::new("Keep this look"));
+    if can && (button.clicked() || is_entered) {
+        acts.push(Intent::KeepPreset(name.trim().to_owned()));
+        name.clear();
+        ui.close();
+    }
+    ui.data_mut(|data| data.insert_temp(id, name));
+}
+
+/// From where to where.
+fn span(ui: &mut Ui, scene: &Scene, look: &mut FilmLook) {
+    let tip = "The stops at which the film begins and ends; set stops with M.";
+    row(ui, "From, to", tip, |ui| {
+        let [from, to] = &mut look.span;
+        let width = (ui.available_width() - GRID) / 2.0;
+        let first = place(ui, scene, "film from", from, ("Start", width));
+        let last = place(ui, scene, "film to", to, ("End", width));
+        first | last
+    });
+}
+
+/// A list of all places; none is the pass's own.
+fn place(
+    ui: &mut Ui,
+    scene: &Scene,
+    salt: &str,
+    at: &mut Option<f64>,
+    (own, width): (&str, f32),
+) -> Response {
+    let (timing, stops) = (scene.session.timing(), scene.session.stops());
+    let name = |at: Option<f64>| match at {
+        None => own.to_owned(),
+        Some(t) => match stops.iter().find(|stop| stop.t == t) {
+            Some(stop) if !stop.name.is_empty() => OneLine(&stop.name).to_string(),
+            _ => format!("t = {t:.3}"),
+        },
+    };
+    let list = ComboBox::from_id_salt(salt)
+        .width(width)
+        .truncate()
+        .selected_text(name(*at));
+    let shown = list.show_ui(ui, |ui| {
+        let places = landmarks(timing, stops);
+        for place in std::iter::once(None).chain(places.into_iter().map(Some)) {
+            ui.selectable_value(at, place, name(place));
+        }
+    });
+    shown.response
+}
+
+/// What comes out large.
 fn advice(ui: &mut Ui, scene: &Scene, draft: &Preferences) {
-    let is_gif = draft.record_format == RecordFormat::Film(FilmKind::Gif);
-    let content = scene.session.project().and_then(|project| project.content);
-    if is_gif && draft.film.fps > 50 {
-        hint(
-            ui,
-            "A GIF has 50 frames a second at most: choose fewer, or another file.",
-        );
-    } else if is_gif && content == Some(ContentKind::Colours) {
+    let content = content(scene);
+    if draft.format(content) == GIF && content == Some(ContentKind::Colours) {
         hint(
             ui,
             "A GIF of photographs is large, and has 256 colours: MP4 is smaller and truer.",
@@ -124,17 +255,62 @@ fn advice(ui: &mut Ui, scene: &Scene, draft: &Preferences) {
 
 /// What would be written.
 fn told(ui: &mut Ui, scene: &Scene) {
-    let words = match &scene.film.0 {
-        Some(framed) => {
-            let size = framed.view.size();
-            let (width, height) = (size.width(), size.height());
-            let (frames, secs) = (framed.frames, framed.secs);
-            format!("{width} × {height} pixels, {frames} frames, {secs:.1} s")
-        }
-        None => "Nothing to write yet.".to_owned(),
+    let Some(framed) = &scene.film.0 else {
+        let words = match scene.session.transition() {
+            Some(_) => "Nothing to write: it would end where it begins.",
+            None => "Nothing to write yet.",
+        };
+        ui.label(quiet(ui, words));
+        return;
     };
+    let size = framed.view.size();
+    let (width, height) = (size.width(), size.height());
+    let (frames, secs) = (framed.frames, framed.secs);
+    let words = format!("{width} × {height} pixels, {frames} frames, {secs:.1} s");
     ui.label(quiet(ui, words));
+    let cost = match scene.estimate.cost() {
+        Some(cost) => format!(
+            "About {}, written in {}",
+            size_of(cost.bytes),
+            time_of(cost.secs)
+        ),
+        None if scene.estimate.is_busy() => "Seeing how large it becomes …".to_owned(),
+        None => String::new(),
+    };
+    ui.label(quiet(ui, cost))
+        .on_hover_text("Some frames were written to see.");
 }
+
+/// Two digits, as more are not known.
+fn size_of(bytes: f64) -> String {
+    let (number, unit) = if bytes >= 1e6 {
+        (bytes / 1e6, "MB")
+    } else {
+        (bytes / 1e3, "kB")
+    };
+    if number < 10.0 {
+        format!("{number:.1} {unit}")
+    } else {
+        format!("{number:.0} {unit}")
+    }
+}
+
+fn time_of(secs: f64) -> String {
+    if secs < 90.0 {
+        format!("{:.0} s", secs.max(1.0))
+    } else {
+        format!("{:.0} min", secs / 60.0)
+    }
+}
+
+const GROUNDS: [(bool, &str, &str); 2] = [
+    (false, "Coloured", "The ground colour of the project"),
+    (
+        true,
+        "Transparent",
+        "Nothing, for placing on a page; MP4 cannot",
+    ),
+];
 
 fn picture(ui: &mut Ui, draft: &mut Preferences, acts: &mut Intents) {
     let tip = "How many pixels a picture of the stage has.";
@@ -144,6 +320,8 @@ fn picture(ui: &mut Ui, draft: &mut Preferences, acts: &mut Intents) {
         (CaptureScale::FourK, "4K", "3840 along the longer side"),
     ];
     choose(ui, "Size", tip, &mut draft.capture_scale, &scales);
+    let tip = "What lies behind the shapes.";
+    choose(ui, "Ground", tip, &mut draft.capture_transparent, &GROUNDS);
     ui.add_space(GRID);
     if ui.button("Take a picture of the stage").clicked() {
         acts.push(Intent::Screenshot { with_panels: false });
