@@ -15,6 +15,12 @@ use std::path::Path;
 use std::process::{ChildStdin, Command};
 use std::sync::OnceLock;
 
+use image::RgbaImage;
+use yuv::{
+    YuvChromaSubsampling, YuvConversionMode, YuvPlanarImageMut, YuvRange, YuvStandardMatrix,
+    rgba_to_yuv420,
+};
+
 use crate::atomic_file::AtomicFile;
 use crate::progress::{Cancelled, Progress, Span};
 
@@ -22,7 +28,7 @@ use super::camera::{Camera, DRAWING};
 use super::check::{CHECKING, DRAWN};
 use super::error::ExportError;
 use super::film::Film;
-use super::raster::{rasterise, samples};
+use super::raster::rasterise;
 use ffmpeg::Words;
 
 /// Writes the film; the camera's size must be even on both sides
@@ -54,7 +60,7 @@ pub fn write_mp4(
             &film.runs(),
             DRAWING,
             &Span::new(progress, 0.0, DRAWN),
-            |drawing| Ok(samples(&rasterise(&drawing), true)),
+            |drawing| Ok(planes(&rasterise(&drawing))),
             |run, bytes| {
                 // ffmpeg knows a rate and no holds: a run goes in frame by frame.
                 let feed = |_| stdin.write_all(&bytes);
@@ -67,6 +73,23 @@ pub fn write_mp4(
     job.check(film.times().len(), &words)?;
     fed?;
     file.commit().map_err(ExportError::write(path))
+}
+
+/// The brightness of all pixels, and then the two colours of each four, in the BT.709
+/// range of films. ffmpeg would do the same, alone and after twice as many bytes have
+/// gone through a pipe: of 300 frames in Full HD it took 7 s of the processor, with
+/// this 4.5.
+fn planes(image: &RgbaImage) -> Vec<u8> {
+    let (width, height) = image.dimensions();
+    let mut planes = YuvPlanarImageMut::alloc(width, height, YuvChromaSubsampling::Yuv420);
+    let (range, matrix) = (YuvRange::Limited, YuvStandardMatrix::Bt709);
+    let mode = YuvConversionMode::Balanced;
+    let stride = 4 * width;
+    // Refused only where the sizes do not fit, and they are of one picture.
+    let made = rgba_to_yuv420(&mut planes, image.as_raw(), stride, range, matrix, mode);
+    debug_assert!(made.is_ok());
+    let planes = [planes.y_plane, planes.u_plane, planes.v_plane];
+    planes.each_ref().map(|plane| plane.borrow()).concat()
 }
 
 /// Whether there is an ffmpeg to write MP4s with; it is looked for once.

@@ -229,11 +229,15 @@ fn color(Rgb([r, g, b]): Rgb) -> Color {
 
 /// The pixels in a row, without their alpha where all are opaque.
 pub(super) fn samples(image: &RgbaImage, is_opaque: bool) -> Vec<u8> {
-    let channels = if is_opaque { 3 } else { 4 };
-    let pixels = image.pixels();
-    pixels
-        .flat_map(|p| p.0.into_iter().take(channels))
-        .collect()
+    if !is_opaque {
+        return image.as_raw().clone();
+    }
+    // Three at a time: byte by byte it took as long as the painting.
+    let mut samples = Vec::with_capacity(image.as_raw().len() / 4 * 3);
+    for pixel in image.pixels() {
+        samples.extend_from_slice(&pixel.0[..3]);
+    }
+    samples
 }
 
 #[cfg(test)]
