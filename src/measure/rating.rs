@@ -91,6 +91,12 @@ impl Rating {
         (self.is_gone, self.faults()) < (other.is_gone, other.faults())
     }
 
+    /// Turning and change of area beyond what the ends need, as shares.
+    #[must_use]
+    pub fn unrest(&self) -> f64 {
+        self.unrest
+    }
+
     /// Which of two is less trouble.
     #[must_use]
     pub fn compare(&self, other: &Self) -> Ordering {

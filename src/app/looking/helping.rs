@@ -3,6 +3,7 @@
 //! Each alternative is built as it would be shown and rated as what is on the stage is; only those
 //! with fewer faults are offered, with the faults that they leave.
 
+use std::cmp::Ordering;
 use std::sync::mpsc::{Receiver, Sender, channel};
 use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
@@ -28,6 +29,13 @@ const CALM: Duration = Duration::from_millis(800);
 
 /// The most that are offered: they stand in one line.
 const MOST: usize = 3;
+
+/// How much more turning and change of area, as shares, an offer may have for fewer faults: with
+/// every part alone a head became a bird without a crossing, and was hardly there in between.
+const MORE_UNREST: f64 = 0.2;
+
+/// What it counts, as such a share, that the target is seen mirrored or turned.
+const OTHER_TARGET: f64 = 0.25;
 
 /// Something else that may be asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,29 +64,19 @@ pub struct Offer {
 }
 
 impl Alternative {
-    /// What may help with a project, the likeliest first.
+    /// What may help with a project: first what leaves the designs as they are.
     fn all(loaded: &LoadedProject) -> Vec<Self> {
         let matching = &loaded.project.options.matching;
-        // What was said by hand of points of a design holds wherever that lies.
-        let mut all = vec![
-            Self::Mirror,
-            Self::Turn(180),
-            Self::Turn(90),
-            Self::Turn(-90),
-        ];
-        if loaded.project.fit == Fit::AsDrawn {
-            all.push(Self::Frame(Fit::Centred));
-        }
+        let others = PartRule::ALL.into_iter();
+        let others = others.filter(|other| *other != matching.parts);
+        let mut all: Vec<Self> = others.map(Self::Parts).collect();
         if matching.holes != HoleRule::Auto {
             // It looks at all of them.
             all.push(Self::Holes(HoleRule::Auto));
         }
-        let others = PartRule::ALL.into_iter();
-        all.extend(
-            others
-                .filter(|other| *other != matching.parts)
-                .map(Self::Parts),
-        );
+        if loaded.project.fit == Fit::AsDrawn {
+            all.push(Self::Frame(Fit::Centred));
+        }
         let cells = [
             (WarpKind::Arap, ContentKind::Solid),
             (WarpKind::Arap, ContentKind::Field),
@@ -92,7 +90,15 @@ impl Alternative {
             Some(*cell) != now && loaded.available(cell.warp(), cell.content()).is_ok()
         };
         all.extend(cells.filter(can).map(Self::Method));
+        // What was said by hand of points of a design holds wherever that lies.
+        all.push(Self::Mirror);
+        all.extend([180, 90, -90].map(Self::Turn));
         all
+    }
+
+    /// The target is seen otherwise than it was drawn.
+    fn changes_the_target(self) -> bool {
+        matches!(self, Self::Mirror | Self::Turn(_))
     }
 
     /// Makes the change.
@@ -128,6 +134,29 @@ impl Alternative {
             Self::Holes(holes) => format!("Holes: {}", holes.name().title.to_lowercase()),
             Self::Parts(parts) => format!("Odd parts: {}", parts.name().title.to_lowercase()),
             Self::Method(cell) => format!("Take {}", cell.name()),
+        }
+    }
+}
+
+impl Offer {
+    /// Fewer faults than now, and not at the price of a film that hardly shows anything between.
+    fn helps(&self, now: &Rating) -> bool {
+        let is_calm = self.rating.unrest() <= now.unrest() + MORE_UNREST;
+        self.rating.has_fewer_faults_than(now) && is_calm
+    }
+
+    /// Which of two is offered first: that with fewer faults; of two alike, that which is calmer,
+    /// unless it shows the target otherwise than it was drawn.
+    fn compare(&self, other: &Self) -> Ordering {
+        let fewer = |a: &Self, b: &Self| a.rating.has_fewer_faults_than(&b.rating);
+        let price = |offer: &Self| {
+            let changes = offer.what.changes_the_target();
+            offer.rating.unrest() + if changes { OTHER_TARGET } else { 0.0 }
+        };
+        match (fewer(self, other), fewer(other, self)) {
+            (true, _) => Ordering::Less,
+            (_, true) => Ordering::Greater,
+            _ => price(self).total_cmp(&price(other)),
         }
     }
 }
@@ -235,7 +264,7 @@ impl Helping {
                 Found::Better(offer) => self.offers.push(offer),
             }
         }
-        self.offers.sort_by(|a, b| a.rating.compare(&b.rating));
+        self.offers.sort_by(Offer::compare);
         if is_done {
             self.trial = None;
             self.is_done = true;
@@ -270,9 +299,10 @@ fn try_all(
         let Some(rating) = rating(&built)? else {
             continue;
         };
-        if rating.has_fewer_faults_than(&now) {
+        let offer = Offer { what, rating };
+        if offer.helps(&now) {
             flawless += usize::from(rating.is_flawless());
-            found.send(Found::Better(Offer { what, rating })).ok();
+            found.send(Found::Better(offer)).ok();
         }
         if flawless >= MOST {
             break;

@@ -146,12 +146,16 @@ fn help(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
             ([], true, _) => "Trying what would help: mirrored, turned, other methods …",
             ([], _, true) => "Nothing that was tried helps: mirrored, turned, other methods.",
             ([], ..) => "",
-            (_, true, _) => "Helps, of what was tried so far:",
-            (_, false, _) => "Helps:",
+            // Short: the offers stand behind it.
+            _ => "Helps:",
         };
         ui.label(quiet(ui, words));
         for (index, offer) in helping.offers().iter().enumerate() {
-            let text = format!("{}: {}", offer.what.words(), offer.rating);
+            let left = match offer.rating {
+                rating if rating.is_flawless() => "none left".to_owned(),
+                rating => rating.to_string(),
+            };
+            let text = format!("{}: {left}", offer.what.words());
             let tip = format!("Tried: {} instead of {now}. Can be undone.", offer.rating);
             if ui.small_button(text).on_hover_text(tip).clicked() {
                 acts.push(Intent::TakeOffer(index));
