@@ -17,10 +17,10 @@ use crate::app::keeping::presets;
 use crate::app::looking::choosing::{self, Choosing};
 use crate::app::looking::helping::{self, Helping};
 use crate::app::looking::measuring::{self, Measured};
-use crate::app::looking::preferences;
 use crate::app::looking::times;
 use crate::app::looking::twin::{self, Twin};
 use crate::app::looking::view::{self, KeepsFit, StageArea};
+use crate::app::looking::{onion, preferences};
 use crate::app::opening::apply::{self as opening, Gallery};
 use crate::app::opening::closing::{self, Question};
 use crate::app::opening::{dialogs, drops, watching};
@@ -85,6 +85,7 @@ fn init(app: &mut App) {
         .init_resource::<Sheet>()
         .init_resource::<Measured>()
         .init_resource::<Choosing>()
+        .init_resource::<onion::Onion>()
         .init_resource::<Helping>()
         .init_resource::<Twin>()
         .init_resource::<Notices>()
@@ -153,6 +154,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             .chain(),
         view::apply,
         watching::follow,
+        onion::follow,
         // After all that changes the project or takes it for saved.
         autosave::follow,
         notices::apply,

@@ -15,6 +15,8 @@ pub struct Preferences {
     pub theme: ThemeChoice,
     /// What the stage draws.
     pub show: Show,
+    /// Onion skins are shown: thin outlines of the film at other t.
+    pub onion: bool,
     /// Panels are shown.
     pub panels: bool,
     /// The list of keys is shown.
@@ -40,6 +42,7 @@ impl Default for Preferences {
         Self {
             theme: ThemeChoice::default(),
             show: Show::default(),
+            onion: false,
             panels: true,
             help: false,
             times: false,

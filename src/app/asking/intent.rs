@@ -149,6 +149,8 @@ pub enum Intent {
     Editor(EditorAct),
     /// Show or hide the grid that shows the warp.
     ToggleGrid,
+    /// Show or hide thin outlines of the film at other t.
+    ToggleOnion,
     /// Replace what the person at the screen chose.
     Prefer(Preferences),
     /// Make films as was kept under this name.

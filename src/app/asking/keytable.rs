@@ -155,8 +155,8 @@ fn changing() -> Vec<Row> {
 
 fn view() -> Vec<Row> {
     use Intent::{
-        Back, FitView, NextMethod, ToggleFullscreen, ToggleGrid, ToggleHelp, TogglePanels,
-        TogglePlots, ToggleTimes, ToggleTwin,
+        Back, FitView, NextMethod, ToggleFullscreen, ToggleGrid, ToggleHelp, ToggleOnion,
+        TogglePanels, TogglePlots, ToggleTimes, ToggleTwin,
     };
     let letter = |c: char, intent: Intent| vec![key(Letter(c), intent)];
     let named = |name: Key, intent: Intent| key(Named(name), intent);
@@ -166,6 +166,10 @@ fn view() -> Vec<Row> {
             ("Next method", vec![named(Key::Tab, NextMethod)]),
             ("A second method beside the stage", letter('v', ToggleTwin)),
             ("A grid that shows the warp", letter('w', ToggleGrid)),
+            (
+                "Onion skins: the film at its stops, in thin lines",
+                letter('o', ToggleOnion),
+            ),
             ("Plots of the measures against t", letter('p', TogglePlots)),
             ("Show the whole transition", letter('z', FitView)),
             (

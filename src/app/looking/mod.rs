@@ -4,6 +4,7 @@
 pub mod choosing;
 pub mod helping;
 pub mod measuring;
+pub mod onion;
 pub mod preferences;
 pub mod times;
 pub mod twin;

@@ -11,6 +11,7 @@ pub fn apply(mut intents: MessageReader<Intent>, mut preferences: ResMut<Prefere
         match intent {
             Intent::Prefer(chosen) => *preferences = *chosen,
             Intent::ToggleGrid => preferences.show.grid = !preferences.show.grid,
+            Intent::ToggleOnion => preferences.onion = !preferences.onion,
             Intent::TogglePanels => preferences.panels = !preferences.panels,
             Intent::ToggleHelp => preferences.help = !preferences.help,
             Intent::TogglePlots => preferences.plots = !preferences.plots,

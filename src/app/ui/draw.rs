@@ -17,7 +17,7 @@ use crate::app::ui::kit::theme;
 use crate::app::ui::overlays::{files, help, notices, questions, times, work};
 use crate::app::ui::panels::inspector;
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::{area, film, talk, twin, verdict};
+use crate::app::ui::stage::{area, film, onion, talk, twin, verdict};
 use crate::app::ui::timeline::{plots, strip};
 use crate::app::ui::{gallery, match_editor, speaker, toolbar};
 
@@ -142,6 +142,7 @@ fn middle(root: &mut egui::Ui, scene: &Scene, stage: egui::Rect, acts: &mut Inte
     area::show(root, stage, "stage", acts);
     if scene.preferences.panels {
         area::empty(root, scene, stage);
+        onion::show(root, scene, stage);
         verdict::mark(root, scene, stage);
         film::frame(root, scene, stage);
     }

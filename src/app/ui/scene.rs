@@ -16,6 +16,7 @@ use crate::app::keeping::presets::KeptPresets;
 use crate::app::looking::choosing::Choosing;
 use crate::app::looking::helping::Helping;
 use crate::app::looking::measuring::Measured;
+use crate::app::looking::onion::Onion;
 use crate::app::looking::times::WholeFrame;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::apply::Gallery;
@@ -38,6 +39,7 @@ pub struct Scene<'w> {
     pub choosing: Res<'w, Choosing>,
     pub helping: Res<'w, Helping>,
     pub measured: Res<'w, Measured>,
+    pub onion: Res<'w, Onion>,
     pub twin: Res<'w, Twin>,
     pub view: Res<'w, StageView>,
     pub gallery: Res<'w, Gallery>,

@@ -2,6 +2,7 @@
 
 use bevy_egui::egui::{Ui, vec2};
 
+use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::widgets::{choice, drag, number, pick, row, section, tipped, toggle};
 use crate::app::ui::scene::{Intents, Scene};
@@ -36,7 +37,11 @@ const EQUAL: &str = "Lines of equal blended distance.";
 /// One layer: whether it is on, its name, what it shows, and whether there is any.
 type Layer<'a> = (&'a mut bool, &'static str, &'static str, bool);
 
-fn table<'a>(scene: &Scene, project: &Project, show: &'a mut Show) -> [Layer<'a>; 7] {
+fn table<'a>(
+    scene: &Scene,
+    project: &Project,
+    (show, onion): (&'a mut Show, &'a mut bool),
+) -> [Layer<'a>; 8] {
     let is_field = project.content == Some(ContentKind::Field);
     // A field is of the area that the bars cover, and knows of no bars.
     let has_bars = scene.session.has_bars() && !is_field;
@@ -48,6 +53,12 @@ fn table<'a>(scene: &Scene, project: &Project, show: &'a mut Show) -> [Layer<'a>
             &mut show.ghosts,
             "Ghosts",
             "Thin outlines of source and target.",
+            true,
+        ),
+        (
+            onion,
+            "Onion",
+            "Onion skins: thin outlines of the film at its stops (O).",
             true,
         ),
         (
@@ -80,17 +91,18 @@ fn table<'a>(scene: &Scene, project: &Project, show: &'a mut Show) -> [Layer<'a>
 
 /// Nothing of the project is shown.
 pub fn is_blank(scene: &Scene) -> bool {
-    let mut show = scene.preferences.show;
+    let (mut show, mut onion) = (scene.preferences.show, false);
     let project = scene.session.project();
     project.is_some_and(|project| {
-        let layers = table(scene, project, &mut show);
+        let layers = table(scene, project, (&mut show, &mut onion));
         !layers.into_iter().any(|(on, .., applies)| *on && applies)
     })
 }
 
 fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
     let mut preferences = *scene.preferences;
-    let layers = table(scene, draft, &mut preferences.show);
+    let Preferences { show, onion, .. } = &mut preferences;
+    let layers = table(scene, draft, (show, onion));
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing = vec2(4.0, 4.0);
         ui.columns(3, |columns| {

@@ -2,6 +2,7 @@
 
 pub mod area;
 pub mod film;
+pub mod onion;
 pub mod talk;
 pub mod twin;
 pub mod verdict;

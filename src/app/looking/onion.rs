@@ -1,0 +1,85 @@
+//! Onion skins: thin outlines of the film at its stops and tenths, all at once.
+
+use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
+
+use crate::app::asking::choices::Preferences;
+use crate::app::playing::playback::landmarks;
+use crate::app::session::state::Session;
+use crate::geometry::DVec2;
+use crate::transition::{Figure, Transition};
+
+/// How many skins there are between two ends where there are no stops.
+const BETWEEN: usize = 4;
+
+/// The most skins: more cover each other.
+const MOST: usize = 12;
+
+/// The film at one t.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Skin {
+    /// Where.
+    pub t: f64,
+    /// Its outlines, closed.
+    pub rings: Vec<Vec<DVec2>>,
+    /// Its bars.
+    pub bars: Vec<[DVec2; 2]>,
+}
+
+/// All skins of the film on the stage, while they are shown.
+#[derive(Resource, Debug, Default)]
+pub struct Onion {
+    of: Option<(Transition, Vec<f64>)>,
+    skins: Vec<Skin>,
+}
+
+impl Onion {
+    /// The skins, by ascending t.
+    #[must_use]
+    pub fn skins(&self) -> &[Skin] {
+        &self.skins
+    }
+}
+
+/// The t of the skins: the stops and the ends; where there are none but the ends, some between.
+fn times(session: &Session) -> Vec<f64> {
+    let places = landmarks(session.timing(), session.stops());
+    match places.as_slice() {
+        [from, to] => (0..=BETWEEN + 1)
+            .map(|k| from + (to - from) * k as f64 / (BETWEEN + 1) as f64)
+            .collect(),
+        all => all.iter().copied().take(MOST).collect(),
+    }
+}
+
+/// Keeps the skins of what is on the stage.
+pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut onion: ResMut<Onion>) {
+    if !session.is_changed() && !preferences.is_changed() {
+        return;
+    }
+    let transition = session.transition().filter(|_| preferences.onion);
+    let wanted = transition.map(|transition| (transition.clone(), times(&session)));
+    let is_same = match (&wanted, &onion.bypass_change_detection().of) {
+        (Some((new, now)), Some((old, then))) => {
+            now == then && std::ptr::eq(new.content(), old.content())
+        }
+        (wanted, had) => wanted.is_none() && had.is_none(),
+    };
+    if is_same {
+        return;
+    }
+    onion.skins = wanted
+        .iter()
+        .flat_map(|(transition, times)| skins(transition, times))
+        .collect();
+    onion.of = wanted;
+}
+
+fn skins(transition: &Transition, times: &[f64]) -> Vec<Skin> {
+    let mut frame = transition.frame(0.0);
+    let skin = |&t: &f64| {
+        frame.seek(t);
+        let Figure { rings, bars, .. } = frame.figure();
+        Skin { t, rings, bars }
+    };
+    times.iter().map(skin).collect()
+}

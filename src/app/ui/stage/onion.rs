@@ -1,0 +1,30 @@
+//! The film at other t, in thin lines over the stage.
+
+use bevy_egui::egui::{Color32, Pos2, Rect, Shape, Stroke, Ui, vec2};
+
+use crate::app::ui::scene::Scene;
+use crate::geometry::DVec2;
+
+/// How much of a skin is seen.
+const SEEN: f32 = 0.55;
+
+/// Draws the skins, each in the colour of its t.
+pub fn show(ui: &Ui, scene: &Scene, stage: Rect) {
+    let painter = ui.painter().with_clip_rect(stage);
+    let style = scene.session.style();
+    let at = |p: &DVec2| -> Pos2 {
+        let px = scene.view.px_from_world(*p);
+        stage.min + vec2(px.x, px.y)
+    };
+    for skin in scene.onion.skins() {
+        let [r, g, b] = style.fill_at(skin.t).0;
+        let ink = Color32::from_rgb(r, g, b).gamma_multiply(SEEN);
+        let stroke = Stroke::new(1.0, ink);
+        for ring in &skin.rings {
+            painter.add(Shape::closed_line(ring.iter().map(at).collect(), stroke));
+        }
+        for [a, b] in &skin.bars {
+            painter.line_segment([at(a), at(b)], stroke);
+        }
+    }
+}
