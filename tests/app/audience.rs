@@ -129,3 +129,29 @@ fn what_is_asked_for_is_shown_to_whoever_asked() {
     assert!(window.0.world().resource::<Question>().text().is_none());
     assert_eq!(drawn(&mut window).shapes, 0);
 }
+
+#[test]
+fn of_many_designs_two_are_asked_for() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str| {
+        let path = folder.path().join(name);
+        std::fs::write(&path, "[[0,0],[4,0],[4,3],[0,3]]").expect("a file");
+        path
+    };
+    let all = ["one.json", "two.json", "three.json"].map(file);
+    let mut window = watched();
+    let before = window.session().title();
+    window.send(Intent::Open(all.to_vec()));
+    let seen = drawn(&mut window);
+    for words in ["3 designs", "two.json", "Open the pair"] {
+        assert!(seen.says(words), "{words}: {:?}", seen.words);
+    }
+    assert_eq!(window.session().title(), before);
+    window.send(Intent::Open(vec![all[0].clone(), all[2].clone()]));
+    window.wait();
+    assert_eq!(window.session().title(), "one to three");
+    assert!(!drawn(&mut window).says("3 designs"));
+    window.send(Intent::Open(all.to_vec()));
+    window.press(KeyCode::Escape, Key::Escape);
+    assert!(!drawn(&mut window).says("3 designs"));
+}

@@ -250,9 +250,12 @@ fn two_files_that_are_dropped_are_a_pair_and_one_is_asked_about() {
 }
 
 #[test]
-fn more_files_than_a_pair_are_refused() {
+fn a_project_among_other_files_is_refused() {
     let mut window = Window::with_gallery();
     let nowhere = Path::new("/nowhere/a.svg");
-    drop_files(&mut window, &[nowhere, nowhere, nowhere]);
+    drop_files(
+        &mut window,
+        &[nowhere, nowhere, Path::new("/nowhere/a.morph")],
+    );
     assert_eq!(window.problems().len(), 1);
 }

@@ -227,8 +227,7 @@ pub fn back(
     (mut session, recorder): (ResMut<Session>, Res<Recorder>),
     (mut choosing, mut measured, mut helping): Working,
 ) {
-    let is_asked =
-        question.text().is_some() || drop.undecided().is_some() || autosave.lost().is_some();
+    let is_asked = question.text().is_some() || drop.asks() || autosave.lost().is_some();
     if is_asked || presenting.is_on() {
         intents.clear(); // Esc answers the question, or ends the talk, and nothing else.
         return;

@@ -47,8 +47,13 @@ pub fn open(
                 [source, target] if !paths.iter().any(|path| Project::is_named(path)) => {
                     Request::Pair(source.clone(), target.clone())
                 }
-                _ => {
+                [] => continue,
+                _ if paths.iter().any(|path| Project::is_named(path)) => {
                     notices.problem(About::Opening, too_many(paths.len()));
+                    continue;
+                }
+                _ => {
+                    drop.ask_which(paths.clone());
                     continue;
                 }
             },
@@ -74,7 +79,7 @@ impl Default for Gallery {
 }
 
 fn too_many(files: usize) -> String {
-    format!("{files} files cannot be opened together: open one project, or one or two designs.")
+    format!("{files} files cannot be opened together: open one project alone, or designs.")
 }
 
 /// Acts on the intents that change the open project.

@@ -16,6 +16,8 @@ pub struct Drop {
     arriving: Vec<PathBuf>,
     quiet_secs: f32,
     undecided: Option<PathBuf>,
+    /// More than a pair.
+    many: Vec<PathBuf>,
 }
 
 impl Drop {
@@ -29,6 +31,23 @@ impl Drop {
     #[must_use]
     pub fn is_arriving(&self) -> bool {
         !self.arriving.is_empty()
+    }
+
+    /// More designs than a pair has, of which two are to be chosen.
+    #[must_use]
+    pub fn many(&self) -> &[PathBuf] {
+        &self.many
+    }
+
+    /// Something is to be decided.
+    #[must_use]
+    pub fn asks(&self) -> bool {
+        self.undecided.is_some() || !self.many.is_empty()
+    }
+
+    /// Asks which two of many designs are a pair.
+    pub fn ask_which(&mut self, paths: Vec<PathBuf>) {
+        self.many = paths;
     }
 
     /// Asks what a single design is for.
@@ -61,8 +80,12 @@ pub fn read_drops(
 
 /// Forgets the undecided file once it is decided.
 pub fn decide(mut intents: MessageReader<Intent>, mut state: ResMut<Drop>) {
-    let is_decided = |intent: &Intent| matches!(intent, Intent::ReplaceDesign(..) | Intent::Back);
-    if intents.read().any(is_decided) && state.undecided.is_some() {
+    let is_decided = |intent: &Intent| {
+        let opens = matches!(intent, Intent::Open(paths) if paths.len() <= 2);
+        opens || matches!(intent, Intent::ReplaceDesign(..) | Intent::Back)
+    };
+    if intents.read().filter(|intent| is_decided(intent)).count() > 0 && state.asks() {
         state.undecided = None;
+        state.many.clear();
     }
 }

@@ -1,9 +1,9 @@
 //! The questions that the program asks: about what would be lost, and what a dropped file is for.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Ui};
+use bevy_egui::egui::{Align, Context, Grid, Id, Label, Layout, Modal, ScrollArea, Ui};
 
 use crate::app::asking::intent::{Answer, Intent, Rescue};
 use crate::app::opening::closing::Lost;
@@ -19,6 +19,8 @@ pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
         ask_lost(ctx, title, age, acts);
     } else if let Some(path) = scene.drop.undecided() {
         ask_drop(ctx, path, acts);
+    } else if !scene.drop.many().is_empty() {
+        ask_which(ctx, scene.drop.many(), acts);
     }
 }
 
@@ -111,6 +113,51 @@ fn ask_drop(ctx: &Context, path: &Path, acts: &mut Intents) {
             }
         });
     });
+}
+
+/// Which two of many designs are a pair.
+fn ask_which(ctx: &Context, paths: &[PathBuf], acts: &mut Intents) {
+    let id = Id::new("which two");
+    // The first two, until somebody says otherwise.
+    let mut pair: [usize; 2] = ctx.data(|data| data.get_temp(id)).unwrap_or([0, 1]);
+    pair = pair.map(|k| k.min(paths.len() - 1));
+    Modal::new(id).show(ctx, |ui| {
+        ui.set_width(400.0);
+        ui.heading(format!("{} designs", paths.len()));
+        ui.label("A film has two: which?");
+        ui.add_space(GRID);
+        ScrollArea::vertical().max_height(240.0).show(ui, |ui| {
+            Grid::new("pair")
+                .num_columns(3)
+                .striped(true)
+                .show(ui, |ui| {
+                    for heading in ["", "Source", "Target"] {
+                        ui.label(heading);
+                    }
+                    ui.end_row();
+                    for (k, path) in paths.iter().enumerate() {
+                        let name = path.file_name().unwrap_or_default().to_string_lossy();
+                        ui.add_sized([240.0, 20.0], Label::new(name).truncate());
+                        for side in &mut pair {
+                            ui.radio_value(side, k, "");
+                        }
+                        ui.end_row();
+                    }
+                });
+        });
+        answers(ui, |ui| {
+            let can = pair[0] != pair[1];
+            let open = ui.add_enabled_ui(can, |ui| primary_button(ui, "Open the pair"));
+            if open.inner.clicked() {
+                let pair = pair.map(|k| paths[k].clone());
+                acts.push(Intent::Open(pair.into()));
+            }
+            if ui.button("Cancel").clicked() {
+                acts.push(Intent::Back);
+            }
+        });
+    });
+    ctx.data_mut(|data| data.insert_temp(id, pair));
 }
 
 fn answers(ui: &mut Ui, buttons: impl FnOnce(&mut Ui)) {
