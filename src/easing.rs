@@ -1,6 +1,10 @@
 //! How a share runs from 0 to 1: of a segment of time, or of a mix of colours.
 
+mod curve;
+
 use crate::names::named;
+
+pub use curve::{Curve, CurveError, Ease};
 
 /// How a share runs from 0 to 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -14,7 +14,9 @@ use crate::measure::auto;
 use crate::names::named;
 use crate::progress::Progress;
 use crate::project::{LoadedProject, Project};
-use crate::transition::{Boundary, Easing, Fit, Options, PaintRule, PlayMode, Quality, Transition};
+use crate::transition::{
+    Boundary, Ease, Easing, Fit, Options, PaintRule, PlayMode, Quality, Transition,
+};
 use crate::warp::{ArapPath, Course, Travel, WarpKind, Weights};
 
 use super::error::CliError;
@@ -261,9 +263,9 @@ struct TimingArgs {
     #[arg(long, value_name = "SECONDS")]
     hold: Option<f64>,
 
-    /// How t runs between stops
-    #[arg(long, value_parser = one_of::<Easing>())]
-    easing: Option<Easing>,
+    /// How t runs between stops: linear, smooth, ease-in, ease-out, or a curve with two handles
+    #[arg(long, value_name = "NAME|X1,Y1,X2,Y2")]
+    easing: Option<Ease>,
 
     /// What happens at the end of a pass
     #[arg(long, value_parser = one_of::<PlayMode>())]
@@ -514,7 +516,7 @@ mod tests {
         );
         assert_eq!(
             (project.timing.easing, project.timing.play),
-            (Easing::EaseIn, PlayMode::Loop)
+            (Easing::EaseIn.into(), PlayMode::Loop)
         );
         assert_eq!(project.style.source, Rgb([1, 2, 3]));
         assert_eq!(

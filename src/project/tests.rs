@@ -226,13 +226,17 @@ proptest! {
         project.options.arap.path = if flag { ArapPath::Anchor(3) } else { ArapPath::Centroid };
         project.options.paths.course = if flag { Course::Straight } else { Course::Intrinsic };
         project.timing.duration_secs = positive[2];
-        project.timing.easing = Easing::ALL[pick];
+        project.timing.easing = Easing::ALL[pick].into();
         project.timing.play = [PlayMode::Once, PlayMode::Loop, PlayMode::PingPong, PlayMode::Once][pick];
         project.options.field.blend.epsilon = positive[3];
         project.options.field.blend.threshold = numbers[3];
         project.style.ground = Rgb(colour);
         project.stops = vec![
-            Stop { note: names[3].clone(), ..Stop::at(numbers[4]).named(&names[3]) },
+            Stop {
+                note: names[3].clone(),
+                easing: Some("0.25,0,0.5,1".parse().expect("a curve")),
+                ..Stop::at(numbers[4]).named(&names[3])
+            },
             Stop::at(numbers[5]),
         ];
         let text = project.to_toml().expect("can be written");

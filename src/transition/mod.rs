@@ -63,7 +63,7 @@ mod walks;
 #[cfg(test)]
 mod tests;
 
-pub use crate::easing::Easing;
+pub use crate::easing::{Curve, Ease, Easing};
 
 pub use arrange::{Fit, arranged, arrangement};
 pub use cells::{Cell, NoSuchCell};

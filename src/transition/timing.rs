@@ -4,7 +4,7 @@
 //! into segments that are eased one by one; time is shared out by length in
 //! t. Playing once, in a loop or to and fro repeats passes.
 
-use crate::easing::Easing;
+use crate::easing::Ease;
 use crate::names::named;
 use serde::{Deserialize, Serialize};
 
@@ -39,6 +39,9 @@ pub struct Stop {
     /// What a speaker says there; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
+    /// How t runs from here up to the next stop; none is as everywhere.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub easing: Option<Ease>,
 }
 
 impl Stop {
@@ -49,6 +52,7 @@ impl Stop {
             t,
             name: String::new(),
             note: String::new(),
+            easing: None,
         }
     }
 
@@ -69,8 +73,8 @@ impl Stop {
 pub struct Timing {
     /// Seconds of a pass, rests not counted; positive.
     pub duration_secs: f64,
-    /// How t runs in each segment.
-    pub easing: Easing,
+    /// How t runs in each segment that no stop says more of.
+    pub easing: Ease,
     /// Seconds of rest at each end; not negative.
     pub hold_secs: f64,
     /// What happens at the end of a pass.
@@ -103,7 +107,7 @@ impl Default for Timing {
     fn default() -> Self {
         Self {
             duration_secs: 4.0,
-            easing: Easing::default(),
+            easing: Ease::default(),
             hold_secs: 0.5,
             play: PlayMode::default(),
             from: 0.0,
@@ -156,7 +160,7 @@ impl Timing {
             return self.to; // to the last bit
         }
         let x = (even - begin) / (end - begin);
-        begin + (end - begin) * self.easing.apply(x.clamp(0.0, 1.0))
+        begin + (end - begin) * self.easing_at(even, stops).apply(x.clamp(0.0, 1.0))
     }
 
     /// The seconds after which a pass is at `t`; the inverse of
@@ -167,9 +171,22 @@ impl Timing {
         let (low, high) = (self.from.min(self.to), self.from.max(self.to));
         let t = t.clamp(low, high);
         let (begin, end) = self.segment(t, stops);
-        let x = self.easing.inverse((t - begin) / (end - begin));
+        let x = self
+            .easing_at(t, stops)
+            .inverse((t - begin) / (end - begin));
         let even = begin + (end - begin) * x;
         self.hold_secs + self.duration_secs * (even - self.from) / (self.to - self.from)
+    }
+
+    /// How t runs in the segment that `t` lies in: as the stop at its lower end
+    /// says, if it says anything.
+    #[must_use]
+    pub fn easing_at(&self, t: f64, stops: &[Stop]) -> Ease {
+        // On a stop the segment that begins there in the direction of the pass.
+        let (begin, end) = self.segment(t, stops);
+        let low = begin.min(end);
+        let there = stops.iter().find(|stop| stop.t == low);
+        there.and_then(|stop| stop.easing).unwrap_or(self.easing)
     }
 
     /// The two neighbouring stops or ends between which `t` lies, in the
@@ -190,6 +207,7 @@ impl Timing {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::easing::{Curve, Easing};
     use proptest::prelude::*;
 
     fn stops(at: &[f64]) -> Vec<Stop> {
@@ -201,7 +219,7 @@ mod tests {
         let timing = Timing {
             duration_secs: 2.0,
             hold_secs: 1.0,
-            easing: Easing::Linear,
+            easing: Easing::Linear.into(),
             ..Timing::default()
         };
         let at = |secs| timing.t_at(secs, &[]);
@@ -222,6 +240,29 @@ mod tests {
         let fast = timing.t_at(0.26, &stops) - timing.t_at(0.24, &stops);
         assert!(slow < 0.1 * fast);
         assert_eq!(timing.t_at(0.5, &stops), 0.5);
+    }
+
+    #[test]
+    fn a_stop_says_how_t_runs_from_it_up() {
+        let mut stops = stops(&[0.5]);
+        let curve = Curve::new([0.9, 0.0, 1.0, 0.2]).expect("a curve");
+        stops[0].easing = Some(Ease::Drawn(curve));
+        let timing = Timing {
+            duration_secs: 1.0,
+            hold_secs: 0.0,
+            easing: Easing::Linear.into(),
+            ..Timing::default()
+        };
+        assert_eq!(timing.t_at(0.25, &stops), 0.25);
+        assert!(timing.t_at(0.75, &stops) < 0.6);
+        let down = Timing {
+            from: 1.0,
+            to: 0.0,
+            ..timing
+        };
+        // Backwards it runs as it was drawn, from where it begins then.
+        assert!(down.t_at(0.25, &stops) > 0.9);
+        assert_eq!(down.t_at(0.75, &stops), 0.25);
     }
 
     #[test]
@@ -252,7 +293,7 @@ mod tests {
             (from, to) in prop_oneof![Just((0.0, 1.0)), Just((1.0, 0.0)), Just((-0.4, 1.3))],
         ) {
             let timing = Timing {
-                duration_secs: 4.0, hold_secs: 0.0, easing: Easing::ALL[easing],
+                duration_secs: 4.0, hold_secs: 0.0, easing: Easing::ALL[easing].into(),
                 from, to, ..Timing::default()
             };
             let stops = stops(&at);

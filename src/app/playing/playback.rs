@@ -9,7 +9,7 @@ use bevy::prelude::{MessageReader, Res, ResMut, Resource, Time};
 
 use crate::app::asking::intent::Intent;
 use crate::app::session::state::Session;
-use crate::transition::{Easing, PlayMode, Stop, Timing};
+use crate::transition::{Ease, PlayMode, Stop, Timing};
 
 /// Two stops nearer than this are one; the finest step on screen is a thousandth.
 pub const SAME_T: f64 = 1e-6;
@@ -38,6 +38,7 @@ struct Leg {
     to: f64,
     elapsed: f64,
     secs: f64,
+    easing: Ease,
 }
 
 /// Where t is and how it moves.
@@ -147,26 +148,26 @@ impl Playback {
     }
 
     /// Plays the other way; a leg to a stop turns back to where it came from.
-    pub fn reverse(&mut self, easing: Easing) {
+    pub fn reverse(&mut self) {
         self.backwards = !self.backwards;
         if let Motion::Leg(leg) = &mut self.motion {
             // Where the way back is as far along as the way there, eased as it is.
             let there = if leg.secs > 0.0 {
-                easing.apply(leg.elapsed / leg.secs)
+                leg.easing.apply(leg.elapsed / leg.secs)
             } else {
                 1.0
             };
             *leg = Leg {
                 from: leg.to,
                 to: leg.from,
-                elapsed: leg.secs * easing.inverse(1.0 - there),
+                elapsed: leg.secs * leg.easing.inverse(1.0 - there),
                 ..*leg
             };
         }
     }
 
     /// Plays to `to` and waits there; `backwards` is how a pass would go on from it.
-    pub fn play_to(&mut self, to: f64, timing: &Timing) {
+    pub fn play_to(&mut self, to: f64, timing: &Timing, stops: &[Stop]) {
         let share = (to - self.t).abs() / (timing.to - timing.from).abs().max(SAME_T);
         // As fast as a pass runs over the same way.
         let secs = timing.duration_secs * share;
@@ -175,6 +176,7 @@ impl Playback {
             to,
             elapsed: 0.0,
             secs,
+            easing: timing.easing_at(0.5 * (self.t + to), stops),
         });
     }
 
@@ -218,7 +220,7 @@ impl Playback {
             Motion::Still => {}
             Motion::Leg(leg) => {
                 let elapsed = leg.elapsed + step;
-                self.advance_leg(Leg { elapsed, ..leg }, timing.easing);
+                self.advance_leg(Leg { elapsed, ..leg });
             }
             Motion::Pass { secs } => {
                 let signed = if self.backwards { -step } else { step };
@@ -227,14 +229,14 @@ impl Playback {
         }
     }
 
-    fn advance_leg(&mut self, leg: Leg, easing: Easing) {
+    fn advance_leg(&mut self, leg: Leg) {
         // Also where a leg takes no time: what is divided by below is above 0.
         if leg.elapsed >= leg.secs {
             self.t = leg.to;
             self.motion = Motion::Still;
             return;
         }
-        self.t = leg.from + (leg.to - leg.from) * easing.apply(leg.elapsed / leg.secs);
+        self.t = leg.from + (leg.to - leg.from) * leg.easing.apply(leg.elapsed / leg.secs);
         self.motion = Motion::Leg(leg);
     }
 
@@ -327,7 +329,7 @@ impl Playback {
     pub fn act(&mut self, intent: &Intent, timing: &Timing, stops: &[Stop]) {
         match intent {
             Intent::TogglePlay => self.toggle(timing, stops),
-            Intent::Reverse => self.reverse(timing.easing),
+            Intent::Reverse => self.reverse(),
             Intent::Step(hundredths) => self.step(*hundredths),
             Intent::Seek(t) => self.seek(*t, timing, stops),
             Intent::SeekStart => self.seek(timing.from, timing, stops),
@@ -353,7 +355,7 @@ impl Playback {
 
     fn slide(&mut self, backwards: bool, timing: &Timing, stops: &[Stop]) {
         if let Some(t) = next_landmark(self.heading(), backwards, timing, stops) {
-            self.play_to(t, timing);
+            self.play_to(t, timing, stops);
         }
     }
 }

@@ -1,12 +1,13 @@
 //! Time in the window, act by act.
 
 use super::*;
+use crate::transition::Easing;
 
 fn timing(play: PlayMode) -> Timing {
     Timing {
         duration_secs: 2.0,
         hold_secs: 0.0,
-        easing: Easing::Linear,
+        easing: Easing::Linear.into(),
         play,
         ..Timing::default()
     }
@@ -35,7 +36,7 @@ fn a_loop_begins_again_in_either_direction() {
     playback.toggle(&timing, &[]);
     playback.advance(2.5, &timing, &[]);
     assert_eq!(playback.t(), 0.25);
-    playback.reverse(timing.easing);
+    playback.reverse();
     playback.advance(1.0, &timing, &[]);
     assert_eq!(playback.t(), 0.75);
 }
@@ -84,14 +85,14 @@ fn a_slide_asked_for_on_the_way_goes_one_further() {
 fn reversing_on_the_way_to_a_stop_leads_back() {
     for easing in Easing::ALL {
         let timing = Timing {
-            easing,
+            easing: easing.into(),
             ..timing(PlayMode::Once)
         };
         let mut playback = Playback::default();
         playback.act(&Intent::PlayToNextStop, &timing, &[]);
         playback.advance(0.5, &timing, &[]);
         let t = playback.t();
-        playback.reverse(easing);
+        playback.reverse();
         playback.advance(0.0, &timing, &[]);
         assert!((playback.t() - t).abs() < 1e-12, "no jump");
         playback.advance(100.0, &timing, &[]);

@@ -1,5 +1,6 @@
 //! The strips at the bottom: transport, track and plots.
 
+mod ease;
 pub mod plots;
 pub mod strip;
 pub mod track;

@@ -8,6 +8,7 @@ use bevy_egui::egui::{
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::timeline::ease;
 use crate::one_line::OneLine;
 use crate::project::Project;
 use crate::transition::{Stop, Style};
@@ -260,6 +261,8 @@ fn stop_menu(ui: &mut Ui, stop: &mut Stop) -> bool {
         ui.add(number)
             .on_hover_text("Where the stop is; outside 0 to 1 it extrapolates.");
     });
+    ease::submenu(ui, &mut stop.easing, "as the pass")
+        .on_hover_text("How t runs from this stop up to the next one.");
     let is_deleted = ui.button("Delete stop").clicked();
     if is_deleted {
         ui.close();

@@ -6,8 +6,9 @@ use crate::app::asking::intent::Intent;
 use crate::app::playing::playback::SPEEDS;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
-use crate::app::ui::kit::widgets::{act_button, from_right, menu, option, quiet, tipped};
+use crate::app::ui::kit::widgets::{act_button, from_right, option, quiet, tipped};
 use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::timeline::ease;
 use crate::names::Choice;
 use crate::transition::{PlayMode, Timing};
 
@@ -98,8 +99,11 @@ fn pass(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
     let tip = "How long one pass takes, without the holds.";
     seconds(ui, &mut timing.duration_secs, 0.1, tip);
     caption(ui, "Lasts");
-    let easing = menu(ui, "easing", &mut timing.easing, 88.0);
-    tipped(easing, "How t speeds up and slows down from stop to stop.");
+    let easing = ease::menu(ui, "easing", &mut timing.easing, 88.0);
+    tipped(
+        easing,
+        "How t speeds up and slows down from stop to stop; a stop may say otherwise (right-click).",
+    );
     ui.add_space(GRID);
     for mode in PlayMode::ALL {
         let width = if mode == PlayMode::PingPong {

@@ -1,0 +1,256 @@
+//! A way of running that somebody has drawn: a cubic curve with two handles.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::de::{Deserializer, Error, SeqAccess, Visitor};
+use serde::{Deserialize, Serialize, Serializer};
+
+use super::Easing;
+use crate::names::Choice;
+
+/// A cubic Bézier curve from (0, 0) to (1, 1) with handles at (x₁, y₁) and
+/// (x₂, y₂), as CSS has them, but that none of the four leaves [0, 1]: a share
+/// never runs back.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Curve([f64; 4]);
+
+/// Handles beyond [0, 1].
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("a curve has four numbers from 0 to 1: two handles, x and y of each")]
+pub struct CurveError;
+
+/// So often an interval is halved: as exact as numbers are.
+const HALVINGS: u32 = 52;
+
+impl Curve {
+    /// The curve with these handles: x₁, y₁, x₂, y₂.
+    ///
+    /// # Errors
+    /// [`CurveError`] where one is beyond [0, 1] or no number.
+    pub fn new(handles: [f64; 4]) -> Result<Self, CurveError> {
+        let is_within = handles.iter().all(|h| (0.0..=1.0).contains(h));
+        is_within.then_some(Self(handles)).ok_or(CurveError)
+    }
+
+    /// The curve that comes nearest to one of the usual ways.
+    #[must_use]
+    pub fn like(easing: Easing) -> Self {
+        // Of a polynomial of the third degree in x exactly that.
+        let third = 1.0 / 3.0;
+        Self(match easing {
+            Easing::Linear => [third, third, 2.0 * third, 2.0 * third],
+            Easing::Smooth => [third, 0.0, 2.0 * third, 1.0],
+            Easing::EaseIn => [third, 0.0, 2.0 * third, third],
+            Easing::EaseOut => [third, 2.0 * third, 2.0 * third, 1.0],
+        })
+    }
+
+    /// Its handles: x₁, y₁, x₂, y₂.
+    #[must_use]
+    pub fn handles(self) -> [f64; 4] {
+        self.0
+    }
+
+    fn apply(self, x: f64) -> f64 {
+        let [x1, y1, x2, y2] = self.0;
+        bernstein(y1, y2, parameter(x1, x2, x))
+    }
+
+    fn inverse(self, y: f64) -> f64 {
+        let [x1, y1, x2, y2] = self.0;
+        bernstein(x1, x2, parameter(y1, y2, y))
+    }
+}
+
+/// One coordinate at a parameter.
+fn bernstein(a: f64, b: f64, s: f64) -> f64 {
+    let r = 1.0 - s;
+    s * (3.0 * r * (r * a + s * b) + s * s)
+}
+
+/// Where a coordinate has this value; it never falls.
+fn parameter(a: f64, b: f64, value: f64) -> f64 {
+    if value <= 0.0 {
+        return 0.0;
+    }
+    if value >= 1.0 {
+        return 1.0;
+    }
+    let (mut low, mut high) = (0.0, 1.0);
+    for _ in 0..HALVINGS {
+        let middle = 0.5 * (low + high);
+        if bernstein(a, b, middle) < value {
+            low = middle;
+        } else {
+            high = middle;
+        }
+    }
+    0.5 * (low + high)
+}
+
+/// How a share runs: in one of the usual ways, or along a curve.
+///
+/// ```
+/// use morphospace::easing::{Ease, Easing};
+/// let drawn: Ease = "0.3,0,0.1,1".parse()?;
+/// assert!(drawn.apply(0.5) > 0.5);
+/// assert_eq!("smooth".parse(), Ok(Ease::Named(Easing::Smooth)));
+/// # Ok::<(), String>(())
+/// ```
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ease {
+    /// In one of the usual ways.
+    Named(Easing),
+    /// Along a curve.
+    Drawn(Curve),
+}
+
+impl Default for Ease {
+    fn default() -> Self {
+        Easing::default().into()
+    }
+}
+
+impl From<Easing> for Ease {
+    fn from(easing: Easing) -> Self {
+        Self::Named(easing)
+    }
+}
+
+impl Ease {
+    /// Maps [0, 1] onto itself, never falling.
+    #[must_use]
+    pub fn apply(self, x: f64) -> f64 {
+        match self {
+            Self::Named(easing) => easing.apply(x),
+            Self::Drawn(curve) => curve.apply(x),
+        }
+    }
+
+    /// The inverse of [`Self::apply`].
+    #[must_use]
+    pub fn inverse(self, y: f64) -> f64 {
+        match self {
+            Self::Named(easing) => easing.inverse(y),
+            Self::Drawn(curve) => curve.inverse(y),
+        }
+    }
+
+    /// As a curve, to be changed by hand.
+    #[must_use]
+    pub fn curve(self) -> Curve {
+        match self {
+            Self::Named(easing) => Curve::like(easing),
+            Self::Drawn(curve) => curve,
+        }
+    }
+}
+
+impl fmt::Display for Ease {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Named(easing) => easing.fmt(f),
+            Self::Drawn(Curve([a, b, c, d])) => write!(f, "{a},{b},{c},{d}"),
+        }
+    }
+}
+
+impl FromStr for Ease {
+    type Err = String;
+
+    /// A name, or four numbers with commas between them.
+    fn from_str(text: &str) -> Result<Self, String> {
+        if !text.contains(',') {
+            let named = Easing::of_key(text).map(Self::Named);
+            return named.map_err(|error| format!("{error}, or four numbers as 0.3,0,0.1,1"));
+        }
+        let numbers: Result<Vec<f64>, _> = text.split(',').map(|n| n.trim().parse()).collect();
+        let handles = numbers.ok().and_then(|all| all.try_into().ok());
+        let curve = handles.ok_or(CurveError).and_then(Curve::new);
+        curve.map(Self::Drawn).map_err(|error| error.to_string())
+    }
+}
+
+impl Serialize for Ease {
+    fn serialize<S: Serializer>(&self, to: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::Named(easing) => easing.serialize(to),
+            Self::Drawn(curve) => curve.0.serialize(to),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Ease {
+    fn deserialize<D: Deserializer<'de>>(from: D) -> Result<Self, D::Error> {
+        struct Either;
+
+        impl<'de> Visitor<'de> for Either {
+            type Value = Ease;
+
+            fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+                f.write_str("the name of an easing, or the four numbers of a curve")
+            }
+
+            fn visit_str<E: Error>(self, key: &str) -> Result<Ease, E> {
+                Easing::of_key(key).map(Ease::Named).map_err(E::custom)
+            }
+
+            fn visit_seq<A: SeqAccess<'de>>(self, mut all: A) -> Result<Ease, A::Error> {
+                let mut handles = Vec::new();
+                while let Some(number) = all.next_element::<f64>()? {
+                    handles.push(number);
+                }
+                let handles = handles
+                    .try_into()
+                    .map_err(|_| A::Error::custom(CurveError))?;
+                Curve::new(handles)
+                    .map(Ease::Drawn)
+                    .map_err(A::Error::custom)
+            }
+        }
+
+        from.deserialize_any(Either)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    #[test]
+    fn curves_like_the_usual_ways_run_as_they_do() {
+        for easing in Easing::ALL {
+            let curve = Ease::from(easing).curve();
+            for k in 0..=20 {
+                let x = f64::from(k) / 20.0;
+                let (drawn, named) = (Ease::Drawn(curve).apply(x), easing.apply(x));
+                assert!((drawn - named).abs() < 1e-12, "{easing:?} at {x}");
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_no_curve_is_refused() {
+        for text in ["0,0,1", "0,0,1,2", "0,0,1,x", "0,0,NaN,1", "quick", ""] {
+            assert!(text.parse::<Ease>().is_err(), "{text}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn a_curve_never_falls_and_can_be_run_back(
+            handles in prop::array::uniform4(0.0f64..=1.0), x in 0.0f64..=1.0, more in 0.0f64..0.5,
+        ) {
+            let ease = Ease::Drawn(Curve::new(handles).expect("a curve"));
+            let y = ease.apply(x);
+            prop_assert!((0.0..=1.0).contains(&y));
+            prop_assert!(ease.apply((x + more).min(1.0)) >= y - 1e-9);
+            // Where it is flat many x have one y.
+            prop_assert!((ease.apply(ease.inverse(y)) - y).abs() < 1e-6);
+            let text = ease.to_string();
+            prop_assert_eq!(text.parse::<Ease>(), Ok(ease));
+        }
+    }
+}
