@@ -81,6 +81,7 @@ fn init(app: &mut App) {
         .init_resource::<Preferences>()
         .init_resource::<KeyMap>()
         .init_resource::<Typing>()
+        .init_resource::<hand::Marked>()
         .init_resource::<Editor>()
         .init_resource::<Sheet>()
         .init_resource::<Measured>()
@@ -115,11 +116,12 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         (view::back, presenting::apply).chain(),
         (preferences::apply, presets::apply).chain(),
         // Questions before what they hold back.
+        // The lowest question first: each looks whether another lies above it.
         (
-            closing::answer,
-            closing::close,
             drops::decide,
             autosave::rescue,
+            closing::answer,
+            closing::close,
         )
             .chain(),
         (dialogs::choose, dialogs::open).chain(),

@@ -109,6 +109,11 @@ fn what_cannot_be_opened_again_stays_kept() {
     assert_eq!(window.problems().len(), 1);
     window.send(Intent::OpenGallery(entries().remove(0)));
     window.wait();
+    // What is changed now has a place of its own.
+    window.send(Intent::CyclePlayMode);
+    until(&mut window, "kept", |_| kept(folder.path()) == 2);
+    window.send(Intent::Undo);
+    until(&mut window, "forgotten", |_| kept(folder.path()) == 1);
     drop(window);
     file("a.json");
     let mut window = keeping(Window::new(), folder.path());

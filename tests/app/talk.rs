@@ -1,7 +1,7 @@
 //! A talk: nothing but the drawing, from the first stop, by the keys of a talk alone.
 
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::{Intent, Presenting};
+use morphospace::app::{Intent, Presenting, Question};
 use morphospace::transition::Stop;
 
 use crate::window::Window;
@@ -86,13 +86,29 @@ fn black_and_captions_come_and_go_by_their_keys() {
     assert_eq!(caption(&window), Some("here".to_owned()));
 }
 
+/// As the command line begins one.
+fn begun(open: Intent) -> Window {
+    let mut window = Window::new();
+    window.0.world_mut().write_message(open);
+    window.send(Intent::Present { is_all: true });
+    window
+}
+
+#[test]
+fn closing_in_a_talk_ends_it_and_asks_where_it_is_seen() {
+    let mut window = with_stops();
+    present(&mut window);
+    window.send(Intent::Close);
+    assert!(!talk(&window).is_on() && window.preferences().panels);
+    let question = window.0.world().resource::<Question>();
+    assert!(question.text().is_some() && window.0.should_exit().is_none());
+}
+
 #[test]
 fn a_talk_that_the_window_was_opened_for_closes_it() {
-    let mut window = Window::new();
-    window.send(Intent::Present { is_all: true });
-    assert!(!window.preferences().panels, "before there is a drawing");
     let name = crate::window::entries().remove(0);
-    window.send(Intent::OpenGallery(name));
+    let mut window = begun(Intent::OpenGallery(name));
+    assert!(!window.preferences().panels, "before there is a drawing");
     window.wait();
     assert_eq!(window.t(), window.session().timing().from);
     window.send(Intent::Back);
@@ -101,9 +117,7 @@ fn a_talk_that_the_window_was_opened_for_closes_it() {
 
 #[test]
 fn a_talk_of_nothing_ends_with_the_reason() {
-    let mut window = Window::new();
-    window.send(Intent::Present { is_all: true });
-    window.send(Intent::Open(vec!["missing.morph".into()]));
+    let mut window = begun(Intent::Open(vec!["missing.morph".into()]));
     window.wait();
     for _ in 0..3 {
         window.update();

@@ -6,7 +6,7 @@ use crate::content::ContentKind;
 use crate::export::{FilmKind, Layout, has_ffmpeg};
 use crate::names::named;
 use crate::stage::Show;
-use crate::transition::{Cell, PlayMode, Timing};
+use crate::transition::{Cell, PlayMode, Stop, Timing};
 
 /// What the person at the screen chose; not part of any project.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
@@ -85,10 +85,21 @@ impl Default for FilmLook {
 }
 
 impl FilmLook {
+    /// The t that it begins at and that it ends at, as far as these are places of the project:
+    /// another one may be open by now, or a stop may be gone.
+    #[must_use]
+    pub fn places(&self, pass: &Timing, stops: &[Stop]) -> [Option<f64>; 2] {
+        let is_there = |t: &f64| {
+            let ends = [pass.from, pass.to];
+            ends.contains(t) || stops.iter().any(|stop| stop.t == *t)
+        };
+        self.span.map(|at| at.filter(is_there))
+    }
+
     /// The timing of the film: a part of the pass runs as fast as the pass does.
     #[must_use]
-    pub fn timing(&self, pass: &Timing) -> Timing {
-        let [from, to] = self.span;
+    pub fn timing(&self, pass: &Timing, stops: &[Stop]) -> Timing {
+        let [from, to] = self.places(pass, stops);
         let (from, to) = (from.unwrap_or(pass.from), to.unwrap_or(pass.to));
         let share = (to - from).abs() / (pass.to - pass.from).abs();
         Timing {

@@ -7,6 +7,10 @@ use bevy::prelude::{MouseButton, Res, ResMut, Resource};
 #[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Typing(pub bool);
 
+/// Words of a message are marked: Ctrl C copies them and not the stage.
+#[derive(Resource, Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Marked(pub bool);
+
 /// Frames from the release of a button until the last change that belongs to it was acted on:
 /// panels are drawn after the systems have run, so what they ask for is acted on a frame later.
 const FRAMES_AFTER: u8 = 2;

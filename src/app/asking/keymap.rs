@@ -14,6 +14,9 @@ use crate::app::asking::acts::EditorAct;
 use crate::app::asking::hand::Typing;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
+use crate::app::keeping::autosave::Autosave;
+use crate::app::opening::closing::Question;
+use crate::app::opening::drops::Drop;
 use crate::app::playing::presenting::Presenting;
 
 /// How a binding recognises its key.
@@ -247,6 +250,7 @@ pub fn read_keys(
     mut focus_lost: MessageReader<KeyboardFocusLost>,
     map: Res<KeyMap>,
     (typing, editor, presenting): (Res<Typing>, Res<Editor>, Res<Presenting>),
+    (question, drop, autosave): (Res<Question>, Res<Drop>, Res<Autosave>),
     mut held: Local<Held>,
     mut intents: MessageWriter<Intent>,
 ) {
@@ -258,7 +262,12 @@ pub fn read_keys(
         // Also while a text is written: what is held when the field is left still counts.
         held.note(input);
         let meant = map.intent(input, *held, editor.is_open);
-        let may = |intent: &&Intent| !typing.0 && (!presenting.is_on() || intent.is_of_a_talk());
+        let is_asked = question.text().is_some() || drop.asks() || autosave.lost().is_some();
+        let may = |intent: &&Intent| match **intent {
+            Intent::Back => !typing.0,
+            _ if typing.0 || is_asked => false,
+            ref act => !presenting.is_on() || act.is_of_a_talk(),
+        };
         if let Some(intent) = meant.filter(may) {
             intents.write(intent.clone());
         }

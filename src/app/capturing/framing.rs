@@ -59,7 +59,7 @@ pub fn framed(
     (timing, stops): (&Timing, &[Stop]),
     look: &FilmLook,
 ) -> Result<(Film, View), FramingError> {
-    let timing = look.timing(timing);
+    let timing = look.timing(timing, stops);
     timing.check(stops)?;
     let film = Film::of_timing(&timing, stops, f64::from(look.fps))?;
     let bounds = framing(transition, film.times());

@@ -13,6 +13,7 @@ use bevy::window::PrimaryWindow;
 use image::{DynamicImage, ImageError, ImageFormat};
 
 use crate::app::asking::choices::{CaptureScale, Preferences};
+use crate::app::asking::hand::Marked;
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::copying::Board;
 use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new, whole};
@@ -65,6 +66,7 @@ pub fn ask(
     mut requests: MessageWriter<CaptureStage>,
     mut commands: Commands,
     (session, playback, preferences): (Res<Session>, Res<Playback>, Res<Preferences>),
+    marked: Res<Marked>,
     (view, window): (Res<StageView>, Single<&Window, With<PrimaryWindow>>),
 ) {
     for intent in intents.read() {
@@ -78,7 +80,7 @@ pub fn ask(
                 continue;
             }
             Intent::Screenshot { with_panels: false } => Wish::File(name),
-            Intent::CopyPicture => Wish::Board,
+            Intent::CopyPicture if !marked.0 => Wish::Board,
             _ => continue,
         };
         let Some(project) = session.project() else {

@@ -10,6 +10,7 @@ use bevy::prelude::{DetectChanges, DetectChangesMut, MessageReader, Res, ResMut,
 use crate::app::asking::intent::{Intent, Rescue};
 use crate::app::capturing::files::Workshop;
 use crate::app::keeping::slot::{Lost, Slot};
+use crate::app::opening::closing::Question;
 use crate::app::session::loading::Request;
 use crate::app::session::state::Session;
 use crate::app::telling::job::{Job, JobError};
@@ -33,6 +34,8 @@ pub struct Autosave {
     slot: Option<Slot>,
     /// That of this window from the beginning, where it has taken up another since.
     first: Option<Slot>,
+    /// That of what is being taken up; it becomes this window's once it is open.
+    opening: Option<Slot>,
     lost: Vec<Lost>,
     /// What was written last, and when.
     written: Option<(Project, Instant)>,
@@ -95,13 +98,15 @@ impl Drop for Autosave {
 /// Acts on the answer to what can be taken up again.
 pub fn rescue(
     mut intents: MessageReader<Intent>,
-    mut autosave: ResMut<Autosave>,
-    mut session: ResMut<Session>,
+    (mut autosave, mut session): (ResMut<Autosave>, ResMut<Session>),
+    question: Res<Question>,
+    mut notices: ResMut<Notices>,
 ) {
     for intent in intents.read() {
         let answer = match intent {
             Intent::Rescue(answer) => *answer,
-            Intent::Back => Rescue::Later,
+            // Another question lies above this one.
+            Intent::Back if question.text().is_none() => Rescue::Later,
             _ => continue,
         };
         if autosave.lost.is_empty() {
@@ -111,12 +116,13 @@ pub fn rescue(
             // Left where it is for the next start.
             Rescue::Later => autosave.lost.clear(),
             Rescue::Discard => autosave.lost.remove(0).slot.clear(),
+            Rescue::Restore if session.is_dirty() => {
+                notices.done("Save or undo your changes first: then it can be restored.");
+            }
             Rescue::Restore => {
                 let lost = autosave.lost.remove(0);
                 session.open(Request::Rescued(Box::new(lost.kept)));
-                // It stays in its place, which is this window's from now on, until it is saved.
-                let own = autosave.slot.replace(lost.slot);
-                autosave.first = autosave.first.take().or(own);
+                autosave.opening = Some(lost.slot);
             }
         }
     }
@@ -126,13 +132,16 @@ pub fn rescue(
 pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices: ResMut<Notices>) {
     // Looked at in each frame; nobody asks whether it has changed.
     let autosave = autosave.bypass_change_detection();
+    autosave.take_up(&session);
     let Some(slot) = &autosave.slot else {
         return;
     };
-    if let Some(Err(error)) = Job::take(&mut autosave.job)
-        && !std::mem::replace(&mut autosave.is_told, true)
-    {
-        notices.problem(About::Saving, cannot_keep(&slot.path, &error));
+    if let Some(Err(error)) = Job::take(&mut autosave.job) {
+        // Tried again after a while.
+        autosave.is_behind = session.is_dirty();
+        if !std::mem::replace(&mut autosave.is_told, true) {
+            notices.problem(About::Saving, cannot_keep(&slot.path, &error));
+        }
     }
     if session.is_changed() {
         let written = autosave.written.as_ref().map(|(project, _)| project);
@@ -156,6 +165,22 @@ fn cannot_keep(path: &Path, error: &JobError<io::Error>) -> String {
 }
 
 impl Autosave {
+    /// What is taken up stays in its place until it is saved; where it could not be opened, until
+    /// the next start.
+    fn take_up(&mut self, session: &Session) {
+        if session.is_opening() {
+            // It is not known yet whether it can be.
+        } else if session.is_rescued() {
+            if let Some(slot) = self.opening.take() {
+                let own = self.slot.replace(slot);
+                self.first = self.first.take().or(own);
+                (self.is_own, self.is_over, self.written) = (true, false, None);
+            }
+        } else {
+            self.opening = None;
+        }
+    }
+
     fn clear_where_over(&mut self) {
         if self.is_over && self.job.is_none() {
             self.slot.iter().for_each(Slot::clear);

@@ -1,5 +1,6 @@
 //! How films are made, kept under names of the user's own; the command line knows them too.
 
+use std::io;
 use std::path::PathBuf;
 
 use bevy::prelude::{MessageReader, Res, ResMut, Resource, warn};
@@ -20,7 +21,7 @@ pub struct KeptPresets {
 }
 
 impl KeptPresets {
-    /// Those of a file. One that cannot be read stays as it is, and nothing is kept.
+    /// Those of a file. One that cannot be read stays as it is.
     #[must_use]
     pub fn of_file(path: Option<PathBuf>) -> Self {
         let read = path.as_deref().map(Presets::read);
@@ -28,10 +29,27 @@ impl KeptPresets {
             Some(Ok(presets)) => Self { presets, path },
             Some(Err(error)) => {
                 warn!("kept looks of films: {error}");
-                Self::default()
+                Self {
+                    presets: Presets::default(),
+                    path,
+                }
             }
             None => Self::default(),
         }
+    }
+
+    /// Makes a change, also in the file: in what is there now, for another window may have changed
+    /// it, too.
+    fn change(&mut self, change: impl Fn(&mut Presets)) -> io::Result<()> {
+        change(&mut self.presets);
+        let Some(path) = &self.path else {
+            return Ok(());
+        };
+        let mut there = Presets::read(path)?;
+        change(&mut there);
+        there.write(path)?;
+        self.presets = there;
+        Ok(())
     }
 
     /// Their names.
@@ -72,7 +90,7 @@ pub fn apply(
     (session, mut notices): (Res<Session>, ResMut<Notices>),
 ) {
     for intent in intents.read() {
-        match intent {
+        let changed = match intent {
             Intent::UsePreset(name) => {
                 if let Some(preset) = kept.presets.0.get(name) {
                     preferences.film.layout = preset.layout();
@@ -85,19 +103,19 @@ pub fn apply(
             Intent::KeepPreset(name) => {
                 let content = session.project().and_then(|project| project.content);
                 let now = preset(&preferences, content);
-                kept.presets.0.insert(name.clone(), now);
+                let keep = |all: &mut Presets| {
+                    all.0.insert(name.clone(), now);
+                };
+                kept.change(keep)
             }
-            Intent::ForgetPreset(name) => {
-                kept.presets.0.remove(name);
-            }
+            Intent::ForgetPreset(name) => kept.change(|all| {
+                all.0.remove(name);
+            }),
             _ => continue,
-        }
-        let written = kept.path.as_deref().map(|path| kept.presets.write(path));
-        if let Some(Err(error)) = written {
-            notices.problem(
-                About::Film,
-                format!("It is not kept for the next start: {error}."),
-            );
+        };
+        if let Err(error) = changed {
+            let words = format!("It is not kept for the next start: {error}.");
+            notices.problem(About::Film, words);
         }
     }
 }

@@ -19,7 +19,8 @@ const MOST: u32 = 64;
 pub struct Slot {
     /// What is kept there, if anything is.
     pub path: PathBuf,
-    lock: (PathBuf, File),
+    /// Never removed: another window may be about to lock it.
+    _lock: File,
 }
 
 /// What a window has left that ended without saving.
@@ -36,12 +37,11 @@ pub struct Lost {
 impl Slot {
     /// The place of that number, where nobody holds it.
     fn take(folder: &Path, number: u32) -> io::Result<Option<Self>> {
-        let at = folder.join(format!("{number}.lock"));
-        let file = File::create(&at)?;
+        let file = File::create(folder.join(format!("{number}.lock")))?;
         match file.try_lock() {
             Ok(()) => Ok(Some(Self {
                 path: folder.join(format!("{number}.json")),
-                lock: (at, file),
+                _lock: file,
             })),
             Err(TryLockError::WouldBlock) => Ok(None),
             Err(TryLockError::Error(error)) => Err(error),
@@ -100,9 +100,6 @@ impl Drop for Slot {
     fn drop(&mut self) {
         // Where nothing is being made it is empty.
         fs::remove_dir(self.workshop()).ok();
-        if !self.path.exists() {
-            fs::remove_file(&self.lock.0).ok();
-        }
     }
 }
 

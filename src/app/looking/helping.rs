@@ -230,7 +230,8 @@ impl Helping {
     }
 
     fn start(&mut self, session: &Session) {
-        self.since = None;
+        (self.since, self.now) = (None, None);
+        self.offers.clear();
         let Some(staged) = session.staged() else {
             return;
         };

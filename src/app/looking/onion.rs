@@ -47,7 +47,10 @@ fn times(session: &Session) -> Vec<f64> {
         [from, to] => (0..=BETWEEN + 1)
             .map(|k| from + (to - from) * k as f64 / (BETWEEN + 1) as f64)
             .collect(),
-        all => all.iter().copied().take(MOST).collect(),
+        all if all.len() > MOST => (0..MOST)
+            .map(|k| all[k * (all.len() - 1) / (MOST - 1)])
+            .collect(),
+        all => all.to_vec(),
     }
 }
 

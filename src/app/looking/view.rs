@@ -245,7 +245,7 @@ pub fn back(
             choosing.stop();
         } else if preferences.panels && measured.told().is_some() {
             measured.stop();
-        } else if preferences.panels && helping.is_trying() {
+        } else if preferences.panels && !editor.is_open && helping.is_trying() {
             helping.stop();
         } else if editor.bypass_change_detection().back() {
             editor.set_changed();

@@ -6,6 +6,9 @@ use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource, Time};
 use bevy::window::FileDragAndDrop;
 
 use crate::app::asking::intent::Intent;
+use crate::app::keeping::autosave::Autosave;
+use crate::app::opening::closing::Question;
+use crate::app::playing::presenting::Presenting;
 
 /// Files that are dropped together arrive one by one; so long is waited for the next.
 const GATHER_SECS: f32 = 0.15;
@@ -61,8 +64,13 @@ pub fn read_drops(
     mut drops: MessageReader<FileDragAndDrop>,
     time: Res<Time>,
     mut state: ResMut<Drop>,
+    presenting: Res<Presenting>,
     mut intents: MessageWriter<Intent>,
 ) {
+    if presenting.is_on() {
+        // Nothing is opened before an audience, and nothing asked.
+        drops.clear();
+    }
     for drop in drops.read() {
         if let FileDragAndDrop::DroppedFile { path_buf, .. } = drop {
             state.arriving.push(path_buf.clone());
@@ -79,10 +87,17 @@ pub fn read_drops(
 }
 
 /// Forgets the undecided file once it is decided.
-pub fn decide(mut intents: MessageReader<Intent>, mut state: ResMut<Drop>) {
-    let is_decided = |intent: &Intent| {
-        let opens = matches!(intent, Intent::Open(paths) if paths.len() <= 2);
-        opens || matches!(intent, Intent::ReplaceDesign(..) | Intent::Back)
+pub fn decide(
+    mut intents: MessageReader<Intent>,
+    mut state: ResMut<Drop>,
+    (question, autosave): (Res<Question>, Res<Autosave>),
+) {
+    // Esc is meant for the question that is seen.
+    let is_seen = question.text().is_none() && autosave.lost().is_none();
+    let is_decided = |intent: &Intent| match intent {
+        Intent::Open(paths) => paths.len() <= 2,
+        Intent::Back => is_seen,
+        intent => matches!(intent, Intent::ReplaceDesign(..)),
     };
     if intents.read().filter(|intent| is_decided(intent)).count() > 0 && state.asks() {
         state.undecided = None;

@@ -168,13 +168,16 @@ pub fn keep(
     } else {
         settling.saturating_sub(1)
     };
-    if let Some(last) = occlusions.read().last() {
+    let of_stage = |occlusion: &&WindowOccluded| !going.speaker.is_its(occlusion.window);
+    if let Some(last) = occlusions.read().filter(of_stage).last() {
         *is_covered = last.occluded;
     }
+    // What the speaker sees goes on, and what is not kept yet is kept.
+    let is_needed = going.speaker.is_open() || going.autosave.is_behind();
     let pace = Pace {
         moves: *settling > 0 || going.moves(),
         waits: going.waits(),
-        is_hidden: *is_covered || window.iter().any(is_minimised),
+        is_hidden: !is_needed && (*is_covered || window.iter().any(is_minimised)),
     };
     let mode = pace.mode();
     // The same beside another window: a film goes on while notes are read. Looked at first:

@@ -19,7 +19,6 @@ use crate::app::editing::editor::Editor;
 use crate::app::looking::twin::Twin;
 use crate::app::playing::playback::{Playback, first_stop};
 use crate::app::session::state::Session;
-use crate::app::telling::notices::{About, Notices};
 use crate::export::Captions;
 
 /// How long a pointer that rests is still seen.
@@ -126,10 +125,11 @@ pub fn apply(
                 editor.is_open = false;
                 twin.is_shown = false;
             }
-            (Intent::Back | Intent::Present { .. }, Some(talk)) => {
+            (Intent::Back | Intent::Present { .. } | Intent::Close, Some(talk)) => {
                 if talk.is_all {
                     commands.write_message(Intent::Close);
                 } else {
+                    // What closing may ask is seen again.
                     *preferences = talk.before.0;
                     if let (Ok((mut window, _)), Some(mode)) = (windows.single_mut(), talk.before.1)
                     {
@@ -161,7 +161,7 @@ pub fn whole_screen() -> WindowMode {
 /// Goes to the first stop as soon as there is a film; ends where there will be none.
 pub fn begin(
     mut presenting: ResMut<Presenting>,
-    (session, notices): (Res<Session>, Res<Notices>),
+    session: Res<Session>,
     mut playback: ResMut<Playback>,
     mut intents: MessageWriter<Intent>,
 ) {
@@ -179,8 +179,8 @@ pub fn begin(
         playback.begin(timing);
         playback.seek(first_stop(timing, stops), timing, stops);
         talk.has_begun = true;
-    } else if notices.is_ill(About::Opening) || notices.is_ill(About::Transition) {
-        // What there is to tell is told in the window.
+    } else if session.work().is_none() {
+        // There is nothing to show, and what there is to tell is told in the window.
         talk.is_all = false;
         intents.write(Intent::Back);
     }

@@ -10,7 +10,7 @@ use bevy::camera::RenderTarget;
 use bevy::camera::visibility::RenderLayers;
 use bevy::prelude::*;
 use bevy::window::{
-    Monitor, MonitorSelection, PrimaryMonitor, PrimaryWindow, WindowCloseRequested, WindowMode,
+    Monitor, MonitorSelection, OnMonitor, PrimaryWindow, WindowCloseRequested, WindowMode,
     WindowPosition, WindowRef, WindowResolution,
 };
 use image::RgbaImage;
@@ -49,6 +49,12 @@ impl Speaker {
         self.window.is_some()
     }
 
+    /// This is its window.
+    #[must_use]
+    pub fn is_its(&self, window: Entity) -> bool {
+        self.window.is_some_and(|(own, _)| own == window)
+    }
+
     /// What the next stop looks like.
     #[must_use]
     pub fn picture(&self) -> Option<Arc<RgbaImage>> {
@@ -62,25 +68,24 @@ pub fn apply(
     mut closing: MessageReader<WindowCloseRequested>,
     mut speaker: ResMut<Speaker>,
     presenting: Res<Presenting>,
-    monitors: Query<(Entity, Has<PrimaryMonitor>), With<Monitor>>,
-    mut audience: Query<&mut Window, With<PrimaryWindow>>,
+    monitors: Query<Entity, With<Monitor>>,
+    mut audience: Query<(&mut Window, Option<&OnMonitor>), With<PrimaryWindow>>,
     mut commands: Commands,
 ) {
-    let second = monitors
-        .iter()
-        .find(|(_, is_primary)| !is_primary)
-        .map(|(screen, _)| screen);
+    // That which the window is not on; some systems do not tell, and then nothing opens unasked.
+    let own = audience.single().ok().and_then(|(_, on)| Some(on?.0));
+    let second = own.and_then(|own| monitors.iter().find(|screen| *screen != own));
     for intent in intents.read() {
         match intent {
             Intent::Present { .. } if presenting.is_on() && speaker.window.is_none() => {
-                if let (Some(screen), Ok(mut window)) = (second, audience.single_mut()) {
+                if let (Some(screen), Ok((mut window, _))) = (second, audience.single_mut()) {
                     let screen = MonitorSelection::Entity(screen);
                     window.mode = WindowMode::BorderlessFullscreen(screen);
-                    speaker.window = Some(open(&mut commands));
+                    speaker.window = Some(open(&mut commands, own));
                 }
             }
             Intent::ToggleSpeaker if presenting.is_on() && speaker.window.is_none() => {
-                speaker.window = Some(open(&mut commands));
+                speaker.window = Some(open(&mut commands, own));
             }
             Intent::ToggleSpeaker => close(&mut speaker, &mut commands),
             _ => {}
@@ -97,12 +102,13 @@ pub fn apply(
     }
 }
 
-fn open(commands: &mut Commands) -> (Entity, Entity) {
+fn open(commands: &mut Commands, screen: Option<Entity>) -> (Entity, Entity) {
+    let screen = screen.map_or(MonitorSelection::Primary, MonitorSelection::Entity);
     let window = Window {
         title: "Morphospace: for the speaker".to_owned(),
         name: Some("morphospace".to_owned()),
         resolution: WindowResolution::new(960, 540),
-        position: WindowPosition::Centered(MonitorSelection::Primary),
+        position: WindowPosition::Centered(screen),
         ..default()
     };
     let window = commands.spawn(window).id();

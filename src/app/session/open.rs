@@ -28,6 +28,8 @@ pub struct Open {
     pub history: History,
     /// A file of its designs has changed.
     pub must_reread: bool,
+    /// It was taken up again after the program had ended without saving it.
+    pub is_rescued: bool,
     origin: Origin,
     /// As it was opened or saved last.
     saved: Project,
@@ -49,6 +51,7 @@ impl Open {
             staged,
             history: History::default(),
             must_reread: false,
+            is_rescued: false,
             origin,
             saved: project,
         }
@@ -59,6 +62,7 @@ impl Open {
     pub fn unsaved(loaded: Loaded, origin: Origin) -> Self {
         Self {
             saved: Project::pair("", ""),
+            is_rescued: true,
             ..Self::new(loaded, origin)
         }
     }
@@ -134,6 +138,7 @@ impl Open {
 
     /// Takes the changes for saved.
     pub fn forget_changes(&mut self) {
+        self.is_rescued = false;
         self.saved = self.loaded.project.clone();
     }
 
@@ -205,6 +210,7 @@ impl Open {
 
     /// The settings go back to those of the stage; no step of the history is left of it.
     pub fn give_up_changes(&mut self) {
+        self.must_reread = false;
         self.amend(|now, staged| now.clone_from(staged));
         // What could not be had is not asked for any more.
         self.problem.take_if(|_| self.transition.is_some());
@@ -242,6 +248,7 @@ impl Open {
         // Only their names have changed, which is no reason to build again.
         self.staged.designs.clone_from(&self.saved.designs);
         self.origin = Origin::File(path);
+        self.is_rescued = false;
         Ok(())
     }
 

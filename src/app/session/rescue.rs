@@ -49,7 +49,9 @@ impl Kept {
             title,
             origin: match origin {
                 Origin::Gallery(name) => Home::Gallery(name.clone()),
-                Origin::File(path) => Home::File(path.clone()),
+                Origin::File(path) => {
+                    Home::File(std::path::absolute(path).unwrap_or_else(|_| path.clone()))
+                }
                 Origin::Unsaved => Home::Unsaved,
             },
             document: project.to_toml()?,

@@ -204,6 +204,19 @@ impl Session {
         self.open.as_ref().is_some_and(Open::is_dirty)
     }
 
+    /// The open project was taken up again after the program had ended without saving it.
+    #[must_use]
+    pub fn is_rescued(&self) -> bool {
+        self.open.as_ref().is_some_and(|open| open.is_rescued)
+    }
+
+    /// Something else is being opened.
+    #[must_use]
+    pub fn is_opening(&self) -> bool {
+        let work = self.work.as_ref();
+        work.is_some_and(|work| work.origin.is_some())
+    }
+
     /// What is to be kept of the open project until it is saved.
     ///
     /// # Errors

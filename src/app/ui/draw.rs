@@ -9,7 +9,7 @@ use bevy_egui::{
     EguiPreUpdateSet, EguiPrimaryContextPass, egui,
 };
 
-use crate::app::asking::hand::Typing;
+use crate::app::asking::hand::{Marked, Typing};
 use crate::app::asking::intent::Intent;
 use crate::app::looking::view::StageArea;
 use crate::app::playing::pace::Repaint;
@@ -95,7 +95,7 @@ fn draw(
     mut contexts: EguiContexts,
     scene: Scene,
     (mut textures, mut files): (ResMut<gallery::Textures>, ResMut<files::Files>),
-    mut typing: ResMut<Typing>,
+    (mut typing, mut marked): (ResMut<Typing>, ResMut<Marked>),
     mut area: ResMut<StageArea>,
     mut intents: MessageWriter<Intent>,
 ) -> Result {
@@ -121,6 +121,8 @@ fn draw(
         // A menu takes arrows and Esc for itself, and so does what asks for files.
         ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx) || scene.dialog.asks().is_some(),
     ));
+    let selection = ctx.plugin_or_default::<egui::text_selection::LabelSelectionState>();
+    marked.set_if_neq(Marked(selection.lock().has_selection()));
     // Acted on in the next frame: the panels are drawn when the systems have run.
     intents.write_batch(acts);
     Ok(())

@@ -205,10 +205,15 @@ fn keep(ui: &mut Ui, acts: &mut Intents) {
 fn span(ui: &mut Ui, scene: &Scene, look: &mut FilmLook) {
     let tip = "The stops at which the film begins and ends; set stops with M.";
     row(ui, "From, to", tip, |ui| {
-        let [from, to] = &mut look.span;
+        let mut places = look.places(scene.session.timing(), scene.session.stops());
+        let before = places;
+        let [from, to] = &mut places;
         let width = (ui.available_width() - GRID) / 2.0;
         let first = place(ui, scene, "film from", from, ("Start", width));
         let last = place(ui, scene, "film to", to, ("End", width));
+        if places != before {
+            look.span = places;
+        }
         first | last
     });
 }
