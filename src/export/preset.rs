@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 use std::io::{self, Write};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
@@ -60,7 +60,7 @@ impl Presets {
     /// Where the window keeps them; none where the system has no such place.
     #[cfg(feature = "cli")]
     #[must_use]
-    pub fn usual_path() -> Option<PathBuf> {
+    pub fn usual_path() -> Option<std::path::PathBuf> {
         Some(dirs::config_dir()?.join("morphospace").join("films.toml"))
     }
 

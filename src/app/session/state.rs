@@ -220,7 +220,7 @@ impl Session {
     /// What is to be kept of the open project until it is saved.
     ///
     /// # Errors
-    /// As [`Kept::new`].
+    /// A project cannot be written as text.
     #[must_use]
     pub fn kept(&self) -> Option<Result<Kept, ProjectError>> {
         self.open.as_ref().map(Open::kept)
