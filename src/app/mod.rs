@@ -41,6 +41,7 @@ pub use asking::keymap::{Binding, Held, KeyMap, Row, Trigger};
 pub use capturing::files::CaptureFolder;
 pub use capturing::films::Recorder;
 pub use editing::editor::{CutEnd, Editor, Grab, Handle};
+pub use editing::panes::{Pane, PaneView, Panes};
 pub use editing::sheet::{Fate, Sheet};
 pub use keeping::autosave::Autosave;
 pub use logic::LogicPlugin;

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::window::Window;
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{ButtonInput, MouseButton, Vec2};
-use morphospace::app::{EditorAct, Fate, Handle, Intent, Tool, Touch};
+use morphospace::app::{EditorAct, Fate, Handle, Intent, Pane, PaneView, Tool, Touch};
 use morphospace::correspondence::Matching;
 use morphospace::geometry::{DVec2, Side};
 
@@ -308,14 +308,12 @@ fn the_editor_zooms_to_the_pointer_and_fits_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path(), L, TALL_L);
     let at = Vec2::new(40.0, -30.0);
-    window.act(EditorAct::Zoom { at, factor: 2.0 });
+    let (pane, factor) = (Pane::Design(Side::Source), 2.0);
+    window.act(EditorAct::Zoom { pane, at, factor });
     // What was under the pointer lies there still: at = pan + zoom * p, before and after.
-    let editor = window.editor().clone();
-    assert_eq!(editor.zoom, 2.0);
-    assert!((editor.pan + 2.0 * at - at).length() < 1e-4);
+    let view = window.editor().panes.view(pane);
+    assert_eq!(view.zoom, 2.0);
+    assert!((view.pan + 2.0 * at - at).length() < 1e-4);
     window.send(Intent::FitView);
-    assert_eq!(
-        (window.editor().pan, window.editor().zoom),
-        (Vec2::ZERO, 1.0)
-    );
+    assert_eq!(window.editor().panes.view(pane), PaneView::default());
 }

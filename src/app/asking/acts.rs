@@ -2,6 +2,7 @@
 
 use bevy::prelude::Vec2;
 
+use crate::app::editing::panes::Pane;
 use crate::geometry::{DVec2, Side};
 
 /// One act in the match editor.
@@ -31,11 +32,17 @@ pub enum EditorAct {
     RemoveSelected,
     /// Delete everything that was said of the match by hand, the rules aside.
     Clear,
-    /// Move the view by so many logical pixels, y down.
-    Pan(Vec2),
-    /// Zoom the view.
+    /// Show the film beside the designs.
+    Film(bool),
+    /// Move and enlarge all panes together, or each alone.
+    Together(bool),
+    /// Move a pane by so many logical pixels, y down.
+    Pan(Pane, Vec2),
+    /// Zoom a pane.
     Zoom {
-        /// The point that stays where it is, in logical pixels from the middle of the half, y
+        /// Which.
+        pane: Pane,
+        /// The point that stays where it is, in logical pixels from the middle of the pane, y
         /// down.
         at: Vec2,
         /// Above 1 comes nearer.

@@ -6,6 +6,7 @@ use crate::app::asking::acts::{EditorAct, Tool, Touch};
 use crate::app::asking::hand::Gesture;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::{CutEnd, Editor, Grab, Handle};
+use crate::app::editing::panes::Pane;
 use crate::app::editing::sheet::Sheet;
 use crate::app::session::state::Session;
 use crate::content::ContentKind;
@@ -13,10 +14,6 @@ use crate::correspondence::{LonePart, Matching, PointPair, RingCut};
 use crate::geometry::{DVec2, Pair, Side};
 use crate::project::Project;
 use crate::warp::WarpKind;
-
-/// The least and the most that the view is enlarged: bounds that keep a slip of the wheel from
-/// losing the design. No test needs these very numbers.
-const ZOOMS: [f32; 2] = [0.2, 100.0];
 
 /// Said of a point that no pin can be set on.
 const NO_PARTNER: &str = "Nothing on the other side belongs to this boundary, so it cannot be \
@@ -36,7 +33,7 @@ pub fn apply(
         let act = match intent {
             Intent::Editor(act) => act,
             Intent::FitView if editor.is_open => {
-                (editor.pan, editor.zoom) = (Vec2::ZERO, 1.0);
+                editor.panes.fit();
                 continue;
             }
             _ => continue,
@@ -107,19 +104,11 @@ impl Editor {
                 said.lone.clear();
                 self.selected = None;
             }
-            EditorAct::Pan(delta) => self.pan += *delta,
-            EditorAct::Zoom { at, factor } => self.zoom_at(*at, *factor),
+            EditorAct::Film(on) => self.panes.film = *on,
+            EditorAct::Together(on) => self.panes.set_together(*on),
+            EditorAct::Pan(pane, delta) => self.panes.pan(*pane, *delta),
+            EditorAct::Zoom { pane, at, factor } => self.panes.zoom_at(*pane, *at, *factor),
         }
-    }
-
-    fn zoom_at(&mut self, at: Vec2, factor: f32) {
-        if !(factor.is_finite() && factor > 0.0) {
-            return;
-        }
-        let zoom = (self.zoom * factor).clamp(ZOOMS[0], ZOOMS[1]);
-        // What lies under `at` is (at - pan) / zoom from the middle, before and after.
-        self.pan = at + (self.pan - at) * (zoom / self.zoom);
-        self.zoom = zoom;
     }
 
     fn hover(&mut self, touch: Option<Touch>, sheet: &Sheet) {
@@ -162,7 +151,7 @@ impl Editor {
         let grab = taken(grab, sheet, said);
         self.grabbed = Some((side, grab));
         match grab {
-            Grab::View => self.pan += delta,
+            Grab::View => self.panes.pan(Pane::Design(side), delta),
             Grab::Pin(k) => {
                 self.selected = Some(Handle::Pin(k));
                 if let (Some(pin), Some(to)) =

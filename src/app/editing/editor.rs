@@ -1,8 +1,9 @@
 //! How the match editor is looked at, and what the hand holds in it.
 
-use bevy::prelude::{Resource, Vec2};
+use bevy::prelude::Resource;
 
 use crate::app::asking::acts::Tool;
+use crate::app::editing::panes::Panes;
 use crate::geometry::{DVec2, Side};
 
 /// What the hand can hold.
@@ -73,10 +74,8 @@ pub struct Editor {
     pub first_part: Option<(Side, usize, DVec2)>,
     /// Why the last act came to nothing.
     pub refusal: Option<&'static str>,
-    /// How far the view was moved, in logical pixels, y down.
-    pub pan: Vec2,
-    /// How much larger than fitted.
-    pub zoom: f32,
+    /// How the designs and the film are looked at.
+    pub panes: Panes,
 }
 
 impl Default for Editor {
@@ -93,8 +92,7 @@ impl Default for Editor {
             grabbed: None,
             first_part: None,
             refusal: None,
-            pan: Vec2::ZERO,
-            zoom: 1.0,
+            panes: Panes::default(),
         }
     }
 }
@@ -104,6 +102,12 @@ impl Editor {
     #[must_use]
     pub fn is_lit(&self, handle: Handle) -> bool {
         [self.hovered, self.selected].contains(&Some(handle))
+    }
+
+    /// The film is shown beside the designs.
+    #[must_use]
+    pub fn shows_film(&self) -> bool {
+        self.is_open && self.panes.film
     }
 
     /// Leaves what was entered last; `false` where there is nothing to leave.

@@ -9,6 +9,7 @@ pub mod apply;
 pub mod editor;
 mod features;
 mod hand;
+pub mod panes;
 pub mod polyline;
 pub mod refresh;
 pub mod ring;

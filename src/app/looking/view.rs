@@ -9,6 +9,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::capturing::films::Recorder;
 use crate::app::capturing::framing::FilmFrame;
 use crate::app::editing::editor::Editor;
+use crate::app::editing::panes::{Pane, PaneView};
 use crate::app::keeping::autosave::Autosave;
 use crate::app::looking::choosing::Choosing;
 use crate::app::looking::helping::Helping;
@@ -77,14 +78,25 @@ pub fn apply(
 
 /// Fits the view wherever it is to be fitted and something about it changed.
 pub fn fit(
-    session: Res<Session>,
+    (session, editor): (Res<Session>, Res<Editor>),
     area: Res<StageArea>,
     keeps_fit: Res<KeepsFit>,
     film: Res<FilmFrame>,
     mut view: ResMut<StageView>,
-    mut last: Local<Option<(Bounds, Vec2)>>,
+    mut last: Local<Option<(Bounds, Vec2, PaneView)>>,
+    mut left: Local<Option<StageView>>,
 ) {
-    if !keeps_fit.0 {
+    // The editor looks at the film in its own way, and whoever leaves it finds the stage as it was.
+    let pane = editor.shows_film().then(|| editor.panes.view(Pane::Film));
+    if pane.is_some() && left.is_none() {
+        *left = Some(view.clone());
+    } else if pane.is_none()
+        && let Some(before) = left.take()
+    {
+        *view = before;
+        *last = None;
+    }
+    if !keeps_fit.0 && pane.is_none() {
         // Forgotten, so that the next fit is made even where nothing has changed since the last
         // one.
         *last = None;
@@ -99,9 +111,12 @@ pub fn fit(
         None => bounds,
     };
     let bounds = bounds.padded(ROOM * bounds.diameter());
-    let now = Some((bounds, area.size));
+    let pane = pane.unwrap_or_default();
+    let now = Some((bounds, area.size, pane));
     if *last != now {
         view.fit(bounds, area.size);
+        view.zoom_at(0.5 * area.size, f64::from(pane.zoom));
+        view.pan_px(pane.pan);
         *last = now;
     }
 }

@@ -58,8 +58,9 @@ impl Plugin for UiPlugin {
     }
 }
 
-/// A window as wide as this has room for the gallery beside the match editor.
-const ROOMY: f32 = 1200.0;
+/// A window as wide as this has room for the gallery beside the match editor, and with the film in
+/// it as wide as that.
+const ROOMY: [f32; 2] = [1200.0, 1600.0];
 
 /// Before the first frame that is drawn: a font is there from the next pass on only, and a family
 /// that is not there makes egui panic.
@@ -135,8 +136,7 @@ fn middle(root: &mut egui::Ui, scene: &Scene, stage: egui::Rect, acts: &mut Inte
         return talk::show(root, scene, stage, acts);
     }
     if scene.editor.is_open {
-        match_editor::show(root, scene, stage, acts);
-        return stage;
+        return match_editor::show(root, scene, stage, acts);
     }
     if scene.twin.is_shown {
         return twin::show(root, scene, stage, acts);
@@ -164,8 +164,9 @@ fn panels(
     if scene.preferences.plots {
         plots::show(root, scene, acts);
     }
-    // Two designs side by side need the room that the gallery takes in a small window.
-    if !scene.editor.is_open || root.available_width() >= ROOMY {
+    // Designs side by side need the room that the gallery takes in a small window.
+    let roomy = ROOMY[usize::from(scene.editor.shows_film())];
+    if !scene.editor.is_open || root.available_width() >= roomy {
         gallery::show(root, scene, textures, acts);
     }
     inspector::show(root, scene, acts);

@@ -59,10 +59,26 @@ fn tools(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
     if !scene.sheet.in_colours() {
         outline_tools(ui, scene, acts);
     }
+    views(ui, scene, acts);
     ui.add_space(GRID);
     let tip = "Back to the stage (E or Esc). The match is kept.";
     if primary_button(ui, "Done").on_hover_text(tip).clicked() {
         acts.push(Intent::Editor(EditorAct::Toggle));
+    }
+}
+
+/// What is shown beside the designs, and how all of it is looked at.
+fn views(ui: &mut egui::Ui, scene: &Scene, acts: &mut Intents) {
+    let panes = &scene.editor.panes;
+    let mut act = |act: EditorAct| acts.push(Intent::Editor(act));
+    ui.add_space(GRID);
+    let tip = "The film beside the designs; it plays and is steered with the same keys.";
+    if option(ui, panes.film, "Film", tip, 44.0) {
+        act(EditorAct::Film(!panes.film));
+    }
+    let tip = "On: designs and film are moved and enlarged together. Off: each alone.";
+    if option(ui, panes.together, "Zoom all", tip, 68.0) {
+        act(EditorAct::Together(!panes.together));
     }
 }
 

@@ -9,7 +9,7 @@ use bevy_egui::egui::{
 };
 
 use crate::app::asking::acts::{Tool, Touch};
-use crate::app::editing::editor::Editor;
+use crate::app::editing::panes::PaneView;
 use crate::app::editing::polyline::spans;
 use crate::app::editing::ring::SheetRing;
 use crate::app::editing::sheet::{Fate, Sheet, SheetPiece};
@@ -45,8 +45,8 @@ pub struct Half {
 }
 
 impl Half {
-    /// Fits a box into `room` and looks at it as the editor does.
-    pub fn new(side: Side, rect: Rect, room: Rect, bounds: Bounds, editor: &Editor) -> Self {
+    /// Fits a box into `room`, and moves and enlarges it as it is looked at.
+    pub fn new(side: Side, rect: Rect, room: Rect, bounds: Bounds, view: PaneView) -> Self {
         // A level line has no height, and nothing can be fitted into that.
         let size = bounds.size().max(DVec2::splat(f64::MIN_POSITIVE));
         let fitted = (f64::from(room.width().max(1.0)) / size.x)
@@ -56,8 +56,8 @@ impl Half {
             rect,
             room,
             centre: bounds.centre(),
-            px_per_unit: fitted * f64::from(editor.zoom),
-            pan: vec2(editor.pan.x, editor.pan.y),
+            px_per_unit: fitted * f64::from(view.zoom),
+            pan: vec2(view.pan.x, view.pan.y),
         }
     }
 

@@ -7,9 +7,11 @@ use bevy_egui::egui::{
 
 use crate::app::asking::acts::{EditorAct, Tool};
 use crate::app::asking::intent::Intent;
+use crate::app::editing::panes::Pane;
 use crate::app::editing::sheet::SheetSide;
 use crate::app::ui::kit::theme::{GRID, SMALL};
 use crate::app::ui::match_editor::bar::{self, ADVICE_HEIGHT, BAR_HEIGHT};
+use crate::app::ui::match_editor::film;
 use crate::app::ui::match_editor::half::Half;
 use crate::app::ui::match_editor::inks::Inks;
 use crate::app::ui::match_editor::marks;
@@ -18,28 +20,45 @@ use crate::app::ui::stage::area::zoom_factor;
 use crate::design::Picture;
 use crate::geometry::Side;
 
-/// Draws both halves and takes the user's hand.
-pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) {
+/// Draws both halves and the film beside them, and takes the user's hand. Returns the part that
+/// the stage takes.
+pub fn show(root: &mut Ui, scene: &Scene, whole: Rect, acts: &mut Intents) -> Rect {
     let Some(sides) = &scene.sheet.sides else {
-        return;
+        return whole;
     };
     let inks = Inks::of(scene);
-    let painter = root.painter().with_clip_rect(stage);
+    let (stage, column) = columns(scene, whole);
+    let shown = column.map(|column| film::show(root, scene, column, &inks, acts));
+    let painter = root.painter().with_clip_rect(whole);
     painter.rect_filled(stage, CornerRadius::ZERO, inks.ground);
     let halves = halves(scene, stage, sides);
     for half in &halves {
         half.draw(&painter, scene, &inks);
     }
-    let middle = stage.center().x;
     let between = stage.top() + BAR_HEIGHT + GRID..=stage.bottom() - ADVICE_HEIGHT;
-    painter.vline(middle, between, (1.0, inks.faint));
+    let right = column.map(|column| column.left());
+    for x in right.into_iter().chain([stage.center().x]) {
+        painter.vline(x, between.clone(), (1.0, inks.faint));
+    }
     marks::draw(&painter, scene, &halves, &inks);
-    advice(&painter, scene, stage, &inks);
+    advice(&painter, scene, whole, &inks);
     for half in &halves {
         let id = root.id().with(("half", half.side.index()));
         let response = root.interact(half.rect, id, Sense::click_and_drag());
         hand(root, scene, half, &response, acts);
     }
+    // Behind the designs where it has no column: whoever leaves the editor finds it in its place.
+    shown.unwrap_or(whole)
+}
+
+/// What the designs take, and the film beside them: a third of whole points each.
+fn columns(scene: &Scene, whole: Rect) -> (Rect, Option<Rect>) {
+    if !scene.editor.shows_film() {
+        return (whole, None);
+    }
+    let third = (whole.width() / 3.0).floor();
+    let (designs, film) = whole.split_left_right_at_x(whole.right() - third);
+    (designs, Some(film))
 }
 
 /// Draws what lies above both halves.
@@ -57,7 +76,8 @@ fn halves(scene: &Scene, stage: Rect, sides: &[SheetSide; 2]) -> [Half; 2] {
         let design = &sides[side];
         let picture = design.picture.as_ref().filter(|_| scene.sheet.in_colours());
         let bounds = picture.map_or(design.bounds, Picture::bounds);
-        Half::new(side, rect, room, bounds, &scene.editor)
+        let view = scene.editor.panes.view(Pane::Design(side));
+        Half::new(side, rect, room, bounds, view)
     };
     [half(Side::Source, left), half(Side::Target, right)]
 }
@@ -85,7 +105,7 @@ fn hand(ui: &Ui, scene: &Scene, half: &Half, response: &Response, acts: &mut Int
         if response.dragged_by(primary) && delta != Vec2::ZERO {
             act(EditorAct::Drag(half.touch(pointer, shift), delta));
         } else if response.dragged() && delta != Vec2::ZERO {
-            act(EditorAct::Pan(delta));
+            act(EditorAct::Pan(Pane::Design(half.side), delta));
         }
         if response.clicked_by(primary) {
             act(EditorAct::Click(half.touch(pointer, shift)));
@@ -126,6 +146,7 @@ fn zoom(ui: &Ui, half: &Half, from_middle: egui::Vec2, act: &mut impl FnMut(Edit
         // The view is enlarged about the middle of the room, which the bar above moves down.
         let at = from_middle - half.room_offset();
         act(EditorAct::Zoom {
+            pane: Pane::Design(half.side),
             at: Vec2::new(at.x, at.y),
             factor,
         });

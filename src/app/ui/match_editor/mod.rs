@@ -1,12 +1,13 @@
-//! The match editor: source and target side by side in place of the stage.
+//! The match editor: source and target side by side, and the film beside them.
 //!
-//! Drawn over the stage with egui; what the hand does becomes an
+//! The designs are drawn with egui, the film is the stage itself; what the hand does becomes an
 //! [`EditorAct`](crate::app::EditorAct) in the coordinates of the frame. Colours run along the
 //! boundary, the same on both sides, and numbers say the same again, so that nothing hangs on
 //! colour alone.
 
 mod bar;
 mod boundary;
+mod film;
 mod half;
 mod halves;
 mod inks;
