@@ -12,7 +12,7 @@ use crate::transition::Frame;
 
 use super::colours::ColourLook;
 use super::components::{Morph, StageStyle};
-use super::field::FieldLook;
+use super::field::{FieldKind, FieldLook};
 use super::grid::GridLook;
 use super::ink::linear;
 use super::paint::{Paint, Paints};
@@ -85,6 +85,8 @@ fn paint(part: &Part, frame: &Frame, style: &StageStyle, paints: &mut Paints) {
         (Paint::Field(field), Content::Field(pair)) => {
             let look = FieldLook::new(pair, t, style);
             renew(&mut paints.fields, field, |field| &mut field.look, look);
+            let kind = FieldKind::new(pair, style);
+            renew(&mut paints.fields, field, |field| &mut field.kind, kind);
         }
         (Paint::Picture(picture), Content::Colours(pair)) => {
             let look = ColourLook::new(pair, t, origin);

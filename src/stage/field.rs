@@ -8,10 +8,14 @@
 
 use bevy::asset::RenderAssetUsages;
 use bevy::image::ToExtents;
+use bevy::mesh::MeshVertexBufferLayoutRef;
 use bevy::prelude::*;
-use bevy::render::render_resource::{AsBindGroup, ShaderType, TextureDimension, TextureFormat};
-use bevy::shader::ShaderRef;
-use bevy::sprite_render::{AlphaMode2d, Material2d};
+use bevy::render::render_resource::{
+    AsBindGroup, RenderPipelineDescriptor, ShaderType, SpecializedMeshPipelineError,
+    TextureDimension, TextureFormat,
+};
+use bevy::shader::{ShaderDefVal, ShaderRef};
+use bevy::sprite_render::{AlphaMode2d, Material2d, Material2dKey};
 
 use crate::content::{BlendSpace, FieldPair};
 use crate::field::DistanceField;
@@ -29,6 +33,7 @@ const ISO_LINES: f32 = 40.0;
 
 /// Two fields and how they are blended and drawn.
 #[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
+#[bind_group_data(FieldKind)]
 pub(super) struct FieldMaterial {
     #[uniform(0)]
     pub(super) look: FieldLook,
@@ -38,6 +43,48 @@ pub(super) struct FieldMaterial {
     source: Handle<Image>,
     #[texture(2, sample_type = "float", filterable = false)]
     target: Handle<Image>,
+    pub(super) kind: FieldKind,
+}
+
+/// What the pipeline of a field depends on: each is a shader of its own.
+///
+/// Not branches on numbers of the uniform, which changes with every t: some drivers make a shader
+/// anew for each (Mesa's lavapipe 22.3 kept all of them, 26 MB in a second of playing).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(super) struct FieldKind {
+    is_log: bool,
+    shows_fill: bool,
+    shows_lines: bool,
+    shows_signs: bool,
+}
+
+impl FieldKind {
+    pub(super) fn new(pair: &FieldPair, style: &StageStyle) -> Self {
+        let show = style.show;
+        Self {
+            is_log: matches!(pair.blend().space, BlendSpace::Log),
+            shows_fill: show.fill,
+            shows_lines: show.iso_lines,
+            shows_signs: show.signed_colours,
+        }
+    }
+
+    fn definitions(self) -> impl Iterator<Item = ShaderDefVal> {
+        let all = [
+            (self.is_log, "LOG_SPACE"),
+            (self.shows_fill, "FILL"),
+            (self.shows_lines, "LINES"),
+            (self.shows_signs, "SIGNS"),
+        ];
+        let set = all.into_iter().filter(|(is_set, _)| *is_set);
+        set.map(|(_, name)| name.into())
+    }
+}
+
+impl From<&FieldMaterial> for FieldKind {
+    fn from(material: &FieldMaterial) -> Self {
+        material.kind
+    }
 }
 
 /// The uniform of [`FieldMaterial`]; the same fields as in `field.wgsl`.
@@ -51,11 +98,6 @@ pub(super) struct FieldLook {
     epsilon: f32,
     level: f32,
     spacing: f32,
-    // WGSL has no layout for `bool` in a uniform.
-    log_space: u32,
-    fill_shown: u32,
-    lines_shown: u32,
-    signed_shown: u32,
 }
 
 impl Material2d for FieldMaterial {
@@ -66,12 +108,26 @@ impl Material2d for FieldMaterial {
     fn alpha_mode(&self) -> AlphaMode2d {
         AlphaMode2d::Blend
     }
+
+    fn specialize(
+        descriptor: &mut RenderPipelineDescriptor,
+        _layout: &MeshVertexBufferLayoutRef,
+        key: Material2dKey<Self>,
+    ) -> Result<(), SpecializedMeshPipelineError> {
+        if let Some(fragment) = &mut descriptor.fragment {
+            fragment
+                .shader_defs
+                .extend(key.bind_group_data.definitions());
+        }
+        Ok(())
+    }
 }
 
 impl FieldMaterial {
     pub(super) fn new(pair: &FieldPair, images: &mut Assets<Image>) -> Self {
         Self {
             look: FieldLook::default(), // until it is drawn
+            kind: FieldKind::default(),
             source: images.add(texture(pair.source())),
             target: images.add(texture(pair.target())),
         }
@@ -82,7 +138,7 @@ impl FieldLook {
     pub(super) fn new(pair: &FieldPair, t: f64, style: &StageStyle) -> Self {
         let blend = pair.blend();
         let grid = pair.grid();
-        let StageStyle { style, show } = style;
+        let style = &style.style;
         Self {
             fill: linear(style.fill_at(t)).to_vec4(),
             inside: LinearRgba::from(INSIDE).to_vec4(),
@@ -94,10 +150,6 @@ impl FieldLook {
             // Distances are in cells of the grid, whatever units the design
             // has.
             spacing: grid.width.max(grid.height) as f32 / ISO_LINES,
-            log_space: u32::from(matches!(blend.space, BlendSpace::Log)),
-            fill_shown: u32::from(show.fill),
-            lines_shown: u32::from(show.iso_lines),
-            signed_shown: u32::from(show.signed_colours),
         }
     }
 }

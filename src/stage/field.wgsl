@@ -25,10 +25,6 @@ struct Field {
     epsilon: f32,
     level: f32,
     spacing: f32,
-    log_space: u32,
-    fill_shown: u32,
-    lines_shown: u32,
-    signed_shown: u32,
 };
 
 @group(#{MATERIAL_BIND_GROUP}) @binding(0) var<uniform> field: Field;
@@ -69,19 +65,28 @@ fn bilinear(samples: texture_2d<f32>, q: vec2<f32>) -> Sample {
 
 // L of the core's FieldBlend.
 fn spaced(x: f32) -> f32 {
-    if field.log_space == 0u { return x; }
+#ifdef LOG_SPACE
     return sign(x) * log(1.0 + abs(x) / field.epsilon);
+#else
+    return x;
+#endif
 }
 
 fn spaced_slope(x: f32) -> f32 {
-    if field.log_space == 0u { return 1.0; }
+#ifdef LOG_SPACE
     return 1.0 / (field.epsilon + abs(x));
+#else
+    return 1.0;
+#endif
 }
 
 // The way back from L: a blended value as a distance in cells.
 fn in_cells(v: f32) -> f32 {
-    if field.log_space == 0u { return v; }
+#ifdef LOG_SPACE
     return sign(v) * field.epsilon * (exp(min(abs(v), 80.0)) - 1.0);
+#else
+    return v;
+#endif
 }
 
 // Where a pixel looks in both fields, and how that changes to the pixels beside
@@ -159,24 +164,26 @@ fn fragment(mesh: VertexOutput) -> @location(0) vec4<f32> {
     let distance = in_cells(here.value + field.level) - in_cells(field.level);
 
     var colour = vec4(0.0);
-    if field.signed_shown != 0u {
-        let strength = 0.85 * (1.0 - exp(-abs(distance) / (4.0 * field.spacing)));
-        colour = faded(select(field.outside, field.inside, here.value >= 0.0), strength);
-    } else if field.fill_shown != 0u {
-        colour = faded(field.fill, clamp(to_contour + 0.5, 0.0, 1.0));
-    }
-    if field.lines_shown != 0u {
-        // How fast the blended distance changes from pixel to pixel.
-        let slope = length(here.gradient) / spaced_slope(in_cells(here.value + field.level));
-        let ring = abs(fract(distance / field.spacing - 0.5) - 0.5) * field.spacing;
-        let apart = clamp(0.5 * field.spacing / max(slope, 1e-20) - half_line, 0.0, 1.0);
-        let on = clamp(half_line + 0.5 - ring / max(slope, 1e-20), 0.0, 1.0);
-        colour = over(faded(field.line, 0.55 * apart * on), colour);
-    }
-    if field.signed_shown != 0u {
-        let on = clamp(2.0 * half_line + 0.5 - abs(to_contour), 0.0, 1.0);
-        colour = over(faded(field.line, on), colour);
-    }
+#ifdef SIGNS
+    let strength = 0.85 * (1.0 - exp(-abs(distance) / (4.0 * field.spacing)));
+    colour = faded(select(field.outside, field.inside, here.value >= 0.0), strength);
+#else
+#ifdef FILL
+    colour = faded(field.fill, clamp(to_contour + 0.5, 0.0, 1.0));
+#endif
+#endif
+#ifdef LINES
+    // How fast the blended distance changes from pixel to pixel.
+    let slope = length(here.gradient) / spaced_slope(in_cells(here.value + field.level));
+    let ring = abs(fract(distance / field.spacing - 0.5) - 0.5) * field.spacing;
+    let apart = clamp(0.5 * field.spacing / max(slope, 1e-20) - half_line, 0.0, 1.0);
+    let on_line = clamp(half_line + 0.5 - ring / max(slope, 1e-20), 0.0, 1.0);
+    colour = over(faded(field.line, 0.55 * apart * on_line), colour);
+#endif
+#ifdef SIGNS
+    let on_edge = clamp(2.0 * half_line + 0.5 - abs(to_contour), 0.0, 1.0);
+    colour = over(faded(field.line, on_edge), colour);
+#endif
 #ifdef SRGB_OUTPUT
     colour = vec4(linear_to_srgb(colour.rgb), colour.a);
 #endif
