@@ -17,7 +17,7 @@ use crate::app::capturing::{copying, pictures};
 use crate::app::keeping::autosave::{self, Autosave};
 use crate::app::keeping::presets::KeptPresets;
 use crate::app::logic::LogicPlugin;
-use crate::app::looking::view;
+use crate::app::looking::{filmstrip, view};
 use crate::app::opening::apply::Gallery;
 use crate::app::opening::thumbnails;
 use crate::app::opening::watching::Watch;
@@ -137,6 +137,7 @@ impl Plugin for WindowPlugins {
             .init_resource::<pictures::Captures>()
             .init_non_send::<copying::Board>()
             .init_resource::<thumbnails::Thumbnails>()
+            .init_resource::<filmstrip::Filmstrip>()
             .init_resource::<speaker::Speaker>()
             .add_systems(Startup, spawn_cameras)
             // Last: what this frame has begun decides how soon the next one comes.
@@ -147,7 +148,7 @@ impl Plugin for WindowPlugins {
                     view::window_mode,
                     (view::fit, view::place_camera).chain(),
                     (speaker::apply, speaker::follow).chain(),
-                    thumbnails::advance,
+                    (thumbnails::advance, filmstrip::follow),
                 )
                     .after(MorphSystems::Playback)
                     .before(MorphSystems::Build),

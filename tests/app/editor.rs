@@ -103,6 +103,35 @@ fn a_click_on_a_boundary_pins_it_where_it_is_matched() {
 }
 
 #[test]
+fn points_keep_their_letters_when_one_is_pinned() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), L, TALL_L);
+    let called = |window: &Window| -> Vec<(usize, DVec2)> {
+        let sheet = window.sheet();
+        let sources = sheet.features.iter().map(|pair| pair.source);
+        sheet.letters.iter().copied().zip(sources).collect()
+    };
+    let before = called(&window);
+    let pinned = before[0].1;
+    window.act(EditorAct::Press(touch(Side::Source, pinned.x, pinned.y)));
+    let beside = touch(Side::Source, pinned.x + 4.0, pinned.y);
+    window.act(EditorAct::Drag(beside, Vec2::new(3.0, 0.0)));
+    window.act(EditorAct::Release);
+    window.wait();
+    assert_eq!(window.matching().pins.len(), 1);
+    let after = called(&window);
+    let stayed: Vec<_> = after
+        .iter()
+        .filter(|(_, p)| before.iter().any(|(_, q)| p.distance(*q) < 0.5))
+        .collect();
+    assert!(stayed.len() + 3 >= before.len(), "{before:?} {after:?}");
+    for (letter, p) in stayed {
+        let same = before.iter().find(|(_, q)| p.distance(*q) < 0.5);
+        assert_eq!(same.map(|(letter, _)| letter), Some(letter), "{p}");
+    }
+}
+
+#[test]
 fn a_point_that_is_dragged_becomes_a_pin_that_snaps_and_is_honoured() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path(), L, TALL_L);

@@ -9,6 +9,7 @@ pub mod apply;
 pub mod editor;
 mod features;
 mod hand;
+pub mod letters;
 pub mod panes;
 pub mod polyline;
 pub mod refresh;

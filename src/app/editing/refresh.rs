@@ -21,7 +21,12 @@ pub fn refresh(
     if !editor.is_open || !(is_opened || session.is_changed()) {
         return;
     }
-    *sheet = Sheet::of(&session);
+    let mut laid_out = Sheet::of(&session);
+    // Points of other designs are others, though they lie where these were.
+    let before = std::mem::take(&mut *sheet);
+    let is_same = !is_opened && before.sides == laid_out.sides;
+    laid_out.call(is_same.then_some(&before));
+    *sheet = laid_out;
     if sheet.sides.is_none() {
         editor.is_open = false;
     }

@@ -6,7 +6,7 @@
 use bevy::prelude::Resource;
 
 use crate::app::editing::ring::SheetRing;
-use crate::app::editing::{features, polyline};
+use crate::app::editing::{features, letters, polyline};
 use crate::content::ContentKind;
 use crate::correspondence::{
     LinePair, Matching, PieceMatch, PointPair, RegionMatch, RingCut, RingKind,
@@ -33,6 +33,8 @@ pub struct Sheet {
     pub faulty: Vec<usize>,
     /// Some points that were matched without being asked for.
     pub features: Vec<PointPair>,
+    /// What each of those is called, 0 for a.
+    pub letters: Vec<usize>,
     /// Pairs of lines, as they stand in the project.
     pub lines: Vec<LinePair>,
     /// What is seen, and so what pins are for.
@@ -123,8 +125,20 @@ impl Sheet {
             content: None,
             links: placed.links,
             faulty: Vec::new(),
+            letters: Vec::new(),
             by,
         }
+    }
+
+    /// Calls each found point by a letter: as on the sheet before where it was there already.
+    pub fn call(&mut self, before: Option<&Self>) {
+        let sizes = self.sides.iter().flatten();
+        let largest = sizes.map(|side| side.bounds.diameter()).fold(0.0, f64::max);
+        let known: Vec<(PointPair, usize)> = before.map_or_else(Vec::new, |before| {
+            let letters = before.letters.iter().copied();
+            before.features.iter().copied().zip(letters).collect()
+        });
+        self.letters = letters::kept(&self.features, &known, letters::SAME * largest);
     }
 
     /// Pins and lines may lie anywhere: they move the plane and not a boundary.

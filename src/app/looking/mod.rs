@@ -2,6 +2,7 @@
 //! which method suits.
 
 pub mod choosing;
+pub mod filmstrip;
 pub mod helping;
 pub mod measuring;
 pub mod onion;

@@ -5,14 +5,14 @@ use std::collections::{HashMap, VecDeque};
 use bevy::prelude::{DetectChangesMut, FromWorld, Res, ResMut, Resource, World};
 use image::RgbaImage;
 
+use crate::app::looking::filmstrip::row;
 use crate::app::opening::apply::Gallery;
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
-use crate::export::{Drawing, PixelSize, SizeError, View, even_times, framing, rasterise};
-use crate::geometry::DVec2;
+use crate::export::even_times;
 use crate::progress::Progress;
 use crate::project::gallery;
-use crate::transition::{Style, Transition};
+use crate::transition::Transition;
 
 /// Width and height of a strip in pixels: twice what is shown at scale factor 1.
 pub const STRIP_PX: (u32, u32) = (384, 128);
@@ -79,29 +79,7 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let loaded = gallery::load(name)?;
     let transition = Transition::build(&loaded.spec()?, progress)?;
     let timing = loaded.project.timing;
-    Ok(draw(
-        &transition,
-        &loaded.project.style,
-        (timing.from, timing.to),
-    )?)
-}
-
-fn draw(
-    transition: &Transition,
-    style: &Style,
-    (from, to): (f64, f64),
-) -> Result<RgbaImage, SizeError> {
-    let size = PixelSize::new(STRIP_PX.0, STRIP_PX.1)?;
-    let times = even_times(from, to, FRAMES);
-    // One frame around all of them, so that what grows is seen to grow.
-    let bounds = framing(transition, &times);
-    let cell = DVec2::new(f64::from(STRIP_PX.0) / FRAMES as f64, f64::from(STRIP_PX.1));
-    let mut drawing = Drawing::new(size, None);
-    let mut frame = transition.frame(from);
-    for (index, t) in times.into_iter().enumerate() {
-        frame.seek(t);
-        let corner = DVec2::new(index as f64 * cell.x, 0.0);
-        drawing.push_frame(&frame, style, &View::fit_cell(bounds, size, corner, cell));
-    }
-    Ok(rasterise(&drawing))
+    let times = even_times(timing.from, timing.to, FRAMES);
+    let cell = (STRIP_PX.0 / FRAMES as u32, STRIP_PX.1);
+    Ok(row(&transition, &loaded.project.style, &times, cell)?)
 }

@@ -21,6 +21,7 @@ use crate::app::capturing::films::Recorder;
 use crate::app::capturing::pictures::Captures;
 use crate::app::keeping::autosave::Autosave;
 use crate::app::looking::choosing::Choosing;
+use crate::app::looking::filmstrip::Filmstrip;
 use crate::app::looking::helping::Helping;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
@@ -101,6 +102,7 @@ pub struct Going<'w, 's> {
     choosing: Res<'w, Choosing>,
     measured: Res<'w, Measured>,
     helping: Res<'w, Helping>,
+    filmstrip: Res<'w, Filmstrip>,
     twin: Res<'w, Twin>,
     notices: Res<'w, Notices>,
     dialog: Res<'w, Dialog>,
@@ -133,6 +135,7 @@ impl Going<'_, '_> {
             || self.choosing.told().is_some()
             || self.measured.is_busy()
             || self.helping.is_busy()
+            || self.filmstrip.is_busy()
             || self.twin.is_busy()
             || self.dialog.asks().is_some()
             || self.drop.is_arriving()
@@ -147,6 +150,7 @@ impl Going<'_, '_> {
             || self.estimate.is_changed()
             || self.measured.is_changed()
             || self.helping.is_changed()
+            || self.filmstrip.is_changed()
             || self.twin.is_changed()
             || self.notices.is_changed()
     }

@@ -14,6 +14,7 @@ use crate::app::editing::sheet::Sheet;
 use crate::app::keeping::autosave::Autosave;
 use crate::app::keeping::presets::KeptPresets;
 use crate::app::looking::choosing::Choosing;
+use crate::app::looking::filmstrip::Filmstrip;
 use crate::app::looking::helping::Helping;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::onion::Onion;
@@ -38,6 +39,7 @@ pub struct Scene<'w> {
     pub sheet: Res<'w, Sheet>,
     pub choosing: Res<'w, Choosing>,
     pub helping: Res<'w, Helping>,
+    pub filmstrip: Res<'w, Filmstrip>,
     pub measured: Res<'w, Measured>,
     pub onion: Res<'w, Onion>,
     pub twin: Res<'w, Twin>,

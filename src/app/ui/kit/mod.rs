@@ -1,5 +1,6 @@
 //! What all panels are made of: colours, icons, controls.
 
 pub mod icons;
+pub mod texture;
 pub mod theme;
 pub mod widgets;

@@ -1,18 +1,14 @@
 //! One half of the match editor: a design, filled, with its boundary and its parts.
 
-use std::sync::Arc;
-
 use bevy_egui::egui::epaint::Vertex;
-use bevy_egui::egui::{
-    Align2, Color32, ColorImage, Id, Mesh, Painter, Pos2, Rect, Shape, TextureHandle,
-    TextureOptions, Vec2, pos2, vec2,
-};
+use bevy_egui::egui::{Align2, Color32, Id, Mesh, Painter, Pos2, Rect, Shape, Vec2, pos2, vec2};
 
 use crate::app::asking::acts::{Tool, Touch};
 use crate::app::editing::panes::PaneView;
 use crate::app::editing::polyline::spans;
 use crate::app::editing::ring::SheetRing;
 use crate::app::editing::sheet::{Fate, Sheet, SheetPiece};
+use crate::app::ui::kit::texture::texture;
 use crate::app::ui::kit::theme::{GRID, SMALL};
 use crate::app::ui::kit::widgets::words_on_card;
 use crate::app::ui::match_editor::bar::BAR_HEIGHT;
@@ -20,11 +16,13 @@ use crate::app::ui::match_editor::boundary;
 use crate::app::ui::match_editor::inks::Inks;
 use crate::app::ui::scene::Scene;
 use crate::correspondence::RingKind;
-use crate::design::Picture;
 use crate::geometry::{Bounds, DVec2, Side};
 
 /// How near the pointer must come, in points: the disc of a pin and its rim.
 const REACH: f32 = 9.0;
+
+/// Longest side of a picture behind the points, in pixels.
+const LONGEST_PX: u32 = 1024;
 
 /// Distance of the lines of a hatching, in points: wide enough for the fill to be seen between
 /// them.
@@ -126,7 +124,8 @@ impl Half {
         let Some(picture) = sides.and_then(|sides| sides[self.side].picture.as_ref()) else {
             return;
         };
-        let texture = backdrop(painter, self.side, picture);
+        let id = Id::new(("backdrop", self.side.index()));
+        let texture = texture(painter.ctx(), id, picture.pixels(), LONGEST_PX);
         let (width, height) = picture.pixels().dimensions();
         let corner = |x: f64, y: f64| {
             let own = DVec2::new(x * f64::from(width), y * f64::from(height));
@@ -319,34 +318,6 @@ impl Half {
         let words = format!("{role}  {name}");
         painter.text(at, Align2::LEFT_TOP, words, SMALL, inks.ink);
     }
-}
-
-/// The picture on the graphics card, kept for its side until another one is there.
-fn backdrop(painter: &Painter, side: Side, picture: &Picture) -> TextureHandle {
-    const LONGEST_PX: u32 = 1024;
-    let id = Id::new(("backdrop", side.index()));
-    let pixels = picture.pixels();
-    // Pictures are shared and never changed: another one lies elsewhere.
-    let key = Arc::as_ptr(pixels) as usize;
-    let ctx = painter.ctx();
-    let kept = ctx.data(|data| data.get_temp::<(usize, TextureHandle)>(id));
-    if let Some((of, texture)) = kept
-        && of == key
-    {
-        return texture;
-    }
-    // Trades sharpness far zoomed in for the time and the memory of a photograph of full size.
-    let small = (pixels.width().max(pixels.height()) > LONGEST_PX).then(|| {
-        let share = f64::from(LONGEST_PX) / f64::from(pixels.width().max(pixels.height()));
-        let side = |px: u32| ((f64::from(px) * share) as u32).max(1);
-        image::imageops::thumbnail(&**pixels, side(pixels.width()), side(pixels.height()))
-    });
-    let shown = small.as_ref().unwrap_or(pixels);
-    let size = [shown.width() as usize, shown.height() as usize];
-    let colours = ColorImage::from_rgba_unmultiplied(size, shown.as_raw());
-    let texture = ctx.load_texture("a picture", colours, TextureOptions::LINEAR);
-    ctx.data_mut(|data| data.insert_temp(id, (key, texture.clone())));
-    texture
 }
 
 /// A boundary without a partner: broken, or a dot where it is a point.

@@ -3,6 +3,7 @@
 use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, StrokeKind, vec2};
 
 use crate::app::editing::editor::{CutEnd, Editor, Grab, Handle};
+use crate::app::editing::letters;
 use crate::app::editing::sheet::Sheet;
 use crate::app::ui::kit::theme::{GRID, SMALL};
 use crate::app::ui::kit::widgets::words_on_card;
@@ -48,7 +49,8 @@ fn features(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks
         };
         let at = half.px(pair[half.side]);
         painter.circle(at, FEATURE_RADIUS, inks.ground, (1.0, colour));
-        number(painter, at, sheet.pins.len() + k + 1, colour);
+        let letter = sheet.letters.get(k).copied().unwrap_or(k);
+        sign(painter, at, letters::letter(letter), colour);
     }
 }
 
@@ -71,7 +73,7 @@ fn pins(painter: &Painter, scene: &Scene, half: &Half, inks: &Inks) {
             (false, false) => inks.ink,
         };
         painter.circle(at, radius, fill, (1.5, inks.ground));
-        number(painter, at, k + 1, inks.ground);
+        sign(painter, at, (k + 1).to_string(), inks.ground);
     }
 }
 
@@ -92,15 +94,15 @@ fn lines(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &
         }
         let middle = ends[0].lerp(ends[1], 0.5);
         painter.circle(middle, FEATURE_RADIUS, inks.ground, (1.5, colour));
-        number(painter, middle, k + 1, inks.ink);
+        sign(painter, middle, (k + 1).to_string(), inks.ink);
     }
 }
 
-fn number(painter: &Painter, at: Pos2, number: usize, colour: Color32) {
+fn sign(painter: &Painter, at: Pos2, sign: String, colour: Color32) {
     // Three digits have to fit into the disc too.
-    let size = if number < 100 { 10.5 } else { 8.5 };
+    let size = if sign.len() < 3 { 10.5 } else { 8.5 };
     let font = FontId::proportional(size);
-    painter.text(at, Align2::CENTER_CENTER, number.to_string(), font, colour);
+    painter.text(at, Align2::CENTER_CENTER, sign, font, colour);
 }
 
 fn cuts(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks: &Inks) {

@@ -2,8 +2,8 @@
 //!
 //! The designs are drawn with egui, the film is the stage itself; what the hand does becomes an
 //! [`EditorAct`](crate::app::EditorAct) in the coordinates of the frame. Colours run along the
-//! boundary, the same on both sides, and numbers say the same again, so that nothing hangs on
-//! colour alone.
+//! boundary, the same on both sides, and numbers and letters say the same again, so that nothing
+//! hangs on colour alone: numbers are pins, as the project counts them, letters what was found.
 
 mod bar;
 mod boundary;

@@ -8,7 +8,7 @@ use bevy_egui::egui::{
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::timeline::ease;
+use crate::app::ui::timeline::{ease, filmstrip};
 use crate::one_line::OneLine;
 use crate::project::Project;
 use crate::transition::{Stop, Style};
@@ -67,8 +67,15 @@ impl Ruler {
     }
 }
 
-/// Draws the track and takes the user's hand.
-pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
+/// Draws the track, with pictures of the film below it if there is room, and takes the user's
+/// hand.
+pub fn show(
+    ui: &mut Ui,
+    scene: &Scene,
+    draft: &mut Project,
+    has_pictures: bool,
+    acts: &mut Intents,
+) {
     let size = vec2(ui.available_width(), ui.available_height());
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     let ruler = Ruler::new(rect, scene, &draft.stops);
@@ -76,6 +83,9 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
     beyond(ui, ruler);
     bar(ui, ruler, &draft.style);
     ticks(ui, ruler);
+    if has_pictures {
+        filmstrip::show(ui, scene, |t| ruler.x(t), ruler.y + 30.0);
+    }
     stops(ui, ruler, &mut draft.stops, acts);
     playhead(ui, ruler, scene.playback.t());
 }

@@ -1,0 +1,106 @@
+//! Small pictures of the film at every tenth of t, for the timeline.
+//!
+//! Drawn beside the window whenever another film, or one that looks otherwise, is on the stage, and
+//! after it has been measured: the verdict is waited for, the pictures are not.
+
+use std::sync::Arc;
+
+use bevy::prelude::{DetectChangesMut, Res, ResMut, Resource};
+use image::RgbaImage;
+
+use crate::app::looking::measuring::Measured;
+use crate::app::session::state::Session;
+use crate::app::telling::job::Job;
+use crate::export::{Drawing, PixelSize, SizeError, View, even_times, framing, rasterise};
+use crate::geometry::DVec2;
+use crate::transition::{Style, Transition};
+
+/// How many pictures: at both ends and at every tenth between them.
+pub const PICTURES: usize = 11;
+
+/// Width and height of each in pixels: twice what is shown at scale factor 1.
+pub const PICTURE_PX: (u32, u32) = (144, 80);
+
+/// The pictures of the film on the stage.
+#[derive(Resource, Debug, Default)]
+pub struct Filmstrip {
+    of: Option<(Transition, Style)>,
+    job: Option<Job<RgbaImage, SizeError>>,
+    pictures: Option<Arc<RgbaImage>>,
+}
+
+impl Filmstrip {
+    /// All pictures side by side, straight alpha on a transparent ground; those of the film before
+    /// until the new ones are there.
+    #[must_use]
+    pub fn pictures(&self) -> Option<&Arc<RgbaImage>> {
+        self.pictures.as_ref()
+    }
+
+    /// They are being drawn.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.job.is_some()
+    }
+
+    fn is_of(&self, wanted: Option<(&Transition, Style)>) -> bool {
+        match (&self.of, wanted) {
+            (Some((old, before)), Some((new, style))) => {
+                std::ptr::eq(old.content(), new.content()) && *before == style
+            }
+            (None, None) => true,
+            _ => false,
+        }
+    }
+}
+
+/// Keeps the pictures of what is on the stage.
+pub fn follow(session: Res<Session>, measured: Res<Measured>, mut filmstrip: ResMut<Filmstrip>) {
+    // Marked as changed by hand: it is looked at in each frame, and seldom new.
+    let strip = filmstrip.bypass_change_detection();
+    if let Some(Ok(pictures)) = Job::take(&mut strip.job) {
+        strip.pictures = Some(Arc::new(pictures));
+        filmstrip.set_changed();
+        return;
+    }
+    let wanted = session.transition().map(|t| (t, session.style()));
+    if strip.is_of(wanted) || session.work().is_some() || measured.is_busy() {
+        return;
+    }
+    strip.of = wanted.map(|(transition, style)| (transition.clone(), style));
+    if strip.of.is_none() {
+        strip.pictures = None;
+    }
+    // A job on the film before goes with it.
+    strip.job = strip.of.clone().map(|(transition, style)| {
+        Job::start("the filmstrip", move |_| {
+            let times = even_times(0.0, 1.0, PICTURES);
+            row(&transition, &style, &times, PICTURE_PX)
+        })
+    });
+}
+
+/// Pictures of a film side by side, at each of some t, each of so many pixels; straight alpha on a
+/// transparent ground.
+///
+/// # Errors
+/// The row is larger than a picture can be.
+pub fn row(
+    transition: &Transition,
+    style: &Style,
+    times: &[f64],
+    (width, height): (u32, u32),
+) -> Result<RgbaImage, SizeError> {
+    let size = PixelSize::new(width.saturating_mul(times.len() as u32), height)?;
+    // One frame around all of them, so that what grows is seen to grow.
+    let bounds = framing(transition, times);
+    let cell = DVec2::new(f64::from(width), f64::from(height));
+    let mut drawing = Drawing::new(size, None);
+    let mut frame = transition.frame(0.0);
+    for (index, t) in times.iter().enumerate() {
+        frame.seek(*t);
+        let corner = DVec2::new(index as f64 * cell.x, 0.0);
+        drawing.push_frame(&frame, style, &View::fit_cell(bounds, size, corner, cell));
+    }
+    Ok(rasterise(&drawing))
+}
