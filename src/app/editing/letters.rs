@@ -1,4 +1,5 @@
-//! What found points are called: letters, which stay with a point while others come and go.
+//! What found points and parts are called: letters, and those of points stay with them while
+//! others come and go.
 //!
 //! Pins have numbers, those of the project, which messages name.
 
@@ -9,7 +10,7 @@ use crate::correspondence::PointPair;
 pub const SAME: f64 = 0.02;
 
 /// The letters of `points`, 0 for a: those of the points before that are the same, within `reach`,
-/// and for the others the first that are free.
+/// and for the others the first that none had.
 #[must_use]
 pub fn kept(points: &[PointPair], before: &[(PointPair, usize)], reach: f64) -> Vec<usize> {
     let distance = |a: &PointPair, b: &PointPair| {
@@ -32,20 +33,31 @@ pub fn kept(points: &[PointPair], before: &[(PointPair, usize)], reach: f64) -> 
             letters[k] = Some(letter);
         }
     }
-    let taken = letters.clone();
-    let mut free = (0..).filter(|letter| !taken.contains(&Some(*letter)));
+    // None that was just read beside another point.
+    let was_there = |letter: &usize| before.iter().any(|(_, other)| other == letter);
+    let mut free = (0..).filter(|letter| !was_there(letter));
     let own = letters.into_iter();
     own.map(|letter| letter.or_else(|| free.next()).unwrap_or_default())
         .collect()
 }
 
-/// a to z, and then aa, ab …
+/// What a point is called: a to z, and then a2, b2 …
 #[must_use]
-pub fn letter(number: usize) -> String {
-    let sign = |k: usize| char::from(b'a' + (k % 26) as u8);
+pub fn of_point(number: usize) -> String {
+    letter(number, b'a')
+}
+
+/// What a part is called: A to Z, and then A2, B2 …
+#[must_use]
+pub fn of_part(number: usize) -> String {
+    letter(number, b'A')
+}
+
+fn letter(number: usize, first: u8) -> String {
+    let letter = char::from(first + (number % 26) as u8);
     match number / 26 {
-        0 => sign(number).to_string(),
-        round => [sign(round - 1), sign(number)].iter().collect(),
+        0 => letter.to_string(),
+        round => format!("{letter}{}", round + 1),
     }
 }
 
@@ -65,7 +77,7 @@ mod tests {
     fn a_point_that_stays_keeps_its_letter() {
         let before = [(point(0.0), 0), (point(1.0), 1), (point(2.0), 2)];
         let now = [point(3.0), point(2.01), point(0.0)];
-        assert_eq!(kept(&now, &before, 0.1), [1, 2, 0]);
+        assert_eq!(kept(&now, &before, 0.1), [3, 2, 0]);
         assert_eq!(kept(&now, &[], 0.1), [0, 1, 2]);
     }
 
@@ -77,7 +89,7 @@ mod tests {
 
     #[test]
     fn there_are_letters_beyond_z() {
-        let all = [0, 25, 26, 27].map(letter);
-        assert_eq!(all, ["a", "z", "aa", "ab"]);
+        assert_eq!([0, 25, 26, 53].map(of_point), ["a", "z", "a2", "b3"]);
+        assert_eq!(of_part(1), "B");
     }
 }

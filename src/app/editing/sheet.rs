@@ -242,16 +242,6 @@ fn rings(pieces: &[PieceMatch]) -> Vec<SheetRing> {
 
 fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &Matching) -> Vec<SheetPiece> {
     let Matching { links, lone, .. } = said;
-    let mut paired = 0;
-    let mut alone = 0;
-    let mut name = |fate: Fate| {
-        let (count, first) = match fate {
-            Fate::Paired => (&mut paired, 'A'),
-            Fate::Born | Fate::Dies => (&mut alone, 'a'),
-        };
-        *count += 1;
-        letters(*count - 1, first)
-    };
     let is_linked = |piece: &PieceMatch| {
         let parts = [piece.source_part, piece.target_part];
         links.iter().any(|link| {
@@ -270,29 +260,20 @@ fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &Matching) -> Vec<
             part.is_some_and(|rings| polyline::encloses(rings.iter().map(Vec::as_slice), lone.at))
         })
     };
-    let piece = |piece: &PieceMatch| {
+    let piece = |(k, piece): (usize, &PieceMatch)| {
         let fate = match (piece.source_part, piece.target_part) {
             (Some(_), None) => Fate::Dies,
             (None, Some(_)) => Fate::Born,
             _ => Fate::Paired,
         };
         SheetPiece {
-            name: name(fate),
+            name: letters::of_part(k),
             fate,
             at: [true, false].map(|is_source| middle(piece, is_source)),
             is_linked: is_linked(piece) || is_alone(piece),
         }
     };
-    pieces.iter().map(piece).collect()
-}
-
-/// A, B, … Z, A2, B2, …
-fn letters(index: usize, first: char) -> String {
-    let letter = char::from(first as u8 + (index % 26) as u8);
-    match index / 26 {
-        0 => letter.to_string(),
-        round => format!("{letter}{}", round + 1),
-    }
+    pieces.iter().enumerate().map(piece).collect()
 }
 
 fn middle(piece: &PieceMatch, is_source: bool) -> DVec2 {

@@ -1,6 +1,7 @@
-//! What is kept for the next start: changes that were not saved, and how films are
-//! made.
+//! What is kept for the next start: changes that were not saved, how films are made, and what was
+//! opened last.
 
 pub mod autosave;
 pub mod presets;
+pub mod recent;
 pub mod slot;

@@ -50,7 +50,7 @@ fn features(painter: &Painter, sheet: &Sheet, editor: &Editor, half: &Half, inks
         let at = half.px(pair[half.side]);
         painter.circle(at, FEATURE_RADIUS, inks.ground, (1.0, colour));
         let letter = sheet.letters.get(k).copied().unwrap_or(k);
-        sign(painter, at, letters::letter(letter), colour);
+        sign(painter, at, letters::of_point(letter), colour);
     }
 }
 
