@@ -13,7 +13,7 @@ use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::editing::{apply, refresh};
 use crate::app::keeping::autosave::{self, Autosave};
-use crate::app::keeping::presets;
+use crate::app::keeping::{presets, recent};
 use crate::app::looking::choosing::{self, Choosing};
 use crate::app::looking::helping::{self, Helping};
 use crate::app::looking::measuring::{self, Measured};
@@ -23,7 +23,7 @@ use crate::app::looking::view::{self, KeepsFit, StageArea};
 use crate::app::looking::{onion, preferences};
 use crate::app::opening::apply::{self as opening, Gallery};
 use crate::app::opening::closing::{self, Question};
-use crate::app::opening::{dialogs, drops, watching};
+use crate::app::opening::{dialogs, drops, preview, watching};
 use crate::app::playing::playback::{self, Playback};
 use crate::app::playing::presenting::{self, Presenting};
 use crate::app::playing::staging;
@@ -93,9 +93,11 @@ fn init(app: &mut App) {
         .init_resource::<Question>()
         .init_resource::<Autosave>()
         .init_resource::<presets::KeptPresets>()
+        .init_resource::<recent::KeptRecent>()
         .init_resource::<drops::Drop>()
         .init_resource::<watching::Watch>()
         .init_resource::<dialogs::Dialog>()
+        .init_resource::<preview::Preview>()
         .init_resource::<films::Recorder>()
         .init_resource::<framing::FilmFrame>()
         .init_resource::<Workshop>()
@@ -124,7 +126,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             closing::close,
         )
             .chain(),
-        (dialogs::choose, dialogs::open).chain(),
+        (dialogs::choose, dialogs::open, preview::follow).chain(),
         (
             opening::open,
             opening::edit,
@@ -158,7 +160,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         watching::follow,
         onion::follow,
         // After all that changes the project or takes it for saved.
-        autosave::follow,
+        (autosave::follow, recent::follow).chain(),
         notices::apply,
     )
         .chain()

@@ -16,6 +16,7 @@ use crate::app::capturing::files::CaptureFolder;
 use crate::app::capturing::{copying, pictures};
 use crate::app::keeping::autosave::{self, Autosave};
 use crate::app::keeping::presets::KeptPresets;
+use crate::app::keeping::recent::{KeptRecent, Recent};
 use crate::app::logic::LogicPlugin;
 use crate::app::looking::{filmstrip, view};
 use crate::app::opening::apply::Gallery;
@@ -53,6 +54,7 @@ pub fn run(options: AppOptions) -> AppExit {
         .insert_resource(autosave.workshop())
         .insert_resource(autosave)
         .insert_resource(KeptPresets::of_file(Presets::usual_path()))
+        .insert_resource(KeptRecent::of_file(Recent::usual_path()))
         .add_systems(
             Startup,
             move |mut intents: MessageWriter<Intent>, gallery: Res<Gallery>| {

@@ -1,5 +1,6 @@
 //! One moment of a transition.
 
+use super::options::Options;
 use super::ready::Transition;
 use crate::colour::{Gradient, Line, Paint};
 use crate::content::{Content, Raster, Solid};
@@ -154,6 +155,32 @@ impl Frame {
             Content::Colours(pair) => Some(pair.render(self.placement(), self.t, raster)),
             Content::Solid(_) | Content::Field(_) => None,
         }
+    }
+}
+
+impl Figure {
+    /// A design on its own, in its own paint where it has some.
+    #[must_use]
+    pub fn of(design: &Design) -> Self {
+        if design.coats.is_empty() {
+            return ghost(
+                design,
+                Options::default().bar_width * design.extent.diameter(),
+            );
+        }
+        let mut figure = Self::default();
+        for coat in &design.coats {
+            let from = figure.rings.len();
+            let rings = coat.regions.rings().map(|ring| ring.points().to_vec());
+            figure.rings.extend(rings);
+            figure.coats.push(Coated {
+                rings: from..figure.rings.len(),
+                paints: [coat.paint; 2],
+                gradients: [coat.gradient.clone(), coat.gradient.clone()],
+                lines: [coat.line; 2],
+            });
+        }
+        figure
     }
 }
 

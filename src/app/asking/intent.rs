@@ -67,6 +67,8 @@ pub enum Intent {
     AskOpen,
     /// The answer of the dialog that asked for files; none where it was left.
     Choose(Vec<PathBuf>),
+    /// Show what this file holds, in the dialog that asks for files.
+    LookAt(PathBuf),
     /// Open these files: one project, or one or two designs.
     Open(Vec<PathBuf>),
     /// Open a bundled project by its name.

@@ -4,5 +4,7 @@ pub mod apply;
 pub mod closing;
 pub mod dialogs;
 pub mod drops;
+pub mod preview;
 pub mod thumbnails;
+pub mod typed;
 pub mod watching;

@@ -4,8 +4,8 @@ use std::collections::HashMap;
 
 use bevy::prelude::Resource;
 use bevy_egui::egui::{
-    self, Color32, ColorImage, Panel, Rect, Response, ScrollArea, Sense, StrokeKind, TextureHandle,
-    TextureOptions, Ui, WidgetInfo, WidgetType, pos2, vec2,
+    self, Align, Button, Color32, ColorImage, Layout, Panel, Rect, Response, RichText, ScrollArea,
+    Sense, StrokeKind, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
 use crate::app::asking::intent::Intent;
@@ -30,6 +30,7 @@ pub fn show(root: &mut Ui, scene: &Scene, textures: &mut Textures, acts: &mut In
         .resizable(false)
         .frame(frame)
         .show(root, |ui| {
+            recent(ui, scene, acts);
             ui.label(quiet(ui, "Gallery").strong());
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 // Less than there is: the scroll bar stands in the rest.
@@ -42,6 +43,29 @@ pub fn show(root: &mut Ui, scene: &Scene, textures: &mut Textures, acts: &mut In
                 ui.add_space(GRID);
             });
         });
+}
+
+/// What was opened last, a line each.
+fn recent(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let opened = scene.recent.opened();
+    if opened.is_empty() {
+        return;
+    }
+    ui.label(quiet(ui, "Recent").strong());
+    ui.set_max_width(WIDTH - 32.0);
+    ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| {
+        ui.spacing_mut().item_spacing.y = 0.0;
+        for opened in opened {
+            let title = RichText::new(opened.title()).font(SMALL);
+            let line = Button::new(title).frame_when_inactive(false).truncate();
+            let files = opened.files.iter().map(|file| file.display().to_string());
+            let tip = files.collect::<Vec<_>>().join("\n");
+            if ui.add(line).on_hover_text(tip).clicked() {
+                acts.push(Intent::Open(opened.files.clone()));
+            }
+        }
+    });
+    ui.add_space(GRID);
 }
 
 fn card(ui: &mut Ui, scene: &Scene, textures: &mut Textures, entry: &gallery::Entry) -> Response {

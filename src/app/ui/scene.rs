@@ -13,6 +13,7 @@ use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::keeping::autosave::Autosave;
 use crate::app::keeping::presets::KeptPresets;
+use crate::app::keeping::recent::KeptRecent;
 use crate::app::looking::choosing::Choosing;
 use crate::app::looking::filmstrip::Filmstrip;
 use crate::app::looking::helping::Helping;
@@ -24,6 +25,7 @@ use crate::app::opening::apply::Gallery;
 use crate::app::opening::closing::Question;
 use crate::app::opening::dialogs::Dialog;
 use crate::app::opening::drops::Drop;
+use crate::app::opening::preview::Preview;
 use crate::app::opening::thumbnails::Thumbnails;
 use crate::app::playing::playback::Playback;
 use crate::app::playing::presenting::Presenting;
@@ -55,9 +57,11 @@ pub struct Scene<'w> {
     pub estimate: Res<'w, Estimate>,
     pub autosave: Res<'w, Autosave>,
     pub presets: Res<'w, KeptPresets>,
+    pub recent: Res<'w, KeptRecent>,
     pub question: Res<'w, Question>,
     pub dialog: Res<'w, Dialog>,
     pub drop: Res<'w, Drop>,
+    pub preview: Res<'w, Preview>,
     pub keys: Res<'w, KeyMap>,
     pub times: Res<'w, FrameTimes>,
     pub whole: Res<'w, WholeFrame>,

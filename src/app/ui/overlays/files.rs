@@ -1,11 +1,14 @@
 //! The dialog that asks for files.
 
+use std::path::Path;
+
 use bevy::prelude::Resource;
-use bevy_egui::egui::{Align2, Context, Key, Vec2, vec2};
-use egui_file_dialog::{DialogState, FileDialog, OpeningMode};
+use bevy_egui::egui::{Align2, Context, Key, Ui, Vec2, vec2};
+use egui_file_dialog::{DialogState, DirectoryEntry, FileDialog, OpeningMode};
 
 use crate::app::asking::intent::Intent;
-use crate::app::opening::dialogs::{Dialog, Purpose};
+use crate::app::opening::dialogs::Purpose;
+use crate::app::ui::overlays::beside::{self, Typed};
 use crate::app::ui::scene::{Intents, Scene};
 
 /// It fits into the smallest window.
@@ -13,7 +16,13 @@ const SIZE: Vec2 = vec2(760.0, 440.0);
 
 /// The dialog that is drawn, and what for.
 #[derive(Resource, Default)]
-pub struct Files(Option<(Purpose, FileDialog)>);
+pub struct Files(Option<Shown>);
+
+struct Shown {
+    asks: Purpose,
+    dialog: FileDialog,
+    typed: Typed,
+}
 
 /// Draws the dialog while files are asked for.
 pub fn show(ctx: &Context, scene: &Scene, files: &mut Files, acts: &mut Intents) {
@@ -21,15 +30,23 @@ pub fn show(ctx: &Context, scene: &Scene, files: &mut Files, acts: &mut Intents)
         files.0 = None;
         return;
     };
-    files.0.take_if(|(shown, _)| shown != asks);
-    let new = || (asks.clone(), dialog(asks, &scene.dialog));
-    let (_, shown) = files.0.get_or_insert_with(new);
+    files.0.take_if(|shown| shown.asks != *asks);
+    let shown = files.0.get_or_insert_with(|| Shown {
+        asks: asks.clone(),
+        dialog: dialog(asks, scene),
+        typed: Typed::default(),
+    });
     // At once: the dialog itself lets go of its text field first.
     if ctx.input(|input| input.key_pressed(Key::Escape)) {
         acts.push(Intent::Choose(Vec::new()));
         return;
     }
-    match shown.update(ctx).state() {
+    if !matches!(asks, Purpose::Save(_)) {
+        reading(ctx, scene, shown, acts);
+    } else {
+        shown.dialog.update(ctx);
+    }
+    match shown.dialog.state() {
         DialogState::Open => {}
         DialogState::Picked(path) => acts.push(Intent::Choose(vec![path.clone()])),
         DialogState::PickedMultiple(paths) => acts.push(Intent::Choose(paths.clone())),
@@ -37,7 +54,30 @@ pub fn show(ctx: &Context, scene: &Scene, files: &mut Files, acts: &mut Intents)
     }
 }
 
-fn dialog(asks: &Purpose, from: &Dialog) -> FileDialog {
+/// With what is beside the list of files that can be read.
+fn reading(ctx: &Context, scene: &Scene, shown: &mut Shown, acts: &mut Intents) {
+    let filters = shown.asks.filters();
+    let extensions = filters.first().map_or(&[][..], |(_, ends)| ends);
+    let typed = &mut shown.typed;
+    let mut panel = |ui: &mut Ui, dialog: &mut FileDialog| {
+        let marked = dialog.selected_entries().last();
+        let entry = marked.or(dialog.selected_entry());
+        let folder = match entry {
+            Some(entry) if entry.is_dir() => Some(entry.as_path()),
+            Some(entry) => entry.as_path().parent(),
+            None => scene.dialog.folder(),
+        };
+        let folder = folder.unwrap_or(Path::new("."));
+        if let Some(path) = beside::field(ui, typed, folder, extensions) {
+            acts.push(Intent::Choose(vec![path]));
+        }
+        let file = entry.filter(|entry| entry.is_file() && !typed.has_offers());
+        beside::preview(ui, scene, file.map(DirectoryEntry::as_path), acts);
+    };
+    shown.dialog.update_with_right_panel_ui(ctx, &mut panel);
+}
+
+fn dialog(asks: &Purpose, scene: &Scene) -> FileDialog {
     let mut dialog = FileDialog::new()
         .title(asks.title())
         .opening_mode(OpeningMode::AlwaysInitialDir)
@@ -46,8 +86,18 @@ fn dialog(asks: &Purpose, from: &Dialog) -> FileDialog {
         .resizable(false)
         // A link is named as it was chosen.
         .canonicalize_paths(false);
-    if let Some(folder) = from.folder() {
+    dialog.set_right_panel_width(beside::WIDTH);
+    if let Some(folder) = scene.dialog.folder() {
         dialog = dialog.initial_directory(folder.to_owned());
+    }
+    let recent = scene.recent.folders();
+    if !recent.is_empty() {
+        dialog = dialog.add_quick_access("Recent", |links| {
+            for folder in recent {
+                let name = folder.file_name().unwrap_or(folder.as_os_str());
+                links.add_path(&name.to_string_lossy(), folder);
+            }
+        });
     }
     for (index, (name, extensions)) in asks.filters().into_iter().enumerate() {
         dialog = dialog.add_file_filter_extensions(&name, extensions);

@@ -1,5 +1,6 @@
 //! What lies above everything: files, help, questions, notices, work, times.
 
+mod beside;
 pub mod files;
 pub mod help;
 pub mod notices;
