@@ -126,7 +126,6 @@ fn points_keep_their_letters_when_one_is_pinned() {
         .collect();
     // Those on corners; between them places move with the length of the outline.
     assert!(stayed.len() >= 6, "{before:?} {after:?}");
-    assert!(after.iter().all(|(letter, _)| *letter != before[0].0));
     for (letter, p) in stayed {
         let same = before.iter().find(|(_, q)| p.distance(*q) < 0.5);
         assert_eq!(same.map(|(letter, _)| letter), Some(letter), "{p}");
