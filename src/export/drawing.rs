@@ -160,7 +160,7 @@ impl Drawing {
         let colour = style.fill_at(t);
         match figure.coats.as_slice() {
             [] => self.push_rings(&figure.rings, (colour.into(), None), view),
-            coats => self.push_coats(coats, figure, (style, t), view),
+            coats => self.push_coats(coats, figure, style, view),
         }
         let segments: Vec<[DVec2; 2]> = figure
             .bars
@@ -197,18 +197,12 @@ impl Drawing {
 
     /// Coats that lie on each other in one opaque paint are filled as one: the
     /// smooth edges of parts that touch would show what is below.
-    fn push_coats(
-        &mut self,
-        coats: &[Coated],
-        figure: &Figure,
-        (style, t): (&Style, f64),
-        view: &View,
-    ) {
+    fn push_coats(&mut self, coats: &[Coated], figure: &Figure, style: &Style, view: &View) {
         let mut coats = coats.iter().map(|coat| {
             let gradients = coat.gradients.each_ref().map(Option::as_ref);
-            let gradient = style.gradient_at(gradients, coat.paints, t);
-            let paint = style.paint_at(coat.paints, t);
-            let line = Line::between(coat.lines, t);
+            let gradient = style.gradient_at(gradients, coat.paints, coat.t);
+            let paint = style.paint_at(coat.paints, coat.t);
+            let line = Line::between(coat.lines, coat.t);
             (coat.rings.clone(), (paint, gradient), line)
         });
         let mut next = coats.next();
@@ -329,6 +323,7 @@ mod tests {
             paints: [Some(paint), None],
             gradients: [None, None],
             lines: [None; 2],
+            t: 0.0,
         });
         let figure = Figure {
             rings: [0.0, 1.0, 1.5, 2.0].map(square).to_vec(),

@@ -1,8 +1,11 @@
-//! A film as an animated GIF.
+//! A film as an animated GIF, as small as the picture allows.
 //!
-//! Guarantees: one palette for the whole film; delays in hundredths of a second
+//! Guarantees: one palette for the whole film; each frame holds what differs from
+//! the one before; delays in hundredths of a second
 //! whose sum is the film's length to the nearest one; holds are one long frame.
 //! Transparency in GIF is all or nothing: edges are cut at half coverage.
+
+mod changes;
 
 use std::collections::HashMap;
 use std::io::{BufWriter, Write};
@@ -20,6 +23,7 @@ use super::error::ExportError;
 use super::film::{Film, Run};
 use super::palette::{Histogram, Palette};
 use super::raster::rasterise;
+use changes::{Canvas, Indexed, Patch};
 
 /// The highest rate that readers play as written: they take a delay below two
 /// hundredths of a second for a mistake and slow it down to ten.
@@ -59,12 +63,17 @@ pub fn write_gif(
     let palette = film_palette(camera, &film.runs(), &choosing)?;
     let writer = BufWriter::new(file.file_mut());
     let mut encoder = encoder(writer, camera, film, &palette).map_err(ExportError::encode(path))?;
+    let mut canvas = camera.ground.map(|_| Canvas::default());
+    // At its ends, and where it rests, a film is looked at.
+    let frames = film.times().len();
+    let is_held = |run: Run| run.count > 1 || run.first == 0 || run.first + run.count == frames;
     camera.shoot_runs(
         &film.runs(),
         DRAWING,
         &Span::new(progress, CHOSEN, DRAWN),
-        |drawing| Ok(encoded_frame(&rasterise(&drawing), &palette)),
-        |run, mut frame| {
+        |drawing| Ok(indexed(rasterise(&drawing), &palette)),
+        |run, drawn| {
+            let mut frame = pictured(&drawn, canvas.as_mut(), is_held(run), &palette);
             frame.delay = u16::try_from(film.ticks(run, TICKS_PER_SEC)).unwrap_or(u16::MAX);
             let written = encoder.write_lzw_pre_encoded_frame(&frame);
             written.map_err(ExportError::encode(path))
@@ -137,7 +146,7 @@ fn opaque([r, g, b, a]: [u8; 4]) -> Option<[u8; 3]> {
     (a >= 128).then_some([r, g, b])
 }
 
-fn encoded_frame(image: &RgbaImage, palette: &Palette) -> Frame<'static> {
+fn indexed(image: RgbaImage, palette: &Palette) -> Indexed {
     // Pictures have few colours and palettes 255 to compare each with.
     let mut known = HashMap::new();
     let mut index_of = |pixel: &image::Rgba<u8>| match opaque(pixel.0) {
@@ -146,15 +155,37 @@ fn encoded_frame(image: &RgbaImage, palette: &Palette) -> Frame<'static> {
             .entry(colour)
             .or_insert_with(|| palette.nearest(colour)),
     };
-    let indices: Vec<u8> = image.pixels().map(&mut index_of).collect();
+    let indices = image.pixels().map(&mut index_of).collect();
+    Indexed { image, indices }
+}
+
+/// The next frame. Over a ground it is what changes; without one each is drawn
+/// anew, or the last would show through where this one is transparent.
+fn pictured(
+    drawn: &Indexed,
+    canvas: Option<&mut Canvas>,
+    is_held: bool,
+    palette: &Palette,
+) -> Frame<'static> {
+    match canvas {
+        Some(canvas) => encoded(canvas.patch(drawn, is_held, palette), DisposalMethod::Keep),
+        None => {
+            let patch = changes::cut(drawn.image.width(), &drawn.indices);
+            encoded(patch, DisposalMethod::Background)
+        }
+    }
+}
+
+fn encoded(patch: Patch, dispose: DisposalMethod) -> Frame<'static> {
+    // Sides fit in 16 bits: `MAX_SIDE_PX` is 16,384.
     let mut frame = Frame {
-        width: image.width() as u16,
-        height: image.height() as u16,
-        // Or the last frame would show through the transparent parts of this
-        // one.
-        dispose: DisposalMethod::Background,
+        left: patch.left as u16,
+        top: patch.top as u16,
+        width: patch.width as u16,
+        height: patch.height() as u16,
+        dispose,
         transparent: Some(TRANSPARENT),
-        buffer: indices.into(),
+        buffer: patch.indices.into(),
         ..Frame::default()
     };
     frame.make_lzw_pre_encoded();
@@ -186,11 +217,20 @@ mod tests {
         let file = std::fs::File::open(path).expect("opened");
         let mut decoder = options.read_info(file).expect("a GIF");
         let (mut delays, mut frames) = (vec![], vec![]);
+        let size = camera.view.size();
+        let mut canvas = RgbaImage::new(size.width(), size.height());
         while let Some(frame) = decoder.read_next_frame().expect("a frame") {
             delays.push(frame.delay);
             let (width, height) = (u32::from(frame.width), u32::from(frame.height));
             let pixels = frame.buffer.to_vec();
-            frames.push(RgbaImage::from_vec(width, height, pixels).expect("all pixels"));
+            let patch = RgbaImage::from_vec(width, height, pixels).expect("all pixels");
+            let (left, top) = (i64::from(frame.left), i64::from(frame.top));
+            image::imageops::overlay(&mut canvas, &patch, left, top);
+            frames.push(canvas.clone());
+            if frame.dispose == DisposalMethod::Background {
+                let gone = RgbaImage::new(width, height);
+                image::imageops::replace(&mut canvas, &gone, left, top);
+            }
         }
         Decoded {
             repeat: decoder.repeat(),
