@@ -39,3 +39,28 @@ impl Coat {
         }
     }
 }
+
+/// What a file has in one paint.
+pub(super) struct Sheet {
+    pub regions: Regions,
+    pub paint: Option<Paint>,
+    pub name: String,
+}
+
+/// Sheets without an order of their own as coats, so that nothing hides what is
+/// smaller. None where none has a colour of its own.
+pub(super) fn stacked(mut sheets: Vec<Sheet>) -> Vec<Coat> {
+    if sheets.iter().all(|sheet| sheet.paint.is_none()) {
+        return Vec::new();
+    }
+    sheets.sort_by(|a, b| b.regions.area().total_cmp(&a.regions.area()));
+    let coat = |sheet: Sheet| Coat {
+        regions: sheet.regions,
+        paint: sheet.paint,
+        gradient: None,
+        line: None,
+        name: sheet.name,
+        is_text: false,
+    };
+    sheets.into_iter().map(coat).collect()
+}

@@ -2,9 +2,11 @@
 //! blocks put in their places.
 
 use super::curve::Curve;
-use super::entity::{Entity, Record};
+use super::entity::{Entity, Record, Shape};
 use super::error::{DxfError, MAX_DEPTH, MAX_OBJECTS};
+use super::ink::{Ink, Layers, of_bits, of_number};
 use super::pairs::{Pair, Pairs};
+use crate::colour::Rgb;
 use glam::{DAffine2, DVec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
 
@@ -18,10 +20,19 @@ const MAX_KINDS: usize = 50;
 /// A drawing's curves.
 #[derive(Default)]
 pub(super) struct Drawing {
-    /// Each curves one after the other, and whether they close.
-    pub paths: Vec<(Vec<Curve>, bool)>,
+    /// Each curves one after the other.
+    pub paths: Vec<Path>,
     /// How many objects of which kind were left out.
     pub skipped: BTreeMap<String, usize>,
+}
+
+/// Curves one after the other.
+pub(super) struct Path {
+    pub curves: Vec<Curve>,
+    /// Whether they close.
+    pub is_closed: bool,
+    /// The name of its layer, and its colour.
+    pub drawn: (Vec<u8>, Option<Rgb>),
 }
 
 #[derive(Default)]
@@ -33,6 +44,7 @@ struct Block {
 #[derive(Default)]
 struct Reader {
     hidden_layers: HashSet<Vec<u8>>,
+    layers: Layers,
     blocks: HashMap<Vec<u8>, Block>,
     /// The block that is open, and its name.
     open: Option<(Vec<u8>, Block)>,
@@ -101,7 +113,7 @@ impl<'a> Records<'a> {
                 None | Some(Pair { code: 0, .. }) => return Ok(record),
                 Some(
                     pair @ Pair {
-                        code: 2 | 8 | 10..=79 | 210..=239,
+                        code: 2 | 8 | 10..=79 | 210..=239 | 420,
                         ..
                     },
                 ) => {
@@ -136,7 +148,7 @@ impl Reader {
                 }
                 self.keep(record, record.polyline(&vertices)?)?;
             }
-            _ => self.keep(record, record.entity()?)?,
+            _ => self.keep(record, record.shape()?)?,
         }
         Ok(())
     }
@@ -144,7 +156,12 @@ impl Reader {
     fn layer(&mut self, record: &Record) -> Result<(), DxfError> {
         let is_frozen = record.whole(70)? & 1 != 0;
         // The colour, which is negative while the layer is off.
-        let is_off = record.whole(62)? < 0;
+        let number = record.whole(62)?;
+        let is_off = number < 0;
+        let exact = record.bits()?.map(of_bits);
+        let name = record.text(2).to_owned();
+        self.layers
+            .insert(name, exact.or_else(|| of_number(number)));
         if is_frozen || is_off {
             self.hidden_layers.insert(record.text(2).to_owned());
         }
@@ -152,13 +169,15 @@ impl Reader {
     }
 
     /// Takes an object into the block that is open, or into the drawing.
-    fn keep(&mut self, record: &Record, entity: Option<Entity>) -> Result<(), DxfError> {
+    fn keep(&mut self, record: &Record, shape: Option<Shape>) -> Result<(), DxfError> {
         let is_hidden = record.whole(60)? != 0 || self.hidden_layers.contains(record.text(8));
         let is_on_paper = record.whole(67)? != 0;
         if is_hidden || is_on_paper {
             return Ok(());
         }
         self.count()?;
+        let ink = record.ink()?;
+        let entity = shape.map(|shape| Entity { shape, ink });
         match (entity, &mut self.open) {
             (Some(entity), Some((_, block))) => block.entities.push(entity),
             (Some(entity), None) => self.entities.push(entity),
@@ -178,10 +197,11 @@ impl Reader {
     fn placed(self) -> Result<Drawing, DxfError> {
         let mut placing = Placing {
             blocks: &self.blocks,
+            layers: &self.layers,
             steps: 0,
             drawing: self.drawing,
         };
-        placing.place(&self.entities, &DAffine2::IDENTITY, 0)?;
+        placing.place(&self.entities, &DAffine2::IDENTITY, None, 0)?;
         Ok(placing.drawing)
     }
 }
@@ -204,21 +224,35 @@ fn skip(skipped: &mut BTreeMap<String, usize>, kind: &[u8]) {
 
 struct Placing<'b> {
     blocks: &'b HashMap<Vec<u8>, Block>,
+    layers: &'b Layers,
     steps: usize,
     drawing: Drawing,
 }
 
 impl Placing<'_> {
     /// Puts objects where `by` says; recurses [`MAX_DEPTH`] levels at most.
-    fn place(&mut self, entities: &[Entity], by: &DAffine2, depth: usize) -> Result<(), DxfError> {
-        for entity in entities {
-            match entity {
-                Entity::Path { curves, is_closed } => {
+    /// `outer` is what the block is drawn with that they are in.
+    fn place(
+        &mut self,
+        entities: &[Entity],
+        by: &DAffine2,
+        outer: Option<&Ink>,
+        depth: usize,
+    ) -> Result<(), DxfError> {
+        for Entity { shape, ink } in entities {
+            let ink = ink.within(outer);
+            match shape {
+                Shape::Path { curves, is_closed } => {
                     self.count(curves.iter().map(Curve::size).sum())?;
                     let curves = curves.iter().map(|curve| curve.moved(by)).collect();
-                    self.drawing.paths.push((curves, *is_closed));
+                    let rgb = ink.rgb(self.layers);
+                    self.drawing.paths.push(Path {
+                        curves,
+                        is_closed: *is_closed,
+                        drawn: (ink.layer, rgb),
+                    });
                 }
-                Entity::Insert { block, places } => match self.blocks.get(block) {
+                Shape::Insert { block, places } => match self.blocks.get(block) {
                     None => skip(&mut self.drawing.skipped, b"INSERT"),
                     Some(_) if depth >= MAX_DEPTH => return Err(DxfError::TooDeep),
                     Some(block) => {
@@ -228,7 +262,7 @@ impl Placing<'_> {
                             // From the right: its base to the origin, to its place, and along with
                             // the block that it is in.
                             let inner = *by * *place * to_base;
-                            self.place(&block.entities, &inner, depth + 1)?;
+                            self.place(&block.entities, &inner, Some(&ink), depth + 1)?;
                         }
                     }
                 },

@@ -6,14 +6,22 @@
 
 use super::curve::{Arc, Curve, Spline};
 use super::error::{DxfError, Place};
+use super::ink::{Colour, Ink};
 use super::pairs::Pair;
 use crate::geometry::DVec2;
 use glam::{DAffine2, DMat2, DVec3};
 use std::f64::consts::TAU;
 
+/// An object, and what it is drawn with.
+#[derive(Debug)]
+pub(super) struct Entity {
+    pub shape: Shape,
+    pub ink: Ink,
+}
+
 /// What an object gives.
 #[derive(Debug)]
-pub(super) enum Entity {
+pub(super) enum Shape {
     /// Curves one after the other.
     Path { curves: Vec<Curve>, is_closed: bool },
     /// A copy of a block, for each of the places.
@@ -49,6 +57,20 @@ impl<'a> Record<'a> {
 
     pub fn text(&self, code: i32) -> &'a [u8] {
         self.first(code).map_or(b"", Pair::text)
+    }
+
+    /// What the object is drawn with.
+    pub fn ink(&self) -> Result<Ink, DxfError> {
+        let number = self.first(62).map_or(Ok(256), Pair::whole)?;
+        Ok(Ink {
+            layer: self.text(8).to_owned(),
+            colour: Colour::of(number, self.bits()?),
+        })
+    }
+
+    /// The 24 bits of its colour, where it has any.
+    pub fn bits(&self) -> Result<Option<i64>, DxfError> {
+        self.first(420).map(Pair::whole).transpose()
     }
 
     fn point(&self, code: i32) -> Result<DVec3, DxfError> {
@@ -106,7 +128,7 @@ impl<'a> Record<'a> {
 
     /// The object as curves; `None` where it is of a kind without an outline.
     /// POLYLINE needs its vertices and goes another way.
-    pub fn entity(&self) -> Result<Option<Entity>, DxfError> {
+    pub fn shape(&self) -> Result<Option<Shape>, DxfError> {
         Ok(Some(match self.kind {
             b"LINE" => open(Curve::Line([
                 self.point(10)?.truncate(),
@@ -125,7 +147,7 @@ impl<'a> Record<'a> {
         }))
     }
 
-    fn light_polyline(&self) -> Result<Entity, DxfError> {
+    fn light_polyline(&self) -> Result<Shape, DxfError> {
         let mut corners: Vec<Corner> = Vec::new();
         for pair in &self.pairs {
             match (pair.code, corners.last_mut()) {
@@ -143,7 +165,7 @@ impl<'a> Record<'a> {
     }
 
     /// A POLYLINE with its vertices; `None` for a mesh.
-    pub fn polyline(&self, vertices: &[Record]) -> Result<Option<Entity>, DxfError> {
+    pub fn polyline(&self, vertices: &[Record]) -> Result<Option<Shape>, DxfError> {
         let flags = self.whole(70)?;
         if flags & (16 | 64) != 0 {
             return Ok(None);
@@ -168,7 +190,7 @@ impl<'a> Record<'a> {
         Ok(Some(polyline(&corners, flags & 1 != 0, &plan)))
     }
 
-    fn arc(&self, from: f64, sweep: f64) -> Result<Entity, DxfError> {
+    fn arc(&self, from: f64, sweep: f64) -> Result<Shape, DxfError> {
         let centre = self.point(10)?;
         let radius = self.real(40, 0.0)?;
         let arc = Arc {
@@ -181,7 +203,7 @@ impl<'a> Record<'a> {
         Ok(of_arc(arc, &self.plan(centre.z)?))
     }
 
-    fn ellipse(&self) -> Result<Entity, DxfError> {
+    fn ellipse(&self) -> Result<Shape, DxfError> {
         let (centre, major) = (self.point(10)?, self.point(11)?);
         // Given in the plan already, unlike a circle's: no plane of its own.
         let minor = self.real(40, 1.0)? * self.normal()?.cross(major);
@@ -197,7 +219,7 @@ impl<'a> Record<'a> {
     }
 
     /// `None` for one that is given by the points it goes through only.
-    fn spline(&self) -> Result<Option<Entity>, DxfError> {
+    fn spline(&self) -> Result<Option<Shape>, DxfError> {
         let points = self.points(10)?;
         if points.is_empty() {
             return Ok(None);
@@ -210,7 +232,7 @@ impl<'a> Record<'a> {
         Ok(Some(open(Curve::Spline(spline))))
     }
 
-    fn insert(&self) -> Result<Entity, DxfError> {
+    fn insert(&self) -> Result<Shape, DxfError> {
         let at = self.point(10)?;
         let plan = self.plan(at.z)?;
         let scale = DVec2::new(self.real(41, 1.0)?, self.real(42, 1.0)?);
@@ -233,7 +255,7 @@ impl<'a> Record<'a> {
                 );
             }
         }
-        Ok(Entity::Insert {
+        Ok(Shape::Insert {
             block: self.text(2).to_owned(),
             places,
         })
@@ -247,15 +269,15 @@ fn turn(from: f64, to: f64) -> f64 {
     if sweep <= 1e-12 { TAU } else { sweep }
 }
 
-fn open(curve: Curve) -> Entity {
-    Entity::Path {
+fn open(curve: Curve) -> Shape {
+    Shape::Path {
         curves: vec![curve],
         is_closed: false,
     }
 }
 
-fn of_arc(arc: Arc, plan: &DAffine2) -> Entity {
-    Entity::Path {
+fn of_arc(arc: Arc, plan: &DAffine2) -> Shape {
+    Shape::Path {
         is_closed: arc.is_whole(),
         curves: vec![Curve::Arc(arc).moved(plan)],
     }
@@ -267,7 +289,7 @@ struct Corner {
     bulge: f64,
 }
 
-fn polyline(corners: &[Corner], is_closed: bool, plan: &DAffine2) -> Entity {
+fn polyline(corners: &[Corner], is_closed: bool, plan: &DAffine2) -> Shape {
     // No corner has no side, and open ones have a side less.
     let last = corners.len().saturating_sub(1);
     let sides = if is_closed { corners.len() } else { last };
@@ -275,7 +297,7 @@ fn polyline(corners: &[Corner], is_closed: bool, plan: &DAffine2) -> Entity {
         let (a, b) = (&corners[i], &corners[(i + 1) % corners.len()]);
         Curve::bulging(a.point, b.point, a.bulge).moved(plan)
     };
-    Entity::Path {
+    Shape::Path {
         curves: (0..sides).map(side).collect(),
         is_closed,
     }

@@ -3,7 +3,9 @@
 //! LINE, LWPOLYLINE and POLYLINE with bulges, ARC, CIRCLE, ELLIPSE, SPLINE
 //! and INSERT of blocks are read. Curves are joined end to end into rings:
 //! ends count as one where they are nearer than [`JOIN_TOLERANCE`] of the
-//! drawing's longer side. The even-odd rule says what is inside. Units are
+//! drawing's longer side. The even-odd rule says what is inside. Where layers or
+//! objects have colours, what each layer has in each colour is a coat of paint.
+//! Units are
 //! not looked at, nor is what lies on hidden layers or in the paper space.
 //! One unit of the drawing is one unit.
 //!
@@ -24,17 +26,22 @@ mod curve;
 mod drawing;
 mod entity;
 mod error;
+mod ink;
 mod join;
 mod pairs;
 
 pub use error::{DxfError, Place};
 pub(super) use pairs::BINARY;
 
+use super::coat::{Coat, Sheet, stacked};
 use super::flatten::{MAX_POINTS, MIN_TOLERANCE, TooManyPoints};
 use super::form::Outlines;
 use super::note::{ImportNote, OnlyThese};
+use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions};
 use curve::Curve;
+use drawing::Path;
+use std::collections::BTreeMap;
 
 /// How far ends that belong together may be apart, as a fraction of the
 /// drawing's longer side: what rounding to four digits leaves.
@@ -47,7 +54,7 @@ const ROUNDING: f64 = 1e-9;
 /// Reads a DXF file. The tolerance is a fraction of the drawing's longer side.
 pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
     let drawing = drawing::read(bytes)?;
-    let curves = || drawing.paths.iter().flat_map(|(curves, _)| curves);
+    let curves = || drawing.paths.iter().flat_map(|path| &path.curves);
     let hull = Bounds::of(curves().flat_map(Curve::hull));
     let side = hull.map_or(0.0, |hull| hull.size().max_element());
     // Not a curve, or points alone.
@@ -55,7 +62,8 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
         return Err(DxfError::Nothing(OnlyThese(drawing.skipped)));
     }
     let tolerance = tolerance.max(MIN_TOLERANCE) * side;
-    let (mut rings, open) = flattened(&drawing.paths, tolerance, ROUNDING * side)?;
+    let all: Vec<&Path> = drawing.paths.iter().collect();
+    let (mut rings, open) = flattened(&all, tolerance, ROUNDING * side)?;
     let count = open.len();
     let joined = join::joined(open, JOIN_TOLERANCE * side);
     rings.extend(joined.rings);
@@ -72,24 +80,49 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
     }));
     notes.extend(ImportNote::of_skipped(drawing.skipped));
     Ok(Outlines {
-        coats: Vec::new(),
+        coats: coats(&drawing.paths, tolerance, side)?,
         extent: regions.bounds(),
         regions,
         notes,
     })
 }
 
+/// What each layer has in each colour, where any colour is given.
+fn coats(paths: &[Path], tolerance: f64, side: f64) -> Result<Vec<Coat>, DxfError> {
+    if paths.iter().all(|path| path.drawn.1.is_none()) {
+        return Ok(Vec::new());
+    }
+    let mut of_ink: BTreeMap<_, Vec<&Path>> = BTreeMap::new();
+    for path in paths {
+        let (layer, rgb) = &path.drawn;
+        let key = (layer, rgb.map(|Rgb(rgb)| rgb));
+        of_ink.entry(key).or_default().push(path);
+    }
+    let mut sheets = Vec::with_capacity(of_ink.len());
+    for ((layer, rgb), paths) in of_ink {
+        let (mut rings, open) = flattened(&paths, tolerance, ROUNDING * side)?;
+        rings.extend(join::joined(open, JOIN_TOLERANCE * side).rings);
+        // Lines that enclose nothing by themselves are told of as parts of the whole.
+        let regions = Regions::from_rings(&rings, FillRule::EvenOdd);
+        sheets.extend(regions.ok().map(|regions| Sheet {
+            regions,
+            paint: rgb.map(|rgb| Rgb(rgb).into()),
+            name: String::from_utf8_lossy(layer).into_owned(),
+        }));
+    }
+    Ok(stacked(sheets))
+}
+
 type Rings = Vec<Vec<DVec2>>;
 
 /// The paths as polygons: those that close, and those that do not.
-fn flattened(
-    paths: &[(Vec<Curve>, bool)],
-    tolerance: f64,
-    rounding: f64,
-) -> Result<(Rings, Rings), DxfError> {
+fn flattened(paths: &[&Path], tolerance: f64, rounding: f64) -> Result<(Rings, Rings), DxfError> {
     let (mut closed, mut open) = (Vec::new(), Vec::new());
     let mut count = 0;
-    for (curves, is_closed) in paths {
+    for Path {
+        curves, is_closed, ..
+    } in paths
+    {
         let mut points = Vec::new();
         for curve in curves {
             let start = points.len();

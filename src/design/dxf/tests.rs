@@ -238,3 +238,70 @@ fn a_curve_keeps_within_the_tolerance() {
         assert!(sagitta > 0.2 * tolerance, "{sagitta}");
     }
 }
+
+/// Squares of this side at x on a layer, with more pairs.
+fn square_on(layer: &str, x: f64, side: f64, more: &str) -> String {
+    let (right, top) = (x + side, side);
+    format!(
+        "0 LWPOLYLINE 8 {layer} {more} 90 4 70 1 10 {x} 20 0 10 {right} 20 0
+         10 {right} 20 {top} 10 {x} 20 {top} "
+    )
+}
+
+/// What is painted: colour, name and area, the lowest first.
+fn painted(sections: &[(&str, &str)]) -> Vec<(Option<Rgb>, String, f64)> {
+    let file = text(sections);
+    let outlines = read(file.as_bytes(), 1e-5).expect("an outline");
+    let coat = |coat: &Coat| {
+        let colour = coat.paint.map(|paint| paint.colour);
+        (colour, coat.name.clone(), coat.regions.area().round())
+    };
+    outlines.coats.iter().map(coat).collect()
+}
+
+const LAYERS: &str = "0 TABLE 2 LAYER 0 LAYER 2 walls 70 0 62 1 0 LAYER 2 sea 70 0 62 5 420 255
+    0 LAYER 2 plain 70 0 62 7 0 ENDTAB";
+
+#[test]
+fn layers_and_objects_give_their_colours_to_coats() {
+    let red = Some(Rgb([255, 0, 0]));
+    let entities = [
+        square_on("walls", 0.0, 2.0, ""),
+        square_on("sea", 0.0, 8.0, ""),
+        square_on("walls", 4.0, 1.0, "62 3"),
+        square_on("plain", 6.0, 1.5, ""),
+    ];
+    let found = painted(&[("TABLES", LAYERS), ("ENTITIES", &entities.concat())]);
+    let expected = [
+        (Some(Rgb([0, 0, 255])), "sea", 64.0),
+        (red, "walls", 4.0),
+        (None, "plain", 2.0),
+        (Some(Rgb([0, 255, 0])), "walls", 1.0),
+    ];
+    let expected = expected.map(|(rgb, name, area)| (rgb, name.to_owned(), area));
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn blocks_take_colours_from_where_they_are_put() {
+    let block = format!(
+        "0 BLOCK 8 0 2 tile 10 0 20 0 {} {} 0 ENDBLK",
+        square_on("0", 0.0, 4.0, ""),
+        square_on("other", 8.0, 2.0, "62 0")
+    );
+    let insert = "0 INSERT 8 walls 62 3 2 tile 10 0 20 0";
+    let found = painted(&[("TABLES", LAYERS), ("BLOCKS", &block), ("ENTITIES", insert)]);
+    // Of the layer that the block is put on, and of the block.
+    let expected = [
+        (Some(Rgb([255, 0, 0])), "walls".to_owned(), 16.0),
+        (Some(Rgb([0, 255, 0])), "other".to_owned(), 4.0),
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
+fn black_on_white_is_no_colour() {
+    let entities = square_on("plain", 0.0, 2.0, "");
+    assert_eq!(painted(&[("TABLES", LAYERS), ("ENTITIES", &entities)]), []);
+    assert_eq!(painted(&[("ENTITIES", SQUARE)]), []);
+}

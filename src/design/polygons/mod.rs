@@ -13,7 +13,8 @@
 //! a ring of points; a list of rings; a list of polygons, each a list of
 //! rings; or the same under a name. A ring may repeat its first point at the
 //! end. Of GeoJSON polygons are read wherever they lie in features and
-//! collections; points and lines are left out, which is told. Coordinates
+//! collections, in the fill that a feature's properties may name; points and lines
+//! are left out, which is told. Coordinates
 //! are taken as they are, x to the right and y up, longitude and latitude
 //! included; more than two numbers of a point are not looked at.
 //!
@@ -27,9 +28,11 @@ mod value;
 
 pub use value::{PolygonsError, PolygonsFault};
 
+use super::coat::Coat;
 use super::form::Outlines;
 use super::json::JsonError;
 use super::note::{ImportNote, OnlyThese};
+use crate::colour::{Paint, Rgb};
 use crate::geometry::{FillRule, Regions, RegionsError, Repairs};
 use serde_json::Value;
 use std::collections::BTreeMap;
@@ -52,11 +55,48 @@ pub(super) fn read(text: &str) -> Result<Outlines, PolygonsError> {
     found.united()
 }
 
+/// What a feature is painted with: `fill` and `fill-opacity` of its properties, as
+/// simplestyle has them (Mapbox, version 1.1), and the `layer` or `name` it has.
+#[derive(Clone, Default, PartialEq)]
+struct Ink {
+    paint: Option<Paint>,
+    name: String,
+}
+
+impl Ink {
+    fn of(properties: &Value) -> Self {
+        let text = |key: &str| properties[key].as_str();
+        let fill = text("fill").and_then(colour);
+        let opacity = properties["fill-opacity"].as_f64().unwrap_or(1.0);
+        let name = text("layer").or_else(|| text("name"));
+        Self {
+            paint: fill.map(|colour| Paint {
+                colour,
+                opacity: opacity.clamp(0.0, 1.0),
+            }),
+            name: name.unwrap_or_default().to_owned(),
+        }
+    }
+}
+
+/// Of three or six digits, with or without the sign of a number.
+fn colour(text: &str) -> Option<Rgb> {
+    let digits = text.trim_start_matches('#');
+    let doubled = |digits: &str| digits.chars().flat_map(|digit| [digit; 2]).collect();
+    let six = match digits.len() {
+        3 => doubled(digits),
+        _ => digits.to_owned(),
+    };
+    format!("#{six}").parse().ok()
+}
+
 /// What has been found so far.
 #[derive(Default)]
 struct Found {
     /// Each a list of rings.
     polygons: Vec<Vec<Ring>>,
+    /// For each polygon what it is painted with.
+    inks: Vec<Ink>,
     /// What else there was, by its type.
     skipped: BTreeMap<String, usize>,
 }
@@ -99,13 +139,13 @@ impl Found {
                 let all = member(object, "coordinates", polygons)?;
                 self.polygons.extend(all.ok_or(coordinates)?);
             }
-            "Feature" => match &object["geometry"] {
-                Value::Null => self.skip("Feature without a geometry"),
-                geometry => {
-                    let read = self.geojson(geometry);
-                    read.map_err(|error| error.within(".geometry"))?;
-                }
-            },
+            "Feature" => {
+                // What stood outside of features has no paint.
+                self.inks.resize(self.polygons.len(), Ink::default());
+                let ink = Ink::of(&object["properties"]);
+                self.feature(&object["geometry"])?;
+                self.inks.resize(self.polygons.len(), ink);
+            }
             "FeatureCollection" => self.members(object, "features")?,
             "GeometryCollection" => self.members(object, "geometries")?,
             "Point" | "MultiPoint" | "LineString" | "MultiLineString" => self.skip(kind),
@@ -115,6 +155,15 @@ impl Found {
             }
         }
         Ok(())
+    }
+
+    fn feature(&mut self, geometry: &Value) -> Result<(), PolygonsError> {
+        if geometry.is_null() {
+            self.skip("Feature without a geometry");
+            return Ok(());
+        }
+        let read = self.geojson(geometry);
+        read.map_err(|error| error.within(".geometry"))
     }
 
     fn members(&mut self, object: &Value, key: &'static str) -> Result<(), PolygonsError> {
@@ -137,12 +186,20 @@ impl Found {
         let mut repairs = Repairs::default();
         let mut united: Vec<Ring> = Vec::new();
         let mut nothing = RegionsError::Empty;
-        for rings in &self.polygons {
+        let mut inked: Vec<(Ink, Vec<Ring>)> = Vec::new();
+        for (k, rings) in self.polygons.iter().enumerate() {
             // Each by itself, for under this rule two that overlap would leave a hole.
             match Regions::from_rings_reporting(rings, FillRule::EvenOdd) {
                 Ok((regions, found)) => {
                     repairs = repairs.and(found);
-                    united.extend(regions.rings().map(|r| r.points().to_vec()));
+                    let rings = regions.rings().map(|r| r.points().to_vec());
+                    let rings: Vec<Ring> = rings.collect();
+                    let ink = self.inks.get(k).cloned().unwrap_or_default();
+                    match inked.last_mut().filter(|(last, _)| *last == ink) {
+                        Some((_, own)) => own.extend(rings.clone()),
+                        None => inked.push((ink, rings.clone())),
+                    }
+                    united.extend(rings);
                 }
                 // A polygon without a ring is one thing that encloses nothing.
                 Err(error @ (RegionsError::Empty | RegionsError::Size(_))) => {
@@ -159,12 +216,32 @@ impl Found {
         let mut notes = ImportNote::of_repairs(&repairs, FillRule::EvenOdd);
         notes.extend(ImportNote::of_skipped(self.skipped));
         Ok(Outlines {
-            coats: Vec::new(),
+            coats: coats(inked),
             extent: regions.bounds(),
             regions,
             notes,
         })
     }
+}
+
+/// Features that follow each other in one paint, as a map draws them: the first
+/// at the bottom. None where none has a colour of its own.
+fn coats(inked: Vec<(Ink, Vec<Ring>)>) -> Vec<Coat> {
+    if inked.iter().all(|(ink, _)| ink.paint.is_none()) {
+        return Vec::new();
+    }
+    let coat = |(ink, rings): (Ink, Vec<Ring>)| {
+        let regions = Regions::from_rings(&rings, FillRule::NonZero).ok()?;
+        Some(Coat {
+            regions,
+            paint: ink.paint,
+            gradient: None,
+            line: None,
+            name: ink.name,
+            is_text: false,
+        })
+    };
+    inked.into_iter().filter_map(coat).collect()
 }
 
 #[cfg(test)]

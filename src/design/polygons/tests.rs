@@ -114,3 +114,35 @@ fn each_fault_is_named_with_its_path() {
         assert!(error(text).contains(words), "{text:.40}: {}", error(text));
     }
 }
+
+#[test]
+fn features_keep_the_fill_that_they_name() {
+    let feature = |ring: &str, properties: &str| {
+        let polygon = format!("{{\"type\": \"Polygon\", \"coordinates\": [{ring}]}}");
+        format!("{{\"type\": \"Feature\", \"properties\": {properties}, \"geometry\": {polygon}}}")
+    };
+    let map = |features: &[String]| {
+        let features = features.join(",");
+        read(&format!(
+            "{{\"type\": \"FeatureCollection\", \"features\": [{features}]}}"
+        ))
+    };
+    let painted = map(&[
+        feature(SQUARE, "{\"fill\": \"#00f\", \"name\": \"sea\"}"),
+        feature(HOLE, "{\"fill\": \"ff0000\", \"fill-opacity\": 0.5}"),
+    ])
+    .expect("a map");
+    let coats = painted.coats.iter().map(|coat| {
+        let paint = coat.paint.expect("a paint");
+        (
+            paint.colour.0,
+            paint.opacity,
+            coat.name.as_str(),
+            coat.regions.area(),
+        )
+    });
+    let expected = [([0, 0, 255], 1.0, "sea", 16.0), ([255, 0, 0], 0.5, "", 4.0)];
+    assert!(coats.eq(expected));
+    let plain = map(&[feature(SQUARE, "null"), feature(HOLE, "{\"fill\": 7}")]);
+    assert_eq!(plain.expect("a map").coats, []);
+}
