@@ -39,6 +39,16 @@ impl Easing {
         }
     }
 
+    /// The same in what is run backwards: 1 − f(1 − x).
+    #[must_use]
+    pub fn backwards(self) -> Self {
+        match self {
+            Self::Linear | Self::Smooth => self,
+            Self::EaseIn => Self::EaseOut,
+            Self::EaseOut => Self::EaseIn,
+        }
+    }
+
     /// The inverse of [`Self::apply`].
     #[must_use]
     pub fn inverse(self, y: f64) -> f64 {

@@ -1,7 +1,7 @@
 //! How the parts of a solid are painted, over and under each other.
 
 use crate::colour::{Gradient, Line, Paint};
-use crate::geometry::{DVec2, affine};
+use crate::geometry::{DVec2, Side, affine};
 
 /// The coats that the rings of a solid are in.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,6 +28,8 @@ pub struct Coat {
     pub lines: [Option<Line>; 2],
     /// How many coats lie below, in source and target.
     pub heights: [usize; 2],
+    /// The design that has it alone.
+    pub alone: Option<Side>,
 }
 
 /// The gradients of a coat, which go with its vertices.
@@ -67,7 +69,42 @@ impl Shading {
     }
 }
 
+impl Coat {
+    /// Lets what one design has alone fade in or out, or keep its paint.
+    pub(crate) fn fade(&mut self, fades: bool) {
+        let Some(own) = self.alone else { return };
+        let seen = |paint: Paint| Paint {
+            opacity: if fades { 0.0 } else { paint.opacity },
+            ..paint
+        };
+        let away = own.other();
+        self.paints[away] = self.paints[own].map(seen);
+        let shading = self.shading.ends[own].clone();
+        self.shading.ends[away] = shading.map(|end| Anchored {
+            gradient: end.gradient.repainted(seen),
+            ..end
+        });
+    }
+}
+
 impl Coating {
+    /// One coat in no colour of its own, over so many walks and holes.
+    #[must_use]
+    pub fn plain(walks: usize, holes: usize) -> Self {
+        Self {
+            coats: vec![Coat {
+                paints: [None; 2],
+                shading: Shading::default(),
+                lines: [None; 2],
+                heights: [0; 2],
+                alone: None,
+            }],
+            of_walks: vec![0; walks],
+            of_holes: vec![0; holes],
+            reordered_at: 0.0,
+        }
+    }
+
     /// The coats as they lie at `t`, the lowest first.
     #[must_use]
     pub fn order(&self, t: f64) -> Vec<usize> {

@@ -2,7 +2,7 @@
 
 use super::{Coating, Hole, Swell};
 use crate::geometry::{Crossing, DVec2, RingEdge, Side, count_crossings, crossings};
-use crate::warp::Life;
+use crate::warp::{Clock, Life};
 use std::collections::BTreeSet;
 
 /// What is drawn over the vertices of a placement.
@@ -25,6 +25,37 @@ pub struct Solid {
     pub specks: Vec<Speck>,
     /// How all that is painted; none where it has one colour.
     pub coating: Option<Coating>,
+    /// When its parts make their way; none where all do as the whole.
+    pub clocks: Option<Clocks>,
+}
+
+/// The clocks of the parts of a solid.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clocks {
+    /// What there is of clocks; the last is that of the whole.
+    pub clocks: Vec<Clock>,
+    /// For each boundary walk its clock.
+    pub of_walks: Vec<usize>,
+    /// For each hole its clock.
+    pub of_holes: Vec<usize>,
+}
+
+/// Rings of a solid that are painted alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Inked {
+    /// Their coat; 0 where there is one colour.
+    pub coat: usize,
+    /// The time that they show, by which their paint is mixed.
+    pub t: f64,
+    /// The rings.
+    pub rings: Vec<Vec<DVec2>>,
+}
+
+/// A ring, and what it is painted with: its coat and the number of its clock.
+struct InkedRing {
+    coat: usize,
+    clock: usize,
+    points: Vec<DVec2>,
 }
 
 /// A part that grows from a speck, or shrinks to one.
@@ -53,45 +84,74 @@ impl Solid {
     #[must_use]
     pub fn rings_at(&self, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
         let inked = self.inked_at(places, t).into_iter();
-        inked.map(|(_, ring)| ring).collect()
+        inked.map(|ring| ring.points).collect()
     }
 
-    /// The rings of [`Self::rings_at`], each with its coat; 0 where there is one
-    /// colour.
-    fn inked_at(&self, places: &[DVec2], t: f64) -> Vec<(usize, Vec<DVec2>)> {
-        let coating = self.coating.as_ref();
-        let of_walk = |walk: usize| coating.map_or(0, |coating| coating.of_walks[walk]);
-        let of_hole = |hole: usize| coating.map_or(0, |coating| coating.of_holes[hole]);
-        let swells = self.swelling(t).flat_map(|swell| {
-            let coat = swell.walks().first().map_or(0, |&walk| of_walk(walk));
-            let rings = self.swollen(swell, places, t).into_iter();
-            rings.map(move |ring| (coat, ring))
-        });
-        let holes = self.holes.iter().enumerate();
-        let holes = holes.filter_map(|(k, hole)| Some((of_hole(k), hole.at(places, t)?)));
+    /// The rings of [`Self::rings_at`], each with its coat and its clock.
+    fn inked_at(&self, places: &[DVec2], t: f64) -> Vec<InkedRing> {
+        let of_walk = |walk: usize, points: Vec<DVec2>| InkedRing {
+            coat: self.coating.as_ref().map_or(0, |all| all.of_walks[walk]),
+            clock: self.clocks.as_ref().map_or(0, |all| all.of_walks[walk]),
+            points,
+        };
         let walks = self.walks(t);
-        let walks = walks.map(|walk| (of_walk(walk), self.walk_at(walk, places)));
-        walks.chain(swells).chain(holes).collect()
+        let walks = walks.map(|walk| of_walk(walk, self.walk_at(walk, places)));
+        let swells = self.swelling(t).flat_map(|swell| {
+            let walk = swell.walks().first().copied().unwrap_or_default();
+            let rings = self.swollen(swell, places, t).into_iter();
+            rings.map(move |ring| of_walk(walk, ring))
+        });
+        let of_hole = |(hole, points): (usize, Vec<DVec2>)| InkedRing {
+            coat: self.coating.as_ref().map_or(0, |all| all.of_holes[hole]),
+            clock: self.clocks.as_ref().map_or(0, |all| all.of_holes[hole]),
+            points,
+        };
+        let holes = self.holes.iter().enumerate();
+        let holes = holes.filter_map(|(k, hole)| Some((k, hole.at(places, self.hole_time(k, t))?)));
+        walks.chain(swells).chain(holes.map(of_hole)).collect()
     }
 
-    /// The rings of each coat at `t`, the lowest coat first, and its number; of a
-    /// solid of one colour all in one.
+    /// The time that a boundary walk shows at `t`.
+    fn walk_time(&self, walk: usize, t: f64) -> f64 {
+        let clocks = self.clocks.as_ref();
+        clocks.map_or(t, |clocks| clocks.clocks[clocks.of_walks[walk]].at(t))
+    }
+
+    /// The time that a hole shows at `t`.
+    fn hole_time(&self, hole: usize, t: f64) -> f64 {
+        let clocks = self.clocks.as_ref();
+        clocks.map_or(t, |clocks| clocks.clocks[clocks.of_holes[hole]].at(t))
+    }
+
+    /// The time at `t` of a part that has these walks.
+    fn part_time(&self, walks: &[usize], t: f64) -> f64 {
+        walks.first().map_or(t, |&walk| self.walk_time(walk, t))
+    }
+
+    /// The rings of each coat at `t`, the lowest coat first; of a solid of one
+    /// colour all in one. Those of a coat that show several times stand apart.
     ///
     /// # Panics
     /// Where a walk goes by a vertex that has no place.
     #[must_use]
-    pub fn coated_at(&self, places: &[DVec2], t: f64) -> Vec<(usize, Vec<Vec<DVec2>>)> {
-        let Some(coating) = &self.coating else {
-            return vec![(0, self.rings_at(places, t))];
+    pub fn coated_at(&self, places: &[DVec2], t: f64) -> Vec<Inked> {
+        let count = self.coating.as_ref().map_or(1, |all| all.coats.len());
+        let order = self.coating.as_ref().map_or(vec![0], |all| all.order(t));
+        let times: Vec<f64> = match &self.clocks {
+            Some(all) => all.clocks.iter().map(|clock| clock.at(t)).collect(),
+            None => vec![t],
         };
-        let mut coats = vec![Vec::new(); coating.coats.len()];
-        for (coat, ring) in self.inked_at(places, t) {
-            coats[coat].push(ring);
+        let mut inked: Vec<Vec<Vec<Vec<DVec2>>>> = vec![vec![Vec::new(); times.len()]; count];
+        for ring in self.inked_at(places, t) {
+            inked[ring.coat][ring.clock].push(ring.points);
         }
-        let order = coating.order(t).into_iter();
-        order
-            .map(|coat| (coat, std::mem::take(&mut coats[coat])))
-            .collect()
+        let of_coat = |coat: usize| {
+            let by_clock = std::mem::take(&mut inked[coat]).into_iter().zip(&times);
+            let inked = by_clock.map(move |(rings, &t)| Inked { coat, t, rings });
+            // Without clocks every coat is there, empty or not.
+            inked.filter(|inked| times.len() == 1 || !inked.rings.is_empty())
+        };
+        order.into_iter().flat_map(of_coat).collect()
     }
 
     /// Where rings of [`Self::rings_at`] cross; those of two coats may.
@@ -105,9 +165,9 @@ impl Solid {
         };
         let rings = self.inked_at(places, t);
         let of_coat = |coat: usize| {
-            let is_in_coat = |k: &usize| rings[*k].0 == coat;
+            let is_in_coat = |k: &usize| rings[*k].coat == coat;
             let members: Vec<usize> = (0..rings.len()).filter(is_in_coat).collect();
-            let own: Vec<Vec<DVec2>> = members.iter().map(|&k| rings[k].1.clone()).collect();
+            let own: Vec<Vec<DVec2>> = members.iter().map(|&k| rings[k].points.clone()).collect();
             let mut found = crossings(&own);
             for edge in found.iter_mut().flat_map(|crossing| &mut crossing.edges) {
                 edge.ring = members[edge.ring];
@@ -123,8 +183,11 @@ impl Solid {
     /// Where a walk goes by a vertex that has no place.
     #[must_use]
     pub fn count_crossings(&self, places: &[DVec2], t: f64) -> usize {
-        let coats = self.coated_at(places, t);
-        coats.iter().map(|(_, rings)| count_crossings(rings)).sum()
+        let mut coats = vec![Vec::new(); self.coating.as_ref().map_or(1, |all| all.coats.len())];
+        for ring in self.inked_at(places, t) {
+            coats[ring.coat].push(ring.points);
+        }
+        coats.iter().map(|rings| count_crossings(rings)).sum()
     }
 
     fn walk_at(&self, walk: usize, places: &[DVec2]) -> Vec<DVec2> {
@@ -137,7 +200,10 @@ impl Solid {
     /// The walks that are drawn as they are at `t`, by their numbers.
     fn walks(&self, t: f64) -> impl Iterator<Item = usize> {
         let swelling = self.swelling(t).flat_map(Swell::walks);
-        let gone = self.specks.iter().filter(|speck| speck.is_gone(t));
+        let gone = self
+            .specks
+            .iter()
+            .filter(move |speck| self.is_gone(speck, t));
         let otherwise: BTreeSet<usize> = gone
             .flat_map(|speck| &speck.walks)
             .chain(swelling)
@@ -148,14 +214,19 @@ impl Solid {
 
     /// The parts that are not as they were drawn at `t`.
     fn swelling(&self, t: f64) -> impl Iterator<Item = &Swell> {
-        self.swells.iter().filter(move |swell| swell.share(t) < 1.0)
+        let swells = self.swells.iter();
+        swells.filter(move |swell| swell.share(self.part_time(swell.walks(), t)) < 1.0)
+    }
+
+    fn is_gone(&self, speck: &Speck, t: f64) -> bool {
+        speck.is_gone(self.part_time(&speck.walks, t))
     }
 
     /// A part as far as it has swollen.
     fn swollen(&self, swell: &Swell, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
         let first = swell.walks().first();
         let first = first.map(|&walk| self.walk_at(walk, places));
-        swell.at(&first.unwrap_or_default(), t)
+        swell.at(&first.unwrap_or_default(), self.part_time(swell.walks(), t))
     }
 
     /// The corners of the face at an edge of [`Self::rings_at`], of a boundary
@@ -179,20 +250,27 @@ impl Solid {
             }
             ring -= rings;
         }
-        let mut holes = self.holes.iter().filter(|hole| !hole.is_gone(t));
-        Some(holes.nth(ring)?.face(point).to_vec())
+        let mut holes = self.holes_at(t).filter(|(_, is_gone)| !is_gone);
+        Some(holes.nth(ring)?.0.face(point).to_vec())
     }
 
     /// How many of the rings that come and go are not there at `t`: points, to
     /// what counts rings.
     pub(crate) fn gone_at(&self, t: f64) -> usize {
-        let parts = self.swells.iter().filter(|swell| swell.share(t) <= 0.0);
-        let specks = self.specks.iter().filter(|speck| speck.is_gone(t));
-        let walks: usize = parts
+        let swollen = |swell: &Swell| swell.share(self.part_time(swell.walks(), t));
+        let swells = self.swells.iter().filter(|swell| swollen(swell) <= 0.0);
+        let specks = self.specks.iter().filter(|speck| self.is_gone(speck, t));
+        let walks: usize = swells
             .map(|swell| swell.walks().len())
             .chain(specks.map(|speck| speck.walks.len()))
             .sum();
-        self.holes.iter().filter(|hole| hole.is_gone(t)).count() + walks
+        self.holes_at(t).filter(|(_, is_gone)| *is_gone).count() + walks
+    }
+
+    /// All holes, and whether each is gone at `t`.
+    fn holes_at(&self, t: f64) -> impl Iterator<Item = (&Hole, bool)> {
+        let holes = self.holes.iter().enumerate();
+        holes.map(move |(k, hole)| (hole, hole.is_gone(self.hole_time(k, t))))
     }
 
     /// The bars at the given vertex places.

@@ -46,6 +46,13 @@ impl Curve {
         })
     }
 
+    /// The same in what is run backwards: 1 − f(1 − x).
+    #[must_use]
+    pub fn backwards(self) -> Self {
+        let [x1, y1, x2, y2] = self.0.map(|h| 1.0 - h);
+        Self([x2, y2, x1, y1])
+    }
+
     /// Its handles: x₁, y₁, x₂, y₂.
     #[must_use]
     pub fn handles(self) -> [f64; 4] {
@@ -134,6 +141,15 @@ impl Ease {
         match self {
             Self::Named(easing) => easing.inverse(y),
             Self::Drawn(curve) => curve.inverse(y),
+        }
+    }
+
+    /// The same in what is run backwards: 1 − f(1 − x).
+    #[must_use]
+    pub fn backwards(self) -> Self {
+        match self {
+            Self::Named(easing) => easing.backwards().into(),
+            Self::Drawn(curve) => Self::Drawn(curve.backwards()),
         }
     }
 
@@ -227,6 +243,18 @@ mod tests {
                 let x = f64::from(k) / 20.0;
                 let (drawn, named) = (Ease::Drawn(curve).apply(x), easing.apply(x));
                 assert!((drawn - named).abs() < 1e-12, "{easing:?} at {x}");
+            }
+        }
+    }
+
+    #[test]
+    fn backwards_is_the_same_way_from_the_other_end() {
+        let drawn = Curve::new([0.9, 0.0, 1.0, 0.2]).expect("a curve");
+        let ways = Easing::ALL.map(Ease::from).into_iter();
+        for ease in ways.chain([Ease::Drawn(drawn)]) {
+            for x in [0.0, 0.2, 0.5, 0.9, 1.0] {
+                let gap = ease.backwards().apply(x) - (1.0 - ease.apply(1.0 - x));
+                assert!(gap.abs() < 1e-12, "{ease} at {x}");
             }
         }
     }

@@ -12,7 +12,7 @@ use crate::content::{Content, Solid};
 use crate::geometry::{DVec2, perimeter, signed_area, turning, turning_excess};
 use crate::progress::{Cancelled, Progress, Span, Whole, checkpoint, still_wanted};
 use crate::transition::{Frame, Transition};
-use crate::warp::{ArapError, Warp};
+use crate::warp::ArapError;
 use serde::Serialize;
 use std::f64::consts::TAU;
 
@@ -293,7 +293,7 @@ fn asymmetry(
         Err(ArapError::Cancelled(cancelled)) => return Err(cancelled),
         Err(_) => return Ok(None),
     };
-    let mut placer = back.placer();
+    let mut placer = transition.placer_backwards(&back);
     let mut worst = 0.0_f64;
     for (t, there) in even_steps(paths.len()).zip(paths) {
         still_wanted(progress)?;

@@ -8,7 +8,7 @@ use crate::geometry::SimilarityError;
 use crate::mesh::TooManyVertices;
 use crate::one_line::OneLine;
 use crate::reading::ReadError;
-use crate::transition::{BuildError, TimingError};
+use crate::transition::{BuildError, CoatOptionsError, PartTimeError, TimingError};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -79,6 +79,12 @@ pub enum ProjectError {
     /// The timing gives no pass.
     #[error(transparent)]
     Timing(#[from] TimingError),
+    /// A part's own time is none.
+    #[error(transparent)]
+    PartTime(#[from] PartTimeError),
+    /// Coats change places at no time.
+    #[error(transparent)]
+    Coats(#[from] CoatOptionsError),
     /// A design could not be read.
     #[error(transparent)]
     Import(#[from] ImportError),

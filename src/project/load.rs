@@ -4,10 +4,11 @@ use super::document::{DesignEntry, Project};
 use super::error::ProjectError;
 use crate::content::ContentKind;
 use crate::design::{Design, Source};
+use crate::geometry::Similarity;
 use crate::one_line::OneLine;
 use crate::reading::ReadError;
 use crate::transition::{
-    BuildError, Cell, NoSuchCell, Options, TransitionSpec, arranged, arrangement,
+    BuildError, Cell, NoSuchCell, Options, PartTime, TransitionSpec, arranged, arrangement,
 };
 use crate::warp::WarpKind;
 use include_dir::{Dir, File, include_dir};
@@ -166,12 +167,17 @@ impl LoadedProject {
             options: Options {
                 // Pins are written in the designs' own units, and matched where they are laid.
                 matching: project.options.matching.placed(&by),
+                parts: placed(&project.options.parts, &by),
                 ..project.options.clone()
             },
             patient: self.patient,
             found: project.found.clone(),
         })
     }
+}
+
+fn placed(parts: &[PartTime], by: &[Similarity; 2]) -> Vec<PartTime> {
+    parts.iter().map(|part| part.placed(by)).collect()
 }
 
 /// A design that a document in a folder names, or one of the gallery.

@@ -9,7 +9,7 @@ use super::document::{FORMAT_VERSION, Project};
 use super::error::ProjectError;
 use crate::atomic_file::{self, refusal};
 use crate::reading;
-use crate::transition::Options;
+use crate::transition::{Options, PartTime};
 use serde::de::value::Error as NoValue;
 use serde::de::{Deserialize, Deserializer, Error, Visitor};
 use serde::forward_to_deserialize_any;
@@ -42,6 +42,8 @@ impl Project {
         self.options.field.blend.check()?;
         self.options.colours.check()?;
         self.options.matching.check()?;
+        PartTime::check(&self.options.parts)?;
+        self.options.coats.check()?;
         self.options.arap.check()?;
         self.timing.check(&self.stops)?;
         Ok(())

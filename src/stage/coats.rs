@@ -6,7 +6,7 @@ use bevy::mesh::{Indices, Mesh};
 use glam::DVec2;
 
 use crate::colour::{Line, Paint};
-use crate::content::{Coat, Coating, Solid};
+use crate::content::{Coat, Coating, Inked, Solid};
 use crate::transition::{Frame, Style};
 
 use super::fill::filled;
@@ -44,7 +44,8 @@ enum Ink {
 impl Coats {
     /// Of a frame's solid, which has a coating.
     pub(super) fn new(frame: &Frame, solid: &Solid, coating: &Coating) -> Self {
-        let comes_and_goes = !solid.holes.is_empty() || !solid.swells.is_empty();
+        let comes_and_goes =
+            !solid.holes.is_empty() || !solid.swells.is_empty() || solid.clocks.is_some();
         let arap = frame.transition().arap().filter(|_| !comes_and_goes);
         let faces = arap.map(|arap| {
             let parts = arap.mesh().components();
@@ -77,7 +78,7 @@ impl Coats {
     ) {
         let (t, places) = (frame.t(), &frame.placement().in_frame);
         let mut table = Table::default();
-        let mut ink = |coat: &Coat| {
+        let mut ink = |coat: &Coat, t: f64| {
             let gradients = coat.shading.at(places);
             let gradients = gradients.each_ref().map(Option::as_ref);
             let gradient = style.gradient_at(gradients, coat.paints, t);
@@ -85,19 +86,19 @@ impl Coats {
             let flat = || Ink::Flat(flat(style.paint_at(coat.paints, t)));
             shaded.map_or_else(flat, Ink::Shaded)
         };
-        let inks: Vec<Ink> = coating.coats.iter().map(&mut ink).collect();
         let mut layers = Layers::of(origin);
         if let Some(faces) = &self.faces {
             layers.positions.resize(places.len(), [0.0; 3]);
             write_points(places, origin, &mut layers.positions);
+            let inks: Vec<Ink> = coating.coats.iter().map(|coat| ink(coat, t)).collect();
             for (&coat, &place) in faces.of_vertices.iter().zip(places) {
                 layers.ink(inks[coat], place);
             }
         }
-        for (coat, rings) in solid.coated_at(places, t) {
+        for Inked { coat, t, rings } in solid.coated_at(places, t) {
             match &self.faces {
                 Some(faces) => layers.indices.extend(&faces.corners[coat]),
-                None => layers.fill(&rings, inks[coat]),
+                None => layers.fill(&rings, ink(&coating.coats[coat], t)),
             }
             if let Some(line) = Line::between(coating.coats[coat].lines, t) {
                 layers.draw(&rings, &line);

@@ -5,16 +5,19 @@
 //! the first that rigid parts would try: whether it folds inside is not asked,
 //! since there is no inside.
 
+use super::coating::{self, Walks};
+use super::drawings::Drawings;
 use super::error::BuildError;
 use super::moved::{AnyWarp, Moved};
 use super::spec::TransitionSpec;
 use crate::content::Solid;
-use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch, match_regions};
+use crate::correspondence::{PieceMatch, Prepared, RegionMatch, RingKind, RingMatch};
 use crate::design::Form;
 use crate::geometry::{DVec2, signed_area, winding};
 use crate::mesh::TriangleMesh;
 use crate::progress::{Progress, Span, checkpoint};
-use crate::warp::{Paths, RingPair};
+use crate::warp::{Paths, RingPair, Warp};
+use std::iter::repeat_n;
 use std::sync::Arc;
 
 /// The paths, and what is seen of them.
@@ -34,28 +37,45 @@ pub(super) fn paths(
     )?;
     let paths = Paths::new(&parts, spec.options.paths)?;
     checkpoint(progress, "preparing frames", 0.9)?;
+    let coating = matched.as_ref().and_then(|(drawings, matched)| {
+        let pieces = parts.iter().enumerate();
+        let placer = paths.placer();
+        let walks = Walks {
+            walks: paths.loops(),
+            pieces: pieces
+                .flat_map(|(k, rings)| repeat_n(k, rings.len()))
+                .collect(),
+            places: [&placer.placement().in_source, &placer.placement().in_target],
+        };
+        coating::coating(drawings, matched, &walks, &[])
+    });
     let solid = Solid {
         loops: paths.loops(),
+        coating,
         ..Solid::default()
     };
     let moved = Moved {
-        matched,
+        matched: matched.map(|(_, matched)| matched),
         ..AnyWarp::Paths(Arc::new(paths)).into()
     };
     Ok((moved, solid))
 }
 
-/// The rings of each part, and the match that brings them together.
-type Matched = (Vec<Vec<RingPair>>, Option<RegionMatch>);
+/// The rings of each part, and the match that brings them together, of what
+/// drawings.
+type Matched = (Vec<Vec<RingPair>>, Option<(Drawings, RegionMatch)>);
 
 fn matched(
     spec: &TransitionSpec,
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<Matched, BuildError> {
-    let [source, target] = spec.outlines(bar_width, progress)?;
-    let matched = match_regions(&source, &target, &spec.options.matching, progress)?;
-    Ok((matched.pieces.iter().map(rings).collect(), Some(matched)))
+    let drawings = spec.drawings(bar_width, progress)?;
+    let (designs, asked) = (drawings.outlines.each_ref(), &spec.options.matching);
+    let prepared = Prepared::new(designs, &drawings.looks, asked, progress)?;
+    let matched = prepared.matched(&asked.options(), progress)?;
+    let parts = matched.pieces.iter().map(rings).collect();
+    Ok((parts, Some((drawings, matched))))
 }
 
 /// The rings of a piece. What a match keeps as a tiny ring, so that it can be

@@ -77,14 +77,15 @@ fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildEr
     moved
         .notes
         .extend(ridge.map(|ridge| Note::Stiffened { share: ridge.share }));
-    Ok(Inner {
+    let made = Inner {
         cell: spec.cell,
         designs: [spec.source.clone(), spec.target.clone()],
         moved,
         content,
         bounds,
         bar_width,
-    })
+    };
+    Ok(made.coated(&spec.options.coats).timed(&spec.options.parts))
 }
 
 fn solids(

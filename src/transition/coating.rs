@@ -3,21 +3,97 @@
 use super::drawings::{Drawings, Ink};
 use super::holes::HoleOf;
 use super::levels::Levels;
+use super::ready::Inner;
 use crate::compatible::CompatibleMesh;
-use crate::content::{Anchored, Coat, Coating, Shading};
+use crate::content::{Anchored, Coat, Coating, Content, Shading, Solid};
 use crate::correspondence::{Looks, RegionMatch};
-use crate::geometry::Side;
-use crate::warp::Arap;
+use crate::geometry::{DVec2, Side};
+use serde::{Deserialize, Serialize};
 
-/// The t at which parts change places that lie over each other otherwise at the
-/// ends.
-const REORDERED_AT: f64 = 0.5;
+/// How painted parts come and go, and lie over each other.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
+#[non_exhaustive]
+pub struct CoatOptions {
+    /// What one drawing has alone fades in or out, besides growing or shrinking.
+    pub fade: bool,
+    /// The t, from 0 to 1, at which those change places that lie over each other
+    /// otherwise in the target than in the source.
+    pub reorder_at: f64,
+}
+
+/// A t at which nothing can change places.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("layers cannot change places at t = {0}; give a number from 0 to 1")]
+pub struct CoatOptionsError(f64);
+
+impl Default for CoatOptions {
+    fn default() -> Self {
+        Self {
+            fade: false,
+            reorder_at: 0.5,
+        }
+    }
+}
+
+impl CoatOptions {
+    /// Checks that places are changed within the film.
+    ///
+    /// # Errors
+    /// [`CoatOptionsError`] where they are not.
+    pub fn check(&self) -> Result<(), CoatOptionsError> {
+        let is_within = (0.0..=1.0).contains(&self.reorder_at);
+        is_within
+            .then_some(())
+            .ok_or(CoatOptionsError(self.reorder_at))
+    }
+}
+
+impl Inner {
+    /// The same transition with its coats as these options ask for.
+    pub(super) fn coated(mut self, options: &CoatOptions) -> Self {
+        if let Content::Solid(Solid {
+            coating: Some(coating),
+            ..
+        }) = &mut self.content
+        {
+            coating.reordered_at = options.reorder_at;
+            let coats = coating.coats.iter_mut();
+            coats.for_each(|coat| coat.fade(options.fade));
+        }
+        self
+    }
+}
+
+/// The boundary walks of a film.
+pub(super) struct Walks<'a> {
+    /// As vertex indices.
+    pub walks: Vec<Vec<u32>>,
+    /// For each the piece that it goes around.
+    pub pieces: Vec<usize>,
+    /// Where the vertices are in the designs.
+    pub places: [&'a [DVec2]; 2],
+}
+
+impl<'a> Walks<'a> {
+    /// Of a mesh whose connected parts are the pieces.
+    pub fn of_mesh(mesh: &'a CompatibleMesh) -> Self {
+        let parts = mesh.components();
+        let walks = mesh.boundary_loops();
+        let piece = |walk: &Vec<u32>| walk.first().map_or(0, |&v| parts[v as usize] as usize);
+        Self {
+            pieces: walks.iter().map(piece).collect(),
+            walks,
+            places: [mesh.source(), mesh.target()],
+        }
+    }
+}
 
 /// How a film is painted: a coat for each level. None of designs in one colour.
 pub(super) fn coating(
     drawings: &Drawings,
     matched: &RegionMatch,
-    film: &Arap,
+    film: &Walks,
     holes: &[HoleOf],
 ) -> Option<Coating> {
     if drawings.looks == Looks::default() {
@@ -25,17 +101,12 @@ pub(super) fn coating(
     }
     let levels = Levels::of(matched, &drawings.looks);
     let heights = Side::BOTH.map(|side| heights(&levels.coats, side));
-    let parts = film.mesh().components();
-    let walks = film.mesh().boundary_loops();
-    let level_of = |walk: &Vec<u32>| {
-        let piece = walk.first().map_or(0, |&v| parts[v as usize] as usize);
-        levels.of_piece(piece)
-    };
-    let of_walks: Vec<usize> = walks.iter().map(level_of).collect();
+    let pieces = film.pieces.iter();
+    let of_walks: Vec<usize> = pieces.map(|&piece| levels.of_piece(piece)).collect();
     let coat = |level: usize| {
         let ink = |side: Side| Some(&drawings.inks[side][levels.coats[level][side]?]);
         let inks = Side::BOTH.map(ink);
-        let own = walks.iter().zip(&of_walks);
+        let own = film.walks.iter().zip(&of_walks);
         let own = own
             .filter(|&(_, of)| *of == level)
             .flat_map(|(walk, _)| walk);
@@ -43,9 +114,14 @@ pub(super) fn coating(
         let paint = |side: Side| inks[side].or(inks[side.other()])?.paint;
         Coat {
             paints: Side::BOTH.map(paint),
-            shading: shading(inks, own.copied().collect(), film.mesh()),
+            shading: shading(inks, own.copied().collect(), film.places),
             lines: inks.map(|ink| ink?.line),
             heights: [heights[0][level], heights[1][level]],
+            alone: match levels.coats[level] {
+                [Some(_), None] => Some(Side::Source),
+                [None, Some(_)] => Some(Side::Target),
+                _ => None,
+            },
         }
     };
     Some(Coating {
@@ -55,14 +131,13 @@ pub(super) fn coating(
             .map(|(piece, _)| levels.of_piece(*piece))
             .collect(),
         of_walks,
-        reordered_at: REORDERED_AT,
+        reordered_at: CoatOptions::default().reorder_at,
     })
 }
 
 /// The gradients of a coat that has these vertices; what one design has alone keeps its
 /// own.
-fn shading(inks: [Option<&Ink>; 2], vertices: Vec<u32>, mesh: &CompatibleMesh) -> Shading {
-    let places = [mesh.source(), mesh.target()];
+fn shading(inks: [Option<&Ink>; 2], vertices: Vec<u32>, places: [&[DVec2]; 2]) -> Shading {
     let anchored = |side: Side| {
         let gradient = inks[side]?.gradient.clone()?;
         let places = vertices.iter().map(|&v| places[side][v as usize]);

@@ -3,7 +3,7 @@
 use super::options::Options;
 use super::ready::Transition;
 use crate::colour::{Gradient, Line, Paint};
-use crate::content::{Content, Raster, Solid};
+use crate::content::{Content, Inked, Raster, Solid};
 use crate::design::{Design, Form};
 use crate::geometry::DVec2;
 use crate::warp::{Placement, Placer, WarpKind};
@@ -49,6 +49,9 @@ pub struct Coated {
     pub gradients: [Option<Gradient>; 2],
     /// The line along them in source and target; see [`Line::between`].
     pub lines: [Option<Line>; 2],
+    /// The time that they show, by which all that is mixed: that of the frame,
+    /// unless parts have times of their own.
+    pub t: f64,
 }
 
 impl Transition {
@@ -131,7 +134,7 @@ impl Frame {
             bar_width: solid.bar_width,
             ..Figure::default()
         };
-        for (coat, rings) in solid.coated_at(places, self.t) {
+        for Inked { coat, t, rings } in solid.coated_at(places, self.t) {
             let first = figure.rings.len();
             figure.rings.extend(rings);
             if let Some(coating) = &solid.coating {
@@ -141,6 +144,7 @@ impl Frame {
                     paints: coat.paints,
                     gradients: coat.shading.at(places),
                     lines: coat.lines,
+                    t,
                 });
             }
         }
@@ -159,9 +163,10 @@ impl Frame {
 }
 
 impl Figure {
-    /// A design on its own, in its own paint where it has some.
+    /// A design on its own, in its own paint where it has some, and else in that
+    /// of the style at `t`.
     #[must_use]
-    pub fn of(design: &Design) -> Self {
+    pub fn of(design: &Design, t: f64) -> Self {
         if design.coats.is_empty() {
             return ghost(
                 design,
@@ -178,6 +183,7 @@ impl Figure {
                 paints: [coat.paint; 2],
                 gradients: [coat.gradient.clone(), coat.gradient.clone()],
                 lines: [coat.line; 2],
+                t,
             });
         }
         figure

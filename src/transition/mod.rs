@@ -20,6 +20,7 @@
 //!   `births`, and `holes` in them that come and go, by where their `walks` and
 //!   `outline`s are
 //! - `found`, `kept`: what was found, as a document keeps it
+//! - `part_time`: parts that make their way in their own time
 //! - `note`: what was done otherwise than asked; `mirrored`: what might have been
 //!   meant
 //! - `ready`, `frame`: the transition and its moments
@@ -49,6 +50,7 @@ mod moved;
 mod note;
 mod options;
 mod outline;
+mod part_time;
 mod plane;
 mod ready;
 mod rigid;
@@ -67,11 +69,13 @@ pub use crate::easing::{Curve, Ease, Easing};
 
 pub use arrange::{Fit, arranged, arrangement};
 pub use cells::{Cell, NoSuchCell};
+pub use coating::{CoatOptions, CoatOptionsError};
 pub use error::BuildError;
 pub use found::Found;
 pub use frame::{Coated, Figure, Frame};
 pub use note::Note;
 pub use options::{Boundary, FieldOptions, Options, PaintRule, Quality};
+pub use part_time::{PartTime, PartTimeError};
 pub use ready::Transition;
 pub use spec::TransitionSpec;
 pub use style::Style;

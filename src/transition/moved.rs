@@ -3,7 +3,7 @@
 use super::kept::Kept;
 use super::note::Note;
 use crate::correspondence::{PointPair, RegionMatch};
-use crate::warp::{Arap, Paths, Still, Turned, Warp};
+use crate::warp::{Arap, Paths, Staggered, Still, Turned, Warp};
 use std::sync::Arc;
 
 /// The warp that a transition holds.
@@ -15,6 +15,8 @@ pub(super) enum AnyWarp {
     Paths(Arc<Paths>),
     /// Rigid parts: of solids, or of the whole frame.
     Rigid(Arap),
+    /// Rigid parts of solids, some in their own time.
+    Staggered(Staggered),
     /// Rigid parts of the frame behind the motion that they have in common.
     Turned(Turned<Arap>),
     /// Lines, scattered points or lattices, on a grid of the plane.
@@ -27,15 +29,18 @@ impl AnyWarp {
             Self::Still(still) => still,
             Self::Paths(paths) => paths.as_ref(),
             Self::Rigid(arap) => arap,
+            Self::Staggered(warp) => warp,
             Self::Turned(turned) => turned,
             Self::Plane(warp) => warp.as_ref(),
         }
     }
 
-    /// The rigid parts; of those behind a common motion as they are at rest.
+    /// The rigid parts, all in the time of the whole; of those behind a common
+    /// motion as they are at rest.
     pub fn arap(&self) -> Option<&Arap> {
         match self {
             Self::Rigid(arap) => Some(arap),
+            Self::Staggered(warp) => Some(warp.arap()),
             Self::Turned(turned) => Some(turned.at_rest()),
             Self::Still(_) | Self::Paths(_) | Self::Plane(_) => None,
         }

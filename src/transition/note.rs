@@ -36,6 +36,8 @@ pub enum Note {
     /// Fields of distances that are not Euclidean have their boundary between
     /// cells, although it was to be exact.
     BinaryBoundary,
+    /// Parts were to have times of their own, which only rigid parts have.
+    OneTime,
     /// The equations of rigid parts could only be solved with a little added
     /// to their diagonal.
     Stiffened {
@@ -74,6 +76,10 @@ impl fmt::Display for Note {
             Self::BinaryBoundary => write!(
                 f,
                 "the boundary runs between cells: only Euclidean distances have it exactly"
+            ),
+            Self::OneTime => write!(
+                f,
+                "all parts move in the same time: only rigid parts may have times of their own"
             ),
             Self::Stiffened { share } => write!(
                 f,

@@ -1,6 +1,8 @@
 //! The options of all methods, each once: a document holds them as they stand
 //! in its file, a specification as a transition is built from them.
 
+use super::coating::CoatOptions;
+use super::part_time::PartTime;
 use crate::compatible::PolygonOptions;
 use crate::content::{ColourMix, FieldBlend};
 use crate::correspondence::Matching;
@@ -34,9 +36,15 @@ pub struct Options {
     /// design, in a specification in those of the common frame.
     #[serde(rename = "match", skip_serializing_if = "is_default")]
     pub matching: Matching,
+    /// Parts that make their way in their own time, as rigid parts.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parts: Vec<PartTime>,
     /// Whether drawings are shown in their own colours.
     #[serde(skip_serializing_if = "is_default")]
     pub paint: PaintRule,
+    /// How painted parts come and go.
+    #[serde(skip_serializing_if = "is_default")]
+    pub coats: CoatOptions,
     /// How much is tried for a film of outlines.
     #[serde(skip_serializing_if = "is_default")]
     pub quality: Quality,
@@ -70,7 +78,9 @@ impl Default for Options {
             travel: Travel::default(),
             bar_width: 0.012,
             matching: Matching::default(),
+            parts: Vec::new(),
             paint: PaintRule::default(),
+            coats: CoatOptions::default(),
             quality: Quality::default(),
             triangulation: PolygonOptions::default(),
             arap: ArapOptions::default(),

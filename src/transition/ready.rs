@@ -1,15 +1,17 @@
 //! A transition that is ready to be played.
 
 use super::cells::Cell;
+use super::coating::CoatOptions;
 use super::found::Found;
-use super::moved::Moved;
+use super::moved::{AnyWarp, Moved};
 use super::note::Note;
+use super::part_time::PartTime;
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, FieldBlend, FieldPairError};
 use crate::correspondence::{PointPair, RegionMatch};
 use crate::design::Design;
 use crate::geometry::Bounds;
-use crate::warp::{Arap, Missed, Warp};
+use crate::warp::{Arap, Missed, Placer, Warp};
 use std::sync::Arc;
 
 /// A transition that is ready to be played. Cloning is cheap.
@@ -66,6 +68,19 @@ impl Transition {
         })))
     }
 
+    /// The same film, in which parts have these times of their own and no others,
+    /// their places in the coordinates of the frame.
+    #[must_use]
+    pub fn with_part_times(&self, times: &[PartTime]) -> Self {
+        Self::from(self.0.as_ref().clone().timed(times))
+    }
+
+    /// The same film with its coats as these options ask for.
+    #[must_use]
+    pub fn with_coats(&self, options: &CoatOptions) -> Self {
+        Self::from(self.0.as_ref().clone().coated(options))
+    }
+
     /// Row and column of the table.
     #[must_use]
     pub fn cell(&self) -> Cell {
@@ -90,6 +105,31 @@ impl Transition {
     #[must_use]
     pub fn arap(&self) -> Option<&Arap> {
         self.0.moved.warp.arap()
+    }
+
+    /// How another film of the same mesh is played: its parts in the times that
+    /// those of this one have.
+    pub(crate) fn placer_of(&self, film: &Arap) -> Placer {
+        match &self.0.moved.warp {
+            AnyWarp::Staggered(warp) => warp.of(film.clone()).placer(),
+            _ => film.placer(),
+        }
+    }
+
+    /// As [`Self::placer_of`], of the film of the exchanged designs.
+    pub(crate) fn placer_backwards(&self, film: &Arap) -> Placer {
+        match &self.0.moved.warp {
+            AnyWarp::Staggered(warp) => warp.backwards(film.clone()).placer(),
+            _ => film.placer(),
+        }
+    }
+
+    /// The time that a vertex of rigid parts shows at `t`.
+    pub(crate) fn time_of(&self, vertex: u32, t: f64) -> f64 {
+        match &self.0.moved.warp {
+            AnyWarp::Staggered(warp) => warp.clock(vertex).at(t),
+            _ => t,
+        }
     }
 
     /// What was done otherwise than asked while it was built, in that order.

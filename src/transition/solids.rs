@@ -3,7 +3,7 @@
 //! Two meshes bring their triangulation along, two trusses their panels; all
 //! other forms are matched as outlines.
 
-use super::coating;
+use super::coating::{self, Walks};
 use super::drawings::Drawings;
 use super::error::BuildError;
 use super::found;
@@ -53,7 +53,8 @@ pub(super) fn rigid_parts(
     let (swells, specks) =
         film.map_or_else(Default::default, |film| lone::drawn(&arap, &film.swelling));
     let coating = film.zip(drawings).and_then(|(film, drawings)| {
-        coating::coating(&drawings, &film.matched, &arap, &film.holes)
+        let walks = Walks::of_mesh(arap.mesh());
+        coating::coating(&drawings, &film.matched, &walks, &film.holes)
     });
     let solid = Solid {
         loops: if bars.is_empty() {
@@ -67,6 +68,7 @@ pub(super) fn rigid_parts(
         swells,
         specks,
         coating,
+        clocks: None,
     };
     let moved = Moved {
         matched: film.map(|film| film.matched.clone()),

@@ -13,6 +13,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 mod alone;
 mod painted;
+mod staggered;
 mod upright;
 
 fn design(text: &str) -> Arc<Design> {

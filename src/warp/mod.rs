@@ -18,6 +18,7 @@ mod paths;
 mod plane;
 mod rigid_part;
 mod scattered;
+mod staggered;
 
 pub use arap::{AngleError, Arap, ArapError, ArapOptions, ArapPath, Life, Ridge, Weights};
 pub use features::{FeatureError, LINE_SAMPLES, MAX_FEATURES};
@@ -30,6 +31,7 @@ pub use paths::{Course, PathOptions, Paths, PathsError, RingPair};
 pub use plane::{OnGrid, PlaneGrid, PlaneWarp};
 pub use rigid_part::{RigidPart, Travel};
 pub use scattered::{Basis, Scattered, ScatteredError, ScatteredOptions};
+pub use staggered::{Clock, Staggered};
 
 use crate::geometry::DVec2;
 use std::fmt::Debug;

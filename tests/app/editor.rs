@@ -6,8 +6,11 @@ use crate::window::Window;
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{ButtonInput, MouseButton, Vec2};
 use morphospace::app::{EditorAct, Fate, Handle, Intent, Pane, PaneView, Tool, Touch};
+use morphospace::content::Content;
 use morphospace::correspondence::Matching;
 use morphospace::geometry::{DVec2, Side};
+use morphospace::project::Project;
+use morphospace::transition::{Ease, PartTime};
 
 /// An L and the same L stretched, as outlines; and two squares beside each other.
 fn write_outline(folder: &Path, name: &str, d: &str) -> std::path::PathBuf {
@@ -285,6 +288,42 @@ fn parts_are_paired_by_two_clicks_and_freed_by_one() {
     assert!(window.matching().lone.is_empty() && !dies(&window));
     window.wait();
     assert!(window.session().problem().is_none());
+}
+
+#[test]
+fn a_part_is_given_its_own_time_and_keeps_it_with_the_project() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut window = with_outlines(folder.path(), TWO, TWO);
+    let by = window.sheet().by[0];
+    let at = by.inverse().apply(window.sheet().pieces[0].at[0]);
+    let late = PartTime {
+        side: Side::Source,
+        at,
+        from: 0.5,
+        to: 1.0,
+        easing: Ease::default(),
+    };
+    let waiting = |window: &Window| {
+        let transition = window.session().transition().expect("a film").clone();
+        let Content::Solid(solid) = transition.content() else {
+            panic!("rigid parts");
+        };
+        solid
+            .clocks
+            .as_ref()
+            .map(|clocks| clocks.of_walks.iter().filter(|k| **k == 0).count())
+    };
+    assert_eq!(waiting(&window), None);
+    let mut project = window.session().project().cloned().expect("a project");
+    project.options.parts = vec![late];
+    window.send(Intent::Edit(Box::new(project.clone())));
+    window.wait();
+    assert_eq!(waiting(&window), Some(1));
+    let again = Project::parse(&project.to_toml().expect("text")).expect("a document");
+    assert_eq!(again.options.parts, [late]);
+    window.send(Intent::Undo);
+    window.wait();
+    assert_eq!(waiting(&window), None);
 }
 
 #[test]

@@ -15,3 +15,4 @@ pub mod polyline;
 pub mod refresh;
 pub mod ring;
 pub mod sheet;
+pub mod times;

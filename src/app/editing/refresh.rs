@@ -15,10 +15,10 @@ pub fn refresh(
     mut sheet: ResMut<Sheet>,
     mut was_open: Local<bool>,
 ) {
-    // A closed sheet is not kept up to date.
+    // A closed one too: the panel lists its parts.
     let is_opened = editor.is_open && !*was_open;
     *was_open = editor.is_open;
-    if !editor.is_open || !(is_opened || session.is_changed()) {
+    if !(is_opened || session.is_changed()) {
         return;
     }
     let mut laid_out = Sheet::of(&session);

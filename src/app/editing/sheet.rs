@@ -71,6 +71,8 @@ pub struct SheetPiece {
     pub at: [DVec2; 2],
     /// It was paired by hand, or said to have no partner.
     pub is_linked: bool,
+    /// The parts of the source and of the target that it comes of.
+    pub parts: [Option<usize>; 2],
 }
 
 /// What becomes of a piece.
@@ -271,6 +273,7 @@ fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &Matching) -> Vec<
             fate,
             at: [true, false].map(|is_source| middle(piece, is_source)),
             is_linked: is_linked(piece) || is_alone(piece),
+            parts: [piece.source_part, piece.target_part],
         }
     };
     pieces.iter().enumerate().map(piece).collect()

@@ -123,7 +123,8 @@ fn side_by_side(designs: &[Arc<Design>]) -> Result<RgbaImage, crate::export::Siz
         let corner = DVec2::new(index as f64 * cell.x, 0.0);
         let view = View::fit_cell(bounds, size, corner, cell);
         // In the colour that it has as source, or as target.
-        drawing.push_figure(&Figure::of(design), index as f64, &style, &view);
+        let t = index as f64;
+        drawing.push_figure(&Figure::of(design, t), t, &style, &view);
     }
     Ok(rasterise(&drawing))
 }

@@ -7,7 +7,7 @@ use crate::app::session::rescue::Kept;
 use crate::correspondence::{PinError, RegionMatchError};
 use crate::progress::{Cancelled, Progress, Span, checkpoint};
 use crate::project::{LoadedProject, Project, ProjectError, gallery};
-use crate::transition::{BuildError, Cell, Style, Timing, Transition};
+use crate::transition::{BuildError, Cell, Options, Style, Timing, Transition};
 
 /// A project with its designs.
 #[derive(Debug)]
@@ -86,7 +86,7 @@ impl Rebuild {
     ) -> Result<Loaded, LoadError> {
         // Its sliders are dragged, and the distance transforms take far longer than the mixing.
         if !self.must_reread
-            && let Some(transition) = self.mixed_otherwise()
+            && let Some(transition) = self.mixed_otherwise().or_else(|| self.shown_otherwise())
         {
             return Ok(built(self.now, Ok(transition)));
         }
@@ -98,13 +98,27 @@ impl Rebuild {
         Ok(built_by_steps(project, None, progress, meanwhile))
     }
 
+    /// Where nothing but the times of parts and how coats lie has changed, the film is the same.
+    fn shown_otherwise(&self) -> Option<Transition> {
+        self.is_same_but_for(|options, now| {
+            options.parts.clone_from(&now.parts);
+            options.coats = now.coats;
+        })?;
+        let Options { parts, coats, .. } = self.now.spec().ok()?.options;
+        let transition = self.transition.as_ref()?;
+        Some(transition.with_coats(&coats).with_part_times(&parts))
+    }
+
+    /// Whether the settings on the stage would be the new ones if this were changed in them.
+    fn is_same_but_for(&self, change: impl FnOnce(&mut Options, &Options)) -> Option<()> {
+        let mut otherwise_same = self.staged.clone();
+        change(&mut otherwise_same.options, &self.now.project.options);
+        (!needs_build(&otherwise_same, &self.now.project)).then_some(())
+    }
+
     /// Where nothing but the mixing of the fields has changed, they need not be measured again.
     fn mixed_otherwise(&self) -> Option<Transition> {
-        let mut otherwise_same = self.staged.clone();
-        otherwise_same.options.field.blend = self.now.project.options.field.blend;
-        if needs_build(&otherwise_same, &self.now.project) {
-            return None;
-        }
+        self.is_same_but_for(|options, now| options.field.blend = now.field.blend)?;
         self.transition
             .as_ref()?
             .with_blend(self.now.project.options.field.blend)

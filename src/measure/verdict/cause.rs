@@ -22,6 +22,7 @@ const FLATTENED: f64 = 0.1;
 
 /// A transition of rigid parts at the t of a trouble.
 pub(super) struct Scene<'a> {
+    pub transition: &'a Transition,
     pub arap: &'a Arap,
     pub solid: &'a Solid,
     pub t: f64,
@@ -31,8 +32,9 @@ pub(super) struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    pub fn new(transition: &Transition, arap: &'a Arap, solid: &'a Solid, t: f64) -> Self {
+    pub fn new(transition: &'a Transition, arap: &'a Arap, solid: &'a Solid, t: f64) -> Self {
         Self {
+            transition,
             arap,
             solid,
             t,
@@ -101,6 +103,9 @@ pub(super) fn straight_paths(scene: &Scene<'_>, face: usize, t: f64) -> Option<C
         return None;
     }
     let map = scene.arap.local_map(face);
+    let t = scene
+        .transition
+        .time_of(scene.arap.mesh().faces()[face][0], t);
     // Against the polar path, whose area only runs from end to end.
     let left = homotopy.at(&map, t).determinant();
     let kept = Homotopy::Polar.at(&map, t).determinant();

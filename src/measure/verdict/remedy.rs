@@ -50,7 +50,8 @@ pub(super) fn for_rigid_parts(
     let changes = changes(arap, found);
     let shares = Several::new(progress, changes.len());
     for (k, change) in changes.iter().enumerate() {
-        let Some(then) = tried(change, arap, solid, now.len(), &shares.part(k))? else {
+        let film = (transition, arap, solid);
+        let Some(then) = tried(change, film, now.len(), &shares.part(k))? else {
             continue;
         };
         for finding in &mut *found {
@@ -111,8 +112,7 @@ fn the_other_way(arap: &Arap, part: usize, turn: f64) -> Change {
 /// What is wrong with the change made; `None` where it cannot be made.
 fn tried(
     change: &Change,
-    arap: &Arap,
-    solid: &Solid,
+    (transition, arap, solid): (&Transition, &Arap, &Solid),
     steps: usize,
     progress: &dyn Progress,
 ) -> Result<Option<Vec<Glance>>, Cancelled> {
@@ -122,7 +122,7 @@ fn tried(
     };
     change.apply(&mut options);
     match arap.rebuilt(&options.arap, progress) {
-        Ok(other) => scan::rigid_parts(&other, solid, steps, progress).map(Some),
+        Ok(other) => scan::rigid_parts(transition, &other, solid, steps, progress).map(Some),
         Err(ArapError::Cancelled(cancelled)) => Err(cancelled),
         Err(_) => Ok(None),
     }

@@ -6,7 +6,7 @@ use crate::measure::distortion::is_folded;
 use crate::measure::film::{FilmSample, crossings_at, even_steps};
 use crate::progress::{Cancelled, Progress, checkpoint};
 use crate::transition::Transition;
-use crate::warp::{Arap, Warp};
+use crate::warp::Arap;
 
 /// What is wrong at one t.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -53,7 +53,9 @@ pub(super) fn transition(
     progress: &dyn Progress,
 ) -> Result<Vec<Glance>, Cancelled> {
     match (transition.content(), transition.arap()) {
-        (Content::Solid(solid), Some(arap)) => rigid_parts(arap, solid, steps, progress),
+        (Content::Solid(solid), Some(arap)) => {
+            rigid_parts(transition, arap, solid, steps, progress)
+        }
         (Content::Field(_), _) => fields(transition, steps, progress),
         (Content::Solid(solid), None) => {
             let mut frame = transition.frame(0.0);
@@ -69,13 +71,15 @@ pub(super) fn transition(
     }
 }
 
+/// Of a film of the mesh of `transition`, in whose times its parts move.
 pub(super) fn rigid_parts(
+    transition: &Transition,
     arap: &Arap,
     solid: &Solid,
     steps: usize,
     progress: &dyn Progress,
 ) -> Result<Vec<Glance>, Cancelled> {
-    let mut placer = arap.placer();
+    let mut placer = transition.placer_of(arap);
     looks(steps, "looking for folds", progress, |t| {
         placer.place(t);
         let places = &placer.placement().in_frame;

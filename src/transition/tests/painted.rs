@@ -132,6 +132,75 @@ fn what_lies_over_each_other_otherwise_changes_places_in_the_middle() {
 }
 
 #[test]
+fn boundary_paths_show_drawings_in_their_own_colours() {
+    let (red, blue) = (
+        square(10.0, 10.0, 40.0, RED),
+        square(20.0, 20.0, 15.0, BLUE),
+    );
+    let moved = square(50.0, 50.0, 15.0, BLUE);
+    let (a, b) = (
+        drawing(&format!("{red}{blue}")),
+        drawing(&format!("{red}{moved}")),
+    );
+    let mut spec = TransitionSpec::new(a, b);
+    spec.cell = Cell::new(WarpKind::Paths, ContentKind::Solid).unwrap();
+    let film = Transition::build(&spec, &Silent).unwrap();
+    for t in [0.0, 0.5, 1.0] {
+        assert_same(
+            &seen(&film, t),
+            &[(RED.into(), 1600.0), (BLUE.into(), 225.0)],
+        );
+    }
+    spec.options.paint = PaintRule::One;
+    let plain = Transition::build(&spec, &Silent).unwrap();
+    assert!(plain.frame(0.5).figure().coats.is_empty());
+}
+
+#[test]
+fn what_is_alone_fades_where_that_is_asked_for() {
+    let both = square(10.0, 10.0, 30.0, BLUE);
+    let film = film_of(&both, &format!("{both}{}", square(60.0, 60.0, 20.0, RED)));
+    let fading = CoatOptions {
+        fade: true,
+        ..CoatOptions::default()
+    };
+    let faded = film.with_coats(&fading);
+    let opacity = |film: &Transition, t: f64| {
+        let seen = seen(film, t);
+        let red = seen.iter().find(|(paint, _)| paint.colour == RED);
+        red.map(|(paint, _)| paint.opacity)
+    };
+    for t in [0.8, 0.9, 1.0] {
+        assert_eq!(opacity(&film, t), Some(1.0));
+        assert!((opacity(&faded, t).unwrap() - t).abs() < 1e-9, "{t}");
+    }
+    let back = faded.with_coats(&CoatOptions::default());
+    assert_eq!(back.frame(0.9).figure(), film.frame(0.9).figure());
+}
+
+#[test]
+fn places_are_changed_when_that_is_asked_for() {
+    let (red, blue) = (
+        square(10.0, 10.0, 40.0, RED),
+        square(30.0, 30.0, 40.0, BLUE),
+    );
+    let film = film_of(&format!("{red}{blue}"), &format!("{blue}{red}"));
+    let late = CoatOptions {
+        reorder_at: 0.8,
+        ..CoatOptions::default()
+    };
+    let late = film.with_coats(&late);
+    let lowest = |film: &Transition, t: f64| seen(film, t)[0].0.colour;
+    assert_eq!([0.4, 0.6].map(|t| lowest(&film, t)), [RED, BLUE]);
+    assert_eq!([0.6, 0.9].map(|t| lowest(&late, t)), [RED, BLUE]);
+    let never = CoatOptions {
+        reorder_at: f64::NAN,
+        ..CoatOptions::default()
+    };
+    assert!(never.check().is_err());
+}
+
+#[test]
 fn what_one_drawing_has_alone_keeps_its_place_in_the_order() {
     let face = square(10.0, 10.0, 80.0, BLUE);
     let eye = "<circle id='eye' cx='30' cy='30' r='8' fill='white'/>";

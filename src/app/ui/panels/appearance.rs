@@ -4,12 +4,15 @@ use bevy_egui::egui::{Ui, vec2};
 
 use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::widgets::{choice, drag, number, pick, row, section, tipped, toggle};
+use crate::app::ui::kit::widgets::{
+    choice, drag, number, pick, row, section, slider, tipped, toggle,
+};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::colour::Rgb;
 use crate::content::ContentKind;
 use crate::project::Project;
 use crate::stage::Show;
+use crate::transition::{CoatOptions, PaintRule};
 use crate::warp::WarpKind;
 
 /// Draws the options.
@@ -19,6 +22,9 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
         if scene.session.has_paints() {
             let tip = "Whether drawings keep their own colours.";
             pick(ui, "Colours", tip, &mut draft.options.paint);
+            if draft.options.paint == PaintRule::Own && draft.content == Some(ContentKind::Solid) {
+                coats(ui, &mut draft.options.coats);
+            }
         }
         let tip = "Colour of the shape at t = 0.";
         colour(ui, "Source", tip, &mut draft.style.source);
@@ -30,6 +36,22 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
             bars(ui, draft);
         }
     });
+}
+
+/// How painted parts come and go.
+fn coats(ui: &mut Ui, coats: &mut CoatOptions) {
+    let tip = "What only one drawing has fades in or out, besides growing or shrinking.";
+    toggle(ui, "Fade parts", tip, &mut coats.fade);
+    let tip =
+        "The t at which parts change places that lie over each other otherwise in the target.";
+    slider(
+        ui,
+        "Swap order at",
+        tip,
+        &mut coats.reorder_at,
+        0.0..=1.0,
+        false,
+    );
 }
 
 const EQUAL: &str = "Lines of equal blended distance.";

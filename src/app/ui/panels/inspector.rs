@@ -8,7 +8,9 @@ use bevy_egui::egui::{Panel, ScrollArea, Ui};
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::kit::widgets::ground;
-use crate::app::ui::panels::{appearance, contents, designs, film, matching, method, rigid, warps};
+use crate::app::ui::panels::{
+    appearance, contents, designs, film, matching, method, parts, rigid, warps,
+};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
 use crate::warp::WarpKind;
@@ -46,6 +48,9 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     }
     if draft.warp == Some(WarpKind::Arap) {
         rigid::show(ui, scene, &mut draft.options.arap);
+    }
+    if draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Solid) {
+        parts::show(ui, scene, &mut draft.options.parts);
     }
     let carries_fields =
         draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Field);

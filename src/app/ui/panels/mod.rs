@@ -7,5 +7,6 @@ pub mod film;
 pub mod inspector;
 pub mod matching;
 pub mod method;
+pub mod parts;
 pub mod rigid;
 pub mod warps;

@@ -6,9 +6,10 @@ use bevy_egui::egui::{
 };
 
 use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::ease;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::timeline::{ease, filmstrip};
+use crate::app::ui::timeline::filmstrip;
 use crate::one_line::OneLine;
 use crate::project::Project;
 use crate::transition::{Stop, Style};

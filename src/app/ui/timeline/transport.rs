@@ -4,11 +4,11 @@ use bevy_egui::egui::{self, DragValue, Response, RichText, Ui, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::playing::playback::SPEEDS;
+use crate::app::ui::kit::ease;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
 use crate::app::ui::kit::widgets::{act_button, from_right, option, quiet, tipped};
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::timeline::ease;
 use crate::names::Choice;
 use crate::transition::{PlayMode, Timing};
 

@@ -1,0 +1,210 @@
+//! The times of parts, as they are said piece by piece.
+//!
+//! The project names a part by a point of a design. A piece is named in the design in which its
+//! part is no other piece's, so that what is said of one half of a part that splits is not said of
+//! the other.
+
+use crate::app::editing::polyline;
+use crate::app::editing::sheet::Sheet;
+use crate::easing::Ease;
+use crate::geometry::{DVec2, Side};
+use crate::names::named;
+use crate::transition::PartTime;
+use crate::warp::Clock;
+
+/// How much of the film a part takes when parts set out one after the other.
+const SHARE: f64 = 0.5;
+
+/// In which order parts set out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Order {
+    /// The leftmost first.
+    LeftToRight,
+    /// The highest first.
+    TopToBottom,
+    /// What is nearest to the middle first.
+    FromTheMiddle,
+}
+
+named! { Order {
+    LeftToRight: "left-to-right", "Left to right", "The leftmost part sets out first";
+    TopToBottom: "top-to-bottom", "Top to bottom", "The highest part sets out first";
+    FromTheMiddle: "from-the-middle", "From the middle", "The part nearest to the middle sets out first";
+} }
+
+/// The time of a piece, by its number in the project: the last that was said.
+#[must_use]
+pub fn of_piece(sheet: &Sheet, times: &[PartTime], piece: usize) -> Option<usize> {
+    (0..times.len())
+        .rev()
+        .find(|&k| is_of(sheet, &times[k], piece))
+}
+
+/// Says when a piece makes its way, and forgets what was said of it; the clock of the whole need
+/// not be said.
+pub fn set(sheet: &Sheet, times: &mut Vec<PartTime>, piece: usize, clock: Clock) {
+    times.retain(|time| !is_of(sheet, time, piece));
+    if clock != Clock::WHOLE {
+        times.extend(named(sheet, piece, clock));
+    }
+}
+
+/// All pieces, one after the other.
+#[must_use]
+pub fn staggered(sheet: &Sheet, order: Order) -> Vec<PartTime> {
+    let middle = |k: usize| sheet.pieces[k].at[side_of(sheet, k)];
+    let count = sheet.pieces.len();
+    let sum: DVec2 = (0..count).map(middle).sum();
+    let centre = sum / count.max(1) as f64;
+    let rank = |k: usize| match order {
+        Order::LeftToRight => middle(k).x,
+        Order::TopToBottom => -middle(k).y,
+        Order::FromTheMiddle => middle(k).distance(centre),
+    };
+    let mut pieces: Vec<usize> = (0..count).collect();
+    pieces.sort_by(|a, b| rank(*a).total_cmp(&rank(*b)));
+    let time = |(place, piece): (usize, usize)| {
+        let step = (1.0 - SHARE) / (count.max(2) - 1) as f64;
+        let from = rounded(step * place as f64);
+        let clock = Clock {
+            from,
+            to: rounded(from + SHARE),
+            easing: Ease::default(),
+        };
+        named(sheet, piece, clock)
+    };
+    pieces.into_iter().enumerate().filter_map(time).collect()
+}
+
+/// To a thousandth, within the film.
+fn rounded(t: f64) -> f64 {
+    (t.clamp(0.0, 1.0) * 1000.0).round() / 1000.0
+}
+
+/// A piece's time, by a point of its own.
+fn named(sheet: &Sheet, piece: usize, clock: Clock) -> Option<PartTime> {
+    let side = side_of(sheet, piece);
+    let at = sheet.by[side]
+        .inverse()
+        .apply(sheet.pieces.get(piece)?.at[side]);
+    let Clock { from, to, easing } = clock;
+    Some(PartTime {
+        side,
+        at,
+        from,
+        to,
+        easing,
+    })
+}
+
+/// The design in which a piece is named.
+fn side_of(sheet: &Sheet, piece: usize) -> Side {
+    let own = &sheet.pieces[piece].parts;
+    let is_alone_in = |side: &Side| {
+        let same = sheet
+            .pieces
+            .iter()
+            .filter(|other| other.parts[*side] == own[*side]);
+        own[*side].is_some() && same.count() == 1
+    };
+    let has = |side: &Side| own[*side].is_some();
+    let sides = Side::BOTH.into_iter();
+    let found = sides
+        .clone()
+        .find(is_alone_in)
+        .or_else(|| sides.clone().find(has));
+    found.unwrap_or(Side::Source)
+}
+
+/// Whether a time is that of a piece: of the part that its point is in, or nearest to.
+fn is_of(sheet: &Sheet, time: &PartTime, piece: usize) -> bool {
+    let at = sheet.by[time.side].apply(time.at);
+    let rings = |piece: usize| {
+        let rings = sheet.rings.iter().filter(move |ring| ring.piece == piece);
+        rings.map(|ring| ring.sides[time.side].as_slice())
+    };
+    let mut pieces = 0..sheet.pieces.len();
+    let nearest = || {
+        let all = sheet
+            .rings
+            .iter()
+            .map(|ring| ring.sides[time.side].as_slice());
+        Some(sheet.rings[polyline::nearest(all, at)?.ring].piece)
+    };
+    let named = pieces
+        .find(|&k| polyline::encloses(rings(k), at))
+        .or_else(nearest);
+    let part = |k: usize| sheet.pieces[k].parts[time.side];
+    named.is_some_and(|k| k == piece || (part(k).is_some() && part(k) == part(piece)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::editing::ring::SheetRing;
+    use crate::app::editing::sheet::{Fate, SheetPiece};
+    use crate::correspondence::RingKind;
+    use crate::easing::Easing;
+
+    /// Three squares in a row; the first two are halves of one part of the source.
+    fn sheet() -> Sheet {
+        let square = |x: f64| -> Vec<DVec2> {
+            let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+            corners.map(|(a, b)| DVec2::new(a + x, b)).to_vec()
+        };
+        let piece = |(k, parts): (usize, [usize; 2])| SheetPiece {
+            name: k.to_string(),
+            fate: Fate::Paired,
+            at: [DVec2::new(3.0 * k as f64 + 0.5, 0.5); 2],
+            is_linked: false,
+            parts: parts.map(Some),
+        };
+        let ring = |k: usize| {
+            let ring = square(3.0 * k as f64);
+            SheetRing::new(k, RingKind::Matched, [ring.clone(), ring])
+        };
+        let parts = [[0, 0], [0, 1], [1, 2]];
+        Sheet {
+            pieces: parts.into_iter().enumerate().map(piece).collect(),
+            rings: (0..3).map(ring).collect(),
+            ..Sheet::default()
+        }
+    }
+
+    const LATE: Clock = Clock {
+        from: 0.5,
+        to: 1.0,
+        easing: Ease::Named(Easing::Linear),
+    };
+
+    #[test]
+    fn a_piece_of_a_part_that_splits_has_a_time_of_its_own() {
+        let (sheet, mut times) = (sheet(), Vec::new());
+        set(&sheet, &mut times, 1, LATE);
+        let found = [0, 1, 2].map(|k| of_piece(&sheet, &times, k));
+        assert_eq!(found, [None, Some(0), None]);
+        assert_eq!(times[0].side, Side::Target);
+        set(&sheet, &mut times, 1, Clock::WHOLE);
+        assert!(times.is_empty());
+    }
+
+    #[test]
+    fn what_is_said_of_a_part_is_said_of_its_pieces() {
+        let sheet = sheet();
+        let mut time = named(&sheet, 0, LATE).expect("a piece");
+        time.side = Side::Source;
+        let found = [0, 1, 2].map(|k| of_piece(&sheet, &[time], k));
+        assert_eq!(found, [Some(0), Some(0), None]);
+    }
+
+    #[test]
+    fn parts_set_out_in_order_and_the_last_arrives_at_the_end() {
+        let sheet = sheet();
+        let times = staggered(&sheet, Order::LeftToRight);
+        let clocks = [0, 1, 2].map(|k| times[of_piece(&sheet, &times, k).expect("a time")].clock());
+        assert_eq!(clocks.map(|c| c.from), [0.0, 0.25, 0.5]);
+        assert_eq!(clocks[2].to, 1.0);
+        let first = staggered(&sheet, Order::FromTheMiddle)[0];
+        assert_eq!(of_piece(&sheet, &[first], 1), Some(0));
+    }
+}

@@ -1,0 +1,160 @@
+//! When each part makes its way: a row for each, with a span of the film and how it runs.
+
+use bevy_egui::egui::{Align2, Color32, FontId, Painter, Rect, ScrollArea, Sense, Shape, Ui, vec2};
+
+use crate::app::editing::sheet::{Fate, Sheet};
+use crate::app::editing::times::{self, Order};
+use crate::app::ui::kit::ease;
+use crate::app::ui::kit::span;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, Palette};
+use crate::app::ui::kit::widgets::{beside, hint, section};
+use crate::app::ui::scene::Scene;
+use crate::easing::Ease;
+use crate::geometry::{Bounds, DVec2, Side};
+use crate::names::Choice;
+use crate::transition::PartTime;
+use crate::warp::Clock;
+
+/// Height of the rows that are seen at once.
+const MOST: f32 = 8.0 * (CONTROL_HEIGHT + 4.0);
+
+/// Width of the part in small, and of the list of ways.
+const PICTURE: f32 = 30.0;
+const EASING: f32 = 84.0;
+
+/// Draws the rows, where there are parts enough to tell apart.
+pub fn show(ui: &mut Ui, scene: &Scene, times: &mut Vec<PartTime>) {
+    let sheet = &scene.sheet;
+    if sheet.pieces.len() < 2 {
+        return;
+    }
+    section(ui, "Parts in time", |ui| {
+        stagger(ui, sheet, times);
+        ui.add_space(4.0);
+        ScrollArea::vertical()
+            .id_salt("parts in time")
+            .max_height(MOST)
+            .show(ui, |ui| {
+                for piece in 0..sheet.pieces.len() {
+                    row(ui, sheet, times, piece);
+                }
+            });
+    });
+}
+
+fn stagger(ui: &mut Ui, sheet: &Sheet, times: &mut Vec<PartTime>) {
+    ui.horizontal(|ui| {
+        let button = ui.menu_button("One after the other", |ui| {
+            for order in Order::ALL {
+                let name = order.name();
+                let item = ui.button(name.title);
+                beside(&item, item.rect.left(), name.sentence);
+                if item.clicked() {
+                    *times = times::staggered(sheet, order);
+                }
+            }
+        });
+        let tip = "Lets the parts set out in an order; each row can be changed then.";
+        beside(&button.response, button.response.rect.left(), tip);
+        let tip = "All parts set out and arrive together again.";
+        if !times.is_empty() && ui.button("All at once").on_hover_text(tip).clicked() {
+            times.clear();
+        }
+    });
+    if times.is_empty() {
+        hint(
+            ui,
+            "Drag an end of a bar: the part sets out later, or is there sooner.",
+        );
+    }
+}
+
+fn row(ui: &mut Ui, sheet: &Sheet, times: &mut Vec<PartTime>, piece: usize) {
+    let said = times::of_piece(sheet, times, piece);
+    let mut clock = said.map_or(Clock::WHOLE, |k| times[k].clock());
+    let before = clock;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        picture(ui, sheet, piece);
+        let wide = ui.available_width() - EASING - 22.0;
+        span::bar(ui, piece, wide, &mut clock);
+        ease::menu(
+            ui,
+            &format!("way of part {piece}"),
+            &mut clock.easing,
+            EASING,
+        );
+    });
+    if before == Clock::WHOLE && (clock.from, clock.to) != (0.0, 1.0) {
+        // It rests at both ends of its way, as the whole does.
+        clock.easing = Ease::default();
+    }
+    if clock != before {
+        times::set(sheet, times, piece, clock);
+    }
+}
+
+/// The part in small, in the design that has it, and its letter.
+fn picture(ui: &mut Ui, sheet: &Sheet, piece: usize) {
+    let part = &sheet.pieces[piece];
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(PICTURE + 18.0, CONTROL_HEIGHT), Sense::hover());
+    let palette = Palette::of(ui);
+    let (side, words) = match part.fate {
+        Fate::Paired => (Side::Source, "is in both designs"),
+        Fate::Dies => (Side::Source, "is in the source alone, and vanishes"),
+        Fate::Born => (Side::Target, "is in the target alone, and appears"),
+    };
+    beside(
+        &response,
+        rect.left(),
+        &format!("Part {} {words}.", part.name),
+    );
+    let font = FontId::proportional(12.5);
+    let middle = rect.left_center() + vec2(8.0, 0.0);
+    ui.painter().text(
+        middle,
+        Align2::CENTER_CENTER,
+        &part.name,
+        font,
+        palette.text,
+    );
+    let Some(sides) = &sheet.sides else { return };
+    let frame = Rect::from_min_max(rect.left_top() + vec2(18.0, 1.0), rect.right_bottom());
+    let view = View::of(sides[side].bounds, frame.shrink(1.0));
+    for ring in &sheet.rings {
+        let is_own = ring.piece == piece;
+        let ink = if is_own { palette.text } else { palette.line };
+        view.draw(
+            ui.painter(),
+            &ring.sides[side],
+            (1.0 + f32::from(is_own), ink),
+        );
+    }
+}
+
+/// How a design is seen in small.
+struct View {
+    bounds: Bounds,
+    to: Rect,
+    scale: f32,
+}
+
+impl View {
+    fn of(bounds: Bounds, to: Rect) -> Self {
+        let size = bounds.max - bounds.min;
+        let scale = (to.width() / size.x as f32).min(to.height() / size.y as f32);
+        Self { bounds, to, scale }
+    }
+
+    fn draw(&self, painter: &Painter, ring: &[DVec2], (width, ink): (f32, Color32)) {
+        let middle = 0.5 * (self.bounds.min + self.bounds.max);
+        // So many points are as fine as a picture of thirty points is.
+        let step = ring.len().div_ceil(48).max(1);
+        let points = ring.iter().step_by(step).map(|p| {
+            let from_middle = (*p - middle).as_vec2() * self.scale;
+            self.to.center() + vec2(from_middle.x, -from_middle.y)
+        });
+        painter.add(Shape::closed_line(points.collect(), (width, ink)));
+    }
+}
