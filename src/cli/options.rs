@@ -239,6 +239,10 @@ struct ImportArgs {
     #[arg(long, value_name = "FRACTION")]
     tolerance: Option<f64>,
 
+    /// Take each flat colour of a picture for a part of its own
+    #[arg(long)]
+    colours: bool,
+
     /// Leave a drawing's strokes out of the figure that it makes
     #[arg(long)]
     no_strokes: bool,
@@ -392,6 +396,7 @@ impl MethodArgs {
             set(&mut import.specks_px, given.specks);
             set(&mut import.tolerance, given.tolerance);
             set(&mut import.strokes, given.no_strokes.then_some(false));
+            set(&mut import.colours, given.colours.then_some(true));
         }
     }
 
@@ -500,7 +505,7 @@ mod tests {
     #[test]
     fn flags_reach_import_timing_and_style() {
         let project = edited(
-            "--image-threshold 99 --invert --specks 4 --tolerance 0.01 --no-strokes \
+            "--image-threshold 99 --invert --specks 4 --tolerance 0.01 --no-strokes --colours \
              --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
              --source-colour #010203 --target-colour #040506 --no-joints --paint one",
         )
@@ -508,7 +513,7 @@ mod tests {
         let import = project.designs[1].import;
         assert_eq!((import.threshold, import.invert), (Some(99), true));
         assert_eq!((import.specks_px, import.tolerance), (4, 0.01));
-        assert!(!import.strokes);
+        assert!(!import.strokes && import.colours);
         assert_eq!((project.timing.from, project.timing.to), (-0.5, 1.5));
         assert_eq!(
             (project.timing.duration_secs, project.timing.hold_secs),

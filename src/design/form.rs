@@ -113,7 +113,15 @@ impl Design {
         options: &ImportOptions,
     ) -> Result<Self, PictureError> {
         options.check()?;
-        let regions = silhouette::read(&pixels, options)?;
+        let coats = match options.colours {
+            true => silhouette::coats(&pixels, options)?,
+            false => Vec::new(),
+        };
+        let is_shaded = options.colours && coats.is_empty();
+        let regions = match covered(&coats) {
+            Some(regions) => regions,
+            None => silhouette::read(&pixels, options)?,
+        };
         let given = pixels.dimensions();
         let picture = Picture::bounded(pixels);
         let kept = picture.pixels().dimensions();
@@ -121,7 +129,10 @@ impl Design {
         Ok(Self {
             extent: picture.bounds(),
             picture: Some(picture),
-            notes: smaller.into_iter().collect(),
+            notes: (smaller.into_iter())
+                .chain(is_shaded.then_some(ImportNote::Shaded))
+                .collect(),
+            coats,
             ..Self::new(name, regions)
         })
     }
@@ -265,6 +276,13 @@ impl Outlines {
             ..Design::new(name, self.regions)
         }
     }
+}
+
+/// What all coats cover together; none where there are none.
+fn covered(coats: &[Coat]) -> Option<Regions> {
+    let rings = coats.iter().flat_map(|coat| coat.regions.rings());
+    let rings: Vec<Vec<DVec2>> = rings.map(|ring| ring.points().to_vec()).collect();
+    Regions::from_rings(&rings, FillRule::NonZero).ok()
 }
 
 #[cfg(test)]

@@ -65,6 +65,8 @@ pub enum ImportNote {
         /// Those that are kept.
         kept: (u32, u32),
     },
+    /// Each flat colour was to be a part, and the picture is of shades.
+    Shaded,
     /// Curves that do not close.
     Open {
         /// How many.
@@ -157,6 +159,9 @@ impl fmt::Display for ImportNote {
                 left_out(f, *n, [one, many])
             }
             Self::Smaller { given, kept } => smaller(f, *given, *kept),
+            Self::Shaded => f.write_str(
+                "the picture is of shades, not of a few flat colours; its figure is one part",
+            ),
             Self::Open { count, at } => {
                 let one = "curve that does not close";
                 left_out(f, *count, [one, "curves that do not close"])?;

@@ -2,7 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-/// How a design is read. The first three matter to pictures only.
+/// How a design is read. All but the tolerance and the strokes matter to pictures
+/// only.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ImportOptions {
@@ -18,10 +19,17 @@ pub struct ImportOptions {
     /// How far the outline may run from the exact boundary, as a fraction of
     /// the longer side of the picture or the page: 0 to 0.1.
     pub tolerance: f64,
+    /// Whether each flat colour of a picture is a part of its own.
+    #[serde(skip_serializing_if = "is_unset")]
+    pub colours: bool,
     /// Whether the strokes of a drawing belong to the figure that it makes. Where
     /// it is shown in its own paint they are seen in any case.
     #[serde(skip_serializing_if = "is_set")]
     pub strokes: bool,
+}
+
+fn is_unset(value: &bool) -> bool {
+    !*value
 }
 
 fn is_set(value: &bool) -> bool {
@@ -47,6 +55,7 @@ impl Default for ImportOptions {
             invert: false,
             specks_px: 0,
             tolerance: Self::DEFAULT_TOLERANCE,
+            colours: false,
             strokes: true,
         }
     }

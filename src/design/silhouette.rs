@@ -11,11 +11,14 @@
 //! points up. A figure that reaches the border is closed along it.
 //!
 //! Not guaranteed: colours of equal luminance are not told apart, and the
-//! threshold is one for the whole picture.
+//! threshold is one for the whole picture; but where a picture is of flat
+//! colours, `flat` can take each for itself.
 
 mod fit;
+mod flat;
 
 use self::fit::Traced;
+pub(super) use self::flat::coats;
 use super::options::{ImportOptions, OptionsError};
 use crate::field::{Samples, SamplesError, contour};
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError};

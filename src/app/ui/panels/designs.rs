@@ -39,6 +39,8 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
             draft.designs.swap(0, 1);
             // What was said by hand is of points of the designs, and changes sides with them.
             draft.options.matching = draft.options.matching.swapped();
+            let parts = draft.options.parts.iter_mut();
+            parts.for_each(|part| *part = part.swapped());
         }
     });
 }
@@ -142,6 +144,8 @@ fn is_picture(entry: &DesignEntry) -> bool {
 
 fn reading(ui: &mut Ui, entry: &mut DesignEntry) {
     let import = &mut entry.import;
+    let tip = "Each flat colour of the picture is a part of its own, and keeps its colour.";
+    toggle(ui, "By colour", tip, &mut import.colours);
     let tip = "Finds the grey level that parts shape from ground by itself.";
     automatic(ui, "Automatic", tip, &mut import.threshold, MIDDLE_GREY);
     if let Some(threshold) = &mut import.threshold {

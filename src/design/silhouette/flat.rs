@@ -1,0 +1,327 @@
+//! A picture of flat colours as coats of paint, one for each colour.
+//!
+//! Flat are the colours of pixels that have their like all around. The ground is
+//! what is transparent, or the flat colour along most of the border. A boundary
+//! runs where a pixel is as near to a colour as to the nearest other one that is
+//! flat close by, so that smooth edges give sub-pixel accuracy and no third
+//! colour between two. What lies within a colour lies on it: it has no hole there.
+
+use super::{Figure, PictureError, is_on_border};
+use crate::colour::Rgb;
+use crate::design::coat::{Coat, Sheet, stacked};
+use crate::design::options::ImportOptions;
+use crate::mesh::components;
+use image::{Rgba, RgbaImage};
+use std::collections::HashMap;
+
+/// Most colours that are told apart: more are shades of a photograph.
+const MOST: usize = 16;
+
+/// Colours nearer to each other than this, of 255, are one: a JPEG leaves that.
+const ALIKE: f64 = 24.0;
+
+/// The least share of the picture that a colour covers.
+const LEAST: f64 = 0.0005;
+
+/// The least share of the picture that is flat: of photographs of people before a
+/// plain wall less than half is.
+const FLAT: f64 = 0.6;
+
+/// How far around a pixel flat colours are looked for: a smooth edge is two or
+/// three pixels wide.
+const AROUND: usize = 2;
+
+/// The coats of a picture, the lowest first; none where its colours are not
+/// flat.
+///
+/// # Errors
+/// [`PictureError`] where a boundary has absurdly many points.
+pub(in crate::design) fn coats(
+    picture: &RgbaImage,
+    options: &ImportOptions,
+) -> Result<Vec<Coat>, PictureError> {
+    let Some(colours) = Colours::of(picture) else {
+        return Ok(Vec::new());
+    };
+    let side = f64::from(picture.width().max(picture.height()));
+    let mut sheets = Vec::new();
+    for colour in (0..colours.flat.len()).filter(|&k| k != colours.ground) {
+        let mut figure = colours.figure(colour);
+        figure.remove_specks(options.specks_px);
+        match figure.trace(options.tolerance * side) {
+            Ok(regions) => sheets.push(Sheet {
+                regions,
+                paint: Some(Rgb(colours.flat[colour].0.map(|c| c as u8)).into()),
+                name: String::new(),
+            }),
+            // Its specks were all there was of it.
+            Err(PictureError::Empty { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(stacked(sheets))
+}
+
+/// Red, green and blue, each to 255, and whether there is anything.
+#[derive(Clone, Copy, PartialEq)]
+struct Ink([f64; 3], bool);
+
+/// Nothing.
+const GROUND: Ink = Ink([0.0; 3], false);
+
+impl Ink {
+    fn of(Rgba([r, g, b, a]): Rgba<u8>) -> Self {
+        match a < 128 {
+            true => GROUND,
+            false => Self([r, g, b].map(f64::from), true),
+        }
+    }
+
+    /// How far two are apart, at most 255.
+    fn far(self, other: Self) -> f64 {
+        match self.1 == other.1 {
+            true => (0..3)
+                .map(|k| (self.0[k] - other.0[k]).abs())
+                .fold(0.0, f64::max),
+            false => 255.0,
+        }
+    }
+}
+
+/// A picture's flat colours, and which of them each pixel may be of.
+struct Colours<'a> {
+    picture: &'a RgbaImage,
+    flat: Vec<Ink>,
+    /// The number of the ground's.
+    ground: usize,
+    /// For each pixel, the lowest row first, those that are flat close by, as bits.
+    near: Vec<u32>,
+}
+
+impl<'a> Colours<'a> {
+    /// None where there are too many, or too little is flat.
+    fn of(picture: &'a RgbaImage) -> Option<Self> {
+        let inks: Vec<Ink> = picture
+            .rows()
+            .rev()
+            .flatten()
+            .map(|&p| Ink::of(p))
+            .collect();
+        let width = picture.width() as usize;
+        let is_flat: Vec<bool> = (0..inks.len())
+            .map(|i| {
+                let mut around = around(i, width, inks.len(), 1);
+                around.all(|j| inks[i].far(inks[j]) < ALIKE)
+            })
+            .collect();
+        let flat = flat_colours(&inks, &is_flat)?;
+        let label = |ink: Ink| nearest(&flat, ink, u32::MAX).0;
+        let ground = match flat.iter().position(|&ink| ink == GROUND) {
+            Some(ground) => ground,
+            None => {
+                let mut counts = vec![0; flat.len()];
+                let border = (0..inks.len()).filter(|&i| is_on_border(i, width, inks.len()));
+                border.for_each(|i| counts[label(inks[i])] += 1);
+                (0..counts.len()).max_by_key(|&k| counts[k])?
+            }
+        };
+        let own = |i: usize| {
+            if is_flat[i] {
+                1 << label(inks[i])
+            } else {
+                0_u32
+            }
+        };
+        let own: Vec<u32> = (0..inks.len()).map(own).collect();
+        let near = |i: usize| match around(i, width, own.len(), AROUND).fold(0, |m, j| m | own[j]) {
+            // A line too thin to be flat anywhere.
+            0 => u32::MAX,
+            some => some,
+        };
+        Some(Self {
+            near: (0..own.len()).map(near).collect(),
+            picture,
+            flat,
+            ground,
+        })
+    }
+
+    /// The figure of one colour.
+    fn figure(&self, colour: usize) -> Figure {
+        let (width, height) = self.picture.dimensions();
+        let pixels = self.picture.rows().rev().flatten().zip(&self.near);
+        let sample = |(&pixel, &near): (&Rgba<u8>, &u32)| {
+            let ink = Ink::of(pixel);
+            if near & (1 << colour) == 0 {
+                return -1.0;
+            }
+            let own = ink.far(self.flat[colour]);
+            let other = nearest(&self.flat, ink, near & !(1 << colour)).1;
+            match own + other {
+                both if both.is_finite() && both > 0.0 => {
+                    let share = ((other - own) / both) as f32;
+                    // Never on the boundary itself.
+                    if share == 0.0 { f32::EPSILON } else { share }
+                }
+                _ => 1.0,
+            }
+        };
+        let mut figure = Figure {
+            width,
+            height,
+            samples: pixels.map(sample).collect(),
+            threshold: 128,
+        };
+        self.fill_up(&mut figure);
+        figure
+    }
+
+    /// What is enclosed and shows no ground is laid on the colour, not into it.
+    fn fill_up(&self, figure: &mut Figure) {
+        let (count, width) = (figure.samples.len(), figure.width as usize);
+        let across = (1..count).filter(|i| !i.is_multiple_of(width));
+        let across = across.map(|i| [i - 1, i]);
+        let upwards = (width..count).map(|i| [i - width, i]);
+        let is_out = |i: usize| figure.samples[i] < 0.0;
+        let alike = |&[a, b]: &[usize; 2]| is_out(a) && is_out(b);
+        let links = across.chain(upwards).filter(alike);
+        let pieces = components(count, links.map(|ends| ends.map(|i| i as u32)));
+        let pixels = self.picture.rows().rev().flatten();
+        let mut is_open = vec![false; count];
+        for (i, (&pixel, &piece)) in pixels.zip(&pieces).enumerate() {
+            let (label, _) = nearest(&self.flat, Ink::of(pixel), self.near[i]);
+            if label == self.ground || is_on_border(i, width, count) {
+                is_open[piece as usize] = true;
+            }
+        }
+        for (sample, piece) in figure.samples.iter_mut().zip(pieces) {
+            if *sample < 0.0 && !is_open[piece as usize] {
+                *sample = 1.0;
+            }
+        }
+    }
+}
+
+/// The colours that are flat, those that cover most first.
+fn flat_colours(inks: &[Ink], is_flat: &[bool]) -> Option<Vec<Ink>> {
+    let mut counts: HashMap<[u8; 4], usize> = HashMap::new();
+    for (ink, _) in inks.iter().zip(is_flat).filter(|(_, is_flat)| **is_flat) {
+        let [r, g, b] = ink.0.map(|c| c as u8);
+        *counts.entry([r, g, b, u8::from(ink.1)]).or_default() += 1;
+    }
+    let mut counts: Vec<([u8; 4], usize)> = counts.into_iter().collect();
+    counts.sort_unstable_by_key(|&(key, count)| (std::cmp::Reverse(count), key));
+    let mut flat: Vec<(Ink, usize)> = Vec::new();
+    for ([r, g, b, is_there], count) in counts {
+        let ink = Ink([r, g, b].map(f64::from), is_there != 0);
+        match flat.iter().position(|(other, _)| other.far(ink) < ALIKE) {
+            Some(k) => flat[k].1 += count,
+            None if flat.len() <= 4 * MOST => flat.push((ink, count)),
+            None => return None,
+        }
+    }
+    let total = inks.len() as f64;
+    flat.retain(|(_, count)| *count as f64 >= LEAST * total);
+    let covered: usize = flat.iter().map(|(_, count)| count).sum();
+    let is_flat = (2..=MOST).contains(&flat.len()) && covered as f64 >= FLAT * total;
+    is_flat.then(|| flat.into_iter().map(|(ink, _)| ink).collect())
+}
+
+/// The number of the nearest of those that are allowed, as bits, and how far it is;
+/// of none the first, endlessly far.
+fn nearest(flat: &[Ink], ink: Ink, allowed: u32) -> (usize, f64) {
+    let allowed = flat
+        .iter()
+        .enumerate()
+        .filter(|(k, _)| allowed & (1 << k) != 0);
+    let far = allowed.map(|(k, &other)| (k, ink.far(other)));
+    far.min_by(|a, b| a.1.total_cmp(&b.1))
+        .unwrap_or((0, f64::INFINITY))
+}
+
+/// The pixels of a square around one that are there.
+fn around(i: usize, width: usize, count: usize, reach: usize) -> impl Iterator<Item = usize> {
+    let (x, y) = (i % width, i / width);
+    let rows = y.saturating_sub(reach)..(y + reach + 1).min(count / width);
+    let columns = x.saturating_sub(reach)..(x + reach + 1).min(width);
+    rows.flat_map(move |row| columns.clone().map(move |column| row * width + column))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const RED: [f64; 3] = [200.0, 30.0, 40.0];
+    const BLUE: [f64; 3] = [20.0, 60.0, 180.0];
+    const WHITE: [f64; 3] = [255.0; 3];
+
+    /// Discs over each other, with smooth edges, on white or on nothing.
+    fn discs(discs: &[([f64; 2], f64, [f64; 3])], is_clear: bool) -> RgbaImage {
+        RgbaImage::from_fn(120, 100, |x, y| {
+            let (mut ink, mut there) = (WHITE, if is_clear { 0.0 } else { 1.0 });
+            for &([cx, cy], r, colour) in discs {
+                let (dx, dy) = (f64::from(x) + 0.5 - cx, f64::from(y) + 0.5 - cy);
+                let share = (r + 0.5 - dx.hypot(dy)).clamp(0.0, 1.0);
+                let over = if there == 0.0 { 1.0 } else { share };
+                ink = [0, 1, 2].map(|k| ink[k] * (1.0 - over) + colour[k] * over);
+                there = share + there * (1.0 - share);
+            }
+            let [r, g, b] = ink.map(|c| c.round() as u8);
+            Rgba([r, g, b, (255.0 * there) as u8])
+        })
+    }
+
+    fn found(picture: &RgbaImage) -> Vec<(Rgb, f64, usize)> {
+        let coats = coats(picture, &ImportOptions::default()).expect("traced");
+        let of = |coat: &Coat| {
+            let colour = coat.paint.expect("a paint").colour;
+            (colour, coat.regions.area(), coat.regions.rings().count())
+        };
+        coats.iter().map(of).collect()
+    }
+
+    fn near(found: f64, radius: f64) {
+        let area = std::f64::consts::PI * radius * radius;
+        assert!((found - area).abs() < 0.02 * area, "{found} for {area}");
+    }
+
+    #[test]
+    fn each_colour_is_a_coat_and_what_lies_within_lies_on_it() {
+        let eye = [([60.0, 50.0], 40.0, RED), ([60.0, 50.0], 15.0, BLUE)];
+        for is_clear in [false, true] {
+            let found = found(&discs(&eye, is_clear));
+            assert_eq!(found.len(), 2, "{found:?}");
+            assert_eq!(found[0].0, Rgb(RED.map(|c| c as u8)));
+            assert_eq!([found[0].2, found[1].2], [1, 1]);
+            near(found[0].1, 40.0);
+            near(found[1].1, 15.0);
+        }
+    }
+
+    #[test]
+    fn a_hole_that_shows_the_ground_stays_one_and_no_third_colour_comes_between() {
+        // Half way from white to red there is nothing, though pink is flat elsewhere.
+        let pink = [228.0, 142.0, 148.0];
+        let all = [
+            ([40.0, 50.0], 30.0, RED),
+            ([40.0, 50.0], 12.0, WHITE),
+            ([100.0, 50.0], 12.0, pink),
+        ];
+        let found = found(&discs(&all, false));
+        assert_eq!(found.len(), 2, "{found:?}");
+        assert_eq!([found[0].2, found[1].2], [2, 1]);
+        near(found[1].1, 12.0);
+    }
+
+    #[test]
+    fn what_has_no_flat_colours_has_no_coats() {
+        let shades =
+            RgbaImage::from_fn(80, 80, |x, y| Rgba([(3 * x) as u8, (3 * y) as u8, 90, 255]));
+        assert_eq!(found(&shades), []);
+        assert_eq!(found(&RgbaImage::from_pixel(9, 9, Rgba([9; 4]))), []);
+        assert_eq!(
+            found(&RgbaImage::from_pixel(1, 1, Rgba([9, 9, 9, 255]))),
+            []
+        );
+    }
+}
