@@ -291,6 +291,14 @@ struct StyleArgs {
     #[arg(long, value_parser = one_of::<PaintRule>())]
     paint: Option<PaintRule>,
 
+    /// Let what only one drawing has fade in or out
+    #[arg(long)]
+    fade: bool,
+
+    /// The t at which parts change places that lie over each other otherwise
+    #[arg(long, value_name = "T")]
+    reorder_at: Option<f64>,
+
     /// Leave a truss's joints unmarked
     #[arg(long)]
     no_joints: bool,
@@ -331,6 +339,7 @@ impl MethodArgs {
         timing.map_err(CliError::usage)?;
         project.options.colours.check().map_err(CliError::usage)?;
         project.options.matching.check().map_err(CliError::usage)?;
+        project.options.coats.check().map_err(CliError::usage)?;
         project.options.arap.check().map_err(CliError::usage)
     }
 
@@ -412,6 +421,9 @@ impl MethodArgs {
         set(&mut style.source, given.source_colour);
         set(&mut style.target, given.target_colour);
         set(&mut project.options.paint, given.paint);
+        let coats = &mut project.options.coats;
+        set(&mut coats.fade, given.fade.then_some(true));
+        set(&mut coats.reorder_at, given.reorder_at);
         set(&mut style.joints, given.no_joints.then_some(false));
     }
 }
@@ -507,7 +519,8 @@ mod tests {
         let project = edited(
             "--image-threshold 99 --invert --specks 4 --tolerance 0.01 --no-strokes --colours \
              --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
-             --source-colour #010203 --target-colour #040506 --no-joints --paint one",
+             --source-colour #010203 --target-colour #040506 --no-joints --paint one \
+             --fade --reorder-at 0.3",
         )
         .expect("edited");
         let import = project.designs[1].import;
@@ -529,6 +542,8 @@ mod tests {
             (Rgb([4, 5, 6]), false)
         );
         assert_eq!(project.options.paint, PaintRule::One);
+        let coats = project.options.coats;
+        assert!(coats.fade && coats.reorder_at == 0.3);
     }
 
     #[test]

@@ -47,9 +47,7 @@ pub(super) fn rigid_parts(
         }
     };
     let film = kept.as_ref().map(|kept| &kept.film);
-    let holes = film.map_or_else(Vec::new, |film| {
-        film.holes.iter().map(|(_, hole)| hole.clone()).collect()
-    });
+    let holes = film.iter().flat_map(|film| &film.holes);
     let (swells, specks) =
         film.map_or_else(Default::default, |film| lone::drawn(&arap, &film.swelling));
     let coating = film.zip(drawings).and_then(|(film, drawings)| {
@@ -64,7 +62,7 @@ pub(super) fn rigid_parts(
         },
         bars,
         bar_width,
-        holes,
+        holes: holes.map(|(_, hole)| hole.clone()).collect(),
         swells,
         specks,
         coating,

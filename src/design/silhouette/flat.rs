@@ -27,6 +27,9 @@ const LEAST: f64 = 0.0005;
 /// plain wall less than half is.
 const FLAT: f64 = 0.6;
 
+/// How many pixels from the border the ground is looked for.
+const EDGE: usize = 4;
+
 /// How far around a pixel flat colours are looked for: a smooth edge is two or
 /// three pixels wide.
 const AROUND: usize = 2;
@@ -120,8 +123,14 @@ impl<'a> Colours<'a> {
             Some(ground) => ground,
             None => {
                 let mut counts = vec![0; flat.len()];
-                let border = (0..inks.len()).filter(|&i| is_on_border(i, width, inks.len()));
-                border.for_each(|i| counts[label(inks[i])] += 1);
+                // A frame of a pixel or two, as converters leave it, is no ground.
+                let height = inks.len() / width;
+                let is_near = |&i: &usize| {
+                    let (x, y) = (i % width, i / width);
+                    x.min(y).min(width - 1 - x).min(height - 1 - y) < EDGE
+                };
+                let edge = (0..inks.len()).filter(is_near).filter(|&i| is_flat[i]);
+                edge.for_each(|i| counts[label(inks[i])] += 1);
                 (0..counts.len()).max_by_key(|&k| counts[k])?
             }
         };
@@ -311,6 +320,18 @@ mod tests {
         assert_eq!(found.len(), 2, "{found:?}");
         assert_eq!([found[0].2, found[1].2], [2, 1]);
         near(found[1].1, 12.0);
+    }
+
+    #[test]
+    fn a_thin_frame_is_no_ground() {
+        let mut picture = discs(&[([60.0, 50.0], 30.0, BLUE)], false);
+        for x in 0..120 {
+            picture.put_pixel(x, 0, Rgba([0, 0, 0, 255]));
+            picture.put_pixel(x, 99, Rgba([0, 0, 0, 255]));
+        }
+        let found = found(&picture);
+        assert_eq!(found.len(), 1, "{found:?}");
+        near(found[0].1, 30.0);
     }
 
     #[test]

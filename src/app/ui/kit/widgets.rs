@@ -266,11 +266,12 @@ pub fn menu<T: Choice>(ui: &mut Ui, salt: &str, value: &mut T, width: f32) -> Re
         .response
 }
 
-/// A row with such a list.
+/// A row with such a list, and below it what the chosen value means.
 pub fn list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     row(ui, label, tip, |ui| {
         menu(ui, label, value, ui.available_width())
     });
+    hint(ui, value.name().sentence);
 }
 
 /// A button with an icon, of that size.

@@ -84,6 +84,8 @@ fn dialog(asks: &Purpose, scene: &Scene) -> FileDialog {
         .default_size(SIZE)
         .anchor(Align2::CENTER_CENTER, Vec2::ZERO)
         .resizable(false)
+        // Its field is black on either theme; the typed path completes, which finds as well.
+        .show_search(false)
         // A link is named as it was chosen.
         .canonicalize_paths(false);
     dialog.set_right_panel_width(beside::WIDTH);

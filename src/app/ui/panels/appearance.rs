@@ -95,7 +95,7 @@ fn table<'a>(
             "The edges of the triangles that carry the motion.",
             !is_field,
         ),
-        (&mut show.iso_lines, "Iso-lines", EQUAL, is_field),
+        (&mut show.iso_lines, "Contours", EQUAL, is_field),
         (
             &mut show.signed_colours,
             "Signed",

@@ -28,7 +28,7 @@ pub fn field(ui: &mut Ui, field: &mut FieldOptions) {
     section(ui, "Distance field", |ui| {
         mixing(ui, &mut field.blend);
         let tip = "What distance means; it shows in the corners.";
-        list(ui, "Metric", tip, &mut field.metric);
+        list(ui, "Distance", tip, &mut field.metric);
         // Other metrics are made from cells and know no place within one.
         let is_euclidean = field.metric == Metric::Euclidean;
         let tip = "Where the edge of a shape lies within a cell; metrics other than the Euclidean have \
@@ -51,7 +51,7 @@ fn mixing(ui: &mut Ui, blend: &mut FieldBlend) {
     ui.add_enabled_ui(blend.space == BlendSpace::Log, |ui| {
         let tip = "How sharply the logarithm prefers what is near, in cells. Small: the two outlines \
              stay visible as a web; large: like real space. Only for logarithmic space.";
-        slider(ui, "ε", tip, &mut blend.epsilon, 0.01..=100.0, true);
+        slider(ui, "Softness ε", tip, &mut blend.epsilon, 0.01..=100.0, true);
     });
     let tip = "The distance that is drawn as the outline, in cells. Above 0 the shape grows thinner, below 0 thicker.";
     let threshold = &mut blend.threshold;

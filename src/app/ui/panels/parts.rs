@@ -34,6 +34,7 @@ pub fn show(ui: &mut Ui, scene: &Scene, times: &mut Vec<PartTime>) {
         ScrollArea::vertical()
             .id_salt("parts in time")
             .max_height(MOST)
+            .min_scrolled_height(MOST)
             .show(ui, |ui| {
                 for piece in 0..sheet.pieces.len() {
                     row(ui, sheet, times, piece);

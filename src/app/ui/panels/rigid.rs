@@ -21,8 +21,8 @@ const TURNS: RangeInclusive<i32> = -9..=9;
 /// Draws the options.
 pub fn show(ui: &mut Ui, scene: &Scene, arap: &mut ArapOptions) {
     section(ui, "Motion of parts", |ui| {
-        let tip = "The path of each triangle from its first form to its last.";
-        list(ui, "Homotopy", tip, &mut arap.homotopy);
+        let tip = "How each triangle goes from its first form to its last (the homotopy).";
+        list(ui, "Triangles", tip, &mut arap.homotopy);
         weights(ui, &mut arap.weights);
         let tip = "On: the film from target to source is the same backwards. Off: only the source's \
              triangles count, as in the paper.";

@@ -13,7 +13,12 @@ const MOST_LEVELS: u32 = 7;
 /// How pins and lines travel from the source to the target.
 pub fn travel(ui: &mut Ui, travel: &mut Travel) {
     section(ui, "Features", |ui| {
-        list(ui, "Travel", "How pins and lines get there.", travel);
+        list(
+            ui,
+            "On the way",
+            "How pins and lines get there (their travel).",
+            travel,
+        );
     });
 }
 
@@ -46,8 +51,8 @@ pub fn lines(ui: &mut Ui, lines: &mut LineOptions) {
 /// How pins pull the plane along.
 pub fn scattered(ui: &mut Ui, scattered: &mut ScatteredOptions) {
     section(ui, "Points", |ui| {
-        let tip = "How the pull of a pin spreads.";
-        list(ui, "Basis", tip, &mut scattered.basis);
+        let tip = "How the pull of a pin spreads (the basis function).";
+        list(ui, "Pull", tip, &mut scattered.basis);
         match scattered.basis {
             Basis::ThinPlate => {}
             Basis::Gaussian => {
@@ -57,7 +62,12 @@ pub fn scattered(ui: &mut Ui, scattered: &mut ScatteredOptions) {
             }
             Basis::Multiquadric => {
                 let exponent = drag(&mut scattered.exponent, 0.1..=0.95, 0.01, 2);
-                number(ui, "Exponent", "Small is tight, large is wide.", exponent);
+                number(
+                    ui,
+                    "Spread",
+                    "Small is tight, large is wide (the exponent).",
+                    exponent,
+                );
             }
         }
         let smoothing = drag(&mut scattered.smoothing, 0.0..=10.0, 0.001, 3);
@@ -74,7 +84,7 @@ pub fn lattice(ui: &mut Ui, lattice: &mut LatticeOptions) {
         toggle(ui, "Fold-free", tip, &mut lattice.fold_free);
         let coarsest = drag(&mut lattice.coarsest, 1..=MOST_CELLS, 0.05, 0);
         let tip = "Cells of the first lattice. Fewer move more of the plane with a pin.";
-        number(ui, "Coarsest", tip, coarsest);
+        number(ui, "First cells", tip, coarsest);
         let levels = drag(&mut lattice.levels, 1..=MOST_LEVELS, 0.05, 0);
         let tip = "How many lattices, each twice as fine as the one before.";
         number(ui, "Levels", tip, levels);
