@@ -13,7 +13,7 @@ pub use coating::{Anchored, Coat, Coating, Shading};
 pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
 pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError};
 pub use hole::Hole;
-pub use solid::{Clocks, Inked, Solid, Speck};
+pub use solid::{Clocks, Inked, InkedBars, Solid, Speck};
 pub use swell::Swell;
 pub(crate) use swell::middle;
 

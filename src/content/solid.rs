@@ -1,9 +1,10 @@
 //! Solid regions and bars that are carried by the vertices of a placement.
 
 use super::{Coating, Hole, Swell};
+use crate::colour::Paint;
 use crate::geometry::{Crossing, DVec2, RingEdge, Side, count_crossings, crossings};
 use crate::warp::{Clock, Life};
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 /// What is drawn over the vertices of a placement.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,6 +14,9 @@ pub struct Solid {
     pub loops: Vec<Vec<u32>>,
     /// Bars, as pairs of vertex indices; empty for a mesh.
     pub bars: Vec<[u32; 2]>,
+    /// For each bar its paints in source and target; empty where bars have no
+    /// colours of their own.
+    pub bar_paints: Vec<[Option<Paint>; 2]>,
     /// Width of the bars, in units of the designs.
     pub bar_width: f64,
     /// Holes in the filled faces that one of the designs has alone.
@@ -56,6 +60,40 @@ struct InkedRing {
     coat: usize,
     clock: usize,
     points: Vec<DVec2>,
+}
+
+/// Bars that are painted alike.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InkedBars {
+    /// Their paints in source and target; none where they have no colour of their
+    /// own.
+    pub paints: [Option<Paint>; 2],
+    /// Their indices.
+    pub bars: Vec<usize>,
+}
+
+impl InkedBars {
+    /// Of so many bars, with a paint each or none: in the order in which paints are
+    /// first seen, which is the order in which they are drawn.
+    #[must_use]
+    pub fn all(count: usize, paints: &[[Option<Paint>; 2]]) -> Vec<Self> {
+        let mut all: Vec<Self> = Vec::new();
+        // Forces are shown by colours, which are as many as bars then.
+        let mut known = HashMap::new();
+        for bar in 0..count {
+            let paints = paints.get(bar).copied().unwrap_or_default();
+            let bits = |paint: Paint| (paint.colour, paint.opacity.to_bits());
+            let at = *known
+                .entry(paints.map(|end| end.map(bits)))
+                .or_insert_with(|| {
+                    let bars = Vec::new();
+                    all.push(Self { paints, bars });
+                    all.len() - 1
+                });
+            all[at].bars.push(bar);
+        }
+        all
+    }
 }
 
 /// A part that grows from a speck, or shrinks to one.

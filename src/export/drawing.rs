@@ -16,7 +16,7 @@ use glam::UVec2;
 use image::RgbaImage;
 
 use crate::colour::{Gradient, Line, Paint, Rgb};
-use crate::content::{Content, Raster};
+use crate::content::{Content, InkedBars, Raster};
 use crate::geometry::{Bounds, DVec2};
 use crate::transition::{Coated, Figure, Frame, Style};
 
@@ -162,21 +162,18 @@ impl Drawing {
             [] => self.push_rings(&figure.rings, (colour.into(), None), view),
             coats => self.push_coats(coats, figure, style, view),
         }
-        let segments: Vec<[DVec2; 2]> = figure
-            .bars
-            .iter()
-            .map(|bar| bar.map(|p| view.to_px(p)))
-            // As rings are: far out, 32-bit rasterisers lose all their digits.
-            .filter(|bar| bar.iter().copied().all(is_drawable))
-            .collect();
-        if !segments.is_empty() {
-            self.push_bars(
-                segments,
-                figure.bar_width * view.px_per_unit(),
-                colour,
-                style.joints,
-            );
-        }
+        let width_px = figure.bar_width * view.px_per_unit();
+        let all = InkedBars::all(figure.bars.len(), &figure.bar_paints).into_iter();
+        let inked = all.map(|inked| {
+            let bars = inked.bars.iter().map(|&bar| figure.bars[bar]);
+            let segments: Vec<[DVec2; 2]> = bars
+                .map(|bar| bar.map(|p| view.to_px(p)))
+                // As rings are: far out, 32-bit rasterisers lose all their digits.
+                .filter(|bar| bar.iter().copied().all(is_drawable))
+                .collect();
+            (segments, style.paint_at(inked.paints, t).colour)
+        });
+        self.push_bars(inked.collect(), width_px, style.joints);
     }
 
     /// Adds words with the middle of their base line at `base_px`.
@@ -250,24 +247,32 @@ impl Drawing {
         }
     }
 
-    fn push_bars(&mut self, segments: Vec<[DVec2; 2]>, width_px: f64, colour: Rgb, joints: bool) {
-        let centres = joints.then(|| joint_centres(&segments));
-        self.items.push(Item::Bars {
-            segments,
-            width_px,
-            colour,
-        });
-        let Some(centres) = centres else { return };
-        self.items.push(Item::Discs {
-            centres: centres.clone(),
-            radius_px: JOINT_RADIUS * width_px,
-            colour,
-        });
-        self.items.push(Item::Discs {
-            centres,
-            radius_px: JOINT_CORE_RADIUS * width_px,
-            colour: joint_core(colour),
-        });
+    /// Bars of one colour after the other; all cores lie over all of them.
+    fn push_bars(&mut self, inked: Vec<(Vec<[DVec2; 2]>, Rgb)>, width_px: f64, joints: bool) {
+        let mut cores = Vec::new();
+        for (segments, colour) in inked {
+            if segments.is_empty() {
+                continue;
+            }
+            let centres = joints.then(|| joint_centres(&segments));
+            self.items.push(Item::Bars {
+                segments,
+                width_px,
+                colour,
+            });
+            let Some(centres) = centres else { continue };
+            self.items.push(Item::Discs {
+                centres: centres.clone(),
+                radius_px: JOINT_RADIUS * width_px,
+                colour,
+            });
+            cores.push(Item::Discs {
+                centres,
+                radius_px: JOINT_CORE_RADIUS * width_px,
+                colour: joint_core(colour),
+            });
+        }
+        self.items.extend(cores);
     }
 }
 

@@ -183,8 +183,7 @@ impl Fitting<'_, '_, '_> {
         } else if has_loops {
             self.add_inked(PartKind::Faces, faces(self.frame));
         }
-        if !solid.bars.is_empty() {
-            let bars = BarShapes::new(solid);
+        for bars in BarShapes::all(solid) {
             let (shapes, cores) = (quads(bars.coordinates()), quads(bars.core_coordinates()));
             self.add_inked(PartKind::Bars(bars.clone()), shapes);
             self.add_inked(PartKind::JointCores(bars), cores);

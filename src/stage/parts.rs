@@ -58,8 +58,8 @@ impl PartKind {
     pub(super) fn layer(&self) -> f32 {
         match self {
             Self::Faces | Self::Rings | Self::Coats(_) | Self::Field | Self::Picture => 0.0,
-            Self::Bars(_) => 0.1,
-            Self::JointCores(_) => 0.2,
+            Self::Bars(bars) => 0.1 + 0.05 * bars.height,
+            Self::JointCores(bars) => 0.2 + 0.05 * bars.height,
             Self::Wire { .. } => 0.3,
             Self::Grid => 0.35,
             Self::SourceGhost => 0.4,
@@ -92,7 +92,8 @@ impl PartKind {
 
     pub(super) fn colour(&self, t: f64, StageStyle { style, show }: &StageStyle) -> Rgb {
         match self {
-            Self::JointCores(_) => joint_core(style.fill_at(t)),
+            Self::Bars(bars) => style.paint_at(bars.paints, t).colour,
+            Self::JointCores(bars) => joint_core(style.paint_at(bars.paints, t).colour),
             Self::SourceGhost => style.source,
             Self::TargetGhost => style.target,
             // Wires are cut into the fill where there is one.

@@ -8,7 +8,8 @@
 use bevy::mesh::{Mesh, VertexAttributeValues};
 use glam::DVec2;
 
-use crate::content::Solid;
+use crate::colour::Paint;
+use crate::content::{InkedBars, Solid};
 use crate::export::{JOINT_CORE_RADIUS, JOINT_RADIUS};
 use crate::transition::Figure;
 
@@ -73,20 +74,35 @@ pub(super) fn quad_indices(quads: usize) -> Vec<u32> {
 /// node that a bar holds, lowest index first.
 #[derive(Clone, Debug)]
 pub(super) struct BarShapes {
+    /// Their paints in source and target.
+    pub(super) paints: [Option<Paint>; 2],
+    /// How much of all bars lies below them, from 0 to 1.
+    pub(super) height: f32,
     bars: Vec<[u32; 2]>,
     nodes: Vec<u32>,
     bar_width: f64,
 }
 
 impl BarShapes {
-    pub(super) fn new(solid: &Solid) -> Self {
-        let mut nodes = solid.bars.as_flattened().to_vec();
+    /// Those that are painted alike, in the order in which they are drawn.
+    pub(super) fn all(solid: &Solid) -> Vec<Self> {
+        let all = InkedBars::all(solid.bars.len(), &solid.bar_paints);
+        let count = all.len() as f32;
+        let of = |(k, inked): (usize, &InkedBars)| Self::new(solid, inked, k as f32 / count);
+        all.iter().enumerate().map(of).collect()
+    }
+
+    fn new(solid: &Solid, inked: &InkedBars, height: f32) -> Self {
+        let bars: Vec<[u32; 2]> = inked.bars.iter().map(|&bar| solid.bars[bar]).collect();
+        let mut nodes = bars.as_flattened().to_vec();
         // Bars that meet share their disc: drawn twice its smooth edge would be
         // darker.
         nodes.sort_unstable();
         nodes.dedup();
         Self {
-            bars: solid.bars.clone(),
+            paints: inked.paints,
+            height,
+            bars,
             nodes,
             bar_width: solid.bar_width,
         }
@@ -228,7 +244,8 @@ mod tests {
             bar_width: 0.2,
             ..Solid::default()
         };
-        (points, BarShapes::new(&solid))
+        let all = BarShapes::all(&solid);
+        (points, all.into_iter().next().expect("bars"))
     }
 
     /// Interpolates the shape's own coordinates at a point of the plane.

@@ -29,6 +29,8 @@ pub struct Figure {
     pub coats: Vec<Coated>,
     /// Bars, from end to end.
     pub bars: Vec<[DVec2; 2]>,
+    /// For each bar its paints in source and target, or empty.
+    pub bar_paints: Vec<[Option<Paint>; 2]>,
     /// Width of the bars, in units of the designs.
     pub bar_width: f64,
 }
@@ -131,6 +133,7 @@ impl Frame {
         let places = &self.placement().in_frame;
         let mut figure = Figure {
             bars: solid.bars_at(places),
+            bar_paints: solid.bar_paints.clone(),
             bar_width: solid.bar_width,
             ..Figure::default()
         };
@@ -207,6 +210,10 @@ fn ghost(design: &Design, bar_width: f64) -> Figure {
         }
         Form::Truss(truss) => Figure {
             bars: truss.segments().collect(),
+            bar_paints: {
+                let colours = truss.parts().colours.iter();
+                colours.map(|&rgb| [Some(rgb.into()); 2]).collect()
+            },
             bar_width,
             ..Figure::default()
         },

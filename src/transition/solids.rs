@@ -10,14 +10,17 @@ use super::found;
 use super::kept::{self, Kept};
 use super::lone;
 use super::moved::{AnyWarp, Moved};
+use super::options::PaintRule;
 use super::rigid::allow;
 use super::settled;
 use super::spec::TransitionSpec;
+use crate::colour::{Paint, Rgb};
 use crate::compatible::{CompatibleError, CompatibleMesh, TrussError};
 use crate::content::Solid;
-use crate::design::Form;
+use crate::design::{Form, Truss};
 use crate::progress::{Progress, checkpoint};
 use crate::warp::Arap;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// The parts, and what is seen of them.
@@ -27,7 +30,10 @@ pub(super) fn rigid_parts(
     progress: &dyn Progress,
 ) -> Result<(Moved, Solid), BuildError> {
     checkpoint(progress, "triangulating", 0.0)?;
-    let mut bars = Vec::new();
+    let mut solid = Solid {
+        bar_width,
+        ..Solid::default()
+    };
     let mut drawings = None;
     let (arap, kept) = match (&spec.source.form, &spec.target.form) {
         (Form::Mesh(a), Form::Mesh(b)) => {
@@ -35,7 +41,8 @@ pub(super) fn rigid_parts(
             (given(spec, mesh, progress)?, None)
         }
         (Form::Truss(a), Form::Truss(b)) => {
-            bars = a.bars().to_vec();
+            solid.bars = a.bars().to_vec();
+            solid.bar_paints = paints(spec.options.paint, [a, b]);
             let mesh = CompatibleMesh::from_trusses(a, b, progress);
             (given(spec, mesh, progress)?, None)
         }
@@ -46,28 +53,17 @@ pub(super) fn rigid_parts(
             (arap, Some(Arc::new(kept)))
         }
     };
+    // The panels of a truss carry its nodes, and are not seen.
+    if solid.bars.is_empty() {
+        solid.loops = arap.mesh().boundary_loops();
+    }
     let film = kept.as_ref().map(|kept| &kept.film);
-    let holes = film.iter().flat_map(|film| &film.holes);
-    let (swells, specks) =
-        film.map_or_else(Default::default, |film| lone::drawn(&arap, &film.swelling));
-    let coating = film.zip(drawings).and_then(|(film, drawings)| {
+    if let Some((film, drawings)) = film.zip(drawings) {
         let walks = Walks::of_mesh(arap.mesh());
-        coating::coating(&drawings, &film.matched, &walks, &film.holes)
-    });
-    let solid = Solid {
-        loops: if bars.is_empty() {
-            arap.mesh().boundary_loops()
-        } else {
-            Vec::new()
-        },
-        bars,
-        bar_width,
-        holes: holes.map(|(_, hole)| hole.clone()).collect(),
-        swells,
-        specks,
-        coating,
-        clocks: None,
-    };
+        solid.coating = coating::coating(&drawings, &film.matched, &walks, &film.holes);
+        solid.holes = film.holes.iter().map(|(_, hole)| hole.clone()).collect();
+        (solid.swells, solid.specks) = lone::drawn(&arap, &film.swelling);
+    }
     let moved = Moved {
         matched: film.map(|film| film.matched.clone()),
         notes: film.map_or_else(Vec::new, |film| film.notes.clone()),
@@ -75,6 +71,22 @@ pub(super) fn rigid_parts(
         ..AnyWarp::Rigid(arap).into()
     };
     Ok((moved, solid))
+}
+
+/// The paints of the bars of two trusses, as the first lists them.
+fn paints(rule: PaintRule, trusses: [&Truss; 2]) -> Vec<[Option<Paint>; 2]> {
+    let is_painted = |truss: &&Truss| !truss.parts().colours.is_empty();
+    if rule == PaintRule::One || !trusses.iter().any(is_painted) {
+        return Vec::new();
+    }
+    let undirected = |[a, b]: [u32; 2]| [a.min(b), a.max(b)];
+    let of_bars = trusses.map(|truss| -> HashMap<[u32; 2], Rgb> {
+        let bars = truss.bars().iter().map(|&bar| undirected(bar));
+        bars.zip(truss.parts().colours.iter().copied()).collect()
+    });
+    let bars = trusses[0].bars().iter();
+    let paint = |bar: [u32; 2]| of_bars.each_ref().map(|of| Some((*of.get(&bar)?).into()));
+    bars.map(|&bar| paint(undirected(bar))).collect()
 }
 
 /// What was found before for the same outlines and options, or the best film.

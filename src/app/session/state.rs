@@ -184,7 +184,11 @@ impl Session {
     /// Some design names its own colours.
     #[must_use]
     pub fn has_paints(&self) -> bool {
-        self.designs().iter().any(|design| !design.coats.is_empty())
+        let is_painted = |design: &Arc<Design>| match &design.form {
+            Form::Truss(truss) => !truss.parts().colours.is_empty(),
+            _ => !design.coats.is_empty(),
+        };
+        self.designs().iter().any(is_painted)
     }
 
     /// Both designs are outlines: there is something to match.

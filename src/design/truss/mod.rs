@@ -10,12 +10,14 @@
 //!   "supports": [{ "node": 0, "fixed": [true, true] }],
 //!   "loads": [{ "node": 2, "force": [0, -1] }],
 //!   "areas": [0.01, 0.01, 0.02],
+//!   "colours": ["#c0392b", "#c0392b", "#2c3e50"],
 //!   "materials": [{ "name": "steel", "youngs_modulus": 2.1e11, "density": 7850 }],
 //!   "bar_materials": [0, 0, 0]
 //! }
 //! ```
 //!
-//! `nodes` (x, y, y up) and `bars` are needed. Supports (whether x and y are
+//! `nodes` (x, y, y up) and `bars` are needed. Bars are seen in their `colours` (one
+//! for each bar, or none). Supports (whether x and y are
 //! held), loads, section areas (one for each bar, or none), materials and
 //! `bar_materials` (an index for each bar, or none) are checked and kept for
 //! analyses to come; nothing here computes with them.

@@ -1,5 +1,6 @@
 //! What a truss consists of, as it stands in a file, and the checks of it.
 
+use crate::colour::Rgb;
 use crate::design::json::JsonError;
 use crate::geometry::{Bounds, DVec2, RANGE, SizeError, is_in_range};
 use serde::Deserialize;
@@ -22,6 +23,9 @@ pub struct TrussParts {
     /// Section area of each bar, or empty.
     #[serde(default)]
     pub areas: Vec<f64>,
+    /// Colour of each bar, or empty.
+    #[serde(default)]
+    pub colours: Vec<Rgb>,
     /// Materials that bars may be of.
     #[serde(default)]
     pub materials: Vec<Material>,
@@ -211,6 +215,7 @@ impl TrussParts {
         let bars = self.bars.len();
         for (list, found) in [
             ("areas", self.areas.len()),
+            ("colours", self.colours.len()),
             ("bar_materials", self.bar_materials.len()),
         ] {
             if found != 0 && found != bars {

@@ -157,6 +157,32 @@ fn boundary_paths_show_drawings_in_their_own_colours() {
 }
 
 #[test]
+fn bars_keep_the_colours_that_they_are_given() {
+    let truss = |colours: &str, bars: &str| {
+        let nodes = "[[0, 0], [4, 0], [0, 3]]";
+        let text = format!("{{\"nodes\": {nodes}, \"bars\": {bars}, \"colours\": {colours}}}");
+        design(&text)
+    };
+    let source = truss(
+        "[\"#ff0000\", \"#ff0000\", \"#0000ff\"]",
+        "[[0, 1], [1, 2], [2, 0]]",
+    );
+    // In another order, and the other way round.
+    let target = truss(
+        "[\"#0000ff\", \"#0000ff\", \"#ff0000\"]",
+        "[[0, 2], [2, 1], [1, 0]]",
+    );
+    let mut spec = TransitionSpec::new(source, target);
+    let film = Transition::build(&spec, &Silent).unwrap();
+    let (red, blue) = (Some(RED.into()), Some(BLUE.into()));
+    let expected = [[red, red], [red, blue], [blue, blue]];
+    assert_eq!(film.frame(0.3).figure().bar_paints, expected);
+    spec.options.paint = PaintRule::One;
+    let plain = Transition::build(&spec, &Silent).unwrap();
+    assert!(plain.frame(0.3).figure().bar_paints.is_empty());
+}
+
+#[test]
 fn what_is_alone_fades_where_that_is_asked_for() {
     let both = square(10.0, 10.0, 30.0, BLUE);
     let film = film_of(&both, &format!("{both}{}", square(60.0, 60.0, 20.0, RED)));
