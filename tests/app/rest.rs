@@ -110,7 +110,17 @@ fn what_nobody_sees_is_not_drawn() {
     let hidden = Pace {
         moves: true,
         waits: true,
+        ticks: true,
         is_hidden: true,
     };
     assert_ne!(hidden.mode(), UpdateMode::Continuous);
+    // A clock alone is drawn twice a second.
+    let clock = Pace {
+        moves: false,
+        waits: false,
+        ticks: true,
+        is_hidden: false,
+    };
+    let half = Duration::from_millis(500);
+    assert_eq!(clock.mode(), UpdateMode::reactive_low_power(half));
 }

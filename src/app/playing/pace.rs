@@ -39,6 +39,9 @@ use crate::stage::PipelinesReady;
 /// noticed, and rarely enough to leave the processor to the work.
 const LOOK: Duration = Duration::from_millis(50);
 
+/// A clock of seconds is drawn this often: never more than half a second behind.
+const TICK: Duration = Duration::from_millis(500);
+
 /// At rest nothing is waited for. Not for ever: winit then keeps the time that it was to wake at
 /// before, which has passed, and wakes all the time.
 const REST: Duration = Duration::from_secs(3600);
@@ -66,6 +69,8 @@ pub struct Pace {
     pub moves: bool,
     /// Something ends without telling: work, or the time that a message stays.
     pub waits: bool,
+    /// A clock is shown.
+    pub ticks: bool,
     /// Nobody can see it.
     pub is_hidden: bool,
 }
@@ -80,6 +85,7 @@ impl Pace {
             } => UpdateMode::reactive_low_power(REST),
             Self { moves: true, .. } => UpdateMode::Continuous,
             Self { waits: true, .. } => UpdateMode::reactive_low_power(LOOK),
+            Self { ticks: true, .. } => UpdateMode::reactive_low_power(TICK),
             _ => UpdateMode::reactive_low_power(REST),
         }
     }
@@ -125,7 +131,6 @@ impl Going<'_, '_> {
         // A cursor that blinks, a tip that is about to be shown.
         self.repaint.0 < REST
             || self.presenting.waits()
-            || self.speaker.is_open()
             || self.session.work().is_some()
             || self.recorder.work().is_some()
             || self.estimate.is_busy()
@@ -181,6 +186,7 @@ pub fn keep(
     let pace = Pace {
         moves: *settling > 0 || going.moves(),
         waits: going.waits(),
+        ticks: going.speaker.is_open(),
         is_hidden: !is_needed && (*is_covered || window.iter().any(is_minimised)),
     };
     let mode = pace.mode();

@@ -27,7 +27,8 @@ const LEAST: f64 = 0.0005;
 /// plain wall less than half is.
 const FLAT: f64 = 0.6;
 
-/// How many pixels from the border the ground is looked for.
+/// How many pixels from the border the ground is looked for, and all that is not
+/// flat is ground.
 const EDGE: usize = 4;
 
 /// How far around a pixel flat colours are looked for: a smooth edge is two or
@@ -124,12 +125,8 @@ impl<'a> Colours<'a> {
             None => {
                 let mut counts = vec![0; flat.len()];
                 // A frame of a pixel or two, as converters leave it, is no ground.
-                let height = inks.len() / width;
-                let is_near = |&i: &usize| {
-                    let (x, y) = (i % width, i / width);
-                    x.min(y).min(width - 1 - x).min(height - 1 - y) < EDGE
-                };
-                let edge = (0..inks.len()).filter(is_near).filter(|&i| is_flat[i]);
+                let is_edge = |&i: &usize| is_flat[i] && is_at_edge(i, width, inks.len());
+                let edge = (0..inks.len()).filter(is_edge);
                 edge.for_each(|i| counts[label(inks[i])] += 1);
                 (0..counts.len()).max_by_key(|&k| counts[k])?
             }
@@ -143,6 +140,7 @@ impl<'a> Colours<'a> {
         };
         let own: Vec<u32> = (0..inks.len()).map(own).collect();
         let near = |i: usize| match around(i, width, own.len(), AROUND).fold(0, |m, j| m | own[j]) {
+            0 if is_at_edge(i, width, own.len()) => 1 << ground,
             // A line too thin to be flat anywhere.
             0 => u32::MAX,
             some => some,
@@ -248,6 +246,12 @@ fn nearest(flat: &[Ink], ink: Ink, allowed: u32) -> (usize, f64) {
         .unwrap_or((0, f64::INFINITY))
 }
 
+/// Whether a pixel is next to the border.
+fn is_at_edge(i: usize, width: usize, count: usize) -> bool {
+    let (x, y) = (i % width, i / width);
+    x.min(y).min(width - 1 - x).min(count / width - 1 - y) < EDGE
+}
+
 /// The pixels of a square around one that are there.
 fn around(i: usize, width: usize, count: usize, reach: usize) -> impl Iterator<Item = usize> {
     let (x, y) = (i % width, i / width);
@@ -326,8 +330,10 @@ mod tests {
     fn a_thin_frame_is_no_ground() {
         let mut picture = discs(&[([60.0, 50.0], 30.0, BLUE)], false);
         for x in 0..120 {
-            picture.put_pixel(x, 0, Rgba([0, 0, 0, 255]));
-            picture.put_pixel(x, 99, Rgba([0, 0, 0, 255]));
+            for (y, grey) in [(0, 0), (1, 90), (2, 190)] {
+                picture.put_pixel(x, y, Rgba([grey, grey, grey, 255]));
+                picture.put_pixel(x, 99 - y, Rgba([grey, grey, grey, 255]));
+            }
         }
         let found = found(&picture);
         assert_eq!(found.len(), 1, "{found:?}");

@@ -3,12 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
-use bevy_egui::egui::{Align, Context, Grid, Id, Label, Layout, Modal, ScrollArea, Ui};
+use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, ScrollArea, Ui, vec2};
 
 use crate::app::asking::intent::{Answer, Intent, Rescue};
 use crate::app::opening::closing::Lost;
-use crate::app::ui::kit::theme::GRID;
-use crate::app::ui::kit::widgets::primary_button;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
+use crate::app::ui::kit::widgets::{option, primary_button};
 use crate::app::ui::scene::{Intents, Scene};
 
 /// Draws the question that is open, if any.
@@ -127,23 +127,9 @@ fn ask_which(ctx: &Context, paths: &[PathBuf], acts: &mut Intents) {
         ui.label("A film has two: which?");
         ui.add_space(GRID);
         ScrollArea::vertical().max_height(240.0).show(ui, |ui| {
-            Grid::new("pair")
-                .num_columns(3)
-                .striped(true)
-                .show(ui, |ui| {
-                    for heading in ["", "Source", "Target"] {
-                        ui.label(heading);
-                    }
-                    ui.end_row();
-                    for (k, path) in paths.iter().enumerate() {
-                        let name = path.file_name().unwrap_or_default().to_string_lossy();
-                        ui.add_sized([240.0, 20.0], Label::new(name).truncate());
-                        for side in &mut pair {
-                            ui.radio_value(side, k, "");
-                        }
-                        ui.end_row();
-                    }
-                });
+            for (k, path) in paths.iter().enumerate() {
+                row(ui, k, path, &mut pair);
+            }
         });
         answers(ui, |ui| {
             let can = pair[0] != pair[1];
@@ -158,6 +144,30 @@ fn ask_which(ctx: &Context, paths: &[PathBuf], acts: &mut Intents) {
         });
     });
     ctx.data_mut(|data| data.insert_temp(id, pair));
+}
+
+/// A design that may be one of the pair; taken for both ends it changes places with the other.
+fn row(ui: &mut Ui, k: usize, path: &Path, pair: &mut [usize; 2]) {
+    ui.horizontal(|ui| {
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        let size = vec2(236.0, CONTROL_HEIGHT);
+        let left = Layout::left_to_right(Align::Center);
+        ui.allocate_ui_with_layout(size, left, |ui| {
+            ui.set_min_width(size.x);
+            ui.add(Label::new(name).truncate());
+        });
+        for (end, word, tip) in [
+            (0, "Source", "The film begins with it"),
+            (1, "Target", "The film ends with it"),
+        ] {
+            if option(ui, pair[end] == k, word, tip, 68.0) && pair[end] != k {
+                if pair[1 - end] == k {
+                    pair[1 - end] = pair[end];
+                }
+                pair[end] = k;
+            }
+        }
+    });
 }
 
 fn answers(ui: &mut Ui, buttons: impl FnOnce(&mut Ui)) {
