@@ -114,7 +114,7 @@ impl Design {
     ) -> Result<Self, PictureError> {
         options.check()?;
         let coats = match options.colours {
-            true => silhouette::coats(&pixels, options)?,
+            true => silhouette::flat::coats(&pixels, options)?,
             false => Vec::new(),
         };
         let is_shaded = options.colours && coats.is_empty();

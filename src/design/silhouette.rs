@@ -15,10 +15,9 @@
 //! colours, `flat` can take each for itself.
 
 mod fit;
-mod flat;
+pub(super) mod flat;
 
 use self::fit::Traced;
-pub(super) use self::flat::coats;
 use super::options::{ImportOptions, OptionsError};
 use crate::field::{Samples, SamplesError, contour};
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError};

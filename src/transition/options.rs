@@ -1,7 +1,7 @@
 //! The options of all methods, each once: a document holds them as they stand
 //! in its file, a specification as a transition is built from them.
 
-use super::coating::CoatOptions;
+use super::coat_options::CoatOptions;
 use super::part_time::PartTime;
 use crate::compatible::PolygonOptions;
 use crate::content::{ColourMix, FieldBlend};

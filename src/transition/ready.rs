@@ -1,7 +1,7 @@
 //! A transition that is ready to be played.
 
 use super::cells::Cell;
-use super::coating::CoatOptions;
+use super::coat_options::CoatOptions;
 use super::found::Found;
 use super::moved::{AnyWarp, Moved};
 use super::note::Note;

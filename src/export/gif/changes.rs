@@ -7,7 +7,8 @@ use image::RgbaImage;
 
 use crate::export::palette::Palette;
 
-use super::TRANSPARENT;
+/// Index of the transparent colour; colours take the indices below it.
+pub(super) const TRANSPARENT: u8 = 255;
 
 /// How far a colour may be off what is shown, in any of red, green and blue,
 /// before it is drawn anew while all is in motion. No colour is farther off

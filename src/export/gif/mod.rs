@@ -23,16 +23,13 @@ use super::error::ExportError;
 use super::film::{Film, Run};
 use super::palette::{Histogram, Palette};
 use super::raster::rasterise;
-use changes::{Canvas, Indexed, Patch};
+use changes::{Canvas, Indexed, Patch, TRANSPARENT};
 
 /// The highest rate that readers play as written: they take a delay below two
 /// hundredths of a second for a mistake and slow it down to ten.
 pub const MAX_GIF_FPS: f64 = 50.0;
 
 const TICKS_PER_SEC: f64 = 100.0;
-
-/// Index of the transparent colour; colours take the indices below it.
-const TRANSPARENT: u8 = 255;
 
 /// The most frames whose colours make the palette. They are drawn once more for
 /// it; a colour that only others have gets its nearest.

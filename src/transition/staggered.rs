@@ -1,0 +1,117 @@
+//! Gives the parts of a film their own times.
+
+use super::moved::AnyWarp;
+use super::note::Note;
+use super::part_time::PartTime;
+use super::ready::Inner;
+use crate::content::{Clocks, Coat, Coating, Content, Solid};
+use crate::correspondence::{PieceMatch, RegionMatch};
+use crate::geometry::{DVec2, Side, twice_signed_area};
+use crate::warp::{Arap, Clock, Staggered};
+
+impl Inner {
+    /// The same transition, in which parts have these times of their own and no
+    /// others. Only rigid parts have any.
+    pub(super) fn timed(mut self, times: &[PartTime]) -> Self {
+        self.moved.notes.retain(|note| *note != Note::OneTime);
+        let arap = match (&self.content, &self.moved.warp) {
+            (Content::Solid(_), AnyWarp::Rigid(arap)) => arap.clone(),
+            (Content::Solid(_), AnyWarp::Staggered(warp)) => warp.arap().clone(),
+            _ => {
+                if !times.is_empty() {
+                    self.moved.notes.push(Note::OneTime);
+                }
+                return self;
+            }
+        };
+        let Content::Solid(solid) = &mut self.content else {
+            return self;
+        };
+        if times.is_empty() {
+            solid.take_clocks();
+            self.moved.warp = AnyWarp::Rigid(arap);
+            return self;
+        }
+        let clocks: Vec<Clock> = times.iter().map(PartTime::clock).collect();
+        let of_parts = of_parts(&arap, self.moved.matched.as_ref(), times);
+        solid.put_clocks(&arap, &clocks, &of_parts);
+        self.moved.warp = AnyWarp::Staggered(Staggered::new(arap, &clocks, &of_parts));
+        self
+    }
+}
+
+/// For each connected part the number of the time that it has, the last of several.
+fn of_parts(film: &Arap, matched: Option<&RegionMatch>, times: &[PartTime]) -> Vec<Option<usize>> {
+    let of_vertices = film.mesh().components();
+    let count = of_vertices
+        .iter()
+        .max()
+        .map_or(0, |&most| most as usize + 1);
+    let mut of_parts = vec![None; count];
+    let pieces: &[PieceMatch] = matched.map_or(&[], |matched| &matched.pieces);
+    for (k, time) in times.iter().enumerate() {
+        let Some(named) = part_at(film, &of_vertices, time.side, time.at) else {
+            continue;
+        };
+        of_parts[named] = Some(k);
+        let part = |piece: usize| {
+            let piece = pieces.get(piece)?;
+            [piece.source_part, piece.target_part][time.side]
+        };
+        // A part that is split has several pieces.
+        if let Some(own) = part(named) {
+            let pieces = (0..count).filter(|&piece| part(piece) == Some(own));
+            pieces.for_each(|piece| of_parts[piece] = Some(k));
+        }
+    }
+    of_parts
+}
+
+/// The connected part that a point of a design is in, or else the nearest one.
+fn part_at(film: &Arap, of_vertices: &[u32], side: Side, at: DVec2) -> Option<usize> {
+    let mesh = film.mesh();
+    let places = [mesh.source(), mesh.target()][side];
+    let holds = |face: &&[u32; 3]| {
+        let [a, b, c] = face.map(|v| places[v as usize]);
+        let beside = [[a, b], [b, c], [c, a]];
+        let is_left = |[a, b]: &[DVec2; 2]| twice_signed_area(*a, *b, at) >= 0.0;
+        twice_signed_area(a, b, c) > 0.0 && beside.iter().all(is_left)
+    };
+    let vertex = mesh.faces().iter().find(holds).map(|face| face[0] as usize);
+    let far = |v: &usize| places[*v].distance_squared(at);
+    let vertex = vertex.or_else(|| (0..places.len()).min_by(|a, b| far(a).total_cmp(&far(b))));
+    Some(of_vertices[vertex?] as usize)
+}
+
+impl Solid {
+    fn take_clocks(&mut self) {
+        self.clocks = None;
+        // It was there for the sake of the clocks.
+        self.coating = self.coating.take().filter(|coating| !is_plain(coating));
+    }
+
+    /// Parts in one colour are coats too: it goes with their time.
+    fn put_clocks(&mut self, film: &Arap, clocks: &[Clock], of_parts: &[Option<usize>]) {
+        let of_vertices = film.mesh().components();
+        let clock = |v: u32| of_parts[of_vertices[v as usize] as usize].unwrap_or(clocks.len());
+        let of_walk = |walk: &Vec<u32>| walk.first().map_or(clocks.len(), |&v| clock(v));
+        self.clocks = Some(Clocks {
+            of_walks: self.loops.iter().map(of_walk).collect(),
+            of_holes: self
+                .holes
+                .iter()
+                .map(|hole| clock(hole.face(0)[0]))
+                .collect(),
+            clocks: clocks.iter().copied().chain([Clock::WHOLE]).collect(),
+        });
+        if self.coating.is_none() && !self.loops.is_empty() {
+            self.coating = Some(Coating::plain(self.loops.len(), self.holes.len()));
+        }
+    }
+}
+
+/// Whether it says nothing.
+fn is_plain(coating: &Coating) -> bool {
+    let is_plain = |coat: &Coat| coat.paints == [None; 2] && coat.lines == [None; 2];
+    coating.coats.iter().all(is_plain)
+}
