@@ -28,6 +28,9 @@ pub struct PartTime {
     pub easing: Ease,
 }
 
+/// Several times as many as parts that are matched.
+const MOST_TIMES: usize = 2000;
+
 fn one() -> f64 {
     1.0
 }
@@ -36,6 +39,9 @@ fn one() -> f64 {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PartTimeError {
+    /// More than there can be parts.
+    #[error("{0} times of parts are too many; give {MOST_TIMES} at most")]
+    TooMany(usize),
     /// The point is too far out.
     #[error("the part of time {} {RANGE}", .0 + 1)]
     Place(usize),
@@ -57,6 +63,9 @@ impl PartTime {
     /// # Errors
     /// [`PartTimeError`] names the first that is none.
     pub fn check(all: &[Self]) -> Result<(), PartTimeError> {
+        if all.len() > MOST_TIMES {
+            return Err(PartTimeError::TooMany(all.len()));
+        }
         for (k, &Self { at, from, to, .. }) in all.iter().enumerate() {
             if !is_in_range(at) {
                 return Err(PartTimeError::Place(k));

@@ -8,6 +8,7 @@ use crate::content::{Clocks, Coat, Coating, Content, Solid};
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side, twice_signed_area};
 use crate::warp::{Arap, Clock, Staggered};
+use std::collections::BTreeMap;
 
 impl Inner {
     /// The same transition, in which parts have these times of their own and no
@@ -34,10 +35,29 @@ impl Inner {
         }
         let clocks: Vec<Clock> = times.iter().map(PartTime::clock).collect();
         let of_parts = of_parts(&arap, self.moved.matched.as_ref(), times);
+        let (clocks, of_parts) = in_use(&clocks, &of_parts);
         solid.put_clocks(&arap, &clocks, &of_parts);
         self.moved.warp = AnyWarp::Staggered(Staggered::new(arap, &clocks, &of_parts));
         self
     }
+}
+
+/// The clocks that parts go by, each once, and for each part the number of its own.
+fn in_use(clocks: &[Clock], of_parts: &[Option<usize>]) -> (Vec<Clock>, Vec<Option<usize>>) {
+    let mut used: Vec<Clock> = Vec::new();
+    let mut renumbered = BTreeMap::new();
+    let number = |of_part: &Option<usize>| {
+        let own = (*of_part)?;
+        Some(*renumbered.entry(own).or_insert_with(|| {
+            let same = used.iter().position(|clock| *clock == clocks[own]);
+            same.unwrap_or_else(|| {
+                used.push(clocks[own]);
+                used.len() - 1
+            })
+        }))
+    };
+    let of_parts = of_parts.iter().map(number).collect();
+    (used, of_parts)
 }
 
 /// For each connected part the number of the time that it has, the last of several.
@@ -102,6 +122,7 @@ impl Solid {
                 .iter()
                 .map(|hole| clock(hole.face(0)[0]))
                 .collect(),
+            of_vertices: (0..of_vertices.len() as u32).map(clock).collect(),
             clocks: clocks.iter().copied().chain([Clock::WHOLE]).collect(),
         });
         if self.coating.is_none() && !self.loops.is_empty() {

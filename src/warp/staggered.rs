@@ -3,11 +3,12 @@
 //!
 //! A part is at t where the plain film has it at another time, which its
 //! [`Clock`] tells. The film of the parts is the same, and so are its ends;
-//! what the whole does between them, each part does when its time has come.
+//! what the whole does between them, each part does when its time has come. Since
+//! parts do not touch, a frame is one solve, however many clocks there are. Where
+//! an anchor holds the film, it is held in the time of the anchor's part.
 
-use super::{Arap, Placement, Placer, Warp};
+use super::{Arap, Placer, Warp};
 use crate::easing::{Ease, Easing};
-use crate::geometry::DVec2;
 use std::sync::Arc;
 
 /// When a part makes its way: it waits until `from`, arrives at `to`, and runs
@@ -63,7 +64,9 @@ impl Clock {
 pub struct Staggered {
     arap: Arap,
     clocks: Arc<[Clock]>,
-    /// For each vertex the number of its clock.
+    /// For each connected part the number of its clock.
+    of_parts: Arc<[u32]>,
+    /// For each vertex its connected part.
     of_vertices: Arc<[u32]>,
 }
 
@@ -77,17 +80,21 @@ impl Staggered {
     pub fn new(arap: Arap, clocks: &[Clock], of_parts: &[Option<usize>]) -> Self {
         let clocks: Arc<[Clock]> = clocks.iter().copied().chain([Clock::WHOLE]).collect();
         let whole = clocks.len() - 1;
-        let of_part = |part: u32| of_parts.get(part as usize).copied().flatten();
-        let parts = arap.mesh().components().into_iter();
-        let of_vertices = parts.map(|part| of_part(part).unwrap_or(whole) as u32);
-        let of_vertices: Arc<[u32]> = of_vertices.collect();
+        let of_vertices: Arc<[u32]> = arap.mesh().components().into();
+        let count = of_vertices
+            .iter()
+            .max()
+            .map_or(0, |&last| last as usize + 1);
+        let of_part = |part: usize| of_parts.get(part).copied().flatten().unwrap_or(whole) as u32;
+        let of_parts: Arc<[u32]> = (0..count).map(of_part).collect();
         assert!(
-            of_vertices.iter().all(|&k| (k as usize) < clocks.len()),
+            of_parts.iter().all(|&k| (k as usize) < clocks.len()),
             "a clock for each number"
         );
         Self {
             arap,
             clocks,
+            of_parts,
             of_vertices,
         }
     }
@@ -113,63 +120,24 @@ impl Staggered {
         Self {
             arap,
             clocks: self.clocks.iter().map(Clock::backwards).collect(),
-            of_vertices: Arc::clone(&self.of_vertices),
+            ..self.clone()
         }
     }
 
     /// The clock of a vertex.
     #[must_use]
     pub fn clock(&self, vertex: u32) -> Clock {
-        self.clocks[self.of_vertices[vertex as usize] as usize]
+        let part = self.of_vertices[vertex as usize];
+        self.clocks[self.of_parts[part as usize] as usize]
     }
 }
 
 impl Warp for Staggered {
     fn placer(&self) -> Placer {
-        let mut whole = self.arap.placer();
-        let placement = whole.placement().clone();
-        let Self {
-            clocks,
-            of_vertices,
-            ..
-        } = self.clone();
-        let mut times = vec![0.0; clocks.len()];
-        Placer::new(placement, move |t, placement| {
-            for (time, clock) in times.iter_mut().zip(&*clocks) {
-                *time = clock.at(t);
-            }
-            for (k, &time) in times.iter().enumerate() {
-                // Clocks that show the same are served at once.
-                if times[..k].contains(&time) {
-                    continue;
-                }
-                let shows = |vertex: usize| times[of_vertices[vertex] as usize] == time;
-                let places = placed(&mut whole, time);
-                for (vertex, out) in placement.in_frame.iter_mut().enumerate() {
-                    if shows(vertex) {
-                        *out = places[vertex];
-                    }
-                }
-            }
-        })
-    }
-}
-
-/// The places at a time; who waits or has arrived needs no solve.
-fn placed(whole: &mut Placer, time: f64) -> &[DVec2] {
-    if time != 0.0 && time != 1.0 {
-        whole.place(time);
-    }
-    let Placement {
-        in_frame,
-        in_source,
-        in_target,
-        ..
-    } = whole.placement();
-    match time {
-        0.0 => in_source,
-        1.0 => in_target,
-        _ => in_frame,
+        let of_parts = Arc::clone(&self.of_parts);
+        let clocks = Arc::clone(&self.clocks);
+        self.arap
+            .placer_by(move |part, t| clocks[of_parts[part] as usize].at(t))
     }
 }
 
@@ -177,7 +145,7 @@ fn placed(whole: &mut Placer, time: f64) -> &[DVec2] {
 mod tests {
     use super::*;
     use crate::compatible::CompatibleMesh;
-    use crate::geometry::DMat2;
+    use crate::geometry::{DMat2, DVec2};
     use crate::progress::Silent;
     use crate::warp::ArapOptions;
 

@@ -6,6 +6,7 @@
 use super::assembly::LocalMaps;
 use super::life::Life;
 use super::options::ArapPath;
+use super::times::Times;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2};
 use crate::warp::part_path::{PartPath, centroid};
@@ -140,7 +141,7 @@ impl Drift {
 
     /// What has to be added to the deviations (all x, all y, in elimination
     /// order) of each part.
-    pub(super) fn shifts(&self, t: f64, deviation: &[f64], shifts: &mut [DVec2]) {
+    pub(super) fn shifts(&self, times: Times, deviation: &[f64], shifts: &mut [DVec2]) {
         let (dx, dy) = deviation.split_at(deviation.len() / 2);
         shifts.fill(DVec2::ZERO);
         // By runs, so that `dot` reads rows of numbers and no part for each.
@@ -149,6 +150,7 @@ impl Drift {
             shifts[*part] -= DVec2::new(dot(shares, dx), dot(shares, dy));
         }
         for (part, shift) in shifts.iter_mut().enumerate() {
+            let t = times.of_part(part);
             match self.life(part) {
                 // The ends are met to the last bit.
                 Some(_) if t == 0.0 || t == 1.0 => *shift = DVec2::ZERO,

@@ -23,6 +23,7 @@
 //! - `sides`: what keeps straight sides straight
 //! - `ridge`: what is added to a matrix that rounding has eaten at
 //! - `drift`: where parts as a whole are at t
+//! - `times`: when each part is
 //! - `life`: when parts grow from points and shrink to them
 
 mod angles;
@@ -33,6 +34,7 @@ mod options;
 mod ridge;
 mod sides;
 mod stresses;
+mod times;
 
 #[cfg(test)]
 mod tests;
@@ -46,7 +48,7 @@ use super::{Placement, Placer, Warp};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DVec2, Polar};
 use crate::homotopy::Homotopy;
-use crate::linalg::{Cholesky, FactorError, SymmetricMatrix};
+use crate::linalg::{Cholesky, FactorError, SymmetricMatrix, Workspace};
 use crate::progress::{Progress, checkpoint, still_wanted};
 use assembly::LocalMaps;
 use drift::Drift;
@@ -55,6 +57,7 @@ use sides::Outlined;
 use std::iter::repeat_n;
 use std::sync::Arc;
 use stresses::Stresses;
+use times::{PartTimes, Times};
 
 /// A prefactored rigidity-preserving interpolation.
 ///
@@ -355,52 +358,96 @@ impl Arap {
     }
 }
 
+impl Arap {
+    /// A placer that shows each connected part at the time that `clock` says it is for
+    /// the part at t. What an anchor holds is held in the time of its part.
+    pub(in crate::warp) fn placer_by(
+        &self,
+        clock: impl Fn(usize, f64) -> f64 + Send + Sync + 'static,
+    ) -> Placer {
+        let mut player = Player::of(self);
+        let mut times = PartTimes::default();
+        let arap = Arc::clone(&self.0);
+        Placer::new(self.at_rest(), move |t, placement| {
+            let (drift, time) = (&arap.drift, |part: usize| clock(part, t));
+            player.place(times.set(drift.part_count(), time, drift.runs()), placement);
+        })
+    }
+
+    fn at_rest(&self) -> Placement {
+        let mesh = self.mesh();
+        Placement::of_source(Arc::clone(mesh.faces()), mesh.source(), mesh.target())
+    }
+}
+
 impl Warp for Arap {
     fn placer(&self) -> Placer {
-        let arap = Arc::clone(&self.0);
-        let mesh = &arap.mesh;
-        let placement =
-            Placement::of_source(Arc::clone(mesh.faces()), mesh.source(), mesh.target());
-        // Right-hand sides, then the deviation U: all x, all y, in elimination
-        // order.
-        let mut deviation = vec![0.0; 2 * mesh.source().len()];
-        let mut workspace = arap.cholesky.workspace(2);
-        // Of each connected part.
-        let mut shifts = vec![DVec2::ZERO; arap.drift.part_count()];
-        Placer::new(placement, move |t, placement| {
-            let place = arap.cholesky.place_in_order();
-            let Placement {
-                in_frame,
-                in_source,
-                in_target,
-                ..
-            } = placement;
-            // The linear path needs no solve: its deviation is zero.
-            if arap.options.homotopy != Homotopy::Linear {
-                // The forces stand where the positions will stand.
-                arap.stresses
-                    .right_hand_sides(t, place, in_frame, &mut deviation);
-                arap.cholesky.solve_ordered(&mut deviation, &mut workspace);
-                arap.drift.shifts(t, &deviation, &mut shifts);
-            }
-            let (dx, dy) = deviation.split_at(place.len());
-            for (run, part) in arap.drift.runs() {
-                let shift = shifts[part];
-                // Of what only changes its size every map is that change: it
-                // deviates by nothing but rounding.
-                let (t, weight) = match arap.drift.life(part) {
-                    Some(life) => (life.share(t), 0.0),
-                    None => (t, 1.0),
-                };
-                let ends = in_source[run.clone()].iter().zip(&in_target[run.clone()]);
-                let rest = in_frame[run.clone()].iter_mut().zip(&place[run]);
-                for ((&p, &q), (out, &at)) in ends.zip(rest) {
-                    let u = DVec2::new(dx[at as usize], dy[at as usize]);
-                    // What is exactly 0 at an end is added last, so that the
-                    // end is met to the last bit.
-                    *out = (p * (1.0 - t) + q * t) + (u * weight + shift);
-                }
-            }
+        let mut player = Player::of(self);
+        Placer::new(self.at_rest(), move |t, placement| {
+            player.place(Times::Even(t), placement);
         })
+    }
+}
+
+/// A film with the memory that a frame takes.
+struct Player {
+    arap: Arc<Inner>,
+    /// Right-hand sides, then the deviation U: all x, all y, in elimination order.
+    deviation: Vec<f64>,
+    workspace: Workspace,
+    /// Of each connected part.
+    shifts: Vec<DVec2>,
+}
+
+impl Player {
+    fn of(Arap(inner): &Arap) -> Self {
+        Self {
+            deviation: vec![0.0; 2 * inner.mesh.source().len()],
+            workspace: inner.cholesky.workspace(2),
+            shifts: vec![DVec2::ZERO; inner.drift.part_count()],
+            arap: Arc::clone(inner),
+        }
+    }
+
+    fn place(&mut self, times: Times, placement: &mut Placement) {
+        let Self {
+            arap,
+            deviation,
+            workspace,
+            shifts,
+        } = self;
+        let place = arap.cholesky.place_in_order();
+        let Placement {
+            in_frame,
+            in_source,
+            in_target,
+            ..
+        } = placement;
+        // The linear path needs no solve: its deviation is zero.
+        if arap.options.homotopy != Homotopy::Linear {
+            // The forces stand where the positions will stand.
+            arap.stresses
+                .right_hand_sides(times, place, in_frame, deviation);
+            arap.cholesky.solve_ordered(deviation, workspace);
+            arap.drift.shifts(times, deviation, shifts);
+        }
+        let (dx, dy) = deviation.split_at(place.len());
+        for (run, part) in arap.drift.runs() {
+            let (shift, t) = (shifts[part], times.of_part(part));
+            // Of what only changes its size every map is that change: it
+            // deviates by nothing but rounding.
+            let (t, weight) = match arap.drift.life(part) {
+                Some(life) => (life.share(t), 0.0),
+                None => (t, 1.0),
+            };
+            let ends = in_source[run.clone()].iter().zip(&in_target[run.clone()]);
+            let rest = in_frame[run.clone()].iter_mut().zip(&place[run]);
+            for ((&p, &q), (out, &at)) in ends.zip(rest) {
+                let u = DVec2::new(dx[at as usize], dy[at as usize]);
+                // What is exactly 0 at an end is added last, so that the
+                // end is met to the last bit.
+                *out = (p * (1.0 - t) + q * t) + (u * weight + shift);
+            }
+        }
     }
 }

@@ -13,6 +13,7 @@
 //! and the tests hold the two together.
 
 use super::assembly::{ElementMap, FaceMap, LocalMaps};
+use super::times::Times;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen};
 use crate::homotopy::Homotopy;
@@ -134,7 +135,7 @@ impl Stresses {
         // By the very operations of a frame: see above.
         let [begin, end] = [0.0, 1.0].map(|t| {
             let mut forces = vec![DVec2::ZERO; mesh.source().len()];
-            stresses.forces(t, &mut forces);
+            stresses.forces(Times::Even(t), &mut forces);
             forces
         });
         stresses.ends = begin.into_iter().zip(end).map(<[DVec2; 2]>::from).collect();
@@ -145,14 +146,16 @@ impl Stresses {
     /// `place[v]`. `forces`, one for each vertex, is memory to work in.
     pub(super) fn right_hand_sides(
         &self,
-        t: f64,
+        times: Times,
         place: &[u32],
         forces: &mut [DVec2],
         rhs: &mut [f64],
     ) {
-        self.forces(t, forces);
+        self.forces(times, forces);
         let (x, y) = rhs.split_at_mut(rhs.len() / 2);
-        for ((&force, &[begin, end]), &at) in forces.iter().zip(&self.ends).zip(place) {
+        let ends = self.ends.iter().enumerate();
+        for ((&force, (vertex, &[begin, end])), &at) in forces.iter().zip(ends).zip(place) {
+            let t = times.of_vertex(vertex);
             let pull = force - (begin * (1.0 - t) + end * t);
             x[at as usize] = pull.x;
             y[at as usize] = pull.y;
@@ -161,55 +164,76 @@ impl Stresses {
 
     /// Σ M(t) W g of each vertex; zero for the linear path, which deviates
     /// from no straight line.
-    fn forces(&self, t: f64, forces: &mut [DVec2]) {
+    fn forces(&self, times: Times, forces: &mut [DVec2]) {
         forces.fill(DVec2::ZERO);
-        self.arch.dispatch(Pass(self, t, &mut *forces));
+        self.arch.dispatch(Pass(self, times, &mut *forces));
         // Bars are few beside faces, and take the plain form.
         if self.homotopy != Homotopy::Linear {
             for element in &self.elements {
+                let t = times.of_vertex(element.ends[0] as usize);
                 element.add(self.homotopy, t, forces);
             }
         }
     }
 
-    /// Adds the forces of all faces, with more of each block for its pose.
+    /// Adds the forces of all faces, with more of each block for its pose. `time`
+    /// says when each lane of a block is.
     #[inline(always)]
     fn add<More>(
         &self,
         forces: &mut [DVec2],
         more: impl Iterator<Item = More>,
-        pose: impl Fn(f64, &More, usize) -> Pose,
+        time: impl Fn(&[[u32; 3]]) -> Row,
+        pose: impl Fn(f64, f64, &More, usize) -> Pose,
     ) {
         let faces = self.faces.chunks(LANES);
         for ((block, more), faces) in self.blocks.iter().zip(more).zip(faces) {
-            let posed = block.posed(|lane| pose(block.angle[lane], &more, lane));
+            let times = time(faces);
+            let posed = block.posed(|lane| pose(times[lane], block.angle[lane], &more, lane));
             scatter(&posed, faces, forces);
+        }
+    }
+
+    #[inline(always)]
+    fn pass(&self, forces: &mut [DVec2], time: impl Fn(&[[u32; 3]]) -> Row) {
+        let none = std::iter::repeat(());
+        match self.homotopy {
+            Homotopy::Linear => {}
+            Homotopy::Polar => {
+                self.add(forces, none, time, |t, angle, _, _| Pose::polar(t, angle));
+            }
+            Homotopy::LinearAfterPolar => self.add(forces, none, time, |t, angle, _, _| {
+                Pose::linear_after_polar(t, angle)
+            }),
+            Homotopy::Exponential => {
+                self.add(forces, self.logs.iter(), time, |t, angle, logs, lane| {
+                    Pose::exponential(t, angle, logs.each_ref().map(|row| row[lane]))
+                });
+            }
         }
     }
 }
 
-/// One pass over all faces at t that adds their forces, to be compiled for
-/// several widths of vectors.
-struct Pass<'a>(&'a Stresses, f64, &'a mut [DVec2]);
+/// One pass over all faces that adds their forces, to be compiled for several
+/// widths of vectors.
+struct Pass<'a>(&'a Stresses, Times<'a>, &'a mut [DVec2]);
 
 impl WithSimd for Pass<'_> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
-        let Self(stresses, t, forces) = self;
-        let none = std::iter::repeat(());
-        match stresses.homotopy {
-            Homotopy::Linear => {}
-            Homotopy::Polar => stresses.add(forces, none, |angle, _, _| Pose::polar(t, angle)),
-            Homotopy::LinearAfterPolar => stresses.add(forces, none, |angle, _, _| {
-                Pose::linear_after_polar(t, angle)
+        let Self(stresses, times, forces) = self;
+        match times {
+            Times::Even(t) => stresses.pass(forces, |_| [t; LANES]),
+            // A face is all in one part.
+            Times::OfParts { vertices, .. } => stresses.pass(forces, |faces| {
+                let mut row = [0.0; LANES];
+                for (t, face) in row.iter_mut().zip(faces) {
+                    *t = vertices[face[0] as usize];
+                }
+                row
             }),
-            Homotopy::Exponential => {
-                stresses.add(forces, stresses.logs.iter(), |angle, logs, lane| {
-                    Pose::exponential(t, angle, logs.each_ref().map(|row| row[lane]))
-                });
-            }
         }
     }
 }
@@ -318,7 +342,7 @@ mod tests {
             for t in [-0.3, 0.0, 0.31, 0.77, 1.0] {
                 let [chosen, plain] = [&chosen, &plain].map(|stresses| {
                     let mut forces = vec![DVec2::ZERO; 30];
-                    stresses.forces(t, &mut forces);
+                    stresses.forces(Times::Even(t), &mut forces);
                     forces
                 });
                 assert_eq!(chosen, plain, "{homotopy:?} at {t}");
