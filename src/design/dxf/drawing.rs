@@ -9,6 +9,7 @@ use super::pairs::{Pair, Pairs};
 use crate::colour::Rgb;
 use glam::{DAffine2, DVec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
+use std::rc::Rc;
 
 /// Most pairs of one object that are kept, each of some 40 bytes: a spline of a
 /// million points has x, y, z and a knot for each.
@@ -32,7 +33,7 @@ pub(super) struct Path {
     /// Whether they close.
     pub is_closed: bool,
     /// The name of its layer, and its colour.
-    pub drawn: (Vec<u8>, Option<Rgb>),
+    pub drawn: (Rc<[u8]>, Option<Rgb>),
 }
 
 #[derive(Default)]

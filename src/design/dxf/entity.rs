@@ -63,7 +63,7 @@ impl<'a> Record<'a> {
     pub fn ink(&self) -> Result<Ink, DxfError> {
         let number = self.first(62).map_or(Ok(256), Pair::whole)?;
         Ok(Ink {
-            layer: self.text(8).to_owned(),
+            layer: self.text(8).into(),
             colour: Colour::of(number, self.bits()?),
         })
     }

@@ -7,12 +7,13 @@
 
 use crate::colour::Rgb;
 use std::collections::HashMap;
+use std::rc::Rc;
 
 /// What an object is drawn with.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Ink {
     /// The name of its layer.
-    pub layer: Vec<u8>,
+    pub layer: Rc<[u8]>,
     pub colour: Colour,
 }
 
@@ -50,9 +51,9 @@ impl Ink {
         let Some(outer) = outer else {
             return self.clone();
         };
-        let layer = match self.layer == OF_BLOCK {
-            true => outer.layer.clone(),
-            false => self.layer.clone(),
+        let layer = match *self.layer == *OF_BLOCK {
+            true => Rc::clone(&outer.layer),
+            false => Rc::clone(&self.layer),
         };
         let colour = match self.colour {
             Colour::OfBlock => outer.colour,
@@ -64,7 +65,7 @@ impl Ink {
     /// Its colour, if it is one.
     pub fn rgb(&self, layers: &Layers) -> Option<Rgb> {
         match self.colour {
-            Colour::OfLayer => layers.get(&self.layer).copied().flatten(),
+            Colour::OfLayer => layers.get(&*self.layer).copied().flatten(),
             Colour::OfBlock => None,
             Colour::Own(rgb) => rgb,
         }

@@ -14,6 +14,8 @@ use std::collections::{HashMap, HashSet};
 #[derive(Debug, Default)]
 pub(super) struct Joined {
     pub rings: Vec<Vec<DVec2>>,
+    /// For each ring the numbers of its curves.
+    pub of_rings: Vec<Vec<usize>>,
     /// A loose end of each curve that belongs to no ring.
     pub loose: Vec<DVec2>,
     /// Curves that are there more than once.
@@ -23,31 +25,36 @@ pub(super) struct Joined {
 /// Joins open curves, each of two points at least.
 pub(super) fn joined(curves: Vec<Vec<DVec2>>, within: f64) -> Joined {
     let mut result = Joined::default();
-    let curves = result.without_duplicates(curves);
+    let (curves, numbers) = result.without_duplicates(curves);
     let mut graph = Graph::of(&curves, within);
     result.loose = graph.without_loose(&curves);
     for start in 0..curves.len() {
         graph.walk(start, &curves, &mut result);
     }
+    for curve in result.of_rings.iter_mut().flatten() {
+        *curve = numbers[*curve];
+    }
     result
 }
 
 impl Joined {
-    fn without_duplicates(&mut self, curves: Vec<Vec<DVec2>>) -> Vec<Vec<DVec2>> {
+    /// The others, and their numbers.
+    fn without_duplicates(&mut self, curves: Vec<Vec<DVec2>>) -> (Vec<Vec<DVec2>>, Vec<usize>) {
         let bits = |p: &DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits); // -0 is 0
         let mut seen = HashSet::new();
-        let mut kept = Vec::with_capacity(curves.len());
-        for curve in curves {
+        let (mut kept, mut numbers) = (Vec::with_capacity(curves.len()), Vec::new());
+        for (number, curve) in curves.into_iter().enumerate() {
             // The same curve drawn the other way is the same.
             let forward: Vec<_> = curve.iter().map(bits).collect();
             let backward = forward.iter().rev().copied().collect();
             if seen.insert(forward.min(backward)) {
                 kept.push(curve);
+                numbers.push(number);
             } else {
                 self.duplicates += 1;
             }
         }
-        kept
+        (kept, numbers)
     }
 }
 
@@ -135,7 +142,10 @@ impl Graph {
                     for step in &trail[closed + 1..] {
                         steps_from.remove(&step.from);
                     }
-                    let ring = trail.drain(closed..).flat_map(|step| step.points(curves));
+                    let steps: Vec<Step> = trail.drain(closed..).collect();
+                    let of_ring = steps.iter().map(|step| step.curve);
+                    result.of_rings.push(of_ring.collect());
+                    let ring = steps.iter().flat_map(|step| step.points(curves));
                     result.rings.push(ring.collect());
                 }
                 None => {

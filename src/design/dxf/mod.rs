@@ -41,7 +41,7 @@ use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions};
 use curve::Curve;
 use drawing::Path;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 /// How far ends that belong together may be apart, as a fraction of the
 /// drawing's longer side: what rounding to four digits leaves.
@@ -87,7 +87,8 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<Outlines, DxfError> {
     })
 }
 
-/// What each layer has in each colour, where any colour is given.
+/// What each layer has in each colour, where any colour is given. Of what closes only
+/// together the longest share decides.
 fn coats(paths: &[Path], tolerance: f64, side: f64) -> Result<Vec<Coat>, DxfError> {
     if paths.iter().all(|path| path.drawn.1.is_none()) {
         return Ok(Vec::new());
@@ -98,11 +99,35 @@ fn coats(paths: &[Path], tolerance: f64, side: f64) -> Result<Vec<Coat>, DxfErro
         let key = (layer, rgb.map(|Rgb(rgb)| rgb));
         of_ink.entry(key).or_default().push(path);
     }
-    let mut sheets = Vec::with_capacity(of_ink.len());
-    for ((layer, rgb), paths) in of_ink {
-        let (mut rings, open) = flattened(&paths, tolerance, ROUNDING * side)?;
-        rings.extend(join::joined(open, JOIN_TOLERANCE * side).rings);
-        // Lines that enclose nothing by themselves are told of as parts of the whole.
+    let mut rings_of = Vec::with_capacity(of_ink.len());
+    // What does not close in one ink, and the number of its ink.
+    let (mut left, mut inks_left) = (Vec::new(), Vec::new());
+    for (ink, paths) in of_ink.values().enumerate() {
+        let (mut rings, open) = flattened(paths, tolerance, ROUNDING * side)?;
+        let joined = join::joined(open.clone(), JOIN_TOLERANCE * side);
+        let closed: BTreeSet<usize> = joined.of_rings.into_iter().flatten().collect();
+        rings.extend(joined.rings);
+        rings_of.push(rings);
+        let open = open.into_iter().enumerate();
+        let open = open.filter_map(|(k, curve)| (!closed.contains(&k)).then_some(curve));
+        left.extend(open);
+        inks_left.resize(left.len(), ink);
+    }
+    let joined = join::joined(left.clone(), JOIN_TOLERANCE * side);
+    for (ring, curves) in joined.rings.into_iter().zip(&joined.of_rings) {
+        let mut shares = vec![0.0; rings_of.len()];
+        for &curve in curves {
+            let steps = left[curve].windows(2).map(|step| step[0].distance(step[1]));
+            shares[inks_left[curve]] += steps.sum::<f64>();
+        }
+        let most = (0..shares.len())
+            .rev()
+            .max_by(|&a, &b| shares[a].total_cmp(&shares[b]));
+        rings_of[most.unwrap_or(0)].push(ring);
+    }
+    let mut sheets = Vec::with_capacity(rings_of.len());
+    for ((layer, rgb), rings) in of_ink.keys().zip(rings_of) {
+        // Nothing of it closes, which is told of the whole.
         let regions = Regions::from_rings(&rings, FillRule::EvenOdd);
         sheets.extend(regions.ok().map(|regions| Sheet {
             regions,
@@ -110,7 +135,7 @@ fn coats(paths: &[Path], tolerance: f64, side: f64) -> Result<Vec<Coat>, DxfErro
             name: String::from_utf8_lossy(layer).into_owned(),
         }));
     }
-    Ok(stacked(sheets))
+    Ok(stacked(&sheets))
 }
 
 type Rings = Vec<Vec<DVec2>>;

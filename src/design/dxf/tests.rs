@@ -300,6 +300,24 @@ fn blocks_take_colours_from_where_they_are_put() {
 }
 
 #[test]
+fn what_closes_only_across_layers_has_the_colour_of_most_of_it() {
+    let corners = [(0, 0), (6, 0), (6, 4), (0, 4)];
+    let line = |k: usize| {
+        let ((x, y), (u, v)) = (corners[k], corners[(k + 1) % 4]);
+        let layer = ["walls", "sea"][k % 2];
+        format!("0 LINE 8 {layer} 10 {x} 20 {y} 11 {u} 21 {v} ")
+    };
+    let lines: String = (0..4).map(line).collect();
+    let entities = lines + &square_on("sea", 9.0, 2.0, "");
+    let found = painted(&[("TABLES", LAYERS), ("ENTITIES", &entities)]);
+    let expected = [
+        (Some(Rgb([255, 0, 0])), "walls".to_owned(), 24.0),
+        (Some(Rgb([0, 0, 255])), "sea".to_owned(), 4.0),
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
 fn black_on_white_is_no_colour() {
     let entities = square_on("plain", 0.0, 2.0, "");
     assert_eq!(painted(&[("TABLES", LAYERS), ("ENTITIES", &entities)]), []);
