@@ -81,7 +81,7 @@ pub enum PictureError {
 
 /// Most pixels that are read: 8192 × 6144, more than all but the largest
 /// cameras have. At up to 20 bytes a pixel, while specks are looked for in the
-/// silhouette, this is 1 GB.
+/// silhouette, this is 1 GB; by flat colours it is half as much again.
 const MAX_PIXELS: u64 = 8192 * 6144;
 
 /// Most boundary points before simplification; a photograph of gravel, parted

@@ -12,13 +12,14 @@ use crate::design::coat::{Coat, Sheet, stacked};
 use crate::design::options::ImportOptions;
 use crate::mesh::components;
 use image::{Rgba, RgbaImage};
+use rayon::prelude::*;
 use std::collections::HashMap;
 
 /// Most colours that are told apart: more are shades of a photograph.
 const MOST: usize = 16;
 
 /// Colours nearer to each other than this, of 255, are one: a JPEG leaves that.
-const ALIKE: f64 = 24.0;
+const ALIKE: u8 = 24;
 
 /// The least share of the picture that a colour covers.
 const LEAST: f64 = 0.0005;
@@ -55,7 +56,7 @@ pub(in crate::design) fn coats(
         match figure.trace(options.tolerance * side) {
             Ok(regions) => sheets.push(Sheet {
                 regions,
-                paint: Some(Rgb(colours.flat[colour].0.map(|c| c as u8)).into()),
+                paint: Some(Rgb(colours.flat[colour].0).into()),
                 name: String::new(),
             }),
             // Its specks were all there was of it.
@@ -63,116 +64,137 @@ pub(in crate::design) fn coats(
             Err(error) => return Err(error),
         }
     }
-    Ok(stacked(sheets))
+    Ok(stacked(&sheets))
 }
 
-/// Red, green and blue, each to 255, and whether there is anything.
-#[derive(Clone, Copy, PartialEq)]
-struct Ink([f64; 3], bool);
+/// Red, green and blue, and whether there is anything.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+struct Ink([u8; 3], bool);
 
 /// Nothing.
-const GROUND: Ink = Ink([0.0; 3], false);
+const GROUND: Ink = Ink([0; 3], false);
 
 impl Ink {
-    fn of(Rgba([r, g, b, a]): Rgba<u8>) -> Self {
+    fn of(&Rgba([r, g, b, a]): &Rgba<u8>) -> Self {
         match a < 128 {
             true => GROUND,
-            false => Self([r, g, b].map(f64::from), true),
+            false => Self([r, g, b], true),
         }
     }
 
-    /// How far two are apart, at most 255.
-    fn far(self, other: Self) -> f64 {
-        match self.1 == other.1 {
-            true => (0..3)
-                .map(|k| (self.0[k] - other.0[k]).abs())
-                .fold(0.0, f64::max),
-            false => 255.0,
+    /// How far two are apart.
+    fn far(self, other: Self) -> u8 {
+        if self.1 != other.1 {
+            return u8::MAX;
         }
+        let channels = self.0.into_iter().zip(other.0);
+        channels.map(|(a, b)| a.abs_diff(b)).max().unwrap_or(0)
+    }
+}
+
+/// What is known of a pixel.
+#[derive(Clone, Copy)]
+struct Pixel {
+    /// The flat colours that are close by, as bits.
+    near: u32,
+    /// The nearest of them, and how far it is.
+    label: u8,
+    far: u8,
+    /// How far the second is; none where there is no other.
+    second: Option<u8>,
+}
+
+impl Pixel {
+    fn of(ink: Ink, near: u32, flat: &[Ink]) -> Self {
+        let mut pixel = Self {
+            near,
+            label: 0,
+            far: u8::MAX,
+            second: None,
+        };
+        let allowed = (0_u8..).zip(flat).filter(|(k, _)| near & (1 << k) != 0);
+        for (count, (label, &other)) in allowed.enumerate() {
+            let far = ink.far(other);
+            if count == 0 {
+                (pixel.label, pixel.far) = (label, far);
+            } else if far < pixel.far {
+                pixel.second = Some(pixel.far);
+                (pixel.label, pixel.far) = (label, far);
+            } else if pixel.second.is_none_or(|second| far < second) {
+                pixel.second = Some(far);
+            }
+        }
+        pixel
     }
 }
 
 /// A picture's flat colours, and which of them each pixel may be of.
-struct Colours<'a> {
-    picture: &'a RgbaImage,
+struct Colours {
+    size: (u32, u32),
     flat: Vec<Ink>,
     /// The number of the ground's.
     ground: usize,
-    /// For each pixel, the lowest row first, those that are flat close by, as bits.
-    near: Vec<u32>,
+    inks: Vec<Ink>,
+    /// The lowest row first, as the inks.
+    pixels: Vec<Pixel>,
 }
 
-impl<'a> Colours<'a> {
+impl Colours {
     /// None where there are too many, or too little is flat.
-    fn of(picture: &'a RgbaImage) -> Option<Self> {
-        let inks: Vec<Ink> = picture
-            .rows()
-            .rev()
-            .flatten()
-            .map(|&p| Ink::of(p))
-            .collect();
-        let width = picture.width() as usize;
-        let is_flat: Vec<bool> = (0..inks.len())
-            .map(|i| {
-                let mut around = around(i, width, inks.len(), 1);
-                around.all(|j| inks[i].far(inks[j]) < ALIKE)
-            })
-            .collect();
+    fn of(picture: &RgbaImage) -> Option<Self> {
+        let rows = picture.rows().rev();
+        let inks: Vec<Ink> = rows.flatten().map(Ink::of).collect();
+        let (width, count) = (picture.width() as usize, inks.len());
+        let is_flat = |i: usize| around(i, width, count, 1).all(|j| inks[i].far(inks[j]) < ALIKE);
+        let is_flat: Vec<bool> = (0..count).into_par_iter().map(is_flat).collect();
         let flat = flat_colours(&inks, &is_flat)?;
-        let label = |ink: Ink| nearest(&flat, ink, u32::MAX).0;
-        let ground = match flat.iter().position(|&ink| ink == GROUND) {
-            Some(ground) => ground,
-            None => {
-                let mut counts = vec![0; flat.len()];
-                // A frame of a pixel or two, as converters leave it, is no ground.
-                let is_edge = |&i: &usize| is_flat[i] && is_at_edge(i, width, inks.len());
-                let edge = (0..inks.len()).filter(is_edge);
-                edge.for_each(|i| counts[label(inks[i])] += 1);
-                (0..counts.len()).max_by_key(|&k| counts[k])?
-            }
+        let ground = ground(&flat, &inks, &is_flat, width)?;
+        let own = |i: usize| match is_flat[i] {
+            true => 1 << Pixel::of(inks[i], u32::MAX, &flat).label,
+            false => 0_u32,
         };
-        let own = |i: usize| {
-            if is_flat[i] {
-                1 << label(inks[i])
-            } else {
-                0_u32
-            }
-        };
-        let own: Vec<u32> = (0..inks.len()).map(own).collect();
-        let near = |i: usize| match around(i, width, own.len(), AROUND).fold(0, |m, j| m | own[j]) {
-            0 if is_at_edge(i, width, own.len()) => 1 << ground,
-            // A line too thin to be flat anywhere.
-            0 => u32::MAX,
-            some => some,
+        let own: Vec<u32> = (0..count).into_par_iter().map(own).collect();
+        let pixel = |i: usize| {
+            let near = match around(i, width, count, AROUND).fold(0, |m, j| m | own[j]) {
+                0 if is_at_edge(i, width, count) => 1 << ground,
+                // A line too thin to be flat anywhere.
+                0 => u32::MAX,
+                some => some,
+            };
+            Pixel::of(inks[i], near, &flat)
         };
         Some(Self {
-            near: (0..own.len()).map(near).collect(),
-            picture,
+            size: picture.dimensions(),
+            pixels: (0..count).into_par_iter().map(pixel).collect(),
             flat,
             ground,
+            inks,
         })
     }
 
     /// The figure of one colour.
     fn figure(&self, colour: usize) -> Figure {
-        let (width, height) = self.picture.dimensions();
-        let pixels = self.picture.rows().rev().flatten().zip(&self.near);
-        let sample = |(&pixel, &near): (&Rgba<u8>, &u32)| {
-            let ink = Ink::of(pixel);
-            if near & (1 << colour) == 0 {
+        let sample = |(pixel, ink): (&Pixel, &Ink)| {
+            if pixel.near & (1 << colour) == 0 {
                 return -1.0;
             }
+            let is_own = usize::from(pixel.label) == colour;
             let own = ink.far(self.flat[colour]);
-            let other = nearest(&self.flat, ink, near & !(1 << colour)).1;
-            match own + other {
-                both if both.is_finite() && both > 0.0 => {
-                    let share = ((other - own) / both) as f32;
-                    // Never on the boundary itself.
-                    if share == 0.0 { f32::EPSILON } else { share }
-                }
-                _ => 1.0,
-            }
+            let other = if is_own {
+                pixel.second
+            } else {
+                Some(pixel.far)
+            };
+            let Some(other) = other.filter(|&other| own > 0 || other > 0) else {
+                return 1.0;
+            };
+            let [own, other] = [own, other].map(f32::from);
+            let share = (other - own) / (own + other);
+            // Never on the boundary itself.
+            if share == 0.0 { f32::EPSILON } else { share }
         };
+        let (width, height) = self.size;
+        let pixels = self.pixels.par_iter().zip(&self.inks);
         let mut figure = Figure {
             width,
             height,
@@ -193,11 +215,9 @@ impl<'a> Colours<'a> {
         let alike = |&[a, b]: &[usize; 2]| is_out(a) && is_out(b);
         let links = across.chain(upwards).filter(alike);
         let pieces = components(count, links.map(|ends| ends.map(|i| i as u32)));
-        let pixels = self.picture.rows().rev().flatten();
         let mut is_open = vec![false; count];
-        for (i, (&pixel, &piece)) in pixels.zip(&pieces).enumerate() {
-            let (label, _) = nearest(&self.flat, Ink::of(pixel), self.near[i]);
-            if label == self.ground || is_on_border(i, width, count) {
+        for (i, (pixel, &piece)) in self.pixels.iter().zip(&pieces).enumerate() {
+            if usize::from(pixel.label) == self.ground || is_on_border(i, width, count) {
                 is_open[piece as usize] = true;
             }
         }
@@ -209,18 +229,30 @@ impl<'a> Colours<'a> {
     }
 }
 
+/// The number of the ground's colour.
+fn ground(flat: &[Ink], inks: &[Ink], is_flat: &[bool], width: usize) -> Option<usize> {
+    if let Some(ground) = flat.iter().position(|&ink| ink == GROUND) {
+        return Some(ground);
+    }
+    let mut counts = vec![0; flat.len()];
+    // A frame of a pixel or two, as converters leave it, is no ground.
+    let is_edge = |&i: &usize| is_flat[i] && is_at_edge(i, width, inks.len());
+    for i in (0..inks.len()).filter(is_edge) {
+        counts[usize::from(Pixel::of(inks[i], u32::MAX, flat).label)] += 1;
+    }
+    (0..counts.len()).max_by_key(|&k| counts[k])
+}
+
 /// The colours that are flat, those that cover most first.
 fn flat_colours(inks: &[Ink], is_flat: &[bool]) -> Option<Vec<Ink>> {
-    let mut counts: HashMap<[u8; 4], usize> = HashMap::new();
-    for (ink, _) in inks.iter().zip(is_flat).filter(|(_, is_flat)| **is_flat) {
-        let [r, g, b] = ink.0.map(|c| c as u8);
-        *counts.entry([r, g, b, u8::from(ink.1)]).or_default() += 1;
+    let mut counts: HashMap<Ink, usize> = HashMap::new();
+    for (&ink, _) in inks.iter().zip(is_flat).filter(|(_, is_flat)| **is_flat) {
+        *counts.entry(ink).or_default() += 1;
     }
-    let mut counts: Vec<([u8; 4], usize)> = counts.into_iter().collect();
-    counts.sort_unstable_by_key(|&(key, count)| (std::cmp::Reverse(count), key));
+    let mut counts: Vec<(Ink, usize)> = counts.into_iter().collect();
+    counts.sort_unstable_by_key(|&(ink, count)| (std::cmp::Reverse(count), ink));
     let mut flat: Vec<(Ink, usize)> = Vec::new();
-    for ([r, g, b, is_there], count) in counts {
-        let ink = Ink([r, g, b].map(f64::from), is_there != 0);
+    for (ink, count) in counts {
         match flat.iter().position(|(other, _)| other.far(ink) < ALIKE) {
             Some(k) => flat[k].1 += count,
             None if flat.len() <= 4 * MOST => flat.push((ink, count)),
@@ -232,18 +264,6 @@ fn flat_colours(inks: &[Ink], is_flat: &[bool]) -> Option<Vec<Ink>> {
     let covered: usize = flat.iter().map(|(_, count)| count).sum();
     let is_flat = (2..=MOST).contains(&flat.len()) && covered as f64 >= FLAT * total;
     is_flat.then(|| flat.into_iter().map(|(ink, _)| ink).collect())
-}
-
-/// The number of the nearest of those that are allowed, as bits, and how far it is;
-/// of none the first, endlessly far.
-fn nearest(flat: &[Ink], ink: Ink, allowed: u32) -> (usize, f64) {
-    let allowed = flat
-        .iter()
-        .enumerate()
-        .filter(|(k, _)| allowed & (1 << k) != 0);
-    let far = allowed.map(|(k, &other)| (k, ink.far(other)));
-    far.min_by(|a, b| a.1.total_cmp(&b.1))
-        .unwrap_or((0, f64::INFINITY))
 }
 
 /// Whether a pixel is next to the border.
