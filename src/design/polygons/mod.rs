@@ -69,6 +69,8 @@ impl Ink {
         let fill = text("fill").and_then(colour);
         let opacity = properties["fill-opacity"].as_f64().unwrap_or(1.0);
         let name = text("layer").or_else(|| text("name"));
+        // What is only to be outlined has no paint to be seen in.
+        let fill = fill.filter(|_| opacity > 0.0);
         Self {
             paint: fill.map(|colour| Paint {
                 colour,

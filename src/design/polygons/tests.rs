@@ -143,6 +143,7 @@ fn features_keep_the_fill_that_they_name() {
     });
     let expected = [([0, 0, 255], 1.0, "sea", 16.0), ([255, 0, 0], 0.5, "", 4.0)];
     assert!(coats.eq(expected));
-    let plain = map(&[feature(SQUARE, "null"), feature(HOLE, "{\"fill\": 7}")]);
+    let unseen = "{\"fill\": \"#00f\", \"fill-opacity\": 0}";
+    let plain = map(&[feature(SQUARE, unseen), feature(HOLE, "{\"fill\": 7}")]);
     assert_eq!(plain.expect("a map").coats, []);
 }
