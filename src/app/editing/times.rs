@@ -5,9 +5,10 @@
 //! the other.
 
 use crate::app::editing::polyline;
+use crate::app::editing::ring::SheetRing;
 use crate::app::editing::sheet::Sheet;
 use crate::easing::Ease;
-use crate::geometry::{DVec2, Side};
+use crate::geometry::{Bounds, DVec2, Side};
 use crate::names::named;
 use crate::transition::PartTime;
 use crate::warp::Clock;
@@ -32,18 +33,33 @@ named! { Order {
     FromTheMiddle: "from-the-middle", "From the middle", "The part nearest to the middle sets out first";
 } }
 
-/// The time of a piece, by its number in the project: the last that was said.
+/// For each piece its time, by the number in the project: the last that was said.
 #[must_use]
-pub fn of_piece(sheet: &Sheet, times: &[PartTime], piece: usize) -> Option<usize> {
-    (0..times.len())
-        .rev()
-        .find(|&k| is_of(sheet, &times[k], piece))
+pub fn of_pieces(sheet: &Sheet, times: &[PartTime]) -> Vec<Option<usize>> {
+    let mut said = vec![None; sheet.pieces.len()];
+    for (k, named) in named_pieces(sheet, times).into_iter().enumerate() {
+        for piece in named {
+            said[piece] = Some(k);
+        }
+    }
+    said
 }
 
-/// Says when a piece makes its way, and forgets what was said of it; the clock of the whole need
-/// not be said.
+/// Says when a piece makes its way, and forgets what was said of it, but not of others; the clock
+/// of the whole need not be said.
 pub fn set(sheet: &Sheet, times: &mut Vec<PartTime>, piece: usize, clock: Clock) {
-    times.retain(|time| !is_of(sheet, time, piece));
+    let said = of_pieces(sheet, times);
+    let named_by = named_pieces(sheet, times);
+    let is_forgotten = |k: usize| named_by[k].contains(&piece);
+    // What goes with it was said of other pieces of its part too.
+    let others = said.iter().enumerate().filter_map(|(other, time)| {
+        let time = (*time).filter(|&k| other != piece && is_forgotten(k))?;
+        named(sheet, other, times[time].clock())
+    });
+    let others: Vec<PartTime> = others.collect();
+    let mut number = 0..times.len();
+    times.retain(|_| !number.next().is_some_and(is_forgotten));
+    times.extend(others);
     if clock != Clock::WHOLE {
         times.extend(named(sheet, piece, clock));
     }
@@ -116,32 +132,46 @@ fn side_of(sheet: &Sheet, piece: usize) -> Side {
     found.unwrap_or(Side::Source)
 }
 
-/// Whether a time is that of a piece: of the part that its point is in, or nearest to.
-fn is_of(sheet: &Sheet, time: &PartTime, piece: usize) -> bool {
-    let at = sheet.by[time.side].apply(time.at);
-    let rings = |piece: usize| {
-        let rings = sheet.rings.iter().filter(move |ring| ring.piece == piece);
-        rings.map(|ring| ring.sides[time.side].as_slice())
+/// The pieces that each time is of: those of the part that its point is in, or nearest to.
+fn named_pieces(sheet: &Sheet, times: &[PartTime]) -> Vec<Vec<usize>> {
+    let mut of_pieces: Vec<Vec<&SheetRing>> = vec![Vec::new(); sheet.pieces.len()];
+    for ring in &sheet.rings {
+        of_pieces[ring.piece].push(ring);
+    }
+    let boxes = Side::BOTH.map(|side| {
+        let of = |rings: &Vec<&SheetRing>| {
+            Bounds::of(
+                rings
+                    .iter()
+                    .flat_map(|ring| ring.sides[side].iter().copied()),
+            )
+        };
+        of_pieces.iter().map(of).collect::<Vec<_>>()
+    });
+    let of_time = |time: &PartTime| {
+        let (side, at) = (time.side, sheet.by[time.side].apply(time.at));
+        let is_in = |piece: &usize| {
+            let rings = of_pieces[*piece].iter();
+            boxes[side][*piece].is_some_and(|bounds| bounds.contains(at))
+                && polyline::encloses(rings.map(|ring| ring.sides[side].as_slice()), at)
+        };
+        let nearest = || {
+            let all = sheet.rings.iter().map(|ring| ring.sides[side].as_slice());
+            Some(sheet.rings[polyline::nearest(all, at)?.ring].piece)
+        };
+        let Some(named) = (0..of_pieces.len()).find(is_in).or_else(nearest) else {
+            return Vec::new();
+        };
+        let part = |k: usize| sheet.pieces[k].parts[side];
+        let is_of_part = |&k: &usize| k == named || (part(k).is_some() && part(k) == part(named));
+        (0..of_pieces.len()).filter(is_of_part).collect()
     };
-    let mut pieces = 0..sheet.pieces.len();
-    let nearest = || {
-        let all = sheet
-            .rings
-            .iter()
-            .map(|ring| ring.sides[time.side].as_slice());
-        Some(sheet.rings[polyline::nearest(all, at)?.ring].piece)
-    };
-    let named = pieces
-        .find(|&k| polyline::encloses(rings(k), at))
-        .or_else(nearest);
-    let part = |k: usize| sheet.pieces[k].parts[time.side];
-    named.is_some_and(|k| k == piece || (part(k).is_some() && part(k) == part(piece)))
+    times.iter().map(of_time).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::editing::ring::SheetRing;
     use crate::app::editing::sheet::{Fate, SheetPiece};
     use crate::correspondence::RingKind;
     use crate::easing::Easing;
@@ -181,8 +211,7 @@ mod tests {
     fn a_piece_of_a_part_that_splits_has_a_time_of_its_own() {
         let (sheet, mut times) = (sheet(), Vec::new());
         set(&sheet, &mut times, 1, LATE);
-        let found = [0, 1, 2].map(|k| of_piece(&sheet, &times, k));
-        assert_eq!(found, [None, Some(0), None]);
+        assert_eq!(of_pieces(&sheet, &times), [None, Some(0), None]);
         assert_eq!(times[0].side, Side::Target);
         set(&sheet, &mut times, 1, Clock::WHOLE);
         assert!(times.is_empty());
@@ -193,18 +222,24 @@ mod tests {
         let sheet = sheet();
         let mut time = named(&sheet, 0, LATE).expect("a piece");
         time.side = Side::Source;
-        let found = [0, 1, 2].map(|k| of_piece(&sheet, &[time], k));
-        assert_eq!(found, [Some(0), Some(0), None]);
+        assert_eq!(of_pieces(&sheet, &[time]), [Some(0), Some(0), None]);
+        // The other half keeps what was said of both.
+        let mut times = vec![time];
+        set(&sheet, &mut times, 1, Clock::WHOLE);
+        assert_eq!(of_pieces(&sheet, &times), [Some(0), None, None]);
+        assert_eq!(times[0].clock(), LATE);
     }
 
     #[test]
     fn parts_set_out_in_order_and_the_last_arrives_at_the_end() {
         let sheet = sheet();
         let times = staggered(&sheet, Order::LeftToRight);
-        let clocks = [0, 1, 2].map(|k| times[of_piece(&sheet, &times, k).expect("a time")].clock());
-        assert_eq!(clocks.map(|c| c.from), [0.0, 0.25, 0.5]);
+        let said = of_pieces(&sheet, &times).into_iter();
+        let clocks: Vec<Clock> = said.map(|k| times[k.expect("a time")].clock()).collect();
+        let starts: Vec<f64> = clocks.iter().map(|clock| clock.from).collect();
+        assert_eq!(starts, [0.0, 0.25, 0.5]);
         assert_eq!(clocks[2].to, 1.0);
         let first = staggered(&sheet, Order::FromTheMiddle)[0];
-        assert_eq!(of_piece(&sheet, &[first], 1), Some(0));
+        assert_eq!(of_pieces(&sheet, &[first])[1], Some(0));
     }
 }

@@ -149,6 +149,7 @@ fn replace_design(project: &mut Project, index: usize, path: &Path) {
         (matching.pins, matching.links, matching.cuts) = Default::default();
         matching.lines.clear();
         matching.lone.clear();
+        project.options.parts.clear();
     }
 }
 

@@ -1,6 +1,6 @@
 //! A span of the film as a bar, whose ends and middle are dragged.
 
-use bevy_egui::egui::{CursorIcon, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
+use bevy_egui::egui::{CursorIcon, Id, Rect, Response, Sense, Stroke, Ui, pos2, vec2};
 
 use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette, RADIUS};
 use crate::app::ui::kit::widgets::beside;
@@ -20,13 +20,15 @@ enum Grip {
 /// Draws it, and lets the hand change from when to when a clock runs; a double click makes it that
 /// of the whole.
 pub fn bar(ui: &mut Ui, salt: usize, width: f32, clock: &mut Clock) {
-    let (outer, response) =
-        ui.allocate_exact_size(vec2(width, CONTROL_HEIGHT), Sense::click_and_drag());
+    let (outer, _) = ui.allocate_exact_size(vec2(width, CONTROL_HEIGHT), Sense::hover());
+    // A name of its own: a row that comes or goes above must not let go of what is held.
+    let id = Id::new(("span", salt));
+    let response = ui.interact(outer, id, Sense::click_and_drag());
     let track = outer.shrink2(vec2(2.0, 6.0));
     let px = |t: f64| track.left() + track.width() * t as f32;
     let [from, to] = [px(clock.from), px(clock.to)];
     let bar = Rect::from_min_max(pos2(from, track.top()), pos2(to, track.bottom()));
-    let held = held(ui, &response, salt, bar);
+    let held = held(ui, &response, bar);
     if let Some(grip) = held {
         let delta = f64::from(response.drag_delta().x / track.width());
         moved(clock, grip, delta);
@@ -54,8 +56,8 @@ pub fn bar(ui: &mut Ui, salt: usize, width: f32, clock: &mut Clock) {
 }
 
 /// What the hand holds: what was taken stays so for as long as it is held.
-fn held(ui: &Ui, response: &Response, salt: usize, bar: Rect) -> Option<Grip> {
-    let id = response.id.with(salt);
+fn held(ui: &Ui, response: &Response, bar: Rect) -> Option<Grip> {
+    let id = response.id.with("grip");
     if response.drag_started() {
         let at = ui.input(|input| input.pointer.press_origin());
         let grip = at.map(|at| grip_at(bar, at.x));
@@ -77,8 +79,15 @@ fn grip_at(bar: Rect, x: f32) -> Grip {
 
 fn moved(clock: &mut Clock, grip: Grip, delta: f64) {
     match grip {
-        Grip::From => clock.from = (clock.from + delta).clamp(0.0, clock.to - SHORTEST),
-        Grip::To => clock.to = (clock.to + delta).clamp(clock.from + SHORTEST, 1.0),
+        // A file may have shorter ones.
+        Grip::From => {
+            let most = (clock.to - SHORTEST).max(0.0).min(clock.to);
+            clock.from = (clock.from + delta).clamp(0.0, most);
+        }
+        Grip::To => {
+            let least = (clock.from + SHORTEST).min(1.0);
+            clock.to = (clock.to + delta).clamp(least, 1.0);
+        }
         Grip::Whole => {
             let delta = delta.clamp(-clock.from, 1.0 - clock.to);
             (clock.from, clock.to) = (clock.from + delta, clock.to + delta);
@@ -122,6 +131,17 @@ mod tests {
         moved(&mut clock, Grip::Whole, 5.0);
         assert!((clock.from - 0.8).abs() < 1e-12 && clock.to == 1.0);
         moved(&mut clock, Grip::Whole, -5.0);
+        for (from, to) in [(0.99, 1.0), (0.0, 0.01)] {
+            for grip in [Grip::From, Grip::To] {
+                let mut short = Clock {
+                    from,
+                    to,
+                    ..Clock::WHOLE
+                };
+                moved(&mut short, grip, 0.001);
+                assert!(0.0 <= short.from && short.from < short.to && short.to <= 1.0);
+            }
+        }
         assert!(clock.from == 0.0 && (clock.to - 0.2).abs() < 1e-12);
     }
 }

@@ -41,6 +41,8 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
             draft.options.matching = draft.options.matching.swapped();
             let parts = draft.options.parts.iter_mut();
             parts.for_each(|part| *part = part.swapped());
+            let coats = &mut draft.options.coats;
+            coats.reorder_at = 1.0 - coats.reorder_at;
         }
     });
 }

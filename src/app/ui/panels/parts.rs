@@ -22,6 +22,9 @@ const MOST: f32 = 8.0 * (CONTROL_HEIGHT + 4.0);
 const PICTURE: f32 = 30.0;
 const EASING: f32 = 84.0;
 
+/// The most rings that are all drawn in small.
+const MOST_RINGS: usize = 60;
+
 /// Draws the rows, where there are parts enough to tell apart.
 pub fn show(ui: &mut Ui, scene: &Scene, times: &mut Vec<PartTime>) {
     let sheet = &scene.sheet;
@@ -31,15 +34,24 @@ pub fn show(ui: &mut Ui, scene: &Scene, times: &mut Vec<PartTime>) {
     section(ui, "Parts in time", |ui| {
         stagger(ui, sheet, times);
         ui.add_space(4.0);
+        let said = times::of_pieces(sheet, times);
         ScrollArea::vertical()
             .id_salt("parts in time")
             .max_height(MOST)
             .min_scrolled_height(MOST)
-            .show(ui, |ui| {
-                for piece in 0..sheet.pieces.len() {
-                    row(ui, sheet, times, piece);
+            .show_rows(ui, CONTROL_HEIGHT, sheet.pieces.len(), |ui, rows| {
+                for piece in rows {
+                    let before = said[piece].map_or(Clock::WHOLE, |k| times[k].clock());
+                    if let Some(clock) = row(ui, sheet, before, piece) {
+                        times::set(sheet, times, piece, clock);
+                        break; // the rows below would be told by numbers of before
+                    }
                 }
             });
+        hint(
+            ui,
+            "Drag an end of a bar: the part sets out later, or is there sooner.",
+        );
     });
 }
 
@@ -62,18 +74,11 @@ fn stagger(ui: &mut Ui, sheet: &Sheet, times: &mut Vec<PartTime>) {
             times.clear();
         }
     });
-    if times.is_empty() {
-        hint(
-            ui,
-            "Drag an end of a bar: the part sets out later, or is there sooner.",
-        );
-    }
 }
 
-fn row(ui: &mut Ui, sheet: &Sheet, times: &mut Vec<PartTime>, piece: usize) {
-    let said = times::of_piece(sheet, times, piece);
-    let mut clock = said.map_or(Clock::WHOLE, |k| times[k].clock());
-    let before = clock;
+/// The row of a piece, and its clock where the hand gives it another.
+fn row(ui: &mut Ui, sheet: &Sheet, before: Clock, piece: usize) -> Option<Clock> {
+    let mut clock = before;
     ui.horizontal(|ui| {
         ui.spacing_mut().item_spacing.x = 6.0;
         picture(ui, sheet, piece);
@@ -90,9 +95,7 @@ fn row(ui: &mut Ui, sheet: &Sheet, times: &mut Vec<PartTime>, piece: usize) {
         // It rests at both ends of its way, as the whole does.
         clock.easing = Ease::default();
     }
-    if clock != before {
-        times::set(sheet, times, piece, clock);
-    }
+    (clock != before).then_some(clock)
 }
 
 /// The part in small, in the design that has it, and its letter.
@@ -123,7 +126,10 @@ fn picture(ui: &mut Ui, sheet: &Sheet, piece: usize) {
     let Some(sides) = &sheet.sides else { return };
     let frame = Rect::from_min_max(rect.left_top() + vec2(18.0, 1.0), rect.right_bottom());
     let view = View::of(sides[side].bounds, frame.shrink(1.0));
-    for ring in &sheet.rings {
+    // Of very many a picture of this size shows nothing but ink.
+    let shows_others = sheet.rings.len() <= MOST_RINGS;
+    let rings = sheet.rings.iter();
+    for ring in rings.filter(|ring| shows_others || ring.piece == piece) {
         let is_own = ring.piece == piece;
         let ink = if is_own { palette.text } else { palette.line };
         view.draw(
