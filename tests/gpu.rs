@@ -67,6 +67,10 @@ const TESTS: &[Test] = &[
         drawings::drawings_look_the_same_on_both,
     ),
     (
+        "painted_fields_look_the_same_on_both",
+        drawings::painted_fields_look_the_same_on_both,
+    ),
+    (
         "a_transparent_ground_has_straight_alpha",
         a_transparent_ground_has_straight_alpha,
     ),
@@ -142,10 +146,11 @@ fn carried_fields_look_the_same_on_both(studio: &mut Studio) {
 /// across a cell would be the coarser of the two.
 fn contours_are_right_and_smooth_at_any_zoom(studio: &mut Studio) {
     for (name, transition) in field() {
-        let Content::Field(pair) = transition.content().clone() else {
+        let Content::Field(fields) = transition.content().clone() else {
             panic!("{name} is no field");
         };
         let t = 0.4;
+        let pair = fields.whole();
         let on_contour = pair.contour(t)[0][0];
         for (zoom, half) in [("near", 0.05), ("far", 40.0)] {
             let mut scene = Scene::new(name, transition.clone());

@@ -12,9 +12,30 @@ pub struct Coating {
     pub of_walks: Vec<usize>,
     /// For each hole its coat.
     pub of_holes: Vec<usize>,
+    /// For each boundary walk the design that has its part alone.
+    pub lone_walks: Vec<Option<Side>>,
+    /// What one design has alone fades in or out.
+    pub fades: bool,
     /// The t at which those change places that lie over each other otherwise in
     /// the target than in the source.
     pub reordered_at: f64,
+}
+
+/// Rings that are painted alike.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Inked {
+    /// Their coat; 0 where there is one colour.
+    pub coat: usize,
+    /// The time that they show, by which their paint is mixed.
+    pub t: f64,
+    /// The rings.
+    pub rings: Vec<Vec<DVec2>>,
+    /// Their paint in source and target; none where there is one colour.
+    pub paints: [Option<Paint>; 2],
+    /// The gradients that their paints are the means of, as they are at `t`.
+    pub gradients: [Option<Gradient>; 2],
+    /// The lines along them in source and target.
+    pub lines: [Option<Line>; 2],
 }
 
 /// Parts that are painted alike, in both designs.
@@ -51,39 +72,56 @@ pub struct Anchored {
 }
 
 impl Shading {
-    /// Both gradients, carried to where the vertices are by the affine map that fits
-    /// them best.
+    /// Both gradients, carried to where those of the vertices are that count, by the
+    /// affine map that fits them best.
     ///
     /// # Panics
     /// Where a vertex has no place.
     #[must_use]
-    pub fn at(&self, places: &[DVec2]) -> [Option<Gradient>; 2] {
+    pub fn at(&self, places: &[DVec2], counts: impl Fn(u32) -> bool) -> [Option<Gradient>; 2] {
         if self.ends == [None, None] {
             return [None, None];
         }
-        let here: Vec<DVec2> = self.vertices.iter().map(|&v| places[v as usize]).collect();
+        let own: Vec<usize> = (0..self.vertices.len())
+            .filter(|&k| counts(self.vertices[k]))
+            .collect();
+        let place = |&k: &usize| places[self.vertices[k] as usize];
+        let here: Vec<DVec2> = own.iter().map(place).collect();
         self.ends.each_ref().map(|end| {
             let end = end.as_ref()?;
-            Some(end.gradient.moved(affine(&end.places, &here)))
+            let there: Vec<DVec2> = own.iter().map(|&k| end.places[k]).collect();
+            Some(end.gradient.moved(affine(&there, &here)))
         })
     }
 }
 
 impl Coat {
-    /// Lets what one design has alone fade in or out, or keep its paint.
-    pub(crate) fn fade(&mut self, fades: bool) {
-        let Some(own) = self.alone else { return };
-        let seen = |paint: Paint| Paint {
-            opacity: if fades { 0.0 } else { paint.opacity },
-            ..paint
+    /// Paints, gradients and lines into what is in this coat at `t`, the gradients being
+    /// these there; of what fades the design that has it alone.
+    pub(super) fn ink(
+        &self,
+        inked: Inked,
+        gradients: [Option<Gradient>; 2],
+        fading: Option<Side>,
+    ) -> Inked {
+        let mut inked = Inked {
+            paints: self.paints,
+            lines: self.lines,
+            gradients,
+            ..inked
         };
-        let away = own.other();
-        self.paints[away] = self.paints[own].map(seen);
-        let shading = self.shading.ends[own].clone();
-        self.shading.ends[away] = shading.map(|end| Anchored {
-            gradient: end.gradient.repainted(seen),
-            ..end
-        });
+        if let Some(own) = fading {
+            let clear = |paint: Paint| Paint {
+                opacity: 0.0,
+                ..paint
+            };
+            let away = own.other();
+            inked.paints[away] = inked.paints[own].map(clear);
+            let gradient = inked.gradients[own].as_ref();
+            inked.gradients[away] = gradient.map(|gradient| gradient.repainted(clear));
+            inked.lines[away] = None;
+        }
+        inked
     }
 }
 
@@ -101,6 +139,8 @@ impl Coating {
             }],
             of_walks: vec![0; walks],
             of_holes: vec![0; holes],
+            lone_walks: vec![None; walks],
+            fades: false,
             reordered_at: 0.0,
         }
     }

@@ -1,4 +1,4 @@
-//! Two distance fields and how they mix: the paper's §3.1.
+//! A pair of distance fields and how they mix: the paper's §3.1.
 //!
 //! A blend is F = (1 − t) L(f₀) + t L(f₁), drawn where F ≥ L(τ). The fields
 //! are read bilinearly *before* L is applied, by the CPU as by the GPU.
@@ -137,7 +137,7 @@ impl FieldBlend {
     }
 }
 
-/// The content *distance field*: two fields on one grid, and their blend.
+/// Two fields on one grid, and their blend.
 ///
 /// Cloning is cheap: the fields are shared.
 ///
@@ -252,7 +252,16 @@ impl FieldPair {
         let (grid, blend) = (self.grid(), &self.blend);
         let (source, target) = (self.source.samples(), self.target.samples());
         let value = |x, y| blend.value(source.bilinear(x, y), target.bilinear(x, y), t);
-        let mut rings = contour::trace(grid.width, grid.height, value, blend.level());
+        // L is monotone: what both fields have on one side of the threshold is there.
+        let is_between = (0.0..=1.0).contains(&t);
+        let [a, b] = [self.source.values(), self.target.values()];
+        let known = |column: usize, row: usize| {
+            let at = row * grid.width as usize + column;
+            let [a, b] = [a[at], b[at]].map(|value| f64::from(value) >= blend.threshold);
+            (is_between && a == b).then_some(a)
+        };
+        let (width, height) = (grid.width, grid.height);
+        let mut rings = contour::trace_knowing(width, height, known, value, blend.level());
         for p in rings.iter_mut().flatten() {
             *p = grid.plane_from_lattice(*p);
         }

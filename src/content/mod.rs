@@ -4,20 +4,23 @@
 mod coating;
 mod colours;
 mod field;
+mod fields;
 mod hole;
 mod scan;
 mod solid;
 mod swell;
 
-pub use coating::{Anchored, Coat, Coating, Shading};
+pub use coating::{Anchored, Coat, Coating, Inked, Shading};
 pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
 pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError};
+pub use fields::{Fields, Painted};
 pub use hole::Hole;
-pub use solid::{Clocks, Inked, InkedBars, Solid, Speck};
+pub use solid::{Clocks, InkedBars, Solid, Speck};
 pub use swell::Swell;
 pub(crate) use swell::middle;
 
 use crate::names::named;
+use crate::warp::Placement;
 
 /// Which content: a column of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -43,8 +46,43 @@ named! { ContentKind {
 pub enum Content {
     /// Regions and bars, filled.
     Solid(Solid),
-    /// The contour of two blended distance fields.
-    Field(FieldPair),
+    /// The contours of blended distance fields.
+    Field(Fields),
     /// Two pictures, cross-dissolved.
     Colours(PicturePair),
+}
+
+impl Content {
+    /// How it is painted; none where it has one colour, or is pictures.
+    #[must_use]
+    pub fn coating(&self) -> Option<&Coating> {
+        match self {
+            Self::Solid(solid) => solid.coating.as_ref(),
+            Self::Field(fields) => fields.painted().map(|painted| &painted.coating),
+            Self::Colours(_) => None,
+        }
+    }
+
+    pub(crate) fn coating_mut(&mut self) -> Option<&mut Coating> {
+        match self {
+            Self::Solid(solid) => solid.coating.as_mut(),
+            Self::Field(fields) => fields.painted_mut().map(|painted| &mut painted.coating),
+            Self::Colours(_) => None,
+        }
+    }
+
+    /// Its rings at `t`, when the placement is that of `t`: coat by coat as they lie
+    /// there, the lowest first, or all together where it has one colour. Of pictures
+    /// none.
+    ///
+    /// # Panics
+    /// Where a vertex has no place.
+    #[must_use]
+    pub fn coated_at(&self, placement: &Placement, t: f64) -> Vec<Inked> {
+        match self {
+            Self::Solid(solid) => solid.coated_at(&placement.in_frame, t),
+            Self::Field(fields) => fields.coated_at(placement, t),
+            Self::Colours(_) => Vec::new(),
+        }
+    }
 }

@@ -1,10 +1,10 @@
 //! Solid regions and bars that are carried by the vertices of a placement.
 
-use super::{Coating, Hole, Swell};
+use super::{Coating, Hole, Inked, Swell};
 use crate::colour::Paint;
 use crate::geometry::{Crossing, DVec2, RingEdge, Side, count_crossings, crossings};
 use crate::warp::{Clock, Life};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// What is drawn over the vertices of a placement.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -42,24 +42,29 @@ pub struct Clocks {
     pub of_walks: Vec<usize>,
     /// For each hole its clock.
     pub of_holes: Vec<usize>,
+    /// For each vertex its clock.
+    pub of_vertices: Vec<usize>,
 }
 
-/// Rings of a solid that are painted alike.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Inked {
-    /// Their coat; 0 where there is one colour.
-    pub coat: usize,
-    /// The time that they show, by which their paint is mixed.
-    pub t: f64,
-    /// The rings.
-    pub rings: Vec<Vec<DVec2>>,
+impl Clocks {
+    fn of_vertex(&self, vertex: u32) -> usize {
+        self.of_vertices[vertex as usize]
+    }
 }
 
-/// A ring, and what it is painted with: its coat and the number of its clock.
+/// A ring, and what it is painted with.
 struct InkedRing {
     coat: usize,
-    clock: usize,
+    key: InkKey,
     points: Vec<DVec2>,
+}
+
+/// What tells rings of one coat apart: the number of their clock, and of those that fade
+/// the design that has them alone.
+#[derive(Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord)]
+struct InkKey {
+    clock: usize,
+    fading: Option<Side>,
 }
 
 /// Bars that are painted alike.
@@ -127,9 +132,14 @@ impl Solid {
 
     /// The rings of [`Self::rings_at`], each with its coat and its clock.
     fn inked_at(&self, places: &[DVec2], t: f64) -> Vec<InkedRing> {
+        let coating = self.coating.as_ref();
+        let fading = coating.filter(|all| all.fades);
         let of_walk = |walk: usize, points: Vec<DVec2>| InkedRing {
-            coat: self.coating.as_ref().map_or(0, |all| all.of_walks[walk]),
-            clock: self.clocks.as_ref().map_or(0, |all| all.of_walks[walk]),
+            coat: coating.map_or(0, |all| all.of_walks[walk]),
+            key: InkKey {
+                clock: self.clocks.as_ref().map_or(0, |all| all.of_walks[walk]),
+                fading: fading.and_then(|all| all.lone_walks[walk]),
+            },
             points,
         };
         let walks = self.walks(t);
@@ -139,9 +149,13 @@ impl Solid {
             let rings = self.swollen(swell, places, t).into_iter();
             rings.map(move |ring| of_walk(walk, ring))
         });
+        // Parts that have holes of one design alone are in both.
         let of_hole = |(hole, points): (usize, Vec<DVec2>)| InkedRing {
-            coat: self.coating.as_ref().map_or(0, |all| all.of_holes[hole]),
-            clock: self.clocks.as_ref().map_or(0, |all| all.of_holes[hole]),
+            coat: coating.map_or(0, |all| all.of_holes[hole]),
+            key: InkKey {
+                clock: self.clocks.as_ref().map_or(0, |all| all.of_holes[hole]),
+                fading: None,
+            },
             points,
         };
         let holes = self.holes.iter().enumerate();
@@ -167,29 +181,46 @@ impl Solid {
     }
 
     /// The rings of each coat at `t`, the lowest coat first; of a solid of one
-    /// colour all in one. Those of a coat that show several times stand apart.
+    /// colour all in one. Those of a coat that show several times, or fade, stand apart.
     ///
     /// # Panics
     /// Where a walk goes by a vertex that has no place.
     #[must_use]
     pub fn coated_at(&self, places: &[DVec2], t: f64) -> Vec<Inked> {
-        let count = self.coating.as_ref().map_or(1, |all| all.coats.len());
-        let order = self.coating.as_ref().map_or(vec![0], |all| all.order(t));
-        let times: Vec<f64> = match &self.clocks {
-            Some(all) => all.clocks.iter().map(|clock| clock.at(t)).collect(),
-            None => vec![t],
+        let Some(coating) = &self.coating else {
+            let rings = self.rings_at(places, t);
+            return vec![Inked {
+                t,
+                rings,
+                ..Inked::default()
+            }];
         };
-        let mut inked: Vec<Vec<Vec<Vec<DVec2>>>> = vec![vec![Vec::new(); times.len()]; count];
+        let mut of_coats = vec![BTreeMap::<InkKey, Vec<Vec<DVec2>>>::new(); coating.coats.len()];
         for ring in self.inked_at(places, t) {
-            inked[ring.coat][ring.clock].push(ring.points);
+            let of_key = of_coats[ring.coat].entry(ring.key).or_default();
+            of_key.push(ring.points);
         }
         let of_coat = |coat: usize| {
-            let by_clock = std::mem::take(&mut inked[coat]).into_iter().zip(&times);
-            let inked = by_clock.map(move |(rings, &t)| Inked { coat, t, rings });
-            // Without clocks every coat is there, empty or not.
-            inked.filter(|inked| times.len() == 1 || !inked.rings.is_empty())
+            let mut of_keys = std::mem::take(&mut of_coats[coat]);
+            if self.clocks.is_none() && !coating.fades {
+                // Every coat is there then, empty or not.
+                of_keys.entry(InkKey::default()).or_default();
+            }
+            of_keys.into_iter().map(move |(key, rings)| {
+                let clocks = self.clocks.as_ref();
+                let shows = |v: u32| clocks.is_none_or(|all| all.of_vertex(v) == key.clock);
+                let gradients = coating.coats[coat].shading.at(places, shows);
+                let t = clocks.map_or(t, |all| all.clocks[key.clock].at(t));
+                let inked = Inked {
+                    coat,
+                    t,
+                    rings,
+                    ..Inked::default()
+                };
+                coating.coats[coat].ink(inked, gradients, key.fading)
+            })
         };
-        order.into_iter().flat_map(of_coat).collect()
+        coating.order(t).into_iter().flat_map(of_coat).collect()
     }
 
     /// Where rings of [`Self::rings_at`] cross; those of two coats may.

@@ -41,7 +41,7 @@ pub use options::{MatchError, MatchOptions};
 pub use pairing::PairError;
 pub use pins::{Pin, PinError};
 pub use polygons::SharedPolygons;
-pub(crate) use regions::{Group, Holes, Look, Looks, Prepared};
+pub(crate) use regions::{Group, Holes, Look, Looks, Prepared, paired_parts};
 pub use regions::{
     MatchNote, POINT_SIZE, PieceMatch, RegionMatch, RegionMatchError, RingKind, RingMatch,
     match_regions,

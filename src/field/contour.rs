@@ -58,12 +58,28 @@ pub fn trace<F>(width: u32, height: u32, value: F, level: f64) -> Vec<Vec<DVec2>
 where
     F: Fn(f64, f64) -> f64 + Sync,
 {
+    trace_knowing(width, height, |_, _| None, value, level)
+}
+
+/// [`trace`] of a function of which is `known` for many samples, by column and row,
+/// whether they are inside: `value` is not asked there.
+pub(crate) fn trace_knowing<F>(
+    width: u32,
+    height: u32,
+    known: impl Fn(usize, usize) -> Option<bool> + Sync,
+    value: F,
+    level: f64,
+) -> Vec<Vec<DVec2>>
+where
+    F: Fn(f64, f64) -> f64 + Sync,
+{
     if width == 0 || height == 0 {
         return Vec::new();
     }
     let squares = Squares {
         columns: width as usize + 4,
         rows: height as usize + 4,
+        known,
         above: |x: f64, y: f64| value(x, y) - level,
     };
     let segments = squares.segments(&squares.inside());
@@ -91,13 +107,18 @@ type Segment = (Edge, Edge);
 
 /// The lattice, widened by two nodes on each side: the picture's border, and a
 /// ring in the same place that is always outside and closes every contour.
-struct Squares<F> {
+struct Squares<K, F> {
     columns: usize,
     rows: usize,
+    known: K,
     above: F,
 }
 
-impl<F: Fn(f64, f64) -> f64 + Sync> Squares<F> {
+impl<K, F> Squares<K, F>
+where
+    K: Fn(usize, usize) -> Option<bool> + Sync,
+    F: Fn(f64, f64) -> f64 + Sync,
+{
     fn position(&self, column: usize, row: usize) -> DVec2 {
         // The last sample is at count − 5, the picture's border half a sample
         // beyond.
@@ -112,11 +133,20 @@ impl<F: Fn(f64, f64) -> f64 + Sync> Squares<F> {
         let inner = rows.skip(1).take(self.rows - 2);
         inner.for_each(|(row, out)| {
             for (column, out) in out.iter_mut().enumerate().take(self.columns - 1).skip(1) {
-                let p = self.position(column, row);
-                *out = (self.above)(p.x, p.y) >= 0.0;
+                *out = self.is_inside(column, row);
             }
         });
         inside
+    }
+
+    fn is_inside(&self, column: usize, row: usize) -> bool {
+        let is_sample =
+            (2..self.columns - 2).contains(&column) && (2..self.rows - 2).contains(&row);
+        let known = is_sample.then(|| (self.known)(column - 2, row - 2));
+        known.flatten().unwrap_or_else(|| {
+            let p = self.position(column, row);
+            (self.above)(p.x, p.y) >= 0.0
+        })
     }
 
     /// All segments, sorted by the edge that they start from.

@@ -75,6 +75,15 @@ impl DistanceField {
         Ok(Self { grid, values })
     }
 
+    /// One value all over a grid that was checked.
+    pub(crate) fn even(grid: Grid, value: f64) -> Self {
+        let value = value.clamp(f32::MIN.into(), f32::MAX.into()) as f32;
+        Self {
+            values: vec![value; grid.width as usize * grid.height as usize],
+            grid,
+        }
+    }
+
     /// The distance transform of a mask that has the grid's size.
     ///
     /// # Errors

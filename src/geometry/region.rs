@@ -168,6 +168,13 @@ impl Regions {
         (!pieces.is_empty()).then_some(Self(pieces))
     }
 
+    /// Only the pieces with these numbers; none of no pieces.
+    pub(crate) fn only(&self, numbers: &[usize]) -> Option<Self> {
+        let pieces = numbers.iter().filter_map(|&k| self.0.get(k).cloned());
+        let pieces: Vec<Region> = pieces.collect();
+        (!pieces.is_empty()).then_some(Self(pieces))
+    }
+
     /// Each piece as another.
     pub(super) fn mapped(&self, map: impl Fn(&Region) -> Region) -> Self {
         Self(self.0.iter().map(map).collect())

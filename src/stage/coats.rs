@@ -1,4 +1,4 @@
-//! The render mesh of a solid in several paints: coat by coat, the lowest first, a
+//! The render mesh of what is in several paints: coat by coat, the lowest first, a
 //! line over what it goes around. Within one mesh the graphics card draws in this
 //! order.
 
@@ -6,7 +6,7 @@ use bevy::mesh::{Indices, Mesh};
 use glam::DVec2;
 
 use crate::colour::{Line, Paint};
-use crate::content::{Coat, Coating, Inked, Solid};
+use crate::content::{Coating, Inked, Solid};
 use crate::transition::{Frame, Style};
 
 use super::fill::filled;
@@ -14,7 +14,7 @@ use super::gradients::{Gradients, Shaded, Table};
 use super::ribbon;
 use super::shapes::write_points;
 
-/// A solid in coats, as it is written.
+/// A solid or fields in coats, as they are written.
 #[derive(Clone, Debug)]
 pub(super) struct Coats {
     /// Its faces, which stay the same. None where its rings are triangulated anew:
@@ -22,6 +22,7 @@ pub(super) struct Coats {
     faces: Option<CoatFaces>,
     /// The gradients of the last frame.
     gradients: Box<Gradients>,
+    is_of_fields: bool,
 }
 
 /// Which faces and which vertices are in which coat.
@@ -42,10 +43,22 @@ enum Ink {
 }
 
 impl Coats {
+    /// Of fields with paints.
+    pub(super) fn of_fields() -> Self {
+        Self {
+            faces: None,
+            gradients: Box::default(),
+            is_of_fields: true,
+        }
+    }
+
     /// Of a frame's solid, which has a coating.
-    pub(super) fn new(frame: &Frame, solid: &Solid, coating: &Coating) -> Self {
-        let comes_and_goes =
-            !solid.holes.is_empty() || !solid.swells.is_empty() || solid.clocks.is_some();
+    pub(super) fn of_solid(frame: &Frame, solid: &Solid, coating: &Coating) -> Self {
+        // Faces know nothing of that, nor of coats that are in several inks.
+        let comes_and_goes = !solid.holes.is_empty()
+            || !solid.swells.is_empty()
+            || solid.clocks.is_some()
+            || coating.fades;
         let arap = frame.transition().arap().filter(|_| !comes_and_goes);
         let faces = arap.map(|arap| {
             let parts = arap.mesh().components();
@@ -54,7 +67,13 @@ impl Coats {
         Self {
             faces,
             gradients: Box::default(),
+            is_of_fields: false,
         }
+    }
+
+    /// Whether they are contours of fields.
+    pub(super) fn is_of_fields(&self) -> bool {
+        self.is_of_fields
     }
 
     /// Whether the faces of the frame are drawn.
@@ -68,40 +87,39 @@ impl Coats {
     }
 
     /// Brings a mesh up to a frame and a style.
-    pub(super) fn write(
-        &mut self,
-        frame: &Frame,
-        (solid, coating): (&Solid, &Coating),
-        style: &Style,
-        origin: DVec2,
-        mesh: &mut Mesh,
-    ) {
-        let (t, places) = (frame.t(), &frame.placement().in_frame);
+    pub(super) fn write(&mut self, frame: &Frame, style: &Style, origin: DVec2, mesh: &mut Mesh) {
+        let placement = frame.placement();
+        let coated = frame.transition().content().coated_at(placement, frame.t());
         let mut table = Table::default();
-        let mut ink = |coat: &Coat, t: f64| {
-            let gradients = coat.shading.at(places);
-            let gradients = gradients.each_ref().map(Option::as_ref);
-            let gradient = style.gradient_at(gradients, coat.paints, t);
+        let mut ink = |inked: &Inked| {
+            let gradients = inked.gradients.each_ref().map(Option::as_ref);
+            let gradient = style.gradient_at(gradients, inked.paints, inked.t);
             let shaded = gradient.and_then(|gradient| table.put(&gradient));
-            let flat = || Ink::Flat(flat(style.paint_at(coat.paints, t)));
+            let flat = || Ink::Flat(flat(style.paint_at(inked.paints, inked.t)));
             shaded.map_or_else(flat, Ink::Shaded)
         };
+        let inks: Vec<Ink> = coated.iter().map(&mut ink).collect();
         let mut layers = Layers::of(origin);
         if let Some(faces) = &self.faces {
+            let places = &placement.in_frame;
             layers.positions.resize(places.len(), [0.0; 3]);
             write_points(places, origin, &mut layers.positions);
-            let inks: Vec<Ink> = coating.coats.iter().map(|coat| ink(coat, t)).collect();
+            // Each coat is there once.
+            let mut of_coats = vec![Ink::Flat([0.0; 4]); coated.len()];
+            for (inked, &ink) in coated.iter().zip(&inks) {
+                of_coats[inked.coat] = ink;
+            }
             for (&coat, &place) in faces.of_vertices.iter().zip(places) {
-                layers.ink(inks[coat], place);
+                layers.ink(of_coats[coat], place);
             }
         }
-        for Inked { coat, t, rings } in solid.coated_at(places, t) {
+        for (inked, ink) in coated.iter().zip(inks) {
             match &self.faces {
-                Some(faces) => layers.indices.extend(&faces.corners[coat]),
-                None => layers.fill(&rings, ink(&coating.coats[coat], t)),
+                Some(faces) => layers.indices.extend(&faces.corners[inked.coat]),
+                None => layers.fill(&inked.rings, ink),
             }
-            if let Some(line) = Line::between(coating.coats[coat].lines, t) {
-                layers.draw(&rings, &line);
+            if let Some(line) = Line::between(inked.lines, inked.t) {
+                layers.draw(&inked.rings, &line);
             }
         }
         layers.put_into(mesh);

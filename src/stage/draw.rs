@@ -82,10 +82,10 @@ fn paint(part: &Part, frame: &Frame, style: &StageStyle, paints: &mut Paints) {
             let look = GridLook::new(frame, origin, style);
             renew(&mut paints.grids, grid, |grid| &mut grid.look, look);
         }
-        (Paint::Field(field), Content::Field(pair)) => {
-            let look = FieldLook::new(pair, t, style);
+        (Paint::Field(field), Content::Field(fields)) => {
+            let look = FieldLook::new(fields.whole(), t, style);
             renew(&mut paints.fields, field, |field| &mut field.look, look);
-            let kind = FieldKind::new(pair, style);
+            let kind = FieldKind::new(fields, style);
             renew(&mut paints.fields, field, |field| &mut field.kind, kind);
         }
         (Paint::Picture(picture), Content::Colours(pair)) => {

@@ -98,9 +98,12 @@ impl Wardrobe<'_, '_> {
         };
         match transition.content() {
             Content::Solid(solid) => fitting.add_solid(solid),
-            Content::Field(pair) => {
+            Content::Field(fields) => {
+                if fields.painted().is_some() {
+                    fitting.add_coats(Coats::of_fields());
+                }
                 let paints = &mut fitting.wardrobe.paints;
-                let material = FieldMaterial::new(pair, &mut paints.images);
+                let material = FieldMaterial::new(fields.whole(), &mut paints.images);
                 let material = paints.fields.add(material);
                 fitting.add(PartKind::Field, carried(frame), material, Paint::Field);
             }
@@ -162,22 +165,25 @@ impl Fitting<'_, '_, '_> {
         self.add(kind, mesh, material, Paint::Ink);
     }
 
+    fn add_coats(&mut self, coats: Coats) {
+        let mesh = match coats.has_faces() {
+            true => faces(self.frame),
+            false => nothing(),
+        };
+        let count = mesh.count_vertices();
+        let mesh = mesh
+            .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0_f32; 4]; count])
+            .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.0_f32; 2]; count]);
+        self.add_inked(PartKind::Coats(coats), mesh);
+    }
+
     fn add_solid(&mut self, solid: &Solid) {
         let count = self.frame.placement().faces.len();
         let has_loops = !solid.loops.is_empty();
         // Faces know nothing of that.
         let comes_and_goes = !solid.holes.is_empty() || !solid.swells.is_empty();
         if let Some(coating) = &solid.coating {
-            let coats = Coats::new(self.frame, solid, coating);
-            let mesh = match coats.has_faces() {
-                true => faces(self.frame),
-                false => nothing(),
-            };
-            let count = mesh.count_vertices();
-            let mesh = mesh
-                .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0_f32; 4]; count])
-                .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.0_f32; 2]; count]);
-            self.add_inked(PartKind::Coats(coats), mesh);
+            self.add_coats(Coats::of_solid(self.frame, solid, coating));
         } else if has_loops && (count == 0 || comes_and_goes) {
             self.add_inked(PartKind::Rings, nothing());
         } else if has_loops {

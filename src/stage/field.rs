@@ -17,7 +17,7 @@ use bevy::render::render_resource::{
 use bevy::shader::{ShaderDefVal, ShaderRef};
 use bevy::sprite_render::{AlphaMode2d, Material2d, Material2dKey};
 
-use crate::content::{BlendSpace, FieldPair};
+use crate::content::{BlendSpace, FieldPair, Fields};
 use crate::field::DistanceField;
 
 use super::components::StageStyle;
@@ -59,11 +59,12 @@ pub(super) struct FieldKind {
 }
 
 impl FieldKind {
-    pub(super) fn new(pair: &FieldPair, style: &StageStyle) -> Self {
+    pub(super) fn new(fields: &Fields, style: &StageStyle) -> Self {
         let show = style.show;
         Self {
-            is_log: matches!(pair.blend().space, BlendSpace::Log),
-            shows_fill: show.fill,
+            is_log: matches!(fields.whole().blend().space, BlendSpace::Log),
+            // What has paints of its own lies below, in them.
+            shows_fill: show.fill && fields.painted().is_none(),
             shows_lines: show.iso_lines,
             shows_signs: show.signed_colours,
         }

@@ -29,6 +29,8 @@ impl Default for Gradients {
 #[derive(Default)]
 pub(super) struct Table {
     pub(super) gradients: Gradients,
+    /// Where each begins.
+    firsts: Vec<usize>,
     taken: usize,
 }
 
@@ -44,9 +46,7 @@ impl Table {
     /// Puts a gradient in, if there is room and it is not flat.
     pub(super) fn put(&mut self, gradient: &Gradient) -> Option<Shaded> {
         let into = gradient.frame.inverse();
-        let first = self.taken;
-        let end = first + 2 + 2 * gradient.stops.len();
-        if end > ROOM || !into.is_finite() || gradient.stops.is_empty() {
+        if !into.is_finite() || gradient.stops.is_empty() {
             return None;
         }
         let spread = match gradient.spread {
@@ -64,12 +64,29 @@ impl Table {
             let at = Vec4::new(stop.at as f32, 0.0, 0.0, 0.0);
             [encoded(stop.paint), at]
         });
-        let numbers = [head, focus].into_iter().chain(stops);
-        for (place, number) in self.gradients.numbers[first..end].iter_mut().zip(numbers) {
-            *place = number;
+        let numbers: Vec<Vec4> = [head, focus].into_iter().chain(stops).collect();
+        Some(Shaded {
+            first: self.put_numbers(&numbers)?,
+            into,
+        })
+    }
+
+    /// Where the numbers are; those that are the same, in another place of the plane, only
+    /// once.
+    fn put_numbers(&mut self, numbers: &[Vec4]) -> Option<usize> {
+        let is_there = |&first: &usize| self.gradients.numbers[first..].starts_with(numbers);
+        if let Some(&first) = self.firsts.iter().find(|first| is_there(first)) {
+            return Some(first);
         }
-        self.taken = end;
-        Some(Shaded { first, into })
+        let first = self.taken;
+        let room = self
+            .gradients
+            .numbers
+            .get_mut(first..first + numbers.len())?;
+        room.copy_from_slice(numbers);
+        self.firsts.push(first);
+        self.taken += numbers.len();
+        Some(first)
     }
 }
 
@@ -112,7 +129,9 @@ mod tests {
         assert!(table.put(&gradient(0)).is_none());
         let first = table.put(&gradient(200)).expect("room");
         assert_eq!(first.place(DVec2::new(1.0, 4.0)), [0.5, 2.0]);
-        assert!(table.put(&gradient(200)).is_none());
+        assert!(table.put(&gradient(60)).is_none());
+        let again = table.put(&gradient(200)).expect("is there");
+        assert_eq!(again.mark(), first.mark());
         let second = table.put(&gradient(2)).expect("room");
         assert_eq!(second.mark()[0], 402.0);
         let flat = gradient(2).moved(DAffine2::from_scale(DVec2::X));

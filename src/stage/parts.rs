@@ -5,7 +5,6 @@ use bevy::prelude::*;
 use glam::DVec2;
 
 use crate::colour::Rgb;
-use crate::content::Content;
 use crate::export::joint_core;
 use crate::transition::Frame;
 use crate::warp::WarpKind;
@@ -57,7 +56,9 @@ impl PartKind {
     /// What is drawn over what.
     pub(super) fn layer(&self) -> f32 {
         match self {
-            Self::Faces | Self::Rings | Self::Coats(_) | Self::Field | Self::Picture => 0.0,
+            Self::Faces | Self::Rings | Self::Coats(_) | Self::Picture => 0.0,
+            // Lines of equal distance lie over the paints.
+            Self::Field => 0.05,
             Self::Bars(bars) => 0.1 + 0.05 * bars.height,
             Self::JointCores(bars) => 0.2 + 0.05 * bars.height,
             Self::Wire { .. } => 0.3,
@@ -79,7 +80,8 @@ impl PartKind {
 
     pub(super) fn is_shown(&self, StageStyle { style, show }: &StageStyle) -> bool {
         match self {
-            Self::Faces | Self::Rings | Self::Coats(_) | Self::Picture => show.fill,
+            Self::Faces | Self::Rings | Self::Picture => show.fill,
+            Self::Coats(coats) => show.fill && !(coats.is_of_fields() && show.signed_colours),
             // One shader draws all three, and leaves out what is not asked for.
             Self::Field => show.fill || show.iso_lines || show.signed_colours,
             Self::Bars(_) => show.bars,
@@ -127,11 +129,7 @@ impl Part {
         let joints = style.style.joints;
         match &mut self.kind {
             PartKind::Coats(coats) => {
-                if let Content::Solid(solid) = frame.transition().content()
-                    && let Some(coating) = &solid.coating
-                {
-                    coats.write(frame, (solid, coating), &style.style, origin, mesh);
-                }
+                coats.write(frame, &style.style, origin, mesh);
             }
             PartKind::Rings => fill::write(frame, origin, mesh),
             PartKind::Field | PartKind::Picture => {

@@ -3,17 +3,18 @@
 use super::arrange::extent;
 use super::boundaries;
 use super::error::BuildError;
+use super::measured;
 use super::moved::Moved;
 use super::note::Note;
 use super::plane;
 use super::ready::{Inner, Transition};
 use super::solids;
-use super::spec::{TransitionSpec, bar_width, outline};
+use super::spec::{TransitionSpec, bar_width};
 use crate::budget::Load;
-use crate::content::{Content, ContentKind, FieldPair, PicturePair};
+use crate::content::{Content, ContentKind, Fields, PicturePair};
 use crate::design::{Design, Form};
-use crate::field::{DistanceField, FieldError, Grid};
-use crate::geometry::{Bounds, Side};
+use crate::field::Grid;
+use crate::geometry::Bounds;
 use crate::progress::{Cancelled, Progress, Silent, Span, Whole, checkpoint, still_wanted};
 use crate::warp::{Arap, Placement, Warp, WarpKind};
 use std::sync::Arc;
@@ -122,26 +123,28 @@ fn fields(
     let grid = Grid::covering(&frame, spec.options.field.cells, spec.options.field.margin)?;
     Load::Cells.allow(grid.cells(), progress)?;
     let span = |from, to| Span::new(progress, from, to);
-    let source = field_of(Side::Source, spec, grid, bar_width, &span(0.0, 0.35))?;
-    checkpoint(progress, "measuring distances", 0.35)?;
-    let target = field_of(Side::Target, spec, grid, bar_width, &span(0.35, 0.7))?;
-    still_wanted(progress)?;
-    let pair = FieldPair::new(source, target, spec.options.field.blend)?;
+    let whole = measured::whole(spec, grid, bar_width, &span(0.0, 0.4))?;
     // Over the grid with its margin: a carried field is looked up there too.
     let mut moved = plane::warp(spec, &grid.bounds(), bar_width, &span(0.7, 1.0))?;
+    let placer = moved.warp.as_warp().placer();
+    let (painted, note) =
+        measured::painted(spec, &grid, bar_width, placer.placement(), &span(0.4, 0.7))?;
+    moved.notes.extend(note);
+    let is_carried = spec.cell.warp() != WarpKind::None;
+    let fields = Fields::new(whole, painted, is_carried);
     if spec.options.field.is_switched() {
         // First, as the fields were made before the warp.
         moved.notes.insert(0, Note::BinaryBoundary);
     }
-    let bounds = if spec.cell.warp() == WarpKind::None {
-        frame
-    } else {
+    let bounds = if is_carried {
         let seen = |placement: &Placement, t| {
-            Bounds::of(pair.contour_carried(placement, t).into_iter().flatten())
+            Bounds::of(fields.contour(placement, t).into_iter().flatten())
         };
         swept(frame, moved.warp.as_warp(), seen, progress)?
+    } else {
+        frame
     };
-    Ok((moved, Content::Field(pair), bounds))
+    Ok((moved, Content::Field(fields), bounds))
 }
 
 fn colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Made, BuildError> {
@@ -189,24 +192,4 @@ fn field_frame(spec: &TransitionSpec, bar_width: f64) -> Bounds {
         _ => design.extent.union(&extent(design)),
     };
     of(&spec.source).union(&of(&spec.target))
-}
-
-fn field_of(
-    side: Side,
-    spec: &TransitionSpec,
-    grid: Grid,
-    bar_width: f64,
-    progress: &dyn Progress,
-) -> Result<DistanceField, BuildError> {
-    let design = [&spec.source, &spec.target][side];
-    let outline = outline(design, bar_width, progress)?;
-    let field = if spec.options.field.is_exact() {
-        DistanceField::from_regions(&outline, grid, progress)
-    } else {
-        DistanceField::from_raster(&outline, grid, spec.options.field.metric, progress)
-    };
-    field.map_err(|error| match error {
-        FieldError::Cancelled(cancelled) => BuildError::Cancelled(cancelled),
-        error => BuildError::Field { side, error },
-    })
 }

@@ -6,21 +6,16 @@ use super::holes::HoleOf;
 use super::levels::Levels;
 use super::ready::Inner;
 use crate::compatible::CompatibleMesh;
-use crate::content::{Anchored, Coat, Coating, Content, Shading, Solid};
-use crate::correspondence::{Looks, RegionMatch};
+use crate::content::{Anchored, Coat, Coating, Shading};
+use crate::correspondence::{Looks, PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side};
 
 impl Inner {
     /// The same transition with its coats as these options ask for.
     pub(super) fn coated(mut self, options: &CoatOptions) -> Self {
-        if let Content::Solid(Solid {
-            coating: Some(coating),
-            ..
-        }) = &mut self.content
-        {
+        if let Some(coating) = self.content.coating_mut() {
             coating.reordered_at = options.reorder_at;
-            let coats = coating.coats.iter_mut();
-            coats.for_each(|coat| coat.fade(options.fade));
+            coating.fades = options.fade;
         }
         self
     }
@@ -61,21 +56,56 @@ pub(super) fn coating(
         return None;
     }
     let levels = Levels::of(matched, &drawings.looks);
-    let heights = Side::BOTH.map(|side| heights(&levels.coats, side));
     let pieces = film.pieces.iter();
     let of_walks: Vec<usize> = pieces.map(|&piece| levels.of_piece(piece)).collect();
+    let along = |level: usize| {
+        let own = film.walks.iter().zip(&of_walks);
+        let own = own.filter(|&(_, of)| *of == level);
+        own.flat_map(|(walk, _)| walk.iter().copied()).collect()
+    };
+    Some(Coating {
+        coats: coats(drawings, &levels, along, film.places),
+        of_holes: holes
+            .iter()
+            .map(|(piece, _)| levels.of_piece(*piece))
+            .collect(),
+        lone_walks: film
+            .pieces
+            .iter()
+            .map(|&piece| alone(matched.pieces.get(piece)?))
+            .collect(),
+        of_walks,
+        fades: false,
+        reordered_at: CoatOptions::default().reorder_at,
+    })
+}
+
+/// The design that has a piece alone.
+fn alone(piece: &PieceMatch) -> Option<Side> {
+    match [piece.source_part, piece.target_part] {
+        [Some(_), None] => Some(Side::Source),
+        [None, Some(_)] => Some(Side::Target),
+        _ => None,
+    }
+}
+
+/// The coats of levels. A gradient goes with the vertices along the level's walks, which
+/// are in these places in the designs.
+pub(super) fn coats(
+    drawings: &Drawings,
+    levels: &Levels,
+    along: impl Fn(usize) -> Vec<u32>,
+    places: [&[DVec2]; 2],
+) -> Vec<Coat> {
+    let heights = Side::BOTH.map(|side| heights(&levels.coats, side));
     let coat = |level: usize| {
         let ink = |side: Side| Some(&drawings.inks[side][levels.coats[level][side]?]);
         let inks = Side::BOTH.map(ink);
-        let own = film.walks.iter().zip(&of_walks);
-        let own = own
-            .filter(|&(_, of)| *of == level)
-            .flat_map(|(walk, _)| walk);
         // What one design has alone keeps its paint, while its line grows with it.
         let paint = |side: Side| inks[side].or(inks[side.other()])?.paint;
         Coat {
             paints: Side::BOTH.map(paint),
-            shading: shading(inks, own.copied().collect(), film.places),
+            shading: shading(inks, along(level), places),
             lines: inks.map(|ink| ink?.line),
             heights: [heights[0][level], heights[1][level]],
             alone: match levels.coats[level] {
@@ -85,15 +115,7 @@ pub(super) fn coating(
             },
         }
     };
-    Some(Coating {
-        coats: (0..levels.coats.len()).map(coat).collect(),
-        of_holes: holes
-            .iter()
-            .map(|(piece, _)| levels.of_piece(*piece))
-            .collect(),
-        of_walks,
-        reordered_at: CoatOptions::default().reorder_at,
-    })
+    (0..levels.coats.len()).map(coat).collect()
 }
 
 /// The gradients of a coat that has these vertices; what one design has alone keeps its

@@ -3,10 +3,10 @@
 use super::options::Options;
 use super::ready::Transition;
 use crate::colour::{Gradient, Line, Paint};
-use crate::content::{Content, Inked, Raster, Solid};
+use crate::content::{Content, Raster};
 use crate::design::{Design, Form};
 use crate::geometry::DVec2;
-use crate::warp::{Placement, Placer, WarpKind};
+use crate::warp::{Placement, Placer};
 use image::RgbaImage;
 use std::ops::Range;
 
@@ -114,14 +114,13 @@ impl Frame {
     #[must_use]
     pub fn figure(&self) -> Figure {
         match self.transition.content() {
-            Content::Solid(solid) => self.solid_figure(solid),
-            Content::Field(pair) => Figure {
-                rings: match self.transition.cell().warp() {
-                    WarpKind::None => pair.contour(self.t),
-                    _ => pair.contour_carried(self.placement(), self.t),
-                },
+            Content::Solid(solid) => self.coated(Figure {
+                bars: solid.bars_at(&self.placement().in_frame),
+                bar_paints: solid.bar_paints.clone(),
+                bar_width: solid.bar_width,
                 ..Figure::default()
-            },
+            }),
+            Content::Field(_) => self.coated(Figure::default()),
             Content::Colours(pair) => Figure {
                 rings: vec![pair.window(self.t).corners().to_vec()],
                 ..Figure::default()
@@ -129,25 +128,19 @@ impl Frame {
         }
     }
 
-    fn solid_figure(&self, solid: &Solid) -> Figure {
-        let places = &self.placement().in_frame;
-        let mut figure = Figure {
-            bars: solid.bars_at(places),
-            bar_paints: solid.bar_paints.clone(),
-            bar_width: solid.bar_width,
-            ..Figure::default()
-        };
-        for Inked { coat, t, rings } in solid.coated_at(places, self.t) {
+    /// With the rings of this frame, coat by coat.
+    fn coated(&self, mut figure: Figure) -> Figure {
+        let content = self.transition.content();
+        for inked in content.coated_at(self.placement(), self.t) {
             let first = figure.rings.len();
-            figure.rings.extend(rings);
-            if let Some(coating) = &solid.coating {
-                let coat = &coating.coats[coat];
+            figure.rings.extend(inked.rings);
+            if content.coating().is_some() {
                 figure.coats.push(Coated {
                     rings: first..figure.rings.len(),
-                    paints: coat.paints,
-                    gradients: coat.shading.at(places),
-                    lines: coat.lines,
-                    t,
+                    paints: inked.paints,
+                    gradients: inked.gradients,
+                    lines: inked.lines,
+                    t: inked.t,
                 });
             }
         }

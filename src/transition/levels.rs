@@ -15,11 +15,19 @@ pub(super) struct Levels {
 
 impl Levels {
     pub(super) fn of(matched: &RegionMatch, looks: &Looks) -> Self {
-        let coats = |piece: &PieceMatch| -> [Option<usize>; 2] {
-            let parts = [piece.source_part, piece.target_part];
+        let parts = |piece: &PieceMatch| [piece.source_part, piece.target_part];
+        Self::of_parts(matched.pieces.iter().map(parts), looks)
+    }
+
+    /// Of pieces that go from one part to one part.
+    pub(super) fn of_parts(
+        pieces: impl Iterator<Item = [Option<usize>; 2]>,
+        looks: &Looks,
+    ) -> Self {
+        let coats = |parts: [Option<usize>; 2]| -> [Option<usize>; 2] {
             Side::BOTH.map(|side| parts[side].map(|part| looks.coat(side, part)))
         };
-        let mut of_pieces: Vec<[Option<usize>; 2]> = matched.pieces.iter().map(coats).collect();
+        let mut of_pieces: Vec<[Option<usize>; 2]> = pieces.map(coats).collect();
         // What is born or dies goes with most of its coat.
         let both: Vec<[Option<usize>; 2]> = of_pieces.clone();
         for own in &mut of_pieces {

@@ -46,6 +46,7 @@ mod holes;
 mod kept;
 mod levels;
 mod lone;
+mod measured;
 mod mirrored;
 mod moved;
 mod note;

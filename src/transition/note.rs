@@ -36,6 +36,8 @@ pub enum Note {
     /// Fields of distances that are not Euclidean have their boundary between
     /// cells, although it was to be exact.
     BinaryBoundary,
+    /// Drawings have more paints or parts than there can be fields.
+    OneColour,
     /// Parts were to have times of their own, which only rigid parts have.
     OneTime,
     /// The equations of rigid parts could only be solved with a little added
@@ -76,6 +78,10 @@ impl fmt::Display for Note {
             Self::BinaryBoundary => write!(
                 f,
                 "the boundary runs between cells: only Euclidean distances have it exactly"
+            ),
+            Self::OneColour => write!(
+                f,
+                "the drawings are shown in one colour: they have more paints or parts than fields can be mixed; choose fewer cells, or rigid parts"
             ),
             Self::OneTime => write!(
                 f,

@@ -59,11 +59,11 @@ impl Transition {
     /// # Errors
     /// [`FieldPairError`] if ε or the threshold is out of range.
     pub fn with_blend(&self, blend: FieldBlend) -> Result<Option<Self>, FieldPairError> {
-        let Content::Field(pair) = &self.0.content else {
+        let Content::Field(fields) = &self.0.content else {
             return Ok(None);
         };
         Ok(Some(Self::from(Inner {
-            content: Content::Field(pair.with_blend(blend)?),
+            content: Content::Field(fields.with_blend(blend)?),
             ..self.0.as_ref().clone()
         })))
     }

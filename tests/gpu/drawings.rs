@@ -1,10 +1,12 @@
 //! Drawings in their own colours: layers, lines, gradients and what is seen through.
 
 use image::RgbaImage;
+use morphospace::content::ContentKind;
 use morphospace::design::{ImportOptions, import_file};
 use morphospace::export::{Drawing, PixelSize, View, rasterise};
 use morphospace::progress::Silent;
-use morphospace::transition::{Transition, TransitionSpec};
+use morphospace::transition::{Cell, Transition, TransitionSpec};
+use morphospace::warp::WarpKind;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -24,13 +26,14 @@ const PAIRS: [(&str, &str); 3] = [
     ("fish", "sunset"),
 ];
 
-fn film(names: [&str; 2]) -> Transition {
+fn film(names: [&str; 2], cell: Cell) -> Transition {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/drawings");
     let [source, target] = names.map(|name| {
         let path = folder.join(format!("{name}.svg"));
         Arc::new(import_file(&path, &ImportOptions::default()).expect("a drawing"))
     });
-    let spec = TransitionSpec::new(source, target);
+    let mut spec = TransitionSpec::new(source, target);
+    spec.cell = cell;
     Transition::build(&spec, &Silent).expect("a transition")
 }
 
@@ -48,18 +51,38 @@ fn both(studio: &mut Studio, scene: &Scene, t: f64) -> (RgbaImage, RgbaImage) {
 
 pub fn drawings_look_the_same_on_both(studio: &mut Studio) {
     for (source, target) in PAIRS {
-        let mut scene = Scene::new(source, film([source, target]));
-        for (t, is_clear) in [
-            (0.0, false),
-            (0.3, false),
-            (0.5, true),
-            (0.8, false),
-            (1.0, true),
-        ] {
-            scene.ground = Some(scene.style.ground).filter(|_| !is_clear);
-            let (gpu, cpu) = both(studio, &scene, t);
-            let name = format!("{source} to {target} at {t}");
-            Difference::between(&gpu, &cpu).check(&name, EDGES);
-        }
+        compare(
+            studio,
+            [source, target],
+            (WarpKind::Arap, ContentKind::Solid),
+        );
+    }
+}
+
+/// A field for each paint, at rest and carried.
+pub fn painted_fields_look_the_same_on_both(studio: &mut Studio) {
+    for warp in [WarpKind::None, WarpKind::Scattered] {
+        compare(studio, ["sunset", "poster"], (warp, ContentKind::Field));
+    }
+}
+
+fn compare(
+    studio: &mut Studio,
+    [source, target]: [&'static str; 2],
+    cell: (WarpKind, ContentKind),
+) {
+    let of = Cell::new(cell.0, cell.1).expect("a cell");
+    let mut scene = Scene::new(source, film([source, target], of));
+    for (t, is_clear) in [
+        (0.0, false),
+        (0.3, false),
+        (0.5, true),
+        (0.8, false),
+        (1.0, true),
+    ] {
+        scene.ground = Some(scene.style.ground).filter(|_| !is_clear);
+        let (gpu, cpu) = both(studio, &scene, t);
+        let name = format!("{source} to {target}, {cell:?}, at {t}");
+        Difference::between(&gpu, &cpu).check(&name, EDGES);
     }
 }

@@ -175,7 +175,10 @@ impl Report {
             vertices: mesh.map(|mesh| mesh.source().len()),
             faces: mesh.map(|mesh| mesh.faces().len()),
             grid: match transition.content() {
-                Content::Field(pair) => Some([pair.grid().width, pair.grid().height]),
+                Content::Field(fields) => {
+                    let grid = fields.whole().grid();
+                    Some([grid.width, grid.height])
+                }
                 Content::Solid(_) | Content::Colours(_) => None,
             },
             seconds,

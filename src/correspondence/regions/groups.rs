@@ -22,6 +22,28 @@ impl Group {
     }
 }
 
+/// Who becomes whom, by place, form and look, and as it was said by hand of parts: pairs
+/// of parts, each part in one of them at least; none is the partner of a part alone.
+///
+/// # Errors
+/// Where what was said by hand cannot be.
+pub(crate) fn paired_parts(
+    designs: [&Regions; 2],
+    looks: &Looks,
+    wanted: &Matching,
+) -> Result<Vec<[Option<usize>; 2]>, RegionMatchError> {
+    let groups = grouped(designs, looks, wanted, &[])?;
+    // Of one with several each goes its own way; of several with several none is left out.
+    let pairs = |Group { parts }: &Group| -> Vec<[Option<usize>; 2]> {
+        let count = parts.iter().map(Vec::len).max().unwrap_or(0);
+        let of = |side: Side, k: usize| parts[side].get(k).or(parts[side].last()).copied();
+        (0..count)
+            .map(|k| Side::BOTH.map(|side| of(side, k)))
+            .collect()
+    };
+    Ok(groups.iter().flat_map(pairs).collect())
+}
+
 /// All parts of both designs in groups, in the order of the source's parts.
 pub(super) fn grouped(
     designs: [&Regions; 2],

@@ -38,7 +38,7 @@ mod walk;
 use super::Matching;
 use crate::geometry::Regions;
 use crate::progress::{Progress, checkpoint};
-pub(crate) use groups::Group;
+pub(crate) use groups::{Group, paired_parts};
 pub(crate) use looks::{Look, Looks};
 pub(crate) use prepared::Prepared;
 pub(crate) use sides::Holes;

@@ -108,9 +108,9 @@ impl Verdict {
                 },
                 solid::findings(transition, solid, glances, of_content)?,
             ),
-            Content::Field(pair) => (
+            Content::Field(fields) => (
                 "no more pieces or holes than at the ends",
-                field::findings(transition, pair, glances, of_content)?,
+                field::findings(transition, fields.whole(), glances, of_content)?,
             ),
             Content::Colours(_) => ("no folds", Vec::new()),
         };

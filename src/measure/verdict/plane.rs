@@ -89,9 +89,10 @@ fn of_missed(missed: &Missed, t: f64, diameter: f64) -> Finding {
 /// Whether something is drawn at `t` where the designs are looked at in these
 /// places: of fields only what is inside.
 fn is_seen(content: &Content, t: f64, looks: [DVec2; 2]) -> bool {
-    let Content::Field(pair) = content else {
+    let Content::Field(fields) = content else {
         return true;
     };
+    let pair = fields.whole();
     let [a, b] = [(pair.source(), looks[0]), (pair.target(), looks[1])].map(|(field, p)| {
         let at = pair.grid().lattice_from_plane(p);
         field.samples().bilinear(at.x, at.y)

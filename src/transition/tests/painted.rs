@@ -263,3 +263,43 @@ fn a_figure_without_colours_takes_those_of_the_style() {
     assert!(of(PaintRule::One).frame(0.5).figure().coats.is_empty());
     assert_eq!(film(&plain, &plain).frame(0.5).figure().coats, []);
 }
+
+#[test]
+fn fields_have_one_for_each_paint() {
+    let a = drawing(&format!(
+        "{}{}",
+        square(10.0, 10.0, 80.0, BLUE),
+        square(20.0, 20.0, 30.0, RED)
+    ));
+    let b = drawing(&format!(
+        "{}<circle cx='70' cy='70' r='10' fill='lime'/>",
+        square(20.0, 20.0, 70.0, BLUE)
+    ));
+    let film = |warp: WarpKind, rule: PaintRule| {
+        let mut spec = TransitionSpec::new(Arc::clone(&a), Arc::clone(&b));
+        spec.cell = Cell::new(warp, ContentKind::Field).unwrap();
+        spec.options.paint = rule;
+        Transition::build(&spec, &Silent).unwrap()
+    };
+    for warp in [WarpKind::None, WarpKind::Arap] {
+        let own = film(warp, PaintRule::Own);
+        for (design, t) in [(&a, 0.0), (&b, 1.0)] {
+            let coats = design.coats.iter();
+            let wanted = coats.map(|coat| (coat.paint.unwrap(), coat.regions.area()));
+            let wanted: Vec<(Paint, f64)> = wanted.collect();
+            let found = seen(&own, t);
+            assert_eq!(found.len(), wanted.len(), "{warp:?} {t}");
+            for (found, wanted) in found.iter().zip(&wanted) {
+                assert_eq!(found.0, wanted.0);
+                assert!(
+                    (found.1 / wanted.1 - 1.0).abs() < 0.01,
+                    "{found:?} {wanted:?}"
+                );
+            }
+        }
+        // Red and lime become each other, and do not lie over each other in between.
+        assert_eq!(seen(&own, 0.1).len(), 2);
+        let one = film(warp, PaintRule::One);
+        assert!(one.frame(0.5).figure().coats.is_empty());
+    }
+}

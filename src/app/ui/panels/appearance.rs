@@ -22,7 +22,8 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
         if scene.session.has_paints() {
             let tip = "Whether drawings keep their own colours.";
             pick(ui, "Colours", tip, &mut draft.options.paint);
-            if draft.options.paint == PaintRule::Own && draft.content == Some(ContentKind::Solid) {
+            if draft.options.paint == PaintRule::Own && draft.content != Some(ContentKind::Colours)
+            {
                 coats(ui, &mut draft.options.coats);
             }
         }

@@ -1,0 +1,232 @@
+//! The distance fields of two designs: of all that they cover, and one for each paint of
+//! drawings in several.
+//!
+//! Guarantees: at t = 0 and t = 1 each coat is that of its drawing. What one drawing has
+//! alone is blended with a field that is outside everywhere, and so shrinks away.
+
+use super::field::{FieldBlend, FieldPair, FieldPairError};
+use super::{Coating, Inked};
+use crate::field::{DistanceField, Grid};
+use crate::geometry::DVec2;
+use crate::warp::Placement;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// How deep outside the level a drawing is that has nothing in some paint, in cells: as
+/// deep as a sample beside a boundary, so that what the other has of it stays for long.
+const NOTHING: f64 = -1.0;
+
+/// The content *distance field*. Cloning is cheap: fields are shared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Fields {
+    whole: FieldPair,
+    painted: Option<Painted>,
+    is_carried: bool,
+}
+
+/// The fields of drawings in several paints.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Painted {
+    /// The coats; there are no walks and no holes.
+    pub coating: Coating,
+    /// Of each coat those of source and target; none where the design has nothing in it.
+    fields: Vec<[Option<Arc<DistanceField>>; 2]>,
+    /// As they are blended.
+    pairs: Vec<FieldPair>,
+}
+
+impl Fields {
+    /// Of all that is covered, in one colour unless it is painted; carried by a warp, or
+    /// at rest.
+    #[must_use]
+    pub fn new(whole: FieldPair, painted: Option<Painted>, is_carried: bool) -> Self {
+        Self {
+            whole,
+            painted,
+            is_carried,
+        }
+    }
+
+    /// The fields of all that is covered.
+    #[must_use]
+    pub fn whole(&self) -> &FieldPair {
+        &self.whole
+    }
+
+    /// Those of the paints; none where there is one colour.
+    #[must_use]
+    pub fn painted(&self) -> Option<&Painted> {
+        self.painted.as_ref()
+    }
+
+    pub(crate) fn painted_mut(&mut self) -> Option<&mut Painted> {
+        self.painted.as_mut()
+    }
+
+    /// The same fields mixed another way; measures nothing again.
+    ///
+    /// # Errors
+    /// Where the blend is none.
+    pub fn with_blend(&self, blend: FieldBlend) -> Result<Self, FieldPairError> {
+        let whole = self.whole.with_blend(blend)?;
+        let again = |painted: &Painted| {
+            let (coating, fields) = (painted.coating.clone(), painted.fields.clone());
+            Painted::blended(coating, fields, whole.grid(), blend)
+        };
+        let painted = self.painted.as_ref().map(again).transpose()?;
+        Ok(Self {
+            whole,
+            painted,
+            is_carried: self.is_carried,
+        })
+    }
+
+    /// The contour of all that is covered, when the placement is that of `t`.
+    #[must_use]
+    pub fn contour(&self, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
+        self.contour_of(&self.whole, placement, t)
+    }
+
+    /// The contours coat by coat as they lie at `t`, the lowest first, or that of the
+    /// whole where it has one colour.
+    #[must_use]
+    pub fn coated_at(&self, placement: &Placement, t: f64) -> Vec<Inked> {
+        let Some(Painted { coating, pairs, .. }) = &self.painted else {
+            let rings = self.contour(placement, t);
+            return vec![Inked {
+                t,
+                rings,
+                ..Inked::default()
+            }];
+        };
+        let order = coating.order(t).into_par_iter();
+        let coats = order.map(|k| {
+            let inked = Inked {
+                coat: k,
+                t,
+                rings: self.contour_of(&pairs[k], placement, t),
+                ..Inked::default()
+            };
+            let coat = &coating.coats[k];
+            let gradients = coat.shading.at(&placement.in_frame, |_| true);
+            coat.ink(inked, gradients, coat.alone.filter(|_| coating.fades))
+        });
+        coats.collect()
+    }
+
+    fn contour_of(&self, pair: &FieldPair, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
+        match self.is_carried {
+            true => pair.contour_carried(placement, t),
+            false => pair.contour(t),
+        }
+    }
+}
+
+impl Painted {
+    /// Of each coat its fields in source and target, on the grid that all have; none
+    /// where the design has nothing in it.
+    ///
+    /// # Errors
+    /// As [`FieldPair::new`].
+    pub fn new(
+        coating: Coating,
+        fields: Vec<[Option<DistanceField>; 2]>,
+        grid: &Grid,
+        blend: FieldBlend,
+    ) -> Result<Self, FieldPairError> {
+        let fields = fields
+            .into_iter()
+            .map(|ends| ends.map(|end| end.map(Arc::new)));
+        Self::blended(coating, fields.collect(), grid, blend)
+    }
+
+    fn blended(
+        coating: Coating,
+        fields: Vec<[Option<Arc<DistanceField>>; 2]>,
+        grid: &Grid,
+        blend: FieldBlend,
+    ) -> Result<Self, FieldPairError> {
+        // Outside whatever the threshold is.
+        let outside = NOTHING + blend.threshold.min(0.0);
+        let nothing = Arc::new(DistanceField::even(*grid, outside));
+        let pair = |ends: &[Option<Arc<DistanceField>>; 2]| {
+            let [source, target] = ends
+                .each_ref()
+                .map(|end| Arc::clone(end.as_ref().unwrap_or(&nothing)));
+            FieldPair::new(source, target, blend)
+        };
+        Ok(Self {
+            pairs: fields.iter().map(pair).collect::<Result<_, _>>()?,
+            coating,
+            fields,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::field::{Mask, Metric};
+    use crate::geometry::{Side, signed_area};
+    use crate::progress::Silent;
+    use crate::warp::{Still, Warp};
+
+    const GRID: [u32; 2] = [24, 16];
+
+    fn field(columns: std::ops::Range<usize>) -> DistanceField {
+        let [width, height] = GRID;
+        let grid = Grid::new(width, height, DVec2::ZERO, 1.0).expect("a field");
+        let bits = (0..width as usize * height as usize).map(|k| {
+            let (x, y) = (k % width as usize, k / width as usize);
+            columns.contains(&x) && (4..12).contains(&y)
+        });
+        let mask = Mask::new(width, height, bits.collect()).expect("a field");
+        DistanceField::from_mask(&mask, grid, Metric::Euclidean, &Silent).expect("a field")
+    }
+
+    /// A bar that goes from left to right, and one on it that dies.
+    fn fields(blend: FieldBlend) -> Fields {
+        let whole = FieldPair::new(field(2..10), field(12..20), blend).expect("a field");
+        let grid = *whole.grid();
+        let mut coating = Coating::plain(0, 0);
+        let mut above = coating.coats[0].clone();
+        (above.heights, above.alone) = ([1; 2], Some(Side::Source));
+        coating.coats.push(above);
+        let pairs = vec![
+            [Some(field(2..10)), Some(field(12..20))],
+            [Some(field(4..8)), None],
+        ];
+        let painted = Painted::new(coating, pairs, &grid, blend).expect("a field");
+        Fields::new(whole, Some(painted), false)
+    }
+
+    fn areas(fields: &Fields, t: f64) -> Vec<f64> {
+        let bounds = fields.whole().grid().bounds();
+        let coats = fields.coated_at(Still::new(bounds).placer().placement(), t);
+        let area = |coat: &Inked| coat.rings.iter().map(|ring| signed_area(ring)).sum();
+        coats.iter().map(area).collect()
+    }
+
+    #[test]
+    fn what_one_design_has_alone_shrinks_away() {
+        let fields = fields(FieldBlend::default());
+        let [start, later, end] = [0.0, 0.5, 1.0].map(|t| areas(&fields, t));
+        assert!((start[0] - end[0]).abs() < 1e-9 && start[1] > 25.0);
+        assert!(later[1] > 0.1 && later[1] < start[1]);
+        assert_eq!(end[1], 0.0);
+    }
+
+    #[test]
+    fn nothing_stays_nothing_at_any_threshold() {
+        let blend = |threshold: f64| FieldBlend {
+            threshold,
+            ..FieldBlend::default()
+        };
+        let fields = fields(blend(0.0));
+        for threshold in [-3.0, -1.0, 1.0] {
+            let again = fields.with_blend(blend(threshold)).expect("a field");
+            assert_eq!(areas(&again, 1.0)[1], 0.0, "{threshold}");
+            assert_ne!(areas(&again, 0.0), areas(&fields, 0.0));
+        }
+    }
+}
