@@ -122,6 +122,23 @@ pub fn choose(ctx: &egui::Context, theme: ThemeChoice) {
     });
 }
 
+/// Draws with bright marks behind what is chosen, for what writes in their colour.
+pub fn marked<R>(ctx: &egui::Context, draw: impl FnOnce(&egui::Context) -> R) -> R {
+    let theme = ctx.theme();
+    let palette = match theme {
+        Theme::Dark => DARK,
+        Theme::Light => LIGHT,
+    };
+    let before = ctx.style_of(theme);
+    let mut style = Style::clone(&before);
+    style.visuals.selection.bg_fill = palette.accent;
+    style.visuals.selection.stroke.color = palette.panel;
+    ctx.set_style_of(theme, style);
+    let drawn = draw(ctx);
+    ctx.set_style_of(theme, before);
+    drawn
+}
+
 fn style(palette: Palette, base: Visuals) -> Style {
     let mut style = Style {
         visuals: visuals(palette, base),

@@ -8,6 +8,7 @@ use egui_file_dialog::{DialogState, DirectoryEntry, FileDialog, OpeningMode};
 
 use crate::app::asking::intent::Intent;
 use crate::app::opening::dialogs::Purpose;
+use crate::app::ui::kit::theme;
 use crate::app::ui::overlays::beside::{self, Typed};
 use crate::app::ui::scene::{Intents, Scene};
 
@@ -41,11 +42,13 @@ pub fn show(ctx: &Context, scene: &Scene, files: &mut Files, acts: &mut Intents)
         acts.push(Intent::Choose(Vec::new()));
         return;
     }
-    if !matches!(asks, Purpose::Save(_)) {
-        reading(ctx, scene, shown, acts);
-    } else {
-        shown.dialog.update(ctx);
-    }
+    // It writes what is chosen in the colour of the mark behind it.
+    theme::marked(ctx, |ctx| match asks {
+        Purpose::Save(_) => {
+            shown.dialog.update(ctx);
+        }
+        _ => reading(ctx, scene, shown, acts),
+    });
     match shown.dialog.state() {
         DialogState::Open => {}
         DialogState::Picked(path) => acts.push(Intent::Choose(vec![path.clone()])),
@@ -89,10 +92,11 @@ fn dialog(asks: &Purpose, scene: &Scene) -> FileDialog {
         // A link is named as it was chosen.
         .canonicalize_paths(false);
     dialog.set_right_panel_width(beside::WIDTH);
-    if let Some(folder) = scene.dialog.folder() {
+    let recent = scene.recent.folders();
+    // Where files were chosen last, or opened.
+    if let Some(folder) = scene.dialog.folder().or(recent.first().copied()) {
         dialog = dialog.initial_directory(folder.to_owned());
     }
-    let recent = scene.recent.folders();
     if !recent.is_empty() {
         dialog = dialog.add_quick_access("Recent", |links| {
             for folder in recent {
