@@ -17,12 +17,13 @@ use crate::compatible::CompatibleMesh;
 use crate::correspondence::PieceMatch;
 use crate::geometry::DVec2;
 use crate::progress::{Progress, still_wanted};
-use crate::warp::{Arap, Life};
+use crate::warp::{Arap, Life, Settled};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::read::{ZlibDecoder, ZlibEncoder};
 use serde::{Deserialize, Serialize};
+use std::f64::consts::FRAC_PI_2;
 use std::io::Read;
 
 /// What is kept unpacks to less: some 50 bytes a face. What is made up of empty
@@ -83,6 +84,9 @@ struct Record {
     swelling: Vec<usize>,
     /// Distortion as drawn, and mirrored.
     mirrored: Option<[f64; 2]>,
+    /// None in what was kept before faces were led.
+    #[serde(default)]
+    leads: Vec<f64>,
 }
 
 impl Record {
@@ -103,6 +107,7 @@ impl Record {
             holes: film.holes.iter().map(|(_, hole)| hole.life).collect(),
             swelling: film.swelling.clone(),
             mirrored,
+            leads: film.arap.leads(),
         })
     }
 
@@ -140,7 +145,12 @@ impl Record {
         }
         allow(&mesh, &options.arap, progress)?;
         let options = coarse(&options.arap);
-        let arap = Arap::settled(&mesh, &options, &self.lives, &self.stiffness, progress);
+        let settled = Settled {
+            lives: &self.lives,
+            stiffness: &self.stiffness,
+            leads: &self.leads,
+        };
+        let arap = Arap::settled(&mesh, &options, settled, progress);
         let Ok(arap) = arap else {
             return Ok(None);
         };
@@ -175,6 +185,8 @@ impl Record {
             && self.swelling.iter().all(|&piece| piece < pieces)
             && self.stiffness.len() <= self.faces.len()
             && self.stiffness.iter().all(|&by| (1.0..1e12).contains(&by))
+            && self.leads.len() <= self.faces.len()
+            && self.leads.iter().all(|by| by.abs() < FRAC_PI_2)
     }
 }
 
@@ -286,6 +298,7 @@ mod tests {
         change(&|record| record.lives = vec![Some(Life { from: 0.5, to: 0.5 })]);
         change(&|record| record.swelling = vec![99]);
         change(&|record| record.stiffness = vec![-1.0]);
+        change(&|record| record.leads[0] = 2.0);
         let texts = changed.iter().map(|record| record.packed().expect("text"));
         let cut = |k: usize| found.film.0[..found.film.0.len() * k / 8].to_owned();
         for text in texts.chain((1..8).map(cut)).chain(["-".to_owned()]) {

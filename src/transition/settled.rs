@@ -12,6 +12,7 @@ use super::candidate::Candidate;
 use super::choice::{best_of_group, drafts_of_group};
 use super::conflicts::in_the_way;
 use super::drawings::Drawings;
+use super::edgewise::smoothed;
 use super::error::BuildError;
 use super::group::{Chosen, GroupOf};
 use super::holes::{HoleOf, timed};
@@ -25,7 +26,7 @@ use super::unfolded::unfolded;
 use crate::compatible::{OutlinesError, joined};
 use crate::correspondence::{Group, Prepared, RegionMatch};
 use crate::progress::{Progress, Several, Span, checkpoint};
-use crate::warp::{Arap, ArapOptions};
+use crate::warp::{Arap, ArapOptions, Settled};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 
@@ -69,7 +70,18 @@ pub(super) fn best(
             .extend(mirrored::note(spec, drawings, &pieces, progress)?);
     }
     let levels = Levels::of(&film.matched, &drawings.looks);
-    let film = placed(film, &levels, progress)?;
+    let arap = smoothed(film.arap, &levels, progress)?;
+    // What was led by its edges moves a little otherwise.
+    let holes = timed(&film.matched.pieces, &arap, &levels, progress)?;
+    let film = placed(
+        Film {
+            arap,
+            holes,
+            ..film
+        },
+        &levels,
+        progress,
+    )?;
     Ok(Film {
         arap: unfolded(film.arap, progress)?,
         ..film
@@ -242,13 +254,20 @@ fn placed(film: Film, levels: &Levels, progress: &dyn Progress) -> Result<Film, 
     let options = film.arap.options();
     let placed = births::placed(&film.matched, &film.arap, (&film.holes, levels), progress)?;
     Ok(match placed {
-        Some(placed) => Film {
-            arap: Arap::of_outlines(&placed.mesh, options, &placed.lives, progress)?,
-            matched: placed.matched,
-            swelling: placed.swelling,
-            // They lie in none of what was moved.
-            ..film
-        },
+        Some(placed) => {
+            let settled = Settled {
+                lives: &placed.lives,
+                stiffness: film.arap.stiffness(),
+                leads: &film.arap.leads(),
+            };
+            Film {
+                arap: Arap::settled(&placed.mesh, options, settled, progress)?,
+                matched: placed.matched,
+                swelling: placed.swelling,
+                // They lie in none of what was moved.
+                ..film
+            }
+        }
         None => film,
     })
 }

@@ -12,6 +12,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 mod alone;
+mod edgewise;
 mod painted;
 mod staggered;
 mod upright;

@@ -20,6 +20,7 @@ mod rigid_part;
 mod scattered;
 mod staggered;
 
+pub(crate) use arap::Settled;
 pub use arap::{AngleError, Arap, ArapError, ArapOptions, ArapPath, Life, Ridge, Weights};
 pub use features::{FeatureError, LINE_SAMPLES, MAX_FEATURES};
 pub use kind::{CellWords, Column, WarpKind, Words};

@@ -20,6 +20,9 @@ use crate::warp::part_path::{centroid, rotation};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FaceMap {
     pub map: Polar,
+    /// The angle by which the face turns further on its way than its map says; its
+    /// stretch makes up for it.
+    pub lead: f64,
     /// Gradients of the hat functions of the second and third vertex.
     pub gradients: DMat2,
     /// W times them.
@@ -89,6 +92,7 @@ impl LocalMaps {
                 };
                 FaceMap {
                     map,
+                    lead: 0.0,
                     gradients,
                     weighted: w * gradients,
                 }
@@ -120,11 +124,21 @@ impl LocalMaps {
         self
     }
 
+    /// With these leads of the faces instead; 0 beyond the list.
+    pub(super) fn led(mut self, by: &[f64]) -> Self {
+        let by = by.iter().copied().chain(std::iter::repeat(0.0));
+        for (face, by) in self.faces.iter_mut().zip(by) {
+            face.lead = by;
+        }
+        self
+    }
+
     /// With the angles of the film that is run backwards, turned the other
     /// way, instead of angles chosen anew.
     pub(super) fn turning_back(mut self, there: &Self) -> Self {
         for (face, other) in self.faces.iter_mut().zip(&there.faces) {
             face.map.angle = -other.map.angle;
+            face.lead = -other.lead;
         }
         for (element, other) in self.elements.iter_mut().zip(&there.elements) {
             element.angle = -other.angle;

@@ -20,6 +20,7 @@
 //! - `angles`: one consistent rotation angle for each face
 //! - `assembly`: gradients, weights and the matrix
 //! - `stresses`: the right-hand side of a frame, many faces at a time
+//! - `leads`: faces along the outline that turn as their edge does
 //! - `sides`: what keeps straight sides straight
 //! - `ridge`: what is added to a matrix that rounding has eaten at
 //! - `drift`: where parts as a whole are at t
@@ -29,6 +30,7 @@
 mod angles;
 mod assembly;
 mod drift;
+mod leads;
 mod life;
 mod options;
 mod ridge;
@@ -84,7 +86,8 @@ pub struct Arap(Arc<Inner>);
 #[derive(Debug)]
 struct Inner {
     mesh: CompatibleMesh,
-    cholesky: Cholesky,
+    /// Shared by films that differ by the leads of their faces.
+    cholesky: Arc<Cholesky>,
     ridge: Option<Ridge>,
     stresses: Stresses,
     drift: Drift,
@@ -94,14 +97,15 @@ struct Inner {
     outlined: Outlined,
 }
 
-/// What is said of a mesh besides its options.
-#[derive(Clone, Copy, Default)]
-struct Drawn<'a> {
+/// What was settled about a mesh of outlines besides its options.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Settled<'a> {
     /// Of each connected part; none beyond the list.
-    lives: &'a [Option<Life>],
-    outlined: Outlined,
+    pub lives: &'a [Option<Life>],
     /// Of each face; 1 beyond the list.
-    stiffness: &'a [f64],
+    pub stiffness: &'a [f64],
+    /// Of each face, as [`Arap::led`] takes them; 0 beyond the list.
+    pub leads: &'a [f64],
 }
 
 impl Arap {
@@ -115,7 +119,8 @@ impl Arap {
         options: &ArapOptions,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        Self::prepared(mesh, options, Drawn::default(), progress)
+        let settled = Settled::default();
+        Self::prepared(mesh, options, (settled, Outlined::No), progress)
     }
 
     /// As [`Self::build`], of a mesh of drawn outlines: what is straight in both
@@ -135,36 +140,28 @@ impl Arap {
         lives: &[Option<Life>],
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        let drawn = Drawn {
+        let settled = Settled {
             lives,
-            outlined: Outlined::Yes,
-            ..Drawn::default()
+            ..Settled::default()
         };
-        Self::prepared(mesh, options, drawn, progress)
+        Self::settled(mesh, options, settled, progress)
     }
 
-    /// As [`Self::of_outlines`], with the stiffness of each face, 1 for those
-    /// beyond the list.
+    /// As [`Self::of_outlines`], with all that was settled about it.
     ///
     /// # Errors
     /// As [`Self::build`].
     pub(crate) fn settled(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
-        lives: &[Option<Life>],
-        stiffness: &[f64],
+        settled: Settled,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        let drawn = Drawn {
-            lives,
-            outlined: Outlined::Yes,
-            stiffness,
-        };
-        Self::prepared(mesh, options, drawn, progress)
+        Self::prepared(mesh, options, (settled, Outlined::Yes), progress)
     }
 
     /// The same mesh with other options, subdivided once more if they ask for it:
-    /// what a face is divided into is as stiff as the face.
+    /// what a face is divided into is as stiff as the face, and leads as it does.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -173,18 +170,18 @@ impl Arap {
         options: &ArapOptions,
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
-        let drawn = Drawn {
+        let settled = Settled {
             lives: self.lives(),
-            outlined: self.0.outlined,
             stiffness: self.stiffness(),
+            leads: &self.leads(),
         };
-        Self::prepared(self.mesh(), options, drawn, progress)
+        Self::prepared(self.mesh(), options, (settled, self.0.outlined), progress)
     }
 
     fn prepared(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
-        drawn: Drawn,
+        (settled, outlined): (Settled, Outlined),
         progress: &dyn Progress,
     ) -> Result<Self, ArapError> {
         let weights = options
@@ -194,8 +191,11 @@ impl Arap {
         let mesh = mesh.subdivided(options.subdivisions)?;
         // Subdivision lists the children of a face one after the other.
         let children = 4_usize.saturating_pow(options.subdivisions);
-        let each = drawn.stiffness.iter();
-        let stiffness: Vec<f64> = each.flat_map(|&by| repeat_n(by, children)).collect();
+        let divided = |each: &[f64]| -> Vec<f64> {
+            let each = each.iter();
+            each.flat_map(|&by| repeat_n(by, children)).collect()
+        };
+        let [stiffness, leads] = [settled.stiffness, settled.leads].map(divided);
         // After subdividing: an anchor may be one of the new vertices.
         options.path.check(mesh.source().len())?;
         checkpoint(progress, "decomposing", 0.1)?;
@@ -204,8 +204,10 @@ impl Arap {
             subdivisions: 0,
             ..options.clone()
         };
-        let maps = LocalMaps::new(&mesh, &options, drawn.lives)?.stiffened(&stiffness);
-        let drawn = (drawn.lives.to_vec(), drawn.outlined);
+        let maps = LocalMaps::new(&mesh, &options, settled.lives)?
+            .stiffened(&stiffness)
+            .led(&leads);
+        let drawn = (settled.lives.to_vec(), outlined);
         Self::from_maps(mesh, maps, options, drawn, progress)
     }
 
@@ -231,7 +233,7 @@ impl Arap {
         let drift = Drift::new(&mesh, &maps, place, options.path, lives);
         Ok(Self(Arc::new(Inner {
             mesh,
-            cholesky,
+            cholesky: Arc::new(cholesky),
             ridge,
             stresses,
             drift,
@@ -325,6 +327,34 @@ impl Arap {
             drawn,
             progress,
         )
+    }
+
+    /// The same interpolation in which each face turns by so many radians more
+    /// than its polar rotation, less than a right angle either way; 0 for those beyond
+    /// the list. Costs no factorisation. Only the polar homotopy heeds it.
+    pub(crate) fn led(&self, by: &[f64]) -> Self {
+        let inner = &*self.0;
+        let maps = inner.maps.clone().led(by);
+        Self(Arc::new(Inner {
+            mesh: inner.mesh.clone(),
+            cholesky: Arc::clone(&inner.cholesky),
+            ridge: inner.ridge,
+            stresses: Stresses::new(&inner.mesh, &maps, inner.options.homotopy),
+            drift: inner.drift.clone(),
+            maps,
+            options: inner.options.clone(),
+            outlined: inner.outlined,
+        }))
+    }
+
+    /// By how much each face turns more than its polar rotation.
+    pub(crate) fn leads(&self) -> Vec<f64> {
+        self.0.maps.faces.iter().map(|face| face.lead).collect()
+    }
+
+    /// The leads with which faces along the outline turn as their edges do.
+    pub(crate) fn leads_along_edges(&self) -> Vec<f64> {
+        leads::along_edges(&self.0.mesh, &self.0.maps.faces)
     }
 
     /// What the weight of each face is multiplied with; 1 beyond the list.

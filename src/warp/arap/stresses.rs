@@ -48,9 +48,9 @@ struct Block {
     angle: Row,
     /// W g for the second and third corner, column by column.
     weighted: [Row; 4],
-    /// A symmetric matrix that acts on W g, as xx, xy, yy. Polar: the stretch.
-    /// Exponential: the projection onto its larger axis.
-    middle: [Row; 3],
+    /// A matrix that acts on W g, column by column. Polar: the stretch, turned back by
+    /// what the face leads. Exponential: the projection onto its larger axis.
+    middle: [Row; 4],
 }
 
 /// A map on its path: the rotation by its sine and cosine, and the stretch as
@@ -104,9 +104,9 @@ impl Pose {
 
     /// The map of a vector, given the middle matrix.
     #[inline(always)]
-    fn apply(self, [xx, xy, yy]: [f64; 3], x: f64, y: f64) -> DVec2 {
+    fn apply(self, [xx, yx, xy, yy]: [f64; 4], x: f64, y: f64) -> DVec2 {
         let stretched_x = self.one * x + self.middle * (xx * x + xy * y);
-        let stretched_y = self.one * y + self.middle * (xy * x + yy * y);
+        let stretched_y = self.one * y + self.middle * (yx * x + yy * y);
         DVec2::new(
             self.cos * stretched_x - self.sin * stretched_y,
             self.sin * stretched_x + self.cos * stretched_y,
@@ -240,19 +240,24 @@ impl WithSimd for Pass<'_> {
 
 impl Block {
     fn new(faces: &[FaceMap], homotopy: Homotopy) -> Self {
-        let [angle] = rows(faces, |face| [face.map.angle]);
+        // Of the other homotopies nothing is led.
+        let lead = |face: &FaceMap| match homotopy {
+            Homotopy::Polar => face.lead,
+            _ => 0.0,
+        };
+        let [angle] = rows(faces, |face| [face.map.angle + lead(face)]);
         Self {
             angle,
             weighted: rows(faces, |face| face.weighted.to_cols_array()),
             middle: rows(faces, |face| {
                 // u uᵀ of the larger axis u: exp(t log S) is a sum of it and I.
                 let axis = SymmetricEigen::of(face.map.stretch).axis;
-                let [xx, xy, _, yy] = match homotopy {
+                match homotopy {
                     Homotopy::Exponential => DMat2::from_cols(axis * axis.x, axis * axis.y),
-                    _ => face.map.stretch,
+                    _ if lead(face) == 0.0 => face.map.stretch,
+                    _ => DMat2::from_angle(-lead(face)) * face.map.stretch,
                 }
-                .to_cols_array();
-                [xx, xy, yy]
+                .to_cols_array()
             }),
         }
     }
