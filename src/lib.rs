@@ -82,6 +82,7 @@
 //! compatible                    one connectivity, two embeddings
 //! homotopy                      paths of 2×2 matrices
 //! warp        content           the rows and the columns of the table
+//! film                          a warp recorded as polynomials in t
 //! transition                    the cells, frames, timing, style
 //! measure                       quality in numbers
 //! project                       the .morph document and the gallery
@@ -120,6 +121,8 @@ pub mod homotopy;
 
 pub mod content;
 pub mod warp;
+
+pub mod film;
 
 pub mod transition;
 

@@ -83,6 +83,12 @@ pub trait Warp: Debug + Send + Sync {
     /// A placer with memory of its own, at t = 0.
     fn placer(&self) -> Placer;
 
+    /// The times within (0, 1) at which something sets out, arrives or changes its
+    /// pace: between them every vertex moves smoothly. In no order.
+    fn breaks(&self) -> Vec<f64> {
+        Vec::new()
+    }
+
     /// The features that are not where they belong at `t`; none where all
     /// are, to the warp's own tolerance.
     fn missed(&self, _t: f64) -> Option<Missed> {
@@ -100,7 +106,7 @@ pub struct Placer {
 type Mover = dyn FnMut(f64, &mut Placement) + Send + Sync;
 
 impl Placer {
-    fn new(
+    pub(crate) fn new(
         placement: Placement,
         mover: impl FnMut(f64, &mut Placement) + Send + Sync + 'static,
     ) -> Self {
@@ -113,6 +119,19 @@ impl Placer {
     /// Moves the placement to `t`; outside [0, 1] it extrapolates.
     pub fn place(&mut self, t: f64) {
         (self.mover)(t, &mut self.placement);
+    }
+
+    /// A placer that asks `first` to move the placement, and does it itself where that
+    /// says that it did not.
+    pub(crate) fn after(
+        mut self,
+        mut first: impl FnMut(f64, &mut Placement) -> bool + Send + Sync + 'static,
+    ) -> Self {
+        Self::new(self.placement, move |t, placement| {
+            if !first(t, placement) {
+                (self.mover)(t, placement);
+            }
+        })
     }
 
     /// The placement at the last `t`.

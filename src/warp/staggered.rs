@@ -48,6 +48,11 @@ impl Clock {
         self.easing.apply(share)
     }
 
+    /// When it shows a time within [0, 1].
+    fn when(&self, time: f64) -> f64 {
+        self.from + (self.to - self.from) * self.easing.inverse(time)
+    }
+
     /// The same in the film that is run backwards.
     #[must_use]
     pub fn backwards(&self) -> Self {
@@ -138,6 +143,18 @@ impl Warp for Staggered {
         let clocks = Arc::clone(&self.clocks);
         self.arap
             .placer_by(move |part, t| clocks[of_parts[part] as usize].at(t))
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        let of_parts = self.of_parts.iter().enumerate();
+        let breaks = of_parts.flat_map(|(part, &clock)| {
+            let clock = self.clocks[clock as usize];
+            let life = self.arap.lives().get(part).copied().flatten();
+            let within = life.into_iter().flat_map(|life| [life.from, life.to]);
+            let when = move |share: f64| clock.when(share);
+            [clock.from, clock.to].into_iter().chain(within.map(when))
+        });
+        breaks.collect()
     }
 }
 

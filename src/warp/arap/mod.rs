@@ -417,6 +417,11 @@ impl Warp for Arap {
             player.place(Times::Even(t), placement);
         })
     }
+
+    fn breaks(&self) -> Vec<f64> {
+        let lives = self.lives().iter().flatten();
+        lives.flat_map(|life| [life.from, life.to]).collect()
+    }
 }
 
 /// A film with the memory that a frame takes.

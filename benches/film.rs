@@ -1,0 +1,116 @@
+//! Films of 100k and of a million vertices: recorded once, and played.
+//!
+//! `cargo bench --no-default-features --bench film`. Where the variable
+//! `FILM_CHOLMOD` is set, `benches/film_cholmod.sh` times CHOLMOD's back-substitution
+//! on the same matrix in the same run, just before the film is played.
+//!
+//! - `solved`: a whole frame that is solved: right-hand sides, solve, placement
+//! - `played`: the same frame from a film, on all threads and on one
+
+use criterion::{BenchmarkId, Criterion};
+use morphospace::compatible::CompatibleMesh;
+use morphospace::film::{Film, FilmOptions};
+use morphospace::geometry::DVec2;
+use morphospace::progress::Silent;
+use morphospace::warp::{Arap, ArapOptions, Placer, Warp};
+use rayon::{ThreadPool, ThreadPoolBuilder};
+use std::error::Error;
+use std::hint::black_box;
+use std::io::{BufWriter, Write};
+use std::process::Command;
+use std::sync::Arc;
+use std::time::Instant;
+
+type Result<T> = std::result::Result<T, Box<dyn Error>>;
+
+/// A square sheet of `side`² vertices, and the same bent into a half ring.
+fn sheet(side: u32) -> Result<CompatibleMesh> {
+    let step = 1.0 / f64::from(side - 1);
+    let source: Vec<DVec2> = (0..side * side)
+        .map(|i| DVec2::new(f64::from(i % side), f64::from(i / side)) * step)
+        .collect();
+    let bent = |p: &DVec2| DVec2::from_angle(3.0 * p.x) * (1.5 - p.y);
+    let target = source.iter().map(bent).collect();
+    let faces = (0..(side - 1) * (side - 1))
+        .flat_map(|i| {
+            let v = i / (side - 1) * side + i % (side - 1);
+            [[v, v + 1, v + side + 1], [v, v + side + 1, v + side]]
+        })
+        .collect();
+    Ok(CompatibleMesh::new(faces, source, target, Vec::new())?)
+}
+
+/// The median of CHOLMOD's times in milliseconds.
+fn cholmod(arap: &Arap, times: u32) -> Result<f64> {
+    let matrix = arap.system();
+    let path = std::env::temp_dir().join(format!("morphospace-film-{}.mtx", std::process::id()));
+    let mut file = BufWriter::new(std::fs::File::create(&path)?);
+    let mut entries = std::collections::BTreeMap::new();
+    for (i, j, value) in matrix.entries() {
+        *entries.entry((i.max(j), i.min(j))).or_insert(0.0) += value;
+    }
+    let n = matrix.size();
+    writeln!(file, "%%MatrixMarket matrix coordinate real symmetric")?;
+    writeln!(file, "{n} {n} {}", entries.len())?;
+    for ((i, j), value) in entries {
+        writeln!(file, "{} {} {value:e}", i + 1, j + 1)?;
+    }
+    file.into_inner()?.sync_all()?;
+    let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/film_cholmod.sh");
+    let out = Command::new(script)
+        .arg(&path)
+        .arg(times.to_string())
+        .output()?;
+    std::fs::remove_file(&path)?;
+    if !out.status.success() {
+        return Err(String::from_utf8_lossy(&out.stderr).into());
+    }
+    Ok(String::from_utf8(out.stdout)?.trim().parse()?)
+}
+
+fn play(criterion: &mut Criterion, id: BenchmarkId, mut placer: Placer, threads: &ThreadPool) {
+    let mut group = criterion.benchmark_group("film");
+    group.sample_size(20);
+    let mut t = 0.0;
+    group.bench_function(id, |b| {
+        b.iter(|| {
+            t = (t + 0.01) % 1.0;
+            threads.install(|| placer.place(black_box(t)));
+        });
+    });
+    group.finish();
+}
+
+fn main() -> Result<()> {
+    let mut criterion = Criterion::default().configure_from_args();
+    let [one, all] = [1, 0].map(|threads| ThreadPoolBuilder::new().num_threads(threads).build());
+    let (one, all) = (one?, all?);
+    for (name, side) in [("100k", 317), ("1M", 1000)] {
+        let arap = Arap::build(&sheet(side)?, &ArapOptions::default(), &Silent)?;
+        let begun = Instant::now();
+        let film = Film::record(Arc::new(arap.clone()), &FilmOptions::default(), &Silent)?;
+        println!(
+            "film of {name}: recorded in {:.3} s by {} solves, {} bytes a vertex, error {:.1e}",
+            begun.elapsed().as_secs_f64(),
+            film.solves(),
+            film.bytes() / (side * side) as usize,
+            film.error(),
+        );
+        if std::env::var_os("FILM_CHOLMOD").is_some() {
+            println!("CHOLMOD, simplicial, {name}: {:.3} ms", cholmod(&arap, 15)?);
+        }
+        let mut play = |kind: &str, placer: Placer, threads: &ThreadPool| {
+            play(
+                &mut criterion,
+                BenchmarkId::new(kind, name),
+                placer,
+                threads,
+            );
+        };
+        play("solved", arap.placer(), &all);
+        play("played", film.placer(), &all);
+        play("played, 1 thread", film.placer(), &one);
+    }
+    criterion.final_summary();
+    Ok(())
+}

@@ -1,0 +1,230 @@
+//! A warp recorded as polynomials in t.
+//!
+//! Where vertices are is a smooth function of t for every warp, between the
+//! times at which something sets out or arrives. So a few placements give the
+//! whole film: from them any other is a short sum, however dear each was. What is
+//! kept is the deviation from the straight line between the ends of a [`Reel`],
+//! which is a polynomial that is zero at both ends; the ends are met to the last
+//! bit.
+//!
+//! A [`Film`] is a warp itself, so that contents, stage, export and measures know
+//! nothing of it. Outside [0, 1] it is the warp that it was recorded from.
+//!
+//! Guaranteed: at t = 0 and t = 1 the places of the warp to the last bit; no jump
+//! between two reels; the same film on any number of threads. Not guaranteed: the
+//! stated [`error`](Film::error) is measured against fresh placements, not proved.
+//!
+//! - `nodes`: the times at which a warp is looked at, and polynomials through them
+//! - `record`: from placements to reels, as many as it takes
+//! - `reel`: the polynomials between two times, and their sum
+
+mod nodes;
+mod record;
+mod reel;
+
+#[cfg(test)]
+mod tests;
+
+pub use record::FilmError;
+
+use crate::geometry::DVec2;
+use crate::progress::Progress;
+use crate::warp::{Missed, Placement, Placer, Warp};
+use reel::Reel;
+use std::sync::Arc;
+
+/// How a film is recorded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FilmOptions {
+    /// How far a vertex may be from where the warp has it, as a share of the
+    /// diameter of all its places at the ends.
+    pub tolerance: f64,
+    /// How much memory the film may take, in bytes.
+    pub most_bytes: usize,
+}
+
+impl Default for FilmOptions {
+    fn default() -> Self {
+        Self {
+            tolerance: 1e-9,
+            most_bytes: 512 << 20,
+        }
+    }
+}
+
+/// A warp that was recorded. Cloning is cheap.
+///
+/// ```
+/// use morphospace::compatible::CompatibleMesh;
+/// use morphospace::film::{Film, FilmOptions};
+/// use morphospace::geometry::{DMat2, DVec2};
+/// use morphospace::progress::Silent;
+/// use morphospace::warp::{Arap, ArapOptions, Warp};
+/// use std::sync::Arc;
+///
+/// let source = vec![DVec2::ZERO, DVec2::X, DVec2::Y];
+/// let target = source.iter().map(|&p| DMat2::from_angle(2.0) * p).collect();
+/// let mesh = CompatibleMesh::new(vec![[0, 1, 2]], source, target, vec![])?;
+/// let arap = Arap::build(&mesh, &ArapOptions::default(), &Silent)?;
+/// let film = Film::record(Arc::new(arap), &FilmOptions::default(), &Silent)?;
+/// assert!(film.solves() < 20);
+/// let mut placer = film.placer();
+/// placer.place(0.37);
+/// let at = &placer.placement().in_frame;
+/// assert!((at[0].distance(at[1]) - 1.0).abs() < 1e-8); // turned, not shrunk
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct Film(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    warp: Arc<dyn Warp>,
+    moving: Moving,
+    /// In the order of t, from 0 to 1 without a gap.
+    reels: Vec<Reel>,
+    error: f64,
+    solves: usize,
+}
+
+impl Film {
+    /// Records a warp over [0, 1], as closely as the options ask.
+    ///
+    /// # Errors
+    /// [`FilmError`] if the film would take too much memory, if the warp jumps or
+    /// is not smooth somewhere that it does not tell of, and on a cancel.
+    pub fn record(
+        warp: Arc<dyn Warp>,
+        options: &FilmOptions,
+        progress: &dyn Progress,
+    ) -> Result<Self, FilmError> {
+        let recorded = record::record(warp.as_ref(), options, progress)?;
+        Ok(Self(Arc::new(Inner {
+            warp,
+            moving: recorded.moving,
+            reels: recorded.reels,
+            error: recorded.error,
+            solves: recorded.solves,
+        })))
+    }
+
+    /// How far a vertex was from a fresh placement at most, where the film was
+    /// tried, and what was rounded since; as a share of the diameter.
+    #[must_use]
+    pub fn error(&self) -> f64 {
+        self.0.error
+    }
+
+    /// How many placements of the warp it took.
+    #[must_use]
+    pub fn solves(&self) -> usize {
+        self.0.solves
+    }
+
+    /// How many polynomials a vertex has, one after the other.
+    #[must_use]
+    pub fn reel_count(&self) -> usize {
+        self.0.reels.len()
+    }
+
+    /// The memory that its coefficients take.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.0.reels.iter().map(Reel::bytes).sum()
+    }
+}
+
+impl Inner {
+    /// Moves what moves to a t in [0, 1].
+    fn place(&self, t: f64, placement: &mut Placement) {
+        let after = self.reels.partition_point(|reel| reel.to() < t);
+        let reel = &self.reels[after.min(self.reels.len() - 1)];
+        let mut first = 0;
+        for channel in self.moving.channels() {
+            let places = channel.of_mut(placement);
+            reel.place(t, first, places);
+            first += reel::blocks(places.len());
+        }
+    }
+}
+
+impl Warp for Film {
+    fn placer(&self) -> Placer {
+        let film = Arc::clone(&self.0);
+        self.0.warp.placer().after(move |t, placement| {
+            let is_within = (0.0..=1.0).contains(&t);
+            if is_within {
+                film.place(t, placement);
+            }
+            is_within
+        })
+    }
+
+    fn missed(&self, t: f64) -> Option<Missed> {
+        self.0.warp.missed(t)
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.0.warp.breaks()
+    }
+}
+
+/// Which places of a placement a warp moves; all others are the same at every t.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Moving {
+    in_frame: bool,
+    in_source: bool,
+    in_target: bool,
+}
+
+/// One of the three places of each vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Channel {
+    Frame,
+    Source,
+    Target,
+}
+
+impl Channel {
+    fn of(self, placement: &Placement) -> &[DVec2] {
+        match self {
+            Self::Frame => &placement.in_frame,
+            Self::Source => &placement.in_source,
+            Self::Target => &placement.in_target,
+        }
+    }
+
+    fn of_mut(self, placement: &mut Placement) -> &mut [DVec2] {
+        match self {
+            Self::Frame => &mut placement.in_frame,
+            Self::Source => &mut placement.in_source,
+            Self::Target => &mut placement.in_target,
+        }
+    }
+}
+
+impl Moving {
+    /// What differs between these placements and the first of them.
+    fn between<'a>(first: &Placement, others: impl Iterator<Item = &'a Placement> + Clone) -> Self {
+        let differs = |channel: Channel| {
+            others
+                .clone()
+                .any(|other| channel.of(other) != channel.of(first))
+        };
+        Self {
+            in_frame: differs(Channel::Frame),
+            in_source: differs(Channel::Source),
+            in_target: differs(Channel::Target),
+        }
+    }
+
+    fn channels(self) -> impl Iterator<Item = Channel> {
+        let all = [
+            (self.in_frame, Channel::Frame),
+            (self.in_source, Channel::Source),
+            (self.in_target, Channel::Target),
+        ];
+        all.into_iter()
+            .filter_map(|(moves, channel)| moves.then_some(channel))
+    }
+}
