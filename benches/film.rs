@@ -81,6 +81,10 @@ fn play(criterion: &mut Criterion, id: BenchmarkId, mut placer: Placer, threads:
     group.finish();
 }
 
+#[expect(
+    clippy::print_stdout,
+    reason = "what is recorded is told beside what is played"
+)]
 fn main() -> Result<()> {
     let mut criterion = Criterion::default().configure_from_args();
     let [one, all] = [1, 0].map(|threads| ThreadPoolBuilder::new().num_threads(threads).build());

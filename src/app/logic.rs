@@ -17,6 +17,7 @@ use crate::app::keeping::{presets, recent};
 use crate::app::looking::choosing::{self, Choosing};
 use crate::app::looking::helping::{self, Helping};
 use crate::app::looking::measuring::{self, Measured};
+use crate::app::looking::recording::{self, Recording};
 use crate::app::looking::times;
 use crate::app::looking::twin::{self, Twin};
 use crate::app::looking::view::{self, KeepsFit, StageArea};
@@ -88,6 +89,7 @@ fn init(app: &mut App) {
         .init_resource::<Choosing>()
         .init_resource::<onion::Onion>()
         .init_resource::<Helping>()
+        .init_resource::<Recording>()
         .init_resource::<Twin>()
         .init_resource::<Notices>()
         .init_resource::<Question>()
@@ -140,6 +142,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
         )
             .chain(),
         (
+            recording::follow,
             measuring::follow,
             helping::follow,
             twin::apply,

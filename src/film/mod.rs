@@ -134,8 +134,19 @@ impl Film {
     }
 }
 
+impl Film {
+    /// Moves a placement of the warp to `t`; does nothing and says so where that lies
+    /// outside [0, 1].
+    pub(crate) fn place(&self, t: f64, placement: &mut Placement) -> bool {
+        let is_within = (0.0..=1.0).contains(&t);
+        if is_within {
+            self.0.place(t, placement);
+        }
+        is_within
+    }
+}
+
 impl Inner {
-    /// Moves what moves to a t in [0, 1].
     fn place(&self, t: f64, placement: &mut Placement) {
         let after = self.reels.partition_point(|reel| reel.to() < t);
         let reel = &self.reels[after.min(self.reels.len() - 1)];
@@ -150,14 +161,9 @@ impl Inner {
 
 impl Warp for Film {
     fn placer(&self) -> Placer {
-        let film = Arc::clone(&self.0);
-        self.0.warp.placer().after(move |t, placement| {
-            let is_within = (0.0..=1.0).contains(&t);
-            if is_within {
-                film.place(t, placement);
-            }
-            is_within
-        })
+        let film = self.clone();
+        let placer = self.0.warp.placer();
+        placer.after(move |t, placement| film.place(t, placement))
     }
 
     fn missed(&self, t: f64) -> Option<Missed> {

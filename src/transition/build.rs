@@ -8,6 +8,7 @@ use super::moved::Moved;
 use super::note::Note;
 use super::plane;
 use super::ready::{Inner, Transition};
+use super::recorded::Slot;
 use super::solids;
 use super::spec::{TransitionSpec, bar_width};
 use crate::budget::Load;
@@ -85,6 +86,7 @@ fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildEr
         content,
         bounds,
         bar_width,
+        film: Slot::default(),
     };
     Ok(made.coated(&spec.options.coats).timed(&spec.options.parts))
 }

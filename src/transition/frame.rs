@@ -9,6 +9,7 @@ use crate::geometry::DVec2;
 use crate::warp::{Placement, Placer};
 use image::RgbaImage;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// A transition at one t, unevaluated: a placement and a place in the mix.
 #[derive(Debug)]
@@ -61,8 +62,13 @@ impl Transition {
     /// extrapolates; a `t` that is not finite counts as 0.
     #[must_use]
     pub fn frame(&self, t: f64) -> Frame {
+        let film = Arc::clone(self.slot());
+        let play = move |t: f64, placement: &mut Placement| match film.get() {
+            Some(Ok(film)) => film.place(t, placement),
+            _ => false,
+        };
         let mut frame = Frame {
-            placer: self.warp().placer(),
+            placer: self.warp().placer().after(play),
             transition: self.clone(),
             t: 0.0,
         };

@@ -23,7 +23,8 @@
 //! - `part_time`: parts that make their way in their own time
 //! - `note`: what was done otherwise than asked; `mirrored`: what might have been
 //!   meant
-//! - `ready`, `frame`: the transition and its moments
+//! - `ready`, `frame`: the transition and its moments; `recorded`: those that are
+//!   played from memory
 //! - `timing`, `style`: how it is played and painted
 
 mod arrange;
@@ -56,6 +57,7 @@ mod outline;
 mod part_time;
 mod plane;
 mod ready;
+mod recorded;
 mod rigid;
 mod settled;
 mod solids;

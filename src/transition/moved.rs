@@ -35,6 +35,18 @@ impl AnyWarp {
         }
     }
 
+    /// The same warp, for a film to keep.
+    pub fn shared(&self) -> Arc<dyn Warp> {
+        match self {
+            Self::Still(still) => Arc::new(*still),
+            Self::Paths(paths) => Arc::clone(paths) as Arc<dyn Warp>,
+            Self::Rigid(arap) => Arc::new(arap.clone()),
+            Self::Staggered(warp) => Arc::new(warp.clone()),
+            Self::Turned(turned) => Arc::new(turned.clone()),
+            Self::Plane(warp) => Arc::clone(warp),
+        }
+    }
+
     /// The rigid parts, all in the time of the whole; of those behind a common
     /// motion as they are at rest.
     pub fn arap(&self) -> Option<&Arap> {

@@ -6,6 +6,7 @@ use super::found::Found;
 use super::moved::{AnyWarp, Moved};
 use super::note::Note;
 use super::part_time::PartTime;
+use super::recorded::Slot;
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, FieldBlend, FieldPairError};
 use crate::correspondence::{PointPair, RegionMatch};
@@ -44,6 +45,8 @@ pub(super) struct Inner {
     pub bounds: Bounds,
     /// Width of the bars of trusses, in units of the designs.
     pub bar_width: f64,
+    /// The film of `moved`, once it was recorded.
+    pub film: Slot,
 }
 
 impl From<Inner> for Transition {
@@ -96,6 +99,16 @@ impl Transition {
     /// Where each point is at t.
     pub(super) fn warp(&self) -> &dyn Warp {
         self.0.moved.warp.as_warp()
+    }
+
+    /// The same, for a film to keep.
+    pub(super) fn shared_warp(&self) -> Arc<dyn Warp> {
+        self.0.moved.warp.shared()
+    }
+
+    /// Where the film is, once it was recorded.
+    pub(super) fn slot(&self) -> &Slot {
+        &self.0.film
     }
 
     /// The rigidity-preserving interpolation, where that is the warp: of

@@ -4,6 +4,7 @@ use super::moved::AnyWarp;
 use super::note::Note;
 use super::part_time::PartTime;
 use super::ready::Inner;
+use super::recorded::Slot;
 use crate::content::{Clocks, Coat, Coating, Content, Solid};
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side, twice_signed_area};
@@ -28,6 +29,10 @@ impl Inner {
         let Content::Solid(solid) = &mut self.content else {
             return self;
         };
+        // What was recorded has other times, unless none had any.
+        if !times.is_empty() || matches!(self.moved.warp, AnyWarp::Staggered(_)) {
+            self.film = Slot::default();
+        }
         if times.is_empty() {
             solid.take_clocks();
             self.moved.warp = AnyWarp::Rigid(arap);

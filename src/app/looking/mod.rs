@@ -7,6 +7,7 @@ pub mod helping;
 pub mod measuring;
 pub mod onion;
 pub mod preferences;
+pub mod recording;
 pub mod times;
 pub mod twin;
 pub mod view;

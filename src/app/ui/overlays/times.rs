@@ -5,6 +5,7 @@ use bevy_egui::egui::{Panel, Ui};
 use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::kit::widgets::{ground, quiet};
 use crate::app::ui::scene::Scene;
+use crate::transition::Transition;
 
 const HEIGHT: f32 = 32.0;
 
@@ -31,5 +32,22 @@ fn line(ui: &mut Ui, scene: &Scene) {
         let time = durations.median().map(|time| time.as_secs_f64() * 1e3);
         let text = time.map_or("–".to_owned(), |ms| format!("{ms:7.2} ms"));
         ui.monospace(text);
+    }
+    ui.add_space(GRID);
+    ui.label(quiet(ui, whence(scene)));
+}
+
+/// Where frames come from.
+fn whence(scene: &Scene) -> String {
+    match scene.session.transition().and_then(Transition::film) {
+        Some(Ok(film)) => {
+            let megabytes = film.bytes() as f64 / 1e6;
+            format!(
+                "played from {megabytes:.1} MB, recorded by {} solves",
+                film.solves()
+            )
+        }
+        Some(Err(error)) => format!("solved: {error}"),
+        None => "solved".to_owned(),
     }
 }

@@ -1,0 +1,52 @@
+//! The film of a transition, once somebody has recorded it.
+
+use super::ready::Transition;
+use crate::film::{Film, FilmError, FilmOptions};
+use crate::progress::Progress;
+use std::sync::{Arc, OnceLock};
+
+/// Where the film of a warp will be, for all transitions that share the warp; or why
+/// there is none.
+pub(super) type Slot = Arc<OnceLock<Result<Film, FilmError>>>;
+
+impl Transition {
+    /// Records the warp over [0, 1]. From then on all frames within, those that there
+    /// are already among them, are played from memory instead of solved; to the eye
+    /// they are the same. Does nothing where that was done before.
+    ///
+    /// # Errors
+    /// [`FilmError`] says why frames go on being solved.
+    ///
+    /// ```
+    /// use morphospace::{Design, Transition, film::FilmOptions, progress::Silent};
+    /// let [a, b] = [[[0.0, 0.0], [4.0, 0.0], [0.0, 3.0]], [[0.0, 0.0], [5.0, 1.0], [1.0, 3.0]]];
+    /// let transition = Transition::between(Design::of_rings("a", [a])?, Design::of_rings("b", [b])?)?;
+    /// let mut frame = transition.frame(0.5);
+    /// let solved = frame.placement().in_frame.clone();
+    /// transition.record(&FilmOptions::default(), &Silent)?;
+    /// frame.seek(0.5);
+    /// let played = frame.placement().in_frame.iter().zip(&solved);
+    /// assert!(played.map(|(p, q)| p.distance(*q)).all(|off| off < 1e-8));
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn record(
+        &self,
+        options: &FilmOptions,
+        progress: &dyn Progress,
+    ) -> Result<Film, FilmError> {
+        if let Some(known) = self.film() {
+            return known.clone();
+        }
+        let film = Film::record(self.shared_warp(), options, progress);
+        if matches!(film, Err(FilmError::Cancelled(_))) {
+            return film;
+        }
+        self.slot().get_or_init(|| film).clone()
+    }
+
+    /// The film, or why there is none; nothing as long as nobody has recorded it.
+    #[must_use]
+    pub fn film(&self) -> Option<&Result<Film, FilmError>> {
+        self.slot().get()
+    }
+}
