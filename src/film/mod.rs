@@ -17,8 +17,10 @@
 //! - `nodes`: the times at which a warp is looked at, and polynomials through them
 //! - `record`: from placements to reels, as many as it takes
 //! - `reel`: the polynomials between two times, and their sum
+//! - [`proof`]: what holds of a film at every t
 
 mod nodes;
+pub mod proof;
 mod record;
 mod reel;
 

@@ -70,6 +70,27 @@ impl Reel {
         reel
     }
 
+    /// How many coefficients a vertex has.
+    pub(super) fn coefficient_count(&self) -> usize {
+        self.counts[0] + self.counts[1]
+    }
+
+    /// Where a vertex is at both ends, by its number in the blocks.
+    pub(super) fn ends(&self, vertex: usize) -> [DVec2; 2] {
+        let first = vertex / BLOCK * (2 + self.counts[0]);
+        [0, 1].map(|end| point(&self.full[first + end], vertex))
+    }
+
+    /// A coefficient of a vertex.
+    pub(super) fn coefficient(&self, vertex: usize, k: usize) -> DVec2 {
+        let ([full, narrow], block) = (self.counts, vertex / BLOCK);
+        if k < full {
+            return point(&self.full[block * (2 + full) + 2 + k], vertex);
+        }
+        let row = &self.narrow[block * narrow + k - full];
+        point(&row.map(f64::from), vertex)
+    }
+
     pub(super) fn to(&self) -> f64 {
         self.to
     }
@@ -139,6 +160,12 @@ impl WithSimd for Sum<'_> {
             }
         }
     }
+}
+
+/// What a row says of a vertex of its block.
+fn point(row: &Row, vertex: usize) -> DVec2 {
+    let at = 2 * (vertex % BLOCK);
+    DVec2::new(row[at], row[at + 1])
 }
 
 #[inline(always)]

@@ -24,7 +24,7 @@
 //! - `note`: what was done otherwise than asked; `mirrored`: what might have been
 //!   meant
 //! - `ready`, `frame`: the transition and its moments; `recorded`: those that are
-//!   played from memory
+//!   played from memory; `proved`: what holds of them at every t
 //! - `timing`, `style`: how it is played and painted
 
 mod arrange;
@@ -56,6 +56,7 @@ mod options;
 mod outline;
 mod part_time;
 mod plane;
+mod proved;
 mod ready;
 mod recorded;
 mod rigid;
@@ -82,6 +83,7 @@ pub use frame::{Coated, Figure, Frame};
 pub use note::Note;
 pub use options::{Boundary, FieldOptions, Options, PaintRule, Quality};
 pub use part_time::{PartTime, PartTimeError};
+pub use proved::Proved;
 pub use ready::Transition;
 pub use spec::TransitionSpec;
 pub use style::Style;

@@ -169,7 +169,7 @@ use Better::{Large, Small};
 use Unit::{Cells, Degrees, Diameters, Pure, Seconds, Share};
 
 /// All of them, in the order of the table.
-pub(super) const ALL: [Column; 54] = [
+pub(super) const ALL: [Column; 57] = [
     words("method", |r| {
         Some(Cell::new(r.warp, r.content).ok()?.words().report)
     }),
@@ -261,6 +261,9 @@ pub(super) const ALL: [Column; 54] = [
     number("figure", Seconds, |r| Some(r.seconds.figure)),
     number("measure", Seconds, |r| Some(r.seconds.measure)),
     number("turning_excess", Share, |r| Some(r.film.turning_excess)).drawn("turning"),
+    words("proof", |r| Some(&r.proof.as_ref()?.words)),
+    number("unproved_t", Pure, |r| r.proof.as_ref()?.first_t()),
+    number("prove", Seconds, |r| Some(r.proof.as_ref()?.seconds)),
 ];
 
 #[cfg(test)]
@@ -279,7 +282,7 @@ mod tests {
         pieces_excess holes_excess mean_travel_diameters max_travel_diameters \
         max_acceleration_diameters grid_width_cells grid_height_cells import_s match_s \
         triangulate_s match_and_triangulate_s build_s frame_s figure_s measure_s \
-        turning_excess_share";
+        turning_excess_share proof unproved_t prove_s";
 
     #[test]
     fn headings_are_what_they_were() {

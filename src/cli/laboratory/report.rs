@@ -12,9 +12,10 @@ use crate::cli::inputs::{Inputs, Opened};
 use crate::cli::options::MethodArgs;
 use crate::content::{Content, ContentKind};
 use crate::design::{Design, Form};
+use crate::film::{FilmError, FilmOptions};
 use crate::measure::{self, FilmReport, Finding, MeshReport, Verdict};
 use crate::progress::{Progress, Span, Whole};
-use crate::transition::{Note, Transition};
+use crate::transition::{Note, Proved, Transition};
 use crate::warp::WarpKind;
 
 /// Frames whose times are taken: an odd number has a middle, and the first few,
@@ -30,6 +31,10 @@ pub(in crate::cli) struct Measuring {
     /// At how many values of t, evenly from 0 to 1, the film is measured
     #[arg(long, value_name = "N", default_value_t = 65, value_parser = clap::value_parser!(u64).range(2..=10_000))]
     samples: u64,
+
+    /// Prove that nothing folds and no outlines meet at any t, or say when they may
+    #[arg(long)]
+    prove: bool,
 
     #[command(flatten)]
     method: MethodArgs,
@@ -47,7 +52,10 @@ impl Measuring {
         let clock = StageClock::new(&building);
         let opened = inputs.open(&self.method, &clock)?;
         let measuring = Span::new(&whole, BUILT, 1.0);
-        let report = Report::of(&opened, clock.stages(), self.samples as usize, &measuring)?;
+        let mut report = Report::of(&opened, clock.stages(), self.samples as usize, &measuring)?;
+        if self.prove {
+            report.proof = ProofReport::of(&opened.transition, progress)?;
+        }
         Ok((opened, report))
     }
 }
@@ -69,6 +77,8 @@ pub(in crate::cli) struct Report {
     pub verdict: VerdictReport,
     pub mesh: Option<MeshReport>,
     pub film: FilmReport,
+    /// What holds at every t, where that was asked for and there are faces.
+    pub proof: Option<ProofReport>,
     /// How many samples the film had, even if they were forgotten.
     #[serde(skip)]
     pub samples: usize,
@@ -104,6 +114,45 @@ pub(in crate::cli) struct Seconds {
     pub measure: f64,
     /// The stages of building by name.
     pub stages: Stages,
+}
+
+/// What is proved, with its words.
+#[derive(Debug, Serialize)]
+pub(in crate::cli) struct ProofReport {
+    pub words: String,
+    /// How long it took to record the film and to prove it.
+    pub seconds: f64,
+    /// None where there is no film.
+    #[serde(flatten)]
+    pub proved: Option<Proved>,
+}
+
+impl ProofReport {
+    fn of(transition: &Transition, progress: &dyn Progress) -> Result<Option<Self>, CliError> {
+        let start = Instant::now();
+        let proved = match transition.prove(&FilmOptions::default(), progress) {
+            Err(FilmError::Cancelled(cancelled)) => return Err(CliError::failed(cancelled)),
+            proved => proved,
+        };
+        let words = match &proved {
+            Ok(None) => return Ok(None),
+            Ok(Some(proved)) => proved.to_string(),
+            Err(error) => format!("not proved: {error}"),
+        };
+        Ok(Some(Self {
+            words,
+            seconds: start.elapsed().as_secs_f64(),
+            proved: proved.ok().flatten(),
+        }))
+    }
+
+    /// The first t at which it is not proved.
+    pub fn first_t(&self) -> Option<f64> {
+        let proof = &self.proved.as_ref()?.proof;
+        let fold = proof.fold.map(|fold| fold.t);
+        let meeting = proof.meeting.map(|meeting| meeting.t);
+        fold.into_iter().chain(meeting).min_by(f64::total_cmp)
+    }
 }
 
 /// The verdict with its words.
@@ -186,6 +235,7 @@ impl Report {
             mesh: mesh_report,
             samples: film.samples.len(),
             film,
+            proof: None,
         })
     }
 

@@ -112,6 +112,9 @@ fn verdict(report: &Report, lines: &mut Lines) {
         lines.row("", &format!("cause: {}", finding.cause_words));
         lines.row("", &format!("to do: {}", finding.remedy_words));
     }
+    if let Some(proof) = &report.proof {
+        lines.row("proof", &proof.words);
+    }
     for note in &report.verdict.notes {
         lines.row("note", &note.to_string());
     }

@@ -34,20 +34,24 @@ fn line(ui: &mut Ui, scene: &Scene) {
         ui.monospace(text);
     }
     ui.add_space(GRID);
-    ui.label(quiet(ui, whence(scene)));
+    let (word, more) = whence(scene);
+    ui.label(quiet(ui, word)).on_hover_text(more);
 }
 
-/// Where frames come from.
-fn whence(scene: &Scene) -> String {
+/// Where frames come from, in a word and in more.
+fn whence(scene: &Scene) -> (String, String) {
+    let solved = || "Solved".to_owned();
     match scene.session.transition().and_then(Transition::film) {
         Some(Ok(film)) => {
             let megabytes = film.bytes() as f64 / 1e6;
-            format!(
-                "played from {megabytes:.1} MB, recorded by {} solves",
-                film.solves()
-            )
+            let more = format!(
+                "Frames come from memory: recorded by {} solves, to {:.0e} of the drawings' size",
+                film.solves(),
+                film.error()
+            );
+            (format!("Film {megabytes:.1} MB"), more)
         }
-        Some(Err(error)) => format!("solved: {error}"),
-        None => "solved".to_owned(),
+        Some(Err(error)) => (solved(), error.to_string()),
+        None => (solved(), "The film is not recorded yet".to_owned()),
     }
 }

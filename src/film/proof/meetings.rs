@@ -1,0 +1,248 @@
+//! Outlines that meet.
+//!
+//! Outlines that are apart at first meet first where a vertex comes to lie on an edge.
+//! Boxes around the ways of edges tell which are near each other; where too many are,
+//! the reel is halved. What is near is apart as long as the vertex is on one side of
+//! the edge's line, or ahead of the edge, or behind it.
+
+use super::Walk;
+use super::bernstein::{Known, Products};
+use super::folds::{HALVINGS, product, twice_area};
+use super::places::{Way, Ways};
+use crate::geometry::{Crossing, DVec2, crossings, orient2d};
+use crate::progress::{Cancelled, Progress, still_wanted};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+
+/// A part of a reel is halved where so many pairs of edges for each edge are near
+/// each other, as long as it is no shorter than a 64th.
+const PAIRS: usize = 12;
+const PARTS: u32 = 6;
+
+/// The place in the reel, the vertex, the edge, and where that is.
+type Meets = (f64, u32, [u32; 2], DVec2);
+
+/// What was found in a reel.
+#[derive(Default)]
+pub(super) struct Found {
+    pub first: Option<Meets>,
+    pub touching: usize,
+}
+
+/// An edge, by its vertices' numbers among those of the walks.
+#[derive(Clone, Copy)]
+struct Edge {
+    ends: [usize; 2],
+    level: usize,
+}
+
+/// A vertex and an edge that it must not meet.
+type Pair = (usize, [usize; 2]);
+
+pub(super) fn first(
+    ways: &Ways,
+    walks: &[&Walk],
+    at_ends: [bool; 2],
+    progress: &dyn Progress,
+) -> Result<Found, Cancelled> {
+    let mut numbers = BTreeMap::new();
+    for walk in walks {
+        for &v in &walk.vertices {
+            let next = numbers.len();
+            numbers.entry(v).or_insert(next);
+        }
+    }
+    let mut vertices = vec![0; numbers.len()];
+    numbers.iter().for_each(|(&v, &k)| vertices[k] = v);
+    let edges = walks.iter().flat_map(|walk| {
+        let next = walk.vertices.iter().cycle().skip(1);
+        let ends = walk.vertices.iter().zip(next);
+        ends.map(|(a, b)| Edge {
+            ends: [numbers[a], numbers[b]],
+            level: walk.level,
+        })
+    });
+    let search = Search {
+        products: Products::of_degree(ways.degree()),
+        edges: edges.collect(),
+        progress,
+    };
+    let places: Vec<Way> = vertices.par_iter().map(|&v| ways.way(v as usize)).collect();
+    let mut found = Found::default();
+    // What is drawn from now on may cross something at once. The designs do not.
+    if !at_ends[0] {
+        found.first = search.crossed(&places, walks, &numbers);
+    }
+    if found.first.is_none() {
+        found = search.part(&places, at_ends, [0.0, 1.0], PARTS)?;
+    }
+    if let Some((_, vertex, edge, _)) = &mut found.first {
+        *vertex = vertices[*vertex as usize];
+        *edge = edge.map(|v| vertices[v as usize]);
+    }
+    Ok(found)
+}
+
+struct Search<'a> {
+    products: Products,
+    edges: Vec<Edge>,
+    progress: &'a dyn Progress,
+}
+
+impl Search<'_> {
+    /// A crossing at the beginning.
+    fn crossed(
+        &self,
+        places: &[Way],
+        walks: &[&Walk],
+        numbers: &BTreeMap<u32, usize>,
+    ) -> Option<Meets> {
+        let number = |walk: &Walk, k: usize| numbers[&walk.vertices[k % walk.vertices.len()]];
+        let ring = |walk: &&Walk| -> Vec<DVec2> {
+            let numbers = (0..walk.vertices.len()).map(|k| number(walk, k));
+            numbers.map(|v| places[v].at[0]).collect()
+        };
+        let rings: Vec<Vec<DVec2>> = walks.iter().map(ring).collect();
+        let all = crossings(&rings);
+        let is_met = |crossing: &&Crossing| {
+            let [a, b] = crossing.edges.map(|edge| walks[edge.ring].level);
+            a == b
+        };
+        let crossing = all.iter().find(is_met)?;
+        let [one, other] = crossing.edges;
+        let edge = [other.point, other.point + 1].map(|k| number(walks[other.ring], k) as u32);
+        let vertex = number(walks[one.ring], one.point) as u32;
+        Some((0.0, vertex, edge, crossing.place))
+    }
+
+    /// The first meeting in a part of the reel.
+    fn part(
+        &self,
+        places: &[Way],
+        at_ends: [bool; 2],
+        [from, to]: [f64; 2],
+        halvings: u32,
+    ) -> Result<Found, Cancelled> {
+        still_wanted(self.progress)?;
+        let most = PAIRS * self.edges.len() + 1000;
+        let Some(pairs) = self.near(places, if halvings > 0 { most } else { usize::MAX }) else {
+            let middle = from.midpoint(to);
+            let (left, right): (Vec<Way>, Vec<Way>) =
+                places.par_iter().map(|way| way.halves().into()).unzip();
+            let mut found = self.part(&left, [at_ends[0], false], [from, middle], halvings - 1)?;
+            if found.first.is_none() {
+                let right = self.part(&right, [false, at_ends[1]], [middle, to], halvings - 1)?;
+                found.first = right.first;
+                found.touching += right.touching;
+            }
+            return Ok(found);
+        };
+        let touches = |pair: &Pair| self.touches(places, at_ends, pair);
+        let (touching, apart): (Vec<Pair>, Vec<Pair>) = pairs.into_par_iter().partition(touches);
+        let meets = |&(v, [a, b]): &Pair| {
+            let ways = [&places[a], &places[b], &places[v]].map(Clone::clone);
+            let s = self.meets(ways, at_ends, [from, to], HALVINGS)?;
+            let edge = [a as u32, b as u32];
+            // As good as where it is then: it is for the eye.
+            Some((s, v as u32, edge, places[v].at[0]))
+        };
+        let first = apart.par_iter().filter_map(meets);
+        Ok(Found {
+            first: first.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))),
+            touching: touching.len(),
+        })
+    }
+
+    /// The vertices and edges whose boxes overlap; none if they are more than so many.
+    fn near(&self, places: &[Way], most: usize) -> Option<Vec<Pair>> {
+        let boxes: Vec<[DVec2; 2]> = places.par_iter().map(Way::bounds).collect();
+        let around = |edge: &Edge| {
+            let [a, b] = edge.ends.map(|v| boxes[v]);
+            [a[0].min(b[0]), a[1].max(b[1])]
+        };
+        let mut sorted: Vec<([DVec2; 2], Edge)> = self
+            .edges
+            .iter()
+            .map(|edge| (around(edge), *edge))
+            .collect();
+        sorted.sort_by(|(a, _), (b, _)| a[0].x.total_cmp(&b[0].x));
+        let mut pairs = Vec::new();
+        for (k, (this, edge)) in sorted.iter().enumerate() {
+            let ahead = sorted[k + 1..].iter();
+            for (that, other) in ahead.take_while(|(that, _)| that[0].x <= this[1].x) {
+                let overlap = this[0].y <= that[1].y && that[0].y <= this[1].y;
+                if overlap && edge.level == other.level {
+                    let of = |a: &Edge, b: &Edge| a.ends.map(|v| (v, b.ends));
+                    let both = of(edge, other).into_iter().chain(of(other, edge));
+                    pairs.extend(both.filter(|(v, ends)| !ends.contains(v)));
+                }
+            }
+            if pairs.len() > most.saturating_mul(4) {
+                return None;
+            }
+        }
+        pairs.sort_unstable();
+        pairs.dedup();
+        Some(pairs)
+    }
+
+    /// Whether the vertex lies on the edge at an end of the film.
+    fn touches(&self, places: &[Way], at_ends: [bool; 2], &(v, edge): &Pair) -> bool {
+        let last = places[v].at.len() - 1;
+        let at = |k: usize| {
+            let [a, b, p] = [edge[0], edge[1], v].map(|v| places[v].at[k]);
+            let room = places[v].error + places[edge[0]].error + places[edge[1]].error;
+            let along = b - a;
+            let share = ((p - a).dot(along) / along.length_squared()).clamp(0.0, 1.0);
+            // Not where the edge is a point: then it is what is near that point.
+            p.distance(a + along * share) <= room || p == a || p == b
+        };
+        (at_ends[0] && at(0)) || (at_ends[1] && at(last))
+    }
+
+    /// The first place at which the third is not proved to be off the edge of the other
+    /// two.
+    fn meets(
+        &self,
+        ways: [Way; 3],
+        at_ends: [bool; 2],
+        [from, to]: [f64; 2],
+        halvings: u32,
+    ) -> Option<f64> {
+        let [a, b, p] = ways.each_ref();
+        let last = p.at.len() - 1;
+        let [low, high] = p.bounds();
+        let [of_a, of_b] = [a, b].map(Way::bounds);
+        let (least, most) = (of_a[0].min(of_b[0]), of_a[1].max(of_b[1]));
+        if low.cmpgt(most).any() || high.cmplt(least).any() {
+            return None;
+        }
+        let side = twice_area(&self.products, [a, b, p]);
+        let exact = [0, last].map(|k| orient2d(a.at[k], b.at[k], p.at[k]));
+        let known = |sign: f64| {
+            let at = |end: usize| match at_ends[end] {
+                true => Known::of(sign * exact[end]),
+                false => Known::No,
+            };
+            [at(0), at(1)]
+        };
+        let none = [Known::No; 2];
+        let behind = || product(&self.products, [a, p], [a, b], DVec2::dot).negated();
+        let ahead = || product(&self.products, [b, p], [a, b], DVec2::dot);
+        if side.is_positive(known(1.0))
+            || side.negated().is_positive(known(-1.0))
+            || behind().is_positive(none)
+            || ahead().is_positive(none)
+        {
+            return None;
+        }
+        if halvings == 0 {
+            return Some(from);
+        }
+        let middle = from.midpoint(to);
+        let [[a0, a1], [b0, b1], [p0, p1]] = [a, b, p].map(Way::halves);
+        let (left, right) = ([a0, b0, p0], [a1, b1, p1]);
+        self.meets(left, [at_ends[0], false], [from, middle], halvings - 1)
+            .or_else(|| self.meets(right, [false, at_ends[1]], [middle, to], halvings - 1))
+    }
+}

@@ -1,0 +1,135 @@
+//! What is proved of the film of a transition.
+
+use super::ready::Transition;
+use crate::content::{Content, Solid};
+use crate::film::proof::{Proof, Walk};
+use crate::film::{Film, FilmError, FilmOptions};
+use crate::geometry::Side;
+use crate::progress::{Progress, Span};
+use serde::Serialize;
+use std::fmt;
+
+/// How much is done once the film is recorded.
+const RECORDED: f64 = 0.5;
+
+/// What holds of a film at every t, and of what of it that is said.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[non_exhaustive]
+pub struct Proved {
+    /// What was found.
+    pub proof: Proof,
+    /// How near the film is to what it was recorded from; see [`Film::error`].
+    pub film_error: f64,
+    /// Holes that come and go, and parts that swell: nothing is said of these.
+    pub left_out: usize,
+}
+
+impl Transition {
+    /// Records the film, if nobody did, and looks at it at every t in [0, 1]: does a
+    /// face turn over, does an outline meet itself or another? None of what has no
+    /// faces: fields and pictures.
+    ///
+    /// # Errors
+    /// [`FilmError`] if there is no film, or nobody wants it any more.
+    pub fn prove(
+        &self,
+        options: &FilmOptions,
+        progress: &dyn Progress,
+    ) -> Result<Option<Proved>, FilmError> {
+        let Content::Solid(solid) = self.content() else {
+            return Ok(None);
+        };
+        let [recording, proving] =
+            [(0.0, RECORDED), (RECORDED, 1.0)].map(|(a, b)| Span::new(progress, a, b));
+        let film: Film = self.record(options, &recording)?;
+        Ok(Some(Proved {
+            proof: film.prove(&walks(solid), &proving)?,
+            film_error: film.error(),
+            left_out: solid.holes.len() + solid.swells.len(),
+        }))
+    }
+}
+
+/// The boundaries that are drawn as the vertices are placed.
+fn walks(solid: &Solid) -> Vec<Walk> {
+    let swells = |k: usize| solid.swells.iter().any(|swell| swell.walks().contains(&k));
+    let level = |k: usize| match &solid.coating {
+        Some(coating) => coating.of_walks[k],
+        None => 0,
+    };
+    let drawn = |k: usize| {
+        let speck = solid.specks.iter().find(|speck| speck.walks.contains(&k));
+        match speck.map(|speck| (speck.side, speck.life)) {
+            // In times of their own they are as good as always there.
+            _ if solid.clocks.is_some() => [0.0, 1.0],
+            Some((Side::Source, life)) => [0.0, life.to],
+            Some((Side::Target, life)) => [life.from, 1.0],
+            None => [0.0, 1.0],
+        }
+    };
+    let walks = solid.loops.iter().enumerate();
+    walks
+        .filter(|(k, _)| !swells(*k))
+        .map(|(k, walk)| Walk {
+            vertices: walk.clone(),
+            level: level(k),
+            drawn: drawn(k),
+        })
+        .collect()
+}
+
+impl Proved {
+    /// No face turns over and no outline meets another, at any t, of all that is
+    /// looked at.
+    #[must_use]
+    pub fn holds(&self) -> bool {
+        self.proof.holds()
+    }
+}
+
+impl fmt::Display for Proved {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Proof {
+            fold,
+            meeting,
+            touching,
+            ..
+        } = &self.proof;
+        match (fold, meeting) {
+            (None, None) => {
+                f.write_str("proved for every t in [0, 1]: no face turns over, no outlines meet")?;
+            }
+            _ => f.write_str("not proved")?,
+        }
+        if let Some(fold) = fold {
+            write!(
+                f,
+                "; face {} may turn over at t = {:.9}",
+                fold.face + 1,
+                fold.t
+            )?;
+        }
+        if let Some(meeting) = meeting {
+            let (t, place) = (meeting.t, meeting.place);
+            write!(
+                f,
+                "; outlines may meet at t = {t:.9}, near ({:.4}, {:.4})",
+                place.x, place.y
+            )?;
+        }
+        if *touching > 0 {
+            write!(
+                f,
+                "; {touching} points that touch an edge at an end are left out"
+            )?;
+        }
+        if self.left_out > 0 {
+            let count = self.left_out;
+            write!(
+                f,
+                "; {count} holes and parts that come and go within their outline are left out"
+            )?;
+        }
+        Ok(())
+    }
+}
