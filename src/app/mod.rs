@@ -48,6 +48,7 @@ pub use logic::LogicPlugin;
 pub use looking::choosing::Choosing;
 pub use looking::helping::{Alternative, Helping, Offer};
 pub use looking::measuring::{Measured, Measures};
+pub use looking::recording::Recording;
 pub use looking::twin::{OnTwin, Twin};
 pub use looking::view::{KeepsFit, StageArea};
 pub use opening::apply::Gallery;

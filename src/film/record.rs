@@ -36,9 +36,9 @@ pub enum FilmError {
         /// What it may take.
         most: usize,
     },
-    /// The warp jumps near a t.
-    #[error("the motion jumps near t = {t:.3}; frames are solved instead")]
-    Jumps {
+    /// Near a t the warp jumps, or is solved too inexactly.
+    #[error("the motion does not settle near t = {t:.3}; frames are solved instead")]
+    Unsettled {
         /// Where.
         t: f64,
     },
@@ -177,7 +177,7 @@ impl<'a> Recorder<'a> {
         drop(seen);
         let at_middle = time(0.5);
         if to.0 - from.0 <= SHORTEST {
-            return Err(FilmError::Jumps { t: at_middle });
+            return Err(FilmError::Unsettled { t: at_middle });
         }
         self.span(from, (at_middle, middle.clone()))?;
         self.span((at_middle, middle), to)

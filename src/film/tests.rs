@@ -248,7 +248,7 @@ fn a_jump_is_said_and_not_smoothed_over() {
     let error = Film::record(Arc::new(Jump), &FilmOptions::default(), &Silent);
     let error = error.expect_err("a jump");
     assert!(
-        matches!(error, FilmError::Jumps { t } if (t - 0.3).abs() < 2e-3),
+        matches!(error, FilmError::Unsettled { t } if (t - 0.3).abs() < 2e-3),
         "{error}"
     );
 }

@@ -85,6 +85,14 @@ impl Proved {
     pub fn holds(&self) -> bool {
         self.proof.holds()
     }
+
+    /// The first t at which something is not proved.
+    #[must_use]
+    pub fn first_t(&self) -> Option<f64> {
+        let fold = self.proof.fold.map(|fold| fold.t);
+        let meeting = self.proof.meeting.map(|meeting| meeting.t);
+        fold.into_iter().chain(meeting).min_by(f64::total_cmp)
+    }
 }
 
 impl fmt::Display for Proved {

@@ -5,6 +5,7 @@ mod audience;
 mod beside;
 mod choosing;
 mod editor;
+mod film;
 mod history;
 mod keeping;
 mod keys;

@@ -1,24 +1,38 @@
-//! The film of what is on the stage, recorded beside the window.
+//! The film of what is on the stage, recorded and proved beside the window.
 //!
 //! What is on the stage plays from the moment it is there; once its film is recorded,
-//! the same frames come from memory. Nothing is drawn anew for it, and nothing is told:
-//! it is the same film.
+//! the same frames come from memory. Nothing is drawn anew for it: it is the same film.
+//! Then it is looked at at every t, which the verdict below the stage tells.
 
-use bevy::prelude::{DetectChanges, Res, ResMut, Resource};
+use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
 use crate::film::{FilmError, FilmOptions};
-use crate::transition::Transition;
+use crate::transition::{Proved, Transition};
 
-/// The recording that goes on, or went on last.
+/// The recording that goes on, or what came of the last one.
 #[derive(Resource, Debug, Default)]
 pub struct Recording {
     of: Option<Transition>,
-    job: Option<Job<(), FilmError>>,
+    job: Option<Job<Option<Proved>, FilmError>>,
+    proved: Option<Proved>,
 }
 
 impl Recording {
+    /// What is proved of the film on the stage; none as long as that is not known, and
+    /// of what has no faces.
+    #[must_use]
+    pub fn proved(&self) -> Option<&Proved> {
+        self.proved.as_ref()
+    }
+
+    /// It is being recorded, or proved.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.job.is_some()
+    }
+
     fn is_of(&self, wanted: Option<&Transition>) -> bool {
         match (&self.of, wanted) {
             (Some(old), Some(new)) => std::ptr::eq(old.content(), new.content()),
@@ -30,15 +44,22 @@ impl Recording {
 
 /// Records whatever is on the stage. A recording of what was there before is given up.
 pub fn follow(session: Res<Session>, mut recording: ResMut<Recording>) {
-    if !session.is_changed() || recording.is_of(session.transition()) {
-        return;
+    // Marked as changed by hand: it is looked at in each frame, and seldom new.
+    let now = recording.bypass_change_detection();
+    if session.is_changed() && !now.is_of(session.transition()) {
+        now.proved = None;
+        now.of = session.transition().cloned();
+        now.job = now.of.clone().map(|transition| {
+            Job::start("the film", move |progress| {
+                let options = FilmOptions::default();
+                // Why there is no film is kept with the transition, and shown beside the times.
+                transition.record(&options, progress)?;
+                transition.prove(&options, progress)
+            })
+        });
     }
-    recording.of = session.transition().cloned();
-    recording.job = recording.of.clone().map(|transition| {
-        Job::start("the film", move |progress| {
-            // Why there is none is kept with the transition, and shown beside the times.
-            transition.record(&FilmOptions::default(), progress)?;
-            Ok(())
-        })
-    });
+    if let Some(answer) = Job::take(&mut now.job) {
+        now.proved = answer.ok().flatten();
+        recording.set_changed();
+    }
 }

@@ -24,6 +24,7 @@ use crate::app::looking::choosing::Choosing;
 use crate::app::looking::filmstrip::Filmstrip;
 use crate::app::looking::helping::Helping;
 use crate::app::looking::measuring::Measured;
+use crate::app::looking::recording::Recording;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::dialogs::Dialog;
 use crate::app::opening::drops::Drop;
@@ -109,6 +110,7 @@ pub struct Going<'w, 's> {
     measured: Res<'w, Measured>,
     helping: Res<'w, Helping>,
     filmstrip: Res<'w, Filmstrip>,
+    recording: Res<'w, Recording>,
     twin: Res<'w, Twin>,
     notices: Res<'w, Notices>,
     dialog: Res<'w, Dialog>,
@@ -141,6 +143,7 @@ impl Going<'_, '_> {
             || self.measured.is_busy()
             || self.helping.is_busy()
             || self.filmstrip.is_busy()
+            || self.recording.is_busy()
             || self.twin.is_busy()
             || self.dialog.asks().is_some()
             || self.drop.is_arriving()
@@ -156,6 +159,7 @@ impl Going<'_, '_> {
             || self.measured.is_changed()
             || self.helping.is_changed()
             || self.filmstrip.is_changed()
+            || self.recording.is_changed()
             || self.twin.is_changed()
             || self.notices.is_changed()
     }

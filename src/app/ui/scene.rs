@@ -19,6 +19,7 @@ use crate::app::looking::filmstrip::Filmstrip;
 use crate::app::looking::helping::Helping;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::onion::Onion;
+use crate::app::looking::recording::Recording;
 use crate::app::looking::times::WholeFrame;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::apply::Gallery;
@@ -43,6 +44,7 @@ pub struct Scene<'w> {
     pub helping: Res<'w, Helping>,
     pub filmstrip: Res<'w, Filmstrip>,
     pub measured: Res<'w, Measured>,
+    pub recording: Res<'w, Recording>,
     pub onion: Res<'w, Onion>,
     pub twin: Res<'w, Twin>,
     pub view: Res<'w, StageView>,

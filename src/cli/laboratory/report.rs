@@ -148,10 +148,7 @@ impl ProofReport {
 
     /// The first t at which it is not proved.
     pub fn first_t(&self) -> Option<f64> {
-        let proof = &self.proved.as_ref()?.proof;
-        let fold = proof.fold.map(|fold| fold.t);
-        let meeting = proof.meeting.map(|meeting| meeting.t);
-        fold.into_iter().chain(meeting).min_by(f64::total_cmp)
+        self.proved.as_ref()?.first_t()
     }
 }
 

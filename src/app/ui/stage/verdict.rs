@@ -9,7 +9,7 @@ use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::kit::widgets::{ground, quiet};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::stage::area::is_light;
-use crate::measure::Finding;
+use crate::measure::{Finding, Verdict};
 
 /// Height of one line.
 const ROW_HEIGHT: f32 = 24.0;
@@ -67,14 +67,7 @@ fn show(ui: &mut Ui, scene: &Scene, measures: &Measures, acts: &mut Intents) {
     let verdict = &measures.verdict;
     ui.spacing_mut().item_spacing.y = 0.0;
     if verdict.is_clear() {
-        row(ui, true, |ui| {
-            let tip = format!(
-                "Looked at {} moments from the source to the target.",
-                verdict.steps
-            );
-            let text = RichText::new(first_upper(verdict.clear)).small();
-            ui.label(text).on_hover_text(tip);
-        });
+        row(ui, true, |ui| clear(ui, scene, verdict, acts));
     }
     for (index, finding) in verdict.findings.iter().enumerate() {
         row(ui, false, |ui| {
@@ -91,6 +84,31 @@ fn show(ui: &mut Ui, scene: &Scene, measures: &Measures, acts: &mut Intents) {
             let text = Label::new(RichText::new(&note).small()).truncate();
             ui.add(text).on_hover_text(note);
         });
+    }
+}
+
+/// Nothing is seen: at the moments that were looked at, or as it is proved at any.
+fn clear(ui: &mut Ui, scene: &Scene, verdict: &Verdict, acts: &mut Intents) {
+    let looked = format!(
+        "Looked at {} moments from the source to the target.",
+        verdict.steps
+    );
+    let seen = first_upper(verdict.clear);
+    let Some(proved) = scene.recording.proved() else {
+        ui.label(RichText::new(seen).small()).on_hover_text(looked);
+        return;
+    };
+    let tip = format!("{looked}\nBetween them: {proved}.");
+    let Some(first) = proved.first_t() else {
+        let text = RichText::new(format!("{seen}: proved for every t")).small();
+        ui.label(text).on_hover_text(tip);
+        return;
+    };
+    ui.label(RichText::new(seen).small()).on_hover_text(&tip);
+    let text = format!("at {} moments; not proved at t = {first:.4}", verdict.steps);
+    let label = Label::new(quiet(ui, text)).sense(Sense::click());
+    if ui.add(label).on_hover_text(tip).clicked() {
+        acts.push(Intent::Seek(first));
     }
 }
 

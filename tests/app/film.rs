@@ -1,0 +1,42 @@
+//! What is on the stage is recorded beside the window, and proved.
+
+use std::time::Duration;
+
+use morphospace::app::{Intent, Recording};
+use morphospace::transition::Transition;
+
+use crate::window::Window;
+
+fn settle(window: &mut Window) {
+    for _ in 0..10_000 {
+        window.update();
+        let recording = window.0.world().resource::<Recording>();
+        if !recording.is_busy() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    panic!("it is recorded for ever");
+}
+
+#[test]
+fn what_is_on_the_stage_is_played_from_memory_once_that_is_there() {
+    let mut window = Window::with_gallery();
+    settle(&mut window);
+    let film = window.session().transition().and_then(Transition::film);
+    let film = film.expect("recorded").as_ref().expect("a film");
+    assert!(film.solves() <= 16, "{} solves", film.solves());
+    let proved = window.0.world().resource::<Recording>().proved();
+    assert!(proved.expect("an answer").holds(), "{proved:?}");
+    // Another film takes its place, and nothing is said of it before it is known.
+    window.send(Intent::OpenGallery("letters".to_owned()));
+    window.wait();
+    settle(&mut window);
+    assert!(
+        window
+            .session()
+            .transition()
+            .and_then(Transition::film)
+            .is_some()
+    );
+}
