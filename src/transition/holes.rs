@@ -8,6 +8,7 @@
 use super::births::times;
 use super::levels::Levels;
 use super::outline::Outline;
+use super::steps::{LAST, time};
 use super::walks::Walks;
 use crate::compatible::CompatibleMesh;
 use crate::content::Hole;
@@ -15,10 +16,6 @@ use crate::correspondence::{PieceMatch, RingMatch};
 use crate::geometry::DVec2;
 use crate::progress::{Cancelled, Progress, still_wanted};
 use crate::warp::{Arap, Life, Warp};
-
-/// Steps of a film that is looked at, both ends left out. By half as many, a hole
-/// crossed itself or another between two in two pairs of icons of 60.
-const STEPS: u32 = 64;
 
 /// A hole, and the number of the piece that it is in.
 pub(super) type HoleOf = (usize, Hole);
@@ -97,7 +94,7 @@ impl Scene {
             placer.place(time(step));
             placer.placement().in_frame.clone()
         };
-        let places: Vec<Vec<DVec2>> = (1..STEPS).map(place).collect();
+        let places: Vec<Vec<DVec2>> = (1..LAST).map(place).collect();
         let outlines = places.iter().map(|places| walks.outlines(places, levels));
         Self {
             outlines: outlines.collect(),
@@ -121,7 +118,7 @@ impl Scene {
 
     /// The number of steps at which it crosses something or itself, counted on to `most`.
     fn crossed(&self, hole: &Hole, level: usize, most: usize) -> usize {
-        let steps = (1..STEPS).zip(self.places.iter().zip(&self.outlines));
+        let steps = (1..LAST).zip(self.places.iter().zip(&self.outlines));
         let crosses = |(step, (places, others)): (u32, (&Vec<DVec2>, &Vec<Outline>))| {
             let ring = hole.at(places, time(step));
             let ring = ring.map(|ring| Outline::of(ring, level));
@@ -133,14 +130,10 @@ impl Scene {
     }
 
     fn add(&mut self, hole: &Hole, level: usize) {
-        for (step, (places, outlines)) in (1..STEPS).zip(self.places.iter().zip(&mut self.outlines))
+        for (step, (places, outlines)) in (1..LAST).zip(self.places.iter().zip(&mut self.outlines))
         {
             let ring = hole.at(places, time(step));
             outlines.extend(ring.map(|ring| Outline::of(ring, level)));
         }
     }
-}
-
-fn time(step: u32) -> f64 {
-    f64::from(step) / f64::from(STEPS)
 }

@@ -9,13 +9,10 @@ use crate::geometry::{Bounds, DVec2};
 use crate::transition::holes::HoleOf;
 use crate::transition::levels::Levels;
 use crate::transition::outline::Outline;
+use crate::transition::steps::{LAST, step_before, time};
 use crate::transition::walks::Walks;
 use crate::warp::{Arap, Life, Placer, Warp};
 use rayon::prelude::*;
-
-/// Steps at which it is looked at what is there. By half as many, parts met
-/// between the last two in three pairs of icons of 60.
-const STEPS: u32 = 64;
 
 /// A growing part keeps this share of its size free around itself, less the
 /// nearer it is to the size that was drawn.
@@ -101,7 +98,7 @@ impl<'a> Scene<'a> {
             });
             (walks.outlines(places, levels), there.collect())
         };
-        let steps = (0..=STEPS).into_par_iter();
+        let steps = (0..=LAST).into_par_iter();
         let (steps, holes): (Vec<Vec<Outline>>, _) = steps.map_init(|| film.placer(), at).unzip();
         Self {
             of_both: steps[0].len(),
@@ -202,10 +199,10 @@ impl<'a> Scene<'a> {
     fn meetings(&self, speck: &Speck, birth: &Birth, film: &Arap, most: f64) -> f64 {
         let mut count = 0.0;
         // Every other first: most that meet anything do so for long.
-        let steps = (0..=STEPS).step_by(2).chain((1..STEPS).step_by(2));
+        let steps = (0..=LAST).step_by(2).chain((1..LAST).step_by(2));
         for step in steps {
             // While it is large it meets most.
-            let step = [step, STEPS - step][speck.side];
+            let step = [step, LAST - step][speck.side];
             let share = birth.life.share(time(step));
             let is_whole = share == [0.0, 1.0][speck.side];
             // Where it is whole it is as it was drawn.
@@ -247,7 +244,7 @@ impl<'a> Scene<'a> {
     /// Adds a speck that has got its place.
     pub(super) fn add(&mut self, speck: &'a Speck, birth: &Birth, film: &Arap) {
         self.born.push((speck, *birth));
-        for step in 0..=STEPS {
+        for step in 0..=LAST {
             self.steps[step as usize].extend(birth.at(speck, film, time(step), 0.0));
         }
     }
@@ -259,8 +256,8 @@ impl<'a> Scene<'a> {
         let begins = begins(speck, life);
         // Of what both designs have, which is there in the same order at each step.
         let both = |step: usize| &self.steps[step][..self.of_both];
-        let then = both((f64::from(STEPS) * begins) as usize);
-        let now = both([0, STEPS as usize][side]);
+        let then = both(step_before(begins) as usize);
+        let now = both([0, LAST as usize][side]);
         let born = self.born.iter().filter(|(around, _)| around.side == side);
         let born = born.filter_map(|(around, birth)| {
             let size = around.size_around(here)?;
@@ -276,8 +273,4 @@ impl<'a> Scene<'a> {
 /// When a part is a speck that grows, or was one.
 fn begins(speck: &Speck, life: Life) -> f64 {
     [life.to, life.from][speck.side]
-}
-
-fn time(step: u32) -> f64 {
-    f64::from(step) / f64::from(STEPS)
 }
