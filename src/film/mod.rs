@@ -3,9 +3,8 @@
 //! Where vertices are is a smooth function of t for every warp, between the
 //! times at which something sets out or arrives. So a few placements give the
 //! whole film: from them any other is a short sum, however dear each was. What is
-//! kept is the deviation from the straight line between the ends of a [`Reel`],
-//! which is a polynomial that is zero at both ends; the ends are met to the last
-//! bit.
+//! kept is the deviation from the straight line between the ends of a reel, a stretch
+//! of time: a polynomial that is zero at both ends, which are met to the last bit.
 //!
 //! A [`Film`] is a warp itself, so that contents, stage, export and measures know
 //! nothing of it. Outside [0, 1] it is the warp that it was recorded from.
