@@ -40,7 +40,7 @@ pub struct FilmOptions {
     /// How far a vertex may be from where the warp has it, as a share of the
     /// diameter of all its places at the ends.
     pub tolerance: f64,
-    /// How much memory the film may take, in bytes.
+    /// How much memory the film may take, and what of it is recorded at a time, in bytes.
     pub most_bytes: usize,
 }
 
@@ -177,7 +177,7 @@ impl Warp for Film {
 }
 
 /// Which places of a placement a warp moves; all others are the same at every t.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Moving {
     in_frame: bool,
     in_source: bool,
@@ -211,17 +211,13 @@ impl Channel {
 }
 
 impl Moving {
-    /// What differs between these placements and the first of them.
-    fn between<'a>(first: &Placement, others: impl Iterator<Item = &'a Placement> + Clone) -> Self {
-        let differs = |channel: Channel| {
-            others
-                .clone()
-                .any(|other| channel.of(other) != channel.of(first))
-        };
+    /// With what differs between two placements.
+    fn with_changes(self, first: &Placement, other: &Placement) -> Self {
+        let differs = |channel: Channel| channel.of(other) != channel.of(first);
         Self {
-            in_frame: differs(Channel::Frame),
-            in_source: differs(Channel::Source),
-            in_target: differs(Channel::Target),
+            in_frame: self.in_frame || differs(Channel::Frame),
+            in_source: self.in_source || differs(Channel::Source),
+            in_target: self.in_target || differs(Channel::Target),
         }
     }
 

@@ -10,14 +10,21 @@ use super::reel::{BLOCK, Reel, Row, blocks};
 use super::{FilmOptions, Moving};
 use crate::geometry::Bounds;
 use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
-use crate::warp::{Placement, Placer, Warp};
+use crate::warp::{Placer, Warp};
 use rayon::prelude::*;
 
 /// Nodes after which it is foreseen whether the interval will do.
 const FORESEEN: usize = 9;
 
-/// No interval is shorter: what does not settle within jumps.
+/// What does not settle within an interval so short is not halved any more: it jumps.
 const SHORTEST: f64 = 1.0 / 1024.0;
+
+/// Times that are nearer to each other are one.
+const SAME: f64 = 1e-12;
+
+/// Where between two breaks it is looked at what moves: nothing is there by accident
+/// what it is at the ends.
+const WITHIN: f64 = 0.381_966;
 
 /// What of the tolerance the rounding of small coefficients may take, and what those
 /// that are left out may.
@@ -66,11 +73,11 @@ pub(super) fn record(
 ) -> Result<Recorded, FilmError> {
     checkpoint(progress, "recording", 0.0)?;
     let mut breaks = warp.breaks();
-    breaks.retain(|t| (SHORTEST..=1.0 - SHORTEST).contains(t));
+    breaks.retain(|t| (SAME..=1.0 - SAME).contains(t));
     breaks.push(1.0);
     breaks.sort_by(f64::total_cmp);
-    breaks.dedup_by(|b, a| *b - *a < SHORTEST);
-    let mut recorder = Recorder::new(warp, options, progress);
+    breaks.dedup_by(|b, a| *b - *a < SAME);
+    let mut recorder = Recorder::new(warp, &breaks, options, progress);
     let mut from = (0.0, recorder.at(0.0));
     for t in breaks {
         let to = (t, recorder.at(t));
@@ -99,18 +106,26 @@ struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    fn new(warp: &dyn Warp, options: &'a FilmOptions, progress: &'a dyn Progress) -> Self {
+    fn new(
+        warp: &dyn Warp,
+        breaks: &[f64],
+        options: &'a FilmOptions,
+        progress: &'a dyn Progress,
+    ) -> Self {
         let mut placer = warp.placer();
-        // Three times at which nothing is as it was by accident.
-        let seen: Vec<Placement> = [0.0, 0.381_966, 1.0]
-            .map(|t| {
-                placer.place(t);
-                placer.placement().clone()
-            })
-            .into();
-        let moving = Moving::between(&seen[0], seen[1..].iter());
+        let mut at = |t: f64| {
+            placer.place(t);
+            placer.placement().clone()
+        };
+        let ends = [0.0, 1.0].map(&mut at);
+        let mut moving = Moving::default().with_changes(&ends[0], &ends[1]);
+        let mut from = 0.0;
+        for to in breaks {
+            moving = moving.with_changes(&ends[0], &at(from + WITHIN * (to - from)));
+            from = *to;
+        }
         let ends = moving.channels().flat_map(|channel| {
-            let ends = [&seen[0], &seen[2]].into_iter();
+            let ends = ends.iter();
             ends.flat_map(move |placement| channel.of(placement).iter().copied())
         });
         // Of what does not move any size will do.
@@ -123,7 +138,7 @@ impl<'a> Recorder<'a> {
             diameter: if diameter > 0.0 { diameter } else { 1.0 },
             reels: Vec::new(),
             error: 0.0,
-            solves: 1,
+            solves: breaks.len(),
         }
     }
 
@@ -155,6 +170,7 @@ impl<'a> Recorder<'a> {
         let mut before = f64::INFINITY;
         while seen.len() + 2 <= MOST {
             checkpoint(self.progress, "recording", from.0)?;
+            self.allow(ends[0].len() * (4 + seen.len()) * size_of::<Row>())?;
             let pair = [nodes()[seen.len()], nodes()[seen.len() + 1]];
             let found = self.at_both(pair.map(time));
             let known = seen.len();
@@ -181,6 +197,16 @@ impl<'a> Recorder<'a> {
         }
         self.span(from, (at_middle, middle.clone()))?;
         self.span((at_middle, middle), to)
+    }
+
+    /// Whether so many bytes more than the reels so far are allowed.
+    fn allow(&self, more: usize) -> Result<(), FilmError> {
+        let bytes = more + self.reels.iter().map(Reel::bytes).sum::<usize>();
+        let most = self.options.most_bytes;
+        if bytes > most {
+            return Err(FilmError::TooLarge { bytes, most });
+        }
+        Ok(())
     }
 
     /// Keeps the polynomial through what was seen.
@@ -211,13 +237,8 @@ impl<'a> Recorder<'a> {
             rounded += half_a_bit * largest[in_full];
         }
         let blocks = ends[0].len();
-        let so_far: usize = self.reels.iter().map(Reel::bytes).sum();
         let row = size_of::<Row>();
-        let bytes = so_far + blocks * (row * (2 + in_full) + row / 2 * (kept - in_full));
-        if bytes > self.options.most_bytes {
-            let most = self.options.most_bytes;
-            return Err(FilmError::TooLarge { bytes, most });
-        }
+        self.allow(blocks * (row * (2 + in_full) + row / 2 * (kept - in_full)))?;
         let coefficients: Vec<Row> = coefficients
             .chunks(n)
             .flat_map(|of_block| &of_block[..kept])

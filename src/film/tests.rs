@@ -252,3 +252,37 @@ fn a_jump_is_said_and_not_smoothed_over() {
         "{error}"
     );
 }
+
+/// A point that sets out at some times and is back at the end.
+#[derive(Debug)]
+struct ThereAndBack([f64; 2]);
+
+impl Warp for ThereAndBack {
+    fn placer(&self) -> Placer {
+        let none: Arc<[[u32; 3]]> = Arc::new([]);
+        let placement = Placement::of_source(none, &[DVec2::ZERO, DVec2::ONE], &[DVec2::ZERO; 2]);
+        let [from, then] = self.0;
+        Placer::new(placement, move |t, placement| {
+            let late = (t - from).max(0.0) * (1.0 - t) + (t - then).max(0.0) * (1.0 - t);
+            placement.in_frame[0] = DVec2::X * late;
+        })
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.0.to_vec()
+    }
+}
+
+#[test]
+fn what_moves_late_or_by_breaks_that_are_near_each_other_is_recorded() {
+    for breaks in [[0.5, 0.5], [0.3, 0.3003], [0.5, 0.9995]] {
+        let (film, warp) = recorded(ThereAndBack(breaks));
+        assert!(
+            off(&film, warp.as_ref()) <= film.error() + 1e-14,
+            "{breaks:?}"
+        );
+        let mut placer = film.placer();
+        placer.place(0.75);
+        assert!(placer.placement().in_frame[0].x > 0.01, "{breaks:?}");
+    }
+}

@@ -42,7 +42,7 @@ pub(super) fn smoothed(
     }
     let mixed = mixed([&plain, &led], &takes, progress)?;
     // What is led may be in the way of what is not.
-    let is_worse = Seen::of(&mixed, levels).trouble() > as_plain.trouble();
+    let is_worse = Seen::of(&mixed, levels).is_worse_than(&as_plain);
     still_wanted(progress)?;
     Ok(if is_worse { plain } else { mixed })
 }
@@ -130,10 +130,12 @@ impl Seen {
         self.0.iter().zip(&other.0).map(is_better).collect()
     }
 
-    /// Folds of all pieces, then crossings.
-    fn trouble(&self) -> (usize, usize) {
-        let folds = self.0.iter().map(|seen| seen.folds).sum();
-        (folds, self.0.iter().map(|seen| seen.crossings).sum())
+    /// Whether it folds or crosses more, all pieces together.
+    fn is_worse_than(&self, other: &Self) -> bool {
+        let sums = |of: fn(&OfPiece) -> usize| [self, other].map(|s| s.0.iter().map(of).sum());
+        let [folds, crossings]: [[usize; 2]; 2] =
+            [sums(|piece| piece.folds), sums(|piece| piece.crossings)];
+        folds[0] > folds[1] || crossings[0] > crossings[1]
     }
 }
 

@@ -6,6 +6,7 @@ use crate::film::proof::{Proof, Walk};
 use crate::film::{Film, FilmError, FilmOptions};
 use crate::geometry::Side;
 use crate::progress::{Progress, Span};
+use crate::warp::Clock;
 use serde::Serialize;
 use std::fmt;
 
@@ -18,6 +19,8 @@ const RECORDED: f64 = 0.5;
 pub struct Proved {
     /// What was found.
     pub proof: Proof,
+    /// How many faces there are; none of boundary paths.
+    pub faces: usize,
     /// How near the film is to what it was recorded from; see [`Film::error`].
     pub film_error: f64,
     /// Holes that come and go, and parts that swell: nothing is said of these.
@@ -39,11 +42,16 @@ impl Transition {
         let Content::Solid(solid) = self.content() else {
             return Ok(None);
         };
+        // Bars may cross, and their panels are not seen.
+        if solid.loops.is_empty() {
+            return Ok(None);
+        }
         let [recording, proving] =
             [(0.0, RECORDED), (RECORDED, 1.0)].map(|(a, b)| Span::new(progress, a, b));
         let film: Film = self.record(options, &recording)?;
         Ok(Some(Proved {
             proof: film.prove(&walks(solid), &proving)?,
+            faces: self.compatible().map_or(0, |mesh| mesh.faces().len()),
             film_error: film.error(),
             left_out: solid.holes.len() + solid.swells.len(),
         }))
@@ -59,11 +67,11 @@ fn walks(solid: &Solid) -> Vec<Walk> {
     };
     let drawn = |k: usize| {
         let speck = solid.specks.iter().find(|speck| speck.walks.contains(&k));
+        let clock = solid.clocks.as_ref();
+        let clock = clock.map_or(Clock::WHOLE, |clocks| clocks.clocks[clocks.of_walks[k]]);
         match speck.map(|speck| (speck.side, speck.life)) {
-            // In times of their own they are as good as always there.
-            _ if solid.clocks.is_some() => [0.0, 1.0],
-            Some((Side::Source, life)) => [0.0, life.to],
-            Some((Side::Target, life)) => [life.from, 1.0],
+            Some((Side::Source, life)) => [0.0, clock.when(life.to)],
+            Some((Side::Target, life)) => [clock.when(life.from), 1.0],
             None => [0.0, 1.0],
         }
     };
@@ -86,6 +94,12 @@ impl Proved {
         self.proof.holds()
     }
 
+    /// Nothing is left out.
+    #[must_use]
+    pub fn is_whole(&self) -> bool {
+        self.left_out == 0 && self.proof.touching == 0
+    }
+
     /// The first t at which something is not proved.
     #[must_use]
     pub fn first_t(&self) -> Option<f64> {
@@ -105,7 +119,12 @@ impl fmt::Display for Proved {
         } = &self.proof;
         match (fold, meeting) {
             (None, None) => {
-                f.write_str("proved for every t in [0, 1]: no face turns over, no outlines meet")?;
+                let faces = if self.faces > 0 {
+                    "no face turns over, "
+                } else {
+                    ""
+                };
+                write!(f, "proved for every t in [0, 1]: {faces}no outlines meet")?;
             }
             _ => f.write_str("not proved")?,
         }
@@ -128,7 +147,7 @@ impl fmt::Display for Proved {
         if *touching > 0 {
             write!(
                 f,
-                "; {touching} points that touch an edge at an end are left out"
+                "; {touching} points that touch an edge at an end are left out there"
             )?;
         }
         if self.left_out > 0 {

@@ -38,7 +38,11 @@ impl Transition {
             return known.clone();
         }
         let film = Film::record(self.shared_warp(), options, progress);
-        if matches!(film, Err(FilmError::Cancelled(_))) {
+        // Another time, or with more room, there may be one.
+        if matches!(
+            film,
+            Err(FilmError::Cancelled(_) | FilmError::TooLarge { .. })
+        ) {
             return film;
         }
         self.slot().get_or_init(|| film).clone()

@@ -49,7 +49,7 @@ impl Clock {
     }
 
     /// When it shows a time within [0, 1].
-    fn when(&self, time: f64) -> f64 {
+    pub(crate) fn when(&self, time: f64) -> f64 {
         self.from + (self.to - self.from) * self.easing.inverse(time)
     }
 

@@ -21,7 +21,9 @@ fn settle(window: &mut Window) {
 
 #[test]
 fn what_is_on_the_stage_is_played_from_memory_once_that_is_there() {
-    let mut window = Window::with_gallery();
+    let mut window = Window::new();
+    window.send(Intent::OpenGallery("triangle-polar".to_owned()));
+    window.wait();
     settle(&mut window);
     let film = window.session().transition().and_then(Transition::film);
     let film = film.expect("recorded").as_ref().expect("a film");

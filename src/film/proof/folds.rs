@@ -3,27 +3,66 @@
 use super::bernstein::{EPS, Known, Poly, Products};
 use super::places::{Way, Ways};
 use crate::geometry::{DVec2, orient2d};
+use crate::progress::{Cancelled, Progress, still_wanted};
 use rayon::prelude::*;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// How often a reel is halved: to a thousand-millionth.
 pub(super) const HALVINGS: u32 = 30;
 
 /// The first place in the reel at which a face is not proved to be positive, and the
 /// face.
-pub(super) fn first(ways: &Ways, faces: &[[u32; 3]]) -> Option<(f64, usize)> {
+pub(super) fn first(
+    ways: &Ways,
+    faces: &[[u32; 3]],
+    at_ends: [bool; 2],
+    progress: &dyn Progress,
+) -> Result<Option<(f64, usize)>, Cancelled> {
     let products = Products::of_degree(ways.degree());
+    let earliest = Earliest::default();
     let of_face = |(face, corners): (usize, &[u32; 3])| {
         let corners = corners.map(|v| ways.way(v as usize));
-        let ends = [0, ways.degree()].map(|k| {
+        let known = |end: usize, k: usize| {
             let [a, b, c] = corners.each_ref().map(|way| way.at[k]);
-            Known::of(orient2d(a, b, c))
-        });
+            match at_ends[end] {
+                true => Known::of(orient2d(a, b, c)),
+                false => Known::No,
+            }
+        };
+        let ends = [known(0, 0), known(1, ways.degree())];
         let area = twice_area(&products, corners.each_ref());
-        let s = not_positive(&area, ends, [0.0, 1.0], HALVINGS)?;
+        if progress.is_cancelled() {
+            return None;
+        }
+        let s = not_positive(&area, ends, [0.0, 1.0], HALVINGS, &earliest)?;
         Some((s, face))
     };
     let found = faces.par_iter().enumerate().filter_map(of_face);
-    found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)))
+    let first = found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+    still_wanted(progress)?;
+    Ok(first)
+}
+
+/// The earliest trouble of any so far: what comes later need not be looked at.
+pub(super) struct Earliest(AtomicU64);
+
+impl Default for Earliest {
+    fn default() -> Self {
+        Self(AtomicU64::new(f64::INFINITY.to_bits()))
+    }
+}
+
+impl Earliest {
+    pub(super) fn is_before(&self, s: f64) -> bool {
+        // Relaxed: it only saves work. What is not negative is in the order of its bits.
+        self.0.load(Ordering::Relaxed) < s.to_bits()
+    }
+
+    /// What was found, told.
+    pub(super) fn told(&self, s: f64) -> f64 {
+        self.0.fetch_min(s.to_bits(), Ordering::Relaxed);
+        s
+    }
 }
 
 /// Twice the area of three vertices.
@@ -61,15 +100,19 @@ pub(super) fn not_positive(
     ends: [Known; 2],
     [from, to]: [f64; 2],
     halvings: u32,
+    earliest: &Earliest,
 ) -> Option<f64> {
-    if of.is_positive(ends) {
+    if earliest.is_before(from) || of.is_positive(ends) {
         return None;
     }
     if ends[0] == Known::Not || halvings == 0 {
-        return Some(from);
+        return Some(earliest.told(from));
     }
     let middle = from.midpoint(to);
     let [left, right] = of.halves();
-    not_positive(&left, [ends[0], Known::No], [from, middle], halvings - 1)
-        .or_else(|| not_positive(&right, [Known::No, ends[1]], [middle, to], halvings - 1))
+    let in_half = |of: &Poly, ends: [Known; 2], times: [f64; 2]| {
+        not_positive(of, ends, times, halvings - 1, earliest)
+    };
+    in_half(&left, [ends[0], Known::No], [from, middle])
+        .or_else(|| in_half(&right, [Known::No, ends[1]], [middle, to]))
 }

@@ -7,7 +7,7 @@
 
 use super::Walk;
 use super::bernstein::{Known, Products};
-use super::folds::{HALVINGS, product, twice_area};
+use super::folds::{Earliest, HALVINGS, product, twice_area};
 use super::places::{Way, Ways};
 use crate::geometry::{Crossing, DVec2, crossings, orient2d};
 use crate::progress::{Cancelled, Progress, still_wanted};
@@ -15,9 +15,21 @@ use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// A part of a reel is halved where so many pairs of edges for each edge are near
-/// each other, as long as it is no shorter than a 64th.
+/// each other, as long as it is no shorter than a 1024th.
 const PAIRS: usize = 12;
-const PARTS: u32 = 6;
+const PARTS: u32 = 10;
+
+/// What touches at an end of the film is left out for so long.
+const TOUCHING: f64 = 1.0 / 1024.0;
+
+/// Where the pieces of a reel end that are looked at each for itself: what is near an
+/// end of the film is one. `length` is how much of the film the reel is.
+fn pieces(at_ends: [bool; 2], length: f64) -> Vec<f64> {
+    let near = (TOUCHING / length).min(0.25);
+    let begin = at_ends[0].then_some(near);
+    let end = at_ends[1].then_some(1.0 - near);
+    begin.into_iter().chain(end).chain([1.0]).collect()
+}
 
 /// The place in the reel, the vertex, the edge, and where that is.
 type Meets = (f64, u32, [u32; 2], DVec2);
@@ -67,14 +79,36 @@ pub(super) fn first(
         edges: edges.collect(),
         progress,
     };
-    let places: Vec<Way> = vertices.par_iter().map(|&v| ways.way(v as usize)).collect();
+    let mut rest: Vec<Way> = vertices.par_iter().map(|&v| ways.way(v as usize)).collect();
     let mut found = Found::default();
-    // What is drawn from now on may cross something at once. The designs do not.
-    if !at_ends[0] {
-        found.first = search.crossed(&places, walks, &numbers);
-    }
-    if found.first.is_none() {
-        found = search.part(&places, at_ends, [0.0, 1.0], PARTS)?;
+    let mut from = 0.0;
+    for to in pieces(at_ends, ways.length()) {
+        let piece = match to < 1.0 {
+            true => {
+                let cut = |way: &Way| way.cut((to - from) / (1.0 - from)).into();
+                let (piece, after): (Vec<Way>, Vec<Way>) = rest.par_iter().map(cut).unzip();
+                rest = after;
+                piece
+            }
+            false => std::mem::take(&mut rest),
+        };
+        let ends = [at_ends[0] && from == 0.0, at_ends[1] && to == 1.0];
+        // A cut's sides lie on each other in the designs: that is looked at once they
+        // are apart.
+        let crossed = (!ends[0]).then(|| search.crossed(&piece, walks, &numbers, from));
+        let next = match crossed.flatten() {
+            Some(first) => Found {
+                first: Some(first),
+                touching: 0,
+            },
+            None => search.part(&piece, ends, [from, to], PARTS)?,
+        };
+        found.touching += next.touching;
+        found.first = next.first;
+        if found.first.is_some() {
+            break;
+        }
+        from = to;
     }
     if let Some((_, vertex, edge, _)) = &mut found.first {
         *vertex = vertices[*vertex as usize];
@@ -96,6 +130,7 @@ impl Search<'_> {
         places: &[Way],
         walks: &[&Walk],
         numbers: &BTreeMap<u32, usize>,
+        s: f64,
     ) -> Option<Meets> {
         let number = |walk: &Walk, k: usize| numbers[&walk.vertices[k % walk.vertices.len()]];
         let ring = |walk: &&Walk| -> Vec<DVec2> {
@@ -112,7 +147,7 @@ impl Search<'_> {
         let [one, other] = crossing.edges;
         let edge = [other.point, other.point + 1].map(|k| number(walks[other.ring], k) as u32);
         let vertex = number(walks[one.ring], one.point) as u32;
-        Some((0.0, vertex, edge, crossing.place))
+        Some((s, vertex, edge, crossing.place))
     }
 
     /// The first meeting in a part of the reel.
@@ -137,18 +172,25 @@ impl Search<'_> {
             }
             return Ok(found);
         };
+        let earliest = Earliest::default();
         let touches = |pair: &Pair| self.touches(places, at_ends, pair);
         let (touching, apart): (Vec<Pair>, Vec<Pair>) = pairs.into_par_iter().partition(touches);
         let meets = |&(v, [a, b]): &Pair| {
             let ways = [&places[a], &places[b], &places[v]].map(Clone::clone);
-            let s = self.meets(ways, at_ends, [from, to], HALVINGS)?;
+            if self.progress.is_cancelled() {
+                return None;
+            }
+            let s = self.meets(ways, at_ends, [from, to], (HALVINGS, &earliest))?;
             let edge = [a as u32, b as u32];
             // As good as where it is then: it is for the eye.
             Some((s, v as u32, edge, places[v].at[0]))
         };
-        let first = apart.par_iter().filter_map(meets);
+        let found = apart.par_iter().filter_map(meets);
+        let key = |m: &Meets| (m.1, m.2);
+        let first = found.min_by(|a, b| a.0.total_cmp(&b.0).then(key(a).cmp(&key(b))));
+        still_wanted(self.progress)?;
         Ok(Found {
-            first: first.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1))),
+            first,
             touching: touching.len(),
         })
     }
@@ -207,8 +249,11 @@ impl Search<'_> {
         ways: [Way; 3],
         at_ends: [bool; 2],
         [from, to]: [f64; 2],
-        halvings: u32,
+        (halvings, earliest): (u32, &Earliest),
     ) -> Option<f64> {
+        if earliest.is_before(from) {
+            return None;
+        }
         let [a, b, p] = ways.each_ref();
         let last = p.at.len() - 1;
         let [low, high] = p.bounds();
@@ -237,12 +282,13 @@ impl Search<'_> {
             return None;
         }
         if halvings == 0 {
-            return Some(from);
+            return Some(earliest.told(from));
         }
         let middle = from.midpoint(to);
+        let next = (halvings - 1, earliest);
         let [[a0, a1], [b0, b1], [p0, p1]] = [a, b, p].map(Way::halves);
         let (left, right) = ([a0, b0, p0], [a1, b1, p1]);
-        self.meets(left, [at_ends[0], false], [from, middle], halvings - 1)
-            .or_else(|| self.meets(right, [false, at_ends[1]], [middle, to], halvings - 1))
+        self.meets(left, [at_ends[0], false], [from, middle], next)
+            .or_else(|| self.meets(right, [false, at_ends[1]], [middle, to], next))
     }
 }

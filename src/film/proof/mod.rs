@@ -12,8 +12,10 @@
 //!
 //! Guaranteed: what is said to be proved is so. Not guaranteed: that all that is so
 //! can be proved; what cannot be decided is told as trouble, at the first t at which it
-//! could not. Outlines that touch at an end of the film, as both sides of a cut do, are
-//! not looked at where they do, and are counted.
+//! could not. A vertex that touches an edge at an end of the film, as the sides of a
+//! cut do, is not looked at beside that edge for the first or last 1024th of the film,
+//! and counted. At the ends themselves the designs are what they are: of a face that is
+//! smaller than rounding they say on which side it is until it has grown.
 
 mod bernstein;
 mod folds;
@@ -49,7 +51,7 @@ pub struct Proof {
     /// The first t at which outlines are not proved to be apart.
     pub meeting: Option<Meeting>,
     /// Vertices that touch an edge at an end of the film, and were not looked at
-    /// beside that edge.
+    /// beside that edge for the 1024th of the film that is there.
     pub touching: usize,
 }
 
@@ -103,12 +105,12 @@ impl Film {
             checkpoint(progress, "proving", reel.from)?;
             let ways = Ways::of(reel);
             let time = |s: f64| reel.from + s * (reel.to - reel.from);
+            let at_ends = [reel.from == 0.0, reel.to == 1.0];
             if proof.fold.is_none() {
-                let fold = folds::first(&ways, &faces);
+                let fold = folds::first(&ways, &faces, at_ends, progress)?;
                 proof.fold = fold.map(|(s, face)| Fold { t: time(s), face });
             }
             if proof.meeting.is_none() {
-                let at_ends = [reel.from == 0.0, reel.to == 1.0];
                 let is_drawn = |walk: &&Walk| walk.drawn[0] < reel.to && walk.drawn[1] > reel.from;
                 let drawn: Vec<&Walk> = walks.iter().filter(is_drawn).collect();
                 let found = meetings::first(&ways, &drawn, at_ends, progress)?;

@@ -33,6 +33,11 @@ impl<'a> Ways<'a> {
         }
     }
 
+    /// How much of the film the reel is.
+    pub(super) fn length(&self) -> f64 {
+        self.reel.to - self.reel.from
+    }
+
     pub(super) fn degree(&self) -> usize {
         self.basis.len() + 1
     }
@@ -60,16 +65,22 @@ impl<'a> Ways<'a> {
 impl Way {
     /// Both halves.
     pub(super) fn halves(&self) -> [Self; 2] {
+        self.cut(0.5)
+    }
+
+    /// What is before a place in it, and what is after.
+    pub(super) fn cut(&self, s: f64) -> [Self; 2] {
         let (mut left, mut right) = (self.clone(), self.clone());
         let last = self.at.len() - 1;
         for k in 1..=last {
             for i in 0..=last - k {
-                right.at[i] = (right.at[i] + right.at[i + 1]) * 0.5;
+                right.at[i] = right.at[i] * (1.0 - s) + right.at[i + 1] * s;
             }
             left.at[k] = right.at[0];
         }
         let scale = self.at.iter().map(|p| p.abs().max_element());
-        let error = self.error + last as f64 * EPS * scale.fold(0.0, f64::max);
+        // Three roundings a step at most.
+        let error = self.error + (3 * last) as f64 * EPS * scale.fold(0.0, f64::max);
         [left.error, right.error] = [error; 2];
         [left, right]
     }

@@ -161,3 +161,40 @@ fn the_answer_is_the_same_on_any_number_of_threads() {
     };
     assert_eq!(of(1), of(3));
 }
+
+#[test]
+fn what_crosses_from_the_first_is_not_proved() {
+    // A bar across another; no vertex meets anything.
+    let film = film(vec![], 6, |k, t| {
+        let at = match k {
+            0 => DVec2::new(-5.0, -0.1),
+            1 => DVec2::new(5.0, -0.1),
+            2 => DVec2::new(0.0, 0.3),
+            3 => DVec2::new(0.1, -5.0),
+            4 => DVec2::new(0.2, 5.0),
+            _ => DVec2::new(-0.3, 0.0),
+        };
+        DVec2::from_angle(t).rotate(at)
+    });
+    let proof = film.prove(&[walk(&[0, 1, 2]), walk(&[3, 4, 5])], &Silent);
+    assert!(proof.expect("an answer").meeting.is_some());
+}
+
+#[test]
+fn what_touches_at_an_end_and_goes_in_is_found() {
+    // The foot of the first stands on the second, sinks in and comes out again.
+    let film = film(vec![], 6, |k, t| {
+        let sinks = -0.2 * t * (1.0 - t);
+        match k {
+            0 => DVec2::new(0.2, sinks),
+            1 => DVec2::new(0.8, sinks),
+            2 => DVec2::new(0.5, 1.0),
+            3 => DVec2::new(0.0, 0.0),
+            4 => DVec2::new(0.5, -1.0),
+            _ => DVec2::new(1.0, 0.0),
+        }
+    });
+    let proof = film.prove(&[walk(&[0, 1, 2]), walk(&[3, 4, 5])], &Silent);
+    let proof = proof.expect("an answer");
+    assert!(proof.touching > 0 && proof.meeting.is_some(), "{proof:?}");
+}

@@ -100,7 +100,12 @@ fn clear(ui: &mut Ui, scene: &Scene, verdict: &Verdict, acts: &mut Intents) {
     };
     let tip = format!("{looked}\nBetween them: {proved}.");
     let Some(first) = proved.first_t() else {
-        let text = RichText::new(format!("{seen}: proved for every t")).small();
+        let but = match (proved.is_whole(), proved.left_out > 0) {
+            (true, _) => "",
+            (false, true) => ", but for what comes and goes",
+            (false, false) => ", but for cuts as they open",
+        };
+        let text = RichText::new(format!("{seen}: proved for every t{but}")).small();
         ui.label(text).on_hover_text(tip);
         return;
     };
