@@ -57,28 +57,8 @@ pub(super) fn first(
     at_ends: [bool; 2],
     progress: &dyn Progress,
 ) -> Result<Found, Cancelled> {
-    let mut numbers = BTreeMap::new();
-    for walk in walks {
-        for &v in &walk.vertices {
-            let next = numbers.len();
-            numbers.entry(v).or_insert(next);
-        }
-    }
-    let mut vertices = vec![0; numbers.len()];
-    numbers.iter().for_each(|(&v, &k)| vertices[k] = v);
-    let edges = walks.iter().flat_map(|walk| {
-        let next = walk.vertices.iter().cycle().skip(1);
-        let ends = walk.vertices.iter().zip(next);
-        ends.map(|(a, b)| Edge {
-            ends: [numbers[a], numbers[b]],
-            level: walk.level,
-        })
-    });
-    let search = Search {
-        products: Products::of_degree(ways.degree()),
-        edges: edges.collect(),
-        progress,
-    };
+    let search = Search::of(walks, ways.degree(), progress);
+    let vertices = &search.vertices;
     let mut rest: Vec<Way> = vertices.par_iter().map(|&v| ways.way(v as usize)).collect();
     let mut found = Found::default();
     let mut from = 0.0;
@@ -95,7 +75,7 @@ pub(super) fn first(
         let ends = [at_ends[0] && from == 0.0, at_ends[1] && to == 1.0];
         // A cut's sides lie on each other in the designs: that is looked at once they
         // are apart.
-        let crossed = (!ends[0]).then(|| search.crossed(&piece, walks, &numbers, from));
+        let crossed = (!ends[0]).then(|| search.crossed(&piece, walks, from));
         let next = match crossed.flatten() {
             Some(first) => Found {
                 first: Some(first),
@@ -120,19 +100,43 @@ pub(super) fn first(
 struct Search<'a> {
     products: Products,
     edges: Vec<Edge>,
+    /// The vertices of all walks, and for each of them its number here.
+    vertices: Vec<u32>,
+    numbers: BTreeMap<u32, usize>,
     progress: &'a dyn Progress,
 }
 
-impl Search<'_> {
+impl<'a> Search<'a> {
+    fn of(walks: &[&Walk], degree: usize, progress: &'a dyn Progress) -> Self {
+        let mut numbers = BTreeMap::new();
+        for walk in walks {
+            for &v in &walk.vertices {
+                let next = numbers.len();
+                numbers.entry(v).or_insert(next);
+            }
+        }
+        let mut vertices = vec![0; numbers.len()];
+        numbers.iter().for_each(|(&v, &k)| vertices[k] = v);
+        let edges = walks.iter().flat_map(|walk| {
+            let next = walk.vertices.iter().cycle().skip(1);
+            let ends = walk.vertices.iter().zip(next);
+            ends.map(|(a, b)| Edge {
+                ends: [numbers[a], numbers[b]],
+                level: walk.level,
+            })
+        });
+        Self {
+            products: Products::of_degree(degree),
+            edges: edges.collect(),
+            vertices,
+            numbers,
+            progress,
+        }
+    }
+
     /// A crossing at the beginning.
-    fn crossed(
-        &self,
-        places: &[Way],
-        walks: &[&Walk],
-        numbers: &BTreeMap<u32, usize>,
-        s: f64,
-    ) -> Option<Meets> {
-        let number = |walk: &Walk, k: usize| numbers[&walk.vertices[k % walk.vertices.len()]];
+    fn crossed(&self, places: &[Way], walks: &[&Walk], s: f64) -> Option<Meets> {
+        let number = |walk: &Walk, k: usize| self.numbers[&walk.vertices[k % walk.vertices.len()]];
         let ring = |walk: &&Walk| -> Vec<DVec2> {
             let numbers = (0..walk.vertices.len()).map(|k| number(walk, k));
             numbers.map(|v| places[v].at[0]).collect()
