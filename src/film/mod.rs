@@ -13,12 +13,15 @@
 //! between two reels; the same film on any number of threads. Not guaranteed: the
 //! stated [`error`](Film::error) is measured against fresh placements, not proved.
 //!
+//! - `options`: how closely; `moving`: which places of a placement a warp moves
 //! - `nodes`: the times at which a warp is looked at, and polynomials through them
 //! - `record`: from placements to reels, as many as it takes
 //! - `reel`: the polynomials between two times, and their sum
 //! - [`proof`]: what holds of a film at every t
 
+mod moving;
 mod nodes;
+mod options;
 pub mod proof;
 mod record;
 mod reel;
@@ -26,32 +29,14 @@ mod reel;
 #[cfg(test)]
 mod tests;
 
+pub use options::FilmOptions;
 pub use record::FilmError;
 
-use crate::geometry::DVec2;
 use crate::progress::Progress;
 use crate::warp::{Missed, Placement, Placer, Warp};
+use moving::Moving;
 use reel::Reel;
 use std::sync::Arc;
-
-/// How a film is recorded.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FilmOptions {
-    /// How far a vertex may be from where the warp has it, as a share of the
-    /// diameter of all its places at the ends.
-    pub tolerance: f64,
-    /// How much memory the film may take, and what of it is recorded at a time, in bytes.
-    pub most_bytes: usize,
-}
-
-impl Default for FilmOptions {
-    fn default() -> Self {
-        Self {
-            tolerance: 1e-9,
-            most_bytes: 512 << 20,
-        }
-    }
-}
 
 /// A warp that was recorded. Cloning is cheap.
 ///
@@ -173,61 +158,5 @@ impl Warp for Film {
 
     fn breaks(&self) -> Vec<f64> {
         self.0.warp.breaks()
-    }
-}
-
-/// Which places of a placement a warp moves; all others are the same at every t.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-struct Moving {
-    in_frame: bool,
-    in_source: bool,
-    in_target: bool,
-}
-
-/// One of the three places of each vertex.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Channel {
-    Frame,
-    Source,
-    Target,
-}
-
-impl Channel {
-    fn of(self, placement: &Placement) -> &[DVec2] {
-        match self {
-            Self::Frame => &placement.in_frame,
-            Self::Source => &placement.in_source,
-            Self::Target => &placement.in_target,
-        }
-    }
-
-    fn of_mut(self, placement: &mut Placement) -> &mut [DVec2] {
-        match self {
-            Self::Frame => &mut placement.in_frame,
-            Self::Source => &mut placement.in_source,
-            Self::Target => &mut placement.in_target,
-        }
-    }
-}
-
-impl Moving {
-    /// With what differs between two placements.
-    fn with_changes(self, first: &Placement, other: &Placement) -> Self {
-        let differs = |channel: Channel| channel.of(other) != channel.of(first);
-        Self {
-            in_frame: self.in_frame || differs(Channel::Frame),
-            in_source: self.in_source || differs(Channel::Source),
-            in_target: self.in_target || differs(Channel::Target),
-        }
-    }
-
-    fn channels(self) -> impl Iterator<Item = Channel> {
-        let all = [
-            (self.in_frame, Channel::Frame),
-            (self.in_source, Channel::Source),
-            (self.in_target, Channel::Target),
-        ];
-        all.into_iter()
-            .filter_map(|(moves, channel)| moves.then_some(channel))
     }
 }

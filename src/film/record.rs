@@ -5,9 +5,10 @@
 //! there. Where it would take too many, both halves are recorded apart; the warp
 //! itself tells at which times something sets out or arrives.
 
+use super::moving::Moving;
 use super::nodes::{MOST, coefficients_from_values, nodes, weights};
+use super::options::FilmOptions;
 use super::reel::{BLOCK, Reel, Row, blocks};
-use super::{FilmOptions, Moving};
 use crate::geometry::Bounds;
 use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
 use crate::warp::{Placer, Warp};

@@ -3,6 +3,7 @@
 use super::*;
 use crate::compatible::CompatibleMesh;
 use crate::easing::Easing;
+use crate::geometry::DVec2;
 use crate::homotopy::Homotopy;
 use crate::progress::Silent;
 use crate::warp::{Arap, ArapOptions, Clock, Life, Staggered};

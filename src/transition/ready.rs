@@ -6,14 +6,14 @@ use super::found::Found;
 use super::moved::{AnyWarp, Moved};
 use super::note::Note;
 use super::part_time::PartTime;
-use super::recorded::Slot;
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, FieldBlend, FieldPairError};
 use crate::correspondence::{PointPair, RegionMatch};
 use crate::design::Design;
+use crate::film::{Film, FilmError};
 use crate::geometry::Bounds;
 use crate::warp::{Arap, Missed, Placer, Warp};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 /// A transition that is ready to be played. Cloning is cheap.
 ///
@@ -21,7 +21,7 @@ use std::sync::Arc;
 /// use morphospace::design::{ImportOptions, import};
 /// use morphospace::progress::Silent;
 /// use morphospace::transition::{Transition, TransitionSpec};
-/// use std::sync::Arc;
+/// use std::sync::{Arc, OnceLock};
 ///
 /// let read = |text: &str| import("t", text.as_bytes(), &ImportOptions::default()).map(Arc::new);
 /// let source = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")?;
@@ -34,6 +34,10 @@ use std::sync::Arc;
 /// ```
 #[derive(Clone, Debug)]
 pub struct Transition(Arc<Inner>);
+
+/// Where the film of a warp will be, for all transitions that share the warp; or why
+/// there is none.
+pub(super) type Slot = Arc<OnceLock<Result<Film, FilmError>>>;
 
 /// What a transition consists of.
 #[derive(Clone, Debug)]

@@ -3,11 +3,6 @@
 use super::ready::Transition;
 use crate::film::{Film, FilmError, FilmOptions};
 use crate::progress::Progress;
-use std::sync::{Arc, OnceLock};
-
-/// Where the film of a warp will be, for all transitions that share the warp; or why
-/// there is none.
-pub(super) type Slot = Arc<OnceLock<Result<Film, FilmError>>>;
 
 impl Transition {
     /// Records the warp over [0, 1]. From then on all frames within, those that there

@@ -3,8 +3,7 @@
 use super::moved::AnyWarp;
 use super::note::Note;
 use super::part_time::PartTime;
-use super::ready::Inner;
-use super::recorded::Slot;
+use super::ready::{Inner, Slot};
 use crate::content::{Clocks, Coat, Coating, Content, Solid};
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side, twice_signed_area};

@@ -5,10 +5,10 @@
 //! the reel is halved. What is near is apart as long as the vertex is on one side of
 //! the edge's line, or ahead of the edge, or behind it.
 
-use super::Walk;
 use super::bernstein::{Known, Products};
 use super::folds::{Earliest, HALVINGS, product, twice_area};
 use super::places::{Way, Ways};
+use super::walk::Walk;
 use crate::geometry::{Crossing, DVec2, crossings, orient2d};
 use crate::progress::{Cancelled, Progress, still_wanted};
 use rayon::prelude::*;

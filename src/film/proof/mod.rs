@@ -21,26 +21,18 @@ mod bernstein;
 mod folds;
 mod meetings;
 mod places;
+mod walk;
 
 #[cfg(test)]
 mod tests;
+
+pub use walk::Walk;
 
 use super::Film;
 use crate::geometry::DVec2;
 use crate::progress::{Cancelled, Progress, checkpoint};
 use places::Ways;
 use serde::Serialize;
-
-/// A closed boundary of what is drawn, as vertices.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Walk {
-    /// The vertices, one after the other.
-    pub vertices: Vec<u32>,
-    /// Walks on different levels may pass over each other.
-    pub level: usize,
-    /// It is drawn from and until then.
-    pub drawn: [f64; 2],
-}
 
 /// What a film shows, or does not, at any t.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
