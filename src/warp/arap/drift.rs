@@ -31,7 +31,13 @@ pub(super) struct Drift {
     whole_angle: f64,
     /// The anchor's place in elimination order and its part.
     anchor: Option<(u32, u32)>,
+    /// The whole turns about its pole.
+    about_pole: bool,
 }
+
+/// Where half the turn of the whole has a smaller sine, the pole is a hundred times as
+/// far away as the whole travels, or there is none: the way is straight.
+const NO_POLE: f64 = 5e-3;
 
 /// Neighbours in some order that belong to the same part.
 #[derive(Clone, Debug)]
@@ -79,7 +85,7 @@ impl Drift {
             centres[part as usize][1] += mesh.target()[v] * share;
         }
         let anchor = match path {
-            ArapPath::Centroid => None,
+            ArapPath::Centroid | ArapPath::Pole => None,
             ArapPath::Anchor(v) => Some((place[v as usize], component[v as usize])),
         };
         // Where the whole is does not depend on where points are put.
@@ -98,7 +104,29 @@ impl Drift {
             shares,
             whole_angle: maps.whole_angle,
             anchor,
+            about_pole: path == ArapPath::Pole,
         }
+    }
+
+    /// How far the whole is beside the straight line of its centroid; exactly 0 at both
+    /// ends.
+    ///
+    /// A rotation by θ about the pole takes the centroid along an arc whose chord d is
+    /// its travel: after tθ it has gone R((t − 1) θ/2) d · sin(tθ/2) / sin(θ/2).
+    fn bend(&self, t: f64) -> DVec2 {
+        let half = 0.5 * self.whole_angle;
+        if !self.about_pole || half.sin().abs() < NO_POLE {
+            return DVec2::ZERO;
+        }
+        let travel = self.centroid[1] - self.centroid[0];
+        let along = (t * half).sin() / half.sin();
+        DMat2::from_angle((t - 1.0) * half) * travel * along - travel * t
+    }
+
+    /// Where the centroid of the whole is.
+    fn centre(&self, t: f64) -> DVec2 {
+        let [from, to] = self.centroid;
+        from * (1.0 - t) + to * t + self.bend(t)
     }
 
     /// How many connected parts there are.
@@ -119,15 +147,14 @@ impl Drift {
     /// Where a part with these centroids is at t, when so much of its own way
     /// is done.
     pub(super) fn carried(&self, ends: [DVec2; 2], share: f64, t: f64) -> DVec2 {
-        let [from, to] = self.centroid;
         let path = PartPath::of(ends, self.centroid, self.whole_angle);
-        from * (1.0 - t) + to * t + path.at_share(t, share, self.whole_angle)
+        self.centre(t) + path.at_share(t, share, self.whole_angle)
     }
 
     /// The places in source and target that the whole carries to one at t.
     pub(super) fn carried_back(&self, place: DVec2, t: f64) -> [DVec2; 2] {
         let [from, to] = self.centroid;
-        let offset = place - (from * (1.0 - t) + to * t);
+        let offset = place - self.centre(t);
         let turned = |by: f64| DMat2::from_angle(by * self.whole_angle) * offset;
         [from + turned(-t), to + turned(1.0 - t)]
     }
@@ -159,7 +186,7 @@ impl Drift {
                     let straight = from * (1.0 - share) + to * share;
                     *shift = self.carried([from, to], share, t) - straight;
                 }
-                None => *shift += self.parts[part].deviation(t, self.whole_angle),
+                None => *shift += self.parts[part].deviation(t, self.whole_angle) + self.bend(t),
             }
         }
         if let Some((at, part)) = self.anchor {

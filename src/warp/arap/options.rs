@@ -58,6 +58,11 @@ pub enum ArapPath {
     /// The centroid moves on a straight line.
     #[default]
     Centroid,
+    /// The whole turns about its pole, the point that its rotation and its travel
+    /// leave where it is: the planar screw motion, which dual quaternions interpolate
+    /// (Kavan, Collins, Žára and O'Sullivan 2008). The centroid moves on an arc. Where the whole hardly turns the pole is far away, and the arc is
+    /// straight.
+    Pole,
     /// The vertex of this number, from 0, moves on a straight line.
     Anchor(u32),
 }

@@ -104,7 +104,7 @@ fn all_options() -> Vec<ArapOptions> {
 fn ends_are_met_to_the_last_bit() {
     for mesh in [bent_pair(), parts(|p| DMat2::from_angle(2.0) * p + p * 0.3)] {
         for mut options in all_options() {
-            for path in [ArapPath::Centroid, ArapPath::Anchor(3)] {
+            for path in [ArapPath::Centroid, ArapPath::Pole, ArapPath::Anchor(3)] {
                 options.path = path;
                 let mut at = film(&mesh, &options);
                 at(0.4); // whatever was shown before leaves no trace
@@ -158,7 +158,12 @@ fn swapping_plays_the_film_backwards_under_the_symmetric_energy() {
         bent_pair(),
         parts(|p| DMat2::from_angle(1.0) * p * 1.2 + DVec2::new(p.y, p.x) * 0.2),
     ] {
-        for options in all_options().into_iter().filter(|o| o.symmetric) {
+        let about_pole = ArapOptions {
+            path: ArapPath::Pole,
+            ..ArapOptions::default()
+        };
+        let symmetric = all_options().into_iter().filter(|o| o.symmetric);
+        for options in symmetric.chain([about_pole]) {
             if options.homotopy == Homotopy::LinearAfterPolar {
                 continue; // not its own reverse, see the homotopies' identity
             }
@@ -366,6 +371,35 @@ fn an_anchor_runs_straight() {
             last: 25
         })
     ));
+}
+
+#[test]
+fn a_rigid_motion_about_its_pole_leaves_the_pole_where_it_is() {
+    let pole = DVec2::new(-4.0, 9.0);
+    for angle in [2.5, -0.8, 0.05] {
+        let rigid = |t: f64| move |p: DVec2| DMat2::from_angle(t * angle) * (p - pole) + pole;
+        let mesh = parts(rigid(1.0));
+        let options = ArapOptions {
+            path: ArapPath::Pole,
+            ..ArapOptions::default()
+        };
+        let mut at = film(&mesh, &options);
+        for t in TIMES {
+            let expected: Vec<_> = mesh.source().iter().map(|&p| rigid(t)(p)).collect();
+            let error = largest_distance(&at(t), &expected) / mesh.diameter();
+            assert!(error < 1e-12, "{angle} at {t}: {error:e}");
+        }
+    }
+    // What does not turn has no pole: it slides.
+    let mesh = parts(|p| p + DVec2::X);
+    let [mut straight, mut about] = [ArapPath::Centroid, ArapPath::Pole].map(|path| {
+        let options = ArapOptions {
+            path,
+            ..ArapOptions::default()
+        };
+        film(&mesh, &options)
+    });
+    assert_eq!(straight(0.3), about(0.3));
 }
 
 #[test]

@@ -63,17 +63,28 @@ fn weights(ui: &mut Ui, weights: &mut Weights) {
 }
 
 fn path(ui: &mut Ui, path: &mut ArapPath) {
-    let tip = "Which point of the whole goes straight from its first place to its last.";
+    let tip = "How the whole gets from its first place to its last: which of its points goes straight, \
+               or about which point it turns.";
     row(ui, "Path", tip, |ui| {
         let (anchor, width) = match *path {
-            // Room beside the two for the number of the vertex.
-            ArapPath::Anchor(vertex) => (vertex, 112.0),
-            ArapPath::Centroid => (0, ui.available_width()),
+            // Room beside the three for the number of the vertex.
+            ArapPath::Anchor(vertex) => (vertex, 128.0),
+            ArapPath::Centroid | ArapPath::Pole => (0, ui.available_width()),
         };
         let anchor = ArapPath::Anchor(anchor);
         let options = [
-            (ArapPath::Centroid, "Centre", "The centre of mass"),
-            (anchor, "Vertex", "One vertex, by its number"),
+            (
+                ArapPath::Centroid,
+                "Centre",
+                "The centre of mass goes straight",
+            ),
+            (
+                ArapPath::Pole,
+                "Arc",
+                "The whole turns about its pole, the one point that stays where it is: it swings \
+                 instead of sliding",
+            ),
+            (anchor, "Vertex", "One vertex goes straight, by its number"),
         ];
         let chosen = ui.scope(|ui| {
             ui.set_max_width(width);
