@@ -11,7 +11,7 @@ use morphospace::field::Metric;
 use morphospace::homotopy::Homotopy;
 use morphospace::measure::Quantity;
 use morphospace::names::{Choice, keys};
-use morphospace::transition::{Boundary, Fit, PlayMode, Quality};
+use morphospace::transition::{Boundary, Fit, Guarding, PlayMode, Quality};
 use morphospace::warp::{Basis, Between, Course, Travel, WarpKind};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
@@ -59,6 +59,7 @@ fn keys_are_those_of_the_files_that_there_are() {
     table::<Fit>("as-drawn centred same-area");
     table::<PlayMode>("loop once ping-pong");
     table::<Quality>("best draft");
+    table::<Guarding>("guarded plain");
     table::<Basis>("gaussian multiquadric thin-plate");
     table::<Between>("ends middle-and-angle");
     table::<Course>("intrinsic straight");

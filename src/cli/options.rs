@@ -15,7 +15,7 @@ use crate::names::named;
 use crate::progress::Progress;
 use crate::project::{LoadedProject, Project};
 use crate::transition::{
-    Boundary, Ease, Easing, Fit, Options, PaintRule, PlayMode, Quality, Transition,
+    Boundary, Ease, Easing, Fit, Guarding, Options, PaintRule, PlayMode, Quality, Transition,
 };
 use crate::warp::{ArapPath, Course, Travel, WarpKind, Weights};
 
@@ -89,6 +89,10 @@ struct PlacingArgs {
     /// How much is tried for a film of outlines as rigid parts [default: best]
     #[arg(long, value_parser = one_of::<Quality>())]
     quality: Option<Quality>,
+
+    /// What is done where that film folds or its outlines meet [default: guarded]
+    #[arg(long, value_parser = one_of::<Guarding>())]
+    guard: Option<Guarding>,
 
     /// Width of a truss's bars, as a fraction of the design's diameter
     #[arg(long, value_name = "FRACTION")]
@@ -176,8 +180,12 @@ struct ArapArgs {
     extra_turns: Option<Vec<i32>>,
 
     /// Let the centroid run straight from source to target
-    #[arg(long, conflicts_with = "anchor")]
+    #[arg(long, conflicts_with_all = ["anchor", "pole"])]
     centroid: bool,
+
+    /// Let the whole turn about its pole, the point that stays where it is, on an arc
+    #[arg(long, conflicts_with = "anchor")]
+    pole: bool,
 
     /// Let this vertex (counted from 0) run straight instead of the centroid
     #[arg(long, value_name = "VERTEX")]
@@ -356,6 +364,7 @@ impl MethodArgs {
         );
         set(&mut project.fit, given.fit);
         set(&mut project.options.quality, given.quality);
+        set(&mut project.options.guard, given.guard);
         set(&mut project.options.bar_width, given.bar_width);
         let given = &self.cell;
         // After the method: the parser lets nobody give both.
@@ -376,6 +385,7 @@ impl MethodArgs {
         set(&mut arap.symmetric, given.one_sided.then_some(false));
         set(&mut arap.extra_turns, given.extra_turns.clone());
         set(&mut arap.path, given.centroid.then_some(ArapPath::Centroid));
+        set(&mut arap.path, given.pole.then_some(ArapPath::Pole));
         set(&mut arap.path, given.anchor.map(ArapPath::Anchor));
         set(&mut arap.subdivisions, given.subdivisions);
     }
@@ -468,7 +478,7 @@ mod tests {
     #[test]
     fn flags_reach_their_options() {
         let project = edited(
-            "--method field --fit same-area --quality draft --bar-width 0.02 --homotopy exponential \
+            "--method field --fit same-area --quality draft --guard plain --bar-width 0.02 --homotopy exponential \
              --weights 1,2.5 --one-sided --extra-turns 0,-1 --anchor 3 --subdivisions 1 \
              --metric chessboard --boundary binary --space real --epsilon 2 --threshold -1.5 \
              --cells 64 --margin 0.2 --path straight",
@@ -483,6 +493,7 @@ mod tests {
             (Fit::SameArea, 0.02)
         );
         assert_eq!(project.options.quality, Quality::Draft);
+        assert_eq!(project.options.guard, Guarding::Plain);
         assert_eq!(project.options.arap.homotopy, Homotopy::Exponential);
         assert_eq!(
             project.options.arap.weights,

@@ -2,7 +2,7 @@
 //! found for.
 
 use super::drawings::Drawings;
-use super::options::Options;
+use super::options::{Guarding, Options};
 use super::rigid::coarse;
 use crate::geometry::{DVec2, Regions};
 use fnv::FnvHasher;
@@ -77,6 +77,10 @@ pub(super) fn key(options: &Options, drawings: &Drawings) -> String {
     );
     // Options are numbers and words; what could not be written has one key.
     hasher.write(&serde_json::to_vec(&asked).unwrap_or_default());
+    // What was kept before there were guards stays what it is.
+    if options.guard != Guarding::default() {
+        hasher.write(options.guard.to_string().as_bytes());
+    }
     let bounds = outlines.each_ref().map(Regions::bounds);
     let bounds = bounds[0].union(&bounds[1]);
     let step = SAME * bounds.diameter();

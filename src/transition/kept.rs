@@ -17,7 +17,7 @@ use crate::compatible::CompatibleMesh;
 use crate::correspondence::PieceMatch;
 use crate::geometry::DVec2;
 use crate::progress::{Progress, still_wanted};
-use crate::warp::{Arap, Life, Settled};
+use crate::warp::{Arap, Guard, Life, Settled};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
@@ -87,6 +87,9 @@ struct Record {
     /// None in what was kept before faces were led.
     #[serde(default)]
     leads: Vec<f64>,
+    /// None in what was kept before there were guards.
+    #[serde(default)]
+    guard: Option<Guard>,
 }
 
 impl Record {
@@ -108,6 +111,7 @@ impl Record {
             swelling: film.swelling.clone(),
             mirrored,
             leads: film.arap.leads(),
+            guard: film.arap.guard().cloned(),
         })
     }
 
@@ -154,6 +158,7 @@ impl Record {
         let Ok(arap) = arap else {
             return Ok(None);
         };
+        let arap = arap.guarded(self.guard);
         let holes = holes::with_lives(&self.pieces, arap.mesh(), &self.holes);
         Ok(holes.map(|holes| Film {
             matched: self.pieces.into(),
@@ -187,6 +192,10 @@ impl Record {
             && self.stiffness.iter().all(|&by| (1.0..1e12).contains(&by))
             && self.leads.len() <= self.faces.len()
             && self.leads.iter().all(|by| by.abs() < FRAC_PI_2)
+            && self
+                .guard
+                .iter()
+                .all(|guard| guard.is_sound(self.places[0].len()))
     }
 }
 
@@ -196,7 +205,7 @@ mod tests {
     use crate::design::{Design, ImportOptions, import};
     use crate::progress::Silent;
     use crate::transition::found::key;
-    use crate::transition::{Quality, Transition, TransitionSpec};
+    use crate::transition::{Guarding, Quality, Transition, TransitionSpec};
     use crate::warp::Warp;
     use std::sync::Arc;
 
@@ -252,6 +261,30 @@ mod tests {
         }
     }
 
+    /// So many vertices are moved at t = 0.5.
+    fn guard(vertices: usize) -> Option<Guard> {
+        let mut rows = vec![vec![DVec2::ZERO; vertices]; 3];
+        rows[1].fill(DVec2::new(0.125, 0.0));
+        Guard::new(vec![0.25, 0.5, 0.75], &rows)
+    }
+
+    #[test]
+    fn a_guard_is_kept() {
+        let mut spec = spec();
+        let first = built(&spec);
+        let found = found(&first);
+        let mut record = Record::unpacked(&found.film.0).expect("a record");
+        record.guard = guard(record.places[0].len());
+        spec.found = Found {
+            film: record.packed().expect("text").into(),
+            ..found
+        };
+        let again = built(&spec);
+        let guarded = again.arap().expect("rigid parts");
+        assert_eq!(guarded.guard(), record.guard.as_ref());
+        assert!(rings(&again) != rings(&first));
+    }
+
     #[test]
     fn it_is_taken_for_what_it_was_found_for_alone() {
         let mut spec = spec();
@@ -264,6 +297,9 @@ mod tests {
         spec.options.arap.subdivisions = 2;
         spec.options.field.cells = 99;
         assert_eq!(asked, of(&spec));
+        spec.options.guard = Guarding::Plain;
+        assert_ne!(asked, of(&spec));
+        spec.options.guard = Guarding::Guarded;
         spec.options.arap.symmetric = !spec.options.arap.symmetric;
         assert_ne!(asked, of(&spec));
         spec.options.arap.symmetric = !spec.options.arap.symmetric;
@@ -299,6 +335,7 @@ mod tests {
         change(&|record| record.swelling = vec![99]);
         change(&|record| record.stiffness = vec![-1.0]);
         change(&|record| record.leads[0] = 2.0);
+        change(&|record| record.guard = guard(1 << 20));
         let texts = changed.iter().map(|record| record.packed().expect("text"));
         let cut = |k: usize| found.film.0[..found.film.0.len() * k / 8].to_owned();
         for text in texts.chain((1..8).map(cut)).chain(["-".to_owned()]) {

@@ -48,6 +48,9 @@ pub struct Options {
     /// How much is tried for a film of outlines.
     #[serde(skip_serializing_if = "is_default")]
     pub quality: Quality,
+    /// Whether that film keeps out of its own way.
+    #[serde(skip_serializing_if = "is_default")]
+    pub guard: Guarding,
     /// How matched outlines are triangulated.
     #[serde(skip_serializing_if = "is_default")]
     pub triangulation: PolygonOptions,
@@ -82,6 +85,7 @@ impl Default for Options {
             paint: PaintRule::default(),
             coats: CoatOptions::default(),
             quality: Quality::default(),
+            guard: Guarding::default(),
             triangulation: PolygonOptions::default(),
             arap: ArapOptions::default(),
             paths: PathOptions::default(),
@@ -112,6 +116,23 @@ pub enum Quality {
 named! { Quality {
     Draft: "draft", "Draft", "The first film, at once";
     Best: "best", "Best", "Several matches are tried, and the best film is improved";
+} }
+
+/// What is done where a film of rigid parts of outlines folds, or its outlines meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Guarding {
+    /// It is moved aside by as little as keeps it apart. Of the best film only: the first
+    /// one is there at once.
+    #[default]
+    Guarded,
+    /// Nothing.
+    Plain,
+}
+
+named! { Guarding {
+    Guarded: "guarded", "Guarded", "What would fold or cross is moved aside, a little";
+    Plain: "plain", "Plain", "As rigid as it can be, whatever it meets";
 } }
 
 /// What drawings are painted with.

@@ -1,12 +1,14 @@
 //! What is proved of the film of a transition.
 
+#[cfg(doc)]
+use super::options::Guarding;
 use super::ready::Transition;
 use crate::content::{Content, Solid};
 use crate::film::proof::{Proof, Walk};
 use crate::film::{Film, FilmError, FilmOptions};
 use crate::geometry::Side;
 use crate::progress::{Progress, Span};
-use crate::warp::Clock;
+use crate::warp::{Arap, Clock};
 use serde::Serialize;
 use std::fmt;
 
@@ -25,6 +27,9 @@ pub struct Proved {
     pub film_error: f64,
     /// Holes that come and go, and parts that swell: nothing is said of these.
     pub left_out: usize,
+    /// How far the guard moves a point aside at most, in diameters of the designs; none
+    /// where nothing is moved. See [`Guarding`].
+    pub moved_aside: Option<f64>,
 }
 
 impl Transition {
@@ -54,6 +59,7 @@ impl Transition {
             faces: self.compatible().map_or(0, |mesh| mesh.faces().len()),
             film_error: film.error(),
             left_out: solid.holes.len() + solid.swells.len(),
+            moved_aside: self.arap().and_then(Arap::moved_aside),
         }))
     }
 }
@@ -142,6 +148,13 @@ impl fmt::Display for Proved {
                 f,
                 "; outlines may meet at t = {t:.9}, near ({:.4}, {:.4})",
                 place.x, place.y
+            )?;
+        }
+        if let Some(by) = self.moved_aside {
+            let percent = 100.0 * by;
+            write!(
+                f,
+                "; points are moved aside by up to {percent:.2} % of the diameter"
             )?;
         }
         if *touching > 0 {

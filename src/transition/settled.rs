@@ -15,11 +15,12 @@ use super::drawings::Drawings;
 use super::edgewise::smoothed;
 use super::error::BuildError;
 use super::group::{Chosen, GroupOf};
+use super::guarded::guarded;
 use super::holes::{HoleOf, timed};
 use super::levels::Levels;
 use super::mirrored;
 use super::note::Note;
-use super::options::Quality;
+use super::options::{Guarding, Quality};
 use super::rigid::{allow, coarse};
 use super::spec::TransitionSpec;
 use super::unfolded::unfolded;
@@ -82,10 +83,13 @@ pub(super) fn best(
         &levels,
         progress,
     )?;
-    Ok(Film {
-        arap: unfolded(film.arap, progress)?,
-        ..film
-    })
+    let mut arap = unfolded(film.arap, progress)?;
+    let options = &spec.options;
+    if (options.quality, options.guard) == (Quality::Best, Guarding::Guarded) {
+        let pieces = (&film.matched.pieces[..], &film.swelling[..]);
+        arap = guarded(&arap, pieces, &levels, progress)?;
+    }
+    Ok(Film { arap, ..film })
 }
 
 /// A settled film as the options ask for it.

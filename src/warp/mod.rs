@@ -20,8 +20,8 @@ mod rigid_part;
 mod scattered;
 mod staggered;
 
-pub(crate) use arap::Settled;
 pub use arap::{AngleError, Arap, ArapError, ArapOptions, ArapPath, Life, Ridge, Weights};
+pub(crate) use arap::{Guard, Settled};
 pub use features::{FeatureError, LINE_SAMPLES, MAX_FEATURES};
 pub use kind::{CellWords, Column, WarpKind, Words};
 pub use lattice::{FINEST, Lattice, LatticeError, LatticeOptions, MORE_LEVELS};

@@ -150,7 +150,8 @@ impl Warp for Staggered {
         let breaks = of_parts.flat_map(|(part, &clock)| {
             let clock = self.clocks[clock as usize];
             let life = self.arap.lives().get(part).copied().flatten();
-            let within = life.into_iter().flat_map(|life| [life.from, life.to]);
+            let lives = life.into_iter().flat_map(|life| [life.from, life.to]);
+            let within = lives.chain(self.arap.guard_times().iter().copied());
             let when = move |share: f64| clock.when(share);
             [clock.from, clock.to].into_iter().chain(within.map(when))
         });

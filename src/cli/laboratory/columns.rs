@@ -169,7 +169,7 @@ use Better::{Large, Small};
 use Unit::{Cells, Degrees, Diameters, Pure, Seconds, Share};
 
 /// All of them, in the order of the table.
-pub(super) const ALL: [Column; 57] = [
+pub(super) const ALL: [Column; 58] = [
     words("method", |r| {
         Some(Cell::new(r.warp, r.content).ok()?.words().report)
     }),
@@ -264,6 +264,9 @@ pub(super) const ALL: [Column; 57] = [
     words("proof", |r| Some(&r.proof.as_ref()?.words)),
     number("unproved_t", Pure, |r| r.proof.as_ref()?.first_t()),
     number("prove", Seconds, |r| Some(r.proof.as_ref()?.seconds)),
+    number("moved_aside", Diameters, |r| {
+        r.proof.as_ref()?.proved.as_ref()?.moved_aside
+    }),
 ];
 
 #[cfg(test)]
@@ -282,7 +285,7 @@ mod tests {
         pieces_excess holes_excess mean_travel_diameters max_travel_diameters \
         max_acceleration_diameters grid_width_cells grid_height_cells import_s match_s \
         triangulate_s match_and_triangulate_s build_s frame_s figure_s measure_s \
-        turning_excess_share proof unproved_t prove_s";
+        turning_excess_share proof unproved_t prove_s moved_aside_diameters";
 
     #[test]
     fn headings_are_what_they_were() {

@@ -9,7 +9,7 @@
 use super::angles::{self, choose_turns};
 use super::life::Life;
 use super::options::{ArapError, ArapOptions, Weights};
-use super::sides::{self, Outlined};
+use super::sides::Outlined;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
 use crate::linalg::SymmetricMatrix;
@@ -152,6 +152,27 @@ impl LocalMaps {
     /// grounded vertex stays exactly where it is and the choice of the ground
     /// has no influence.
     pub(super) fn matrix(&self, mesh: &CompatibleMesh, outlined: Outlined) -> SymmetricMatrix {
+        let (mut matrix, diagonal) = self.energy(mesh);
+        let components = mesh.components();
+        let mut grounded = vec![false; diagonal.len()];
+        for (v, &component) in components.iter().enumerate() {
+            if !std::mem::replace(&mut grounded[component as usize], true) {
+                matrix.add(v as u32, v as u32, diagonal[v]);
+            }
+        }
+        outlined.hold(mesh, &diagonal, &mut matrix);
+        matrix
+    }
+
+    /// K, which does not know where connected components are.
+    pub(super) fn free_matrix(&self, mesh: &CompatibleMesh, outlined: Outlined) -> SymmetricMatrix {
+        let (mut matrix, diagonal) = self.energy(mesh);
+        outlined.hold(mesh, &diagonal, &mut matrix);
+        matrix
+    }
+
+    /// What faces and bars give of K, and what of it stands on the diagonal.
+    fn energy(&self, mesh: &CompatibleMesh) -> (SymmetricMatrix, Vec<f64>) {
         let n = mesh.source().len();
         // Six entries a face; three a bar, and one for the ground.
         let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
@@ -174,17 +195,7 @@ impl LocalMaps {
             matrix.add(b, b, k);
             matrix.add(a, b, -k);
         }
-        let components = mesh.components();
-        let mut grounded = vec![false; n];
-        for (v, &component) in components.iter().enumerate() {
-            if !std::mem::replace(&mut grounded[component as usize], true) {
-                matrix.add(v as u32, v as u32, diagonal[v]);
-            }
-        }
-        if outlined == Outlined::Yes {
-            sides::hold(mesh, &diagonal, &mut matrix);
-        }
-        matrix
+        (matrix, diagonal)
     }
 }
 

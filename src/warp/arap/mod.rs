@@ -22,6 +22,7 @@
 //! - `stresses`: the right-hand side of a frame, many faces at a time
 //! - `leads`: faces along the outline that turn as their edge does
 //! - `sides`: what keeps straight sides straight
+//! - `guard`: what is moved aside where the film would meet itself
 //! - `ridge`: what is added to a matrix that rounding has eaten at
 //! - `drift`: where parts as a whole are at t
 //! - `times`: when each part is
@@ -30,6 +31,7 @@
 mod angles;
 mod assembly;
 mod drift;
+mod guard;
 mod leads;
 mod life;
 mod options;
@@ -42,6 +44,7 @@ mod times;
 mod tests;
 
 pub use angles::AngleError;
+pub(crate) use guard::Guard;
 pub use life::Life;
 pub use options::{ArapError, ArapOptions, ArapPath, Weights};
 pub use ridge::Ridge;
@@ -51,6 +54,7 @@ use crate::compatible::CompatibleMesh;
 use crate::geometry::{DVec2, Polar};
 use crate::homotopy::Homotopy;
 use crate::linalg::{Cholesky, FactorError, SymmetricMatrix, Workspace};
+use crate::mesh::Subdivision;
 use crate::progress::{Progress, checkpoint, still_wanted};
 use assembly::LocalMaps;
 use drift::Drift;
@@ -95,6 +99,7 @@ struct Inner {
     /// Options of the mesh as it is: nothing left to subdivide.
     options: ArapOptions,
     outlined: Outlined,
+    guard: Option<Arc<Guard>>,
 }
 
 /// What was settled about a mesh of outlines besides its options.
@@ -175,7 +180,13 @@ impl Arap {
             stiffness: self.stiffness(),
             leads: &self.leads(),
         };
-        Self::prepared(self.mesh(), options, (settled, self.0.outlined), progress)
+        let rebuilt = Self::prepared(self.mesh(), options, (settled, self.0.outlined), progress)?;
+        let Some(guard) = self.guard() else {
+            return Ok(rebuilt);
+        };
+        let vertices = self.mesh().source().len();
+        let fine = Subdivision::new(self.mesh().faces(), vertices, options.subdivisions)?;
+        Ok(rebuilt.guarded(Some(guard.subdivided(&fine, vertices))))
     }
 
     fn prepared(
@@ -240,6 +251,7 @@ impl Arap {
             maps,
             options,
             outlined,
+            guard: None,
         })))
     }
 
@@ -260,6 +272,17 @@ impl Arap {
     #[must_use]
     pub fn system(&self) -> SymmetricMatrix {
         self.0.maps.matrix(&self.0.mesh, self.0.outlined)
+    }
+
+    /// The matrix of the energy with nothing added that holds a part where it is: a
+    /// part that moves as a whole costs nothing.
+    pub(crate) fn free_system(&self) -> SymmetricMatrix {
+        self.0.maps.free_matrix(&self.0.mesh, self.0.outlined)
+    }
+
+    /// The mass of each vertex, by the area around it; that of all is 1.
+    pub(crate) fn masses(&self) -> &[f64] {
+        &self.0.maps.masses
     }
 
     /// What had to be added to the matrix to factor it; none in all but the
@@ -307,7 +330,64 @@ impl Arap {
             .stiffened(self.stiffness())
             .turning_back(&inner.maps);
         let drawn = (lives, inner.outlined);
-        Self::from_maps(mesh, maps, inner.options.clone(), drawn, progress)
+        let swapped = Self::from_maps(mesh, maps, inner.options.clone(), drawn, progress)?;
+        Ok(swapped.guarded(self.guard().map(Guard::backwards)))
+    }
+
+    /// The same interpolation, in which vertices are moved beside their way as a guard
+    /// says, or are not.
+    pub(crate) fn guarded(&self, guard: Option<Guard>) -> Self {
+        let inner = &*self.0;
+        Self(Arc::new(Inner {
+            mesh: inner.mesh.clone(),
+            cholesky: Arc::clone(&inner.cholesky),
+            ridge: inner.ridge,
+            stresses: inner.stresses.clone(),
+            drift: inner.drift.clone(),
+            maps: inner.maps.clone(),
+            options: inner.options.clone(),
+            outlined: inner.outlined,
+            guard: guard.map(Arc::new),
+        }))
+    }
+
+    /// The same interpolation with other times of the parts that come and go, and no
+    /// guard.
+    ///
+    /// # Errors
+    /// As [`Self::build`].
+    pub(crate) fn with_lives(
+        &self,
+        lives: Vec<Option<Life>>,
+        progress: &dyn Progress,
+    ) -> Result<Self, ArapError> {
+        let inner = &*self.0;
+        let drawn = (lives, inner.outlined);
+        Self::from_maps(
+            inner.mesh.clone(),
+            inner.maps.clone(),
+            inner.options.clone(),
+            drawn,
+            progress,
+        )
+    }
+
+    /// How far a vertex is moved aside at most where the film would meet itself, in
+    /// diameters; none where none is.
+    #[must_use]
+    pub fn moved_aside(&self) -> Option<f64> {
+        let guard = self.guard()?;
+        Some(guard.farthest() / self.mesh().diameter())
+    }
+
+    /// The times between which what is moved beside its way is smooth.
+    pub(super) fn guard_times(&self) -> &[f64] {
+        self.guard().map(Guard::times).unwrap_or_default()
+    }
+
+    /// What is moved beside its way, if anything is.
+    pub(crate) fn guard(&self) -> Option<&Guard> {
+        self.0.guard.as_deref()
     }
 
     /// The same interpolation with the weight of each face multiplied by a positive
@@ -344,6 +424,7 @@ impl Arap {
             maps,
             options: inner.options.clone(),
             outlined: inner.outlined,
+            guard: None,
         }))
     }
 
@@ -420,7 +501,8 @@ impl Warp for Arap {
 
     fn breaks(&self) -> Vec<f64> {
         let lives = self.lives().iter().flatten();
-        lives.flat_map(|life| [life.from, life.to]).collect()
+        let lives = lives.flat_map(|life| [life.from, life.to]);
+        lives.chain(self.guard_times().iter().copied()).collect()
     }
 }
 
@@ -482,6 +564,14 @@ impl Player {
                 // What is exactly 0 at an end is added last, so that the
                 // end is met to the last bit.
                 *out = (p * (1.0 - t) + q * t) + (u * weight + shift);
+            }
+        }
+        if let Some(guard) = &arap.guard {
+            for (run, part) in arap.drift.runs() {
+                let Some(mix) = guard.at(times.of_part(part)) else {
+                    continue;
+                };
+                guard.add(&mix, run.clone(), &mut in_frame[run]);
             }
         }
     }

@@ -38,9 +38,23 @@ struct OnSide {
     share: f64,
 }
 
+impl Outlined {
+    /// Holds each vertex of a straight side to it, where that is asked for.
+    pub(super) fn hold(
+        self,
+        mesh: &CompatibleMesh,
+        diagonal: &[f64],
+        matrix: &mut SymmetricMatrix,
+    ) {
+        if self == Self::Yes {
+            hold(mesh, diagonal, matrix);
+        }
+    }
+}
+
 /// Holds each vertex of a straight side to it; `diagonal` is what holds each
 /// to its neighbours.
-pub(super) fn hold(mesh: &CompatibleMesh, diagonal: &[f64], matrix: &mut SymmetricMatrix) {
+fn hold(mesh: &CompatibleMesh, diagonal: &[f64], matrix: &mut SymmetricMatrix) {
     for OnSide {
         vertex,
         ends: [a, b],

@@ -26,6 +26,9 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
         if draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Solid) {
             let tip = "How much is tried for the film: the first match, or the best of several.";
             pick(ui, "Film", tip, &mut draft.options.quality);
+            let tip = "What is done where the film would fold, or its outlines would meet. Only \
+                       the best film is guarded: the first one is there at once.";
+            pick(ui, "Guard", tip, &mut draft.options.guard);
         }
         if has_mesh {
             density(ui, &mut draft.options.triangulation.edge_length);
