@@ -8,6 +8,7 @@ use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
+use crate::app::telling::spare::give_back;
 use crate::film::{FilmError, FilmOptions};
 use crate::transition::{Proved, Transition};
 
@@ -53,8 +54,11 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<Recording>) {
             Job::start("the film", move |progress| {
                 let options = FilmOptions::default();
                 // Why there is no film is kept with the transition, and shown beside the times.
-                transition.record(&options, progress)?;
-                transition.prove(&options, progress)
+                let recorded = transition.record(&options, progress);
+                let proved = recorded.and_then(|_| transition.prove(&options, progress));
+                // What was on the stage before is gone by now.
+                give_back();
+                proved
             })
         });
     }

@@ -2,3 +2,4 @@
 
 pub mod job;
 pub mod notices;
+pub mod spare;
