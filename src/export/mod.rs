@@ -33,6 +33,7 @@ mod error;
 mod film;
 mod gif;
 mod layout;
+mod motion;
 #[cfg(not(target_family = "wasm"))]
 mod mp4;
 mod outline;
@@ -70,6 +71,7 @@ pub use error::ExportError;
 pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};
 pub use gif::{MAX_GIF_FPS, write_gif};
 pub use layout::{Aspect, Layout, Purpose};
+pub use motion::Motion;
 #[cfg(not(target_family = "wasm"))]
 pub use mp4::{has_ffmpeg, write_mp4};
 pub use outline::{MAX_COORDINATE_PX, Outline, Step};
@@ -110,6 +112,9 @@ pub fn write_film(
                 FilmKind::Mp4 => write_mp4(camera, film, path, progress)?,
                 #[cfg(target_family = "wasm")]
                 FilmKind::Mp4 => return Err(ExportError::NoFfmpeg),
+                FilmKind::Svg | FilmKind::Html | FilmKind::Lottie => {
+                    motion::write_motion(camera, film, (*kind, path), progress)?;
+                }
             }
             path
         }

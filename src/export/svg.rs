@@ -150,7 +150,8 @@ fn drawn_line(outline: &Outline, line: &Line) -> String {
     )
 }
 
-fn step(step: &Step) -> String {
+/// A step as path data.
+pub(super) fn step(step: &Step) -> String {
     match *step {
         Step::Move(p) => format!("M{}", Point(p)),
         Step::Line(p) => format!("L{}", Point(p)),
@@ -217,7 +218,7 @@ impl fmt::Display for Point {
 
 /// Text that may stand in an attribute; characters that XML forbids become
 /// the replacement character.
-struct Escaped<'a>(&'a str);
+pub(super) struct Escaped<'a>(pub &'a str);
 
 impl fmt::Display for Escaped<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -31,12 +31,21 @@ pub enum FilmKind {
     Apng,
     /// H.264 through ffmpeg.
     Mp4,
+    /// SVG that moves by itself.
+    Svg,
+    /// A page that plays it.
+    Html,
+    /// A Lottie animation.
+    Lottie,
 }
 
 named! { FilmKind {
     Gif: "gif", "GIF", "Plays everywhere, 256 colours";
     Apng: "apng", "APNG", "Full colour, plays in browsers";
     Mp4: "mp4", "MP4", "Needs ffmpeg on this machine";
+    Svg: "svg", "SVG", "Outlines that move by themselves, in browsers";
+    Html: "html", "Page", "Outlines with a player to scrub and step, in one file";
+    Lottie: "json", "Lottie", "Outlines with keys, for apps, sites and motion design";
 } }
 
 /// The endings of all kinds in a row, for a sentence: `.png or .svg`.
@@ -125,6 +134,18 @@ impl Target {
         let film = film.map(|kind| Self::Film(kind, path.to_owned()));
         let unknown = || TargetError::Unknown(path.to_owned());
         still.or(film).ok_or_else(unknown)
+    }
+}
+
+impl Target {
+    /// The same for who wants a film: a name whose ending stands for a picture and for a
+    /// film means the film.
+    #[must_use]
+    pub fn moving(self) -> Self {
+        match self {
+            Self::Still(StillKind::Svg, path) => Self::Film(FilmKind::Svg, path),
+            other => other,
+        }
     }
 }
 
