@@ -29,6 +29,7 @@ mod captions;
 mod check;
 mod comparison;
 mod drawing;
+mod dxf;
 mod error;
 mod film;
 mod gif;

@@ -150,8 +150,7 @@ fn drawn_line(outline: &Outline, line: &Line) -> String {
     )
 }
 
-/// A step as path data.
-pub(super) fn step(step: &Step) -> String {
+fn step(step: &Step) -> String {
     match *step {
         Step::Move(p) => format!("M{}", Point(p)),
         Step::Line(p) => format!("L{}", Point(p)),

@@ -15,11 +15,14 @@ pub enum StillKind {
     Png,
     /// Shapes.
     Svg,
+    /// Outlines, for cutters and CAD.
+    Dxf,
 }
 
 named! { StillKind {
     Png: "png", "PNG", "Pixels";
     Svg: "svg", "SVG", "Shapes";
+    Dxf: "dxf", "DXF", "Outlines, for cutters and CAD";
 } }
 
 /// A format for one file that moves; its key is the ending of a name.
@@ -189,6 +192,10 @@ mod tests {
         assert_eq!(target("b.gif"), film(FilmKind::Gif, "b.gif"));
         assert_eq!(target("b.apng"), film(FilmKind::Apng, "b.apng"));
         assert_eq!(target("b.mp4"), film(FilmKind::Mp4, "b.mp4"));
+        assert_eq!(target("b.html"), film(FilmKind::Html, "b.html"));
+        assert_eq!(target("b.json"), film(FilmKind::Lottie, "b.json"));
+        let moving = target("b.svg").map(Target::moving);
+        assert_eq!(moving, film(FilmKind::Svg, "b.svg"));
         assert!(matches!(target("b.jpg"), Err(TargetError::Unknown(_))));
         assert!(matches!(
             target("b-##.gif"),

@@ -205,6 +205,7 @@ impl Order {
         let (style, stops) = (self.project.style, &self.project.stops);
         let timing = (&self.project.timing, stops.as_slice());
         let (film, view) = framed(&self.transition, timing, &self.look)?;
+        let film = film.titled(&self.project.title);
         let names = self.names.each_ref().map(String::as_str);
         let captions = Captions::new(stops, names, style.ground);
         let is_opaque = self.format == RecordFormat::OPAQUE;

@@ -48,11 +48,103 @@ impl Course {
     pub(super) fn knots(&self) -> Vec<(usize, f64)> {
         let places: Vec<f64> = (0..self.times.len()).map(|k| k as f64).collect();
         let rows: Vec<Vec<f64>> = self.times.iter().map(|&t| vec![t]).collect();
-        let span = |f: fn(f64, f64) -> f64| self.times.iter().copied().reduce(f).unwrap_or(0.0);
-        let tolerance = NEAR * (span(f64::max) - span(f64::min));
-        let keys = fewest(&places, &rows, tolerance);
+        let keys = fewest(&places, &rows, NEAR * self.span());
         keys.into_iter().map(|k| (k, self.times[k])).collect()
     }
+
+    /// The same by cubic curves, of which fewer are needed: easings are such.
+    pub(super) fn curves(&self) -> Vec<Curve> {
+        let near = NEAR * self.span();
+        let last = self.frames();
+        let mut curves = Vec::new();
+        let mut from = 0;
+        while from < last {
+            let mut best = (from + 1, Curve::through(&self.times[from..=from + 1], near));
+            for to in from + 2..=last {
+                match Curve::through(&self.times[from..=to], near) {
+                    Some(curve) => best = (to, Some(curve)),
+                    // A rest that is left, or a way that turns: no longer one has it.
+                    None => break,
+                }
+            }
+            let (to, curve) = best;
+            let curve = curve.unwrap_or_default();
+            curves.push(Curve { from, to, ..curve });
+            from = to;
+        }
+        curves
+    }
+
+    /// How far the lowest and the highest t are apart.
+    fn span(&self) -> f64 {
+        let end = |f: fn(f64, f64) -> f64| self.times.iter().copied().reduce(f).unwrap_or(0.0);
+        end(f64::max) - end(f64::min)
+    }
+}
+
+/// How t runs from one frame to another, both told as 0 to 1: a Bézier curve whose
+/// handles lie at a third and at two thirds of the time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Curve {
+    pub from: usize,
+    pub to: usize,
+    /// How high its handles are.
+    pub handles: [f64; 2],
+}
+
+impl Default for Curve {
+    /// The straight one.
+    fn default() -> Self {
+        Self {
+            from: 0,
+            to: 0,
+            handles: [1.0 / 3.0, 2.0 / 3.0],
+        }
+    }
+}
+
+impl Curve {
+    /// One that passes the values at even times so near, if there is one.
+    fn through(values: &[f64], near: f64) -> Option<Self> {
+        let (&first, &last) = (values.first()?, values.last()?);
+        let rise = last - first;
+        let steps = (values.len() - 1) as f64;
+        if rise == 0.0 {
+            return values.iter().all(|&v| v == first).then(Self::default);
+        }
+        // The handles by least squares of what is left of the cubic part.
+        let (mut a, mut b, mut c, mut p, mut q) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        for (k, v) in values.iter().enumerate() {
+            let u = k as f64 / steps;
+            let [f, g] = bells(u);
+            let rest = (v - first) / rise - u.powi(3);
+            (a, b, c) = (a + f * f, b + f * g, c + g * g);
+            (p, q) = (p + f * rest, q + g * rest);
+        }
+        let determinant = a * c - b * b;
+        let handles = if determinant.abs() > 1e-9 {
+            [(c * p - b * q) / determinant, (a * q - b * p) / determinant]
+        } else {
+            Self::default().handles
+        };
+        let curve = Self {
+            handles,
+            ..Self::default()
+        };
+        let is_near =
+            |(k, v): (usize, &f64)| (first + rise * curve.at(k as f64 / steps) - v).abs() <= near;
+        values.iter().enumerate().all(is_near).then_some(curve)
+    }
+
+    fn at(&self, u: f64) -> f64 {
+        let [f, g] = bells(u);
+        self.handles[0] * f + self.handles[1] * g + u.powi(3)
+    }
+}
+
+/// Bernstein's polynomials of the two handles.
+fn bells(u: f64) -> [f64; 2] {
+    [3.0 * u * (1.0 - u).powi(2), 3.0 * u * u * (1.0 - u)]
 }
 
 #[cfg(test)]
@@ -65,7 +157,9 @@ mod tests {
         let film = Film::of_timing(&Timing::default(), &[], 30.0).expect("a film");
         let course = Course::of(&film);
         let knots = course.knots();
-        assert!(knots.len() < 80, "{}", knots.len());
+        assert!(knots.len() < 200, "{}", knots.len());
+        // Two rests, two ways.
+        assert!(course.curves().len() <= 6, "{:?}", course.curves());
         for (k, &t) in course.times.iter().enumerate() {
             let after = knots
                 .partition_point(|knot| knot.0 <= k)

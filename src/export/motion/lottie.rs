@@ -12,6 +12,7 @@ use crate::colour::{Gradient, Join, Paint};
 use crate::geometry::DVec2;
 
 use super::Motion;
+use super::course::{Course, Curve};
 use super::plain::Plain;
 use super::shape::{Form, Posed, Verb};
 use super::tracks::{Keyed, Layer, layers};
@@ -47,15 +48,10 @@ pub(super) fn written(motion: &Motion, title: &str) -> Value {
         let to = if k == last { length + 1.0 } else { layer.to };
         scene(layer, k, [from, to])
     });
-    let remapped = Keyed {
-        keys: (course.knots().into_iter())
-            .map(|(k, t)| (k as f64, at(t) / course.fps))
-            .collect(),
-    };
     let film = json!({
         "ty": 0, "nm": title, "ind": 1, "refId": "film", "sr": 1, "ks": placed(),
         "w": width, "h": height, "ip": 0, "op": frames, "st": 0, "bm": 0,
-        "tm": animated(&remapped, |secs| vec![rounded(*secs, 5)]),
+        "tm": remapped(course, |t| at(t) / course.fps),
     });
     let ground = motion.ground.map(|ground| {
         json!({
@@ -70,6 +66,22 @@ pub(super) fn written(motion: &Motion, title: &str) -> Value {
         "assets": [{"id": "film", "nm": title, "fr": course.fps, "layers": scenes.collect::<Vec<_>>()}],
         "layers": film_on_ground,
     })
+}
+
+/// Which second of the shapes' composition is shown when.
+fn remapped(course: &Course, secs_at: impl Fn(f64) -> f64) -> Value {
+    let secs = |frame: usize| rounded(secs_at(course.times[frame]), 6);
+    let key = |curve: Curve| {
+        let [out, into] = curve.handles.map(|handle| rounded(handle, 5));
+        json!({
+            "t": curve.from, "s": [secs(curve.from)],
+            "o": {"x": [0.33333], "y": [out]}, "i": {"x": [0.66667], "y": [into]},
+        })
+    };
+    let mut keys: Vec<Value> = course.curves().into_iter().map(key).collect();
+    let last = course.frames();
+    keys.push(json!({"t": last, "s": [secs(last)]}));
+    json!({"a": 1, "k": keys})
 }
 
 /// A transform that does nothing.

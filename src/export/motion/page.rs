@@ -6,9 +6,12 @@
 //! this file.
 
 use std::collections::HashMap;
+use std::io::Read;
 
 use base64::Engine;
 use base64::prelude::BASE64_STANDARD;
+use flate2::Compression;
+use flate2::read::DeflateEncoder;
 use serde_json::{Value, json};
 
 use crate::colour::{Join, Spread};
@@ -23,6 +26,9 @@ use super::{Motion, Moving};
 /// off, a point is a twelfth of a pixel off on average.
 const STEP_PX: f64 = 1.0 / 24.0;
 
+/// The same of what does not move within its piece, which no other terms add to.
+const STILL_PX: f64 = 1.0 / 8.0;
+
 /// What the terms that are left out may sum up to, in pixels.
 const LEFT_OUT_PX: f64 = 0.05;
 
@@ -30,9 +36,7 @@ const LEFT_OUT_PX: f64 = 0.05;
 const PLAYER: &str = include_str!("player.html");
 
 pub(super) fn written(motion: &Motion, title: &str) -> String {
-    let film = film(motion, title).to_string();
-    // Within a script nothing may end it.
-    let film = film.replace('<', "\\u003c");
+    let film = packed(motion, title);
     let title = Escaped(title).to_string();
     let parts = PLAYER.split("{{").map(|part| match part.split_once("}}") {
         Some(("title", rest)) => title.clone() + rest,
@@ -42,14 +46,30 @@ pub(super) fn written(motion: &Motion, title: &str) -> String {
     parts.collect()
 }
 
-fn film(motion: &Motion, title: &str) -> Value {
+/// The film as text: its description, a line's end, and the series in bytes, deflated
+/// (RFC 1951) and in base 64.
+fn packed(motion: &Motion, title: &str) -> String {
+    let mut series = Vec::new();
+    let mut bytes = film(motion, title, &mut series).to_string().into_bytes();
+    bytes.push(b'\n');
+    bytes.append(&mut series);
+    let mut packed = Vec::new();
+    let mut packer = DeflateEncoder::new(bytes.as_slice(), Compression::best());
+    // Reading from memory into memory does not fail.
+    match packer.read_to_end(&mut packed) {
+        Ok(_) => BASE64_STANDARD.encode(packed),
+        Err(_) => String::new(),
+    }
+}
+
+/// What a film is, but for the series, which are added to some bytes.
+fn film(motion: &Motion, title: &str, bytes: &mut Vec<u8>) -> Value {
     let mut forms = Forms::default();
-    let mut bytes = Vec::new();
     let pieces: Vec<Value> = (motion.pieces.iter())
         .map(|piece| {
             let shapes = piece.shapes.iter();
             let shapes = shapes.map(|shape| {
-                let count = push_terms(shape, &mut bytes);
+                let count = push_terms(shape, bytes);
                 json!([forms.number(shape), count, looks(shape)])
             });
             json!([piece.from, piece.to, shapes.collect::<Vec<_>>()])
@@ -62,8 +82,7 @@ fn film(motion: &Motion, title: &str) -> Value {
         "ground": motion.ground.map(|ground| ground.to_string()),
         "ends": [from, to], "fps": course.fps, "frames": course.frames(),
         "repeats": course.repeats, "knots": course.knots(), "stops": motion.stops,
-        "step": STEP_PX, "forms": forms.all, "pieces": pieces,
-        "data": BASE64_STANDARD.encode(bytes),
+        "steps": [STEP_PX, STILL_PX], "forms": forms.all, "pieces": pieces,
     })
 }
 
@@ -145,10 +164,11 @@ fn looks(shape: &Moving) -> Vec<Vec<Value>> {
 fn push_terms(shape: &Moving, bytes: &mut Vec<u8>) -> usize {
     let mut terms = shape.terms.clone();
     shorten(&mut terms, LEFT_OUT_PX);
+    let step = if terms.len() == 1 { STILL_PX } else { STEP_PX };
     for term in &terms {
         let mut before = [0; 2];
         for p in term {
-            let DVec2 { x, y } = *p / STEP_PX;
+            let DVec2 { x, y } = *p / step;
             let at = [x, y].map(|x| x.round() as i64);
             for (at, before) in at.into_iter().zip(before) {
                 push_number(at.saturating_sub(before), bytes);

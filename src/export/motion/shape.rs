@@ -247,7 +247,7 @@ fn taken(outline: &Outline) -> (Vec<Verb>, Vec<DVec2>) {
 }
 
 /// The steps of an outline with their points.
-pub(super) fn put_together(verbs: &[Verb], points: &[DVec2]) -> Outline {
+fn put_together(verbs: &[Verb], points: &[DVec2]) -> Outline {
     let mut rest = points;
     let step = |verb: &Verb| {
         let (own, after) = rest.split_at(verb.points());

@@ -5,16 +5,20 @@
 //! frame. Gradients that are round and squashed are drawn round.
 
 use crate::colour::{Gradient, Join, Rgb, Spread};
+use crate::geometry::DVec2;
 
-use super::super::svg::{Escaped, step};
+use super::super::svg::Escaped;
 use super::super::words::Number;
 use super::Motion;
 use super::plain::Plain;
-use super::shape::{Form, Posed, Verb, put_together};
+use super::shape::{Form, Posed, Verb};
 use super::tracks::{Keyed, Layer, layers};
 
 /// Steps of time that are told apart, as a share of the film.
 const TIMES: f64 = 1e5;
+
+/// Steps in which places are told, in pixels.
+const STEP_PX: f64 = 0.01;
 
 pub(super) fn written(motion: &Motion) -> String {
     let (width, height) = (motion.size.width(), motion.size.height());
@@ -268,9 +272,43 @@ fn path(posed: &Posed) -> String {
         // A line to where it begins, of which the round ends are all.
         Form::Discs => [Verb::Move, Verb::Close].repeat(posed.points.len()),
     };
-    let points = posed.points.iter().map(|p| (p * 100.0).round() / 100.0);
-    let outline = put_together(&verbs, &points.collect::<Vec<_>>());
-    outline.steps.iter().map(step).collect()
+    let mut rest = posed.points.as_slice();
+    let mut text = String::new();
+    // Differences of what was rounded: shorter, and nothing adds up.
+    let mut at = DVec2::ZERO;
+    let mut start = at;
+    for verb in verbs {
+        let (own, after) = rest.split_at(verb.points());
+        rest = after;
+        text.push(match verb {
+            Verb::Move => 'm',
+            Verb::Line => 'l',
+            Verb::Quad => 'q',
+            Verb::Cubic => 'c',
+            Verb::Close => 'z',
+        });
+        let mut end = at;
+        for (k, p) in own.iter().enumerate() {
+            end = (p / STEP_PX).round() * STEP_PX;
+            text += &pair(end - at, k > 0);
+        }
+        at = end;
+        match verb {
+            Verb::Move => start = at,
+            // A relative step goes on from where the contour began.
+            Verb::Close => at = start,
+            _ => {}
+        }
+    }
+    text
+}
+
+/// Two numbers, after a sign or a space where one is needed.
+fn pair(p: DVec2, is_next: bool) -> String {
+    let [x, y] = [p.x, p.y].map(|x| Number(x).to_string());
+    let between = |text: &str| if text.starts_with('-') { "" } else { " " };
+    let before = if is_next { between(&x) } else { "" };
+    format!("{before}{x}{}{y}", between(&y))
 }
 
 /// The attributes of a line that do not move.

@@ -17,6 +17,9 @@ use super::shape::{Form, Verb};
 /// pixels: a fifth of what all steps may be together.
 const MISSED_PX: f64 = 0.04;
 
+/// The same where a shape does not move, and nothing else adds to it.
+const MISSED_STILL_PX: f64 = 0.08;
+
 /// Moments of a piece that are looked at.
 const MOMENTS: usize = 8;
 
@@ -41,6 +44,11 @@ fn thin_shape(scene: &mut [Piece], k: usize) {
         Form::Bars | Form::Discs => return,
     };
     let moments = moments(scene, k);
+    let missed = if moments.len() > 1 {
+        MISSED_PX
+    } else {
+        MISSED_STILL_PX
+    };
     let mut kept_verbs = Vec::new();
     let mut kept: Vec<usize> = Vec::new();
     let mut first = 0;
@@ -56,7 +64,7 @@ fn thin_shape(scene: &mut [Piece], k: usize) {
             kept.extend(points);
             continue;
         }
-        let of_ring = kept_of(&moments, points);
+        let of_ring = kept_of(&moments, points, missed);
         kept_verbs.push(Verb::Move);
         kept_verbs.extend(vec![Verb::Line; of_ring.len() - 1]);
         kept_verbs.push(Verb::Close);
@@ -95,7 +103,7 @@ fn moments(scene: &[Piece], k: usize) -> Vec<Vec<DVec2>> {
 }
 
 /// The points of a ring that are kept, ascending; at least three.
-fn kept_of(moments: &[Vec<DVec2>], ring: Range<usize>) -> Vec<usize> {
+fn kept_of(moments: &[Vec<DVec2>], ring: Range<usize>, missed: f64) -> Vec<usize> {
     // The ring is open at its first point and at the one that is farthest from it.
     let far = |&i: &usize| {
         let away = moments.iter().map(|m| m[i].distance_squared(m[ring.start]));
@@ -115,7 +123,7 @@ fn kept_of(moments: &[Vec<DVec2>], ring: Range<usize>) -> Vec<usize> {
         let Some(i) = (a + 1..b).max_by(|a, b| off(a).total_cmp(&off(b))) else {
             continue;
         };
-        if off(&i) > MISSED_PX {
+        if off(&i) > missed {
             kept.push(i);
             walks.extend([(a, i), (i, b)]);
         }
