@@ -190,7 +190,11 @@ fn out_help() -> String {
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let target = Target::of_path(&args.out).map_err(CliError::usage)?;
     let shown = shown(args, &target)?;
-    let target = if shown.is_none() { target.moving() } else { target };
+    let target = if shown.is_none() {
+        target.moving()
+    } else {
+        target
+    };
     // Before the designs are read, which may take long.
     check(args, &target, shown)?;
     let terminal = Terminal::new();

@@ -1,5 +1,5 @@
-//! Frames as files: SVG and PNG, contact sheets, numbered pictures, GIF,
-//! animated PNG and MP4. Needs no graphics card and no display.
+//! Frames as files: SVG, PNG and DXF, contact sheets, numbered pictures, GIF,
+//! animated PNG and MP4, and films as motion. Needs no graphics card and no display.
 //!
 //! Everything goes through one [`Drawing`], so no two formats can disagree.
 //! Guarantees: files are written whole or not at all, and read again before they

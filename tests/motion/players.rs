@@ -107,40 +107,46 @@ impl Players {
              </style><body>{body}",
             COLUMNS as u32 * width
         );
-        let [sheet, picture] = ["sheet.html", "sheet.png"].map(|name| folder.join(name));
-        std::fs::write(&sheet, page).expect("written");
+        std::fs::write(folder.join("sheet.html"), page).expect("written");
         let rows = frames.len().div_ceil(COLUMNS) as u32;
-        let all = format!("{},{}", COLUMNS as u32 * width, rows * height);
-        let status = Command::new(chromium)
-            .args([
-                "--headless",
-                "--no-sandbox",
-                "--disable-gpu",
-                "--hide-scrollbars",
-            ])
-            .args([
-                "--force-device-scale-factor=1",
-                "--force-color-profile=srgb",
-            ])
-            .args([
-                "--default-background-color=00000000",
-                "--virtual-time-budget=20000",
-            ])
-            .arg("--allow-file-access-from-files")
-            .arg(format!(
-                "--user-data-dir={}",
-                folder.join("profile").display()
-            ))
-            .arg(format!("--window-size={all}"))
-            .arg(format!("--screenshot={}", picture.display()))
-            .arg(format!("file://{}", sheet.display()))
-            .stdin(Stdio::null())
-            .stdout(Stdio::null())
-            .stderr(Stdio::null())
-            .status();
-        status.ok().filter(|status| status.success())?;
-        Some(image::open(picture).ok()?.to_rgba8())
+        // A little higher: a window is not all picture.
+        let window = [COLUMNS as u32 * width, rows * height + 200];
+        photographed(chromium, folder, window)
     }
+}
+
+/// What Chromium shows of the sheet in a folder.
+fn photographed(chromium: &Path, folder: &Path, [width, height]: [u32; 2]) -> Option<RgbaImage> {
+    let [sheet, picture] = ["sheet.html", "sheet.png"].map(|name| folder.join(name));
+    let status = Command::new(chromium)
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--hide-scrollbars",
+        ])
+        .args([
+            "--force-device-scale-factor=1",
+            "--force-color-profile=srgb",
+        ])
+        .args([
+            "--default-background-color=00000000",
+            "--virtual-time-budget=20000",
+        ])
+        .arg("--allow-file-access-from-files")
+        .arg(format!(
+            "--user-data-dir={}",
+            folder.join("profile").display()
+        ))
+        .arg(format!("--window-size={width},{height}"))
+        .arg(format!("--screenshot={}", picture.display()))
+        .arg(format!("file://{}", sheet.display()))
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    status.ok().filter(|status| status.success())?;
+    Some(image::open(picture).ok()?.to_rgba8())
 }
 
 /// Text as a string of a script, which cannot end it.

@@ -234,7 +234,7 @@ fn painted(layer: &Layer, poses: &[Posed]) -> Value {
     let colour = layer.colour(poses, |posed| posed.paint());
     let opacity = layer.opacity(poses, |posed| posed.paint().opacity);
     json!({
-        "c": animated(&colour, |paint| colour_of(paint)),
+        "c": animated(&colour, colour_of),
         "o": animated(&opacity, |share| vec![rounded(100.0 * share, 2)]),
     })
 }

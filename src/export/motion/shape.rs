@@ -269,9 +269,11 @@ fn put_together(verbs: &[Verb], points: &[DVec2]) -> Outline {
 mod tests {
     use super::*;
 
-    #[test]
-    fn shapes_are_put_together_as_they_were() {
-        let p = |x: f64| DVec2::new(x, 2.0 * x);
+    fn p(x: f64) -> DVec2 {
+        DVec2::new(x, 2.0 * x)
+    }
+
+    fn outline() -> Outline {
         let steps = vec![
             Step::Move(p(0.0)),
             Step::Line(p(1.0)),
@@ -279,12 +281,12 @@ mod tests {
             Step::Cubic(p(4.0), p(5.0), p(6.0)),
             Step::Close,
         ];
-        let paint = Paint {
-            colour: Rgb([1, 2, 3]),
-            opacity: 0.5,
-        };
+        Outline { steps }
+    }
+
+    fn gradient(paint: Paint) -> Gradient {
         let stop = |at| Stop { at, paint };
-        let gradient = Gradient {
+        Gradient {
             course: Course::Round {
                 focus: p(0.25),
                 inner: 0.125,
@@ -292,8 +294,15 @@ mod tests {
             frame: DAffine2::from_scale_angle_translation(p(1.0), 0.5, p(3.0)),
             stops: vec![stop(0.0), stop(0.5), stop(1.0)],
             spread: Spread::Reflect,
+        }
+    }
+
+    #[test]
+    fn shapes_are_put_together_as_they_were() {
+        let paint = Paint {
+            colour: Rgb([1, 2, 3]),
+            opacity: 0.5,
         };
-        let outline = Outline { steps };
         let line = Line {
             paint,
             width: 3.5,
@@ -302,12 +311,15 @@ mod tests {
         let colour = paint.colour;
         for item in [
             Item::Fill {
-                outline: outline.clone(),
+                outline: outline(),
                 paint,
-                gradient: Some(gradient),
+                gradient: Some(gradient(paint)),
                 label: Some("words".to_owned()),
             },
-            Item::Line { outline, line },
+            Item::Line {
+                outline: outline(),
+                line,
+            },
             Item::Bars {
                 segments: vec![[p(1.0), p(2.0)], [p(2.0), p(4.0)]],
                 width_px: 2.0,
