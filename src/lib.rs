@@ -86,7 +86,7 @@
 //! transition                    the cells, frames, timing, style
 //! measure                       quality in numbers
 //! project                       the .morph document and the gallery
-//! export                        SVG, PNG, GIF, APNG, MP4, contact sheets
+//! export                        SVG, PNG, DXF, GIF, APNG, MP4, motion, contact sheets
 //! short                         from files to a transition, one error
 //! stage  (feature `bevy`)       MorphPlugin: transitions in a Bevy world
 //! app    (feature `app`)        the window: playback, panels, keys, capture

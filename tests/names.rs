@@ -65,10 +65,10 @@ fn keys_are_those_of_the_files_that_there_are() {
     table::<Course>("intrinsic straight");
     table::<Travel>("auto straight whole");
     table::<WarpKind>("arap lattice lines none paths scattered");
-    table::<FilmKind>("apng gif mp4");
+    table::<FilmKind>("apng gif html json mp4 svg");
     table::<Aspect>("16:9 1:1 4:3 9:16 own");
     table::<Purpose>("deck page post story");
-    table::<StillKind>("png svg");
+    table::<StillKind>("dxf png svg");
     table::<Quantity>(
         "area crossings folds holes min-det perimeter pieces turning worst-conformal \
          worst-isometric",

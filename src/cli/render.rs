@@ -44,9 +44,9 @@ pub(super) struct RenderArgs {
     #[arg(long, short, value_name = "PATH", help = out_help())]
     out: PathBuf,
 
-    /// One picture, at this t
-    #[arg(long, value_name = "T", allow_negative_numbers = true, conflicts_with_all = ["sheet", "frames", "frames_range", "fps"])]
-    at: Option<f64>,
+    /// One picture, at this t; or several numbered ones, at T,T,...
+    #[arg(long, value_name = "T", allow_negative_numbers = true, value_delimiter = ',', conflicts_with_all = ["sheet", "frames", "frames_range", "fps"])]
+    at: Vec<f64>,
 
     /// A contact sheet of N frames from --from to --to
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=MAX_CELLS), conflicts_with_all = ["frames", "frames_range", "fps"])]
@@ -189,7 +189,12 @@ fn out_help() -> String {
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     let target = Target::of_path(&args.out).map_err(CliError::usage)?;
-    let shown = shown(args)?;
+    let shown = shown(args, &target)?;
+    let target = if shown.is_none() {
+        target.moving()
+    } else {
+        target
+    };
     // Before the designs are read, which may take long.
     check(args, &target, shown)?;
     let terminal = Terminal::new();
@@ -225,15 +230,23 @@ enum Shown {
 }
 
 /// What the flags want to see in one picture; `None` for a film.
-fn shown(args: &RenderArgs) -> Result<Option<Shown>, CliError> {
+fn shown(args: &RenderArgs, target: &Target) -> Result<Option<Shown>, CliError> {
     let count = args.sheet.map(|count| count as usize);
-    match args.at {
-        Some(t) if t.is_finite() => Ok(Some(Shown::Frame(t))),
-        Some(t) => Err(CliError::Usage(format!(
+    if let Some(t) = args.at.iter().find(|t| !t.is_finite()) {
+        return Err(CliError::Usage(format!(
             "--at {t} is nowhere: t must be a finite number"
+        )));
+    }
+    match args.at.as_slice() {
+        // Frames of their own.
+        [_, ..] if matches!(target, Target::Numbered(_)) && !args.out.is_dir() => Ok(None),
+        &[t] => Ok(Some(Shown::Frame(t))),
+        [_, _, ..] => Err(CliError::Usage(format!(
+            "--at names {} moments: write name-####.svg for numbered pictures, or give one",
+            args.at.len()
         ))),
-        None if args.compare => Ok(Some(Shown::Methods(count.unwrap_or(COMPARED)))),
-        None => Ok(count.map(Shown::Sheet)),
+        [] if args.compare => Ok(Some(Shown::Methods(count.unwrap_or(COMPARED)))),
+        [] => Ok(count.map(Shown::Sheet)),
     }
 }
 
@@ -324,11 +337,13 @@ fn whole_film(args: &RenderArgs, project: &Project, target: &Target) -> Result<F
         timing.play = PlayMode::Once;
     }
     let film = match args.frames {
+        _ if !args.at.is_empty() => Film::at(args.at.clone(), args.fps()),
         None => Film::of_timing(&timing, &project.stops, args.fps()),
         Some(count) => Film::evenly(timing.from, timing.to, count, args.fps())
             .map(|film| film.playing(timing.play)),
     };
-    film.map_err(CliError::usage)
+    let film = film.map_err(CliError::usage)?;
+    Ok(film.titled(&project.title))
 }
 
 fn camera(

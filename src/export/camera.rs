@@ -77,7 +77,8 @@ impl Camera {
         self.drawn(&self.transition.frame(t))
     }
 
-    fn drawn(&self, frame: &Frame) -> Drawing {
+    /// The drawing of a frame of the transition.
+    pub(super) fn drawn(&self, frame: &Frame) -> Drawing {
         let mut drawing = Drawing::of_frame(frame, &self.style, &self.view, self.ground);
         if let Some(captions) = &self.captions {
             captions.push(&mut drawing, frame.t());

@@ -101,6 +101,8 @@ pub struct Drawing {
     pub ground: Option<Rgb>,
     /// Shapes, the lowest first.
     pub items: Vec<Item>,
+    /// How the shapes were seen, where they are one frame.
+    pub view: Option<View>,
 }
 
 impl Drawing {
@@ -110,6 +112,7 @@ impl Drawing {
             size,
             ground,
             items: Vec::new(),
+            view: None,
         }
     }
 
@@ -117,6 +120,7 @@ impl Drawing {
     pub fn of_frame(frame: &Frame, style: &Style, view: &View, ground: Option<Rgb>) -> Self {
         let mut drawing = Self::new(view.size(), ground);
         drawing.push_frame(frame, style, view);
+        drawing.view = Some(*view);
         drawing
     }
 

@@ -46,6 +46,11 @@ pub enum ExportError {
     /// A kind of film without transparency was asked for a transparent ground.
     #[error("an MP4 cannot be transparent: choose a coloured ground, or write an .apng")]
     Mp4Transparent,
+    /// Pictures were to leave as outlines.
+    #[error(
+        "pictures have no outlines that could move: write a .gif, .apng or .mp4, or numbered .png"
+    )]
+    NoOutlines,
     /// No ffmpeg on the path.
     #[error(
         "an MP4 needs ffmpeg, which is not on the path: install it from your system's packages or ffmpeg.org, or write a .gif or .apng"

@@ -72,6 +72,8 @@ pub struct Film {
     first_number: usize,
     fps: f64,
     repeats: bool,
+    title: Option<String>,
+    stops: Vec<(f64, String)>,
 }
 
 impl Film {
@@ -96,7 +98,11 @@ impl Film {
             i => timing.t_at(pass_secs * i as f64 / steps as f64, stops),
         };
         let film = Self::new((0..=steps).map(t_of).collect(), fps);
-        Ok(film.playing(timing.play))
+        let named = stops.iter().filter(|stop| !stop.name.is_empty());
+        Ok(Self {
+            stops: named.map(|stop| (stop.t, stop.name.clone())).collect(),
+            ..film.playing(timing.play)
+        })
     }
 
     /// `count` frames evenly from one t to the other, both ends included; a
@@ -144,6 +150,39 @@ impl Film {
             first_number: range.start,
             ..self.clone()
         })
+    }
+
+    /// Frames at these t, in this order. It runs once.
+    ///
+    /// # Errors
+    /// [`FilmError`] for a rate, a number of frames or a t that cannot be had.
+    pub fn at(times: Vec<f64>, fps: f64) -> Result<Self, FilmError> {
+        for &t in &times {
+            check(fps, t, t)?;
+        }
+        if times.is_empty() || times.len() > MAX_FRAMES {
+            return Err(FilmError::Count(times.len()));
+        }
+        Ok(Self::new(times, fps))
+    }
+
+    /// The same under a title; formats that know none do without.
+    #[must_use]
+    pub fn titled(self, title: impl Into<String>) -> Self {
+        Self {
+            title: Some(title.into()).filter(|title: &String| !title.is_empty()),
+            ..self
+        }
+    }
+
+    /// What it is called.
+    pub fn title(&self) -> Option<&str> {
+        self.title.as_deref()
+    }
+
+    /// The stops of its timing that have a name, each with its t.
+    pub fn stops(&self) -> &[(f64, String)] {
+        &self.stops
     }
 
     /// The t of each frame.
@@ -196,6 +235,8 @@ impl Film {
             first_number: 0,
             fps,
             repeats: false,
+            title: None,
+            stops: Vec::new(),
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Frames as files: SVG and PNG, contact sheets, numbered pictures, GIF,
-//! animated PNG and MP4. Needs no graphics card and no display.
+//! Frames as files: SVG, PNG and DXF, contact sheets, numbered pictures, GIF,
+//! animated PNG and MP4, and films as motion. Needs no graphics card and no display.
 //!
 //! Everything goes through one [`Drawing`], so no two formats can disagree.
 //! Guarantees: files are written whole or not at all, and read again before they
@@ -29,10 +29,12 @@ mod captions;
 mod check;
 mod comparison;
 mod drawing;
+mod dxf;
 mod error;
 mod film;
 mod gif;
 mod layout;
+mod motion;
 #[cfg(not(target_family = "wasm"))]
 mod mp4;
 mod outline;
@@ -70,6 +72,7 @@ pub use error::ExportError;
 pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};
 pub use gif::{MAX_GIF_FPS, write_gif};
 pub use layout::{Aspect, Layout, Purpose};
+pub use motion::Motion;
 #[cfg(not(target_family = "wasm"))]
 pub use mp4::{has_ffmpeg, write_mp4};
 pub use outline::{MAX_COORDINATE_PX, Outline, Step};
@@ -110,6 +113,9 @@ pub fn write_film(
                 FilmKind::Mp4 => write_mp4(camera, film, path, progress)?,
                 #[cfg(target_family = "wasm")]
                 FilmKind::Mp4 => return Err(ExportError::NoFfmpeg),
+                FilmKind::Svg | FilmKind::Html | FilmKind::Lottie => {
+                    motion::write_motion(camera, film, (*kind, path), progress)?;
+                }
             }
             path
         }

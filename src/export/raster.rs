@@ -251,6 +251,7 @@ mod tests {
             size,
             ground,
             items,
+            view: None,
         })
     }
 

@@ -1,4 +1,4 @@
-//! One drawing as a file: PNG or SVG.
+//! One drawing as a file: PNG, SVG or DXF.
 
 use std::path::Path;
 
@@ -7,6 +7,7 @@ use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 use crate::atomic_file;
 
 use super::drawing::Drawing;
+use super::dxf::to_dxf;
 use super::error::ExportError;
 use super::raster::rasterise;
 use super::svg::to_svg;
@@ -33,6 +34,10 @@ pub(super) fn encoded(
 ) -> Result<Vec<u8>, ExportError> {
     match kind {
         StillKind::Svg => Ok(to_svg(drawing).into_bytes()),
+        StillKind::Dxf => {
+            let text = to_dxf(drawing).ok_or(ExportError::NoOutlines)?;
+            Ok(text.into_bytes())
+        }
         StillKind::Png => {
             let mut bytes = Vec::new();
             let (compression, filter) = (CompressionType::Default, FilterType::Adaptive);

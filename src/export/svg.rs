@@ -217,7 +217,7 @@ impl fmt::Display for Point {
 
 /// Text that may stand in an attribute; characters that XML forbids become
 /// the replacement character.
-struct Escaped<'a>(&'a str);
+pub(super) struct Escaped<'a>(pub &'a str);
 
 impl fmt::Display for Escaped<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -15,11 +15,14 @@ pub enum StillKind {
     Png,
     /// Shapes.
     Svg,
+    /// Outlines, for cutters and CAD.
+    Dxf,
 }
 
 named! { StillKind {
     Png: "png", "PNG", "Pixels";
     Svg: "svg", "SVG", "Shapes";
+    Dxf: "dxf", "DXF", "Outlines, for cutters and CAD";
 } }
 
 /// A format for one file that moves; its key is the ending of a name.
@@ -31,12 +34,21 @@ pub enum FilmKind {
     Apng,
     /// H.264 through ffmpeg.
     Mp4,
+    /// SVG that moves by itself.
+    Svg,
+    /// A page that plays it.
+    Html,
+    /// A Lottie animation.
+    Lottie,
 }
 
 named! { FilmKind {
     Gif: "gif", "GIF", "Plays everywhere, 256 colours";
     Apng: "apng", "APNG", "Full colour, plays in browsers";
     Mp4: "mp4", "MP4", "Needs ffmpeg on this machine";
+    Svg: "svg", "SVG", "Outlines that move by themselves, in browsers";
+    Html: "html", "Page", "Outlines with a player to scrub and step, in one file";
+    Lottie: "json", "Lottie", "Outlines with keys, for apps, sites and motion design";
 } }
 
 /// The endings of all kinds in a row, for a sentence: `.png or .svg`.
@@ -128,6 +140,18 @@ impl Target {
     }
 }
 
+impl Target {
+    /// The same for who wants a film: a name whose ending stands for a picture and for a
+    /// film means the film.
+    #[must_use]
+    pub fn moving(self) -> Self {
+        match self {
+            Self::Still(StillKind::Svg, path) => Self::Film(FilmKind::Svg, path),
+            other => other,
+        }
+    }
+}
+
 fn is_folder(path: &Path) -> bool {
     let text = path.to_string_lossy();
     let name = path.file_name().map(|name| name.to_string_lossy());
@@ -168,6 +192,10 @@ mod tests {
         assert_eq!(target("b.gif"), film(FilmKind::Gif, "b.gif"));
         assert_eq!(target("b.apng"), film(FilmKind::Apng, "b.apng"));
         assert_eq!(target("b.mp4"), film(FilmKind::Mp4, "b.mp4"));
+        assert_eq!(target("b.html"), film(FilmKind::Html, "b.html"));
+        assert_eq!(target("b.json"), film(FilmKind::Lottie, "b.json"));
+        let moving = target("b.svg").map(Target::moving);
+        assert_eq!(moving, film(FilmKind::Svg, "b.svg"));
         assert!(matches!(target("b.jpg"), Err(TargetError::Unknown(_))));
         assert!(matches!(
             target("b-##.gif"),

@@ -100,6 +100,13 @@ impl Transition {
         &self.0.content
     }
 
+    /// The t within (0, 1) at which something sets out, arrives or changes its pace:
+    /// between them every point moves smoothly. In no order.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
+        self.warp().breaks()
+    }
+
     /// Where each point is at t.
     pub(super) fn warp(&self) -> &dyn Warp {
         self.0.moved.warp.as_warp()

@@ -157,7 +157,7 @@ impl Order {
         let path = self.path_in(workshop.path(), "film")?;
         let (camera, film) = self.film()?;
         let watched = Watched::new(&camera, &film, preview, progress);
-        write_film(&camera, &film, &Target::of_path(&path)?, &watched)?;
+        write_film(&camera, &film, &Target::of_path(&path)?.moving(), &watched)?;
         Ok(deliver(&path, &self.folder, &self.stem)?)
     }
 
@@ -185,7 +185,7 @@ impl Order {
         let cost = |film: &Film, name: &str| -> Result<Cost, RecordError> {
             let path = self.path_in(folder.path(), name)?;
             let began = Instant::now();
-            write_film(&camera, film, &Target::of_path(&path)?, progress)?;
+            write_film(&camera, film, &Target::of_path(&path)?.moving(), progress)?;
             Ok(Cost {
                 secs: began.elapsed().as_secs_f64(),
                 bytes: bytes(&path)? as f64,
@@ -205,6 +205,7 @@ impl Order {
         let (style, stops) = (self.project.style, &self.project.stops);
         let timing = (&self.project.timing, stops.as_slice());
         let (film, view) = framed(&self.transition, timing, &self.look)?;
+        let film = film.titled(&self.project.title);
         let names = self.names.each_ref().map(String::as_str);
         let captions = Captions::new(stops, names, style.ground);
         let is_opaque = self.format == RecordFormat::OPAQUE;

@@ -1,0 +1,201 @@
+//! What leaves as motion is what our own frames show, as other programs play it.
+//!
+//! Chromium (`MORPHOSPACE_CHROMIUM`, or on the path) plays the animated SVG and the
+//! page, and with the script of lottie-web (`MORPHOSPACE_LOTTIE`, a `lottie.js`) the
+//! Lottie. Where a player is missing the test says so aloud and compares nothing.
+//! `MORPHOSPACE_MOTION` names the projects of the gallery to compare, or `all`;
+//! `MORPHOSPACE_MOTION_OUT` a folder to leave the files and pictures in.
+
+mod players;
+
+use std::io::Write;
+use std::path::Path;
+
+use image::{RgbaImage, imageops};
+use morphospace::content::ContentKind;
+use morphospace::export::{Camera, Film, Motion, PixelSize, View, framing};
+use morphospace::progress::Silent;
+use morphospace::project::{LoadedProject, gallery};
+use morphospace::transition::Transition;
+
+use players::{Kind, Players};
+
+/// Frames of a film that are compared.
+const COMPARED: usize = 25;
+
+/// Of the longer side.
+const SIDE_PX: u32 = 960;
+
+/// Projects that are compared where none are named: a drawing in colours, parts that
+/// are born, a truss, a field, and a hole that closes.
+const USUAL: &str = "day-to-night words bracket-to-davit letters spectacles";
+
+/// How much of what either hides both hide.
+fn overlap(a: &RgbaImage, b: &RgbaImage) -> f64 {
+    assert_eq!(a.dimensions(), b.dimensions());
+    let [mut both, mut either] = [0.0; 2];
+    for (a, b) in a.pixels().zip(b.pixels()) {
+        let [a, b] = [a, b].map(|p| f64::from(p.0[3]));
+        both += a.min(b);
+        either += a.max(b);
+    }
+    if either > 0.0 { both / either } else { 1.0 }
+}
+
+/// The largest difference in colour where both hide what is below, on average over
+/// such pixels.
+fn off_colour(a: &RgbaImage, b: &RgbaImage) -> f64 {
+    let both = a.pixels().zip(b.pixels());
+    let both: Vec<_> = both
+        .filter(|(a, b)| a.0[3] == 255 && b.0[3] == 255)
+        .collect();
+    let off = both.iter().map(|(a, b)| {
+        let channels = (0..3).map(|k| f64::from(a.0[k].abs_diff(b.0[k])));
+        channels.fold(0.0, f64::max)
+    });
+    off.sum::<f64>() / both.len().max(1) as f64
+}
+
+struct Shot {
+    camera: Camera,
+    film: Film,
+    motion: Motion,
+    /// The frames that are compared.
+    frames: Vec<usize>,
+    has_bars: bool,
+}
+
+impl Shot {
+    fn of(loaded: &LoadedProject) -> Option<Self> {
+        let transition = Transition::build(&loaded.spec().expect("a pair"), &Silent);
+        let transition = transition.expect("a transition");
+        if transition.cell().content() == ContentKind::Colours {
+            return None;
+        }
+        let project = &loaded.project;
+        let film = Film::of_timing(&project.timing, &project.stops, 30.0).expect("a film");
+        let bounds = framing(&transition, film.times());
+        let camera = Camera {
+            transition,
+            style: project.style,
+            view: View::fit(bounds, PixelSize::of_shape(bounds, SIDE_PX)),
+            ground: None,
+            captions: None,
+        };
+        let motion = Motion::record(&camera, &film, &Silent).expect("a motion");
+        let (from, to) = (project.timing.from, project.timing.to);
+        let frame = |k: usize| {
+            let t = from + (to - from) * k as f64 / (COMPARED - 1) as f64;
+            let pass = film.times().iter().position(|&t| t == to).unwrap_or(0);
+            let off = |k: &usize| (film.times()[*k] - t).abs();
+            (0..=pass).min_by(|a, b| off(a).total_cmp(&off(b)))
+        };
+        let frames = (0..COMPARED).filter_map(frame).collect();
+        Some(Self {
+            has_bars: !camera.transition.frame(0.0).figure().bars.is_empty(),
+            camera,
+            film,
+            motion,
+            frames,
+        })
+    }
+
+    fn text(&self, kind: Kind, title: &str) -> String {
+        match kind {
+            Kind::Svg => self.motion.svg(),
+            Kind::Page => self.motion.page(title),
+            Kind::Lottie => self.motion.lottie(title),
+        }
+    }
+
+    /// The least overlap with our own frames, the t where it is, and the largest
+    /// difference in colour.
+    fn compared(&self, played: &RgbaImage, keep: Option<&Path>) -> (f64, f64, f64) {
+        let size = self.camera.view.size();
+        let mut worst = (1.0, 0.0, 0.0);
+        for (place, &frame) in self.frames.iter().enumerate() {
+            let t = self.film.times()[frame];
+            let own = self.camera.pixels(t);
+            let [x, y] = players::cell(place, size);
+            let (x, y) = (i64::from(x), i64::from(y));
+            let theirs =
+                imageops::crop_imm(played, x as u32, y as u32, size.width(), size.height());
+            let theirs = theirs.to_image();
+            let overlap = overlap(&own, &theirs);
+            if let Some(folder) = keep.filter(|_| overlap < worst.0) {
+                own.save(folder.join("worst-own.png")).expect("saved");
+                theirs.save(folder.join("worst-theirs.png")).expect("saved");
+            }
+            if overlap < worst.0 {
+                (worst.0, worst.1) = (overlap, t);
+            }
+            worst.2 = f64::max(worst.2, off_colour(&own, &theirs));
+        }
+        worst
+    }
+}
+
+/// Past what a test runner keeps to itself.
+fn say(line: &str) {
+    writeln!(std::io::stderr(), "{line}").expect("a place for words");
+}
+
+/// Plays one format of a project; a line where it is not what it has to be.
+fn played(shot: &Shot, kind: Kind, entry: &gallery::Entry, players: &Players) -> Option<String> {
+    let text = shot.text(kind, &entry.title);
+    let folder = tempfile::tempdir().expect("a folder");
+    let kept = std::env::var_os("MORPHOSPACE_MOTION_OUT")
+        .map(|out| Path::new(&out).join(&entry.name).join(kind.name()));
+    if let Some(folder) = &kept {
+        std::fs::create_dir_all(folder).expect("a folder");
+        let file = folder.join(format!("film.{}", kind.ending()));
+        std::fs::write(file, &text).expect("written");
+    }
+    let size = shot.camera.view.size();
+    let shown: Vec<(f64, f64)> = (shot.frames.iter())
+        .map(|&frame| (frame as f64, shot.film.times()[frame]))
+        .collect();
+    let shown = (shown.as_slice(), shot.film.fps());
+    let what = format!(
+        "{} as {}: {:.0} kB",
+        entry.name,
+        kind.name(),
+        text.len() as f64 / 1e3
+    );
+    let Some(played) = players.play(kind, &text, shown, size, folder.path()) else {
+        say(&format!("{what}, NOT COMPARED: {}", players.missing(kind)));
+        return None;
+    };
+    if let Some(folder) = &kept {
+        played.save(folder.join("played.png")).expect("saved");
+    }
+    let (overlap, t, colour) = shot.compared(&played, kept.as_deref());
+    let line = format!("{what}, least IoU {overlap:.4} at t = {t:.3}, colours off by {colour:.2}");
+    say(&line);
+    // Round bars of a few pixels: what two programs make of their edges differs by more
+    // than that in a still of the same frame, too (0.9939 for `bracket-to-davit`).
+    let least = if shot.has_bars { 0.99 } else { 0.995 };
+    let is_small = kind != Kind::Page || text.len() < 300_000;
+    (overlap < least || colour > 3.0 || !is_small).then_some(line)
+}
+
+#[test]
+fn players_show_what_our_frames_show() {
+    let players = Players::find();
+    let names = std::env::var("MORPHOSPACE_MOTION").unwrap_or_else(|_| USUAL.to_owned());
+    let mut failed = Vec::new();
+    for entry in gallery::list().expect("the list") {
+        if names != "all" && !names.split_whitespace().any(|name| name == entry.name) {
+            continue;
+        }
+        let loaded = gallery::load(&entry.name).expect("a project");
+        match Shot::of(&loaded) {
+            Some(shot) => {
+                let kinds = Kind::ALL.into_iter();
+                failed.extend(kinds.filter_map(|kind| played(&shot, kind, &entry, &players)));
+            }
+            None => say(&format!("{}: pictures, which have no outlines", entry.name)),
+        }
+    }
+    assert!(failed.is_empty(), "{}", failed.join("\n"));
+}

@@ -1,0 +1,194 @@
+//! Other programs that play what was written, and pictures of what they show.
+
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+use image::RgbaImage;
+use morphospace::export::PixelSize;
+
+/// Pictures beside each other on a sheet.
+const COLUMNS: usize = 5;
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    Svg,
+    Page,
+    Lottie,
+}
+
+impl Kind {
+    pub const ALL: [Self; 3] = [Self::Svg, Self::Page, Self::Lottie];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Svg => "animated SVG",
+            Self::Page => "page",
+            Self::Lottie => "Lottie",
+        }
+    }
+
+    pub fn ending(self) -> &'static str {
+        match self {
+            Self::Svg => "svg",
+            Self::Page => "html",
+            Self::Lottie => "json",
+        }
+    }
+}
+
+/// The upper left corner of a picture on the sheet.
+pub fn cell(place: usize, size: PixelSize) -> [u32; 2] {
+    let (row, column) = ((place / COLUMNS) as u32, (place % COLUMNS) as u32);
+    [column * size.width(), row * size.height()]
+}
+
+pub struct Players {
+    chromium: Option<PathBuf>,
+    lottie: Option<String>,
+}
+
+impl Players {
+    pub fn find() -> Self {
+        let on_path = || {
+            let names = ["chromium", "chromium-browser", "google-chrome"];
+            let path = std::env::var_os("PATH").unwrap_or_default();
+            let folders: Vec<PathBuf> = std::env::split_paths(&path).collect();
+            let all = names
+                .iter()
+                .flat_map(|name| folders.iter().map(move |f| f.join(name)));
+            let mut all = all.filter(|path| path.is_file());
+            all.next()
+        };
+        let named = |name: &str| std::env::var_os(name).map(PathBuf::from);
+        let lottie = named("MORPHOSPACE_LOTTIE");
+        Self {
+            chromium: named("MORPHOSPACE_CHROMIUM").or_else(on_path),
+            lottie: lottie.map(|path| std::fs::read_to_string(path).expect("lottie-web's script")),
+        }
+    }
+
+    /// What there is not.
+    pub fn missing(&self, kind: Kind) -> &'static str {
+        match (&self.chromium, kind) {
+            (None, _) => "no Chromium on the path, nor in MORPHOSPACE_CHROMIUM",
+            (_, Kind::Lottie) if self.lottie.is_none() => {
+                "no script of lottie-web in MORPHOSPACE_LOTTIE"
+            }
+            _ => "Chromium took no picture",
+        }
+    }
+
+    /// A sheet of what a player shows at some frames, each with its t; transparent
+    /// where nothing is. None where there is no such player.
+    pub fn play(
+        &self,
+        kind: Kind,
+        text: &str,
+        (frames, fps): (&[(f64, f64)], f64),
+        size: PixelSize,
+        folder: &Path,
+    ) -> Option<RgbaImage> {
+        let chromium = self.chromium.as_ref()?;
+        let body = match kind {
+            Kind::Svg => svgs(text, frames, fps),
+            Kind::Page => {
+                std::fs::write(folder.join("film.html"), text).expect("written");
+                pages(frames)
+            }
+            Kind::Lottie => lotties(text, frames, self.lottie.as_ref()?),
+        };
+        let (width, height) = (size.width(), size.height());
+        let page = format!(
+            "<!doctype html><meta charset=utf-8><style>
+             html, body {{ margin: 0; background: transparent }}
+             body {{ width: {}px; line-height: 0 }}
+             body > * {{ display: inline-block; width: {width}px; height: {height}px; border: 0; overflow: hidden }}
+             script {{ display: none !important }}
+             </style><body>{body}",
+            COLUMNS as u32 * width
+        );
+        std::fs::write(folder.join("sheet.html"), page).expect("written");
+        let rows = frames.len().div_ceil(COLUMNS) as u32;
+        // A little higher: a window is not all picture.
+        let window = [COLUMNS as u32 * width, rows * height + 200];
+        photographed(chromium, folder, window)
+    }
+}
+
+/// What Chromium shows of the sheet in a folder.
+fn photographed(chromium: &Path, folder: &Path, [width, height]: [u32; 2]) -> Option<RgbaImage> {
+    let [sheet, picture] = ["sheet.html", "sheet.png"].map(|name| folder.join(name));
+    let status = Command::new(chromium)
+        .args([
+            "--headless",
+            "--no-sandbox",
+            "--disable-gpu",
+            "--hide-scrollbars",
+        ])
+        .args([
+            "--force-device-scale-factor=1",
+            "--force-color-profile=srgb",
+        ])
+        .args([
+            "--default-background-color=00000000",
+            "--virtual-time-budget=20000",
+        ])
+        .arg("--allow-file-access-from-files")
+        .arg(format!(
+            "--user-data-dir={}",
+            folder.join("profile").display()
+        ))
+        .arg(format!("--window-size={width},{height}"))
+        .arg(format!("--screenshot={}", picture.display()))
+        .arg(format!("file://{}", sheet.display()))
+        .stdin(Stdio::null())
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .status();
+    status.ok().filter(|status| status.success())?;
+    Some(image::open(picture).ok()?.to_rgba8())
+}
+
+/// Text as a string of a script, which cannot end it.
+fn quoted(text: &str) -> String {
+    let json = serde_json::to_string(text).expect("text");
+    json.replace('<', "\\u003c")
+}
+
+fn svgs(text: &str, frames: &[(f64, f64)], fps: f64) -> String {
+    let secs: Vec<f64> = frames.iter().map(|frame| frame.0 / fps).collect();
+    format!(
+        "<script>const text = {};
+         for (const secs of {secs:?}) {{
+           const frame = document.body.appendChild(document.createElement('iframe'));
+           frame.onload = () => {{
+             const svg = frame.contentDocument.querySelector('svg');
+             svg.pauseAnimations();
+             svg.setCurrentTime(secs);
+           }};
+           frame.srcdoc = '<!doctype html><style>body {{ margin: 0; line-height: 0 }}</style>' + text;
+         }}</script>",
+        quoted(text)
+    )
+}
+
+fn pages(frames: &[(f64, f64)]) -> String {
+    let frame = |(_, t): &(f64, f64)| format!("<iframe src=\"film.html#t={t}&bare\"></iframe>");
+    frames.iter().map(frame).collect()
+}
+
+fn lotties(text: &str, frames: &[(f64, f64)], script: &str) -> String {
+    let numbers: Vec<f64> = frames.iter().map(|frame| frame.0).collect();
+    let script = script.replace("</script", "<\\/script");
+    format!(
+        "<script>{script}</script><script>const text = {};
+         for (const frame of {numbers:?}) {{
+           const container = document.body.appendChild(document.createElement('div'));
+           const film = lottie.loadAnimation({{
+             container, renderer: 'svg', loop: false, autoplay: false, animationData: JSON.parse(text),
+           }});
+           film.goToAndStop(frame, true);
+         }}</script>",
+        quoted(text)
+    )
+}
