@@ -82,6 +82,9 @@ impl Course {
     }
 }
 
+/// What keeps the handles where they are if nothing moves them.
+const RIDGE: f64 = 1e-9;
+
 /// How t runs from one frame to another, both told as 0 to 1: a Bézier curve whose
 /// handles lie at a third and at two thirds of the time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -112,21 +115,22 @@ impl Curve {
         if rise == 0.0 {
             return values.iter().all(|&v| v == first).then(Self::default);
         }
-        // The handles by least squares of what is left of the cubic part.
-        let (mut a, mut b, mut c, mut p, mut q) = (0.0, 0.0, 0.0, 0.0, 0.0);
+        // The handles by least squares of what the straight line leaves; where there are
+        // fewer values than handles, those that lie next to its own.
+        let straight = Self::default();
+        let (mut a, mut b, mut c, mut p, mut q) = (RIDGE, 0.0, RIDGE, 0.0, 0.0);
         for (k, v) in values.iter().enumerate() {
             let u = k as f64 / steps;
             let [f, g] = bells(u);
-            let rest = (v - first) / rise - u.powi(3);
+            let rest = (v - first) / rise - straight.at(u);
             (a, b, c) = (a + f * f, b + f * g, c + g * g);
             (p, q) = (p + f * rest, q + g * rest);
         }
         let determinant = a * c - b * b;
-        let handles = if determinant.abs() > 1e-9 {
-            [(c * p - b * q) / determinant, (a * q - b * p) / determinant]
-        } else {
-            Self::default().handles
-        };
+        let handles = [
+            straight.handles[0] + (c * p - b * q) / determinant,
+            straight.handles[1] + (a * q - b * p) / determinant,
+        ];
         let curve = Self {
             handles,
             ..Self::default()

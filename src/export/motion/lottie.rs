@@ -11,9 +11,9 @@ use serde_json::{Value, json};
 use crate::colour::{Gradient, Join, Paint};
 use crate::geometry::DVec2;
 
-use super::Motion;
 use super::course::{Course, Curve};
 use super::plain::Plain;
+use super::recorded::Motion;
 use super::shape::{Form, Posed, Verb};
 use super::tracks::{Keyed, Layer, layers};
 

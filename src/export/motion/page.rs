@@ -18,9 +18,11 @@ use crate::colour::{Join, Spread};
 use crate::geometry::DVec2;
 
 use super::super::svg::Escaped;
+use super::piece::Moving;
+use super::recorded::Motion;
 use super::series::shorten;
 use super::shape::{Form, Verb};
-use super::{Motion, Moving};
+use super::thin::thin;
 
 /// Steps in which the coefficients are told, in pixels: of 16 terms each half a step
 /// off, a point is a twelfth of a pixel off on average.
@@ -30,6 +32,10 @@ const STEP_PX: f64 = 1.0 / 24.0;
 /// first of them with which the film is not large. `cantilevers-carried`, 121 frames of
 /// a contour with ten holes, needs the last but one.
 const STILL_PX: [f64; 4] = [1.0 / 16.0, 1.0 / 12.0, 1.0 / 10.0, 1.0 / 8.0];
+
+/// How far from its line a point that does not move may be to be left out of a large
+/// film, in pixels.
+const MISSED_PX: f64 = 0.08;
 
 /// What is large, in letters.
 const LARGE: usize = 285_000;
@@ -42,9 +48,13 @@ const PLAYER: &str = include_str!("player.html");
 
 pub(super) fn written(motion: &Motion, title: &str) -> String {
     let mut film = packed(motion, title, STILL_PX[0]);
-    for still_px in &STILL_PX[1..] {
-        if film.len() > LARGE {
-            film = packed(motion, title, *still_px);
+    if film.len() > LARGE {
+        let mut motion = motion.clone();
+        thin(&mut motion.pieces, MISSED_PX);
+        for still_px in STILL_PX {
+            if film.len() > LARGE {
+                film = packed(&motion, title, still_px);
+            }
         }
     }
     let title = Escaped(title).to_string();

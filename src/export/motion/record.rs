@@ -12,9 +12,9 @@ use crate::transition::Frame;
 use super::super::camera::{Camera, DRAWING};
 use super::super::error::ExportError;
 use super::super::film::Film;
+use super::piece::{Moving, Piece};
 use super::series::{nodes, shorten, sum, terms};
 use super::shape::Posed;
-use super::{Moving, Piece};
 
 /// How far a series may be from what it was made from, in pixels: a tenth of what all
 /// steps may be together.

@@ -9,8 +9,8 @@ use crate::geometry::DVec2;
 
 use super::super::svg::Escaped;
 use super::super::words::Number;
-use super::Motion;
 use super::plain::Plain;
+use super::recorded::Motion;
 use super::shape::{Form, Posed, Verb};
 use super::tracks::{Keyed, Layer, layers};
 

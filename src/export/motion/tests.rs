@@ -1,4 +1,7 @@
+use super::shape::Posed;
 use super::*;
+use crate::colour::Rgb;
+use crate::export::Drawing;
 use crate::export::testing::camera;
 use crate::progress::Silent;
 use crate::transition::{PlayMode, Stop, Timing};
@@ -53,7 +56,7 @@ fn straight_ways_between_keys_stay_within_the_tolerance() {
     };
     let poses = &layer.shapes[0];
     let keys = layer.points(poses, 0..3, |posed| posed.points.clone()).keys;
-    assert!(keys.len() < stations.len() / 2, "{} keys", keys.len());
+    assert!(keys.len() < stations.len(), "{} keys", keys.len());
     for &(x, t) in &stations {
         let after = keys.partition_point(|key| key.0 < x).max(1);
         let [(a, from), (b, to)] = [&keys[after - 1], &keys[after]];

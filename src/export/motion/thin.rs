@@ -10,7 +10,8 @@ use std::sync::Arc;
 
 use crate::geometry::DVec2;
 
-use super::Piece;
+use super::piece::Piece;
+use super::series;
 use super::shape::{Form, Verb};
 
 /// How far a point that is left out may be from the line that takes its place, in
@@ -18,27 +19,28 @@ use super::shape::{Form, Verb};
 const MISSED_PX: f64 = 0.04;
 
 /// The same where a shape does not move, and nothing else adds to it.
-const MISSED_STILL_PX: f64 = 0.08;
+pub(super) const MISSED_STILL_PX: f64 = 0.04;
 
 /// Moments of a piece that are looked at.
 const MOMENTS: usize = 8;
 
-/// Thins all shapes, those that go on from piece to piece alike.
-pub(super) fn thin(pieces: &mut [Piece]) {
+/// Thins all shapes, those that go on from piece to piece alike; what does not move up
+/// to a tolerance of its own.
+pub(super) fn thin(pieces: &mut [Piece], still_px: f64) {
     let mut from = 0;
     while from < pieces.len() {
         let rest = pieces[from + 1..].iter();
         let to = from + 1 + rest.take_while(|piece| piece.goes_on).count();
         let scene = &mut pieces[from..to];
         for k in 0..scene[0].shapes.len() {
-            thin_shape(scene, k);
+            thin_shape(scene, k, still_px);
         }
         from = to;
     }
 }
 
 /// Thins one shape over all pieces of a scene.
-fn thin_shape(scene: &mut [Piece], k: usize) {
+fn thin_shape(scene: &mut [Piece], k: usize, still_px: f64) {
     let verbs = match &*scene[0].shapes[k].first.form {
         Form::Fill { verbs, .. } | Form::Line { verbs, .. } => verbs,
         Form::Bars | Form::Discs => return,
@@ -47,7 +49,7 @@ fn thin_shape(scene: &mut [Piece], k: usize) {
     let missed = if moments.len() > 1 {
         MISSED_PX
     } else {
-        MISSED_STILL_PX
+        still_px
     };
     let mut kept_verbs = Vec::new();
     let mut kept: Vec<usize> = Vec::new();
@@ -96,7 +98,7 @@ fn moments(scene: &[Piece], k: usize) -> Vec<Vec<DVec2>> {
     let of_piece = |piece: &Piece| {
         let terms = piece.shapes[k].terms.clone();
         let count = if terms.len() > 1 { MOMENTS } else { 0 };
-        let at = move |m: usize| super::series::sum(&terms, m as f64 / count.max(1) as f64);
+        let at = move |m: usize| series::sum(&terms, m as f64 / count.max(1) as f64);
         (0..=count).map(at)
     };
     scene.iter().flat_map(of_piece).collect()

@@ -3,8 +3,8 @@
 //! A scene is a row of pieces with the same shapes. Each time that a course comes
 //! through one it is a layer.
 
-use super::Motion;
 use super::keys::fewest;
+use super::recorded::Motion;
 use super::shape::Posed;
 
 /// How far straight lines between keys may be from a point, in each of the two
