@@ -4,7 +4,7 @@
 //! animated PNG or MP4 of a ping-pong project runs back as well.
 
 use std::ops::Range;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
@@ -229,6 +229,11 @@ enum Shown {
     Methods(usize),
 }
 
+/// Whether a name says where numbers go.
+fn is_numbered(path: &Path) -> bool {
+    path.to_string_lossy().contains('#')
+}
+
 /// What the flags want to see in one picture; `None` for a film.
 fn shown(args: &RenderArgs, target: &Target) -> Result<Option<Shown>, CliError> {
     let count = args.sheet.map(|count| count as usize);
@@ -238,8 +243,13 @@ fn shown(args: &RenderArgs, target: &Target) -> Result<Option<Shown>, CliError> 
         )));
     }
     match args.at.as_slice() {
-        // Frames of their own.
-        [_, ..] if matches!(target, Target::Numbered(_)) && !args.out.is_dir() => Ok(None),
+        // Frames of their own, where several are asked for or the name has a number.
+        at if matches!(target, Target::Numbered(_))
+            && !args.out.is_dir()
+            && (at.len() > 1 || (at.len() == 1 && is_numbered(&args.out))) =>
+        {
+            Ok(None)
+        }
         &[t] => Ok(Some(Shown::Frame(t))),
         [_, _, ..] => Err(CliError::Usage(format!(
             "--at names {} moments: write name-####.svg for numbered pictures, or give one",

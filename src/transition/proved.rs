@@ -113,16 +113,37 @@ impl Proved {
         let meeting = self.proof.meeting.map(|meeting| meeting.t);
         fold.into_iter().chain(meeting).min_by(f64::total_cmp)
     }
+
+    /// What was done for it, and what nothing is said of.
+    fn write_exceptions(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(by) = self.moved_aside {
+            let percent = 100.0 * by;
+            write!(
+                f,
+                "; points are moved aside by up to {percent:.2} % of the diameter"
+            )?;
+        }
+        let touching = self.proof.touching;
+        if touching > 0 {
+            write!(
+                f,
+                "; {touching} points that touch an edge at an end are left out there"
+            )?;
+        }
+        if self.left_out > 0 {
+            let count = self.left_out;
+            write!(
+                f,
+                "; {count} holes and parts that come and go within their outline are left out"
+            )?;
+        }
+        Ok(())
+    }
 }
 
 impl fmt::Display for Proved {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Proof {
-            fold,
-            meeting,
-            touching,
-            ..
-        } = &self.proof;
+        let Proof { fold, meeting, .. } = &self.proof;
         match (fold, meeting) {
             (None, None) => {
                 let faces = if self.faces > 0 {
@@ -150,26 +171,6 @@ impl fmt::Display for Proved {
                 place.x, place.y
             )?;
         }
-        if let Some(by) = self.moved_aside {
-            let percent = 100.0 * by;
-            write!(
-                f,
-                "; points are moved aside by up to {percent:.2} % of the diameter"
-            )?;
-        }
-        if *touching > 0 {
-            write!(
-                f,
-                "; {touching} points that touch an edge at an end are left out there"
-            )?;
-        }
-        if self.left_out > 0 {
-            let count = self.left_out;
-            write!(
-                f,
-                "; {count} holes and parts that come and go within their outline are left out"
-            )?;
-        }
-        Ok(())
+        self.write_exceptions(f)
     }
 }

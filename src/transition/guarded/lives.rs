@@ -4,8 +4,8 @@
 //! Where and when they come and go was chosen by what is seen at steps
 //! ([`crate::transition::births`]); what is between those is known to the proof.
 
-use super::Trouble;
 use super::drawn::Drawn;
+use super::trouble::Trouble;
 use crate::geometry::Side;
 use crate::warp::{Arap, Life};
 

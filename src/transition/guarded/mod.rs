@@ -16,6 +16,7 @@
 //! its other side when the design is reached; of films that are not proved the one is
 //! kept that shows less.
 //!
+//! - `trouble`: what is first not proved
 //! - `drawn`: what is drawn as the mesh has it, and when
 //! - `lives`: what comes later, or goes earlier
 //! - `outlines`: what may meet what, and which of it is near
@@ -29,14 +30,14 @@ mod outlines;
 mod push;
 #[cfg(test)]
 mod tests;
+mod trouble;
 mod walk;
 mod yielding;
 
 use super::error::BuildError;
 use super::levels::Levels;
 use crate::correspondence::PieceMatch;
-use crate::film::proof::{Meeting, Proof, Walk};
-use crate::film::{Film, FilmError, FilmOptions};
+use crate::film::proof::Walk;
 use crate::geometry::{DVec2, count_crossings, orient2d};
 use crate::progress::{Progress, still_wanted};
 use crate::warp::{Arap, Guard, Warp};
@@ -44,7 +45,7 @@ use drawn::Drawn;
 use lives::Shifted;
 use outlines::Outlines;
 use rayon::prelude::*;
-use std::sync::Arc;
+use trouble::{Trouble, trouble};
 
 /// Even steps of a walk through the film; near both ends, where seams open, more.
 const EVEN: u32 = 64;
@@ -115,39 +116,6 @@ fn kept_apart(film: &Arap, drawn: Drawn, progress: &dyn Progress) -> Result<Arap
 
 /// What makes another of a film.
 type Trial<'a> = dyn Fn(&Way, &Tried) -> Result<Tried, BuildError> + Sync + 'a;
-
-/// Where a film folds or its outlines meet first.
-#[derive(Clone, Copy, Debug)]
-struct Trouble {
-    t: f64,
-    /// What meets then.
-    meeting: Option<Meeting>,
-}
-
-/// What is first not proved of a film; nothing where it does not settle.
-fn trouble(
-    film: &Arap,
-    drawn: &Drawn,
-    progress: &dyn Progress,
-) -> Result<Option<Option<Trouble>>, BuildError> {
-    let recorded = Film::record(Arc::new(film.clone()), &FilmOptions::default(), progress);
-    let recorded = match recorded {
-        Ok(recorded) => recorded,
-        Err(FilmError::Cancelled(cancelled)) => return Err(cancelled.into()),
-        Err(_) => return Ok(None),
-    };
-    let Proof { fold, meeting, .. } = recorded.prove(&drawn.walks(film), progress)?;
-    let folds = fold.map(|fold| Trouble {
-        t: fold.t,
-        meeting: None,
-    });
-    let meets = meeting.map(|meeting| Trouble {
-        t: meeting.t,
-        meeting: Some(meeting),
-    });
-    let both = folds.into_iter().chain(meets);
-    Ok(Some(both.min_by(|a, b| a.t.total_cmp(&b.t))))
-}
 
 /// A film that was tried.
 #[derive(Clone)]
