@@ -6,9 +6,7 @@ use bevy::app::{HierarchyPropagatePlugin, PropagateSet};
 use bevy::camera::visibility::{RenderLayers, VisibilitySystems};
 use bevy::camera::{CameraOutputMode, CompositingSpace};
 use bevy::prelude::*;
-use bevy::render::RenderPlugin;
 use bevy::render::render_resource::BlendState;
-use bevy::render::settings::{MemoryHints, WgpuSettings};
 use bevy::window::{ExitCondition, WindowMode, WindowResolution};
 use bevy::winit::{EventLoopProxyWrapper, WinitUserEvent};
 use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
@@ -50,7 +48,7 @@ pub fn run(options: AppOptions) -> AppExit {
     } = options;
     let autosave = autosave();
     App::new()
-        .add_plugins(DefaultPlugins.set(window(presents)).set(sparing()))
+        .add_plugins(DefaultPlugins.set(window(presents)))
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(CaptureFolder::choose(captures))
         .insert_resource(autosave.workshop())
@@ -68,20 +66,6 @@ pub fn run(options: AppOptions) -> AppExit {
         )
         .add_systems(Startup, watch)
         .run()
-}
-
-/// Memory of the graphics card is taken in small blocks, which are given back. In blocks of
-/// 64 and 128 MB, as by default, 110 MB were kept once the largest of the gallery's projects
-/// had been open.
-fn sparing() -> RenderPlugin {
-    let settings = WgpuSettings {
-        memory_hints: MemoryHints::MemoryUsage,
-        ..WgpuSettings::default()
-    };
-    RenderPlugin {
-        render_creation: settings.into(),
-        ..RenderPlugin::default()
-    }
 }
 
 /// A file that has changed wakes the window, which may be at rest.
