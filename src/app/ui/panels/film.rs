@@ -92,15 +92,20 @@ const GIF: RecordFormat = RecordFormat::Film(FilmKind::Gif);
 fn file(ui: &mut Ui, scene: &Scene, draft: &mut Preferences) {
     let before = draft.format(content(scene));
     let mut format = before;
-    row(
-        ui,
-        "File",
-        "The kind of file that a recording writes.",
-        |ui| {
-            let can = |format: &RecordFormat| *format != RecordFormat::OPAQUE || has_ffmpeg();
-            choices_of(ui, &mut format, &formats(), can)
-        },
-    );
+    let can = |format: &RecordFormat| *format != RecordFormat::OPAQUE || has_ffmpeg();
+    // Side by side they would lie over each other.
+    let (moving, pixels): (Vec<_>, Vec<_>) = formats().into_iter().partition(|(format, ..)| {
+        let outlines = [FilmKind::Svg, FilmKind::Html, FilmKind::Lottie];
+        outlines.map(RecordFormat::Film).contains(format)
+    });
+    let tip = "The kind of file that a recording writes.";
+    row(ui, "File", tip, |ui| {
+        choices_of(ui, &mut format, &pixels, can)
+    });
+    let tip = "Files that move by themselves and keep the outlines sharp at any size.";
+    row(ui, "Outlines", tip, |ui| {
+        choices_of(ui, &mut format, &moving, can)
+    });
     if format != before {
         draft.record_format = Some(format);
     }
