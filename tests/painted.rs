@@ -76,7 +76,7 @@ fn the_ends_of_a_film_look_like_the_drawings() {
             let expected = expected(text);
             let size = PixelSize::new(expected.width(), expected.height()).expect("a size");
             let camera = Camera {
-                transition: film.clone(),
+                sequence: film.clone().into(),
                 style: Style::default(),
                 view: View::fit(design.extent, size),
                 ground: Some(Rgb([255; 3])),

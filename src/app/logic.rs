@@ -151,7 +151,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             .chain(),
         // Moved on before it is told where to go: else the time of a rest would be played at once.
         (playback::advance, presenting::begin, playback::apply).chain(),
-        presenting::hide_pointer,
+        (staging::follow_leg, presenting::hide_pointer).chain(),
         (
             films::apply,
             films::report,

@@ -1,7 +1,7 @@
-//! `morphospace check`: a transition, or a table of pairs, in numbers and in
-//! words.
+//! `morphospace check`: a transition, each leg of a sequence, or a table of pairs, in
+//! numbers and in words.
 //!
-//! With `--json` one object on stdout; the laboratory says in which units.
+//! With `--json` one object on stdout, of a sequence a list of them; the laboratory says in which units.
 
 use clap::Args;
 
@@ -35,20 +35,25 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
         (Some(inputs), None) => one(args, inputs),
         (None, Some(batch)) => table(args, batch),
         _ => Err(CliError::Usage(
-            "give a project, two designs, or a table of pairs with --pairs".to_owned(),
+            "give a project, two designs or more, or a table of pairs with --pairs".to_owned(),
         )),
     }
 }
 
 fn one(args: &CheckArgs, inputs: &Inputs) -> Result<(), CliError> {
     let terminal = Terminal::new();
-    let (_, report) = args.measuring.of(inputs, &terminal)?;
+    let measured = args.measuring.of(inputs, &terminal)?;
     // Its line goes before the report comes.
     drop(terminal);
-    output::data(&if args.json {
-        output::json(&report)?
-    } else {
-        text(&report)
+    let reports: Vec<_> = measured.iter().map(|(_, report)| report).collect();
+    output::data(&match reports.as_slice() {
+        [report] if args.json => output::json(report)?,
+        legs if args.json => output::json(&legs)?,
+        legs => legs
+            .iter()
+            .map(|report| text(report))
+            .collect::<Vec<_>>()
+            .join("\n"),
     })
 }
 

@@ -32,13 +32,6 @@ impl CliError {
         }
     }
 
-    /// More designs than a transition is between.
-    pub fn too_many(designs: usize) -> Self {
-        Self::Usage(format!(
-            "{designs} designs are given, and a transition is between two: give two, or list pairs in a table for `check --pairs`"
-        ))
-    }
-
     /// Wrong use, told by an error.
     pub fn usage(error: impl std::error::Error) -> Self {
         Self::Usage(error.to_string())

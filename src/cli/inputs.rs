@@ -1,4 +1,4 @@
-//! What to work on: a project, a bundled project, or two designs.
+//! What to work on: a project, a bundled project, or two designs and more.
 
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -8,7 +8,7 @@ use clap::Args;
 use crate::design::{Format, Source};
 use crate::progress::{Progress, Span, beside, checkpoint};
 use crate::project::{LoadedProject, Project, gallery};
-use crate::transition::Transition;
+use crate::transition::{Sequence, Transition};
 
 use super::error::CliError;
 use super::options::MethodArgs;
@@ -18,21 +18,30 @@ const READ: f64 = 0.1;
 
 #[derive(Clone, Debug, Args)]
 pub(super) struct Inputs {
-    #[arg(value_name = "PROJECT | A B", num_args = 1.., required = true, help = help())]
+    #[arg(value_name = "PROJECT | A B ...", num_args = 1.., required = true, help = help())]
     inputs: Vec<PathBuf>,
 }
 
 fn help() -> String {
     format!(
-        "A project (.morph, or gallery:NAME), or two designs: files ({}), an element of a \
+        "A project (.morph, or gallery:NAME), or designs, two or more in their order: files ({}), an element of a \
          drawing (drawing.svg#ID) or text (glyph:D, or glyph:D@FONT.ttf)",
         Format::listed(&Format::ALL)
     )
 }
 
-/// A project that is ready to be played, and how long that took.
+/// A project that is ready to be played.
 #[derive(Debug)]
 pub(super) struct Opened {
+    /// The project with the flags applied, and its designs.
+    pub loaded: LoadedProject,
+    /// What it shows.
+    pub sequence: Sequence,
+}
+
+/// A project of two designs that is ready to be measured, and how long that took.
+#[derive(Debug)]
+pub(super) struct OpenedPair {
     /// The project with the flags applied, and its designs.
     pub loaded: LoadedProject,
     /// What it shows.
@@ -41,6 +50,20 @@ pub(super) struct Opened {
     pub import_time: Duration,
     /// For building the transition.
     pub build_time: Duration,
+}
+
+impl OpenedPair {
+    /// What it is called: a leg of a sequence by its designs.
+    pub fn title(&self) -> String {
+        match self.loaded.is_leg() {
+            true => self
+                .loaded
+                .names_on_the_way()
+                .collect::<Vec<_>>()
+                .join(" to "),
+            false => self.loaded.title(),
+        }
+    }
 }
 
 impl Inputs {
@@ -52,8 +75,43 @@ impl Inputs {
 
     /// Reads, imports, applies the flags and builds.
     pub fn open(&self, method: &MethodArgs, progress: &dyn Progress) -> Result<Opened, CliError> {
-        checkpoint(progress, "reading", 0.0).map_err(CliError::failed)?;
+        let mut loaded = self.load(method, progress)?;
+        let building = Span::new(progress, READ, 1.0);
+        let sequence = method.build_all(&mut loaded, &building)?;
+        Ok(Opened { loaded, sequence })
+    }
+
+    /// Reads, imports and applies the flags; builds each leg apart, and hands it over.
+    pub fn open_each(
+        &self,
+        method: &MethodArgs,
+        progress: &dyn Progress,
+        mut take: impl FnMut(OpenedPair) -> Result<(), CliError>,
+    ) -> Result<(), CliError> {
         let start = Instant::now();
+        let loaded = self.load(method, progress)?;
+        // Laying the designs in one frame belongs to neither time.
+        let import_time = start.elapsed();
+        let building = Span::new(progress, READ, 1.0);
+        for mut leg in loaded.legs() {
+            let start = Instant::now();
+            let transition = method.build(&mut leg, &building)?;
+            take(OpenedPair {
+                loaded: leg,
+                transition,
+                import_time,
+                build_time: start.elapsed(),
+            })?;
+        }
+        Ok(())
+    }
+
+    fn load(
+        &self,
+        method: &MethodArgs,
+        progress: &dyn Progress,
+    ) -> Result<LoadedProject, CliError> {
+        checkpoint(progress, "reading", 0.0).map_err(CliError::failed)?;
         // A pipe that nobody writes to is read for ever: beside, so that a
         // cancel is answered.
         let inputs = self.clone();
@@ -65,26 +123,21 @@ impl Inputs {
             .map_err(CliError::failed)?
             .map_err(CliError::failed)?;
         loaded.patient = method.patient;
-        // Laying the designs in one frame belongs to neither time.
-        let import_time = start.elapsed();
-        let start = Instant::now();
-        let building = Span::new(progress, READ, 1.0);
-        let transition = method.build(&mut loaded, &building)?;
-        Ok(Opened {
-            loaded,
-            transition,
-            import_time,
-            build_time: start.elapsed(),
-        })
+        Ok(loaded)
     }
 
     /// The document, and what its paths are relative to: nothing if it is
     /// bundled.
     fn document(&self) -> Result<(Project, Option<PathBuf>), CliError> {
         let path = match self.inputs.as_slice() {
-            [source, target] => return Ok((Project::pair(source, target), Some(PathBuf::new()))),
             [path] => path,
-            many => return Err(CliError::too_many(many.len())),
+            many if many.iter().any(|path| Project::is_named(path)) => {
+                return Err(CliError::Usage(format!(
+                    "{} inputs are given: give one project alone, or designs",
+                    many.len()
+                )));
+            }
+            designs => return Ok((Project::of(designs), Some(PathBuf::new()))),
         };
         if let Some(name) = path.to_str().and_then(|path| path.strip_prefix("gallery:")) {
             let project = gallery::document(name).map_err(CliError::failed)?;

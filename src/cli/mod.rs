@@ -18,10 +18,12 @@ mod terminal;
 mod values;
 
 use std::ffi::OsString;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use clap::{Args, Parser, Subcommand};
+
+use crate::design::Source;
 
 use error::CliError;
 
@@ -59,7 +61,7 @@ enum Command {
     Render(Box<render::RenderArgs>),
     /// Measure a transition: mesh, film, and the time that each stage takes
     Check(Box<check::CheckArgs>),
-    /// Write a new project of two designs
+    /// Write a new project of two designs or more
     New(Box<new::NewArgs>),
     /// List the bundled projects
     Gallery(gallery::GalleryArgs),
@@ -68,7 +70,7 @@ enum Command {
 /// What the window is to open with.
 #[derive(Args, Clone, Debug, Default, PartialEq, Eq)]
 pub struct WindowRequest {
-    /// A project (.morph, or gallery:NAME), or two designs; opened in the window
+    /// A project (.morph, or gallery:NAME), or two designs or more; opened in the window
     #[arg(value_name = "FILE", num_args = 0..)]
     pub files: Vec<PathBuf>,
 
@@ -96,8 +98,8 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Launch {
     let arguments: Vec<OsString> = arguments.into_iter().collect();
     match Cli::try_parse_from(&arguments) {
         Ok(cli) => match cli.command {
-            None if cli.window.files.len() > 2 => {
-                Launch::Done(output::exit_code(Err(too_many(&cli.window.files))))
+            None if cli.window.files.len() > 2 && !cli.window.is_of_files() => {
+                Launch::Done(output::exit_code(Err(no_command(&cli.window.files[0]))))
             }
             None => Launch::Window(cli.window),
             Some(command) => Launch::Done(output::exit_code(execute(&command))),
@@ -107,12 +109,19 @@ pub fn run(arguments: impl IntoIterator<Item = OsString>) -> Launch {
     }
 }
 
-/// Why so many words are no designs: the first may be meant for a subcommand.
-fn too_many(words: &[PathBuf]) -> CliError {
-    let first = &words[0];
-    if first.extension().is_some() || first.exists() {
-        return CliError::too_many(words.len());
+impl WindowRequest {
+    /// Whether the first word looks like a file, or else may be meant for a subcommand.
+    fn is_of_files(&self) -> bool {
+        let first = self.files.first();
+        first.is_some_and(|first| {
+            let is_file = matches!(Source::of(first), Source::File { .. });
+            !is_file || first.extension().is_some() || first.exists()
+        })
     }
+}
+
+/// Why so many words are no designs.
+fn no_command(first: &Path) -> CliError {
     CliError::Usage(format!(
         "`{}` is neither a subcommand nor a file; see `morphospace --help`",
         first.display()

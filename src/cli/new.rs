@@ -1,4 +1,4 @@
-//! `morphospace new A B --out x.morph`: a project of two designs.
+//! `morphospace new A B ... --out x.morph`: a project of two designs or more.
 
 use std::path::{Component, Path, PathBuf};
 
@@ -23,8 +23,8 @@ pub(super) struct NewArgs {
     #[arg(value_name = "B")]
     target: PathBuf,
 
-    /// More than a transition is between: refused in a sentence of our own
-    #[arg(hide = true)]
+    /// Further designs, each at the next whole t
+    #[arg(value_name = "...")]
     more: Vec<PathBuf>,
 
     /// The project to write; designs are named relative to its folder
@@ -45,9 +45,6 @@ pub(super) struct NewArgs {
 }
 
 pub(super) fn run(args: &NewArgs) -> Result<(), CliError> {
-    if !args.more.is_empty() {
-        return Err(CliError::too_many(2 + args.more.len()));
-    }
     if !Project::is_named(&args.out) {
         let path = args.out.display();
         return Err(CliError::Usage(format!(
@@ -65,22 +62,26 @@ pub(super) fn run(args: &NewArgs) -> Result<(), CliError> {
 
 fn write(args: &NewArgs) -> Result<(), CliError> {
     let folder = folder_of(&args.out);
-    let designs = [&args.source, &args.target].map(|path| named_from(path, folder));
-    let [source, target] = designs;
-    let mut project = Project::pair(source?, target?);
+    let designs = [&args.source, &args.target].into_iter().chain(&args.more);
+    let designs = designs.map(|path| named_from(path, folder));
+    let mut project = Project::of(designs.collect::<Result<Vec<_>, _>>()?);
     args.method.edit(&mut project)?;
     // A project that cannot be opened is of no use; say so now.
     let loaded = LoadedProject::load(project, Some(folder.to_owned()));
     let mut loaded = loaded.map_err(CliError::failed)?;
     loaded.patient = args.method.patient;
-    let spec = loaded.spec().map_err(CliError::failed)?;
-    TransitionSpec::available(spec.cell, &spec.source, &spec.target).map_err(CliError::failed)?;
+    for leg in loaded.legs() {
+        let spec = leg.spec().map_err(CliError::failed)?;
+        let available = TransitionSpec::available(spec.cell, &spec.source, &spec.target);
+        available.map_err(CliError::failed)?;
+    }
     // From here on a signal waits: it would leave a half-written file.
     let terminal = Terminal::new();
     if args.film || args.method.is_auto() {
-        let transition = args.method.build(&mut loaded, &terminal)?;
-        if args.film {
-            loaded.project.found = transition.found().unwrap_or_default();
+        let sequence = args.method.build_all(&mut loaded, &terminal)?;
+        for (k, leg) in sequence.legs().iter().enumerate().filter(|_| args.film) {
+            let found = leg.found().unwrap_or_default();
+            loaded.project.keep_found(k, found);
         }
     }
     let saved = loaded.project.save_atomically(&args.out);

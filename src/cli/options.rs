@@ -12,10 +12,11 @@ use crate::field::Metric;
 use crate::homotopy::Homotopy;
 use crate::measure::auto;
 use crate::names::named;
-use crate::progress::Progress;
+use crate::progress::{Progress, Several, Span};
 use crate::project::{LoadedProject, Project};
 use crate::transition::{
-    Boundary, Ease, Easing, Fit, Guarding, Options, PaintRule, PlayMode, Quality, Transition,
+    Boundary, Cell, Ease, Easing, Fit, Guarding, Options, PaintRule, PlayMode, Quality, Sequence,
+    Transition,
 };
 use crate::warp::{ArapPath, Course, Travel, WarpKind, Weights};
 
@@ -330,6 +331,31 @@ impl MethodArgs {
         Ok(transition)
     }
 
+    /// As [`Self::build`], each leg of a sequence; of several methods that which most legs
+    /// are the least trouble by.
+    pub fn build_all(
+        &self,
+        loaded: &mut LoadedProject,
+        progress: &dyn Progress,
+    ) -> Result<Sequence, CliError> {
+        if !loaded.project.is_sequence() {
+            return Ok(self.build(loaded, progress)?.into());
+        }
+        if self.is_auto() {
+            let best = most_often(loaded, &Span::new(progress, 0.0, 0.5))?;
+            loaded.project.warp = Some(best.warp());
+            loaded.project.content = Some(best.content());
+        }
+        let legs = loaded.legs();
+        let shares = Several::new(progress, legs.len());
+        let built = legs.iter().enumerate().map(|(k, leg)| {
+            let spec = leg.spec().map_err(CliError::failed)?;
+            Transition::build(&spec, &shares.part(k)).map_err(CliError::not_built)
+        });
+        let built: Vec<_> = built.collect::<Result<_, CliError>>()?;
+        Ok(Sequence::new(built).unwrap_or_else(|| unreachable!("a sequence has legs")))
+    }
+
     /// Whether the films decide on the method.
     pub fn is_auto(&self) -> bool {
         self.placing.method == Some(Method::Auto)
@@ -338,6 +364,7 @@ impl MethodArgs {
     /// Changes what the flags name and leaves the rest.
     pub fn edit(&self, project: &mut Project) -> Result<(), CliError> {
         self.edit_cell(project);
+        self.edit_features(project)?;
         self.edit_warps(&mut project.options);
         self.edit_contents(&mut project.options);
         self.edit_designs(project);
@@ -371,9 +398,21 @@ impl MethodArgs {
         set(&mut project.warp, given.warp.map(Some));
         set(&mut project.content, given.content.map(Some));
         set(&mut project.options.travel, given.travel);
-        // Added to the project's, as a flag that is given twice adds to itself.
+    }
+
+    /// Adds to the project's pins and lines, as a flag that is given twice adds to itself.
+    fn edit_features(&self, project: &mut Project) -> Result<(), CliError> {
+        let given = &self.cell;
+        if project.is_sequence() && !(given.pin.is_empty() && given.line.is_empty()) {
+            return Err(CliError::Usage(
+                "--pin and --line are of two designs, and here are more: set them in the window, \
+                 for each two of them"
+                    .to_owned(),
+            ));
+        }
         project.options.matching.pins.extend(&given.pin);
         project.options.matching.lines.extend(&given.line);
+        Ok(())
     }
 
     fn edit_warps(&self, options: &mut Options) {
@@ -436,6 +475,25 @@ impl MethodArgs {
         set(&mut coats.reorder_at, given.reorder_at);
         set(&mut style.joints, given.no_joints.then_some(false));
     }
+}
+
+/// The cell by which most legs have the film with the least trouble, each for itself; of
+/// two the first that was found.
+fn most_often(loaded: &LoadedProject, progress: &dyn Progress) -> Result<Cell, CliError> {
+    let legs = loaded.legs();
+    let shares = Several::new(progress, legs.len());
+    let mut counts: Vec<(Cell, usize)> = Vec::new();
+    for (k, leg) in legs.iter().enumerate() {
+        let spec = leg.spec().map_err(CliError::failed)?;
+        let (transition, _) = auto(&spec, &shares.part(k)).map_err(CliError::not_built)?;
+        let cell = transition.cell();
+        match counts.iter_mut().find(|(known, _)| *known == cell) {
+            Some((_, count)) => *count += 1,
+            None => counts.push((cell, 1)),
+        }
+    }
+    let best = counts.into_iter().rev().max_by_key(|(_, count)| *count);
+    Ok(best.map_or(Cell::RIGID_PARTS, |(cell, _)| cell))
 }
 
 #[cfg(test)]

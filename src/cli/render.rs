@@ -292,7 +292,7 @@ fn drawn(
     progress: &dyn Progress,
 ) -> Result<Drawing, CliError> {
     let project = &opened.loaded.project;
-    let (transition, style) = (&opened.transition, &project.style);
+    let (sequence, style) = (&opened.sequence, &project.style);
     let ground = ground_of(args, project);
     let times = |count| even_times(project.timing.from, project.timing.to, count);
     Ok(match shown {
@@ -303,8 +303,14 @@ fn drawn(
         }
         Shown::Sheet(count) => {
             let times = times(count);
-            let bounds = framing(transition, &times);
-            sheet(transition, style, &times, bounds, args.size, ground)
+            let bounds = framing(sequence, &times);
+            sheet(sequence, style, &times, bounds, args.size, ground)
+        }
+        Shown::Methods(_) if project.is_sequence() => {
+            return Err(CliError::Usage(
+                "--compare is of two designs: name the two of which you want to see all methods"
+                    .to_owned(),
+            ));
         }
         Shown::Methods(count) => {
             let spec = opened.loaded.spec().map_err(CliError::failed)?;
@@ -362,7 +368,7 @@ fn camera(
     times: &[f64],
     is_even: bool,
 ) -> Result<Camera, CliError> {
-    let bounds = framing(&opened.transition, times);
+    let bounds = framing(&opened.sequence, times);
     let layout = args.layout.layout();
     let view = match (layout, args.size) {
         (Some(layout), None) => layout.view(bounds).map_err(CliError::usage)?,
@@ -375,7 +381,7 @@ fn camera(
     let project = &opened.loaded.project;
     let has_captions = layout.is_some_and(|layout| layout.has_captions);
     Ok(Camera {
-        transition: opened.transition.clone(),
+        sequence: opened.sequence.clone(),
         style: project.style,
         view,
         ground: ground_of(args, project),
@@ -385,15 +391,9 @@ fn camera(
 
 fn captions(args: &RenderArgs, opened: &Opened) -> Captions {
     let project = &opened.loaded.project;
-    let name = |k: usize| {
-        opened
-            .loaded
-            .designs
-            .get(k)
-            .map_or("", |design| &design.name)
-    };
+    let names = opened.loaded.names_on_the_way();
     let ground = ground_of(args, project).unwrap_or(project.style.ground);
-    Captions::new(&project.stops, [name(0), name(1)], ground)
+    Captions::new(&project.stops, names, ground)
 }
 
 fn ground_of(args: &RenderArgs, project: &Project) -> Option<Rgb> {

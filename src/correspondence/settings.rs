@@ -180,6 +180,19 @@ impl RingCut {
 }
 
 impl Matching {
+    /// The same without all that is said of points: for other designs.
+    #[must_use]
+    pub fn without_places(&self) -> Self {
+        Self {
+            pins: Vec::new(),
+            lines: Vec::new(),
+            links: Vec::new(),
+            lone: Vec::new(),
+            cuts: Vec::new(),
+            ..*self
+        }
+    }
+
     /// Checks that all places are numbers that can be reckoned with.
     ///
     /// # Errors

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use crate::colour::Rgb;
 use crate::geometry::Bounds;
 use crate::progress::{Cancelled, Progress, checkpoint};
-use crate::transition::{Frame, Style, Transition};
+use crate::transition::{Sequence, SequenceFrame, Style};
 
 use super::captions::Captions;
 use super::drawing::Drawing;
@@ -32,11 +32,11 @@ const FRAMING_SAMPLES: usize = 33;
 /// The stage of drawing a film's frames, as [`Progress`] is told.
 pub(super) const DRAWING: &str = "drawing frames";
 
-/// A transition, how it looks, and from where it is seen.
+/// A transition or several in sequence, how they look, and from where they are seen.
 #[derive(Clone, Debug)]
 pub struct Camera {
     /// What is shown.
-    pub transition: Transition,
+    pub sequence: Sequence,
     /// In which colours.
     pub style: Style,
     /// Which part of the plane, at which size.
@@ -48,14 +48,16 @@ pub struct Camera {
 }
 
 impl Camera {
-    /// A camera that sees every frame for t in [0, 1] whole, with the longer
-    /// side of its pictures given in pixels, in the usual colours and on a
+    /// A camera that sees every frame from the first design to the last whole, with the
+    /// longer side of its pictures given in pixels, in the usual colours and on a
     /// transparent ground.
-    pub fn around(transition: Transition, longer_side_px: u32) -> Self {
-        let bounds = framing(&transition, &even_times(0.0, 1.0, FRAMING_SAMPLES));
+    pub fn around(shown: impl Into<Sequence>, longer_side_px: u32) -> Self {
+        let sequence = shown.into();
+        let times = even_times(0.0, sequence.end(), FRAMING_SAMPLES);
+        let bounds = framing(&sequence, &times);
         Self {
             view: View::fit(bounds, PixelSize::of_shape(bounds, longer_side_px)),
-            transition,
+            sequence,
             style: Style::default(),
             ground: None,
             captions: None,
@@ -74,12 +76,13 @@ impl Camera {
 
     /// The drawing of one frame.
     pub fn shoot(&self, t: f64) -> Drawing {
-        self.drawn(&self.transition.frame(t))
+        self.drawn(&self.sequence.frame(t))
     }
 
-    /// The drawing of a frame of the transition.
-    pub(super) fn drawn(&self, frame: &Frame) -> Drawing {
-        let mut drawing = Drawing::of_frame(frame, &self.style, &self.view, self.ground);
+    /// The drawing of a frame of what is shown.
+    pub(super) fn drawn(&self, frame: &SequenceFrame) -> Drawing {
+        let style = frame.style(&self.style);
+        let mut drawing = Drawing::of_frame(frame.now(), &style, &self.view, self.ground);
         if let Some(captions) = &self.captions {
             captions.push(&mut drawing, frame.t());
         }
@@ -105,7 +108,7 @@ impl Camera {
         // is drawn on all, then handed over.
         for batch in runs.chunks(batch_len(self.view.size())) {
             checkpoint(progress, stage, done as f64 / runs.len() as f64)?;
-            let shoot = |frame: &mut Frame, run: &Run| {
+            let shoot = |frame: &mut SequenceFrame, run: &Run| {
                 if progress.is_cancelled() {
                     return Err(Cancelled.into());
                 }
@@ -114,7 +117,7 @@ impl Camera {
             };
             // A frame owns the memory that it is evaluated in: one for each
             // thread.
-            let frames = || self.transition.frame(batch[0].t);
+            let frames = || self.sequence.frame(batch[0].t);
             let made = batch.par_iter().map_init(frames, shoot);
             let made: Vec<T> = made.collect::<Result<_, ExportError>>()?;
             for (run, made) in batch.iter().zip(made) {
@@ -130,18 +133,19 @@ impl Camera {
 /// Room around the shapes, as a fraction of their longer side.
 const MARGIN: f64 = 0.04;
 
-/// The part of the plane that holds the transition's own bounds and every one
+/// The part of the plane that holds the bounds of what is shown and every one
 /// of some frames spread evenly over `times`, so that a shape that swings wide
 /// on its way is not cut off; with a little room around.
-pub fn framing(transition: &Transition, times: &[f64]) -> Bounds {
+pub fn framing(shown: impl Into<Sequence>, times: &[f64]) -> Bounds {
+    let sequence = shown.into();
     let step = times.len().div_ceil(FRAMING_SAMPLES).max(1);
     // The last one stays in, which the steps may jump over.
     let sampled = times.iter().step_by(step).chain(times.last());
-    let mut frame = transition.frame(times.first().copied().unwrap_or_default());
-    let mut all = transition.bounds();
+    let mut frame = sequence.frame(times.first().copied().unwrap_or_default());
+    let mut all = sequence.bounds();
     for &t in sampled {
         frame.seek(t);
-        let figure = frame.figure();
+        let figure = frame.now().figure();
         let reach = 0.5 * figure.bar_width;
         let on_rings = Bounds::of(figure.rings.iter().flatten().copied());
         let on_bars = Bounds::of(figure.bars.iter().flatten().copied());

@@ -29,15 +29,21 @@ impl Captions {
     /// The height of the band that captions stand in, of a picture's shorter side.
     pub const BAND: f64 = 0.12;
 
-    /// The names of the stops; where none has one, those of the two designs. They are
-    /// dark or light, whichever can be read on that ground.
+    /// The names of the stops; where none has one, those of the designs, one at each whole
+    /// t. They are dark or light, whichever can be read on that ground.
     #[must_use]
-    pub fn new(stops: &[Stop], designs: [&str; 2], ground: Rgb) -> Self {
+    pub fn new<'a>(
+        stops: &[Stop],
+        designs: impl IntoIterator<Item = &'a str>,
+        ground: Rgb,
+    ) -> Self {
         let named = stops.iter().filter(|stop| !stop.name.is_empty());
         let mut names: Vec<(f64, String)> = named.map(|s| (s.t, s.name.clone())).collect();
         if names.is_empty() {
-            let [source, target] = designs.map(str::to_owned);
-            names = vec![(0.0, source), (1.0, target)];
+            let designs = designs.into_iter().enumerate();
+            names = designs
+                .map(|(k, name)| (k as f64, name.to_owned()))
+                .collect();
         }
         names.sort_by(|a, b| a.0.total_cmp(&b.0));
         // As bright as a middle grey looks.

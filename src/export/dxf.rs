@@ -203,7 +203,7 @@ mod tests {
         let Form::Outline(regions) = &read.form else {
             panic!("outlines: {:?}", read.form);
         };
-        let figure = camera.transition.frame(0.5).figure();
+        let figure = camera.sequence.frame(0.5).now().figure();
         let area = |ring: &[DVec2]| -> f64 {
             let next = ring.iter().cycle().skip(1);
             let twice: f64 = ring.iter().zip(next).map(|(a, b)| a.perp_dot(*b)).sum();

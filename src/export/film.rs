@@ -84,7 +84,7 @@ impl Film {
     /// [`FilmError`] for a rate or a length that cannot be had.
     pub fn of_timing(timing: &Timing, stops: &[Stop], fps: f64) -> Result<Self, FilmError> {
         check(fps, timing.from, timing.to)?;
-        let pass_secs = timing.pass_secs();
+        let pass_secs = timing.pass_secs(stops);
         let steps = (pass_secs * fps).round().max(1.0) as usize;
         // `as` saturates: a pass of aeons, too, ends here.
         if steps >= MAX_FRAMES {

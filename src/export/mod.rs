@@ -17,7 +17,7 @@
 //! let film = Film::evenly(0.0, 1.0, 24, 24.0)?;
 //! let bounds = framing(&transition, film.times());
 //! let view = View::fit(bounds, PixelSize::of_shape(bounds, 960));
-//! let camera = Camera { transition, style: Default::default(), view, ground: None, captions: None };
+//! let camera = Camera { sequence: transition.into(), style: Default::default(), view, ground: None, captions: None };
 //! let target = Target::of_path("film.gif".as_ref())?;
 //! write_film(&camera, &film, &target, &Silent)?;
 //! # Ok::<(), Box<dyn std::error::Error>>(())

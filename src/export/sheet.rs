@@ -7,7 +7,7 @@
 
 use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::{Style, Transition};
+use crate::transition::{Sequence, Style};
 
 use super::drawing::Drawing;
 use super::size::{LONGEST_SHEET_PX, PixelSize};
@@ -124,7 +124,7 @@ fn largest_cells(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
 ///
 /// `bounds` is what each cell shows, in the design's units.
 pub fn sheet(
-    transition: &Transition,
+    sequence: &Sequence,
     style: &Style,
     times: &[f64],
     bounds: Bounds,
@@ -134,12 +134,12 @@ pub fn sheet(
     let layout = SheetLayout::new(times.len(), bounds, size);
     let mut drawing = Drawing::new(layout.size, ground);
     let ink = ink_on(ground);
-    let mut frame = transition.frame(times.first().copied().unwrap_or_default());
+    let mut frame = sequence.frame(times.first().copied().unwrap_or_default());
     for (index, &t) in times.iter().enumerate() {
         let (corner, inner, base) = layout.cell(index);
         frame.seek(t);
         let view = View::fit_cell(bounds, layout.size, corner, inner);
-        drawing.push_frame(&frame, style, &view);
+        drawing.push_frame(frame.now(), &frame.style(style), &view);
         drawing.push_label(&label(t), base, 0.8 * layout.label_px, ink);
     }
     drawing

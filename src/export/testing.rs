@@ -16,7 +16,7 @@ pub(super) fn camera(width: u32, height: u32, ground: Option<Rgb>) -> Camera {
     let size = PixelSize::new(width, height).expect("a legal size");
     let view = View::fit(framing(&transition, &[0.0, 0.5, 1.0]), size);
     Camera {
-        transition,
+        sequence: transition.into(),
         style: Style::default(),
         view,
         ground,

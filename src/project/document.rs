@@ -1,5 +1,6 @@
 //! The document itself, as it stands in the file.
 
+use super::legs::Leg;
 use crate::content::ContentKind;
 use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;
@@ -8,8 +9,12 @@ use crate::warp::WarpKind;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
 
-/// The version that is written; older ones are read, newer ones refused.
-pub const FORMAT_VERSION: u32 = 1;
+/// The newest version: older ones are read, newer ones refused. A document is written
+/// in the oldest that can say it.
+pub const FORMAT_VERSION: u32 = 2;
+
+/// What two designs need.
+const OF_A_PAIR: u32 = 1;
 
 /// A `.morph` document.
 ///
@@ -47,8 +52,15 @@ pub struct Project {
     /// How the target is fitted to the source.
     #[serde(default)]
     pub fit: Fit,
-    /// The given forms, at least two; the first two are source and target.
+    /// The given forms, at least two, in the order in which the film goes through them.
     pub designs: Vec<DesignEntry>,
+    /// Whether the last one leads back to the first. From version 2 on.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub closed: bool,
+    /// Where there are more than two: what belongs to the way from each to the next, in
+    /// order; what is missing at the end has nothing of its own. From version 2 on.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub legs: Vec<Leg>,
     /// The options of all methods, whose keys stand beside the others in the
     /// file.
     // Reading through `flatten` would lose unknown keys and lines.
@@ -117,22 +129,49 @@ impl Project {
     /// Two files with default options. Paths are kept as they are given.
     #[must_use]
     pub fn pair(source: impl Into<PathBuf>, target: impl Into<PathBuf>) -> Self {
-        let designs = vec![DesignEntry::new(source), DesignEntry::new(target)];
+        Self::of([source.into(), target.into()])
+    }
+
+    /// Files with default options, one after the other, at least two: a pass goes through
+    /// all of them and rests at each. Paths are kept as they are given.
+    #[must_use]
+    pub fn of<P: Into<PathBuf>>(designs: impl IntoIterator<Item = P>) -> Self {
+        let designs: Vec<_> = designs.into_iter().map(DesignEntry::new).collect();
         // Of the paths, for nothing is read yet.
         let names: Vec<_> = designs.iter().map(|d| Source::of(&d.path).name()).collect();
+        let mut project = Self::bare(names.join(" to "), designs);
+        let legs = project.leg_count() as f64;
+        project.timing.to = legs;
+        project.timing.duration_secs *= legs;
+        project.resting_at_designs()
+    }
+
+    fn bare(title: String, designs: Vec<DesignEntry>) -> Self {
         Self {
-            version: FORMAT_VERSION,
-            title: names.join(" to "),
+            version: OF_A_PAIR,
+            title,
             description: String::new(),
             warp: None,
             content: None,
             fit: Fit::default(),
             designs,
+            closed: false,
+            legs: Vec::new(),
             options: Options::default(),
             timing: Timing::default(),
             style: Style::default(),
             stops: Vec::new(),
             found: Found::default(),
+        }
+    }
+
+    /// The oldest version that can say it.
+    pub(super) fn needed_version(&self) -> u32 {
+        let has_times = |stop: &Stop| stop.hold_secs != 0.0 || stop.duration_secs.is_some();
+        if self.is_sequence() || self.stops.iter().any(has_times) {
+            FORMAT_VERSION
+        } else {
+            OF_A_PAIR
         }
     }
 }

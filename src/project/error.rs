@@ -61,6 +61,19 @@ pub enum ProjectError {
     /// Fewer than two designs.
     #[error("a transition needs two designs, the document lists {0}; add [[designs]] with a path")]
     TooFewDesigns(usize),
+    /// There are more legs than ways from one design to the next.
+    #[error("the document has {has} [[legs]], its designs have {may_have}: take the others out")]
+    TooManyLegs {
+        /// How many it has.
+        has: usize,
+        /// How many it may have; a pair has none.
+        may_have: usize,
+    },
+    /// Of many designs it is not said which two a match is for.
+    #[error(
+        "match and parts stand at the top and there are [[legs]]: move them into the first of these"
+    )]
+    MatchOfNoLeg,
     /// A placement is no similarity.
     #[error(transparent)]
     Placement(#[from] SimilarityError),

@@ -3,7 +3,7 @@
 use super::document::{DesignEntry, Project};
 use super::error::ProjectError;
 use crate::content::ContentKind;
-use crate::design::{Design, Source};
+use crate::design::{Design, Form, Source};
 use crate::geometry::Similarity;
 use crate::one_line::OneLine;
 use crate::reading::ReadError;
@@ -36,6 +36,15 @@ pub struct LoadedProject {
     /// Whether what takes very long is begun all the same; see
     /// [`crate::budget`].
     pub patient: bool,
+    /// Where this is a leg of a sequence: all its designs.
+    whole: Option<Arc<Whole>>,
+}
+
+/// What a leg has of the sequence that it belongs to.
+#[derive(Debug)]
+struct Whole {
+    designs: Vec<Arc<Design>>,
+    places: Vec<Similarity>,
 }
 
 impl LoadedProject {
@@ -47,6 +56,48 @@ impl LoadedProject {
         let project = Project::read(path)?;
         let folder = path.parent().unwrap_or(Path::new("")).to_owned();
         Self::load(project, Some(folder))
+    }
+
+    /// Whether this is one of several legs.
+    #[must_use]
+    pub fn is_leg(&self) -> bool {
+        self.whole.is_some()
+    }
+
+    /// The name of the design at each whole t: that of the first once more at the end, where
+    /// the last one leads back to it.
+    pub fn names_on_the_way(&self) -> impl Iterator<Item = &str> {
+        let legs = self.project.leg_count();
+        let designs = self.designs.iter().cycle().take(legs + 1);
+        designs.map(|design| design.name.as_str())
+    }
+
+    /// The legs of a sequence as projects of two designs each; of a pair itself.
+    #[must_use]
+    pub fn legs(&self) -> Vec<Self> {
+        if !self.project.is_sequence() {
+            return vec![self.clone()];
+        }
+        let whole = Arc::new(Whole {
+            designs: self.designs.clone(),
+            places: self
+                .project
+                .designs
+                .iter()
+                .map(|entry| entry.placement)
+                .collect(),
+        });
+        let leg = |leg: usize| {
+            let designs = self.project.leg_designs(leg);
+            Self {
+                project: self.project.leg(leg),
+                designs: designs.map(|k| Arc::clone(&self.designs[k])).to_vec(),
+                folder: self.folder.clone(),
+                patient: self.patient,
+                whole: Some(Arc::clone(&whole)),
+            }
+        };
+        (0..self.project.leg_count()).map(leg).collect()
     }
 
     /// Reads two designs into a project with default options.
@@ -63,20 +114,24 @@ impl LoadedProject {
     /// # Errors
     /// [`ProjectError`] names the file and the place.
     pub fn load(project: Project, folder: Option<PathBuf>) -> Result<Self, ProjectError> {
-        let read = |entry: &DesignEntry| {
-            let mut design = read(entry, folder.as_deref())?;
-            if !entry.name.is_empty() {
-                design.name = OneLine(&entry.name).to_string();
-            }
-            Ok(Arc::new(design))
-        };
+        let read = |entry: &DesignEntry| named(entry, folder.as_deref());
         let designs: Result<_, ProjectError> = project.designs.iter().map(read).collect();
         Ok(Self {
             designs: designs?,
             project,
             folder,
             patient: false,
+            whole: None,
         })
+    }
+
+    /// The same designs with other settings, which name as many.
+    #[must_use]
+    pub fn with(&self, project: Project) -> Self {
+        Self {
+            project,
+            ..self.clone()
+        }
     }
 
     /// Reads the designs again, after the document has changed what they are
@@ -88,6 +143,31 @@ impl LoadedProject {
         let patient = self.patient;
         let read = Self::load(self.project, self.folder)?;
         Ok(Self { patient, ..read })
+    }
+
+    /// Reads the designs that are new in the document, or read otherwise, since it was `before`:
+    /// then it had the designs that are here.
+    ///
+    /// # Errors
+    /// [`ProjectError`] names the file and the place.
+    pub fn read_beside(self, before: &Project) -> Result<Self, ProjectError> {
+        let known = before.designs.iter().zip(&self.designs);
+        let known: Vec<_> = known.collect();
+        let is_same = |a: &DesignEntry, b: &DesignEntry| {
+            (&a.path, &a.name, &a.import) == (&b.path, &b.name, &b.import)
+        };
+        let read = |entry: &DesignEntry| {
+            let found = known.iter().find(|(known, _)| is_same(known, entry));
+            match found {
+                Some((_, design)) => Ok(Arc::clone(design)),
+                None => named(entry, self.folder.as_deref()),
+            }
+        };
+        let designs: Result<_, ProjectError> = self.project.designs.iter().map(read).collect();
+        Ok(Self {
+            designs: designs?,
+            ..self.clone()
+        })
     }
 
     /// What the transition is called, in one line.
@@ -146,7 +226,45 @@ impl LoadedProject {
         TransitionSpec::available(cell, &self.designs[0], &self.designs[1])
     }
 
-    /// What the transition is to be built from.
+    /// What lays both designs into one frame.
+    ///
+    /// # Errors
+    /// A placement that is no similarity.
+    ///
+    /// # Panics
+    /// If there are fewer than two designs.
+    pub fn arrangement(&self) -> Result<[Similarity; 2], ProjectError> {
+        let first = (self.first(), self.project.fit);
+        let by = |k: usize| arrangement(&self.designs[k], first, self.project.designs[k].placement);
+        Ok([by(0)?, by(1)?])
+    }
+
+    /// The design that all others are fitted to.
+    fn first(&self) -> &Design {
+        let whole = self
+            .whole
+            .as_ref()
+            .map_or(&self.designs, |whole| &whole.designs);
+        &whole[0]
+    }
+
+    /// The other designs of a sequence, as far as a leg's film depends on them.
+    fn others(&self, cell: Cell) -> Result<Vec<Arc<Design>>, ProjectError> {
+        let Some(whole) = &self.whole else {
+            return Ok(Vec::new());
+        };
+        let has_bars = |design: &Arc<Design>| matches!(design.form, Form::Truss(_));
+        // Fields share a grid, bars a width; all else would be laid in vain.
+        if cell.content() != ContentKind::Field && !whole.designs.iter().any(has_bars) {
+            return Ok(Vec::new());
+        }
+        let first = (self.first(), self.project.fit);
+        let laid = whole.designs.iter().zip(&whole.places);
+        let laid = laid.map(|(design, place)| arranged(design, first, *place));
+        Ok(laid.collect::<Result<_, _>>()?)
+    }
+
+    /// What the transition is to be built from; of a sequence, that of its first leg.
     ///
     /// # Errors
     /// [`ProjectError`] if the cell does not exist or a placement is no
@@ -155,15 +273,19 @@ impl LoadedProject {
     /// # Panics
     /// If there are fewer than two designs.
     pub fn spec(&self) -> Result<TransitionSpec, ProjectError> {
+        if self.project.is_sequence() {
+            return self.legs()[0].spec();
+        }
         let project = &self.project;
-        let places = [&project.designs[0], &project.designs[1]].map(|entry| entry.placement);
-        let designs = [&self.designs[0], &self.designs[1]];
-        let by = arrangement(designs, project.fit, places)?;
-        let [source, target] = arranged(designs, project.fit, places)?;
+        let by = self.arrangement()?;
+        let first = (self.first(), project.fit);
+        let laid = |k: usize| arranged(&self.designs[k], first, project.designs[k].placement);
+        let cell = self.cell().map_err(BuildError::from)?;
         Ok(TransitionSpec {
-            source,
-            target,
-            cell: self.cell().map_err(BuildError::from)?,
+            source: laid(0)?,
+            target: laid(1)?,
+            cell,
+            others: self.others(cell)?,
             options: Options {
                 // Pins are written in the designs' own units, and matched where they are laid.
                 matching: project.options.matching.placed(&by),
@@ -178,6 +300,15 @@ impl LoadedProject {
 
 fn placed(parts: &[PartTime], by: &[Similarity; 2]) -> Vec<PartTime> {
     parts.iter().map(|part| part.placed(by)).collect()
+}
+
+/// A design under the name that the document gives it, if any.
+fn named(entry: &DesignEntry, folder: Option<&Path>) -> Result<Arc<Design>, ProjectError> {
+    let mut design = read(entry, folder)?;
+    if !entry.name.is_empty() {
+        design.name = OneLine(&entry.name).to_string();
+    }
+    Ok(Arc::new(design))
 }
 
 /// A design that a document in a folder names, or one of the gallery.

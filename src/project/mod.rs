@@ -8,6 +8,7 @@
 mod document;
 mod error;
 pub mod gallery;
+mod legs;
 mod load;
 mod reading;
 
@@ -16,4 +17,5 @@ mod tests;
 
 pub use document::{DesignEntry, FORMAT_VERSION, Project};
 pub use error::ProjectError;
+pub use legs::{Leg, Moved};
 pub use load::LoadedProject;

@@ -7,6 +7,7 @@
 
 use super::document::{FORMAT_VERSION, Project};
 use super::error::ProjectError;
+use super::legs::Leg;
 use crate::atomic_file::{self, refusal};
 use crate::reading;
 use crate::transition::{Options, PartTime};
@@ -23,9 +24,34 @@ impl Project {
     /// # Errors
     /// [`ProjectError`] names the line of what is wrong.
     pub fn parse(text: &str) -> Result<Self, ProjectError> {
-        let project = read(text)?;
+        let mut project = read(text)?;
         project.check()?;
+        project.deal_out()?;
+        // Two that say the same are the same, whatever version they were written in.
+        project.version = project.needed_version();
         Ok(project)
+    }
+
+    /// What stands at the top belongs to a pair: where there are more designs it is the
+    /// first leg's, unless the document has legs.
+    fn deal_out(&mut self) -> Result<(), ProjectError> {
+        let (has, may_have) = (self.legs.len(), self.leg_count());
+        let of_sequences = if self.is_sequence() { may_have } else { 0 };
+        if has > of_sequences {
+            return Err(ProjectError::TooManyLegs {
+                has,
+                may_have: of_sequences,
+            });
+        }
+        if self.is_sequence() {
+            let at_top = self.let_go();
+            match self.legs.as_slice() {
+                [] => self.put_legs(vec![at_top]),
+                _ if at_top == Leg::default() => {}
+                _ => return Err(ProjectError::MatchOfNoLeg),
+            }
+        }
+        Ok(())
     }
 
     fn check(&self) -> Result<(), ProjectError> {
@@ -43,6 +69,10 @@ impl Project {
         self.options.colours.check()?;
         self.options.matching.check()?;
         PartTime::check(&self.options.parts)?;
+        for leg in &self.legs {
+            leg.matching.check()?;
+            PartTime::check(&leg.parts)?;
+        }
         self.options.coats.check()?;
         self.options.arap.check()?;
         self.timing.check(&self.stops)?;
@@ -66,7 +96,11 @@ impl Project {
     /// [`ProjectError::Write`] if a number cannot be written, such as a count
     /// beyond the range of TOML.
     pub fn to_toml(&self) -> Result<String, ProjectError> {
-        toml::to_string_pretty(self).map_err(|error| ProjectError::Write(error.to_string()))
+        let project = Self {
+            version: self.needed_version(),
+            ..self.clone()
+        };
+        toml::to_string_pretty(&project).map_err(|error| ProjectError::Write(error.to_string()))
     }
 
     /// Writes the document beside its final place and moves it there, so that

@@ -1,11 +1,11 @@
-//! How two unlike designs are laid into one frame.
+//! How unlike designs are laid into one frame.
 
 use crate::design::{Design, Form};
 use crate::geometry::{Bounds, DVec2, Similarity, SimilarityError, twice_signed_area};
 use crate::names::named;
 use std::sync::Arc;
 
-/// How the target is fitted to the source, before each design's own
+/// How the other designs are fitted to the first, before each design's own
 /// placement.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -16,7 +16,7 @@ pub enum Fit {
     AsDrawn,
     /// The middles of both boxes meet.
     Centred,
-    /// As centred, and the target enlarged to the source's area; for a truss
+    /// As centred, and scaled to the first design's area; for a truss
     /// to its size.
     SameArea,
 }
@@ -27,36 +27,35 @@ named! { Fit {
     SameArea: "same-area", "Same area", "Centre on centre, scaled to one area";
 } }
 
-/// Both designs laid into one frame: the target fitted to the source, then
-/// each placed about its own middle.
+/// A design laid into the frame of another: fitted to that one, then placed about its
+/// own middle. The design that others are fitted to is laid into its own.
 ///
 /// # Errors
 /// A placement that is not a similarity, or that leads out of range.
 pub fn arranged(
-    designs: [&Arc<Design>; 2],
-    fit: Fit,
-    places: [Similarity; 2],
-) -> Result<[Arc<Design>; 2], SimilarityError> {
-    let [by_source, by_target] = arrangement(designs, fit, places)?;
-    by_source.check_on(&extent(designs[0]))?;
-    by_target.check_on(&extent(designs[1]))?;
-    Ok([laid(designs[0], by_source), laid(designs[1], by_target)])
+    design: &Arc<Design>,
+    (first, fit): (&Design, Fit),
+    place: Similarity,
+) -> Result<Arc<Design>, SimilarityError> {
+    let by = arrangement(design, (first, fit), place)?;
+    by.check_on(&extent(design))?;
+    Ok(laid(design, by))
 }
 
-/// What lays each design into the common frame: [`arranged`] applies it.
+/// What lays a design into the frame of another: [`arranged`] applies it.
 ///
 /// # Errors
 /// A placement that is not a similarity.
 pub fn arrangement(
-    [source, target]: [&Arc<Design>; 2],
-    fit: Fit,
-    [place_source, place_target]: [Similarity; 2],
-) -> Result<[Similarity; 2], SimilarityError> {
+    design: &Design,
+    (first, fit): (&Design, Fit),
+    place: Similarity,
+) -> Result<Similarity, SimilarityError> {
     // By the form's box: pictures have margins that nobody means.
-    let to_middle = middle(source) - middle(target);
+    let to_middle = middle(first) - middle(design);
     let fitted = match fit {
         Fit::AsDrawn => Similarity {
-            offset: photographs([source, target])
+            offset: photographs([first, design])
                 .map_or(DVec2::ZERO, |[a, b]| a.centre() - b.centre()),
             ..Similarity::IDENTITY
         },
@@ -64,13 +63,14 @@ pub fn arrangement(
             offset: to_middle,
             ..Similarity::IDENTITY
         },
-        Fit::SameArea => scaled_to(source, target)?,
+        Fit::SameArea => scaled_to(first, design)?,
     };
-    let centre = fitted.apply(middle(target));
-    Ok([
-        about(middle(source), place_source.checked()?),
-        about(centre, place_target.checked()?).after(&fitted),
-    ])
+    let centre = fitted.apply(middle(design));
+    let place = about(centre, place.checked()?);
+    if fitted == Similarity::IDENTITY {
+        return Ok(place); // the first design keeps its last bit
+    }
+    Ok(place.after(&fitted))
 }
 
 /// The boxes of two photographs. They are drawn nowhere: that their lower left
@@ -83,11 +83,11 @@ fn photographs(designs: [&Design; 2]) -> Option<[Bounds; 2]> {
     Some([a?.bounds(), b?.bounds()])
 }
 
-fn scaled_to(source: &Design, target: &Design) -> Result<Similarity, SimilarityError> {
-    let scale = (size(source) / size(target)).sqrt();
+fn scaled_to(first: &Design, design: &Design) -> Result<Similarity, SimilarityError> {
+    let scale = (size(first) / size(design)).sqrt();
     Similarity {
         scale,
-        offset: middle(source) - middle(target) * scale,
+        offset: middle(first) - middle(design) * scale,
         ..Similarity::IDENTITY
     }
     .checked()

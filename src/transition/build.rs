@@ -192,5 +192,8 @@ fn field_frame(spec: &TransitionSpec, bar_width: f64) -> Bounds {
         Form::Truss(_) => design.extent.padded(0.5 * bar_width),
         _ => design.extent.union(&extent(design)),
     };
-    of(&spec.source).union(&of(&spec.target))
+    let boxes = spec.all().map(|design| of(design));
+    boxes
+        .reduce(|a, b| a.union(&b))
+        .unwrap_or_else(|| unreachable!("there are two designs"))
 }

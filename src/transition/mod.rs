@@ -26,6 +26,7 @@
 //!   meant
 //! - `ready`, `frame`: the transition and its moments; `recorded`: those that are
 //!   played from memory; `proved`: what holds of them at every t
+//! - `sequence`: several, one after the other
 //! - `timing`, `style`: how it is played and painted
 
 mod arrange;
@@ -62,6 +63,7 @@ mod proved;
 mod ready;
 mod recorded;
 mod rigid;
+mod sequence;
 mod settled;
 mod solids;
 mod spec;
@@ -88,6 +90,7 @@ pub use options::{Boundary, FieldOptions, Guarding, Options, PaintRule, Quality}
 pub use part_time::{PartTime, PartTimeError};
 pub use proved::Proved;
 pub use ready::Transition;
+pub use sequence::{Sequence, SequenceFrame, place, style_of};
 pub use spec::TransitionSpec;
 pub use style::Style;
 pub use timing::{PlayMode, Stop, Timing, TimingError};

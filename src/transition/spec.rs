@@ -32,6 +32,9 @@ pub struct TransitionSpec {
     pub patient: bool,
     /// What was found before, taken where it was found for this.
     pub found: Found,
+    /// The other designs of a sequence, laid into the same frame: all its fields lie on
+    /// one grid, and all its bars have one width.
+    pub others: Vec<Arc<Design>>,
 }
 
 impl TransitionSpec {
@@ -53,6 +56,7 @@ impl TransitionSpec {
             options: Options::default(),
             patient: false,
             found: Found::default(),
+            others: Vec::new(),
         }
     }
 
@@ -71,6 +75,11 @@ impl TransitionSpec {
             draft.options.quality = Quality::Draft;
             draft
         })
+    }
+
+    /// All designs that lie in the frame.
+    pub(super) fn all(&self) -> impl Iterator<Item = &Arc<Design>> {
+        [&self.source, &self.target].into_iter().chain(&self.others)
     }
 
     /// Whether what was found before was found for this.
@@ -156,8 +165,8 @@ pub(super) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
     if !(share > 0.0 && share <= 1.0) {
         return Err(BuildError::BarWidth(share));
     }
-    let diameter = |design| extent(design).diameter();
-    Ok(share * diameter(&spec.source).max(diameter(&spec.target)))
+    let diameters = spec.all().map(|design| extent(design).diameter());
+    Ok(share * diameters.fold(0.0, f64::max))
 }
 
 /// The outline of a design. Uniting bars or faces is a long call of a library,

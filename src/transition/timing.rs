@@ -1,8 +1,9 @@
 //! When which t is shown: pure, and shared by the window and by export.
 //!
 //! A pass runs from one t to another and rests at both ends. Stops divide it
-//! into segments that are eased one by one; time is shared out by length in
-//! t. Playing once, in a loop or to and fro repeats passes.
+//! into segments that are eased one by one, and may be rested at; time is shared out
+//! by length in t, but for segments that have a time of their own. Playing once, in a
+//! loop or to and fro repeats passes.
 
 use crate::easing::Ease;
 use crate::names::named;
@@ -42,6 +43,18 @@ pub struct Stop {
     /// How t runs from here up to the next stop; none is as everywhere.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub easing: Option<Ease>,
+    /// Seconds from here up to the next stop, positive; none is the share of the pass
+    /// that its length in t has.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub duration_secs: Option<f64>,
+    /// Seconds of rest here, not negative; at the ends of a pass at least as long as
+    /// there.
+    #[serde(default, skip_serializing_if = "is_none")]
+    pub hold_secs: f64,
+}
+
+fn is_none(secs: &f64) -> bool {
+    *secs == 0.0
 }
 
 impl Stop {
@@ -53,6 +66,8 @@ impl Stop {
             name: String::new(),
             note: String::new(),
             easing: None,
+            duration_secs: None,
+            hold_secs: 0.0,
         }
     }
 
@@ -64,6 +79,12 @@ impl Stop {
             ..self
         }
     }
+
+    /// The same with a rest of so many seconds.
+    #[must_use]
+    pub fn resting(self, hold_secs: f64) -> Self {
+        Self { hold_secs, ..self }
+    }
 }
 
 /// How a transition runs over time.
@@ -71,7 +92,8 @@ impl Stop {
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
 pub struct Timing {
-    /// Seconds of a pass, rests not counted; positive.
+    /// Seconds of a pass, rests not counted; positive. Segments with a time of their own
+    /// take that instead of their share of it.
     pub duration_secs: f64,
     /// How t runs in each segment that no stop says more of.
     pub easing: Ease,
@@ -101,6 +123,9 @@ pub enum TimingError {
     /// A stop is not finite.
     #[error("stop {} is at no finite t; correct or remove it", .0 + 1)]
     Stop(usize),
+    /// A stop rests for a negative time, or the way from it takes none.
+    #[error("stop {} has a time that is none: give a positive duration and a rest of 0 or more", .0 + 1)]
+    StopSecs(usize),
 }
 
 impl Default for Timing {
@@ -131,16 +156,24 @@ impl Timing {
         if !(self.from.is_finite() && self.to.is_finite()) || self.from == self.to {
             return Err(TimingError::Range(self.from, self.to));
         }
-        match stops.iter().position(|stop| !stop.t.is_finite()) {
-            Some(bad) => Err(TimingError::Stop(bad)),
+        if let Some(bad) = stops.iter().position(|stop| !stop.t.is_finite()) {
+            return Err(TimingError::Stop(bad));
+        }
+        let is_rest = |secs: f64| secs.is_finite() && secs >= 0.0;
+        let is_way = |secs: f64| secs.is_finite() && secs > 0.0;
+        let is_sound =
+            |stop: &Stop| is_rest(stop.hold_secs) && stop.duration_secs.is_none_or(is_way);
+        match stops.iter().position(|stop| !is_sound(stop)) {
+            Some(bad) => Err(TimingError::StopSecs(bad)),
             None => Ok(()),
         }
     }
 
     /// Seconds of one pass, rests included.
     #[must_use]
-    pub fn pass_secs(&self) -> f64 {
-        self.duration_secs + 2.0 * self.hold_secs
+    pub fn pass_secs(&self, stops: &[Stop]) -> f64 {
+        let ways = self.segments(stops).map(|way| way.secs + way.rest);
+        self.rest_at(self.from, stops) + ways.sum::<f64>()
     }
 
     /// t after so many seconds of a pass; before and after it, its ends.
@@ -149,33 +182,43 @@ impl Timing {
     /// use morphospace::transition::Timing;
     /// let timing = Timing::default();
     /// assert_eq!(timing.t_at(0.0, &[]), 0.0);
-    /// assert_eq!(timing.t_at(timing.pass_secs(), &[]), 1.0);
+    /// assert_eq!(timing.t_at(timing.pass_secs(&[]), &[]), 1.0);
     /// ```
     #[must_use]
     pub fn t_at(&self, secs: f64, stops: &[Stop]) -> f64 {
-        let progress = ((secs - self.hold_secs) / self.duration_secs).clamp(0.0, 1.0);
-        let even = self.from + (self.to - self.from) * progress;
-        let (begin, end) = self.segment(even, stops);
-        if progress >= 1.0 {
-            return self.to; // to the last bit
+        let mut left = secs - self.rest_at(self.from, stops);
+        if left <= 0.0 {
+            return self.from; // to the last bit, as all that rests
         }
-        let x = (even - begin) / (end - begin);
-        begin + (end - begin) * self.easing_at(even, stops).apply(x.clamp(0.0, 1.0))
+        for way in self.segments(stops) {
+            if left < way.secs {
+                let x = way.easing.apply((left / way.secs).clamp(0.0, 1.0));
+                return way.from + (way.to - way.from) * x;
+            }
+            left -= way.secs + way.rest;
+            if left < 0.0 {
+                return way.to;
+            }
+        }
+        self.to
     }
 
     /// The seconds after which a pass is at `t`; the inverse of
-    /// [`Self::t_at`], with the moment of departure for the beginning and of
-    /// arrival for the end.
+    /// [`Self::t_at`], where it rests with the moment of arrival, and of departure
+    /// for the beginning.
     #[must_use]
     pub fn secs_at(&self, t: f64, stops: &[Stop]) -> f64 {
-        let (low, high) = (self.from.min(self.to), self.from.max(self.to));
-        let t = t.clamp(low, high);
-        let (begin, end) = self.segment(t, stops);
-        let x = self
-            .easing_at(t, stops)
-            .inverse((t - begin) / (end - begin));
-        let even = begin + (end - begin) * x;
-        self.hold_secs + self.duration_secs * (even - self.from) / (self.to - self.from)
+        let sign = (self.to - self.from).signum();
+        let mut secs = self.rest_at(self.from, stops);
+        for way in self.segments(stops) {
+            if sign * t <= sign * way.to {
+                let x = ((t - way.from) / (way.to - way.from)).clamp(0.0, 1.0);
+                return secs + way.secs * way.easing.inverse(x);
+            }
+            secs += way.secs + way.rest;
+        }
+        // Beyond the end: as it arrives there.
+        secs - self.rest_at(self.to, stops)
     }
 
     /// How t runs in the segment that `t` lies in: as the stop at its lower end
@@ -184,9 +227,48 @@ impl Timing {
     pub fn easing_at(&self, t: f64, stops: &[Stop]) -> Ease {
         // On a stop the segment that begins there in the direction of the pass.
         let (begin, end) = self.segment(t, stops);
-        let low = begin.min(end);
+        self.said(begin, end, stops).easing
+    }
+
+    /// How many units of t a pass makes in a second, on average, where `t` is.
+    #[must_use]
+    pub fn speed_at(&self, t: f64, stops: &[Stop]) -> f64 {
+        let (begin, end) = self.segment(t, stops);
+        (end - begin).abs() / self.said(begin, end, stops).secs
+    }
+
+    /// The segments of a pass, one after the other.
+    fn segments<'a>(&'a self, stops: &'a [Stop]) -> impl Iterator<Item = Way> + 'a {
+        let mut at = Some(self.from);
+        std::iter::from_fn(move || {
+            let from = at?;
+            let (begin, end) = self.segment(from, stops);
+            at = (end != self.to).then_some(end);
+            Some(self.said(begin, end, stops))
+        })
+    }
+
+    /// What is said of the segment between two neighbours.
+    fn said(&self, from: f64, to: f64, stops: &[Stop]) -> Way {
+        // Backwards it runs as it was drawn, from where it begins then.
+        let low = from.min(to);
         let there = stops.iter().find(|stop| stop.t == low);
-        there.and_then(|stop| stop.easing).unwrap_or(self.easing)
+        let share = self.duration_secs * (to - from) / (self.to - self.from);
+        Way {
+            from,
+            to,
+            secs: there.and_then(|stop| stop.duration_secs).unwrap_or(share),
+            rest: self.rest_at(to, stops),
+            easing: there.and_then(|stop| stop.easing).unwrap_or(self.easing),
+        }
+    }
+
+    /// How long a pass rests at a stop or an end.
+    fn rest_at(&self, t: f64, stops: &[Stop]) -> f64 {
+        let there = stops.iter().find(|stop| stop.t == t);
+        let own = there.map_or(0.0, |stop| stop.hold_secs);
+        let is_end = t == self.from || t == self.to;
+        own.max(if is_end { self.hold_secs } else { 0.0 })
     }
 
     /// The two neighbouring stops or ends between which `t` lies, in the
@@ -202,6 +284,18 @@ impl Timing {
         let after = inside.filter(|&s| s > t).fold(to, f64::min);
         (sign * before, sign * after)
     }
+}
+
+/// A segment of a pass, in its direction.
+#[derive(Clone, Copy, Debug)]
+struct Way {
+    from: f64,
+    to: f64,
+    /// How long it takes.
+    secs: f64,
+    /// How long is rested at its end.
+    rest: f64,
+    easing: Ease,
 }
 
 #[cfg(test)]
@@ -226,6 +320,7 @@ mod tests {
         assert_eq!([at(-1.0), at(0.0), at(1.0)], [0.0; 3]);
         assert_eq!(at(2.0), 0.5);
         assert_eq!([at(3.0), at(4.0), at(99.0)], [1.0; 3]);
+        assert_eq!(timing.pass_secs(&[]), 4.0);
     }
 
     #[test]
@@ -266,6 +361,48 @@ mod tests {
     }
 
     #[test]
+    fn a_stop_may_be_rested_at_and_have_a_time_of_its_own() {
+        let timing = Timing {
+            duration_secs: 4.0,
+            hold_secs: 0.5,
+            easing: Easing::Linear.into(),
+            to: 2.0,
+            ..Timing::default()
+        };
+        let mut stops = vec![Stop::at(1.0).resting(1.0), Stop::at(0.0)];
+        let at = |secs, stops: &[Stop]| timing.t_at(secs, stops);
+        assert_eq!(timing.pass_secs(&stops), 0.5 + 2.0 + 1.0 + 2.0 + 0.5);
+        assert_eq!(at(1.5, &stops), 0.5);
+        assert_eq!(
+            [at(2.5, &stops), at(3.0, &stops), at(3.5, &stops)],
+            [1.0; 3]
+        );
+        assert_eq!(at(4.5, &stops), 1.5);
+        assert_eq!(timing.secs_at(1.0, &stops), 2.5);
+        assert_eq!(timing.secs_at(1.5, &stops), 4.5);
+        assert_eq!(timing.secs_at(7.0, &stops), 5.5);
+        stops[0].duration_secs = Some(8.0);
+        assert_eq!(timing.pass_secs(&stops), 0.5 + 2.0 + 1.0 + 8.0 + 0.5);
+        assert_eq!(at(7.5, &stops), 1.5);
+        assert_eq!([0.5, 1.5].map(|t| timing.speed_at(t, &stops)), [0.5, 0.125]);
+        let down = Timing {
+            from: 2.0,
+            to: 0.0,
+            ..timing
+        };
+        assert_eq!(down.pass_secs(&stops), timing.pass_secs(&stops));
+        assert_eq!(down.t_at(4.5, &stops), 1.5);
+        assert_eq!(down.t_at(9.0, &stops), 1.0);
+        stops[0].hold_secs = -1.0;
+        assert_eq!(timing.check(&stops), Err(TimingError::StopSecs(0)));
+        stops[0] = Stop {
+            duration_secs: Some(0.0),
+            ..Stop::at(1.0)
+        };
+        assert_eq!(timing.check(&stops), Err(TimingError::StopSecs(0)));
+    }
+
+    #[test]
     fn impossible_numbers_are_named() {
         let wrong = |edit: fn(&mut Timing)| {
             let mut timing = Timing::default();
@@ -290,13 +427,17 @@ mod tests {
         fn seconds_and_t_are_inverse_and_monotone(
             secs in 0.0f64..4.0, more in 0.001f64..1.0, easing in 0usize..4,
             at in prop::collection::vec(-0.5f64..1.5, 0..5),
+            (own, rest) in (prop::option::of(0.1f64..3.0), 0.0f64..1.0),
             (from, to) in prop_oneof![Just((0.0, 1.0)), Just((1.0, 0.0)), Just((-0.4, 1.3))],
         ) {
             let timing = Timing {
                 duration_secs: 4.0, hold_secs: 0.0, easing: Easing::ALL[easing].into(),
                 from, to, ..Timing::default()
             };
-            let stops = stops(&at);
+            let mut stops = stops(&at);
+            for stop in stops.iter_mut().step_by(2) {
+                (stop.duration_secs, stop.hold_secs) = (own, rest);
+            }
             let t = timing.t_at(secs, &stops);
             prop_assert!((timing.t_at(timing.secs_at(t, &stops), &stops) - t).abs() < 1e-9);
             let later = timing.t_at(secs + more, &stops);

@@ -76,7 +76,7 @@ impl Shot {
         let film = Film::of_timing(&project.timing, &project.stops, 30.0).expect("a film");
         let bounds = framing(&transition, film.times());
         let camera = Camera {
-            transition,
+            sequence: transition.into(),
             style: project.style,
             view: View::fit(bounds, PixelSize::of_shape(bounds, SIDE_PX)),
             ground: None,
@@ -92,7 +92,7 @@ impl Shot {
         };
         let frames = (0..COMPARED).filter_map(frame).collect();
         Some(Self {
-            has_bars: !camera.transition.frame(0.0).figure().bars.is_empty(),
+            has_bars: !camera.sequence.frame(0.0).now().figure().bars.is_empty(),
             camera,
             film,
             motion,

@@ -11,7 +11,7 @@ use bevy::prelude::{Message, Vec2};
 use crate::app::asking::acts::EditorAct;
 use crate::app::asking::choices::{Preferences, TwinMethod};
 use crate::content::ContentKind;
-use crate::project::Project;
+use crate::project::{Moved, Project};
 use crate::warp::WarpKind;
 
 /// One act of the user.
@@ -69,14 +69,22 @@ pub enum Intent {
     Choose(Vec<PathBuf>),
     /// Show what this file holds, in the dialog that asks for files.
     LookAt(PathBuf),
-    /// Open these files: one project, or one or two designs.
+    /// Open these files: one project, or designs, one after the other.
     Open(Vec<PathBuf>),
     /// Open a bundled project by its name.
     OpenGallery(String),
-    /// Ask for a file that replaces one design of the pair (0 source, 1 target).
+    /// Ask for a file that replaces the design of this number, from 0.
     AskReplace(usize),
-    /// Replace one design of the pair (0 source, 1 target) by this file.
+    /// Replace the design of this number, from 0, by this file.
     ReplaceDesign(usize, PathBuf),
+    /// Ask for files of designs that come before the design of this number, or after all.
+    AskInsert(usize),
+    /// Let designs of these files come before the design of this number, or after all.
+    InsertDesigns(usize, Vec<PathBuf>),
+    /// Other designs, or the same in another order, each with its number until now.
+    Arrange(Vec<Moved>),
+    /// Let the last design lead back to the first, or no more.
+    LeadBack(bool),
     /// Write the project where it came from; asks for a place if it has none.
     Save,
     /// Ask for a place and write the project there.

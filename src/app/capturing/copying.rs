@@ -71,7 +71,7 @@ pub fn copy_shapes(
     if intents.read().filter(|intent| is_asked(intent)).count() == 0 {
         return;
     }
-    let Some(transition) = session.transition() else {
+    let Some(sequence) = session.sequence() else {
         return;
     };
     let style = session.style();
@@ -80,7 +80,7 @@ pub fn copy_shapes(
         return;
     };
     let camera = Camera {
-        transition: transition.clone(),
+        sequence,
         style,
         view: View::fit(view.visible(), size),
         ground: (!preferences.capture_transparent).then_some(style.ground),

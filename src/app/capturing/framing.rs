@@ -6,7 +6,7 @@ use crate::app::asking::choices::{FilmLook, Preferences};
 use crate::app::session::state::Session;
 use crate::export::{Film, FilmError, SizeError, View, framing};
 use crate::geometry::Bounds;
-use crate::transition::{Stop, Timing, TimingError, Transition};
+use crate::transition::{Sequence, Stop, Timing, TimingError};
 
 /// The film that would be written; none while nobody asks.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
@@ -55,14 +55,14 @@ pub enum FramingError {
 /// # Errors
 /// [`FramingError`] where the timing or the size make no film.
 pub fn framed(
-    transition: &Transition,
+    sequence: &Sequence,
     (timing, stops): (&Timing, &[Stop]),
     look: &FilmLook,
 ) -> Result<(Film, View), FramingError> {
     let timing = look.timing(timing, stops);
     timing.check(stops)?;
     let film = Film::of_timing(&timing, stops, f64::from(look.fps))?;
-    let bounds = framing(transition, film.times());
+    let bounds = framing(sequence, film.times());
     let view = look.layout.view(bounds)?;
     Ok((film, view))
 }
@@ -72,10 +72,13 @@ pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut frame: R
     if !session.is_changed() && !preferences.is_changed() {
         return;
     }
-    let transition = session.transition().filter(|_| preferences.film_options);
-    let framed = transition.and_then(|transition| {
+    let sequence = preferences
+        .film_options
+        .then(|| session.sequence())
+        .flatten();
+    let framed = sequence.and_then(|sequence| {
         let timing = (session.timing(), session.stops());
-        let (film, view) = framed(transition, timing, &preferences.film).ok()?;
+        let (film, view) = framed(&sequence, timing, &preferences.film).ok()?;
         let frames = film.times().len();
         Some(Framed {
             view,

@@ -18,7 +18,7 @@ use crate::export::{
 use crate::names::Choice;
 use crate::progress::{Cancelled, Progress};
 use crate::project::{LoadedProject, Project, ProjectError};
-use crate::transition::Transition;
+use crate::transition::Sequence;
 
 /// Why a film or a sheet was not written.
 #[derive(Debug, thiserror::Error)]
@@ -107,9 +107,9 @@ pub struct Cost {
 #[derive(Clone, Debug)]
 pub struct Order {
     project: Project,
-    transition: Transition,
+    sequence: Sequence,
     look: FilmLook,
-    names: [String; 2],
+    names: Vec<String>,
     /// None where it is transparent.
     ground: Option<Rgb>,
     format: RecordFormat,
@@ -126,15 +126,14 @@ impl Order {
         session: &Session,
         (folder, workshop): (&CaptureFolder, &Workshop),
     ) -> Option<Self> {
-        let project = session.project()?.clone();
+        let project = session.whole()?.clone();
         let ground = project.style.ground;
         let format = preferences.format(project.content);
-        let name = |k: usize| session.designs().get(k).map(|design| design.name.clone());
         Some(Self {
             project,
-            transition: session.transition()?.clone(),
+            sequence: session.sequence()?,
             look: preferences.film,
-            names: [0, 1].map(|k| name(k).unwrap_or_default()),
+            names: session.names_on_the_way(),
             ground: (!preferences.film.is_transparent).then_some(ground),
             format,
             folder: folder.0.clone(),
@@ -204,13 +203,13 @@ impl Order {
     fn film(&self) -> Result<(Camera, Film), RecordError> {
         let (style, stops) = (self.project.style, &self.project.stops);
         let timing = (&self.project.timing, stops.as_slice());
-        let (film, view) = framed(&self.transition, timing, &self.look)?;
+        let (film, view) = framed(&self.sequence, timing, &self.look)?;
         let film = film.titled(&self.project.title);
-        let names = self.names.each_ref().map(String::as_str);
+        let names = self.names.iter().map(String::as_str);
         let captions = Captions::new(stops, names, style.ground);
         let is_opaque = self.format == RecordFormat::OPAQUE;
         let camera = Camera {
-            transition: self.transition.clone(),
+            sequence: self.sequence.clone(),
             style,
             view,
             ground: self.ground.or(is_opaque.then_some(style.ground)),
@@ -230,8 +229,13 @@ impl Order {
     ) -> Result<PathBuf, RecordError> {
         try_folder(&self.folder)?;
         let rows = MethodRow::all(&staged.spec()?, progress)?;
-        let timing = &self.project.timing;
-        let times = even_times(timing.from, timing.to, COLUMNS);
+        // Of the two designs that are looked at, from one to the other.
+        let timing = &staged.project.timing;
+        let times = if staged.is_leg() {
+            even_times(0.0, 1.0, COLUMNS)
+        } else {
+            even_times(timing.from, timing.to, COLUMNS)
+        };
         let drawing = comparison(&rows, &self.project.style, &times, self.ground)?;
         let workshop = self.workshop.begin()?;
         let path = workshop.path().join("methods.png");

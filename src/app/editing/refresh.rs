@@ -6,7 +6,7 @@ use crate::app::editing::editor::{Editor, Handle};
 use crate::app::editing::sheet::Sheet;
 use crate::app::session::loading::Problem;
 use crate::app::session::state::Session;
-use crate::transition::{Transition, arrangement};
+use crate::transition::Transition;
 
 /// Lays the sheet out anew where the project, its transition or the editor is another.
 pub fn refresh(
@@ -43,16 +43,12 @@ impl Sheet {
     }
 
     fn laid_out(session: &Session) -> Option<Self> {
-        let (project, staged) = (session.project()?, session.staged_settings()?);
-        let [source, target, ..] = session.designs() else {
+        let (project, staged) = (session.project()?, session.staged()?);
+        let [source, target] = staged.designs.as_slice() else {
             return None;
         };
-        let [source_entry, target_entry, ..] = staged.designs.as_slice() else {
-            return None;
-        };
-        let places = [source_entry.placement, target_entry.placement];
         // As the stage has it and not as the settings are by now: the match is that of the stage.
-        let by = arrangement([source, target], staged.fit, places).ok()?;
+        let by = staged.arrangement().ok()?;
         let transition = session.transition();
         let matched = transition.and_then(Transition::matched);
         let mut sheet = Self {

@@ -146,7 +146,7 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
     if session.is_changed() {
         let written = autosave.written.as_ref().map(|(project, _)| project);
         if session.is_dirty() {
-            autosave.is_behind = session.project() != written;
+            autosave.is_behind = session.whole() != written;
             (autosave.is_own, autosave.is_over) = (true, false);
         } else {
             autosave.is_behind = false;
@@ -195,7 +195,7 @@ impl Autosave {
             return;
         }
         let kept = session.kept().and_then(Result::ok);
-        if let (Some(slot), Some(kept), Some(project)) = (&self.slot, kept, session.project()) {
+        if let (Some(slot), Some(kept), Some(project)) = (&self.slot, kept, session.whole()) {
             let path = slot.path.clone();
             self.job = Some(Job::start("an autosave", move |_| kept.write(&path)));
             self.written = Some((project.clone(), Instant::now()));

@@ -1,4 +1,4 @@
-//! Small pictures of the film at every tenth of t, for the timeline.
+//! Small pictures of the film at every tenth of t, or so, and at each design, for the timeline.
 //!
 //! Drawn beside the window whenever another film, or one that looks otherwise, is on the stage, and
 //! after it has been measured: the verdict is waited for, the pictures are not.
@@ -13,10 +13,17 @@ use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
 use crate::export::{Drawing, PixelSize, SizeError, View, even_times, framing, rasterise};
 use crate::geometry::DVec2;
-use crate::transition::{Style, Transition};
+use crate::transition::{Sequence, Style};
 
-/// How many pictures: at both ends and at every tenth between them.
-pub const PICTURES: usize = 11;
+/// How many pictures there are of a film of two designs: at both ends and at every tenth between
+/// them.
+const OF_A_PAIR: usize = 11;
+
+/// How many there are of so many legs: about as many, one at each design among them.
+#[must_use]
+pub fn pictures(legs: usize) -> usize {
+    legs * ((OF_A_PAIR - 1) / legs.max(1)).max(1) + 1
+}
 
 /// Width and height of each in pixels: twice what is shown at scale factor 1.
 pub const PICTURE_PX: (u32, u32) = (144, 80);
@@ -24,7 +31,7 @@ pub const PICTURE_PX: (u32, u32) = (144, 80);
 /// The pictures of the film on the stage.
 #[derive(Resource, Debug, Default)]
 pub struct Filmstrip {
-    of: Option<(Transition, Style)>,
+    of: Option<(Sequence, Style)>,
     job: Option<Job<RgbaImage, SizeError>>,
     pictures: Option<Arc<RgbaImage>>,
 }
@@ -43,11 +50,9 @@ impl Filmstrip {
         self.job.is_some()
     }
 
-    fn is_of(&self, wanted: Option<(&Transition, Style)>) -> bool {
+    fn is_of(&self, wanted: Option<&(Sequence, Style)>) -> bool {
         match (&self.of, wanted) {
-            (Some((old, before)), Some((new, style))) => {
-                std::ptr::eq(old.content(), new.content()) && *before == style
-            }
+            (Some((old, before)), Some((new, style))) => old.is(new) && before == style,
             (None, None) => true,
             _ => false,
         }
@@ -63,19 +68,19 @@ pub fn follow(session: Res<Session>, measured: Res<Measured>, mut filmstrip: Res
         filmstrip.set_changed();
         return;
     }
-    let wanted = session.transition().map(|t| (t, session.style()));
-    if strip.is_of(wanted) || session.work().is_some() || measured.is_busy() {
+    let wanted = session.sequence().map(|all| (all, session.style()));
+    if strip.is_of(wanted.as_ref()) || session.work().is_some() || measured.is_busy() {
         return;
     }
-    strip.of = wanted.map(|(transition, style)| (transition.clone(), style));
+    strip.of = wanted;
     if strip.of.is_none() {
         strip.pictures = None;
     }
     // A job on the film before goes with it.
-    strip.job = strip.of.clone().map(|(transition, style)| {
+    strip.job = strip.of.clone().map(|(sequence, style)| {
         Job::start("the filmstrip", move |_| {
-            let times = even_times(0.0, 1.0, PICTURES);
-            row(&transition, &style, &times, PICTURE_PX)
+            let times = even_times(0.0, sequence.end(), pictures(sequence.legs().len()));
+            row(&sequence, &style, &times, PICTURE_PX)
         })
     });
 }
@@ -86,21 +91,22 @@ pub fn follow(session: Res<Session>, measured: Res<Measured>, mut filmstrip: Res
 /// # Errors
 /// The row is larger than a picture can be.
 pub fn row(
-    transition: &Transition,
+    sequence: &Sequence,
     style: &Style,
     times: &[f64],
     (width, height): (u32, u32),
 ) -> Result<RgbaImage, SizeError> {
     let size = PixelSize::new(width.saturating_mul(times.len() as u32), height)?;
     // One frame around all of them, so that what grows is seen to grow.
-    let bounds = framing(transition, times);
+    let bounds = framing(sequence, times);
     let cell = DVec2::new(f64::from(width), f64::from(height));
     let mut drawing = Drawing::new(size, None);
-    let mut frame = transition.frame(0.0);
+    let mut frame = sequence.frame(0.0);
     for (index, t) in times.iter().enumerate() {
         frame.seek(*t);
         let corner = DVec2::new(index as f64 * cell.x, 0.0);
-        drawing.push_frame(&frame, style, &View::fit_cell(bounds, size, corner, cell));
+        let view = View::fit_cell(bounds, size, corner, cell);
+        drawing.push_frame(frame.now(), &frame.style(style), &view);
     }
     Ok(rasterise(&drawing))
 }

@@ -6,7 +6,7 @@ use crate::app::asking::choices::Preferences;
 use crate::app::playing::playback::landmarks;
 use crate::app::session::state::Session;
 use crate::geometry::DVec2;
-use crate::transition::{Figure, Transition};
+use crate::transition::{Figure, Sequence};
 
 /// How many skins there are between two ends where there are no stops.
 const BETWEEN: usize = 4;
@@ -28,7 +28,7 @@ pub struct Skin {
 /// All skins of the film on the stage, while they are shown.
 #[derive(Resource, Debug, Default)]
 pub struct Onion {
-    of: Option<(Transition, Vec<f64>)>,
+    of: Option<(Sequence, Vec<f64>)>,
     skins: Vec<Skin>,
 }
 
@@ -59,12 +59,10 @@ pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut onion: R
     if !session.is_changed() && !preferences.is_changed() {
         return;
     }
-    let transition = session.transition().filter(|_| preferences.onion);
-    let wanted = transition.map(|transition| (transition.clone(), times(&session)));
+    let sequence = preferences.onion.then(|| session.sequence()).flatten();
+    let wanted = sequence.map(|sequence| (sequence, times(&session)));
     let is_same = match (&wanted, &onion.bypass_change_detection().of) {
-        (Some((new, now)), Some((old, then))) => {
-            now == then && std::ptr::eq(new.content(), old.content())
-        }
+        (Some((new, now)), Some((old, then))) => now == then && new.is(old),
         (wanted, had) => wanted.is_none() && had.is_none(),
     };
     if is_same {
@@ -72,16 +70,16 @@ pub fn follow(session: Res<Session>, preferences: Res<Preferences>, mut onion: R
     }
     onion.skins = wanted
         .iter()
-        .flat_map(|(transition, times)| skins(transition, times))
+        .flat_map(|(sequence, times)| skins(sequence, times))
         .collect();
     onion.of = wanted;
 }
 
-fn skins(transition: &Transition, times: &[f64]) -> Vec<Skin> {
-    let mut frame = transition.frame(0.0);
+fn skins(sequence: &Sequence, times: &[f64]) -> Vec<Skin> {
+    let mut frame = sequence.frame(0.0);
     let skin = |&t: &f64| {
         frame.seek(t);
-        let Figure { rings, bars, .. } = frame.figure();
+        let Figure { rings, bars, .. } = frame.now().figure();
         Skin { t, rings, bars }
     };
     times.iter().map(skin).collect()

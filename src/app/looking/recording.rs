@@ -18,7 +18,12 @@ pub struct Recording {
     of: Option<Transition>,
     job: Option<Job<Option<Proved>, FilmError>>,
     proved: Option<Proved>,
+    /// Of other legs, the last one last: while a sequence plays they come again and again.
+    before: Vec<(Transition, Proved)>,
 }
+
+/// So many legs are remembered.
+const REMEMBERED: usize = 64;
 
 impl Recording {
     /// What is proved of the film on the stage; none as long as that is not known, and
@@ -32,6 +37,24 @@ impl Recording {
     #[must_use]
     pub fn is_busy(&self) -> bool {
         self.job.is_some()
+    }
+
+    fn remember(&mut self) {
+        // What was being recorded is given up.
+        self.job = None;
+        self.before.extend(self.of.take().zip(self.proved.take()));
+        let old = self.before.len().saturating_sub(REMEMBERED);
+        self.before.drain(..old);
+    }
+
+    /// Whether what is on the stage was there before, and recorded.
+    fn recall(&mut self) -> bool {
+        let is_it = |(of, _): &(Transition, Proved)| self.is_of(Some(of));
+        let Some(known) = self.before.iter().position(is_it) else {
+            return false;
+        };
+        self.proved = Some(self.before.swap_remove(known).1);
+        true
     }
 
     fn is_of(&self, wanted: Option<&Transition>) -> bool {
@@ -48,8 +71,12 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<Recording>) {
     // Marked as changed by hand: it is looked at in each frame, and seldom new.
     let now = recording.bypass_change_detection();
     if session.is_changed() && !now.is_of(session.transition()) {
-        now.proved = None;
+        now.remember();
         now.of = session.transition().cloned();
+        if now.recall() {
+            recording.set_changed();
+            return;
+        }
         now.job = now.of.clone().map(|transition| {
             Job::start("the film", move |progress| {
                 let options = FilmOptions::default();

@@ -102,10 +102,10 @@ pub fn fit(
         *last = None;
         return;
     }
-    let Some(transition) = session.transition() else {
+    // All legs in one view, or the drawing would jump where one ends.
+    let Some(bounds) = session.bounds() else {
         return;
     };
-    let bounds = transition.bounds();
     let bounds = match &film.0 {
         Some(framed) => bounds.union(&framed.bounds()),
         None => bounds,

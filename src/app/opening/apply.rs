@@ -1,6 +1,6 @@
 //! Opening, editing and saving: the intents that change the [`Session`].
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use bevy::prelude::{
@@ -43,19 +43,13 @@ pub fn open(
                     continue;
                 }
                 // A design alone is its own partner until it gets another.
-                [design] => Request::Pair(design.clone(), design.clone()),
-                [source, target] if !paths.iter().any(|path| Project::is_named(path)) => {
-                    Request::Pair(source.clone(), target.clone())
-                }
+                [design] => Request::Designs(vec![design.clone(), design.clone()]),
                 [] => continue,
                 _ if paths.iter().any(|path| Project::is_named(path)) => {
                     notices.problem(About::Opening, too_many(paths.len()));
                     continue;
                 }
-                _ => {
-                    drop.ask_which(paths.clone());
-                    continue;
-                }
+                designs => Request::Designs(designs.to_vec()),
             },
             _ => continue,
         };
@@ -118,7 +112,16 @@ pub fn edit(
                 session.change(mark, |project| cycle(&mut project.timing.play));
             }
             Intent::ReplaceDesign(index, path) => {
-                session.change(mark, |project| replace_design(project, *index, path));
+                session.change_whole(mark, |project| replace_design(project, *index, path));
+            }
+            Intent::InsertDesigns(at, paths) => {
+                session.change_whole(mark, |project| insert_designs(project, *at, paths));
+            }
+            Intent::Arrange(designs) => {
+                session.change_whole(mark, |project| project.rearrange(designs.clone()));
+            }
+            Intent::LeadBack(closed) => {
+                session.change_whole(mark, |project| project.close(*closed));
             }
             _ => {}
         }
@@ -142,15 +145,29 @@ fn cycle(mode: &mut PlayMode) {
 }
 
 fn replace_design(project: &mut Project, index: usize, path: &Path) {
-    if let Some(entry) = project.designs.get_mut(index) {
-        *entry = DesignEntry::new(absolute(path));
-        // What was said of points of the old one means nothing in the new one.
-        let matching = &mut project.options.matching;
-        (matching.pins, matching.links, matching.cuts) = Default::default();
-        matching.lines.clear();
-        matching.lone.clear();
-        project.options.parts.clear();
+    let Some(entry) = project.designs.get_mut(index) else {
+        return;
+    };
+    *entry = DesignEntry::new(absolute(path));
+    for leg in 0..project.leg_count() {
+        if project.leg_designs(leg).contains(&index) {
+            let mut pair = project.leg(leg);
+            // What was said of points of the old one means nothing in the new one.
+            pair.options.matching = pair.options.matching.without_places();
+            pair.options.parts.clear();
+            project.take_leg(leg, pair);
+        }
     }
+}
+
+fn insert_designs(project: &mut Project, at: usize, paths: &[PathBuf]) {
+    let mut designs = project.in_order();
+    let at = at.min(designs.len());
+    let new = paths
+        .iter()
+        .map(|path| (DesignEntry::new(absolute(path)), None));
+    designs.splice(at..at, new);
+    project.rearrange(designs);
 }
 
 fn set_cell(project: &mut Project, (warp, content): (WarpKind, ContentKind)) {
@@ -246,7 +263,15 @@ pub fn poll(
         None => return,
         // The match editor says it where it was caused.
         Some(Outcome::NotRebuilt) if editor.is_open => return,
-        Some(Outcome::NotRebuilt | Outcome::Rebuilt) => {}
+        Some(Outcome::NotRebuilt) => {}
+        Some(Outcome::Rebuilt) => {
+            // The last leg may be gone.
+            let end = session.leg_count() as f64;
+            if playback.t() > end && session.timing().to <= end {
+                let (timing, stops) = (*session.timing(), session.stops().to_vec());
+                playback.seek(end, &timing, &stops);
+            }
+        }
         Some(Outcome::Failed(error)) => {
             notices.problem(About::Opening, error.to_string());
             return;
@@ -257,7 +282,7 @@ pub fn poll(
         }
     }
     notices.well(About::Opening);
-    tell_notes(session.designs(), &mut told, &mut notices);
+    tell_notes(session.all_designs(), &mut told, &mut notices);
     if let Some(problem) = session.problem() {
         // Only the last one: what was tried before it is no longer asked for.
         notices.well(About::Transition);

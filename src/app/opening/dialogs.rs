@@ -18,10 +18,12 @@ use crate::project::Project;
 /// What files are asked for.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Purpose {
-    /// A project, or one or two designs.
+    /// A project, or designs.
     Open,
-    /// A design that takes the place of one of the pair.
+    /// A design that takes the place of that of this number.
     Replace(usize),
+    /// Designs that come before that of this number, or after all.
+    Insert(usize),
     /// A place for the project, which may be called so.
     Save(String),
 }
@@ -31,8 +33,9 @@ impl Purpose {
     #[must_use]
     pub fn title(&self) -> &'static str {
         match self {
-            Self::Open => "Open a project, or one or two designs",
+            Self::Open => "Open a project, or designs",
             Self::Replace(_) => "Choose a design",
+            Self::Insert(_) => "Add designs",
             Self::Save(_) => "Save the project",
         }
     }
@@ -45,7 +48,7 @@ impl Purpose {
             Format::ALL.map(|format| (format.name().to_owned(), format.extensions().into()));
         match self {
             Self::Save(_) => vec![projects],
-            Self::Replace(_) => {
+            Self::Replace(_) | Self::Insert(_) => {
                 let all = ("All designs".to_owned(), extensions());
                 [all].into_iter().chain(formats).collect()
             }
@@ -85,6 +88,7 @@ pub fn open(mut intents: MessageReader<Intent>, mut dialog: ResMut<Dialog>, sess
         let asks = match intent {
             Intent::AskOpen => Purpose::Open,
             Intent::AskReplace(index) => Purpose::Replace(*index),
+            Intent::AskInsert(at) => Purpose::Insert(*at),
             Intent::SaveAs => Purpose::Save(named(&session.file_stem())),
             Intent::Save if session.path().is_none() => Purpose::Save(named(&session.file_stem())),
             _ => continue,
@@ -135,6 +139,9 @@ pub fn choose(
             }
             (Some(Purpose::Replace(index)), Some(path)) => {
                 commands.write_message(Intent::ReplaceDesign(index, path.clone()));
+            }
+            (Some(Purpose::Insert(at)), Some(_)) => {
+                commands.write_message(Intent::InsertDesigns(at, paths.clone()));
             }
             (Some(Purpose::Save(_)), Some(path)) => match with_extension(path) {
                 // Asked about another file than that which would be lost.

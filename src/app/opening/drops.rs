@@ -19,8 +19,6 @@ pub struct Drop {
     arriving: Vec<PathBuf>,
     quiet_secs: f32,
     undecided: Option<PathBuf>,
-    /// More than a pair.
-    many: Vec<PathBuf>,
 }
 
 impl Drop {
@@ -36,27 +34,35 @@ impl Drop {
         !self.arriving.is_empty()
     }
 
-    /// More designs than a pair has, of which two are to be chosen.
-    #[must_use]
-    pub fn many(&self) -> &[PathBuf] {
-        &self.many
-    }
-
     /// Something is to be decided.
     #[must_use]
     pub fn asks(&self) -> bool {
-        self.undecided.is_some() || !self.many.is_empty()
-    }
-
-    /// Asks which two of many designs are a pair.
-    pub fn ask_which(&mut self, paths: Vec<PathBuf>) {
-        self.many = paths;
+        self.undecided.is_some()
     }
 
     /// Asks what a single design is for.
     pub fn ask(&mut self, path: PathBuf) {
         self.undecided = Some(path);
     }
+}
+
+/// A name in which numbers are in the order of what they count: 2 before 10.
+fn in_numbers(name: &str) -> Vec<(String, u64)> {
+    let digits = |c: &char| c.is_ascii_digit();
+    let mut rest = name.chars().peekable();
+    let mut parts = Vec::new();
+    while rest.peek().is_some() {
+        let mut word = String::new();
+        while let Some(c) = rest.next_if(|c| !digits(c)) {
+            word.extend(c.to_lowercase());
+        }
+        let mut number: u64 = 0;
+        while let Some(digit) = rest.next_if(digits).and_then(|c| c.to_digit(10)) {
+            number = number.saturating_mul(10).saturating_add(digit.into());
+        }
+        parts.push((word, number));
+    }
+    parts
 }
 
 /// Gathers dropped files and opens them together.
@@ -82,7 +88,10 @@ pub fn read_drops(
     }
     state.quiet_secs += time.delta_secs();
     if state.quiet_secs >= GATHER_SECS {
-        intents.write(Intent::Open(std::mem::take(&mut state.arriving)));
+        let mut files = std::mem::take(&mut state.arriving);
+        // They arrive in any order; that of their names is seen in every folder.
+        files.sort_by_cached_key(|path| in_numbers(&path.to_string_lossy()));
+        intents.write(Intent::Open(files));
     }
 }
 
@@ -95,12 +104,25 @@ pub fn decide(
     // Esc is meant for the question that is seen.
     let is_seen = question.text().is_none() && autosave.lost().is_none();
     let is_decided = |intent: &Intent| match intent {
-        Intent::Open(paths) => paths.len() <= 2,
         Intent::Back => is_seen,
-        intent => matches!(intent, Intent::ReplaceDesign(..)),
+        intent => matches!(
+            intent,
+            Intent::Open(..) | Intent::ReplaceDesign(..) | Intent::InsertDesigns(..)
+        ),
     };
     if intents.read().filter(|intent| is_decided(intent)).count() > 0 && state.asks() {
         state.undecided = None;
-        state.many.clear();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_in_the_order_that_folders_show() {
+        let mut names = ["b10.svg", "B2.svg", "a.svg", "b2x.svg", "3.svg"];
+        names.sort_by_cached_key(|name| in_numbers(name));
+        assert_eq!(names, ["3.svg", "a.svg", "B2.svg", "b2x.svg", "b10.svg"]);
     }
 }

@@ -18,6 +18,9 @@ use crate::transition::{Figure, Style};
 /// Width and height in pixels: twice what is shown at scale factor 1.
 pub const PREVIEW_PX: (u32, u32) = (352, 352);
 
+/// So many designs of a project are shown: more are too small.
+const MOST: usize = 4;
+
 /// Room around each design, a share of the picture.
 const ROOM: f64 = 0.05;
 
@@ -85,7 +88,7 @@ fn drawn(path: &Path) -> Result<RgbaImage, PreviewError> {
     let why = |error: &dyn std::error::Error| PreviewError(error.to_string());
     let designs = if Project::is_named(path) {
         let loaded = LoadedProject::open(path).map_err(|error| why(&error))?;
-        loaded.designs.into_iter().take(2).collect()
+        loaded.designs.into_iter().take(MOST).collect()
     } else {
         let options = ImportOptions::default();
         vec![Arc::new(
@@ -123,7 +126,7 @@ fn side_by_side(designs: &[Arc<Design>]) -> Result<RgbaImage, crate::export::Siz
         let corner = DVec2::new(index as f64 * cell.x, 0.0);
         let view = View::fit_cell(bounds, size, corner, cell);
         // In the colour that it has as source, or as target.
-        let t = index as f64;
+        let t = index as f64 / (designs.len().max(2) - 1) as f64;
         drawing.push_figure(&Figure::of(design, t), t, &style, &view);
     }
     Ok(rasterise(&drawing))

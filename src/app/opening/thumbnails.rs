@@ -12,13 +12,16 @@ use crate::app::telling::job::Job;
 use crate::export::even_times;
 use crate::progress::Progress;
 use crate::project::gallery;
-use crate::transition::Transition;
+use crate::transition::{Sequence, Transition};
 
 /// Width and height of a strip in pixels: twice what is shown at scale factor 1.
 pub const STRIP_PX: (u32, u32) = (384, 128);
 
 /// How many forms a strip shows: both ends, and what is between them.
 const FRAMES: usize = 3;
+
+/// The most of them: more are too small.
+const MOST_FRAMES: usize = 5;
 
 /// All strips that there are yet.
 #[derive(Resource, Debug)]
@@ -77,9 +80,21 @@ type StripError = Box<dyn std::error::Error + Send + Sync>;
 
 fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let loaded = gallery::load(name)?;
-    let transition = Transition::build(&loaded.spec()?, progress)?;
+    let legs = loaded.legs();
+    let built = legs
+        .iter()
+        .map(|leg| Ok(Transition::build(&leg.spec()?, progress)?));
+    let built: Vec<Transition> = built.collect::<Result<_, StripError>>()?;
+    let sequence = Sequence::new(built).ok_or("a project has a leg")?;
     let timing = loaded.project.timing;
-    let times = even_times(timing.from, timing.to, FRAMES);
-    let cell = (STRIP_PX.0 / FRAMES as u32, STRIP_PX.1);
-    Ok(row(&transition, &loaded.project.style, &times, cell)?)
+    // Of many designs some of them, and nothing between.
+    let frames = if legs.len() > 1 {
+        legs.len() + 1
+    } else {
+        FRAMES
+    };
+    let frames = frames.min(MOST_FRAMES);
+    let times = even_times(timing.from, timing.to, frames);
+    let cell = (STRIP_PX.0 / frames as u32, STRIP_PX.1);
+    Ok(row(&sequence, &loaded.project.style, &times, cell)?)
 }

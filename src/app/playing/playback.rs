@@ -78,7 +78,8 @@ impl Playback {
     /// and where all films are the same. Where the pass never comes there, any time is as good.
     #[must_use]
     pub fn may_change_film(&self, timing: &Timing) -> bool {
-        let is_end = |t: f64| t.min(1.0 - t) < SAME_FILM;
+        // All films of a leg are the same at the designs.
+        let is_end = |t: f64| t < SAME_FILM || (t - t.round()).abs() < SAME_FILM;
         let meets_an_end = [timing.from, timing.to].into_iter().any(is_end);
         !self.is_playing() || is_end(self.t) || !meets_an_end
     }
@@ -130,7 +131,7 @@ impl Playback {
             self.motion = Motion::Still;
             return;
         }
-        let pass = timing.pass_secs();
+        let pass = timing.pass_secs(stops);
         let secs = timing.secs_at(self.t, stops);
         let (start, end) = if self.backwards {
             (pass, timing.from)
@@ -168,15 +169,15 @@ impl Playback {
 
     /// Plays to `to` and waits there; `backwards` is how a pass would go on from it.
     pub fn play_to(&mut self, to: f64, timing: &Timing, stops: &[Stop]) {
-        let share = (to - self.t).abs() / (timing.to - timing.from).abs().max(SAME_T);
         // As fast as a pass runs over the same way.
-        let secs = timing.duration_secs * share;
+        let middle = 0.5 * (self.t + to);
+        let secs = (to - self.t).abs() / timing.speed_at(middle, stops);
         self.motion = Motion::Leg(Leg {
             from: self.t,
             to,
             elapsed: 0.0,
             secs,
-            easing: timing.easing_at(0.5 * (self.t + to), stops),
+            easing: timing.easing_at(middle, stops),
         });
     }
 
@@ -241,7 +242,7 @@ impl Playback {
     }
 
     fn advance_pass(&mut self, raw: f64, timing: &Timing, stops: &[Stop]) {
-        let pass = timing.pass_secs();
+        let pass = timing.pass_secs(stops);
         let over = if self.backwards {
             raw <= 0.0
         } else {

@@ -65,11 +65,9 @@ impl Presenting {
         let talk = self.talk.as_ref()?;
         let stops = session.stops();
         let is_named = stops.iter().any(|stop| !stop.name.is_empty());
-        let names = match session.designs() {
-            [source, target, ..] => [source, target].map(|design| design.name.as_str()),
-            _ => return None,
-        };
-        let are_wanted = talk.captions.unwrap_or(is_named);
+        let names = session.names_on_the_way();
+        let are_wanted = talk.captions.unwrap_or(is_named) && !names.is_empty();
+        let names = names.iter().map(String::as_str);
         are_wanted.then(|| Captions::new(stops, names, session.style().ground))
     }
 

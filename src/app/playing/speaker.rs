@@ -22,7 +22,7 @@ use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
 use crate::colour::Rgb;
 use crate::export::{Camera as FilmCamera, PixelSize, SizeError, View};
-use crate::transition::{Style, Transition};
+use crate::transition::{Sequence, Style};
 
 /// The picture of the next stop, in pixels.
 const PICTURE_PX: (u32, u32) = (640, 360);
@@ -37,7 +37,7 @@ pub struct Speaker {
     /// The window and its camera.
     window: Option<(Entity, Entity)>,
     /// What the picture shows: that film at that t.
-    shown: Option<(Transition, f64)>,
+    shown: Option<(Sequence, f64)>,
     picture: Option<Arc<RgbaImage>>,
     job: Option<Job<RgbaImage, SizeError>>,
 }
@@ -140,11 +140,9 @@ pub fn follow(mut speaker: ResMut<Speaker>, session: Res<Session>, playback: Res
         speaker.picture = picture.ok().map(Arc::new);
     }
     let next = playback.next_stop(session.timing(), session.stops());
-    let wanted = session.transition().cloned().zip(next);
+    let wanted = session.sequence().zip(next);
     let is_same = match (&wanted, &speaker.shown) {
-        (Some((new, t)), Some((old, shown))) => {
-            t == shown && std::ptr::eq(new.content(), old.content())
-        }
+        (Some((new, t)), Some((old, shown))) => t == shown && new.is(old),
         (wanted, shown) => wanted.is_none() && shown.is_none(),
     };
     if is_same {
@@ -153,17 +151,17 @@ pub fn follow(mut speaker: ResMut<Speaker>, session: Res<Session>, playback: Res
     speaker.shown.clone_from(&wanted);
     speaker.picture = None;
     let style = session.style();
-    speaker.job = wanted
-        .map(|(transition, t)| Job::start("the next stop", move |_| drawn(transition, style, t)));
+    speaker.job =
+        wanted.map(|(sequence, t)| Job::start("the next stop", move |_| drawn(sequence, style, t)));
 }
 
-fn drawn(transition: Transition, style: Style, t: f64) -> Result<RgbaImage, SizeError> {
-    let bounds = transition.bounds();
+fn drawn(sequence: Sequence, style: Style, t: f64) -> Result<RgbaImage, SizeError> {
+    let bounds = sequence.bounds();
     let room = bounds.padded(0.04 * bounds.diameter());
     let view = View::fit(room, PixelSize::new(PICTURE_PX.0, PICTURE_PX.1)?);
     let ground: Option<Rgb> = Some(style.ground);
     let camera = FilmCamera {
-        transition,
+        sequence,
         style,
         view,
         ground,

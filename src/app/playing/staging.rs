@@ -29,7 +29,9 @@ pub fn stage_transition(
     staged: Staged<OnStage>,
 ) {
     if session.is_changed() {
-        let blend = Blend { t: playback.t() };
+        let blend = Blend {
+            t: session.within(playback.t()),
+        };
         stage(&mut commands, session.transition(), blend, &staged, OnStage);
     }
 }
@@ -38,11 +40,13 @@ pub fn stage_transition(
 pub fn stage_twin(
     mut commands: Commands,
     twin: Res<Twin>,
-    playback: Res<Playback>,
+    (playback, session): (Res<Playback>, Res<Session>),
     staged: Staged<OnTwin>,
 ) {
     if twin.is_changed() {
-        let blend = Blend { t: playback.t() };
+        let blend = Blend {
+            t: session.within(playback.t()),
+        };
         let marks = (OnTwin, Propagate(TWIN_LAYER));
         stage(&mut commands, twin.transition(), blend, &staged, marks);
     }
@@ -76,12 +80,26 @@ fn stage<Of: Component>(
 type Shown = Or<(With<OnStage>, With<OnTwin>)>;
 
 /// Moves what is on the stage to t.
-pub fn stage_t(playback: Res<Playback>, mut blends: Query<&mut Blend, Shown>) {
+pub fn stage_t(
+    playback: Res<Playback>,
+    session: Res<Session>,
+    mut blends: Query<&mut Blend, Shown>,
+) {
+    let t = session.within(playback.t());
     for mut blend in &mut blends {
         // A blend that is written to is solved, though it be the same t.
-        if blend.t != playback.t() {
-            blend.t = playback.t();
+        if blend.t != t {
+            blend.t = t;
         }
+    }
+}
+
+/// Looks at the leg that t is in.
+pub fn follow_leg(playback: Res<Playback>, mut session: ResMut<Session>) {
+    let leg = session.leg_at(playback.t());
+    // Looked at first: what is written to counts as changed.
+    if leg != session.leg() {
+        session.look_at(leg);
     }
 }
 
@@ -92,7 +110,7 @@ pub fn stage_style(
     mut styles: Query<&mut StageStyle, Shown>,
     mut ground: ResMut<ClearColor>,
 ) {
-    let style = session.style();
+    let style = session.style_here();
     let [r, g, b] = style.ground.0;
     let colour = Color::srgb_u8(r, g, b);
     // Compared first, here and below: what is written to counts as changed and is drawn anew.

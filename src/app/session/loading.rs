@@ -1,32 +1,90 @@
 //! What takes time: reading files and building transitions, off the main thread.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use crate::app::session::origin::{Origin, absolute};
 use crate::app::session::rescue::Kept;
+use crate::content::ContentKind;
 use crate::correspondence::{PinError, RegionMatchError};
-use crate::progress::{Cancelled, Progress, Span, checkpoint};
-use crate::project::{LoadedProject, Project, ProjectError, gallery};
-use crate::transition::{BuildError, Cell, Options, Style, Timing, Transition};
+use crate::design::{Design, Form};
+use crate::progress::{Cancelled, Progress, Several, Span, checkpoint};
+use crate::project::{DesignEntry, LoadedProject, Project, ProjectError, gallery};
+use crate::transition::{BuildError, Cell, Fit, Options, Quality, Style, Timing, Transition};
 
 /// A project with its designs.
 #[derive(Debug)]
 pub struct Loaded {
     /// The project and its designs.
     pub project: LoadedProject,
+    /// What its legs were built from: the project's settings, or those with the plainest
+    /// method, or those of drafts.
+    pub settings: Project,
+    /// What there is of each leg.
+    pub legs: Vec<Leg>,
+}
+
+/// What there is of a leg.
+#[derive(Debug, Default)]
+pub struct Leg {
     /// What can be played, if anything.
     pub stage: Option<Stage>,
     /// Why that is not what the project asks for.
     pub problem: Option<Problem>,
 }
 
-/// What can be played.
+/// What can be played of a leg.
 #[derive(Clone, Debug)]
 pub struct Stage {
-    /// What it was built from: the project's settings, or those with the plainest method.
-    pub settings: Project,
+    /// What it was built from.
+    pub settings: Settings,
     /// The transition.
     pub transition: Transition,
+}
+
+/// What a leg is built from.
+#[derive(Clone, Debug)]
+pub struct Settings {
+    /// Two designs, and all that is said of them.
+    pub pair: Project,
+    /// The designs of the whole, where the leg hangs on them: they are laid over the first of
+    /// them, and fields share one grid.
+    among: Vec<DesignEntry>,
+}
+
+impl Settings {
+    /// Those of a leg of a project.
+    #[must_use]
+    pub fn of(whole: &LoadedProject, leg: usize) -> Self {
+        let project = &whole.project;
+        let has_bars = |design: &Arc<Design>| matches!(design.form, Form::Truss(_));
+        let stands_alone = !project.is_sequence()
+            || (project.content == Some(ContentKind::Solid)
+                && project.fit == Fit::AsDrawn
+                && !whole.designs.iter().any(has_bars));
+        Self {
+            pair: project.leg(leg),
+            among: if stands_alone {
+                Vec::new()
+            } else {
+                project.designs.clone()
+            },
+        }
+    }
+
+    /// The designs have other names by now, and are the same.
+    pub fn rename(&mut self, whole: &Project, leg: usize) {
+        let names = whole.leg_designs(leg).map(|k| whole.designs[k].clone());
+        self.pair.designs = names.to_vec();
+        if !self.among.is_empty() {
+            self.among.clone_from(&whole.designs);
+        }
+    }
+
+    /// Whether another transition is to be built for these.
+    fn needs_build(&self, now: &Self) -> bool {
+        needs_build(&self.pair, &now.pair) || self.among != now.among
+    }
 }
 
 /// Why there is nothing to play.
@@ -49,8 +107,8 @@ pub enum Request {
     File(PathBuf),
     /// Open a project as it was before the program ended without saving it.
     Rescued(Box<Kept>),
-    /// Open two designs as a new project.
-    Pair(PathBuf, PathBuf),
+    /// Open designs, one after the other, as a new project.
+    Designs(Vec<PathBuf>),
     /// Build what is open with its new settings.
     Rebuild(Box<Rebuild>),
 }
@@ -64,7 +122,7 @@ pub struct Rebuild {
     /// The settings of what is on the stage.
     pub staged: Project,
     /// What is on the stage.
-    pub transition: Option<Transition>,
+    pub stages: Vec<Stage>,
     /// A file of its designs has changed.
     pub must_reread: bool,
 }
@@ -86,43 +144,77 @@ impl Rebuild {
     ) -> Result<Loaded, LoadError> {
         // Its sliders are dragged, and the distance transforms take far longer than the mixing.
         if !self.must_reread
-            && let Some(transition) = self.mixed_otherwise().or_else(|| self.shown_otherwise())
+            && let Some(stages) = self.mixed_otherwise().or_else(|| self.shown_otherwise())
         {
-            return Ok(built(self.now, Ok(transition)));
+            return Ok(done(self.now, stages));
         }
-        let mut project = self.now;
-        if self.must_reread || reads_differently(&self.staged, &project.project) {
+        let (mut project, mut known) = (self.now, self.stages);
+        if self.must_reread {
             project = project.reread()?;
+            // Of files that have changed nothing is known any more.
+            known.clear();
+            choose_cell(&mut project);
+        } else if reads_differently(&self.staged, &project.project) {
+            project = project.read_beside(&self.staged)?;
             choose_cell(&mut project);
         }
-        Ok(built_by_steps(project, None, progress, meanwhile))
+        Ok(built_by_steps(
+            project,
+            &known,
+            Vec::new(),
+            progress,
+            meanwhile,
+        ))
     }
 
     /// Where nothing but the times of parts and how coats lie has changed, the film is the same.
-    fn shown_otherwise(&self) -> Option<Transition> {
+    fn shown_otherwise(&self) -> Option<Vec<Stage>> {
         self.is_same_but_for(|options, now| {
             options.parts.clone_from(&now.parts);
             options.coats = now.coats;
         })?;
-        let Options { parts, coats, .. } = self.now.spec().ok()?.options;
-        let transition = self.transition.as_ref()?;
-        Some(transition.with_coats(&coats).with_part_times(&parts))
+        self.each(|leg, transition| {
+            let Options { parts, coats, .. } = leg.spec().ok()?.options;
+            Some(transition.with_coats(&coats).with_part_times(&parts))
+        })
     }
 
-    /// Whether the settings on the stage would be the new ones if this were changed in them.
-    fn is_same_but_for(&self, change: impl FnOnce(&mut Options, &Options)) -> Option<()> {
-        let mut otherwise_same = self.staged.clone();
-        change(&mut otherwise_same.options, &self.now.project.options);
-        (!needs_build(&otherwise_same, &self.now.project)).then_some(())
+    /// Whether the settings on the stage would be the new ones if this were changed in them, of
+    /// every leg.
+    fn is_same_but_for(&self, change: impl Fn(&mut Options, &Options)) -> Option<()> {
+        let mut same = self.staged.clone();
+        for leg in 0..same.leg_count() {
+            let (mut was, now) = (same.leg(leg), self.now.project.leg(leg));
+            change(&mut was.options, &now.options);
+            same.take_leg(leg, was);
+        }
+        (!needs_build(&same, &self.now.project)).then_some(())
     }
 
     /// Where nothing but the mixing of the fields has changed, they need not be measured again.
-    fn mixed_otherwise(&self) -> Option<Transition> {
+    fn mixed_otherwise(&self) -> Option<Vec<Stage>> {
         self.is_same_but_for(|options, now| options.field.blend = now.field.blend)?;
-        self.transition
-            .as_ref()?
-            .with_blend(self.now.project.options.field.blend)
-            .ok()?
+        let blend = self.now.project.options.field.blend;
+        self.each(|_, transition| transition.with_blend(blend).ok()?)
+    }
+
+    /// Another transition of each leg, if each has one.
+    fn each(
+        &self,
+        change: impl Fn(&LoadedProject, &Transition) -> Option<Transition>,
+    ) -> Option<Vec<Stage>> {
+        let legs = self.now.legs();
+        if legs.len() != self.stages.len() {
+            return None;
+        }
+        let changed = legs.iter().zip(&self.stages).enumerate();
+        let changed = changed.map(|(k, (leg, stage))| {
+            Some(Stage {
+                settings: Settings::of(&self.now, k),
+                transition: change(leg, &stage.transition)?,
+            })
+        });
+        changed.collect()
     }
 }
 
@@ -145,7 +237,7 @@ impl Request {
             Self::Gallery(name) => Origin::Gallery(name.clone()),
             Self::File(path) => Origin::File(path.clone()),
             Self::Rescued(kept) => kept.origin(),
-            Self::Pair(..) => Origin::Unsaved,
+            Self::Designs(_) => Origin::Unsaved,
             Self::Rebuild(_) => return None,
         })
     }
@@ -155,7 +247,7 @@ impl Request {
     pub fn settings(&self) -> Option<&Project> {
         match self {
             Self::Rebuild(rebuild) => Some(&rebuild.now.project),
-            Self::Gallery(_) | Self::File(_) | Self::Rescued(_) | Self::Pair(..) => None,
+            Self::Gallery(_) | Self::File(_) | Self::Rescued(_) | Self::Designs(_) => None,
         }
     }
 
@@ -176,25 +268,37 @@ impl Request {
             Self::Gallery(name) => gallery::load(&name)?,
             Self::File(path) => LoadedProject::open(&path)?,
             Self::Rescued(kept) => kept.load()?,
-            Self::Pair(source, target) => {
-                LoadedProject::open_pair(&absolute(&source), &absolute(&target))?
+            Self::Designs(paths) => {
+                let project = Project::of(paths.iter().map(|path| absolute(path)));
+                LoadedProject::load(project, Some(PathBuf::new()))?
             }
             Self::Rebuild(rebuild) => return rebuild.carry_out(progress, &mut meanwhile),
         };
         choose_cell(&mut project);
         let plain = plainest(&project, progress);
-        if plain.is_some() {
-            meanwhile(Meanwhile::Plain(shown(&project, plain.clone())));
+        let stages = plain.as_ref().map_or_else(Vec::new, |plain| plain.stages());
+        if let Some(plain) = plain {
+            meanwhile(Meanwhile::Plain(plain));
         }
-        Ok(built_by_steps(project, plain, progress, &mut meanwhile))
+        Ok(built_by_steps(
+            project,
+            &[],
+            stages,
+            progress,
+            &mut meanwhile,
+        ))
     }
 }
 
 /// Writes down the cell that suits the designs, where the project names none that they can be
 /// shown by, so that what the panel says is what the stage shows.
 fn choose_cell(loaded: &mut LoadedProject) {
-    let can = |cell: &Cell| loaded.available(cell.warp(), cell.content()).is_ok();
-    let asked = loaded.cell().ok().filter(can);
+    let legs = loaded.legs();
+    let can = |cell: &Cell| {
+        let can = |leg: &LoadedProject| leg.available(cell.warp(), cell.content()).is_ok();
+        legs.iter().all(can)
+    };
+    let asked = legs[0].cell().ok().filter(can);
     // What asks most of the designs comes first; what asks least is always among them.
     let suited = asked.or_else(|| Cell::all().find(can));
     if let Some(cell) = suited {
@@ -203,62 +307,125 @@ fn choose_cell(loaded: &mut LoadedProject) {
     }
 }
 
-fn built(project: LoadedProject, transition: Result<Transition, Problem>) -> Loaded {
-    let (stage, problem) = match transition {
-        Ok(transition) => {
-            let settings = project.project.clone();
-            let stage = Stage {
-                settings,
-                transition,
-            };
-            (Some(stage), None)
-        }
-        Err(problem) => (None, Some(problem)),
+impl Loaded {
+    fn stages(&self) -> Vec<Option<Stage>> {
+        self.legs.iter().map(|leg| leg.stage.clone()).collect()
+    }
+}
+
+/// A project all of whose legs are as it asks for.
+fn done(project: LoadedProject, stages: Vec<Stage>) -> Loaded {
+    let leg = |stage| Leg {
+        stage: Some(stage),
+        problem: None,
     };
     Loaded {
+        settings: project.project.clone(),
+        legs: stages.into_iter().map(leg).collect(),
         project,
-        stage,
-        problem,
     }
 }
 
 /// How much of the work is done once there is a draft, as it is told: a quarter of most pairs'.
 const DRAFTED: f64 = 0.25;
 
-/// Builds what a project asks for, by way of a draft where that is sooner there; where it cannot be
-/// had, the draft stands in its place, or what there is `already`.
+/// Builds what a project asks for, by way of drafts where these are sooner there; where it cannot be
+/// had, the draft stands in its place, or what there is `already`. Legs that are `known` stay as
+/// they are.
 fn built_by_steps(
     project: LoadedProject,
-    already: Option<Stage>,
+    known: &[Stage],
+    already: Vec<Option<Stage>>,
     progress: &dyn Progress,
     meanwhile: &mut dyn FnMut(Meanwhile),
 ) -> Loaded {
-    let draft = draft(&project, &Span::new(progress, 0.0, DRAFTED));
-    let from = if draft.is_some() { DRAFTED } else { 0.0 };
-    if draft.is_some() {
-        meanwhile(Meanwhile::Draft(shown(&project, draft.clone())));
+    let legs = project.legs();
+    let known: Vec<Option<Stage>> = (0..legs.len())
+        .map(|leg| of_settings(known, &Settings::of(&project, leg)))
+        .collect();
+    let drafting = Several::new(progress, legs.len());
+    let draft = |leg: usize| {
+        let part = drafting.part(leg);
+        let is_known = known[leg].is_some();
+        let draft = (!is_known)
+            .then(|| draft(&project, (leg, &legs[leg]), &Span::new(&part, 0.0, DRAFTED)));
+        draft.flatten()
+    };
+    let drafts: Vec<Option<Stage>> = (0..legs.len()).map(draft).collect();
+    let has_drafts = drafts.iter().any(Option::is_some);
+    let standing = |leg: usize| {
+        let before = already.get(leg).cloned().flatten();
+        known[leg].clone().or(drafts[leg].clone()).or(before)
+    };
+    if has_drafts {
+        let stages = (0..legs.len()).map(standing).collect();
+        let mut settings = project.project.clone();
+        settings.options.quality = Quality::Draft;
+        meanwhile(Meanwhile::Draft(shown(&project, settings, stages)));
     }
-    let transition = transition_of(&project, &Span::new(progress, from, 1.0));
-    let mut built = built(project, transition);
-    built.stage = built.stage.or(draft).or(already);
-    built
+    let from = if has_drafts { DRAFTED } else { 0.0 };
+    let building = Span::new(progress, from, 1.0);
+    let building = Several::new(&building, legs.len());
+    let built = (0..legs.len()).map(|leg| {
+        if let Some(stage) = &known[leg] {
+            return Leg {
+                stage: Some(stage.clone()),
+                problem: None,
+            };
+        }
+        match transition_of(&legs[leg], &building.part(leg)) {
+            Ok(transition) => Leg {
+                stage: Some(Stage {
+                    settings: Settings::of(&project, leg),
+                    transition,
+                }),
+                problem: None,
+            },
+            Err(problem) => Leg {
+                stage: standing(leg),
+                problem: Some(problem),
+            },
+        }
+    });
+    let built = built.collect();
+    Loaded {
+        settings: project.project.clone(),
+        legs: built,
+        project,
+    }
+}
+
+/// What was built from these settings before.
+fn of_settings(known: &[Stage], settings: &Settings) -> Option<Stage> {
+    let found = known
+        .iter()
+        .find(|stage| !stage.settings.needs_build(settings));
+    found.cloned()
 }
 
 /// A project on the way to what it asks for.
-fn shown(project: &LoadedProject, stage: Option<Stage>) -> Loaded {
-    Loaded {
-        project: project.clone(),
+fn shown(project: &LoadedProject, settings: Project, stages: Vec<Option<Stage>>) -> Loaded {
+    let leg = |stage| Leg {
         stage,
         problem: None,
+    };
+    Loaded {
+        project: project.clone(),
+        settings,
+        legs: stages.into_iter().map(leg).collect(),
     }
 }
 
-/// The first film of a project that asks for the best of several; none where it asks for nothing
+/// The first film of a leg that asks for the best of several; none where it asks for nothing
 /// of the kind, or it cannot be had.
-fn draft(project: &LoadedProject, progress: &dyn Progress) -> Option<Stage> {
+fn draft(
+    whole: &LoadedProject,
+    (leg, project): (usize, &LoadedProject),
+    progress: &dyn Progress,
+) -> Option<Stage> {
     let spec = project.spec().ok()?.draft(progress)?;
-    let mut settings = project.project.clone();
-    settings.options.quality = spec.options.quality;
+    let mut settings = Settings::of(whole, leg);
+    settings.pair.options.quality = spec.options.quality;
     let transition = Transition::build(&spec, progress).ok()?;
     Some(Stage {
         settings,
@@ -266,10 +433,10 @@ fn draft(project: &LoadedProject, progress: &dyn Progress) -> Option<Stage> {
     })
 }
 
-/// The transition of a project by the method that moves nothing, which is had of almost any two
+/// The transitions of a project by the method that moves nothing, which is had of almost any two
 /// designs, and at once; none where that is what it asks for.
-fn plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<Stage> {
-    let asked = project.cell().ok()?;
+fn plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<Loaded> {
+    let asked = project.legs()[0].cell().ok()?;
     let cell = asked.plain();
     if cell == asked {
         return None;
@@ -277,11 +444,14 @@ fn plainest(project: &LoadedProject, progress: &dyn Progress) -> Option<Stage> {
     let mut plain = project.clone();
     plain.project.warp = Some(cell.warp());
     plain.project.content = Some(cell.content());
-    let transition = transition_of(&plain, &Unsaid(progress)).ok()?;
-    Some(Stage {
-        settings: plain.project,
-        transition,
-    })
+    let stage = |(leg, pair): (usize, &LoadedProject)| {
+        Some(Stage {
+            settings: Settings::of(&plain, leg),
+            transition: transition_of(pair, &Unsaid(progress)).ok()?,
+        })
+    };
+    let stages = plain.legs().iter().enumerate().map(stage).collect();
+    Some(shown(project, plain.project.clone(), stages))
 }
 
 /// Hears that it is cancelled and tells nothing: a bar that ran once would run again.

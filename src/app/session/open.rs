@@ -1,27 +1,25 @@
 //! A project that is open: where it comes from, how it was changed, what of it is on the stage.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use crate::app::capturing::files::safe;
 use crate::app::session::history::{History, Snapshot};
-use crate::app::session::loading::{self, Loaded, Problem, Rebuild};
+use crate::app::session::loading::{self, Leg, Loaded, Problem, Rebuild, Stage};
 use crate::app::session::origin::Origin;
 use crate::app::session::rescue::Kept;
 use crate::app::session::saving::{self, SaveError};
-use crate::design::Source;
+use crate::design::{Design, Source};
+use crate::geometry::Bounds;
 use crate::one_line::OneLine;
 use crate::project::{LoadedProject, Project, ProjectError};
-use crate::transition::Transition;
+use crate::transition::{Sequence, Transition};
 
 /// A project that is open.
 #[derive(Debug)]
 pub struct Open {
-    /// The settings as they are now, and the designs.
+    /// The settings as they are now, and the designs of what is on the stage.
     pub loaded: LoadedProject,
-    /// What is on the stage.
-    pub transition: Option<Transition>,
-    /// Why the settings, as they are now, make no transition.
-    pub problem: Option<Problem>,
     /// The settings of what is on the stage.
     pub staged: Project,
     /// The steps that can be taken back.
@@ -30,6 +28,12 @@ pub struct Open {
     pub must_reread: bool,
     /// It was taken up again after the program had ended without saving it.
     pub is_rescued: bool,
+    /// What there is of each leg of what is on the stage.
+    legs: Vec<Leg>,
+    /// The leg that is looked at.
+    leg: usize,
+    /// The project of that leg, as it is now.
+    seen: Project,
     origin: Origin,
     /// As it was opened or saved last.
     saved: Project,
@@ -40,18 +44,15 @@ impl Open {
     #[must_use]
     pub fn new(loaded: Loaded, origin: Origin) -> Self {
         let project = loaded.project.project.clone();
-        let (staged, transition) = match loaded.stage {
-            Some(stage) => (stage.settings, Some(stage.transition)),
-            None => (project.clone(), None),
-        };
         Self {
+            seen: project.leg(0),
             loaded: loaded.project,
-            transition,
-            problem: loaded.problem,
-            staged,
+            staged: loaded.settings,
             history: History::default(),
             must_reread: false,
             is_rescued: false,
+            legs: loaded.legs,
+            leg: 0,
             origin,
             saved: project,
         }
@@ -73,6 +74,103 @@ impl Open {
     /// As [`Kept::new`].
     pub fn kept(&self) -> Result<Kept, ProjectError> {
         Kept::new(self.title(), &self.origin, &self.loaded)
+    }
+
+    /// The number of the leg that is looked at.
+    #[must_use]
+    pub fn leg(&self) -> usize {
+        self.leg
+    }
+
+    /// How many legs are on the stage.
+    #[must_use]
+    pub fn leg_count(&self) -> usize {
+        self.legs.len()
+    }
+
+    /// Looks at another leg.
+    pub fn look_at(&mut self, leg: usize) {
+        self.leg = leg.min(self.legs.len().saturating_sub(1));
+        self.look_again();
+    }
+
+    /// The settings of the leg that is looked at, or of the last one where it is gone.
+    fn look_again(&mut self) {
+        let last = self.loaded.project.leg_count() - 1;
+        self.seen = self.loaded.project.leg(self.leg.min(last));
+    }
+
+    /// The project of the leg that is looked at, as it is now.
+    #[must_use]
+    pub fn seen(&self) -> &Project {
+        &self.seen
+    }
+
+    /// The project with the designs and the settings that are on the stage.
+    #[must_use]
+    pub fn whole_on_stage(&self) -> LoadedProject {
+        self.loaded.with(self.staged.clone())
+    }
+
+    /// The leg that is looked at, with the designs and the settings that are on the stage.
+    #[must_use]
+    pub fn leg_on_stage(&self) -> LoadedProject {
+        let mut legs = self.whole_on_stage().legs();
+        let leg = self.leg.min(legs.len() - 1);
+        legs.swap_remove(leg)
+    }
+
+    /// The designs of the leg that is looked at.
+    #[must_use]
+    pub fn designs(&self) -> [&Arc<Design>; 2] {
+        self.staged
+            .leg_designs(self.leg)
+            .map(|k| &self.loaded.designs[k])
+    }
+
+    /// What is on the stage of the leg that is looked at.
+    #[must_use]
+    pub fn transition(&self) -> Option<&Transition> {
+        self.stage().map(|stage| &stage.transition)
+    }
+
+    /// The same, with what it was built from.
+    #[must_use]
+    pub fn stage(&self) -> Option<&Stage> {
+        self.legs.get(self.leg)?.stage.as_ref()
+    }
+
+    /// All that is on the stage, where every leg has something to show.
+    #[must_use]
+    pub fn sequence(&self) -> Option<Sequence> {
+        let legs = self
+            .legs
+            .iter()
+            .map(|leg| Some(leg.stage.as_ref()?.transition.clone()));
+        Sequence::new(legs.collect::<Option<_>>()?)
+    }
+
+    /// The box that holds every frame of what is on the stage, nearly.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Bounds> {
+        let stages = self.legs.iter().filter_map(|leg| leg.stage.as_ref());
+        let boxes = stages.map(|stage| stage.transition.bounds());
+        boxes.reduce(|a, b| a.union(&b))
+    }
+
+    /// Why the settings, as they are now, make no transition: of the leg that is looked at, or of
+    /// another.
+    #[must_use]
+    pub fn problem(&self) -> Option<&Problem> {
+        let here = self.legs.get(self.leg).and_then(|leg| leg.problem.as_ref());
+        here.or_else(|| self.legs.iter().find_map(|leg| leg.problem.as_ref()))
+    }
+
+    /// There is no problem any more.
+    pub fn forget_problems(&mut self) {
+        for leg in &mut self.legs {
+            leg.problem = None;
+        }
     }
 
     /// The file that it is saved to.
@@ -146,7 +244,16 @@ impl Open {
     pub fn edit(&mut self, project: Project, mark: Option<u64>) {
         let before = self.snapshot();
         self.loaded.project = project;
+        self.look_again();
         self.history.note(before, self.snapshot(), mark);
+    }
+
+    /// Changes the settings of the leg that is looked at, as [`Self::edit`] does.
+    pub fn edit_leg(&mut self, pair: Project, mark: Option<u64>) {
+        let mut whole = self.loaded.project.clone();
+        let last = whole.leg_count() - 1;
+        whole.take_leg(self.leg.min(last), pair);
+        self.edit(whole, mark);
     }
 
     /// Takes the settings of a step of the history; `false` where there is none.
@@ -168,6 +275,7 @@ impl Open {
             }
             _ => project,
         };
+        self.look_again();
         Ok(true)
     }
 
@@ -175,10 +283,16 @@ impl Open {
     /// of the stage again, there is no problem any more.
     pub fn is_stale(&mut self) -> bool {
         let is_stale = self.must_reread || loading::needs_build(&self.staged, &self.loaded.project);
-        if !is_stale && self.transition.is_some() {
-            self.problem = None;
+        if !is_stale {
+            self.forget_problems_of_what_is_shown();
         }
         is_stale
+    }
+
+    fn forget_problems_of_what_is_shown(&mut self) {
+        for leg in self.legs.iter_mut().filter(|leg| leg.stage.is_some()) {
+            leg.problem = None;
+        }
     }
 
     /// What is to be built where it is stale.
@@ -187,7 +301,11 @@ impl Open {
         Rebuild {
             now: self.loaded.clone(),
             staged: self.staged.clone(),
-            transition: self.transition.clone(),
+            stages: self
+                .legs
+                .iter()
+                .filter_map(|leg| leg.stage.clone())
+                .collect(),
             must_reread: self.must_reread,
         }
     }
@@ -195,17 +313,30 @@ impl Open {
     /// Takes in what was built; whether there is a new transition. The settings may have changed
     /// again meanwhile: they stay, and so does what is on the stage where there is nothing new.
     pub fn restage(&mut self, built: Loaded) -> bool {
-        self.problem = built.problem;
-        // What was built in its place is on the stage already, or something better.
-        let stage = built.stage.filter(|_| self.problem.is_none());
-        let is_new = stage.is_some();
-        if let Some(stage) = stage {
-            // The settings are not taken from what was built: they may be newer.
-            self.loaded.designs = built.project.designs;
-            self.must_reread = false;
-            (self.transition, self.staged) = (Some(stage.transition), stage.settings);
+        let can_stay = built.legs.len() == self.legs.len();
+        if can_stay && built.legs.iter().all(|leg| leg.problem.is_some()) {
+            // What was built in its place is on the stage already, or something better.
+            let new = self.legs.iter_mut().zip(built.legs);
+            new.for_each(|(leg, built)| leg.problem = built.problem);
+            return false;
         }
-        is_new
+        // The settings are not taken from what was built: they may be newer.
+        self.loaded.designs = built.project.designs;
+        self.staged = built.settings;
+        self.must_reread = false;
+        let mut before = std::mem::take(&mut self.legs).into_iter();
+        let merged = |built: Leg| {
+            let old = before
+                .next()
+                .filter(|_| can_stay && built.problem.is_some());
+            Leg {
+                stage: old.and_then(|old| old.stage).or(built.stage),
+                problem: built.problem,
+            }
+        };
+        self.legs = built.legs.into_iter().map(merged).collect();
+        self.look_at(self.leg);
+        true
     }
 
     /// The settings go back to those of the stage; no step of the history is left of it.
@@ -213,21 +344,27 @@ impl Open {
         self.must_reread = false;
         self.amend(|now, staged| now.clone_from(staged));
         // What could not be had is not asked for any more.
-        self.problem.take_if(|_| self.transition.is_some());
+        self.forget_problems_of_what_is_shown();
     }
 
     /// The designs go back to those of the stage: a file that cannot be read is not kept.
     pub fn give_up_designs(&mut self) {
         self.must_reread = false;
         self.amend(|now, staged| {
-            now.designs.clone_from(&staged.designs);
-            now.fit = staged.fit;
+            // Another number of them has other legs.
+            if now.designs.len() == staged.designs.len() {
+                now.designs.clone_from(&staged.designs);
+                now.fit = staged.fit;
+            } else {
+                now.clone_from(staged);
+            }
         });
     }
 
     fn amend(&mut self, change: impl FnOnce(&mut Project, &Project)) {
         let before = self.snapshot();
         change(&mut self.loaded.project, &self.staged);
+        self.look_again();
         self.history.amend(before, self.snapshot());
     }
 
@@ -236,17 +373,26 @@ impl Open {
     /// # Errors
     /// The document or a bundled design cannot be written; the project is as it was.
     pub fn save(&mut self, path: PathBuf) -> Result<(), SaveError> {
-        let found = self.transition.as_ref().and_then(Transition::found);
         // What is on the stage may be another film than the project asks for, a draft of it.
-        if let Some(found) =
-            found.filter(|_| !loading::needs_build(&self.staged, &self.loaded.project))
-        {
-            self.loaded.project.found = found;
+        if !loading::needs_build(&self.staged, &self.loaded.project) {
+            for (k, leg) in self.legs.iter().enumerate() {
+                if let Some(found) = leg.stage.as_ref().and_then(|s| s.transition.found()) {
+                    self.loaded.project.keep_found(k, found);
+                }
+            }
         }
         saving::save(&mut self.loaded, &path)?;
+        self.look_again();
         self.saved = self.loaded.project.clone();
         // Only their names have changed, which is no reason to build again.
-        self.staged.designs.clone_from(&self.saved.designs);
+        if self.staged.designs.len() == self.saved.designs.len() {
+            self.staged.designs.clone_from(&self.saved.designs);
+            for (k, leg) in self.legs.iter_mut().enumerate() {
+                if let Some(stage) = &mut leg.stage {
+                    stage.settings.rename(&self.staged, k);
+                }
+            }
+        }
         self.origin = Origin::File(path);
         self.is_rescued = false;
         Ok(())

@@ -20,8 +20,9 @@ use crate::app::session::work::Work;
 use crate::app::telling::job::JobError;
 use crate::content::ContentKind;
 use crate::design::{Design, Form};
+use crate::geometry::Bounds;
 use crate::project::{LoadedProject, Project, ProjectError};
-use crate::transition::{BuildError, Stop, Style, Timing, Transition};
+use crate::transition::{BuildError, Sequence, Stop, Style, Timing, Transition, place, style_of};
 use crate::warp::{Arap, WarpKind};
 
 /// What [`Session::poll`] found.
@@ -67,64 +68,141 @@ static NO_TIMING: LazyLock<Timing> = LazyLock::new(Timing::default);
 
 /// What is open.
 impl Session {
-    /// The open project with all its settings.
+    /// The leg that is looked at with all its settings: two designs, of a project that may have
+    /// more.
     #[must_use]
     pub fn project(&self) -> Option<&Project> {
+        self.open.as_ref().map(Open::seen)
+    }
+
+    /// The open project with all its legs.
+    #[must_use]
+    pub fn whole(&self) -> Option<&Project> {
         self.open.as_ref().map(|open| &open.loaded.project)
     }
 
-    /// The designs as their files have them.
+    /// The designs of the leg that is looked at as their files have them.
     #[must_use]
-    pub fn designs(&self) -> &[Arc<Design>] {
+    pub fn designs(&self) -> Vec<&Arc<Design>> {
+        let open = self.open.as_ref();
+        open.map_or_else(Vec::new, |open| open.designs().to_vec())
+    }
+
+    /// All designs as their files have them.
+    #[must_use]
+    pub fn all_designs(&self) -> &[Arc<Design>] {
         let open = self.open.as_ref();
         open.map_or(&[], |open| &open.loaded.designs)
     }
 
-    /// The transition on the stage.
+    /// The names of the designs that the film comes by, at each whole t.
+    #[must_use]
+    pub fn names_on_the_way(&self) -> Vec<String> {
+        self.open.as_ref().map_or_else(Vec::new, |open| {
+            let whole = open.whole_on_stage();
+            whole.names_on_the_way().map(str::to_owned).collect()
+        })
+    }
+
+    /// The transition on the stage, of the leg that is looked at.
     #[must_use]
     pub fn transition(&self) -> Option<&Transition> {
-        self.open.as_ref()?.transition.as_ref()
+        self.open.as_ref()?.transition()
+    }
+
+    /// All transitions on the stage, where there is one of each leg.
+    #[must_use]
+    pub fn sequence(&self) -> Option<Sequence> {
+        self.open.as_ref()?.sequence()
+    }
+
+    /// The box that holds every frame of what is on the stage, nearly.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Bounds> {
+        self.open.as_ref()?.bounds()
+    }
+
+    /// The number of the leg that is looked at, from 0.
+    #[must_use]
+    pub fn leg(&self) -> usize {
+        self.open.as_ref().map_or(0, Open::leg)
+    }
+
+    /// How many legs there are.
+    #[must_use]
+    pub fn leg_count(&self) -> usize {
+        self.whole().map_or(1, Project::leg_count)
+    }
+
+    /// Where in the leg that is looked at a t of the whole is.
+    #[must_use]
+    pub fn within(&self, t: f64) -> f64 {
+        t - self.leg() as f64
+    }
+
+    /// The t of the whole that is there in the leg that is looked at.
+    #[must_use]
+    pub fn beyond(&self, within: f64) -> f64 {
+        within + self.leg() as f64
+    }
+
+    /// The leg of what is on the stage that is shown at a t.
+    #[must_use]
+    pub fn leg_at(&self, t: f64) -> usize {
+        let legs = self.open.as_ref().map_or(1, Open::leg_count);
+        place(legs, t).0
+    }
+
+    /// Looks at another leg.
+    pub fn look_at(&mut self, leg: usize) {
+        if let Some(open) = &mut self.open {
+            open.look_at(leg);
+        }
     }
 
     /// The settings that the transition on the stage was built from.
     #[must_use]
     pub fn staged_settings(&self) -> Option<&Project> {
-        self.open.as_ref().map(|open| &open.staged)
+        let stage = self.open.as_ref()?.stage()?;
+        Some(&stage.settings.pair)
     }
 
-    /// The designs with the settings that the transition on the stage was built from.
+    /// Two designs with the settings that the transition on the stage was built from.
     #[must_use]
     pub fn staged(&self) -> Option<LoadedProject> {
         let open = self.open.as_ref()?;
-        open.transition.as_ref()?;
-        Some(LoadedProject {
-            project: open.staged.clone(),
-            ..open.loaded.clone()
-        })
+        open.stage()?;
+        Some(open.leg_on_stage())
     }
 
     /// Why the settings, as they are now, make no transition.
     #[must_use]
     pub fn problem(&self) -> Option<&Problem> {
-        self.open.as_ref()?.problem.as_ref()
+        self.open.as_ref()?.problem()
     }
 
     /// How time runs.
     #[must_use]
     pub fn timing(&self) -> &Timing {
-        self.project().map_or(&NO_TIMING, |project| &project.timing)
+        self.whole().map_or(&NO_TIMING, |project| &project.timing)
     }
 
     /// How the open project is painted.
     #[must_use]
     pub fn style(&self) -> Style {
-        self.project().map_or_else(Style::default, |p| p.style)
+        self.whole().map_or_else(Style::default, |p| p.style)
+    }
+
+    /// How the leg that is looked at is painted.
+    #[must_use]
+    pub fn style_here(&self) -> Style {
+        style_of(self.leg(), self.leg_count(), &self.style())
     }
 
     /// The stops of the open project.
     #[must_use]
     pub fn stops(&self) -> &[Stop] {
-        self.project().map_or(&[], |project| &project.stops)
+        self.whole().map_or(&[], |project| &project.stops)
     }
 
     /// The file that the project is saved to.
@@ -164,7 +242,10 @@ impl Session {
     /// The reason, for a grey button.
     pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), Unavailable> {
         let open = self.open.as_ref().ok_or(Unavailable::NothingOpen)?;
-        Ok(open.loaded.available(warp, content)?)
+        for leg in open.whole_on_stage().legs() {
+            leg.available(warp, content)?;
+        }
+        Ok(())
     }
 
     /// How many parts can turn on their own.
@@ -177,7 +258,7 @@ impl Session {
     /// Some design is a truss.
     #[must_use]
     pub fn has_bars(&self) -> bool {
-        let mut designs = self.designs().iter();
+        let mut designs = self.all_designs().iter();
         designs.any(|design| matches!(design.form, Form::Truss(_)))
     }
 
@@ -188,14 +269,13 @@ impl Session {
             Form::Truss(truss) => !truss.parts().colours.is_empty(),
             _ => !design.coats.is_empty(),
         };
-        self.designs().iter().any(is_painted)
+        self.all_designs().iter().any(is_painted)
     }
 
     /// Both designs are outlines: there is something to match.
     #[must_use]
     pub fn can_match(&self) -> bool {
-        // A project may list more than two; a transition is of the first two.
-        let pair = self.designs().get(..2).unwrap_or_default();
+        let pair = self.designs();
         !pair.is_empty() && pair.iter().all(|d| matches!(d.form, Form::Outline(_)))
     }
 }
@@ -243,12 +323,27 @@ impl Session {
         }
     }
 
-    /// Changes the open project; changes of one mark are one step of its history.
+    /// Changes the open project, as the leg that is looked at has it: what is said of its two
+    /// designs is changed there, all else for all legs. Changes of one mark are one step of its
+    /// history.
     pub fn change(&mut self, mark: Option<u64>, edit: impl FnOnce(&mut Project)) {
         let Some(open) = &mut self.open else {
             return;
         };
         // A copy, so that an edit that comes to nothing is no step of the history.
+        let mut changed = open.seen().clone();
+        edit(&mut changed);
+        if changed != *open.seen() {
+            open.edit_leg(changed, mark);
+            self.look();
+        }
+    }
+
+    /// Changes the open project as a whole.
+    pub fn change_whole(&mut self, mark: Option<u64>, edit: impl FnOnce(&mut Project)) {
+        let Some(open) = &mut self.open else {
+            return;
+        };
         let mut changed = open.loaded.project.clone();
         edit(&mut changed);
         if changed != open.loaded.project {
@@ -351,7 +446,7 @@ impl Session {
         if let Some(open) = &mut self.open {
             open.loaded.patient = true;
             // It is tried again, and says anew what is wrong.
-            open.problem = None;
+            open.forget_problems();
             self.is_stale = true;
         }
     }

@@ -18,7 +18,7 @@ use super::rows::{self, Partial};
 use super::summary::Summary;
 use super::table::{self, Row, RowError, Table};
 use crate::cli::error::CliError;
-use crate::cli::inputs::{Inputs, Opened};
+use crate::cli::inputs::{Inputs, OpenedPair};
 use crate::design::Source;
 use crate::export::{
     ExportError, StillKind, Strip, Target, even_times, pair_sheet, write_atomically, write_still,
@@ -223,7 +223,7 @@ impl Batch {
         progress: &dyn Progress,
     ) -> Done<'a> {
         let measured = || {
-            let (opened, report) = measuring.of(&job.inputs()?, &Quiet(progress))?;
+            let (opened, report) = measuring.of_pair(&job.inputs()?, &Quiet(progress))?;
             let strip = self.sheet.is_some().then(|| strip(&opened, &report, job));
             Ok((report.without_samples(), strip))
         };
@@ -317,7 +317,7 @@ fn sheet_kind(path: &Path) -> Result<StillKind, CliError> {
     }
 }
 
-fn strip(opened: &Opened, report: &Report, job: &Job<'_>) -> Strip {
+fn strip(opened: &OpenedPair, report: &Report, job: &Job<'_>) -> Strip {
     let style: &Style = &opened.loaded.project.style;
     let times = even_times(0.0, 1.0, STRIP_FRAMES);
     Strip::of(&job.name(), &opened.transition, style, &times)

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use super::clock::{self, StageClock, Stages};
 use crate::cli::error::CliError;
-use crate::cli::inputs::{Inputs, Opened};
+use crate::cli::inputs::{Inputs, OpenedPair};
 use crate::cli::options::MethodArgs;
 use crate::content::{Content, ContentKind};
 use crate::design::{Design, Form};
@@ -41,22 +41,37 @@ pub(in crate::cli) struct Measuring {
 }
 
 impl Measuring {
-    /// Builds a transition and measures it.
+    /// As [`Self::of`], of what is no sequence.
+    pub fn of_pair(
+        &self,
+        inputs: &Inputs,
+        progress: &dyn Progress,
+    ) -> Result<(OpenedPair, Report), CliError> {
+        let first = self.of(inputs, progress)?.into_iter().next();
+        Ok(first.unwrap_or_else(|| unreachable!("there is a leg")))
+    }
+
+    /// Builds a transition, or each leg of a sequence, and measures it.
     pub fn of(
         &self,
         inputs: &Inputs,
         progress: &dyn Progress,
-    ) -> Result<(Opened, Report), CliError> {
+    ) -> Result<Vec<(OpenedPair, Report)>, CliError> {
         let whole = Whole::new(progress);
         let building = Span::new(&whole, 0.0, BUILT);
         let clock = StageClock::new(&building);
-        let opened = inputs.open(&self.method, &clock)?;
         let measuring = Span::new(&whole, BUILT, 1.0);
-        let mut report = Report::of(&opened, clock.stages(), self.samples as usize, &measuring)?;
-        if self.prove {
-            report.proof = ProofReport::of(&opened.transition, progress)?;
-        }
-        Ok((opened, report))
+        let mut all = Vec::new();
+        inputs.open_each(&self.method, &clock, |opened| {
+            let samples = self.samples as usize;
+            let mut report = Report::of(&opened, clock.stages(), samples, &measuring)?;
+            if self.prove {
+                report.proof = ProofReport::of(&opened.transition, progress)?;
+            }
+            all.push((opened, report));
+            Ok(())
+        })?;
+        Ok(all)
     }
 }
 
@@ -190,7 +205,7 @@ impl VerdictReport {
 impl Report {
     /// Measures a transition at so many t.
     pub fn of(
-        opened: &Opened,
+        opened: &OpenedPair,
         stages: Stages,
         samples: usize,
         progress: &dyn Progress,
@@ -214,7 +229,7 @@ impl Report {
             stages,
         };
         Ok(Self {
-            title: opened.loaded.title(),
+            title: opened.title(),
             warp: transition.cell().warp(),
             content: transition.cell().content(),
             designs: transition.designs().iter().map(of_design).collect(),

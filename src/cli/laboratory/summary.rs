@@ -125,7 +125,7 @@ fn measured(reports: &[&Report], column: &Column) -> Option<Measured> {
 mod tests {
     use super::super::clock::Stages;
     use super::*;
-    use crate::cli::inputs::Opened;
+    use crate::cli::inputs::OpenedPair;
     use crate::progress::Silent;
     use crate::project::gallery;
     use crate::transition::Transition;
@@ -134,7 +134,7 @@ mod tests {
     fn report() -> Report {
         let loaded = gallery::load("triangle-polar").expect("bundled");
         let spec = loaded.spec().expect("a spec");
-        let opened = Opened {
+        let opened = OpenedPair {
             transition: Transition::build(&spec, &Silent).expect("built"),
             loaded,
             import_time: Duration::ZERO,

@@ -7,7 +7,7 @@
 use crate::content::Content;
 use crate::geometry::DVec2;
 use crate::progress::{Progress, checkpoint};
-use crate::transition::Frame;
+use crate::transition::SequenceFrame;
 
 use super::super::camera::{Camera, DRAWING};
 use super::super::error::ExportError;
@@ -53,15 +53,18 @@ pub(super) fn record(
 ) -> Result<Vec<Piece>, ExportError> {
     let mut recorder = Recorder {
         camera,
-        frame: camera.transition.frame(0.0),
+        frame: camera.sequence.frame(0.0),
         progress,
         pieces: Vec::new(),
     };
-    let has_ways = match camera.transition.content() {
-        Content::Colours(_) => return Err(ExportError::NoOutlines),
-        Content::Field(_) => false,
-        _ => true,
-    };
+    let mut has_ways = true;
+    for leg in camera.sequence.legs() {
+        match leg.content() {
+            Content::Colours(_) => return Err(ExportError::NoOutlines),
+            Content::Field(_) => has_ways = false,
+            Content::Solid(_) => {}
+        }
+    }
     let mut times = film.times().to_vec();
     times.sort_by(f64::total_cmp);
     times.dedup();
@@ -78,7 +81,7 @@ pub(super) fn record(
 
 struct Recorder<'a> {
     camera: &'a Camera,
-    frame: Frame,
+    frame: SequenceFrame,
     progress: &'a dyn Progress,
     pieces: Vec<Piece>,
 }
@@ -108,9 +111,9 @@ impl Recorder<'_> {
         let (Some(&from), Some(&to)) = (times.first(), times.last()) else {
             return Ok(true);
         };
-        let mut cuts = self.camera.transition.breaks();
+        let mut cuts = self.camera.sequence.breaks();
         // Colours stay what they are beyond these.
-        cuts.extend([0.0, 1.0]);
+        cuts.extend([0.0, self.camera.sequence.end()]);
         cuts.retain(|&cut| from < cut && cut < to);
         cuts.extend([from, to]);
         cuts.sort_by(f64::total_cmp);

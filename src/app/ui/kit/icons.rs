@@ -60,6 +60,8 @@ pub const TO_START: Icon = solid(fill::SKIP_BACK);
 
 pub const CAMERA: Icon = lines(regular::CAMERA);
 pub const CLOSE: Icon = lines(regular::X);
+pub const COPY: Icon = lines(regular::COPY);
+pub const DOWN: Icon = lines(regular::ARROW_DOWN);
 pub const FIT: Icon = lines(regular::CORNERS_OUT);
 pub const MATCH: Icon = lines(regular::LINE_SEGMENT);
 pub const MOON: Icon = lines(regular::MOON);
@@ -76,6 +78,7 @@ pub const SWAP: Icon = lines(regular::ARROWS_LEFT_RIGHT);
 pub const TICK: Icon = lines(regular::CHECK);
 pub const TWIN: Icon = lines(regular::SQUARE_SPLIT_HORIZONTAL);
 pub const UNDO: Icon = lines(regular::ARROW_U_UP_LEFT);
+pub const UP: Icon = lines(regular::ARROW_UP);
 pub const WARNING: Icon = lines(regular::WARNING);
 
 /// The fonts of the text, and a family for each font of signs.

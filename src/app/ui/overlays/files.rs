@@ -112,7 +112,7 @@ fn dialog(asks: &Purpose, scene: &Scene) -> FileDialog {
         }
     }
     match asks {
-        Purpose::Open => dialog.pick_multiple(),
+        Purpose::Open | Purpose::Insert(_) => dialog.pick_multiple(),
         Purpose::Replace(_) => dialog.pick_file(),
         Purpose::Save(name) => {
             dialog = dialog.default_file_name(name);

@@ -1,14 +1,14 @@
 //! The questions that the program asks: about what would be lost, and what a dropped file is for.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::time::Duration;
 
-use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, ScrollArea, Ui, vec2};
+use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Ui};
 
 use crate::app::asking::intent::{Answer, Intent, Rescue};
 use crate::app::opening::closing::Lost;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
-use crate::app::ui::kit::widgets::{option, primary_button};
+use crate::app::ui::kit::theme::GRID;
+use crate::app::ui::kit::widgets::primary_button;
 use crate::app::ui::scene::{Intents, Scene};
 
 /// Draws the question that is open, if any.
@@ -18,9 +18,7 @@ pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
     } else if let Some((title, age)) = scene.autosave.lost() {
         ask_lost(ctx, title, age, acts);
     } else if let Some(path) = scene.drop.undecided() {
-        ask_drop(ctx, path, acts);
-    } else if !scene.drop.many().is_empty() {
-        ask_which(ctx, scene.drop.many(), acts);
+        ask_drop(ctx, scene, path, acts);
     }
 }
 
@@ -94,79 +92,37 @@ fn ago(age: Duration) -> String {
     }
 }
 
-fn ask_drop(ctx: &Context, path: &Path, acts: &mut Intents) {
+fn ask_drop(ctx: &Context, scene: &Scene, path: &Path, acts: &mut Intents) {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let Some(whole) = scene.session.whole() else {
+        return;
+    };
+    // Of the two that are looked at.
+    let [source, target] = whole.leg_designs(scene.session.leg());
     Modal::new(Id::new("drop")).show(ctx, |ui| {
-        ui.set_width(400.0);
+        ui.set_width(440.0);
         ui.heading("One design");
-        let words = format!("What is {name} for? Drop two files to open a new pair.");
+        let words = format!(
+            "What is {name} for? It can come after the others, as a further design of the film, or \
+             take the place of one. Drop two files or more to open a new project."
+        );
         ui.add(Label::new(words).wrap());
         answers(ui, |ui| {
-            if primary_button(ui, "Use as target").clicked() {
-                acts.push(Intent::ReplaceDesign(1, path.to_owned()));
+            if primary_button(ui, "Add at the end").clicked() {
+                let end = whole.designs.len();
+                acts.push(Intent::InsertDesigns(end, vec![path.to_owned()]));
             }
-            if primary_button(ui, "Use as source").clicked() {
-                acts.push(Intent::ReplaceDesign(0, path.to_owned()));
-            }
-            if ui.button("Cancel").clicked() {
-                acts.push(Intent::Back);
-            }
-        });
-    });
-}
-
-/// Which two of many designs are a pair.
-fn ask_which(ctx: &Context, paths: &[PathBuf], acts: &mut Intents) {
-    let id = Id::new("which two");
-    // The first two, until somebody says otherwise.
-    let mut pair: [usize; 2] = ctx.data(|data| data.get_temp(id)).unwrap_or([0, 1]);
-    pair = pair.map(|k| k.min(paths.len() - 1));
-    Modal::new(id).show(ctx, |ui| {
-        ui.set_width(400.0);
-        ui.heading(format!("{} designs", paths.len()));
-        ui.label("A film has two: which?");
-        ui.add_space(GRID);
-        ScrollArea::vertical().max_height(240.0).show(ui, |ui| {
-            for (k, path) in paths.iter().enumerate() {
-                row(ui, k, path, &mut pair);
-            }
-        });
-        answers(ui, |ui| {
-            let can = pair[0] != pair[1];
-            let open = ui.add_enabled_ui(can, |ui| primary_button(ui, "Open the pair"));
-            if open.inner.clicked() {
-                let pair = pair.map(|k| paths[k].clone());
-                acts.push(Intent::Open(pair.into()));
-            }
-            if ui.button("Cancel").clicked() {
-                acts.push(Intent::Back);
-            }
-        });
-    });
-    ctx.data_mut(|data| data.insert_temp(id, pair));
-}
-
-/// A design that may be one of the pair; taken for both ends it changes places with the other.
-fn row(ui: &mut Ui, k: usize, path: &Path, pair: &mut [usize; 2]) {
-    ui.horizontal(|ui| {
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let size = vec2(236.0, CONTROL_HEIGHT);
-        let left = Layout::left_to_right(Align::Center);
-        ui.allocate_ui_with_layout(size, left, |ui| {
-            ui.set_min_width(size.x);
-            ui.add(Label::new(name).truncate());
-        });
-        for (end, word, tip) in [
-            (0, "Source", "The film begins with it"),
-            (1, "Target", "The film ends with it"),
-        ] {
-            if option(ui, pair[end] == k, word, tip, 68.0) && pair[end] != k {
-                if pair[1 - end] == k {
-                    pair[1 - end] = pair[end];
+            let mut replace = |ui: &mut Ui, words: &str, index: usize| {
+                if ui.button(words).clicked() {
+                    acts.push(Intent::ReplaceDesign(index, path.to_owned()));
                 }
-                pair[end] = k;
+            };
+            replace(ui, "Use as target", target);
+            replace(ui, "Use as source", source);
+            if ui.button("Cancel").clicked() {
+                acts.push(Intent::Back);
             }
-        }
+        });
     });
 }
 

@@ -1,4 +1,4 @@
-//! The two designs: how they are read, and how they lie in one frame.
+//! The designs: their order, how they are read, and how they lie in one frame.
 
 use std::ops::RangeInclusive;
 
@@ -14,7 +14,7 @@ use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::stage::verdict::first_upper;
 use crate::colour::Rgb;
 use crate::design::{Format, ImportNote};
-use crate::project::{DesignEntry, Project};
+use crate::project::{DesignEntry, Moved, Project};
 
 /// The grey level that is started from when it is set by hand.
 const MIDDLE_GREY: u8 = 128;
@@ -23,19 +23,28 @@ const MIDDLE_GREY: u8 = 128;
 /// cannot set one.
 const SCALES: RangeInclusive<f64> = 0.25..=4.0;
 
-/// Draws both designs.
+/// Draws all designs, and of the two that are looked at everything.
 pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
+    let Some(whole) = scene.session.whole() else {
+        return;
+    };
+    let numbers = whole.leg_designs(scene.session.leg());
     section(ui, "Designs", |ui| {
+        if whole.is_sequence() {
+            order(ui, scene, whole, acts);
+        }
+        add(ui, whole, acts);
         let tip = "How unlike designs are laid over each other before anything else.";
         pick(ui, "Frame", tip, &mut draft.fit);
-        let colours = [draft.style.source, draft.style.target];
+        let style = scene.session.style_here();
+        let colours = [style.source, style.target];
         for (index, entry) in draft.designs.iter_mut().take(2).enumerate() {
-            design(ui, index, colours[index], entry, acts);
+            design(ui, (index, numbers[index]), colours[index], entry, acts);
             if let Some(design) = scene.session.designs().get(index) {
                 notes(ui, index, &design.notes);
             }
         }
-        if draft.designs.len() >= 2 && swap(ui) {
+        if !whole.is_sequence() && swap(ui) {
             draft.designs.swap(0, 1);
             // What was said by hand is of points of the designs, and changes sides with them.
             draft.options.matching = draft.options.matching.swapped();
@@ -47,12 +56,81 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
     });
 }
 
+/// The list of all designs, in which they change places.
+fn order(ui: &mut Ui, scene: &Scene, whole: &Project, acts: &mut Intents) {
+    let here = whole.leg_designs(scene.session.leg());
+    let last = whole.designs.len() - 1;
+    let moved = |change: &dyn Fn(&mut Vec<Moved>)| {
+        let mut designs = whole.in_order();
+        change(&mut designs);
+        Intent::Arrange(designs)
+    };
+    for (k, entry) in whole.designs.iter().enumerate() {
+        ui.horizontal(|ui| {
+            let words = RichText::new(format!("{}", k + 1)).color(Palette::of(ui).weak);
+            ui.add_sized([16.0, CONTROL_HEIGHT], Label::new(words));
+            from_right(ui, |ui| {
+                ui.spacing_mut().item_spacing.x = 2.0;
+                let size = vec2(24.0, 24.0);
+                let mut button = |ui: &mut Ui, icon, tip: &str, can: bool, act: Intent| {
+                    ui.add_enabled_ui(can, |ui| {
+                        if icon_button(ui, icon, tip, size).clicked() {
+                            acts.push(act);
+                        }
+                    });
+                };
+                let without = moved(&|all| drop(all.remove(k)));
+                button(ui, icons::CLOSE, "Take it out", last > 1, without);
+                let twice = moved(&|all| all.insert(k + 1, (entry.clone(), None)));
+                button(ui, icons::COPY, "Once more behind it", true, twice);
+                let down = moved(&|all| all.swap(k, (k + 1).min(last)));
+                button(ui, icons::DOWN, "Later", k < last, down);
+                let up = moved(&|all| all.swap(k, k.saturating_sub(1)));
+                button(ui, icons::UP, "Earlier", k > 0, up);
+                let name = RichText::new(name_of(entry));
+                let name = if here.contains(&k) {
+                    name.strong()
+                } else {
+                    name
+                };
+                let label = Label::new(name).truncate().sense(Sense::click());
+                let tip = format!("{}\nClick to go there.", entry.path.display());
+                if ui.add(label).on_hover_text(tip).clicked() {
+                    acts.push(Intent::Seek(k as f64));
+                }
+            });
+        });
+    }
+    let mut closed = whole.closed;
+    let tip = "The last design leads back to the first: a film that can run for ever.";
+    toggle(ui, "Lead back", tip, &mut closed);
+    if closed != whole.closed {
+        acts.push(Intent::LeadBack(closed));
+    }
+}
+
+fn add(ui: &mut Ui, whole: &Project, acts: &mut Intents) {
+    let button = ui.button("Add designs …");
+    let tip = "Further designs behind the last one: the film goes through all of them.";
+    if button.on_hover_text(tip).clicked() {
+        acts.push(Intent::AskInsert(whole.designs.len()));
+    }
+    ui.add_space(4.0);
+}
+
 fn swap(ui: &mut Ui) -> bool {
     let tip = "Exchanges source and target: the film runs the other way.";
     icon_button(ui, icons::SWAP, tip, vec2(32.0, CONTROL_HEIGHT)).clicked()
 }
 
-fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts: &mut Intents) {
+/// One of the two that are looked at, and its number among all.
+fn design(
+    ui: &mut Ui,
+    (index, number): (usize, usize),
+    colour: Rgb,
+    entry: &mut DesignEntry,
+    acts: &mut Intents,
+) {
     ui.add_space(4.0);
     ui.horizontal(|ui| {
         let (dot, _) = ui.allocate_exact_size(vec2(12.0, CONTROL_HEIGHT), Sense::hover());
@@ -62,7 +140,7 @@ fn design(ui: &mut Ui, index: usize, colour: Rgb, entry: &mut DesignEntry, acts:
         from_right(ui, |ui| {
             let tip = "Another file in its place";
             if icon_button(ui, icons::OPEN, tip, vec2(24.0, 24.0)).clicked() {
-                acts.push(Intent::AskReplace(index));
+                acts.push(Intent::AskReplace(number));
             }
             let path = entry.path.display().to_string();
             ui.add(Label::new(name_of(entry)).truncate())

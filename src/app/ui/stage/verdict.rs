@@ -113,7 +113,7 @@ fn clear(ui: &mut Ui, scene: &Scene, verdict: &Verdict, acts: &mut Intents) {
     let text = format!("at {} moments; not proved at t = {first:.4}", verdict.steps);
     let label = Label::new(quiet(ui, text)).sense(Sense::click());
     if ui.add(label).on_hover_text(tip).clicked() {
-        acts.push(Intent::Seek(first));
+        acts.push(Intent::Seek(scene.session.beyond(first)));
     }
 }
 
@@ -143,9 +143,10 @@ fn headline(ui: &mut Ui, scene: &Scene, finding: &Finding, acts: &mut Intents) {
         ui.ctx().set_cursor_icon(egui::CursorIcon::PointingHand);
     }
     if response.clicked() {
-        acts.push(Intent::Seek(finding.t));
+        acts.push(Intent::Seek(scene.session.beyond(finding.t)));
     }
-    let go = if (scene.playback.t() - finding.t).abs() <= NEAR_T {
+    let here = scene.session.within(scene.playback.t());
+    let go = if (here - finding.t).abs() <= NEAR_T {
         "The place is marked on the stage."
     } else {
         "Click to go there."
@@ -218,7 +219,7 @@ pub fn mark(ui: &Ui, scene: &Scene, stage: Rect) {
     let colour = Palette::on(is_light(scene.session.style().ground)).amber;
     let painter = ui.painter().with_clip_rect(stage);
     for finding in &measures.verdict.findings {
-        if (scene.playback.t() - finding.t).abs() > NEAR_T {
+        if (scene.session.within(scene.playback.t()) - finding.t).abs() > NEAR_T {
             continue;
         }
         let px = scene.view.px_from_world(finding.place);

@@ -2,7 +2,7 @@
 
 use bevy_egui::egui::{Color32, Id, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use crate::app::looking::filmstrip::{PICTURE_PX, PICTURES};
+use crate::app::looking::filmstrip::{self, PICTURE_PX};
 use crate::app::ui::kit::texture::texture;
 use crate::app::ui::kit::theme::{Palette, RADIUS};
 use crate::app::ui::scene::Scene;
@@ -24,14 +24,17 @@ pub fn show(ui: &Ui, scene: &Scene, x: impl Fn(f64) -> f32, top: f32) {
     let Some(pictures) = scene.filmstrip.pictures() else {
         return;
     };
-    let longest = PICTURE_PX.0 * PICTURES as u32;
+    let legs = scene.session.leg_count();
+    let count = filmstrip::pictures(legs);
+    let longest = PICTURE_PX.0 * count as u32;
     let texture = texture(ui.ctx(), Id::new("filmstrip"), pictures, longest);
     let palette = Palette::of(ui);
-    let last = PICTURES - 1;
-    let t = |index: usize| index as f64 / last as f64;
+    let last = count - 1;
+    let t = |index: usize| legs as f64 * index as f64 / last as f64;
     let apart = x(t(1)) - x(t(0));
-    let Some(step) = [1, 2, 5, 10]
-        .into_iter()
+    // Of a pair 1, 2, 5 or 10: both ends are always there.
+    let Some(step) = (1..=last)
+        .filter(|step| last.is_multiple_of(*step))
         .find(|step| apart * *step as f32 >= LEAST + GAP)
     else {
         return;
@@ -39,13 +42,13 @@ pub fn show(ui: &Ui, scene: &Scene, x: impl Fn(f64) -> f32, top: f32) {
     let width = (apart * step as f32 - GAP).min(LARGEST.0);
     let size = vec2(width, width * LARGEST.1 / LARGEST.0);
     let [r, g, b] = scene.session.style().ground.0;
-    let now = scene.playback.t() * last as f64;
-    for index in (0..PICTURES).step_by(step) {
+    let now = scene.playback.t() / legs as f64 * last as f64;
+    for index in (0..count).step_by(step) {
         let middle = pos2(x(t(index)), top + LARGEST.1 / 2.0);
         let rect = Rect::from_center_size(middle, size);
         let painter = ui.painter();
         painter.rect_filled(rect, RADIUS, Color32::from_rgb(r, g, b));
-        let share = |k: usize| k as f32 / PICTURES as f32;
+        let share = |k: usize| k as f32 / count as f32;
         let part = Rect::from_min_max(pos2(share(index), 0.0), pos2(share(index + 1), 1.0));
         let inner = rect.shrink(2.0);
         painter.image(texture.id(), inner, part, Color32::WHITE);

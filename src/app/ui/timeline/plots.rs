@@ -63,7 +63,8 @@ const NOWHERE: &str = "Without bound at every t: some triangle has no area or is
 
 fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts: &mut Intents) {
     let palette = Palette::of(ui);
-    let t = scene.playback.t();
+    // Of the leg that is looked at, as the measures are.
+    let t = scene.session.within(scene.playback.t());
     ui.spacing_mut().item_spacing.y = 2.0;
     heading(ui, quantity, series, t);
     if !series.iter().any(|[_, value]| value.is_finite()) {
@@ -97,7 +98,8 @@ fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts
         || response.response.dragged_by(PointerButton::Primary);
     if let Some(pointer) = response.inner.filter(|_| is_held) {
         // The axis shows a little more than was measured.
-        acts.push(Intent::Seek(pointer.x.clamp(0.0, 1.0)));
+        let t = scene.session.beyond(pointer.x.clamp(0.0, 1.0));
+        acts.push(Intent::Seek(t));
     }
     response
         .response

@@ -21,6 +21,9 @@ const BEYOND: f64 = 0.25;
 /// are some sixty apart in the smallest window.
 const SNAP: f32 = 5.0;
 
+/// What is offered first as the time of a way.
+const USUAL_SECS: f64 = 2.0;
+
 const BAR_HEIGHT: f32 = 6.0;
 
 const FONT: FontId = FontId::proportional(11.5);
@@ -33,6 +36,8 @@ struct Ruler {
     y: f32,
     from: f64,
     to: f64,
+    /// The t of the last design.
+    end: f64,
 }
 
 impl Ruler {
@@ -44,7 +49,9 @@ impl Ruler {
             .chain([timing.from, timing.to]);
         // Also t itself: typed or played far outside, it must be seen.
         let places = places.chain([scene.playback.t()]);
-        let (mut from, mut to) = (-BEYOND, 1.0 + BEYOND);
+        // As much of the strip, whatever the number of legs.
+        let end = scene.session.leg_count() as f64;
+        let (mut from, mut to) = (-BEYOND * end, (1.0 + BEYOND) * end);
         for t in places {
             from = from.min(t);
             to = to.max(t);
@@ -56,6 +63,7 @@ impl Ruler {
             y: rect.top() + 34.0,
             from,
             to,
+            end,
         }
     }
 
@@ -80,10 +88,11 @@ pub fn show(
     let size = vec2(ui.available_width(), ui.available_height());
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
     let ruler = Ruler::new(rect, scene, &draft.stops);
+    let names = scene.session.names_on_the_way();
     scrub(&response, ruler, &draft.stops, acts);
     beyond(ui, ruler);
     bar(ui, ruler, &draft.style);
-    ticks(ui, ruler);
+    ticks(ui, ruler, &names);
     if has_pictures {
         filmstrip::show(ui, scene, |t| ruler.x(t), ruler.y + 30.0);
     }
@@ -97,7 +106,9 @@ fn scrub(response: &Response, ruler: Ruler, stops: &[Stop], acts: &mut Intents) 
     let Some(pointer) = response.interact_pointer_pos().filter(|_| is_held) else {
         return;
     };
-    let places = stops.iter().map(|stop| stop.t).chain([0.0, 1.0]);
+    let places = stops.iter().map(|stop| stop.t);
+    let designs = (0..=ruler.end as usize).map(|k| k as f64);
+    let places = places.chain(designs);
     let near = places
         .map(|t| (t, (ruler.x(t) - pointer.x).abs()))
         .filter(|(_, d)| *d < SNAP);
@@ -120,7 +131,7 @@ fn word(ui: &Ui, at: Pos2, word: &str, colour: Color32) {
 
 fn beyond(ui: &Ui, ruler: Ruler) {
     let palette = Palette::of(ui);
-    for (from, to) in [(ruler.from, 0.0), (1.0, ruler.to)] {
+    for (from, to) in [(ruler.from, 0.0), (ruler.end, ruler.to)] {
         let (a, b) = (pos2(ruler.x(from), ruler.y), pos2(ruler.x(to), ruler.y));
         let stroke = (2.0, palette.amber.gamma_multiply(0.6));
         ui.painter()
@@ -134,10 +145,10 @@ fn bar(ui: &Ui, ruler: Ruler, style: &Style) {
     const STEPS: u32 = 32;
     let mut mesh = Mesh::default();
     for i in 0..=STEPS {
-        let t = f64::from(i) / f64::from(STEPS);
-        let [r, g, b] = style.fill_at(t).0;
+        let share = f64::from(i) / f64::from(STEPS);
+        let [r, g, b] = style.fill_at(share).0;
         let colour = Color32::from_rgb(r, g, b);
-        let x = ruler.x(t);
+        let x = ruler.x(share * ruler.end);
         mesh.colored_vertex(pos2(x, ruler.y - BAR_HEIGHT / 2.0), colour);
         mesh.colored_vertex(pos2(x, ruler.y + BAR_HEIGHT / 2.0), colour);
         if i > 0 {
@@ -149,7 +160,11 @@ fn bar(ui: &Ui, ruler: Ruler, style: &Style) {
     ui.painter().add(Shape::mesh(mesh));
 }
 
-fn ticks(ui: &Ui, ruler: Ruler) {
+/// A number at each tenth of a pair, and a name at each design of more.
+fn ticks(ui: &Ui, ruler: Ruler, names: &[String]) {
+    if ruler.end > 1.0 {
+        return designs(ui, ruler, names);
+    }
     let palette = Palette::of(ui);
     for tenth in 0..=10u8 {
         let x = ruler.x(f64::from(tenth) / 10.0);
@@ -169,10 +184,31 @@ fn ticks(ui: &Ui, ruler: Ruler) {
     }
 }
 
+/// Its number and its name at each design, as far as there is room.
+fn designs(ui: &Ui, ruler: Ruler, names: &[String]) {
+    let palette = Palette::of(ui);
+    let room = ruler.x(1.0) - ruler.x(0.0);
+    for (k, name) in names.iter().enumerate() {
+        let x = ruler.x(k as f64);
+        let top = ruler.y + BAR_HEIGHT / 2.0 + 3.0;
+        ui.painter().vline(x, top..=top + 6.0, (1.0, palette.weak));
+        let words = format!("{k} {}", OneLine(name));
+        let galley = ui.painter().layout_no_wrap(words, FONT, palette.text);
+        let galley = match galley.size().x + 2.0 * GRID <= room {
+            true => galley,
+            false => ui
+                .painter()
+                .layout_no_wrap(k.to_string(), FONT, palette.text),
+        };
+        let corner = pos2(x, ruler.y + 20.0) - 0.5 * galley.size();
+        ui.painter().galley(corner, galley, palette.text);
+    }
+}
+
 fn playhead(ui: &Ui, ruler: Ruler, t: f64) {
     let palette = Palette::of(ui);
     let x = ruler.x(t);
-    let colour = if (0.0..=1.0).contains(&t) {
+    let colour = if (0.0..=ruler.end).contains(&t) {
         palette.text
     } else {
         palette.amber
@@ -274,6 +310,26 @@ fn stop_menu(ui: &mut Ui, stop: &mut Stop) -> bool {
     });
     ease::submenu(ui, &mut stop.easing, "as the pass")
         .on_hover_text("How t runs from this stop up to the next one.");
+    ui.horizontal(|ui| {
+        ui.label("Rest");
+        let number = DragValue::new(&mut stop.hold_secs).range(0.0..=600.0);
+        ui.add(number.speed(0.02).max_decimals(2).suffix(" s"))
+            .on_hover_text("How long a pass waits here.");
+    });
+    ui.horizontal(|ui| {
+        let mut has_own = stop.duration_secs.is_some();
+        ui.checkbox(&mut has_own, "Own time to the next")
+            .on_hover_text(
+                "How long it takes from here up to the next stop, whatever the pass takes.",
+            );
+        match &mut stop.duration_secs {
+            Some(secs) if has_own => {
+                let number = DragValue::new(secs).range(0.1..=600.0);
+                ui.add(number.speed(0.02).max_decimals(2).suffix(" s"));
+            }
+            secs => *secs = has_own.then_some(USUAL_SECS),
+        }
+    });
     let is_deleted = ui.button("Delete stop").clicked();
     if is_deleted {
         ui.close();

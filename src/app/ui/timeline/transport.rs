@@ -82,7 +82,7 @@ fn place(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     // In words too: what is beyond is not told by colour alone.
     let beyond = match scene.playback.t() {
         t if t < 0.0 => "extrapolated before the source",
-        t if t > 1.0 => "extrapolated beyond the target",
+        t if t > scene.session.leg_count() as f64 => "extrapolated beyond the target",
         _ => return,
     };
     ui.label(RichText::new(beyond).small().color(palette.amber));
