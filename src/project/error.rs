@@ -62,7 +62,9 @@ pub enum ProjectError {
     #[error("a transition needs two designs, the document lists {0}; add [[designs]] with a path")]
     TooFewDesigns(usize),
     /// There are more legs than ways from one design to the next.
-    #[error("the document has {has} [[legs]], its designs have {may_have}: take the others out")]
+    #[error(
+        "the document has {has} [[legs]], and its designs have {may_have} (a pair has none): take the others out"
+    )]
     TooManyLegs {
         /// How many it has.
         has: usize,

@@ -89,14 +89,48 @@ fn options_stand_beside_the_other_keys() {
 fn a_newer_version_is_said_before_its_unknown_keys() {
     let text = format!(
         "# from the future\n{}",
-        MINIMAL.replace("= 1", "= 2\nhyper = true")
+        MINIMAL.replace("= 1", "= 3\nhyper = true")
     );
     assert_eq!(line_of(&text), 2);
     let error = Project::parse(&text).unwrap_err().to_string();
     assert!(
-        error.contains("version 2") && error.contains("update"),
+        error.contains("version 3") && error.contains("update"),
         "{error}"
     );
+}
+
+#[test]
+fn many_designs_have_legs_and_two_have_none() {
+    let three = format!("{MINIMAL}[[designs]]\npath = 'c.svg'\n");
+    let project = Project::parse(&three).unwrap();
+    assert_eq!(project.leg_count(), 2);
+    assert!(project.to_toml().unwrap().starts_with("version = 2\n"));
+    // What stood at the top when only the first two were seen is theirs.
+    let matched = Project::parse(&format!("{three}[match]\nkeep-up = true\n")).unwrap();
+    assert!(matched.leg(0).options.matching.keep_up);
+    assert!(!matched.leg(1).options.matching.keep_up);
+    let legs = "[[legs]]\n[[legs]]\n[legs.match]\nkeep-up = true\n";
+    let second = Project::parse(&format!("{three}{legs}")).unwrap();
+    assert!(second.leg(1).options.matching.keep_up);
+    assert_eq!(Project::parse(&second.to_toml().unwrap()).unwrap(), second);
+    let pair = Project::parse(MINIMAL).unwrap();
+    assert!(pair.to_toml().unwrap().starts_with("version = 1\n"));
+    for (text, word) in [
+        (format!("{three}{legs}[[legs]]\n"), "[[legs]]"),
+        (format!("{MINIMAL}[[legs]]\n"), "a pair"),
+        (
+            format!("{three}{legs}[match]\nkeep-up = true\n"),
+            "first of these",
+        ),
+        (format!("{three}[[legs]]\n[legs.mach]\n"), "mach"),
+        (
+            format!("{MINIMAL}[[stops]]\nt = 0.5\nhold-secs = -1\n"),
+            "rest of 0 or more",
+        ),
+    ] {
+        let error = Project::parse(&text).unwrap_err().to_string();
+        assert!(error.contains(word), "{word}: {error}");
+    }
 }
 
 #[test]
@@ -233,6 +267,8 @@ proptest! {
         project.style.ground = Rgb(colour);
         project.stops = vec![
             Stop {
+                hold_secs: positive[1],
+                duration_secs: flag.then_some(positive[0]),
                 note: names[3].clone(),
                 easing: Some("0.25,0,0.5,1".parse().expect("a curve")),
                 ..Stop::at(numbers[4]).named(&names[3])

@@ -131,27 +131,20 @@ fn what_is_asked_for_is_shown_to_whoever_asked() {
 }
 
 #[test]
-fn of_many_designs_two_are_asked_for() {
+fn a_further_design_is_asked_about() {
     let folder = tempfile::tempdir().expect("a folder");
-    let file = |name: &str| {
-        let path = folder.path().join(name);
-        std::fs::write(&path, "[[0,0],[4,0],[4,3],[0,3]]").expect("a file");
-        path
-    };
-    let all = ["one.json", "two.json", "three.json"].map(file);
+    let path = folder.path().join("more.json");
+    std::fs::write(&path, "[[0,0],[4,0],[4,3],[0,3]]").expect("a file");
     let mut window = watched();
-    let before = window.session().title();
-    window.send(Intent::Open(all.to_vec()));
+    let before = window.session().whole().map(|whole| whole.designs.len());
+    window.send(Intent::Open(vec![path.clone()]));
     let seen = drawn(&mut window);
-    for words in ["3 designs", "two.json", "Open the pair"] {
+    for words in ["One design", "Add at the end", "Use as target"] {
         assert!(seen.says(words), "{words}: {:?}", seen.words);
     }
-    assert_eq!(window.session().title(), before);
-    window.send(Intent::Open(vec![all[0].clone(), all[2].clone()]));
+    window.send(Intent::InsertDesigns(9, vec![path]));
     window.wait();
-    assert_eq!(window.session().title(), "one to three");
-    assert!(!drawn(&mut window).says("3 designs"));
-    window.send(Intent::Open(all.to_vec()));
-    window.press(KeyCode::Escape, Key::Escape);
-    assert!(!drawn(&mut window).says("3 designs"));
+    assert!(!drawn(&mut window).says("One design"));
+    let after = window.session().whole().map(|whole| whole.designs.len());
+    assert_eq!((before, after), (Some(2), Some(3)));
 }

@@ -12,6 +12,7 @@ mod keys;
 mod opening;
 mod rest;
 mod saving;
+mod sequence;
 mod talk;
 mod telling;
 mod window;

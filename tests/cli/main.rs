@@ -117,6 +117,39 @@ fn a_new_project_may_keep_its_film() {
 }
 
 #[test]
+fn many_designs_are_one_film() {
+    let shop = Workshop::new();
+    let legs = shop.done("check a.svg b.svg a.svg --samples 3 --quality draft --json");
+    let legs: serde_json::Value = serde_json::from_str(&legs).expect("JSON");
+    let titles = |k: usize| legs[k]["title"].as_str().map(str::to_owned);
+    assert_eq!(
+        [titles(0), titles(1), titles(2)],
+        [Some("a to b".into()), Some("b to a".into()), None]
+    );
+    shop.done("new a.svg b.svg a.svg --out three.morph --film");
+    let text = fs::read_to_string(shop.path("three.morph")).expect("text");
+    assert!(
+        text.contains("version = 2") && text.contains("[legs.found]"),
+        "{text}"
+    );
+    shop.done("render three.morph --frames 5 --size 40x30 --out f-#.png");
+    let [first, middle, last] =
+        ["f-0.png", "f-2.png", "f-4.png"].map(|name| image(&shop.path(name)));
+    // The same design in the colours of both ends, and the other between them.
+    assert_ne!(first, last);
+    assert_ne!(first, middle);
+    shop.done("render a.svg b.svg a.svg --sheet 5 --out sheet.png");
+    shop.done("render a.svg b.svg a.svg --out film.html");
+    shop.fails(2, "check a.svg b.svg a.svg --pin 1,2:3,4", "of two designs");
+    shop.fails(
+        2,
+        "render a.svg b.svg a.svg --compare --out c.png",
+        "of two designs",
+    );
+    shop.fails(2, "check a.svg three.morph b.svg", "one project alone");
+}
+
+#[test]
 fn text_and_elements_are_designs_like_any_other() {
     let shop = Workshop::new();
     let svg = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"40\">\

@@ -10,8 +10,9 @@ use crate::progress::{Cancelled, Progress};
 
 /// Shares of the diagonal that are added where rounding has eaten a pivot.
 /// Faces a ten-thousandth as large as their neighbours, about a hole that
-/// closes to a point, leave pivots of the size of the last digits.
-const STIFFER: [f64; 3] = [1e-13, 1e-11, 1e-9];
+/// closes to a point, leave pivots of the size of the last digits; where a whole part is
+/// as thin as that against another, as in two drawings of hairlines, so do sums of them.
+const STIFFER: [f64; 5] = [1e-13, 1e-11, 1e-9, 1e-7, 1e-5];
 
 /// A ridge: what was added to a matrix, and why.
 #[derive(Clone, Copy, Debug, PartialEq)]

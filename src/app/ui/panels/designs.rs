@@ -2,7 +2,9 @@
 
 use std::ops::RangeInclusive;
 
-use bevy_egui::egui::{CollapsingHeader, Color32, DragValue, Label, RichText, Sense, Ui, vec2};
+use bevy_egui::egui::{
+    Align, CollapsingHeader, Color32, DragValue, Label, Layout, RichText, Sense, Ui, vec2,
+};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
@@ -95,7 +97,12 @@ fn order(ui: &mut Ui, scene: &Scene, whole: &Project, acts: &mut Intents) {
                 };
                 let label = Label::new(name).truncate().sense(Sense::click());
                 let tip = format!("{}\nClick to go there.", entry.path.display());
-                if ui.add(label).on_hover_text(tip).clicked() {
+                let left = Layout::left_to_right(Align::Center);
+                let room = vec2(ui.available_width(), CONTROL_HEIGHT);
+                let label = ui
+                    .allocate_ui_with_layout(room, left, |ui| ui.add(label))
+                    .inner;
+                if label.on_hover_text(tip).clicked() {
                     acts.push(Intent::Seek(k as f64));
                 }
             });
