@@ -12,6 +12,7 @@ use crate::transition::{
 };
 use crate::warp::WarpKind;
 use include_dir::{Dir, File, include_dir};
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -70,7 +71,9 @@ impl LoadedProject {
             }
             Ok(Arc::new(design))
         };
-        let designs: Result<_, ProjectError> = project.designs.iter().map(read).collect();
+        // Beside each other: large ones take a second each.
+        let designs: Vec<_> = project.designs.par_iter().map(read).collect();
+        let designs: Result<_, ProjectError> = designs.into_iter().collect();
         Ok(Self {
             designs: designs?,
             project,

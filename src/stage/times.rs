@@ -65,6 +65,8 @@ pub struct FrameTimes {
     pub solve: Durations,
     /// Writing render meshes and uniforms.
     pub draw: Durations,
+    /// The graphics card summed what moved last: it was neither solved nor written.
+    pub is_played: bool,
 }
 
 #[cfg(test)]
