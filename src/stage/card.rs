@@ -27,7 +27,7 @@ use super::played::Sum;
 const OTHERS: u32 = 3;
 
 /// A graphics card whose vertex shaders read buffers; there is none where they do not.
-#[derive(Resource, Clone, Debug)]
+#[derive(Resource, Clone)]
 pub(super) struct Card {
     device: RenderDevice,
     /// What a material has in the place of a film.
