@@ -98,8 +98,12 @@ fn weights(reel: &Reel, t: f64) -> Weights {
 fn shown(reel: &Reel, vertices: usize, origin: DVec2) -> usize {
     let longest = |k: usize, from: DVec2| {
         let rows = (0..blocks(vertices)).flat_map(|block| reel.row(block, k));
-        let numbers = rows.take(2 * vertices).zip([from.x, from.y].into_iter().cycle());
-        numbers.map(|(x, from)| (x - from).abs()).fold(0.0, f64::max)
+        let numbers = rows
+            .take(2 * vertices)
+            .zip([from.x, from.y].into_iter().cycle());
+        numbers
+            .map(|(x, from)| (x - from).abs())
+            .fold(0.0, f64::max)
     };
     let rounded = HALF_A_BIT * longest(0, origin).max(longest(1, origin));
     let mut left_out = 0.0;
@@ -146,7 +150,9 @@ mod tests {
             let [source, target] = [0.0, 1.0].map(|t| self.at(t));
             let placement = Placement::of_source(Arc::from([]), &source, &target);
             let warp = Self(self.0);
-            Placer::new(placement, move |t, placement| placement.in_frame = warp.at(t))
+            Placer::new(placement, move |t, placement| {
+                placement.in_frame = warp.at(t)
+            })
         }
 
         fn breaks(&self) -> Vec<f64> {
@@ -183,7 +189,10 @@ mod tests {
             assert!(singles.len() == film.reel_count() && singles.len() > 1);
             // In single precision there is less to be seen than the film knows.
             let known = film.0.reels.iter().map(Reel::coefficient_count);
-            let fewer = singles.iter().zip(known).filter(|(s, n)| s.coefficients < *n);
+            let fewer = singles
+                .iter()
+                .zip(known)
+                .filter(|(s, n)| s.coefficients < *n);
             assert!(fewer.count() > 0);
             let mut placer = film.placer();
             for k in 0..=100 {

@@ -7,9 +7,7 @@
 //! transitions on the stage anew.
 
 use bevy::prelude::*;
-use bevy::render::render_resource::{
-    Buffer, BufferInitDescriptor, BufferUsages, DownlevelFlags,
-};
+use bevy::render::render_resource::{Buffer, BufferInitDescriptor, BufferUsages, DownlevelFlags};
 use bevy::render::renderer::{RenderAdapter, RenderDevice};
 use bevy::tasks::futures::check_ready;
 use bevy::tasks::{AsyncComputeTaskPool, Task};
@@ -21,7 +19,7 @@ use crate::film::{Film, Single};
 use super::components::Morph;
 use super::paint::Paint;
 use super::parts::Part;
-use super::played::Sum;
+use super::reels::{Reel, Reels, Sent};
 
 /// Storage buffers of Bevy's own that a vertex shader of ours may have beside the film.
 const OTHERS: u32 = 3;
@@ -72,48 +70,6 @@ fn buffer(device: &RenderDevice, numbers: &[[f32; 2]]) -> Buffer {
         contents: bytemuck::cast_slice(numbers),
         usage: BufferUsages::STORAGE,
     })
-}
-
-/// Where the film of a transition is.
-#[derive(Component, Debug)]
-pub(super) enum Sent {
-    /// On its way.
-    Under(Task<Option<Reels>>),
-    There(Reels),
-    /// The card has no room for it.
-    Refused,
-}
-
-/// A film on the graphics card.
-#[derive(Debug)]
-pub(super) struct Reels {
-    film: Film,
-    reels: Vec<Reel>,
-}
-
-#[derive(Debug)]
-struct Reel {
-    rows: Buffer,
-    vertices: usize,
-    coefficients: usize,
-}
-
-impl Sent {
-    /// What shows `t`, and how it is summed; none where the film does not.
-    pub(super) fn at(&self, t: f64) -> Option<(&Buffer, Sum)> {
-        let Self::There(Reels { film, reels }) = self else {
-            return None;
-        };
-        let (k, weights) = film.weights(t)?;
-        let reel = reels.get(k)?;
-        let sum = Sum::new(&weights, reel.vertices, reel.coefficients);
-        Some((&reel.rows, sum))
-    }
-
-    /// Whether it shows `t`.
-    pub(super) fn shows(&self, t: f64) -> bool {
-        matches!(self, Self::There(_)) && (0.0..=1.0).contains(&t)
-    }
 }
 
 /// Sends films that have been recorded since.

@@ -11,7 +11,6 @@ use bevy::render::render_resource::Buffer;
 use crate::content::Content;
 use crate::transition::Frame;
 
-use super::card::Sent;
 use super::colours::ColourLook;
 use super::components::{Morph, StageStyle};
 use super::field::{FieldKind, FieldLook};
@@ -20,6 +19,7 @@ use super::ink::linear;
 use super::paint::{Paint, Paints};
 use super::parts::{Part, PartKind, Unmade};
 use super::played::{PlayedMaterial, Sum};
+use super::reels::Sent;
 use super::times::FrameTimes;
 
 type Roots = (
@@ -78,13 +78,7 @@ pub(super) fn draw_morphs(
 }
 
 /// Brings a part's material up to the frame.
-fn paint(
-    part: &Part,
-    frame: &Frame,
-    style: &StageStyle,
-    sent: Option<&Sent>,
-    paints: &mut Paints,
-) {
+fn paint(part: &Part, frame: &Frame, style: &StageStyle, sent: Option<&Sent>, paints: &mut Paints) {
     let (t, origin) = (frame.t(), part.origin);
     match (&part.paint, frame.transition().content()) {
         (Paint::Ink(ink), _) => {

@@ -13,9 +13,9 @@ use glam::DVec2;
 use crate::content::{Content, Solid};
 use crate::transition::{Figure, Frame};
 
+use super::card::Card;
 use super::coats::Coats;
 use super::colours::ColourMaterial;
-use super::card::{Card, Sent};
 use super::components::Morph;
 use super::field::FieldMaterial;
 use super::fill;
@@ -25,6 +25,7 @@ use super::ink::InkMaterial;
 use super::paint::{Paint, Paints};
 use super::parts::{Part, PartKind, Unmade};
 use super::played::{PlayedMaterial, Sum, VERTEX};
+use super::reels::Sent;
 use super::shapes::{BarShapes, Segments, corner_coordinates, quad_indices};
 
 /// Marks an entity whose transition is new and has no parts yet.
@@ -151,9 +152,8 @@ impl Wardrobe<'_, '_> {
             let material = grids.add(GridMaterial::default());
             fitting.add(PartKind::Grid, carried, material, Paint::Grid);
         }
-        let [source, target] = [0, 1].map(|end| {
-            move |frame: &Frame| lines(&frame.transition().outlines()[end], origin)
-        });
+        let [source, target] = [0, 1]
+            .map(|end| move |frame: &Frame| lines(&frame.transition().outlines()[end], origin));
         fitting.add_inked(PartKind::SourceGhost, source);
         fitting.add_inked(PartKind::TargetGhost, target);
     }
@@ -258,7 +258,6 @@ impl Fitting<'_, '_, '_> {
             self.add_triangles(wire, [corners, numbered_corners]);
         }
     }
-
 }
 
 /// Gives new transitions their parts; how they look is for drawing to say.

@@ -61,6 +61,7 @@ mod paint;
 mod parts;
 mod pipelines;
 mod played;
+mod reels;
 mod ribbon;
 mod shapes;
 mod solve;

@@ -10,13 +10,13 @@ use crate::export::joint_core;
 use crate::transition::Frame;
 use crate::warp::WarpKind;
 
-use super::card::Sent;
 use super::carried;
 use super::coats::Coats;
 use super::components::StageStyle;
 use super::fill;
 use super::ink::InkKind;
 use super::paint::Paint;
+use super::reels::Sent;
 use super::shapes::{BarShapes, positions, write_corners, write_points};
 use super::view::StageView;
 

@@ -20,8 +20,11 @@ use super::ink::{InkKind, embedded};
 
 /// Which vertex of the placement a vertex of the mesh is: meshes lie together in buffers,
 /// so that the number that a shader is told says nothing.
-pub(super) const VERTEX: MeshVertexAttribute =
-    MeshVertexAttribute::new("Vertex_Of_Placement", 0x6d6f_7270_6801, VertexFormat::Uint32);
+pub(super) const VERTEX: MeshVertexAttribute = MeshVertexAttribute::new(
+    "Vertex_Of_Placement",
+    0x6d6f_7270_6801,
+    VertexFormat::Uint32,
+);
 
 /// Rows of four that hold as many weights as there are at most.
 const ROWS: usize = MOST_COEFFICIENTS.div_ceil(4);

@@ -9,9 +9,9 @@
 use bevy::platform::time::Instant;
 use bevy::prelude::*;
 
-use super::card::Sent;
 use super::components::{Blend, Morph, StageStyle};
 use super::parts::Part;
+use super::reels::Sent;
 use super::times::FrameTimes;
 
 /// A frame, and what is drawn of it.

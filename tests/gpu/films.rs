@@ -34,10 +34,7 @@ pub fn films_are_played_as_they_would_be_solved(studio: &mut Studio) {
         ("played-wound", &|| wound(15.0)),
     ];
     for (name, make) in scenes {
-        let (played, solved) = (
-            Scene::new(name, recorded(make())),
-            Scene::new(name, make()),
-        );
+        let (played, solved) = (Scene::new(name, recorded(make())), Scene::new(name, make()));
         let reels = played.transition.film().and_then(|film| film.as_ref().ok());
         let reels = reels.expect("a film").reel_count();
         assert!(name != "played-wound" || reels > 1, "{reels} reels");

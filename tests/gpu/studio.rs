@@ -9,8 +9,8 @@ use bevy::app::PluginsState;
 use bevy::log::LogPlugin;
 use bevy::prelude::*;
 use bevy::render::RenderPlugin;
-use bevy::render::render_resource::WgpuLimits;
 use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
+use bevy::render::render_resource::WgpuLimits;
 use bevy::render::renderer::initialize_renderer;
 use bevy::render::settings::{Backends, RenderCreation, RenderResources, WgpuSettings};
 use bevy::window::ExitCondition;
@@ -166,7 +166,10 @@ impl Studio {
             if self.is_played() {
                 return;
             }
-            assert!(start.elapsed() < Duration::from_secs(60), "it is never played");
+            assert!(
+                start.elapsed() < Duration::from_secs(60),
+                "it is never played"
+            );
         }
     }
 
