@@ -9,8 +9,8 @@
 use bevy::prelude::*;
 use bevy::render::render_resource::{Buffer, BufferInitDescriptor, BufferUsages, DownlevelFlags};
 use bevy::render::renderer::{RenderAdapter, RenderDevice};
+use bevy::tasks::AsyncComputeTaskPool;
 use bevy::tasks::futures::check_ready;
-use bevy::tasks::{AsyncComputeTaskPool, Task};
 use glam::DVec2;
 use wgpu::ErrorFilter;
 

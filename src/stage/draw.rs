@@ -40,6 +40,7 @@ pub(super) fn draw_morphs(
     mut times: ResMut<FrameTimes>,
 ) {
     let start = Instant::now();
+    let (mut some_played, mut some_read) = (false, false);
     for (morph, style, children, sent) in &roots {
         let frame = morph.frame();
         let mut parts = parts.iter_many_mut(children);
@@ -63,6 +64,8 @@ pub(super) fn draw_morphs(
             }
             // What is played stays as stale as what is hidden.
             let is_played = part.is_played(sent, frame.t());
+            some_played |= is_played;
+            some_read |= part.reads(frame, frame.t(), &style, sent);
             if part.stale
                 && !is_played
                 && let Some(mut mesh) = paints.meshes.get_mut(mesh)
@@ -74,6 +77,7 @@ pub(super) fn draw_morphs(
     }
     if !roots.is_empty() {
         times.draw.record(start.elapsed());
+        times.is_played = some_played && !some_read;
     }
 }
 

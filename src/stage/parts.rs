@@ -141,6 +141,19 @@ impl Part {
         is_there && matches!(self.paint, Paint::Played(_))
     }
 
+    /// Whether it is shown and wants to know where its vertices are as the frame moves
+    /// to `t`.
+    pub(super) fn reads(
+        &self,
+        frame: &Frame,
+        t: f64,
+        style: &StageStyle,
+        sent: Option<&Sent>,
+    ) -> bool {
+        let is_outdated = self.kind.outdated(true, false, frame);
+        self.kind.is_shown(style) && is_outdated && !self.is_played(sent, t)
+    }
+
     /// Brings the vertices up to where the frame is.
     pub(super) fn write(&mut self, frame: &Frame, style: &StageStyle, mesh: &mut Mesh) {
         let placement = frame.placement();

@@ -65,7 +65,7 @@ pub struct FrameTimes {
     pub solve: Durations,
     /// Writing render meshes and uniforms.
     pub draw: Durations,
-    /// The graphics card summed what moved last: it was neither solved nor written.
+    /// What was drawn last the graphics card sums: it is neither solved nor written.
     pub is_played: bool,
 }
 
