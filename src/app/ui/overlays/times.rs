@@ -44,16 +44,16 @@ fn whence(scene: &Scene) -> (String, String) {
     match scene.session.transition().and_then(Transition::film) {
         Some(Ok(film)) => {
             let megabytes = film.bytes() as f64 / 1e6;
-            let (on_card, by) = match scene.times.is_played {
-                true => (" on the graphics card", "the graphics card"),
-                false => ("", "memory"),
+            let (kind, by) = match scene.times.is_played {
+                true => ("GPU film", "the graphics card"),
+                false => ("Film", "memory"),
             };
             let more = format!(
                 "Frames come from {by}: recorded by {} solves, to {:.0e} of the drawings' size",
                 film.solves(),
                 film.error()
             );
-            (format!("Film {megabytes:.1} MB{on_card}"), more)
+            (format!("{kind} {megabytes:.1} MB"), more)
         }
         Some(Err(error)) => (solved(), error.to_string()),
         None => match (scene.recording.progress(), scene.recording.refused()) {
