@@ -18,6 +18,7 @@ fn open_window(request: cli::WindowRequest) -> ExitCode {
     run(AppOptions {
         files: request.files,
         captures: request.captures,
+        film_memory: request.film_memory,
         presents: request.present,
     })
     .report()

@@ -7,6 +7,8 @@
 
 #[path = "gpu/drawings.rs"]
 mod drawings;
+#[path = "gpu/films.rs"]
+mod films;
 #[path = "gpu/pictures.rs"]
 mod pictures;
 #[path = "gpu/scenes.rs"]
@@ -87,6 +89,26 @@ const TESTS: &[Test] = &[
         every_size_is_drawn_and_others_are_refused,
     ),
     ("overlays_are_seen", overlays_are_seen),
+    (
+        "films_are_played_as_they_would_be_solved",
+        films::films_are_played_as_they_would_be_solved,
+    ),
+    (
+        "wires_are_played_as_they_would_be_solved",
+        films::wires_are_played_as_they_would_be_solved,
+    ),
+    (
+        "what_is_played_is_not_written",
+        films::what_is_played_is_not_written,
+    ),
+    (
+        "films_come_and_go_with_their_transitions",
+        films::films_come_and_go_with_their_transitions,
+    ),
+    (
+        "without_buffers_films_are_played_from_memory",
+        films::without_buffers_films_are_played_from_memory,
+    ),
 ];
 
 fn a_mesh_looks_the_same_on_both(studio: &mut Studio) {

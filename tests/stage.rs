@@ -329,25 +329,33 @@ fn what_was_hidden_is_up_to_date_when_it_is_shown() {
     let mut app = drawing_app();
     let entity = spawn_pair(&mut app, 0.0);
     app.update();
-    app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 1.0;
-    app.update();
     let corners = 3 * straight().faces().len();
     let wire = |app: &App| {
-        let mut parts = meshes_of(app, entity).into_iter();
-        let is_wire = |(mesh, _): &(Handle<Mesh>, _)| positions(app, mesh).len() == corners;
-        parts.find(is_wire).expect("a wireframe")
+        let meshes = app.world().resource::<Assets<Mesh>>();
+        let is_wire = |(mesh, _): &(Handle<Mesh>, _)| {
+            meshes.contains(mesh) && positions(app, mesh).len() == corners
+        };
+        meshes_of(app, entity).into_iter().find(is_wire)
     };
-    assert_eq!(wire(&app).1, Visibility::Hidden);
-    let style = StageStyle {
-        show: Show {
-            wireframe: true,
+    let show = |app: &mut App, wireframe: bool| {
+        let show = Show {
+            wireframe,
             ..default()
-        },
-        ..default()
+        };
+        let style = StageStyle { show, ..default() };
+        app.world_mut().entity_mut(entity).insert(style);
+        app.update();
     };
-    app.world_mut().entity_mut(entity).insert(style);
+    // What was never shown takes no memory.
+    assert!(wire(&app).is_none());
+    show(&mut app, true);
+    assert_eq!(wire(&app).expect("wires").1, Visibility::Inherited);
+    show(&mut app, false);
+    assert_eq!(wire(&app).expect("wires").1, Visibility::Hidden);
+    app.world_mut().get_mut::<Blend>(entity).expect("a blend").t = 1.0;
     app.update();
-    let (mesh, visibility) = wire(&app);
+    show(&mut app, true);
+    let (mesh, visibility) = wire(&app).expect("wires");
     assert_eq!(visibility, Visibility::Inherited);
     // The first edge of the first face, turned by a right angle.
     let [a, b] = [positions(&app, &mesh)[0], positions(&app, &mesh)[1]];

@@ -18,6 +18,7 @@ use crate::app::keeping::autosave::{self, Autosave};
 use crate::app::keeping::presets::KeptPresets;
 use crate::app::keeping::recent::{KeptRecent, Recent};
 use crate::app::logic::LogicPlugin;
+use crate::app::looking::recording::Recording;
 use crate::app::looking::{filmstrip, view};
 use crate::app::opening::apply::Gallery;
 use crate::app::opening::thumbnails;
@@ -35,6 +36,8 @@ pub struct AppOptions {
     pub files: Vec<PathBuf>,
     /// The folder for pictures and films, instead of the user's pictures.
     pub captures: Option<PathBuf>,
+    /// What a film may take, in MiB, instead of what it may usually.
+    pub film_memory: Option<usize>,
     /// A talk begins at once, and the window closes with it.
     pub presents: bool,
 }
@@ -44,6 +47,7 @@ pub fn run(options: AppOptions) -> AppExit {
     let AppOptions {
         files,
         captures,
+        film_memory,
         presents,
     } = options;
     let autosave = autosave();
@@ -51,6 +55,7 @@ pub fn run(options: AppOptions) -> AppExit {
         .add_plugins(DefaultPlugins.set(window(presents)))
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(CaptureFolder::choose(captures))
+        .insert_resource(Recording::within(film_memory))
         .insert_resource(autosave.workshop())
         .insert_resource(autosave)
         .insert_resource(KeptPresets::of_file(Presets::usual_path()))

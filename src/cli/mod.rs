@@ -78,6 +78,10 @@ pub struct WindowRequest {
     #[arg(long, value_name = "DIR")]
     pub captures: Option<PathBuf>,
 
+    /// Memory that a film may take, in MiB; frames of a larger one are solved [default: 512]
+    #[arg(long, value_name = "MIB")]
+    pub film_memory: Option<usize>,
+
     /// Begin a talk at once: whole screen, nothing but the drawing, from the first stop; Esc ends it
     #[arg(long, requires = "files")]
     pub present: bool,
@@ -175,11 +179,13 @@ mod tests {
 
     #[test]
     fn files_open_the_window() {
-        let launch = run(["morphospace", "a.svg", "b.svg", "--captures", "x"].map(OsString::from));
+        let line = "morphospace a.svg b.svg --captures x --film-memory 64";
+        let launch = run(line.split(' ').map(OsString::from));
         let Launch::Window(request) = launch else {
             panic!("{launch:?}");
         };
         assert_eq!(request.files, ["a.svg", "b.svg"].map(PathBuf::from));
         assert_eq!(request.captures, Some("x".into()));
+        assert_eq!(request.film_memory, Some(64));
     }
 }

@@ -17,6 +17,7 @@
 //! - `nodes`: the times at which a warp is looked at, and polynomials through them
 //! - `record`: from placements to reels, as many as it takes
 //! - `reel`: the polynomials between two times, and their sum
+//! - `single`: the same in single precision, for graphics cards
 //! - [`proof`]: what holds of a film at every t
 
 mod moving;
@@ -25,12 +26,15 @@ mod options;
 pub mod proof;
 mod record;
 mod reel;
+mod single;
 
 #[cfg(test)]
 mod tests;
 
+pub(crate) use nodes::MOST as MOST_COEFFICIENTS;
 pub use options::FilmOptions;
 pub use record::FilmError;
+pub(crate) use single::{Single, Weights};
 
 use crate::progress::Progress;
 use crate::warp::{Missed, Placement, Placer, Warp};
@@ -133,9 +137,14 @@ impl Film {
 }
 
 impl Inner {
+    /// Which reel shows a `t` within [0, 1].
+    fn reel_at(&self, t: f64) -> usize {
+        let after = self.reels.partition_point(|reel| reel.to < t);
+        after.min(self.reels.len() - 1)
+    }
+
     fn place(&self, t: f64, placement: &mut Placement) {
-        let after = self.reels.partition_point(|reel| reel.to() < t);
-        let reel = &self.reels[after.min(self.reels.len() - 1)];
+        let reel = &self.reels[self.reel_at(t)];
         let mut first = 0;
         for channel in self.moving.channels() {
             let places = channel.of_mut(placement);

@@ -15,7 +15,7 @@ use crate::linalg::DenseLu;
 use std::sync::LazyLock;
 
 /// Nodes of an interval at most, without its ends.
-pub(super) const MOST: usize = 23;
+pub(crate) const MOST: usize = 23;
 
 /// Places among which the next node is looked for, on one half of the interval.
 const GRID: usize = 1 << 14;

@@ -170,7 +170,8 @@ impl<'a> Recorder<'a> {
         let mut seen = vec![deviation(middle.clone(), ends, 0.5)];
         let mut before = f64::INFINITY;
         while seen.len() + 2 <= MOST {
-            checkpoint(self.progress, "recording", from.0)?;
+            let share = seen.len() as f64 / MOST as f64;
+            checkpoint(self.progress, "recording", time(share))?;
             self.allow(ends[0].len() * (4 + seen.len()) * size_of::<Row>())?;
             let pair = [nodes()[seen.len()], nodes()[seen.len() + 1]];
             let found = self.at_both(pair.map(time));

@@ -91,8 +91,18 @@ impl Reel {
         point(&row.map(f64::from), vertex)
     }
 
-    pub(super) fn to(&self) -> f64 {
-        self.to
+    /// The vertices of a block: where they are at both ends, then their coefficients.
+    pub(super) fn row(&self, block: usize, k: usize) -> Row {
+        let [full, narrow] = self.counts;
+        match k.checked_sub(2 + full) {
+            None => self.full[block * (2 + full) + k],
+            Some(k) => self.narrow[block * narrow + k].map(f64::from),
+        }
+    }
+
+    /// How far into it `t` is, from 0 to 1.
+    pub(super) fn share(&self, t: f64) -> f64 {
+        (t - self.from) / (self.to - self.from)
     }
 
     pub(super) fn bytes(&self) -> usize {
@@ -101,7 +111,7 @@ impl Reel {
 
     /// Moves the vertices from a block on to where they are at `t`.
     pub(super) fn place(&self, t: f64, first: usize, places: &mut [DVec2]) {
-        let s = (t - self.from) / (self.to - self.from);
+        let s = self.share(t);
         let share = |k: usize, places: &mut [DVec2]| {
             self.arch.dispatch(Sum {
                 reel: self,

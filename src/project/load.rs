@@ -12,6 +12,7 @@ use crate::transition::{
 };
 use crate::warp::WarpKind;
 use include_dir::{Dir, File, include_dir};
+use rayon::prelude::*;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -115,7 +116,9 @@ impl LoadedProject {
     /// [`ProjectError`] names the file and the place.
     pub fn load(project: Project, folder: Option<PathBuf>) -> Result<Self, ProjectError> {
         let read = |entry: &DesignEntry| named(entry, folder.as_deref());
-        let designs: Result<_, ProjectError> = project.designs.iter().map(read).collect();
+        // Beside each other: large ones take a second each.
+        let designs: Vec<_> = project.designs.par_iter().map(read).collect();
+        let designs: Result<_, ProjectError> = designs.into_iter().collect();
         Ok(Self {
             designs: designs?,
             project,

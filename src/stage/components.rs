@@ -59,7 +59,8 @@ pub struct MorphOptions(pub ArapOptions);
 pub struct Morph(#[reflect(ignore)] pub(super) Frame);
 
 impl Morph {
-    /// The frame that is on the stage.
+    /// The frame that is on the stage. Where the graphics card plays it, its vertices are
+    /// placed when somebody asks for them, once for each t: ask where you need them.
     pub fn frame(&self) -> &Frame {
         &self.0
     }

@@ -6,6 +6,7 @@
 
 use bevy::platform::time::Instant;
 use bevy::prelude::*;
+use bevy::render::render_resource::Buffer;
 
 use crate::content::Content;
 use crate::transition::Frame;
@@ -16,13 +17,16 @@ use super::field::{FieldKind, FieldLook};
 use super::grid::GridLook;
 use super::ink::linear;
 use super::paint::{Paint, Paints};
-use super::parts::{Part, PartKind};
+use super::parts::{Part, PartKind, Unmade};
+use super::played::{PlayedMaterial, Sum};
+use super::reels::Sent;
 use super::times::FrameTimes;
 
 type Roots = (
     Ref<'static, Morph>,
     Ref<'static, StageStyle>,
     &'static Children,
+    Option<&'static Sent>,
 );
 
 /// A frame, or how it looks, or what shows it, is new.
@@ -36,7 +40,8 @@ pub(super) fn draw_morphs(
     mut times: ResMut<FrameTimes>,
 ) {
     let start = Instant::now();
-    for (morph, style, children) in &roots {
+    let (mut some_played, mut some_read) = (false, false);
+    for (morph, style, children, sent) in &roots {
         let frame = morph.frame();
         let mut parts = parts.iter_many_mut(children);
         while let Some((mut part, mut visibility, mesh)) = parts.fetch_next() {
@@ -53,21 +58,31 @@ pub(super) fn draw_morphs(
             if !is_shown {
                 continue;
             }
+            if let Some(Unmade(make)) = part.unmade.take() {
+                // It stands for this part alone, and for as long.
+                paints.meshes.insert(mesh, make(frame)).ok();
+            }
+            // What is played stays as stale as what is hidden.
+            let is_played = part.is_played(sent, frame.t());
+            some_played |= is_played;
+            some_read |= part.reads(frame, frame.t(), &style, sent);
             if part.stale
+                && !is_played
                 && let Some(mut mesh) = paints.meshes.get_mut(mesh)
             {
                 part.write(frame, &style, &mut mesh);
             }
-            paint(&part, frame, &style, &mut paints);
+            paint(&part, frame, &style, sent, &mut paints);
         }
     }
     if !roots.is_empty() {
         times.draw.record(start.elapsed());
+        times.is_played = some_played && !some_read;
     }
 }
 
 /// Brings a part's material up to the frame.
-fn paint(part: &Part, frame: &Frame, style: &StageStyle, paints: &mut Paints) {
+fn paint(part: &Part, frame: &Frame, style: &StageStyle, sent: Option<&Sent>, paints: &mut Paints) {
     let (t, origin) = (frame.t(), part.origin);
     match (&part.paint, frame.transition().content()) {
         (Paint::Ink(ink), _) => {
@@ -77,6 +92,18 @@ fn paint(part: &Part, frame: &Frame, style: &StageStyle, paints: &mut Paints) {
                 let gradients = coats.gradients().clone();
                 renew(&mut paints.inks, ink, |ink| &mut ink.gradients, gradients);
             }
+        }
+        (Paint::Played(played), _) => {
+            let colour = linear(part.kind.colour(t, style));
+            renew(&mut paints.played, played, |part| &mut part.colour, colour);
+            let sum = match sent.and_then(|sent| sent.at(t)) {
+                Some((reel, sum)) => {
+                    change_reel(&mut paints.played, played, reel);
+                    sum
+                }
+                None => Sum::default(),
+            };
+            renew(&mut paints.played, played, |part| &mut part.sum, sum);
         }
         (Paint::Grid(grid), _) => {
             let look = GridLook::new(frame, origin, style);
@@ -94,6 +121,14 @@ fn paint(part: &Part, frame: &Frame, style: &StageStyle, paints: &mut Paints) {
         }
         // An entity has parts of one transition only.
         (Paint::Field(_) | Paint::Picture(_), _) => {}
+    }
+}
+
+fn change_reel(materials: &mut Assets<PlayedMaterial>, of: &Handle<PlayedMaterial>, reel: &Buffer) {
+    if let Some(mut material) = materials.get_mut(of)
+        && material.bypass_change_detection().reel.id() != reel.id()
+    {
+        material.reel = reel.clone();
     }
 }
 

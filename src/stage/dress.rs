@@ -13,6 +13,7 @@ use glam::DVec2;
 use crate::content::{Content, Solid};
 use crate::transition::{Figure, Frame};
 
+use super::card::Card;
 use super::coats::Coats;
 use super::colours::ColourMaterial;
 use super::components::Morph;
@@ -22,7 +23,9 @@ use super::gradients::Gradients;
 use super::grid::GridMaterial;
 use super::ink::InkMaterial;
 use super::paint::{Paint, Paints};
-use super::parts::{Part, PartKind};
+use super::parts::{Part, PartKind, Unmade};
+use super::played::{PlayedMaterial, Sum, VERTEX};
+use super::reels::Sent;
 use super::shapes::{BarShapes, Segments, corner_coordinates, quad_indices};
 
 /// Marks an entity whose transition is new and has no parts yet.
@@ -68,12 +71,42 @@ fn carried(frame: &Frame) -> Mesh {
         .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0; 4]; count])
 }
 
+/// The corners of faces, each for itself.
+fn corners(frame: &Frame) -> Mesh {
+    unplaced(corner_coordinates(frame.placement().faces.len()))
+}
+
+/// The outlines of a figure.
+fn lines(figure: &Figure, origin: DVec2) -> Mesh {
+    let mut segments = Segments::of(figure, origin);
+    if segments.quads() == 0 {
+        // An empty mesh would not be taken by the GPU.
+        segments.push_nothing();
+    }
+    let indices = Indices::U32(quad_indices(segments.quads()));
+    mesh(segments.positions)
+        .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, segments.offsets)
+        .with_inserted_indices(indices)
+}
+
+/// Faces whose vertices know which they are.
+fn numbered_faces(frame: &Frame) -> Mesh {
+    let numbers: Vec<u32> = (0..frame.placement().in_frame.len() as u32).collect();
+    faces(frame).with_inserted_attribute(VERTEX, numbers)
+}
+
+fn numbered_corners(frame: &Frame) -> Mesh {
+    let numbers = frame.placement().faces.as_flattened().to_vec();
+    corners(frame).with_inserted_attribute(VERTEX, numbers)
+}
+
 /// Everything that parts are made with.
 #[derive(SystemParam)]
 pub(super) struct Wardrobe<'w, 's> {
     commands: Commands<'w, 's>,
     paints: Paints<'w>,
     parts: Query<'w, 's, (), With<Part>>,
+    card: Option<Res<'w, Card>>,
 }
 
 impl Wardrobe<'_, '_> {
@@ -105,23 +138,24 @@ impl Wardrobe<'_, '_> {
                 let paints = &mut fitting.wardrobe.paints;
                 let material = FieldMaterial::new(fields.whole(), &mut paints.images);
                 let material = paints.fields.add(material);
-                fitting.add(PartKind::Field, carried(frame), material, Paint::Field);
+                fitting.add(PartKind::Field, carried, material, Paint::Field);
             }
             Content::Colours(pair) => {
                 let paints = &mut fitting.wardrobe.paints;
                 let material = ColourMaterial::new(pair, &mut paints.images);
                 let material = paints.colours.add(material);
-                fitting.add(PartKind::Picture, carried(frame), material, Paint::Picture);
+                fitting.add(PartKind::Picture, carried, material, Paint::Picture);
             }
         }
         if !frame.placement().faces.is_empty() {
             let grids = &mut fitting.wardrobe.paints.grids;
             let material = grids.add(GridMaterial::default());
-            fitting.add(PartKind::Grid, carried(frame), material, Paint::Grid);
+            fitting.add(PartKind::Grid, carried, material, Paint::Grid);
         }
-        let [source, target] = transition.outlines();
-        fitting.add_ghost(PartKind::SourceGhost, &source);
-        fitting.add_ghost(PartKind::TargetGhost, &target);
+        let [source, target] = [0, 1]
+            .map(|end| move |frame: &Frame| lines(&frame.transition().outlines()[end], origin));
+        fitting.add_inked(PartKind::SourceGhost, source);
+        fitting.add_inked(PartKind::TargetGhost, target);
     }
 }
 
@@ -137,17 +171,20 @@ impl Fitting<'_, '_, '_> {
     fn add<M: Material2d>(
         &mut self,
         kind: PartKind,
-        mesh: Mesh,
+        mesh: impl FnOnce(&Frame) -> Mesh + Send + Sync + 'static,
         material: Handle<M>,
         paint: fn(Handle<M>) -> Paint,
     ) {
-        let mesh = Mesh2d(self.wardrobe.paints.meshes.add(mesh));
+        // What is never shown takes no memory.
+        let place = self.wardrobe.paints.meshes.reserve_handle();
         let part = Part {
             kind,
             paint: paint(material.clone()),
             origin: self.origin,
+            unmade: Some(Unmade(Box::new(mesh))),
             stale: true,
         };
+        let mesh = Mesh2d(place);
         // A box to cull by would be measured again after each write, and would
         // not know how far the shader widens lines.
         let drawn = (mesh, MeshMaterial2d(material), NoFrustumCulling);
@@ -156,7 +193,26 @@ impl Fitting<'_, '_, '_> {
         self.wardrobe.commands.spawn((part, drawn, hidden, parent));
     }
 
-    fn add_inked(&mut self, kind: PartKind, mesh: Mesh) {
+    /// Faces or wires: played from the graphics card, where there is one.
+    fn add_triangles(&mut self, kind: PartKind, mesh: [fn(&Frame) -> Mesh; 2]) {
+        let [plain, numbered] = mesh;
+        let Some(card) = &self.wardrobe.card else {
+            return self.add_inked(kind, plain);
+        };
+        let material = self.wardrobe.paints.played.add(PlayedMaterial {
+            colour: LinearRgba::NONE,
+            sum: Sum::default(),
+            reel: card.nothing().clone(),
+            kind: kind.ink(),
+        });
+        self.add(kind, numbered, material, Paint::Played);
+    }
+
+    fn add_inked(
+        &mut self,
+        kind: PartKind,
+        mesh: impl FnOnce(&Frame) -> Mesh + Send + Sync + 'static,
+    ) {
         let material = self.wardrobe.paints.inks.add(InkMaterial {
             colour: LinearRgba::NONE,
             gradients: Gradients::default(),
@@ -174,7 +230,7 @@ impl Fitting<'_, '_, '_> {
         let mesh = mesh
             .with_inserted_attribute(Mesh::ATTRIBUTE_COLOR, vec![[0.0_f32; 4]; count])
             .with_inserted_attribute(Mesh::ATTRIBUTE_UV_0, vec![[0.0_f32; 2]; count]);
-        self.add_inked(PartKind::Coats(coats), mesh);
+        self.add_inked(PartKind::Coats(coats), |_| mesh);
     }
 
     fn add_solid(&mut self, solid: &Solid) {
@@ -185,35 +241,22 @@ impl Fitting<'_, '_, '_> {
         if let Some(coating) = &solid.coating {
             self.add_coats(Coats::of_solid(self.frame, solid, coating));
         } else if has_loops && (count == 0 || comes_and_goes) {
-            self.add_inked(PartKind::Rings, nothing());
+            self.add_inked(PartKind::Rings, |_| nothing());
         } else if has_loops {
-            self.add_inked(PartKind::Faces, faces(self.frame));
+            self.add_triangles(PartKind::Faces, [faces, numbered_faces]);
         }
         for bars in BarShapes::all(solid) {
             let (shapes, cores) = (quads(bars.coordinates()), quads(bars.core_coordinates()));
-            self.add_inked(PartKind::Bars(bars.clone()), shapes);
-            self.add_inked(PartKind::JointCores(bars), cores);
+            self.add_inked(PartKind::Bars(bars.clone()), |_| shapes);
+            self.add_inked(PartKind::JointCores(bars), |_| cores);
         }
         if count > 0 {
             // A truss has panels but no loops: its wires lie on the ground.
             let wire = PartKind::Wire {
                 on_faces: has_loops,
             };
-            self.add_inked(wire, unplaced(corner_coordinates(count)));
+            self.add_triangles(wire, [corners, numbered_corners]);
         }
-    }
-
-    fn add_ghost(&mut self, kind: PartKind, figure: &Figure) {
-        let segments = Segments::of(figure, self.origin);
-        // An empty mesh would not be taken by the GPU.
-        if segments.quads() == 0 {
-            return;
-        }
-        let indices = Indices::U32(quad_indices(segments.quads()));
-        let lines = mesh(segments.positions)
-            .with_inserted_attribute(Mesh::ATTRIBUTE_NORMAL, segments.offsets)
-            .with_inserted_indices(indices);
-        self.add_inked(kind, lines);
     }
 }
 
@@ -225,7 +268,8 @@ pub(super) fn dress(
     for (entity, morph, children) in &undressed {
         // Of an earlier transition, where this one replaces it.
         wardrobe.undress(children);
-        wardrobe.commands.entity(entity).remove::<Undressed>();
+        let mut commands = wardrobe.commands.entity(entity);
+        commands.remove::<(Undressed, Sent)>();
         wardrobe.dress(entity, morph.frame());
     }
 }
@@ -237,4 +281,8 @@ pub(super) fn undress(
     mut wardrobe: Wardrobe,
 ) {
     wardrobe.undress(children.get(removed.entity).ok());
+    wardrobe
+        .commands
+        .entity(removed.entity)
+        .try_remove::<Sent>();
 }

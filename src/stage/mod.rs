@@ -8,6 +8,10 @@
 //! window, keys or panels; [`MorphSystems`] says where in a frame its systems
 //! run, so that a program can order its own.
 //!
+//! A transition of solids whose film was recorded ([`Transition::record`](crate::transition::Transition::record)) is played
+//! from the graphics card: its reels are sent there once, faces and wires are summed
+//! in the vertex shader, and no vertex is written while t moves within [0, 1].
+//!
 //! Guarantees: frames neither fail nor allocate what the last one had, but for
 //! boundaries without faces, which are triangulated as they move; builds
 //! run on a task pool, and a failed one is a [`BuildFailed`] on its entity;
@@ -41,6 +45,7 @@
 mod build;
 mod camera;
 mod capture;
+mod card;
 mod carried;
 mod coats;
 mod colours;
@@ -55,6 +60,8 @@ mod ink;
 mod paint;
 mod parts;
 mod pipelines;
+mod played;
+mod reels;
 mod ribbon;
 mod shapes;
 mod solve;
@@ -120,7 +127,8 @@ pub enum MorphSystems {
     /// had; a [`StageTransition`] becomes a [`Morph`].
     Build,
     /// Each [`Morph`] is sought to its [`Blend`]: afterwards its frame is that
-    /// of this update.
+    /// of this update, placed already or, where the graphics card plays it, when
+    /// it is read.
     Solve,
     /// Render meshes, uniforms and cameras are written.
     Draw,
@@ -156,6 +164,7 @@ impl Plugin for MorphPlugin {
 
 fn add_drawing(app: &mut App) {
     embedded_asset!(app, "ink.wgsl");
+    embedded_asset!(app, "played.wgsl");
     embedded_asset!(app, "field.wgsl");
     embedded_asset!(app, "colours.wgsl");
     embedded_asset!(app, "grid.wgsl");
@@ -164,17 +173,24 @@ fn add_drawing(app: &mut App) {
     }
     app.add_plugins((
         Material2dPlugin::<ink::InkMaterial>::default(),
+        Material2dPlugin::<played::PlayedMaterial>::default(),
         Material2dPlugin::<field::FieldMaterial>::default(),
         Material2dPlugin::<colours::ColourMaterial>::default(),
         Material2dPlugin::<grid::GridMaterial>::default(),
     ))
+    .add_systems(Startup, card::find_card)
     // An observer, so that parts go whenever their frame is taken away.
     .add_observer(dress::undress)
     .add_systems(
         Update,
         // Between systems of a chain commands are applied, so that parts are
         // written and placed in the frame that spawns them.
-        (dress::dress, draw::draw_morphs, parts::place_parts)
+        (
+            dress::dress,
+            (card::take_films, card::send_films),
+            draw::draw_morphs,
+            parts::place_parts,
+        )
             .chain()
             .in_set(MorphSystems::Draw),
     );

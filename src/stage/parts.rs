@@ -3,6 +3,7 @@
 
 use bevy::prelude::*;
 use glam::DVec2;
+use std::fmt;
 
 use crate::colour::Rgb;
 use crate::export::joint_core;
@@ -15,6 +16,7 @@ use super::components::StageStyle;
 use super::fill;
 use super::ink::InkKind;
 use super::paint::Paint;
+use super::reels::Sent;
 use super::shapes::{BarShapes, positions, write_corners, write_points};
 use super::view::StageView;
 
@@ -25,9 +27,20 @@ pub(super) struct Part {
     pub(super) paint: Paint,
     /// The point of the plane that the vertices are relative to.
     pub(super) origin: DVec2,
+    /// How its mesh is made, once it is shown.
+    pub(super) unmade: Option<Unmade>,
     /// The vertices are not those of the frame: they have not been written
     /// since the frame moved.
     pub(super) stale: bool,
+}
+
+/// A mesh that has not been wanted yet.
+pub(super) struct Unmade(pub(super) Box<dyn FnOnce(&Frame) -> Mesh + Send + Sync>);
+
+impl fmt::Debug for Unmade {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Unmade")
+    }
 }
 
 /// What a part shows.
@@ -122,6 +135,25 @@ impl PartKind {
 }
 
 impl Part {
+    /// Whether the graphics card knows where its vertices are at `t`.
+    pub(super) fn is_played(&self, sent: Option<&Sent>, t: f64) -> bool {
+        let is_there = sent.is_some_and(|sent| sent.shows(t));
+        is_there && matches!(self.paint, Paint::Played(_))
+    }
+
+    /// Whether it is shown and wants to know where its vertices are as the frame moves
+    /// to `t`.
+    pub(super) fn reads(
+        &self,
+        frame: &Frame,
+        t: f64,
+        style: &StageStyle,
+        sent: Option<&Sent>,
+    ) -> bool {
+        let is_outdated = self.kind.outdated(true, false, frame);
+        self.kind.is_shown(style) && is_outdated && !self.is_played(sent, t)
+    }
+
     /// Brings the vertices up to where the frame is.
     pub(super) fn write(&mut self, frame: &Frame, style: &StageStyle, mesh: &mut Mesh) {
         let placement = frame.placement();

@@ -196,6 +196,11 @@ impl Segments {
         segments
     }
 
+    /// A segment that is not seen.
+    pub(super) fn push_nothing(&mut self) {
+        self.push([DVec2::ZERO; 2], [DVec2::ZERO; 2], DVec2::ZERO);
+    }
+
     /// How many quads there are.
     pub(super) fn quads(&self) -> usize {
         self.positions.len() / 4

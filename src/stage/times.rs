@@ -65,6 +65,8 @@ pub struct FrameTimes {
     pub solve: Durations,
     /// Writing render meshes and uniforms.
     pub draw: Durations,
+    /// What was drawn last the graphics card sums: it is neither solved nor written.
+    pub is_played: bool,
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! One moment of a transition.
 
+use super::lazy::Lazy;
 use super::options::Options;
 use super::ready::Transition;
 use crate::colour::{Gradient, Line, Paint};
@@ -15,8 +16,7 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Frame {
     transition: Transition,
-    placer: Placer,
-    t: f64,
+    places: Lazy,
 }
 
 /// What a frame looks like, evaluated on the CPU.
@@ -62,18 +62,22 @@ impl Transition {
     /// extrapolates; a `t` that is not finite counts as 0.
     #[must_use]
     pub fn frame(&self, t: f64) -> Frame {
+        let mut frame = Frame {
+            places: Lazy::new(self.player(), 0.0),
+            transition: self.clone(),
+        };
+        frame.seek(t);
+        frame
+    }
+
+    /// Plays the film, where there is one, and else the warp.
+    fn player(&self) -> Placer {
         let film = Arc::clone(self.slot());
         let play = move |t: f64, placement: &mut Placement| match film.get() {
             Some(Ok(film)) => film.place(t, placement),
             _ => false,
         };
-        let mut frame = Frame {
-            placer: self.warp().placer().after(play),
-            transition: self.clone(),
-            t: 0.0,
-        };
-        frame.seek(t);
-        frame
+        self.warp().placer().after(play)
     }
 
     /// Source and target as they were given, for ghosts behind the frames.
@@ -87,26 +91,32 @@ impl Transition {
 impl Frame {
     /// Moves to `t` without allocating. A `t` that is not finite counts as 0.
     pub fn seek(&mut self, t: f64) {
-        self.t = if t.is_finite() { t } else { 0.0 };
-        self.placer.place(self.t);
+        self.turn(t);
+        self.places.placement(|| self.transition.player());
+    }
+
+    /// The same, but that vertices are placed when somebody reads them, if anybody
+    /// does.
+    pub(crate) fn turn(&mut self, t: f64) {
+        self.places.turn(if t.is_finite() { t } else { 0.0 });
     }
 
     /// The blend parameter.
     #[must_use]
     pub fn t(&self) -> f64 {
-        self.t
+        self.places.t()
     }
 
     /// Whether t lies outside [0, 1].
     #[must_use]
     pub fn is_extrapolated(&self) -> bool {
-        !(0.0..=1.0).contains(&self.t)
+        !(0.0..=1.0).contains(&self.t())
     }
 
     /// Where the vertices are.
     #[must_use]
     pub fn placement(&self) -> &Placement {
-        self.placer.placement()
+        self.places.placement(|| self.transition.player())
     }
 
     /// What this is a frame of.
@@ -128,7 +138,7 @@ impl Frame {
             }),
             Content::Field(_) => self.coated(Figure::default()),
             Content::Colours(pair) => Figure {
-                rings: vec![pair.window(self.t).corners().to_vec()],
+                rings: vec![pair.window(self.t()).corners().to_vec()],
                 ..Figure::default()
             },
         }
@@ -137,7 +147,7 @@ impl Frame {
     /// With the rings of this frame, coat by coat.
     fn coated(&self, mut figure: Figure) -> Figure {
         let content = self.transition.content();
-        for inked in content.coated_at(self.placement(), self.t) {
+        for inked in content.coated_at(self.placement(), self.t()) {
             let first = figure.rings.len();
             figure.rings.extend(inked.rings);
             if content.coating().is_some() {
@@ -158,7 +168,7 @@ impl Frame {
     #[must_use]
     pub fn picture(&self, raster: &Raster) -> Option<RgbaImage> {
         match self.transition.content() {
-            Content::Colours(pair) => Some(pair.render(self.placement(), self.t, raster)),
+            Content::Colours(pair) => Some(pair.render(self.placement(), self.t(), raster)),
             Content::Solid(_) | Content::Field(_) => None,
         }
     }

@@ -24,8 +24,8 @@
 //! - `part_time`: parts that make their way in their own time
 //! - `note`: what was done otherwise than asked; `mirrored`: what might have been
 //!   meant
-//! - `ready`, `frame`: the transition and its moments; `recorded`: those that are
-//!   played from memory; `proved`: what holds of them at every t
+//! - `ready`, `frame`: the transition and its moments; `lazy`: placed when they are
+//!   read; `recorded`: those that are played from memory; `proved`: what holds of them at every t
 //! - `sequence`: several, one after the other
 //! - `timing`, `style`: how it is played and painted
 
@@ -49,6 +49,7 @@ mod group;
 mod guarded;
 mod holes;
 mod kept;
+mod lazy;
 mod levels;
 mod lone;
 mod measured;

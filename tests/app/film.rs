@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use morphospace::app::{Intent, Recording};
+use morphospace::film::FilmError;
 use morphospace::transition::Transition;
 
 use crate::window::Window;
@@ -41,4 +42,36 @@ fn what_is_on_the_stage_is_played_from_memory_once_that_is_there() {
             .and_then(Transition::film)
             .is_some()
     );
+}
+
+#[test]
+fn a_film_that_may_take_no_memory_is_solved_and_says_so() {
+    let mut window = Window::new();
+    window.0.insert_resource(Recording::within(Some(0)));
+    window.send(Intent::OpenGallery("triangle-polar".to_owned()));
+    window.wait();
+    settle(&mut window);
+    let film = window.session().transition().expect("a transition").film();
+    assert!(film.is_none(), "{film:?}");
+    let recording = window.0.world().resource::<Recording>();
+    let why = recording.refused().expect("a reason");
+    assert!(matches!(why, FilmError::TooLarge { .. }), "{why}");
+}
+
+#[test]
+fn a_recording_is_given_up_for_what_comes_next() {
+    let mut window = Window::new();
+    window.send(Intent::OpenGallery("rotor".to_owned()));
+    window.wait();
+    let first = window.session().transition().expect("a transition").clone();
+    let recording = window.0.world().resource::<Recording>();
+    assert!(recording.is_busy() && first.film().is_none());
+    window.send(Intent::OpenGallery("triangle-polar".to_owned()));
+    window.wait();
+    settle(&mut window);
+    let film = window.session().transition().and_then(Transition::film);
+    assert!(matches!(film, Some(Ok(_))), "{film:?}");
+    // Where the recording looked last, it heard that nobody wants it.
+    std::thread::sleep(Duration::from_secs(2));
+    assert!(first.film().is_none());
 }

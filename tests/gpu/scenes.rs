@@ -24,12 +24,23 @@ fn build(spec: &TransitionSpec) -> Transition {
 
 /// A strip that bends into a quarter of a ring, somewhere.
 pub fn solid(offset: f64) -> Transition {
-    let bent = |p: DVec2| {
+    strip(24, offset, |p| {
         let angle = FRAC_PI_2 * p.x / 6.0;
         DVec2::from_angle(FRAC_PI_2 - angle) * (2.5 + p.y)
-    };
+    })
+}
+
+/// A strip that is wound up by so many radians.
+pub fn wound(turn: f64) -> Transition {
+    strip(96, 0.0, |p| {
+        let angle = turn * p.x / 24.0;
+        DVec2::from_angle(-angle).perp() * (4.0 + 0.3 * (turn - angle) + p.y)
+    })
+}
+
+fn strip(columns: u32, offset: f64, bent: impl Fn(DVec2) -> DVec2) -> Transition {
     let mesh = |place: &dyn Fn(DVec2) -> DVec2| {
-        let (columns, rows) = (24, 4);
+        let rows = 4;
         let at = |i: u32| DVec2::new(f64::from(i / (rows + 1)), f64::from(i % (rows + 1))) / 4.0;
         let positions = (0..(columns + 1) * (rows + 1))
             .map(|i| place(at(i)) + DVec2::splat(offset))

@@ -10,6 +10,7 @@ use bevy::log::LogPlugin;
 use bevy::prelude::*;
 use bevy::render::RenderPlugin;
 use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
+use bevy::render::render_resource::WgpuLimits;
 use bevy::render::renderer::initialize_renderer;
 use bevy::render::settings::{Backends, RenderCreation, RenderResources, WgpuSettings};
 use bevy::window::ExitCondition;
@@ -17,9 +18,10 @@ use bevy::winit::WinitPlugin;
 use image::RgbaImage;
 use morphospace::colour::Rgb;
 use morphospace::export::{Drawing, PixelSize, View, rasterise};
-use morphospace::geometry::Bounds;
+use morphospace::geometry::{Bounds, DVec2};
 use morphospace::stage::{
-    Blend, CaptureStage, MorphPlugin, Show, StageCaptured, StageStyle, StageTransition, StageView,
+    Blend, CaptureStage, FrameTimes, Morph, MorphPlugin, Show, StageCaptured, StageStyle,
+    StageTransition, StageView,
 };
 use morphospace::transition::{Style, Transition};
 
@@ -58,15 +60,21 @@ impl Scene {
 /// A Bevy program that renders, but not into a window.
 pub struct Studio {
     app: App,
+    /// What stays on the stage.
+    staged: Option<Entity>,
     pictures: Option<PathBuf>,
     taken: u64,
 }
 
 impl Studio {
-    /// `None` where there is no graphics adapter at all.
-    fn open() -> Option<Self> {
+    /// `None` where there is no graphics adapter at all; of one that can do no more
+    /// than the limits say.
+    pub fn open(limits: Option<WgpuLimits>) -> Option<Self> {
         let renderer = catch_unwind(|| {
-            let settings = WgpuSettings::default();
+            let settings = WgpuSettings {
+                constrained_limits: limits,
+                ..default()
+            };
             let backends = settings.backends.unwrap_or(Backends::all());
             bevy::tasks::block_on(initialize_renderer(backends, None, &settings))
         });
@@ -80,6 +88,7 @@ impl Studio {
         let pictures = std::env::var_os("MORPHOSPACE_PICTURES").map(PathBuf::from);
         Some(Self {
             app,
+            staged: None,
             pictures,
             taken: 0,
         })
@@ -87,10 +96,16 @@ impl Studio {
 
     /// The scene at `t` from the stage's renderer.
     pub fn picture(&mut self, scene: &Scene, t: f64) -> Result<RgbaImage, String> {
+        assert!(self.staged.is_none(), "something else is on the stage");
+        self.put(scene, t);
+        let picture = self.take(scene);
+        self.clear();
+        picture
+    }
+
+    /// Puts a scene on the stage, where it stays.
+    pub fn put(&mut self, scene: &Scene, t: f64) {
         let world = self.app.world_mut();
-        world
-            .resource_mut::<StageView>()
-            .fit(scene.view, UVec2::from(scene.size).as_vec2());
         let entity = world.spawn((
             StageTransition(scene.transition.clone()),
             Blend { t },
@@ -99,7 +114,15 @@ impl Studio {
                 show: scene.show,
             },
         ));
-        let entity = entity.id();
+        self.staged = Some(entity.id());
+    }
+
+    /// What is on the stage.
+    pub fn take(&mut self, scene: &Scene) -> Result<RgbaImage, String> {
+        let world = self.app.world_mut();
+        world
+            .resource_mut::<StageView>()
+            .fit(scene.view, UVec2::from(scene.size).as_vec2());
         self.taken += 1;
         world.write_message(CaptureStage {
             id: self.taken,
@@ -108,9 +131,83 @@ impl Studio {
             view: scene.view,
         });
         let answer = self.answer();
-        self.app.world_mut().despawn(entity);
         assert_eq!(answer.id, self.taken);
         answer.result
+    }
+
+    fn staged(&mut self) -> EntityWorldMut<'_> {
+        let staged = self.staged.expect("nothing is on the stage");
+        self.app.world_mut().entity_mut(staged)
+    }
+
+    /// Moves what is on the stage.
+    pub fn move_to(&mut self, t: f64) {
+        self.staged().get_mut::<Blend>().expect("a blend").t = t;
+        self.app.update();
+    }
+
+    /// Changes what of it is shown.
+    pub fn show(&mut self, change: impl FnOnce(&mut Show)) {
+        let mut staged = self.staged();
+        change(&mut staged.get_mut::<StageStyle>().expect("a style").show);
+    }
+
+    /// Another transition takes its place.
+    pub fn replace(&mut self, by: &Transition) {
+        self.staged().insert(StageTransition(by.clone()));
+        self.app.update();
+    }
+
+    /// Moves it about until the graphics card plays it.
+    pub fn wait_until_played(&mut self) {
+        let start = Instant::now();
+        for k in 0.. {
+            self.move_to(0.5 + 0.25 * f64::from(k % 2));
+            if self.is_played() {
+                return;
+            }
+            assert!(
+                start.elapsed() < Duration::from_secs(60),
+                "it is never played"
+            );
+        }
+    }
+
+    /// Whether the graphics card summed what moved last.
+    pub fn is_played(&self) -> bool {
+        self.app.world().resource::<FrameTimes>().is_played
+    }
+
+    /// Reads where the vertices are.
+    pub fn read<T>(&mut self, of: impl FnOnce(&[DVec2]) -> T) -> T {
+        let staged = self.staged();
+        let morph = staged.get::<Morph>().expect("a morph");
+        of(&morph.frame().placement().in_frame)
+    }
+
+    /// How many meshes were written since this was asked last.
+    pub fn count_written(&mut self) -> usize {
+        let mut written = self.app.world_mut().resource_mut::<Written>();
+        std::mem::take(&mut written.0)
+    }
+
+    /// Hides what is on the stage.
+    pub fn put_away(&mut self) -> Entity {
+        self.staged().insert(Visibility::Hidden);
+        self.staged.take().expect("something")
+    }
+
+    /// Shows it again.
+    pub fn put_back(&mut self, entity: Entity) {
+        self.staged = Some(entity);
+        self.staged().insert(Visibility::Inherited);
+    }
+
+    /// Takes it from the stage.
+    pub fn clear(&mut self) {
+        if let Some(entity) = self.staged.take() {
+            self.app.world_mut().despawn(entity);
+        }
     }
 
     fn answer(&mut self) -> StageCaptured {
@@ -173,8 +270,19 @@ fn app(renderer: RenderResources) -> App {
         })
         .disable::<WinitPlugin>()
         .disable::<PipelinedRenderingPlugin>();
-    app.add_plugins((plugins, MorphPlugin));
+    app.add_plugins((plugins, MorphPlugin))
+        .init_resource::<Written>()
+        .add_systems(Last, count_written);
     app
+}
+
+/// How many meshes were written.
+#[derive(Resource, Default)]
+struct Written(usize);
+
+fn count_written(mut events: MessageReader<AssetEvent<Mesh>>, mut written: ResMut<Written>) {
+    let is_written = |event: &&AssetEvent<Mesh>| matches!(event, AssetEvent::Modified { .. });
+    written.0 += events.read().filter(is_written).count();
 }
 
 /// Runs the tests whose name contains the first argument, in the manner of
@@ -190,7 +298,7 @@ pub fn run(tests: &[Test]) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     println!("\nrunning {} tests", chosen.len());
-    let Some(mut studio) = Studio::open() else {
+    let Some(mut studio) = Studio::open(None) else {
         return run_nothing(&chosen);
     };
     let mut failed = 0;

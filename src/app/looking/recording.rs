@@ -7,7 +7,7 @@
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
 use crate::app::session::state::Session;
-use crate::app::telling::job::Job;
+use crate::app::telling::job::{Job, JobError};
 use crate::app::telling::spare::give_back;
 use crate::film::{FilmError, FilmOptions};
 use crate::transition::{Proved, Transition};
@@ -15,9 +15,11 @@ use crate::transition::{Proved, Transition};
 /// The recording that goes on, or what came of the last one.
 #[derive(Resource, Debug, Default)]
 pub struct Recording {
+    options: FilmOptions,
     of: Option<Transition>,
     job: Option<Job<Option<Proved>, FilmError>>,
     proved: Option<Proved>,
+    refused: Option<FilmError>,
     /// Of other legs, the last one last: while a sequence plays they come again and again.
     before: Vec<(Transition, Proved)>,
 }
@@ -26,11 +28,37 @@ pub struct Recording {
 const REMEMBERED: usize = 64;
 
 impl Recording {
+    /// Of films that take so many MiB at most, or as many as they usually may.
+    #[must_use]
+    pub fn within(mebibytes: Option<usize>) -> Self {
+        let usual = FilmOptions::default();
+        let most = mebibytes.map_or(usual.most_bytes, |most| most.saturating_mul(1 << 20));
+        Self {
+            options: FilmOptions {
+                most_bytes: most,
+                ..usual
+            },
+            ..Self::default()
+        }
+    }
+
+    /// Why there is no film of what is on the stage, nor will be.
+    #[must_use]
+    pub fn refused(&self) -> Option<&FilmError> {
+        self.refused.as_ref()
+    }
+
     /// What is proved of the film on the stage; none as long as that is not known, and
     /// of what has no faces.
     #[must_use]
     pub fn proved(&self) -> Option<&Proved> {
         self.proved.as_ref()
+    }
+
+    /// What is being done for the film, and how far it is.
+    #[must_use]
+    pub fn progress(&self) -> Option<(&'static str, f64)> {
+        self.job.as_ref().map(Job::progress)
     }
 
     /// It is being recorded, or proved.
@@ -72,6 +100,8 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<Recording>) {
     let now = recording.bypass_change_detection();
     if session.is_changed() && !now.is_of(session.transition()) {
         now.remember();
+        now.refused = None;
+        let options = now.options;
         now.of = session.transition().cloned();
         if now.recall() {
             recording.set_changed();
@@ -79,8 +109,6 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<Recording>) {
         }
         now.job = now.of.clone().map(|transition| {
             Job::start("the film", move |progress| {
-                let options = FilmOptions::default();
-                // Why there is no film is kept with the transition, and shown beside the times.
                 let recorded = transition.record(&options, progress);
                 let proved = recorded.and_then(|_| transition.prove(&options, progress));
                 // What was on the stage before is gone by now.
@@ -90,7 +118,12 @@ pub fn follow(session: Res<Session>, mut recording: ResMut<Recording>) {
         });
     }
     if let Some(answer) = Job::take(&mut now.job) {
-        now.proved = answer.ok().flatten();
+        // Why there is no film is shown beside the times.
+        (now.proved, now.refused) = match answer {
+            Ok(proved) => (proved, None),
+            Err(JobError::Failed(error)) => (None, Some(error)),
+            Err(JobError::Broken(_)) => (None, None),
+        };
         recording.set_changed();
     }
 }

@@ -13,6 +13,7 @@
 
 use crate::geometry::{DVec2, RANGE, is_in_range};
 use crate::mesh::{MeshError, TriangleMesh};
+use std::borrow::Cow;
 
 /// Why an OBJ file is no plane mesh. Lines, vertices and faces count from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -99,8 +100,11 @@ pub enum ObjFault {
 struct Parser {
     positions: Vec<DVec2>,
     first_z: f64,
-    /// The line of each face, and its vertices from 0, not yet triangles.
-    polygons: Vec<(usize, Vec<i64>)>,
+    /// The line of each face, and how many of `corners` come before its own.
+    polygons: Vec<(usize, usize)>,
+    /// The vertices of faces from 0, not yet triangles: one after the other, since a
+    /// list for each would be most of the time that a million takes.
+    corners: Vec<i64>,
 }
 
 /// Reads the text of an OBJ file.
@@ -110,7 +114,7 @@ pub(super) fn read(text: &str) -> Result<TriangleMesh, ObjError> {
         let mut words = words.split_whitespace();
         let read = match words.next() {
             Some("v") => parser.vertex(words),
-            Some("f") => (parser.corners(words)).map(|face| parser.polygons.push((line, face))),
+            Some("f") => parser.face(line, words),
             _ => Ok(()),
         };
         read.map_err(|fault| ObjError::Line { line, fault })?;
@@ -119,12 +123,13 @@ pub(super) fn read(text: &str) -> Result<TriangleMesh, ObjError> {
 }
 
 /// Lines from 1, without comments, with those joined that end in a backslash.
-fn logical_lines(text: &str) -> impl Iterator<Item = (usize, String)> {
+fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let mut lines = text.lines().zip(1..);
     std::iter::from_fn(move || {
         let (first, number) = lines.next()?;
-        let mut joined = without_comment(first).to_owned();
+        let mut joined = Cow::Borrowed(without_comment(first));
         while joined.ends_with('\\') {
+            let joined = joined.to_mut();
             joined.pop();
             let Some((more, _)) = lines.next() else { break };
             joined.push(' ');
@@ -140,12 +145,12 @@ fn without_comment(line: &str) -> &str {
 
 impl Parser {
     /// Takes `x y` or `x y z`; a weight or a colour behind them is passed over.
-    fn vertex<'a>(&mut self, words: impl Iterator<Item = &'a str>) -> Result<(), ObjFault> {
+    fn vertex<'a>(&mut self, mut words: impl Iterator<Item = &'a str>) -> Result<(), ObjFault> {
         let vertex = self.positions.len() + 1;
-        let numbers: Result<Vec<f64>, _> = words.take(3).map(str::parse).collect();
-        let (p, z) = match numbers.as_deref() {
-            Ok(&[x, y, z]) => (DVec2::new(x, y), z),
-            Ok(&[x, y]) => (DVec2::new(x, y), 0.0),
+        let mut number = || words.next().map(str::parse::<f64>);
+        let (p, z) = match [number(), number(), number()] {
+            [Some(Ok(x)), Some(Ok(y)), Some(Ok(z))] => (DVec2::new(x, y), z),
+            [Some(Ok(x)), Some(Ok(y)), None] => (DVec2::new(x, y), 0.0),
             _ => return Err(ObjFault::Vertex(vertex)),
         };
         if !(is_in_range(p) && z.is_finite()) {
@@ -163,11 +168,15 @@ impl Parser {
         Ok(())
     }
 
-    /// The vertices of the next face, from 0.
-    fn corners<'a>(&self, words: impl Iterator<Item = &'a str>) -> Result<Vec<i64>, ObjFault> {
+    /// Takes the vertices of a face.
+    fn face<'a>(
+        &mut self,
+        line: usize,
+        words: impl Iterator<Item = &'a str>,
+    ) -> Result<(), ObjFault> {
         let face = self.polygons.len() + 1;
         let so_far = self.positions.len() as i64;
-        let mut corners = Vec::new();
+        let first = self.corners.len();
         for word in words {
             let number = word.split('/').next().unwrap_or_default();
             let named: i64 = number
@@ -181,11 +190,12 @@ impl Parser {
             if corner < 0 {
                 return Err(self.out_of_range(face, named));
             }
-            corners.push(corner);
+            self.corners.push(corner);
         }
-        match corners.len() < 3 {
+        self.polygons.push((line, first));
+        match self.corners.len() - first < 3 {
             true => Err(ObjFault::TooFewCorners(face)),
-            false => Ok(corners),
+            false => Ok(()),
         }
     }
 
@@ -207,9 +217,12 @@ impl Parser {
         if u32::try_from(self.positions.len()).is_err() {
             return Err(ObjError::TooMany);
         }
-        let mut faces = Vec::new();
+        let mut faces = Vec::with_capacity(self.polygons.len());
         let mut used = vec![false; self.positions.len()];
-        for (face, &(line, ref corners)) in (1..).zip(&self.polygons) {
+        let ends = self.polygons.iter().skip(1).map(|&(_, first)| first);
+        let ends = ends.chain([self.corners.len()]);
+        for (face, (&(line, first), end)) in (1..).zip(self.polygons.iter().zip(ends)) {
+            let corners = &self.corners[first..end];
             let checked = self.check_corners(face, corners, &mut used);
             checked.map_err(|fault| ObjError::Line { line, fault })?;
             // Three at least, so that there is a first and a fan about it.
@@ -236,13 +249,21 @@ impl Parser {
             };
             *mark = true;
         }
+        let repeated = |vertex: i64| ObjFault::Repeated {
+            face,
+            vertex: vertex as usize + 1,
+        };
+        // Nearly all are triangles.
+        if let [a, b, c] = *corners {
+            return match a == b || a == c || b == c {
+                true => Err(repeated(if b == c { b } else { a })),
+                false => Ok(()),
+            };
+        }
         let mut sorted = corners.to_vec();
         sorted.sort_unstable();
         match sorted.windows(2).find(|pair| pair[0] == pair[1]) {
-            Some(pair) => Err(ObjFault::Repeated {
-                face,
-                vertex: pair[0] as usize + 1,
-            }),
+            Some(pair) => Err(repeated(pair[0])),
             None => Ok(()),
         }
     }

@@ -44,14 +44,25 @@ fn whence(scene: &Scene) -> (String, String) {
     match scene.session.transition().and_then(Transition::film) {
         Some(Ok(film)) => {
             let megabytes = film.bytes() as f64 / 1e6;
+            let (kind, by) = match scene.times.is_played {
+                true => ("GPU film", "the graphics card"),
+                false => ("Film", "memory"),
+            };
             let more = format!(
-                "Frames come from memory: recorded by {} solves, to {:.0e} of the drawings' size",
+                "Frames come from {by}: recorded by {} solves, to {:.0e} of the drawings' size",
                 film.solves(),
                 film.error()
             );
-            (format!("Film {megabytes:.1} MB"), more)
+            (format!("{kind} {megabytes:.1} MB"), more)
         }
         Some(Err(error)) => (solved(), error.to_string()),
-        None => (solved(), "The film is not recorded yet".to_owned()),
+        None => match (scene.recording.progress(), scene.recording.refused()) {
+            (Some((doing, share)), _) => (
+                format!("Solved, {doing} {:.0} %", 100.0 * share),
+                "The film is not recorded yet".to_owned(),
+            ),
+            (None, Some(error)) => (solved(), error.to_string()),
+            (None, None) => (solved(), "The film is not recorded yet".to_owned()),
+        },
     }
 }
