@@ -1,5 +1,6 @@
 //! Sparse symmetric positive definite systems that are factored once and
-//! solved in every frame; in `dense`, small full ones that are factored in
+//! solved in every frame; in `pattern`, those whose values change while their
+//! entries stay where they are; in `dense`, small full ones that are factored in
 //! every frame. The only place that names `faer`.
 //!
 //! A [`Cholesky`] is made by a fill-reducing permutation (approximate minimum
@@ -10,8 +11,10 @@
 //! triangular solves get slower, not faster, on several.
 
 mod dense;
+mod pattern;
 
 pub use dense::DenseLu;
+pub use pattern::{Pattern, PatternMemory};
 
 use crate::progress::{Cancelled, Progress, beside, still_wanted};
 use faer::dyn_stack::{MemBuffer, MemStack};

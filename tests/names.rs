@@ -54,7 +54,7 @@ fn keys_are_those_of_the_files_that_there_are() {
     table::<PartRule>("alone auto split");
     table::<Easing>("ease-in ease-out linear smooth");
     table::<Metric>("chessboard city-block euclidean quasi-euclidean");
-    table::<Homotopy>("exponential linear linear-after-polar polar");
+    table::<Homotopy>("bounded exponential linear linear-after-polar polar");
     table::<Boundary>("binary exact");
     table::<Fit>("as-drawn centred same-area");
     table::<PlayMode>("loop once ping-pong");

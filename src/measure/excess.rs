@@ -21,6 +21,14 @@ pub(super) fn of_variation(values: impl Iterator<Item = f64>) -> f64 {
     }
 }
 
+/// The largest value by the larger one of the ends; `None` where nothing was
+/// measured.
+pub(super) fn of_peak(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
+    let values: Vec<f64> = values.collect::<Option<_>>()?;
+    let end = values.first()?.max(*values.last()?);
+    Some(values.iter().fold(0.0, |most: f64, &value| most.max(value)) / end)
+}
+
 /// How far a count rises above the larger of its ends; `None` where nothing
 /// was counted.
 pub(super) fn of_count(counts: impl Iterator<Item = Option<usize>>) -> Option<usize> {
@@ -65,6 +73,13 @@ mod tests {
     #[test]
     fn a_dip_counts_down_and_up() {
         assert_eq!(of_variation([4.0, 1.0, 4.0].into_iter()), 1.5);
+    }
+
+    #[test]
+    fn a_peak_is_held_against_the_larger_end() {
+        assert_eq!(of_peak([1.0, 6.0, 4.0].map(Some).into_iter()), Some(1.5));
+        assert_eq!(of_peak([1.0, 2.0, 4.0].map(Some).into_iter()), Some(1.0));
+        assert_eq!(of_peak([Some(1.0), None].into_iter()), None);
     }
 
     #[test]

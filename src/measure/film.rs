@@ -67,6 +67,9 @@ pub struct FilmReport {
     pub worst_crossings: Option<usize>,
     /// Where the first crossing is seen.
     pub first_crossing_t: Option<f64>,
+    /// The largest conformal distortion of a face at any sample, by the largest one at
+    /// the worse end: 1 where it is bounded by the ends.
+    pub conformal_by_end: Option<f64>,
     /// Largest excess of a face's conformal distortion over its worse end.
     pub conformal_excess: Option<f64>,
     /// Largest excess of a face's isometric distortion over its worse end.
@@ -259,6 +262,7 @@ fn report(
         min_det: dets.reduce(f64::min),
         worst_crossings: worst(&crossings),
         first_crossing_t: first(&crossings),
+        conformal_by_end: excess::of_peak(samples.iter().map(|s| Some(s.distortion?.conformal.worst))),
         conformal_excess: excess.map(|e| e[0]),
         isometric_excess: excess.map(|e| e[1]),
         area_distortion_excess: excess.map(|e| e[2]),

@@ -65,9 +65,14 @@ impl Connectivity {
     /// If there is no such face, or `k` is above 2 in the last one.
     #[must_use]
     pub fn neighbour(&self, face: usize, k: usize) -> Option<usize> {
+        Some(self.twin(face, k)? as usize / 3)
+    }
+
+    /// The half-edge on the other side of that from corner `k` of `face`.
+    pub(crate) fn twin(&self, face: usize, k: usize) -> Option<u32> {
         match self.twins[3 * face + k] {
             NONE => None,
-            twin => Some(twin as usize / 3),
+            twin => Some(twin),
         }
     }
 

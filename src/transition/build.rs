@@ -78,6 +78,10 @@ fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildEr
     moved
         .notes
         .extend(ridge.map(|ridge| Note::Stiffened { share: ridge.share }));
+    let parts = moved.warp.arap().map_or(0, Arap::unflattened);
+    moved
+        .notes
+        .extend((parts > 0).then_some(Note::Unflattened { parts }));
     let made = Inner {
         cell: spec.cell,
         designs: [spec.source.clone(), spec.target.clone()],

@@ -8,6 +8,7 @@ use super::rigid::arap;
 use crate::compatible::{CompatibleMesh, PolygonsError, of_piece};
 use crate::correspondence::{Holes, PieceMatch};
 use crate::geometry::{DVec2, count_crossings, orient2d, turning, turning_excess};
+use crate::homotopy::Homotopy;
 use crate::progress::{Cancelled, Progress, Span, still_wanted};
 use crate::warp::{Arap, ArapOptions, Warp};
 use std::f64::consts::{FRAC_PI_6, PI, TAU};
@@ -95,8 +96,13 @@ impl Candidate {
             of_piece(&matched, &options.triangulation, &meshing).map_err(NoCandidate::Mesh)?;
         let trouble = if matched.is_in_both() {
             // As it moves by itself: weights and anchors are said of the whole.
+            // A film that is expensive is not tried of each: it ends alike.
+            let homotopy = match options.arap.homotopy {
+                Homotopy::Bounded => Homotopy::Polar,
+                homotopy => homotopy,
+            };
             let alone = ArapOptions {
-                homotopy: options.arap.homotopy,
+                homotopy,
                 symmetric: options.arap.symmetric,
                 ..ArapOptions::default()
             };

@@ -46,6 +46,12 @@ pub enum Note {
         /// How much, as a share of the diagonal.
         share: f64,
     },
+    /// Parts could not be flattened as bounded distortion asks; each of their faces
+    /// goes its own way.
+    Unflattened {
+        /// How many.
+        parts: usize,
+    },
 }
 
 impl Note {
@@ -87,6 +93,10 @@ impl fmt::Display for Note {
                 f,
                 "all parts move in the same time: only rigid parts may have times of their own"
             ),
+            Self::Unflattened { parts } => write!(
+                f,
+                "{parts} of the parts cannot be kept from being sheared more on the way than at the ends: their triangles change too unlike each other; choose polar, or another match"
+            ),
             Self::Stiffened { share } => write!(
                 f,
                 "faces of very different sizes: {share:.0e} of the diagonal was added to the equations to solve them"
@@ -125,6 +135,7 @@ mod tests {
                 "1.1 instead of 8.0",
             ),
             (Note::Stiffened { share: 1e-11 }, "1e-11 of the diagonal"),
+            (Note::Unflattened { parts: 2 }, "2 of the parts"),
         ] {
             let said = note.to_string();
             assert!(said.contains(words) && !said.contains('\n'), "{said}");

@@ -169,7 +169,7 @@ use Better::{Large, Small};
 use Unit::{Cells, Degrees, Diameters, Pure, Seconds, Share};
 
 /// All of them, in the order of the table.
-pub(super) const ALL: [Column; 58] = [
+pub(super) const ALL: [Column; 59] = [
     words("method", |r| {
         Some(Cell::new(r.warp, r.content).ok()?.words().report)
     }),
@@ -267,6 +267,8 @@ pub(super) const ALL: [Column; 58] = [
     number("moved_aside", Diameters, |r| {
         r.proof.as_ref()?.proved.as_ref()?.moved_aside
     }),
+    number("conformal_by_end", Pure, |r| r.film.conformal_by_end)
+        .told("conformal, worst on the way by worst end", Small),
 ];
 
 #[cfg(test)]
@@ -285,7 +287,8 @@ mod tests {
         pieces_excess holes_excess mean_travel_diameters max_travel_diameters \
         max_acceleration_diameters grid_width_cells grid_height_cells import_s match_s \
         triangulate_s match_and_triangulate_s build_s frame_s figure_s measure_s \
-        turning_excess_share proof unproved_t prove_s moved_aside_diameters";
+        turning_excess_share proof unproved_t prove_s moved_aside_diameters \
+        conformal_by_end";
 
     #[test]
     fn headings_are_what_they_were() {
@@ -300,6 +303,6 @@ mod tests {
     fn words_say_the_unit() {
         let words: Vec<_> = ALL.iter().filter_map(Column::words).collect();
         assert!(words.contains(&"build in all, seconds".to_owned()));
-        assert_eq!(words.len(), 16);
+        assert_eq!(words.len(), 17);
     }
 }

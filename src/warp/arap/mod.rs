@@ -20,6 +20,7 @@
 //! - `angles`: one consistent rotation angle for each face
 //! - `assembly`: gradients, weights and the matrix
 //! - `stresses`: the right-hand side of a frame, many faces at a time
+//! - `bounded`: the maps of all faces together, for bounded distortion
 //! - `leads`: faces along the outline that turn as their edge does
 //! - `sides`: what keeps straight sides straight
 //! - `guard`: what is moved aside where the film would meet itself
@@ -30,6 +31,7 @@
 
 mod angles;
 mod assembly;
+mod bounded;
 mod drift;
 mod guard;
 mod leads;
@@ -57,6 +59,7 @@ use crate::linalg::{Cholesky, FactorError, SymmetricMatrix, Workspace};
 use crate::mesh::Subdivision;
 use crate::progress::{Progress, checkpoint, still_wanted};
 use assembly::LocalMaps;
+use bounded::{Bounded, Memory};
 use drift::Drift;
 use ridge::factored;
 use sides::Outlined;
@@ -232,7 +235,8 @@ impl Arap {
     ) -> Result<Self, ArapError> {
         checkpoint(progress, "factoring", 0.3)?;
         let thin = |vertex: usize| [mesh.source()[vertex], mesh.target()[vertex]];
-        let done = factored(maps.matrix(&mesh, outlined), progress)?;
+        let held = outlined.of(options.homotopy);
+        let done = factored(maps.matrix(&mesh, held), progress)?;
         let (cholesky, ridge) = done.map_err(|error| match error {
             FactorError::NotPositiveDefinite { index } => ArapError::Thin(thin(index)),
             error => ArapError::Factor(error),
@@ -271,13 +275,15 @@ impl Arap {
     /// The matrix of the energy, assembled anew; for measurements.
     #[must_use]
     pub fn system(&self) -> SymmetricMatrix {
-        self.0.maps.matrix(&self.0.mesh, self.0.outlined)
+        let held = self.0.outlined.of(self.0.options.homotopy);
+        self.0.maps.matrix(&self.0.mesh, held)
     }
 
     /// The matrix of the energy with nothing added that holds a part where it is: a
     /// part that moves as a whole costs nothing.
     pub(crate) fn free_system(&self) -> SymmetricMatrix {
-        self.0.maps.free_matrix(&self.0.mesh, self.0.outlined)
+        let held = self.0.outlined.of(self.0.options.homotopy);
+        self.0.maps.free_matrix(&self.0.mesh, held)
     }
 
     /// The mass of each vertex, by the area around it; that of all is 1.
@@ -291,6 +297,13 @@ impl Arap {
     #[must_use]
     pub fn ridge(&self) -> Option<Ridge> {
         self.0.ridge
+    }
+
+    /// How many sheets of faces that share edges could not be flattened as bounded
+    /// distortion asks: their faces go each by its own metric.
+    #[must_use]
+    pub fn unflattened(&self) -> usize {
+        self.0.stresses.bounded().map_or(0, Bounded::unflattened)
     }
 
     /// The rotation angle of each face from source to target, in radians,
@@ -512,6 +525,7 @@ struct Player {
     /// Right-hand sides, then the deviation U: all x, all y, in elimination order.
     deviation: Vec<f64>,
     workspace: Workspace,
+    memory: Memory,
     /// Of each connected part.
     shifts: Vec<DVec2>,
 }
@@ -521,6 +535,7 @@ impl Player {
         Self {
             deviation: vec![0.0; 2 * inner.mesh.source().len()],
             workspace: inner.cholesky.workspace(2),
+            memory: inner.stresses.memory(),
             shifts: vec![DVec2::ZERO; inner.drift.part_count()],
             arap: Arc::clone(inner),
         }
@@ -531,6 +546,7 @@ impl Player {
             arap,
             deviation,
             workspace,
+            memory,
             shifts,
         } = self;
         let place = arap.cholesky.place_in_order();
@@ -544,7 +560,7 @@ impl Player {
         if arap.options.homotopy != Homotopy::Linear {
             // The forces stand where the positions will stand.
             arap.stresses
-                .right_hand_sides(times, place, in_frame, deviation);
+                .right_hand_sides(times, place, (memory, in_frame), deviation);
             arap.cholesky.solve_ordered(deviation, workspace);
             arap.drift.shifts(times, deviation, shifts);
         }

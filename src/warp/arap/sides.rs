@@ -9,6 +9,7 @@
 
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
+use crate::homotopy::Homotopy;
 use crate::linalg::SymmetricMatrix;
 
 /// How much a vertex is held to its side, in units of what holds it to its
@@ -39,6 +40,15 @@ struct OnSide {
 }
 
 impl Outlined {
+    /// What is held along this homotopy: faces that are not to be sheared further
+    /// fit together with sides that bend.
+    pub(super) fn of(self, homotopy: Homotopy) -> Self {
+        match homotopy {
+            Homotopy::Bounded => Self::No,
+            _ => self,
+        }
+    }
+
     /// Holds each vertex of a straight side to it, where that is asked for.
     pub(super) fn hold(
         self,

@@ -10,9 +10,11 @@
 //! by memory. The loop is compiled for several widths of vectors and one is
 //! chosen at run time; the results are the same for all of them.
 //! [`crate::homotopy::Homotopy::at`] is the plain form of the same formulas,
-//! and the tests hold the two together.
+//! and the tests hold the two together. Maps that are not each on its own come from
+//! [`Bounded`].
 
 use super::assembly::{ElementMap, FaceMap, LocalMaps};
+use super::bounded::{Bounded, Memory};
 use super::times::Times;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen};
@@ -38,6 +40,8 @@ pub(super) struct Stresses {
     /// Exponential only: the logarithms of both stretches of each block.
     logs: Vec<[Row; 2]>,
     elements: Vec<ElementMap>,
+    /// Bounded only: what gives the maps of all faces together.
+    bounded: Option<Arc<Bounded>>,
     /// Σ M(0) W g and Σ M(1) W g of each vertex.
     ends: Vec<[DVec2; 2]>,
 }
@@ -130,16 +134,29 @@ impl Stresses {
             blocks: blocks.map(|faces| Block::new(faces, homotopy)).collect(),
             logs,
             elements: maps.elements.clone(),
+            bounded: (homotopy == Homotopy::Bounded).then(|| Arc::new(Bounded::new(mesh, maps))),
             ends: Vec::new(),
         };
+        let mut memory = stresses.memory();
         // By the very operations of a frame: see above.
         let [begin, end] = [0.0, 1.0].map(|t| {
             let mut forces = vec![DVec2::ZERO; mesh.source().len()];
-            stresses.forces(Times::Even(t), &mut forces);
+            stresses.forces(Times::Even(t), &mut memory, &mut forces);
             forces
         });
         stresses.ends = begin.into_iter().zip(end).map(<[DVec2; 2]>::from).collect();
         stresses
+    }
+
+    /// What a frame takes to work in.
+    pub(super) fn memory(&self) -> Memory {
+        let bounded = self.bounded.as_deref();
+        bounded.map_or_else(Memory::default, Bounded::memory)
+    }
+
+    /// What gives the maps of all faces together, where they are not each on its own.
+    pub(super) fn bounded(&self) -> Option<&Bounded> {
+        self.bounded.as_deref()
     }
 
     /// Writes both right-hand sides, all x and then all y, with vertex v at
@@ -148,10 +165,10 @@ impl Stresses {
         &self,
         times: Times,
         place: &[u32],
-        forces: &mut [DVec2],
+        (memory, forces): (&mut Memory, &mut [DVec2]),
         rhs: &mut [f64],
     ) {
-        self.forces(times, forces);
+        self.forces(times, memory, forces);
         let (x, y) = rhs.split_at_mut(rhs.len() / 2);
         let ends = self.ends.iter().enumerate();
         for ((&force, (vertex, &[begin, end])), &at) in forces.iter().zip(ends).zip(place) {
@@ -164,9 +181,12 @@ impl Stresses {
 
     /// Σ M(t) W g of each vertex; zero for the linear path, which deviates
     /// from no straight line.
-    fn forces(&self, times: Times, forces: &mut [DVec2]) {
+    fn forces(&self, times: Times, memory: &mut Memory, forces: &mut [DVec2]) {
         forces.fill(DVec2::ZERO);
-        self.arch.dispatch(Pass(self, times, &mut *forces));
+        match &self.bounded {
+            Some(bounded) => bounded.add(times, memory, forces),
+            None => self.arch.dispatch(Pass(self, times, &mut *forces)),
+        }
         // Bars are few beside faces, and take the plain form.
         if self.homotopy != Homotopy::Linear {
             for element in &self.elements {
@@ -198,7 +218,7 @@ impl Stresses {
     fn pass(&self, forces: &mut [DVec2], time: impl Fn(&[[u32; 3]]) -> Row) {
         let none = std::iter::repeat(());
         match self.homotopy {
-            Homotopy::Linear => {}
+            Homotopy::Linear | Homotopy::Bounded => {}
             Homotopy::Polar => {
                 self.add(forces, none, time, |t, angle, _, _| Pose::polar(t, angle));
             }
@@ -347,7 +367,7 @@ mod tests {
             for t in [-0.3, 0.0, 0.31, 0.77, 1.0] {
                 let [chosen, plain] = [&chosen, &plain].map(|stresses| {
                     let mut forces = vec![DVec2::ZERO; 30];
-                    stresses.forces(Times::Even(t), &mut forces);
+                    stresses.forces(Times::Even(t), &mut stresses.memory(), &mut forces);
                     forces
                 });
                 assert_eq!(chosen, plain, "{homotopy:?} at {t}");

@@ -1,0 +1,130 @@
+//! Local maps that are never sheared more than at the worse end.
+//!
+//! Chen, Weber, Keren, Ben-Chen, "Planar shape interpolation with bounded
+//! distortion" (2013): squared edge lengths run evenly, l²(t) = (1−t) l₀² + t l₁²,
+//! so that the metric of a face is (1−t) I + t MᵀM. It is never sheared more than
+//! M; but faces of such metrics lie together on no plane. They are flattened without
+//! shearing them further (`flat`: discrete conformal equivalence; Springborn,
+//! Schröder, Pinkall 2008), laid out side by side (`layout`), and the map of
+//! each face is read off: the energy integrates these as those of any homotopy.
+//! Where faces lie around no hole they fit together exactly.
+//!
+//! What is free is one rotation for each sheet of faces that share edges. It is the
+//! one with which the faces turn as by the polar homotopy in the mean, seen from
+//! both designs alike, so that whole turns are kept.
+//!
+//! Guaranteed: where it is said so, each sheet is flat at every t that was tried; the
+//! maps of the exchanged designs are those that run back. Not guaranteed: that a flat
+//! triangle is sheared no more than its metric. Discrete conformal maps scale the
+//! corners of a face unlike, the more so the larger the face; and around a hole the
+//! maps need not close.
+//!
+//! A sheet that cannot be flattened takes the metric of each face by itself,
+//! [`Homotopy::Bounded`] as it is written there, and that is told.
+
+mod flat;
+mod layout;
+mod sheet;
+#[cfg(test)]
+mod tests;
+
+use super::assembly::LocalMaps;
+use super::times::Times;
+use crate::compatible::CompatibleMesh;
+use crate::geometry::{DMat2, DVec2};
+use crate::homotopy::Homotopy;
+use flat::Flattening;
+use layout::Face;
+use sheet::Sheet;
+
+/// Even steps at which it is tried whether a sheet can be flattened.
+const TRIED: u32 = 16;
+
+/// All sheets of a mesh.
+#[derive(Debug)]
+pub(super) struct Bounded {
+    sheets: Vec<Whole>,
+}
+
+/// A sheet, and what its maps act on.
+#[derive(Debug)]
+struct Whole {
+    sheet: Sheet,
+    /// In the order of the sheet.
+    faces: Vec<Face>,
+    /// Whether it was flat wherever it was tried.
+    is_flat: bool,
+}
+
+/// The memory that the maps of a frame take, a sheet each.
+#[derive(Debug, Default)]
+pub(super) struct Memory(Vec<OfSheet>);
+
+#[derive(Debug)]
+struct OfSheet {
+    flattening: Flattening,
+    /// Of each face of the sheet.
+    maps: Vec<DMat2>,
+}
+
+impl Bounded {
+    pub(super) fn new(mesh: &CompatibleMesh, maps: &LocalMaps) -> Self {
+        let sheets = Sheet::all(mesh).into_iter().map(|sheet| {
+            let faces = sheet.faces.iter();
+            let faces = faces.map(|&f| Face::new(mesh, f as usize, &maps.faces[f as usize]));
+            let mut flattening = Flattening::of(&sheet);
+            let is_flat = (1..TRIED)
+                .map(|step| f64::from(step) / f64::from(TRIED))
+                .all(|t| flattening.flatten(&sheet, t));
+            Whole {
+                faces: faces.collect(),
+                is_flat,
+                sheet,
+            }
+        });
+        Self {
+            sheets: sheets.collect(),
+        }
+    }
+
+    /// How many sheets could not be flattened.
+    pub(super) fn unflattened(&self) -> usize {
+        self.sheets.iter().filter(|whole| !whole.is_flat).count()
+    }
+
+    pub(super) fn memory(&self) -> Memory {
+        let of_sheet = |whole: &Whole| OfSheet {
+            flattening: Flattening::of(&whole.sheet),
+            maps: vec![DMat2::IDENTITY; whole.faces.len()],
+        };
+        Memory(self.sheets.iter().map(of_sheet).collect())
+    }
+
+    /// Adds M(t) W g of each face to its corners.
+    pub(super) fn add(&self, times: Times, memory: &mut Memory, forces: &mut [DVec2]) {
+        for (whole, memory) in self.sheets.iter().zip(&mut memory.0) {
+            let t = times.of_vertex(whole.faces[0].corners[0] as usize);
+            whole.maps(t, memory);
+            for (face, &map) in whole.faces.iter().zip(&memory.maps) {
+                face.pull(map, forces);
+            }
+        }
+    }
+}
+
+impl Whole {
+    /// The maps of all faces at t.
+    fn maps(&self, t: f64, memory: &mut OfSheet) {
+        let OfSheet { flattening, maps } = memory;
+        if !self.is_flat || !(0.0..=1.0).contains(&t) {
+            for (map, face) in maps.iter_mut().zip(&self.faces) {
+                *map = Homotopy::Bounded.at(&face.map, t);
+            }
+            return;
+        }
+        // Whatever comes of it is drawn: it was tried nearby.
+        flattening.flatten(&self.sheet, t);
+        layout::laid_out(&self.sheet, &self.faces, flattening.corners(), maps);
+        layout::turn_along(&self.faces, t, maps);
+    }
+}

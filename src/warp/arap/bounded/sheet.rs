@@ -1,0 +1,244 @@
+//! Faces that share edges, and what of them can be scaled.
+//!
+//! Every vertex has a factor by which lengths about it are scaled, 1 along
+//! the outer boundary. All vertices around a hole have one in common: with it the
+//! angles around the hole close, as those of the designs do. A vertex at which
+//! fans of faces touch counts once for each fan.
+
+use crate::compatible::CompatibleMesh;
+use crate::geometry::DVec2;
+use crate::linalg::Pattern;
+use crate::mesh::{Connectivity, components};
+use std::collections::VecDeque;
+use std::f64::consts::{PI, TAU};
+
+/// No unknown, or no entry: the factor is 1.
+pub(super) const FIXED: u32 = u32::MAX;
+
+/// A dual component of a mesh.
+#[derive(Debug)]
+pub(super) struct Sheet {
+    /// Its faces, each but the first one beside one before it.
+    pub faces: Vec<u32>,
+    /// By which side each face was reached; nothing of the first.
+    pub reached: Vec<Reached>,
+    /// Of each face the squared lengths of its sides in source and target; side k
+    /// runs from corner k to the next.
+    pub lengths: Vec<[[f64; 3]; 2]>,
+    /// The unknown of each corner of each face.
+    pub unknowns: Vec<[u32; 3]>,
+    /// What the angles of each unknown add up to when the sheet is flat.
+    pub sums: Vec<f64>,
+    /// None where there is nothing to scale, or no room.
+    pub pattern: Option<Pattern>,
+    /// Of each side of each face the entries of its first end, its second, and both.
+    pub entries: Vec<[[u32; 3]; 3]>,
+}
+
+/// The side by which a face was reached.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Reached {
+    /// The face before it, by its place in the sheet.
+    pub from: u32,
+    /// The side of that face.
+    pub there: u8,
+    /// The side of this one.
+    pub here: u8,
+}
+
+impl Sheet {
+    /// All of a mesh.
+    pub(super) fn all(mesh: &CompatibleMesh) -> Vec<Self> {
+        let connectivity = mesh.connectivity();
+        let count = mesh.faces().len();
+        let fans = fans(connectivity, count);
+        let mut done = vec![false; count];
+        let mut sheets = Vec::new();
+        for seed in 0..count {
+            if !done[seed] {
+                let (faces, reached) = walk(connectivity, seed, &mut done);
+                sheets.push(Self::of(mesh, &fans, faces, reached));
+            }
+        }
+        sheets
+    }
+
+    fn of(mesh: &CompatibleMesh, fans: &[u32], faces: Vec<u32>, reached: Vec<Reached>) -> Self {
+        let of_fan = Numbering::of(mesh, fans, &faces);
+        let unknowns: Vec<[u32; 3]> = faces
+            .iter()
+            .map(|&f| [0, 1, 2].map(|k| of_fan.unknown[fans[3 * f as usize + k] as usize]))
+            .collect();
+        let (pattern, entries) = pattern(of_fan.sums.len(), &unknowns);
+        Self {
+            lengths: faces.iter().map(|&f| lengths(mesh, f as usize)).collect(),
+            sums: of_fan.sums,
+            faces,
+            reached,
+            unknowns,
+            pattern,
+            entries,
+        }
+    }
+}
+
+/// For each corner the number of its fan: corners at one vertex, of faces that
+/// share edges there.
+fn fans(connectivity: &Connectivity, faces: usize) -> Vec<u32> {
+    let halves = (0..faces).flat_map(|f| (0..3).map(move |k| (f, k)));
+    let links = halves.filter_map(|(face, k)| {
+        let twin = connectivity.twin(face, k)?;
+        // The side's end here is its beginning there.
+        Some([(3 * face + (k + 1) % 3) as u32, twin])
+    });
+    components(3 * faces, links)
+}
+
+/// Faces from one on, breadth first.
+fn walk(
+    connectivity: &Connectivity,
+    seed: usize,
+    done: &mut [bool],
+) -> (Vec<u32>, Vec<Reached>) {
+    let (mut faces, mut reached) = (vec![seed as u32], vec![Reached::default()]);
+    let mut queue = VecDeque::from([0_u32]);
+    done[seed] = true;
+    while let Some(from) = queue.pop_front() {
+        let face = faces[from as usize] as usize;
+        for k in 0..3 {
+            let Some(twin) = connectivity.twin(face, k) else {
+                continue;
+            };
+            let other = twin / 3;
+            if !std::mem::replace(&mut done[other as usize], true) {
+                queue.push_back(faces.len() as u32);
+                faces.push(other);
+                reached.push(Reached {
+                    from,
+                    there: k as u8,
+                    here: (twin % 3) as u8,
+                });
+            }
+        }
+    }
+    (faces, reached)
+}
+
+/// What is unknown of a sheet.
+struct Numbering {
+    /// Of each fan of the mesh; of this sheet's only.
+    unknown: Vec<u32>,
+    sums: Vec<f64>,
+}
+
+impl Numbering {
+    fn of(mesh: &CompatibleMesh, fans: &[u32], faces: &[u32]) -> Self {
+        let mut unknown = vec![FIXED; fans.len()];
+        let mut sums = Vec::new();
+        let mut is_rim = vec![false; fans.len()];
+        let rims = rims(mesh, fans, faces);
+        rims.iter().flatten().for_each(|&fan| is_rim[fan as usize] = true);
+        for &face in faces {
+            for &fan in &fans[3 * face as usize..][..3] {
+                if !is_rim[fan as usize] && unknown[fan as usize] == FIXED {
+                    unknown[fan as usize] = sums.len() as u32;
+                    sums.push(TAU);
+                }
+            }
+        }
+        let angles = angles(mesh, fans, faces);
+        let turning = |rim: &[u32]| -> f64 {
+            let turns = rim.iter().map(|&fan| PI - angles[fan as usize]);
+            // Whole turns, once rounding is off.
+            TAU * (turns.sum::<f64>() / TAU).round()
+        };
+        let turnings: Vec<f64> = rims.iter().map(|rim| turning(rim)).collect();
+        // A hole is run the other way round.
+        let outer = (0..rims.len()).max_by(|&a, &b| turnings[a].total_cmp(&turnings[b]).then(b.cmp(&a)));
+        for (k, rim) in rims.iter().enumerate() {
+            if Some(k) != outer {
+                rim.iter().for_each(|&fan| unknown[fan as usize] = sums.len() as u32);
+                sums.push(PI * rim.len() as f64 - turnings[k]);
+            }
+        }
+        Self { unknown, sums }
+    }
+}
+
+/// The boundary walks of a sheet, by their fans.
+fn rims(mesh: &CompatibleMesh, fans: &[u32], faces: &[u32]) -> Vec<Vec<u32>> {
+    let corners = faces.iter().flat_map(|&f| (0..3).map(move |k| (f as usize, k)));
+    let open = corners.filter(|&(f, k)| mesh.connectivity().twin(f, k).is_none());
+    // At each fan on the boundary one side leaves it.
+    let mut next = std::collections::BTreeMap::new();
+    for (f, k) in open {
+        next.insert(fans[3 * f + k], fans[3 * f + (k + 1) % 3]);
+    }
+    let mut rims = Vec::new();
+    while let Some((first, mut at)) = next.pop_first() {
+        let mut rim = vec![first];
+        while let Some(after) = next.remove(&at) {
+            rim.push(at);
+            at = after;
+        }
+        rims.push(rim);
+    }
+    rims
+}
+
+/// The angles of the source about each fan.
+fn angles(mesh: &CompatibleMesh, fans: &[u32], faces: &[u32]) -> Vec<f64> {
+    let mut sums = vec![0.0; fans.len()];
+    for &face in faces {
+        let at = mesh.faces()[face as usize].map(|v| mesh.source()[v as usize]);
+        for k in 0..3 {
+            let [a, b] = [1, 2].map(|step| at[(k + step) % 3] - at[k]);
+            sums[fans[3 * face as usize + k] as usize] += a.perp_dot(b).atan2(a.dot(b));
+        }
+    }
+    sums
+}
+
+fn lengths(mesh: &CompatibleMesh, face: usize) -> [[f64; 3]; 2] {
+    let corners = mesh.faces()[face];
+    [mesh.source(), mesh.target()].map(|points: &[DVec2]| {
+        let at = |k: usize| points[corners[k % 3] as usize];
+        [0, 1, 2].map(|k| at(k).distance_squared(at(k + 1)))
+    })
+}
+
+/// Where the matrix of a sheet has entries, and which are those of each side.
+fn pattern(unknowns: usize, of_corners: &[[u32; 3]]) -> (Option<Pattern>, Vec<[[u32; 3]; 3]>) {
+    let mut places = Vec::new();
+    let mut number = |i: u32, j: u32| {
+        if i == FIXED || j == FIXED {
+            return FIXED;
+        }
+        places.push([i, j]);
+        places.len() as u32 - 1
+    };
+    let mut entries: Vec<[[u32; 3]; 3]> = of_corners
+        .iter()
+        .map(|corners| {
+            [0, 1, 2].map(|k| {
+                let [i, j] = [corners[k], corners[(k + 1) % 3]];
+                // Ends of one unknown do not pull at each other.
+                if i == j {
+                    return [FIXED; 3];
+                }
+                [number(i, i), number(j, j), number(i, j)]
+            })
+        })
+        .collect();
+    if unknowns == 0 {
+        return (None, entries);
+    }
+    let Ok((pattern, slots)) = Pattern::new(unknowns, &places) else {
+        return (None, entries);
+    };
+    let numbered = entries.iter_mut().flatten().flatten();
+    for entry in numbered.filter(|entry| **entry != FIXED) {
+        *entry = slots[*entry as usize];
+    }
+    (Some(pattern), entries)
+}

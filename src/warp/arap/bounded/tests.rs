@@ -1,0 +1,192 @@
+//! Films of bounded distortion, seen from outside.
+
+use crate::compatible::CompatibleMesh;
+use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen, orient2d};
+use crate::homotopy::Homotopy;
+use crate::progress::Silent;
+use crate::warp::{Arap, ArapOptions, Warp};
+use std::f64::consts::TAU;
+
+const N: u32 = 12;
+
+/// A plate of N × N squares about the origin, 2 wide, and its image.
+fn plate(image: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
+    let point = |i: u32, j: u32| DVec2::new(f64::from(i), f64::from(j)) * (2.0 / f64::from(N)) - 1.0;
+    let source: Vec<DVec2> = (0..=N).flat_map(|j| (0..=N).map(move |i| point(i, j))).collect();
+    let squares = (0..N).flat_map(|j| (0..N).map(move |i| j * (N + 1) + i));
+    let faces = squares.flat_map(|a| {
+        let [b, c, d] = [a + 1, a + N + 2, a + N + 1];
+        // Diagonals that alternate: no direction is another's better.
+        match (a / (N + 1) + a % (N + 1)) % 2 {
+            0 => [[a, b, c], [a, c, d]],
+            _ => [[a, b, d], [b, c, d]],
+        }
+    });
+    let target = source.iter().map(|&p| image(p)).collect();
+    CompatibleMesh::new(faces.collect(), source, target, vec![]).expect("positive")
+}
+
+/// A ring of rows of triangles about the origin, and its image.
+fn ring(image: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
+    const AROUND: u32 = 48;
+    const ROWS: u32 = 6;
+    let point = |row: u32, k: u32| {
+        let angle = TAU * (f64::from(k) + 0.5 * f64::from(row)) / f64::from(AROUND);
+        DVec2::from_angle(angle) * (0.4 + 0.6 * f64::from(row) / f64::from(ROWS))
+    };
+    let rows = (0..=ROWS).flat_map(|row| (0..AROUND).map(move |k| point(row, k)));
+    let source: Vec<DVec2> = rows.collect();
+    let faces = (0..ROWS).flat_map(|row| {
+        (0..AROUND).flat_map(move |k| {
+            let at = |row: u32, k: u32| row * AROUND + k % AROUND;
+            let [a, b, c, d] = [at(row, k), at(row, k + 1), at(row + 1, k), at(row + 1, k + 1)];
+            [[a, c, b], [c, d, b]]
+        })
+    });
+    let target = source.iter().map(|&p| image(p)).collect();
+    CompatibleMesh::new(faces.collect(), source, target, vec![]).expect("positive")
+}
+
+fn bounded(mesh: &CompatibleMesh) -> Arap {
+    let options = ArapOptions {
+        homotopy: Homotopy::Bounded,
+        ..ArapOptions::default()
+    };
+    Arap::build(mesh, &options, &Silent).expect("a film")
+}
+
+/// The most that a face is sheared between the source and some places.
+fn sheared(mesh: &CompatibleMesh, places: &[DVec2]) -> f64 {
+    let sheared = mesh.faces().iter().map(|face| {
+        let [p, q] = [mesh.source(), places].map(|points| {
+            let [a, b, c] = face.map(|v| points[v as usize]);
+            DMat2::from_cols(b - a, c - a)
+        });
+        let [large, small] = SymmetricEigen::of(Polar::of(q * p.inverse()).stretch).values;
+        large / small
+    });
+    sheared.fold(0.0, f64::max)
+}
+
+/// The worst over the film by the worse end.
+fn by_end(mesh: &CompatibleMesh, film: &Arap) -> f64 {
+    let mut placer = film.placer();
+    let worst = (0..=32).map(|step| {
+        placer.place(f64::from(step) / 32.0);
+        sheared(mesh, &placer.placement().in_frame)
+    });
+    worst.fold(0.0, f64::max) / sheared(mesh, mesh.target())
+}
+
+/// One part of it is stretched and bent.
+fn stretched(p: DVec2) -> DVec2 {
+    let bump = (-3.0 * p.length_squared()).exp();
+    DVec2::new(p.x + 0.9 * bump * p.x, p.y - 0.5 * bump * p.y + 0.2 * p.x * p.x)
+}
+
+#[test]
+fn a_disc_keeps_the_bound() {
+    let mesh = plate(stretched);
+    let film = bounded(&mesh);
+    assert_eq!(film.unflattened(), 0);
+    let found = by_end(&mesh, &film);
+    assert!(found <= 1.0 + 1e-9, "{found}");
+}
+
+#[test]
+fn it_is_the_conformal_image_of_the_metric_between() {
+    let mesh = plate(stretched);
+    let film = bounded(&mesh);
+    let mut placer = film.placer();
+    let connectivity = mesh.connectivity();
+    for t in [0.2, 0.5, 0.9] {
+        placer.place(t);
+        let places = &placer.placement().in_frame;
+        let length = |points: &[DVec2], a: u32, b: u32| points[a as usize].distance(points[b as usize]);
+        let of_metric = |a: u32, b: u32| {
+            let [p, q] = [mesh.source(), mesh.target()].map(|points| length(points, a, b).powi(2));
+            ((1.0 - t) * p + t * q).sqrt()
+        };
+        for (face, corners) in mesh.faces().iter().enumerate() {
+            for k in 0..3 {
+                let [a, b, c] = [0, 1, 2].map(|step| corners[(k + step) % 3]);
+                match connectivity.twin(face, k) {
+                    // Lengths along the boundary are those of the metric.
+                    None => {
+                        let ratio = length(places, a, b) / of_metric(a, b);
+                        assert!((ratio - 1.0).abs() < 1e-9, "{t}: {ratio}");
+                    }
+                    // Cross ratios of lengths do not change.
+                    Some(twin) => {
+                        let d = mesh.faces()[twin as usize / 3][(twin as usize + 2) % 3];
+                        let ratio = |l: &dyn Fn(u32, u32) -> f64| l(a, d) * l(b, c) / (l(d, b) * l(c, a));
+                        let now = ratio(&|a, b| length(places, a, b));
+                        let metric = ratio(&of_metric);
+                        assert!((now / metric - 1.0).abs() < 1e-9, "{t}: {now} {metric}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn angles_around_a_hole_close() {
+    // Half of the ring grows, and it is turned.
+    let mesh = ring(|p| DMat2::from_angle(2.5) * p * (1.0 + 0.4 * p.x) * DVec2::new(1.3, 0.9));
+    let film = bounded(&mesh);
+    assert_eq!(film.unflattened(), 0);
+    let found = by_end(&mesh, &film);
+    assert!(found < 1.02, "{found}");
+    let mut placer = film.placer();
+    placer.place(0.5);
+    let places = &placer.placement().in_frame;
+    let is_positive = |face: &[u32; 3]| {
+        let [a, b, c] = face.map(|v| places[v as usize]);
+        orient2d(a, b, c) > 0.0
+    };
+    assert!(mesh.faces().iter().all(is_positive));
+}
+
+#[test]
+fn what_cannot_be_flattened_is_told_and_plays() {
+    // The middle of a square wanders from near one corner to near the other.
+    let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(DVec2::from_array);
+    let with = |middle: DVec2| -> Vec<DVec2> { square.into_iter().chain([middle]).collect() };
+    let faces = vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
+    let [source, target] = [-0.999, 0.999].map(|at| with(DVec2::splat(at)));
+    let mesh = CompatibleMesh::new(faces, source.clone(), target.clone(), vec![]).expect("valid");
+    let film = bounded(&mesh);
+    assert_eq!(film.unflattened(), 1);
+    let mut placer = film.placer();
+    for (t, places) in [(0.0, source), (1.0, target)] {
+        placer.place(t);
+        assert_eq!(placer.placement().in_frame, places);
+    }
+    placer.place(0.5);
+    assert!(placer.placement().in_frame.iter().all(|p| p.is_finite()));
+}
+
+#[test]
+fn whole_turns_are_kept() {
+    let mesh = plate(|p| DMat2::from_angle(0.4 * p.x) * stretched(p));
+    let options = ArapOptions {
+        homotopy: Homotopy::Bounded,
+        extra_turns: vec![2],
+        ..ArapOptions::default()
+    };
+    let film = Arap::build(&mesh, &options, &Silent).expect("a film");
+    let mut placer = film.placer();
+    let (mut turned, mut before) = (0.0, 0.0);
+    // From the left to the right of the middle row.
+    let ends = [N / 2 * (N + 1), N / 2 * (N + 1) + N].map(|v| v as usize);
+    for step in 0..=64 {
+        placer.place(f64::from(step) / 64.0);
+        let places = &placer.placement().in_frame;
+        let angle = (places[ends[1]] - places[ends[0]]).to_angle();
+        let by: f64 = angle - before;
+        turned += by - TAU * (by / TAU).round();
+        before = angle;
+    }
+    assert!((turned - 2.0 * TAU).abs() < 1.0, "{turned}");
+}
