@@ -262,7 +262,9 @@ fn report(
         min_det: dets.reduce(f64::min),
         worst_crossings: worst(&crossings),
         first_crossing_t: first(&crossings),
-        conformal_by_end: excess::of_peak(samples.iter().map(|s| Some(s.distortion?.conformal.worst))),
+        conformal_by_end: excess::of_peak(
+            samples.iter().map(|s| Some(s.distortion?.conformal.worst)),
+        ),
         conformal_excess: excess.map(|e| e[0]),
         isometric_excess: excess.map(|e| e[1]),
         area_distortion_excess: excess.map(|e| e[2]),

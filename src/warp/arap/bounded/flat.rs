@@ -86,7 +86,12 @@ impl Flattening {
                 break;
             }
         }
-        off <= FLAT && self.corners.iter().flatten().all(|corner| corner.cross > 0.0)
+        off <= FLAT
+            && self
+                .corners
+                .iter()
+                .flatten()
+                .all(|corner| corner.cross > 0.0)
     }
 
     /// Newton's step from where it is; whether there is one.
@@ -166,7 +171,9 @@ impl Flattening {
                 }
             }
         }
-        self.lack.iter().fold(0.0, |most: f64, lack| most.max(lack.abs()))
+        self.lack
+            .iter()
+            .fold(0.0, |most: f64, lack| most.max(lack.abs()))
     }
 }
 

@@ -62,12 +62,7 @@ fn first_length([first, second, _]: &[Corner; 3]) -> f64 {
 }
 
 /// Writes the map of each face, the first with its first side along x.
-pub(super) fn laid_out(
-    sheet: &Sheet,
-    faces: &[Face],
-    corners: &[[Corner; 3]],
-    maps: &mut [DMat2],
-) {
+pub(super) fn laid_out(sheet: &Sheet, faces: &[Face], corners: &[[Corner; 3]], maps: &mut [DMat2]) {
     // First each face as it lies: its second and third corner from the first.
     for k in 0..faces.len() {
         let own = sides(&corners[k], first_length(&corners[k]));
@@ -79,7 +74,9 @@ pub(super) fn laid_out(
                 let there = [before.x_axis, before.y_axis - before.x_axis, -before.y_axis];
                 // The same side, run the other way.
                 let side = -there[reached.there as usize];
-                conjugate(own[reached.here as usize]).rotate(side).normalize_or(DVec2::X)
+                conjugate(own[reached.here as usize])
+                    .rotate(side)
+                    .normalize_or(DVec2::X)
             }
         };
         maps[k] = DMat2::from_cols(turn.rotate(own[0]), turn.rotate(-own[2]));

@@ -95,11 +95,7 @@ fn fans(connectivity: &Connectivity, faces: usize) -> Vec<u32> {
 }
 
 /// Faces from one on, breadth first.
-fn walk(
-    connectivity: &Connectivity,
-    seed: usize,
-    done: &mut [bool],
-) -> (Vec<u32>, Vec<Reached>) {
+fn walk(connectivity: &Connectivity, seed: usize, done: &mut [bool]) -> (Vec<u32>, Vec<Reached>) {
     let (mut faces, mut reached) = (vec![seed as u32], vec![Reached::default()]);
     let mut queue = VecDeque::from([0_u32]);
     done[seed] = true;
@@ -137,7 +133,9 @@ impl Numbering {
         let mut sums = Vec::new();
         let mut is_rim = vec![false; fans.len()];
         let rims = rims(mesh, fans, faces);
-        rims.iter().flatten().for_each(|&fan| is_rim[fan as usize] = true);
+        rims.iter()
+            .flatten()
+            .for_each(|&fan| is_rim[fan as usize] = true);
         for &face in faces {
             for &fan in &fans[3 * face as usize..][..3] {
                 if !is_rim[fan as usize] && unknown[fan as usize] == FIXED {
@@ -154,10 +152,12 @@ impl Numbering {
         };
         let turnings: Vec<f64> = rims.iter().map(|rim| turning(rim)).collect();
         // A hole is run the other way round.
-        let outer = (0..rims.len()).max_by(|&a, &b| turnings[a].total_cmp(&turnings[b]).then(b.cmp(&a)));
+        let outer =
+            (0..rims.len()).max_by(|&a, &b| turnings[a].total_cmp(&turnings[b]).then(b.cmp(&a)));
         for (k, rim) in rims.iter().enumerate() {
             if Some(k) != outer {
-                rim.iter().for_each(|&fan| unknown[fan as usize] = sums.len() as u32);
+                rim.iter()
+                    .for_each(|&fan| unknown[fan as usize] = sums.len() as u32);
                 sums.push(PI * rim.len() as f64 - turnings[k]);
             }
         }
@@ -167,7 +167,9 @@ impl Numbering {
 
 /// The boundary walks of a sheet, by their fans.
 fn rims(mesh: &CompatibleMesh, fans: &[u32], faces: &[u32]) -> Vec<Vec<u32>> {
-    let corners = faces.iter().flat_map(|&f| (0..3).map(move |k| (f as usize, k)));
+    let corners = faces
+        .iter()
+        .flat_map(|&f| (0..3).map(move |k| (f as usize, k)));
     let open = corners.filter(|&(f, k)| mesh.connectivity().twin(f, k).is_none());
     // At each fan on the boundary one side leaves it.
     let mut next = std::collections::BTreeMap::new();

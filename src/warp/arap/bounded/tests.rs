@@ -11,8 +11,11 @@ const N: u32 = 12;
 
 /// A plate of N × N squares about the origin, 2 wide, and its image.
 fn plate(image: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
-    let point = |i: u32, j: u32| DVec2::new(f64::from(i), f64::from(j)) * (2.0 / f64::from(N)) - 1.0;
-    let source: Vec<DVec2> = (0..=N).flat_map(|j| (0..=N).map(move |i| point(i, j))).collect();
+    let point =
+        |i: u32, j: u32| DVec2::new(f64::from(i), f64::from(j)) * (2.0 / f64::from(N)) - 1.0;
+    let source: Vec<DVec2> = (0..=N)
+        .flat_map(|j| (0..=N).map(move |i| point(i, j)))
+        .collect();
     let squares = (0..N).flat_map(|j| (0..N).map(move |i| j * (N + 1) + i));
     let faces = squares.flat_map(|a| {
         let [b, c, d] = [a + 1, a + N + 2, a + N + 1];
@@ -39,7 +42,12 @@ fn ring(image: impl Fn(DVec2) -> DVec2) -> CompatibleMesh {
     let faces = (0..ROWS).flat_map(|row| {
         (0..AROUND).flat_map(move |k| {
             let at = |row: u32, k: u32| row * AROUND + k % AROUND;
-            let [a, b, c, d] = [at(row, k), at(row, k + 1), at(row + 1, k), at(row + 1, k + 1)];
+            let [a, b, c, d] = [
+                at(row, k),
+                at(row, k + 1),
+                at(row + 1, k),
+                at(row + 1, k + 1),
+            ];
             [[a, c, b], [c, d, b]]
         })
     });
@@ -81,7 +89,10 @@ fn by_end(mesh: &CompatibleMesh, film: &Arap) -> f64 {
 /// One part of it is stretched and bent.
 fn stretched(p: DVec2) -> DVec2 {
     let bump = (-3.0 * p.length_squared()).exp();
-    DVec2::new(p.x + 0.9 * bump * p.x, p.y - 0.5 * bump * p.y + 0.2 * p.x * p.x)
+    DVec2::new(
+        p.x + 0.9 * bump * p.x,
+        p.y - 0.5 * bump * p.y + 0.2 * p.x * p.x,
+    )
 }
 
 #[test]
@@ -102,7 +113,8 @@ fn it_is_the_conformal_image_of_the_metric_between() {
     for t in [0.2, 0.5, 0.9] {
         placer.place(t);
         let places = &placer.placement().in_frame;
-        let length = |points: &[DVec2], a: u32, b: u32| points[a as usize].distance(points[b as usize]);
+        let length =
+            |points: &[DVec2], a: u32, b: u32| points[a as usize].distance(points[b as usize]);
         let of_metric = |a: u32, b: u32| {
             let [p, q] = [mesh.source(), mesh.target()].map(|points| length(points, a, b).powi(2));
             ((1.0 - t) * p + t * q).sqrt()
@@ -119,7 +131,8 @@ fn it_is_the_conformal_image_of_the_metric_between() {
                     // Cross ratios of lengths do not change.
                     Some(twin) => {
                         let d = mesh.faces()[twin as usize / 3][(twin as usize + 2) % 3];
-                        let ratio = |l: &dyn Fn(u32, u32) -> f64| l(a, d) * l(b, c) / (l(d, b) * l(c, a));
+                        let ratio =
+                            |l: &dyn Fn(u32, u32) -> f64| l(a, d) * l(b, c) / (l(d, b) * l(c, a));
                         let now = ratio(&|a, b| length(places, a, b));
                         let metric = ratio(&of_metric);
                         assert!((now / metric - 1.0).abs() < 1e-9, "{t}: {now} {metric}");
