@@ -3,7 +3,7 @@
 use morphospace::geometry::DVec2;
 use morphospace::progress::Silent;
 use morphospace::project::{LoadedProject, gallery};
-use morphospace::transition::{Figure, Transition};
+use morphospace::transition::{Figure, Sequence, Transition};
 
 fn build(name: &str) -> Transition {
     let loaded = gallery::load(name).expect(name);
@@ -36,7 +36,7 @@ fn pieces_and_holes(figure: &Figure) -> (usize, usize) {
 #[test]
 fn every_project_has_a_title_and_a_sentence_and_opens_from_its_folder() {
     let entries = gallery::list().expect("the list");
-    assert_eq!(entries.len(), 31);
+    assert_eq!(entries.len(), 32);
     for entry in entries {
         assert!(!entry.title.is_empty(), "{}", entry.name);
         assert!(entry.description.ends_with('.'), "{}", entry.name);
@@ -61,6 +61,21 @@ fn every_project_draws_something_at_every_t() {
             assert!(drawn > 0, "{} at {t}", entry.name);
         }
     }
+}
+
+#[test]
+fn a_way_through_many_designs_leads_back() {
+    let loaded = gallery::load("letters-in-turn").expect("bundled");
+    let legs = loaded.legs();
+    assert_eq!(legs.len(), 5);
+    let built = legs.iter().map(|leg| Transition::build(&leg.spec().expect("a leg"), &Silent));
+    let built: Vec<Transition> = built.collect::<Result<_, _>>().expect("built");
+    let sequence = Sequence::new(built).expect("legs").leading_back(true);
+    let mut frame = sequence.frame(0.0);
+    let area = |figure: &Figure| -> f64 { figure.rings.iter().map(|r| signed_area(r)).sum() };
+    let first = area(&frame.now().figure());
+    frame.seek(5.0);
+    assert!((area(&frame.now().figure()) - first).abs() < 1e-9 * first);
 }
 
 #[test]

@@ -353,7 +353,9 @@ impl MethodArgs {
             Transition::build(&spec, &shares.part(k)).map_err(CliError::not_built)
         });
         let built: Vec<_> = built.collect::<Result<_, CliError>>()?;
-        Ok(Sequence::new(built).unwrap_or_else(|| unreachable!("a sequence has legs")))
+        let sequence = Sequence::new(built);
+        let sequence = sequence.unwrap_or_else(|| unreachable!("a sequence has legs"));
+        Ok(sequence.leading_back(loaded.project.closed))
     }
 
     /// Whether the films decide on the method.

@@ -91,7 +91,7 @@ pub use options::{Boundary, FieldOptions, Guarding, Options, PaintRule, Quality}
 pub use part_time::{PartTime, PartTimeError};
 pub use proved::Proved;
 pub use ready::Transition;
-pub use sequence::{Sequence, SequenceFrame, place, style_of};
+pub use sequence::{Sequence, SequenceFrame, place, style_of, tint};
 pub use spec::TransitionSpec;
 pub use style::Style;
 pub use timing::{PlayMode, Stop, Timing, TimingError};

@@ -33,11 +33,18 @@ use std::sync::Arc;
 /// # Ok::<(), morphospace::Error>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Sequence(Arc<[Transition]>);
+pub struct Sequence {
+    legs: Arc<[Transition]>,
+    /// The last leg leads back to the first design.
+    leads_back: bool,
+}
 
 impl From<Transition> for Sequence {
     fn from(only: Transition) -> Self {
-        Self([only].into())
+        Self {
+            legs: [only].into(),
+            leads_back: false,
+        }
     }
 }
 
@@ -58,13 +65,23 @@ impl Sequence {
     /// for the caller to see to.
     #[must_use]
     pub fn new(legs: Vec<Transition>) -> Option<Self> {
-        (!legs.is_empty()).then(|| Self(legs.into()))
+        (!legs.is_empty()).then(|| Self {
+            legs: legs.into(),
+            leads_back: false,
+        })
+    }
+
+    /// The same, whose last leg leads back to the first design, or does not: then the
+    /// colours that go with t come back as well.
+    #[must_use]
+    pub fn leading_back(self, leads_back: bool) -> Self {
+        Self { leads_back, ..self }
     }
 
     /// The transitions, in their order.
     #[must_use]
     pub fn legs(&self) -> &[Transition] {
-        &self.0
+        &self.legs
     }
 
     /// Whether these are the same transitions. Clones share what they are made of; comparing
@@ -72,26 +89,26 @@ impl Sequence {
     #[must_use]
     pub fn is(&self, other: &Self) -> bool {
         let same = |(a, b): (&Transition, &Transition)| std::ptr::eq(a.content(), b.content());
-        self.0.len() == other.0.len() && self.0.iter().zip(other.0.iter()).all(same)
+        self.legs.len() == other.legs.len() && self.legs.iter().zip(other.legs.iter()).all(same)
     }
 
     /// The t of the last design: how many legs there are.
     #[must_use]
     pub fn end(&self) -> f64 {
-        self.0.len() as f64
+        self.legs.len() as f64
     }
 
     /// The leg that is shown at `t`, and where in it: before the first design and behind
     /// the last one it extrapolates.
     #[must_use]
     pub fn place(&self, t: f64) -> (usize, f64) {
-        place(self.0.len(), t)
+        place(self.legs.len(), t)
     }
 
     /// The box that holds every frame for t from the first design to the last, nearly.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
-        let boxes = self.0.iter().map(Transition::bounds);
+        let boxes = self.legs.iter().map(Transition::bounds);
         boxes
             .reduce(|a, b| a.union(&b))
             .unwrap_or_else(|| unreachable!("there is a leg"))
@@ -107,14 +124,14 @@ impl Sequence {
             let within = leg.breaks().into_iter().map(move |t| first + t);
             joint.into_iter().chain(within)
         };
-        self.0.iter().enumerate().flat_map(of_leg).collect()
+        self.legs.iter().enumerate().flat_map(of_leg).collect()
     }
 
     /// How a leg is painted where the whole is painted so: colours that go with t go once
     /// through all legs.
     #[must_use]
     pub fn style_of(&self, leg: usize, style: &Style) -> Style {
-        style_of(leg, self.0.len(), style)
+        style_of(leg, (self.legs.len(), self.leads_back), style)
     }
 
     /// A frame at `t`, with memory of its own; a `t` that is not finite counts as 0.
@@ -122,8 +139,8 @@ impl Sequence {
     pub fn frame(&self, t: f64) -> SequenceFrame {
         let t = if t.is_finite() { t } else { 0.0 };
         let (leg, within) = self.place(t);
-        let mut frames: Vec<Option<Frame>> = self.0.iter().map(|_| None).collect();
-        frames[leg] = Some(self.0[leg].frame(within));
+        let mut frames: Vec<Option<Frame>> = self.legs.iter().map(|_| None).collect();
+        frames[leg] = Some(self.legs[leg].frame(within));
         SequenceFrame {
             sequence: self.clone(),
             frames,
@@ -142,14 +159,25 @@ pub fn place(legs: usize, t: f64) -> (usize, f64) {
     (leg, t - leg as f64)
 }
 
-/// As [`Sequence::style_of`], of so many legs.
+/// As [`Sequence::style_of`], of so many legs, which lead back or do not.
 #[must_use]
-pub fn style_of(leg: usize, legs: usize, style: &Style) -> Style {
-    let share = |k: usize| k as f64 / legs.max(1) as f64;
+pub fn style_of(leg: usize, all: (usize, bool), style: &Style) -> Style {
+    let at = |k: usize| style.fill_at(tint(k as f64, all));
     Style {
-        source: style.fill_at(share(leg)),
-        target: style.fill_at(share(leg + 1)),
+        source: at(leg),
+        target: at(leg + 1),
         ..*style
+    }
+}
+
+/// Where between the first colour of a style and its second one so many legs have come at
+/// `t`: from one to the other, and back where they lead back.
+#[must_use]
+pub fn tint(t: f64, (legs, leads_back): (usize, bool)) -> f64 {
+    let share = t / legs.max(1) as f64;
+    match leads_back {
+        true => 1.0 - (2.0 * share - 1.0).abs(),
+        false => share,
     }
 }
 
@@ -171,7 +199,7 @@ impl SequenceFrame {
         self.leg = leg;
         match &mut self.frames[leg] {
             Some(frame) => frame.seek(within),
-            none => *none = Some(self.sequence.0[leg].frame(within)),
+            none => *none = Some(self.sequence.legs[leg].frame(within)),
         }
     }
 
@@ -272,6 +300,9 @@ mod tests {
         assert_eq!(first.target, style.fill_at(0.5));
         let one = Sequence::from(sequence.legs()[0].clone());
         assert_eq!(one.style_of(0, &style), style);
+        let round = sequence.leading_back(true);
+        assert_eq!(round.style_of(0, &style), style);
+        assert_eq!(round.style_of(1, &style).target, style.source);
     }
 
     #[test]

@@ -86,6 +86,7 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
         .map(|leg| Ok(Transition::build(&leg.spec()?, progress)?));
     let built: Vec<Transition> = built.collect::<Result<_, StripError>>()?;
     let sequence = Sequence::new(built).ok_or("a project has a leg")?;
+    let sequence = sequence.leading_back(loaded.project.closed);
     let timing = loaded.project.timing;
     // Of many designs some of them, and nothing between.
     let frames = if legs.len() > 1 {

@@ -147,7 +147,8 @@ impl Open {
             .legs
             .iter()
             .map(|leg| Some(leg.stage.as_ref()?.transition.clone()));
-        Sequence::new(legs.collect::<Option<_>>()?)
+        let sequence = Sequence::new(legs.collect::<Option<_>>()?)?;
+        Some(sequence.leading_back(self.staged.closed))
     }
 
     /// The box that holds every frame of what is on the stage, nearly.

@@ -196,7 +196,14 @@ impl Session {
     /// How the leg that is looked at is painted.
     #[must_use]
     pub fn style_here(&self) -> Style {
-        style_of(self.leg(), self.leg_count(), &self.style())
+        style_of(self.leg(), self.way(), &self.style())
+    }
+
+    /// How many legs there are, and whether they lead back.
+    #[must_use]
+    pub fn way(&self) -> (usize, bool) {
+        let leads_back = self.whole().is_some_and(|whole| whole.closed);
+        (self.leg_count(), leads_back)
     }
 
     /// The stops of the open project.

@@ -4,6 +4,7 @@ use bevy_egui::egui::{Color32, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
 use crate::app::ui::scene::Scene;
 use crate::geometry::DVec2;
+use crate::transition::tint;
 
 /// How much of a skin is seen.
 const SEEN: f32 = 0.55;
@@ -12,13 +13,13 @@ const SEEN: f32 = 0.55;
 pub fn show(ui: &Ui, scene: &Scene, stage: Rect) {
     let painter = ui.painter().with_clip_rect(stage);
     let style = scene.session.style();
-    let end = scene.session.leg_count() as f64;
+    let way = scene.session.way();
     let at = |p: &DVec2| -> Pos2 {
         let px = scene.view.px_from_world(*p);
         stage.min + vec2(px.x, px.y)
     };
     for skin in scene.onion.skins() {
-        let [r, g, b] = style.fill_at(skin.t / end).0;
+        let [r, g, b] = style.fill_at(tint(skin.t, way)).0;
         let ink = Color32::from_rgb(r, g, b).gamma_multiply(SEEN);
         let stroke = Stroke::new(1.0, ink);
         for ring in &skin.rings {

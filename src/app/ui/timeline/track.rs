@@ -12,7 +12,7 @@ use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::timeline::filmstrip;
 use crate::one_line::OneLine;
 use crate::project::Project;
-use crate::transition::{Stop, Style};
+use crate::transition::{Stop, Style, tint};
 
 /// How far the track reaches beyond 0 and 1 when nothing asks for more.
 const BEYOND: f64 = 0.25;
@@ -91,7 +91,7 @@ pub fn show(
     let names = scene.session.names_on_the_way();
     scrub(&response, ruler, &draft.stops, acts);
     beyond(ui, ruler);
-    bar(ui, ruler, &draft.style);
+    bar(ui, ruler, &draft.style, scene.session.way());
     ticks(ui, ruler, &names);
     if has_pictures {
         filmstrip::show(ui, scene, |t| ruler.x(t), ruler.y + 30.0);
@@ -141,12 +141,12 @@ fn beyond(ui: &Ui, ruler: Ruler) {
     }
 }
 
-fn bar(ui: &Ui, ruler: Ruler, style: &Style) {
+fn bar(ui: &Ui, ruler: Ruler, style: &Style, way: (usize, bool)) {
     const STEPS: u32 = 32;
     let mut mesh = Mesh::default();
     for i in 0..=STEPS {
         let share = f64::from(i) / f64::from(STEPS);
-        let [r, g, b] = style.fill_at(share).0;
+        let [r, g, b] = style.fill_at(tint(share * ruler.end, way)).0;
         let colour = Color32::from_rgb(r, g, b);
         let x = ruler.x(share * ruler.end);
         mesh.colored_vertex(pos2(x, ruler.y - BAR_HEIGHT / 2.0), colour);
