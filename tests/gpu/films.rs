@@ -30,8 +30,8 @@ pub fn films_are_played_as_they_would_be_solved(studio: &mut Studio) {
     let scenes: [(&str, &dyn Fn() -> Transition); 3] = [
         ("played", &|| solid(0.0)),
         ("played-far", &|| solid(1e6)),
-        // More than once around: two reels at least.
-        ("played-wound", &|| wound(15.0)),
+        // Six times around: two reels at least.
+        ("played-wound", &|| wound(40.0)),
     ];
     for (name, make) in scenes {
         let (played, solved) = (Scene::new(name, recorded(make())), Scene::new(name, make()));
