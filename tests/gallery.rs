@@ -68,7 +68,9 @@ fn a_way_through_many_designs_leads_back() {
     let loaded = gallery::load("letters-in-turn").expect("bundled");
     let legs = loaded.legs();
     assert_eq!(legs.len(), 5);
-    let built = legs.iter().map(|leg| Transition::build(&leg.spec().expect("a leg"), &Silent));
+    let built = legs
+        .iter()
+        .map(|leg| Transition::build(&leg.spec().expect("a leg"), &Silent));
     let built: Vec<Transition> = built.collect::<Result<_, _>>().expect("built");
     let sequence = Sequence::new(built).expect("legs").leading_back(true);
     let mut frame = sequence.frame(0.0);

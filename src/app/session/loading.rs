@@ -366,32 +366,44 @@ fn built_by_steps(
     let from = if has_drafts { DRAFTED } else { 0.0 };
     let building = Span::new(progress, from, 1.0);
     let building = Several::new(&building, legs.len());
-    let built = (0..legs.len()).map(|leg| {
-        if let Some(stage) = &known[leg] {
-            return Leg {
-                stage: Some(stage.clone()),
-                problem: None,
-            };
-        }
-        match transition_of(&legs[leg], &building.part(leg)) {
-            Ok(transition) => Leg {
-                stage: Some(Stage {
-                    settings: Settings::of(&project, leg),
-                    transition,
-                }),
-                problem: None,
-            },
-            Err(problem) => Leg {
-                stage: standing(leg),
-                problem: Some(problem),
-            },
-        }
+    let built = (0..legs.len()).map(|leg| match &known[leg] {
+        Some(stage) => Leg {
+            stage: Some(stage.clone()),
+            problem: None,
+        },
+        None => built(
+            &project,
+            (leg, &legs[leg]),
+            standing(leg),
+            &building.part(leg),
+        ),
     });
-    let built = built.collect();
     Loaded {
         settings: project.project.clone(),
-        legs: built,
+        legs: built.collect(),
         project,
+    }
+}
+
+/// A leg as the project asks for it; where it cannot be had, what stands in its place.
+fn built(
+    whole: &LoadedProject,
+    (leg, project): (usize, &LoadedProject),
+    standing: Option<Stage>,
+    progress: &dyn Progress,
+) -> Leg {
+    match transition_of(project, progress) {
+        Ok(transition) => Leg {
+            stage: Some(Stage {
+                settings: Settings::of(whole, leg),
+                transition,
+            }),
+            problem: None,
+        },
+        Err(problem) => Leg {
+            stage: standing,
+            problem: Some(problem),
+        },
     }
 }
 

@@ -61,48 +61,24 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
 /// The list of all designs, in which they change places.
 fn order(ui: &mut Ui, scene: &Scene, whole: &Project, acts: &mut Intents) {
     let here = whole.leg_designs(scene.session.leg());
-    let last = whole.designs.len() - 1;
-    let moved = |change: &dyn Fn(&mut Vec<Moved>)| {
-        let mut designs = whole.in_order();
-        change(&mut designs);
-        Intent::Arrange(designs)
-    };
     for (k, entry) in whole.designs.iter().enumerate() {
         ui.horizontal(|ui| {
             let words = RichText::new(format!("{}", k + 1)).color(Palette::of(ui).weak);
             ui.add_sized([16.0, CONTROL_HEIGHT], Label::new(words));
             from_right(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
-                let size = vec2(24.0, 24.0);
-                let mut button = |ui: &mut Ui, icon, tip: &str, can: bool, act: Intent| {
-                    ui.add_enabled_ui(can, |ui| {
-                        if icon_button(ui, icon, tip, size).clicked() {
-                            acts.push(act);
-                        }
-                    });
-                };
-                let without = moved(&|all| drop(all.remove(k)));
-                button(ui, icons::CLOSE, "Take it out", last > 1, without);
-                let twice = moved(&|all| all.insert(k + 1, (entry.clone(), None)));
-                button(ui, icons::COPY, "Once more behind it", true, twice);
-                let down = moved(&|all| all.swap(k, (k + 1).min(last)));
-                button(ui, icons::DOWN, "Later", k < last, down);
-                let up = moved(&|all| all.swap(k, k.saturating_sub(1)));
-                button(ui, icons::UP, "Earlier", k > 0, up);
+                moves(ui, whole, k, acts);
                 let name = RichText::new(name_of(entry));
-                let name = if here.contains(&k) {
-                    name.strong()
-                } else {
-                    name
+                let name = match here.contains(&k) {
+                    true => name.strong(),
+                    false => name,
                 };
                 let label = Label::new(name).truncate().sense(Sense::click());
                 let tip = format!("{}\nClick to go there.", entry.path.display());
                 let left = Layout::left_to_right(Align::Center);
                 let room = vec2(ui.available_width(), CONTROL_HEIGHT);
-                let label = ui
-                    .allocate_ui_with_layout(room, left, |ui| ui.add(label))
-                    .inner;
-                if label.on_hover_text(tip).clicked() {
+                let label = ui.allocate_ui_with_layout(room, left, |ui| ui.add(label));
+                if label.inner.on_hover_text(tip).clicked() {
                     acts.push(Intent::Seek(k as f64));
                 }
             });
@@ -114,6 +90,30 @@ fn order(ui: &mut Ui, scene: &Scene, whole: &Project, acts: &mut Intents) {
     if closed != whole.closed {
         acts.push(Intent::LeadBack(closed));
     }
+}
+
+/// The buttons that move a design among the others, from right to left.
+fn moves(ui: &mut Ui, whole: &Project, k: usize, acts: &mut Intents) {
+    let last = whole.designs.len() - 1;
+    let mut button = |icon, tip: &str, can: bool, change: &dyn Fn(&mut Vec<Moved>)| {
+        ui.add_enabled_ui(can, |ui| {
+            if icon_button(ui, icon, tip, vec2(24.0, 24.0)).clicked() {
+                let mut designs = whole.in_order();
+                change(&mut designs);
+                acts.push(Intent::Arrange(designs));
+            }
+        });
+    };
+    let entry = &whole.designs[k];
+    button(icons::CLOSE, "Take it out", last > 1, &|all| {
+        drop(all.remove(k))
+    });
+    let twice = |all: &mut Vec<Moved>| all.insert(k + 1, (entry.clone(), None));
+    button(icons::COPY, "Once more behind it", true, &twice);
+    let later = |all: &mut Vec<Moved>| all.swap(k, (k + 1).min(last));
+    button(icons::DOWN, "Later", k < last, &later);
+    let earlier = |all: &mut Vec<Moved>| all.swap(k, k.saturating_sub(1));
+    button(icons::UP, "Earlier", k > 0, &earlier);
 }
 
 fn add(ui: &mut Ui, whole: &Project, acts: &mut Intents) {
