@@ -4,7 +4,7 @@
 //! anything between two samples. The cost is that of the frames, for rigid
 //! parts some microseconds a face and sample, for fields a contour each.
 
-use super::distortion::{Distortion, distortion};
+use super::distortion::{Distortion, Distribution, distortion};
 use super::excess;
 use super::motion::{self, Motion};
 use crate::compatible::CompatibleMesh;
@@ -70,6 +70,8 @@ pub struct FilmReport {
     /// The largest conformal distortion of a face at any sample, by the largest one at
     /// the worse end: 1 where it is bounded by the ends.
     pub conformal_by_end: Option<f64>,
+    /// The same of what 95 % of the area is at or below.
+    pub conformal_p95_by_end: Option<f64>,
     /// Largest excess of a face's conformal distortion over its worse end.
     pub conformal_excess: Option<f64>,
     /// Largest excess of a face's isometric distortion over its worse end.
@@ -255,6 +257,9 @@ fn report(
         samples.iter().find(is_bad).map(|s| s.t)
     };
     let turning: Vec<_> = samples.iter().map(|s| [s.t, s.turning]).collect();
+    let peak = |of: fn(Distribution) -> f64| {
+        excess::of_peak(samples.iter().map(|s| Some(of(s.distortion?.conformal))))
+    };
     let dets = samples.iter().filter_map(|s| Some(s.distortion?.min_det));
     FilmReport {
         worst_folds: worst(&folds),
@@ -262,9 +267,8 @@ fn report(
         min_det: dets.reduce(f64::min),
         worst_crossings: worst(&crossings),
         first_crossing_t: first(&crossings),
-        conformal_by_end: excess::of_peak(
-            samples.iter().map(|s| Some(s.distortion?.conformal.worst)),
-        ),
+        conformal_by_end: peak(|conformal| conformal.worst),
+        conformal_p95_by_end: peak(|conformal| conformal.p95),
         conformal_excess: excess.map(|e| e[0]),
         isometric_excess: excess.map(|e| e[1]),
         area_distortion_excess: excess.map(|e| e[2]),

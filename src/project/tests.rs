@@ -265,6 +265,8 @@ proptest! {
         project.options.field.blend.epsilon = positive[3];
         project.options.field.blend.threshold = numbers[3];
         project.style.ground = Rgb(colour);
+        // Rests at stops are said from version 2 on.
+        project.version = FORMAT_VERSION;
         project.stops = vec![
             Stop {
                 hold_secs: positive[1],

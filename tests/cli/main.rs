@@ -237,19 +237,14 @@ fn wrong_use_ends_with_two() {
 }
 
 #[test]
-fn a_folder_and_many_designs_are_wrong_use() {
+fn a_folder_and_a_project_among_designs_are_wrong_use() {
     let shop = Workshop::new();
     let folder = "render a.obj b.obj --at 0.5 --out exist.png";
     fs::create_dir(shop.path("exist.png")).expect("made");
     shop.fails(2, folder, "`exist.png` is a folder: name a file in it");
-    for command in [
-        "",
-        "check",
-        "render --out x.png --at 0",
-        "new --out x.morph",
-    ] {
-        let line = format!("{command} a.obj b.obj a.svg");
-        shop.fails(2, &line, "3 designs");
+    for command in ["check", "render --out x.png --at 0"] {
+        let line = format!("{command} a.obj x.morph a.svg");
+        shop.fails(2, &line, "3 inputs");
         assert_eq!(words(&shop.run(&line)).lines().count(), 1, "{line}");
     }
     shop.fails(

@@ -89,8 +89,10 @@ pub fn read_drops(
     state.quiet_secs += time.delta_secs();
     if state.quiet_secs >= GATHER_SECS {
         let mut files = std::mem::take(&mut state.arriving);
-        // They arrive in any order; that of their names is seen in every folder.
-        files.sort_by_cached_key(|path| in_numbers(&path.to_string_lossy()));
+        // Many arrive in any order; that of their names is seen in every folder.
+        if files.len() > 2 {
+            files.sort_by_cached_key(|path| in_numbers(&path.to_string_lossy()));
+        }
         intents.write(Intent::Open(files));
     }
 }

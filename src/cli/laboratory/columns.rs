@@ -169,7 +169,7 @@ use Better::{Large, Small};
 use Unit::{Cells, Degrees, Diameters, Pure, Seconds, Share};
 
 /// All of them, in the order of the table.
-pub(super) const ALL: [Column; 59] = [
+pub(super) const ALL: [Column; 60] = [
     words("method", |r| {
         Some(Cell::new(r.warp, r.content).ok()?.words().report)
     }),
@@ -269,6 +269,9 @@ pub(super) const ALL: [Column; 59] = [
     }),
     number("conformal_by_end", Pure, |r| r.film.conformal_by_end)
         .told("conformal, worst on the way by worst end", Small),
+    number("conformal_p95_by_end", Pure, |r| {
+        r.film.conformal_p95_by_end
+    }),
 ];
 
 #[cfg(test)]
@@ -288,7 +291,7 @@ mod tests {
         max_acceleration_diameters grid_width_cells grid_height_cells import_s match_s \
         triangulate_s match_and_triangulate_s build_s frame_s figure_s measure_s \
         turning_excess_share proof unproved_t prove_s moved_aside_diameters \
-        conformal_by_end";
+        conformal_by_end conformal_p95_by_end";
 
     #[test]
     fn headings_are_what_they_were() {

@@ -59,7 +59,7 @@ use crate::linalg::{Cholesky, FactorError, SymmetricMatrix, Workspace};
 use crate::mesh::Subdivision;
 use crate::progress::{Progress, checkpoint, still_wanted};
 use assembly::LocalMaps;
-use bounded::{Bounded, Memory};
+use bounded::{Bounded, FARTHER, Memory, ROUNDS};
 use drift::Drift;
 use ridge::factored;
 use sides::Outlined;
@@ -526,6 +526,8 @@ struct Player {
     deviation: Vec<f64>,
     workspace: Workspace,
     memory: Memory,
+    /// Bounded only: what is added to the deviation.
+    more: Vec<f64>,
     /// Of each connected part.
     shifts: Vec<DVec2>,
 }
@@ -536,6 +538,10 @@ impl Player {
             deviation: vec![0.0; 2 * inner.mesh.source().len()],
             workspace: inner.cholesky.workspace(2),
             memory: inner.stresses.memory(),
+            more: match inner.stresses.bounded() {
+                Some(_) => vec![0.0; 2 * inner.mesh.source().len()],
+                None => Vec::new(),
+            },
             shifts: vec![DVec2::ZERO; inner.drift.part_count()],
             arap: Arc::clone(inner),
         }
@@ -547,6 +553,7 @@ impl Player {
             deviation,
             workspace,
             memory,
+            more,
             shifts,
         } = self;
         let place = arap.cholesky.place_in_order();
@@ -562,6 +569,9 @@ impl Player {
             arap.stresses
                 .right_hand_sides(times, place, (memory, in_frame), deviation);
             arap.cholesky.solve_ordered(deviation, workspace);
+            if let Some(bounded) = arap.stresses.bounded() {
+                put_back(arap, bounded, times, deviation, (more, in_frame, workspace));
+            }
             arap.drift.shifts(times, deviation, shifts);
         }
         let (dx, dy) = deviation.split_at(place.len());
@@ -589,6 +599,38 @@ impl Player {
                 };
                 guard.add(&mix, run.clone(), &mut in_frame[run]);
             }
+        }
+    }
+}
+
+/// Puts faces back that are sheared more than at the worse end. `forces`, one for each
+/// vertex, and `more`, as long as the deviation, are memory to work in.
+fn put_back(
+    arap: &Inner,
+    bounded: &Bounded,
+    times: Times,
+    deviation: &mut [f64],
+    (more, forces, workspace): (&mut [f64], &mut [DVec2], &mut Workspace),
+) {
+    let place = arap.cholesky.place_in_order();
+    for _ in 0..ROUNDS {
+        forces.fill(DVec2::ZERO);
+        let (x, y) = deviation.split_at(place.len());
+        let strayed = |v: u32| {
+            let at = place[v as usize] as usize;
+            DVec2::new(x[at], y[at])
+        };
+        if !bounded.put_back(times, strayed, forces) {
+            return;
+        }
+        let (x, y) = more.split_at_mut(place.len());
+        for (force, &at) in forces.iter().zip(place) {
+            x[at as usize] = force.x;
+            y[at as usize] = force.y;
+        }
+        arap.cholesky.solve_ordered(more, workspace);
+        for (sum, by) in deviation.iter_mut().zip(more.iter()) {
+            *sum += FARTHER * by;
         }
     }
 }

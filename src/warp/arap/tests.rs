@@ -120,7 +120,7 @@ fn a_rigid_target_moves_rigidly_also_in_several_parts() {
     let (angle, offset) = (2.5, DVec2::new(3.0, -7.0));
     let rigid = |t: f64| move |p: DVec2| DMat2::from_angle(t * angle) * p + offset * t;
     let mesh = parts(rigid(1.0));
-    for homotopy in [Homotopy::Polar, Homotopy::Exponential] {
+    for homotopy in [Homotopy::Polar, Homotopy::Exponential, Homotopy::Bounded] {
         let mut at = film(&mesh, &with(homotopy));
         for t in TIMES {
             let now = at(t);

@@ -7,7 +7,8 @@
 //! angles lack, its Hessian half the cotangent Laplacian; Newton's method with
 //! steps that are halved until the energy does not rise again behind them. Where the
 //! lengths of a face break the triangle inequality its angles are π, 0 and 0, which
-//! keeps the energy convex. With u = 0 along the boundary sizes change least.
+//! keeps the energy convex: a few such faces are flat too, as no triangles, and are put
+//! right with what is sheared too much. With u = 0 along the boundary sizes change least.
 //!
 //! Guaranteed: nothing is allocated, it ends, and depends on nothing but the sheet
 //! and t. Not guaranteed: that it gets there; it says whether it did.
@@ -87,11 +88,14 @@ impl Flattening {
             }
         }
         off <= FLAT
+<<<<<<< .merge_file_gzthkx
             && self
                 .corners
                 .iter()
                 .flatten()
                 .all(|corner| corner.cross > 0.0)
+=======
+>>>>>>> .merge_file_QtBLUR
     }
 
     /// Newton's step from where it is; whether there is one.

@@ -9,15 +9,15 @@ use crate::warp::arap::assembly::FaceMap;
 /// What is known of a face at every t.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Face {
-    pub corners: [u32; 3],
+    pub(super) corners: [u32; 3],
     /// From source to target.
-    pub map: Polar,
+    pub(super) map: Polar,
     /// Gradients of the hat functions of the second and third corner.
-    gradients: DMat2,
+    pub(super) gradients: DMat2,
     /// W times them.
     weighted: DMat2,
     /// From target to source.
-    back: DMat2,
+    pub(super) back: DMat2,
     /// How much it counts where the sheet turns: the same of both designs.
     mass: f64,
 }

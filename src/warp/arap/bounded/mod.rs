@@ -19,9 +19,12 @@
 //! corners of a face unlike, the more so the larger the face; and around a hole the
 //! maps need not close.
 //!
+//! What is sheared more than at the worse end for all that is put back (`excess`).
+//!
 //! A sheet that cannot be flattened takes the metric of each face by itself,
 //! [`Homotopy::Bounded`] as it is written there, and that is told.
 
+mod excess;
 mod flat;
 mod layout;
 mod sheet;
@@ -36,6 +39,12 @@ use crate::homotopy::Homotopy;
 use flat::Flattening;
 use layout::Face;
 use sheet::Sheet;
+
+/// How often what is sheared too much is put back, at most: most films need none.
+pub(super) const ROUNDS: u32 = 64;
+
+/// How many times as far as it should each time, since its neighbours pull it forth again.
+pub(super) const FARTHER: f64 = 1.8;
 
 /// Even steps at which it is tried whether a sheet can be flattened.
 const TRIED: u32 = 16;
@@ -54,6 +63,8 @@ struct Whole {
     faces: Vec<Face>,
     /// Whether it was flat wherever it was tried.
     is_flat: bool,
+    /// How much its worst face is sheared between the designs.
+    sheared: f64,
 }
 
 /// The memory that the maps of a frame take, a sheet each.
@@ -76,8 +87,11 @@ impl Bounded {
             let is_flat = (1..TRIED)
                 .map(|step| f64::from(step) / f64::from(TRIED))
                 .all(|t| flattening.flatten(&sheet, t));
+            let faces: Vec<Face> = faces.collect();
+            let sheared = faces.iter().map(|face| excess::sheared(face.map.matrix()));
             Whole {
-                faces: faces.collect(),
+                sheared: sheared.fold(1.0, f64::max),
+                faces,
                 is_flat,
                 sheet,
             }
@@ -109,6 +123,37 @@ impl Bounded {
                 face.pull(map, forces);
             }
         }
+    }
+}
+
+impl Bounded {
+    /// Adds to the corners of each face what puts it back where it is sheared more than at
+    /// the worse end, of what deviates so from the straight line; whether any is.
+    /// Nothing at the ends themselves and beyond.
+    pub(super) fn put_back(
+        &self,
+        times: Times,
+        deviation: impl Fn(u32) -> DVec2,
+        forces: &mut [DVec2],
+    ) -> bool {
+        let mut any = false;
+        for whole in &self.sheets {
+            let t = times.of_vertex(whole.faces[0].corners[0] as usize);
+            if !(t > 0.0 && t < 1.0) {
+                continue;
+            }
+            for face in &whole.faces {
+                let [first, second, third] = face.corners.map(&deviation);
+                let strayed =
+                    DMat2::from_cols(second - first, third - first) * face.gradients.transpose();
+                let straight = DMat2::IDENTITY * (1.0 - t) + face.map.matrix() * t;
+                if let Some(by) = excess::taken_back(face, straight + strayed, whole.sheared) {
+                    face.pull(by, forces);
+                    any = true;
+                }
+            }
+        }
+        any
     }
 }
 

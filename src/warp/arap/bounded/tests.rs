@@ -1,5 +1,10 @@
 //! Films of bounded distortion, seen from outside.
 
+use super::super::assembly::LocalMaps;
+use super::super::times::Times;
+use super::flat::Flattening;
+use super::sheet::Sheet;
+use super::Bounded;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen, orient2d};
 use crate::homotopy::Homotopy;
@@ -146,11 +151,22 @@ fn it_is_the_conformal_image_of_the_metric_between() {
 #[test]
 fn angles_around_a_hole_close() {
     // Half of the ring grows, and it is turned.
-    let mesh = ring(|p| DMat2::from_angle(2.5) * p * (1.0 + 0.4 * p.x) * DVec2::new(1.3, 0.9));
+    let mesh = ring(|p| DMat2::from_angle(2.5) * p * (1.0 + 0.4 * p.x) * 1.1 + DVec2::new(0.0, 0.3 * p.x * p.x));
     let film = bounded(&mesh);
     assert_eq!(film.unflattened(), 0);
-    let found = by_end(&mesh, &film);
-    assert!(found < 1.02, "{found}");
+    // Turned back it is the same film.
+    let back = film.swapped(&Silent).expect("a film");
+    for (mesh, film) in [(&mesh, &film), (back.mesh(), &back)] {
+        let found = by_end(mesh, film);
+        assert!(found < 1.011, "{found}");
+    }
+    let [mut there, mut here] = [&film, &back].map(Arap::placer);
+    there.place(0.3);
+    here.place(0.7);
+    let places = [&there, &here].map(|placer| &placer.placement().in_frame);
+    for (p, q) in places[0].iter().zip(places[1]) {
+        assert!(p.distance(*q) < 1e-9, "{p} {q}");
+    }
     let mut placer = film.placer();
     placer.place(0.5);
     let places = &placer.placement().in_frame;
@@ -162,22 +178,47 @@ fn angles_around_a_hole_close() {
 }
 
 #[test]
-fn what_cannot_be_flattened_is_told_and_plays() {
-    // The middle of a square wanders from near one corner to near the other.
-    let square = [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(DVec2::from_array);
-    let with = |middle: DVec2| -> Vec<DVec2> { square.into_iter().chain([middle]).collect() };
-    let faces = vec![[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]];
-    let [source, target] = [-0.999, 0.999].map(|at| with(DVec2::splat(at)));
-    let mesh = CompatibleMesh::new(faces, source.clone(), target.clone(), vec![]).expect("valid");
-    let film = bounded(&mesh);
-    assert_eq!(film.unflattened(), 1);
-    let mut placer = film.placer();
-    for (t, places) in [(0.0, source), (1.0, target)] {
-        placer.place(t);
-        assert_eq!(placer.placement().in_frame, places);
+fn what_cannot_be_flattened_says_so() {
+    let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 2.0], [1.0, 0.7]].map(DVec2::from_array);
+    let faces = vec![[0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let mesh = CompatibleMesh::new(faces, points.to_vec(), points.to_vec(), vec![]);
+    let mut sheets = Sheet::all(&mesh.expect("valid"));
+    let mut flattening = Flattening::of(&sheets[0]);
+    assert!(flattening.flatten(&sheets[0], 0.5));
+    // The middle is so near to two corners, and so far from the third, that no one
+    // factor of these lengths lays all three faces around it.
+    let spokes: [f64; 3] = [3.0, 0.5, 0.5];
+    let Sheet { faces, lengths, .. } = &mut sheets[0];
+    for (lengths, &face) in lengths.iter_mut().zip(faces.iter()) {
+        let face = face as usize;
+        let rim = if face == 1 { 0.99 } else { 2.6 };
+        let sides = [rim, spokes[(face + 1) % 3], spokes[face]];
+        *lengths = [sides.map(|length| length * length); 2];
     }
-    placer.place(0.5);
-    assert!(placer.placement().in_frame.iter().all(|p| p.is_finite()));
+    assert!(!flattening.flatten(&sheets[0], 0.5));
+    let corners = flattening.corners().iter().flatten();
+    assert!(corners.clone().all(|corner| corner.dot.is_finite() && corner.cross.is_finite()));
+}
+
+#[test]
+fn a_sheet_that_is_not_flat_takes_each_metric_by_itself() {
+    let mesh = plate(stretched);
+    let maps = LocalMaps::new(&mesh, &ArapOptions::default(), &[]).expect("maps");
+    let mut bounded = Bounded::new(&mesh, &maps);
+    bounded.sheets[0].is_flat = false;
+    assert_eq!(bounded.unflattened(), 1);
+    let mut found = vec![DVec2::ZERO; mesh.source().len()];
+    let mut expected = found.clone();
+    bounded.add(Times::Even(0.3), &mut bounded.memory(), &mut found);
+    for (face, of) in mesh.faces().iter().zip(&maps.faces) {
+        let pulled = Homotopy::Bounded.at(&of.map, 0.3) * of.weighted;
+        expected[face[1] as usize] += pulled.x_axis;
+        expected[face[2] as usize] += pulled.y_axis;
+        expected[face[0] as usize] -= pulled.x_axis + pulled.y_axis;
+    }
+    for (a, b) in found.iter().zip(&expected) {
+        assert!(a.distance(*b) < 1e-12, "{a} {b}");
+    }
 }
 
 #[test]
