@@ -100,7 +100,10 @@ mod tests {
         for worse in [of(9.0, 1.0), of(3.0, 1e-9), of(3.0, -0.5)] {
             let by = back(worse, 3.0).expect("beyond");
             let found = sheared(worse + by);
-            assert!((3.0..=3.0 * (1.0 + SOFT) + 1e-9).contains(&found), "{found}");
+            assert!(
+                (3.0..=3.0 * (1.0 + SOFT) + 1e-9).contains(&found),
+                "{found}"
+            );
         }
         // Hardly beyond: all of it is left.
         let by = back(of(3.0 + 1e-6, 1.0), 3.0).expect("beyond");

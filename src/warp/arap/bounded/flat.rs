@@ -88,14 +88,6 @@ impl Flattening {
             }
         }
         off <= FLAT
-<<<<<<< .merge_file_gzthkx
-            && self
-                .corners
-                .iter()
-                .flatten()
-                .all(|corner| corner.cross > 0.0)
-=======
->>>>>>> .merge_file_QtBLUR
     }
 
     /// Newton's step from where it is; whether there is one.

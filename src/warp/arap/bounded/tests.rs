@@ -2,9 +2,9 @@
 
 use super::super::assembly::LocalMaps;
 use super::super::times::Times;
+use super::Bounded;
 use super::flat::Flattening;
 use super::sheet::Sheet;
-use super::Bounded;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen, orient2d};
 use crate::homotopy::Homotopy;
@@ -151,7 +151,9 @@ fn it_is_the_conformal_image_of_the_metric_between() {
 #[test]
 fn angles_around_a_hole_close() {
     // Half of the ring grows, and it is turned.
-    let mesh = ring(|p| DMat2::from_angle(2.5) * p * (1.0 + 0.4 * p.x) * 1.1 + DVec2::new(0.0, 0.3 * p.x * p.x));
+    let mesh = ring(|p| {
+        DMat2::from_angle(2.5) * p * (1.0 + 0.4 * p.x) * 1.1 + DVec2::new(0.0, 0.3 * p.x * p.x)
+    });
     let film = bounded(&mesh);
     assert_eq!(film.unflattened(), 0);
     // Turned back it is the same film.
@@ -197,7 +199,11 @@ fn what_cannot_be_flattened_says_so() {
     }
     assert!(!flattening.flatten(&sheets[0], 0.5));
     let corners = flattening.corners().iter().flatten();
-    assert!(corners.clone().all(|corner| corner.dot.is_finite() && corner.cross.is_finite()));
+    assert!(
+        corners
+            .clone()
+            .all(|corner| corner.dot.is_finite() && corner.cross.is_finite())
+    );
 }
 
 #[test]
