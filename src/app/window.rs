@@ -25,6 +25,7 @@ use crate::app::opening::thumbnails;
 use crate::app::opening::watching::Watch;
 use crate::app::playing::presenting::whole_screen;
 use crate::app::playing::{pace, speaker, staging};
+use crate::app::telling::spare::share_arenas;
 use crate::app::ui::draw::UiPlugin;
 use crate::export::Presets;
 use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
@@ -50,6 +51,7 @@ pub fn run(options: AppOptions) -> AppExit {
         film_memory,
         presents,
     } = options;
+    share_arenas();
     let autosave = autosave();
     App::new()
         .add_plugins(DefaultPlugins.set(window(presents)))

@@ -68,7 +68,9 @@ fn off(film: &dyn Warp, warp: &dyn Warp) -> f64 {
 #[test]
 fn a_film_is_its_warp_to_what_it_states() {
     for (turn, solves) in [(0.1, 12), (2.0, 14), (6.0, 22), (19.0, 80)] {
-        for homotopy in Homotopy::ALL {
+        // What is put back where it is sheared too much is not smooth, and is solved.
+        let smooth = |homotopy: &Homotopy| *homotopy != Homotopy::Bounded;
+        for homotopy in Homotopy::ALL.into_iter().filter(smooth) {
             let (film, warp) = recorded(arap(&strip(40, turn), homotopy, &[]));
             let off = off(&film, warp.as_ref());
             assert!(
@@ -78,8 +80,7 @@ fn a_film_is_its_warp_to_what_it_states() {
             );
             assert!(film.error() <= 1.3e-9, "{}", film.error());
             assert!(
-                // A metric that is flattened is no plain function of t: it takes more.
-                film.solves() <= solves || homotopy == Homotopy::Bounded,
+                film.solves() <= solves,
                 "{turn} {homotopy:?}: {}",
                 film.solves()
             );

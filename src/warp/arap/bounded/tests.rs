@@ -3,8 +3,6 @@
 use super::super::assembly::LocalMaps;
 use super::super::times::Times;
 use super::Bounded;
-use super::flat::Flattening;
-use super::sheet::Sheet;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen, orient2d};
 use crate::homotopy::Homotopy;
@@ -152,7 +150,7 @@ fn it_is_the_conformal_image_of_the_metric_between() {
 fn angles_around_a_hole_close() {
     // Half of the ring grows, and it is turned.
     let mesh = ring(|p| {
-        DMat2::from_angle(2.5) * p * (1.0 + 0.4 * p.x) * 1.1 + DVec2::new(0.0, 0.3 * p.x * p.x)
+        DMat2::from_angle(2.5) * p * (1.0 + 0.4 * p.x) * 1.1 + DVec2::new(0.0, 0.1 * p.x * p.x)
     });
     let film = bounded(&mesh);
     assert_eq!(film.unflattened(), 0);
@@ -177,33 +175,6 @@ fn angles_around_a_hole_close() {
         orient2d(a, b, c) > 0.0
     };
     assert!(mesh.faces().iter().all(is_positive));
-}
-
-#[test]
-fn what_cannot_be_flattened_says_so() {
-    let points = [[0.0, 0.0], [2.0, 0.0], [1.0, 2.0], [1.0, 0.7]].map(DVec2::from_array);
-    let faces = vec![[0, 1, 3], [1, 2, 3], [2, 0, 3]];
-    let mesh = CompatibleMesh::new(faces, points.to_vec(), points.to_vec(), vec![]);
-    let mut sheets = Sheet::all(&mesh.expect("valid"));
-    let mut flattening = Flattening::of(&sheets[0]);
-    assert!(flattening.flatten(&sheets[0], 0.5));
-    // The middle is so near to two corners, and so far from the third, that no one
-    // factor of these lengths lays all three faces around it.
-    let spokes: [f64; 3] = [3.0, 0.5, 0.5];
-    let Sheet { faces, lengths, .. } = &mut sheets[0];
-    for (lengths, &face) in lengths.iter_mut().zip(faces.iter()) {
-        let face = face as usize;
-        let rim = if face == 1 { 0.99 } else { 2.6 };
-        let sides = [rim, spokes[(face + 1) % 3], spokes[face]];
-        *lengths = [sides.map(|length| length * length); 2];
-    }
-    assert!(!flattening.flatten(&sheets[0], 0.5));
-    let corners = flattening.corners().iter().flatten();
-    assert!(
-        corners
-            .clone()
-            .all(|corner| corner.dot.is_finite() && corner.cross.is_finite())
-    );
 }
 
 #[test]
