@@ -76,6 +76,15 @@ fn a_pass_goes_through_all_and_slides_stop_at_each() {
 }
 
 #[test]
+fn a_talk_begins_with_the_first_design() {
+    let (_folder, mut window) = opened(3);
+    window.send(Intent::Seek(1.5));
+    window.send(Intent::Present { is_all: false });
+    window.update();
+    assert_eq!(window.t(), 0.0);
+}
+
+#[test]
 fn what_is_said_of_two_designs_stays_with_them() {
     let (_folder, mut window) = opened(4);
     window.send(Intent::Seek(2.5));

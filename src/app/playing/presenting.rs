@@ -175,7 +175,10 @@ pub fn begin(
     if session.transition().is_some() {
         let (timing, stops) = (session.timing(), session.stops());
         playback.begin(timing);
-        playback.seek(first_stop(timing, stops), timing, stops);
+        // Of many designs stops lie at those within: the first one is where it begins.
+        if session.leg_count() == 1 {
+            playback.seek(first_stop(timing, stops), timing, stops);
+        }
         talk.has_begun = true;
     } else if session.work().is_none() {
         // There is nothing to show, and what there is to tell is told in the window.
