@@ -1,6 +1,6 @@
 //! The document itself, as it stands in the file.
 
-use super::legs::Leg;
+use super::leg::Leg;
 use crate::content::ContentKind;
 use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;

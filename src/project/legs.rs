@@ -8,28 +8,8 @@
 //! designs change places, what belongs to two that stay neighbours stays with them.
 
 use super::document::{DesignEntry, Project};
-use crate::correspondence::Matching;
-use crate::transition::{Found, PartTime, Stop};
-use serde::{Deserialize, Serialize};
-
-/// What belongs to the way from one design to the next.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Leg {
-    /// How the outlines of the two are matched, in the coordinates of each.
-    #[serde(rename = "match", skip_serializing_if = "is_default")]
-    pub matching: Matching,
-    /// Parts that make their way in their own time.
-    #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub parts: Vec<PartTime>,
-    /// The film that was found.
-    #[serde(skip_serializing_if = "Found::is_none")]
-    pub found: Found,
-}
-
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
-}
+use super::leg::Leg;
+use crate::transition::{Found, Stop};
 
 /// A design with the number that it had before, where it was there before.
 pub type Moved = (DesignEntry, Option<usize>);

@@ -8,6 +8,7 @@
 mod document;
 mod error;
 pub mod gallery;
+mod leg;
 mod legs;
 mod load;
 mod reading;
@@ -17,5 +18,6 @@ mod tests;
 
 pub use document::{DesignEntry, FORMAT_VERSION, Project};
 pub use error::ProjectError;
-pub use legs::{Leg, Moved};
+pub use leg::Leg;
+pub use legs::Moved;
 pub use load::LoadedProject;

@@ -7,7 +7,7 @@
 
 use super::document::{FORMAT_VERSION, Project};
 use super::error::ProjectError;
-use super::legs::Leg;
+use super::leg::Leg;
 use crate::atomic_file::{self, refusal};
 use crate::reading;
 use crate::transition::{Options, PartTime};
