@@ -26,14 +26,17 @@ mod options;
 pub mod proof;
 mod record;
 mod reel;
+#[cfg(feature = "bevy")]
 mod single;
 
 #[cfg(test)]
 mod tests;
 
+#[cfg(feature = "bevy")]
 pub(crate) use nodes::MOST as MOST_COEFFICIENTS;
 pub use options::FilmOptions;
 pub use record::FilmError;
+#[cfg(feature = "bevy")]
 pub(crate) use single::{Single, Weights};
 
 use crate::progress::Progress;

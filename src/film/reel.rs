@@ -92,6 +92,7 @@ impl Reel {
     }
 
     /// The vertices of a block: where they are at both ends, then their coefficients.
+    #[cfg(feature = "bevy")]
     pub(super) fn row(&self, block: usize, k: usize) -> Row {
         let [full, narrow] = self.counts;
         match k.checked_sub(2 + full) {
