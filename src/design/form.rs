@@ -5,7 +5,7 @@ use super::coat::Coat;
 use super::note::ImportNote;
 use super::options::ImportOptions;
 use super::picture::Picture;
-use super::silhouette::{self, PictureError};
+use super::silhouette::{self, PictureError, Tones};
 use super::truss::Truss;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError, Similarity};
 use crate::mesh::TriangleMesh;
@@ -118,12 +118,14 @@ impl Design {
             false => Vec::new(),
         };
         let is_shaded = options.colours && coats.is_empty();
-        let regions = match covered(&coats) {
-            Some(regions) => regions,
-            None => silhouette::read(&pixels, options)?,
+        // The colours make room before the boundary is looked for.
+        let seen = match covered(&coats) {
+            Some(regions) => Ok(regions),
+            None => Err(Tones::of(&pixels, options)?),
         };
         let given = pixels.dimensions();
         let picture = Picture::bounded(pixels);
+        let regions = seen.or_else(|tones| tones.regions(options))?;
         let kept = picture.pixels().dimensions();
         let smaller = (kept != given).then_some(ImportNote::Smaller { given, kept });
         Ok(Self {

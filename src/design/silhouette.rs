@@ -104,12 +104,62 @@ const SMALL: u32 = 64;
 /// coverage.
 const GREY: f64 = 0.05;
 
-/// The silhouette that a picture shows, in pixels from its lower left corner.
-pub(super) fn read(picture: &RgbaImage, options: &ImportOptions) -> Result<Regions, PictureError> {
-    let (width, height) = picture.dimensions();
-    let mut figure = Figure::of(picture, options)?;
-    figure.remove_specks(options.specks_px);
-    figure.trace(options.tolerance * f64::from(width.max(height)))
+/// What tells a picture's figure from its ground: a byte a pixel, lowest row
+/// first, so that the colours need not be kept while the boundary is found.
+pub(super) struct Tones {
+    width: u32,
+    height: u32,
+    bytes: Vec<u8>,
+    threshold: u8,
+    above_is_figure: bool,
+}
+
+impl Tones {
+    pub(super) fn of(picture: &RgbaImage, options: &ImportOptions) -> Result<Self, PictureError> {
+        let (width, height) = picture.dimensions();
+        let by_opacity = picture.pixels().any(|p| p.0[3] != u8::MAX);
+        // Rows from below, as y points up.
+        let bytes: Vec<u8> = picture
+            .rows()
+            .rev()
+            .flatten()
+            .map(|p| if by_opacity { p.0[3] } else { luminance(p.0) })
+            .collect();
+        let threshold = match options.threshold {
+            Some(threshold) => threshold,
+            None if by_opacity => 128,
+            None => otsu(&bytes).ok_or(PictureError::OneTone)?,
+        };
+        let above = by_opacity || !border_is_above(&bytes, width as usize, threshold);
+        Ok(Self {
+            width,
+            height,
+            bytes,
+            threshold,
+            above_is_figure: above != options.invert,
+        })
+    }
+
+    /// The silhouette that the picture shows, in pixels from its lower left
+    /// corner.
+    pub(super) fn regions(self, options: &ImportOptions) -> Result<Regions, PictureError> {
+        let tolerance = options.tolerance * f64::from(self.width.max(self.height));
+        let mut figure = self.figure();
+        figure.remove_specks(options.specks_px);
+        figure.trace(tolerance)
+    }
+
+    fn figure(self) -> Figure {
+        let sign = if self.above_is_figure { 1.0 } else { -1.0 };
+        let level = f32::from(self.threshold) - 0.5; // no tone is on it
+        let sample = |&tone: &u8| sign * (f32::from(tone) - level);
+        Figure {
+            width: self.width,
+            height: self.height,
+            samples: self.bytes.iter().map(sample).collect(),
+            threshold: self.threshold,
+        }
+    }
 }
 
 /// Whether the last scan of a JPEG is followed by an end marker. Inside a scan
@@ -174,40 +224,6 @@ struct Figure {
 }
 
 impl Figure {
-    fn of(picture: &RgbaImage, options: &ImportOptions) -> Result<Self, PictureError> {
-        let (width, height) = picture.dimensions();
-        let by_opacity = picture.pixels().any(|p| p.0[3] != u8::MAX);
-        // Rows from below, as y points up.
-        let tones: Vec<u8> = picture
-            .rows()
-            .rev()
-            .flatten()
-            .map(|p| if by_opacity { p.0[3] } else { luminance(p.0) })
-            .collect();
-        let threshold = match options.threshold {
-            Some(threshold) => threshold,
-            None if by_opacity => 128,
-            None => otsu(&tones).ok_or(PictureError::OneTone)?,
-        };
-        let above_is_figure = by_opacity || !border_is_above(&tones, width as usize, threshold);
-        let sign = if above_is_figure == options.invert {
-            -1.0
-        } else {
-            1.0
-        };
-        let level = f32::from(threshold) - 0.5; // no tone is on it
-        let samples = tones
-            .iter()
-            .map(|&t| sign * (f32::from(t) - level))
-            .collect();
-        Ok(Self {
-            width,
-            height,
-            samples,
-            threshold,
-        })
-    }
-
     /// Islands of fewer pixels than `least` go over to the ground, then holes
     /// to the figure. Ground that reaches the border is no hole.
     fn remove_specks(&mut self, least: u32) {
