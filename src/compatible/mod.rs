@@ -1,4 +1,4 @@
-//! Compatible triangulation: one list of faces, two embeddings.
+//! Compatible triangulation: one list of faces, two embeddings; of a [`Family`] many.
 //!
 //! [`CompatibleMesh`] guarantees that every face is positively oriented in
 //! both embeddings, by exact predicates, so that each local map has a
@@ -7,6 +7,7 @@
 
 mod border;
 mod elements;
+mod family;
 mod outlines;
 mod patchwork;
 mod polygons;
@@ -14,6 +15,7 @@ mod surroundings;
 mod truss;
 
 pub use elements::{BarElement, CompatibleError};
+pub use family::{Family, FamilyError};
 pub use outlines::OutlinesError;
 pub(crate) use outlines::{joined, of_piece};
 pub(crate) use polygons::slid;

@@ -7,7 +7,7 @@
 //! both directions, the guaranteed base ([`overlay`] of discs, [`bridges`] for
 //! holes), thinned out. Then quality in both designs at once ([`quality`]).
 //! What is triangulated may [`slide`]: the outlines' vertices then find places
-//! by which the two triangulations are more alike.
+//! by which the two triangulations are more alike. Many designs at once: [`in_all`].
 //!
 //! Guaranteed: every face is positive in both designs by exact predicates;
 //! the polygons' vertices come first, in order and unmoved, and their edges
@@ -24,6 +24,7 @@ mod coarsen;
 mod error;
 mod face;
 mod front;
+mod in_all;
 mod lbfgs;
 mod motion;
 mod near;
@@ -44,6 +45,7 @@ mod transfer;
 mod untangle;
 
 pub use error::{PolygonsError, RingEdge};
+pub(super) use in_all::in_all;
 pub use options::PolygonOptions;
 pub use pinned::PinnedError;
 pub(crate) use slide::slid;

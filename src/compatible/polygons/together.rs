@@ -103,7 +103,7 @@ pub(super) fn goes_first(a: &Rings, b: &Rings) -> bool {
     lexicographic(coordinates(a), coordinates(b)).is_le()
 }
 
-fn triangulated(
+pub(super) fn triangulated(
     source: &Rings,
     target: &Rings,
     options: &PolygonOptions,
@@ -205,7 +205,7 @@ fn coarse_base(
 
 /// Mean cost of the faces by their area in both designs: what one mesh is
 /// preferred to another by.
-fn badness(mesh: &PairMesh) -> f64 {
+pub(super) fn badness(mesh: &PairMesh) -> f64 {
     let weighted = motion::weighted(mesh);
     weighted
         .iter()

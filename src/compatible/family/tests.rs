@@ -1,0 +1,133 @@
+use super::*;
+use crate::compatible::PolygonOptions;
+use crate::correspondence::{Matching, RegionMatch, match_regions};
+use crate::geometry::{FillRule, Regions, orient2d};
+use crate::progress::Silent;
+use proptest::prelude::*;
+
+/// A flower of so many petals, maybe with a hole.
+fn flower(corners: u32, petals: f64, depth: f64, hole: Option<f64>) -> Regions {
+    let ring = |size: f64, depth: f64| -> Vec<DVec2> {
+        let point = |k: u32| {
+            let angle = std::f64::consts::TAU * f64::from(k) / f64::from(corners);
+            DVec2::from_angle(angle) * (size + depth * (petals * angle).cos())
+        };
+        (0..corners).map(point).collect()
+    };
+    let outer = ring(3.0, depth);
+    let rings: Vec<_> = [outer]
+        .into_iter()
+        .chain(hole.map(|size| ring(size, 0.0)))
+        .collect();
+    Regions::from_rings(&rings, FillRule::EvenOdd).expect("a flower")
+}
+
+fn family_of(designs: &[Regions], hub: usize) -> Result<Family, FamilyError> {
+    let matches: Vec<Option<RegionMatch>> = designs
+        .iter()
+        .enumerate()
+        .map(|(k, design)| {
+            let matched = || match_regions(&designs[hub], design, &Matching::default(), &Silent);
+            (k != hub).then(|| matched().expect("a match"))
+        })
+        .collect();
+    let matches: Vec<Option<&RegionMatch>> = matches.iter().map(Option::as_ref).collect();
+    Family::from_outlines(hub, &matches, &PolygonOptions::default(), &Silent)
+}
+
+fn assert_family(family: &Family, designs: &[Regions]) {
+    for (places, design) in family.places().iter().zip(designs) {
+        for face in family.faces().iter() {
+            let [a, b, c] = face.map(|v| places[v as usize]);
+            assert!(orient2d(a, b, c) > 0.0);
+        }
+        for point in design.rings().flat_map(|ring| ring.points()) {
+            assert!(places.contains(point), "a corner of a design is lost");
+        }
+        let loops = family.boundary_loops();
+        assert_eq!(loops.len(), design.rings().count());
+    }
+}
+
+#[test]
+fn outlines_with_a_hole_are_a_family() {
+    let designs = [
+        flower(24, 3.0, 0.5, Some(1.0)),
+        flower(31, 5.0, 0.4, Some(1.5)),
+        flower(40, 2.0, 0.7, Some(0.6)),
+    ];
+    for hub in 0..3 {
+        let family = family_of(&designs, hub).expect("a family");
+        assert_family(&family, &designs);
+        let [a, b] = [0, 1].map(|k| &designs[k]);
+        let pair = match_regions(a, b, &Matching::default(), &Silent).expect("a match");
+        let pair = CompatibleMesh::from_outlines(&pair, &PolygonOptions::default(), &Silent);
+        let most = 3 * pair.expect("a mesh").source().len();
+        let count = family.places()[0].len();
+        assert!(count <= most, "{count} vertices; three pairs have {most}");
+    }
+}
+
+#[test]
+fn what_has_a_hole_of_its_own_is_no_family() {
+    let designs = [
+        flower(24, 3.0, 0.5, None),
+        flower(31, 5.0, 0.4, None),
+        flower(40, 2.0, 0.7, Some(0.6)),
+    ];
+    let error = family_of(&designs, 0).expect_err("a hole");
+    assert_eq!(error, FamilyError::Parts { design: 2, of: 0 });
+    let told = "design 3 has not the parts and holes of design 1";
+    assert_eq!(error.to_string(), told);
+}
+
+#[test]
+fn a_design_twice_is_itself_twice() {
+    let one = flower(24, 3.0, 0.5, Some(1.0));
+    let designs = [one.clone(), flower(31, 5.0, 0.4, Some(1.5)), one];
+    let family = family_of(&designs, 1).expect("a family");
+    let [first, _, third] = family.places() else {
+        panic!("three designs");
+    };
+    let corners = designs[0].rings().flat_map(|ring| ring.points());
+    for corner in corners {
+        let at = |places: &[DVec2]| places.iter().position(|p| p == corner);
+        assert_eq!(at(first), at(third));
+    }
+}
+
+#[test]
+fn trusses_must_have_the_same_bars() {
+    let truss = |height: f64, bars: &[[u32; 2]]| {
+        let nodes = [(0.0, 0.0), (2.0, 0.0), (1.0, height)].map(DVec2::from);
+        Truss::new(nodes.to_vec(), bars.to_vec()).expect("a truss")
+    };
+    let all = [[0, 1], [1, 2], [2, 0]];
+    let [a, b, c] = [1.0, 2.0, 3.0].map(|height| truss(height, &all));
+    let family = Family::from_trusses(&[&a, &b, &c], &Silent).expect("a family");
+    assert_eq!((family.count(), family.faces().len()), (3, 1));
+    let other = truss(2.0, &all[..2]);
+    let error = Family::from_trusses(&[&a, &b, &other], &Silent).expect_err("a bar less");
+    assert!(
+        matches!(error, FamilyError::Unlike { design: 2, .. }),
+        "{error}"
+    );
+    assert_eq!(
+        Family::from_trusses(&[&a], &Silent).err(),
+        Some(FamilyError::TooFew(1))
+    );
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(24))]
+    #[test]
+    fn flowers_are_a_family(
+        shapes in prop::collection::vec((12u32..40, 2u32..6, 0.0..0.8f64), 3..6),
+        hub in 0usize..3,
+    ) {
+        let flowers = shapes.iter().map(|&(n, petals, depth)| flower(n, f64::from(petals), depth, None));
+        let designs: Vec<Regions> = flowers.collect();
+        let family = family_of(&designs, hub).expect("a family");
+        assert_family(&family, &designs);
+    }
+}
