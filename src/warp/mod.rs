@@ -20,7 +20,10 @@ mod rigid_part;
 mod scattered;
 mod staggered;
 
-pub use arap::{AngleError, Arap, ArapError, ArapOptions, ArapPath, Life, Ridge, Weights};
+pub use arap::{
+    AngleError, Arap, ArapBlend, ArapError, ArapOptions, ArapPath, BlendPlacer, Life, Ridge,
+    Weights,
+};
 pub(crate) use arap::{Guard, Settled};
 pub use features::{FeatureError, LINE_SAMPLES, MAX_FEATURES};
 pub use kind::{CellWords, Column, WarpKind, Words};

@@ -28,6 +28,7 @@
 //! - `drift`: where parts as a whole are at t
 //! - `times`: when each part is
 //! - `life`: when parts grow from points and shrink to them
+//! - `many`: many designs at once
 
 mod angles;
 mod assembly;
@@ -36,6 +37,7 @@ mod drift;
 mod guard;
 mod leads;
 mod life;
+mod many;
 mod options;
 mod ridge;
 mod sides;
@@ -48,6 +50,7 @@ mod tests;
 pub use angles::AngleError;
 pub(crate) use guard::Guard;
 pub use life::Life;
+pub use many::{ArapBlend, BlendPlacer};
 pub use options::{ArapError, ArapOptions, ArapPath, Weights};
 pub use ridge::Ridge;
 
