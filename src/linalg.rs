@@ -1,7 +1,7 @@
 //! Sparse symmetric positive definite systems that are factored once and
 //! solved in every frame; in `pattern`, those whose values change while their
 //! entries stay where they are; in `dense`, small full ones that are factored in
-//! every frame. The only place that names `faer`.
+//! every frame, and in `eigen` their axes. The only place that names `faer`.
 //!
 //! A [`Cholesky`] is made by a fill-reducing permutation (approximate minimum
 //! degree) and a simplicial or supernodal LLᵀ factorisation, whichever the
@@ -11,9 +11,11 @@
 //! triangular solves get slower, not faster, on several.
 
 mod dense;
+mod eigen;
 mod pattern;
 
 pub use dense::DenseLu;
+pub use eigen::symmetric_eigen;
 pub use pattern::{Pattern, PatternMemory};
 
 use crate::progress::{Cancelled, Progress, beside, still_wanted};

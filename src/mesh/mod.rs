@@ -8,12 +8,14 @@
 mod components;
 mod connectivity;
 mod edges;
+mod natural;
 mod subdivide;
 pub mod triangulation;
 
 pub use components::components;
 pub use connectivity::{Connectivity, ConnectivityError};
 pub(crate) use edges::{sides, undirected};
+pub use natural::{NaturalNeighbours, SitesError};
 pub use subdivide::{MAX_ROUNDS, MAX_VERTICES, Subdivision, TooManyVertices};
 
 use crate::geometry::{Bounds, DVec2, RANGE, Similarity, SizeError, is_in_range};

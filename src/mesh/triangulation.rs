@@ -1,6 +1,5 @@
 //! Triangulation of one connected piece, bounded by closed walks:
-//! constrained Delaunay (Chew 1989), plain or refined. The only place that
-//! names `spade`.
+//! constrained Delaunay (Chew 1989), plain or refined.
 //!
 //! A walk may run along a slit, there and back over the same points: each of
 //! its corners is a vertex of its own, so that the mesh opens along it.
