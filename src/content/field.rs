@@ -13,6 +13,9 @@
 //! guarantee: between the ends, a blend may tear or merge parts.
 
 mod carried;
+mod set;
+
+pub use set::FieldSet;
 
 use std::sync::Arc;
 

@@ -12,7 +12,7 @@ mod swell;
 
 pub use coating::{Anchored, Coat, Coating, Inked, Shading};
 pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
-pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError};
+pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError, FieldSet};
 pub use fields::{Fields, Painted};
 pub use hole::Hole;
 pub use solid::{Clocks, InkedBars, Solid, Speck};
