@@ -84,6 +84,7 @@
 //! warp        content           the rows and the columns of the table
 //! film                          a warp recorded as polynomials in t
 //! transition                    the cells, frames, timing, style
+//! space                         many designs at once, and the map of them
 //! measure                       quality in numbers
 //! project                       the .morph document and the gallery
 //! export                        SVG, PNG, DXF, GIF, APNG, MP4, motion, contact sheets
@@ -125,6 +126,8 @@ pub mod warp;
 pub mod film;
 
 pub mod transition;
+
+pub mod space;
 
 pub mod measure;
 

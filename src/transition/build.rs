@@ -191,7 +191,7 @@ fn swept(
 
 /// The rectangle of the fields without their margin: pictures and pages whole,
 /// meshes and trusses with the thickness of their bars.
-fn field_frame(spec: &TransitionSpec, bar_width: f64) -> Bounds {
+pub(crate) fn field_frame(spec: &TransitionSpec, bar_width: f64) -> Bounds {
     let of = |design: &Design| match design.form {
         Form::Truss(_) => design.extent.padded(0.5 * bar_width),
         _ => design.extent.union(&extent(design)),

@@ -118,7 +118,7 @@ fn coat(
     }
 }
 
-fn field(
+pub(crate) fn field(
     regions: &Regions,
     grid: Grid,
     options: &FieldOptions,

@@ -160,7 +160,7 @@ impl TransitionSpec {
 }
 
 /// The width of bars, in units of the designs.
-pub(super) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
+pub(crate) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
     let share = spec.options.bar_width;
     if !(share > 0.0 && share <= 1.0) {
         return Err(BuildError::BarWidth(share));
@@ -171,7 +171,7 @@ pub(super) fn bar_width(spec: &TransitionSpec) -> Result<f64, BuildError> {
 
 /// The outline of a design. Uniting bars or faces is a long call of a library,
 /// beside which a cancel is answered.
-pub(super) fn outline(
+pub(crate) fn outline(
     design: &Arc<Design>,
     bar_width: f64,
     progress: &dyn Progress,

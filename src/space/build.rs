@@ -1,0 +1,342 @@
+//! From designs to a space: everything that can fail.
+
+use super::blend::{Inner, Seen, Space};
+use super::error::{SpaceError, SpaceNote};
+use super::likeness::Likeness;
+use crate::budget::Load;
+use crate::compatible::{Family, FamilyError};
+use crate::content::{ContentKind, FieldSet};
+use crate::correspondence::{Matching, RegionMatch};
+use crate::design::{Design, Form, Truss};
+use crate::field::Grid;
+use crate::geometry::{Bounds, DVec2, Regions};
+use crate::mesh::TriangleMesh;
+use crate::progress::{Progress, Several, Span, Whole, checkpoint, still_wanted};
+use crate::transition::{
+    BuildError, Cell, Guarding, Options, PaintRule, Quality, Transition, TransitionSpec, bar_width,
+    field_frame, measured, outline,
+};
+use crate::warp::ArapBlend;
+use rayon::prelude::*;
+use std::sync::Arc;
+
+/// How many hubs are tried before outlines have no common mesh: each match with another
+/// one is other points on the outlines, but what folds with three folds with all.
+const HUBS: usize = 3;
+
+/// What a space is built from: designs laid into one frame.
+#[derive(Clone, Debug)]
+#[non_exhaustive]
+pub struct SpaceSpec {
+    /// Two designs or more.
+    pub designs: Vec<Arc<Design>>,
+    /// Solid for rigid parts, or fields; none for rigid parts where the designs have a
+    /// common mesh, and else fields.
+    pub content: Option<ContentKind>,
+    /// The options of both; pins, links and cuts are of two designs, and left out.
+    pub options: Options,
+    /// Whether what takes very long is begun all the same; see [`crate::budget`].
+    pub patient: bool,
+}
+
+impl SpaceSpec {
+    /// Designs as they suit best, with default options.
+    #[must_use]
+    pub fn new(designs: Vec<Arc<Design>>) -> Self {
+        Self {
+            designs,
+            content: None,
+            options: Options::default(),
+            patient: false,
+        }
+    }
+
+    /// Two of the designs, the others beside them in the same frame.
+    fn pair(&self, source: usize, target: usize) -> TransitionSpec {
+        let [a, b] = [source, target].map(|k| Arc::clone(&self.designs[k]));
+        let mut spec = TransitionSpec::new(a, b);
+        spec.cell = Cell::RIGID_PARTS;
+        spec.others = self.designs.clone();
+        spec.patient = self.patient;
+        spec.options = Options {
+            matching: Matching {
+                pins: Vec::new(),
+                lines: Vec::new(),
+                links: Vec::new(),
+                lone: Vec::new(),
+                cuts: Vec::new(),
+                ..self.options.matching.clone()
+            },
+            parts: Vec::new(),
+            paint: PaintRule::One,
+            // The match alone is wanted. That of the best film has its points where that
+            // film needs them, close together in places, and one mesh for all then folds:
+            // bone, bottle, fish and key, and six glasses and bottles took three times as
+            // long.
+            quality: Quality::Draft,
+            guard: Guarding::Plain,
+            ..self.options.clone()
+        };
+        spec
+    }
+}
+
+impl Space {
+    /// Matches, triangulates and factors, or measures the fields.
+    ///
+    /// # Errors
+    /// [`SpaceError`] says what does not go together, or that nobody wants the result.
+    pub fn build(spec: &SpaceSpec, progress: &dyn Progress) -> Result<Self, SpaceError> {
+        let count = spec.designs.len();
+        if count < 2 {
+            return Err(SpaceError::TooFew(count));
+        }
+        let progress = &Whole::new(progress).patient(spec.patient);
+        let first = spec.pair(0, 1);
+        let bar_width = bar_width(&first)?;
+        let mut notes = Vec::new();
+        if spec.designs.iter().any(|design| !design.coats.is_empty()) {
+            notes.push(SpaceNote::OneColour);
+        }
+        let made = Made::of(spec, bar_width, &Span::new(progress, 0.0, 0.3))?;
+        let rest = Span::new(progress, 0.3, 1.0);
+        let solid = match spec.content {
+            Some(ContentKind::Solid) | None => Some(made.solid(spec, &rest)?),
+            Some(_) => None,
+        };
+        let seen = match solid {
+            Some(Ok(seen)) => seen,
+            Some(Err(error)) if spec.content.is_some() => {
+                return Err(SpaceError::NoFamily(error));
+            }
+            other => {
+                if let Some(Err(error)) = other {
+                    notes.push(SpaceNote::AsFields(error.to_string()));
+                }
+                fields(spec, &first, bar_width, &rest)?
+            }
+        };
+        let mut inner = Inner {
+            designs: spec.designs.clone(),
+            bounds: field_frame(&first, bar_width),
+            seen,
+            bar_width,
+            likeness: made.likeness,
+            notes,
+        };
+        if let Seen::Solid { blend, .. } = &inner.seen {
+            inner.bounds = swept(inner.bounds, blend, bar_width);
+        }
+        Ok(inner.into())
+    }
+}
+
+/// What the designs are, and how unlike each other.
+struct Made {
+    form: Forms,
+    likeness: Likeness,
+}
+
+/// Designs that share their connectivity, or are matched.
+enum Forms {
+    Family(Result<Family, FamilyError>, Vec<[u32; 2]>),
+    Outlines,
+}
+
+impl Made {
+    fn of(spec: &SpaceSpec, bar_width: f64, progress: &dyn Progress) -> Result<Self, SpaceError> {
+        if let Some(given) = Self::given(&spec.designs, progress)? {
+            return Ok(given);
+        }
+        checkpoint(progress, "matching", 0.0)?;
+        let outlines = spec.designs.iter();
+        let outlines = outlines.map(|design| outline(design, bar_width, progress));
+        let outlines: Vec<Regions> = outlines.collect::<Result<_, _>>()?;
+        // Each as often as there are others, two at a time.
+        for two in outlines.windows(2) {
+            let rings = two.iter().flat_map(Regions::rings);
+            let points = rings.map(|ring| ring.points().len()).sum();
+            Load::Points
+                .allow(points, progress)
+                .map_err(BuildError::from)?;
+        }
+        Ok(Self {
+            form: Forms::Outlines,
+            likeness: Likeness::of_outlines(&outlines, &spec.options.matching, progress)?,
+        })
+    }
+
+    /// Trusses, or meshes, of as many points each; none of others.
+    fn given(designs: &[Arc<Design>], progress: &dyn Progress) -> Result<Option<Self>, SpaceError> {
+        let trusses: Option<Vec<&Truss>> = designs.iter().map(truss).collect();
+        let meshes: Option<Vec<&TriangleMesh>> = designs.iter().map(mesh).collect();
+        let places: Vec<_> = designs.iter().filter_map(points).collect();
+        if places.windows(2).any(|two| two[0].len() != two[1].len()) {
+            return Ok(None);
+        }
+        let form = if let Some(trusses) = trusses {
+            let bars = trusses[0].bars().to_vec();
+            Load::Bars
+                .allow(bars.len(), progress)
+                .map_err(BuildError::from)?;
+            Forms::Family(Family::from_trusses(&trusses, progress), bars)
+        } else if let Some(meshes) = meshes {
+            Forms::Family(Family::from_meshes(&meshes), Vec::new())
+        } else {
+            return Ok(None);
+        };
+        let likeness = Likeness::of_points(&places);
+        Ok(Some(Self { form, likeness }))
+    }
+
+    /// As rigid parts; why not, where there is no common mesh.
+    fn solid(
+        &self,
+        spec: &SpaceSpec,
+        progress: &dyn Progress,
+    ) -> Result<Result<Seen, FamilyError>, SpaceError> {
+        let (family, bars) = match &self.form {
+            Forms::Family(family, bars) => (family.clone(), bars.clone()),
+            Forms::Outlines => {
+                let matching = Span::new(progress, 0.0, 0.9);
+                (self.outlines(spec, &matching)?, Vec::new())
+            }
+        };
+        // A cancel comes back as an error of the mesh.
+        still_wanted(progress)?;
+        let family = match family {
+            Ok(family) => family,
+            Err(error) => return Ok(Err(error)),
+        };
+        let blend = ArapBlend::build(&family, &Span::new(progress, 0.9, 1.0))?;
+        let walks = match bars.is_empty() {
+            true => family.boundary_loops(),
+            // Of a truss its bars are drawn, and nothing between them.
+            false => Vec::new(),
+        };
+        Ok(Ok(Seen::Solid { blend, walks, bars }))
+    }
+
+    /// A common mesh of outlines: all are matched with the one that is least unlike them.
+    fn outlines(
+        &self,
+        spec: &SpaceSpec,
+        progress: &dyn Progress,
+    ) -> Result<Result<Family, FamilyError>, SpaceError> {
+        let count = spec.designs.len();
+        let mut first = None;
+        let hubs = self.likeness.by_nearness().into_iter().take(HUBS);
+        for (tried, hub) in hubs.enumerate() {
+            let part = |share: f64| (tried as f64 + share) / HUBS as f64;
+            let matches = matches(spec, hub, &Span::new(progress, part(0.0), part(0.7)))?;
+            let matches: Vec<Option<&RegionMatch>> = matches.iter().map(Option::as_ref).collect();
+            let options = &spec.options.triangulation;
+            let meshing = Span::new(progress, part(0.7), part(1.0));
+            let family = Family::from_outlines(hub, &matches, options, &meshing);
+            still_wanted(progress)?;
+            match family {
+                Ok(family) => return Ok(Ok(family)),
+                // What one has alone it has whichever is the hub.
+                Err(error @ FamilyError::Parts { .. }) => return Ok(Err(error)),
+                Err(error) => _ = first.get_or_insert(error),
+            }
+        }
+        Ok(Err(first.unwrap_or(FamilyError::TooFew(count))))
+    }
+}
+
+/// The match of the hub with each other design, as the best film between the two has it.
+fn matches(
+    spec: &SpaceSpec,
+    hub: usize,
+    progress: &dyn Progress,
+) -> Result<Vec<Option<RegionMatch>>, SpaceError> {
+    let count = spec.designs.len();
+    let several = Several::new(progress, count);
+    let matched = |design: usize| {
+        if design == hub {
+            return Ok(None);
+        }
+        let made = Transition::build(&spec.pair(hub, design), &several.part(design))?;
+        Ok(made.matched().cloned())
+    };
+    let all: Vec<Result<_, BuildError>> = (0..count).into_par_iter().map(matched).collect();
+    Ok(all.into_iter().collect::<Result<_, _>>()?)
+}
+
+fn truss(design: &Arc<Design>) -> Option<&Truss> {
+    match &design.form {
+        Form::Truss(truss) => Some(truss),
+        _ => None,
+    }
+}
+
+/// The points of what has some of its own.
+fn points(design: &Arc<Design>) -> Option<Vec<DVec2>> {
+    match &design.form {
+        Form::Truss(truss) => Some(truss.nodes().to_vec()),
+        Form::Mesh(mesh) => Some(mesh.positions().to_vec()),
+        Form::Outline(_) => None,
+    }
+}
+
+fn mesh(design: &Arc<Design>) -> Option<&TriangleMesh> {
+    match &design.form {
+        Form::Mesh(mesh) => Some(mesh),
+        _ => None,
+    }
+}
+
+/// As distance fields on one grid.
+fn fields(
+    spec: &SpaceSpec,
+    frame: &TransitionSpec,
+    bar_width: f64,
+    progress: &dyn Progress,
+) -> Result<Seen, SpaceError> {
+    checkpoint(progress, "measuring distances", 0.0)?;
+    let options = &spec.options.field;
+    let bounds = field_frame(frame, bar_width);
+    let grid = Grid::covering(&bounds, options.cells, options.margin).map_err(BuildError::from)?;
+    let cells = grid.cells() * spec.designs.len();
+    Load::Cells
+        .allow(cells, progress)
+        .map_err(BuildError::from)?;
+    let several = Several::new(progress, spec.designs.len());
+    let field = |(k, design): (usize, &Arc<Design>)| {
+        let progress = &several.part(k);
+        let outline = outline(design, bar_width, progress)?;
+        measured(&outline, grid, options, progress)
+            .map_err(|error| BuildError::Unavailable(format!("{}: {error}", design.name)))
+    };
+    let fields: Vec<Result<_, BuildError>> =
+        spec.designs.par_iter().enumerate().map(field).collect();
+    still_wanted(progress)?;
+    let fields = fields.into_iter().collect::<Result<_, _>>()?;
+    let set = FieldSet::new(fields, options.blend).map_err(BuildError::from)?;
+    Ok(Seen::Field(
+        set.unwrap_or_else(|| unreachable!("there are designs")),
+    ))
+}
+
+/// The box around the designs and what is seen halfway between each two, and between all.
+fn swept(ends: Bounds, blend: &ArapBlend, room: f64) -> Bounds {
+    let count = blend.family().count();
+    let mut placer = blend.placer();
+    let mut weights = vec![1.0 / count as f64; count];
+    let mut bounds = ends;
+    let mut widen = |weights: &[f64]| {
+        if let Some(now) = Bounds::of(placer.place(weights).iter().copied()) {
+            bounds = bounds.union(&now.padded(0.5 * room));
+        }
+    };
+    widen(&weights);
+    for a in 0..count {
+        for b in a + 1..count {
+            weights.fill(0.0);
+            (weights[a], weights[b]) = (0.5, 0.5);
+            widen(&weights);
+        }
+    }
+    bounds
+}

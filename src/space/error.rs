@@ -1,0 +1,40 @@
+//! Why there is no space, and what was done otherwise than asked.
+
+use crate::compatible::FamilyError;
+use crate::one_line::OneLine;
+use crate::progress::Cancelled;
+use crate::transition::BuildError;
+use crate::warp::ArapError;
+
+/// Why designs span no space.
+#[derive(Clone, Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum SpaceError {
+    /// One design, or none.
+    #[error("a space needs two designs or more, and there are {0}")]
+    TooFew(usize),
+    /// The designs have no common mesh.
+    #[error("as rigid parts these designs have no common mesh: {0}; choose fields")]
+    NoFamily(FamilyError),
+    /// Two designs do not go together, or a field cannot be made.
+    #[error(transparent)]
+    Build(#[from] BuildError),
+    /// The blend as rigid parts failed.
+    #[error(transparent)]
+    Arap(#[from] ArapError),
+    /// Nobody wants the result.
+    #[error(transparent)]
+    Cancelled(#[from] Cancelled),
+}
+
+/// What was done otherwise than asked.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SpaceNote {
+    /// They are blended as fields.
+    #[error("blended as fields: {}", OneLine(.0))]
+    AsFields(String),
+    /// Colours of their own are left out.
+    #[error("in the colours of the map: the designs' own are not blended")]
+    OneColour,
+}

@@ -1,0 +1,32 @@
+//! Many designs at once: every blend of them, and the map in which one walks between
+//! them.
+//!
+//! A blend is weights over the designs that sum to one. A pair is the blend of two
+//! with the weights (1 − t, t); a [`Sequence`](crate::transition::Sequence) goes along
+//! edges of the space, a map through all of it.
+//!
+//! - `build`: from designs to a [`Space`]: as rigid parts of one common mesh where they
+//!   have one, and else as distance fields
+//! - `blend`: the space and its moments
+//! - `likeness`: how unlike the designs are, two at a time
+//! - `map`, `layout`: where the designs are on a map, and what there is between them
+//!
+//! Guaranteed: each design at its own corner, to the last bit; the order of the designs
+//! has no influence but by rounding on what is between them once the hub of a common
+//! mesh is chosen. Everything that can fail fails while a space is built.
+
+mod blend;
+mod build;
+mod error;
+mod layout;
+mod likeness;
+mod map;
+#[cfg(test)]
+mod tests;
+
+pub use blend::{Space, SpaceFrame};
+pub use build::SpaceSpec;
+pub use error::{SpaceError, SpaceNote};
+pub use layout::MapLayout;
+pub use likeness::Likeness;
+pub use map::Map;

@@ -1,0 +1,215 @@
+use super::*;
+use crate::content::ContentKind;
+use crate::design::{Design, Form, Truss};
+use crate::geometry::{Bounds, DVec2};
+use crate::progress::{Cancelled, Progress, Silent};
+use crate::transition::{BuildError, Cell, Transition, TransitionSpec};
+use proptest::prelude::*;
+use std::sync::Arc;
+
+/// A star of so many points, as deep as that.
+fn star(name: &str, points: u32, depth: f64) -> Arc<Design> {
+    let corner = |k: u32| {
+        let angle = std::f64::consts::PI * f64::from(k) / f64::from(points);
+        let size = if k.is_multiple_of(2) {
+            3.0
+        } else {
+            3.0 - depth
+        };
+        (DVec2::from_angle(angle) * size).to_array()
+    };
+    let ring: Vec<[f64; 2]> = (0..2 * points).map(corner).collect();
+    Arc::new(Design::of_rings(name, [ring]).expect("a star"))
+}
+
+fn ring(size: f64) -> [[f64; 2]; 4] {
+    [[-size, -size], [size, -size], [size, size], [-size, size]]
+}
+
+/// A square with a square hole.
+fn frame(name: &str, hole: f64) -> Arc<Design> {
+    let rings = [ring(3.0), ring(hole)].map(|ring| ring.map(DVec2::from).to_vec());
+    let regions = crate::geometry::Regions::from_rings(&rings, crate::geometry::FillRule::EvenOdd);
+    Arc::new(Design::new(name, regions.expect("a frame")))
+}
+
+fn truss(name: &str, height: f64) -> Arc<Design> {
+    let nodes = [
+        (0.0, 0.0),
+        (2.0, 0.0),
+        (4.0, 0.0),
+        (1.0, height),
+        (3.0, height),
+    ];
+    let bars = [[0, 1], [1, 2], [0, 3], [3, 1], [1, 4], [4, 2], [3, 4]];
+    let truss = Truss::new(nodes.map(DVec2::from).to_vec(), bars.to_vec()).expect("a truss");
+    Arc::new(Design::new(name, truss))
+}
+
+fn space(designs: Vec<Arc<Design>>) -> Space {
+    Space::build(&SpaceSpec::new(designs), &Silent).expect("a space")
+}
+
+fn corner(count: usize, at: usize) -> Vec<f64> {
+    let mut weights = vec![0.0; count];
+    weights[at] = 1.0;
+    weights
+}
+
+#[test]
+fn each_design_is_at_its_corner() {
+    let designs = vec![star("a", 5, 1.5), star("b", 6, 0.8), star("c", 4, 2.0)];
+    let space = space(designs);
+    assert!(space.family().is_some() && space.notes().is_empty());
+    let mut frame = space.frame();
+    for (k, design) in space.designs().iter().enumerate() {
+        frame.seek(&corner(3, k));
+        let seen = frame.figure().rings.concat();
+        let drawn = design.outline(0.0).expect("an outline");
+        for point in drawn.rings().flat_map(|ring| ring.points()) {
+            assert!(seen.contains(point), "{} has lost {point}", design.name);
+        }
+        let bounds = Bounds::of(seen).expect("points");
+        assert_eq!(bounds, drawn.bounds());
+    }
+}
+
+#[test]
+fn the_order_of_the_designs_means_little_between_them() {
+    let [a, b, c] = [star("a", 5, 1.5), star("b", 6, 0.8), star("c", 4, 2.0)];
+    let seen = |designs: Vec<Arc<Design>>, weights: [f64; 3]| {
+        let space = space(designs);
+        let mut frame = space.frame();
+        frame.seek(&weights);
+        let mut points = frame.figure().rings.concat();
+        points.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));
+        points
+    };
+    let first = seen(vec![a.clone(), b.clone(), c.clone()], [0.5, 0.3, 0.2]);
+    let again = seen(vec![c, a, b], [0.2, 0.5, 0.3]);
+    assert_eq!(first.len(), again.len());
+    // The mesh is another one: it begins with another design.
+    let bounds = |points: &[DVec2]| Bounds::of(points.iter().copied()).expect("points");
+    let (p, q) = (bounds(&first), bounds(&again));
+    assert!(p.min.distance(q.min) < 0.1 && p.max.distance(q.max) < 0.1);
+}
+
+#[test]
+fn trusses_are_blended_bar_by_bar() {
+    let space = space(vec![
+        truss("low", 1.0),
+        truss("high", 3.0),
+        truss("higher", 5.0),
+    ]);
+    let mut frame = space.frame();
+    frame.seek(&[0.25, 0.5, 0.25]);
+    let figure = frame.figure();
+    assert_eq!((figure.bars.len(), figure.rings.len()), (7, 0));
+    let height = figure.bars[2][1].y - figure.bars[2][0].y;
+    assert!((2.0..4.0).contains(&height), "{height}");
+    frame.seek(&corner(3, 1));
+    let Form::Truss(high) = &space.designs()[1].form else {
+        panic!("a truss");
+    };
+    let drawn: Vec<_> = high.segments().collect();
+    assert_eq!(frame.figure().bars, drawn);
+}
+
+#[test]
+fn what_has_no_common_mesh_is_blended_as_fields() {
+    let designs = || {
+        vec![
+            frame("thin", 2.5),
+            frame("thick", 1.0),
+            star("star", 5, 1.0),
+        ]
+    };
+    let mixed = space(designs());
+    assert!(mixed.family().is_none());
+    assert_eq!(mixed.notes().len(), 1);
+    let told = mixed.notes()[0].to_string();
+    assert!(told.starts_with("blended as fields: design "), "{told}");
+    let spec = SpaceSpec {
+        content: Some(ContentKind::Solid),
+        ..SpaceSpec::new(designs())
+    };
+    let error = Space::build(&spec, &Silent).expect_err("no common mesh");
+    assert!(matches!(error, SpaceError::NoFamily(_)), "{error}");
+    // The frames alone have one.
+    let alone = space(vec![frame("thin", 2.5), frame("thick", 1.0)]);
+    assert!(alone.family().is_some());
+}
+
+#[test]
+fn fields_of_two_are_the_pair() {
+    let [a, b] = [star("a", 5, 1.5), frame("b", 1.0)];
+    let spec = SpaceSpec {
+        content: Some(ContentKind::Field),
+        ..SpaceSpec::new(vec![a.clone(), b.clone()])
+    };
+    let space = Space::build(&spec, &Silent).expect("a space");
+    let mut pair = TransitionSpec::new(a, b);
+    pair.cell = Cell::FIELD_BLEND;
+    let pair = Transition::build(&pair, &Silent).expect("a pair");
+    let mut frame = space.frame();
+    for t in [0.0, 0.3, 1.0, 1.2] {
+        frame.seek(&[1.0 - t, t]);
+        assert_eq!(frame.figure(), pair.frame(t).figure(), "{t}");
+    }
+}
+
+#[test]
+fn weights_that_do_not_sum_to_one_are_made_to() {
+    let space = space(vec![star("a", 5, 1.5), star("b", 6, 0.8)]);
+    let mut frame = space.frame();
+    frame.seek(&[f64::NAN, 0.5]);
+    assert_eq!(frame.weights(), [0.25, 0.75]);
+    frame.seek(&[2.0, -1.0]);
+    assert!(frame.is_extrapolated());
+    assert_eq!(space.tint(&[0.25, 0.75]), 0.75);
+}
+
+#[test]
+fn too_few_designs_and_a_cancel_are_told() {
+    let build = |designs: Vec<Arc<Design>>, progress: &dyn Progress| {
+        Space::build(&SpaceSpec::new(designs), progress)
+    };
+    let one = build(vec![star("a", 5, 1.0)], &Silent);
+    assert!(matches!(one, Err(SpaceError::TooFew(1))));
+    #[derive(Debug)]
+    struct Never;
+    impl Progress for Never {
+        fn report(&self, _: &'static str, _: f64) {}
+        fn is_cancelled(&self) -> bool {
+            true
+        }
+    }
+    let designs = vec![star("a", 5, 1.0), star("b", 6, 1.0), frame("c", 1.0)];
+    let cancelled = build(designs, &Never);
+    let is_cancel = matches!(
+        cancelled,
+        Err(SpaceError::Cancelled(Cancelled) | SpaceError::Build(BuildError::Cancelled(Cancelled)))
+    );
+    assert!(is_cancel, "{cancelled:?}");
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(12))]
+    #[test]
+    fn stars_are_a_space_of_one_ring_each(
+        shapes in prop::collection::vec((3u32..8, 0.2..2.0_f64), 3..6),
+        weights in prop::collection::vec(0.0..1.0_f64, 6),
+    ) {
+        let stars = shapes.iter().map(|&(points, depth)| star("star", points, depth));
+        let space = space(stars.collect());
+        prop_assert!(space.family().is_some(), "{:?}", space.notes());
+        let weights = &weights[..shapes.len()];
+        let sum: f64 = weights.iter().sum::<f64>().max(1e-9);
+        let weights: Vec<f64> = weights.iter().map(|weight| weight / sum).collect();
+        let mut frame = space.frame();
+        frame.seek(&weights);
+        let figure = frame.figure();
+        prop_assert_eq!(figure.rings.len(), 1);
+        prop_assert!(figure.rings[0].iter().all(|p| p.is_finite() && p.length() < 6.0));
+    }
+}
