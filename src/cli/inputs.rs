@@ -8,6 +8,7 @@ use clap::Args;
 use crate::design::{Format, Source};
 use crate::progress::{Progress, Span, beside, checkpoint};
 use crate::project::{LoadedProject, Project, gallery};
+use crate::space::Space;
 use crate::transition::{Sequence, Transition};
 
 use super::error::CliError;
@@ -104,6 +105,19 @@ impl Inputs {
             })?;
         }
         Ok(())
+    }
+
+    /// Reads, imports and applies the flags; builds the space of all designs.
+    pub fn open_space(
+        &self,
+        method: &MethodArgs,
+        progress: &dyn Progress,
+    ) -> Result<(LoadedProject, Space), CliError> {
+        let loaded = self.load(method, progress)?;
+        let spec = loaded.space().map_err(CliError::failed)?;
+        let building = Span::new(progress, READ, 1.0);
+        let space = Space::build(&spec, &building).map_err(CliError::failed)?;
+        Ok((loaded, space))
     }
 
     fn load(

@@ -12,11 +12,12 @@ use crate::colour::Rgb;
 use crate::export::{
     Aspect, Camera, Captions, Drawing, ExportError, Film, FilmKind, FilmPreset, Layout, MethodRow,
     PixelSize, Presets, Purpose, StillKind, Target, View, comparison, endings, even_times, framing,
-    sheet, write_film, write_still,
+    map_sheet, sheet, write_film, write_still,
 };
 use crate::names::{Choice, keys};
 use crate::progress::{Progress, Span, Whole};
 use crate::project::Project;
+use crate::space::{Map, MapLayout};
 use crate::transition::PlayMode;
 
 use super::error::CliError;
@@ -24,7 +25,7 @@ use super::inputs::{Inputs, Opened};
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
-use super::values::{Ground, ground, one_of, range};
+use super::values::{Ground, grid, ground, one_of, range};
 
 /// The longer side of a picture of free size, in pixels: half a screen's width.
 const LONGER_SIDE_PX: u32 = 960;
@@ -56,6 +57,14 @@ pub(super) struct RenderArgs {
     /// each, the same seven t (or --sheet N) in each column
     #[arg(long, conflicts_with_all = ["at", "frames", "frames_range", "fps", "size", "method", "warp", "content"])]
     compare: bool,
+
+    /// A map of all designs: so many columns and rows of what lies between them
+    #[arg(long, value_name = "COLUMNSxROWS", value_parser = grid, conflicts_with_all = ["at", "sheet", "compare", "frames", "frames_range", "fps", "preset", "aspect", "lines", "frame_margin", "captions"])]
+    map: Option<[usize; 2]>,
+
+    /// Where the designs are on that map
+    #[arg(long, requires = "map", default_value_t, value_parser = one_of::<MapLayout>())]
+    sites: MapLayout,
 
     /// One pass of N frames, evenly in t [default: as the project's timing has it]
     #[arg(long, value_name = "N")]
@@ -199,6 +208,14 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     check(args, &target, shown)?;
     let terminal = Terminal::new();
     let whole = Whole::new(&terminal);
+    if let (Some(Shown::Map(grid)), Target::Still(kind, path)) = (shown, &target) {
+        let (drawing, notes) = map(args, grid, &whole)?;
+        write_still(&drawing, *kind, path).map_err(CliError::failed)?;
+        drop(terminal);
+        notes.iter().for_each(|note| output::words(note));
+        tell(std::slice::from_ref(path));
+        return Ok(());
+    }
     let opened = args
         .inputs
         .open(&args.method, &Span::new(&whole, 0.0, 0.5))?;
@@ -227,6 +244,8 @@ enum Shown {
     Sheet(usize),
     /// Every method, with so many frames each.
     Methods(usize),
+    /// So many columns and rows of a map of all designs.
+    Map([usize; 2]),
 }
 
 /// Whether a name says where numbers go.
@@ -241,6 +260,9 @@ fn shown(args: &RenderArgs, target: &Target) -> Result<Option<Shown>, CliError> 
         return Err(CliError::Usage(format!(
             "--at {t} is nowhere: t must be a finite number"
         )));
+    }
+    if let Some(grid) = args.map {
+        return Ok(Some(Shown::Map(grid)));
     }
     match args.at.as_slice() {
         // Frames of their own, where several are asked for or the name has a number.
@@ -278,6 +300,7 @@ fn check(args: &RenderArgs, target: &Target, shown: Option<Shown>) -> Result<(),
         }
         (Target::Still(..), Some(_)) | (_, None) => return Ok(()),
         (_, Some(Shown::Methods(_))) => "--compare makes",
+        (_, Some(Shown::Map(_))) => "--map makes",
         (_, Some(_)) => "--at and --sheet make",
     };
     let (path, endings) = (args.out.display(), endings::<StillKind>());
@@ -312,12 +335,31 @@ fn drawn(
                     .to_owned(),
             ));
         }
+        Shown::Map(grid) => map(args, grid, progress)?.0,
         Shown::Methods(count) => {
             let spec = opened.loaded.spec().map_err(CliError::failed)?;
             let rows = MethodRow::all(&spec, progress).map_err(CliError::failed)?;
             comparison(&rows, style, &times(count), ground).map_err(CliError::failed)?
         }
     })
+}
+
+/// The map of all designs, and what is to be told about it.
+fn map(
+    args: &RenderArgs,
+    grid: [usize; 2],
+    progress: &dyn Progress,
+) -> Result<(Drawing, Vec<String>), CliError> {
+    let (loaded, space) = args.inputs.open_space(&args.method, progress)?;
+    let sites = args.sites.sites(space.likeness());
+    let map = Map::new(&sites).map_err(CliError::failed)?;
+    let ground = ground_of(args, &loaded.project);
+    let style = &loaded.project.style;
+    let drawing = map_sheet((&space, &map), style, grid, args.size, ground);
+    Ok((
+        drawing,
+        space.notes().iter().map(ToString::to_string).collect(),
+    ))
 }
 
 fn film(

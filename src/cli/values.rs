@@ -89,6 +89,19 @@ pub(super) fn range(text: &str) -> Result<Range<usize>, ValueError> {
         .ok_or_else(|| ValueError::Range(text.to_owned()))
 }
 
+/// Columns and rows.
+pub(super) fn grid(text: &str) -> Result<[usize; 2], String> {
+    /// More small pictures than this are none that one can look at.
+    const MOST: usize = 2_500;
+    let sides = text.split_once(['x', '×']);
+    let grid = sides.and_then(|(columns, rows)| Some([columns.parse().ok()?, rows.parse().ok()?]));
+    grid.filter(|[columns, rows]: &[usize; 2]| {
+        let cells = columns.saturating_mul(*rows);
+        (1..=MOST).contains(&cells)
+    })
+    .ok_or_else(|| format!("give columns and rows, for example 9x9, at most {MOST} cells"))
+}
+
 /// A place of the source and one of the target.
 fn halves<const N: usize>(text: &str, wrong: ValueError) -> Result<[[f64; N]; 2], ValueError> {
     let (source, target) = text.split_once(':').ok_or(ValueError::Halves)?;
@@ -129,6 +142,14 @@ mod tests {
             "", "5", "5..", "..5", "5..5", "6..5", "-1..5", "0..=5", "a..b",
         ] {
             assert!(range(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn grids_are_read() {
+        assert_eq!(grid("9x5"), Ok([9, 5]));
+        for wrong in ["", "9", "x", "9x", "0x4", "51x50", "-1x3", "9x9x9"] {
+            assert!(grid(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -34,6 +34,7 @@ mod error;
 mod film;
 mod gif;
 mod layout;
+mod map_sheet;
 mod motion;
 #[cfg(not(target_family = "wasm"))]
 mod mp4;
@@ -72,6 +73,7 @@ pub use error::ExportError;
 pub use film::{Film, FilmError, MAX_FPS, MAX_FRAMES, Run, even_times};
 pub use gif::{MAX_GIF_FPS, write_gif};
 pub use layout::{Aspect, Layout, Purpose};
+pub use map_sheet::map_sheet;
 pub use motion::Motion;
 #[cfg(not(target_family = "wasm"))]
 pub use mp4::{has_ffmpeg, write_mp4};

@@ -58,6 +58,24 @@ impl SheetLayout {
         }
     }
 
+    /// So many columns and rows (both at least 1) of cells that show `bounds`, in the
+    /// given size, or as large as it comes.
+    pub fn grid([columns, rows]: [usize; 2], bounds: Bounds, size: Option<PixelSize>) -> Self {
+        let (columns, rows) = (columns.max(1), rows.max(1));
+        match size {
+            Some(size) => Self::filling(size, columns, rows),
+            None => natural(
+                [columns, rows],
+                PixelSize::of_shape(bounds, CELL_PX).as_dvec2(),
+            ),
+        }
+    }
+
+    /// Height of a label's letters, in pixels.
+    pub(super) fn letters_px(&self) -> f64 {
+        0.8 * self.label_px
+    }
+
     /// So many columns and rows in a given size.
     fn filling(size: PixelSize, columns: usize, rows: usize) -> Self {
         let whole = size.as_dvec2() / DVec2::new(columns as f64, rows as f64);
@@ -73,7 +91,7 @@ impl SheetLayout {
 
     /// Corner and size of a cell's picture, and where its label's base line
     /// has its middle.
-    fn cell(&self, index: usize) -> (DVec2, DVec2, DVec2) {
+    pub(super) fn cell(&self, index: usize) -> (DVec2, DVec2, DVec2) {
         let counts = DVec2::new(self.columns as f64, self.rows as f64);
         let whole = self.size.as_dvec2() / counts;
         let place = DVec2::new((index % self.columns) as f64, (index / self.columns) as f64);
@@ -89,7 +107,11 @@ impl SheetLayout {
 /// large.
 fn free(count: usize, cell: DVec2) -> SheetLayout {
     let rows = count.div_ceil(MAX_COLUMNS);
-    let columns = count.div_ceil(rows);
+    natural([count.div_ceil(rows), rows], cell)
+}
+
+/// So many cells of their natural size, on a sheet that is not too large.
+fn natural([columns, rows]: [usize; 2], cell: DVec2) -> SheetLayout {
     let unit = f64::from(CELL_PX);
     let (label_px, gap_px) = (LABEL_SHARE * unit, GAP_SHARE * unit);
     let whole = cell + DVec2::new(gap_px, gap_px + label_px);
@@ -140,7 +162,7 @@ pub fn sheet(
         frame.seek(t);
         let view = View::fit_cell(bounds, layout.size, corner, inner);
         drawing.push_frame(frame.now(), &frame.style(style), &view);
-        drawing.push_label(&label(t), base, 0.8 * layout.label_px, ink);
+        drawing.push_label(&label(t), base, layout.letters_px(), ink);
     }
     drawing
 }

@@ -7,6 +7,7 @@ use crate::design::{Design, Form, Source};
 use crate::geometry::Similarity;
 use crate::one_line::OneLine;
 use crate::reading::ReadError;
+use crate::space::SpaceSpec;
 use crate::transition::{
     BuildError, Cell, NoSuchCell, Options, PartTime, TransitionSpec, arranged, arrangement,
 };
@@ -24,6 +25,10 @@ pub(super) static FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/assets
 pub fn bytes(path: &Path) -> Option<&'static [u8]> {
     FILES.get_file(path).map(File::contents)
 }
+
+/// What is said where many designs are asked to be blended as only two can be.
+const NO_SPACE: &str =
+    "many designs are blended as rigid parts or as fields at rest; choose one of these";
 
 /// A project whose designs have been read.
 #[derive(Clone, Debug)]
@@ -265,6 +270,32 @@ impl LoadedProject {
         let laid = whole.designs.iter().zip(&whole.places);
         let laid = laid.map(|(design, place)| arranged(design, first, *place));
         Ok(laid.collect::<Result<_, _>>()?)
+    }
+
+    /// What the space of all designs is to be built from.
+    ///
+    /// # Errors
+    /// [`ProjectError`] if the cell does not exist, or has no blend of many, or a placement
+    /// is no similarity.
+    pub fn space(&self) -> Result<SpaceSpec, ProjectError> {
+        let project = &self.project;
+        let content = match (project.warp, project.content) {
+            (None, None) => None,
+            (None | Some(WarpKind::Arap), Some(ContentKind::Solid))
+            | (Some(WarpKind::Arap), None) => Some(ContentKind::Solid),
+            (None | Some(WarpKind::None), Some(ContentKind::Field))
+            | (Some(WarpKind::None), None) => Some(ContentKind::Field),
+            _ => return Err(BuildError::Unavailable(NO_SPACE.to_owned()).into()),
+        };
+        let first = (self.first(), project.fit);
+        let laid = self.designs.iter().zip(&project.designs);
+        let laid = laid.map(|(design, entry)| arranged(design, first, entry.placement));
+        Ok(SpaceSpec {
+            content,
+            options: project.options.clone(),
+            patient: self.patient,
+            ..SpaceSpec::new(laid.collect::<Result<_, _>>()?)
+        })
     }
 
     /// What the transition is to be built from; of a sequence, that of its first leg.

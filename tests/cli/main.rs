@@ -117,6 +117,38 @@ fn a_new_project_may_keep_its_film() {
 }
 
 #[test]
+fn many_designs_are_one_map() {
+    let shop = Workshop::new();
+    let told = words(&shop.run("render a.svg b.svg a.svg --map 3x2 --out map.svg"));
+    assert!(told.contains("wrote map.svg"), "{told}");
+    let text = fs::read_to_string(shop.path("map.svg")).expect("text");
+    assert!(text.matches("<path").count() >= 4, "{text}");
+    for sites in ["line", "likeness", "polygon"] {
+        shop.done(&format!(
+            "render a.svg b.svg a.svg --map 3x1 --sites {sites} --size 90x40 --out map.png"
+        ));
+        assert_eq!(image(&shop.path("map.png")).dimensions(), (90, 40));
+    }
+    shop.done("render a.svg b.svg a.svg --method field --cells 64 --map 2x2 --out map.png");
+    shop.fails(2, "render a.svg b.svg --map 3 --out map.png", "9x9");
+    shop.fails(
+        2,
+        "render a.svg b.svg --map 3x3 --out map.gif",
+        "--map makes one picture",
+    );
+    shop.fails(
+        2,
+        "render a.svg b.svg --map 3x3 --at 0.5 --out map.png",
+        "cannot be used",
+    );
+    shop.fails(
+        1,
+        "render a.svg b.svg --warp lines --content field --map 3x3 --out map.png",
+        "rigid parts or as fields",
+    );
+}
+
+#[test]
 fn many_designs_are_one_film() {
     let shop = Workshop::new();
     let legs = shop.done("check a.svg b.svg a.svg --samples 3 --quality draft --json");

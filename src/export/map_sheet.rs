@@ -1,0 +1,91 @@
+//! The map of a space as a sheet: a grid of blends, the designs among them by their
+//! names.
+//!
+//! Guarantees: one scale for all cells; each design is in the cell nearest to its site, as
+//! it was drawn; cells beside the hull of the sites are empty.
+
+use super::drawing::Drawing;
+use super::sheet::SheetLayout;
+use super::size::PixelSize;
+use super::view::View;
+use super::words::ink_on;
+use crate::colour::Rgb;
+use crate::geometry::DVec2;
+use crate::one_line::OneLine;
+use crate::space::{Map, Space};
+use crate::transition::Style;
+
+/// Draws so many columns and rows of a map into one sheet.
+///
+/// # Panics
+/// If the map has not as many sites as the space has designs.
+pub fn map_sheet(
+    (space, map): (&Space, &Map),
+    style: &Style,
+    [columns, rows]: [usize; 2],
+    size: Option<PixelSize>,
+    ground: Option<Rgb>,
+) -> Drawing {
+    let bounds = space.bounds();
+    let layout = SheetLayout::grid([columns, rows], bounds, size);
+    let mut drawing = Drawing::new(layout.size, ground);
+    let ink = ink_on(ground);
+    let mut frame = space.frame();
+    let mut weights = vec![0.0; space.designs().len()];
+    for (index, place) in map
+        .grid(layout.columns, layout.rows)
+        .into_iter()
+        .enumerate()
+    {
+        let Some(place) = place else {
+            continue;
+        };
+        let (corner, inner, base) = layout.cell(index);
+        map.weights(place, &mut weights);
+        frame.seek(&weights);
+        let view = View::fit_cell(bounds, layout.size, corner, inner);
+        drawing.push_figure(&frame.figure(), space.tint(&weights), style, &view);
+        if let Some(name) = name_at(space, map, place) {
+            drawing.push_label(&name, base, layout.letters_px(), ink);
+        }
+    }
+    drawing
+}
+
+/// What the design is called whose site is there.
+fn name_at(space: &Space, map: &Map, place: DVec2) -> Option<String> {
+    let design = map.sites().iter().position(|site| *site == place)?;
+    Some(OneLine(&space.designs()[design].name).to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+    use crate::export::Item;
+    use crate::progress::Silent;
+    use crate::space::{MapLayout, SpaceSpec};
+    use std::sync::Arc;
+
+    #[test]
+    fn designs_are_named_and_what_is_beside_them_is_empty() {
+        let tent = |name: &str, h: f64| {
+            let ring = [[0.0, 0.0], [2.0, 0.0], [1.0, h]];
+            Arc::new(Design::of_rings(name, [ring]).expect("a design"))
+        };
+        let designs = vec![tent("low", 1.0), tent("high", 2.0), tent("tower", 4.0)];
+        let space = Space::build(&SpaceSpec::new(designs), &Silent).expect("a space");
+        let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
+        let style = Style::default();
+        let drawing = map_sheet((&space, &map), &style, [5, 5], None, None);
+        let labels = drawing.items.iter().filter_map(|item| match item {
+            Item::Fill { label, .. } => label.clone(),
+            _ => None,
+        });
+        let mut labels: Vec<String> = labels.collect();
+        labels.sort();
+        assert_eq!(labels, ["high", "low", "tower"]);
+        let figures = drawing.items.len() - labels.len();
+        assert!((9..25).contains(&figures), "{figures}");
+    }
+}
