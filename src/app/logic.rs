@@ -16,6 +16,7 @@ use crate::app::keeping::autosave::{self, Autosave};
 use crate::app::keeping::{presets, recent};
 use crate::app::looking::choosing::{self, Choosing};
 use crate::app::looking::helping::{self, Helping};
+use crate::app::looking::map::{self, MapView};
 use crate::app::looking::measuring::{self, Measured};
 use crate::app::looking::recording::{self, Recording};
 use crate::app::looking::times;
@@ -91,6 +92,7 @@ fn init(app: &mut App) {
         .init_resource::<Helping>()
         .init_resource::<Recording>()
         .init_resource::<Twin>()
+        .init_resource::<MapView>()
         .init_resource::<Notices>()
         .init_resource::<Question>()
         .init_resource::<Autosave>()
@@ -147,6 +149,8 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             helping::follow,
             twin::apply,
             twin::follow,
+            map::apply,
+            map::follow,
         )
             .chain(),
         // Moved on before it is told where to go: else the time of a rest would be played at once.

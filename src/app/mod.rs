@@ -47,6 +47,7 @@ pub use keeping::autosave::Autosave;
 pub use logic::LogicPlugin;
 pub use looking::choosing::Choosing;
 pub use looking::helping::{Alternative, Helping, Offer};
+pub use looking::map::{MapProblem, MapView};
 pub use looking::measuring::{Measured, Measures};
 pub use looking::recording::Recording;
 pub use looking::twin::{OnTwin, Twin};

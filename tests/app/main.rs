@@ -9,6 +9,7 @@ mod film;
 mod history;
 mod keeping;
 mod keys;
+mod map;
 mod opening;
 mod rest;
 mod saving;

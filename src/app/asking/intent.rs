@@ -11,7 +11,9 @@ use bevy::prelude::{Message, Vec2};
 use crate::app::asking::acts::EditorAct;
 use crate::app::asking::choices::{Preferences, TwinMethod};
 use crate::content::ContentKind;
+use crate::geometry::DVec2;
 use crate::project::{Moved, Project};
+use crate::space::MapLayout;
 use crate::warp::WarpKind;
 
 /// One act of the user.
@@ -141,6 +143,14 @@ pub enum Intent {
     ToggleTwin,
     /// The method that is shown beside the stage.
     TwinMethod(TwinMethod),
+    /// Show or hide the map of all designs in place of the stage.
+    ToggleMap,
+    /// Lay the designs out on the map.
+    LayOut(MapLayout),
+    /// Move the puck there on the map, y up.
+    Puck(DVec2),
+    /// Move the design of this number there on the map.
+    MoveSite(usize, DVec2),
     /// Leave what was entered last: help, question, hidden panels, whole screen.
     Back,
     /// Show the whole transition.

@@ -15,6 +15,7 @@ use crate::app::asking::hand::Typing;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
 use crate::app::keeping::autosave::Autosave;
+use crate::app::looking::map::MapView;
 use crate::app::opening::closing::Question;
 use crate::app::opening::drops::Drop;
 use crate::app::playing::presenting::Presenting;
@@ -248,7 +249,7 @@ fn digit_at(code: KeyCode) -> Option<u8> {
 pub fn read_keys(
     mut inputs: MessageReader<KeyboardInput>,
     mut focus_lost: MessageReader<KeyboardFocusLost>,
-    map: Res<KeyMap>,
+    (map, on_map): (Res<KeyMap>, Res<MapView>),
     (typing, editor, presenting): (Res<Typing>, Res<Editor>, Res<Presenting>),
     (question, drop, autosave): (Res<Question>, Res<Drop>, Res<Autosave>),
     mut held: Local<Held>,
@@ -269,7 +270,7 @@ pub fn read_keys(
             ref act => !presenting.is_on() || act.is_of_a_talk(),
         };
         if let Some(intent) = meant.filter(may) {
-            intents.write(intent.clone());
+            intents.write(on_map.instead(intent).unwrap_or_else(|| intent.clone()));
         }
     }
 }

@@ -155,8 +155,8 @@ fn changing() -> Vec<Row> {
 
 fn view() -> Vec<Row> {
     use Intent::{
-        Back, FitView, NextMethod, ToggleFullscreen, ToggleGrid, ToggleHelp, ToggleOnion,
-        TogglePanels, TogglePlots, ToggleTimes, ToggleTwin,
+        Back, FitView, NextMethod, ToggleFullscreen, ToggleGrid, ToggleHelp, ToggleMap,
+        ToggleOnion, TogglePanels, TogglePlots, ToggleTimes, ToggleTwin,
     };
     let letter = |c: char, intent: Intent| vec![key(Letter(c), intent)];
     let named = |name: Key, intent: Intent| key(Named(name), intent);
@@ -165,6 +165,10 @@ fn view() -> Vec<Row> {
         [
             ("Next method", vec![named(Key::Tab, NextMethod)]),
             ("A second method beside the stage", letter('v', ToggleTwin)),
+            (
+                "The map of all designs; arrows walk on it",
+                letter('d', ToggleMap),
+            ),
             ("A grid that shows the warp", letter('w', ToggleGrid)),
             (
                 "Onion skins: the film at its stops, in thin lines",

@@ -1,9 +1,10 @@
-//! How the transition is looked at: the view, what is shown, a second method, measures, and
-//! which method suits.
+//! How the transition is looked at: the view, what is shown, a second method, the map of
+//! all designs, measures, and which method suits.
 
 pub mod choosing;
 pub mod filmstrip;
 pub mod helping;
+pub mod map;
 pub mod measuring;
 pub mod onion;
 pub mod preferences;

@@ -13,6 +13,7 @@ use crate::app::editing::panes::{Pane, PaneView};
 use crate::app::keeping::autosave::Autosave;
 use crate::app::looking::choosing::Choosing;
 use crate::app::looking::helping::Helping;
+use crate::app::looking::map::MapView;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::closing::Question;
@@ -237,7 +238,7 @@ pub fn back(
     mut intents: MessageReader<Intent>,
     mut preferences: ResMut<Preferences>,
     mut window: Query<&mut Window, With<PrimaryWindow>>,
-    (mut editor, mut twin): (ResMut<Editor>, ResMut<Twin>),
+    (mut editor, mut twin, mut map): (ResMut<Editor>, ResMut<Twin>, ResMut<MapView>),
     (question, drop, autosave, presenting): Asking,
     (mut session, recorder): (ResMut<Session>, Res<Recorder>),
     (mut choosing, mut measured, mut helping): Working,
@@ -266,6 +267,8 @@ pub fn back(
             editor.set_changed();
         } else if preferences.film_options {
             preferences.film_options = false;
+        } else if map.is_shown {
+            map.is_shown = false;
         } else if std::mem::take(&mut twin.is_shown) {
             // The second method is gone.
         } else if !preferences.panels {

@@ -23,6 +23,7 @@ use crate::app::keeping::autosave::Autosave;
 use crate::app::looking::choosing::Choosing;
 use crate::app::looking::filmstrip::Filmstrip;
 use crate::app::looking::helping::Helping;
+use crate::app::looking::map::MapView;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::recording::Recording;
 use crate::app::looking::twin::Twin;
@@ -112,6 +113,7 @@ pub struct Going<'w, 's> {
     filmstrip: Res<'w, Filmstrip>,
     recording: Res<'w, Recording>,
     twin: Res<'w, Twin>,
+    map: Res<'w, MapView>,
     notices: Res<'w, Notices>,
     dialog: Res<'w, Dialog>,
     drop: Res<'w, Drop>,
@@ -145,6 +147,7 @@ impl Going<'_, '_> {
             || self.filmstrip.is_busy()
             || self.recording.is_busy()
             || self.twin.is_busy()
+            || self.map.is_busy()
             || self.dialog.asks().is_some()
             || self.drop.is_arriving()
             // While the panels are hidden they wait themselves.
@@ -161,6 +164,7 @@ impl Going<'_, '_> {
             || self.filmstrip.is_changed()
             || self.recording.is_changed()
             || self.twin.is_changed()
+            || self.map.is_changed()
             || self.notices.is_changed()
     }
 }

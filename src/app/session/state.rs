@@ -81,6 +81,12 @@ impl Session {
         self.open.as_ref().map(|open| &open.loaded.project)
     }
 
+    /// The open project, as it is now, with all its designs.
+    #[must_use]
+    pub fn whole_loaded(&self) -> Option<LoadedProject> {
+        self.open.as_ref().map(|open| open.loaded.clone())
+    }
+
     /// The designs of the leg that is looked at as their files have them.
     #[must_use]
     pub fn designs(&self) -> Vec<&Arc<Design>> {

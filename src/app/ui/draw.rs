@@ -17,7 +17,7 @@ use crate::app::ui::kit::theme;
 use crate::app::ui::overlays::{files, help, notices, questions, times, work};
 use crate::app::ui::panels::inspector;
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::{area, film, onion, talk, twin, verdict};
+use crate::app::ui::stage::{area, film, map, onion, talk, twin, verdict};
 use crate::app::ui::timeline::{plots, strip};
 use crate::app::ui::{gallery, match_editor, speaker, toolbar};
 
@@ -129,7 +129,7 @@ fn draw(
     Ok(())
 }
 
-/// What the panels leave: the stage, a second method beside it, or the match editor. Returns the
+/// What the panels leave: the stage, a second method beside it, the map, or the match editor. Returns the
 /// part that the stage takes.
 fn middle(root: &mut egui::Ui, scene: &Scene, stage: egui::Rect, acts: &mut Intents) -> egui::Rect {
     if scene.presenting.is_on() {
@@ -137,6 +137,9 @@ fn middle(root: &mut egui::Ui, scene: &Scene, stage: egui::Rect, acts: &mut Inte
     }
     if scene.editor.is_open {
         return match_editor::show(root, scene, stage, acts);
+    }
+    if scene.map.is_shown {
+        return map::show(root, scene, stage, acts);
     }
     if scene.twin.is_shown {
         return twin::show(root, scene, stage, acts);
@@ -174,10 +177,14 @@ fn panels(
         times::strip(root, scene);
     }
     if !scene.editor.is_open {
-        if scene.twin.is_shown {
-            twin::strip(root, scene, acts);
+        if scene.map.is_shown {
+            map::strip(root, scene, acts);
+        } else {
+            if scene.twin.is_shown {
+                twin::strip(root, scene, acts);
+            }
+            verdict::strip(root, scene, acts);
         }
-        verdict::strip(root, scene, acts);
     }
 }
 

@@ -17,6 +17,7 @@ use crate::app::keeping::recent::KeptRecent;
 use crate::app::looking::choosing::Choosing;
 use crate::app::looking::filmstrip::Filmstrip;
 use crate::app::looking::helping::Helping;
+use crate::app::looking::map::MapView;
 use crate::app::looking::measuring::Measured;
 use crate::app::looking::onion::Onion;
 use crate::app::looking::recording::Recording;
@@ -47,6 +48,7 @@ pub struct Scene<'w> {
     pub recording: Res<'w, Recording>,
     pub onion: Res<'w, Onion>,
     pub twin: Res<'w, Twin>,
+    pub map: Res<'w, MapView>,
     pub view: Res<'w, StageView>,
     pub gallery: Res<'w, Gallery>,
     pub playback: Res<'w, Playback>,

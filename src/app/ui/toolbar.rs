@@ -72,6 +72,9 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let tip = "A second method beside the stage (V)";
     let icon = icons::TWIN.inked(scene.twin.is_shown.then_some(accent));
     act_button(ui, icon, tip, Intent::ToggleTwin, acts);
+    let tip = "The map of all designs (D)";
+    let icon = icons::MAP.inked(scene.map.is_shown.then_some(accent));
+    act_button(ui, icon, tip, Intent::ToggleMap, acts);
     let tip = "Plots of the measures against t (P)";
     let icon = icons::PLOT.inked(scene.preferences.plots.then_some(accent));
     act_button(ui, icon, tip, Intent::TogglePlots, acts);

@@ -68,6 +68,7 @@ pub const MOON: Icon = lines(regular::MOON);
 pub const MORE: Icon = lines(regular::CARET_DOWN);
 pub const NEXT_STOP: Icon = lines(regular::CARET_LINE_RIGHT);
 pub const OPEN: Icon = lines(regular::FOLDER_OPEN);
+pub const MAP: Icon = lines(regular::MAP_TRIFOLD);
 pub const PLOT: Icon = lines(regular::CHART_LINE);
 pub const PRESENT: Icon = lines(regular::PRESENTATION);
 pub const PREVIOUS_STOP: Icon = lines(regular::CARET_LINE_LEFT);

@@ -1,7 +1,8 @@
-//! What lies on the stage: the hand on it, the second method beside it, the verdict, a talk.
+//! What lies on the stage: the hand on it, the second method beside it, the map, the verdict, a talk.
 
 pub mod area;
 pub mod film;
+pub mod map;
 pub mod onion;
 pub mod talk;
 pub mod twin;

@@ -1,0 +1,403 @@
+//! The map of all designs: where each of them is, what lies between them, and the blend under
+//! the puck, drawn in place of the stage.
+//!
+//! The space is built beside the window, and so is what lies on the map; the blend is placed and
+//! drawn in the frame in which the puck moves. Nothing of the project is changed.
+
+use std::sync::Arc;
+
+use bevy::prelude::{
+    DetectChanges, DetectChangesMut, MessageReader, Query, Res, ResMut, Resource, With,
+};
+use bevy::window::{PrimaryWindow, Window};
+use image::RgbaImage;
+
+use crate::app::asking::intent::Intent;
+use crate::app::looking::view::StageArea;
+use crate::app::session::state::Session;
+use crate::app::telling::job::{Job, JobError};
+use crate::export::{Drawing, PixelSize, SizeError, View, rasterise};
+use crate::geometry::{Bounds, DVec2};
+use crate::mesh::SitesError;
+use crate::progress::Progress;
+use crate::project::{LoadedProject, Project, ProjectError};
+use crate::space::{Map, MapLayout, Space, SpaceError, SpaceFrame};
+use crate::transition::Style;
+
+/// How far the map reaches from its middle: sites are within 1 of it.
+pub const REACH: f64 = 1.3;
+
+/// Small pictures along each side of the map.
+const CELLS: u32 = 11;
+
+/// Pixels along each side of the picture of what lies between the designs.
+const SIDE_PX: u32 = 1056;
+
+/// How much of a design's picture on the map is wider than that of a blend.
+const DESIGN: f64 = 1.5;
+
+/// Pixels along the longer side of the blend's picture, at most: a trade for the time of a
+/// move on a large window.
+const LONGEST_PX: f32 = 1400.0;
+
+/// How far an arrow key moves the puck, of the map's reach.
+const STEP: f64 = 0.02;
+
+/// Why there is no map.
+#[derive(Clone, Debug, thiserror::Error)]
+pub enum MapProblem {
+    /// The designs cannot be laid into one frame, or are not blended so.
+    #[error("{0}")]
+    Project(Arc<ProjectError>),
+    /// They span no space.
+    #[error(transparent)]
+    Space(#[from] SpaceError),
+    /// They have no sites.
+    #[error(transparent)]
+    Sites(#[from] SitesError),
+}
+
+/// The map in place of the stage.
+#[derive(Resource, Debug, Default)]
+pub struct MapView {
+    /// It is shown.
+    pub is_shown: bool,
+    /// How the designs are laid out.
+    pub layout: MapLayout,
+    /// Where the puck is.
+    puck: DVec2,
+    /// What was built, or tried.
+    settings: Option<Project>,
+    job: Option<Job<Space, MapProblem>>,
+    problem: Option<JobError<MapProblem>>,
+    made: Option<Made>,
+}
+
+/// A space with its map, and what is drawn of them.
+#[derive(Debug)]
+pub struct Made {
+    space: Space,
+    map: Map,
+    frame: SpaceFrame,
+    /// What lies between the designs, and the designs.
+    ground: Option<Ground>,
+    drawing: Option<Job<Ground, SizeError>>,
+    /// How that is drawn.
+    style: Option<Style>,
+    /// The blend under the puck.
+    blend: Option<Blend>,
+}
+
+/// Pictures of the whole map, from −[`REACH`] to [`REACH`]; straight alpha on a transparent ground.
+#[derive(Clone, Debug)]
+pub struct Ground {
+    /// What lies between the designs.
+    pub between: Arc<RgbaImage>,
+    /// The designs.
+    pub designs: Arc<RgbaImage>,
+}
+
+/// The blend as it was drawn last.
+#[derive(Debug)]
+struct Blend {
+    of: (Vec<f64>, PixelSize, Style),
+    picture: Arc<RgbaImage>,
+}
+
+impl Made {
+    fn new(space: Space, sites: &[DVec2]) -> Result<Self, SitesError> {
+        Ok(Self {
+            map: Map::new(sites)?,
+            frame: space.frame(),
+            space,
+            ground: None,
+            drawing: None,
+            style: None,
+            blend: None,
+        })
+    }
+
+    /// The space.
+    #[must_use]
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// The map.
+    #[must_use]
+    pub fn map(&self) -> &Map {
+        &self.map
+    }
+
+    /// The weights under the puck.
+    #[must_use]
+    pub fn weights(&self) -> &[f64] {
+        self.frame.weights()
+    }
+
+    /// What lies on the map, once it was drawn.
+    #[must_use]
+    pub fn ground(&self) -> Option<&Ground> {
+        self.ground.as_ref()
+    }
+
+    /// The blend under the puck.
+    #[must_use]
+    pub fn blend(&self) -> Option<&Arc<RgbaImage>> {
+        self.blend.as_ref().map(|blend| &blend.picture)
+    }
+
+    /// Draws the blend at a place, unless it is drawn so already; whether it was.
+    fn look(&mut self, puck: DVec2, size: PixelSize, style: Style) -> bool {
+        let mut weights = vec![0.0; self.space.designs().len()];
+        self.map.weights(puck, &mut weights);
+        let of = (weights, size, style);
+        if self.blend.as_ref().is_some_and(|blend| blend.of == of) {
+            return false;
+        }
+        self.frame.seek(&of.0);
+        let bounds = self.space.bounds();
+        let view = View::fit(bounds.padded(0.04 * bounds.diameter()), size);
+        let mut drawing = Drawing::new(size, None);
+        let tint = self.space.tint(&of.0);
+        drawing.push_figure(&self.frame.figure(), tint, &style, &view);
+        let picture = Arc::new(rasterise(&drawing));
+        self.blend = Some(Blend { of, picture });
+        true
+    }
+
+    /// Has the map drawn, where it is not drawn so; whether something new is there.
+    fn paint(&mut self, style: Style) -> bool {
+        if let Some(answer) = Job::take(&mut self.drawing) {
+            // What cannot be drawn is not shown: the sites and the puck are.
+            self.ground = answer.ok();
+            return true;
+        }
+        if self.style == Some(style) {
+            return false;
+        }
+        self.style = Some(style);
+        let (space, map) = (self.space.clone(), self.map.clone());
+        self.drawing = Some(Job::start("the map", move |_| ground(&space, &map, &style)));
+        false
+    }
+}
+
+impl MapView {
+    /// Where the puck is, y up.
+    #[must_use]
+    pub fn puck(&self) -> DVec2 {
+        self.puck
+    }
+
+    /// The map and what is drawn of it.
+    #[must_use]
+    pub fn made(&self) -> Option<&Made> {
+        self.made.as_ref()
+    }
+
+    /// Why there is none.
+    #[must_use]
+    pub fn problem(&self) -> Option<&JobError<MapProblem>> {
+        self.problem.as_ref()
+    }
+
+    /// It is being built, or drawn.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        let drawing = self
+            .made
+            .as_ref()
+            .is_some_and(|made| made.drawing.is_some());
+        self.job.is_some() || drawing
+    }
+
+    /// What a key means while the map is shown: arrows move the puck.
+    #[must_use]
+    pub fn instead(&self, intent: &Intent) -> Option<Intent> {
+        let by = match intent {
+            _ if !self.is_shown => return None,
+            Intent::Step(n) => DVec2::new(f64::from(*n), 0.0),
+            Intent::JumpToNextStop => DVec2::Y,
+            Intent::JumpToPreviousStop => DVec2::NEG_Y,
+            _ => return None,
+        };
+        Some(Intent::Puck(self.puck + by * STEP * REACH))
+    }
+
+    fn lay(&mut self) {
+        let Some(made) = self.made.take() else {
+            return;
+        };
+        let sites = self.layout.sites(made.space.likeness());
+        self.place(made.space, &sites);
+    }
+
+    fn place(&mut self, space: Space, sites: &[DVec2]) {
+        match Made::new(space, sites) {
+            Ok(made) => self.made = Some(made),
+            Err(error) => self.problem = Some(JobError::Failed(error.into())),
+        }
+    }
+
+    /// Moves a design elsewhere; two in one place stay where they were.
+    fn move_site(&mut self, design: usize, to: DVec2) {
+        let Some(made) = &self.made else {
+            return;
+        };
+        let mut sites = made.map.sites().to_vec();
+        if let Some(site) = sites.get_mut(design)
+            && to.is_finite()
+        {
+            *site = to.clamp(DVec2::splat(-1.0), DVec2::ONE);
+            if let Ok(again) = Made::new(made.space.clone(), &sites) {
+                // What was drawn stays until the new one is there.
+                let ground = made.ground.clone();
+                self.made = Some(Made { ground, ..again });
+            }
+        }
+    }
+
+    fn follow(&mut self, whole: LoadedProject) {
+        let settings = Some(&whole.project);
+        if self.settings.as_ref() == settings {
+            return;
+        }
+        // How it is played and painted makes no other space.
+        let is_same = self.settings.as_ref().is_some_and(|before| {
+            let as_before = Project {
+                timing: before.timing,
+                stops: before.stops.clone(),
+                style: before.style,
+                ..whole.project.clone()
+            };
+            as_before == *before
+        });
+        self.settings = settings.cloned();
+        if is_same && self.problem.is_none() {
+            return;
+        }
+        self.problem = None;
+        self.job = Some(Job::start("the map", move |progress| {
+            built(&whole, progress)
+        }));
+    }
+
+    fn take(&mut self) -> bool {
+        match Job::take(&mut self.job) {
+            None => return false,
+            Some(Ok(space)) => {
+                let sites = self.layout.sites(space.likeness());
+                self.place(space, &sites);
+            }
+            Some(Err(problem)) => (self.problem, self.made) = (Some(problem), None),
+        }
+        true
+    }
+}
+
+fn built(whole: &LoadedProject, progress: &dyn Progress) -> Result<Space, MapProblem> {
+    let spec = whole
+        .space()
+        .map_err(|error| MapProblem::Project(Arc::new(error)))?;
+    Ok(Space::build(&spec, progress)?)
+}
+
+/// Draws what lies between the designs, and the designs.
+fn ground(space: &Space, map: &Map, style: &Style) -> Result<Ground, SizeError> {
+    let size = PixelSize::new(SIDE_PX, SIDE_PX)?;
+    let cell = 2.0 * REACH / f64::from(CELLS);
+    let px = f64::from(SIDE_PX) / (2.0 * REACH);
+    let mut frame = space.frame();
+    let mut weights = vec![0.0; space.designs().len()];
+    let mut picture = |places: &[DVec2], wide: f64| {
+        let mut drawing = Drawing::new(size, None);
+        for &place in places {
+            map.weights(place, &mut weights);
+            frame.seek(&weights);
+            let side = DVec2::splat(0.86 * wide * cell * px);
+            let middle = DVec2::new(place.x + REACH, REACH - place.y) * px;
+            let seen = square(space.bounds());
+            let view = View::fit_cell(seen, size, middle - 0.5 * side, side);
+            drawing.push_figure(&frame.figure(), space.tint(&weights), style, &view);
+        }
+        Arc::new(rasterise(&drawing))
+    };
+    let steps = (0..CELLS * CELLS).map(|at| {
+        let [column, row] = [at % CELLS, at / CELLS].map(|k| (f64::from(k) + 0.5) * cell - REACH);
+        DVec2::new(column, row)
+    });
+    let near = |place: &DVec2| {
+        let far = map.sites().iter().map(|site| site.distance(*place));
+        far.fold(f64::INFINITY, f64::min)
+    };
+    // None on the line of a row, and none under a design's picture.
+    let between = steps.filter(|place| map.holds(*place, 0.3 * cell));
+    let between: Vec<DVec2> = between.filter(|place| near(place) > 0.9 * cell).collect();
+    Ok(Ground {
+        between: picture(&between, 1.0),
+        designs: picture(map.sites(), DESIGN),
+    })
+}
+
+/// The square around a box.
+fn square(bounds: Bounds) -> Bounds {
+    let half = DVec2::splat(0.5 * bounds.size().max_element());
+    Bounds {
+        min: bounds.centre() - half,
+        max: bounds.centre() + half,
+    }
+}
+
+/// Acts on the intents that concern the map.
+pub fn apply(mut intents: MessageReader<Intent>, mut view: ResMut<MapView>) {
+    for intent in intents.read() {
+        match intent {
+            Intent::ToggleMap => view.is_shown = !view.is_shown,
+            Intent::LayOut(layout) => {
+                view.layout = *layout;
+                view.lay();
+            }
+            Intent::Puck(to) if to.is_finite() => {
+                view.puck = to.clamp(DVec2::splat(-REACH), DVec2::splat(REACH));
+            }
+            Intent::MoveSite(design, to) => view.move_site(*design, *to),
+            _ => {}
+        }
+    }
+}
+
+/// Builds the space of what is open, has its map drawn, and draws the blend under the puck.
+pub fn follow(
+    session: Res<Session>,
+    area: Res<StageArea>,
+    window: Query<&Window, With<PrimaryWindow>>,
+    mut view: ResMut<MapView>,
+) {
+    let is_new = session.is_changed() || view.is_changed();
+    let now = view.bypass_change_detection();
+    let mut is_changed = now.take();
+    if !now.is_shown {
+        return;
+    }
+    if is_new && session.work().is_none() {
+        match session.whole_loaded() {
+            Some(whole) => now.follow(whole),
+            None => (now.made, now.settings, now.job) = (None, None, None),
+        }
+    }
+    let (style, puck) = (session.style(), now.puck);
+    if let Some(made) = &mut now.made {
+        is_changed |= made.paint(style);
+        let scale = window.single().map_or(1.0, Window::scale_factor);
+        let wanted = area.size * scale;
+        let wanted = wanted * (LONGEST_PX / wanted.max_element()).min(1.0);
+        let wanted = wanted.max(bevy::math::Vec2::ONE).as_uvec2();
+        if let Ok(size) = PixelSize::new(wanted.x, wanted.y) {
+            is_changed |= made.look(puck, size, style);
+        }
+    }
+    if is_changed {
+        view.set_changed();
+    }
+}

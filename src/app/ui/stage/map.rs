@@ -1,0 +1,248 @@
+//! The map of all designs: on the left where they are and what lies between them, on the right
+//! the blend under the puck.
+
+use std::f32::consts::{FRAC_PI_2, TAU};
+use std::sync::Arc;
+
+use bevy_egui::egui::{
+    Align2, Color32, FontId, Id, Panel, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2,
+};
+use image::RgbaImage;
+
+use crate::app::asking::intent::Intent;
+use crate::app::looking::map::{Made, REACH};
+use crate::app::ui::kit::texture::texture;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
+use crate::app::ui::kit::widgets::{choices, ground, quiet};
+use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::stage::area::ink_on;
+use crate::colour::Rgb;
+use crate::geometry::DVec2;
+use crate::names::Choice;
+use crate::space::MapLayout;
+
+/// Radius of the puck, and how thick the ring of shares around it is.
+const PUCK: f32 = 11.0;
+const RING: f32 = 4.0;
+
+/// A design is taken hold of within this many points.
+const HOLD: f32 = 40.0;
+
+/// Width of the row of layouts.
+const LAYOUTS: f32 = 288.0;
+
+/// The longest side of the pictures in pixels.
+const LONGEST_PX: u32 = 2048;
+
+/// Which design is being moved.
+#[derive(Clone, Copy, Default)]
+struct Held(Option<usize>);
+
+/// Draws the map and the blend; returns the part that the blend takes.
+pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Rect {
+    let half = vec2((stage.width() / 2.0).floor(), stage.height());
+    let left = Rect::from_min_size(stage.min, half);
+    let right = left.translate(vec2(half.x, 0.0));
+    let back = scene.session.style().ground;
+    let [r, g, b] = back.0;
+    root.painter()
+        .rect_filled(stage, 0.0, Color32::from_rgb(r, g, b));
+    let ink = ink_on(back);
+    let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
+    root.painter().vline(right.left(), right.y_range(), line);
+    let Some(made) = scene.map.made() else {
+        missing(root, scene, stage, ink);
+        return right;
+    };
+    let side = left.width().min(left.height());
+    let square = Rect::from_center_size(left.center(), vec2(side, side));
+    hand(root, scene, made, square, acts);
+    draw(root, scene, made, square, ink);
+    if let Some(picture) = made.blend() {
+        image(root, "the blend", picture, right, Color32::WHITE);
+    }
+    shares(root, scene, made, right, ink);
+    right
+}
+
+/// Draws what can be chosen above both.
+pub fn strip(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let frame = ground(root, [16, 16, 4, 4]);
+    Panel::top("map")
+        .exact_size(CONTROL_HEIGHT + GRID)
+        .resizable(false)
+        .frame(frame)
+        .show(root, |ui| {
+            ui.horizontal_centered(|ui| {
+                let all = MapLayout::CHOICES.iter().map(|&layout| {
+                    let name = layout.name();
+                    (layout, name.title, name.sentence)
+                });
+                let mut layout = scene.map.layout;
+                ui.allocate_ui(vec2(LAYOUTS, CONTROL_HEIGHT), |ui| {
+                    choices(ui, &mut layout, &all.collect::<Vec<_>>());
+                });
+                if layout != scene.map.layout {
+                    acts.push(Intent::LayOut(layout));
+                }
+                ui.add_space(GRID);
+                ui.label(quiet(ui, told(scene)));
+            });
+        });
+}
+
+/// How the designs are blended, in a few words.
+fn told(scene: &Scene) -> String {
+    match scene.map.made() {
+        _ if scene.map.is_busy() => "Working …".to_owned(),
+        Some(made) => {
+            let space = made.space();
+            let note = space.notes().iter().map(ToString::to_string).next();
+            let how = match space.family() {
+                Some(family) => format!(
+                    "Rigid parts, one mesh of {} vertices",
+                    family.places()[0].len()
+                ),
+                None => "Distance fields".to_owned(),
+            };
+            note.map_or(how, |note| super::verdict::first_upper(&note))
+        }
+        None => String::new(),
+    }
+}
+
+fn missing(ui: &Ui, scene: &Scene, rect: Rect, ink: Color32) {
+    let words = match scene.map.problem() {
+        Some(problem) => problem.to_string(),
+        None if scene.session.whole().is_none() => {
+            "Open a project of several designs, or drop several files here.".to_owned()
+        }
+        None => "Laying out the map …".to_owned(),
+    };
+    let font = FontId::proportional(14.0);
+    let galley = ui
+        .painter()
+        .layout(words, font, ink, rect.width() - 4.0 * GRID);
+    let at = Align2::CENTER_CENTER.anchor_size(rect.center(), galley.size());
+    ui.painter().galley(at.min, galley, ink);
+}
+
+/// Where a place of the map is in its square.
+fn on_screen(square: Rect, place: DVec2) -> Pos2 {
+    let share = (place / REACH).as_vec2() * 0.5;
+    let offset = vec2(share.x, -share.y) * square.width();
+    square.center() + offset
+}
+
+fn on_map(square: Rect, at: Pos2) -> DVec2 {
+    let offset = (at - square.center()) / square.width() * 2.0;
+    DVec2::new(f64::from(offset.x), f64::from(-offset.y)) * REACH
+}
+
+/// Dragging moves the puck, or with Shift the design under the pointer.
+fn hand(root: &Ui, scene: &Scene, made: &Made, square: Rect, acts: &mut Intents) {
+    let id = root.id().with("map");
+    let response = root.interact(square, id, Sense::click_and_drag());
+    let Some(at) = response.interact_pointer_pos() else {
+        root.data_mut(|data| data.insert_temp(id, Held::default()));
+        return;
+    };
+    let place = on_map(square, at);
+    if response.drag_started() && root.input(|input| input.modifiers.shift) {
+        let sites = made.map().sites().iter().enumerate();
+        let far = |site: DVec2| on_screen(square, site).distance(at);
+        let nearest = sites.min_by(|a, b| far(*a.1).total_cmp(&far(*b.1)));
+        let held = nearest.filter(|(_, site)| far(**site) < HOLD);
+        root.data_mut(|data| data.insert_temp(id, Held(held.map(|(design, _)| design))));
+    }
+    let Held(held) = root.data(|data| data.get_temp(id)).unwrap_or_default();
+    match held {
+        Some(design) => acts.push(Intent::MoveSite(design, place)),
+        None if place != scene.map.puck() => acts.push(Intent::Puck(place)),
+        None => {}
+    }
+}
+
+fn draw(root: &Ui, scene: &Scene, made: &Made, square: Rect, ink: Color32) {
+    let painter = root.painter_at(square);
+    if let Some(pictures) = made.ground() {
+        image(
+            root,
+            "between",
+            &pictures.between,
+            square,
+            Color32::from_white_alpha(110),
+        );
+        image(root, "designs", &pictures.designs, square, Color32::WHITE);
+    }
+    let font = FontId::proportional(12.0);
+    let below = square.width() * 0.09;
+    for (site, design) in made.map().sites().iter().zip(made.space().designs()) {
+        let at = on_screen(square, *site) + vec2(0.0, below);
+        let at = at.min(square.max - vec2(0.0, 16.0));
+        painter.text(at, Align2::CENTER_TOP, &design.name, font.clone(), ink);
+    }
+    puck(root, scene, made, square, ink);
+}
+
+/// The puck with a ring of the designs' shares.
+fn puck(root: &Ui, scene: &Scene, made: &Made, square: Rect, ink: Color32) {
+    let painter = root.painter_at(square);
+    let at = on_screen(square, scene.map.puck());
+    painter.circle(at, PUCK, Color32::WHITE, Stroke::new(1.5, ink));
+    let mut from = -FRAC_PI_2;
+    for (design, &weight) in made.weights().iter().enumerate() {
+        let way = weight.clamp(0.0, 1.0) as f32 * TAU;
+        if way > 0.0 {
+            let steps = (way * 12.0).ceil().max(1.0) as usize;
+            let points = (0..=steps).map(|k| {
+                let angle = from + way * k as f32 / steps as f32;
+                at + vec2(angle.cos(), angle.sin()) * (PUCK + RING)
+            });
+            let stroke = Stroke::new(RING, colour_of(scene, made, design));
+            painter.add(Shape::line(points.collect(), stroke));
+        }
+        from += way;
+    }
+    painter.circle_filled(at, 2.5, ink);
+}
+
+/// The colour of a design on the map.
+fn colour_of(scene: &Scene, made: &Made, design: usize) -> Color32 {
+    let mut weights = vec![0.0; made.weights().len()];
+    weights[design] = 1.0;
+    let Rgb([r, g, b]) = scene.session.style().fill_at(made.space().tint(&weights));
+    Color32::from_rgb(r, g, b)
+}
+
+/// What the blend is made of, below it.
+fn shares(root: &Ui, scene: &Scene, made: &Made, rect: Rect, ink: Color32) {
+    let font = FontId::proportional(12.0);
+    let mut at = pos2(rect.left() + 2.0 * GRID, rect.bottom() - 2.0 * GRID);
+    let all = made
+        .space()
+        .designs()
+        .iter()
+        .zip(made.weights())
+        .enumerate();
+    let seen = all.filter(|(_, (_, weight))| weight.abs() >= 0.005);
+    for (design, (form, weight)) in seen {
+        let words = format!("{} {:.0} %", form.name, weight * 100.0);
+        let galley = root.painter().layout_no_wrap(words, font.clone(), ink);
+        let width = galley.size().x;
+        if at.x + width + 3.0 * GRID > rect.right() {
+            break;
+        }
+        let dot = at + vec2(4.0, -7.0);
+        root.painter()
+            .circle_filled(dot, 4.0, colour_of(scene, made, design));
+        root.painter().galley(at + vec2(13.0, -14.0), galley, ink);
+        at.x += width + 3.5 * GRID;
+    }
+}
+
+fn image(root: &Ui, name: &str, pixels: &Arc<RgbaImage>, rect: Rect, tint: Color32) {
+    let texture = texture(root.ctx(), Id::new(("map", name)), pixels, LONGEST_PX);
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    root.painter().image(texture.id(), rect, whole, tint);
+}
