@@ -5,9 +5,12 @@
 
 use clap::Args;
 
+use crate::measure;
+use crate::progress::{Span, Whole};
+
 use super::error::CliError;
 use super::inputs::Inputs;
-use super::laboratory::{Batch, Measuring, text};
+use super::laboratory::{Batch, MeasuredSpace, Measuring, text};
 use super::output;
 use super::terminal::Terminal;
 
@@ -22,6 +25,11 @@ pub(super) struct CheckArgs {
     #[command(flatten)]
     batch: Option<Batch>,
 
+    /// The space of all designs instead of each leg: its common mesh, its edges, its
+    /// middle, and 200 blends all over it
+    #[arg(long, conflicts_with = "pairs")]
+    map: bool,
+
     /// One JSON object instead of a table
     #[arg(long)]
     json: bool,
@@ -32,6 +40,7 @@ pub(super) struct CheckArgs {
 
 pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
     match (&args.inputs, &args.batch) {
+        (Some(inputs), None) if args.map => map(args, inputs),
         (Some(inputs), None) => one(args, inputs),
         (None, Some(batch)) => table(args, batch),
         _ => Err(CliError::Usage(
@@ -54,6 +63,24 @@ fn one(args: &CheckArgs, inputs: &Inputs) -> Result<(), CliError> {
             .map(|report| text(report))
             .collect::<Vec<_>>()
             .join("\n"),
+    })
+}
+
+/// Blends all over a space that are looked at.
+const BLENDS: usize = 200;
+
+fn map(args: &CheckArgs, inputs: &Inputs) -> Result<(), CliError> {
+    let terminal = Terminal::new();
+    let whole = Whole::new(&terminal);
+    let building = Span::new(&whole, 0.0, 0.7);
+    let (_, space, build) = inputs.open_space(args.measuring.method(), &building)?;
+    let measuring = Span::new(&whole, 0.7, 1.0);
+    let report = measure::space(&space, BLENDS, &measuring).map_err(CliError::failed)?;
+    let measured = MeasuredSpace::new(&space, report, build);
+    drop(terminal);
+    output::data(&match args.json {
+        true => output::json(&measured)?,
+        false => measured.text(),
     })
 }
 

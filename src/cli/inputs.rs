@@ -107,17 +107,19 @@ impl Inputs {
         Ok(())
     }
 
-    /// Reads, imports and applies the flags; builds the space of all designs.
+    /// Reads, imports and applies the flags; builds the space of all designs, and says how
+    /// long that took.
     pub fn open_space(
         &self,
         method: &MethodArgs,
         progress: &dyn Progress,
-    ) -> Result<(LoadedProject, Space), CliError> {
+    ) -> Result<(LoadedProject, Space, Duration), CliError> {
         let loaded = self.load(method, progress)?;
+        let start = Instant::now();
         let spec = loaded.space().map_err(CliError::failed)?;
         let building = Span::new(progress, READ, 1.0);
         let space = Space::build(&spec, &building).map_err(CliError::failed)?;
-        Ok((loaded, space))
+        Ok((loaded, space, start.elapsed()))
     }
 
     fn load(

@@ -350,7 +350,7 @@ fn map(
     grid: [usize; 2],
     progress: &dyn Progress,
 ) -> Result<(Drawing, Vec<String>), CliError> {
-    let (loaded, space) = args.inputs.open_space(&args.method, progress)?;
+    let (loaded, space, _) = args.inputs.open_space(&args.method, progress)?;
     let sites = args.sites.sites(space.likeness());
     let map = Map::new(&sites).map_err(CliError::failed)?;
     let ground = ground_of(args, &loaded.project);

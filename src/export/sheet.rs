@@ -27,6 +27,9 @@ const LABEL_SHARE: f64 = 0.07;
 /// The most of a cell's height that a label takes.
 const MAX_LABEL_SHARE: f64 = 0.3;
 
+/// Height of a label's line in a grid, in longer sides of all its rows.
+const OF_GRID: f64 = 0.013;
+
 /// Gap between cells, in longer sides of a cell.
 const GAP_SHARE: f64 = 0.06;
 
@@ -62,12 +65,14 @@ impl SheetLayout {
     /// given size, or as large as it comes.
     pub fn grid([columns, rows]: [usize; 2], bounds: Bounds, size: Option<PixelSize>) -> Self {
         let (columns, rows) = (columns.max(1), rows.max(1));
+        // A large grid is looked at as a whole: its words must be read from as far.
+        let label = (OF_GRID * rows as f64).clamp(LABEL_SHARE, MAX_LABEL_SHARE);
         match size {
-            Some(size) => Self::filling(size, columns, rows),
-            None => natural(
-                [columns, rows],
-                PixelSize::of_shape(bounds, CELL_PX).as_dvec2(),
-            ),
+            Some(size) => Self::filling(size, [columns, rows], label),
+            None => {
+                let cell = PixelSize::of_shape(bounds, CELL_PX).as_dvec2();
+                natural([columns, rows], cell, label)
+            }
         }
     }
 
@@ -77,14 +82,14 @@ impl SheetLayout {
     }
 
     /// So many columns and rows in a given size.
-    fn filling(size: PixelSize, columns: usize, rows: usize) -> Self {
+    fn filling(size: PixelSize, [columns, rows]: [usize; 2], label: f64) -> Self {
         let whole = size.as_dvec2() / DVec2::new(columns as f64, rows as f64);
         let unit = whole.max_element();
         Self {
             size,
             columns,
             rows,
-            label_px: (LABEL_SHARE * unit).min(MAX_LABEL_SHARE * whole.y),
+            label_px: (label * unit).min(MAX_LABEL_SHARE * whole.y),
             gap_px: (GAP_SHARE * unit).min(MAX_LABEL_SHARE * whole.min_element()),
         }
     }
@@ -107,13 +112,13 @@ impl SheetLayout {
 /// large.
 fn free(count: usize, cell: DVec2) -> SheetLayout {
     let rows = count.div_ceil(MAX_COLUMNS);
-    natural([count.div_ceil(rows), rows], cell)
+    natural([count.div_ceil(rows), rows], cell, LABEL_SHARE)
 }
 
 /// So many cells of their natural size, on a sheet that is not too large.
-fn natural([columns, rows]: [usize; 2], cell: DVec2) -> SheetLayout {
+fn natural([columns, rows]: [usize; 2], cell: DVec2, label: f64) -> SheetLayout {
     let unit = f64::from(CELL_PX);
-    let (label_px, gap_px) = (LABEL_SHARE * unit, GAP_SHARE * unit);
+    let (label_px, gap_px) = (label * unit, GAP_SHARE * unit);
     let whole = cell + DVec2::new(gap_px, gap_px + label_px);
     let wanted = whole * DVec2::new(columns as f64, rows as f64);
     // Scaled as a whole, with its labels and gaps.
@@ -132,7 +137,9 @@ fn natural([columns, rows]: [usize; 2], cell: DVec2) -> SheetLayout {
 
 /// The number of columns at which the pictures are largest.
 fn largest_cells(count: usize, cell: DVec2, size: PixelSize) -> SheetLayout {
-    let layout = |columns: usize| SheetLayout::filling(size, columns, count.div_ceil(columns));
+    let layout = |columns: usize| {
+        SheetLayout::filling(size, [columns, count.div_ceil(columns)], LABEL_SHARE)
+    };
     let scale = |layout: &SheetLayout| {
         let (_, inner, _) = layout.cell(0);
         (inner / cell).min_element()

@@ -8,6 +8,7 @@
 //!   holes, travel and acceleration with the rigid motion taken out; and each
 //!   of them against t ([`FilmReport::series`]).
 //! - [`Verdict`]: what goes wrong in a film, where, why, and what helps.
+//! - [`SpaceReport`]: a space of many designs: its edges, its middle, and blends all over.
 //! - [`Rating`]: how much trouble a film is, to choose among methods ([`auto`]).
 //!
 //! Measures are taken at samples: a fold between two samples is not seen.
@@ -19,6 +20,7 @@ mod mesh;
 mod motion;
 mod rating;
 mod series;
+mod space;
 mod stretch;
 #[cfg(test)]
 mod tests;
@@ -31,4 +33,5 @@ pub use mesh::{MeshReport, mesh};
 pub use motion::Motion;
 pub use rating::{Rating, auto};
 pub use series::Quantity;
+pub use space::{BlendReport, EdgeReport, SpaceReport, Spread, space};
 pub use verdict::{Cause, Change, Finding, Remedy, Trouble, Verdict};

@@ -20,8 +20,10 @@ use crate::warp::ArapBlend;
 use rayon::prelude::*;
 use std::sync::Arc;
 
-/// How many hubs are tried before outlines have no common mesh: each match with another
-/// one is other points on the outlines, but what folds with three folds with all.
+/// How many hubs are tried before outlines have no common mesh, after the best matches with
+/// the first, by drafts of their matches. The best ones have their points where their films
+/// need them, close together in places, and one mesh for all may fold then: of a bone, a
+/// bottle, a fish and a key it did with all hubs, and by drafts with none.
 const HUBS: usize = 3;
 
 /// What a space is built from: designs laid into one frame.
@@ -69,11 +71,7 @@ impl SpaceSpec {
             },
             parts: Vec::new(),
             paint: PaintRule::One,
-            // The match alone is wanted. That of the best film has its points where that
-            // film needs them, close together in places, and one mesh for all then folds:
-            // bone, bottle, fish and key, and six glasses and bottles took three times as
-            // long.
-            quality: Quality::Draft,
+            // The match alone is wanted.
             guard: Guarding::Plain,
             ..self.options.clone()
         };
@@ -223,16 +221,24 @@ impl Made {
         spec: &SpaceSpec,
         progress: &dyn Progress,
     ) -> Result<Result<Family, FamilyError>, SpaceError> {
-        let count = spec.designs.len();
+        let hubs = self.likeness.by_nearness();
+        let asked = spec.options.quality;
+        let drafts = hubs.iter().take(HUBS).map(|&hub| (hub, Quality::Draft));
+        let best = hubs.first().map(|&hub| (hub, asked));
+        let tries: Vec<_> = best
+            .filter(|_| asked != Quality::Draft)
+            .into_iter()
+            .chain(drafts)
+            .collect();
+        let several = Several::new(progress, tries.len());
         let mut first = None;
-        let hubs = self.likeness.by_nearness().into_iter().take(HUBS);
-        for (tried, hub) in hubs.enumerate() {
-            let part = |share: f64| (tried as f64 + share) / HUBS as f64;
-            let matches = matches(spec, hub, &Span::new(progress, part(0.0), part(0.7)))?;
+        for (tried, &way) in tries.iter().enumerate() {
+            let progress = &several.part(tried);
+            let matches = matches(spec, way, &Span::new(progress, 0.0, 0.7))?;
             let matches: Vec<Option<&RegionMatch>> = matches.iter().map(Option::as_ref).collect();
             let options = &spec.options.triangulation;
-            let meshing = Span::new(progress, part(0.7), part(1.0));
-            let family = Family::from_outlines(hub, &matches, options, &meshing);
+            let meshing = Span::new(progress, 0.7, 1.0);
+            let family = Family::from_outlines(way.0, &matches, options, &meshing);
             still_wanted(progress)?;
             match family {
                 Ok(family) => return Ok(Ok(family)),
@@ -241,6 +247,7 @@ impl Made {
                 Err(error) => _ = first.get_or_insert(error),
             }
         }
+        let count = spec.designs.len();
         Ok(Err(first.unwrap_or(FamilyError::TooFew(count))))
     }
 }
@@ -248,7 +255,7 @@ impl Made {
 /// The match of the hub with each other design, as the best film between the two has it.
 fn matches(
     spec: &SpaceSpec,
-    hub: usize,
+    (hub, quality): (usize, Quality),
     progress: &dyn Progress,
 ) -> Result<Vec<Option<RegionMatch>>, SpaceError> {
     let count = spec.designs.len();
@@ -257,7 +264,9 @@ fn matches(
         if design == hub {
             return Ok(None);
         }
-        let made = Transition::build(&spec.pair(hub, design), &several.part(design))?;
+        let mut pair = spec.pair(hub, design);
+        pair.options.quality = quality;
+        let made = Transition::build(&pair, &several.part(design))?;
         Ok(made.matched().cloned())
     };
     let all: Vec<Result<_, BuildError>> = (0..count).into_par_iter().map(matched).collect();

@@ -16,25 +16,25 @@ use crate::app::asking::intent::Intent;
 use crate::app::looking::view::StageArea;
 use crate::app::session::state::Session;
 use crate::app::telling::job::{Job, JobError};
+use crate::design::Form;
 use crate::export::{Drawing, PixelSize, SizeError, View, rasterise};
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::SitesError;
-use crate::progress::Progress;
 use crate::project::{LoadedProject, Project, ProjectError};
-use crate::space::{Map, MapLayout, Space, SpaceError, SpaceFrame};
-use crate::transition::Style;
+use crate::space::{Map, MapLayout, Space, SpaceError, SpaceFrame, SpaceSpec};
+use crate::transition::{Quality, Style};
 
 /// How far the map reaches from its middle: sites are within 1 of it.
-pub const REACH: f64 = 1.3;
+pub const REACH: f64 = 1.2;
 
 /// Small pictures along each side of the map.
-const CELLS: u32 = 11;
+const CELLS: u32 = 9;
 
 /// Pixels along each side of the picture of what lies between the designs.
 const SIDE_PX: u32 = 1056;
 
 /// How much of a design's picture on the map is wider than that of a blend.
-const DESIGN: f64 = 1.5;
+const DESIGN: f64 = 1.3;
 
 /// Pixels along the longer side of the blend's picture, at most: a trade for the time of a
 /// move on a large window.
@@ -68,6 +68,8 @@ pub struct MapView {
     puck: DVec2,
     /// What was built, or tried.
     settings: Option<Project>,
+    /// What the best is to be built from, while its draft is.
+    better: Option<SpaceSpec>,
     job: Option<Job<Space, MapProblem>>,
     problem: Option<JobError<MapProblem>>,
     made: Option<Made>,
@@ -145,6 +147,13 @@ impl Made {
     #[must_use]
     pub fn blend(&self) -> Option<&Arc<RgbaImage>> {
         self.blend.as_ref().map(|blend| &blend.picture)
+    }
+
+    /// Whether its outlines were matched for it.
+    fn is_matched(&self) -> bool {
+        let designs = self.space.designs().iter();
+        let mut forms = designs.map(|design| &design.form);
+        self.space.family().is_some() && forms.any(|form| matches!(form, Form::Outline(_)))
     }
 
     /// Draws the blend at a place, unless it is drawn so already; whether it was.
@@ -236,7 +245,7 @@ impl MapView {
     fn place(&mut self, space: Space, sites: &[DVec2]) {
         match Made::new(space, sites) {
             Ok(made) => self.made = Some(made),
-            Err(error) => self.problem = Some(JobError::Failed(error.into())),
+            Err(error) => self.refuse(JobError::Failed(error.into())),
         }
     }
 
@@ -278,29 +287,60 @@ impl MapView {
             return;
         }
         self.problem = None;
+        match whole.space() {
+            Ok(spec) => self.build(spec),
+            Err(error) => {
+                self.job = None;
+                self.refuse(JobError::Failed(MapProblem::Project(Arc::new(error))));
+            }
+        }
+    }
+
+    /// Builds a draft first, where the best takes longer, so that there is a map at once.
+    fn build(&mut self, mut spec: SpaceSpec) {
+        self.better = None;
+        if spec.options.quality != Quality::Draft {
+            self.better = Some(spec.clone());
+            spec.options.quality = Quality::Draft;
+        }
+        self.start(spec);
+    }
+
+    fn start(&mut self, spec: SpaceSpec) {
         self.job = Some(Job::start("the map", move |progress| {
-            built(&whole, progress)
+            Ok(Space::build(&spec, progress)?)
         }));
+    }
+
+    fn refuse(&mut self, problem: JobError<MapProblem>) {
+        (self.problem, self.made, self.better) = (Some(problem), None, None);
     }
 
     fn take(&mut self) -> bool {
         match Job::take(&mut self.job) {
             None => return false,
             Some(Ok(space)) => {
-                let sites = self.layout.sites(space.likeness());
+                let sites = match &self.made {
+                    // Where somebody has put them.
+                    Some(made) if self.better.is_none() => made.map.sites().to_vec(),
+                    _ => self.layout.sites(space.likeness()),
+                };
+                // Of other designs there may be another number.
+                let sites = match sites.len() == space.designs().len() {
+                    true => sites,
+                    false => self.layout.sites(space.likeness()),
+                };
                 self.place(space, &sites);
+                // Fields and meshes that are given have no draft.
+                let is_matched = self.made.as_ref().is_some_and(Made::is_matched);
+                if let Some(spec) = self.better.take().filter(|_| is_matched) {
+                    self.start(spec);
+                }
             }
-            Some(Err(problem)) => (self.problem, self.made) = (Some(problem), None),
+            Some(Err(problem)) => self.refuse(problem),
         }
         true
     }
-}
-
-fn built(whole: &LoadedProject, progress: &dyn Progress) -> Result<Space, MapProblem> {
-    let spec = whole
-        .space()
-        .map_err(|error| MapProblem::Project(Arc::new(error)))?;
-    Ok(Space::build(&spec, progress)?)
 }
 
 /// Draws what lies between the designs, and the designs.
@@ -327,13 +367,15 @@ fn ground(space: &Space, map: &Map, style: &Style) -> Result<Ground, SizeError> 
         let [column, row] = [at % CELLS, at / CELLS].map(|k| (f64::from(k) + 0.5) * cell - REACH);
         DVec2::new(column, row)
     });
-    let near = |place: &DVec2| {
-        let far = map.sites().iter().map(|site| site.distance(*place));
-        far.fold(f64::INFINITY, f64::min)
+    // None under a design's picture, or its name below that.
+    let is_free = |place: &DVec2| {
+        map.sites().iter().all(|site| {
+            let [across, below] = [(place.x - site.x).abs(), site.y - place.y];
+            across > 0.9 * cell || !(-0.9 * cell..1.3 * cell).contains(&below)
+        })
     };
-    // None on the line of a row, and none under a design's picture.
     let between = steps.filter(|place| map.holds(*place, 0.3 * cell));
-    let between: Vec<DVec2> = between.filter(|place| near(place) > 0.9 * cell).collect();
+    let between: Vec<DVec2> = between.filter(is_free).collect();
     Ok(Ground {
         between: picture(&between, 1.0),
         designs: picture(map.sites(), DESIGN),
@@ -383,7 +425,10 @@ pub fn follow(
     if is_new && session.work().is_none() {
         match session.whole_loaded() {
             Some(whole) => now.follow(whole),
-            None => (now.made, now.settings, now.job) = (None, None, None),
+            None => {
+                (now.made, now.settings) = (None, None);
+                (now.job, now.better) = (None, None);
+            }
         }
     }
     let (style, puck) = (session.style(), now.puck);

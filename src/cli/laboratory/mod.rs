@@ -9,7 +9,7 @@
 //!
 //! - `clock`: how long each stage of building took
 //! - `report`: everything that is measured of one transition
-//! - `text`, `number`: the report for people
+//! - `text`, `number`: the report for people; `space`: that of many designs
 //! - `columns`: the report as a row of a table, and what is said of each column
 //! - `table`: a table of pairs as it is given
 //! - `rows`: its report, kept row by row
@@ -23,10 +23,12 @@ mod number;
 mod pairs;
 mod report;
 mod rows;
+mod space;
 mod summary;
 mod table;
 mod text;
 
 pub(super) use pairs::Batch;
 pub(super) use report::Measuring;
+pub(super) use space::MeasuredSpace;
 pub(super) use text::text;

@@ -41,6 +41,11 @@ pub(in crate::cli) struct Measuring {
 }
 
 impl Measuring {
+    /// How transitions are built.
+    pub fn method(&self) -> &MethodArgs {
+        &self.method
+    }
+
     /// As [`Self::of`], of what is no sequence.
     pub fn of_pair(
         &self,

@@ -5,7 +5,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    Align2, Color32, FontId, Id, Panel, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2,
+    Align2, Color32, FontId, Galley, Id, Panel, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2,
 };
 use image::RgbaImage;
 
@@ -171,12 +171,12 @@ fn draw(root: &Ui, scene: &Scene, made: &Made, square: Rect, ink: Color32) {
             "between",
             &pictures.between,
             square,
-            Color32::from_white_alpha(110),
+            Color32::from_white_alpha(170),
         );
         image(root, "designs", &pictures.designs, square, Color32::WHITE);
     }
     let font = FontId::proportional(12.0);
-    let below = square.width() * 0.09;
+    let below = square.width() * 0.072;
     for (site, design) in made.map().sites().iter().zip(made.space().designs()) {
         let at = on_screen(square, *site) + vec2(0.0, below);
         let at = at.min(square.max - vec2(0.0, 16.0));
@@ -215,10 +215,12 @@ fn colour_of(scene: &Scene, made: &Made, design: usize) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// What the blend is made of, below it.
+/// What the blend is made of, below it: in rows, the first uppermost.
 fn shares(root: &Ui, scene: &Scene, made: &Made, rect: Rect, ink: Color32) {
+    const ROW: f32 = 18.0;
+    /// What a dot and the gap behind the words take.
+    const DOT: f32 = 13.0;
     let font = FontId::proportional(12.0);
-    let mut at = pos2(rect.left() + 2.0 * GRID, rect.bottom() - 2.0 * GRID);
     let all = made
         .space()
         .designs()
@@ -226,18 +228,30 @@ fn shares(root: &Ui, scene: &Scene, made: &Made, rect: Rect, ink: Color32) {
         .zip(made.weights())
         .enumerate();
     let seen = all.filter(|(_, (_, weight))| weight.abs() >= 0.005);
+    let mut rows: Vec<Vec<(f32, usize, Arc<Galley>)>> = vec![Vec::new()];
+    let (mut x, room) = (0.0, rect.width() - 4.0 * GRID);
     for (design, (form, weight)) in seen {
         let words = format!("{} {:.0} %", form.name, weight * 100.0);
         let galley = root.painter().layout_no_wrap(words, font.clone(), ink);
-        let width = galley.size().x;
-        if at.x + width + 3.0 * GRID > rect.right() {
-            break;
+        let width = DOT + galley.size().x;
+        if x + width > room && x > 0.0 {
+            rows.push(Vec::new());
+            x = 0.0;
         }
-        let dot = at + vec2(4.0, -7.0);
-        root.painter()
-            .circle_filled(dot, 4.0, colour_of(scene, made, design));
-        root.painter().galley(at + vec2(13.0, -14.0), galley, ink);
-        at.x += width + 3.5 * GRID;
+        if let Some(row) = rows.last_mut() {
+            row.push((x, design, galley));
+        }
+        x += width + 2.0 * GRID;
+    }
+    let top = rect.bottom() - GRID - ROW * rows.len() as f32;
+    for (k, row) in rows.into_iter().enumerate() {
+        for (x, design, galley) in row {
+            let at = pos2(rect.left() + 2.0 * GRID + x, top + ROW * k as f32);
+            let colour = colour_of(scene, made, design);
+            root.painter()
+                .circle_filled(at + vec2(4.0, 7.0), 4.0, colour);
+            root.painter().galley(at + vec2(DOT, 0.0), galley, ink);
+        }
     }
 }
 

@@ -1,0 +1,259 @@
+//! Quality of a space of many designs: of its edges, its middle, and of blends all over it.
+
+use super::distortion::{Distortion, distortion};
+use crate::compatible::CompatibleMesh;
+use crate::geometry::{count_crossings, signed_area};
+use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::space::{Space, SpaceFrame};
+use serde::Serialize;
+
+/// Blends along an edge that are looked at.
+const ON_EDGE: usize = 9;
+
+/// A space, measured.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SpaceReport {
+    /// The names of the designs.
+    pub designs: Vec<String>,
+    /// Vertices of the common mesh; none of fields.
+    pub vertices: Option<usize>,
+    /// Faces of the common mesh; none of fields.
+    pub faces: Option<usize>,
+    /// What was done otherwise than asked.
+    pub notes: Vec<String>,
+    /// Between each two designs the worst of nine blends.
+    pub edges: Vec<EdgeReport>,
+    /// All designs in equal parts.
+    pub middle: BlendReport,
+    /// Blends all over the space.
+    pub all_over: Spread,
+}
+
+/// Between two designs, the worst of some blends.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EdgeReport {
+    /// The two designs, counted from 0.
+    pub designs: [usize; 2],
+    /// How unlike they are.
+    pub unlike: f64,
+    /// The worst, measure by measure.
+    pub worst: BlendReport,
+}
+
+/// One blend.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct BlendReport {
+    /// Faces that are turned over or flat.
+    pub folds: usize,
+    /// Proper crossings among the outlines.
+    pub crossings: usize,
+    /// σ₁/σ₂ that 95 % of the area keeps to, from the design that is nearest by that; none
+    /// without a mesh.
+    pub conformal_p95: Option<f64>,
+    /// How far the area is from that of the designs, blended, as a share of it.
+    pub area_off: f64,
+}
+
+/// Blends all over a space.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// How many blends were looked at.
+    pub blends: usize,
+    /// How many of them fold.
+    pub folded: usize,
+    /// How many of them cross themselves.
+    pub crossed: usize,
+    /// The worst, measure by measure.
+    pub worst: BlendReport,
+}
+
+impl BlendReport {
+    fn or_worse(self, other: Self) -> Self {
+        Self {
+            folds: self.folds.max(other.folds),
+            crossings: self.crossings.max(other.crossings),
+            conformal_p95: match (self.conformal_p95, other.conformal_p95) {
+                (Some(a), Some(b)) => Some(a.max(b)),
+                (a, b) => a.or(b),
+            },
+            area_off: self.area_off.max(other.area_off),
+        }
+    }
+}
+
+/// Measures a space at so many weights besides its edges and its middle: the same for the
+/// same number of designs.
+///
+/// # Errors
+/// [`Cancelled`] if nobody wants the result any more.
+pub fn space(
+    space: &Space,
+    blends: usize,
+    progress: &dyn Progress,
+) -> Result<SpaceReport, Cancelled> {
+    let count = space.designs().len();
+    let mut sampler = Sampler::of(space);
+    let two = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
+    let two: Vec<[usize; 2]> = two.collect();
+    let whole = (two.len() * ON_EDGE + blends) as f64;
+    let mut edges = Vec::new();
+    for [a, b] in two {
+        checkpoint(
+            progress,
+            "measuring",
+            (edges.len() * ON_EDGE) as f64 / whole,
+        )?;
+        let mut worst = BlendReport::default();
+        for k in 1..=ON_EDGE {
+            let t = k as f64 / (ON_EDGE + 1) as f64;
+            let mut weights = vec![0.0; count];
+            (weights[a], weights[b]) = (1.0 - t, t);
+            worst = worst.or_worse(sampler.at(&weights));
+        }
+        edges.push(EdgeReport {
+            designs: [a, b],
+            unlike: space.likeness().between(a, b),
+            worst,
+        });
+    }
+    let middle = sampler.at(&vec![1.0 / count as f64; count]);
+    let mut all_over = Spread {
+        blends,
+        folded: 0,
+        crossed: 0,
+        worst: BlendReport::default(),
+    };
+    for k in 0..blends {
+        let done = edges.len() * ON_EDGE + k;
+        checkpoint(progress, "measuring", done as f64 / whole)?;
+        let found = sampler.at(&spread(k, count));
+        all_over.folded += usize::from(found.folds > 0);
+        all_over.crossed += usize::from(found.crossings > 0);
+        all_over.worst = all_over.worst.or_worse(found);
+    }
+    let family = space.family();
+    Ok(SpaceReport {
+        designs: space.designs().iter().map(|d| d.name.clone()).collect(),
+        vertices: family.map(|family| family.places()[0].len()),
+        faces: family.map(|family| family.faces().len()),
+        notes: space.notes().iter().map(ToString::to_string).collect(),
+        edges,
+        middle,
+        all_over,
+    })
+}
+
+/// The k-th of many weights that are spread evenly over all: exponential shares of an
+/// additive recurrence by the powers of the root of xᵈ⁺¹ = x + 1 (Roberts 2018).
+fn spread(k: usize, count: usize) -> Vec<f64> {
+    let mut root = 1.5_f64;
+    // Some thirty rounds are as many as there are digits.
+    for _ in 0..60 {
+        root = (1.0 + root).powf(1.0 / (count as f64 + 1.0));
+    }
+    let share = |j: usize| {
+        let step = root.powi(-(j as i32 + 1));
+        let place = (0.5 + step * (k as f64 + 1.0)).fract();
+        -place.max(1e-12).ln()
+    };
+    let shares: Vec<f64> = (0..count).map(share).collect();
+    let sum: f64 = shares.iter().sum();
+    shares.into_iter().map(|share| share / sum).collect()
+}
+
+/// What every blend is measured with.
+struct Sampler {
+    frame: SpaceFrame,
+    /// From each design, where there is a mesh with faces.
+    meshes: Vec<CompatibleMesh>,
+    /// Of each design.
+    areas: Vec<f64>,
+}
+
+impl Sampler {
+    fn of(space: &Space) -> Self {
+        let mut frame = space.frame();
+        let count = space.designs().len();
+        let areas = (0..count).map(|k| {
+            let mut weights = vec![0.0; count];
+            weights[k] = 1.0;
+            frame.seek(&weights);
+            area(&frame)
+        });
+        let areas = areas.collect();
+        let meshes = space.family().into_iter();
+        let meshes = meshes.flat_map(|family| (0..count).map(|k| family.pair(k, k)));
+        Self {
+            meshes: meshes.collect(),
+            areas,
+            frame,
+        }
+    }
+
+    fn at(&mut self, weights: &[f64]) -> BlendReport {
+        self.frame.seek(weights);
+        let figure = self.frame.figure();
+        let found: Vec<Distortion> = match self.frame.places() {
+            Some(places) => {
+                let each = self.meshes.iter();
+                each.filter_map(|mesh| distortion(mesh, places)).collect()
+            }
+            None => Vec::new(),
+        };
+        let p95 = found.iter().map(|found| found.conformal.p95);
+        let wanted: f64 = self.areas.iter().zip(weights).map(|(a, w)| a * w).sum();
+        let off = (area(&self.frame) - wanted).abs() / wanted;
+        BlendReport {
+            folds: found.first().map_or(0, |found| found.folds),
+            crossings: count_crossings(&figure.rings),
+            conformal_p95: p95.min_by(f64::total_cmp),
+            // Of bars there is none.
+            area_off: if off.is_finite() { off } else { 0.0 },
+        }
+    }
+}
+
+fn area(frame: &SpaceFrame) -> f64 {
+    let rings = frame.figure().rings;
+    rings.iter().map(|ring| signed_area(ring)).sum()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+    use crate::progress::Silent;
+    use crate::space::SpaceSpec;
+    use std::sync::Arc;
+
+    #[test]
+    fn weights_are_spread_over_all() {
+        let all: Vec<Vec<f64>> = (0..400).map(|k| spread(k, 3)).collect();
+        for design in 0..3 {
+            let mean = all.iter().map(|weights| weights[design]).sum::<f64>() / 400.0;
+            assert!((mean - 1.0 / 3.0).abs() < 0.02, "{mean}");
+            assert!(all.iter().any(|weights| weights[design] > 0.85));
+        }
+        let sums = all.iter().map(|weights| weights.iter().sum::<f64>());
+        assert!(sums.into_iter().all(|sum| (sum - 1.0).abs() < 1e-12));
+    }
+
+    #[test]
+    fn rectangles_are_no_trouble() {
+        let rectangle = |w: f64, h: f64| {
+            let ring = [[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]];
+            Arc::new(Design::of_rings("rectangle", [ring]).expect("a design"))
+        };
+        let designs = vec![
+            rectangle(1.0, 1.0),
+            rectangle(3.0, 1.0),
+            rectangle(1.0, 2.0),
+        ];
+        let made = Space::build(&SpaceSpec::new(designs), &Silent).expect("a space");
+        let report = space(&made, 20, &Silent).expect("measured");
+        assert_eq!((report.edges.len(), report.all_over.folded), (3, 0));
+        let worst = report.all_over.worst;
+        assert_eq!((worst.folds, worst.crossings), (0, 0));
+        assert!(worst.area_off < 0.5 && worst.conformal_p95.expect("a mesh") < 3.0);
+    }
+}
