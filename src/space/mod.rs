@@ -7,7 +7,7 @@
 //!
 //! - `build`: from designs to a [`Space`]: as rigid parts of one common mesh where they
 //!   have one, and else as distance fields
-//! - `blend`: the space and its moments
+//! - `blend`: the space and its moments; `spread`: weights all over it
 //! - `likeness`: how unlike the designs are, two at a time
 //! - `map`, `layout`: where the designs are on a map, and what there is between them
 //!
@@ -21,6 +21,7 @@ mod error;
 mod layout;
 mod likeness;
 mod map;
+mod spread;
 #[cfg(test)]
 mod tests;
 
@@ -30,3 +31,4 @@ pub use error::{SpaceError, SpaceNote};
 pub use layout::MapLayout;
 pub use likeness::Likeness;
 pub use map::Map;
+pub use spread::spread;

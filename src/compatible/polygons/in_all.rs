@@ -12,6 +12,7 @@ use super::pair::{PairMesh, to_unit};
 use super::piece::{self, Rings};
 use super::together::{badness, triangulated};
 use super::transfer::{carry, split_chords};
+use super::untangle::untangle;
 use crate::geometry::{Bounds, DVec2, Side};
 use crate::mesh::triangulation::{Refinement, refined};
 use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
@@ -20,9 +21,12 @@ use rayon::prelude::*;
 /// Faces, and for each design where their vertices are.
 type InAll = (Vec<[u32; 3]>, Vec<Vec<DVec2>>);
 
-/// How many triangulations that fold nowhere are compared: a trade, since each costs what
-/// the first does.
-const COMPARED: usize = 3;
+/// Triangulations that fold nowhere are compared until they have been carried so often in
+/// all: three of four designs, and of twelve, where each takes two seconds, the first.
+const CARRIED: usize = 12;
+
+/// Rounds of lowering the distortion of each mesh that was carried.
+const SETTLED: usize = 3;
 
 /// The rings of one piece, each with its points in every design, triangulated; `first`
 /// is the design that is tried first.
@@ -72,7 +76,7 @@ fn found(
             continue;
         };
         found.extend(carried(&start, (from, None), designs, progress)?);
-        if found.len() == COMPARED {
+        if found.len() * count >= CARRIED {
             break;
         }
     }
@@ -124,6 +128,22 @@ fn alone(
     Ok(Some(mesh))
 }
 
+/// Lowers the distortion of a mesh that was carried, and folds nowhere: the harmonic map
+/// of what needed no more is a poor one.
+fn settle(mesh: &mut PairMesh, progress: &dyn Progress) {
+    for _ in 0..SETTLED {
+        let before = mesh.points[1].clone();
+        let moved = mesh.is_valid() && untangle(mesh, progress);
+        if !moved {
+            break;
+        }
+        if !mesh.is_valid() {
+            mesh.points[1] = before;
+            break;
+        }
+    }
+}
+
 /// A triangulation of one design carried to all others but that in which it is known,
 /// with what it costs; none where it folds in one of them.
 fn carried(
@@ -139,7 +159,10 @@ fn carried(
         match known {
             _ if design == from => return Ok(Some((0.0, own.clone()))),
             Some((_, places)) => mesh.points[1].clone_from(places),
-            None => carry(&mut mesh, &designs[design].points, progress)?,
+            None => {
+                carry(&mut mesh, &designs[design].points, progress)?;
+                settle(&mut mesh, progress);
+            }
         }
         let is_valid = mesh.is_valid();
         Ok(is_valid.then(|| (badness(&mesh), mesh.points[1].clone())))

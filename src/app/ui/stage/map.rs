@@ -28,6 +28,9 @@ const RING: f32 = 4.0;
 /// A design is taken hold of within this many points.
 const HOLD: f32 = 40.0;
 
+/// Room for two rows of shares.
+const SHARES: f32 = 48.0;
+
 /// Width of the row of layouts.
 const LAYOUTS: f32 = 288.0;
 
@@ -42,7 +45,7 @@ struct Held(Option<usize>);
 pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Rect {
     let half = vec2((stage.width() / 2.0).floor(), stage.height());
     let left = Rect::from_min_size(stage.min, half);
-    let right = left.translate(vec2(half.x, 0.0));
+    let mut right = left.translate(vec2(half.x, 0.0));
     let back = scene.session.style().ground;
     let [r, g, b] = back.0;
     root.painter()
@@ -54,14 +57,17 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Re
         missing(root, scene, stage, ink);
         return right;
     };
+    // Below the blend stands what it is made of.
+    let below = right.split_top_bottom_at_y(right.bottom() - SHARES).1;
+    right.max.y = below.top();
     let side = left.width().min(left.height());
     let square = Rect::from_center_size(left.center(), vec2(side, side));
     hand(root, scene, made, square, acts);
-    draw(root, scene, made, square, ink);
+    draw(root, scene, made, (left, square), ink);
     if let Some(picture) = made.blend() {
         image(root, "the blend", picture, right, Color32::WHITE);
     }
-    shares(root, scene, made, right, ink);
+    shares(root, scene, made, below, ink);
     right
 }
 
@@ -163,8 +169,8 @@ fn hand(root: &Ui, scene: &Scene, made: &Made, square: Rect, acts: &mut Intents)
     }
 }
 
-fn draw(root: &Ui, scene: &Scene, made: &Made, square: Rect, ink: Color32) {
-    let painter = root.painter_at(square);
+fn draw(root: &Ui, scene: &Scene, made: &Made, (left, square): (Rect, Rect), ink: Color32) {
+    let painter = root.painter_at(left);
     if let Some(pictures) = made.ground() {
         image(
             root,
@@ -179,15 +185,15 @@ fn draw(root: &Ui, scene: &Scene, made: &Made, square: Rect, ink: Color32) {
     let below = square.width() * 0.072;
     for (site, design) in made.map().sites().iter().zip(made.space().designs()) {
         let at = on_screen(square, *site) + vec2(0.0, below);
-        let at = at.min(square.max - vec2(0.0, 16.0));
+        let at = at.min(left.max - vec2(0.0, 18.0));
         painter.text(at, Align2::CENTER_TOP, &design.name, font.clone(), ink);
     }
-    puck(root, scene, made, square, ink);
+    puck(root, scene, made, (left, square), ink);
 }
 
 /// The puck with a ring of the designs' shares.
-fn puck(root: &Ui, scene: &Scene, made: &Made, square: Rect, ink: Color32) {
-    let painter = root.painter_at(square);
+fn puck(root: &Ui, scene: &Scene, made: &Made, (left, square): (Rect, Rect), ink: Color32) {
+    let painter = root.painter_at(left);
     let at = on_screen(square, scene.map.puck());
     painter.circle(at, PUCK, Color32::WHITE, Stroke::new(1.5, ink));
     let mut from = -FRAC_PI_2;
@@ -243,7 +249,7 @@ fn shares(root: &Ui, scene: &Scene, made: &Made, rect: Rect, ink: Color32) {
         }
         x += width + 2.0 * GRID;
     }
-    let top = rect.bottom() - GRID - ROW * rows.len() as f32;
+    let top = rect.top() + 0.5 * GRID;
     for (k, row) in rows.into_iter().enumerate() {
         for (x, design, galley) in row {
             let at = pos2(rect.left() + 2.0 * GRID + x, top + ROW * k as f32);
