@@ -280,9 +280,8 @@ impl LoadedProject {
     pub fn space(&self) -> Result<SpaceSpec, ProjectError> {
         let project = &self.project;
         let content = match (project.warp, project.content) {
-            (None, None) => None,
-            (None | Some(WarpKind::Arap), Some(ContentKind::Solid))
-            | (Some(WarpKind::Arap), None) => Some(ContentKind::Solid),
+            // Its films are of rigid parts: so is its map where all have a common mesh.
+            (None | Some(WarpKind::Arap), None | Some(ContentKind::Solid)) => None,
             (None | Some(WarpKind::None), Some(ContentKind::Field))
             | (Some(WarpKind::None), None) => Some(ContentKind::Field),
             _ => return Err(BuildError::Unavailable(NO_SPACE.to_owned()).into()),

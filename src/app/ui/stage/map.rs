@@ -51,12 +51,12 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Re
     root.painter()
         .rect_filled(stage, 0.0, Color32::from_rgb(r, g, b));
     let ink = ink_on(back);
-    let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
-    root.painter().vline(right.left(), right.y_range(), line);
     let Some(made) = scene.map.made() else {
         missing(root, scene, stage, ink);
         return right;
     };
+    let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
+    root.painter().vline(right.left(), right.y_range(), line);
     // Below the blend stands what it is made of.
     let below = right.split_top_bottom_at_y(right.bottom() - SHARES).1;
     right.max.y = below.top();
