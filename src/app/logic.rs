@@ -22,7 +22,7 @@ use crate::app::looking::recording::{self, Recording};
 use crate::app::looking::times;
 use crate::app::looking::twin::{self, Twin};
 use crate::app::looking::view::{self, KeepsFit, StageArea};
-use crate::app::looking::{onion, preferences};
+use crate::app::looking::{blending, onion, preferences};
 use crate::app::opening::apply::{self as opening, Gallery};
 use crate::app::opening::closing::{self, Question};
 use crate::app::opening::{dialogs, drops, preview, watching};
@@ -150,7 +150,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             twin::apply,
             twin::follow,
             map::apply,
-            map::follow,
+            blending::follow,
         )
             .chain(),
         // Moved on before it is told where to go: else the time of a rest would be played at once.

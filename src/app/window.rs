@@ -13,7 +13,7 @@ use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::files::CaptureFolder;
-use crate::app::capturing::{copying, pictures};
+use crate::app::capturing::{blends, copying, pictures};
 use crate::app::keeping::autosave::{self, Autosave};
 use crate::app::keeping::presets::KeptPresets;
 use crate::app::keeping::recent::{KeptRecent, Recent};
@@ -164,7 +164,7 @@ impl Plugin for WindowPlugins {
             )
             .add_systems(
                 Update,
-                (pictures::ask, copying::copy_shapes)
+                (pictures::ask, copying::copy_shapes, blends::take)
                     .after(MorphSystems::Draw)
                     .before(MorphSystems::Capture),
             )

@@ -7,6 +7,7 @@ use image::RgbaImage;
 
 use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
+use crate::app::looking::map::MapView;
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
 use crate::app::telling::notices::{About, Notices};
@@ -40,7 +41,8 @@ impl Board {
         );
     }
 
-    fn text(&mut self, text: String, notices: &mut Notices) {
+    /// Puts an SVG document there, and says so.
+    pub fn text(&mut self, text: String, notices: &mut Notices) {
         tell(
             self.with(|board| board.set_text(text)),
             "Copied as SVG",
@@ -65,9 +67,10 @@ pub fn copy_shapes(
     mut board: NonSendMut<Board>,
     mut notices: ResMut<Notices>,
     (session, playback, preferences): (Res<Session>, Res<Playback>, Res<Preferences>),
+    map: Res<MapView>,
     (view, window): (Res<StageView>, Single<&Window, With<PrimaryWindow>>),
 ) {
-    let is_asked = |intent: &Intent| *intent == Intent::CopyShapes;
+    let is_asked = |intent: &Intent| *intent == Intent::CopyShapes && !map.is_shown;
     if intents.read().filter(|intent| is_asked(intent)).count() == 0 {
         return;
     }

@@ -1,5 +1,6 @@
 //! Pictures and films, and where they go.
 
+pub mod blends;
 pub mod copying;
 pub mod estimate;
 pub mod files;

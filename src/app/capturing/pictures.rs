@@ -17,6 +17,7 @@ use crate::app::asking::hand::Marked;
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::copying::Board;
 use crate::app::capturing::files::{CaptureFolder, NewFileError, create_new, whole};
+use crate::app::looking::map::MapView;
 use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
@@ -66,7 +67,7 @@ pub fn ask(
     mut requests: MessageWriter<CaptureStage>,
     mut commands: Commands,
     (session, playback, preferences): (Res<Session>, Res<Playback>, Res<Preferences>),
-    marked: Res<Marked>,
+    (marked, map): (Res<Marked>, Res<MapView>),
     (view, window): (Res<StageView>, Single<&Window, With<PrimaryWindow>>),
 ) {
     for intent in intents.read() {
@@ -79,6 +80,8 @@ pub fn ask(
                     .observe(window_captured(name));
                 continue;
             }
+            // Of the blend there: see `blends`.
+            _ if map.is_shown => continue,
             Intent::Screenshot { with_panels: false } => Wish::File(name),
             Intent::CopyPicture if !marked.0 => Wish::Board,
             _ => continue,
@@ -98,7 +101,8 @@ pub fn ask(
     }
 }
 
-fn size_px(view: &StageView, scale_factor: f32, scale: CaptureScale) -> UVec2 {
+/// How many pixels a picture of what is seen has.
+pub fn size_px(view: &StageView, scale_factor: f32, scale: CaptureScale) -> UVec2 {
     let on_screen = view.viewport_px * scale_factor;
     let factor = match scale {
         CaptureScale::One => 1.0,
@@ -136,7 +140,8 @@ impl Captures {
         !self.writing.is_empty()
     }
 
-    fn write(&mut self, folder: &CaptureFolder, name: &str, image: DynamicImage) {
+    /// Writes a picture of this name into the folder, beside the window.
+    pub fn write(&mut self, folder: &CaptureFolder, name: &str, image: DynamicImage) {
         let (folder, name) = (folder.0.clone(), name.to_owned());
         self.writing.push(Job::start("a picture", move |_| {
             save(&folder, &name, &image)

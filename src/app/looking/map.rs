@@ -6,16 +6,13 @@
 
 use std::sync::Arc;
 
-use bevy::prelude::{
-    DetectChanges, DetectChangesMut, MessageReader, Query, Res, ResMut, Resource, With,
-};
-use bevy::window::{PrimaryWindow, Window};
+use bevy::prelude::{MessageReader, ResMut, Resource};
 use image::RgbaImage;
 
 use crate::app::asking::intent::Intent;
-use crate::app::looking::view::StageArea;
 use crate::app::session::state::Session;
 use crate::app::telling::job::{Job, JobError};
+use crate::colour::Rgb;
 use crate::design::Form;
 use crate::export::{Drawing, PixelSize, SizeError, View, rasterise};
 use crate::geometry::{Bounds, DVec2};
@@ -35,10 +32,6 @@ const SIDE_PX: u32 = 1056;
 
 /// How much of a design's picture on the map is wider than that of a blend.
 const DESIGN: f64 = 1.3;
-
-/// Pixels along the longer side of the blend's picture, at most: a trade for the time of a
-/// move on a large window.
-const LONGEST_PX: f32 = 1400.0;
 
 /// How far an arrow key moves the puck, of the map's reach.
 const STEP: f64 = 0.02;
@@ -156,6 +149,17 @@ impl Made {
         self.space.family().is_some() && forms.any(|form| matches!(form, Form::Outline(_)))
     }
 
+    /// The blend under the puck, over a ground or none.
+    #[must_use]
+    pub fn drawing(&self, size: PixelSize, style: &Style, ground: Option<Rgb>) -> Drawing {
+        let bounds = self.space.bounds();
+        let view = View::fit(bounds.padded(0.04 * bounds.diameter()), size);
+        let mut drawing = Drawing::new(size, ground);
+        let tint = self.space.tint(self.frame.weights());
+        drawing.push_figure(&self.frame.figure(), tint, style, &view);
+        drawing
+    }
+
     /// Draws the blend at a place, unless it is drawn so already; whether it was.
     fn look(&mut self, puck: DVec2, size: PixelSize, style: Style) -> bool {
         let mut weights = vec![0.0; self.space.designs().len()];
@@ -165,12 +169,7 @@ impl Made {
             return false;
         }
         self.frame.seek(&of.0);
-        let bounds = self.space.bounds();
-        let view = View::fit(bounds.padded(0.04 * bounds.diameter()), size);
-        let mut drawing = Drawing::new(size, None);
-        let tint = self.space.tint(&of.0);
-        drawing.push_figure(&self.frame.figure(), tint, &style, &view);
-        let picture = Arc::new(rasterise(&drawing));
+        let picture = Arc::new(rasterise(&self.drawing(size, &style, None)));
         self.blend = Some(Blend { of, picture });
         true
     }
@@ -232,6 +231,34 @@ impl MapView {
             _ => return None,
         };
         Some(Intent::Puck(self.puck + by * STEP * REACH))
+    }
+
+    /// Builds the space of what is open and has its map drawn; whether something new is there.
+    pub fn work(&mut self, session: &Session, is_new: bool) -> bool {
+        let mut is_changed = self.take();
+        if !self.is_shown {
+            return is_changed;
+        }
+        if is_new && session.work().is_none() {
+            match session.whole_loaded() {
+                Some(whole) => self.follow(whole),
+                None => {
+                    (self.made, self.settings) = (None, None);
+                    (self.job, self.better) = (None, None);
+                }
+            }
+        }
+        if let Some(made) = &mut self.made {
+            is_changed |= made.paint(session.style());
+        }
+        is_changed
+    }
+
+    /// Draws the blend under the puck, unless it is drawn so already; whether it was.
+    pub fn look(&mut self, size: PixelSize, style: Style) -> bool {
+        let puck = self.puck;
+        let made = self.made.as_mut();
+        made.is_some_and(|made| made.look(puck, size, style))
     }
 
     fn lay(&mut self) {
@@ -406,43 +433,5 @@ pub fn apply(mut intents: MessageReader<Intent>, mut view: ResMut<MapView>) {
             Intent::MoveSite(design, to) => view.move_site(*design, *to),
             _ => {}
         }
-    }
-}
-
-/// Builds the space of what is open, has its map drawn, and draws the blend under the puck.
-pub fn follow(
-    session: Res<Session>,
-    area: Res<StageArea>,
-    window: Query<&Window, With<PrimaryWindow>>,
-    mut view: ResMut<MapView>,
-) {
-    let is_new = session.is_changed() || view.is_changed();
-    let now = view.bypass_change_detection();
-    let mut is_changed = now.take();
-    if !now.is_shown {
-        return;
-    }
-    if is_new && session.work().is_none() {
-        match session.whole_loaded() {
-            Some(whole) => now.follow(whole),
-            None => {
-                (now.made, now.settings) = (None, None);
-                (now.job, now.better) = (None, None);
-            }
-        }
-    }
-    let (style, puck) = (session.style(), now.puck);
-    if let Some(made) = &mut now.made {
-        is_changed |= made.paint(style);
-        let scale = window.single().map_or(1.0, Window::scale_factor);
-        let wanted = area.size * scale;
-        let wanted = wanted * (LONGEST_PX / wanted.max_element()).min(1.0);
-        let wanted = wanted.max(bevy::math::Vec2::ONE).as_uvec2();
-        if let Ok(size) = PixelSize::new(wanted.x, wanted.y) {
-            is_changed |= made.look(puck, size, style);
-        }
-    }
-    if is_changed {
-        view.set_changed();
     }
 }

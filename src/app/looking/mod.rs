@@ -1,6 +1,7 @@
 //! How the transition is looked at: the view, what is shown, a second method, the map of
 //! all designs, measures, and which method suits.
 
+pub mod blending;
 pub mod choosing;
 pub mod filmstrip;
 pub mod helping;
