@@ -8,7 +8,7 @@ use clap::Args;
 use crate::design::{Format, Source};
 use crate::progress::{Progress, Span, beside, checkpoint};
 use crate::project::{LoadedProject, Project, gallery};
-use crate::space::Space;
+use crate::space::{Space, SpaceError};
 use crate::transition::{Sequence, Transition};
 
 use super::error::CliError;
@@ -118,7 +118,10 @@ impl Inputs {
         let start = Instant::now();
         let spec = loaded.space().map_err(CliError::failed)?;
         let building = Span::new(progress, READ, 1.0);
-        let space = Space::build(&spec, &building).map_err(CliError::failed)?;
+        let space = Space::build(&spec, &building).map_err(|error| match error {
+            SpaceError::Build(error) => CliError::not_built(error),
+            error => CliError::failed(error),
+        })?;
         Ok((loaded, space, start.elapsed()))
     }
 

@@ -137,7 +137,9 @@ struct Made {
 
 /// Designs that share their connectivity, or are matched.
 enum Forms {
-    Family(Result<Family, FamilyError>, Vec<[u32; 2]>),
+    /// A common mesh, or why there is none, and the bars.
+    Given(Result<Family, FamilyError>, Vec<[u32; 2]>),
+    /// It is to be made.
     Outlines,
 }
 
@@ -154,9 +156,12 @@ impl Made {
         for two in outlines.windows(2) {
             let rings = two.iter().flat_map(Regions::rings);
             let points = rings.map(|ring| ring.points().len()).sum();
-            Load::Points
-                .allow(points, progress)
-                .map_err(BuildError::from)?;
+            if let Err(error) = Load::Points.allow(points, progress) {
+                return Ok(Self {
+                    form: Forms::Given(Err(error.into()), Vec::new()),
+                    likeness: Likeness::even(outlines.len()),
+                });
+            }
         }
         Ok(Self {
             form: Forms::Outlines,
@@ -177,9 +182,9 @@ impl Made {
             Load::Bars
                 .allow(bars.len(), progress)
                 .map_err(BuildError::from)?;
-            Forms::Family(Family::from_trusses(&trusses, progress), bars)
+            Forms::Given(Family::from_trusses(&trusses, progress), bars)
         } else if let Some(meshes) = meshes {
-            Forms::Family(Family::from_meshes(&meshes), Vec::new())
+            Forms::Given(Family::from_meshes(&meshes), Vec::new())
         } else {
             return Ok(None);
         };
@@ -194,7 +199,7 @@ impl Made {
         progress: &dyn Progress,
     ) -> Result<Result<Seen, FamilyError>, SpaceError> {
         let (family, bars) = match &self.form {
-            Forms::Family(family, bars) => (family.clone(), bars.clone()),
+            Forms::Given(family, bars) => (family.clone(), bars.clone()),
             Forms::Outlines => {
                 let matching = Span::new(progress, 0.0, 0.9);
                 (self.outlines(spec, &matching)?, Vec::new())

@@ -57,6 +57,11 @@ impl Likeness {
         Ok(likeness)
     }
 
+    /// Where nobody knows: all are as unlike each other.
+    pub(super) fn even(count: usize) -> Self {
+        Self::of(count, |_, _| 1.0)
+    }
+
     /// Of points that belong together, number by number.
     pub(super) fn of_points(places: &[Vec<DVec2>]) -> Self {
         Self::of(places.len(), |a, b| apart(&places[a], &places[b]))

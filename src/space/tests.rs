@@ -141,6 +141,25 @@ fn what_has_no_common_mesh_is_blended_as_fields() {
 }
 
 #[test]
+fn what_is_too_much_to_match_is_blended_as_fields() {
+    let corner = |k: u32| {
+        let angle = f64::from(k) / 13_000.0 * std::f64::consts::TAU;
+        (DVec2::from_angle(angle) * 3.0).to_array()
+    };
+    let ring: Vec<[f64; 2]> = (0..13_000).map(corner).collect();
+    let disc = Arc::new(Design::of_rings("disc", [ring]).expect("a disc"));
+    let mut spec = SpaceSpec::new(vec![star("star", 5, 1.5), disc]);
+    spec.options.field.cells = 32;
+    let space = Space::build(&spec, &Silent).expect("fields");
+    assert!(space.family().is_none());
+    let told = space.notes()[0].to_string();
+    assert!(told.contains("points of outlines take longer"), "{told}");
+    spec.content = Some(ContentKind::Solid);
+    let error = Space::build(&spec, &Silent).expect_err("too much");
+    assert!(matches!(error, SpaceError::NoFamily(_)), "{error}");
+}
+
+#[test]
 fn fields_of_two_are_the_pair() {
     let [a, b] = [star("a", 5, 1.5), frame("b", 1.0)];
     let spec = SpaceSpec {

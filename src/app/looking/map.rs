@@ -270,8 +270,12 @@ impl MapView {
     }
 
     fn place(&mut self, space: Space, sites: &[DVec2]) {
+        // What was drawn for the draft stays until that of the best is there.
+        let before = self.made.take();
+        let before = before.filter(|made| made.map.sites() == sites);
+        let ground = before.and_then(|made| made.ground);
         match Made::new(space, sites) {
-            Ok(made) => self.made = Some(made),
+            Ok(made) => self.made = Some(Made { ground, ..made }),
             Err(error) => self.refuse(JobError::Failed(error.into())),
         }
     }

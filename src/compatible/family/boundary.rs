@@ -6,7 +6,7 @@
 //! where a design has no point of its own, it gets one at the same share of the way
 //! between the two beside it. Points of different matches in one place are one.
 
-use crate::correspondence::{RegionMatch, RingKind, RingMatch};
+use crate::correspondence::{PieceMatch, RegionMatch, RingKind, RingMatch};
 use crate::geometry::{Bounds, DVec2};
 use std::collections::HashMap;
 
@@ -74,21 +74,23 @@ pub(super) fn shared(
 
 /// Whether each part of one is a part of the other, hole by hole.
 fn is_whole(matched: &RegionMatch) -> bool {
-    let parts = |side: fn(&crate::correspondence::PieceMatch) -> Option<usize>| {
+    let are_apart = |side: fn(&PieceMatch) -> Option<usize>| {
         let mut parts: Vec<_> = matched.pieces.iter().map(side).collect();
         let count = parts.len();
         parts.sort_unstable();
         parts.dedup();
         parts.len() == count
     };
-    let is_whole = |piece: &crate::correspondence::PieceMatch| {
+    let is_matched = |piece: &PieceMatch| {
         let rings = &piece.rings;
         piece.is_in_both()
             && piece.lone.is_empty()
             && piece.cuts.is_empty()
             && rings.iter().all(|ring| ring.kind == RingKind::Matched)
     };
-    matched.pieces.iter().all(is_whole) && parts(|p| p.source_part) && parts(|p| p.target_part)
+    matched.pieces.iter().all(is_matched)
+        && are_apart(|piece| piece.source_part)
+        && are_apart(|piece| piece.target_part)
 }
 
 /// A point by its bits.
@@ -175,7 +177,7 @@ fn merged(lists: &[Option<&RingMatch>], near: f64) -> Result<Vec<Vec<DVec2>>, us
             ends.push([list.target[first], list.target[at]]);
             from[k] = at;
         }
-        between(&mut rings, &ends, (knots, near / length), [corner, next]);
+        between(&mut rings, &ends, knots, near / length);
     }
     Ok(rings)
 }
@@ -199,12 +201,7 @@ fn corners(lists: &[Option<&RingMatch>]) -> Result<Vec<DVec2>, usize> {
 }
 
 /// Adds a corner and what follows up to the next one to the ring of every design.
-fn between(
-    rings: &mut [Vec<DVec2>],
-    ends: &[[DVec2; 2]],
-    (mut knots, near): (Vec<Knot>, f64),
-    [corner, next]: [DVec2; 2],
-) {
+fn between(rings: &mut [Vec<DVec2>], ends: &[[DVec2; 2]], mut knots: Vec<Knot>, near: f64) {
     // Stable: points of one design stay in their order.
     knots.sort_by(|a, b| a.share.total_cmp(&b.share));
     let mut clusters: Vec<Vec<Knot>> = Vec::new();
@@ -226,11 +223,6 @@ fn between(
         ring.push(begin);
         let mut last = (0.0, begin);
         for (i, &share) in shares.iter().enumerate() {
-            if begin == corner && end == next && known.iter().all(Option::is_none) {
-                // The hub, or a design that is the hub here.
-                ring.push(corner.lerp(next, share));
-                continue;
-            }
             let place = known[i].unwrap_or_else(|| {
                 let after = (i + 1..shares.len()).find_map(|j| Some((shares[j], known[j]?)));
                 let (to, place) = after.unwrap_or((1.0, end));

@@ -7,6 +7,7 @@ mod boundary;
 mod outlines;
 
 use super::{BarElement, CompatibleError, CompatibleMesh, PolygonsError};
+use crate::budget::TooMuch;
 use crate::design::Truss;
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::{Connectivity, TriangleMesh};
@@ -61,6 +62,9 @@ pub enum FamilyError {
     /// No panels of two trusses are panels of all.
     #[error("the panels of no two trusses are panels of all")]
     Panels,
+    /// To match the outlines would take very long, or very much memory.
+    #[error(transparent)]
+    TooMuch(#[from] TooMuch),
     /// Nobody wants the result.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -137,13 +141,16 @@ impl Family {
     /// panels.
     pub fn from_trusses(trusses: &[&Truss], progress: &dyn Progress) -> Result<Self, FamilyError> {
         let places: Vec<_> = trusses.iter().map(|t| t.nodes().to_vec()).collect();
-        let mut found = None;
+        let mut found: Option<Self> = None;
         for (a, first) in trusses.iter().enumerate() {
+            // Those with the first alone say whether all are alike.
+            if a > 0 && found.is_some() {
+                break;
+            }
             for (b, second) in trusses.iter().enumerate().skip(a + 1) {
                 still_wanted(progress)?;
                 let made = match CompatibleMesh::from_trusses(first, second, progress) {
                     Ok(made) => made,
-                    // All others are held against the first: whether they are alike at all.
                     Err(error) if a == 0 => {
                         return Err(FamilyError::Unlike { design: b, error });
                     }

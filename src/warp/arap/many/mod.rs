@@ -15,6 +15,12 @@
 //! exponential homotopy with the symmetric energy; the order of the designs has no
 //! influence but by rounding, where no face turns by more than half a turn between two of
 //! them. Not guaranteed: that no face folds between the designs.
+//!
+//! - `parts`: where the connected parts are as wholes
+
+mod parts;
+#[cfg(test)]
+mod tests;
 
 use super::angles::nearest;
 use super::assembly::{ElementMap, LocalMaps, with_first};
@@ -25,6 +31,7 @@ use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen, twice_signed_area};
 use crate::homotopy::Homotopy;
 use crate::linalg::{Cholesky, FactorError, SymmetricMatrix, Workspace};
 use crate::progress::{Progress, checkpoint, still_wanted};
+use parts::{Parts, blended};
 use std::sync::Arc;
 
 /// A prefactored blend of many designs. Cloning is cheap.
@@ -74,20 +81,6 @@ struct Bar {
     ways: Vec<[f64; 2]>,
 }
 
-/// The connected parts and where they are as wholes.
-#[derive(Debug)]
-struct Parts {
-    /// For each vertex its part.
-    of_vertex: Vec<u32>,
-    /// For each vertex its share of its part's mass.
-    shares: Vec<f64>,
-    /// For each design its rotation against what all have in common, in radians.
-    angles: Vec<f64>,
-    /// For each part and each design its offset from the whole's centroid, turned back;
-    /// parts first.
-    turned: Vec<DVec2>,
-}
-
 impl ArapBlend {
     /// Decomposes the local maps, assembles the matrix and factors it.
     ///
@@ -108,7 +101,6 @@ impl ArapBlend {
             still_wanted(progress)?;
             maps.push(LocalMaps::new(&family.pair(0, design), &options, &[])?);
         }
-        let masses = masses(family);
         let mut ways = Vec::with_capacity(family.faces().len() * count);
         let mut faces = Vec::with_capacity(family.faces().len());
         let mut matrix = Assembly::new(family);
@@ -135,7 +127,7 @@ impl ArapBlend {
             }
             error => ArapError::Factor(error),
         })?;
-        let parts = Parts::of(family, &masses);
+        let parts = Parts::of(family);
         let mut inner = Inner {
             family: family.clone(),
             cholesky,
@@ -160,14 +152,13 @@ impl ArapBlend {
     pub fn placer(&self) -> BlendPlacer {
         let inner = &self.0;
         let vertices = inner.parts.of_vertex.len();
-        let parts = inner.parts.turned.len() / inner.family.count();
         BlendPlacer {
             blend: Arc::clone(inner),
             places: inner.family.places()[0].clone(),
             pulls: vec![DVec2::ZERO; vertices],
             deviation: vec![0.0; 2 * vertices],
             workspace: inner.cholesky.workspace(2),
-            shifts: vec![DVec2::ZERO; parts],
+            shifts: vec![DVec2::ZERO; inner.parts.count()],
         }
     }
 }
@@ -233,11 +224,6 @@ impl BlendPlacer {
     pub fn places(&self) -> &[DVec2] {
         &self.places
     }
-}
-
-/// Σ w_j p_j.
-fn blended(weights: &[f64], places: &[DVec2]) -> DVec2 {
-    weights.iter().zip(places).map(|(&w, &p)| p * w).sum()
 }
 
 impl Inner {
@@ -411,264 +397,5 @@ impl Assembly {
             }
         }
         self.matrix
-    }
-}
-
-/// Fixed masses of the vertices: the mean of the designs' normalised lumped areas.
-fn masses(family: &Family) -> Vec<f64> {
-    let mut masses = vec![0.0; family.places()[0].len()];
-    for places in family.places() {
-        let area = |face: &[u32; 3]| {
-            let [a, b, c] = face.map(|v| places[v as usize]);
-            0.5 * twice_signed_area(a, b, c)
-        };
-        let square =
-            |&[a, b]: &BarElement| 0.5 * places[a as usize].distance_squared(places[b as usize]);
-        let faces = family.faces().iter();
-        let total = faces.clone().map(area).sum::<f64>()
-            + family.elements().iter().map(square).sum::<f64>();
-        let share = 1.0 / (total * family.count() as f64);
-        for face in faces {
-            let mass = area(face) * share / 3.0;
-            face.iter().for_each(|&v| masses[v as usize] += mass);
-        }
-        for bar in family.elements() {
-            let mass = square(bar) * share / 2.0;
-            bar.iter().for_each(|&v| masses[v as usize] += mass);
-        }
-    }
-    masses
-}
-
-impl Parts {
-    fn of(family: &Family, masses: &[f64]) -> Self {
-        let of_vertex = family.pair(0, 0).components();
-        let count = of_vertex.iter().max().map_or(0, |&last| last as usize + 1);
-        let mut mass = vec![0.0; count];
-        for (&part, &m) in of_vertex.iter().zip(masses) {
-            mass[part as usize] += m;
-        }
-        let shares = of_vertex.iter().zip(masses);
-        let shares: Vec<f64> = shares.map(|(&part, &m)| m / mass[part as usize]).collect();
-        let designs = family.count();
-        let angles = common_angles(family, masses);
-        let mut turned = vec![DVec2::ZERO; count * designs];
-        // The only part is the whole.
-        if count > 1 {
-            for (design, places) in family.places().iter().enumerate() {
-                let mut centres = vec![DVec2::ZERO; count];
-                for ((&part, &share), &p) in of_vertex.iter().zip(&shares).zip(places) {
-                    centres[part as usize] += p * share;
-                }
-                let total: f64 = mass.iter().sum();
-                let whole: DVec2 = centres
-                    .iter()
-                    .zip(&mass)
-                    .map(|(&c, &m)| c * (m / total))
-                    .sum();
-                let back = DMat2::from_angle(-angles[design]);
-                for (part, &centre) in centres.iter().enumerate() {
-                    turned[part * designs + design] = back * (centre - whole);
-                }
-            }
-        }
-        Self {
-            of_vertex,
-            shares,
-            angles,
-            turned,
-        }
-    }
-
-    /// What has to be added to the deviation of each part: its mean is taken out, and
-    /// parts are carried about the whole as it turns.
-    fn shifts(&self, weights: &[f64], deviation: impl Fn(usize) -> DVec2, shifts: &mut [DVec2]) {
-        let angle: f64 = self.angles.iter().zip(weights).map(|(a, w)| a * w).sum();
-        let turn = DMat2::from_angle(angle);
-        for (shift, turned) in shifts
-            .iter_mut()
-            .zip(self.turned.chunks_exact(weights.len()))
-        {
-            // By the operations of the other side, so that both are equal at a design.
-            let ends = turned.iter().zip(&self.angles).zip(weights);
-            let straight: DVec2 = ends
-                .map(|((&end, &angle), &w)| DMat2::from_angle(angle) * end * w)
-                .sum();
-            *shift = turn * blended(weights, turned) - straight;
-        }
-        for (v, (&part, &share)) in self.of_vertex.iter().zip(&self.shares).enumerate() {
-            shifts[part as usize] -= deviation(v) * share;
-        }
-    }
-}
-
-/// For each design the rotation about its centroid that lays it on all others best, least
-/// squares over all pairs of designs (generalised Procrustes analysis, Gower 1975, of
-/// rotations alone).
-fn common_angles(family: &Family, masses: &[f64]) -> Vec<f64> {
-    /// A power iteration, whose error falls by some digits a round unless designs agree on
-    /// no rotation.
-    const ROUNDS: usize = 200;
-    let count = family.count();
-    let total: f64 = masses.iter().sum();
-    let centred: Vec<Vec<DVec2>> = family
-        .places()
-        .iter()
-        .map(|places| {
-            let centre: DVec2 = places
-                .iter()
-                .zip(masses)
-                .map(|(&p, &m)| p * (m / total))
-                .sum();
-            places.iter().map(|&p| p - centre).collect()
-        })
-        .collect();
-    // As complex numbers: the argument turns design k onto design j.
-    let onto = |j: usize, k: usize| -> DVec2 {
-        let places = centred[j].iter().zip(&centred[k]).zip(masses);
-        places
-            .map(|((&p, &q), &m)| DVec2::new(q.dot(p), q.perp_dot(p)) * m)
-            .sum()
-    };
-    let products: Vec<Vec<DVec2>> = (0..count)
-        .map(|j| (0..count).map(|k| onto(j, k)).collect())
-        .collect();
-    let mut turns = vec![DVec2::X; count];
-    for _ in 0..ROUNDS {
-        let before = turns.clone();
-        for (j, turn) in turns.iter_mut().enumerate() {
-            let others = (0..count).filter(|&k| k != j);
-            let sum: DVec2 = others.map(|k| before[k].rotate(products[j][k])).sum();
-            // Half of the way, or two designs would change places for ever.
-            *turn = (before[j] + sum.normalize_or(before[j])).normalize_or(before[j]);
-        }
-        let moved = turns.iter().zip(&before).map(|(a, b)| a.distance(*b));
-        if moved.fold(0.0, f64::max) < 1e-15 {
-            break;
-        }
-    }
-    turns.iter().map(|turn| turn.to_angle()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::compatible::CompatibleMesh;
-    use crate::progress::Silent;
-    use crate::warp::{Arap, Warp};
-    use proptest::prelude::*;
-
-    /// A strip of two rows, bent and stretched, and turned as a whole.
-    fn bent(by: f64, stretch: f64, turn: f64) -> Vec<DVec2> {
-        let place = |i: u32| {
-            let (x, y) = (f64::from(i / 2), f64::from(i % 2));
-            let p = DMat2::from_angle(by * x) * DVec2::new(x * stretch, 4.0 - y);
-            DMat2::from_angle(turn) * p + DVec2::new(3.0 * turn, by)
-        };
-        (0..12).map(place).collect()
-    }
-
-    fn strip() -> Vec<[u32; 3]> {
-        let cells = (0..5_u32).map(|i| 2 * i);
-        cells
-            .flat_map(|v| [[v, v + 1, v + 2], [v + 2, v + 1, v + 3]])
-            .collect()
-    }
-
-    fn family(designs: &[[f64; 3]]) -> Family {
-        let places = designs
-            .iter()
-            .map(|&[by, stretch, turn]| bent(by, stretch, turn));
-        Family::new(strip(), places.collect(), vec![]).expect("positive faces")
-    }
-
-    const THREE: [[f64; 3]; 3] = [[0.0, 1.0, 0.0], [0.2, 1.3, 0.9], [-0.15, 0.8, -0.7]];
-
-    #[test]
-    fn each_design_is_met_to_the_last_bit() {
-        let family = family(&THREE);
-        let blend = ArapBlend::build(&family, &Silent).expect("a blend");
-        let mut placer = blend.placer();
-        for (k, places) in family.places().iter().enumerate() {
-            let mut weights = [0.0; 3];
-            weights[k] = 1.0;
-            assert_eq!(placer.place(&weights), &places[..]);
-        }
-    }
-
-    #[test]
-    fn the_order_of_the_designs_has_no_influence() {
-        let [a, b, c] = THREE;
-        let place = |designs: [[f64; 3]; 3], weights: [f64; 3]| {
-            let blend = ArapBlend::build(&family(&designs), &Silent).expect("a blend");
-            blend.placer().place(&weights).to_vec()
-        };
-        let first = place([a, b, c], [0.5, 0.2, 0.3]);
-        for (designs, weights) in [
-            ([b, c, a], [0.2, 0.3, 0.5]),
-            ([c, b, a], [0.3, 0.2, 0.5]),
-            ([b, a, c], [0.2, 0.5, 0.3]),
-        ] {
-            let again = place(designs, weights);
-            let off = first.iter().zip(&again).map(|(p, q)| p.distance(*q));
-            assert!(off.fold(0.0, f64::max) < 1e-12);
-        }
-    }
-
-    #[test]
-    fn a_rigid_design_moves_rigidly() {
-        let designs = [[0.1, 1.2, 0.0], [0.1, 1.2, 1.0], [0.1, 1.2, -1.3]];
-        let family = family(&designs);
-        let blend = ArapBlend::build(&family, &Silent).expect("a blend");
-        let mut placer = blend.placer();
-        let places = placer.place(&[0.3, 0.3, 0.4]);
-        let lengths = |places: &[DVec2]| -> Vec<f64> {
-            let first = places[0];
-            places.iter().map(|p| p.distance(first)).collect()
-        };
-        for (a, b) in lengths(places).iter().zip(lengths(&family.places()[0])) {
-            assert!((a - b).abs() < 1e-10);
-        }
-    }
-
-    #[test]
-    fn parts_are_carried_about_the_whole() {
-        // Two strips apart from each other, turned by half a turn as a whole.
-        let two = |turn: f64| -> Vec<DVec2> {
-            let strip = bent(0.0, 1.0, 0.0);
-            let other = strip.iter().map(|&p| p + DVec2::Y * 20.0);
-            let all = strip.iter().copied().chain(other);
-            all.map(|p| DMat2::from_angle(turn) * p).collect()
-        };
-        let faces = strip().into_iter();
-        let again = strip().into_iter().map(|face| face.map(|v| v + 12));
-        let places = vec![two(0.0), two(2.0), two(3.0)];
-        let family = Family::new(faces.chain(again).collect(), places, vec![]).expect("positive");
-        let blend = ArapBlend::build(&family, &Silent).expect("a blend");
-        let at = blend.placer().place(&[0.25, 0.25, 0.5]).to_vec();
-        assert!((at[0].distance(at[12]) - 20.0).abs() < 1e-9);
-    }
-
-    proptest! {
-        #[test]
-        fn two_designs_are_the_pair(
-            bends in prop::array::uniform2(-0.1..0.1_f64),
-            stretches in prop::array::uniform2(0.6..1.6_f64),
-            turn in -2.5..2.5_f64,
-            t in -0.5..1.5_f64,
-        ) {
-            let designs = [[bends[0], stretches[0], 0.0], [bends[1], stretches[1], turn]];
-            let family = family(&designs);
-            let blend = ArapBlend::build(&family, &Silent).expect("a blend");
-            let options = ArapOptions { homotopy: Homotopy::Exponential, ..ArapOptions::default() };
-            let mesh: CompatibleMesh = family.pair(0, 1);
-            let mut pair = Arap::build(&mesh, &options, &Silent).expect("a pair").placer();
-            pair.place(t);
-            let mut placer = blend.placer();
-            let many = placer.place(&[1.0 - t, t]);
-            for (p, q) in many.iter().zip(&pair.placement().in_frame) {
-                prop_assert!(p.distance(*q) < 1e-11, "{p} {q}");
-            }
-        }
     }
 }
