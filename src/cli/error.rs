@@ -2,6 +2,8 @@
 
 use std::io;
 
+use crate::project::ProjectError;
+use crate::space::SpaceError;
 use crate::transition::BuildError;
 
 /// Why a command did not do its work.
@@ -29,6 +31,16 @@ impl CliError {
         match error.reason() {
             BuildError::TooMuch(_) => Self::Failed(format!("{error}, or go on with --patient")),
             _ => Self::failed(error),
+        }
+    }
+
+    /// Why there is no film of a project, likewise.
+    pub fn no_film(error: ProjectError) -> Self {
+        match error {
+            ProjectError::Build(error) | ProjectError::Space(SpaceError::Build(error)) => {
+                Self::not_built(error)
+            }
+            error => Self::failed(error),
         }
     }
 

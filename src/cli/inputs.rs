@@ -8,7 +8,7 @@ use clap::Args;
 use crate::design::{Format, Source};
 use crate::progress::{Progress, Span, beside, checkpoint};
 use crate::project::{LoadedProject, Project, gallery};
-use crate::space::{Space, SpaceError};
+use crate::space::Space;
 use crate::transition::{Sequence, Transition};
 
 use super::error::CliError;
@@ -57,11 +57,7 @@ impl OpenedPair {
     /// What it is called: a leg of a sequence by its designs.
     pub fn title(&self) -> String {
         match self.loaded.is_leg() {
-            true => self
-                .loaded
-                .names_on_the_way()
-                .collect::<Vec<_>>()
-                .join(" to "),
+            true => self.loaded.names_on_the_way().join(" to "),
             false => self.loaded.title(),
         }
     }
@@ -116,12 +112,9 @@ impl Inputs {
     ) -> Result<(LoadedProject, Space, Duration), CliError> {
         let loaded = self.load(method, progress)?;
         let start = Instant::now();
-        let spec = loaded.space().map_err(CliError::failed)?;
         let building = Span::new(progress, READ, 1.0);
-        let space = Space::build(&spec, &building).map_err(|error| match error {
-            SpaceError::Build(error) => CliError::not_built(error),
-            error => CliError::failed(error),
-        })?;
+        let space = loaded.built_space(None, &building);
+        let space = space.map_err(CliError::no_film)?;
         Ok((loaded, space, start.elapsed()))
     }
 

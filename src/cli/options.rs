@@ -321,10 +321,10 @@ impl MethodArgs {
         loaded: &mut LoadedProject,
         progress: &dyn Progress,
     ) -> Result<Transition, CliError> {
-        let spec = loaded.spec().map_err(CliError::failed)?;
         if !self.is_auto() {
-            return Transition::build(&spec, progress).map_err(CliError::not_built);
+            return loaded.build(progress).map_err(CliError::no_film);
         }
+        let spec = loaded.spec().map_err(CliError::failed)?;
         let (transition, _) = auto(&spec, progress).map_err(CliError::not_built)?;
         loaded.project.warp = Some(transition.cell().warp());
         loaded.project.content = Some(transition.cell().content());
@@ -338,7 +338,7 @@ impl MethodArgs {
         loaded: &mut LoadedProject,
         progress: &dyn Progress,
     ) -> Result<Sequence, CliError> {
-        if !loaded.project.is_sequence() {
+        if !(loaded.project.is_sequence() || loaded.project.follows_path()) {
             return Ok(self.build(loaded, progress)?.into());
         }
         if self.is_auto() {
@@ -348,14 +348,12 @@ impl MethodArgs {
         }
         let legs = loaded.legs();
         let shares = Several::new(progress, legs.len());
-        let built = legs.iter().enumerate().map(|(k, leg)| {
-            let spec = leg.spec().map_err(CliError::failed)?;
-            Transition::build(&spec, &shares.part(k)).map_err(CliError::not_built)
-        });
+        let built = legs.iter().enumerate();
+        let built = built.map(|(k, leg)| leg.build(&shares.part(k)).map_err(CliError::no_film));
         let built: Vec<_> = built.collect::<Result<_, CliError>>()?;
         let sequence = Sequence::new(built);
         let sequence = sequence.unwrap_or_else(|| unreachable!("a sequence has legs"));
-        Ok(sequence.leading_back(loaded.project.closed))
+        Ok(sequence.leading_back(loaded.project.leads_back()))
     }
 
     /// Whether the films decide on the method.

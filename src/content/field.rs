@@ -127,6 +127,14 @@ impl FieldBlend {
         log.copysign(x)
     }
 
+    /// The distance whose L is `level`: the inverse of [`Self::curve`].
+    pub(crate) fn distance(&self, level: f64) -> f64 {
+        match self.space {
+            BlendSpace::Real => level,
+            BlendSpace::Log => (level.abs().exp_m1() * self.epsilon).copysign(level),
+        }
+    }
+
     /// F for the distances `source` and `target`, at `t` in [0, 1] or beyond.
     #[must_use]
     pub fn value(&self, source: f64, target: f64, t: f64) -> f64 {

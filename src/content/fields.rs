@@ -1,5 +1,5 @@
 //! The distance fields of two designs: of all that they cover, and one for each paint of
-//! drawings in several.
+//! drawings in several; or those of many on the way through their blends, two at a time.
 //!
 //! Guarantees: at t = 0 and t = 1 each coat is that of its drawing. What one drawing has
 //! alone is blended with a field that is outside everywhere, and so shrinks away.
@@ -19,7 +19,8 @@ const NOTHING: f64 = -1.0;
 /// The content *distance field*. Cloning is cheap: fields are shared.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fields {
-    whole: FieldPair,
+    /// At least one; each for as long as the others.
+    pairs: Arc<[FieldPair]>,
     painted: Option<Painted>,
     is_carried: bool,
 }
@@ -41,16 +42,49 @@ impl Fields {
     #[must_use]
     pub fn new(whole: FieldPair, painted: Option<Painted>, is_carried: bool) -> Self {
         Self {
-            whole,
+            pairs: [whole].into(),
             painted,
             is_carried,
         }
     }
 
-    /// The fields of all that is covered.
+    /// Pairs at rest, one after the other for as long each, in one colour: what one ends
+    /// with the next begins with. None of no pairs, or where their grids or blends differ.
     #[must_use]
-    pub fn whole(&self) -> &FieldPair {
-        &self.whole
+    pub fn in_turn(pairs: Vec<FieldPair>) -> Option<Self> {
+        let first = pairs.first()?;
+        let fits = |pair: &FieldPair| (pair.grid(), pair.blend()) == (first.grid(), first.blend());
+        pairs.iter().all(fits).then(|| Self {
+            pairs: pairs.into(),
+            painted: None,
+            is_carried: false,
+        })
+    }
+
+    /// The fields of all that is covered at t = 0.
+    #[must_use]
+    pub fn first(&self) -> &FieldPair {
+        &self.pairs[0]
+    }
+
+    /// The pairs of fields of all that is covered, in turn: of two designs one.
+    #[must_use]
+    pub fn pairs(&self) -> &[FieldPair] {
+        &self.pairs
+    }
+
+    /// The number of the pair that is seen at `t`, and where in it: before and behind all
+    /// it extrapolates.
+    #[must_use]
+    pub fn place(&self, t: f64) -> (usize, f64) {
+        let count = self.pairs.len();
+        if count == 1 {
+            return (0, t);
+        }
+        let share = t * count as f64;
+        // `as` saturates, and takes what is no number for 0.
+        let pair = (share.floor().max(0.0) as usize).min(count - 1);
+        (pair, share - pair as f64)
     }
 
     /// Those of the paints; none where there is one colour.
@@ -63,28 +97,29 @@ impl Fields {
         self.painted.as_mut()
     }
 
-    /// The same fields mixed another way; measures nothing again.
+    /// The same fields mixed another way; measures nothing again. None of several in
+    /// turn, which were mixed before.
     ///
     /// # Errors
     /// Where the blend is none.
-    pub fn with_blend(&self, blend: FieldBlend) -> Result<Self, FieldPairError> {
-        let whole = self.whole.with_blend(blend)?;
+    pub fn with_blend(&self, blend: FieldBlend) -> Result<Option<Self>, FieldPairError> {
+        let [whole] = &*self.pairs else {
+            return Ok(None);
+        };
+        let whole = whole.with_blend(blend)?;
         let again = |painted: &Painted| {
             let (coating, fields) = (painted.coating.clone(), painted.fields.clone());
             Painted::blended(coating, fields, whole.grid(), blend)
         };
         let painted = self.painted.as_ref().map(again).transpose()?;
-        Ok(Self {
-            whole,
-            painted,
-            is_carried: self.is_carried,
-        })
+        Ok(Some(Self::new(whole, painted, self.is_carried)))
     }
 
     /// The contour of all that is covered, when the placement is that of `t`.
     #[must_use]
     pub fn contour(&self, placement: &Placement, t: f64) -> Vec<Vec<DVec2>> {
-        self.contour_of(&self.whole, placement, t)
+        let (pair, t) = self.place(t);
+        self.contour_of(&self.pairs[pair], placement, t)
     }
 
     /// The contours coat by coat as they lie at `t`, the lowest first, or that of the
@@ -201,7 +236,7 @@ mod tests {
     }
 
     fn areas(fields: &Fields, t: f64) -> Vec<f64> {
-        let bounds = fields.whole().grid().bounds();
+        let bounds = fields.first().grid().bounds();
         let coats = fields.coated_at(Still::new(bounds).placer().placement(), t);
         let area = |coat: &Inked| coat.rings.iter().map(|ring| signed_area(ring)).sum();
         coats.iter().map(area).collect()
@@ -217,6 +252,33 @@ mod tests {
     }
 
     #[test]
+    fn pairs_in_turn_are_seen_one_after_the_other() {
+        let pair = |from, to| FieldPair::new(from, to, FieldBlend::default()).expect("a pair");
+        let [first, second] = [
+            pair(field(2..10), field(6..16)),
+            pair(field(6..16), field(12..20)),
+        ];
+        let fields = Fields::in_turn(vec![first.clone(), second.clone()]).expect("pairs");
+        let still = Still::new(first.grid().bounds()).placer();
+        for (t, pair, within) in [
+            (-0.25, &first, -0.5),
+            (0.0, &first, 0.0),
+            (0.25, &first, 0.5),
+            (0.5, &second, 0.0),
+            (0.75, &second, 0.5),
+            (1.0, &second, 1.0),
+        ] {
+            assert_eq!(
+                fields.contour(still.placement(), t),
+                pair.contour(within),
+                "{t}"
+            );
+        }
+        assert_eq!(fields.with_blend(FieldBlend::default()), Ok(None));
+        assert_eq!(Fields::in_turn(Vec::new()), None);
+    }
+
+    #[test]
     fn nothing_stays_nothing_at_any_threshold() {
         let blend = |threshold: f64| FieldBlend {
             threshold,
@@ -225,6 +287,7 @@ mod tests {
         let fields = fields(blend(0.0));
         for threshold in [-3.0, -1.0, 1.0] {
             let again = fields.with_blend(blend(threshold)).expect("a field");
+            let again = again.expect("one pair");
             assert_eq!(areas(&again, 1.0)[1], 0.0, "{threshold}");
             assert_ne!(areas(&again, 0.0), areas(&fields, 0.0));
         }

@@ -1,6 +1,7 @@
 //! The document itself, as it stands in the file.
 
 use super::leg::Leg;
+use super::map::MapSettings;
 use crate::content::ContentKind;
 use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;
@@ -61,6 +62,9 @@ pub struct Project {
     /// order; what is missing at the end has nothing of its own. From version 2 on.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub legs: Vec<Leg>,
+    /// The map of all designs. From version 2 on.
+    #[serde(default, skip_serializing_if = "is_default")]
+    pub map: MapSettings,
     /// The options of all methods, whose keys stand beside the others in the
     /// file.
     // Reading through `flatten` would lose unknown keys and lines.
@@ -157,6 +161,7 @@ impl Project {
             designs,
             closed: false,
             legs: Vec::new(),
+            map: MapSettings::default(),
             options: Options::default(),
             timing: Timing::default(),
             style: Style::default(),
@@ -168,7 +173,8 @@ impl Project {
     /// The oldest version that can say it.
     pub(super) fn needed_version(&self) -> u32 {
         let has_times = |stop: &Stop| stop.hold_secs != 0.0 || stop.duration_secs.is_some();
-        if self.is_sequence() || self.stops.iter().any(has_times) {
+        let has_map = self.map != MapSettings::default();
+        if self.is_sequence() || has_map || self.stops.iter().any(has_times) {
             FORMAT_VERSION
         } else {
             OF_A_PAIR

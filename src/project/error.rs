@@ -1,6 +1,7 @@
 //! What can be wrong with a project.
 
 use super::document::FORMAT_VERSION;
+use super::map::MapError;
 use crate::content::{ColourMixError, FieldPairError};
 use crate::correspondence::PlaceError;
 use crate::design::ImportError;
@@ -8,6 +9,7 @@ use crate::geometry::SimilarityError;
 use crate::mesh::TooManyVertices;
 use crate::one_line::OneLine;
 use crate::reading::ReadError;
+use crate::space::SpaceError;
 use crate::transition::{BuildError, CoatOptionsError, PartTimeError, TimingError};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
@@ -100,6 +102,12 @@ pub enum ProjectError {
     /// Coats change places at no time.
     #[error(transparent)]
     Coats(#[from] CoatOptionsError),
+    /// The map is none.
+    #[error(transparent)]
+    Map(#[from] MapError),
+    /// The designs span no space.
+    #[error(transparent)]
+    Space(#[from] SpaceError),
     /// A design could not be read.
     #[error(transparent)]
     Import(#[from] ImportError),

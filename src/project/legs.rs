@@ -4,54 +4,114 @@
 //! leg between them; all else is said once for the whole. A pair has one leg, and its
 //! document has no list of legs: it stays what it was before there were sequences.
 //!
+//! Where the film goes along a path over the map, its legs are the ways between the stops of
+//! that, and all is said once; what is said of two designs stays with these meanwhile.
+//!
 //! Guaranteed: a leg that is taken out and put back unchanged changes nothing; when
 //! designs change places, what belongs to two that stay neighbours stays with them.
 
 use super::document::{DesignEntry, Project};
 use super::leg::Leg;
+use super::map::MapSettings;
+use crate::geometry::DVec2;
+use crate::space::MapPath;
 use crate::transition::{Found, Stop};
 
 /// A design with the number that it had before, where it was there before.
 pub type Moved = (DesignEntry, Option<usize>);
 
 impl Project {
-    /// How many transitions there are: one less than designs, or as many where the last
-    /// leads back to the first.
+    /// How many transitions there are: one from design to design, or from stop to stop of
+    /// the path over the map.
     #[must_use]
     pub fn leg_count(&self) -> usize {
+        match self.follows_path() {
+            true => self.map.path.leg_count(),
+            false => self.pair_count(),
+        }
+    }
+
+    /// How many ways from one design to the next there are: one less than designs, or as
+    /// many where the last leads back to the first.
+    #[must_use]
+    pub fn pair_count(&self) -> usize {
         let back = usize::from(self.closed);
         (self.designs.len() + back).saturating_sub(1).max(1)
     }
 
-    /// Whether there is more than one transition.
+    /// Whether the film goes along a path over the map.
     #[must_use]
-    pub fn is_sequence(&self) -> bool {
-        self.leg_count() > 1
+    pub fn follows_path(&self) -> bool {
+        !self.map.path.is_none()
     }
 
-    /// The numbers of the two designs of a leg.
+    /// Whether the film ends where it begins.
+    #[must_use]
+    pub fn leads_back(&self) -> bool {
+        let places = &self.map.path.places;
+        match self.follows_path() {
+            true => places.first().map(|p| p.at) == places.last().map(|p| p.at),
+            false => self.closed,
+        }
+    }
+
+    /// Whether there is more than one way from a design to the next.
+    #[must_use]
+    pub fn is_sequence(&self) -> bool {
+        self.pair_count() > 1
+    }
+
+    /// The numbers of the two designs of a leg; of a path, which goes between all, of the
+    /// first and the last.
     #[must_use]
     pub fn leg_designs(&self, leg: usize) -> [usize; 2] {
-        [leg, leg + 1].map(|design| design % self.designs.len().max(1))
+        match self.follows_path() {
+            true => [0, self.designs.len().saturating_sub(1)],
+            false => self.pair_designs(leg),
+        }
+    }
+
+    /// The numbers of the two designs of a way from one to the next.
+    #[must_use]
+    pub fn pair_designs(&self, pair: usize) -> [usize; 2] {
+        [pair, pair + 1].map(|design| design % self.designs.len().max(1))
     }
 
     /// The project of a leg alone: two designs, and all that is said of them. Its times
-    /// and stops are those of the whole.
+    /// and stops are those of the whole. A leg of a path has all designs.
     #[must_use]
     pub fn leg(&self, leg: usize) -> Self {
+        match self.follows_path() {
+            true => self.clone(),
+            false => self.pair_alone(leg),
+        }
+    }
+
+    /// As [`Self::leg`], of a way from one design to the next.
+    #[must_use]
+    pub fn pair_alone(&self, leg: usize) -> Self {
         if !self.is_sequence() {
             return self.clone();
         }
         let mut alone = self.clone();
-        let designs = self.leg_designs(leg);
+        let designs = self.pair_designs(leg);
         alone.designs = designs.map(|k| self.designs[k].clone()).to_vec();
         (alone.legs, alone.closed) = (Vec::new(), false);
+        alone.map = MapSettings::default();
         alone.hold(self.legs.get(leg).cloned().unwrap_or_default());
         alone
     }
 
     /// Takes a leg back as [`Self::leg`] gave it, with what was changed since.
-    pub fn take_leg(&mut self, leg: usize, mut changed: Self) {
+    pub fn take_leg(&mut self, leg: usize, changed: Self) {
+        match self.follows_path() {
+            true => *self = changed,
+            false => self.take_pair(leg, changed),
+        }
+    }
+
+    /// As [`Self::take_leg`], of a way from one design to the next.
+    pub fn take_pair(&mut self, leg: usize, mut changed: Self) {
         if !self.is_sequence() {
             *self = changed;
             return;
@@ -69,6 +129,7 @@ impl Project {
         *self = Self {
             designs,
             closed: self.closed,
+            map: std::mem::take(&mut self.map),
             ..changed
         };
         self.put_legs(legs);
@@ -105,22 +166,27 @@ impl Project {
         let (entries, origins): (Vec<_>, Vec<_>) = designs.into_iter().unzip();
         (self.designs, self.closed) = (entries, closed);
         let from_leg = |leg: usize| {
-            let [a, b] = self.leg_designs(leg).map(|k| origins[k]);
-            (0..old.leg_count()).find(|&k| old.leg_designs(k).map(Some) == [a, b])
+            let [a, b] = self.pair_designs(leg).map(|k| origins[k]);
+            (0..old.pair_count()).find(|&k| old.pair_designs(k).map(Some) == [a, b])
         };
-        let sources: Vec<Option<usize>> = (0..self.leg_count()).map(from_leg).collect();
+        let sources: Vec<Option<usize>> = (0..self.pair_count()).map(from_leg).collect();
         let legs = sources.iter();
         // What is said of no points, as how holes are treated, holds for new legs as well.
         let new = || Leg {
-            matching: old.leg(0).options.matching.without_places(),
+            matching: old.pair_alone(0).options.matching.without_places(),
             ..Leg::default()
         };
         let legs = legs.map(|&leg| leg.map_or_else(new, |leg| old.leg_settings(leg)));
         let legs = legs.collect();
-        self.stops = moved_stops(&old, &origins, &sources);
         (self.options.matching, self.options.parts) = Default::default();
         self.found = Found::default();
         self.put_legs(legs);
+        self.map.sites = moved_sites(&old.map.sites, &origins);
+        if self.follows_path() {
+            // Its times are not the designs'.
+            return;
+        }
+        self.stops = moved_stops(&old, &origins, &sources);
         let (before, now) = (old.leg_count() as f64, self.leg_count() as f64);
         if (old.timing.from, old.timing.to) == (0.0, before) {
             self.timing.to = now;
@@ -137,7 +203,7 @@ impl Project {
 
     /// What is said of a leg.
     fn leg_settings(&self, leg: usize) -> Leg {
-        self.leg(leg).let_go()
+        self.pair_alone(leg).let_go()
     }
 
     /// What a pair says of its leg, taken out of it.
@@ -181,6 +247,22 @@ impl Project {
         self.legs[leg].found = found;
     }
 
+    /// Lets the film go along a path over the map, or from design to design where it is
+    /// none, through all of it, at the pace that it had and with a rest at each stop.
+    pub fn follow(&mut self, path: MapPath) {
+        let before = self.leg_count() as f64;
+        let is_as_long = path.leg_count() == self.map.path.leg_count();
+        self.map.path = path;
+        if is_as_long {
+            return;
+        }
+        let now = self.leg_count() as f64;
+        self.stops.clear();
+        (self.timing.from, self.timing.to) = (0.0, now);
+        self.timing.duration_secs *= now / before;
+        *self = self.clone().resting_at_designs();
+    }
+
     /// With a rest at each design within, where nothing else was said.
     pub(super) fn resting_at_designs(mut self) -> Self {
         for k in 1..self.leg_count() {
@@ -194,10 +276,24 @@ impl Project {
     }
 }
 
+/// The sites of designs that have new numbers; none where a design is new, which has none.
+fn moved_sites(sites: &[DVec2], origins: &[Option<usize>]) -> Vec<DVec2> {
+    let moved = origins.iter().map(|origin| sites.get((*origin)?).copied());
+    let mut moved: Vec<DVec2> = moved.collect::<Option<_>>().unwrap_or_default();
+    // Of a design that is there twice, both would be in one place.
+    for k in 1..moved.len() {
+        if moved[..k].contains(&moved[k]) {
+            moved.clear();
+            break;
+        }
+    }
+    moved
+}
+
 /// The stops of a project whose designs have new numbers, and its legs as well.
 fn moved_stops(old: &Project, origins: &[Option<usize>], legs: &[Option<usize>]) -> Vec<Stop> {
     let end = legs.len() as f64;
-    let old_end = old.leg_count() as f64;
+    let old_end = old.pair_count() as f64;
     let at = |stop: &Stop, t: f64| Stop { t, ..stop.clone() };
     let within = |stop: &&Stop, k: usize| (k as f64) < stop.t && stop.t < (k + 1) as f64;
     let mut stops: Vec<Stop> = Vec::new();
@@ -228,7 +324,7 @@ fn moved_stops(old: &Project, origins: &[Option<usize>], legs: &[Option<usize>])
 mod tests {
     use super::*;
     use crate::correspondence::PointPair;
-    use crate::geometry::DVec2;
+    use crate::space::Waypoint;
 
     fn names(project: &Project) -> Vec<String> {
         let path = |entry: &DesignEntry| entry.path.display().to_string();
@@ -348,5 +444,46 @@ mod tests {
         assert_eq!(pin(&project, 2), Some(3.0));
         project.close(false);
         assert_eq!(project, four());
+    }
+
+    #[test]
+    fn a_path_has_legs_of_its_own_and_gives_the_designs_theirs_back() {
+        let mut project = four();
+        let before = project.clone();
+        let stop = |x: f64| Waypoint::stop(DVec2::new(x, 0.5));
+        let path = |xs: &[f64]| MapPath {
+            name: "a walk".to_owned(),
+            places: xs.iter().copied().map(stop).collect(),
+        };
+        project.follow(path(&[0.0, 0.2, 0.4]));
+        assert!(project.follows_path());
+        assert_eq!((project.leg_count(), project.pair_count()), (2, 3));
+        assert_eq!(project.timing.to, 2.0);
+        assert_eq!(project.stops.len(), 1);
+        let alone = project.leg(1);
+        project.take_leg(1, alone.clone());
+        assert_eq!(project, alone);
+        // What is said of two designs is still there.
+        let again = Project::parse(&project.to_toml().expect("text")).expect("a project");
+        project.version = again.version;
+        assert_eq!(again, project);
+        project.follow(MapPath::default());
+        assert_eq!(project.legs, before.legs);
+        assert_eq!(project.timing, before.timing);
+        assert_eq!(project.stops.len(), 2);
+    }
+
+    #[test]
+    fn sites_go_with_their_designs() {
+        let mut project = four();
+        project.map.sites = (0..4).map(|k| DVec2::new(f64::from(k), 0.0)).collect();
+        let mut order = project.in_order();
+        order.reverse();
+        project.rearrange(order);
+        assert_eq!(project.map.sites[0], DVec2::new(3.0, 0.0));
+        let mut order = project.in_order();
+        order[1].1 = None;
+        project.rearrange(order);
+        assert!(project.map.sites.is_empty());
     }
 }

@@ -6,16 +6,18 @@ use crate::content::ContentKind;
 use crate::design::{Design, Form, Source};
 use crate::geometry::Similarity;
 use crate::one_line::OneLine;
+use crate::progress::Progress;
 use crate::reading::ReadError;
-use crate::space::SpaceSpec;
+use crate::space::{Map, Space, SpaceError, SpaceSpec};
 use crate::transition::{
-    BuildError, Cell, NoSuchCell, Options, PartTime, TransitionSpec, arranged, arrangement,
+    BuildError, Cell, NoSuchCell, Options, PartTime, Quality, Transition, TransitionSpec, arranged,
+    arrangement,
 };
 use crate::warp::WarpKind;
 use include_dir::{Dir, File, include_dir};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 /// The files of the gallery, held in the binary.
 pub(super) static FILES: Dir<'static> = include_dir!("$CARGO_MANIFEST_DIR/assets/gallery");
@@ -44,7 +46,17 @@ pub struct LoadedProject {
     pub patient: bool,
     /// Where this is a leg of a sequence: all its designs.
     whole: Option<Arc<Whole>>,
+    /// Where this is a leg of a path over the map: its number.
+    path_leg: Option<usize>,
+    /// The spaces that were built of it last, the newest first.
+    spaces: Arc<Mutex<Vec<(SpaceSpec, Space)>>>,
 }
+
+/// Spaces that are remembered: a draft and the best, as rigid parts and as fields.
+const SPACES: usize = 4;
+
+/// What is said where a path is asked for what only two designs have.
+const NO_PAIR: &str = "a path over the map goes between all designs, and this is of two";
 
 /// What a leg has of the sequence that it belongs to.
 #[derive(Debug)]
@@ -67,20 +79,43 @@ impl LoadedProject {
     /// Whether this is one of several legs.
     #[must_use]
     pub fn is_leg(&self) -> bool {
-        self.whole.is_some()
+        self.whole.is_some() || self.path_leg.is_some()
+    }
+
+    /// The number of the leg of a path over the map that this is.
+    #[must_use]
+    pub fn path_leg(&self) -> Option<usize> {
+        self.path_leg
     }
 
     /// The name of the design at each whole t: that of the first once more at the end, where
-    /// the last one leads back to it.
-    pub fn names_on_the_way(&self) -> impl Iterator<Item = &str> {
+    /// the last one leads back to it. Of a path the names of its stops.
+    #[must_use]
+    pub fn names_on_the_way(&self) -> Vec<&str> {
+        if self.project.follows_path() {
+            let stops = self.project.map.path.stops();
+            let stops = stops.map(|(_, stop)| stop.name.as_str());
+            return match self.path_leg {
+                Some(leg) => stops.skip(leg).take(2).collect(),
+                None => stops.collect(),
+            };
+        }
         let legs = self.project.leg_count();
         let designs = self.designs.iter().cycle().take(legs + 1);
-        designs.map(|design| design.name.as_str())
+        designs.map(|design| design.name.as_str()).collect()
     }
 
-    /// The legs of a sequence as projects of two designs each; of a pair itself.
+    /// The legs of a sequence as projects of two designs each; of a pair itself; of a path
+    /// over the map each with all designs.
     #[must_use]
     pub fn legs(&self) -> Vec<Self> {
+        if self.project.follows_path() {
+            let leg = |leg: usize| Self {
+                path_leg: Some(leg),
+                ..self.clone()
+            };
+            return (0..self.project.leg_count()).map(leg).collect();
+        }
         if !self.project.is_sequence() {
             return vec![self.clone()];
         }
@@ -101,6 +136,8 @@ impl LoadedProject {
                 folder: self.folder.clone(),
                 patient: self.patient,
                 whole: Some(Arc::clone(&whole)),
+                path_leg: None,
+                spaces: Arc::default(),
             }
         };
         (0..self.project.leg_count()).map(leg).collect()
@@ -130,6 +167,8 @@ impl LoadedProject {
             folder,
             patient: false,
             whole: None,
+            path_leg: None,
+            spaces: Arc::default(),
         })
     }
 
@@ -297,6 +336,76 @@ impl LoadedProject {
         })
     }
 
+    /// The space of all designs, of this quality or as the project asks for: built, or as it
+    /// was built before.
+    ///
+    /// # Errors
+    /// As [`Self::space`], and why the designs span none.
+    pub fn built_space(
+        &self,
+        quality: Option<Quality>,
+        progress: &dyn Progress,
+    ) -> Result<Space, ProjectError> {
+        let mut spec = self.space()?;
+        if let Some(quality) = quality {
+            spec.options.quality = quality;
+        }
+        // Held while it is built: who asks for the same meanwhile waits for it.
+        let mut known = self.spaces.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, space)) = known.iter().find(|(of, _)| *of == spec) {
+            return Ok(space.clone());
+        }
+        let space = Space::build(&spec, progress)?;
+        known.insert(0, (spec, space.clone()));
+        known.truncate(SPACES);
+        Ok(space)
+    }
+
+    /// The map of a space of these designs.
+    ///
+    /// # Errors
+    /// Two designs are in one place.
+    pub fn map_of(&self, space: &Space) -> Result<Map, ProjectError> {
+        let sites = self.project.map.sites(space.likeness());
+        Ok(Map::new(&sites).map_err(super::map::MapError::from)?)
+    }
+
+    /// Builds the transition: of a leg of a path from its space, of all else as
+    /// [`Self::spec`] says.
+    ///
+    /// # Errors
+    /// [`ProjectError`] says what does not go together.
+    pub fn build(&self, progress: &dyn Progress) -> Result<Transition, ProjectError> {
+        let Some(leg) = self.path_leg else {
+            return Ok(Transition::build(&self.spec()?, progress)?);
+        };
+        let space = self.built_space(None, progress)?;
+        let map = self.map_of(&space)?;
+        let built = space.leg(&map, &self.project.map.path, leg);
+        built.ok_or_else(|| SpaceError::TooFew(self.designs.len()).into())
+    }
+
+    /// The first film, where the one that is asked for takes longer: as
+    /// [`TransitionSpec::draft`] has it. None where it is not sooner there, or cannot be had.
+    #[must_use]
+    pub fn draft(&self, progress: &dyn Progress) -> Option<(Quality, Transition)> {
+        if self.path_leg.is_none() {
+            let spec = self.spec().ok()?.draft(progress)?;
+            let built = Transition::build(&spec, progress).ok()?;
+            return Some((spec.options.quality, built));
+        }
+        let is_outline = |design: &Arc<Design>| matches!(design.form, Form::Outline(_));
+        let is_sooner = self.space().ok()?.content.is_none()
+            && self.project.options.quality != Quality::Draft
+            && self.designs.iter().any(is_outline);
+        if !is_sooner {
+            return None;
+        }
+        let mut project = self.project.clone();
+        project.options.quality = Quality::Draft;
+        Some((Quality::Draft, self.with(project).build(progress).ok()?))
+    }
+
     /// What the transition is to be built from; of a sequence, that of its first leg.
     ///
     /// # Errors
@@ -306,6 +415,9 @@ impl LoadedProject {
     /// # Panics
     /// If there are fewer than two designs.
     pub fn spec(&self) -> Result<TransitionSpec, ProjectError> {
+        if self.project.follows_path() {
+            return Err(BuildError::Unavailable(NO_PAIR.to_owned()).into());
+        }
         if self.project.is_sequence() {
             return self.legs()[0].spec();
         }

@@ -11,6 +11,7 @@ pub mod gallery;
 mod leg;
 mod legs;
 mod load;
+mod map;
 mod reading;
 
 #[cfg(test)]
@@ -21,3 +22,4 @@ pub use error::ProjectError;
 pub use leg::Leg;
 pub use legs::Moved;
 pub use load::LoadedProject;
+pub use map::{KeptPlace, MapError, MapSettings};

@@ -35,7 +35,7 @@ impl Project {
     /// What stands at the top belongs to a pair: where there are more designs it is the
     /// first leg's, unless the document has legs.
     fn deal_out(&mut self) -> Result<(), ProjectError> {
-        let (has, may_have) = (self.legs.len(), self.leg_count());
+        let (has, may_have) = (self.legs.len(), self.pair_count());
         let of_sequences = if self.is_sequence() { may_have } else { 0 };
         if has > of_sequences {
             return Err(ProjectError::TooManyLegs {
@@ -75,6 +75,7 @@ impl Project {
         }
         self.options.coats.check()?;
         self.options.arap.check()?;
+        self.map.check(self.designs.len())?;
         self.timing.check(&self.stops)?;
         Ok(())
     }

@@ -89,6 +89,16 @@ impl Space {
         &self.0.likeness
     }
 
+    /// What is seen of it.
+    pub(super) fn seen(&self) -> &Seen {
+        &self.0.seen
+    }
+
+    /// Width of the bars of trusses, in units of the designs.
+    pub(super) fn bar_width(&self) -> f64 {
+        self.0.bar_width
+    }
+
     /// What was done otherwise than asked.
     #[must_use]
     pub fn notes(&self) -> &[SpaceNote] {

@@ -27,7 +27,7 @@ use std::sync::Arc;
 const HUBS: usize = 3;
 
 /// What a space is built from: designs laid into one frame.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct SpaceSpec {
     /// Two designs or more.

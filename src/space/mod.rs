@@ -10,6 +10,7 @@
 //! - `blend`: the space and its moments; `spread`: weights all over it
 //! - `likeness`: how unlike the designs are, two at a time
 //! - `map`, `layout`: where the designs are on a map, and what there is between them
+//! - `path`, `film`: a path over the map, and the film along it
 //!
 //! Guaranteed: each design at its own corner, to the last bit; the order of the designs
 //! has no influence but by rounding on what is between them once the hub of a common
@@ -18,9 +19,11 @@
 mod blend;
 mod build;
 mod error;
+mod film;
 mod layout;
 mod likeness;
 mod map;
+mod path;
 mod spread;
 #[cfg(test)]
 mod tests;
@@ -31,4 +34,5 @@ pub use error::{SpaceError, SpaceNote};
 pub use layout::MapLayout;
 pub use likeness::Likeness;
 pub use map::Map;
+pub use path::{MapCurve, MapPath, Waypoint};
 pub use spread::spread;

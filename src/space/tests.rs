@@ -232,3 +232,100 @@ proptest! {
         prop_assert!(figure.rings[0].iter().all(|p| p.is_finite() && p.length() < 6.0));
     }
 }
+
+fn walk(places: &[DVec2]) -> MapPath {
+    MapPath {
+        name: String::new(),
+        places: places.iter().copied().map(Waypoint::stop).collect(),
+    }
+}
+
+#[test]
+fn a_path_is_a_film_of_the_blends_that_it_comes_by() {
+    let space = space(vec![
+        star("a", 5, 1.5),
+        star("b", 6, 0.8),
+        star("c", 4, 2.0),
+    ]);
+    let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("a map");
+    let sites = map.sites();
+    let path = walk(&[sites[0], DVec2::new(0.1, 0.2), sites[2]]);
+    let film = space.film(&map, &path).expect("a film");
+    assert_eq!(film.end(), 2.0);
+    let curve = MapCurve::new(&path).expect("a curve");
+    let (mut blend, mut weights) = (space.frame(), vec![0.0; 3]);
+    let mut frame = film.frame(0.0);
+    for t in [0.0, 0.3, 1.0, 1.5, 2.0] {
+        frame.seek(t);
+        map.weights(curve.at(t), &mut weights);
+        blend.seek(&weights);
+        assert_eq!(frame.now().figure().rings, blend.figure().rings, "{t}");
+    }
+    let [first, last] = [&film.legs()[0], &film.legs()[1]];
+    assert_eq!(first.designs()[0].name, "a");
+    assert_eq!(last.designs()[1].name, "c");
+    // The stop between says what it is made of.
+    assert!(
+        first.designs()[1].name.contains('%'),
+        "{}",
+        first.designs()[1].name
+    );
+    assert!(first.compatible().is_some() && first.arap().is_none());
+}
+
+#[test]
+fn a_path_through_fields_is_what_the_map_shows() {
+    let spec = SpaceSpec {
+        content: Some(ContentKind::Field),
+        ..SpaceSpec::new(vec![star("a", 5, 1.5), frame("b", 1.0), star("c", 4, 2.0)])
+    };
+    let space = Space::build(&spec, &Silent).expect("a space");
+    let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("a map");
+    let sites = map.sites();
+    let film = space.film(&map, &walk(&[sites[1], sites[2], DVec2::ZERO]));
+    let film = film.expect("a film");
+    let (mut blend, mut frame) = (space.frame(), film.frame(0.0));
+    frame.seek(0.0);
+    blend.seek(&corner(3, 1));
+    assert_eq!(frame.now().figure().rings, blend.figure().rings);
+    let area = |rings: &[Vec<DVec2>]| {
+        let each = rings.iter().map(|ring| crate::geometry::signed_area(ring));
+        each.sum::<f64>()
+    };
+    for t in [0.41, 1.0, 1.37, 2.0] {
+        frame.seek(t);
+        let share = if t < 1.0 { t } else { t - 1.0 };
+        let place = match t < 1.0 {
+            true => sites[1].lerp(sites[2], share),
+            false => sites[2].lerp(DVec2::ZERO, share),
+        };
+        // The curve bends near its stops: what is near is alike.
+        let mut weights = vec![0.0; 3];
+        map.weights(place, &mut weights);
+        blend.seek(&weights);
+        let [seen, near] = [frame.now().figure(), blend.figure()].map(|f| area(&f.rings));
+        assert!((seen / near - 1.0).abs() < 0.15, "{t}: {seen} {near}");
+    }
+}
+
+#[test]
+fn trusses_go_along_a_path_with_their_bars() {
+    let space = space(vec![truss("a", 1.0), truss("b", 2.0), truss("c", 3.0)]);
+    let map = Map::new(&MapLayout::Line.sites(space.likeness())).expect("a map");
+    let film = space.film(&map, &walk(&[DVec2::NEG_X, DVec2::new(0.5, 0.0)]));
+    let film = film.expect("a film");
+    let frame = film.frame(1.0);
+    assert_eq!(frame.now().figure().bars.len(), 7);
+    let Form::Truss(end) = &film.legs()[0].designs()[1].form else {
+        panic!("no truss");
+    };
+    assert_eq!(end.bars().len(), 7);
+    // Other sites than designs, or no path, is no film.
+    assert!(space.film(&map, &MapPath::default()).is_none());
+    let other = Map::new(&[DVec2::ZERO, DVec2::X]).expect("a map");
+    assert!(
+        space
+            .film(&other, &walk(&[DVec2::ZERO, DVec2::X]))
+            .is_none()
+    );
+}

@@ -35,7 +35,7 @@ pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mes
     match content {
         None => write_lookups(frame, out, |p| p - origin, |p| p - origin),
         Some(Content::Field(fields)) => {
-            let grid = fields.whole().grid();
+            let grid = fields.first().grid();
             let in_samples = |p: DVec2| grid.lattice_from_plane(p);
             write_lookups(frame, out, in_samples, in_samples);
         }

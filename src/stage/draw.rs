@@ -13,7 +13,7 @@ use crate::transition::Frame;
 
 use super::colours::ColourLook;
 use super::components::{Morph, StageStyle};
-use super::field::{FieldKind, FieldLook};
+use super::field::{FieldKind, FieldLook, FieldMaterial};
 use super::grid::GridLook;
 use super::ink::linear;
 use super::paint::{Paint, Paints};
@@ -110,7 +110,9 @@ fn paint(part: &Part, frame: &Frame, style: &StageStyle, sent: Option<&Sent>, pa
             renew(&mut paints.grids, grid, |grid| &mut grid.look, look);
         }
         (Paint::Field(field), Content::Field(fields)) => {
-            let look = FieldLook::new(fields.whole(), t, style);
+            let (pair, within) = fields.place(t);
+            change_pair(&mut paints.fields, field, pair);
+            let look = FieldLook::new(&fields.pairs()[pair], within, t, style);
             renew(&mut paints.fields, field, |field| &mut field.look, look);
             let kind = FieldKind::new(fields, style);
             renew(&mut paints.fields, field, |field| &mut field.kind, kind);
@@ -129,6 +131,13 @@ fn change_reel(materials: &mut Assets<PlayedMaterial>, of: &Handle<PlayedMateria
         && material.bypass_change_detection().reel.id() != reel.id()
     {
         material.reel = reel.clone();
+    }
+}
+
+fn change_pair(materials: &mut Assets<FieldMaterial>, of: &Handle<FieldMaterial>, pair: usize) {
+    let is_other = materials.get(of).is_some_and(|field| !field.shows(pair));
+    if is_other && let Some(mut material) = materials.get_mut(of) {
+        material.show(pair);
     }
 }
 

@@ -136,7 +136,7 @@ impl Wardrobe<'_, '_> {
                     fitting.add_coats(Coats::of_fields());
                 }
                 let paints = &mut fitting.wardrobe.paints;
-                let material = FieldMaterial::new(fields.whole(), &mut paints.images);
+                let material = FieldMaterial::new(fields.pairs(), &mut paints.images);
                 let material = paints.fields.add(material);
                 fitting.add(PartKind::Field, carried, material, Paint::Field);
             }

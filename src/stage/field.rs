@@ -44,6 +44,8 @@ pub(super) struct FieldMaterial {
     #[texture(2, sample_type = "float", filterable = false)]
     target: Handle<Image>,
     pub(super) kind: FieldKind,
+    /// All that are blended, each with the next.
+    nodes: Vec<Handle<Image>>,
 }
 
 /// What the pipeline of a field depends on: each is a shader of its own.
@@ -62,7 +64,7 @@ impl FieldKind {
     pub(super) fn new(fields: &Fields, style: &StageStyle) -> Self {
         let show = style.show;
         Self {
-            is_log: matches!(fields.whole().blend().space, BlendSpace::Log),
+            is_log: matches!(fields.first().blend().space, BlendSpace::Log),
             // What has paints of its own lies below, in them.
             shows_fill: show.fill && fields.painted().is_none(),
             shows_lines: show.iso_lines,
@@ -125,18 +127,34 @@ impl Material2d for FieldMaterial {
 }
 
 impl FieldMaterial {
-    pub(super) fn new(pair: &FieldPair, images: &mut Assets<Image>) -> Self {
+    pub(super) fn new(pairs: &[FieldPair], images: &mut Assets<Image>) -> Self {
+        let first = pairs.iter().take(1).map(FieldPair::source);
+        let nodes = first.chain(pairs.iter().map(FieldPair::target));
+        let nodes: Vec<_> = nodes.map(|field| images.add(texture(field))).collect();
         Self {
             look: FieldLook::default(), // until it is drawn
             kind: FieldKind::default(),
-            source: images.add(texture(pair.source())),
-            target: images.add(texture(pair.target())),
+            source: nodes[0].clone(),
+            target: nodes[1].clone(),
+            nodes,
         }
+    }
+
+    /// Whether these are the fields of a pair, by its number.
+    pub(super) fn shows(&self, pair: usize) -> bool {
+        self.source == self.nodes[pair]
+    }
+
+    /// Takes the fields of a pair.
+    pub(super) fn show(&mut self, pair: usize) {
+        self.source.clone_from(&self.nodes[pair]);
+        self.target.clone_from(&self.nodes[pair + 1]);
     }
 }
 
 impl FieldLook {
-    pub(super) fn new(pair: &FieldPair, t: f64, style: &StageStyle) -> Self {
+    /// Of a pair where it is at `within`; painted as the whole is at `t`.
+    pub(super) fn new(pair: &FieldPair, within: f64, t: f64, style: &StageStyle) -> Self {
         let blend = pair.blend();
         let grid = pair.grid();
         let style = &style.style;
@@ -145,7 +163,7 @@ impl FieldLook {
             inside: LinearRgba::from(INSIDE).to_vec4(),
             outside: LinearRgba::from(OUTSIDE).to_vec4(),
             line: contrasting(style.ground).to_vec4(),
-            t: t as f32,
+            t: within as f32,
             epsilon: blend.epsilon as f32,
             level: blend.level() as f32,
             // Distances are in cells of the grid, whatever units the design

@@ -26,11 +26,12 @@
 //!   meant
 //! - `ready`, `frame`: the transition and its moments; `lazy`: placed when they are
 //!   read; `recorded`: those that are played from memory; `proved`: what holds of them at every t
-//! - `sequence`: several, one after the other
+//! - `sequence`: several, one after the other; `blended`: between blends of many designs
 //! - `timing`, `style`: how it is played and painted
 
 mod arrange;
 mod births;
+mod blended;
 mod boundaries;
 mod build;
 mod candidate;
@@ -81,6 +82,7 @@ mod tests;
 pub use crate::easing::{Curve, Ease, Easing};
 
 pub use arrange::{Fit, arranged, arrangement};
+pub(crate) use blended::Ends;
 pub(crate) use build::field_frame;
 pub use cells::{Cell, NoSuchCell};
 pub use coat_options::{CoatOptions, CoatOptionsError};

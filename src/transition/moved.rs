@@ -3,7 +3,7 @@
 use super::kept::Kept;
 use super::note::Note;
 use crate::correspondence::{PointPair, RegionMatch};
-use crate::warp::{Arap, Paths, Staggered, Still, Turned, Warp};
+use crate::warp::{AlongBlend, Arap, Paths, Staggered, Still, Turned, Warp};
 use std::sync::Arc;
 
 /// The warp that a transition holds.
@@ -19,6 +19,8 @@ pub(super) enum AnyWarp {
     Staggered(Staggered),
     /// Rigid parts of the frame behind the motion that they have in common.
     Turned(Turned<Arap>),
+    /// Rigid parts of many designs.
+    Along(AlongBlend),
     /// Lines, scattered points or lattices, on a grid of the plane.
     Plane(Arc<dyn Warp>),
 }
@@ -31,6 +33,7 @@ impl AnyWarp {
             Self::Rigid(arap) => arap,
             Self::Staggered(warp) => warp,
             Self::Turned(turned) => turned,
+            Self::Along(warp) => warp,
             Self::Plane(warp) => warp.as_ref(),
         }
     }
@@ -43,6 +46,7 @@ impl AnyWarp {
             Self::Rigid(arap) => Arc::new(arap.clone()),
             Self::Staggered(warp) => Arc::new(warp.clone()),
             Self::Turned(turned) => Arc::new(turned.clone()),
+            Self::Along(warp) => Arc::new(warp.clone()),
             Self::Plane(warp) => Arc::clone(warp),
         }
     }
@@ -54,7 +58,7 @@ impl AnyWarp {
             Self::Rigid(arap) => Some(arap),
             Self::Staggered(warp) => Some(warp.arap()),
             Self::Turned(turned) => Some(turned.at_rest()),
-            Self::Still(_) | Self::Paths(_) | Self::Plane(_) => None,
+            Self::Still(_) | Self::Paths(_) | Self::Along(_) | Self::Plane(_) => None,
         }
     }
 }

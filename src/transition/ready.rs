@@ -61,7 +61,7 @@ impl From<Inner> for Transition {
 
 impl Transition {
     /// The same fields mixed in another way, without measuring them again;
-    /// `None` where there are no fields.
+    /// `None` where there are no fields, or those of many designs in turn.
     ///
     /// # Errors
     /// [`FieldPairError`] if ε or the threshold is out of range.
@@ -69,10 +69,13 @@ impl Transition {
         let Content::Field(fields) = &self.0.content else {
             return Ok(None);
         };
-        Ok(Some(Self::from(Inner {
-            content: Content::Field(fields.with_blend(blend)?),
-            ..self.0.as_ref().clone()
-        })))
+        let mixed = fields.with_blend(blend)?;
+        Ok(mixed.map(|fields| {
+            Self::from(Inner {
+                content: Content::Field(fields),
+                ..self.0.as_ref().clone()
+            })
+        }))
     }
 
     /// The same film, in which parts have these times of their own and no others,
@@ -196,9 +199,10 @@ impl Transition {
     /// [`Self::arap`].
     #[must_use]
     pub fn compatible(&self) -> Option<&CompatibleMesh> {
-        match self.content() {
-            Content::Solid(_) => self.arap().map(Arap::mesh),
-            Content::Field(_) | Content::Colours(_) => None,
+        match (self.content(), &self.0.moved.warp) {
+            (Content::Solid(_), AnyWarp::Along(warp)) => Some(warp.mesh()),
+            (Content::Solid(_), _) => self.arap().map(Arap::mesh),
+            (Content::Field(_) | Content::Colours(_), _) => None,
         }
     }
 

@@ -21,8 +21,8 @@ mod scattered;
 mod staggered;
 
 pub use arap::{
-    AngleError, Arap, ArapBlend, ArapError, ArapOptions, ArapPath, BlendPlacer, Life, Ridge,
-    Weights,
+    AlongBlend, AngleError, Arap, ArapBlend, ArapError, ArapOptions, ArapPath, BlendPlacer, Life,
+    Ridge, Weights,
 };
 pub(crate) use arap::{Guard, Settled};
 pub use features::{FeatureError, LINE_SAMPLES, MAX_FEATURES};

@@ -149,13 +149,13 @@ fn replace_design(project: &mut Project, index: usize, path: &Path) {
         return;
     };
     *entry = DesignEntry::new(absolute(path));
-    for leg in 0..project.leg_count() {
-        if project.leg_designs(leg).contains(&index) {
-            let mut pair = project.leg(leg);
+    for leg in 0..project.pair_count() {
+        if project.pair_designs(leg).contains(&index) {
+            let mut pair = project.pair_alone(leg);
             // What was said of points of the old one means nothing in the new one.
             pair.options.matching = pair.options.matching.without_places();
             pair.options.parts.clear();
-            project.take_leg(leg, pair);
+            project.take_pair(leg, pair);
         }
     }
 }

@@ -81,12 +81,10 @@ type StripError = Box<dyn std::error::Error + Send + Sync>;
 fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let loaded = gallery::load(name)?;
     let legs = loaded.legs();
-    let built = legs
-        .iter()
-        .map(|leg| Ok(Transition::build(&leg.spec()?, progress)?));
+    let built = legs.iter().map(|leg| Ok(leg.build(progress)?));
     let built: Vec<Transition> = built.collect::<Result<_, StripError>>()?;
     let sequence = Sequence::new(built).ok_or("a project has a leg")?;
-    let sequence = sequence.leading_back(loaded.project.closed);
+    let sequence = sequence.leading_back(loaded.project.leads_back());
     let timing = loaded.project.timing;
     // Of many designs some of them, and nothing between.
     let frames = if legs.len() > 1 {

@@ -9,7 +9,8 @@ use crate::content::ContentKind;
 use crate::correspondence::{PinError, RegionMatchError};
 use crate::design::{Design, Form};
 use crate::progress::{Cancelled, Progress, Several, Span, checkpoint};
-use crate::project::{DesignEntry, LoadedProject, Project, ProjectError, gallery};
+use crate::project::{DesignEntry, LoadedProject, MapSettings, Project, ProjectError, gallery};
+use crate::space::SpaceError;
 use crate::transition::{BuildError, Cell, Fit, Options, Quality, Style, Timing, Transition};
 
 /// A project with its designs.
@@ -50,6 +51,8 @@ pub struct Settings {
     /// The designs of the whole, where the leg hangs on them: they are laid over the first of
     /// them, and fields share one grid.
     among: Vec<DesignEntry>,
+    /// The number of the leg, where it is one of a path over the map.
+    path_leg: Option<usize>,
 }
 
 impl Settings {
@@ -58,12 +61,14 @@ impl Settings {
     pub fn of(whole: &LoadedProject, leg: usize) -> Self {
         let project = &whole.project;
         let has_bars = |design: &Arc<Design>| matches!(design.form, Form::Truss(_));
-        let stands_alone = !project.is_sequence()
+        let stands_alone = project.follows_path()
+            || !project.is_sequence()
             || (project.content == Some(ContentKind::Solid)
                 && project.fit == Fit::AsDrawn
                 && !whole.designs.iter().any(has_bars));
         Self {
             pair: project.leg(leg),
+            path_leg: project.follows_path().then_some(leg),
             among: if stands_alone {
                 Vec::new()
             } else {
@@ -74,8 +79,7 @@ impl Settings {
 
     /// The designs have other names by now, and are the same.
     pub fn rename(&mut self, whole: &Project, leg: usize) {
-        let names = whole.leg_designs(leg).map(|k| whole.designs[k].clone());
-        self.pair.designs = names.to_vec();
+        self.pair.designs = whole.leg(leg).designs;
         if !self.among.is_empty() {
             self.among.clone_from(&whole.designs);
         }
@@ -83,7 +87,8 @@ impl Settings {
 
     /// Whether another transition is to be built for these.
     fn needs_build(&self, now: &Self) -> bool {
-        needs_build(&self.pair, &now.pair) || self.among != now.among
+        let own = (&self.among, self.path_leg);
+        needs_build(&self.pair, &now.pair) || own != (&now.among, now.path_leg)
     }
 }
 
@@ -435,10 +440,9 @@ fn draft(
     (leg, project): (usize, &LoadedProject),
     progress: &dyn Progress,
 ) -> Option<Stage> {
-    let spec = project.spec().ok()?.draft(progress)?;
+    let (quality, transition) = project.draft(progress)?;
     let mut settings = Settings::of(whole, leg);
-    settings.pair.options.quality = spec.options.quality;
-    let transition = Transition::build(&spec, progress).ok()?;
+    settings.pair.options.quality = quality;
     Some(Stage {
         settings,
         transition,
@@ -485,7 +489,12 @@ pub fn transition_of(
     project: &LoadedProject,
     progress: &dyn Progress,
 ) -> Result<Transition, Problem> {
-    Ok(Transition::build(&project.spec()?, progress)?)
+    project.build(progress).map_err(|error| match error {
+        ProjectError::Build(error) | ProjectError::Space(SpaceError::Build(error)) => {
+            Problem::Build(error)
+        }
+        error => Problem::Project(error),
+    })
 }
 
 impl Problem {
@@ -525,9 +534,10 @@ pub fn needs_build(staged: &Project, now: &Project) -> bool {
         timing: Timing::default(),
         style: Style::default(),
         stops: Vec::new(),
+        map: MapSettings::default(),
         ..project.clone()
     };
-    built(staged) != built(now)
+    !staged.map.plays_as(&now.map) || built(staged) != built(now)
 }
 
 fn reads_differently(staged: &Project, now: &Project) -> bool {

@@ -148,7 +148,7 @@ impl Open {
             .iter()
             .map(|leg| Some(leg.stage.as_ref()?.transition.clone()));
         let sequence = Sequence::new(legs.collect::<Option<_>>()?)?;
-        Some(sequence.leading_back(self.staged.closed))
+        Some(sequence.leading_back(self.staged.leads_back()))
     }
 
     /// The box that holds every frame of what is on the stage, nearly.

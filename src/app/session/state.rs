@@ -106,7 +106,8 @@ impl Session {
     pub fn names_on_the_way(&self) -> Vec<String> {
         self.open.as_ref().map_or_else(Vec::new, |open| {
             let whole = open.whole_on_stage();
-            whole.names_on_the_way().map(str::to_owned).collect()
+            let names = whole.names_on_the_way().into_iter();
+            names.map(str::to_owned).collect()
         })
     }
 
@@ -208,7 +209,7 @@ impl Session {
     /// How many legs there are, and whether they lead back.
     #[must_use]
     pub fn way(&self) -> (usize, bool) {
-        let leads_back = self.whole().is_some_and(|whole| whole.closed);
+        let leads_back = self.whole().is_some_and(Project::leads_back);
         (self.leg_count(), leads_back)
     }
 
@@ -285,11 +286,14 @@ impl Session {
         self.all_designs().iter().any(is_painted)
     }
 
-    /// Both designs are outlines: there is something to match.
+    /// Both designs are outlines: there is something to match. On a path over the map all are
+    /// matched with all.
     #[must_use]
     pub fn can_match(&self) -> bool {
         let pair = self.designs();
-        !pair.is_empty() && pair.iter().all(|d| matches!(d.form, Form::Outline(_)))
+        !self.whole().is_some_and(Project::follows_path)
+            && !pair.is_empty()
+            && pair.iter().all(|d| matches!(d.form, Form::Outline(_)))
     }
 }
 

@@ -242,7 +242,7 @@ impl Report {
             faces: mesh.map(|mesh| mesh.faces().len()),
             grid: match transition.content() {
                 Content::Field(fields) => {
-                    let grid = fields.whole().grid();
+                    let grid = fields.first().grid();
                     Some([grid.width, grid.height])
                 }
                 Content::Solid(_) | Content::Colours(_) => None,

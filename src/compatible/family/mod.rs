@@ -204,10 +204,15 @@ impl Family {
     /// If there are not so many.
     #[must_use]
     pub fn pair(&self, source: usize, target: usize) -> CompatibleMesh {
+        self.between([source, target].map(|design| self.places[design].clone()))
+    }
+
+    /// The mesh with other vertices, such as two blends of the designs, which may fold.
+    pub(crate) fn between(&self, [source, target]: [Vec<DVec2>; 2]) -> CompatibleMesh {
         CompatibleMesh {
             faces: Arc::clone(&self.faces),
-            source: self.places[source].clone(),
-            target: self.places[target].clone(),
+            source,
+            target,
             elements: self.elements.clone(),
             connectivity: self.connectivity.clone(),
         }

@@ -6,6 +6,7 @@
 use super::{FieldBlend, FieldPairError};
 use crate::field::{DistanceField, Grid, contour};
 use crate::geometry::DVec2;
+use rayon::prelude::*;
 use std::sync::Arc;
 
 /// Distance fields on one grid, at least one, and their blend. Cloning is cheap.
@@ -45,10 +46,43 @@ impl FieldSet {
         self.fields[0].grid()
     }
 
+    /// How they mix.
+    #[must_use]
+    pub fn blend(&self) -> FieldBlend {
+        self.blend
+    }
+
     /// The fields, one for each design.
     #[must_use]
     pub fn fields(&self) -> &[DistanceField] {
         &self.fields
+    }
+
+    /// The field whose L is the blend with these weights: what is between two such fields
+    /// is what is between their weights. With all weight on one design it is its own.
+    ///
+    /// # Panics
+    /// If there are not as many weights as fields.
+    #[must_use]
+    pub fn blended(&self, weights: &[f64]) -> DistanceField {
+        assert_eq!(weights.len(), self.fields.len(), "a weight for each field");
+        if let Some(alone) = weights.iter().position(|&weight| weight == 1.0)
+            && weights.iter().filter(|&&weight| weight != 0.0).count() == 1
+        {
+            return self.fields[alone].clone();
+        }
+        let each = self.fields.iter().zip(weights);
+        let read: Vec<_> = each.filter(|&(_, &weight)| weight != 0.0).collect();
+        let count = self.fields[0].values().len();
+        let at = |k: usize| {
+            let level = read
+                .iter()
+                .map(|(field, weight)| **weight * self.blend.curve(f64::from(field.values()[k])));
+            self.blend.distance(level.sum()) as f32
+        };
+        let values = (0..count).into_par_iter().map(at).collect();
+        DistanceField::new(*self.grid(), values)
+            .unwrap_or_else(|_| unreachable!("blends of finite numbers are finite"))
     }
 
     /// What is drawn with these weights, as closed polygons in the plane: outer ones
@@ -118,6 +152,22 @@ mod tests {
         for t in [0.0, 0.25, 0.5, 1.0, 1.25] {
             assert_eq!(set.contour(&[1.0 - t, t]), pair.contour(t), "{t}");
         }
+    }
+
+    #[test]
+    fn between_two_blends_is_what_is_between_their_weights() {
+        let abc = set(&[2..14, 9..20, 5..16]);
+        let ends = [[0.5, 0.25, 0.25], [0.0, 1.0, 0.0]].map(|weights| abc.blended(&weights));
+        assert_eq!(ends[1], field(9..20));
+        let pair = FieldPair::new(ends[0].clone(), ends[1].clone(), FieldBlend::default());
+        let [near, far] = [
+            pair.expect("one grid").contour(0.5),
+            abc.contour(&[0.25, 0.625, 0.125]),
+        ];
+        let [near, far] = [near.concat(), far.concat()];
+        // Both are read between the same samples, the one before and the other after L.
+        let gap = |p: &DVec2| far.iter().map(|q| p.distance(*q)).fold(9.0, f64::min);
+        assert!(near.iter().map(gap).all(|gap| gap < 0.2) && near.len() > 10);
     }
 
     #[test]

@@ -171,6 +171,8 @@ pub enum Remedy {
     LetFold,
     /// Other pins.
     MovePins,
+    /// Another way through the blends of many designs.
+    AnotherWay,
 }
 
 /// A change of options.

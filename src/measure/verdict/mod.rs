@@ -101,7 +101,7 @@ impl Verdict {
         let of_content = &Span::new(progress, 0.0, 0.8);
         let (clear, mut findings) = match transition.content() {
             Content::Solid(solid) => (
-                match (solid.loops.is_empty(), transition.arap()) {
+                match (solid.loops.is_empty(), transition.compatible()) {
                     (true, _) => "no folds",
                     (false, Some(_)) => "no folds, no crossings",
                     (false, None) => "no crossings",
@@ -110,7 +110,7 @@ impl Verdict {
             ),
             Content::Field(fields) => (
                 "no more pieces or holes than at the ends",
-                field::findings(transition, fields.whole(), glances, of_content)?,
+                field::findings(transition, fields.first(), glances, of_content)?,
             ),
             Content::Colours(_) => ("no folds", Vec::new()),
         };

@@ -92,7 +92,8 @@ fn is_seen(content: &Content, t: f64, looks: [DVec2; 2]) -> bool {
     let Content::Field(fields) = content else {
         return true;
     };
-    let pair = fields.whole();
+    let (pair, t) = fields.place(t);
+    let pair = &fields.pairs()[pair];
     let [a, b] = [(pair.source(), looks[0]), (pair.target(), looks[1])].map(|(field, p)| {
         let at = pair.grid().lattice_from_plane(p);
         field.samples().bilinear(at.x, at.y)

@@ -61,8 +61,10 @@ pub(super) fn transition(
             let mut frame = transition.frame(0.0);
             looks(steps, "looking for crossings", progress, |t| {
                 frame.seek(t);
+                let placement = frame.placement();
                 Glance {
-                    crossings: crossings_at(t, solid, &frame.placement().in_frame),
+                    folds: folded(&placement.faces, &placement.in_frame).count(),
+                    crossings: crossings_at(t, solid, &placement.in_frame),
                     ..Glance::default()
                 }
             })
@@ -84,7 +86,7 @@ pub(super) fn rigid_parts(
         placer.place(t);
         let places = &placer.placement().in_frame;
         Glance {
-            folds: folded(arap, places).count(),
+            folds: folded(arap.mesh().faces(), places).count(),
             crossings: crossings_at(t, solid, places),
             ..Glance::default()
         }
@@ -92,8 +94,11 @@ pub(super) fn rigid_parts(
 }
 
 /// The faces that are folded at the given places.
-pub(super) fn folded<'a>(arap: &'a Arap, places: &'a [DVec2]) -> impl Iterator<Item = usize> + 'a {
-    let faces = arap.mesh().faces().iter().enumerate();
+pub(super) fn folded<'a>(
+    faces: &'a [[u32; 3]],
+    places: &'a [DVec2],
+) -> impl Iterator<Item = usize> + 'a {
+    let faces = faces.iter().enumerate();
     faces
         .filter(|(_, face)| is_folded(places, face))
         .map(|(f, _)| f)

@@ -4,7 +4,9 @@ use super::cause::{self, Scene};
 use super::finding::{Cause, Finding, Remedy, Trouble};
 use super::remedy;
 use super::scan::{self, Glance};
+use crate::compatible::CompatibleMesh;
 use crate::content::Solid;
+use crate::geometry::DVec2;
 use crate::progress::{Cancelled, Progress};
 use crate::transition::Transition;
 
@@ -15,9 +17,13 @@ pub(super) fn findings(
     progress: &dyn Progress,
 ) -> Result<Vec<Finding>, Cancelled> {
     let Some(arap) = transition.arap() else {
-        return Ok(of_boundaries(transition, solid, glances)
-            .into_iter()
-            .collect());
+        let found = match transition.compatible() {
+            Some(mesh) => of_blends(transition, mesh, solid, glances),
+            None => of_boundaries(transition, solid, glances)
+                .into_iter()
+                .collect(),
+        };
+        return Ok(found);
     };
     let mut found = Vec::new();
     if let Some((t, span)) = scan::worst(glances, |g| g.folds, 0) {
@@ -47,8 +53,40 @@ fn of_boundaries(transition: &Transition, solid: &Solid, glances: &[Glance]) -> 
     })
 }
 
+/// What is found on the way through the blends of many designs.
+fn of_blends(
+    transition: &Transition,
+    mesh: &CompatibleMesh,
+    solid: &Solid,
+    glances: &[Glance],
+) -> Vec<Finding> {
+    let finding = |(t, span), place, trouble| Finding {
+        trouble,
+        t,
+        span,
+        place,
+        cause: Cause::Unclear,
+        remedy: Remedy::AnotherWay,
+    };
+    let folds = scan::worst(glances, |g| g.folds, 0).and_then(|at| {
+        let frame = transition.frame(at.0);
+        let places = &frame.placement().in_frame;
+        let faces: Vec<usize> = scan::folded(mesh.faces(), places).collect();
+        let corners = mesh.faces()[*faces.first()?].map(|v| places[v as usize]);
+        let middle = corners.iter().sum::<DVec2>() / 3.0;
+        Some(finding(at, middle, Trouble::Folds { faces }))
+    });
+    let crossings = scan::worst(glances, |g| g.crossings, 0).and_then(|at| {
+        let frame = transition.frame(at.0);
+        let crossings = solid.crossings_at(&frame.placement().in_frame, at.0);
+        let place = crossings.first()?.place;
+        Some(finding(at, place, Trouble::Crossings { crossings }))
+    });
+    folds.into_iter().chain(crossings).collect()
+}
+
 fn of_folds(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
-    let faces: Vec<usize> = scan::folded(scene.arap, &scene.places).collect();
+    let faces: Vec<usize> = scan::folded(scene.arap.mesh().faces(), &scene.places).collect();
     let by_det = |a: &&usize, b: &&usize| scene.det(**a).total_cmp(&scene.det(**b));
     let worst = *faces.iter().min_by(by_det)?;
     // What an option can change comes first, then what a pin can, and last what

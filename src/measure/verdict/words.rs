@@ -178,6 +178,7 @@ impl fmt::Display for Remedy {
                 f,
                 "move or delete some about it, or warp by lattices without folds"
             ),
+            Self::AnotherWay => write!(f, "lead the path past it on the map"),
             Self::MovePins => write!(f, "move or delete pins about it"),
             Self::LetFold => write!(f, "move or delete pins about it, or let the lattices fold"),
         }

@@ -50,7 +50,7 @@ mod tests;
 pub use angles::AngleError;
 pub(crate) use guard::Guard;
 pub use life::Life;
-pub use many::{ArapBlend, BlendPlacer};
+pub use many::{AlongBlend, ArapBlend, BlendPlacer};
 pub use options::{ArapError, ArapOptions, ArapPath, Weights};
 pub use ridge::Ridge;
 

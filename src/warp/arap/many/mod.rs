@@ -16,11 +16,14 @@
 //! influence but by rounding, where no face turns by more than half a turn between two of
 //! them. Not guaranteed: that no face folds between the designs.
 //!
-//! - `parts`: where the connected parts are as wholes
+//! - `parts`: where the connected parts are as wholes; `along`: a way through the blends
 
+mod along;
 mod parts;
 #[cfg(test)]
 mod tests;
+
+pub use along::AlongBlend;
 
 use super::angles::nearest;
 use super::assembly::{ElementMap, LocalMaps, with_first};
