@@ -6,11 +6,12 @@ use std::fmt::{Debug, Display};
 use morphospace::content::{BlendSpace, ContentKind};
 use morphospace::correspondence::{HoleRule, PartRule};
 use morphospace::easing::Easing;
-use morphospace::export::{Aspect, FilmKind, Purpose, StillKind};
+use morphospace::export::{Aspect, CatalogueOrder, FilmKind, Purpose, StillKind};
 use morphospace::field::Metric;
 use morphospace::homotopy::Homotopy;
-use morphospace::measure::Quantity;
+use morphospace::measure::{MapMeasure, Quantity};
 use morphospace::names::{Choice, keys};
+use morphospace::space::MapLayout;
 use morphospace::transition::{Boundary, Fit, Guarding, PlayMode, Quality};
 use morphospace::warp::{Basis, Between, Course, Travel, WarpKind};
 use serde::Serialize;
@@ -69,6 +70,9 @@ fn keys_are_those_of_the_files_that_there_are() {
     table::<Aspect>("16:9 1:1 4:3 9:16 own");
     table::<Purpose>("deck page post story");
     table::<StillKind>("dxf png svg");
+    table::<MapMeasure>("area distortion perimeter travel");
+    table::<MapLayout>("likeness line polygon");
+    table::<CatalogueOrder>("area distortion kept name perimeter stars");
     table::<Quantity>(
         "area crossings folds holes min-det perimeter pieces turning worst-conformal \
          worst-isometric",

@@ -16,13 +16,13 @@ use crate::app::keeping::autosave::{self, Autosave};
 use crate::app::keeping::{presets, recent};
 use crate::app::looking::choosing::{self, Choosing};
 use crate::app::looking::helping::{self, Helping};
-use crate::app::looking::map::{self, MapView};
+use crate::app::looking::map::MapView;
 use crate::app::looking::measuring::{self, Measured};
 use crate::app::looking::recording::{self, Recording};
 use crate::app::looking::times;
 use crate::app::looking::twin::{self, Twin};
 use crate::app::looking::view::{self, KeepsFit, StageArea};
-use crate::app::looking::{blending, onion, preferences};
+use crate::app::looking::{blending, onion, preferences, walking};
 use crate::app::opening::apply::{self as opening, Gallery};
 use crate::app::opening::closing::{self, Question};
 use crate::app::opening::{dialogs, drops, preview, watching};
@@ -149,7 +149,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             helping::follow,
             twin::apply,
             twin::follow,
-            map::apply,
+            walking::apply,
             blending::follow,
         )
             .chain(),

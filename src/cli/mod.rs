@@ -5,6 +5,7 @@
 //! the program quietly. No subcommand needs a graphics card or a display; the
 //! window alone does, and is opened by `main`, not here.
 
+mod catalogue;
 mod check;
 mod error;
 mod gallery;
@@ -36,6 +37,8 @@ Examples:
   morphospace render bridge.morph --at 0.5 --out half.svg
   morphospace render gallery:letters --sheet 7 --out sheet.png
   morphospace render bridge.morph --out 'frames/f-####.png' --frames-range 0..60
+  morphospace render a.svg b.svg c.svg d.svg --map 9x9 --out map.png
+  morphospace catalogue bottles.morph --out kept
   morphospace check bridge.morph --json
   morphospace check --pairs pairs.csv --out report.csv --sheet sheet.png";
 
@@ -63,6 +66,8 @@ enum Command {
     Check(Box<check::CheckArgs>),
     /// Write a new project of two designs or more
     New(Box<new::NewArgs>),
+    /// Write the places of a project's map that are kept: outlines, a sheet, a table of measures
+    Catalogue(Box<catalogue::CatalogueArgs>),
     /// List the bundled projects
     Gallery(gallery::GalleryArgs),
 }
@@ -137,6 +142,7 @@ fn execute(command: &Command) -> Result<(), CliError> {
         Command::Render(args) => render::run(args),
         Command::Check(args) => check::run(args),
         Command::New(args) => new::run(args),
+        Command::Catalogue(args) => catalogue::run(args),
         Command::Gallery(args) => gallery::run(args),
     }
 }

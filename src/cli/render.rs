@@ -62,9 +62,10 @@ pub(super) struct RenderArgs {
     #[arg(long, value_name = "COLUMNSxROWS", value_parser = grid, conflicts_with_all = ["at", "sheet", "compare", "frames", "frames_range", "fps", "preset", "aspect", "lines", "frame_margin", "captions"])]
     map: Option<[usize; 2]>,
 
-    /// Where the designs are on that map
-    #[arg(long, requires = "map", default_value_t, value_parser = one_of::<MapLayout>())]
-    sites: MapLayout,
+    /// Where the designs are on that map [default: as the project has it, or at the corners of a
+    /// polygon]
+    #[arg(long, requires = "map", value_parser = one_of::<MapLayout>())]
+    sites: Option<MapLayout>,
 
     /// One pass of N frames, evenly in t [default: as the project's timing has it]
     #[arg(long, value_name = "N")]
@@ -351,8 +352,10 @@ fn map(
     progress: &dyn Progress,
 ) -> Result<(Drawing, Vec<String>), CliError> {
     let (loaded, space, _) = args.inputs.open_space(&args.method, progress)?;
-    let sites = args.sites.sites(space.likeness());
-    let map = Map::new(&sites).map_err(CliError::failed)?;
+    let map = match args.sites {
+        Some(layout) => Map::new(&layout.sites(space.likeness())).map_err(CliError::failed)?,
+        None => loaded.map_of(&space).map_err(CliError::failed)?,
+    };
     let ground = ground_of(args, &loaded.project);
     let style = &loaded.project.style;
     let drawing = map_sheet((&space, &map), style, grid, args.size, ground);

@@ -26,6 +26,8 @@
 mod apng;
 mod camera;
 mod captions;
+#[cfg(feature = "cli")]
+mod catalogue;
 mod check;
 mod comparison;
 mod drawing;
@@ -67,6 +69,8 @@ use crate::progress::Progress;
 pub use apng::write_apng;
 pub use camera::{BATCH_BYTES, Camera, framing};
 pub use captions::Captions;
+#[cfg(feature = "cli")]
+pub use catalogue::{Catalogue, CatalogueOrder};
 pub use comparison::{MethodRow, comparison};
 pub use drawing::{Drawing, Item, JOINT_CORE_RADIUS, JOINT_RADIUS, joint_core};
 pub use error::ExportError;
@@ -88,6 +92,7 @@ pub use still::write_still;
 pub use svg::to_svg;
 pub use target::{FilmKind, Numbered, StillKind, Target, TargetError, endings};
 pub use view::View;
+pub use words::ink_on;
 
 /// Writes a film to wherever the target says, and returns the paths of what it
 /// wrote. A still target gets the film's first frame.

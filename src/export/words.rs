@@ -82,7 +82,8 @@ impl Type {
 
 /// A colour for words that can be read on the ground; on a transparent one a
 /// middle grey, which shows on light and on dark.
-pub(super) fn ink_on(ground: Option<Rgb>) -> Rgb {
+#[must_use]
+pub fn ink_on(ground: Option<Rgb>) -> Rgb {
     let grey = |c: u8| Rgb([c; 3]);
     match ground {
         None => grey(0x80),

@@ -9,13 +9,16 @@
 //!   of them against t ([`FilmReport::series`]).
 //! - [`Verdict`]: what goes wrong in a film, where, why, and what helps.
 //! - [`SpaceReport`]: a space of many designs: its edges, its middle, and blends all over.
+//! - [`BlendMeasures`]: one blend of many designs; [`Landscape`]: all over a map.
 //! - [`Rating`]: how much trouble a film is, to choose among methods ([`auto`]).
 //!
 //! Measures are taken at samples: a fold between two samples is not seen.
 
+mod blend;
 mod distortion;
 mod excess;
 mod film;
+mod landscape;
 mod mesh;
 mod motion;
 mod rating;
@@ -27,11 +30,13 @@ mod tests;
 mod verdict;
 
 pub use crate::geometry::{Crossing, RingEdge, count_crossings, crossings};
+pub use blend::{BlendMeasures, BlendReport, BlendSampler};
 pub use distortion::{Distortion, Distribution, distortion};
 pub use film::{FilmReport, FilmSample, film};
+pub use landscape::{Landscape, MapMeasure};
 pub use mesh::{MeshReport, mesh};
 pub use motion::Motion;
 pub use rating::{Rating, auto};
 pub use series::Quantity;
-pub use space::{BlendReport, EdgeReport, SpaceReport, Spread, space};
+pub use space::{EdgeReport, SpaceReport, Spread, space};
 pub use verdict::{Cause, Change, Finding, Remedy, Trouble, Verdict};

@@ -1,10 +1,8 @@
 //! Quality of a space of many designs: of its edges, its middle, and of blends all over it.
 
-use super::distortion::{Distortion, distortion};
-use crate::compatible::CompatibleMesh;
-use crate::geometry::{count_crossings, signed_area};
+use super::blend::{BlendReport, BlendSampler};
 use crate::progress::{Cancelled, Progress, checkpoint};
-use crate::space::{Space, SpaceFrame, spread};
+use crate::space::{Space, spread};
 use serde::Serialize;
 
 /// Blends along an edge that are looked at.
@@ -40,20 +38,6 @@ pub struct EdgeReport {
     pub worst: BlendReport,
 }
 
-/// One blend.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct BlendReport {
-    /// Faces that are turned over or flat.
-    pub folds: usize,
-    /// Proper crossings among the outlines.
-    pub crossings: usize,
-    /// σ₁/σ₂ that 95 % of the area keeps to, from the design that is nearest by that; none
-    /// without a mesh.
-    pub conformal_p95: Option<f64>,
-    /// How far the area is from that of the designs, blended, as a share of it.
-    pub area_off: f64,
-}
-
 /// Blends all over a space.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
@@ -67,20 +51,6 @@ pub struct Spread {
     pub worst: BlendReport,
 }
 
-impl BlendReport {
-    fn or_worse(self, other: Self) -> Self {
-        Self {
-            folds: self.folds.max(other.folds),
-            crossings: self.crossings.max(other.crossings),
-            conformal_p95: match (self.conformal_p95, other.conformal_p95) {
-                (Some(a), Some(b)) => Some(a.max(b)),
-                (a, b) => a.or(b),
-            },
-            area_off: self.area_off.max(other.area_off),
-        }
-    }
-}
-
 /// Measures a space at so many weights besides its edges and its middle: the same for the
 /// same number of designs.
 ///
@@ -92,7 +62,7 @@ pub fn space(
     progress: &dyn Progress,
 ) -> Result<SpaceReport, Cancelled> {
     let count = space.designs().len();
-    let mut sampler = Sampler::of(space);
+    let mut sampler = BlendSampler::of(space);
     let two = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
     let two: Vec<[usize; 2]> = two.collect();
     let whole = (two.len() * ON_EDGE + blends) as f64;
@@ -108,7 +78,7 @@ pub fn space(
             let t = k as f64 / (ON_EDGE + 1) as f64;
             let mut weights = vec![0.0; count];
             (weights[a], weights[b]) = (1.0 - t, t);
-            worst = worst.or_worse(sampler.at(&weights));
+            worst = worst.or_worse(sampler.at(&weights).quality);
         }
         edges.push(EdgeReport {
             designs: [a, b],
@@ -116,7 +86,7 @@ pub fn space(
             worst,
         });
     }
-    let middle = sampler.at(&vec![1.0 / count as f64; count]);
+    let middle = sampler.at(&vec![1.0 / count as f64; count]).quality;
     let mut all_over = Spread {
         blends,
         folded: 0,
@@ -126,7 +96,7 @@ pub fn space(
     for k in 0..blends {
         let done = edges.len() * ON_EDGE + k;
         checkpoint(progress, "measuring", done as f64 / whole)?;
-        let found = sampler.at(&spread(k, count));
+        let found = sampler.at(&spread(k, count)).quality;
         all_over.folded += usize::from(found.folds > 0);
         all_over.crossed += usize::from(found.crossings > 0);
         all_over.worst = all_over.worst.or_worse(found);
@@ -141,63 +111,6 @@ pub fn space(
         middle,
         all_over,
     })
-}
-
-/// What every blend is measured with.
-struct Sampler {
-    frame: SpaceFrame,
-    /// From each design, where there is a mesh with faces.
-    meshes: Vec<CompatibleMesh>,
-    /// Of each design.
-    areas: Vec<f64>,
-}
-
-impl Sampler {
-    fn of(space: &Space) -> Self {
-        let mut frame = space.frame();
-        let count = space.designs().len();
-        let areas = (0..count).map(|k| {
-            let mut weights = vec![0.0; count];
-            weights[k] = 1.0;
-            frame.seek(&weights);
-            area(&frame)
-        });
-        let areas = areas.collect();
-        let meshes = space.family().into_iter();
-        let meshes = meshes.flat_map(|family| (0..count).map(|k| family.pair(k, k)));
-        Self {
-            meshes: meshes.collect(),
-            areas,
-            frame,
-        }
-    }
-
-    fn at(&mut self, weights: &[f64]) -> BlendReport {
-        self.frame.seek(weights);
-        let figure = self.frame.figure();
-        let found: Vec<Distortion> = match self.frame.places() {
-            Some(places) => {
-                let each = self.meshes.iter();
-                each.filter_map(|mesh| distortion(mesh, places)).collect()
-            }
-            None => Vec::new(),
-        };
-        let p95 = found.iter().map(|found| found.conformal.p95);
-        let wanted: f64 = self.areas.iter().zip(weights).map(|(a, w)| a * w).sum();
-        let off = (area(&self.frame) - wanted).abs() / wanted;
-        BlendReport {
-            folds: found.first().map_or(0, |found| found.folds),
-            crossings: count_crossings(&figure.rings),
-            conformal_p95: p95.min_by(f64::total_cmp),
-            // Of bars there is none.
-            area_off: if off.is_finite() { off } else { 0.0 },
-        }
-    }
-}
-
-fn area(frame: &SpaceFrame) -> f64 {
-    let rings = frame.figure().rings;
-    rings.iter().map(|ring| signed_area(ring)).sum()
 }
 
 #[cfg(test)]

@@ -79,9 +79,6 @@ pub enum MapError {
     /// A place of the path is nowhere.
     #[error("place {} of the path over the map is not a finite point", .0 + 1)]
     Path(usize),
-    /// One place is no path.
-    #[error("the path over the map has one place: give two or more, or none")]
-    Short,
     /// A kept place is nowhere, or has too many stars.
     #[error(
         "kept place {} is not a finite point with 0 to {} stars", .0 + 1, KeptPlace::MOST_STARS
@@ -112,9 +109,6 @@ impl MapSettings {
         if let Some(nowhere) = places.iter().position(|place| !place.at.is_finite()) {
             return Err(MapError::Path(nowhere));
         }
-        if places.len() == 1 {
-            return Err(MapError::Short);
-        }
         let is_sound =
             |kept: &KeptPlace| kept.at.is_finite() && kept.stars <= KeptPlace::MOST_STARS;
         match self.kept.iter().position(|kept| !is_sound(kept)) {
@@ -127,11 +121,10 @@ impl MapSettings {
     /// and kept places are not in it.
     #[must_use]
     pub fn plays_as(&self, other: &Self) -> bool {
-        let way = |map: &Self| {
-            let places = map.path.places.iter();
-            places
-                .map(|place| (place.at, place.passed))
-                .collect::<Vec<_>>()
+        let way = |map: &Self| -> Vec<_> {
+            // One place is no path yet.
+            let places = map.path.places.iter().filter(|_| !map.path.is_none());
+            places.map(|place| (place.at, place.passed)).collect()
         };
         let (own, its) = (way(self), way(other));
         own == its && (own.is_empty() || (self.layout, &self.sites) == (other.layout, &other.sites))

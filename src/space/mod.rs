@@ -34,5 +34,5 @@ pub use error::{SpaceError, SpaceNote};
 pub use layout::MapLayout;
 pub use likeness::Likeness;
 pub use map::Map;
-pub use path::{MapCurve, MapPath, Waypoint};
+pub use path::{MapCurve, MapPath, Waypoint, thinned};
 pub use spread::spread;

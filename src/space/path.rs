@@ -1,6 +1,6 @@
 //! A path over a map: smooth, through places, some of which are stops.
 
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, along_segment};
 use serde::{Deserialize, Serialize};
 
 /// A place that a path goes through.
@@ -198,6 +198,27 @@ impl MapCurve {
     fn of(&self, leg: usize) -> &[Span] {
         let [from, to] = self.legs[leg];
         &self.spans[from..to]
+    }
+}
+
+/// A line by hand with fewer places: those that are left out were no farther than `off` from what
+/// is left (Douglas, Peucker 1973). Its ends stay.
+#[must_use]
+pub fn thinned(line: &[DVec2], off: f64) -> Vec<DVec2> {
+    let (Some(&first), Some(&last)) = (line.first(), line.last()) else {
+        return Vec::new();
+    };
+    let far = |p: &DVec2| p.distance(first.lerp(last, along_segment(*p, first, last)));
+    let within = line.iter().enumerate().take(line.len() - 1).skip(1);
+    let worst = within.max_by(|a, b| far(a.1).total_cmp(&far(b.1)));
+    match worst {
+        Some((k, p)) if far(p) > off => {
+            let mut before = thinned(&line[..=k], off);
+            before.pop();
+            before.extend(thinned(&line[k..], off));
+            before
+        }
+        _ => vec![first, last],
     }
 }
 

@@ -12,7 +12,8 @@ use crate::app::asking::acts::EditorAct;
 use crate::app::asking::choices::{Preferences, TwinMethod};
 use crate::content::ContentKind;
 use crate::geometry::DVec2;
-use crate::project::{Moved, Project};
+use crate::measure::MapMeasure;
+use crate::project::{MapSettings, Moved, Project};
 use crate::space::MapLayout;
 use crate::warp::WarpKind;
 
@@ -151,6 +152,20 @@ pub enum Intent {
     Puck(DVec2),
     /// Move the design of this number there on the map.
     MoveSite(usize, DVec2),
+    /// Replace what is said of the map.
+    EditMap(Box<MapSettings>),
+    /// Show the contours of a measure on the map, or none.
+    ShowMeasure(Option<MapMeasure>),
+    /// A click on the map sets a stop of the path, or moves the puck.
+    DrawPath(bool),
+    /// Let the path go on through these places of the map, to a stop at the last of them.
+    ExtendPath(Vec<DVec2>),
+    /// Take the last stop of the path off.
+    ShortenPath,
+    /// Record the way of the puck as a path, or end that.
+    RecordPath,
+    /// Keep the blend under the puck.
+    Keep,
     /// Leave what was entered last: help, question, hidden panels, whole screen.
     Back,
     /// Show the whole transition.

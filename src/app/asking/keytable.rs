@@ -88,7 +88,10 @@ fn stops() -> Vec<Row> {
     group(
         "Stops and slides",
         [
-            ("Set a stop here", vec![key(Letter('m'), AddStop)]),
+            (
+                "Set a stop here; on the map: one of the path",
+                vec![key(Letter('m'), AddStop)],
+            ),
             (
                 "Jump to the next and previous stop",
                 jumps.map(|(arrow, jump)| key(Named(arrow), jump)).into(),
@@ -134,7 +137,7 @@ fn changing() -> Vec<Row> {
         "Match and changes",
         [
             (
-                "Edit the match: which point is which",
+                "Edit the match: which point is which; on the map: draw a path",
                 vec![key(Letter('e'), Intent::Editor(EditorAct::Toggle))],
             ),
             (
@@ -169,7 +172,14 @@ fn view() -> Vec<Row> {
                 "The map of all designs; arrows walk on it",
                 letter('d', ToggleMap),
             ),
-            ("A grid that shows the warp", letter('w', ToggleGrid)),
+            (
+                "Keep the blend under the puck of the map",
+                letter('k', Intent::Keep),
+            ),
+            (
+                "A grid that shows the warp; on the map: record the puck's way",
+                letter('w', ToggleGrid),
+            ),
             (
                 "Onion skins: the film at its stops, in thin lines",
                 letter('o', ToggleOnion),

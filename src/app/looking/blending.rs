@@ -6,6 +6,7 @@ use bevy::window::{PrimaryWindow, Window};
 
 use crate::app::looking::map::MapView;
 use crate::app::looking::view::StageArea;
+use crate::app::playing::playback::Playback;
 use crate::app::session::state::Session;
 use crate::export::PixelSize;
 
@@ -17,6 +18,7 @@ const LONGEST_PX: f32 = 1400.0;
 pub fn follow(
     session: Res<Session>,
     area: Res<StageArea>,
+    playback: Res<Playback>,
     window: Query<&Window, With<PrimaryWindow>>,
     mut view: ResMut<MapView>,
 ) {
@@ -24,6 +26,7 @@ pub fn follow(
     // Marked as changed by hand: it is looked at in each frame, and seldom new.
     let map = view.bypass_change_detection();
     let mut is_changed = map.work(&session, is_new);
+    is_changed |= map.go_with(playback.t());
     if map.is_shown {
         let scale = window.single().map_or(1.0, Window::scale_factor);
         let seen = area.size * scale;

@@ -4,7 +4,9 @@
 pub mod blending;
 pub mod choosing;
 pub mod filmstrip;
+pub mod ground;
 pub mod helping;
+pub mod land;
 pub mod map;
 pub mod measuring;
 pub mod onion;
@@ -13,3 +15,4 @@ pub mod recording;
 pub mod times;
 pub mod twin;
 pub mod view;
+pub mod walking;

@@ -16,6 +16,7 @@ use bevy::window::{
 use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::Editor;
+use crate::app::looking::map::MapView;
 use crate::app::looking::twin::Twin;
 use crate::app::playing::playback::{Playback, first_stop};
 use crate::app::session::state::Session;
@@ -103,7 +104,7 @@ pub fn apply(
     mut intents: MessageReader<Intent>,
     mut presenting: ResMut<Presenting>,
     mut preferences: ResMut<Preferences>,
-    (mut editor, mut twin): (ResMut<Editor>, ResMut<Twin>),
+    (mut editor, mut twin, mut map): (ResMut<Editor>, ResMut<Twin>, ResMut<MapView>),
     session: Res<Session>,
     mut windows: Query<(&mut Window, &mut CursorOptions), With<PrimaryWindow>>,
     mut commands: Commands,
@@ -121,7 +122,7 @@ pub fn apply(
                 preferences.film_options = false;
                 commands.write_message(Intent::FitView);
                 editor.is_open = false;
-                twin.is_shown = false;
+                (twin.is_shown, map.is_shown) = (false, false);
             }
             (Intent::Back | Intent::Present { .. } | Intent::Close, Some(talk)) => {
                 if talk.is_all {

@@ -3,13 +3,13 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use crate::app::capturing::files::safe;
 use crate::app::session::history::{History, Snapshot};
 use crate::app::session::loading::{self, Leg, Loaded, Problem, Rebuild, Stage};
 use crate::app::session::origin::Origin;
 use crate::app::session::rescue::Kept;
 use crate::app::session::saving::{self, SaveError};
 use crate::design::{Design, Source};
+use crate::file_name::safe;
 use crate::geometry::Bounds;
 use crate::one_line::OneLine;
 use crate::project::{LoadedProject, Project, ProjectError};

@@ -52,6 +52,7 @@ pub const PLAY_BACKWARDS: Icon = Icon {
 
 // What plays and what is set is solid, as on other players; all else is drawn in lines.
 pub const ADD_STOP: Icon = solid(fill::FLAG_PENNANT);
+pub const STAR: Icon = solid(fill::STAR);
 pub const PAUSE: Icon = solid(fill::PAUSE);
 pub const PLAY: Icon = solid(fill::PLAY);
 pub const RECORD: Icon = solid(fill::RECORD);
@@ -69,6 +70,9 @@ pub const MORE: Icon = lines(regular::CARET_DOWN);
 pub const NEXT_STOP: Icon = lines(regular::CARET_LINE_RIGHT);
 pub const OPEN: Icon = lines(regular::FOLDER_OPEN);
 pub const MAP: Icon = lines(regular::MAP_TRIFOLD);
+pub const NO_STAR: Icon = lines(regular::STAR);
+pub const PATH: Icon = lines(regular::PATH);
+pub const PLACE: Icon = lines(regular::MAP_PIN);
 pub const PLOT: Icon = lines(regular::CHART_LINE);
 pub const PRESENT: Icon = lines(regular::PRESENTATION);
 pub const PREVIOUS_STOP: Icon = lines(regular::CARET_LINE_LEFT);

@@ -30,7 +30,12 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
     let Some(whole) = scene.session.whole() else {
         return;
     };
-    let numbers = whole.leg_designs(scene.session.leg());
+    // A path goes between all.
+    let numbers = match whole.follows_path() {
+        true => (0..whole.designs.len()).collect(),
+        false => whole.leg_designs(scene.session.leg()).to_vec(),
+    };
+    let last = numbers.len().saturating_sub(1).max(1) as f64;
     section(ui, "Designs", |ui| {
         if whole.is_sequence() {
             order(ui, scene, whole, acts);
@@ -39,10 +44,16 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
         let tip = "How unlike designs are laid over each other before anything else.";
         pick(ui, "Frame", tip, &mut draft.fit);
         let style = scene.session.style_here();
-        let colours = [style.source, style.target];
-        for (index, entry) in draft.designs.iter_mut().take(2).enumerate() {
-            design(ui, (index, numbers[index]), colours[index], entry, acts);
-            if let Some(design) = scene.session.designs().get(index) {
+        let seen = draft.designs.iter_mut().zip(&numbers).enumerate();
+        for (index, (entry, &number)) in seen {
+            let colour = style.fill_at(index as f64 / last);
+            let role = match (whole.follows_path(), index) {
+                (true, _) => format!("{}", number + 1),
+                (false, 0) => "Source".to_owned(),
+                (false, _) => "Target".to_owned(),
+            };
+            design(ui, (index, number), (&role, colour), entry, acts);
+            if let Some(design) = scene.session.all_designs().get(number) {
                 notes(ui, index, &design.notes);
             }
         }
@@ -130,11 +141,11 @@ fn swap(ui: &mut Ui) -> bool {
     icon_button(ui, icons::SWAP, tip, vec2(32.0, CONTROL_HEIGHT)).clicked()
 }
 
-/// One of the two that are looked at, and its number among all.
+/// One of those that are looked at, and its number among all.
 fn design(
     ui: &mut Ui,
     (index, number): (usize, usize),
-    colour: Rgb,
+    (role, colour): (&str, Rgb),
     entry: &mut DesignEntry,
     acts: &mut Intents,
 ) {
@@ -143,7 +154,7 @@ fn design(
         let (dot, _) = ui.allocate_exact_size(vec2(12.0, CONTROL_HEIGHT), Sense::hover());
         let fill = Color32::from_rgb(colour.0[0], colour.0[1], colour.0[2]);
         ui.painter().circle_filled(dot.center(), 5.0, fill);
-        ui.label(quiet(ui, ["Source", "Target"][index]));
+        ui.label(quiet(ui, role));
         from_right(ui, |ui| {
             let tip = "Another file in its place";
             if icon_button(ui, icons::OPEN, tip, vec2(24.0, 24.0)).clicked() {

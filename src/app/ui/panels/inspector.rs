@@ -9,7 +9,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::kit::widgets::ground;
 use crate::app::ui::panels::{
-    appearance, contents, designs, film, matching, method, parts, rigid, warps,
+    appearance, contents, designs, film, map, matching, method, parts, rigid, warps,
 };
 use crate::app::ui::scene::{Intents, Scene};
 use crate::content::ContentKind;
@@ -40,6 +40,9 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let Some(project) = scene.session.project() else {
         return;
     };
+    if scene.map.is_shown {
+        map::show(ui, scene, acts);
+    }
     // Not of the copy: another method is an intent of its own, which keys send too.
     method::show(ui, scene, project, acts);
     let mut draft = project.clone();

@@ -5,6 +5,7 @@ pub mod contents;
 pub mod designs;
 pub mod film;
 pub mod inspector;
+pub mod map;
 pub mod matching;
 pub mod method;
 pub mod parts;

@@ -5,19 +5,23 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    Align2, Color32, FontId, Galley, Id, Panel, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2,
+    Align2, Color32, ComboBox, FontId, Galley, Id, Panel, Pos2, Rect, Sense, Shape, Stroke, Ui,
+    pos2, vec2,
 };
 use image::RgbaImage;
 
 use crate::app::asking::intent::Intent;
-use crate::app::looking::map::{Made, REACH};
+use crate::app::looking::ground::REACH;
+use crate::app::looking::map::Made;
+use crate::app::ui::kit::icons::{self, Icon};
 use crate::app::ui::kit::texture::texture;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID};
-use crate::app::ui::kit::widgets::{choices, ground, quiet};
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
+use crate::app::ui::kit::widgets::{choices, ground, icon_button, quiet};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::stage::area::ink_on;
 use crate::colour::Rgb;
 use crate::geometry::DVec2;
+use crate::measure::MapMeasure;
 use crate::names::Choice;
 use crate::space::MapLayout;
 
@@ -37,9 +41,14 @@ const LAYOUTS: f32 = 288.0;
 /// The longest side of the pictures in pixels.
 const LONGEST_PX: u32 = 2048;
 
-/// Which design is being moved.
-#[derive(Clone, Copy, Default)]
-struct Held(Option<usize>);
+/// What the hand is at.
+#[derive(Clone, Default)]
+struct Held {
+    /// The design that is being moved.
+    design: Option<usize>,
+    /// What is being drawn.
+    line: Vec<DVec2>,
+}
 
 /// Draws the map and the blend; returns the part that the blend takes.
 pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Rect {
@@ -84,17 +93,69 @@ pub fn strip(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
                     let name = layout.name();
                     (layout, name.title, name.sentence)
                 });
-                let mut layout = scene.map.layout;
+                let now = scene.session.whole().map(|whole| whole.map.layout);
+                let mut layout = now.unwrap_or_default();
+                let before = layout;
                 ui.allocate_ui(vec2(LAYOUTS, CONTROL_HEIGHT), |ui| {
                     choices(ui, &mut layout, &all.collect::<Vec<_>>());
                 });
-                if layout != scene.map.layout {
+                if layout != before {
                     acts.push(Intent::LayOut(layout));
                 }
+                ui.add_space(GRID);
+                measures(ui, scene, acts);
+                tools(ui, scene, acts);
                 ui.add_space(GRID);
                 ui.label(quiet(ui, told(scene)));
             });
         });
+}
+
+/// Which measure has its contours under the map.
+fn measures(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let named = |shown: Option<MapMeasure>| shown.map_or("No contours", |m| m.name().title);
+    let mut shown = scene.map.shown;
+    let all = MapMeasure::CHOICES.iter().copied().map(Some);
+    let list = ComboBox::from_id_salt("contours").selected_text(named(shown));
+    list.width(112.0).show_ui(ui, |ui| {
+        for measure in std::iter::once(None).chain(all) {
+            let tip = measure.map_or("What lies between the designs, and nothing else", |m| {
+                m.name().sentence
+            });
+            ui.selectable_value(&mut shown, measure, named(measure))
+                .on_hover_text(tip);
+        }
+    });
+    if shown != scene.map.shown {
+        acts.push(Intent::ShowMeasure(shown));
+    }
+}
+
+/// What the hand draws, and what is kept.
+fn tools(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let accent = Palette::of(ui).accent;
+    let size = vec2(32.0, CONTROL_HEIGHT);
+    let mut tool = |icon: Icon, is_on: bool, tip: &str, intent: Intent| {
+        if icon_button(ui, icon.inked(is_on.then_some(accent)), tip, size).clicked() {
+            acts.push(intent);
+        }
+    };
+    let draws = scene.map.draws_path;
+    let tip = "Draw a path (E): a click sets a stop, dragging draws the way to the next";
+    tool(icons::PATH, draws, tip, Intent::DrawPath(!draws));
+    let tip = "Record the way of the puck as the path (W)";
+    tool(
+        icons::RECORD,
+        scene.map.is_recording(),
+        tip,
+        Intent::RecordPath,
+    );
+    tool(
+        icons::STAR,
+        false,
+        "Keep the blend under the puck (K)",
+        Intent::Keep,
+    );
 }
 
 /// How the designs are blended, in a few words.
@@ -145,11 +206,15 @@ fn on_map(square: Rect, at: Pos2) -> DVec2 {
     DVec2::new(f64::from(offset.x), f64::from(-offset.y)) * REACH
 }
 
-/// Dragging moves the puck, or with Shift the design under the pointer.
+/// Dragging moves the puck, or draws the path, or with Shift moves the design under the pointer.
 fn hand(root: &Ui, scene: &Scene, made: &Made, square: Rect, acts: &mut Intents) {
     let id = root.id().with("map");
     let response = root.interact(square, id, Sense::click_and_drag());
+    let mut held: Held = root.data(|data| data.get_temp(id)).unwrap_or_default();
     let Some(at) = response.interact_pointer_pos() else {
+        if !held.line.is_empty() {
+            acts.push(Intent::ExtendPath(std::mem::take(&mut held.line)));
+        }
         root.data_mut(|data| data.insert_temp(id, Held::default()));
         return;
     };
@@ -158,19 +223,28 @@ fn hand(root: &Ui, scene: &Scene, made: &Made, square: Rect, acts: &mut Intents)
         let sites = made.map().sites().iter().enumerate();
         let far = |site: DVec2| on_screen(square, site).distance(at);
         let nearest = sites.min_by(|a, b| far(*a.1).total_cmp(&far(*b.1)));
-        let held = nearest.filter(|(_, site)| far(**site) < HOLD);
-        root.data_mut(|data| data.insert_temp(id, Held(held.map(|(design, _)| design))));
+        let near = nearest.filter(|(_, site)| far(**site) < HOLD);
+        held.design = near.map(|(design, _)| design);
     }
-    let Held(held) = root.data(|data| data.get_temp(id)).unwrap_or_default();
-    match held {
+    match held.design {
         Some(design) => acts.push(Intent::MoveSite(design, place)),
+        None if scene.map.draws_path => {
+            // Where the button went down is the first of them.
+            if held.line.last() != Some(&place) {
+                held.line.push(place);
+            }
+        }
         None if place != scene.map.puck() => acts.push(Intent::Puck(place)),
         None => {}
     }
+    root.data_mut(|data| data.insert_temp(id, held));
 }
 
 fn draw(root: &Ui, scene: &Scene, made: &Made, (left, square): (Rect, Rect), ink: Color32) {
     let painter = root.painter_at(left);
+    if let Some(land) = made.land().picture() {
+        image(root, "land", land, square, Color32::WHITE);
+    }
     if let Some(pictures) = made.ground() {
         image(
             root,
@@ -188,7 +262,52 @@ fn draw(root: &Ui, scene: &Scene, made: &Made, (left, square): (Rect, Rect), ink
         let at = at.min(left.max - vec2(0.0, 18.0));
         painter.text(at, Align2::CENTER_TOP, &design.name, font.clone(), ink);
     }
+    way(root, scene, (left, square), ink);
     puck(root, scene, made, (left, square), ink);
+}
+
+/// The path with its stops, what is being drawn, and the places that are kept.
+fn way(root: &Ui, scene: &Scene, (left, square): (Rect, Rect), ink: Color32) {
+    /// Points of the curve from stop to stop.
+    const POINTS: usize = 48;
+    let painter = root.painter_at(left);
+    let stroke = Stroke::new(2.0, ink);
+    let on = |place: DVec2| on_screen(square, place);
+    if let Some(curve) = scene.map.curve() {
+        let count = POINTS * curve.leg_count();
+        let points = (0..=count).map(|k| on(curve.at(k as f64 / POINTS as f64)));
+        painter.add(Shape::line(points.collect(), stroke));
+    }
+    let held: Option<Held> = root.data(|data| data.get_temp(root.id().with("map")));
+    if let Some(held) = held.filter(|held| held.line.len() > 1) {
+        let points = held.line.iter().map(|place| on(*place));
+        painter.add(Shape::line(points.collect(), stroke));
+    }
+    let Some(whole) = scene.session.whole() else {
+        return;
+    };
+    for kept in &whole.map.kept {
+        let place = Rect::from_center_size(on(kept.at), vec2(14.0, 14.0));
+        icons::paint(&painter, icons::STAR, place, Palette::of(root).amber);
+    }
+    let path = &whole.map.path;
+    let first = path.places.iter().take(1).map(|place| place.at);
+    let stops = path.stops().skip(1).map(|(_, stop)| stop.at);
+    let [paper, font] = [contrast(ink), ink].map(|colour| (colour, FontId::proportional(11.0)));
+    for (number, place) in first.chain(stops).enumerate() {
+        let at = on(place);
+        painter.circle(at, 9.0, paper.0, Stroke::new(1.5, ink));
+        let words = format!("{}", number + 1);
+        painter.text(at, Align2::CENTER_CENTER, words, font.1.clone(), font.0);
+    }
+}
+
+/// What is read on an ink: the other end of light and dark.
+fn contrast(ink: Color32) -> Color32 {
+    match ink.r() > 127 {
+        true => Color32::from_gray(24),
+        false => Color32::WHITE,
+    }
 }
 
 /// The puck with a ring of the designs' shares.

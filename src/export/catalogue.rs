@@ -1,0 +1,312 @@
+//! The places of a map that are kept, as files: each as SVG and, where it has outlines, as DXF;
+//! all as a sheet, and their measures as a table.
+
+use std::path::{Path, PathBuf};
+
+use super::drawing::Drawing;
+use super::error::ExportError;
+use super::sheet::SheetLayout;
+use super::size::PixelSize;
+use super::still::{encoded, write_atomically};
+use super::target::StillKind;
+use super::view::View;
+use super::words::ink_on;
+use crate::colour::Rgb;
+use crate::file_name::safe;
+use crate::geometry::Bounds;
+use crate::measure::{BlendMeasures, BlendSampler};
+use crate::names::named;
+use crate::one_line::OneLine;
+use crate::progress::{Progress, checkpoint};
+use crate::project::KeptPlace;
+use crate::space::{Map, Space};
+use crate::transition::Style;
+
+/// Pixels along the longer side of a single picture.
+const LONGER_SIDE_PX: u32 = 960;
+
+/// In which order kept places are listed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum CatalogueOrder {
+    /// As they were kept.
+    #[default]
+    Kept,
+    /// The best first.
+    Stars,
+    /// By their names.
+    Name,
+    /// The least area first.
+    Area,
+    /// The shortest outlines first.
+    Perimeter,
+    /// The least distorted first.
+    Distortion,
+}
+
+named! { CatalogueOrder {
+    Kept: "kept", "As kept", "In the order in which they were kept";
+    Stars: "stars", "Stars", "The best first";
+    Name: "name", "Name", "By their names";
+    Area: "area", "Area", "The least area first";
+    Perimeter: "perimeter", "Perimeter", "The shortest outlines first";
+    Distortion: "distortion", "Distortion", "The least distorted first";
+} }
+
+/// Kept places with what is measured of them.
+#[derive(Clone, Debug)]
+pub struct Catalogue {
+    entries: Vec<Entry>,
+}
+
+/// One of them.
+#[derive(Clone, Debug)]
+struct Entry {
+    kept: KeptPlace,
+    weights: Vec<f64>,
+    measures: BlendMeasures,
+}
+
+impl Catalogue {
+    /// Those of at least so many stars, in that order; equal ones as they were kept.
+    ///
+    /// # Panics
+    /// If the map has not as many sites as the space has designs.
+    #[must_use]
+    pub fn new(
+        (space, map): (&Space, &Map),
+        kept: &[KeptPlace],
+        least_stars: u8,
+        order: CatalogueOrder,
+    ) -> Self {
+        let mut sampler = BlendSampler::of(space);
+        let entry = |kept: &KeptPlace| {
+            let mut weights = vec![0.0; space.designs().len()];
+            map.weights(kept.at, &mut weights);
+            let mut kept = kept.clone();
+            if kept.name.is_empty() {
+                kept.name = space.told(&weights);
+            }
+            Entry {
+                measures: sampler.at(&weights),
+                weights,
+                kept,
+            }
+        };
+        let wanted = kept.iter().filter(|kept| kept.stars >= least_stars);
+        let mut entries: Vec<Entry> = wanted.map(entry).collect();
+        let distortion = |entry: &Entry| entry.measures.quality.conformal_p95.unwrap_or(1.0);
+        entries.sort_by(|a, b| match order {
+            CatalogueOrder::Kept => std::cmp::Ordering::Equal,
+            CatalogueOrder::Stars => b.kept.stars.cmp(&a.kept.stars),
+            CatalogueOrder::Name => a.kept.name.cmp(&b.kept.name),
+            CatalogueOrder::Area => a.measures.area.total_cmp(&b.measures.area),
+            CatalogueOrder::Perimeter => a.measures.perimeter.total_cmp(&b.measures.perimeter),
+            CatalogueOrder::Distortion => distortion(a).total_cmp(&distortion(b)),
+        });
+        Self { entries }
+    }
+
+    /// How many there are.
+    #[must_use]
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Whether there is none.
+    #[must_use]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Writes all of it into a folder, which is made where it is missing, and returns what it
+    /// wrote. Files of the same names are written over.
+    ///
+    /// # Errors
+    /// [`ExportError`] names the file that cannot be written; those before it are whole.
+    pub fn write(
+        &self,
+        space: &Space,
+        (style, ground): (&Style, Option<Rgb>),
+        folder: &Path,
+        progress: &dyn Progress,
+    ) -> Result<Vec<PathBuf>, ExportError> {
+        std::fs::create_dir_all(folder).map_err(ExportError::write(folder))?;
+        let bounds = space.bounds();
+        let bounds = bounds.padded(0.04 * bounds.diameter());
+        let view = View::fit(bounds, PixelSize::of_shape(bounds, LONGER_SIDE_PX));
+        let mut written = Vec::new();
+        for (k, entry) in self.entries.iter().enumerate() {
+            checkpoint(progress, "writing", k as f64 / self.len() as f64)?;
+            let mut drawing = Drawing::new(view.size(), ground);
+            self.draw(space, k, style, &view, &mut drawing);
+            let stem = stem(k, &entry.kept);
+            for kind in [StillKind::Svg, StillKind::Dxf] {
+                let path = folder.join(format!("{stem}.{kind}"));
+                match encoded(&drawing, kind, &path) {
+                    Ok(bytes) => {
+                        write_atomically(&path, &bytes)?;
+                        written.push(path);
+                    }
+                    // Nothing of a field may be left.
+                    Err(ExportError::NoOutlines) => {}
+                    Err(error) => return Err(error),
+                }
+            }
+        }
+        let sheet = folder.join("catalogue.png");
+        let drawing = self.sheet(space, style, ground);
+        write_atomically(&sheet, &encoded(&drawing, StillKind::Png, &sheet)?)?;
+        let table = folder.join("catalogue.csv");
+        write_atomically(
+            &table,
+            &self.table(space).map_err(|reason| ExportError::Encode {
+                path: table.clone(),
+                reason,
+            })?,
+        )?;
+        written.extend([sheet, table]);
+        Ok(written)
+    }
+
+    /// All side by side, with their names and stars.
+    #[must_use]
+    pub fn sheet(&self, space: &Space, style: &Style, ground: Option<Rgb>) -> Drawing {
+        let bounds: Bounds = space.bounds();
+        let layout = SheetLayout::new(self.len().max(1), bounds, None);
+        let mut drawing = Drawing::new(layout.size, ground);
+        for (k, entry) in self.entries.iter().enumerate() {
+            let (corner, inner, base) = layout.cell(k);
+            let view = View::fit_cell(bounds, layout.size, corner, inner);
+            self.draw(space, k, style, &view, &mut drawing);
+            let stars = "★".repeat(entry.kept.stars.into());
+            let words = format!("{} {stars}", OneLine(&entry.kept.name));
+            drawing.push_label(
+                words.trim_end(),
+                base,
+                0.8 * layout.letters_px(),
+                ink_on(ground),
+            );
+        }
+        drawing
+    }
+
+    fn draw(&self, space: &Space, k: usize, style: &Style, view: &View, drawing: &mut Drawing) {
+        let weights = &self.entries[k].weights;
+        let mut frame = space.frame();
+        frame.seek(weights);
+        drawing.push_figure(&frame.figure(), space.tint(weights), style, view);
+    }
+
+    /// A row for each, its weights by the names of the designs.
+    fn table(&self, space: &Space) -> Result<Vec<u8>, String> {
+        let mut table = csv::Writer::from_writer(Vec::new());
+        let before = ["file", "name", "stars", "note", "x", "y"].map(str::to_owned);
+        let weights = space.designs().iter();
+        let weights = weights.map(|design| format!("weight of {}", OneLine(&design.name)));
+        let behind = [
+            "area",
+            "perimeter",
+            "conformal_p95",
+            "travel",
+            "folds",
+            "crossings",
+        ];
+        let header = before
+            .into_iter()
+            .chain(weights)
+            .chain(behind.map(str::to_owned));
+        let wrong = |error: csv::Error| error.to_string();
+        table.write_record(header).map_err(wrong)?;
+        for (k, entry) in self.entries.iter().enumerate() {
+            let Entry { kept, measures, .. } = entry;
+            let number = |value: f64| value.to_string();
+            let maybe = |value: Option<f64>| value.map_or_else(String::new, number);
+            let before = [
+                stem(k, kept),
+                OneLine(&kept.name).to_string(),
+                kept.stars.to_string(),
+                OneLine(&kept.note).to_string(),
+                number(kept.at.x),
+                number(kept.at.y),
+            ];
+            let weights = entry.weights.iter().copied().map(number);
+            let behind = [
+                number(measures.area),
+                number(measures.perimeter),
+                maybe(measures.quality.conformal_p95),
+                maybe(measures.travel),
+                measures.quality.folds.to_string(),
+                measures.quality.crossings.to_string(),
+            ];
+            let row = before.into_iter().chain(weights).chain(behind);
+            table.write_record(row).map_err(wrong)?;
+        }
+        table.into_inner().map_err(|error| error.to_string())
+    }
+}
+
+/// The name of its files without an ending: no two have the same.
+fn stem(k: usize, kept: &KeptPlace) -> String {
+    format!("{:02}-{}", k + 1, safe(&kept.name))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::design::Design;
+    use crate::geometry::DVec2;
+    use crate::progress::Silent;
+    use crate::space::{MapLayout, SpaceSpec};
+    use std::sync::Arc;
+
+    fn space() -> (Space, Map) {
+        let tent = |name: &str, h: f64| {
+            let ring = [[0.0, 0.0], [2.0, 0.0], [1.0, h]];
+            Arc::new(Design::of_rings(name, [ring]).expect("a design"))
+        };
+        let designs = vec![tent("low", 1.0), tent("high", 2.0), tent("tower", 4.0)];
+        let space = Space::build(&SpaceSpec::new(designs), &Silent).expect("a space");
+        let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
+        (space, map)
+    }
+
+    fn kept(map: &Map) -> Vec<KeptPlace> {
+        let place = |site: DVec2, name: &str, stars: u8| KeptPlace {
+            name: name.to_owned(),
+            stars,
+            ..KeptPlace::new(site)
+        };
+        vec![
+            place(map.sites()[2], "a/b", 2),
+            place(map.sites()[0], "", 5),
+            place(DVec2::ZERO, "a/b", 0),
+        ]
+    }
+
+    #[test]
+    fn all_that_is_kept_is_written_and_measured() {
+        let (space, map) = space();
+        let kept = kept(&map);
+        let folder = tempfile::tempdir().expect("a folder");
+        let to = folder.path().join("new/catalogue");
+        let catalogue = Catalogue::new((&space, &map), &kept, 0, CatalogueOrder::Area);
+        let look = (&Style::default(), None);
+        let written = catalogue.write(&space, look, &to, &Silent).expect("files");
+        assert_eq!(written.len(), 3 * 2 + 2);
+        assert!(written.iter().all(|path| path.exists()));
+        let table = std::fs::read_to_string(to.join("catalogue.csv")).expect("a table");
+        let lines: Vec<&str> = table.lines().collect();
+        assert_eq!(lines.len(), 4);
+        assert!(lines[0].contains("weight of high") && lines[1].starts_with("01-low,low,5,"));
+        assert!(lines[3].starts_with("03-a-b,a/b,2,"), "{}", lines[3]);
+    }
+
+    #[test]
+    fn the_best_can_be_asked_for_alone() {
+        let (space, map) = space();
+        let all = Catalogue::new((&space, &map), &kept(&map), 1, CatalogueOrder::Stars);
+        let stars = all.entries.iter().map(|entry| entry.kept.stars);
+        assert_eq!(stars.collect::<Vec<_>>(), [5, 2]);
+    }
+}
