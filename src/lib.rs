@@ -101,6 +101,7 @@ mod atomic_file;
 pub mod budget;
 pub mod colour;
 pub mod easing;
+#[cfg(feature = "cli")]
 mod file_name;
 pub mod names;
 mod one_line;

@@ -8,7 +8,7 @@ use crate::app::asking::intent::Intent;
 use crate::app::asking::keymap::{self, KeyMap};
 use crate::app::capturing::files::{CaptureFolder, Workshop};
 use crate::app::capturing::films;
-use crate::app::capturing::{estimate, framing};
+use crate::app::capturing::{estimate, framing, kept};
 use crate::app::editing::editor::Editor;
 use crate::app::editing::sheet::Sheet;
 use crate::app::editing::{apply, refresh};
@@ -93,6 +93,7 @@ fn init(app: &mut App) {
         .init_resource::<Recording>()
         .init_resource::<Twin>()
         .init_resource::<MapView>()
+        .init_resource::<kept::Cataloguing>()
         .init_resource::<Notices>()
         .init_resource::<Question>()
         .init_resource::<Autosave>()
@@ -151,6 +152,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             twin::follow,
             walking::apply,
             blending::follow,
+            kept::export,
         )
             .chain(),
         // Moved on before it is told where to go: else the time of a rest would be played at once.

@@ -27,6 +27,7 @@ pub use crossings::{Crossing, RingEdge, count_crossings, crossings};
 pub(crate) use edge_boxes::EdgeBoxes;
 pub(crate) use fit::{Fit, affine};
 pub use glam::{DAffine2, DMat2, DVec2};
+pub(crate) use glam::{DMat3, DVec3};
 pub(crate) use inset::{inset, inset_depth};
 pub use pair::{Pair, Side};
 pub use polar::{Polar, SymmetricEigen};

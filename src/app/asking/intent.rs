@@ -166,6 +166,8 @@ pub enum Intent {
     RecordPath,
     /// Keep the blend under the puck.
     Keep,
+    /// Write the places that are kept as files.
+    ExportKept,
     /// Leave what was entered last: help, question, hidden panels, whole screen.
     Back,
     /// Show the whole transition.

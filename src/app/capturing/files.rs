@@ -77,6 +77,15 @@ fn first_free<T>(
     Err(failed(folder, io::ErrorKind::AlreadyExists.into()))
 }
 
+/// Makes a new folder `stem`, or `stem-2` and so on where something of that name is there.
+///
+/// # Errors
+/// The folder that it is to be in cannot be made or written to.
+pub fn create_new_folder(folder: &Path, stem: &str) -> Result<PathBuf, NewFileError> {
+    let create = |path: &Path| std::fs::create_dir(path);
+    first_free(folder, stem, "", create).map(|((), path)| path)
+}
+
 /// Where films are written before they are moved to their place: a program that is killed leaves
 /// nothing half done among the user's pictures, and the next start clears this up. None takes the
 /// system's folder for such things.

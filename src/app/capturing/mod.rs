@@ -6,5 +6,6 @@ pub mod estimate;
 pub mod files;
 pub mod films;
 pub mod framing;
+pub mod kept;
 pub mod order;
 pub mod pictures;

@@ -327,7 +327,9 @@ pub fn follow(session: Res<Session>, measured: Res<Measured>, mut helping: ResMu
     let is_faulty = measured
         .measures()
         .is_some_and(|measures| !measures.verdict.is_clear());
-    if session.work().is_some() || !is_faulty {
+    // A path is led elsewhere: what is tried is of two designs.
+    let is_pair = session.whole().is_some_and(|whole| !whole.follows_path());
+    if session.work().is_some() || !(is_faulty && is_pair) {
         (now.trial, now.since) = (None, None);
     } else if now.trial.is_none() && !now.is_done {
         let since = *now.since.get_or_insert_with(Instant::now);

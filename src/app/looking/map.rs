@@ -20,9 +20,12 @@ use crate::design::Form;
 use crate::export::{Drawing, PixelSize, SizeError, View, ink_on, rasterise};
 use crate::geometry::DVec2;
 use crate::measure::MapMeasure;
-use crate::project::{LoadedProject, MapSettings, Project, ProjectError};
+use crate::project::{KeptPlace, LoadedProject, MapSettings, Project, ProjectError};
 use crate::space::{Map, MapCurve, Space, SpaceFrame};
 use crate::transition::{Quality, Style, Timing, place};
+
+/// Pixels along each side of a place that is kept.
+const KEPT_PX: u32 = 96;
 
 /// How far an arrow key moves the puck, of the map's reach.
 const STEP: f64 = 0.02;
@@ -72,6 +75,8 @@ pub struct Made {
     blend: Option<Blend>,
     /// What is measured all over the map.
     land: Land,
+    /// The places that are kept, in small.
+    kept: Vec<(DVec2, Arc<RgbaImage>)>,
 }
 
 /// The blend as it was drawn last.
@@ -92,6 +97,7 @@ impl Made {
             style: None,
             blend: None,
             land: Land::default(),
+            kept: Vec::new(),
         }
     }
 
@@ -138,6 +144,38 @@ impl Made {
         self.space.family().is_some() && forms.any(|form| matches!(form, Form::Outline(_)))
     }
 
+    /// A place that is kept, in small.
+    #[must_use]
+    pub fn kept(&self, at: DVec2) -> Option<&Arc<RgbaImage>> {
+        let found = self.kept.iter().find(|(place, _)| *place == at);
+        found.map(|(_, picture)| picture)
+    }
+
+    /// Draws the places that are kept and not drawn yet; whether there were some.
+    fn draw_kept(&mut self, places: &[KeptPlace], style: &Style) -> bool {
+        let Ok(size) = PixelSize::new(KEPT_PX, KEPT_PX) else {
+            return false;
+        };
+        self.kept
+            .retain(|(at, _)| places.iter().any(|kept| kept.at == *at));
+        let before = self.kept.len();
+        let mut weights = vec![0.0; self.space.designs().len()];
+        for place in places {
+            if self.kept(place.at).is_none() {
+                self.map.weights(place.at, &mut weights);
+                self.frame.seek(&weights);
+                let picture = rasterise(&self.drawing(size, style, None));
+                self.kept.push((place.at, Arc::new(picture)));
+            }
+        }
+        let is_new = self.kept.len() > before;
+        if is_new {
+            // The frame is the puck's.
+            self.blend = None;
+        }
+        is_new
+    }
+
     /// The blend under the puck, over a ground or none.
     #[must_use]
     pub fn drawing(&self, size: PixelSize, style: &Style, ground: Option<Rgb>) -> Drawing {
@@ -173,6 +211,7 @@ impl Made {
         if self.style == Some(style) {
             return false;
         }
+        self.kept.clear();
         self.style = Some(style);
         let (space, map) = (self.space.clone(), self.map.clone());
         self.drawing = Some(Job::start("the map", move |_| ground(&space, &map, &style)));
@@ -304,6 +343,9 @@ impl MapView {
         }
         if let Some(made) = &mut self.made {
             is_changed |= made.paint(session.style());
+            if let Some(whole) = &self.whole {
+                is_changed |= made.draw_kept(&whole.project.map.kept, &session.style());
+            }
             // First what is seen of all, then what is known of it.
             if made.ground.is_some() && made.drawing.is_none() && self.job.is_none() {
                 let ink = ink_on(Some(session.style().ground));

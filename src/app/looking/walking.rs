@@ -46,6 +46,9 @@ pub fn apply(
             Intent::ExtendPath(through) => {
                 if let Some(path) = path(&session) {
                     let path = extended(path, through, &view);
+                    if let Some(last) = path.places.last() {
+                        view.move_puck(last.at);
+                    }
                     session.change_whole(mark, |project| project.follow(path));
                 }
             }
@@ -65,7 +68,6 @@ pub fn apply(
             },
             Intent::Keep if view.made().is_some() && view.is_shown => {
                 let place = kept(&view);
-                notices.done(&format!("Kept: {}", place.name));
                 session.change_whole(mark, |project| project.map.kept.push(place));
             }
             Intent::EditMap(changed) => {

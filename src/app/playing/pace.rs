@@ -18,6 +18,7 @@ use crate::app::asking::choices::Preferences;
 use crate::app::asking::intent::Intent;
 use crate::app::capturing::estimate::Estimate;
 use crate::app::capturing::films::Recorder;
+use crate::app::capturing::kept::Cataloguing;
 use crate::app::capturing::pictures::Captures;
 use crate::app::keeping::autosave::Autosave;
 use crate::app::looking::choosing::Choosing;
@@ -102,6 +103,7 @@ pub struct Going<'w, 's> {
     speaker: Res<'w, Speaker>,
     preferences: Res<'w, Preferences>,
     captures: Res<'w, Captures>,
+    cataloguing: Res<'w, Cataloguing>,
     shots: Query<'w, 's, (), With<Screenshot>>,
     recorder: Res<'w, Recorder>,
     estimate: Res<'w, Estimate>,
@@ -140,6 +142,7 @@ impl Going<'_, '_> {
             || self.estimate.is_busy()
             || self.autosave.is_behind()
             || self.captures.is_writing()
+            || self.cataloguing.is_busy()
             || self.thumbnails.is_busy()
             || self.choosing.told().is_some()
             || self.measured.is_busy()

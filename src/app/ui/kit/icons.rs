@@ -72,7 +72,6 @@ pub const OPEN: Icon = lines(regular::FOLDER_OPEN);
 pub const MAP: Icon = lines(regular::MAP_TRIFOLD);
 pub const NO_STAR: Icon = lines(regular::STAR);
 pub const PATH: Icon = lines(regular::PATH);
-pub const PLACE: Icon = lines(regular::MAP_PIN);
 pub const PLOT: Icon = lines(regular::CHART_LINE);
 pub const PRESENT: Icon = lines(regular::PRESENTATION);
 pub const PREVIOUS_STOP: Icon = lines(regular::CARET_LINE_LEFT);

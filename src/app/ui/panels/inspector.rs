@@ -49,10 +49,13 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     if scene.session.can_match() && draft.warp != Some(WarpKind::None) {
         matching::show(ui, scene, &mut draft, acts);
     }
-    if draft.warp == Some(WarpKind::Arap) {
+    // Of many designs the local maps have one way.
+    let is_pair = !draft.follows_path();
+    if draft.warp == Some(WarpKind::Arap) && is_pair {
         rigid::show(ui, scene, &mut draft.options.arap);
     }
-    if draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Solid) {
+    let is_solid = draft.content == Some(ContentKind::Solid);
+    if draft.warp == Some(WarpKind::Arap) && is_solid && is_pair {
         parts::show(ui, scene, &mut draft.options.parts);
     }
     let carries_fields =

@@ -1,12 +1,14 @@
 //! What can be set about the map while it is shown: the path over it, and the places that are kept.
 
-use bevy_egui::egui::{Align, Label, Layout, RichText, Sense, TextEdit, Ui, vec2};
+use bevy_egui::egui::{Color32, Id, Label, Rect, RichText, Sense, TextEdit, Ui, pos2, vec2};
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
+use crate::app::ui::kit::texture::texture;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette, RADIUS};
 use crate::app::ui::kit::widgets::{from_right, hint, icon_button, section};
 use crate::app::ui::scene::{Intents, Scene};
+use crate::colour::Rgb;
 use crate::project::{KeptPlace, MapSettings};
 use crate::space::MapPath;
 
@@ -23,7 +25,7 @@ pub fn show(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     };
     let mut draft = whole.map.clone();
     section(ui, "Path", |ui| path(ui, &mut draft));
-    section(ui, "Kept", |ui| kept(ui, &mut draft, acts));
+    section(ui, "Kept", |ui| kept(ui, scene, &mut draft, acts));
     if draft != whole.map {
         acts.push(Intent::EditMap(Box::new(draft)));
     }
@@ -63,7 +65,7 @@ fn path(ui: &mut Ui, draft: &mut MapSettings) {
     }
 }
 
-fn kept(ui: &mut Ui, draft: &mut MapSettings, acts: &mut Intents) {
+fn kept(ui: &mut Ui, scene: &Scene, draft: &mut MapSettings, acts: &mut Intents) {
     if draft.kept.is_empty() {
         hint(ui, "Press K to keep the blend under the puck.");
         return;
@@ -72,25 +74,11 @@ fn kept(ui: &mut Ui, draft: &mut MapSettings, acts: &mut Intents) {
     for (k, place) in draft.kept.iter_mut().enumerate() {
         ui.push_id(("kept", k), |ui| {
             ui.horizontal(|ui| {
-                from_right(ui, |ui| {
-                    if icon_button(ui, icons::CLOSE, "Keep it no more", vec2(24.0, 24.0)).clicked()
-                    {
+                picture(ui, scene, k, place, acts);
+                ui.vertical(|ui| {
+                    if entry(ui, place) {
                         gone = Some(k);
                     }
-                    if icon_button(ui, icons::PLACE, "Go there", vec2(24.0, 24.0)).clicked() {
-                        acts.push(Intent::Puck(place.at));
-                    }
-                    let name = TextEdit::singleline(&mut place.name).hint_text("Name");
-                    ui.add_sized([ui.available_width(), CONTROL_HEIGHT], name);
-                });
-            });
-            ui.horizontal(|ui| {
-                stars(ui, place);
-                let left = Layout::left_to_right(Align::Center);
-                let room = vec2(ui.available_width(), CONTROL_HEIGHT);
-                ui.allocate_ui_with_layout(room, left, |ui| {
-                    let note = TextEdit::singleline(&mut place.note).hint_text("Note");
-                    ui.add_sized([ui.available_width(), CONTROL_HEIGHT], note);
                 });
             });
             ui.add_space(0.5 * GRID);
@@ -99,6 +87,55 @@ fn kept(ui: &mut Ui, draft: &mut MapSettings, acts: &mut Intents) {
     if let Some(k) = gone {
         draft.kept.remove(k);
     }
+    ui.horizontal(|ui| {
+        let tip = "The best first, and of equal ones the first that was kept";
+        if ui.button("Sort by stars").on_hover_text(tip).clicked() {
+            draft
+                .kept
+                .sort_by_key(|place| std::cmp::Reverse(place.stars));
+        }
+        let tip = "Each as SVG and DXF, all as a sheet, their measures as a table";
+        if ui.button("Export").on_hover_text(tip).clicked() {
+            acts.push(Intent::ExportKept);
+        }
+    });
+}
+
+/// How it looks; a click goes there.
+fn picture(ui: &mut Ui, scene: &Scene, k: usize, place: &KeptPlace, acts: &mut Intents) {
+    let side = 2.0 * CONTROL_HEIGHT + ui.spacing().item_spacing.y;
+    let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
+    let Rgb([r, g, b]) = scene.session.style().ground;
+    let ground = Color32::from_rgb(r, g, b);
+    ui.painter().rect_filled(rect, RADIUS, ground);
+    let small = scene.map.made().and_then(|made| made.kept(place.at));
+    if let Some(small) = small {
+        let texture = texture(ui.ctx(), Id::new(("kept", k)), small, u32::MAX);
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let painter = ui.painter();
+        painter.image(texture.id(), rect.shrink(2.0), whole, Color32::WHITE);
+    }
+    if response.on_hover_text("Go there").clicked() {
+        acts.push(Intent::Puck(place.at));
+    }
+}
+
+/// Its name, its stars and its note; whether it is kept no more.
+fn entry(ui: &mut Ui, place: &mut KeptPlace) -> bool {
+    let mut is_gone = false;
+    ui.horizontal(|ui| {
+        from_right(ui, |ui| {
+            is_gone = icon_button(ui, icons::CLOSE, "Keep it no more", vec2(24.0, 24.0)).clicked();
+            let name = TextEdit::singleline(&mut place.name).hint_text("Name");
+            ui.add_sized([ui.available_width(), CONTROL_HEIGHT], name);
+        });
+    });
+    ui.horizontal(|ui| {
+        stars(ui, place);
+        let note = TextEdit::singleline(&mut place.note).hint_text("Note");
+        ui.add_sized([ui.available_width(), CONTROL_HEIGHT], note);
+    });
+    is_gone
 }
 
 /// A click on a star gives as many; on the last one that is given none.

@@ -5,8 +5,8 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    Align2, Color32, ComboBox, FontId, Galley, Id, Panel, Pos2, Rect, Sense, Shape, Stroke, Ui,
-    pos2, vec2,
+    Align2, Color32, ComboBox, FontId, Galley, Id, Label, Panel, Pos2, Rect, Sense, Shape, Stroke,
+    Ui, pos2, vec2,
 };
 use image::RgbaImage;
 
@@ -106,7 +106,9 @@ pub fn strip(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
                 measures(ui, scene, acts);
                 tools(ui, scene, acts);
                 ui.add_space(GRID);
-                ui.label(quiet(ui, told(scene)));
+                let told = told(scene);
+                ui.add(Label::new(quiet(ui, told.as_str())).truncate())
+                    .on_hover_text(told);
             });
         });
 }

@@ -12,13 +12,16 @@
 //! mean is that of rotations and of logarithms of stretches, each by itself.
 //!
 //! Guaranteed: each design at its own corner, to the last bit; of two designs it is the
-//! exponential homotopy with the symmetric energy; the order of the designs has no
+//! exponential homotopy with the symmetric energy, where no face folds; the order of the designs has no
 //! influence but by rounding, where no face turns by more than half a turn between two of
-//! them. Not guaranteed: that no face folds between the designs.
+//! them. Not guaranteed: that no face folds between the designs, but vertices inside make room
+//! where one would.
 //!
+//! - `mend`: faces inside that are turned over, turned back
 //! - `parts`: where the connected parts are as wholes; `along`: a way through the blends
 
 mod along;
+mod mend;
 mod parts;
 #[cfg(test)]
 mod tests;
@@ -34,6 +37,7 @@ use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen, twice_signed_area};
 use crate::homotopy::Homotopy;
 use crate::linalg::{Cholesky, FactorError, SymmetricMatrix, Workspace};
 use crate::progress::{Progress, checkpoint, still_wanted};
+use mend::Mender;
 use parts::{Parts, blended};
 use std::sync::Arc;
 
@@ -69,6 +73,7 @@ struct Inner {
     /// For each vertex and each design the pull of its faces there, vertices first.
     ends: Vec<DVec2>,
     parts: Parts,
+    mender: Mender,
 }
 
 /// C W g of the second and third corner of a face.
@@ -139,6 +144,7 @@ impl ArapBlend {
             bars,
             ends: Vec::new(),
             parts,
+            mender: Mender::of(family),
         };
         inner.ends = inner.pulls_of_designs();
         Ok(Self(Arc::new(inner)))
@@ -219,6 +225,7 @@ impl BlendPlacer {
             // What is exactly 0 at a design is added last.
             *place = straight + (deviation(v) + self.shifts[blend.parts.of_vertex[v] as usize]);
         }
+        blend.mender.mend(blend.family.faces(), &mut self.places);
         &self.places
     }
 
