@@ -65,8 +65,8 @@ def bracket_and_davit(folder):
     kit.truss(folder / "davit.json", outer + inner, panels, bars, extra)
 
 
-def girder_and_arch(folder):
-    """A Pratt girder of 61 bars and the crescent arch that it bends into."""
+def girders(folder):
+    """A Pratt girder of 61 bars, the crescent arch that it bends into, and two more between."""
     bays = 16
     chord = range(bays + 1)
     lower = [complex(2 * i, 0) for i in chord]
@@ -99,7 +99,13 @@ def girder_and_arch(folder):
     }
     kit.truss(folder / "girder.json", lower + upper, panels, bars, extra)
     kit.truss(folder / "arch.json", intrados + extrados, panels, bars, extra)
-    print(f"girder and arch: {len(bars)} bars")
+    sag = [math.sin(math.pi * i / bays) for i in chord]
+    camelback = [complex(2 * i, 1.6 + 3.4 * sag[i]) for i in range(1, bays)]
+    kit.truss(folder / "camelback.json", lower + camelback, panels, bars, extra)
+    belly = [complex(2 * i, -4.2 * sag[i]) for i in chord]
+    deck = [complex(2 * i, 0.9 * sag[i]) for i in range(1, bays)]
+    kit.truss(folder / "fish-belly.json", belly + deck, panels, bars, extra)
+    print(f"girder, arch, camelback and fish-belly: {len(bars)} bars")
 
 
 def bridges(folder):
@@ -484,7 +490,7 @@ def main():
     for draw in (
         triangles,
         bracket_and_davit,
-        girder_and_arch,
+        girders,
         bridges,
         vessels,
         cantilevers,
