@@ -122,7 +122,93 @@ fn designs_are_laid_out_and_moved() {
     window.send(Intent::MoveSite(99, to));
     wait(&mut window);
     assert_eq!(sites(&window)[1], to);
-    assert!(!window.session().is_dirty());
+    // Where they were put is of the project, and can be taken back.
+    let kept = |window: &Window| window.session().whole().expect("a project").map.sites.clone();
+    assert_eq!(kept(&window)[1], to);
+    window.send(Intent::Undo);
+    wait(&mut window);
+    assert!(kept(&window).is_empty());
+}
+
+/// Waits for the film as well.
+fn wait_for_film(window: &mut Window) {
+    window.wait();
+    wait(window);
+}
+
+#[test]
+fn a_path_is_drawn_played_and_taken_back() {
+    let (_folder, mut window) = opened(3, false);
+    let sites = map(&window).made().expect("a map").map().sites().to_vec();
+    // One stop is no path yet.
+    window.send(Intent::ExtendPath(vec![sites[0] + DVec2::splat(0.01)]));
+    wait_for_film(&mut window);
+    let whole = window.session().whole().expect("a project").clone();
+    assert!(!whole.follows_path());
+    assert_eq!(whole.map.path.places[0].at, sites[0], "it snaps to a design");
+    window.send(Intent::ExtendPath(vec![DVec2::ZERO]));
+    wait_for_film(&mut window);
+    window.send(Intent::ExtendPath(vec![DVec2::new(0.1, -0.1), sites[2]]));
+    wait_for_film(&mut window);
+    assert_eq!(window.problems(), Vec::<String>::new());
+    let whole = window.session().whole().expect("a project").clone();
+    assert!(whole.follows_path());
+    assert_eq!(whole.leg_count(), 2);
+    let sequence = window.session().sequence().expect("a film");
+    assert_eq!(sequence.end(), 2.0);
+    assert_eq!(window.session().names_on_the_way().len(), 3);
+    // The puck goes with the film.
+    window.send(Intent::Seek(1.0));
+    window.update();
+    window.update();
+    assert!(map(&window).puck().length() < 1e-9, "{}", map(&window).puck());
+    window.send(Intent::Seek(2.0));
+    window.update();
+    window.update();
+    assert_eq!(weights(&window), [0.0, 0.0, 1.0]);
+    // Not one that two designs could be matched by.
+    assert!(!window.session().can_match());
+    window.send(Intent::ShortenPath);
+    wait_for_film(&mut window);
+    assert_eq!(window.session().leg_count(), 1);
+    window.send(Intent::Undo);
+    wait_for_film(&mut window);
+    assert_eq!(window.session().leg_count(), 2);
+    // Without it the film goes from design to design again.
+    let mut settings = window.session().whole().expect("a project").map.clone();
+    settings.path = morphospace::space::MapPath::default();
+    window.send(Intent::EditMap(Box::new(settings)));
+    wait_for_film(&mut window);
+    let first = window.session().transition().expect("a film");
+    assert!(first.arap().is_some());
+    assert_eq!(window.session().leg_count(), 2);
+}
+
+#[test]
+fn the_way_of_the_puck_becomes_a_path_and_places_are_kept() {
+    let (_folder, mut window) = opened(3, false);
+    window.send(Intent::RecordPath);
+    window.update();
+    for k in 1..=20 {
+        window.send(Intent::Puck(DVec2::new(0.02 * f64::from(k), 0.0)));
+        window.update();
+    }
+    window.send(Intent::RecordPath);
+    wait_for_film(&mut window);
+    let path = window.session().whole().expect("a project").map.path.clone();
+    // A straight way needs no places within.
+    assert_eq!(path.places.len(), 2, "{path:?}");
+    assert!((path.places[1].at.x - 0.4).abs() < 1e-9);
+    window.send(Intent::Keep);
+    wait_for_film(&mut window);
+    let kept = window.session().whole().expect("a project").map.kept.clone();
+    assert_eq!(kept.len(), 1);
+    assert!(kept[0].name.contains('%'), "{}", kept[0].name);
+    let made = map(&window).made().expect("a map");
+    assert!(made.kept(kept[0].at).is_some());
+    // What is known of the land grows finer by itself.
+    let side = made.land().found().map(morphospace::measure::Landscape::side);
+    assert_eq!(side, Some(64));
 }
 
 #[test]
