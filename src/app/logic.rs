@@ -150,9 +150,7 @@ fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
             helping::follow,
             twin::apply,
             twin::follow,
-            walking::apply,
-            blending::follow,
-            kept::export,
+            (walking::apply, blending::follow, kept::export).chain(),
         )
             .chain(),
         // Moved on before it is told where to go: else the time of a rest would be played at once.

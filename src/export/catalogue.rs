@@ -179,14 +179,11 @@ impl Catalogue {
             let (corner, inner, base) = layout.cell(k);
             let view = View::fit_cell(bounds, layout.size, corner, inner);
             self.draw(space, k, style, &view, &mut drawing);
-            let stars = "★".repeat(entry.kept.stars.into());
-            let words = format!("{} {stars}", OneLine(&entry.kept.name));
-            drawing.push_label(
-                words.trim_end(),
-                base,
-                0.8 * layout.letters_px(),
-                ink_on(ground),
-            );
+            let words = match entry.kept.stars {
+                0 => OneLine(&entry.kept.name).to_string(),
+                stars => format!("{}, {stars} of 5", OneLine(&entry.kept.name)),
+            };
+            drawing.push_label(&words, base, 0.8 * layout.letters_px(), ink_on(ground));
         }
         drawing
     }
@@ -246,9 +243,12 @@ impl Catalogue {
     }
 }
 
-/// The name of its files without an ending: no two have the same.
+/// The name of its files without an ending: no two have the same, and none has blanks or signs.
 fn stem(k: usize, kept: &KeptPlace) -> String {
-    format!("{:02}-{}", k + 1, safe(&kept.name))
+    let name = safe(&kept.name);
+    let words = name.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
+    format!("{:02}-{}", k + 1, words.join("-"))
 }
 
 #[cfg(test)]

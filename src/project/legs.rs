@@ -251,13 +251,16 @@ impl Project {
     /// none, through all of it, at the pace that it had and with a rest at each stop.
     pub fn follow(&mut self, path: MapPath) {
         let before = self.leg_count() as f64;
+        let was_path = self.follows_path();
         let is_as_long = path.leg_count() == self.map.path.leg_count();
         self.map.path = path;
         if is_as_long {
             return;
         }
         let now = self.leg_count() as f64;
-        self.stops.clear();
+        // A path that goes on, or ends earlier, keeps what is said of its stops.
+        let stays = was_path && self.follows_path();
+        self.stops.retain(|stop| stays && stop.t <= now);
         (self.timing.from, self.timing.to) = (0.0, now);
         self.timing.duration_secs *= now / before;
         *self = self.clone().resting_at_designs();

@@ -26,9 +26,12 @@ named! { MapLayout {
     Likeness: "likeness", "Likeness", "What is alike is near each other";
 } }
 
-/// Two sites are no nearer to each other than this share of the map: what is drawn at
-/// them must have room, and two designs that are the same are still two.
-const APART: f64 = 0.12;
+/// Two sites are no nearer to each other than this: the picture of a design and its name
+/// must have room, and two designs that are the same are still two.
+const APART: f64 = 0.42;
+
+/// The same of many designs, by the root of their number: more have no room in the circle.
+const CROWDED: f64 = 1.3;
 
 impl MapLayout {
     /// A site for each design, within one unit of the origin.
@@ -97,6 +100,9 @@ fn scaled(likeness: &Likeness) -> Vec<DVec2> {
     }
     sites.iter_mut().for_each(|site| *site /= reach);
     push_apart(&mut sites);
+    // What was pushed beyond the circle is brought back, with all others.
+    let reach = sites.iter().map(|site| site.length()).fold(1.0, f64::max);
+    sites.iter_mut().for_each(|site| *site /= reach);
     sites
 }
 
@@ -104,7 +110,7 @@ fn scaled(likeness: &Likeness) -> Vec<DVec2> {
 fn push_apart(sites: &mut [DVec2]) {
     /// Twelve sites in one place are apart after some twenty.
     const ROUNDS: usize = 200;
-    let least = 2.0 * APART;
+    let least = APART.min(CROWDED / (sites.len() as f64).sqrt());
     for _ in 0..ROUNDS {
         let mut moved = false;
         for a in 0..sites.len() {

@@ -14,7 +14,7 @@ fn a_changed_blend_is_shown_without_measuring_again() {
         window.wait();
     }
     let source = |window: &Window| match window.session().transition().map(|t| t.content()) {
-        Some(Content::Field(pair)) => std::ptr::from_ref(pair.whole().source()),
+        Some(Content::Field(pair)) => std::ptr::from_ref(pair.first().source()),
         _ => panic!("a field is on the stage"),
     };
     let before = source(&window);
@@ -26,7 +26,7 @@ fn a_changed_blend_is_shown_without_measuring_again() {
     let Some(Content::Field(pair)) = window.session().transition().map(|t| t.content()) else {
         panic!("a field is on the stage");
     };
-    assert_eq!(pair.whole().blend().threshold, 2.0);
+    assert_eq!(pair.first().blend().threshold, 2.0);
 }
 
 #[test]

@@ -123,7 +123,15 @@ fn designs_are_laid_out_and_moved() {
     wait(&mut window);
     assert_eq!(sites(&window)[1], to);
     // Where they were put is of the project, and can be taken back.
-    let kept = |window: &Window| window.session().whole().expect("a project").map.sites.clone();
+    let kept = |window: &Window| {
+        window
+            .session()
+            .whole()
+            .expect("a project")
+            .map
+            .sites
+            .clone()
+    };
     assert_eq!(kept(&window)[1], to);
     window.send(Intent::Undo);
     wait(&mut window);
@@ -145,7 +153,10 @@ fn a_path_is_drawn_played_and_taken_back() {
     wait_for_film(&mut window);
     let whole = window.session().whole().expect("a project").clone();
     assert!(!whole.follows_path());
-    assert_eq!(whole.map.path.places[0].at, sites[0], "it snaps to a design");
+    assert_eq!(
+        whole.map.path.places[0].at, sites[0],
+        "it snaps to a design"
+    );
     window.send(Intent::ExtendPath(vec![DVec2::ZERO]));
     wait_for_film(&mut window);
     window.send(Intent::ExtendPath(vec![DVec2::new(0.1, -0.1), sites[2]]));
@@ -161,7 +172,11 @@ fn a_path_is_drawn_played_and_taken_back() {
     window.send(Intent::Seek(1.0));
     window.update();
     window.update();
-    assert!(map(&window).puck().length() < 1e-9, "{}", map(&window).puck());
+    assert!(
+        map(&window).puck().length() < 1e-9,
+        "{}",
+        map(&window).puck()
+    );
     window.send(Intent::Seek(2.0));
     window.update();
     window.update();
@@ -195,19 +210,34 @@ fn the_way_of_the_puck_becomes_a_path_and_places_are_kept() {
     }
     window.send(Intent::RecordPath);
     wait_for_film(&mut window);
-    let path = window.session().whole().expect("a project").map.path.clone();
+    let path = window
+        .session()
+        .whole()
+        .expect("a project")
+        .map
+        .path
+        .clone();
     // A straight way needs no places within.
     assert_eq!(path.places.len(), 2, "{path:?}");
     assert!((path.places[1].at.x - 0.4).abs() < 1e-9);
     window.send(Intent::Keep);
     wait_for_film(&mut window);
-    let kept = window.session().whole().expect("a project").map.kept.clone();
+    let kept = window
+        .session()
+        .whole()
+        .expect("a project")
+        .map
+        .kept
+        .clone();
     assert_eq!(kept.len(), 1);
     assert!(kept[0].name.contains('%'), "{}", kept[0].name);
     let made = map(&window).made().expect("a map");
     assert!(made.kept(kept[0].at).is_some());
     // What is known of the land grows finer by itself.
-    let side = made.land().found().map(morphospace::measure::Landscape::side);
+    let side = made
+        .land()
+        .found()
+        .map(morphospace::measure::Landscape::side);
     assert_eq!(side, Some(64));
 }
 

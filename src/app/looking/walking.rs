@@ -27,62 +27,63 @@ pub fn apply(
     mut notices: ResMut<Notices>,
     gesture: Res<Gesture>,
 ) {
-    let mark = gesture.mark();
     for intent in intents.read() {
-        let path = |session: &Session| session.whole().map(|whole| whole.map.path.clone());
         match intent {
             Intent::ToggleMap => view.is_shown = !view.is_shown,
             Intent::Puck(to) if to.is_finite() => view.move_puck(*to),
             Intent::ShowMeasure(shown) => view.shown = *shown,
             Intent::DrawPath(on) => view.draws_path = *on,
-            Intent::LayOut(layout) => session.change_whole(mark, |project| {
-                (project.map.layout, project.map.sites) = (*layout, Vec::new());
-            }),
-            Intent::MoveSite(design, to) => {
-                if let Some(sites) = view.sites_with(*design, *to) {
-                    session.change_whole(mark, |project| project.map.sites = sites);
-                }
-            }
-            Intent::ExtendPath(through) => {
-                if let Some(path) = path(&session) {
-                    let path = extended(path, through, &view);
-                    if let Some(last) = path.places.last() {
-                        view.move_puck(last.at);
-                    }
-                    session.change_whole(mark, |project| project.follow(path));
-                }
-            }
-            Intent::ShortenPath => {
-                if let Some(mut path) = path(&session) {
-                    shorten(&mut path);
-                    session.change_whole(mark, |project| project.follow(path));
-                }
-            }
             Intent::RecordPath => match view.record() {
                 Some(way) if way.len() > 1 => {
                     let path = extended(MapPath::default(), &way, &view);
-                    session.change_whole(mark, |project| project.follow(path));
+                    session.change_whole(gesture.mark(), |project| project.follow(path));
                 }
                 Some(_) => notices.done("The puck did not move: there is no path."),
                 None => notices.done("Move the puck: its way becomes the path. W ends it."),
             },
-            Intent::Keep if view.made().is_some() && view.is_shown => {
-                let place = kept(&view);
-                session.change_whole(mark, |project| project.map.kept.push(place));
+            Intent::ExtendPath(through) => {
+                let path = session.whole().map(|whole| whole.map.path.clone());
+                let path = path.map(|path| extended(path, through, &view));
+                if let Some(path) = path {
+                    let last = path.places.last().map(|place| place.at);
+                    last.into_iter().for_each(|last| view.move_puck(last));
+                    session.change_whole(gesture.mark(), |project| project.follow(path));
+                }
             }
-            Intent::EditMap(changed) => {
-                let MapSettings { path, .. } = &**changed;
-                session.change_whole(mark, |project| {
-                    let before = std::mem::take(&mut project.map.path);
-                    project.map = MapSettings {
-                        path: before,
-                        ..MapSettings::clone(changed)
-                    };
-                    project.follow(path.clone());
-                });
-            }
-            _ => {}
+            _ => change(intent, &view, &mut session, gesture.mark()),
         }
+    }
+}
+
+/// Acts on those that change the project alone.
+fn change(intent: &Intent, view: &MapView, session: &mut ResMut<Session>, mark: Option<u64>) {
+    match intent {
+        Intent::LayOut(layout) => session.change_whole(mark, |project| {
+            (project.map.layout, project.map.sites) = (*layout, Vec::new());
+        }),
+        Intent::MoveSite(design, to) => {
+            if let Some(sites) = view.sites_with(*design, *to) {
+                session.change_whole(mark, |project| project.map.sites = sites);
+            }
+        }
+        Intent::ShortenPath => session.change_whole(mark, |project| {
+            let mut path = project.map.path.clone();
+            shorten(&mut path);
+            project.follow(path);
+        }),
+        Intent::Keep if view.made().is_some() && view.is_shown => {
+            let place = kept(view);
+            session.change_whole(mark, |project| project.map.kept.push(place));
+        }
+        Intent::EditMap(changed) => session.change_whole(mark, |project| {
+            let path = std::mem::take(&mut project.map.path);
+            project.map = MapSettings {
+                path,
+                ..MapSettings::clone(changed)
+            };
+            project.follow(changed.path.clone());
+        }),
+        _ => {}
     }
 }
 

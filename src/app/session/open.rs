@@ -226,7 +226,12 @@ impl Open {
     #[must_use]
     pub fn file_stem(&self) -> String {
         let name = || self.gallery_name().map(str::to_owned);
-        safe(&self.stem().or_else(name).unwrap_or_else(|| self.title()))
+        let stem = self.stem().or_else(name).unwrap_or_else(|| self.title());
+        let path = &self.loaded.project.map.path;
+        match path.is_none() || path.name.is_empty() {
+            true => safe(&stem),
+            false => safe(&format!("{stem}-{}", path.name)),
+        }
     }
 
     /// There are changes that are not saved.

@@ -230,12 +230,9 @@ fn hand(root: &Ui, scene: &Scene, made: &Made, square: Rect, acts: &mut Intents)
     }
     match held.design {
         Some(design) => acts.push(Intent::MoveSite(design, place)),
-        None if scene.map.draws_path => {
-            // Where the button went down is the first of them.
-            if held.line.last() != Some(&place) {
-                held.line.push(place);
-            }
-        }
+        // Where the button went down is the first of them.
+        None if scene.map.draws_path && held.line.last() != Some(&place) => held.line.push(place),
+        None if scene.map.draws_path => {}
         None if place != scene.map.puck() => acts.push(Intent::Puck(place)),
         None => {}
     }

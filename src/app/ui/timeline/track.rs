@@ -92,7 +92,8 @@ pub fn show(
     scrub(&response, ruler, &draft.stops, acts);
     beyond(ui, ruler);
     bar(ui, ruler, &draft.style, scene.session.way());
-    ticks(ui, ruler, &names);
+    let is_path = scene.session.whole().is_some_and(Project::follows_path);
+    ticks(ui, ruler, &names, is_path);
     if has_pictures {
         filmstrip::show(ui, scene, |t| ruler.x(t), ruler.y + 30.0);
     }
@@ -161,8 +162,8 @@ fn bar(ui: &Ui, ruler: Ruler, style: &Style, way: (usize, bool)) {
 }
 
 /// A number at each tenth of a pair, and a name at each design of more.
-fn ticks(ui: &Ui, ruler: Ruler, names: &[String]) {
-    if ruler.end > 1.0 {
+fn ticks(ui: &Ui, ruler: Ruler, names: &[String], is_path: bool) {
+    if ruler.end > 1.0 || is_path {
         return designs(ui, ruler, names);
     }
     let palette = Palette::of(ui);

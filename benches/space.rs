@@ -1,0 +1,75 @@
+//! A move of the puck over the map of six outlines of some 150 points: the weights of the
+//! place, the blend as rigid parts, and its picture as the window draws it.
+//!
+//! `cargo bench --no-default-features --bench space`
+
+use criterion::Criterion;
+use morphospace::design::Design;
+use morphospace::export::{Drawing, PixelSize, View, rasterise};
+use morphospace::geometry::DVec2;
+use morphospace::measure::Landscape;
+use morphospace::progress::Silent;
+use morphospace::space::{Map, MapLayout, Space, SpaceSpec};
+use morphospace::transition::Style;
+use std::error::Error;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+/// Points of each outline.
+const POINTS: u32 = 150;
+
+/// The blend in a window of 1280 by 720, in pixels.
+const SIZE: [u32; 2] = [360, 472];
+
+fn main() -> Result<(), Box<dyn Error>> {
+    let mut criterion = Criterion::default().configure_from_args().sample_size(30);
+    let designs: Vec<Arc<Design>> = (0..6).map(flower).collect::<Result<_, _>>()?;
+    let space = Space::build(&SpaceSpec::new(designs), &Silent)?;
+    // Fields would be another figure.
+    space.family().ok_or("no common mesh")?;
+    let map = Map::new(&MapLayout::Polygon.sites(space.likeness()))?;
+    let mut frame = space.frame();
+    let mut weights = [0.0; 6];
+    let mut k = 0;
+    let mut place = || {
+        k += 1;
+        DVec2::from_angle(f64::from(k) * 2.4) * (0.8 * (f64::from(k) * 0.618).fract().sqrt())
+    };
+    criterion.bench_function("weights and solve, 6 designs", |bencher| {
+        bencher.iter(|| {
+            map.weights(place(), &mut weights);
+            frame.seek(&weights);
+        });
+    });
+    let size = PixelSize::new(SIZE[0], SIZE[1])?;
+    let bounds = space.bounds();
+    let view = View::fit(bounds.padded(0.04 * bounds.diameter()), size);
+    criterion.bench_function("weights, solve and draw, 6 designs", |bencher| {
+        bencher.iter(|| {
+            map.weights(place(), &mut weights);
+            frame.seek(&weights);
+            let mut drawing = Drawing::new(size, None);
+            let tint = space.tint(&weights);
+            drawing.push_figure(&frame.figure(), tint, &Style::default(), &view);
+            rasterise(&drawing)
+        });
+    });
+    let mut slow = Criterion::default().configure_from_args().sample_size(10);
+    slow.bench_function("64 x 64 measures of the map", |bencher| {
+        bencher.iter(|| Landscape::of((&space, &map), 64, 1.2, &Silent));
+    });
+    slow.final_summary();
+    Ok(())
+}
+
+/// A rounded form with as many lobes as its number says, and two more.
+fn flower(k: u32) -> Result<Arc<Design>, Box<dyn Error>> {
+    let lobes = f64::from(k + 2);
+    let corner = |i: u32| {
+        let angle = TAU * f64::from(i) / f64::from(POINTS);
+        let radius = 100.0 * (1.0 + 0.3 * (lobes * angle).cos());
+        DVec2::from_angle(angle) * radius
+    };
+    let ring: Vec<DVec2> = (0..POINTS).map(corner).collect();
+    Ok(Arc::new(Design::of_rings(format!("flower {k}"), [ring])?))
+}
