@@ -270,6 +270,13 @@ impl LoadedProject {
     /// If there are fewer than two designs.
     pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), BuildError> {
         let cell = Cell::new(warp, content)?;
+        let is_of_many = matches!(
+            (warp, content),
+            (WarpKind::Arap, ContentKind::Solid) | (WarpKind::None, ContentKind::Field)
+        );
+        if self.path_leg.is_some() && !is_of_many {
+            return Err(BuildError::Unavailable(NO_SPACE.to_owned()));
+        }
         TransitionSpec::available(cell, &self.designs[0], &self.designs[1])
     }
 
