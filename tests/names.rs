@@ -6,7 +6,7 @@ use std::fmt::{Debug, Display};
 use morphospace::content::{BlendSpace, ContentKind};
 use morphospace::correspondence::{HoleRule, PartRule};
 use morphospace::easing::Easing;
-use morphospace::export::{Aspect, CatalogueOrder, FilmKind, Purpose, StillKind};
+use morphospace::export::{Aspect, FilmKind, Purpose, StillKind};
 use morphospace::field::Metric;
 use morphospace::homotopy::Homotopy;
 use morphospace::measure::{MapMeasure, Quantity};
@@ -72,7 +72,8 @@ fn keys_are_those_of_the_files_that_there_are() {
     table::<StillKind>("dxf png svg");
     table::<MapMeasure>("area distortion perimeter travel");
     table::<MapLayout>("likeness line polygon");
-    table::<CatalogueOrder>("area distortion kept name perimeter stars");
+    #[cfg(feature = "cli")]
+    table::<morphospace::export::CatalogueOrder>("area distortion kept name perimeter stars");
     table::<Quantity>(
         "area crossings folds holes min-det perimeter pieces turning worst-conformal \
          worst-isometric",

@@ -6,9 +6,9 @@ use crate::content::ContentKind;
 use crate::design::{Design, Form, Source};
 use crate::geometry::Similarity;
 use crate::one_line::OneLine;
-use crate::progress::Progress;
+use crate::progress::{Progress, Whole as WholeWork};
 use crate::reading::ReadError;
-use crate::space::{Map, Space, SpaceError, SpaceSpec};
+use crate::space::{Map, Space, SpaceSpec};
 use crate::transition::{
     BuildError, Cell, NoSuchCell, Options, PartTime, Quality, Transition, TransitionSpec, arranged,
     arrangement,
@@ -388,8 +388,8 @@ impl LoadedProject {
         };
         let space = self.built_space(None, progress)?;
         let map = self.map_of(&space)?;
-        let built = space.leg(&map, &self.project.map.path, leg);
-        built.ok_or_else(|| SpaceError::TooFew(self.designs.len()).into())
+        let progress = &WholeWork::new(progress).patient(self.patient);
+        Ok(space.leg((&map, &self.project.map.path), leg, progress)?)
     }
 
     /// The first film, where the one that is asked for takes longer: as

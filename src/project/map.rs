@@ -41,6 +41,17 @@ pub struct KeptPlace {
     pub stars: u8,
 }
 
+/// How far a place may be from the middle of the map, whose designs are within one of it.
+const FARTHEST: f64 = 100.0;
+
+/// The most places of a path, and the most that are kept: a hand does not click as often.
+pub const MOST_PLACES: usize = 500;
+
+fn is_near(place: DVec2) -> bool {
+    // None for what is no number.
+    place.abs().max_element() <= FARTHEST && place.is_finite()
+}
+
 fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
@@ -77,11 +88,14 @@ pub enum MapError {
     #[error("the map: {0}")]
     Site(#[from] SitesError),
     /// A place of the path is nowhere.
-    #[error("place {} of the path over the map is not a finite point", .0 + 1)]
+    #[error("place {} of the path is not on the map, which reaches from -{FARTHEST} to {FARTHEST}", .0 + 1)]
     Path(usize),
+    /// There are too many places.
+    #[error("a map has up to {MOST_PLACES} kept places, and a path as many: take some out")]
+    TooMany,
     /// A kept place is nowhere, or has too many stars.
     #[error(
-        "kept place {} is not a finite point with 0 to {} stars", .0 + 1, KeptPlace::MOST_STARS
+        "kept place {} is not on the map, or has more than {} stars", .0 + 1, KeptPlace::MOST_STARS
     )]
     Kept(usize),
 }
@@ -104,13 +118,18 @@ impl MapSettings {
                 return Err(MapError::Sites { has, designs });
             }
             NaturalNeighbours::new(&self.sites)?;
+            if let Some(far) = self.sites.iter().position(|site| !is_near(*site)) {
+                return Err(SitesError::NotFinite(far).into());
+            }
         }
         let places = &self.path.places;
-        if let Some(nowhere) = places.iter().position(|place| !place.at.is_finite()) {
+        if let Some(nowhere) = places.iter().position(|place| !is_near(place.at)) {
             return Err(MapError::Path(nowhere));
         }
-        let is_sound =
-            |kept: &KeptPlace| kept.at.is_finite() && kept.stars <= KeptPlace::MOST_STARS;
+        if places.len().max(self.kept.len()) > MOST_PLACES {
+            return Err(MapError::TooMany);
+        }
+        let is_sound = |kept: &KeptPlace| is_near(kept.at) && kept.stars <= KeptPlace::MOST_STARS;
         match self.kept.iter().position(|kept| !is_sound(kept)) {
             Some(bad) => Err(MapError::Kept(bad)),
             None => Ok(()),
@@ -128,5 +147,66 @@ impl MapSettings {
         };
         let (own, its) = (way(self), way(other));
         own == its && (own.is_empty() || (self.layout, &self.sites) == (other.layout, &other.sites))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::project::Project;
+
+    fn refused(map: &str) -> String {
+        let text = format!(
+            "version = 2\n[[designs]]\npath = \"a.svg\"\n[[designs]]\npath = \"b.svg\"\n{map}"
+        );
+        match Project::parse(&text) {
+            Ok(_) => String::new(),
+            Err(error) => error.to_string(),
+        }
+    }
+
+    #[test]
+    fn a_map_that_is_none_is_named() {
+        for (map, said) in [
+            ("[map]\nsites = [[0.0, 0.0]]", "1 sites"),
+            ("[map]\nsites = [[0.0, 0.0], [0.0, 0.0]]", "one place"),
+            ("[map]\nsites = [[0.0, 0.0], [nan, 0.0]]", "finite"),
+            ("[map]\nsites = [[0.0, 0.0], [1e300, 0.0]]", "finite"),
+            ("[map]\nlayout = \"circle\"", "line 7"),
+            ("[map.path]\nplaces = [{ at = [0.0, inf] }]", "place 1"),
+            (
+                "[map.path]\nplaces = [{ at = [0.0, 0.0], to = 1 }]",
+                "line 7",
+            ),
+            ("[[map.kept]]\nat = [0.0, 0.0]\nstars = 6", "kept place 1"),
+            ("[[map.kept]]\nat = [0.0, 0.0]\nstars = -1", "line"),
+        ] {
+            let error = refused(map);
+            assert!(error.contains(said), "{map}: {error}");
+        }
+        let many = "{ at = [0.0, 0.0] },".repeat(MOST_PLACES + 1);
+        let error = refused(&format!("[map.path]\nplaces = [{many}]"));
+        assert!(error.contains("up to 500"), "{error}");
+        assert_eq!(refused("[map.path]\nplaces = [{ at = [0.0, 0.0] }]"), "");
+    }
+
+    #[test]
+    fn films_that_look_alike_are_known() {
+        let path = |name: &str, places: usize| MapSettings {
+            path: MapPath {
+                name: name.to_owned(),
+                places: vec![crate::space::Waypoint::stop(DVec2::ZERO); places],
+            },
+            ..MapSettings::default()
+        };
+        assert!(path("a", 2).plays_as(&path("b", 2)));
+        assert!(path("", 1).plays_as(&MapSettings::default()));
+        assert!(!path("", 2).plays_as(&path("", 3)));
+        let line = |map: MapSettings| MapSettings {
+            layout: MapLayout::Line,
+            ..map
+        };
+        assert!(!path("", 2).plays_as(&line(path("", 2))));
+        assert!(MapSettings::default().plays_as(&line(MapSettings::default())));
     }
 }

@@ -22,4 +22,4 @@ pub use error::ProjectError;
 pub use leg::Leg;
 pub use legs::Moved;
 pub use load::LoadedProject;
-pub use map::{KeptPlace, MapError, MapSettings};
+pub use map::{KeptPlace, MOST_PLACES, MapError, MapSettings};

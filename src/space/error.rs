@@ -16,6 +16,9 @@ pub enum SpaceError {
     /// The designs have no common mesh.
     #[error("as rigid parts these designs have no common mesh: {0}; choose fields")]
     NoFamily(FamilyError),
+    /// There is nothing to go along.
+    #[error("there is no such way: a path needs two stops or more, on a map of these designs")]
+    NoPath,
     /// Two designs do not go together, or a field cannot be made.
     #[error(transparent)]
     Build(#[from] BuildError),

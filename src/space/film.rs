@@ -5,13 +5,16 @@
 //! straight pieces that stand for its weights.
 
 use super::blend::{Seen, Space};
+use super::error::SpaceError;
 use super::map::Map;
 use super::path::{MapCurve, MapPath};
+use crate::budget::Load;
 use crate::content::{FieldPair, FieldSet, Fields, Solid};
 use crate::design::{Design, Form, Truss};
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::TriangleMesh;
-use crate::transition::{Ends, Sequence, Transition};
+use crate::progress::{Progress, still_wanted};
+use crate::transition::{BuildError, Ends, Sequence, Transition};
 use crate::warp::{AlongBlend, ArapBlend, Warp};
 use std::sync::Arc;
 
@@ -23,23 +26,39 @@ const PIECES: usize = 16;
 const LOOKS: u32 = 16;
 
 impl Space {
-    /// The film along a path; none where it is none, or the map has other sites than
-    /// there are designs.
-    #[must_use]
-    pub fn film(&self, map: &Map, path: &MapPath) -> Option<Sequence> {
-        let count = path.leg_count();
-        let legs = (0..count).map(|leg| self.leg(map, path, leg));
-        Sequence::new(legs.collect::<Option<_>>()?)
+    /// The film along a path.
+    ///
+    /// # Errors
+    /// As [`Self::leg`].
+    pub fn film(
+        &self,
+        map: &Map,
+        path: &MapPath,
+        progress: &dyn Progress,
+    ) -> Result<Sequence, SpaceError> {
+        let legs = (0..path.leg_count()).map(|leg| self.leg((map, path), leg, progress));
+        let legs = legs.collect::<Result<Vec<_>, _>>()?;
+        Sequence::new(legs).ok_or(SpaceError::NoPath)
     }
 
     /// One way of it, from stop to stop.
-    #[must_use]
-    pub fn leg(&self, map: &Map, path: &MapPath, leg: usize) -> Option<Transition> {
+    ///
+    /// # Errors
+    /// [`SpaceError`] if there is no such way, the map has other sites than there are
+    /// designs, or the fields of all ways are too much.
+    pub fn leg(
+        &self,
+        (map, path): (&Map, &MapPath),
+        leg: usize,
+        progress: &dyn Progress,
+    ) -> Result<Transition, SpaceError> {
         let designs = self.designs().len();
-        let curve = MapCurve::new(path)?;
-        if leg >= curve.leg_count() || map.sites().len() != designs {
-            return None;
+        let curve = MapCurve::new(path).ok_or(SpaceError::NoPath)?;
+        let legs = curve.leg_count();
+        if leg >= legs || map.sites().len() != designs {
+            return Err(SpaceError::NoPath);
         }
+        still_wanted(progress)?;
         let names: Vec<&str> = path.stops().map(|(_, stop)| stop.name.as_str()).collect();
         let map = map.clone();
         let weights = move |t: f64, weights: &mut [f64]| {
@@ -56,7 +75,7 @@ impl Space {
             bounds: self.bounds(),
             bar_width: self.bar_width(),
         };
-        Some(match self.seen() {
+        Ok(match self.seen() {
             Seen::Solid { blend, walks, bars } => {
                 let warp = AlongBlend::new(blend.clone(), weights);
                 ends.bounds = swept(&warp, if bars.is_empty() { 0.0 } else { ends.bar_width });
@@ -68,7 +87,12 @@ impl Space {
                 };
                 Transition::along_blend(ends, warp, solid)
             }
-            Seen::Field(set) => Transition::through_fields(ends, in_turn(set, at)),
+            Seen::Field(set) => {
+                // 36 ways of 512² cells are 0.6 GB.
+                let allowed = Load::Cells.allow(legs * set.grid().cells(), progress);
+                allowed.map_err(BuildError::from)?;
+                Transition::through_fields(ends, in_turn(set, at))
+            }
         })
     }
 

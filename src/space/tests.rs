@@ -250,7 +250,7 @@ fn a_path_is_a_film_of_the_blends_that_it_comes_by() {
     let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("a map");
     let sites = map.sites();
     let path = walk(&[sites[0], DVec2::new(0.1, 0.2), sites[2]]);
-    let film = space.film(&map, &path).expect("a film");
+    let film = space.film(&map, &path, &Silent).expect("a film");
     assert_eq!(film.end(), 2.0);
     let curve = MapCurve::new(&path).expect("a curve");
     let (mut blend, mut weights) = (space.frame(), vec![0.0; 3]);
@@ -282,7 +282,7 @@ fn a_path_through_fields_is_what_the_map_shows() {
     let space = Space::build(&spec, &Silent).expect("a space");
     let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("a map");
     let sites = map.sites();
-    let film = space.film(&map, &walk(&[sites[1], sites[2], DVec2::ZERO]));
+    let film = space.film(&map, &walk(&[sites[1], sites[2], DVec2::ZERO]), &Silent);
     let film = film.expect("a film");
     let (mut blend, mut frame) = (space.frame(), film.frame(0.0));
     frame.seek(0.0);
@@ -312,7 +312,7 @@ fn a_path_through_fields_is_what_the_map_shows() {
 fn trusses_go_along_a_path_with_their_bars() {
     let space = space(vec![truss("a", 1.0), truss("b", 2.0), truss("c", 3.0)]);
     let map = Map::new(&MapLayout::Line.sites(space.likeness())).expect("a map");
-    let film = space.film(&map, &walk(&[DVec2::NEG_X, DVec2::new(0.5, 0.0)]));
+    let film = space.film(&map, &walk(&[DVec2::NEG_X, DVec2::new(0.5, 0.0)]), &Silent);
     let film = film.expect("a film");
     let frame = film.frame(1.0);
     assert_eq!(frame.now().figure().bars.len(), 7);
@@ -321,11 +321,9 @@ fn trusses_go_along_a_path_with_their_bars() {
     };
     assert_eq!(end.bars().len(), 7);
     // Other sites than designs, or no path, is no film.
-    assert!(space.film(&map, &MapPath::default()).is_none());
+    let none = space.film(&map, &MapPath::default(), &Silent);
+    assert!(matches!(none, Err(SpaceError::NoPath)));
     let other = Map::new(&[DVec2::ZERO, DVec2::X]).expect("a map");
-    assert!(
-        space
-            .film(&other, &walk(&[DVec2::ZERO, DVec2::X]))
-            .is_none()
-    );
+    let none = space.film(&other, &walk(&[DVec2::ZERO, DVec2::X]), &Silent);
+    assert!(matches!(none, Err(SpaceError::NoPath)));
 }

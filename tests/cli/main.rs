@@ -117,6 +117,49 @@ fn a_new_project_may_keep_its_film() {
 }
 
 #[test]
+fn a_path_over_the_map_is_a_film_and_what_is_kept_is_written() {
+    let shop = Workshop::new();
+    let document = |map: &str| {
+        let designs =
+            ["a.svg", "b.svg", "a.svg"].map(|path| format!("[[designs]]\npath = \"{path}\"\n"));
+        let text = format!("version = 2\n{}[timing]\nto = 2.0\n{map}", designs.concat());
+        fs::write(shop.path("walk.morph"), text).expect("a project");
+    };
+    document("");
+    shop.fails(1, "catalogue walk.morph --out kept", "keeps no places");
+    document(
+        "[map.path]\nplaces = [{ at = [0.0, 1.0] }, { at = [0.1, 0.1], passed = true }, \
+         { at = [0.0, 0.0], name = \"Middle\" }, { at = [0.4, -0.2] }]\n\
+         [[map.kept]]\nat = [0.0, 0.0]\nname = \"Half, and half\"\nstars = 2\n",
+    );
+    shop.done("render walk.morph --frames 3 --out f-#.png");
+    let [first, middle] = ["f-0.png", "f-1.png"].map(|name| image(&shop.path(name)));
+    assert_eq!(first.dimensions(), middle.dimensions());
+    assert_ne!(first, middle);
+    let json = shop.done("check walk.morph --samples 3 --json");
+    let legs: serde_json::Value = serde_json::from_str(&json).expect("JSON");
+    let legs = legs.as_array().expect("two legs");
+    assert_eq!(legs.len(), 2);
+    assert_eq!(legs[1]["title"], "Middle to ");
+    assert_eq!(legs[0]["verdict"]["words"], "no folds, no crossings");
+    let told = words(&shop.run("catalogue walk.morph --out kept --sort stars"));
+    assert!(told.contains("wrote 4 files of 1 kept places"), "{told}");
+    assert!(shop.path("kept/01-Half-and-half.svg").exists());
+    shop.fails(1, "catalogue walk.morph --out kept --stars 3", "3 stars");
+    shop.fails(
+        2,
+        "catalogue walk.morph --out kept --sort size",
+        "kept, stars",
+    );
+    // Of all designs, where others are of two.
+    shop.fails(
+        1,
+        "render walk.morph --compare --out c.png",
+        "path over the map",
+    );
+}
+
+#[test]
 fn many_designs_are_one_map() {
     let shop = Workshop::new();
     let told = words(&shop.run("render a.svg b.svg a.svg --map 3x2 --out map.svg"));

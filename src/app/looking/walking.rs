@@ -10,7 +10,7 @@ use crate::app::looking::map::MapView;
 use crate::app::session::state::Session;
 use crate::app::telling::notices::Notices;
 use crate::geometry::DVec2;
-use crate::project::{KeptPlace, MapSettings};
+use crate::project::{KeptPlace, MOST_PLACES, MapSettings};
 use crate::space::{MapPath, Waypoint, thinned};
 
 /// What is nearer to a design or to a stop than this is there.
@@ -35,7 +35,8 @@ pub fn apply(
             Intent::DrawPath(on) => view.draws_path = *on,
             Intent::RecordPath => match view.record() {
                 Some(way) if way.len() > 1 => {
-                    let path = extended(MapPath::default(), &way, &view);
+                    let mut path = extended(MapPath::default(), &way, &view);
+                    path.places.truncate(MOST_PLACES);
                     session.change_whole(gesture.mark(), |project| project.follow(path));
                 }
                 Some(_) => notices.done("The puck did not move: there is no path."),
@@ -44,7 +45,7 @@ pub fn apply(
             Intent::ExtendPath(through) => {
                 let path = session.whole().map(|whole| whole.map.path.clone());
                 let path = path.map(|path| extended(path, through, &view));
-                if let Some(path) = path {
+                if let Some(path) = path.filter(|path| path.places.len() <= MOST_PLACES) {
                     let last = path.places.last().map(|place| place.at);
                     last.into_iter().for_each(|last| view.move_puck(last));
                     session.change_whole(gesture.mark(), |project| project.follow(path));
@@ -73,7 +74,11 @@ fn change(intent: &Intent, view: &MapView, session: &mut ResMut<Session>, mark: 
         }),
         Intent::Keep if view.made().is_some() && view.is_shown => {
             let place = kept(view);
-            session.change_whole(mark, |project| project.map.kept.push(place));
+            session.change_whole(mark, |project| {
+                if project.map.kept.len() < MOST_PLACES {
+                    project.map.kept.push(place);
+                }
+            });
         }
         Intent::EditMap(changed) => session.change_whole(mark, |project| {
             let path = std::mem::take(&mut project.map.path);
