@@ -33,13 +33,13 @@ const TROUBLE: Rgb = Rgb([196, 84, 40]);
 pub struct Land {
     found: Option<Landscape>,
     surveying: Option<Job<Landscape, Cancelled>>,
-    of: Option<(MapMeasureOrNone, Rgb, usize)>,
+    of: Option<(Shown, Rgb, usize)>,
     painting: Option<Job<Arc<RgbaImage>, Cancelled>>,
     picture: Option<Arc<RgbaImage>>,
 }
 
 /// What is shown, if anything.
-type MapMeasureOrNone = Option<MapMeasure>;
+type Shown = Option<MapMeasure>;
 
 impl Land {
     /// The picture, once there is one.
@@ -62,12 +62,7 @@ impl Land {
 
     /// Measures what is not measured as finely as it is to be, and draws it with this ink;
     /// whether something new is there.
-    pub fn work(
-        &mut self,
-        (space, map): (&Space, &Map),
-        shown: MapMeasureOrNone,
-        ink: Rgb,
-    ) -> bool {
+    pub fn work(&mut self, (space, map): (&Space, &Map), shown: Shown, ink: Rgb) -> bool {
         if let Some(Ok(found)) = Job::take(&mut self.surveying) {
             self.found = Some(found);
         }
@@ -96,7 +91,7 @@ impl Land {
 }
 
 /// The contours of what is shown, and the hatching; straight alpha on a transparent ground.
-fn painted(land: &Landscape, shown: MapMeasureOrNone, ink: Rgb) -> RgbaImage {
+fn painted(land: &Landscape, shown: Shown, ink: Rgb) -> RgbaImage {
     let px = 2.0 * REACH / f64::from(SIDE_PX);
     let place = |x: u32, y: u32| {
         let [across, down] = [x, y].map(|k| (f64::from(k) + 0.5) * px - REACH);

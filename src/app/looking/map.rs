@@ -7,25 +7,19 @@
 use std::sync::Arc;
 
 use bevy::prelude::Resource;
-use image::RgbaImage;
 
 use crate::app::asking::acts::EditorAct;
 use crate::app::asking::intent::Intent;
-use crate::app::looking::ground::{Ground, REACH, ground};
-use crate::app::looking::land::Land;
+use crate::app::looking::ground::REACH;
+use crate::app::looking::made::Made;
 use crate::app::session::state::Session;
 use crate::app::telling::job::{Job, JobError};
-use crate::colour::Rgb;
-use crate::design::Form;
-use crate::export::{Drawing, PixelSize, SizeError, View, ink_on, rasterise};
+use crate::export::PixelSize;
 use crate::geometry::DVec2;
 use crate::measure::MapMeasure;
-use crate::project::{KeptPlace, LoadedProject, MapSettings, Project, ProjectError};
-use crate::space::{Map, MapCurve, Space, SpaceFrame};
+use crate::project::{LoadedProject, MapSettings, Project, ProjectError};
+use crate::space::{Map, MapCurve, Space};
 use crate::transition::{Quality, Style, Timing, place};
-
-/// Pixels along each side of a place that is kept.
-const KEPT_PX: u32 = 96;
 
 /// How far an arrow key moves the puck, of the map's reach.
 const STEP: f64 = 0.02;
@@ -60,165 +54,6 @@ pub struct MapView {
     made: Option<Made>,
 }
 
-/// A space with its map, and what is drawn of them.
-#[derive(Debug)]
-pub struct Made {
-    space: Space,
-    map: Map,
-    frame: SpaceFrame,
-    /// What lies between the designs, and the designs.
-    ground: Option<Ground>,
-    drawing: Option<Job<Ground, SizeError>>,
-    /// How that is drawn.
-    style: Option<Style>,
-    /// The blend under the puck.
-    blend: Option<Blend>,
-    /// What is measured all over the map.
-    land: Land,
-    /// The places that are kept, in small.
-    kept: Vec<(DVec2, Arc<RgbaImage>)>,
-}
-
-/// The blend as it was drawn last.
-#[derive(Debug)]
-struct Blend {
-    of: (Vec<f64>, PixelSize, Style),
-    picture: Arc<RgbaImage>,
-}
-
-impl Made {
-    fn new(space: Space, map: Map, ground: Option<Ground>) -> Self {
-        Self {
-            map,
-            frame: space.frame(),
-            space,
-            ground,
-            drawing: None,
-            style: None,
-            blend: None,
-            land: Land::default(),
-            kept: Vec::new(),
-        }
-    }
-
-    /// The space.
-    #[must_use]
-    pub fn space(&self) -> &Space {
-        &self.space
-    }
-
-    /// The map.
-    #[must_use]
-    pub fn map(&self) -> &Map {
-        &self.map
-    }
-
-    /// The weights under the puck.
-    #[must_use]
-    pub fn weights(&self) -> &[f64] {
-        self.frame.weights()
-    }
-
-    /// What lies on the map, once it was drawn.
-    #[must_use]
-    pub fn ground(&self) -> Option<&Ground> {
-        self.ground.as_ref()
-    }
-
-    /// What is measured all over the map.
-    #[must_use]
-    pub fn land(&self) -> &Land {
-        &self.land
-    }
-
-    /// The blend under the puck.
-    #[must_use]
-    pub fn blend(&self) -> Option<&Arc<RgbaImage>> {
-        self.blend.as_ref().map(|blend| &blend.picture)
-    }
-
-    /// Whether its outlines were matched for it.
-    fn is_matched(&self) -> bool {
-        let designs = self.space.designs().iter();
-        let mut forms = designs.map(|design| &design.form);
-        self.space.family().is_some() && forms.any(|form| matches!(form, Form::Outline(_)))
-    }
-
-    /// A place that is kept, in small.
-    #[must_use]
-    pub fn kept(&self, at: DVec2) -> Option<&Arc<RgbaImage>> {
-        let found = self.kept.iter().find(|(place, _)| *place == at);
-        found.map(|(_, picture)| picture)
-    }
-
-    /// Draws the places that are kept and not drawn yet; whether there were some.
-    fn draw_kept(&mut self, places: &[KeptPlace], style: &Style) -> bool {
-        let Ok(size) = PixelSize::new(KEPT_PX, KEPT_PX) else {
-            return false;
-        };
-        self.kept
-            .retain(|(at, _)| places.iter().any(|kept| kept.at == *at));
-        let before = self.kept.len();
-        let mut weights = vec![0.0; self.space.designs().len()];
-        for place in places {
-            if self.kept(place.at).is_none() {
-                self.map.weights(place.at, &mut weights);
-                self.frame.seek(&weights);
-                let picture = rasterise(&self.drawing(size, style, None));
-                self.kept.push((place.at, Arc::new(picture)));
-            }
-        }
-        let is_new = self.kept.len() > before;
-        if is_new {
-            // The frame is the puck's.
-            self.blend = None;
-        }
-        is_new
-    }
-
-    /// The blend under the puck, over a ground or none.
-    #[must_use]
-    pub fn drawing(&self, size: PixelSize, style: &Style, ground: Option<Rgb>) -> Drawing {
-        let bounds = self.space.bounds();
-        let view = View::fit(bounds.padded(0.04 * bounds.diameter()), size);
-        let mut drawing = Drawing::new(size, ground);
-        let tint = self.space.tint(self.frame.weights());
-        drawing.push_figure(&self.frame.figure(), tint, style, &view);
-        drawing
-    }
-
-    /// Draws the blend at a place, unless it is drawn so already; whether it was.
-    fn look(&mut self, puck: DVec2, size: PixelSize, style: Style) -> bool {
-        let mut weights = vec![0.0; self.space.designs().len()];
-        self.map.weights(puck, &mut weights);
-        let of = (weights, size, style);
-        if self.blend.as_ref().is_some_and(|blend| blend.of == of) {
-            return false;
-        }
-        self.frame.seek(&of.0);
-        let picture = Arc::new(rasterise(&self.drawing(size, &style, None)));
-        self.blend = Some(Blend { of, picture });
-        true
-    }
-
-    /// Has the map drawn, where it is not drawn so; whether something new is there.
-    fn paint(&mut self, style: Style) -> bool {
-        if let Some(answer) = Job::take(&mut self.drawing) {
-            // What cannot be drawn is not shown: the sites and the puck are.
-            self.ground = answer.ok();
-            return true;
-        }
-        if self.style == Some(style) {
-            return false;
-        }
-        self.kept.clear();
-        self.style = Some(style);
-        let (space, map) = (self.space.clone(), self.map.clone());
-        self.drawing = Some(Job::start("the map", move |_| ground(&space, &map, &style)));
-        false
-    }
-}
-
 impl MapView {
     /// Where the puck is, y up.
     #[must_use]
@@ -247,11 +82,7 @@ impl MapView {
     /// It is being built, or drawn.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        let drawing = self
-            .made
-            .as_ref()
-            .is_some_and(|made| made.drawing.is_some() || made.land.is_busy());
-        self.job.is_some() || drawing
+        self.job.is_some() || self.made.as_ref().is_some_and(Made::is_busy)
     }
 
     /// The way of the puck is being recorded.
@@ -298,7 +129,7 @@ impl MapView {
     /// Where the map's designs are to be when one is moved; none where it cannot be there.
     #[must_use]
     pub fn sites_with(&self, design: usize, to: DVec2) -> Option<Vec<DVec2>> {
-        let mut sites = self.made.as_ref()?.map.sites().to_vec();
+        let mut sites = self.made.as_ref()?.map().sites().to_vec();
         let site = sites.get_mut(design).filter(|_| to.is_finite())?;
         *site = to.clamp(DVec2::splat(-1.0), DVec2::ONE);
         // Two in one place stay where they were.
@@ -316,7 +147,7 @@ impl MapView {
             (None, Some(made), Some(whole)) => {
                 let (leg, within) = place(whole.project.pair_count(), t);
                 let [from, to] = whole.project.pair_designs(leg);
-                let sites = made.map.sites();
+                let sites = made.map().sites();
                 let ends = sites.get(from).zip(sites.get(to));
                 ends.map(|(from, to)| from.lerp(*to, within))
             }
@@ -341,17 +172,10 @@ impl MapView {
                 }
             }
         }
-        if let Some(made) = &mut self.made {
-            is_changed |= made.paint(session.style());
-            if let Some(whole) = &self.whole {
-                is_changed |= made.draw_kept(&whole.project.map.kept, &session.style());
-            }
-            // First what is seen of all, then what is known of it.
-            if made.ground.is_some() && made.drawing.is_none() && self.job.is_none() {
-                let ink = ink_on(Some(session.style().ground));
-                let map = (&made.space, &made.map);
-                is_changed |= made.land.work(map, self.shown, ink);
-            }
+        if let (Some(made), Some(whole)) = (&mut self.made, &self.whole) {
+            let is_final = self.job.is_none();
+            let kept = &whole.project.map.kept;
+            is_changed |= made.work(session.style(), kept, self.shown, is_final);
         }
         is_changed
     }
@@ -368,7 +192,7 @@ impl MapView {
             return;
         };
         // What was drawn stays until the new one is there.
-        let ground = self.made.take().and_then(|made| made.ground);
+        let ground = self.made.take().and_then(|made| made.ground().cloned());
         let ground = ground.filter(|ground| ground.count == space.designs().len());
         match whole.map_of(&space) {
             Ok(map) => self.made = Some(Made::new(space, map, ground)),
@@ -388,10 +212,10 @@ impl MapView {
         if is_same && self.problem.is_none() {
             if let Some(made) = &self.made {
                 let is_elsewhere = whole
-                    .map_of(&made.space)
-                    .is_ok_and(|map| map.sites() != made.map.sites());
+                    .map_of(made.space())
+                    .is_ok_and(|map| map.sites() != made.map().sites());
                 if is_elsewhere {
-                    self.place(made.space.clone());
+                    self.place(made.space().clone());
                 }
             }
             return true;

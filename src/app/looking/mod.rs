@@ -7,6 +7,7 @@ pub mod filmstrip;
 pub mod ground;
 pub mod helping;
 pub mod land;
+pub mod made;
 pub mod map;
 pub mod measuring;
 pub mod onion;

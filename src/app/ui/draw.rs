@@ -17,7 +17,7 @@ use crate::app::ui::kit::theme;
 use crate::app::ui::overlays::{files, help, notices, questions, times, work};
 use crate::app::ui::panels::inspector;
 use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::{area, film, map, onion, talk, twin, verdict};
+use crate::app::ui::stage::{area, film, map, map_bar, onion, talk, twin, verdict};
 use crate::app::ui::timeline::{plots, strip};
 use crate::app::ui::{gallery, match_editor, speaker, toolbar};
 
@@ -178,7 +178,7 @@ fn panels(
     }
     if !scene.editor.is_open {
         if scene.map.is_shown {
-            map::strip(root, scene, acts);
+            map_bar::strip(root, scene, acts);
         } else {
             if scene.twin.is_shown {
                 twin::strip(root, scene, acts);

@@ -5,7 +5,7 @@ use std::time::Duration;
 
 use bevy::ecs::schedule::ScheduleLabel;
 use bevy::prelude::{Add, Commands, On, Query, Res, Without};
-use bevy_egui::egui::{self, CentralPanel, Label, Layout, RichText, ScrollArea, Ui, vec2};
+use bevy_egui::egui::{self, CentralPanel, Id, Label, Layout, RichText, ScrollArea, Ui, vec2};
 use bevy_egui::{EguiContext, EguiSchedule, PrimaryEguiContext};
 use image::RgbaImage;
 
@@ -14,8 +14,9 @@ use crate::app::playing::playback::{Playback, SAME_T};
 use crate::app::playing::presenting::Presenting;
 use crate::app::playing::speaker::{Speaker, SpeakerCamera};
 use crate::app::session::state::Session;
+use crate::app::ui::kit::texture::texture;
 use crate::app::ui::kit::theme::{self, GRID};
-use crate::app::ui::kit::widgets::{ground, quiet, texture};
+use crate::app::ui::kit::widgets::{ground, quiet};
 use crate::transition::Stop;
 
 /// When egui draws the speaker's window.
@@ -119,7 +120,7 @@ fn coming(ui: &mut Ui, next: Option<(Option<&Stop>, f64)>, picture: Option<Arc<R
     ui.add(Label::new(RichText::new(name).size(22.0)).wrap());
     ui.add_space(GRID);
     if let Some(picture) = picture {
-        let texture = texture(ui.ctx(), "next stop", picture);
+        let texture = texture(ui.ctx(), Id::new("next stop"), &picture, u32::MAX);
         let width = ui.available_width();
         let size = texture.size_vec2();
         ui.image((texture.id(), size * (width / size.x)));

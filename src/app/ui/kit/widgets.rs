@@ -5,13 +5,10 @@ use std::sync::Arc;
 
 use bevy_egui::egui::emath::Numeric;
 use bevy_egui::egui::{
-    self, Align, Align2, Area, Color32, ColorImage, ComboBox, Context, DragValue, Galley, Id,
-    Layout, Margin, Order, Painter, Pos2, Rect, RectAlign, Response, RichText, Sense, Slider,
-    SliderClamping, StrokeKind, TextureHandle, TextureOptions, Tooltip, Ui, Vec2, WidgetInfo,
-    WidgetType, vec2,
+    self, Align, Align2, Area, Color32, ComboBox, DragValue, Galley, Layout, Margin, Order,
+    Painter, Pos2, Rect, RectAlign, Response, RichText, Sense, Slider, SliderClamping, StrokeKind,
+    Tooltip, Ui, Vec2, WidgetInfo, WidgetType, vec2,
 };
-
-use image::RgbaImage;
 
 use crate::app::asking::intent::Intent;
 use crate::app::ui::kit::icons;
@@ -364,18 +361,4 @@ pub fn primary_button(ui: &mut Ui, text: &str) -> Response {
     let palette = Palette::of(ui);
     let text = RichText::new(text).color(palette.text);
     ui.add(egui::Button::new(text).fill(palette.accent_ground))
-}
-
-/// The picture on the graphics card; it is sent there once.
-pub fn texture(ctx: &Context, name: &str, picture: Arc<RgbaImage>) -> TextureHandle {
-    let id = Id::new(name);
-    let kept: Option<(Arc<RgbaImage>, TextureHandle)> = ctx.data(|data| data.get_temp(id));
-    if let Some((_, texture)) = kept.filter(|(last, _)| Arc::ptr_eq(last, &picture)) {
-        return texture;
-    }
-    let [width, height] = [picture.width(), picture.height()].map(|side| side as usize);
-    let image = ColorImage::from_rgba_unmultiplied([width, height], picture.as_raw());
-    let texture = ctx.load_texture(name, image, TextureOptions::LINEAR);
-    ctx.data_mut(|data| data.insert_temp(id, (picture, texture.clone())));
-    texture
 }

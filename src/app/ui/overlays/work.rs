@@ -2,12 +2,13 @@
 
 use std::sync::Arc;
 
-use bevy_egui::egui::{Align2, Context, Margin, ProgressBar, Rect, Ui, vec2};
+use bevy_egui::egui::{Align2, Context, Id, Margin, ProgressBar, Rect, Ui, vec2};
 use image::RgbaImage;
 
 use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::texture::texture;
 use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{card, pinned, texture};
+use crate::app::ui::kit::widgets::{card, pinned};
 use crate::app::ui::scene::{Intents, Scene};
 
 /// The longer side of the frame that a film has come to, in points.
@@ -47,7 +48,7 @@ fn pill(
     card(ui, Margin::symmetric(16, 8), |ui| {
         ui.horizontal(|ui| {
             if let Some(picture) = picture {
-                let texture = texture(ui.ctx(), "film", picture);
+                let texture = texture(ui.ctx(), Id::new("film"), &picture, u32::MAX);
                 let size = texture.size_vec2();
                 ui.image((texture.id(), size * (PICTURE / size.max_elem())));
             }

@@ -3,6 +3,7 @@
 pub mod area;
 pub mod film;
 pub mod map;
+pub mod map_bar;
 pub mod onion;
 pub mod talk;
 pub mod twin;

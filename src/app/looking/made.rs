@@ -1,0 +1,208 @@
+//! A space with its map, and what is drawn of them.
+
+use std::sync::Arc;
+
+use image::RgbaImage;
+
+use crate::app::looking::ground::{Ground, ground};
+use crate::app::looking::land::Land;
+use crate::app::telling::job::Job;
+use crate::colour::Rgb;
+use crate::design::Form;
+use crate::export::{Drawing, PixelSize, SizeError, View, ink_on, rasterise};
+use crate::geometry::DVec2;
+use crate::measure::MapMeasure;
+use crate::project::KeptPlace;
+use crate::space::{Map, Space, SpaceFrame};
+use crate::transition::Style;
+
+/// Pixels along each side of a place that is kept.
+const KEPT_PX: u32 = 96;
+
+/// A space with its map, and what is drawn of them.
+#[derive(Debug)]
+pub struct Made {
+    space: Space,
+    map: Map,
+    frame: SpaceFrame,
+    /// What lies between the designs, and the designs.
+    ground: Option<Ground>,
+    drawing: Option<Job<Ground, SizeError>>,
+    /// How that is drawn.
+    style: Option<Style>,
+    /// The blend under the puck.
+    blend: Option<Blend>,
+    /// What is measured all over the map.
+    land: Land,
+    /// The places that are kept, in small.
+    kept: Vec<(DVec2, Arc<RgbaImage>)>,
+}
+
+/// The blend as it was drawn last.
+#[derive(Debug)]
+struct Blend {
+    of: (Vec<f64>, PixelSize, Style),
+    picture: Arc<RgbaImage>,
+}
+
+impl Made {
+    /// Not drawn yet, but for what was drawn before.
+    #[must_use]
+    pub fn new(space: Space, map: Map, ground: Option<Ground>) -> Self {
+        Self {
+            map,
+            frame: space.frame(),
+            space,
+            ground,
+            drawing: None,
+            style: None,
+            blend: None,
+            land: Land::default(),
+            kept: Vec::new(),
+        }
+    }
+
+    /// The space.
+    #[must_use]
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// The map.
+    #[must_use]
+    pub fn map(&self) -> &Map {
+        &self.map
+    }
+
+    /// The weights under the puck.
+    #[must_use]
+    pub fn weights(&self) -> &[f64] {
+        self.frame.weights()
+    }
+
+    /// What lies on the map, once it was drawn.
+    #[must_use]
+    pub fn ground(&self) -> Option<&Ground> {
+        self.ground.as_ref()
+    }
+
+    /// What is measured all over the map.
+    #[must_use]
+    pub fn land(&self) -> &Land {
+        &self.land
+    }
+
+    /// The blend under the puck.
+    #[must_use]
+    pub fn blend(&self) -> Option<&Arc<RgbaImage>> {
+        self.blend.as_ref().map(|blend| &blend.picture)
+    }
+
+    /// Whether its outlines were matched for it.
+    #[must_use]
+    pub fn is_matched(&self) -> bool {
+        let designs = self.space.designs().iter();
+        let mut forms = designs.map(|design| &design.form);
+        self.space.family().is_some() && forms.any(|form| matches!(form, Form::Outline(_)))
+    }
+
+    /// A place that is kept, in small.
+    #[must_use]
+    pub fn kept(&self, at: DVec2) -> Option<&Arc<RgbaImage>> {
+        let found = self.kept.iter().find(|(place, _)| *place == at);
+        found.map(|(_, picture)| picture)
+    }
+
+    /// Draws the places that are kept and not drawn yet; whether there were some.
+    fn draw_kept(&mut self, places: &[KeptPlace], style: &Style) -> bool {
+        let Ok(size) = PixelSize::new(KEPT_PX, KEPT_PX) else {
+            return false;
+        };
+        self.kept
+            .retain(|(at, _)| places.iter().any(|kept| kept.at == *at));
+        let before = self.kept.len();
+        let mut weights = vec![0.0; self.space.designs().len()];
+        for place in places {
+            if self.kept(place.at).is_none() {
+                self.map.weights(place.at, &mut weights);
+                self.frame.seek(&weights);
+                let picture = rasterise(&self.drawing(size, style, None));
+                self.kept.push((place.at, Arc::new(picture)));
+            }
+        }
+        let is_new = self.kept.len() > before;
+        if is_new {
+            // The frame is the puck's.
+            self.blend = None;
+        }
+        is_new
+    }
+
+    /// The blend under the puck, over a ground or none.
+    #[must_use]
+    pub fn drawing(&self, size: PixelSize, style: &Style, ground: Option<Rgb>) -> Drawing {
+        let bounds = self.space.bounds();
+        let view = View::fit(bounds.padded(0.04 * bounds.diameter()), size);
+        let mut drawing = Drawing::new(size, ground);
+        let tint = self.space.tint(self.frame.weights());
+        drawing.push_figure(&self.frame.figure(), tint, style, &view);
+        drawing
+    }
+
+    /// Draws the blend at a place, unless it is drawn so already; whether it was.
+    pub fn look(&mut self, puck: DVec2, size: PixelSize, style: Style) -> bool {
+        let mut weights = vec![0.0; self.space.designs().len()];
+        self.map.weights(puck, &mut weights);
+        let of = (weights, size, style);
+        if self.blend.as_ref().is_some_and(|blend| blend.of == of) {
+            return false;
+        }
+        self.frame.seek(&of.0);
+        let picture = Arc::new(rasterise(&self.drawing(size, &style, None)));
+        self.blend = Some(Blend { of, picture });
+        true
+    }
+
+    /// It is being drawn, or measured.
+    #[must_use]
+    pub fn is_busy(&self) -> bool {
+        self.drawing.is_some() || self.land.is_busy()
+    }
+
+    /// Has drawn what is not drawn yet, or otherwise: what lies on the map, the places that are
+    /// kept, and, where no better map is to come, what lies under it. Whether something new is
+    /// there.
+    pub fn work(
+        &mut self,
+        style: Style,
+        kept: &[KeptPlace],
+        shown: Option<MapMeasure>,
+        is_final: bool,
+    ) -> bool {
+        let mut is_new = self.paint(style);
+        is_new |= self.draw_kept(kept, &style);
+        // First what is seen of all, then what is known of it.
+        if is_final && self.ground.is_some() && self.drawing.is_none() {
+            let ink = ink_on(Some(style.ground));
+            is_new |= self.land.work((&self.space, &self.map), shown, ink);
+        }
+        is_new
+    }
+
+    /// Has the map drawn, where it is not drawn so; whether something new is there.
+    fn paint(&mut self, style: Style) -> bool {
+        if let Some(answer) = Job::take(&mut self.drawing) {
+            // What cannot be drawn is not shown: the sites and the puck are.
+            self.ground = answer.ok();
+            return true;
+        }
+        if self.style == Some(style) {
+            return false;
+        }
+        self.kept.clear();
+        self.style = Some(style);
+        let (space, map) = (self.space.clone(), self.map.clone());
+        self.drawing = Some(Job::start("the map", move |_| ground(&space, &map, &style)));
+        false
+    }
+}
