@@ -68,7 +68,7 @@
 //!
 //! ```text
 //! names                         what the values of options are called
-//! one_line                      what came from elsewhere, told in one line
+//! one_line, file_name           what came from elsewhere, in one line; names of files
 //! progress, easing              how work tells how far it is; how a share runs
 //! budget                        what is too much to begin without being asked twice
 //! atomic_file, reading          files that are there whole or not at all, and read so

@@ -55,5 +55,6 @@ pub fn open_project(path: impl AsRef<Path>) -> Result<Transition, Error> {
 }
 
 fn built(loaded: &LoadedProject) -> Result<Transition, Error> {
-    Ok(Transition::build(&loaded.spec()?, &Silent)?)
+    // Of many designs the first way.
+    Ok(loaded.legs()[0].build(&Silent)?)
 }

@@ -7,7 +7,7 @@ use morphospace::transition::{Figure, Sequence, Transition};
 
 fn build(name: &str) -> Transition {
     let loaded = gallery::load(name).expect(name);
-    Transition::build(&loaded.spec().expect(name), &Silent).expect(name)
+    loaded.legs()[0].build(&Silent).expect(name)
 }
 
 fn at(name: &str, t: f64) -> Figure {
@@ -36,7 +36,7 @@ fn pieces_and_holes(figure: &Figure) -> (usize, usize) {
 #[test]
 fn every_project_has_a_title_and_a_sentence_and_opens_from_its_folder() {
     let entries = gallery::list().expect("the list");
-    assert_eq!(entries.len(), 33);
+    assert_eq!(entries.len(), 35);
     for entry in entries {
         assert!(!entry.title.is_empty(), "{}", entry.name);
         assert!(entry.description.ends_with('.'), "{}", entry.name);
@@ -68,9 +68,7 @@ fn a_way_through_many_designs_leads_back() {
     let loaded = gallery::load("letters-in-turn").expect("bundled");
     let legs = loaded.legs();
     assert_eq!(legs.len(), 5);
-    let built = legs
-        .iter()
-        .map(|leg| Transition::build(&leg.spec().expect("a leg"), &Silent));
+    let built = legs.iter().map(|leg| leg.build(&Silent));
     let built: Vec<Transition> = built.collect::<Result<_, _>>().expect("built");
     let sequence = Sequence::new(built).expect("legs").leading_back(true);
     let mut frame = sequence.frame(0.0);

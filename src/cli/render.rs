@@ -330,7 +330,7 @@ fn drawn(
             let bounds = framing(sequence, &times);
             sheet(sequence, style, &times, bounds, args.size, ground)
         }
-        Shown::Methods(_) if project.is_sequence() => {
+        Shown::Methods(_) if project.is_sequence() || project.follows_path() => {
             return Err(CliError::Usage(
                 "--compare is of two designs: name the two of which you want to see all methods"
                     .to_owned(),

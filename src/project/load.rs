@@ -56,7 +56,7 @@ pub struct LoadedProject {
 const SPACES: usize = 4;
 
 /// What is said where a path is asked for what only two designs have.
-const NO_PAIR: &str = "a path over the map goes between all designs, and this is of two";
+const NO_PAIR: &str = "this is of two designs, and a path over the map goes between all of them: take the path away first";
 
 /// What a leg has of the sequence that it belongs to.
 #[derive(Debug)]

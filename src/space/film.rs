@@ -1,10 +1,11 @@
 //! A path over the map as a film: from stop to stop a transition.
 //!
-//! Guaranteed: at each stop its blend, and so at the site of a design the design itself;
-//! at each t the blend of the place that the path has come to, of fields but for the
-//! straight pieces that stand for its weights.
+//! Guaranteed: at each stop its blend, and so at the site of a design the design itself.
+//! Not guaranteed: in between the very blend of the place that the path has come to, but one
+//! by smooth weights that are nearly its; of fields these run in straight pieces.
 
 use super::blend::{Seen, Space};
+use super::course::Course;
 use super::error::SpaceError;
 use super::map::Map;
 use super::path::{MapCurve, MapPath};
@@ -61,8 +62,14 @@ impl Space {
         still_wanted(progress)?;
         let names: Vec<&str> = path.stops().map(|(_, stop)| stop.name.as_str()).collect();
         let map = map.clone();
-        let weights = move |t: f64, weights: &mut [f64]| {
+        let on_map = move |t: f64, weights: &mut [f64]| {
             map.weights(curve.place(leg, t), weights);
+        };
+        let course = Course::new(designs, &on_map);
+        let weights = move |t: f64, weights: &mut [f64]| match (0.0..=1.0).contains(&t) {
+            true => course.at(t, weights),
+            // Polynomials run far off beyond their ends.
+            false => on_map(t, weights),
         };
         let at = |t: f64| {
             let mut own = vec![0.0; designs];

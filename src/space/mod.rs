@@ -10,7 +10,9 @@
 //! - `blend`: the space and its moments; `spread`: weights all over it
 //! - `likeness`: how unlike the designs are, two at a time
 //! - `map`, `layout`: where the designs are on a map, and what there is between them
-//! - `path`, `film`: a path over the map, and the film along it
+//! - `path`, `film`: a path over the map, and the film along it, by a smooth `course` of
+//!   weights; `steered`: whichever blend
+//!   it is told
 //!
 //! Guaranteed: each design at its own corner, to the last bit; the order of the designs
 //! has no influence but by rounding on what is between them once the hub of a common
@@ -18,6 +20,7 @@
 
 mod blend;
 mod build;
+mod course;
 mod error;
 mod film;
 mod layout;
@@ -25,6 +28,7 @@ mod likeness;
 mod map;
 mod path;
 mod spread;
+mod steered;
 #[cfg(test)]
 mod tests;
 
@@ -36,3 +40,4 @@ pub use likeness::Likeness;
 pub use map::Map;
 pub use path::{MapCurve, MapPath, Waypoint, thinned};
 pub use spread::spread;
+pub use steered::Steered;

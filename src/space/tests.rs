@@ -259,7 +259,12 @@ fn a_path_is_a_film_of_the_blends_that_it_comes_by() {
         frame.seek(t);
         map.weights(curve.at(t), &mut weights);
         blend.seek(&weights);
-        assert_eq!(frame.now().figure().rings, blend.figure().rings, "{t}");
+        let [seen, there] = [frame.now().figure(), blend.figure()].map(|f| f.rings.concat());
+        let gaps = seen.iter().zip(&there).map(|(p, q)| p.distance(*q));
+        let most = gaps.fold(0.0, f64::max);
+        // Exactly at stops, and nearly in between.
+        let allowed = if t.fract() == 0.0 { 0.0 } else { 0.02 };
+        assert!(most <= allowed, "{t}: {most}");
     }
     let [first, last] = [&film.legs()[0], &film.legs()[1]];
     assert_eq!(first.designs()[0].name, "a");
@@ -271,6 +276,9 @@ fn a_path_is_a_film_of_the_blends_that_it_comes_by() {
         first.designs()[1].name
     );
     assert!(first.compatible().is_some() && first.arap().is_none());
+    // It is smooth, and so it can be played from memory.
+    let recorded = first.record(&crate::film::FilmOptions::default(), &Silent);
+    assert!(recorded.is_ok(), "{recorded:?}");
 }
 
 #[test]

@@ -14,6 +14,7 @@ use bevy::tasks::{AsyncComputeTaskPool, Task};
 use crate::design::{Design, Form};
 use crate::mesh::TriangleMesh;
 use crate::progress::Progress;
+use crate::space::Steered;
 use crate::transition::{BuildError, Transition, TransitionSpec};
 use crate::warp::ArapOptions;
 
@@ -21,13 +22,22 @@ use super::components::{
     Blend, BuildFailed, Morph, MorphOptions, SourceMesh, StageTransition, TargetMesh,
 };
 use super::dress::Undressed;
+use super::family::{self, MeshFamily, Steering};
 
 /// A build that is running. Dropping it (with its entity, or for a newer one)
 /// cancels the build.
 #[derive(Component)]
 pub(super) struct Building {
-    task: Task<Result<Transition, BuildError>>,
+    task: Task<Result<Built, BuildError>>,
     wanted: Arc<Wanted>,
+}
+
+/// What comes of it.
+enum Built {
+    /// Of two meshes.
+    Pair(Transition),
+    /// Of many.
+    Family(Steered),
 }
 
 impl Drop for Building {
@@ -70,7 +80,24 @@ pub(super) fn start_builds(
         let progress = Arc::clone(&wanted);
         // The task owns a share of the flag: it may outlive the entity.
         let task = AsyncComputeTaskPool::get()
-            .spawn(async move { build(source, target, options, &*progress) });
+            .spawn(async move { build(source, target, options, &*progress).map(Built::Pair) });
+        commands
+            .entity(entity)
+            .try_insert(Building { task, wanted });
+    }
+}
+
+/// Starts a build wherever a family is new.
+pub(super) fn start_families(
+    mut commands: Commands,
+    changed: Query<(Entity, &MeshFamily), Changed<MeshFamily>>,
+) {
+    for (entity, MeshFamily(meshes)) in &changed {
+        let meshes = meshes.clone();
+        let wanted = Arc::new(Wanted(AtomicBool::new(true)));
+        let progress = Arc::clone(&wanted);
+        let task = AsyncComputeTaskPool::get()
+            .spawn(async move { family::build(meshes, &*progress).map(Built::Family) });
         commands
             .entity(entity)
             .try_insert(Building { task, wanted });
@@ -93,7 +120,7 @@ fn build(
 /// Takes in what has been built.
 pub(super) fn finish_builds(
     mut commands: Commands,
-    mut building: Query<(Entity, &mut Building, &Blend)>,
+    mut building: Query<(Entity, &mut Building, Option<&Blend>)>,
 ) {
     for (entity, mut building, blend) in &mut building {
         let Some(result) = check_ready(&mut building.task) else {
@@ -103,9 +130,18 @@ pub(super) fn finish_builds(
         // try.
         commands.entity(entity).try_remove::<Building>();
         match result {
-            Ok(transition) => {
-                let morph = Morph(transition.frame(blend.t));
+            Ok(Built::Pair(transition)) => {
+                let t = blend.map_or(0.0, |blend| blend.t);
+                let morph = Morph(transition.frame(t));
                 commands.entity(entity).try_insert((morph, Undressed));
+            }
+            Ok(Built::Family(steered)) => {
+                // Sought to its weights before anybody sees it.
+                let morph = Morph(steered.transition().frame(0.0));
+                let steering = Steering(steered);
+                commands
+                    .entity(entity)
+                    .try_insert((morph, steering, Undressed));
             }
             Err(error) => commands.trigger(BuildFailed { entity, error }),
         }

@@ -52,6 +52,7 @@ mod colours;
 mod components;
 mod draw;
 mod dress;
+mod family;
 mod field;
 mod fill;
 mod gradients;
@@ -78,12 +79,13 @@ pub use components::{
     Blend, BuildFailed, Morph, MorphOptions, Show, SourceMesh, StageStyle, StageTransition,
     TargetMesh,
 };
+pub use family::{BlendWeights, MeshFamily};
 pub use pipelines::PipelinesReady;
 pub use times::{Durations, FrameTimes, REMEMBERED};
 pub use view::StageView;
 
 /// Morphs every entity that has a [`SourceMesh`], a [`TargetMesh`] and a
-/// [`Blend`], or a [`StageTransition`].
+/// [`Blend`], a [`MeshFamily`] and [`BlendWeights`], or a [`StageTransition`].
 ///
 /// Add it after Bevy's own plugins: it draws if their renderer is there, and
 /// otherwise only builds and solves.
@@ -140,7 +142,7 @@ impl Plugin for MorphPlugin {
     fn build(&self, app: &mut App) {
         use MorphSystems::{Build, Capture, Draw, Input, Playback, Solve};
         let builds = (
-            build::start_builds,
+            (build::start_builds, build::start_families),
             build::finish_builds,
             build::adopt_transitions,
         );
@@ -151,7 +153,10 @@ impl Plugin for MorphPlugin {
                 (Input, Playback, Build, Solve, Draw, Capture).chain(),
             )
             .add_systems(Update, builds.chain().in_set(Build))
-            .add_systems(Update, solve::solve_frames.in_set(Solve))
+            .add_systems(
+                Update,
+                (solve::solve_frames, family::solve_families).in_set(Solve),
+            )
             .add_systems(Update, camera::apply_view.in_set(Draw));
         // Without assets there are no meshes: such a program builds and solves
         // alone.

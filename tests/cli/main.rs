@@ -153,9 +153,9 @@ fn a_path_over_the_map_is_a_film_and_what_is_kept_is_written() {
     );
     // Of all designs, where others are of two.
     shop.fails(
-        1,
+        2,
         "render walk.morph --compare --out c.png",
-        "path over the map",
+        "of two designs",
     );
 }
 

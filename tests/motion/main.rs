@@ -16,7 +16,6 @@ use morphospace::content::ContentKind;
 use morphospace::export::{Camera, Film, Motion, PixelSize, View, framing};
 use morphospace::progress::Silent;
 use morphospace::project::{LoadedProject, gallery};
-use morphospace::transition::Transition;
 
 use players::{Kind, Players};
 
@@ -67,7 +66,7 @@ struct Shot {
 
 impl Shot {
     fn of(loaded: &LoadedProject) -> Option<Self> {
-        let transition = Transition::build(&loaded.spec().expect("a pair"), &Silent);
+        let transition = loaded.legs()[0].build(&Silent);
         let transition = transition.expect("a transition");
         if transition.cell().content() == ContentKind::Colours {
             return None;

@@ -5,6 +5,7 @@
 //! drawn in the frame in which the puck moves, which goes along where the film is played.
 
 use std::sync::Arc;
+use std::time::Instant;
 
 use bevy::prelude::Resource;
 
@@ -19,6 +20,7 @@ use crate::geometry::DVec2;
 use crate::measure::MapMeasure;
 use crate::project::{LoadedProject, MapSettings, Project, ProjectError};
 use crate::space::{Map, MapCurve, Space};
+use crate::stage::Durations;
 use crate::transition::{Quality, Style, Timing, place};
 
 /// How far an arrow key moves the puck, of the map's reach.
@@ -52,6 +54,8 @@ pub struct MapView {
     job: Option<Job<Space, MapProblem>>,
     problem: Option<JobError<MapProblem>>,
     made: Option<Made>,
+    /// From the puck's place to the picture of the blend.
+    times: Durations,
 }
 
 impl MapView {
@@ -182,9 +186,19 @@ impl MapView {
 
     /// Draws the blend under the puck, unless it is drawn so already; whether it was.
     pub fn look(&mut self, size: PixelSize, style: Style) -> bool {
-        let puck = self.puck;
+        let (puck, start) = (self.puck, Instant::now());
         let made = self.made.as_mut();
-        made.is_some_and(|made| made.look(puck, size, style))
+        let is_new = made.is_some_and(|made| made.look(puck, size, style));
+        if is_new {
+            self.times.record(start.elapsed());
+        }
+        is_new
+    }
+
+    /// How long the last moves of the puck took, from its place to the picture of the blend.
+    #[must_use]
+    pub fn times(&self) -> &Durations {
+        &self.times
     }
 
     fn place(&mut self, space: Space) {

@@ -21,11 +21,15 @@ pub fn strip(root: &mut Ui, scene: &Scene) {
 
 fn line(ui: &mut Ui, scene: &Scene) {
     ui.label(quiet(ui, "Median of the last frames"));
-    let stages = [
-        ("Solve", &scene.times.solve),
-        ("Draw", &scene.times.draw),
-        ("Whole frame", &scene.whole.0),
-    ];
+    let whole = ("Whole frame", &scene.whole.0);
+    let stages = match scene.map.is_shown {
+        true => vec![("Blend and picture", scene.map.times()), whole],
+        false => vec![
+            ("Solve", &scene.times.solve),
+            ("Draw", &scene.times.draw),
+            whole,
+        ],
+    };
     for (stage, durations) in stages {
         ui.add_space(GRID);
         ui.label(stage);
