@@ -4,12 +4,13 @@
 //! Shares of natural neighbours bend where a place gets another neighbour, and a curve by its
 //! length runs evenly in small pieces; a polynomial runs through both. Guaranteed: the weights
 //! of the map at both ends, to the last bit, and a sum of one but for rounding. Not guaranteed:
-//! those of the map in between; on curves through six designs they are off by less than 0.01.
+//! those of the map in between: on 40 wild curves over a map of six designs they are off by 0.02
+//! at worst, and in one place of a hundred by more than 0.003.
 
 use std::f64::consts::PI;
 
-/// Nodes of a way: more follow the map's bends closer and ripple beside them.
-const NODES: usize = 33;
+/// Nodes of a way. On the curves of the test below 33 are off by 0.05 at worst, these by 0.02.
+const NODES: usize = 65;
 
 /// Weights at Chebyshev nodes, and what is between them (barycentric interpolation: Berrut,
 /// Trefethen 2004).
@@ -81,5 +82,51 @@ mod tests {
         }
         smooth.at(1.0, &mut own);
         assert_eq!(own, [1.0, 0.0]);
+    }
+
+    #[test]
+    fn curves_over_a_map_of_six_are_followed() {
+        use crate::geometry::DVec2;
+        use crate::space::film::PIECES;
+        use crate::space::{Likeness, Map, MapCurve, MapLayout, MapPath, Waypoint};
+        let sites = MapLayout::Polygon.sites(&Likeness::even(6));
+        let map = Map::new(&sites).expect("a map");
+        let (mut bent, mut straight) = (0.0_f64, 0.0_f64);
+        for walk in 0..40 {
+            let place = |k: u32| {
+                let at = f64::from(4 * walk + k + 1);
+                DVec2::from_angle(2.4 * at) * (0.618 * at).fract().sqrt()
+            };
+            let passed = (1..3).map(|k| Waypoint::passed(place(k)));
+            let first = std::iter::once(Waypoint::stop(place(0)));
+            let last = std::iter::once(Waypoint::stop(place(3)));
+            let path = MapPath {
+                name: String::new(),
+                places: first.chain(passed).chain(last).collect(),
+            };
+            let curve = MapCurve::new(&path).expect("a curve");
+            let on_map = |t: f64, own: &mut [f64]| map.weights(curve.place(0, t), own);
+            let course = Course::new(6, on_map);
+            let at = |t: f64| {
+                let mut own = [0.0; 6];
+                course.at(t, &mut own);
+                own
+            };
+            for k in 0..=320 {
+                let t = f64::from(k) / 320.0;
+                let mut there = [0.0; 6];
+                on_map(t, &mut there);
+                let own = at(t);
+                let pieces = PIECES as f64;
+                let from = (t * pieces).floor().min(pieces - 1.0);
+                let share = t * pieces - from;
+                let [a, b] = [from, from + 1.0].map(|k| at(k / pieces));
+                for d in 0..6 {
+                    bent = bent.max((own[d] - there[d]).abs());
+                    straight = straight.max((a[d] + (b[d] - a[d]) * share - own[d]).abs());
+                }
+            }
+        }
+        assert!(bent < 0.025 && straight < 0.06, "{bent} {straight}");
     }
 }

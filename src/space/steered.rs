@@ -2,7 +2,6 @@
 //! entities are transitions.
 
 use super::blend::{Seen, Space};
-use crate::content::Solid;
 use crate::transition::{Ends, Transition};
 use crate::warp::AlongBlend;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -58,15 +57,9 @@ impl Steered {
             bounds: space.bounds(),
             bar_width: space.bar_width(),
         };
-        let solid = Solid {
-            loops: walks.clone(),
-            bars: bars.clone(),
-            bar_width: space.bar_width(),
-            ..Solid::default()
-        };
         Some(Self {
             space: space.clone(),
-            transition: Transition::along_blend(ends, warp, solid),
+            transition: Transition::along_blend(ends, warp, space.solid(walks, bars)),
             weights,
         })
     }

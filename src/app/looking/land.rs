@@ -80,7 +80,8 @@ impl Land {
             is_new = true;
         }
         let of = (shown, ink, known);
-        if let Some(found) = self.found.clone().filter(|_| self.of != Some(of)) {
+        if let Some(found) = self.found.as_ref().filter(|_| self.of != Some(of)) {
+            let found = found.clone();
             self.of = Some(of);
             self.painting = Some(Job::start("drawing the map", move |_| {
                 Ok(Arc::new(painted(&found, shown, ink)))

@@ -19,6 +19,9 @@ use crate::transition::Style;
 /// Pixels along each side of a place that is kept.
 const KEPT_PX: u32 = 96;
 
+/// How many of them are drawn in one frame: a blend of fields takes some milliseconds.
+const KEPT_AT_ONCE: usize = 4;
+
 /// A space with its map, and what is drawn of them.
 #[derive(Debug)]
 pub struct Made {
@@ -36,6 +39,8 @@ pub struct Made {
     land: Land,
     /// The places that are kept, in small.
     kept: Vec<(DVec2, Arc<RgbaImage>)>,
+    /// Some of them are not drawn yet.
+    lacks_kept: bool,
 }
 
 /// The blend as it was drawn last.
@@ -59,6 +64,7 @@ impl Made {
             blend: None,
             land: Land::default(),
             kept: Vec::new(),
+            lacks_kept: false,
         }
     }
 
@@ -122,8 +128,13 @@ impl Made {
             .retain(|(at, _)| places.iter().any(|kept| kept.at == *at));
         let before = self.kept.len();
         let mut weights = vec![0.0; self.space.designs().len()];
+        self.lacks_kept = false;
         for place in places {
             if self.kept(place.at).is_none() {
+                if self.kept.len() >= before + KEPT_AT_ONCE {
+                    self.lacks_kept = true;
+                    break;
+                }
                 self.map.weights(place.at, &mut weights);
                 self.frame.seek(&weights);
                 let picture = rasterise(&self.drawing(size, style, None));
@@ -166,7 +177,7 @@ impl Made {
     /// It is being drawn, or measured.
     #[must_use]
     pub fn is_busy(&self) -> bool {
-        self.drawing.is_some() || self.land.is_busy()
+        self.drawing.is_some() || self.lacks_kept || self.land.is_busy()
     }
 
     /// Has drawn what is not drawn yet, or otherwise: what lies on the map, the places that are

@@ -13,12 +13,13 @@
 use crate::compatible::Family;
 use crate::geometry::{DMat3, DVec2, DVec3, orient2d};
 
-/// Rounds over the vertices of what is folded. Of 2,000 blends of ten families all that were
-/// mended at all were after eight.
+/// Rounds over the vertices of what is folded. With these alone 9 of 200 blends of three
+/// devices and a brick stayed folded and 4 of a frog, a rat, an octopus and a child; of two
+/// more families that had folded at 187 and 192 none.
 const ROUNDS: usize = 12;
 
 /// Rounds after these in which outlines make room as well: where a face has no vertex inside,
-/// or these have no room.
+/// or these have no room. One of those 200 blends stayed folded, with 80 rounds as well.
 const PUSHES: usize = 20;
 
 /// What twice the area of a face that is pushed open is of the squares of its sides.
