@@ -94,7 +94,7 @@ pub use note::Note;
 pub use options::{Boundary, FieldOptions, Guarding, Options, PaintRule, Quality};
 pub use part_time::{PartTime, PartTimeError};
 pub use proved::Proved;
-pub use ready::Transition;
+pub use ready::{Transition, TransitionId};
 pub use sequence::{Sequence, SequenceFrame, place, style_of, tint};
 pub use spec::TransitionSpec;
 pub(crate) use spec::{bar_width, outline};

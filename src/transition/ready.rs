@@ -13,7 +13,7 @@ use crate::design::Design;
 use crate::film::{Film, FilmError};
 use crate::geometry::Bounds;
 use crate::warp::{Arap, Missed, Placer, Warp};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, OnceLock, Weak};
 
 /// A transition that is ready to be played. Cloning is cheap.
 ///
@@ -53,6 +53,24 @@ pub(super) struct Inner {
     pub film: Slot,
 }
 
+/// Which transition something was found out about, without keeping it.
+#[derive(Clone, Debug)]
+pub struct TransitionId(Weak<Inner>);
+
+impl TransitionId {
+    /// Whether it is of this one, or of a clone of it.
+    #[must_use]
+    pub fn is_of(&self, transition: &Transition) -> bool {
+        std::ptr::eq(self.0.as_ptr(), Arc::as_ptr(&transition.0))
+    }
+
+    /// Nobody has that transition any more.
+    #[must_use]
+    pub fn is_gone(&self) -> bool {
+        self.0.strong_count() == 0
+    }
+}
+
 impl From<Inner> for Transition {
     fn from(inner: Inner) -> Self {
         Self(Arc::new(inner))
@@ -60,6 +78,18 @@ impl From<Inner> for Transition {
 }
 
 impl Transition {
+    /// Whether they are clones of each other. What they consist of is not compared.
+    #[must_use]
+    pub fn is(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+
+    /// Which one it is.
+    #[must_use]
+    pub fn id(&self) -> TransitionId {
+        TransitionId(Arc::downgrade(&self.0))
+    }
+
     /// The same fields mixed in another way, without measuring them again;
     /// `None` where there are no fields, or those of many designs in turn.
     ///

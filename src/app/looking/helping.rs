@@ -223,7 +223,7 @@ impl Helping {
 
     fn is_of(&self, transition: Option<&Transition>) -> bool {
         match (&self.of, transition) {
-            (Some(old), Some(new)) => std::ptr::eq(old.content(), new.content()),
+            (Some(old), Some(new)) => old.is(new),
             (None, None) => true,
             _ => false,
         }

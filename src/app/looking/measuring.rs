@@ -10,6 +10,7 @@ use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
 use crate::app::asking::hand::Gesture;
 use crate::app::asking::intent::Intent;
+use crate::app::looking::remembered::Remembered;
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
 use crate::measure::{FilmReport, Remedy, Verdict, film};
@@ -43,12 +44,9 @@ pub struct Measured {
     measures: Option<Measures>,
     /// There is an answer, with measures or, where the work broke off, without.
     is_done: bool,
-    /// Of other legs, the last one last: while a sequence plays they come again and again.
-    before: Vec<(Transition, Measures)>,
+    /// Of other legs: while a sequence plays they come again and again.
+    before: Remembered<Measures>,
 }
-
-/// So many legs are remembered.
-const REMEMBERED: usize = 64;
 
 impl Measured {
     /// The measures; while they are being taken, none.
@@ -84,8 +82,7 @@ impl Measured {
 
     fn is_of(&self, transition: Option<&Transition>) -> bool {
         match (&self.of, transition) {
-            // Clones of a transition share what they are made of; comparing that would take longer.
-            (Some(old), Some(new)) => std::ptr::eq(old.content(), new.content()),
+            (Some(old), Some(new)) => old.is(new),
             (None, None) => true,
             _ => false,
         }
@@ -96,18 +93,17 @@ impl Measured {
         if !self.is_of(transition) {
             // The job on the old one goes with it, which stops it.
             let mut before = std::mem::take(&mut self.before);
-            before.extend(self.of.take().zip(self.measures.take()));
-            before.drain(..before.len().saturating_sub(REMEMBERED));
+            if let (Some(of), Some(measures)) = (&self.of, self.measures.take()) {
+                before.keep(of, measures);
+            }
+            let measures = transition.and_then(|transition| before.take(transition));
             *self = Self {
                 of: transition.cloned(),
+                is_done: measures.is_some(),
+                measures,
                 before,
                 ..Self::default()
             };
-            let is_it = |(of, _): &(Transition, Measures)| self.is_of(Some(of));
-            if let Some(known) = self.before.iter().position(is_it) {
-                self.measures = Some(self.before.swap_remove(known).1);
-                self.is_done = true;
-            }
         }
         if session.work().is_none() && !self.is_done && self.job.is_none() {
             self.job = self.of.clone().map(|transition| {

@@ -13,6 +13,7 @@ pub mod measuring;
 pub mod onion;
 pub mod preferences;
 pub mod recording;
+pub mod remembered;
 pub mod times;
 pub mod twin;
 pub mod view;

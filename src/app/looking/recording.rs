@@ -6,6 +6,7 @@
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
+use crate::app::looking::remembered::Remembered;
 use crate::app::session::state::Session;
 use crate::app::telling::job::{Job, JobError};
 use crate::app::telling::spare::give_back;
@@ -20,12 +21,9 @@ pub struct Recording {
     job: Option<Job<Option<Proved>, FilmError>>,
     proved: Option<Proved>,
     refused: Option<FilmError>,
-    /// Of other legs, the last one last: while a sequence plays they come again and again.
-    before: Vec<(Transition, Proved)>,
+    /// Of other legs: while a sequence plays they come again and again.
+    before: Remembered<Proved>,
 }
-
-/// So many legs are remembered.
-const REMEMBERED: usize = 64;
 
 impl Recording {
     /// Of films that take so many MiB at most, or as many as they usually may.
@@ -70,24 +68,20 @@ impl Recording {
     fn remember(&mut self) {
         // What was being recorded is given up.
         self.job = None;
-        self.before.extend(self.of.take().zip(self.proved.take()));
-        let old = self.before.len().saturating_sub(REMEMBERED);
-        self.before.drain(..old);
+        if let Some((of, proved)) = self.of.take().zip(self.proved.take()) {
+            self.before.keep(&of, proved);
+        }
     }
 
     /// Whether what is on the stage was there before, and recorded.
     fn recall(&mut self) -> bool {
-        let is_it = |(of, _): &(Transition, Proved)| self.is_of(Some(of));
-        let Some(known) = self.before.iter().position(is_it) else {
-            return false;
-        };
-        self.proved = Some(self.before.swap_remove(known).1);
-        true
+        self.proved = self.of.as_ref().and_then(|of| self.before.take(of));
+        self.proved.is_some()
     }
 
     fn is_of(&self, wanted: Option<&Transition>) -> bool {
         match (&self.of, wanted) {
-            (Some(old), Some(new)) => std::ptr::eq(old.content(), new.content()),
+            (Some(old), Some(new)) => old.is(new),
             (None, None) => true,
             _ => false,
         }

@@ -63,7 +63,7 @@ fn stage<Of: Component>(
     match (transition, staged.single()) {
         (Some(new), Ok((_, StageTransition(old))))
             // Clones share what they are made of; inserting one would upload its meshes anew.
-            if std::ptr::eq(new.content(), old.content()) => {}
+            if new.is(old) => {}
         (Some(new), Ok((entity, _))) => {
             let new = (StageTransition(new.clone()), blend);
             commands.entity(entity).insert(new);
