@@ -235,7 +235,10 @@ fn behind_the_point(x: i64) -> f32 {
 
 impl Level {
     fn new(width: usize, height: usize, mut light: Vec<Light>) -> Self {
-        light.resize(width * height + width + 1, Light::ZERO);
+        let whole = width * height + width + 1;
+        // `resize` alone would make room for twice as much.
+        light.reserve_exact(whole - light.len());
+        light.resize(whole, Light::ZERO);
         Self {
             width,
             height,
