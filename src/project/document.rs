@@ -117,6 +117,18 @@ impl DesignEntry {
             placement: Similarity::default(),
         }
     }
+
+    /// The name that is shown: its own, or else that of its file.
+    #[must_use]
+    pub fn shown_name(&self) -> String {
+        match self.name.as_str() {
+            "" => {
+                let stem = self.path.file_stem().unwrap_or_default();
+                stem.to_string_lossy().into_owned()
+            }
+            name => name.to_owned(),
+        }
+    }
 }
 
 impl Project {

@@ -79,7 +79,7 @@ fn order(ui: &mut Ui, scene: &Scene, whole: &Project, acts: &mut Intents) {
             from_right(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
                 moves(ui, whole, k, acts);
-                let name = RichText::new(name_of(entry));
+                let name = RichText::new(entry.shown_name());
                 let name = match here.contains(&k) {
                     true => name.strong(),
                     false => name,
@@ -161,7 +161,7 @@ fn design(
                 acts.push(Intent::AskReplace(number));
             }
             let path = entry.path.display().to_string();
-            ui.add(Label::new(name_of(entry)).truncate())
+            ui.add(Label::new(entry.shown_name()).truncate())
                 .on_hover_text(path);
         });
     });
@@ -191,17 +191,6 @@ fn notes(ui: &mut Ui, index: usize, notes: &[ImportNote]) {
         }
         ui.add_space(GRID);
     });
-}
-
-fn name_of(entry: &DesignEntry) -> String {
-    if !entry.name.is_empty() {
-        return entry.name.clone();
-    }
-    entry
-        .path
-        .file_stem()
-        .map(|stem| stem.to_string_lossy().into_owned())
-        .unwrap_or_default()
 }
 
 fn placement(ui: &mut Ui, entry: &mut DesignEntry) {

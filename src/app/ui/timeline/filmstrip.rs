@@ -1,11 +1,13 @@
 //! Small pictures of the film below the track, each where its t is.
 
-use bevy_egui::egui::{Color32, Id, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
+use bevy_egui::egui::{Color32, Id, LayerId, Order, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
 
 use crate::app::looking::filmstrip::{self, PICTURE_PX};
 use crate::app::ui::kit::texture::texture;
 use crate::app::ui::kit::theme::{Palette, RADIUS};
-use crate::app::ui::scene::Scene;
+use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::timeline::designs::Hand;
+use crate::app::ui::timeline::ruler::Ruler;
 
 /// What the pictures add to the height of the timeline.
 pub const HEIGHT: f32 = 40.0;
@@ -19,8 +21,8 @@ const LEAST: f32 = 40.0;
 /// Between two pictures.
 const GAP: f32 = 6.0;
 
-/// Draws them below `top`; `x` says where a t is.
-pub fn show(ui: &Ui, scene: &Scene, x: impl Fn(f64) -> f32, top: f32) {
+/// Draws them below `top`, and takes the user's hand on those of designs.
+pub fn show(ui: &Ui, scene: &Scene, ruler: Ruler, top: f32, acts: &mut Intents) {
     let Some(pictures) = scene.filmstrip.pictures() else {
         return;
     };
@@ -31,7 +33,7 @@ pub fn show(ui: &Ui, scene: &Scene, x: impl Fn(f64) -> f32, top: f32) {
     let palette = Palette::of(ui);
     let last = count - 1;
     let t = |index: usize| legs as f64 * index as f64 / last as f64;
-    let apart = x(t(1)) - x(t(0));
+    let apart = ruler.x(t(1)) - ruler.x(t(0));
     // Of a pair 1, 2, 5 or 10: both ends are always there.
     let Some(step) = (1..=last)
         .filter(|step| last.is_multiple_of(*step))
@@ -43,21 +45,36 @@ pub fn show(ui: &Ui, scene: &Scene, x: impl Fn(f64) -> f32, top: f32) {
     let size = vec2(width, width * LARGEST.1 / LARGEST.0);
     let [r, g, b] = scene.session.style().ground.0;
     let now = scene.playback.t() / legs as f64 * last as f64;
+    let mut hand = Hand::of(scene, ruler);
     for index in (0..count).step_by(step) {
-        let middle = pos2(x(t(index)), top + LARGEST.1 / 2.0);
-        let rect = Rect::from_center_size(middle, size);
-        let painter = ui.painter();
+        let middle = pos2(ruler.x(t(index)), top + LARGEST.1 / 2.0);
+        let place = Rect::from_center_size(middle, size);
+        let beside = hand
+            .as_mut()
+            .map_or(0.0, |hand| hand.hold(ui, t(index), place, acts));
+        let rect = place.translate(vec2(beside, 0.0));
+        // What is dragged lies over the others.
+        let painter = match beside == 0.0 {
+            true => ui.painter().clone(),
+            false => ui.painter().clone().with_layer_id(dragged()),
+        };
         painter.rect_filled(rect, RADIUS, Color32::from_rgb(r, g, b));
         let share = |k: usize| k as f32 / count as f32;
         let part = Rect::from_min_max(pos2(share(index), 0.0), pos2(share(index + 1), 1.0));
-        let inner = rect.shrink(2.0);
-        painter.image(texture.id(), inner, part, Color32::WHITE);
+        painter.image(texture.id(), rect.shrink(2.0), part, Color32::WHITE);
         let is_here = (now - index as f64).abs() <= 0.5 * step as f64;
-        let ink = if is_here {
+        let ink = if is_here || beside != 0.0 {
             palette.accent
         } else {
             palette.line
         };
         painter.rect_stroke(rect, RADIUS, Stroke::new(1.0, ink), StrokeKind::Inside);
     }
+    if let Some(hand) = hand {
+        hand.mark(ui, top, size.y);
+    }
+}
+
+fn dragged() -> LayerId {
+    LayerId::new(Order::Tooltip, Id::new("dragged design"))
 }

@@ -10,12 +10,10 @@ use crate::app::ui::kit::ease;
 use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::timeline::filmstrip;
+use crate::app::ui::timeline::ruler::Ruler;
 use crate::one_line::OneLine;
 use crate::project::Project;
 use crate::transition::{Stop, Style, tint};
-
-/// How far the track reaches beyond 0 and 1 when nothing asks for more.
-const BEYOND: f64 = 0.25;
 
 /// Scrubbing snaps to ends and stops within so many points: near enough to be meant. Two tenths
 /// are some sixty apart in the smallest window.
@@ -27,54 +25,6 @@ const USUAL_SECS: f64 = 2.0;
 const BAR_HEIGHT: f32 = 6.0;
 
 const FONT: FontId = FontId::proportional(11.5);
-
-/// From t to the screen and back.
-#[derive(Clone, Copy)]
-struct Ruler {
-    left: f32,
-    width: f32,
-    y: f32,
-    from: f64,
-    to: f64,
-    /// The t of the last design.
-    end: f64,
-}
-
-impl Ruler {
-    fn new(rect: Rect, scene: &Scene, stops: &[Stop]) -> Self {
-        let timing = scene.session.timing();
-        let places = stops
-            .iter()
-            .map(|stop| stop.t)
-            .chain([timing.from, timing.to]);
-        // Also t itself: typed or played far outside, it must be seen.
-        let places = places.chain([scene.playback.t()]);
-        // As much of the strip, whatever the number of legs.
-        let end = scene.session.leg_count() as f64;
-        let (mut from, mut to) = (-BEYOND * end, (1.0 + BEYOND) * end);
-        for t in places {
-            from = from.min(t);
-            to = to.max(t);
-        }
-        let line = rect.shrink2(vec2(GRID, 0.0));
-        Self {
-            left: line.left(),
-            width: line.width(),
-            y: rect.top() + 34.0,
-            from,
-            to,
-            end,
-        }
-    }
-
-    fn x(&self, t: f64) -> f32 {
-        self.left + ((t - self.from) / (self.to - self.from)) as f32 * self.width
-    }
-
-    fn t(&self, x: f32) -> f64 {
-        self.from + f64::from((x - self.left) / self.width) * (self.to - self.from)
-    }
-}
 
 /// Draws the track, with pictures of the film below it if there is room, and takes the user's
 /// hand.
@@ -95,7 +45,7 @@ pub fn show(
     let is_path = scene.session.whole().is_some_and(Project::follows_path);
     ticks(ui, ruler, &names, is_path);
     if has_pictures {
-        filmstrip::show(ui, scene, |t| ruler.x(t), ruler.y + 30.0);
+        filmstrip::show(ui, scene, ruler, ruler.y + 30.0, acts);
     }
     stops(ui, ruler, &mut draft.stops, acts);
     playhead(ui, ruler, scene.playback.t());

@@ -1,0 +1,157 @@
+//! The designs of a sequence as they lie on the timeline: dragged, they change places.
+
+use bevy_egui::egui::{Rect, Response, Sense, Ui, pos2};
+
+use crate::app::asking::intent::Intent;
+use crate::app::ui::kit::theme::{GRID, Palette};
+use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::timeline::ruler::Ruler;
+use crate::one_line::OneLine;
+use crate::project::{Moved, Project};
+
+/// What a hand does with the pictures of designs.
+pub struct Hand<'a> {
+    whole: &'a Project,
+    ruler: Ruler,
+    /// Which one is dragged, and to where in the order.
+    dragged: Option<(usize, usize)>,
+}
+
+impl<'a> Hand<'a> {
+    /// Of the open project; none where its designs have no order on the timeline.
+    pub fn of(scene: &'a Scene<'a>, ruler: Ruler) -> Option<Self> {
+        let whole = scene.session.whole()?;
+        (whole.is_sequence() && !whole.follows_path()).then_some(Self {
+            whole,
+            ruler,
+            dragged: None,
+        })
+    }
+
+    /// Takes hold of the picture at that t. By how much it is to be drawn beside its place.
+    pub fn hold(&mut self, ui: &Ui, t: f64, rect: Rect, acts: &mut Intents) -> f32 {
+        let k = t.round();
+        // Between two designs is nothing to hold, and the one that is led back to is the first.
+        if (t - k).abs() > 1e-9 || k < 0.0 || k as usize >= self.whole.designs.len() {
+            return 0.0;
+        }
+        let k = k as usize;
+        let id = ui.id().with(("design", k));
+        let response = ui.interact(rect, id, Sense::click_and_drag());
+        let offset = self.drag(ui, k, &response, acts);
+        if response.clicked() {
+            acts.push(Intent::Seek(t));
+        }
+        let name = self.whole.designs[k].shown_name();
+        let tip = format!(
+            "{}. Drag it to another place, right-click to replace it, repeat it or take it out.",
+            OneLine(&name)
+        );
+        let response = response.on_hover_text(tip);
+        response.context_menu(|ui| menu(ui, self.whole, k, acts));
+        offset
+    }
+
+    fn drag(&mut self, ui: &Ui, k: usize, response: &Response, acts: &mut Intents) -> f32 {
+        let from = response.id.with("from");
+        let Some(pointer) = response.interact_pointer_pos() else {
+            return 0.0;
+        };
+        if response.drag_started() {
+            ui.data_mut(|data| data.insert_temp(from, pointer.x));
+        }
+        let place = self.place(pointer.x);
+        if response.drag_stopped() {
+            acts.extend(moved(self.whole, k, place).map(Intent::Arrange));
+            return 0.0;
+        }
+        if !response.dragged() {
+            return 0.0;
+        }
+        self.dragged = Some((k, place));
+        let start = ui.data(|data| data.get_temp::<f32>(from));
+        pointer.x - start.unwrap_or(pointer.x)
+    }
+
+    /// Before which design, in the order that there is, something at that x would come.
+    fn place(&self, x: f32) -> usize {
+        let is_left = |k: &usize| self.ruler.x(*k as f64) < x;
+        (0..self.whole.designs.len()).filter(is_left).count()
+    }
+
+    /// Shows where the picture that is dragged would come to lie.
+    pub fn mark(&self, ui: &Ui, top: f32, height: f32) {
+        let Some((k, place)) = self.dragged else {
+            return;
+        };
+        if moved(self.whole, k, place).is_none() {
+            return;
+        }
+        let x = self.ruler.x(place as f64 - 0.5);
+        let ink = Palette::of(ui).accent;
+        let line = [
+            pos2(x, top - GRID / 2.0),
+            pos2(x, top + height + GRID / 2.0),
+        ];
+        ui.painter().line_segment(line, (2.0, ink));
+    }
+}
+
+/// The order when design `k` has come to lie before `place`; none where that is the one there is.
+fn moved(whole: &Project, k: usize, place: usize) -> Option<Vec<Moved>> {
+    let to = if place > k { place - 1 } else { place };
+    if to == k {
+        return None;
+    }
+    let mut order = whole.in_order();
+    let design = order.remove(k);
+    order.insert(to, design);
+    Some(order)
+}
+
+fn menu(ui: &mut Ui, whole: &Project, k: usize, acts: &mut Intents) {
+    ui.set_width(180.0);
+    let mut choices: Vec<(&str, Intent)> = vec![
+        ("Replace …", Intent::AskReplace(k)),
+        ("Insert before …", Intent::AskInsert(k)),
+        ("Insert behind …", Intent::AskInsert(k + 1)),
+    ];
+    let mut order = whole.in_order();
+    order.insert(k + 1, (order[k].0.clone(), None));
+    choices.push(("Once more behind it", Intent::Arrange(order)));
+    if whole.designs.len() > 2 {
+        let mut order = whole.in_order();
+        order.remove(k);
+        choices.push(("Take it out", Intent::Arrange(order)));
+    }
+    for (words, intent) in choices {
+        if ui.button(words).clicked() {
+            acts.push(intent);
+            ui.close();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn order(k: usize, place: usize) -> Option<Vec<usize>> {
+        let whole = Project::of(["a.svg", "b.svg", "c.svg", "d.svg"]);
+        let moved = moved(&whole, k, place)?;
+        Some(moved.into_iter().filter_map(|(_, from)| from).collect())
+    }
+
+    #[test]
+    fn a_design_goes_where_it_is_dropped() {
+        assert_eq!(order(0, 4), Some(vec![1, 2, 3, 0]));
+        assert_eq!(order(3, 0), Some(vec![3, 0, 1, 2]));
+        assert_eq!(order(1, 3), Some(vec![0, 2, 1, 3]));
+    }
+
+    #[test]
+    fn on_either_side_of_itself_it_stays() {
+        assert_eq!(order(2, 2), None);
+        assert_eq!(order(2, 3), None);
+    }
+}
