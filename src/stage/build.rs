@@ -32,8 +32,21 @@ pub(super) struct Building {
     wanted: Arc<Wanted>,
 }
 
+impl Building {
+    /// Starts it on the pool.
+    pub(super) fn start(
+        work: impl FnOnce(&dyn Progress) -> Result<Built, BuildError> + Send + 'static,
+    ) -> Self {
+        let wanted = Arc::new(Wanted(AtomicBool::new(true)));
+        // The task owns a share of the flag: it may outlive the entity.
+        let progress = Arc::clone(&wanted);
+        let task = AsyncComputeTaskPool::get().spawn(async move { work(&*progress) });
+        Self { task, wanted }
+    }
+}
+
 /// What comes of it.
-enum Built {
+pub(super) enum Built {
     /// Of two meshes.
     Pair(Transition),
     /// Of many.
@@ -76,14 +89,9 @@ pub(super) fn start_builds(
     for (entity, source, target, options) in &changed {
         let (source, target) = (source.0.clone(), target.0.clone());
         let options = options.0.clone();
-        let wanted = Arc::new(Wanted(AtomicBool::new(true)));
-        let progress = Arc::clone(&wanted);
-        // The task owns a share of the flag: it may outlive the entity.
-        let task = AsyncComputeTaskPool::get()
-            .spawn(async move { build(source, target, options, &*progress).map(Built::Pair) });
-        commands
-            .entity(entity)
-            .try_insert(Building { task, wanted });
+        let work = move |progress: &dyn Progress| build(source, target, options, progress);
+        let building = Building::start(move |progress| work(progress).map(Built::Pair));
+        commands.entity(entity).try_insert(building);
     }
 }
 
@@ -94,13 +102,9 @@ pub(super) fn start_families(
 ) {
     for (entity, MeshFamily(meshes)) in &changed {
         let meshes = meshes.clone();
-        let wanted = Arc::new(Wanted(AtomicBool::new(true)));
-        let progress = Arc::clone(&wanted);
-        let task = AsyncComputeTaskPool::get()
-            .spawn(async move { family::build(meshes, &*progress).map(Built::Family) });
-        commands
-            .entity(entity)
-            .try_insert(Building { task, wanted });
+        let building =
+            Building::start(move |progress| family::build(meshes, progress).map(Built::Family));
+        commands.entity(entity).try_insert(building);
     }
 }
 
@@ -133,7 +137,9 @@ pub(super) fn finish_builds(
             Ok(Built::Pair(transition)) => {
                 let t = blend.map_or(0.0, |blend| blend.t);
                 let morph = Morph(transition.frame(t));
-                commands.entity(entity).try_insert((morph, Undressed));
+                let mut entity = commands.entity(entity);
+                entity.try_remove::<Steering>();
+                entity.try_insert((morph, Undressed));
             }
             Ok(Built::Family(steered)) => {
                 // Sought to its weights before anybody sees it.

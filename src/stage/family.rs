@@ -29,8 +29,8 @@ use super::times::FrameTimes;
 #[require(BlendWeights, StageStyle, Transform, Visibility)]
 pub struct MeshFamily(pub Vec<TriangleMesh>);
 
-/// How much of each mesh of a [`MeshFamily`] is shown: a weight for each, which sum to one;
-/// outside [0, 1] they extrapolate. None at all is the first mesh.
+/// How much of each mesh of a [`MeshFamily`] is shown, or of each of three or more designs: a
+/// weight for each, which sum to one; outside [0, 1] they extrapolate. None at all is the first.
 ///
 /// ```
 /// use bevy::prelude::*;
@@ -72,7 +72,15 @@ pub(super) fn build(
     }
     let designs = meshes.into_iter().enumerate();
     let designs = designs.map(|(k, mesh)| Arc::new(Design::new(format!("mesh {}", k + 1), mesh)));
-    let mut spec = SpaceSpec::new(designs.collect());
+    steered(designs.collect(), progress)
+}
+
+/// The blend of some designs, as rigid parts.
+pub(super) fn steered(
+    designs: Vec<Arc<Design>>,
+    progress: &dyn Progress,
+) -> Result<Steered, BuildError> {
+    let mut spec = SpaceSpec::new(designs);
     spec.content = Some(ContentKind::Solid);
     let space = Space::build(&spec, progress).map_err(|error| match error {
         SpaceError::Build(error) => error,

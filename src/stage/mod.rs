@@ -50,6 +50,7 @@ mod carried;
 mod coats;
 mod colours;
 mod components;
+mod designs;
 mod draw;
 mod dress;
 mod family;
@@ -79,13 +80,15 @@ pub use components::{
     Blend, BuildFailed, Morph, MorphOptions, Show, SourceMesh, StageStyle, StageTransition,
     TargetMesh,
 };
+pub use designs::{DesignAsset, DesignLoader, LoadDesignError, MorphDesigns};
 pub use family::{BlendWeights, MeshFamily};
 pub use pipelines::PipelinesReady;
 pub use times::{Durations, FrameTimes, REMEMBERED};
 pub use view::StageView;
 
 /// Morphs every entity that has a [`SourceMesh`], a [`TargetMesh`] and a
-/// [`Blend`], a [`MeshFamily`] and [`BlendWeights`], or a [`StageTransition`].
+/// [`Blend`], a [`MeshFamily`] and [`BlendWeights`], [`MorphDesigns`], or a
+/// [`StageTransition`].
 ///
 /// Add it after Bevy's own plugins: it draws if their renderer is there, and
 /// otherwise only builds and solves.
@@ -176,6 +179,10 @@ fn add_drawing(app: &mut App) {
     for init in [init_asset::<Mesh>, init_asset::<Image>] {
         init(app);
     }
+    let reads = designs::start_designs.before(build::finish_builds);
+    app.init_asset::<DesignAsset>()
+        .init_asset_loader::<DesignLoader>()
+        .add_systems(Update, reads.in_set(MorphSystems::Build));
     app.add_plugins((
         Material2dPlugin::<ink::InkMaterial>::default(),
         Material2dPlugin::<played::PlayedMaterial>::default(),
