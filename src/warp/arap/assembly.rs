@@ -11,7 +11,7 @@ use super::life::Life;
 use super::options::{ArapError, ArapOptions, Weights};
 use super::sides::Outlined;
 use crate::compatible::CompatibleMesh;
-use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
+use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen, twice_signed_area};
 use crate::linalg::SymmetricMatrix;
 use crate::warp::part_path::{centroid, rotation};
 
@@ -27,6 +27,8 @@ pub(super) struct FaceMap {
     pub gradients: DMat2,
     /// W times them.
     pub weighted: DMat2,
+    /// √W times them, in the directions in which the face is stretched most and least.
+    pub rooted: DMat2,
 }
 
 /// One bar in no face.
@@ -83,9 +85,13 @@ impl LocalMaps {
                     Weights::Uniform => 1.0,
                     Weights::PerFace(each) => each[f],
                 };
-                let sides = [weight(areas.faces[0][f]), weight(areas.faces[1][f])];
-                let w = weight_matrix(maps[f], sides, options.symmetric);
+                let of_sides = [areas.faces[0][f], areas.faces[1][f]];
+                let sides = of_sides.map(weight);
                 let gradients = gradients(corners(mesh.source(), mesh.faces()[f]));
+                let w = match options.symmetric {
+                    true => FaceWeight::symmetric(polars[f].stretch, of_sides, sides),
+                    false => FaceWeight::even(sides[0]),
+                };
                 let map = Polar {
                     angle: face_angles[f],
                     ..polars[f]
@@ -94,7 +100,8 @@ impl LocalMaps {
                     map,
                     lead: 0.0,
                     gradients,
-                    weighted: w * gradients,
+                    weighted: w.times(gradients),
+                    rooted: w.root_times(gradients),
                 }
             })
             .collect();
@@ -119,7 +126,9 @@ impl LocalMaps {
         let before = std::mem::replace(&mut self.stiffness, by.to_vec());
         let factor = |of: &[f64], face: usize| of.get(face).copied().unwrap_or(1.0);
         for (k, face) in self.faces.iter_mut().enumerate() {
-            face.weighted *= factor(by, k) / factor(&before, k);
+            let times = factor(by, k) / factor(&before, k);
+            face.weighted *= times;
+            face.rooted *= times.sqrt();
         }
         self
     }
@@ -178,12 +187,11 @@ impl LocalMaps {
         let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
         let mut diagonal = vec![0.0; n];
         for (face, map) in mesh.faces().iter().zip(&self.faces) {
-            let g = with_first(map.gradients);
-            let wg = with_first(map.weighted);
+            let rooted = with_first(map.rooted);
             for i in 0..3 {
-                diagonal[face[i] as usize] += g[i].dot(wg[i]);
+                diagonal[face[i] as usize] += rooted[i].length_squared();
                 for j in 0..=i {
-                    matrix.add(face[i], face[j], g[i].dot(wg[j]));
+                    matrix.add(face[i], face[j], rooted[i].dot(rooted[j]));
                 }
             }
         }
@@ -224,13 +232,48 @@ fn local_map(mesh: &CompatibleMesh, face: [u32; 3]) -> DMat2 {
     edges(corners(mesh.target(), face)) * edges(corners(mesh.source(), face)).inverse()
 }
 
-fn weight_matrix(m: DMat2, [source, target]: [f64; 2], symmetric: bool) -> DMat2 {
-    if !symmetric {
-        return DMat2::IDENTITY * source;
+/// W of a face, as what it is in the two directions in which the face is stretched most and
+/// least: W itself, and g · W g, would lose the smaller to rounding where the face is all but
+/// flat in one of the designs (a mesh of two icons: 1e14 times as long as wide).
+struct FaceWeight {
+    /// Orthonormal.
+    directions: [DVec2; 2],
+    values: [f64; 2],
+}
+
+impl FaceWeight {
+    fn even(weight: f64) -> Self {
+        Self {
+            directions: [DVec2::X, DVec2::Y],
+            values: [weight; 2],
+        }
     }
-    // M is the map of two positive faces: its determinant is positive.
-    let inverse = m.inverse();
-    (DMat2::IDENTITY * source + (inverse * inverse.transpose()) * target) * 0.5
+
+    /// Of a map with this stretch between faces of these areas.
+    fn symmetric(stretch: DMat2, areas: [f64; 2], [source, target]: [f64; 2]) -> Self {
+        let eigen = SymmetricEigen::of(stretch);
+        let most = eigen.values[0];
+        // Their product is det M, which areas tell to more digits.
+        let least = areas[1] / areas[0] / most;
+        Self {
+            directions: [eigen.axis, eigen.axis.perp()],
+            values: [most, least].map(|s| 0.5 * (source + target / (s * s))),
+        }
+    }
+
+    fn times(&self, gradients: DMat2) -> DMat2 {
+        let [u, v] = self.directions;
+        let [along, across] = self.values;
+        let times = |g: DVec2| u * (along * u.dot(g)) + v * (across * v.dot(g));
+        DMat2::from_cols(times(gradients.x_axis), times(gradients.y_axis))
+    }
+
+    fn root_times(&self, gradients: DMat2) -> DMat2 {
+        let [u, v] = self.directions;
+        let [along, across] = self.values.map(f64::sqrt);
+        let times = |g: DVec2| DVec2::new(along * u.dot(g), across * v.dot(g));
+        DMat2::from_cols(times(gradients.x_axis), times(gradients.y_axis))
+    }
 }
 
 fn element_map(
