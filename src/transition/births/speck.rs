@@ -8,10 +8,9 @@ use crate::transition::outline::Outline;
 use crate::warp::Life;
 use std::sync::OnceLock;
 
-/// A part changes its size within so many eighths of the film at least.
-/// Shorter would be a jump.
-const SHORTEST: u32 = 1;
-const EIGHTHS: u32 = 8;
+/// Shorter times than an eighth of the film, for what would meet something in all longer ones:
+/// it is seen to jump, which is less bad.
+const JUMPS: [f64; 2] = [1.0 / 16.0, 1.0 / 32.0];
 
 /// Places along its own outline that are searched.
 const OWN_PLACES: usize = 12;
@@ -181,18 +180,16 @@ impl Speck {
 /// The times in which what one design has alone may change its size, the
 /// longest first: all of them begin or end where that design is.
 pub(in crate::transition) fn times(side: Side) -> impl Iterator<Item = Life> {
-    (SHORTEST..=EIGHTHS).rev().map(move |eighths| {
-        let long = f64::from(eighths) / f64::from(EIGHTHS);
-        match side {
-            Side::Source => Life {
-                from: 0.0,
-                to: long,
-            },
-            Side::Target => Life {
-                from: 1.0 - long,
-                to: 1.0,
-            },
-        }
+    let eighths = (1..=8).rev().map(|eighths| f64::from(eighths) / 8.0);
+    eighths.chain(JUMPS).map(move |long| match side {
+        Side::Source => Life {
+            from: 0.0,
+            to: long,
+        },
+        Side::Target => Life {
+            from: 1.0 - long,
+            to: 1.0,
+        },
     })
 }
 
