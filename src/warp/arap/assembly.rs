@@ -1,7 +1,8 @@
 //! Local maps, weights and the matrix of the energy.
 //!
 //! W_T = w_A I one-sided; W_T = ½ (w_A I + w_B (MᵀM)⁻¹) symmetric, which
-//! makes one matrix of the energies of both directions. A bar that lies in no
+//! makes one matrix of the energies of both directions: (MᵀM)⁻¹ takes the gradients
+//! in the source to what they are in the target. A bar that lies in no
 //! face is a two-point element: its local map is the similarity that takes
 //! the bar from source to target, and with area weights its energy is
 //! ½ |Δv − e(t)|², an area like length²/2 times a relative stretch squared.
@@ -11,7 +12,7 @@ use super::life::Life;
 use super::options::{ArapError, ArapOptions, Weights};
 use super::sides::Outlined;
 use crate::compatible::CompatibleMesh;
-use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen, twice_signed_area};
+use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
 use crate::linalg::SymmetricMatrix;
 use crate::warp::part_path::{centroid, rotation};
 
@@ -27,8 +28,38 @@ pub(super) struct FaceMap {
     pub gradients: DMat2,
     /// W times them.
     pub weighted: DMat2,
-    /// √W times them, in the directions in which the face is stretched most and least.
-    pub rooted: DMat2,
+    /// Gradients of the same hat functions in the target.
+    pub target_gradients: DMat2,
+    /// What |∇|² counts in source and target: W is the sum of both.
+    pub weights: [f64; 2],
+}
+
+impl FaceMap {
+    /// Between faces with these corners, in source and target.
+    fn new(map: Polar, sides: [[DVec2; 3]; 2], weights: [f64; 2]) -> Self {
+        let [gradients, target_gradients] = sides.map(gradients);
+        let back = edges(sides[0]) * edges(sides[1]).inverse();
+        Self {
+            map,
+            lead: 0.0,
+            gradients,
+            weighted: gradients * weights[0] + back * target_gradients * weights[1],
+            target_gradients,
+            weights,
+        }
+    }
+
+    /// What it adds to K, of each two of its vertices. Summed over both designs, it stays
+    /// positive where W does not: of a mesh of two icons, some faces were 1e14 times as
+    /// long as wide in one, and what was left of the smaller stiffness was rounding.
+    fn energy(&self) -> [[f64; 3]; 3] {
+        let sides = [self.gradients, self.target_gradients].map(with_first);
+        let of = |i: usize, j: usize| {
+            let side = |s: usize| self.weights[s] * sides[s][i].dot(sides[s][j]);
+            side(0) + side(1)
+        };
+        [0, 1, 2].map(|i| [0, 1, 2].map(|j| of(i, j)))
+    }
 }
 
 /// One bar in no face.
@@ -85,24 +116,17 @@ impl LocalMaps {
                     Weights::Uniform => 1.0,
                     Weights::PerFace(each) => each[f],
                 };
-                let of_sides = [areas.faces[0][f], areas.faces[1][f]];
-                let sides = of_sides.map(weight);
-                let gradients = gradients(corners(mesh.source(), mesh.faces()[f]));
-                let w = match options.symmetric {
-                    true => FaceWeight::symmetric(polars[f].stretch, of_sides, sides),
-                    false => FaceWeight::even(sides[0]),
+                let [source, target] = [0, 1].map(|side| weight(areas.faces[side][f]));
+                let weights = match options.symmetric {
+                    true => [0.5 * source, 0.5 * target],
+                    false => [source, 0.0],
                 };
                 let map = Polar {
                     angle: face_angles[f],
                     ..polars[f]
                 };
-                FaceMap {
-                    map,
-                    lead: 0.0,
-                    gradients,
-                    weighted: w.times(gradients),
-                    rooted: w.root_times(gradients),
-                }
+                let sides = [mesh.source(), mesh.target()];
+                FaceMap::new(map, sides.map(|at| corners(at, mesh.faces()[f])), weights)
             })
             .collect();
         let by_area = options.weights == Weights::Area;
@@ -128,7 +152,7 @@ impl LocalMaps {
         for (k, face) in self.faces.iter_mut().enumerate() {
             let times = factor(by, k) / factor(&before, k);
             face.weighted *= times;
-            face.rooted *= times.sqrt();
+            face.weights = face.weights.map(|weight| weight * times);
         }
         self
     }
@@ -187,11 +211,11 @@ impl LocalMaps {
         let mut matrix = SymmetricMatrix::zero(n, 6 * self.faces.len() + 4 * self.elements.len());
         let mut diagonal = vec![0.0; n];
         for (face, map) in mesh.faces().iter().zip(&self.faces) {
-            let rooted = with_first(map.rooted);
+            let energy = map.energy();
             for i in 0..3 {
-                diagonal[face[i] as usize] += rooted[i].length_squared();
+                diagonal[face[i] as usize] += energy[i][i];
                 for j in 0..=i {
-                    matrix.add(face[i], face[j], rooted[i].dot(rooted[j]));
+                    matrix.add(face[i], face[j], energy[i][j]);
                 }
             }
         }
@@ -230,50 +254,6 @@ fn gradients(corners: [DVec2; 3]) -> DMat2 {
 /// M = D_Q D_P⁻¹.
 fn local_map(mesh: &CompatibleMesh, face: [u32; 3]) -> DMat2 {
     edges(corners(mesh.target(), face)) * edges(corners(mesh.source(), face)).inverse()
-}
-
-/// W of a face, as what it is in the two directions in which the face is stretched most and
-/// least: W itself, and g · W g, would lose the smaller to rounding where the face is all but
-/// flat in one of the designs (a mesh of two icons: 1e14 times as long as wide).
-struct FaceWeight {
-    /// Orthonormal.
-    directions: [DVec2; 2],
-    values: [f64; 2],
-}
-
-impl FaceWeight {
-    fn even(weight: f64) -> Self {
-        Self {
-            directions: [DVec2::X, DVec2::Y],
-            values: [weight; 2],
-        }
-    }
-
-    /// Of a map with this stretch between faces of these areas.
-    fn symmetric(stretch: DMat2, areas: [f64; 2], [source, target]: [f64; 2]) -> Self {
-        let eigen = SymmetricEigen::of(stretch);
-        let most = eigen.values[0];
-        // Their product is det M, which areas tell to more digits.
-        let least = areas[1] / areas[0] / most;
-        Self {
-            directions: [eigen.axis, eigen.axis.perp()],
-            values: [most, least].map(|s| 0.5 * (source + target / (s * s))),
-        }
-    }
-
-    fn times(&self, gradients: DMat2) -> DMat2 {
-        let [u, v] = self.directions;
-        let [along, across] = self.values;
-        let times = |g: DVec2| u * (along * u.dot(g)) + v * (across * v.dot(g));
-        DMat2::from_cols(times(gradients.x_axis), times(gradients.y_axis))
-    }
-
-    fn root_times(&self, gradients: DMat2) -> DMat2 {
-        let [u, v] = self.directions;
-        let [along, across] = self.values.map(f64::sqrt);
-        let times = |g: DVec2| DVec2::new(along * u.dot(g), across * v.dot(g));
-        DMat2::from_cols(times(gradients.x_axis), times(gradients.y_axis))
-    }
 }
 
 fn element_map(

@@ -559,3 +559,38 @@ fn a_part_that_is_a_point_waits_and_moves_with_the_whole() {
         assert!(largest_distance(&at(&arap, t), &at(&back, 1.0 - t)) < 1e-9);
     }
 }
+
+#[test]
+fn faces_all_but_flat_keep_their_stiffness() {
+    // A fan over a line, which in the source is bent by some last digits alone.
+    let along = DVec2::new(0.31, 0.17);
+    let fan = |bend: f64| -> Vec<DVec2> {
+        let at = |i: u32| along * f64::from(i) - along.perp() * (bend * f64::from(i * (8 - i)));
+        (0..=8).map(|i| DVec2::new(12.0, 22.0) + at(i)).collect()
+    };
+    let faces = (1..8).map(|i| [0, i, i + 1]).collect();
+    let mesh = CompatibleMesh::new(faces, fan(1e-13), fan(0.1), vec![]).unwrap();
+    let arap = Arap::build(&mesh, &ArapOptions::default(), &Silent).unwrap();
+    assert_eq!(arap.ridge(), None);
+    // What both designs say of the middle vertex: ½ (A |∇φ|² + B |∇φ|²), face by face.
+    let expected: f64 = [mesh.source(), mesh.target()]
+        .iter()
+        .flat_map(|at| {
+            mesh.faces()
+                .iter()
+                .map(move |f| f.map(|v| (v, at[v as usize])))
+        })
+        .filter_map(|corners| {
+            let k = corners.iter().position(|(v, _)| *v == 4)?;
+            let [(_, a), (_, b), (_, c)] = [0, 1, 2].map(|i| corners[(k + i) % 3]);
+            Some(0.25 * b.distance_squared(c) / twice_signed_area(a, b, c))
+        })
+        .sum();
+    let system = arap.system();
+    let at = system.entries().filter(|(i, j, _)| (*i, *j) == (4, 4));
+    let diagonal: f64 = at.map(|(_, _, value)| value).sum();
+    assert!(
+        (diagonal / expected - 1.0).abs() < 1e-9,
+        "{diagonal} {expected}"
+    );
+}
