@@ -153,6 +153,36 @@ impl Project {
         designs.map(|(k, entry)| (entry, Some(k))).collect()
     }
 
+    /// As [`Self::in_order`], with design `k` before the one that is at `place`, or behind all;
+    /// none where that is where it is.
+    #[must_use]
+    pub fn with_moved(&self, k: usize, place: usize) -> Option<Vec<Moved>> {
+        let to = if place > k { place - 1 } else { place };
+        if to == k {
+            return None;
+        }
+        let mut order = self.in_order();
+        let design = order.remove(k);
+        order.insert(to, design);
+        Some(order)
+    }
+
+    /// As [`Self::in_order`], with design `k` once more behind itself.
+    #[must_use]
+    pub fn with_repeated(&self, k: usize) -> Vec<Moved> {
+        let mut order = self.in_order();
+        order.insert(k + 1, (order[k].0.clone(), None));
+        order
+    }
+
+    /// As [`Self::in_order`], without design `k`.
+    #[must_use]
+    pub fn without(&self, k: usize) -> Vec<Moved> {
+        let mut order = self.in_order();
+        order.remove(k);
+        order
+    }
+
     /// Whether the last design leads back to the first.
     pub fn close(&mut self, closed: bool) {
         self.rearranged(self.in_order(), closed);
@@ -488,5 +518,20 @@ mod tests {
         order[1].1 = None;
         project.rearrange(order);
         assert!(project.map.sites.is_empty());
+    }
+
+    #[test]
+    fn a_design_goes_where_it_is_put() {
+        let whole = Project::of(["a.svg", "b.svg", "c.svg", "d.svg"]);
+        let order = |k: usize, place: usize| -> Option<Vec<usize>> {
+            let moved = whole.with_moved(k, place)?;
+            Some(moved.into_iter().filter_map(|(_, from)| from).collect())
+        };
+        assert_eq!(order(0, 4), Some(vec![1, 2, 3, 0]));
+        assert_eq!(order(3, 0), Some(vec![3, 0, 1, 2]));
+        assert_eq!(order(1, 3), Some(vec![0, 2, 1, 3]));
+        // On either side of itself it stays.
+        assert_eq!(order(2, 2), None);
+        assert_eq!(order(2, 3), None);
     }
 }

@@ -106,25 +106,21 @@ fn order(ui: &mut Ui, scene: &Scene, whole: &Project, acts: &mut Intents) {
 /// The buttons that move a design among the others, from right to left.
 fn moves(ui: &mut Ui, whole: &Project, k: usize, acts: &mut Intents) {
     let last = whole.designs.len() - 1;
-    let mut button = |icon, tip: &str, can: bool, change: &dyn Fn(&mut Vec<Moved>)| {
-        ui.add_enabled_ui(can, |ui| {
+    let mut button = |icon, tip: &str, order: Option<Vec<Moved>>| {
+        ui.add_enabled_ui(order.is_some(), |ui| {
             if icon_button(ui, icon, tip, vec2(24.0, 24.0)).clicked() {
-                let mut designs = whole.in_order();
-                change(&mut designs);
-                acts.push(Intent::Arrange(designs));
+                acts.extend(order.map(Intent::Arrange));
             }
         });
     };
-    let entry = &whole.designs[k];
-    button(icons::CLOSE, "Take it out", last > 1, &|all| {
-        drop(all.remove(k))
-    });
-    let twice = |all: &mut Vec<Moved>| all.insert(k + 1, (entry.clone(), None));
-    button(icons::COPY, "Once more behind it", true, &twice);
-    let later = |all: &mut Vec<Moved>| all.swap(k, (k + 1).min(last));
-    button(icons::DOWN, "Later", k < last, &later);
-    let earlier = |all: &mut Vec<Moved>| all.swap(k, k.saturating_sub(1));
-    button(icons::UP, "Earlier", k > 0, &earlier);
+    let out = (last > 1).then(|| whole.without(k));
+    button(icons::CLOSE, "Take it out", out);
+    let twice = whole.with_repeated(k);
+    button(icons::COPY, "Once more behind it", Some(twice));
+    let later = (k < last).then(|| whole.with_moved(k, k + 2)).flatten();
+    button(icons::DOWN, "Later", later);
+    let earlier = k.checked_sub(1).and_then(|to| whole.with_moved(k, to));
+    button(icons::UP, "Earlier", earlier);
 }
 
 fn add(ui: &mut Ui, whole: &Project, acts: &mut Intents) {

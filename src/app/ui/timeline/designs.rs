@@ -7,7 +7,7 @@ use crate::app::ui::kit::theme::{GRID, Palette};
 use crate::app::ui::scene::{Intents, Scene};
 use crate::app::ui::timeline::ruler::Ruler;
 use crate::one_line::OneLine;
-use crate::project::{Moved, Project};
+use crate::project::Project;
 
 /// What a hand does with the pictures of designs.
 pub struct Hand<'a> {
@@ -62,7 +62,7 @@ impl<'a> Hand<'a> {
         }
         let place = self.place(pointer.x);
         if response.drag_stopped() {
-            acts.extend(moved(self.whole, k, place).map(Intent::Arrange));
+            acts.extend(self.whole.with_moved(k, place).map(Intent::Arrange));
             return 0.0;
         }
         if !response.dragged() {
@@ -84,7 +84,7 @@ impl<'a> Hand<'a> {
         let Some((k, place)) = self.dragged else {
             return;
         };
-        if moved(self.whole, k, place).is_none() {
+        if self.whole.with_moved(k, place).is_none() {
             return;
         }
         let x = self.ruler.x(place as f64 - 0.5);
@@ -97,18 +97,6 @@ impl<'a> Hand<'a> {
     }
 }
 
-/// The order when design `k` has come to lie before `place`; none where that is the one there is.
-fn moved(whole: &Project, k: usize, place: usize) -> Option<Vec<Moved>> {
-    let to = if place > k { place - 1 } else { place };
-    if to == k {
-        return None;
-    }
-    let mut order = whole.in_order();
-    let design = order.remove(k);
-    order.insert(to, design);
-    Some(order)
-}
-
 fn menu(ui: &mut Ui, whole: &Project, k: usize, acts: &mut Intents) {
     ui.set_width(180.0);
     let mut choices: Vec<(&str, Intent)> = vec![
@@ -116,42 +104,15 @@ fn menu(ui: &mut Ui, whole: &Project, k: usize, acts: &mut Intents) {
         ("Insert before …", Intent::AskInsert(k)),
         ("Insert behind …", Intent::AskInsert(k + 1)),
     ];
-    let mut order = whole.in_order();
-    order.insert(k + 1, (order[k].0.clone(), None));
-    choices.push(("Once more behind it", Intent::Arrange(order)));
+    let repeated = Intent::Arrange(whole.with_repeated(k));
+    choices.push(("Once more behind it", repeated));
     if whole.designs.len() > 2 {
-        let mut order = whole.in_order();
-        order.remove(k);
-        choices.push(("Take it out", Intent::Arrange(order)));
+        choices.push(("Take it out", Intent::Arrange(whole.without(k))));
     }
     for (words, intent) in choices {
         if ui.button(words).clicked() {
             acts.push(intent);
             ui.close();
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn order(k: usize, place: usize) -> Option<Vec<usize>> {
-        let whole = Project::of(["a.svg", "b.svg", "c.svg", "d.svg"]);
-        let moved = moved(&whole, k, place)?;
-        Some(moved.into_iter().filter_map(|(_, from)| from).collect())
-    }
-
-    #[test]
-    fn a_design_goes_where_it_is_dropped() {
-        assert_eq!(order(0, 4), Some(vec![1, 2, 3, 0]));
-        assert_eq!(order(3, 0), Some(vec![3, 0, 1, 2]));
-        assert_eq!(order(1, 3), Some(vec![0, 2, 1, 3]));
-    }
-
-    #[test]
-    fn on_either_side_of_itself_it_stays() {
-        assert_eq!(order(2, 2), None);
-        assert_eq!(order(2, 3), None);
     }
 }
