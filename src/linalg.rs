@@ -4,8 +4,8 @@
 //! every frame, and in `eigen` their axes. The only place that names `faer`.
 //!
 //! A [`Cholesky`] is made by a fill-reducing permutation (approximate minimum
-//! degree) and a simplicial or supernodal LLᵀ factorisation, whichever the
-//! operation count favours. [`Cholesky::solve_ordered`] works in elimination
+//! degree) and a simplicial LLᵀ factorisation, or a supernodal one where it is
+//! large. [`Cholesky::solve_ordered`] works in elimination
 //! order, allocates nothing and cannot fail, so that callers who assemble in
 //! that order pay for no permutation. Everything runs on the calling thread:
 //! triangular solves get slower, not faster, on several.
@@ -78,10 +78,22 @@ impl SymmetricMatrix {
     }
 }
 
-/// Operations per entry from which dense blocks pay. Up to a million
-/// vertices of a planar mesh two right-hand sides were solved faster
-/// column by column (`cargo bench --bench frame`), so the bar is high.
-const SUPERNODAL_FROM: SupernodalThreshold = SupernodalThreshold(1000.0);
+/// Unknowns from which on columns are factored in dense blocks. Of a sheet of
+/// 250,000 vertices that takes 0.45 s instead of 1.4 s, of a million 2.2 s
+/// instead of 12 s; two right-hand sides are then solved a third and a fifth
+/// slower (54 ms instead of 40, 237 instead of 200), which the few solves of a
+/// film repay. With 100,000 vertices what is saved (0.2 s) is no longer felt,
+/// and each solve takes half as long again.
+const BLOCKS_FROM: usize = 200_000;
+
+/// Whether the columns of so many unknowns are factored in dense blocks.
+const fn in_blocks(unknowns: usize) -> SupernodalThreshold {
+    if unknowns >= BLOCKS_FROM {
+        SupernodalThreshold::FORCE_SUPERNODAL
+    } else {
+        SupernodalThreshold::FORCE_SIMPLICIAL
+    }
+}
 
 /// Unknowns from which on a factorisation runs beside: a mesh of so many
 /// vertices takes some 50 ms.
@@ -147,7 +159,7 @@ impl Cholesky {
     /// # Ok::<(), morphospace::linalg::FactorError>(())
     /// ```
     pub fn factor(matrix: &SymmetricMatrix) -> Result<Self, FactorError> {
-        Self::factored(matrix, SUPERNODAL_FROM)
+        Self::factored(matrix, in_blocks(matrix.size()))
     }
 
     /// As [`Self::factor`], and a cancel is answered while it goes on.
@@ -381,7 +393,7 @@ mod tests {
         ) {
             let a = laplacian(n, &edges);
             let slow = dense_solve(&a, &rhs[..n]);
-            for from in [SupernodalThreshold::FORCE_SIMPLICIAL, SupernodalThreshold::FORCE_SUPERNODAL, SUPERNODAL_FROM] {
+            for from in [SupernodalThreshold::FORCE_SIMPLICIAL, SupernodalThreshold::FORCE_SUPERNODAL] {
                 let fast = Cholesky::factored(&a, from).expect("positive definite").solve(&rhs[..n]);
                 for (x, y) in fast.iter().zip(&slow) {
                     prop_assert!((x - y).abs() < 1e-10, "{x} {y}");

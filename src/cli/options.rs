@@ -52,7 +52,7 @@ impl Method {
 /// Flags that change a project.
 #[derive(Debug, Args)]
 pub(super) struct MethodArgs {
-    /// Begin what takes longer than ten seconds, or more than a gibibyte, too
+    /// Begin what takes longer than ten seconds, or more than two gibibytes, too
     #[arg(long)]
     pub patient: bool,
 

@@ -4,7 +4,7 @@
 //! Guaranteed: nothing is allocated by a solve, and the same entries give the
 //! same solution, whatever was solved before.
 
-use super::{FactorError, SUPERNODAL_FROM};
+use super::{FactorError, in_blocks};
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::sparse::linalg::cholesky::{
@@ -76,7 +76,7 @@ impl Pattern {
         let slots = places.iter().map(slot).collect();
         let lower = SymbolicSparseColMat::new_checked(n, n, columns, None, rows);
         let params = CholeskySymbolicParams {
-            supernodal_flop_ratio_threshold: SUPERNODAL_FROM,
+            supernodal_flop_ratio_threshold: in_blocks(n),
             ..CholeskySymbolicParams::default()
         };
         let amd = SymmetricOrdering::Amd;
