@@ -28,6 +28,9 @@ const LONGEST_PX: u32 = 1024;
 /// them.
 const HATCH: f32 = 8.0;
 
+/// How large a hole is, in points, that has room for a word about it.
+const HOLE_WORD: f32 = 32.0;
+
 /// Where one design lies in the window.
 #[derive(Clone, Debug)]
 pub struct Half {
@@ -226,7 +229,11 @@ impl Half {
             _ => return,
         };
         let bounds = Rect::from_points(&self.line(&ring.sides[self.side]));
-        tag(painter, bounds.center(), word, inks, false);
+        // The word would hide what is smaller: its dashes tell as much, and it is there as
+        // soon as one zooms in.
+        if bounds.size().max_elem() > HOLE_WORD {
+            tag(painter, bounds.center(), word, inks, false);
+        }
     }
 
     /// Lines across a piece that has no partner.
