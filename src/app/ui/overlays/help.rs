@@ -29,9 +29,9 @@ pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
         ui.add_space(GRID);
         let groups = groups(scene.keys.rows());
         // Two columns: one would be higher than the smallest window.
-        let half = groups.len().div_ceil(2);
+        let (left, right) = groups.split_at(middle(&groups));
         ui.horizontal_top(|ui| {
-            for column in groups.chunks(half.max(1)) {
+            for column in [left, right] {
                 ui.vertical(|ui| {
                     ui.set_width(COLUMN_WIDTH);
                     for rows in column {
@@ -55,13 +55,21 @@ fn groups(rows: &[Row]) -> Vec<&[Row]> {
     rows.chunk_by(|a, b| a.group == b.group).collect()
 }
 
+/// How many groups go into the first of two columns, so that the higher is as low as can be.
+fn middle(groups: &[&[Row]]) -> usize {
+    // A heading and the gap behind a group are as high as two rows.
+    let height = |groups: &[&[Row]]| groups.iter().map(|rows| rows.len() + 2).sum::<usize>();
+    let higher = |&k: &usize| height(&groups[..k]).max(height(&groups[k..]));
+    (0..=groups.len()).min_by_key(higher).unwrap_or(0)
+}
+
 fn group(ui: &mut Ui, rows: &[Row]) {
     ui.spacing_mut().item_spacing.y = 2.0;
+    ui.spacing_mut().interact_size.y = ROW_HEIGHT;
     let name = rows.first().map_or("", |row| row.group);
     ui.label(quiet(ui, name).strong());
     for row in rows {
         ui.horizontal(|ui| {
-            ui.spacing_mut().interact_size.y = ROW_HEIGHT;
             let size = vec2(KEYS_WIDTH, ROW_HEIGHT);
             let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
             key_cap(ui, rect, &row.keys());
