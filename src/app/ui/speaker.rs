@@ -50,6 +50,7 @@ pub fn draw(
     );
     let frame = ground(&root, [24, 24, 24, 24]);
     let stops = session.stops();
+    let names = session.names_on_the_way();
     let next = playback.next_stop(session.timing(), stops);
     CentralPanel::default().frame(frame).show(&mut root, |ui| {
         head(ui, presenting.lasts());
@@ -59,20 +60,46 @@ pub fn draw(
             let half = (ui.available_width() - 3.0 * GRID) / 2.0;
             ui.vertical(|ui| {
                 ui.set_width(half);
-                here(ui, near(stops, playback.t()));
+                here(ui, Place::at(playback.t(), stops, &names));
             });
             ui.add_space(2.0 * GRID);
             ui.vertical(|ui| {
                 ui.set_width(half);
-                coming(ui, next.map(|t| (near(stops, t), t)), speaker.picture());
+                coming(
+                    ui,
+                    next.map(|t| Place::at(t, stops, &names)),
+                    speaker.picture(),
+                );
             });
         });
     });
 }
 
-/// The stop at a t, if there is one.
-fn near(stops: &[Stop], t: f64) -> Option<&Stop> {
-    stops.iter().find(|stop| (stop.t - t).abs() < SAME_T)
+/// What there is to say of a t.
+struct Place<'a> {
+    t: f64,
+    stop: Option<&'a Stop>,
+    /// Of the design that is there.
+    design: Option<&'a str>,
+}
+
+impl<'a> Place<'a> {
+    /// `names` are those of the designs, at each whole t.
+    fn at(t: f64, stops: &'a [Stop], names: &'a [String]) -> Self {
+        let is_here = |place: f64| (place - t).abs() < SAME_T;
+        let design = names.iter().enumerate().find(|(k, _)| is_here(*k as f64));
+        Self {
+            t,
+            stop: stops.iter().find(|stop| is_here(stop.t)),
+            design: design.map(|(_, name)| name.as_str()),
+        }
+    }
+
+    /// The stop's name; where it has none, the design's.
+    fn name(&self) -> Option<&'a str> {
+        let stop = self.stop.map(|stop| stop.name.as_str());
+        stop.filter(|name| !name.is_empty()).or(self.design)
+    }
 }
 
 fn head(ui: &mut Ui, lasts: Duration) {
@@ -87,15 +114,16 @@ fn head(ui: &mut Ui, lasts: Duration) {
     ui.add_space(2.0 * GRID);
 }
 
-fn here(ui: &mut Ui, stop: Option<&Stop>) {
+fn here(ui: &mut Ui, place: Place<'_>) {
     ui.label(quiet(ui, "Now"));
-    let Some(stop) = stop else {
-        ui.label(RichText::new("on the way").size(22.0));
+    match (place.name(), place.stop) {
+        (Some(name), _) => large(ui, name),
+        (None, Some(_)) => {}
+        (None, None) => large(ui, "on the way"),
+    }
+    let Some(stop) = place.stop else {
         return;
     };
-    if !stop.name.is_empty() {
-        ui.add(Label::new(RichText::new(&stop.name).size(22.0)).wrap());
-    }
     ui.add_space(GRID);
     ScrollArea::vertical().show(ui, |ui| {
         if stop.note.is_empty() {
@@ -109,15 +137,18 @@ fn here(ui: &mut Ui, stop: Option<&Stop>) {
     });
 }
 
-fn coming(ui: &mut Ui, next: Option<(Option<&Stop>, f64)>, picture: Option<Arc<RgbaImage>>) {
+fn large(ui: &mut Ui, words: &str) {
+    ui.add(Label::new(RichText::new(words).size(22.0)).wrap());
+}
+
+fn coming(ui: &mut Ui, next: Option<Place<'_>>, picture: Option<Arc<RgbaImage>>) {
     ui.label(quiet(ui, "Next"));
-    let Some((stop, t)) = next else {
-        ui.label(RichText::new("the end").size(22.0));
+    let Some(place) = next else {
+        large(ui, "the end");
         return;
     };
-    let name = stop.filter(|stop| !stop.name.is_empty());
-    let name = name.map_or_else(|| format!("t = {t:.3}"), |stop| stop.name.clone());
-    ui.add(Label::new(RichText::new(name).size(22.0)).wrap());
+    let t = || format!("t = {:.3}", place.t);
+    large(ui, &place.name().map_or_else(t, str::to_owned));
     ui.add_space(GRID);
     if let Some(picture) = picture {
         let texture = texture(ui.ctx(), Id::new("next stop"), &picture, u32::MAX);
