@@ -1,6 +1,6 @@
 //! Pictures and films: what they are made for, how they lie, and what comes of it.
 
-use bevy_egui::egui::{Button, ComboBox, Key, Response, TextEdit, Ui, vec2};
+use bevy_egui::egui::{Button, ComboBox, Frame, Key, Margin, Panel, Response, TextEdit, Ui, vec2};
 
 use crate::app::asking::choices::{CaptureScale, FilmLook, Preferences, RecordFormat};
 use crate::app::asking::intent::Intent;
@@ -50,6 +50,22 @@ pub fn show(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     }
 }
 
+/// What comes of it, and what begins it: in sight wherever the options are scrolled to.
+pub fn foot(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+    let frame = Frame::NONE.inner_margin(Margin::symmetric(0, 8));
+    Panel::bottom("write the film").frame(frame).show(ui, |ui| {
+        ui.set_width(ui.available_width());
+        told(ui, scene);
+        ui.add_space(GRID);
+        let is_free = scene.recorder.work().is_none() && scene.film.0.is_some();
+        ui.add_enabled_ui(is_free, |ui| {
+            if primary_button(ui, "Write the film").clicked() {
+                acts.push(Intent::Record);
+            }
+        });
+    });
+}
+
 fn film(ui: &mut Ui, scene: &Scene, draft: &mut Preferences, acts: &mut Intents) {
     purpose(ui, draft);
     kept(ui, scene, acts);
@@ -71,14 +87,6 @@ fn film(ui: &mut Ui, scene: &Scene, draft: &mut Preferences, acts: &mut Intents)
     pick(ui, "Then", tip, &mut draft.film.ending);
     file(ui, scene, draft);
     advice(ui, scene, draft);
-    told(ui, scene);
-    ui.add_space(GRID);
-    let is_free = scene.recorder.work().is_none() && scene.film.0.is_some();
-    ui.add_enabled_ui(is_free, |ui| {
-        if primary_button(ui, "Write the film").clicked() {
-            acts.push(Intent::Record);
-        }
-    });
 }
 
 /// What is seen on the stage.

@@ -25,6 +25,9 @@ pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
         .resizable(false)
         .frame(frame)
         .show(root, |ui| {
+            if scene.preferences.film_options {
+                film::foot(ui, scene, acts);
+            }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 ui.set_width(WIDTH - 40.0);
                 match scene.preferences.film_options {
