@@ -13,7 +13,7 @@ use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
 use crate::export::{Drawing, PixelSize, SizeError, View, even_times, framing, rasterise};
 use crate::geometry::DVec2;
-use crate::transition::{Sequence, Style};
+use crate::transition::{Sequence, Style, Transition};
 
 /// How many pictures there are of a film of two designs: at both ends and at every tenth between
 /// them.
@@ -37,8 +37,8 @@ pub struct Filmstrip {
 }
 
 impl Filmstrip {
-    /// All pictures side by side, straight alpha on a transparent ground; those of the film before
-    /// until the new ones are there.
+    /// All pictures side by side, straight alpha on a transparent ground; those of the same
+    /// designs' film before until the new ones are there.
     #[must_use]
     pub fn pictures(&self) -> Option<&Arc<RgbaImage>> {
         self.pictures.as_ref()
@@ -50,6 +50,14 @@ impl Filmstrip {
         self.job.is_some()
     }
 
+    /// The pictures there are show other designs.
+    fn shows_others(&self, wanted: Option<&(Sequence, Style)>) -> bool {
+        let (Some((old, _)), Some((new, _)), Some(_)) = (&self.of, wanted, &self.pictures) else {
+            return false;
+        };
+        !names(old).eq(names(new))
+    }
+
     fn is_of(&self, wanted: Option<&(Sequence, Style)>) -> bool {
         match (&self.of, wanted) {
             (Some((old, before)), Some((new, style))) => old.is(new) && before == style,
@@ -57,6 +65,13 @@ impl Filmstrip {
             _ => false,
         }
     }
+}
+
+/// What the designs of a film are called, leg by leg: by that they are told from others, as
+/// another fit makes others of the same.
+fn names(sequence: &Sequence) -> impl Iterator<Item = &str> {
+    let designs = sequence.legs().iter().flat_map(Transition::designs);
+    designs.map(|design| design.name.as_str())
 }
 
 /// Keeps the pictures of what is on the stage.
@@ -69,6 +84,11 @@ pub fn follow(session: Res<Session>, measured: Res<Measured>, mut filmstrip: Res
         return;
     }
     let wanted = session.sequence().map(|all| (all, session.style()));
+    if strip.shows_others(wanted.as_ref()) {
+        strip.pictures = None;
+        filmstrip.set_changed();
+        return;
+    }
     if strip.is_of(wanted.as_ref()) || session.work().is_some() || measured.is_busy() {
         return;
     }

@@ -5,7 +5,7 @@ use std::f32::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
 use bevy_egui::egui::{
-    Align2, Color32, FontId, Galley, Id, Pos2, Rect, Sense, Shape, Stroke, Ui, pos2, vec2,
+    Align2, Color32, FontId, Id, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, pos2, vec2,
 };
 use image::RgbaImage;
 
@@ -26,9 +26,6 @@ const RING: f32 = 4.0;
 
 /// A design is taken hold of within this many points.
 const HOLD: f32 = 40.0;
-
-/// Room for two rows of shares.
-const SHARES: f32 = 48.0;
 
 /// The longest side of the pictures in pixels.
 const LONGEST_PX: u32 = 2048;
@@ -59,7 +56,8 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Re
     let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
     root.painter().vline(right.left(), right.y_range(), line);
     // Below the blend stands what it is made of.
-    let below = right.split_top_bottom_at_y(right.bottom() - SHARES).1;
+    let height = Shares::height(root, made, right.width());
+    let below = right.split_top_bottom_at_y(right.bottom() - height).1;
     right.max.y = below.top();
     let side = left.width().min(left.height());
     let square = Rect::from_center_size(left.center(), vec2(side, side));
@@ -233,41 +231,68 @@ fn colour_of(scene: &Scene, made: &Made, design: usize) -> Color32 {
 
 /// What the blend is made of, below it: in rows, the first uppermost.
 fn shares(root: &Ui, scene: &Scene, made: &Made, rect: Rect, ink: Color32) {
-    const ROW: f32 = 18.0;
-    /// What a dot and the gap behind the words take.
-    const DOT: f32 = 13.0;
-    let font = FontId::proportional(12.0);
-    let all = made
-        .space()
-        .designs()
-        .iter()
-        .zip(made.weights())
-        .enumerate();
-    let seen = all.filter(|(_, (_, weight))| weight.abs() >= 0.005);
-    let mut rows: Vec<Vec<(f32, usize, Arc<Galley>)>> = vec![Vec::new()];
-    let (mut x, room) = (0.0, rect.width() - 4.0 * GRID);
-    for (design, (form, weight)) in seen {
-        let words = format!("{} {:.0} %", form.name, weight * 100.0);
-        let galley = root.painter().layout_no_wrap(words, font.clone(), ink);
-        let width = DOT + galley.size().x;
-        if x + width > room && x > 0.0 {
-            rows.push(Vec::new());
-            x = 0.0;
-        }
-        if let Some(row) = rows.last_mut() {
-            row.push((x, design, galley));
-        }
-        x += width + 2.0 * GRID;
+    let mut all = Shares::new(rect.width());
+    for (design, words) in Shares::words(made, made.weights()) {
+        let galley = root.painter().layout_no_wrap(words, Shares::font(), ink);
+        let at = rect.min + all.place(galley.size().x);
+        let colour = colour_of(scene, made, design);
+        root.painter()
+            .circle_filled(at + vec2(4.0, 7.0), 4.0, colour);
+        root.painter()
+            .galley(at + vec2(Shares::DOT, 0.0), galley, ink);
     }
-    let top = rect.top() + 0.5 * GRID;
-    for (k, row) in rows.into_iter().enumerate() {
-        for (x, design, galley) in row {
-            let at = pos2(rect.left() + 2.0 * GRID + x, top + ROW * k as f32);
-            let colour = colour_of(scene, made, design);
-            root.painter()
-                .circle_filled(at + vec2(4.0, 7.0), 4.0, colour);
-            root.painter().galley(at + vec2(DOT, 0.0), galley, ink);
+}
+
+/// Where the words about shares stand: one behind the other, in as many rows as they need.
+struct Shares {
+    room: f32,
+    next: Vec2,
+}
+
+impl Shares {
+    const ROW: f32 = 18.0;
+    /// What a dot and the gap behind it take.
+    const DOT: f32 = 13.0;
+
+    fn new(width: f32) -> Self {
+        Self {
+            room: width - 4.0 * GRID,
+            next: vec2(0.0, 0.5 * GRID),
         }
+    }
+
+    fn font() -> FontId {
+        FontId::proportional(12.0)
+    }
+
+    /// Each design that has a share, by its number, and what is said of it.
+    fn words(made: &Made, weights: &[f64]) -> Vec<(usize, String)> {
+        let all = made.space().designs().iter().zip(weights).enumerate();
+        let seen = all.filter(|(_, (_, weight))| weight.abs() >= 0.005);
+        seen.map(|(k, (form, weight))| (k, format!("{} {:.0} %", form.name, weight * 100.0)))
+            .collect()
+    }
+
+    /// What they take where every design has its largest share: it stays while the puck moves.
+    fn height(root: &Ui, made: &Made, width: f32) -> f32 {
+        let mut all = Self::new(width);
+        for (_, words) in Self::words(made, &vec![1.0; made.weights().len()]) {
+            let ink = Color32::WHITE;
+            let galley = root.painter().layout_no_wrap(words, Self::font(), ink);
+            all.place(galley.size().x);
+        }
+        all.next.y + Self::ROW + GRID
+    }
+
+    /// Where words of such a width go.
+    fn place(&mut self, width: f32) -> Vec2 {
+        let width = Self::DOT + width;
+        if self.next.x + width > self.room && self.next.x > 0.0 {
+            self.next = vec2(0.0, self.next.y + Self::ROW);
+        }
+        let at = self.next + vec2(2.0 * GRID, 0.0);
+        self.next.x += width + 2.0 * GRID;
+        at
     }
 }
 
