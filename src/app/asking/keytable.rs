@@ -137,7 +137,7 @@ fn changing() -> Vec<Row> {
         "Match and changes",
         [
             (
-                "Edit the match: which point is which; on the map: draw a path",
+                "Edit the match; on the map: draw a path",
                 vec![key(Letter('e'), Intent::Editor(EditorAct::Toggle))],
             ),
             (
@@ -177,7 +177,7 @@ fn view() -> Vec<Row> {
                 letter('k', Intent::Keep),
             ),
             (
-                "A grid that shows the warp; on the map: record the puck's way",
+                "A grid of the warp; on the map: record a way",
                 letter('w', ToggleGrid),
             ),
             (

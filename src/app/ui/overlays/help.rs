@@ -9,7 +9,7 @@ use crate::app::ui::kit::widgets::{from_right, hint, quiet, words_on_card};
 use crate::app::ui::scene::{Intents, Scene};
 
 const KEYS_WIDTH: f32 = 136.0;
-const COLUMN_WIDTH: f32 = 392.0;
+const COLUMN_WIDTH: f32 = 440.0;
 
 /// Height of a line: all of them fit into the smallest window.
 const ROW_HEIGHT: f32 = 20.0;
