@@ -68,6 +68,7 @@ fn the_ends_of_a_film_look_like_the_drawings() {
         (name, text, Arc::new(design))
     };
     let drawings: Vec<(String, String, Arc<Design>)> = drawings().iter().map(read).collect();
+    let mut others = Vec::new();
     for (k, a) in drawings.iter().enumerate() {
         let b = &drawings[(k + 1) % drawings.len()];
         let spec = TransitionSpec::new(a.2.clone(), b.2.clone());
@@ -84,7 +85,9 @@ fn the_ends_of_a_film_look_like_the_drawings() {
             };
             let seen = camera.pixels(t);
             let share = differing(&seen, &expected);
-            assert!(share < 0.005, "{name} at {t}: {share}");
+            if share >= 0.005 {
+                others.push(format!("{name} at {t}: {share:.4}"));
+            }
             if let Ok(folder) = std::env::var("MORPHOSPACE_TEST_PICTURES") {
                 let name = Path::new(name)
                     .file_stem()
@@ -98,4 +101,5 @@ fn the_ends_of_a_film_look_like_the_drawings() {
             }
         }
     }
+    assert!(others.is_empty(), "{others:#?}");
 }
