@@ -46,7 +46,7 @@ impl Load {
             Self::CrossingBars => 4_000_000,
             // 8192 × 8192 cells took more than 40 s: a seventh of that.
             Self::Cells => 3072 * 3072,
-            // Two sheets of two million took 1.8 GiB and 3 s of one processor, and
+            // Two sheets of two million took 1.8 GiB and 4 s of one processor, and
             // each frame until their film is there 0.3 s.
             Self::Faces => 2_200_000,
         }

@@ -81,8 +81,9 @@ impl SymmetricMatrix {
 /// Unknowns from which on columns are factored in dense blocks. Of a sheet of
 /// 250,000 vertices that takes 0.45 s instead of 1.4 s, of a million 2.2 s
 /// instead of 12 s; two right-hand sides are then solved a third and a fifth
-/// slower (54 ms instead of 40, 237 instead of 200), which the few solves of a
-/// film repay. With 100,000 vertices what is saved (0.2 s) is no longer felt,
+/// slower on a busy machine (54 ms instead of 40, 237 instead of 200), and a whole
+/// frame of a million in 284 ms instead of 155 on a quiet one
+/// (`cargo bench --bench film`), which the few solves of a film repay. With 100,000 vertices what is saved (0.2 s) is no longer felt,
 /// and each solve takes half as long again.
 const BLOCKS_FROM: usize = 200_000;
 
