@@ -13,9 +13,10 @@ use std::sync::Arc;
 /// The font that comes with the program.
 const FONT: &[u8] = include_bytes!("../assets/fonts/Roboto-Bold.ttf");
 
-/// Most pixels along the longer side of a drawing, of a whole number of them to a
-/// unit.
-const SIDE: f32 = 600.0;
+/// Pixels along the longer side of a drawing. A prime number: at a round one the straight
+/// edges of drawings on a grid of hundredths all fall between two samples of a pixel,
+/// where rounding alone says which of the two is covered.
+const SIDE: f32 = 601.0;
 
 /// The drawing as `resvg` has it, on white.
 fn expected(text: &str) -> RgbaImage {
@@ -23,13 +24,16 @@ fn expected(text: &str) -> RgbaImage {
     options.fontdb_mut().load_font_data(FONT.to_vec());
     let tree = usvg::Tree::from_str(text, &options).expect("a drawing");
     let size = tree.size();
-    let scale = (SIDE / size.width().max(size.height())).floor();
-    let [width, height] = [size.width(), size.height()].map(|side| (side * scale).round() as u32);
-    let mut pixmap = tiny_skia::Pixmap::new(width, height).expect("a size");
+    let scale = SIDE / size.width().max(size.height());
+    let sides = [size.width(), size.height()].map(|side| side * scale);
+    // The longer side is whole but for rounding.
+    let [width, height] = sides.map(|side| (side - 1e-3).ceil());
+    let mut pixmap = tiny_skia::Pixmap::new(width as u32, height as u32).expect("a size");
     pixmap.fill(tiny_skia::Color::WHITE);
-    let at = usvg::Transform::from_scale(scale, scale);
+    let [x, y] = [width - sides[0], height - sides[1]].map(|rest| 0.5 * rest);
+    let at = usvg::Transform::from_row(scale, 0.0, 0.0, scale, x, y);
     resvg::render(&tree, at, &mut pixmap.as_mut());
-    RgbaImage::from_raw(width, height, pixmap.take()).expect("as large")
+    RgbaImage::from_raw(width as u32, height as u32, pixmap.take()).expect("as large")
 }
 
 /// The drawings in a folder that may be named.
