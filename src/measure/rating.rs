@@ -56,13 +56,12 @@ impl Rating {
             return Ok(None);
         }
         let report = film(transition, SAMPLES, progress)?;
-        Ok(Some(Self::of_report(
-            &report,
-            content == ContentKind::Solid,
-        )))
+        Ok(Some(Self::of_report(&report, content)))
     }
 
-    fn of_report(report: &FilmReport, is_solid: bool) -> Self {
+    /// What a look that was taken comes to, at as many moments as it has.
+    #[must_use]
+    pub fn of_report(report: &FilmReport, content: ContentKind) -> Self {
         let inner = report.samples.iter();
         Self {
             folds: report.worst_folds.unwrap_or(0),
@@ -71,7 +70,7 @@ impl Rating {
             holes: report.holes_excess.unwrap_or(0),
             is_gone: inner.clone().any(|sample| sample.area <= 0.0),
             unrest: report.turning_excess + report.area_variation_excess,
-            is_solid,
+            is_solid: content == ContentKind::Solid,
         }
     }
 

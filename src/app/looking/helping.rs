@@ -12,12 +12,13 @@ use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
 use crate::app::asking::hand::Gesture;
 use crate::app::asking::intent::Intent;
-use crate::app::looking::measuring::Measured;
+use crate::app::looking::is_same;
+use crate::app::looking::measuring::{Measured, STEPS};
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
 use crate::content::ContentKind;
 use crate::correspondence::{HoleRule, PartRule};
-use crate::measure::Rating;
+use crate::measure::{FilmReport, Rating, film};
 use crate::names::Choice;
 use crate::progress::{Progress, still_wanted};
 use crate::project::{LoadedProject, Project, ProjectError};
@@ -175,13 +176,7 @@ pub struct Helping {
 #[derive(Debug)]
 struct Trial {
     job: Job<(), ProjectError>,
-    found: Mutex<Receiver<Found>>,
-}
-
-#[derive(Debug)]
-enum Found {
-    Now(Rating),
-    Better(Offer),
+    found: Mutex<Receiver<Offer>>,
 }
 
 impl Helping {
@@ -221,26 +216,18 @@ impl Helping {
         (self.trial, self.since) = (None, None);
     }
 
-    fn is_of(&self, transition: Option<&Transition>) -> bool {
-        match (&self.of, transition) {
-            (Some(old), Some(new)) => old.is(new),
-            (None, None) => true,
-            _ => false,
-        }
-    }
-
-    fn start(&mut self, session: &Session) {
-        (self.since, self.now) = (None, None);
+    /// Tries what may help with what is on the stage, of which this was measured.
+    fn start(&mut self, session: &Session, film: &FilmReport) {
+        self.since = None;
         self.offers.clear();
-        let Some(staged) = session.staged() else {
-            return;
-        };
-        let Some(transition) = self.of.clone() else {
+        self.now = self.of.as_ref().and_then(|of| rating(of, film));
+        let Some((staged, now)) = session.staged().zip(self.now) else {
+            self.is_done = true;
             return;
         };
         let (sender, found) = channel();
         let job = Job::start("what helps", move |progress| {
-            try_all(&staged, &transition, &sender, progress)
+            try_all(&staged, &now, &sender, progress)
         });
         self.trial = Some(Trial {
             job,
@@ -256,15 +243,10 @@ impl Helping {
         // Asked first: what it has found by then is there.
         let is_done = trial.job.poll().is_some();
         let receiver = trial.found.lock().unwrap_or_else(PoisonError::into_inner);
-        let found: Vec<Found> = receiver.try_iter().collect();
+        let found: Vec<Offer> = receiver.try_iter().collect();
         drop(receiver);
         let is_new = is_done || !found.is_empty();
-        for found in found {
-            match found {
-                Found::Now(rating) => self.now = Some(rating),
-                Found::Better(offer) => self.offers.push(offer),
-            }
-        }
+        self.offers.extend(found);
         self.offers.sort_by(Offer::compare);
         if is_done {
             self.trial = None;
@@ -274,19 +256,18 @@ impl Helping {
     }
 }
 
+/// How much trouble a film is that was looked at as the verdict looks; none of pictures.
+fn rating(of: &Transition, film: &FilmReport) -> Option<Rating> {
+    let content = of.cell().content();
+    (content != ContentKind::Colours).then(|| Rating::of_report(film, content))
+}
+
 fn try_all(
     loaded: &LoadedProject,
-    transition: &Transition,
-    found: &Sender<Found>,
+    now: &Rating,
+    found: &Sender<Offer>,
     progress: &dyn Progress,
 ) -> Result<(), ProjectError> {
-    let rating =
-        |transition: &Transition| Rating::of(transition, progress).map_err(BuildError::from);
-    let Some(now) = rating(transition)? else {
-        return Ok(());
-    };
-    // Nobody listens any more once it is not wanted.
-    found.send(Found::Now(now)).ok();
     let mut flawless = 0;
     for what in Alternative::all(loaded) {
         let mut other = loaded.clone();
@@ -297,13 +278,15 @@ fn try_all(
         let Ok(built) = built else {
             continue;
         };
-        let Some(rating) = rating(&built)? else {
+        let report = film(&built, STEPS, progress).map_err(BuildError::from)?;
+        let Some(rating) = rating(&built, &report) else {
             continue;
         };
         let offer = Offer { what, rating };
-        if offer.helps(&now) {
+        if offer.helps(now) {
             flawless += usize::from(rating.is_flawless());
-            found.send(Found::Better(offer)).ok();
+            // Nobody listens any more once it is not wanted.
+            found.send(offer).ok();
         }
         if flawless >= MOST {
             break;
@@ -318,24 +301,26 @@ pub fn follow(session: Res<Session>, measured: Res<Measured>, mut helping: ResMu
     let now = helping.bypass_change_detection();
     let was_busy = now.is_busy();
     let transition = session.transition();
-    if !now.is_of(transition) {
+    if !is_same(now.of.as_ref(), transition) {
         *now = Helping {
             of: transition.cloned(),
             ..Helping::default()
         };
     }
-    let is_faulty = measured
+    let faulty = measured
         .measures()
-        .is_some_and(|measures| !measures.verdict.is_clear());
+        .filter(|measures| !measures.verdict.is_clear());
     // A path is led elsewhere: what is tried is of two designs.
     let is_pair = session.whole().is_some_and(|whole| !whole.follows_path());
-    if session.work().is_some() || !(is_faulty && is_pair) {
-        (now.trial, now.since) = (None, None);
-    } else if now.trial.is_none() && !now.is_done {
-        let since = *now.since.get_or_insert_with(Instant::now);
-        if since.elapsed() >= CALM {
-            now.start(&session);
+    match faulty.filter(|_| is_pair && session.work().is_none()) {
+        None => (now.trial, now.since) = (None, None),
+        Some(faulty) if now.trial.is_none() && !now.is_done => {
+            let since = *now.since.get_or_insert_with(Instant::now);
+            if since.elapsed() >= CALM {
+                now.start(&session, &faulty.film);
+            }
         }
+        Some(_) => {}
     }
     if now.take() || now.is_busy() != was_busy {
         helping.set_changed();

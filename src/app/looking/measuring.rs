@@ -10,6 +10,7 @@ use bevy::prelude::{DetectChangesMut, MessageReader, Res, ResMut, Resource};
 
 use crate::app::asking::hand::Gesture;
 use crate::app::asking::intent::Intent;
+use crate::app::looking::is_same;
 use crate::app::looking::remembered::Remembered;
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
@@ -21,7 +22,7 @@ use crate::warp::WarpKind;
 
 /// At how many t a film is measured: those of the verdict and of the plots. Both ends and 63
 /// between them, a half and quarters among those; more would find shorter faults and take longer.
-const STEPS: usize = 65;
+pub const STEPS: usize = 65;
 
 /// What takes longer is told, and stopped by Esc: what is shorter is over before that is seen, and
 /// Esc meant something else.
@@ -80,17 +81,9 @@ impl Measured {
         self.is_done |= self.job.take().is_some();
     }
 
-    fn is_of(&self, transition: Option<&Transition>) -> bool {
-        match (&self.of, transition) {
-            (Some(old), Some(new)) => old.is(new),
-            (None, None) => true,
-            _ => false,
-        }
-    }
-
     fn follow(&mut self, session: &Session) {
         let transition = session.transition();
-        if !self.is_of(transition) {
+        if !is_same(self.of.as_ref(), transition) {
             // The job on the old one goes with it, which stops it.
             let mut before = std::mem::take(&mut self.before);
             if let (Some(of), Some(measures)) = (&self.of, self.measures.take()) {

@@ -18,3 +18,14 @@ pub mod times;
 pub mod twin;
 pub mod view;
 pub mod walking;
+
+use crate::transition::Transition;
+
+/// Whether what is known is known of what is on the stage.
+fn is_same(known: Option<&Transition>, staged: Option<&Transition>) -> bool {
+    match (known, staged) {
+        (Some(known), Some(staged)) => known.is(staged),
+        (None, None) => true,
+        _ => false,
+    }
+}

@@ -6,6 +6,7 @@
 
 use bevy::prelude::{DetectChanges, DetectChangesMut, Res, ResMut, Resource};
 
+use crate::app::looking::is_same;
 use crate::app::looking::remembered::Remembered;
 use crate::app::session::state::Session;
 use crate::app::telling::job::{Job, JobError};
@@ -78,21 +79,13 @@ impl Recording {
         self.proved = self.of.as_ref().and_then(|of| self.before.take(of));
         self.proved.is_some()
     }
-
-    fn is_of(&self, wanted: Option<&Transition>) -> bool {
-        match (&self.of, wanted) {
-            (Some(old), Some(new)) => old.is(new),
-            (None, None) => true,
-            _ => false,
-        }
-    }
 }
 
 /// Records whatever is on the stage. A recording of what was there before is given up.
 pub fn follow(session: Res<Session>, mut recording: ResMut<Recording>) {
     // Marked as changed by hand: it is looked at in each frame, and seldom new.
     let now = recording.bypass_change_detection();
-    if session.is_changed() && !now.is_of(session.transition()) {
+    if session.is_changed() && !is_same(now.of.as_ref(), session.transition()) {
         now.remember();
         now.refused = None;
         let options = now.options;
