@@ -2,12 +2,16 @@
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use image::RgbaImage;
 use morphospace::export::PixelSize;
 
 /// Pictures beside each other on a sheet.
 const COLUMNS: usize = 5;
+
+/// How long a player may take for a sheet: the largest of the gallery take half a minute.
+const PATIENCE: Duration = Duration::from_secs(180);
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -118,7 +122,7 @@ impl Players {
 /// What Chromium shows of the sheet in a folder.
 fn photographed(chromium: &Path, folder: &Path, [width, height]: [u32; 2]) -> Option<RgbaImage> {
     let [sheet, picture] = ["sheet.html", "sheet.png"].map(|name| folder.join(name));
-    let status = Command::new(chromium)
+    let mut player = Command::new(chromium)
         .args([
             "--headless",
             "--no-sandbox",
@@ -144,8 +148,23 @@ fn photographed(chromium: &Path, folder: &Path, [width, height]: [u32; 2]) -> Op
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
-        .status();
-    status.ok().filter(|status| status.success())?;
+        .spawn()
+        .ok()?;
+    // One whose page broke down waits for ever.
+    let begun = Instant::now();
+    let status = loop {
+        match player.try_wait().ok()? {
+            Some(status) => break status,
+            None if begun.elapsed() > PATIENCE => {
+                player.kill().ok()?;
+                break player.wait().ok()?;
+            }
+            None => std::thread::sleep(Duration::from_millis(50)),
+        }
+    };
+    if !status.success() {
+        return None;
+    }
     Some(image::open(picture).ok()?.to_rgba8())
 }
 
@@ -182,12 +201,17 @@ fn lotties(text: &str, frames: &[(f64, f64)], script: &str) -> String {
     let script = script.replace("</script", "<\\/script");
     format!(
         "<script>{script}</script><script>const text = {};
+         // Played once, and what it shows kept as a still: that many players of a large film
+         // are more than Chromium has memory for.
+         const container = document.createElement('div');
+         const film = lottie.loadAnimation({{
+           container, renderer: 'svg', loop: false, autoplay: false, animationData: JSON.parse(text),
+         }});
          for (const frame of {numbers:?}) {{
-           const container = document.body.appendChild(document.createElement('div'));
-           const film = lottie.loadAnimation({{
-             container, renderer: 'svg', loop: false, autoplay: false, animationData: JSON.parse(text),
-           }});
            film.goToAndStop(frame, true);
+           const still = document.body.appendChild(document.createElement('iframe'));
+           still.srcdoc = '<!doctype html><style>html, body {{ margin: 0; height: 100% }}</style>'
+             + container.innerHTML;
          }}</script>",
         quoted(text)
     )

@@ -43,7 +43,7 @@ pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
         hint(
             ui,
             "Drag the stage to move it, scroll to zoom, double-click to show everything. \
-             Drop one or two files anywhere to open them.",
+             Drop files anywhere to open them.",
         );
     });
     if response.backdrop_response.clicked() {
