@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Draws the two portraits of the gallery, and prints their pairs of lines.
+"""Draws the portraits of the gallery, and prints their pairs of lines: of each two that
+follow each other.
 
     python3 scripts/draw_portraits.py assets/gallery
 
@@ -42,6 +43,17 @@ MAX = Portrait(
     eye=46, eye_y=-10, eye_size=(15, 7), iris=(58, 70, 96),
     brow=-34, brow_tilt=0.10, nose=44, mouth_y=74, mouth=36, smile=-4,
     lips=(150, 82, 76), coat=(92, 46, 44),
+)
+
+NOOR = Portrait(
+    name="portrait-noor",
+    sky=((206, 196, 222), (112, 96, 150)),
+    middle=(182, 222), radii=(84, 124), tilt=-0.02, jaw=0.72,
+    skin=(168, 116, 84), shade=(104, 64, 54), cheek=(178, 98, 84),
+    hair=(26, 22, 28), fringe=0.24, bun=True,
+    eye=37, eye_y=-18, eye_size=(18, 10), iris=(70, 48, 32),
+    brow=-46, brow_tilt=-0.06, nose=38, mouth_y=72, mouth=28, smile=4,
+    lips=(138, 54, 66), coat=(150, 96, 40),
 )
 
 
@@ -205,11 +217,14 @@ def png(face):
 
 def main():
     folder = sys.argv[1] if len(sys.argv) > 1 else "."
-    for face in (ADA, MAX):
+    faces = (ADA, MAX, NOOR)
+    for face in faces:
         with open(f"{folder}/{face.name}.png", "wb") as file:
             file.write(png(face))
-    for source, target in zip(lines(ADA), lines(MAX)):
-        print(f"[[match.lines]]\nsource = {source}\ntarget = {target}\n")
+    for one, other in zip(faces, faces[1:]):
+        print(f"# {one.name} to {other.name}\n")
+        for source, target in zip(lines(one), lines(other)):
+            print(f"[[match.lines]]\nsource = {source}\ntarget = {target}\n")
 
 
 main()

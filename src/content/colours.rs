@@ -11,8 +11,10 @@
 
 mod layer;
 mod linear;
+mod set;
 
 pub use layer::Layer;
+pub use set::PictureSet;
 
 use super::scan::{Facet, scan};
 use crate::design::Picture;
@@ -185,20 +187,10 @@ struct Paint<'a> {
 
 impl<'a> Paint<'a> {
     fn new(pair: &'a PicturePair, t: f64, raster: &Raster) -> Self {
-        let window = pair.window(t);
-        // The window is a rectangle: what it shows of a pixel is its share of
-        // the column times that of the row.
-        let low = raster.located(DVec2::new(window.min.x, window.max.y));
-        let high = raster.located(DVec2::new(window.max.x, window.min.y));
-        let shown = |count: u32, low: f64, high: f64| {
-            let pixels = 0..count;
-            pixels.map(|k| covered(k, low, high)).collect()
-        };
-        let [width, height] = raster.size;
         Self {
             layers: [0, 1].map(|k| pair.layers[k].sampler(raster.pixel)),
             share: pair.mix.share(t) as f32,
-            shown: [shown(width, low.x, high.x), shown(height, low.y, high.y)],
+            shown: shown(pair.window(t), raster),
             encoder: Encoder::new(),
         }
     }
@@ -236,6 +228,19 @@ impl<'a> Paint<'a> {
             }
         }
     }
+}
+
+/// How much of each column of a raster, and of each row, a rectangle covers: of a pixel it
+/// covers its share of the column times that of the row.
+fn shown(window: Bounds, raster: &Raster) -> [Vec<f32>; 2] {
+    let low = raster.located(DVec2::new(window.min.x, window.max.y));
+    let high = raster.located(DVec2::new(window.max.x, window.min.y));
+    let along = |count: u32, low: f64, high: f64| {
+        let pixels = 0..count;
+        pixels.map(|k| covered(k, low, high)).collect()
+    };
+    let [width, height] = raster.size;
+    [along(width, low.x, high.x), along(height, low.y, high.y)]
 }
 
 /// How much of the pixel `k` lies between two edges.

@@ -11,7 +11,7 @@ mod solid;
 mod swell;
 
 pub use coating::{Anchored, Coat, Coating, Inked, Shading};
-pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, Raster};
+pub use colours::{ColourMix, ColourMixError, Layer, PicturePair, PictureSet, Raster};
 pub use field::{BlendSpace, FieldBlend, FieldPair, FieldPairError, FieldSet};
 pub use fields::{Fields, Painted};
 pub use hole::Hole;

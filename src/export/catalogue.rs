@@ -192,7 +192,7 @@ impl Catalogue {
         let weights = &self.entries[k].weights;
         let mut frame = space.frame();
         frame.seek(weights);
-        drawing.push_figure(&frame.figure(), space.tint(weights), style, view);
+        drawing.push_blend(&frame, style, view);
     }
 
     /// A row for each, its weights by the names of the designs.

@@ -18,6 +18,7 @@ use image::RgbaImage;
 use crate::colour::{Gradient, Line, Paint, Rgb};
 use crate::content::{Content, InkedBars, Raster};
 use crate::geometry::{Bounds, DVec2};
+use crate::space::SpaceFrame;
 use crate::transition::{Coated, Figure, Frame, Style};
 
 use super::outline::{Outline, is_drawable};
@@ -127,14 +128,32 @@ impl Drawing {
     /// Adds a frame as it is seen through `view`.
     pub fn push_frame(&mut self, frame: &Frame, style: &Style, view: &View) {
         if matches!(frame.transition().content(), Content::Colours(_)) {
-            return self.push_colours(frame, view);
+            let places = frame.figure().rings.concat();
+            return self.push_pixels(&places, view, |raster| frame.picture(raster));
         }
         self.push_figure(&frame.figure(), frame.t(), style, view);
     }
 
-    /// Adds the pixels that the frame's pictures cover.
-    fn push_colours(&mut self, frame: &Frame, view: &View) {
-        let places = frame.figure().rings.concat();
+    /// Adds a blend of many designs as it is seen through `view`.
+    pub fn push_blend(&mut self, blend: &SpaceFrame, style: &Style, view: &View) {
+        match blend.window() {
+            Some(window) => {
+                self.push_pixels(&window.corners(), view, |raster| blend.picture(raster));
+            }
+            None => {
+                let tint = blend.space().tint(blend.weights());
+                self.push_figure(&blend.figure(), tint, style, view);
+            }
+        }
+    }
+
+    /// Adds the pixels of pictures that cover these places.
+    fn push_pixels(
+        &mut self,
+        places: &[DVec2],
+        view: &View,
+        picture: impl FnOnce(&Raster) -> Option<RgbaImage>,
+    ) {
         let Some(covered) = Bounds::of(places.iter().map(|&p| view.to_px(p))) else {
             return;
         };
@@ -152,7 +171,7 @@ impl Drawing {
             corner: view.to_plane(low),
             pixel: 1.0 / view.px_per_unit(),
         };
-        if let Some(image) = frame.picture(&raster) {
+        if let Some(image) = picture(&raster) {
             let corner = low.as_uvec2();
             self.items.push(Item::Picture { image, corner });
         }

@@ -44,7 +44,7 @@ pub fn map_sheet(
         map.weights(place, &mut weights);
         frame.seek(&weights);
         let view = View::fit_cell(bounds, layout.size, corner, inner);
-        drawing.push_figure(&frame.figure(), space.tint(&weights), style, &view);
+        drawing.push_blend(&frame, style, &view);
         if let Some(name) = name_at(space, map, place) {
             drawing.push_label(&name, base, layout.letters_px(), ink);
         }

@@ -2,7 +2,9 @@
 
 use super::document::{DesignEntry, Project};
 use super::error::ProjectError;
+use super::features::strung;
 use crate::content::ContentKind;
+use crate::correspondence::Matching;
 use crate::design::{Design, Form, Source};
 use crate::geometry::Similarity;
 use crate::one_line::OneLine;
@@ -13,7 +15,7 @@ use crate::transition::{
     BuildError, Cell, NoSuchCell, Options, PartTime, Quality, Transition, TransitionSpec, arranged,
     arrangement,
 };
-use crate::warp::WarpKind;
+use crate::warp::{ManyFeatures, WarpKind};
 use include_dir::{Dir, File, include_dir};
 use rayon::prelude::*;
 use std::path::{Path, PathBuf};
@@ -29,8 +31,8 @@ pub fn bytes(path: &Path) -> Option<&'static [u8]> {
 }
 
 /// What is said where many designs are asked to be blended as only two can be.
-const NO_SPACE: &str =
-    "many designs are blended as rigid parts or as fields at rest; choose one of these";
+const NO_SPACE: &str = "many designs are blended as rigid parts or as fields at rest, and pictures at rest or by \
+     lines, points or a lattice; choose one of these";
 
 /// A project whose designs have been read.
 #[derive(Clone, Debug)]
@@ -57,6 +59,15 @@ const SPACES: usize = 4;
 
 /// What is said where a path is asked for what only two designs have.
 const NO_PAIR: &str = "this is of two designs, and a path over the map goes between all of them: take the path away first";
+
+/// Whether as many designs as one likes can be blended like that.
+fn is_of_many(cell: Cell) -> bool {
+    match cell.content() {
+        ContentKind::Solid => cell.warp() == WarpKind::Arap,
+        ContentKind::Field => cell.warp() == WarpKind::None,
+        ContentKind::Colours => cell.warp() != WarpKind::Arap,
+    }
+}
 
 /// What a leg has of the sequence that it belongs to.
 #[derive(Debug)]
@@ -270,11 +281,7 @@ impl LoadedProject {
     /// If there are fewer than two designs.
     pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), BuildError> {
         let cell = Cell::new(warp, content)?;
-        let is_of_many = matches!(
-            (warp, content),
-            (WarpKind::Arap, ContentKind::Solid) | (WarpKind::None, ContentKind::Field)
-        );
-        if self.path_leg.is_some() && !is_of_many {
+        if self.path_leg.is_some() && !is_of_many(cell) {
             return Err(BuildError::Unavailable(NO_SPACE.to_owned()));
         }
         TransitionSpec::available(cell, &self.designs[0], &self.designs[1])
@@ -325,22 +332,47 @@ impl LoadedProject {
     /// is no similarity.
     pub fn space(&self) -> Result<SpaceSpec, ProjectError> {
         let project = &self.project;
-        let content = match (project.warp, project.content) {
-            // Its films are of rigid parts: so is its map where all have a common mesh.
-            (None | Some(WarpKind::Arap), None | Some(ContentKind::Solid)) => None,
-            (None | Some(WarpKind::None), Some(ContentKind::Field))
-            | (Some(WarpKind::None), None) => Some(ContentKind::Field),
-            _ => return Err(BuildError::Unavailable(NO_SPACE.to_owned()).into()),
-        };
+        let cell = self.cell().map_err(BuildError::from)?;
+        if !is_of_many(cell) {
+            return Err(BuildError::Unavailable(NO_SPACE.to_owned()).into());
+        }
         let first = (self.first(), project.fit);
         let laid = self.designs.iter().zip(&project.designs);
         let laid = laid.map(|(design, entry)| arranged(design, first, entry.placement));
-        Ok(SpaceSpec {
-            content,
+        let mut spec = SpaceSpec {
+            // As rigid parts where all have a common mesh.
+            content: Some(cell.content()).filter(|content| *content != ContentKind::Solid),
+            warp: cell.warp(),
             options: project.options.clone(),
             patient: self.patient,
             ..SpaceSpec::new(laid.collect::<Result<_, _>>()?)
-        })
+        };
+        if cell.content() == ContentKind::Colours && cell.warp() != WarpKind::None {
+            (spec.features, spec.lone_features) = self.features()?;
+        }
+        Ok(spec)
+    }
+
+    /// What all designs have in common, laid into their frame, and how many features only
+    /// some of them have.
+    fn features(&self) -> Result<(ManyFeatures, usize), ProjectError> {
+        let count = self.designs.len();
+        let legs = (0..count.saturating_sub(1)).map(|leg| {
+            let alone = self.project.pair_alone(leg);
+            alone.options.matching
+        });
+        let legs: Vec<Matching> = legs.collect();
+        let diameters: Vec<f64> = self.designs.iter().map(|d| d.extent.diameter()).collect();
+        let (mut features, lone) = strung(&legs, &diameters);
+        let first = (self.first(), self.project.fit);
+        for design in 0..count {
+            let place = self.project.designs[design].placement;
+            let by = arrangement(&self.designs[design], first, place)?;
+            let points = features.points.iter_mut().map(|each| &mut each[design]);
+            let ends = features.lines.iter_mut().flat_map(|each| &mut each[design]);
+            points.chain(ends).for_each(|p| *p = by.apply(*p));
+        }
+        Ok((features, lone))
     }
 
     /// The space of all designs, of this quality or as the project asks for: built, or as it

@@ -7,6 +7,7 @@
 
 mod document;
 mod error;
+mod features;
 pub mod gallery;
 mod leg;
 mod legs;

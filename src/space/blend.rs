@@ -2,6 +2,7 @@
 
 use super::error::SpaceNote;
 use super::likeness::Likeness;
+use super::pictures::Pictures;
 use crate::compatible::Family;
 use crate::content::FieldSet;
 use crate::design::Design;
@@ -53,6 +54,8 @@ pub(super) enum Seen {
     },
     /// Distance fields.
     Field(FieldSet),
+    /// Pictures.
+    Colours(Box<Pictures>),
 }
 
 impl From<Inner> for Space {
@@ -79,7 +82,7 @@ impl Space {
     pub fn family(&self) -> Option<&Family> {
         match &self.0.seen {
             Seen::Solid { blend, .. } => Some(blend.family()),
-            Seen::Field(_) => None,
+            Seen::Field(_) | Seen::Colours(_) => None,
         }
     }
 
@@ -122,7 +125,7 @@ impl Space {
         weights[0] = 1.0;
         let placer = match &self.0.seen {
             Seen::Solid { blend, .. } => Some(blend.placer()),
-            Seen::Field(_) => None,
+            Seen::Field(_) | Seen::Colours(_) => None,
         };
         SpaceFrame {
             space: self.clone(),
@@ -184,7 +187,22 @@ impl SpaceFrame {
         self.placer.as_ref().map(BlendPlacer::places)
     }
 
-    /// The blend as polygons and bars.
+    /// The space that this is a blend of.
+    #[must_use]
+    pub fn space(&self) -> &Space {
+        &self.space
+    }
+
+    /// The box around what pictures fill; none of others.
+    #[must_use]
+    pub fn window(&self) -> Option<Bounds> {
+        match &self.space.0.seen {
+            Seen::Colours(pictures) => Some(pictures.set.window(&self.weights)),
+            Seen::Solid { .. } | Seen::Field(_) => None,
+        }
+    }
+
+    /// The blend as polygons and bars; of pictures nothing.
     #[must_use]
     pub fn figure(&self) -> Figure {
         let bar_width = self.space.0.bar_width;
@@ -205,6 +223,7 @@ impl SpaceFrame {
                 rings: fields.contour(&self.weights),
                 ..Figure::default()
             },
+            (Seen::Colours(_), _) => Figure::default(),
             (Seen::Solid { .. }, None) => unreachable!("rigid parts are placed"),
         }
     }

@@ -3,6 +3,7 @@
 use super::blend::{Inner, Seen, Space};
 use super::error::{SpaceError, SpaceNote};
 use super::likeness::Likeness;
+use super::pictures::Pictures;
 use crate::budget::Load;
 use crate::compatible::{Family, FamilyError};
 use crate::content::{ContentKind, FieldSet};
@@ -16,7 +17,7 @@ use crate::transition::{
     BuildError, Cell, Guarding, Options, PaintRule, Quality, Transition, TransitionSpec, bar_width,
     field_frame, measured, outline,
 };
-use crate::warp::ArapBlend;
+use crate::warp::{ArapBlend, ManyFeatures, WarpKind};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -32,9 +33,16 @@ const HUBS: usize = 3;
 pub struct SpaceSpec {
     /// Two designs or more.
     pub designs: Vec<Arc<Design>>,
-    /// Solid for rigid parts, or fields; none for rigid parts where the designs have a
-    /// common mesh, and else fields.
+    /// Solid for rigid parts, or fields, or pictures; none for rigid parts where the
+    /// designs have a common mesh, and else fields.
     pub content: Option<ContentKind>,
+    /// What pictures are led by: lines, points or a lattice; any other leaves them where
+    /// they lie.
+    pub warp: WarpKind,
+    /// Where what all pictures have is in each of them, in the common frame.
+    pub features: ManyFeatures,
+    /// How many features only some of them have, which is told.
+    pub lone_features: usize,
     /// The options of both; pins, links and cuts are of two designs, and left out.
     pub options: Options,
     /// Whether what takes very long is begun all the same; see [`crate::budget`].
@@ -48,6 +56,9 @@ impl SpaceSpec {
         Self {
             designs,
             content: None,
+            warp: WarpKind::None,
+            features: ManyFeatures::default(),
+            lone_features: 0,
             options: Options::default(),
             patient: false,
         }
@@ -90,6 +101,21 @@ impl Space {
             return Err(SpaceError::TooFew(count));
         }
         let progress = &Whole::new(progress).patient(spec.patient);
+        if spec.content == Some(ContentKind::Colours) {
+            let pictures = Pictures::of(spec, progress)?;
+            return Ok(Inner {
+                designs: spec.designs.clone(),
+                bounds: pictures.bounds(),
+                bar_width: 0.0,
+                likeness: pictures.likeness(),
+                notes: match spec.lone_features {
+                    0 => Vec::new(),
+                    lone => vec![SpaceNote::LoneFeatures(lone)],
+                },
+                seen: Seen::Colours(Box::new(pictures)),
+            }
+            .into());
+        }
         let first = spec.pair(0, 1);
         let bar_width = bar_width(&first)?;
         let mut notes = Vec::new();

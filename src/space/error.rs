@@ -37,6 +37,9 @@ pub enum SpaceNote {
     /// They are blended as fields.
     #[error("blended as fields: {}", OneLine(.0))]
     AsFields(String),
+    /// Pins and lines that do not lead on from design to design.
+    #[error("{0} pins and lines are of some of the pictures alone, and lead nothing here")]
+    LoneFeatures(usize),
     /// Colours of their own are left out.
     #[error("in the colours of the map: the designs' own are not blended")]
     OneColour,

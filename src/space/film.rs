@@ -2,7 +2,8 @@
 //!
 //! Guaranteed: at each stop its blend, and so at the site of a design the design itself.
 //! Not guaranteed: in between the very blend of the place that the path has come to, but one
-//! by smooth weights that are nearly its; of fields these run in straight pieces.
+//! by smooth weights that are nearly its; of fields these run in straight pieces, and of
+//! pictures straight from stop to stop.
 
 use super::blend::{Seen, Space};
 use super::course::Course;
@@ -94,6 +95,11 @@ impl Space {
                 allowed.map_err(BuildError::from)?;
                 Transition::through_fields(ends, in_turn(set, at))
             }
+            Seen::Colours(pictures) => {
+                let weights = [at(0.0), at(1.0)];
+                let [from, to] = &weights;
+                pictures.film(ends.designs, [from, to], progress)?
+            }
         })
     }
 
@@ -114,6 +120,10 @@ impl Space {
         };
         if weights.contains(&1.0) {
             return own();
+        }
+        if let Seen::Colours(pictures) = self.seen() {
+            let blend = pictures.picture(weights);
+            return super::pictures::design(told.clone(), blend).unwrap_or_else(own);
         }
         let mut frame = self.frame();
         frame.seek(weights);

@@ -21,7 +21,7 @@ pub struct Likeness {
 impl Likeness {
     /// Of so many designs, by what each two cost; those two are in order. What is no
     /// number counts as 1.
-    fn of(count: usize, cost: impl Fn(usize, usize) -> f64 + Sync) -> Self {
+    pub(super) fn of(count: usize, cost: impl Fn(usize, usize) -> f64 + Sync) -> Self {
         let two: Vec<[usize; 2]> = (0..count)
             .flat_map(|a| (a + 1..count).map(move |b| [a, b]))
             .collect();

@@ -6,7 +6,8 @@
 //! edges of the space, a map through all of it.
 //!
 //! - `build`: from designs to a [`Space`]: as rigid parts of one common mesh where they
-//!   have one, and else as distance fields
+//!   have one, and else as distance fields; `pictures`: as pictures, mixed where the
+//!   features that all have lie between theirs
 //! - `blend`: the space and its moments; `spread`: weights all over it
 //! - `likeness`: how unlike the designs are, two at a time
 //! - `map`, `layout`: where the designs are on a map, and what there is between them
@@ -27,6 +28,7 @@ mod layout;
 mod likeness;
 mod map;
 mod path;
+mod pictures;
 mod spread;
 mod steered;
 #[cfg(test)]

@@ -7,6 +7,8 @@ use crate::transition::{BuildError, Cell, Transition, TransitionSpec};
 use proptest::prelude::*;
 use std::sync::Arc;
 
+mod pictures;
+
 /// A star of so many points, as deep as that.
 fn star(name: &str, points: u32, depth: f64) -> Arc<Design> {
     let corner = |k: u32| {

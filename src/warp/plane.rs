@@ -83,6 +83,11 @@ impl PlaneGrid {
         }
     }
 
+    /// The triangles, by the corners of the cells.
+    pub(super) fn faces(&self) -> Arc<[[u32; 3]]> {
+        Arc::clone(&self.faces)
+    }
+
     /// The corners of the cells, row by row from below.
     #[must_use]
     pub fn places(&self) -> &[DVec2] {

@@ -51,7 +51,7 @@ pub fn ground(space: &Space, map: &Map, style: &Style) -> Result<Ground, SizeErr
             let middle = DVec2::new(place.x + REACH, REACH - place.y) * px;
             let seen = square(space.bounds());
             let view = View::fit_cell(seen, size, middle - 0.5 * side, side);
-            drawing.push_figure(&frame.figure(), space.tint(&weights), style, &view);
+            drawing.push_blend(&frame, style, &view);
         }
         Arc::new(rasterise(&drawing))
     };

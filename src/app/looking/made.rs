@@ -155,8 +155,7 @@ impl Made {
         let bounds = self.space.bounds();
         let view = View::fit(bounds.padded(0.04 * bounds.diameter()), size);
         let mut drawing = Drawing::new(size, ground);
-        let tint = self.space.tint(self.frame.weights());
-        drawing.push_figure(&self.frame.figure(), tint, style, &view);
+        drawing.push_blend(&self.frame, style, &view);
         drawing
     }
 

@@ -108,6 +108,7 @@ fn told(scene: &Scene) -> String {
                     "Rigid parts, one mesh of {} vertices",
                     family.places()[0].len()
                 ),
+                None if space.is_of_pictures() => "Pictures".to_owned(),
                 None => "Distance fields".to_owned(),
             };
             note.map_or(how, |note| first_upper(&note))

@@ -1,0 +1,213 @@
+//! Pictures of many designs: from a specification to what is seen of them, and a blend of
+//! them as a picture of its own.
+
+use super::blend::{Seen, Space, SpaceFrame};
+use super::build::SpaceSpec;
+use super::error::SpaceError;
+use super::likeness::Likeness;
+use crate::content::{ContentKind, PictureSet, Raster};
+use crate::correspondence::{LinePair, Matching, PointPair};
+use crate::design::{Design, Form, Picture};
+use crate::geometry::{Bounds, DVec2, Similarity};
+use crate::progress::{Progress, checkpoint};
+use crate::transition::{BuildError, Cell, Options, Transition, TransitionSpec};
+use crate::warp::{Between, ManyFeatures, ManyWarp, PlaneBlend, PlaneGrid, WarpKind};
+use std::sync::Arc;
+
+/// Squares along the longer side of the frame, in which a warp is taken as linear: half of
+/// what a film has, as each of many designs is looked up in each frame.
+const GRID: u32 = 80;
+
+/// Pixels along each side of the pictures that are compared.
+const COMPARED_PX: u32 = 32;
+
+/// The most pixels of a blend that becomes a design: those of a large screen.
+const MOST_PX: f64 = 4e6;
+
+/// Pictures and what takes them along.
+#[derive(Debug)]
+pub(super) struct Pictures {
+    pub set: PictureSet,
+    pub blend: PlaneBlend,
+    /// From stop to stop they go as these have it.
+    kind: WarpKind,
+    features: ManyFeatures,
+    options: Options,
+}
+
+impl Pictures {
+    /// Those of a specification.
+    pub fn of(spec: &SpaceSpec, progress: &dyn Progress) -> Result<Self, SpaceError> {
+        checkpoint(progress, "reading colours", 0.0)?;
+        let picture = |design: &Arc<Design>| {
+            let missing = || BuildError::Unavailable(format!("{} has no colours", design.name));
+            design.picture.clone().ok_or_else(missing)
+        };
+        let pictures: Vec<Picture> = spec.designs.iter().map(picture).collect::<Result<_, _>>()?;
+        let borrowed: Vec<&Picture> = pictures.iter().collect();
+        let set = PictureSet::new(&borrowed, spec.options.colours).map_err(BuildError::from)?;
+        let set = set.unwrap_or_else(|| unreachable!("there are designs"));
+        let bounds = bounds(&set);
+        // The mesh reaches beyond what is shown, so that its edge is never seen.
+        let frame = bounds.padded(0.02 * bounds.diameter());
+        let options = &spec.options;
+        let (features, warp) = match spec.warp {
+            WarpKind::Lines => (
+                spec.features.clone(),
+                ManyWarp::Lines(options.lines.clone()),
+            ),
+            WarpKind::Scattered => (
+                spec.features.clone(),
+                ManyWarp::Scattered(options.scattered),
+            ),
+            WarpKind::Lattice => (spec.features.clone(), ManyWarp::Lattice(options.lattice)),
+            // Nothing is led anywhere.
+            _ => (
+                ManyFeatures::default(),
+                ManyWarp::Scattered(options.scattered),
+            ),
+        };
+        let grid = match features.is_empty() {
+            true => PlaneGrid::covering(&frame, 1),
+            false => PlaneGrid::covering(&frame, GRID),
+        };
+        let count = spec.designs.len();
+        let blend = PlaneBlend::new(count, features.clone(), warp, (frame, grid));
+        Ok(Self {
+            set,
+            blend: blend.map_err(BuildError::Unavailable)?,
+            kind: spec.warp,
+            features,
+            options: options.clone(),
+        })
+    }
+
+    /// The box around all pictures.
+    pub fn bounds(&self) -> Bounds {
+        bounds(&self.set)
+    }
+
+    /// How unlike they are: the root mean square difference of their colours, seen small and
+    /// where they lie.
+    pub fn likeness(&self) -> Likeness {
+        let count = self.set.layers().len();
+        let bounds = self.bounds();
+        let pixel = bounds.size().max_element() / f64::from(COMPARED_PX);
+        let raster = Raster {
+            size: [COMPARED_PX; 2],
+            corner: DVec2::new(bounds.min.x, bounds.max.y),
+            pixel,
+        };
+        let seen: Vec<Vec<u8>> = (0..count)
+            .map(|k| {
+                let mut weights = vec![0.0; count];
+                weights[k] = 1.0;
+                self.render(&weights, &raster).into_raw()
+            })
+            .collect();
+        Likeness::of(count, |a, b| {
+            let off = seen[a].iter().zip(&seen[b]);
+            let sum: f64 = off.map(|(a, b)| f64::from(a.abs_diff(*b)).powi(2)).sum();
+            (sum / seen[a].len() as f64).sqrt() / 255.0
+        })
+    }
+
+    /// A blend as pixels.
+    pub fn render(&self, weights: &[f64], raster: &Raster) -> image::RgbaImage {
+        self.set
+            .render(&self.blend.places(weights), weights, raster)
+    }
+
+    /// A blend as a picture of its own, as fine as the finest.
+    pub fn picture(&self, weights: &[f64]) -> Picture {
+        let window = self.set.window(weights);
+        let finest = self
+            .set
+            .layers()
+            .iter()
+            .map(|layer| layer.picture().place().scale);
+        let size = window.size();
+        let coarsest = (size.x * size.y / MOST_PX).sqrt();
+        let pixel = finest.fold(f64::INFINITY, f64::min).max(coarsest);
+        let [width, height] = (size / pixel).ceil().to_array();
+        let raster = Raster {
+            size: [width, height].map(|side| (side as u32).max(1)),
+            corner: DVec2::new(window.min.x, window.max.y),
+            pixel,
+        };
+        let place = Similarity {
+            offset: DVec2::new(window.min.x, window.max.y - height.max(1.0) * pixel),
+            scale: pixel,
+            ..Similarity::IDENTITY
+        };
+        Picture::new(self.render(weights, &raster)).transformed(&place)
+    }
+
+    /// The film from one blend to another: of two pictures, straight.
+    pub fn film(
+        &self,
+        ends: [Arc<Design>; 2],
+        weights: [&[f64]; 2],
+        progress: &dyn Progress,
+    ) -> Result<Transition, SpaceError> {
+        let between = match self.kind {
+            WarpKind::Lines => self.options.lines.between,
+            _ => Between::Ends,
+        };
+        let [(points, lines), (points_there, lines_there)] =
+            weights.map(|weights| self.features.blended(weights, between));
+        let pins = points.into_iter().zip(points_there);
+        let pins = pins.map(|(source, target)| PointPair { source, target });
+        let lines = lines.into_iter().zip(lines_there);
+        let lines = lines.map(|(source, target)| LinePair { source, target });
+        let [source, target] = ends;
+        let mut spec = TransitionSpec::new(source, target);
+        let is_led = !self.features.is_empty();
+        let kind = if is_led { self.kind } else { WarpKind::None };
+        spec.cell = Cell::new(kind, ContentKind::Colours).map_err(BuildError::from)?;
+        spec.options = Options {
+            matching: Matching {
+                pins: pins.collect(),
+                lines: lines.collect(),
+                ..self.options.matching.without_places()
+            },
+            ..self.options.clone()
+        };
+        Ok(Transition::build(&spec, progress)?)
+    }
+}
+
+/// The box around all pictures.
+fn bounds(set: &PictureSet) -> Bounds {
+    let boxes = set.layers().iter().map(|layer| layer.bounds());
+    let all = boxes.reduce(|a, b| a.union(&b));
+    all.unwrap_or_else(|| unreachable!("a set has a picture"))
+}
+
+impl Space {
+    /// Whether pictures are what is seen of it.
+    #[must_use]
+    pub fn is_of_pictures(&self) -> bool {
+        matches!(self.seen(), Seen::Colours(_))
+    }
+}
+
+impl SpaceFrame {
+    /// The blend as pixels, where pictures are what is seen: sRGB with straight alpha.
+    #[must_use]
+    pub fn picture(&self, raster: &Raster) -> Option<image::RgbaImage> {
+        match self.space().seen() {
+            Seen::Colours(pictures) => Some(pictures.render(self.weights(), raster)),
+            Seen::Solid { .. } | Seen::Field(_) => None,
+        }
+    }
+}
+
+/// A blend of pictures as a design: with the rectangle as its form.
+pub(super) fn design(name: String, picture: Picture) -> Option<Design> {
+    let corners = picture.bounds().corners();
+    let mut design = Design::of_rings(name, [corners]).ok()?;
+    design.picture = Some(picture);
+    debug_assert!(matches!(design.form, Form::Outline(_)));
+    Some(design)
+}

@@ -1,0 +1,174 @@
+//! Pictures of many designs.
+
+use super::*;
+use crate::content::{PicturePair, Raster};
+use crate::correspondence::LinePair;
+use crate::design::Picture;
+use crate::warp::{ManyFeatures, WarpKind};
+use image::{Rgba, RgbaImage};
+
+const SIDE: u32 = 64;
+
+/// A ball before a wall, the ball in the middle of its features.
+fn ball(name: &str, at: [f64; 2], colour: [u8; 3]) -> Arc<Design> {
+    let pixel = |x: u32, y: u32| {
+        // The plane has y up.
+        let p = DVec2::new(f64::from(x) + 0.5, f64::from(SIDE - y) - 0.5);
+        let [r, g, b] = if p.distance(at.into()) < 9.0 {
+            colour
+        } else {
+            [40 + x as u8, 60 + y as u8, 90]
+        };
+        Rgba([r, g, b, 255])
+    };
+    let side = f64::from(SIDE);
+    let ring = [[0.0, 0.0], [side, 0.0], [side, side], [0.0, side]];
+    let mut design = Design::of_rings(name, [ring]).expect("a design");
+    design.picture = Some(Picture::new(RgbaImage::from_fn(SIDE, SIDE, pixel)));
+    Arc::new(design)
+}
+
+const PLACES: [[f64; 2]; 3] = [[20.0, 20.0], [44.0, 26.0], [30.0, 46.0]];
+
+fn line(at: [f64; 2]) -> [DVec2; 2] {
+    let at = DVec2::from(at);
+    [at - DVec2::X * 9.0, at + DVec2::X * 9.0]
+}
+
+/// Some of three balls, in this order.
+fn spec(order: &[usize], warp: WarpKind) -> SpaceSpec {
+    let colours = [[250, 40, 40], [40, 220, 60], [60, 80, 250]];
+    let designs = order.iter().map(|&k| ball("ball", PLACES[k], colours[k]));
+    let mut spec = SpaceSpec::new(designs.collect());
+    spec.content = Some(ContentKind::Colours);
+    spec.warp = warp;
+    spec.features = ManyFeatures {
+        points: Vec::new(),
+        lines: vec![order.iter().map(|&k| line(PLACES[k])).collect()],
+    };
+    spec
+}
+
+fn raster() -> Raster {
+    Raster {
+        size: [SIDE; 2],
+        corner: DVec2::new(0.0, f64::from(SIDE)),
+        pixel: 1.0,
+    }
+}
+
+fn seen(space: &Space, weights: &[f64]) -> RgbaImage {
+    let mut frame = space.frame();
+    frame.seek(weights);
+    frame.picture(&raster()).expect("pictures")
+}
+
+/// The largest difference in a channel.
+fn off(a: &RgbaImage, b: &RgbaImage) -> u8 {
+    let each = a.iter().zip(b.iter()).map(|(a, b)| a.abs_diff(*b));
+    each.max().expect("pixels")
+}
+
+const KINDS: [WarpKind; 4] = [
+    WarpKind::None,
+    WarpKind::Lines,
+    WarpKind::Scattered,
+    WarpKind::Lattice,
+];
+
+#[test]
+fn each_picture_is_at_its_corner_and_their_order_does_not_matter() {
+    for kind in KINDS {
+        let space = Space::build(&spec(&[0, 1, 2], kind), &Silent).expect("a space");
+        for (k, design) in space.designs().iter().enumerate() {
+            let own = design.picture.as_ref().expect("a picture");
+            assert_eq!(&seen(&space, &corner(3, k)), own.pixels().as_ref());
+        }
+        let turned = Space::build(&spec(&[2, 0, 1], kind), &Silent).expect("a space");
+        let there = seen(&space, &[0.5, 0.2, 0.3]);
+        assert!(
+            off(&there, &seen(&turned, &[0.3, 0.5, 0.2])) <= 1,
+            "{kind:?}"
+        );
+    }
+}
+
+#[test]
+fn two_pictures_are_a_pair() {
+    for kind in [WarpKind::None, WarpKind::Lines, WarpKind::Scattered] {
+        let spec = spec(&[0, 1], kind);
+        let space = Space::build(&spec, &Silent).expect("a space");
+        let [a, b] = [0, 1].map(|k| Arc::clone(&spec.designs[k]));
+        let pictures = [&a, &b].map(|design| design.picture.clone().expect("a picture"));
+        let mut pair = TransitionSpec::new(a, b);
+        pair.cell = Cell::new(kind, ContentKind::Colours).expect("a cell");
+        pair.options.matching.lines = vec![LinePair {
+            source: line(PLACES[0]),
+            target: line(PLACES[1]),
+        }];
+        let pair = Transition::build(&pair, &Silent).expect("a transition");
+        for t in [0.0, 0.3, 0.5, 0.8, 1.0] {
+            let wanted = pair.frame(t).picture(&raster()).expect("pictures");
+            let found = seen(&space, &[1.0 - t, t]);
+            // Their grids differ: what is warped is a little off at the ball's edge.
+            let far = found.pixels().zip(wanted.pixels());
+            let far = far.filter(|(a, b)| (0..3).any(|k| a.0[k].abs_diff(b.0[k]) > 2));
+            assert!(far.count() < 12, "{kind:?} at {t}");
+        }
+        let mix = PicturePair::new(&pictures[0], &pictures[1], spec.options.colours);
+        assert_eq!(mix.expect("a pair").window(0.4), space.bounds());
+    }
+}
+
+#[test]
+fn what_has_a_line_in_all_is_led_between_them() {
+    let weights = [1.0 / 3.0; 3];
+    let middle = PLACES.iter().map(|p| DVec2::from(*p)).sum::<DVec2>() / 3.0;
+    let space = Space::build(&spec(&[0, 1, 2], WarpKind::Lines), &Silent).expect("a space");
+    let picture = seen(&space, &weights);
+    let at = |p: DVec2| *picture.get_pixel(p.x as u32, (f64::from(SIDE) - p.y) as u32);
+    // Red, green and blue in equal parts, in linear light.
+    let Rgba([r, g, b, _]) = at(middle);
+    assert!(
+        r.abs_diff(154) < 12 && g.abs_diff(136) < 12 && b.abs_diff(158) < 12,
+        "{r} {g} {b}"
+    );
+    // In place each would shine through where it was.
+    let still = Space::build(&spec(&[0, 1, 2], WarpKind::None), &Silent).expect("a space");
+    let there = seen(&still, &weights);
+    let ghost = DVec2::from(PLACES[0]) - DVec2::splat(4.0);
+    let ghost = *there.get_pixel(ghost.x as u32, (f64::from(SIDE) - ghost.y) as u32);
+    assert!(ghost.0[0] > ghost.0[1] + 30, "{ghost:?}");
+}
+
+#[test]
+fn a_blend_is_a_picture_of_its_own_and_a_way_leads_from_one_to_the_next() {
+    let space = Space::build(&spec(&[0, 1, 2], WarpKind::Lines), &Silent).expect("a space");
+    let weights = [0.25, 0.25, 0.5];
+    let design = space.design(&weights, "mixed");
+    let picture = design.picture.as_ref().expect("a picture");
+    assert_eq!(picture.bounds(), space.bounds());
+    assert!(off(picture.pixels(), &seen(&space, &weights)) <= 1);
+
+    let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
+    let mut path = MapPath::default();
+    let sites = map.sites().to_vec();
+    for at in [sites[0], DVec2::ZERO, sites[2]] {
+        path.places.push(Waypoint::stop(at));
+    }
+    let film = space.film(&map, &path, &Silent).expect("a film");
+    let own = space.designs()[0].picture.as_ref().expect("a picture");
+    let at = |t: f64| film.frame(t).now().picture(&raster()).expect("pictures");
+    assert_eq!(&at(0.0), own.pixels().as_ref());
+    let mut middle = vec![0.0; 3];
+    map.weights(DVec2::ZERO, &mut middle);
+    assert!(off(&at(1.0), &seen(&space, &middle)) <= 1);
+}
+
+#[test]
+fn what_has_no_picture_is_said() {
+    let mut spec = spec(&[0, 1, 2], WarpKind::None);
+    spec.designs[1] = star("star", 5, 1.0);
+    let error = Space::build(&spec, &Silent).expect_err("an outline");
+    assert_eq!(error.to_string(), "star has no colours");
+}
