@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
-use image::RgbaImage;
+use image::{RgbaImage, imageops};
 use morphospace::export::PixelSize;
 
 /// Pictures beside each other on a sheet.
@@ -92,6 +92,27 @@ impl Players {
         size: PixelSize,
         folder: &Path,
     ) -> Option<RgbaImage> {
+        let [width, height] = [size.width(), size.height()];
+        let rows = frames.len().div_ceil(COLUMNS) as u32;
+        let mut sheet = RgbaImage::new(COLUMNS as u32 * width, rows * height);
+        // A row at a time: of a page of sixty million pixels Chromium leaves some blank.
+        for (row, frames) in frames.chunks(COLUMNS).enumerate() {
+            let picture = self.row(kind, text, (frames, fps), size, folder)?;
+            let top = row as i64 * i64::from(height);
+            imageops::replace(&mut sheet, &picture, 0, top);
+        }
+        Some(sheet)
+    }
+
+    /// A row of the sheet.
+    fn row(
+        &self,
+        kind: Kind,
+        text: &str,
+        (frames, fps): (&[(f64, f64)], f64),
+        size: PixelSize,
+        folder: &Path,
+    ) -> Option<RgbaImage> {
         let chromium = self.chromium.as_ref()?;
         let body = match kind {
             Kind::Svg => svgs(text, frames, fps),
@@ -112,10 +133,10 @@ impl Players {
             COLUMNS as u32 * width
         );
         std::fs::write(folder.join("sheet.html"), page).expect("written");
-        let rows = frames.len().div_ceil(COLUMNS) as u32;
         // A little higher: a window is not all picture.
-        let window = [COLUMNS as u32 * width, rows * height + 200];
-        photographed(chromium, folder, window)
+        let window = [COLUMNS as u32 * width, height + 200];
+        let picture = photographed(chromium, folder, window)?;
+        Some(imageops::crop_imm(&picture, 0, 0, window[0], height).to_image())
     }
 }
 
