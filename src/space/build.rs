@@ -102,19 +102,7 @@ impl Space {
         }
         let progress = &Whole::new(progress).patient(spec.patient);
         if spec.content == Some(ContentKind::Colours) {
-            let pictures = Pictures::of(spec, progress)?;
-            return Ok(Inner {
-                designs: spec.designs.clone(),
-                bounds: pictures.bounds(),
-                bar_width: 0.0,
-                likeness: pictures.likeness(),
-                notes: match spec.lone_features {
-                    0 => Vec::new(),
-                    lone => vec![SpaceNote::LoneFeatures(lone)],
-                },
-                seen: Seen::Colours(Box::new(pictures)),
-            }
-            .into());
+            return Self::of_pictures(spec, progress);
         }
         let first = spec.pair(0, 1);
         let bar_width = bar_width(&first)?;
@@ -151,6 +139,20 @@ impl Space {
         if let Seen::Solid { blend, .. } = &inner.seen {
             inner.bounds = swept(inner.bounds, blend, bar_width);
         }
+        Ok(inner.into())
+    }
+
+    fn of_pictures(spec: &SpaceSpec, progress: &dyn Progress) -> Result<Self, SpaceError> {
+        let pictures = Pictures::of(spec, progress)?;
+        let lone = Some(spec.lone_features).filter(|lone| *lone > 0);
+        let inner = Inner {
+            designs: spec.designs.clone(),
+            bounds: pictures.bounds(),
+            bar_width: 0.0,
+            likeness: pictures.likeness(),
+            notes: lone.map(SpaceNote::LoneFeatures).into_iter().collect(),
+            seen: Seen::Colours(Box::new(pictures)),
+        };
         Ok(inner.into())
     }
 }

@@ -52,10 +52,7 @@ impl Pictures {
         let frame = bounds.padded(0.02 * bounds.diameter());
         let options = &spec.options;
         let (features, warp) = match spec.warp {
-            WarpKind::Lines => (
-                spec.features.clone(),
-                ManyWarp::Lines(options.lines.clone()),
-            ),
+            WarpKind::Lines => (spec.features.clone(), ManyWarp::Lines(options.lines)),
             WarpKind::Scattered => (
                 spec.features.clone(),
                 ManyWarp::Scattered(options.scattered),

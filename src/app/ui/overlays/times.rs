@@ -20,7 +20,8 @@ pub fn strip(root: &mut Ui, scene: &Scene) {
 }
 
 fn line(ui: &mut Ui, scene: &Scene) {
-    ui.label(quiet(ui, "Median of the last frames"));
+    ui.label(quiet(ui, "Median"))
+        .on_hover_text("Of the last frames");
     let whole = ("Whole frame", &scene.whole.0);
     let stages = match scene.map.is_shown {
         true => vec![("Blend and picture", scene.map.times()), whole],
