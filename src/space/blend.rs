@@ -4,11 +4,12 @@ use super::error::SpaceNote;
 use super::likeness::Likeness;
 use super::pictures::Pictures;
 use crate::compatible::Family;
-use crate::content::FieldSet;
+use crate::content::{FieldSet, Raster};
 use crate::design::Design;
 use crate::geometry::{Bounds, DVec2};
 use crate::transition::{Figure, tint};
 use crate::warp::{ArapBlend, BlendPlacer};
+use image::RgbaImage;
 use std::sync::Arc;
 
 /// Many designs, ready to be blended. Cloning is cheap.
@@ -90,6 +91,12 @@ impl Space {
     #[must_use]
     pub fn likeness(&self) -> &Likeness {
         &self.0.likeness
+    }
+
+    /// Whether pictures are what is seen of it.
+    #[must_use]
+    pub fn is_of_pictures(&self) -> bool {
+        matches!(self.0.seen, Seen::Colours(_))
     }
 
     /// What is seen of it.
@@ -191,6 +198,15 @@ impl SpaceFrame {
     #[must_use]
     pub fn space(&self) -> &Space {
         &self.space
+    }
+
+    /// The blend as pixels, where pictures are what is seen: sRGB with straight alpha.
+    #[must_use]
+    pub fn picture(&self, raster: &Raster) -> Option<RgbaImage> {
+        match &self.space.0.seen {
+            Seen::Colours(pictures) => Some(pictures.render(&self.weights, raster)),
+            Seen::Solid { .. } | Seen::Field(_) => None,
+        }
     }
 
     /// The box around what pictures fill; none of others.

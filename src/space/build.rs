@@ -143,7 +143,12 @@ impl Space {
     }
 
     fn of_pictures(spec: &SpaceSpec, progress: &dyn Progress) -> Result<Self, SpaceError> {
-        let pictures = Pictures::of(spec, progress)?;
+        let pictures = Pictures::of(
+            &spec.designs,
+            (spec.warp, &spec.features),
+            &spec.options,
+            progress,
+        )?;
         let lone = Some(spec.lone_features).filter(|lone| *lone > 0);
         let inner = Inner {
             designs: spec.designs.clone(),

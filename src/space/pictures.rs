@@ -1,8 +1,6 @@
 //! Pictures of many designs: from a specification to what is seen of them, and a blend of
 //! them as a picture of its own.
 
-use super::blend::{Seen, Space, SpaceFrame};
-use super::build::SpaceSpec;
 use super::error::SpaceError;
 use super::likeness::Likeness;
 use crate::content::{ContentKind, PictureSet, Raster};
@@ -12,6 +10,7 @@ use crate::geometry::{Bounds, DVec2, Similarity};
 use crate::progress::{Progress, checkpoint};
 use crate::transition::{BuildError, Cell, Options, Transition, TransitionSpec};
 use crate::warp::{Between, ManyFeatures, ManyWarp, PlaneBlend, PlaneGrid, WarpKind};
+use image::RgbaImage;
 use std::sync::Arc;
 
 /// Squares along the longer side of the frame, in which a warp is taken as linear: half of
@@ -36,28 +35,29 @@ pub(super) struct Pictures {
 }
 
 impl Pictures {
-    /// Those of a specification.
-    pub fn of(spec: &SpaceSpec, progress: &dyn Progress) -> Result<Self, SpaceError> {
+    /// Those of designs, led as it is said by what all of them have.
+    pub fn of(
+        designs: &[Arc<Design>],
+        (kind, features): (WarpKind, &ManyFeatures),
+        options: &Options,
+        progress: &dyn Progress,
+    ) -> Result<Self, SpaceError> {
         checkpoint(progress, "reading colours", 0.0)?;
         let picture = |design: &Arc<Design>| {
             let missing = || BuildError::Unavailable(format!("{} has no colours", design.name));
             design.picture.clone().ok_or_else(missing)
         };
-        let pictures: Vec<Picture> = spec.designs.iter().map(picture).collect::<Result<_, _>>()?;
+        let pictures: Vec<Picture> = designs.iter().map(picture).collect::<Result<_, _>>()?;
         let borrowed: Vec<&Picture> = pictures.iter().collect();
-        let set = PictureSet::new(&borrowed, spec.options.colours).map_err(BuildError::from)?;
+        let set = PictureSet::new(&borrowed, options.colours).map_err(BuildError::from)?;
         let set = set.unwrap_or_else(|| unreachable!("there are designs"));
         let bounds = bounds(&set);
         // The mesh reaches beyond what is shown, so that its edge is never seen.
         let frame = bounds.padded(0.02 * bounds.diameter());
-        let options = &spec.options;
-        let (features, warp) = match spec.warp {
-            WarpKind::Lines => (spec.features.clone(), ManyWarp::Lines(options.lines)),
-            WarpKind::Scattered => (
-                spec.features.clone(),
-                ManyWarp::Scattered(options.scattered),
-            ),
-            WarpKind::Lattice => (spec.features.clone(), ManyWarp::Lattice(options.lattice)),
+        let (features, warp) = match kind {
+            WarpKind::Lines => (features.clone(), ManyWarp::Lines(options.lines)),
+            WarpKind::Scattered => (features.clone(), ManyWarp::Scattered(options.scattered)),
+            WarpKind::Lattice => (features.clone(), ManyWarp::Lattice(options.lattice)),
             // Nothing is led anywhere.
             _ => (
                 ManyFeatures::default(),
@@ -68,12 +68,12 @@ impl Pictures {
             true => PlaneGrid::covering(&frame, 1),
             false => PlaneGrid::covering(&frame, GRID),
         };
-        let count = spec.designs.len();
+        let count = designs.len();
         let blend = PlaneBlend::new(count, features.clone(), warp, (frame, grid));
         Ok(Self {
             set,
             blend: blend.map_err(BuildError::Unavailable)?,
-            kind: spec.warp,
+            kind,
             features,
             options: options.clone(),
         })
@@ -110,7 +110,7 @@ impl Pictures {
     }
 
     /// A blend as pixels.
-    pub fn render(&self, weights: &[f64], raster: &Raster) -> image::RgbaImage {
+    pub fn render(&self, weights: &[f64], raster: &Raster) -> RgbaImage {
         self.set
             .render(&self.blend.places(weights), weights, raster)
     }
@@ -179,25 +179,6 @@ fn bounds(set: &PictureSet) -> Bounds {
     let boxes = set.layers().iter().map(|layer| layer.bounds());
     let all = boxes.reduce(|a, b| a.union(&b));
     all.unwrap_or_else(|| unreachable!("a set has a picture"))
-}
-
-impl Space {
-    /// Whether pictures are what is seen of it.
-    #[must_use]
-    pub fn is_of_pictures(&self) -> bool {
-        matches!(self.seen(), Seen::Colours(_))
-    }
-}
-
-impl SpaceFrame {
-    /// The blend as pixels, where pictures are what is seen: sRGB with straight alpha.
-    #[must_use]
-    pub fn picture(&self, raster: &Raster) -> Option<image::RgbaImage> {
-        match self.space().seen() {
-            Seen::Colours(pictures) => Some(pictures.render(self.weights(), raster)),
-            Seen::Solid { .. } | Seen::Field(_) => None,
-        }
-    }
 }
 
 /// A blend of pictures as a design: with the rectangle as its form.
