@@ -332,7 +332,12 @@ impl LoadedProject {
     /// is no similarity.
     pub fn space(&self) -> Result<SpaceSpec, ProjectError> {
         let project = &self.project;
-        let cell = self.cell().map_err(BuildError::from)?;
+        let mut cell = self.cell().map_err(BuildError::from)?;
+        let is_asked = project.warp.is_some() || project.content.is_some();
+        if !is_asked && self.designs.iter().any(|design| design.picture.is_none()) {
+            // The first two are photographs, others are not.
+            cell = Cell::RIGID_PARTS;
+        }
         if !is_of_many(cell) {
             return Err(BuildError::Unavailable(NO_SPACE.to_owned()).into());
         }

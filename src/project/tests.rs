@@ -211,6 +211,20 @@ fn every_bundled_project_loads_and_plays() {
 }
 
 #[test]
+fn photographs_alone_are_blended_as_pictures() {
+    let space = |last: &str| {
+        let designs = ["portrait-ada.png", "portrait-max.png", last];
+        let designs = designs.map(|path| format!("[[designs]]\npath = '{path}'\n"));
+        let project = Project::parse(&format!("version = 2\n{}", designs.concat())).unwrap();
+        LoadedProject::load(project, None).unwrap().space().unwrap()
+    };
+    let pictures = Some(crate::content::ContentKind::Colours);
+    assert_eq!(space("portrait-noor.png").content, pictures);
+    // Their silhouettes go with it.
+    assert_eq!(space("shape-heart.svg").content, None);
+}
+
+#[test]
 fn relative_paths_are_relative_to_the_document() {
     let folder = tempfile::tempdir().unwrap();
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";

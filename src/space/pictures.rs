@@ -5,7 +5,7 @@ use super::error::SpaceError;
 use super::likeness::Likeness;
 use crate::content::{ContentKind, PictureSet, Raster};
 use crate::correspondence::{LinePair, Matching, PointPair};
-use crate::design::{Design, Form, Picture};
+use crate::design::{Design, Picture};
 use crate::geometry::{Bounds, DVec2, Similarity};
 use crate::progress::{Progress, checkpoint};
 use crate::transition::{BuildError, Cell, Options, Transition, TransitionSpec};
@@ -186,6 +186,5 @@ pub(super) fn design(name: String, picture: Picture) -> Option<Design> {
     let corners = picture.bounds().corners();
     let mut design = Design::of_rings(name, [corners]).ok()?;
     design.picture = Some(picture);
-    debug_assert!(matches!(design.form, Form::Outline(_)));
     Some(design)
 }

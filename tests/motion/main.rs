@@ -17,7 +17,7 @@ use morphospace::export::{Camera, Film, Motion, PixelSize, View, framing};
 use morphospace::progress::Silent;
 use morphospace::project::{LoadedProject, gallery};
 
-use players::{Kind, Players};
+use players::{Kind, Players, Written};
 
 /// Frames of a film that are compared.
 const COMPARED: usize = 25;
@@ -154,18 +154,22 @@ fn played(shot: &Shot, kind: Kind, entry: &gallery::Entry, players: &Players) ->
         let file = folder.join(format!("film.{}", kind.ending()));
         std::fs::write(file, &text).expect("written");
     }
-    let size = shot.camera.view.size();
-    let shown: Vec<(f64, f64)> = (shot.frames.iter())
+    let frames: Vec<(f64, f64)> = (shot.frames.iter())
         .map(|&frame| (frame as f64, shot.film.times()[frame]))
         .collect();
-    let shown = (shown.as_slice(), shot.film.fps());
+    let film = Written {
+        kind,
+        text: &text,
+        fps: shot.film.fps(),
+        size: shot.camera.view.size(),
+    };
     let what = format!(
         "{} as {}: {:.0} kB",
         entry.name,
         kind.name(),
         text.len() as f64 / 1e3
     );
-    let Some(played) = players.play(kind, &text, shown, size, folder.path()) else {
+    let Some(played) = players.play(&film, &frames, folder.path()) else {
         say(&format!("{what}, NOT COMPARED: {}", players.missing(kind)));
         return None;
     };

@@ -46,6 +46,14 @@ pub fn cell(place: usize, size: PixelSize) -> [u32; 2] {
     [column * size.width(), row * size.height()]
 }
 
+/// A film that was written, as it is to be played.
+pub struct Written<'t> {
+    pub kind: Kind,
+    pub text: &'t str,
+    pub fps: f64,
+    pub size: PixelSize,
+}
+
 pub struct Players {
     chromium: Option<PathBuf>,
     lottie: Option<String>,
@@ -84,20 +92,13 @@ impl Players {
 
     /// A sheet of what a player shows at some frames, each with its t; transparent
     /// where nothing is. None where there is no such player.
-    pub fn play(
-        &self,
-        kind: Kind,
-        text: &str,
-        (frames, fps): (&[(f64, f64)], f64),
-        size: PixelSize,
-        folder: &Path,
-    ) -> Option<RgbaImage> {
-        let [width, height] = [size.width(), size.height()];
+    pub fn play(&self, film: &Written, frames: &[(f64, f64)], folder: &Path) -> Option<RgbaImage> {
+        let [width, height] = [film.size.width(), film.size.height()];
         let rows = frames.len().div_ceil(COLUMNS) as u32;
         let mut sheet = RgbaImage::new(COLUMNS as u32 * width, rows * height);
         // A row at a time: of a page of sixty million pixels Chromium leaves some blank.
         for (row, frames) in frames.chunks(COLUMNS).enumerate() {
-            let picture = self.row(kind, text, (frames, fps), size, folder)?;
+            let picture = self.row(film, frames, folder)?;
             let top = row as i64 * i64::from(height);
             imageops::replace(&mut sheet, &picture, 0, top);
         }
@@ -105,14 +106,13 @@ impl Players {
     }
 
     /// A row of the sheet.
-    fn row(
-        &self,
-        kind: Kind,
-        text: &str,
-        (frames, fps): (&[(f64, f64)], f64),
-        size: PixelSize,
-        folder: &Path,
-    ) -> Option<RgbaImage> {
+    fn row(&self, film: &Written, frames: &[(f64, f64)], folder: &Path) -> Option<RgbaImage> {
+        let Written {
+            kind,
+            text,
+            fps,
+            size,
+        } = *film;
         let chromium = self.chromium.as_ref()?;
         let body = match kind {
             Kind::Svg => svgs(text, frames, fps),

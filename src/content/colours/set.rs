@@ -64,8 +64,7 @@ impl PictureSet {
 
     /// How much of each picture is seen: its weight by the curve of the mix, of what all
     /// have. Weights outside [0, 1] count as the nearer of these.
-    #[must_use]
-    pub fn shares(&self, weights: &[f64]) -> Vec<f64> {
+    fn shares(&self, weights: &[f64]) -> Vec<f64> {
         self.evened(weights, |weight| self.mix.share(weight))
     }
 
