@@ -26,6 +26,8 @@ pub enum Load {
     Cells,
     /// Faces of a mesh that is to move.
     Faces,
+    /// Pixels of all the pictures that are mixed.
+    Pixels,
 }
 
 impl Load {
@@ -49,6 +51,8 @@ impl Load {
             // Two sheets of two million took 1.8 GiB and 4 s of one processor, and
             // each frame until their film is there 0.3 s.
             Self::Faces => 2_200_000,
+            // Decoded, as they are mixed, one takes 26 bytes: two gibibytes.
+            Self::Pixels => 82_000_000,
         }
     }
 
@@ -60,6 +64,7 @@ impl Load {
             Self::CrossingBars => "crossings of bars without a node",
             Self::Cells => "cells",
             Self::Faces => "faces",
+            Self::Pixels => "pixels of pictures",
         }
     }
 
@@ -71,6 +76,7 @@ impl Load {
             Self::CrossingBars => "put nodes where bars cross, or leave bars out",
             Self::Cells => "choose fewer cells",
             Self::Faces => "subdivide less, or use a coarser mesh",
+            Self::Pixels => "use smaller pictures, or fewer",
         }
     }
 

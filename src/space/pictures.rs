@@ -3,6 +3,7 @@
 
 use super::error::SpaceError;
 use super::likeness::Likeness;
+use crate::budget::Load;
 use crate::content::{ContentKind, PictureSet, Raster};
 use crate::correspondence::{LinePair, Matching, PointPair};
 use crate::design::{Design, Picture};
@@ -48,6 +49,10 @@ impl Pictures {
             design.picture.clone().ok_or_else(missing)
         };
         let pictures: Vec<Picture> = designs.iter().map(picture).collect::<Result<_, _>>()?;
+        let pixels = |p: &Picture| p.pixels().width() as usize * p.pixels().height() as usize;
+        Load::Pixels
+            .allow(pictures.iter().map(pixels).sum(), progress)
+            .map_err(BuildError::from)?;
         let borrowed: Vec<&Picture> = pictures.iter().collect();
         let set = PictureSet::new(&borrowed, options.colours).map_err(BuildError::from)?;
         let set = set.unwrap_or_else(|| unreachable!("there are designs"));

@@ -172,3 +172,15 @@ fn what_has_no_picture_is_said() {
     let error = Space::build(&spec, &Silent).expect_err("an outline");
     assert_eq!(error.to_string(), "star has no colours");
 }
+
+#[test]
+fn more_than_memory_has_room_for_is_said_before_it_is_begun() {
+    let large = Picture::new(RgbaImage::new(4096, 4096));
+    let mut design = Design::of_rings("large", [ring(2048.0)]).expect("a design");
+    design.picture = Some(large);
+    let design = Arc::new(design);
+    let mut spec = SpaceSpec::new(vec![design; 5]);
+    spec.content = Some(ContentKind::Colours);
+    let error = Space::build(&spec, &Silent).expect_err("too much");
+    assert!(error.to_string().contains("pixels of pictures"), "{error}");
+}
