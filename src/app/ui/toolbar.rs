@@ -12,6 +12,9 @@ use crate::app::ui::scene::{Intents, Scene};
 
 const HEIGHT: f32 = 48.0;
 
+/// What the word beside the title of an edited project takes.
+const EDITED: f32 = 56.0;
+
 /// Draws the toolbar.
 pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let frame = egui::Frame::new()
@@ -25,8 +28,12 @@ pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
                 mark(ui);
                 ui.label(RichText::new("Morphospace").heading());
                 ui.add_space(2.0 * GRID);
-                title(ui, scene);
-                from_right(ui, |ui| buttons(ui, scene, acts));
+                from_right(ui, |ui| {
+                    buttons(ui, scene, acts);
+                    ui.add_space(GRID);
+                    // In what the buttons leave.
+                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| title(ui, scene));
+                });
             });
         });
 }
@@ -52,8 +59,13 @@ fn mark(ui: &mut Ui) {
 }
 
 fn title(ui: &mut Ui, scene: &Scene) {
-    ui.label(scene.session.title());
-    if scene.session.is_dirty() {
+    let is_edited = scene.session.is_dirty();
+    ui.scope(|ui| {
+        let beside = if is_edited { EDITED } else { 0.0 };
+        ui.set_max_width((ui.available_width() - beside).max(0.0));
+        ui.add(egui::Label::new(scene.session.title()).truncate());
+    });
+    if is_edited {
         ui.label(quiet(ui, "edited"))
             .on_hover_text("Has changes that are not saved yet. Ctrl S saves them.");
     }

@@ -1,5 +1,6 @@
 //! The track: t from left to right, with its stops, and the land beyond 0 and 1.
 
+use bevy_egui::egui::text::{LayoutJob, TextWrapping};
 use bevy_egui::egui::{
     self, Align2, Color32, DragValue, FontId, Id, Mesh, Pos2, Rect, Response, Sense, Shape, Stroke,
     Ui, pos2, vec2,
@@ -25,6 +26,12 @@ const USUAL_SECS: f64 = 2.0;
 const BAR_HEIGHT: f32 = 6.0;
 
 const FONT: FontId = FontId::proportional(11.5);
+
+/// What the word beyond the ends takes.
+const BEYOND_WORDS: f32 = 76.0;
+
+/// The room that a design's name needs to be begun.
+const LEAST_NAME: f32 = 48.0;
 
 /// Draws the track, with pictures of the film below it if there is room, and takes the user's
 /// hand.
@@ -138,19 +145,27 @@ fn ticks(ui: &Ui, ruler: Ruler, names: &[String], is_path: bool) {
 /// Its number and its name at each design, as far as there is room.
 fn designs(ui: &Ui, ruler: Ruler, names: &[String]) {
     let palette = Palette::of(ui);
-    let room = ruler.x(1.0) - ruler.x(0.0);
+    let between = ruler.x(1.0) - ruler.x(0.0) - 2.0 * GRID;
+    // Beside the words beyond, which are in the middle there.
+    let outside = ruler.x(0.0) - ruler.x(ruler.from);
+    let at_ends = outside - BEYOND_WORDS - 2.0 * GRID;
     for (k, name) in names.iter().enumerate() {
         let x = ruler.x(k as f64);
         let top = ruler.y + BAR_HEIGHT / 2.0 + 3.0;
         ui.painter().vline(x, top..=top + 6.0, (1.0, palette.weak));
-        let words = format!("{k} {}", OneLine(name));
-        let galley = ui.painter().layout_no_wrap(words, FONT, palette.text);
-        let galley = match galley.size().x + 2.0 * GRID <= room {
-            true => galley,
-            false => ui
-                .painter()
-                .layout_no_wrap(k.to_string(), FONT, palette.text),
+        let is_end = k == 0 || k + 1 == names.len();
+        let room = if is_end {
+            between.min(at_ends)
+        } else {
+            between
         };
+        let words = match room >= LEAST_NAME {
+            true => format!("{k} {}", OneLine(name)),
+            false => k.to_string(),
+        };
+        let mut job = LayoutJob::simple_singleline(words, FONT, palette.text);
+        job.wrap = TextWrapping::truncate_at_width(room.max(LEAST_NAME));
+        let galley = ui.painter().layout_job(job);
         let corner = pos2(x, ruler.y + 20.0) - 0.5 * galley.size();
         ui.painter().galley(corner, galley, palette.text);
     }
