@@ -63,8 +63,8 @@ impl Mender {
         Self { starts, around }
     }
 
-    /// Turns back what is turned over, as far as there is room.
-    pub fn mend(&self, faces: &[[u32; 3]], places: &mut [DVec2]) {
+    /// Turns back what is turned over, as far as there is room, and says whether all is.
+    pub fn mend(&self, faces: &[[u32; 3]], places: &mut [DVec2]) -> bool {
         for round in 0..ROUNDS + PUSHES {
             let mut is_done = true;
             for face in faces {
@@ -85,9 +85,10 @@ impl Mender {
                 }
             }
             if is_done {
-                break;
+                return true;
             }
         }
+        !faces.iter().any(|face| is_folded(places, *face))
     }
 
     fn faces_of(&self, v: u32) -> &[u32] {
@@ -186,10 +187,10 @@ mod tests {
         let family = Family::new(faces.clone(), vec![start.clone(); 2], vec![]);
         let mender = Mender::of(&family.expect("a family"));
         let mut places = start.clone();
-        mender.mend(&faces, &mut places);
+        assert!(mender.mend(&faces, &mut places));
         assert_eq!(places, start);
         let (_, mut places) = square(DVec2::new(1.7, -0.4));
-        mender.mend(&faces, &mut places);
+        assert!(mender.mend(&faces, &mut places));
         assert!(
             places[4].distance(DVec2::splat(0.5)) < 1e-9,
             "{}",
@@ -207,7 +208,7 @@ mod tests {
         let mut places = corners.to_vec();
         places[1] = DVec2::new(0.45, 0.55);
         let before = places.clone();
-        mender.mend(&faces, &mut places);
+        assert!(mender.mend(&faces, &mut places));
         assert!(faces.iter().all(|face| !is_folded(&places, *face)));
         let gaps = places.iter().zip(&before).map(|(p, q)| p.distance(*q));
         assert!(gaps.fold(0.0, f64::max) < 0.08);

@@ -14,8 +14,9 @@
 //! Guaranteed: each design at its own corner, to the last bit; of two designs it is the
 //! exponential homotopy with the symmetric energy, where no face folds; the order of the designs has no
 //! influence but by rounding, where no face turns by more than half a turn between two of
-//! them. Not guaranteed: that no face folds between the designs, but vertices inside make room
-//! where one would.
+//! them; and that no face folds between the designs: vertices inside make room where one
+//! would, then outlines, and what is folded still is shown as the nearest blend on the way to
+//! the design with the most weight that is not. Not guaranteed: any of that beyond the designs.
 //!
 //! - `mend`: faces inside that are turned over, turned back
 //! - `parts`: where the connected parts are as wholes; `along`: a way through the blends
@@ -40,6 +41,12 @@ use crate::progress::{Progress, checkpoint, still_wanted};
 use mend::Mender;
 use parts::{Parts, blended};
 use std::sync::Arc;
+
+/// Halvings of the way from a folded blend to a design: to a thousandth of it.
+const HALVINGS: usize = 10;
+
+/// Weights of two designs that differ by no more than this are one.
+const TIED: f64 = 1e-9;
 
 /// A prefactored blend of many designs. Cloning is cheap.
 ///
@@ -168,6 +175,7 @@ impl ArapBlend {
             deviation: vec![0.0; 2 * vertices],
             workspace: inner.cholesky.workspace(2),
             shifts: vec![DVec2::ZERO; inner.parts.count()],
+            towards: vec![0.0; inner.family.count()],
         }
     }
 }
@@ -183,6 +191,8 @@ pub struct BlendPlacer {
     workspace: Workspace,
     /// Of each part.
     shifts: Vec<DVec2>,
+    /// Weights that are tried.
+    towards: Vec<f64>,
 }
 
 impl std::fmt::Debug for BlendPlacer {
@@ -200,9 +210,57 @@ impl BlendPlacer {
     /// # Panics
     /// If there are not as many weights as designs.
     pub fn place(&mut self, weights: &[f64]) -> &[DVec2] {
-        let blend = &*self.blend;
-        let count = blend.family.count();
+        let count = self.blend.family.count();
         assert_eq!(weights.len(), count, "a weight for each design");
+        let is_between = weights.iter().all(|&weight| weight >= 0.0);
+        if !self.solve(weights) && is_between {
+            self.retreat(weights);
+        }
+        &self.places
+    }
+
+    /// Goes from a folded blend towards the design with the most weight, which has no fold,
+    /// just so far that there is none; of several such designs the shortest way.
+    fn retreat(&mut self, weights: &[f64]) {
+        let most = weights.iter().copied().fold(0.0, f64::max);
+        let (mut shortest, mut to) = (f64::INFINITY, 0);
+        for design in 0..weights.len() {
+            if weights[design] < most - TIED {
+                continue;
+            }
+            let (mut folded, mut free) = (0.0, 1.0);
+            for _ in 0..HALVINGS {
+                let way = 0.5 * (folded + free);
+                if self.solve_towards(weights, design, way) {
+                    free = way;
+                } else {
+                    folded = way;
+                }
+            }
+            if free < shortest {
+                (shortest, to) = (free, design);
+            }
+        }
+        self.solve_towards(weights, to, shortest);
+    }
+
+    /// Places the blend that lies so far on the way to a design, and says whether none of its
+    /// faces is folded.
+    fn solve_towards(&mut self, weights: &[f64], design: usize, way: f64) -> bool {
+        let mut towards = std::mem::take(&mut self.towards);
+        for (own, weight) in towards.iter_mut().zip(weights) {
+            *own = (1.0 - way) * weight;
+        }
+        towards[design] += way;
+        let is_free = self.solve(&towards);
+        self.towards = towards;
+        is_free
+    }
+
+    /// Places a blend as near as faces can be kept from folding, and says whether none is.
+    fn solve(&mut self, weights: &[f64]) -> bool {
+        let blend = &*self.blend;
+        let count = weights.len();
         self.pulls.fill(DVec2::ZERO);
         blend.add_pulls(weights, &mut self.pulls);
         let order = blend.cholesky.place_in_order();
@@ -225,8 +283,7 @@ impl BlendPlacer {
             // What is exactly 0 at a design is added last.
             *place = straight + (deviation(v) + self.shifts[blend.parts.of_vertex[v] as usize]);
         }
-        blend.mender.mend(blend.family.faces(), &mut self.places);
-        &self.places
+        blend.mender.mend(blend.family.faces(), &mut self.places)
     }
 
     /// Where the vertices were placed last.

@@ -95,6 +95,33 @@ fn parts_are_carried_about_the_whole() {
     assert!((at[0].distance(at[12]) - 20.0).abs() < 1e-9);
 }
 
+#[test]
+fn from_a_fold_it_goes_towards_the_nearest_design_until_there_is_none() {
+    // Far beyond the designs, where nothing makes enough room.
+    let family = family(&THREE);
+    let blend = ArapBlend::build(&family, &Silent).expect("a blend");
+    let mut placer = blend.placer();
+    let mut folded = 0;
+    for k in 1..60 {
+        let beyond = f64::from(k);
+        for weights in [
+            [1.0 + 2.0 * beyond, -beyond, -beyond],
+            [-beyond, 1.0 + 1.5 * beyond, -0.5 * beyond],
+        ] {
+            if placer.solve(&weights) {
+                continue;
+            }
+            folded += 1;
+            placer.retreat(&weights);
+            for face in family.faces().iter() {
+                let [a, b, c] = face.map(|v| placer.places()[v as usize]);
+                assert!(twice_signed_area(a, b, c) > 0.0, "{weights:?}");
+            }
+        }
+    }
+    assert!(folded > 0);
+}
+
 proptest! {
     #[test]
     fn two_designs_are_the_pair(
