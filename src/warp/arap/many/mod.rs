@@ -12,18 +12,19 @@
 //! mean is that of rotations and of logarithms of stretches, each by itself.
 //!
 //! Guaranteed: each design at its own corner, to the last bit; of two designs it is the
-//! exponential homotopy with the symmetric energy, where no face folds; the order of the designs has no
-//! influence but by rounding, where no face turns by more than half a turn between two of
-//! them; and that no face folds between the designs: vertices inside make room where one
-//! would, then outlines, and what is folded still is shown as the nearest blend on the way to
-//! the design with the most weight that is not. Not guaranteed: any of that beyond the designs.
+//! exponential homotopy with the symmetric energy, where no face folds; the order of the
+//! designs has no influence but by rounding, where no face turns by more than half a turn
+//! between two of them and `retreat` has nothing to do; between the designs no face folds.
+//! Not guaranteed: that none folds beyond them.
 //!
 //! - `mend`: faces inside that are turned over, turned back
+//! - `retreat`: from a blend that stays folded to one that is not
 //! - `parts`: where the connected parts are as wholes; `along`: a way through the blends
 
 mod along;
 mod mend;
 mod parts;
+mod retreat;
 #[cfg(test)]
 mod tests;
 
@@ -41,12 +42,6 @@ use crate::progress::{Progress, checkpoint, still_wanted};
 use mend::Mender;
 use parts::{Parts, blended};
 use std::sync::Arc;
-
-/// Halvings of the way from a folded blend to a design: to a thousandth of it.
-const HALVINGS: usize = 10;
-
-/// Weights of two designs that differ by no more than this are one.
-const TIED: f64 = 1e-9;
 
 /// A prefactored blend of many designs. Cloning is cheap.
 ///
@@ -217,44 +212,6 @@ impl BlendPlacer {
             self.retreat(weights);
         }
         &self.places
-    }
-
-    /// Goes from a folded blend towards the design with the most weight, which has no fold,
-    /// just so far that there is none; of several such designs the shortest way.
-    fn retreat(&mut self, weights: &[f64]) {
-        let most = weights.iter().copied().fold(0.0, f64::max);
-        let (mut shortest, mut to) = (f64::INFINITY, 0);
-        for design in 0..weights.len() {
-            if weights[design] < most - TIED {
-                continue;
-            }
-            let (mut folded, mut free) = (0.0, 1.0);
-            for _ in 0..HALVINGS {
-                let way = 0.5 * (folded + free);
-                if self.solve_towards(weights, design, way) {
-                    free = way;
-                } else {
-                    folded = way;
-                }
-            }
-            if free < shortest {
-                (shortest, to) = (free, design);
-            }
-        }
-        self.solve_towards(weights, to, shortest);
-    }
-
-    /// Places the blend that lies so far on the way to a design, and says whether none of its
-    /// faces is folded.
-    fn solve_towards(&mut self, weights: &[f64], design: usize, way: f64) -> bool {
-        let mut towards = std::mem::take(&mut self.towards);
-        for (own, weight) in towards.iter_mut().zip(weights) {
-            *own = (1.0 - way) * weight;
-        }
-        towards[design] += way;
-        let is_free = self.solve(&towards);
-        self.towards = towards;
-        is_free
     }
 
     /// Places a blend as near as faces can be kept from folding, and says whether none is.
