@@ -158,6 +158,13 @@ impl Design {
         }
     }
 
+    /// All pieces of its coats, the lowest first: what is matched where it is shown in its own
+    /// paint. None where it has none.
+    #[must_use]
+    pub fn painted_pieces(&self) -> Option<Regions> {
+        Regions::stacked(self.coats.iter().map(|coat| coat.regions.clone()))
+    }
+
     /// The filled area of the form: an outline itself, a mesh without its
     /// inner edges, a truss with its bars drawn `bar_width` wide and round at
     /// the nodes. `bar_width` is in the design's units and matters to trusses

@@ -6,7 +6,7 @@ use super::part_time::PartTime;
 use super::ready::{Inner, Slot};
 use crate::content::{Clocks, Coat, Coating, Content, Solid};
 use crate::correspondence::{PieceMatch, RegionMatch};
-use crate::geometry::{DVec2, Side, twice_signed_area};
+use crate::geometry::{DVec2, twice_signed_area};
 use crate::warp::{Arap, Clock, Staggered};
 use std::collections::BTreeMap;
 
@@ -74,14 +74,14 @@ fn of_parts(film: &Arap, matched: Option<&RegionMatch>, times: &[PartTime]) -> V
     let mut of_parts = vec![None; count];
     let pieces: &[PieceMatch] = matched.map_or(&[], |matched| &matched.pieces);
     for (k, time) in times.iter().enumerate() {
-        let Some(named) = part_at(film, &of_vertices, time.side, time.at) else {
-            continue;
-        };
-        of_parts[named] = Some(k);
         let part = |piece: usize| {
             let piece = pieces.get(piece)?;
             [piece.source_part, piece.target_part][time.side]
         };
+        let Some(named) = part_at(film, &of_vertices, time, part) else {
+            continue;
+        };
+        of_parts[named] = Some(k);
         // A part that is split has several pieces.
         if let Some(own) = part(named) {
             let pieces = (0..count).filter(|&piece| part(piece) == Some(own));
@@ -91,20 +91,32 @@ fn of_parts(film: &Arap, matched: Option<&RegionMatch>, times: &[PartTime]) -> V
     of_parts
 }
 
-/// The connected part that a point of a design is in, or else the nearest one.
-fn part_at(film: &Arap, of_vertices: &[u32], side: Side, at: DVec2) -> Option<usize> {
+/// The connected part that the point of a time is in, or else the nearest one. Of several that
+/// hold it the uppermost: parts of a design are painted in the order of their numbers.
+fn part_at(
+    film: &Arap,
+    of_vertices: &[u32],
+    time: &PartTime,
+    part: impl Fn(usize) -> Option<usize>,
+) -> Option<usize> {
     let mesh = film.mesh();
-    let places = [mesh.source(), mesh.target()][side];
+    let places = [mesh.source(), mesh.target()][time.side];
     let holds = |face: &&[u32; 3]| {
         let [a, b, c] = face.map(|v| places[v as usize]);
         let beside = [[a, b], [b, c], [c, a]];
-        let is_left = |[a, b]: &[DVec2; 2]| twice_signed_area(*a, *b, at) >= 0.0;
+        let is_left = |[a, b]: &[DVec2; 2]| twice_signed_area(*a, *b, time.at) >= 0.0;
         twice_signed_area(a, b, c) > 0.0 && beside.iter().all(is_left)
     };
-    let vertex = mesh.faces().iter().find(holds).map(|face| face[0] as usize);
-    let far = |v: &usize| places[*v].distance_squared(at);
-    let vertex = vertex.or_else(|| (0..places.len()).min_by(|a, b| far(a).total_cmp(&far(b))));
-    Some(of_vertices[vertex?] as usize)
+    let component = |v: usize| of_vertices[v] as usize;
+    let holding = mesh.faces().iter().filter(holds);
+    let uppermost = holding
+        .map(|face| component(face[0] as usize))
+        .max_by_key(|&component| part(component));
+    let far = |v: &usize| places[*v].distance_squared(time.at);
+    uppermost.or_else(|| {
+        let nearest = (0..places.len()).min_by(|a, b| far(a).total_cmp(&far(b)))?;
+        Some(component(nearest))
+    })
 }
 
 impl Solid {

@@ -70,21 +70,37 @@ fn crossings<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> impl Itera
         .map(move |(a, b)| a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x))
 }
 
-/// A point inside the rings where a word can stand: in the widest place at their middle height.
-pub fn inside(rings: &[&[DVec2]]) -> Option<DVec2> {
+/// A point inside the rings where a word can stand: in the widest place at their middle height
+/// that none of what lies `above` covers. None where all of it is covered.
+pub fn seen(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2> {
     let ys = || rings.iter().flat_map(|ring| ring.iter().map(|p| p.y));
     let low = ys().reduce(f64::min)?;
     let high = ys().reduce(f64::max)?;
-    // Where the middle runs along an edge or through a hole, another height has more room.
-    let widest = [0.5, 0.4, 0.6, 0.25, 0.75].into_iter().flat_map(|share| {
-        let y = low + share * (high - low);
-        let spans = spans(rings.iter().copied(), y);
-        spans
-            .into_iter()
-            .map(move |[a, b]| (b - a, 0.5 * (a + b), y))
-    });
-    let (_, x, y) = widest.max_by(|a, b| a.0.total_cmp(&b.0))?;
-    Some(DVec2::new(x, y))
+    let widest = |shares: &[f64]| {
+        let free = shares.iter().flat_map(|share| {
+            let y = low + share * (high - low);
+            let mut left = spans(rings.iter().copied(), y);
+            for cover in above {
+                for covered in spans(cover.iter().map(Vec::as_slice), y) {
+                    left = without(left, covered);
+                }
+            }
+            left.into_iter()
+                .map(move |[a, b]| (b - a, DVec2::new(0.5 * (a + b), y)))
+        });
+        free.max_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, at)| at)
+    };
+    // Where the middle runs along an edge or through a hole, another height has more room; what
+    // is nearly covered shows at few heights.
+    let many: [f64; 31] = std::array::from_fn(|k| (k + 1) as f64 / 32.0);
+    widest(&[0.5, 0.4, 0.6, 0.25, 0.75]).or_else(|| widest(&many))
+}
+
+/// What is left of stretches of a line outside of another.
+fn without(stretches: Vec<[f64; 2]>, [from, to]: [f64; 2]) -> Vec<[f64; 2]> {
+    let rests = |[a, b]: [f64; 2]| [[a, b.min(from)], [a.max(to), b]];
+    let rests = stretches.into_iter().flat_map(rests);
+    rests.filter(|[a, b]| a < b).collect()
 }
 
 /// The corners of a ring.
@@ -171,8 +187,30 @@ mod tests {
         assert!(!encloses(rings(), DVec2::new(0.75, 1.0)));
         assert!(!encloses(rings(), DVec2::new(3.0, 1.0)));
         assert_eq!(spans(rings(), 1.0), [[0.0, 0.5], [1.0, 2.0]]);
-        let at = inside(&[&ring, &hole]).expect("a place");
+        let at = seen(&[&ring, &hole], &[]).expect("a place");
         assert!(encloses(rings(), at));
+    }
+
+    #[test]
+    fn what_is_covered_in_its_middle_is_seen_beside() {
+        let square = square();
+        let cover = |from: f64, to: f64| {
+            let corners = [(0.0, from), (2.0, from), (2.0, to), (0.0, to)];
+            vec![corners.map(DVec2::from).to_vec()]
+        };
+        let [low, middle, high] = [cover(0.0, 0.4), cover(0.3, 1.6), cover(1.7, 2.0)];
+        let at = seen(&[&square], &[&middle]).expect("a place");
+        assert!(!(0.3..=1.6).contains(&at.y), "{at}");
+        let at = seen(&[&square], &[&low, &middle, &high]).expect("a place");
+        assert!((1.6..=1.7).contains(&at.y), "{at}");
+        assert_eq!(seen(&[&square], &[&cover(0.0, 2.0)]), None);
+        let left = vec![vec![
+            DVec2::ZERO,
+            DVec2::new(1.5, 0.0),
+            DVec2::new(1.5, 2.0),
+            DVec2::new(0.0, 2.0),
+        ]];
+        assert_eq!(seen(&[&square], &[&left]).map(|at| at.x), Some(1.75));
     }
 
     #[test]

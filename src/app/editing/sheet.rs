@@ -13,6 +13,7 @@ use crate::correspondence::{
 };
 use crate::design::{Design, Form, Picture};
 use crate::geometry::{Bounds, DVec2, Side, Similarity};
+use crate::transition::{Options, PaintRule};
 
 /// A cut that was asked for is shown by the one that came of it where the two are no farther apart
 /// than this share of the design: a cut that the match moved is still the one that was asked for.
@@ -50,7 +51,8 @@ pub struct Sheet {
 /// One design.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetSide {
-    /// Its parts, each an outline and its holes.
+    /// Its parts as they are matched, each an outline and its holes; a later one hides what lies
+    /// under it.
     pub parts: Vec<Vec<Vec<DVec2>>>,
     /// What pins snap to.
     pub corners: Vec<DVec2>,
@@ -104,10 +106,13 @@ impl Sheet {
     pub fn new(
         designs: [&Design; 2],
         by: [Similarity; 2],
-        matching: &Matching,
+        Options {
+            matching, paint, ..
+        }: &Options,
         matched: Option<&RegionMatch>,
     ) -> Self {
-        let [Some(source), Some(target)] = [0, 1].map(|k| side(designs[k], &by[k])) else {
+        let side = |k: usize| side(designs[k], &by[k], *paint);
+        let [Some(source), Some(target)] = [0, 1].map(side) else {
             return Self::default();
         };
         let placed = matching.placed(&by);
@@ -186,14 +191,14 @@ impl Sheet {
         (ring.kind == RingKind::Matched).then(|| a.lerp(b, foot.along))
     }
 
-    /// The part of one side that a point lies in, or within reach of.
+    /// The part of one side that a point lies in, the uppermost of several; or else one within
+    /// reach.
     #[must_use]
     pub fn part(&self, side: Side, p: DVec2, reach: f64) -> Option<usize> {
         let parts = &self.sides.as_ref()?[side].parts;
-        let rings = |k: usize| parts[k].iter().map(Vec::as_slice);
         // Inside wins over near: a part may lie in the hole of another.
-        let hit = (0..parts.len()).find(|&k| polyline::encloses(rings(k), p));
-        hit.or_else(|| {
+        uppermost(parts, p).or_else(|| {
+            let rings = |k: usize| parts[k].iter().map(Vec::as_slice);
             let far = |k: usize| polyline::nearest(rings(k), p).map_or(f64::MAX, |f| f.distance);
             let nearest = (0..parts.len()).min_by(|a, b| far(*a).total_cmp(&far(*b)))?;
             (far(nearest) <= reach).then_some(nearest)
@@ -201,10 +206,21 @@ impl Sheet {
     }
 }
 
-fn side(design: &Design, by: &Similarity) -> Option<SheetSide> {
-    let Form::Outline(regions) = &design.form else {
+/// The part that a point lies in: of several the last, which is painted over the others.
+fn uppermost(parts: &[Vec<Vec<DVec2>>], p: DVec2) -> Option<usize> {
+    parts
+        .iter()
+        .rposition(|rings| polyline::encloses(rings.iter().map(Vec::as_slice), p))
+}
+
+fn side(design: &Design, by: &Similarity, paint: PaintRule) -> Option<SheetSide> {
+    let Form::Outline(outline) = &design.form else {
         return None;
     };
+    // In their own paint parts are matched coat by coat, and hide each other.
+    let painted = (paint == PaintRule::Own).then(|| design.painted_pieces());
+    let painted = painted.flatten();
+    let regions = painted.as_ref().unwrap_or(outline);
     let ring = |points: &[DVec2]| points.iter().map(|p| by.apply(*p)).collect::<Vec<_>>();
     let parts: Vec<Vec<Vec<DVec2>>> = regions
         .iter()
@@ -243,59 +259,66 @@ fn rings(pieces: &[PieceMatch]) -> Vec<SheetRing> {
 }
 
 fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &Matching) -> Vec<SheetPiece> {
-    let Matching { links, lone, .. } = said;
-    let is_linked = |piece: &PieceMatch| {
-        let parts = [piece.source_part, piece.target_part];
-        links.iter().any(|link| {
-            Side::BOTH.into_iter().all(|side| {
-                let part = parts[side].and_then(|k| sides[side].parts.get(k));
-                part.is_some_and(|rings| {
-                    polyline::encloses(rings.iter().map(Vec::as_slice), link[side])
-                })
-            })
-        })
+    let part_at = |side: Side, p: DVec2| uppermost(&sides[side].parts, p);
+    let links = said.links.iter();
+    let linked: Vec<[Option<usize>; 2]> = links
+        .map(|link| Side::BOTH.map(|side| part_at(side, link[side])))
+        .collect();
+    let lone = said.lone.iter();
+    let lone: Vec<(Side, Option<usize>)> = lone
+        .map(|lone| (lone.side, part_at(lone.side, lone.at)))
+        .collect();
+    let is_said = |parts: &[Option<usize>; 2]| {
+        let is_linked = parts.iter().all(Option::is_some) && linked.contains(parts);
+        let is_alone =
+            |(side, part): &(Side, Option<usize>)| part.is_some() && parts[*side] == *part;
+        is_linked || lone.iter().any(is_alone)
     };
-    let is_alone = |piece: &PieceMatch| {
-        let parts = [piece.source_part, piece.target_part];
-        lone.iter().any(|lone| {
-            let part = parts[lone.side].and_then(|k| sides[lone.side].parts.get(k));
-            part.is_some_and(|rings| polyline::encloses(rings.iter().map(Vec::as_slice), lone.at))
-        })
-    };
+    let boxes = Side::BOTH.map(|side| {
+        let parts = sides[side].parts.iter();
+        parts
+            .map(|part| Bounds::of(part.iter().flatten().copied()))
+            .collect::<Vec<_>>()
+    });
     let piece = |(k, piece): (usize, &PieceMatch)| {
-        let fate = match (piece.source_part, piece.target_part) {
-            (Some(_), None) => Fate::Dies,
-            (None, Some(_)) => Fate::Born,
+        let parts = [piece.source_part, piece.target_part];
+        let fate = match parts {
+            [Some(_), None] => Fate::Dies,
+            [None, Some(_)] => Fate::Born,
             _ => Fate::Paired,
         };
+        let at = Side::BOTH.map(|side| {
+            let Some(own) = parts[side] else {
+                return middle(piece, side, &[]);
+            };
+            let all = sides[side].parts.iter().zip(&boxes[side]);
+            let above = all.skip(own + 1).filter(|(_, bounds)| {
+                let both = bounds.zip(boxes[side][own]);
+                both.is_some_and(|(a, b)| a.meets(&b))
+            });
+            let above: Vec<&[Vec<DVec2>]> = above.map(|(part, _)| part.as_slice()).collect();
+            middle(piece, side, &above)
+        });
         SheetPiece {
             name: letters::of_part(k),
             fate,
-            at: [true, false].map(|is_source| middle(piece, is_source)),
-            is_linked: is_linked(piece) || is_alone(piece),
-            parts: [piece.source_part, piece.target_part],
+            at,
+            is_linked: is_said(&parts),
+            parts,
         }
     };
     pieces.iter().enumerate().map(piece).collect()
 }
 
-fn middle(piece: &PieceMatch, is_source: bool) -> DVec2 {
-    let rings: Vec<&[DVec2]> = piece
-        .rings
-        .iter()
-        .chain(&piece.lone)
-        .map(|ring| {
-            if is_source {
-                &ring.source
-            } else {
-                &ring.target
-            }
-        })
-        .map(Vec::as_slice)
-        .collect();
+/// Where a piece is seen, outside of the parts that lie above.
+fn middle(piece: &PieceMatch, side: Side, above: &[&[Vec<DVec2>]]) -> DVec2 {
+    let rings = piece.rings.iter().chain(&piece.lone);
+    let rings = rings.map(|ring| [&ring.source, &ring.target][side].as_slice());
+    let rings: Vec<&[DVec2]> = rings.collect();
     let first = rings.first().and_then(|ring| ring.first());
-    // A ring that is a point has no inside.
-    polyline::inside(&rings)
+    // What is covered is named where it would be; a ring that is a point has no inside.
+    polyline::seen(&rings, above)
+        .or_else(|| polyline::seen(&rings, &[]))
         .or(first.copied())
         .unwrap_or_default()
 }

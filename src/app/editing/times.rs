@@ -132,7 +132,8 @@ fn side_of(sheet: &Sheet, piece: usize) -> Side {
     found.unwrap_or(Side::Source)
 }
 
-/// The pieces that each time is of: those of the part that its point is in, or nearest to.
+/// The pieces that each time is of: those of the part that its point is in, the uppermost of
+/// several, or nearest to.
 fn named_pieces(sheet: &Sheet, times: &[PartTime]) -> Vec<Vec<usize>> {
     let mut of_pieces: Vec<Vec<&SheetRing>> = vec![Vec::new(); sheet.pieces.len()];
     for ring in &sheet.rings {
@@ -159,10 +160,11 @@ fn named_pieces(sheet: &Sheet, times: &[PartTime]) -> Vec<Vec<usize>> {
             let all = sheet.rings.iter().map(|ring| ring.sides[side].as_slice());
             Some(sheet.rings[polyline::nearest(all, at)?.ring].piece)
         };
-        let Some(named) = (0..of_pieces.len()).find(is_in).or_else(nearest) else {
+        let part = |k: usize| sheet.pieces[k].parts[side];
+        let holding = (0..of_pieces.len()).filter(is_in);
+        let Some(named) = holding.max_by_key(|&k| part(k)).or_else(nearest) else {
             return Vec::new();
         };
-        let part = |k: usize| sheet.pieces[k].parts[side];
         let is_of_part = |&k: &usize| k == named || (part(k).is_some() && part(k) == part(named));
         (0..of_pieces.len()).filter(is_of_part).collect()
     };
@@ -175,6 +177,8 @@ mod tests {
     use crate::app::editing::sheet::{Fate, SheetPiece};
     use crate::correspondence::RingKind;
     use crate::easing::Easing;
+    use crate::progress::Silent;
+    use crate::transition::Options;
 
     /// Three squares in a row; the first two are halves of one part of the source.
     fn sheet() -> Sheet {
@@ -241,5 +245,23 @@ mod tests {
         assert_eq!(clocks[2].to, 1.0);
         let first = staggered(&sheet, Order::FromTheMiddle)[0];
         assert_eq!(of_pieces(&sheet, &[first])[1], Some(0));
+    }
+
+    #[test]
+    fn a_part_upon_others_has_a_time_of_its_own() {
+        let loaded = crate::project::gallery::load("day-to-night").expect("a project");
+        let film = loaded.legs()[0].build(&Silent).expect("a film");
+        let designs = [0, 1].map(|k| &*loaded.designs[k]);
+        let by = loaded.arrangement().expect("places");
+        let sheet = Sheet::new(designs, by, &Options::default(), film.matched());
+        let count = sheet.pieces.len();
+        assert!(count > 8);
+        for piece in 0..count {
+            let mut times = Vec::new();
+            set(&sheet, &mut times, piece, LATE);
+            let mut expected = vec![None; count];
+            expected[piece] = Some(0);
+            assert_eq!(of_pieces(&sheet, &times), expected, "{piece}");
+        }
     }
 }

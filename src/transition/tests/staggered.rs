@@ -111,6 +111,29 @@ fn a_part_that_splits_waits_with_all_its_pieces() {
 }
 
 #[test]
+fn of_parts_upon_each_other_the_uppermost_waits() {
+    let stack = |at: f64| {
+        let text = format!(
+            "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>\
+             <rect x='{at}' width='60' height='60' fill='navy'/>\
+             <rect x='{}' y='20' width='20' height='20' fill='gold'/></svg>",
+            at + 20.0
+        );
+        design(&text)
+    };
+    let plain = Transition::build(&TransitionSpec::new(stack(0.0), stack(30.0)), &Silent).unwrap();
+    let bounds = plain.designs()[0].form.bounds();
+    // Of each coat, the lowest first, how far it is on its way.
+    let ways = |at: DVec2| -> Vec<f64> {
+        let timed = plain.with_part_times(&[late(Side::Source, at.into())]);
+        let coats = timed.frame(0.75).figure().coats;
+        coats.iter().map(|coat| coat.t).collect()
+    };
+    assert_eq!(ways(bounds.centre()), [0.75, 0.5]);
+    assert_eq!(ways(bounds.min + DVec2::splat(5.0)), [0.5, 0.75]);
+}
+
+#[test]
 fn what_is_born_and_its_hole_wait_too() {
     let source = svg("M0 0h20v20h-20z");
     let target = svg("M0 0h20v20h-20z M40 0h30v30h-30z M50 10v10h10v-10z");
