@@ -9,6 +9,7 @@ use crate::app::looking::filmstrip::row;
 use crate::app::opening::apply::Gallery;
 use crate::app::session::state::Session;
 use crate::app::telling::job::Job;
+use crate::colour::Rgb;
 use crate::export::even_times;
 use crate::progress::Progress;
 use crate::project::gallery;
@@ -49,7 +50,8 @@ impl Thumbnails {
         self.running.is_some() || !self.waiting.is_empty()
     }
 
-    /// The strip of a bundled project, once it is there: straight alpha, transparent ground.
+    /// The strip of a bundled project, once it is there: straight alpha, and a transparent ground
+    /// but for what has its own paint.
     #[must_use]
     pub fn get(&self, name: &str) -> Option<&RgbaImage> {
         self.done.get(name)
@@ -95,5 +97,14 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let frames = frames.min(MOST_FRAMES);
     let times = even_times(timing.from, timing.to, frames);
     let cell = (STRIP_PX.0 / frames as u32, STRIP_PX.1);
-    Ok(row(&sequence, &loaded.project.style, &times, cell)?)
+    let style = &loaded.project.style;
+    let drawn = row(&sequence, style, &times, cell)?;
+    // What has its own paint was drawn for paper: navy letters are lost on a dark window.
+    if loaded.designs.iter().all(|design| design.coats.is_empty()) {
+        return Ok(drawn);
+    }
+    let Rgb([r, g, b]) = style.ground;
+    let mut paper = RgbaImage::from_pixel(STRIP_PX.0, STRIP_PX.1, image::Rgba([r, g, b, 255]));
+    image::imageops::overlay(&mut paper, &drawn, 0, 0);
+    Ok(paper)
 }
