@@ -2,6 +2,7 @@
 
 use super::leg::Leg;
 use super::map::MapSettings;
+use super::title::title_of;
 use crate::content::ContentKind;
 use crate::design::{ImportOptions, Source};
 use crate::geometry::Similarity;
@@ -155,7 +156,7 @@ impl Project {
         let designs: Vec<_> = designs.into_iter().map(DesignEntry::new).collect();
         // Of the paths, for nothing is read yet.
         let names: Vec<_> = designs.iter().map(|d| Source::of(&d.path).name()).collect();
-        let mut project = Self::bare(names.join(" to "), designs);
+        let mut project = Self::bare(title_of(&names), designs);
         let legs = project.leg_count() as f64;
         project.timing.to = legs;
         project.timing.duration_secs *= legs;

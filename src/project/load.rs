@@ -3,6 +3,7 @@
 use super::document::{DesignEntry, Project};
 use super::error::ProjectError;
 use super::features::strung;
+use super::title::title_of;
 use crate::content::ContentKind;
 use crate::correspondence::Matching;
 use crate::design::{Design, Form, Source};
@@ -233,7 +234,7 @@ impl LoadedProject {
     pub fn title(&self) -> String {
         if self.project.title.is_empty() {
             let names: Vec<_> = self.designs.iter().map(|d| d.name.as_str()).collect();
-            names.join(" to ")
+            title_of(&names)
         } else {
             OneLine(&self.project.title).to_string()
         }

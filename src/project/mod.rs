@@ -14,6 +14,7 @@ mod legs;
 mod load;
 mod map;
 mod reading;
+mod title;
 
 #[cfg(test)]
 mod tests;
@@ -24,3 +25,4 @@ pub use leg::Leg;
 pub use legs::Moved;
 pub use load::LoadedProject;
 pub use map::{KeptPlace, MOST_PLACES, MapError, MapSettings};
+pub(crate) use title::title_of;

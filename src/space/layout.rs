@@ -94,16 +94,39 @@ fn scaled(likeness: &Likeness) -> Vec<DVec2> {
     let along = axis(0);
     let across = if count > 1 { axis(1) } else { vec![0.0; count] };
     let mut sites: Vec<DVec2> = along.into_iter().zip(across).map(DVec2::from).collect();
-    let reach = sites.iter().map(|site| site.length()).fold(0.0, f64::max);
+    let reach = filled(&mut sites);
     if reach <= f64::EPSILON || !reach.is_finite() {
         return polygon(count);
     }
-    sites.iter_mut().for_each(|site| *site /= reach);
     push_apart(&mut sites);
-    // What was pushed beyond the circle is brought back, with all others.
-    let reach = sites.iter().map(|site| site.length()).fold(1.0, f64::max);
-    sites.iter_mut().for_each(|site| *site /= reach);
+    filled(&mut sites);
     sites
+}
+
+/// Lays sites so that they fill the circle about the origin, and tells how large the one about
+/// them was. Their mean is no middle: one that is unlike all others would push those into a
+/// corner.
+fn filled(sites: &mut [DVec2]) -> f64 {
+    /// After so many the middle is off by less than a hundredth of the circle.
+    const ROUNDS: usize = 100;
+    let farthest = |from: DVec2| {
+        let far = |a: &DVec2| a.distance_squared(from);
+        let sites = sites.iter().copied();
+        sites.max_by(|a, b| far(a).total_cmp(&far(b)))
+    };
+    // Always less of the way to what is farthest (Bădoiu and Clarkson 2003).
+    let mut middle = DVec2::ZERO;
+    for round in 1..=ROUNDS {
+        let Some(far) = farthest(middle) else { break };
+        middle += (far - middle) / (round + 1) as f64;
+    }
+    let reach = farthest(middle).map_or(0.0, |far| far.distance(middle));
+    if reach > 0.0 && reach.is_finite() {
+        sites
+            .iter_mut()
+            .for_each(|site| *site = (*site - middle) / reach);
+    }
+    reach
 }
 
 /// Moves sites that are too near to each other apart, a little in every round.
@@ -159,6 +182,18 @@ mod tests {
         let sites = MapLayout::Likeness.sites(&likeness);
         let far = |a: usize, b: usize| sites[a].distance(sites[b]);
         assert!(far(0, 2) < far(0, 1) && far(1, 3) < far(1, 2));
+        // The unlike one does not push the others into a corner.
+        let unlike = [
+            places(0.0),
+            places(0.1),
+            places(0.15),
+            places(0.2),
+            places(5.0),
+        ];
+        let sites = MapLayout::Likeness.sites(&Likeness::of_points(&unlike));
+        let [least, most] =
+            [f64::min, f64::max].map(|of| sites.iter().map(|site| site.x).fold(0.0, of));
+        assert!((least + most).abs() < 0.05 && most > 0.9, "{sites:?}");
         // The same design twice is still two.
         let same = Likeness::of_points(&[places(0.0), places(0.0), places(1.0)]);
         let sites = MapLayout::Likeness.sites(&same);

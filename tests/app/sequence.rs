@@ -47,7 +47,7 @@ fn on_stage(window: &mut Window) -> (String, f64) {
 #[test]
 fn the_stage_shows_the_leg_that_t_is_in() {
     let (_folder, mut window) = opened(4);
-    assert_eq!(window.session().title(), "d0 to d1 to d2 to d3");
+    assert_eq!(window.session().title(), "d0 to d3, 4 designs");
     for (t, names, within) in [
         (0.25, "d0 d1", 0.25),
         (1.0, "d1 d2", 0.0),

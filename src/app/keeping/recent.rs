@@ -1,5 +1,6 @@
 //! What was opened last, so that it is a click away at the next start.
 
+use crate::project::title_of;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -29,7 +30,7 @@ impl Opened {
             OneLine(&stem.to_string_lossy()).to_string()
         };
         let stems: Vec<String> = self.files.iter().map(stem).collect();
-        stems.join(" to ")
+        title_of(&stems)
     }
 }
 
