@@ -236,7 +236,7 @@ fn short(value: f64) -> String {
     match value.abs() {
         v if !v.is_finite() => "folded".to_owned(),
         v if v.fract() == 0.0 && v < 1e6 => format!("{value:.0}"),
-        v if (0.01..1e4).contains(&v) => {
+        v if (0.01..1e6).contains(&v) => {
             let decimals = if v >= 100.0 { 0 } else { 2 };
             format!("{value:.decimals$}")
         }
@@ -271,6 +271,7 @@ mod tests {
         assert_eq!(short(3.0), "3");
         assert_eq!(short(1.2345), "1.23");
         assert_eq!(short(123.4), "123");
+        assert_eq!(short(49_788.4), "49788");
         assert_eq!(short(0.000_12), "1.2e-4");
         assert_eq!(short(f64::INFINITY), "folded");
     }
