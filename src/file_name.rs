@@ -4,7 +4,7 @@
 #[must_use]
 pub fn safe(name: &str) -> String {
     let keep = |c: char| {
-        if c.is_alphanumeric() || "-_. ".contains(c) {
+        if c.is_alphanumeric() || "-_. ,()+&".contains(c) {
             c
         } else {
             '-'
@@ -29,6 +29,7 @@ mod tests {
     #[test]
     fn names_are_safe() {
         assert_eq!(safe("a/b\\c:d"), "a-b-c-d");
+        assert_eq!(safe("a to d, 4 designs (2)"), "a to d, 4 designs (2)");
         assert_eq!(safe(".."), "untitled");
         assert_eq!(safe("  Brücke 2 "), "Brücke 2");
     }

@@ -1,7 +1,6 @@
 //! Words below a film: the names of its stops, each while the film is near it.
 
 use super::drawing::Drawing;
-use super::text;
 use crate::colour::{Paint, Rgb};
 use crate::geometry::DVec2;
 use crate::transition::Stop;
@@ -86,15 +85,13 @@ impl Captions {
         };
         let size = drawing.size.as_dvec2();
         let shorter = size.min_element();
-        let height = Self::LETTERS * shorter;
-        let width = text::width(words, height);
-        let height = height * (Self::WIDEST * size.x / width).min(1.0);
+        let room = [Self::WIDEST * size.x, Self::LETTERS * shorter];
         let base = DVec2::new(0.5 * size.x, size.y - 0.45 * Self::BAND * shorter);
         let paint = Paint {
             opacity: seen,
             ..self.colour.into()
         };
-        drawing.push_label(words, base, height, paint);
+        drawing.push_label_within(words, base, room, paint);
     }
 }
 

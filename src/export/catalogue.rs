@@ -13,7 +13,7 @@ use super::view::View;
 use super::words::ink_on;
 use crate::colour::Rgb;
 use crate::file_name::safe;
-use crate::geometry::Bounds;
+use crate::geometry::{Bounds, DVec2};
 use crate::measure::{BlendMeasures, BlendSampler};
 use crate::names::named;
 use crate::one_line::OneLine;
@@ -172,7 +172,13 @@ impl Catalogue {
     /// All side by side, with their names and stars.
     #[must_use]
     pub fn sheet(&self, space: &Space, style: &Style, ground: Option<Rgb>) -> Drawing {
-        let bounds: Bounds = space.bounds();
+        // Names are long where nobody gave one: the cells of slender designs are wider.
+        let own = space.bounds();
+        let beside = 0.5 * (own.size().y - own.size().x).max(0.0) * DVec2::X;
+        let bounds = Bounds {
+            min: own.min - beside,
+            max: own.max + beside,
+        };
         let layout = SheetLayout::new(self.len().max(1), bounds, None);
         let mut drawing = Drawing::new(layout.size, ground);
         for (k, entry) in self.entries.iter().enumerate() {
@@ -183,7 +189,9 @@ impl Catalogue {
                 0 => OneLine(&entry.kept.name).to_string(),
                 stars => format!("{}, {stars} of 5", OneLine(&entry.kept.name)),
             };
-            drawing.push_label(&words, base, 0.8 * layout.letters_px(), ink_on(ground));
+            let [width, height] = layout.label_room(inner);
+            let room = [width, 0.8 * height];
+            drawing.push_label_within(&words, base, room, ink_on(ground));
         }
         drawing
     }
@@ -255,7 +263,8 @@ fn stem(k: usize, kept: &KeptPlace) -> String {
 mod tests {
     use super::*;
     use crate::design::Design;
-    use crate::geometry::DVec2;
+    use crate::export::drawing::Item;
+    use crate::export::outline::Step;
     use crate::progress::Silent;
     use crate::space::{MapLayout, SpaceSpec};
     use std::sync::Arc;
@@ -308,5 +317,38 @@ mod tests {
         let all = Catalogue::new((&space, &map), &kept(&map), 1, CatalogueOrder::Stars);
         let stars = all.entries.iter().map(|entry| entry.kept.stars);
         assert_eq!(stars.collect::<Vec<_>>(), [5, 2]);
+    }
+
+    #[test]
+    fn long_names_keep_to_their_own_cells() {
+        let (space, map) = space();
+        let long = |site: DVec2| KeptPlace {
+            name: "a name that says of which designs it is how much".to_owned(),
+            ..KeptPlace::new(site)
+        };
+        let kept: Vec<KeptPlace> = map.sites().iter().map(|site| long(*site)).collect();
+        let catalogue = Catalogue::new((&space, &map), &kept, 0, CatalogueOrder::Kept);
+        let sheet = catalogue.sheet(&space, &Style::default(), None);
+        let spans = sheet.items.iter().filter_map(|item| match item {
+            Item::Fill {
+                outline,
+                label: Some(_),
+                ..
+            } => {
+                let xs = outline.steps.iter().filter_map(|step| match step {
+                    Step::Move(p) | Step::Line(p) => Some(p.x),
+                    _ => None,
+                });
+                Some([xs.clone().fold(f64::MAX, f64::min), xs.fold(0.0, f64::max)])
+            }
+            _ => None,
+        });
+        let spans: Vec<[f64; 2]> = spans.collect();
+        assert_eq!(spans.len(), 3);
+        assert!(spans[0][0] >= 0.0 && spans[2][1] <= f64::from(sheet.size.width()));
+        assert!(
+            spans.windows(2).all(|two| two[0][1] < two[1][0]),
+            "{spans:?}"
+        );
     }
 }

@@ -215,6 +215,20 @@ impl Drawing {
         });
     }
 
+    /// The same, smaller where they would be wider than that.
+    pub(super) fn push_label_within(
+        &mut self,
+        words: &str,
+        base_px: DVec2,
+        [width_px, height_px]: [f64; 2],
+        paint: impl Into<Paint>,
+    ) {
+        // Of no width where there is nothing to be seen.
+        let width = text::width(words, height_px).max(f64::MIN_POSITIVE);
+        let height_px = height_px * (width_px / width).min(1.0);
+        self.push_label(words, base_px, height_px, paint);
+    }
+
     /// Coats that lie on each other in one opaque paint are filled as one: the
     /// smooth edges of parts that touch would show what is below.
     fn push_coats(&mut self, coats: &[Coated], figure: &Figure, style: &Style, view: &View) {

@@ -46,7 +46,7 @@ pub fn map_sheet(
         let view = View::fit_cell(bounds, layout.size, corner, inner);
         drawing.push_blend(&frame, style, &view);
         if let Some(name) = name_at(space, map, place) {
-            drawing.push_label(&name, base, layout.letters_px(), ink);
+            drawing.push_label_within(&name, base, layout.label_room(inner), ink);
         }
     }
     drawing

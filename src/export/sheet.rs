@@ -94,6 +94,11 @@ impl SheetLayout {
         }
     }
 
+    /// Width and height of a label below a picture so large: nearly to the next one.
+    pub(super) fn label_room(&self, picture: DVec2) -> [f64; 2] {
+        [picture.x + 0.8 * self.gap_px, self.letters_px()]
+    }
+
     /// Corner and size of a cell's picture, and where its label's base line
     /// has its middle.
     pub(super) fn cell(&self, index: usize) -> (DVec2, DVec2, DVec2) {
