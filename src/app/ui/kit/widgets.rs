@@ -181,7 +181,8 @@ pub fn choices<T: PartialEq + Clone>(
     choices_of(ui, value, options, |_| true)
 }
 
-/// The same, of which only some can be chosen.
+/// The same, of which only some can be chosen. Each tells what it does: the response is of none of
+/// them, or what a row tells would be told beside.
 pub fn choices_of<T: PartialEq + Clone>(
     ui: &mut Ui,
     value: &mut T,
@@ -194,7 +195,6 @@ pub fn choices_of<T: PartialEq + Clone>(
     let count = options.len().max(1) as f32;
     let each = vec2((width - gap * (count - 1.0)) / count, CONTROL_HEIGHT);
     ui.spacing_mut().item_spacing.x = gap;
-    let mut all: Option<Response> = None;
     for (option, label, tip) in options {
         let chosen = *value == *option;
         let cell = ui.add_enabled_ui(can(option), |ui| choice(ui, chosen, label, each));
@@ -203,9 +203,8 @@ pub fn choices_of<T: PartialEq + Clone>(
         if response.clicked() {
             *value = option.clone();
         }
-        all = Some(all.map_or(response.clone(), |others| others | response));
     }
-    all.unwrap_or_else(|| ui.allocate_response(Vec2::ZERO, Sense::hover()))
+    ui.interact(Rect::NOTHING, ui.id().with("choices"), Sense::hover())
 }
 
 /// A row of which one choice holds.
