@@ -10,7 +10,7 @@ use morphospace::content::Content;
 use morphospace::correspondence::Matching;
 use morphospace::geometry::{DVec2, Side};
 use morphospace::project::Project;
-use morphospace::transition::{Ease, PartTime};
+use morphospace::transition::{Ease, PaintRule, PartTime};
 
 /// An L and the same L stretched, as outlines; and two squares beside each other.
 fn write_outline(folder: &Path, name: &str, d: &str) -> std::path::PathBuf {
@@ -288,6 +288,62 @@ fn parts_are_paired_by_two_clicks_and_freed_by_one() {
     assert!(window.matching().lone.is_empty() && !dies(&window));
     window.wait();
     assert!(window.session().problem().is_none());
+}
+
+#[test]
+fn of_painted_parts_the_hand_takes_the_one_that_is_seen() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let written = |name: &str, discs: &str| {
+        let path = folder.path().join(name);
+        let ground = r#"<rect width="100" height="100" fill="navy"/>"#;
+        let svg = format!(
+            r#"<svg xmlns="http://www.w3.org/2000/svg" width="100" height="100">{ground}{discs}</svg>"#
+        );
+        std::fs::write(&path, svg).expect("a file");
+        path
+    };
+    let disc =
+        |x: u32, y: u32, fill: &str| format!(r#"<circle cx="{x}" cy="{y}" r="12" fill="{fill}"/>"#);
+    let discs = disc(25, 25, "gold") + &disc(75, 75, "teal");
+    let files = vec![written("a.svg", &discs), written("b.svg", &discs)];
+    let mut window = Window::new();
+    window.send(Intent::Open(files));
+    window.wait();
+    window.type_char(KeyCode::KeyE, "e");
+    window.act(EditorAct::Tool(Tool::Parts));
+    assert_eq!(window.sheet().pieces.len(), 3);
+    // Each is named where it is seen.
+    for piece in 0..3 {
+        let at = window.sheet().pieces[piece].at[0];
+        let part = window.sheet().part(Side::Source, at, 0.0);
+        assert_eq!(part, window.sheet().pieces[piece].parts[0], "{piece}");
+    }
+    // Two pairs upon one ground are two links: the gold with the teal and the other way.
+    let [gold, teal] = [1, 2].map(|part| {
+        let mut pieces = window.sheet().pieces.iter();
+        let own = pieces.find(|piece| piece.parts[0] == Some(part));
+        own.expect("a disc").at[0]
+    });
+    for [from, to] in [[gold, teal], [teal, gold]] {
+        window.act(EditorAct::Click(touch(Side::Source, from.x, from.y)));
+        window.act(EditorAct::Click(touch(Side::Target, to.x, to.y)));
+        window.wait();
+    }
+    assert_eq!(window.matching().links.len(), 2);
+    let linked = window.sheet().pieces.iter().filter(|piece| piece.is_linked);
+    let linked: Vec<_> = linked.map(|piece| piece.parts).collect();
+    assert_eq!(linked.len(), 2, "{linked:?}");
+    assert!(linked.contains(&[Some(1), Some(2)]) && linked.contains(&[Some(2), Some(1)]));
+    // In one colour there is one part, also before its film is there.
+    let mut project = window.session().project().cloned().expect("a project");
+    project.options.paint = PaintRule::One;
+    window.send(Intent::Edit(Box::new(project)));
+    window.wait();
+    assert_eq!(window.problems(), Vec::<String>::new());
+    assert_eq!(window.sheet().pieces.len(), 1);
+    window.send(Intent::Undo);
+    window.wait();
+    assert_eq!(window.sheet().pieces.len(), 3);
 }
 
 #[test]

@@ -56,7 +56,13 @@ impl Sheet {
             // But what pins are for is as the settings are: the tools change with the method at
             // once.
             content: project.content,
-            ..Self::new([source, target], by, &project.options, matched)
+            ..Self::new(
+                [source, target],
+                by,
+                staged.project.options.paint,
+                &project.options.matching,
+                matched,
+            )
         };
         if sheet.is_free() {
             // Once one is set none is found; the stage may still show the old ones.

@@ -13,7 +13,7 @@ use crate::correspondence::{
 };
 use crate::design::{Design, Form, Picture};
 use crate::geometry::{Bounds, DVec2, Side, Similarity};
-use crate::transition::{Options, PaintRule};
+use crate::transition::PaintRule;
 
 /// A cut that was asked for is shown by the one that came of it where the two are no farther apart
 /// than this share of the design: a cut that the match moved is still the one that was asked for.
@@ -100,18 +100,17 @@ pub struct SheetCut {
 }
 
 impl Sheet {
-    /// Lays out a pair of designs, given as their files have them. Nothing where one of them has
-    /// triangles or bars of its own.
+    /// Lays out a pair of designs, given as their files have them and painted as they were
+    /// matched. Nothing where one of them has triangles or bars of its own.
     #[must_use]
     pub fn new(
         designs: [&Design; 2],
         by: [Similarity; 2],
-        Options {
-            matching, paint, ..
-        }: &Options,
+        paint: PaintRule,
+        matching: &Matching,
         matched: Option<&RegionMatch>,
     ) -> Self {
-        let side = |k: usize| side(designs[k], &by[k], *paint);
+        let side = |k: usize| side(designs[k], &by[k], paint);
         let [Some(source), Some(target)] = [0, 1].map(side) else {
             return Self::default();
         };
@@ -288,14 +287,12 @@ fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &Matching) -> Vec<
             _ => Fate::Paired,
         };
         let at = Side::BOTH.map(|side| {
-            let Some(own) = parts[side] else {
+            let own = parts[side].and_then(|k| Some((k, (*boxes[side].get(k)?)?)));
+            let Some((own, bounds)) = own else {
                 return middle(piece, side, &[]);
             };
-            let all = sides[side].parts.iter().zip(&boxes[side]);
-            let above = all.skip(own + 1).filter(|(_, bounds)| {
-                let both = bounds.zip(boxes[side][own]);
-                both.is_some_and(|(a, b)| a.meets(&b))
-            });
+            let all = sides[side].parts.iter().zip(&boxes[side]).skip(own + 1);
+            let above = all.filter(|(_, other)| other.is_some_and(|other| other.meets(&bounds)));
             let above: Vec<&[Vec<DVec2>]> = above.map(|(part, _)| part.as_slice()).collect();
             middle(piece, side, &above)
         });

@@ -175,10 +175,10 @@ fn named_pieces(sheet: &Sheet, times: &[PartTime]) -> Vec<Vec<usize>> {
 mod tests {
     use super::*;
     use crate::app::editing::sheet::{Fate, SheetPiece};
-    use crate::correspondence::RingKind;
+    use crate::correspondence::{Matching, RingKind};
     use crate::easing::Easing;
     use crate::progress::Silent;
-    use crate::transition::Options;
+    use crate::transition::PaintRule;
 
     /// Three squares in a row; the first two are halves of one part of the source.
     fn sheet() -> Sheet {
@@ -253,7 +253,13 @@ mod tests {
         let film = loaded.legs()[0].build(&Silent).expect("a film");
         let designs = [0, 1].map(|k| &*loaded.designs[k]);
         let by = loaded.arrangement().expect("places");
-        let sheet = Sheet::new(designs, by, &Options::default(), film.matched());
+        let sheet = Sheet::new(
+            designs,
+            by,
+            PaintRule::Own,
+            &Matching::default(),
+            film.matched(),
+        );
         let count = sheet.pieces.len();
         assert!(count > 8);
         for piece in 0..count {
