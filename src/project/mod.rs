@@ -14,7 +14,7 @@ mod legs;
 mod load;
 mod map;
 mod reading;
-mod title;
+pub(crate) mod title;
 
 #[cfg(test)]
 mod tests;
@@ -25,4 +25,3 @@ pub use leg::Leg;
 pub use legs::Moved;
 pub use load::LoadedProject;
 pub use map::{KeptPlace, MOST_PLACES, MapError, MapSettings};
-pub(crate) use title::title_of;

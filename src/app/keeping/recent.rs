@@ -1,6 +1,6 @@
 //! What was opened last, so that it is a click away at the next start.
 
-use crate::project::title_of;
+use crate::project::title::title_of;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
