@@ -2,7 +2,7 @@
 //! found for.
 
 use super::drawings::Drawings;
-use super::options::{Guarding, Options};
+use super::options::Options;
 use super::rigid::coarse;
 use crate::geometry::{DVec2, Regions};
 use fnv::FnvHasher;
@@ -65,6 +65,10 @@ impl Found {
     }
 }
 
+/// Counted up when a film of the same match and mesh moves otherwise than before: what
+/// was kept is then found anew.
+const FILMS: u32 = 1;
+
 /// What a film is found for: its outlines and how they look, and the options that it hangs on.
 pub(super) fn key(options: &Options, drawings: &Drawings) -> String {
     let outlines = &drawings.outlines;
@@ -74,13 +78,11 @@ pub(super) fn key(options: &Options, drawings: &Drawings) -> String {
         options.quality,
         &options.triangulation,
         coarse(&options.arap),
+        FILMS,
     );
     // Options are numbers and words; what could not be written has one key.
     hasher.write(&serde_json::to_vec(&asked).unwrap_or_default());
-    // What was kept before there were guards stays what it is.
-    if options.guard != Guarding::default() {
-        hasher.write(options.guard.to_string().as_bytes());
-    }
+    hasher.write(options.guard.to_string().as_bytes());
     let bounds = outlines.each_ref().map(Regions::bounds);
     let bounds = bounds[0].union(&bounds[1]);
     let step = SAME * bounds.diameter();

@@ -23,7 +23,6 @@ use base64::engine::general_purpose::STANDARD;
 use flate2::Compression;
 use flate2::read::{ZlibDecoder, ZlibEncoder};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::FRAC_PI_2;
 use std::io::Read;
 
 /// What is kept unpacks to less: some 50 bytes a face. What is made up of empty
@@ -84,11 +83,6 @@ struct Record {
     swelling: Vec<usize>,
     /// Distortion as drawn, and mirrored.
     mirrored: Option<[f64; 2]>,
-    /// None in what was kept before faces were led.
-    #[serde(default)]
-    leads: Vec<f64>,
-    /// None in what was kept before there were guards.
-    #[serde(default)]
     guard: Option<Guard>,
 }
 
@@ -110,7 +104,6 @@ impl Record {
             holes: film.holes.iter().map(|(_, hole)| hole.life).collect(),
             swelling: film.swelling.clone(),
             mirrored,
-            leads: film.arap.leads(),
             guard: film.arap.guard().cloned(),
         })
     }
@@ -152,7 +145,6 @@ impl Record {
         let settled = Settled {
             lives: &self.lives,
             stiffness: &self.stiffness,
-            leads: &self.leads,
         };
         let arap = Arap::settled(&mesh, &options, settled, progress);
         let Ok(arap) = arap else {
@@ -190,8 +182,6 @@ impl Record {
             && self.swelling.iter().all(|&piece| piece < pieces)
             && self.stiffness.len() <= self.faces.len()
             && self.stiffness.iter().all(|&by| (1.0..1e12).contains(&by))
-            && self.leads.len() <= self.faces.len()
-            && self.leads.iter().all(|by| by.abs() < FRAC_PI_2)
             && self
                 .guard
                 .iter()
@@ -334,7 +324,6 @@ mod tests {
         change(&|record| record.lives = vec![Some(Life { from: 0.5, to: 0.5 })]);
         change(&|record| record.swelling = vec![99]);
         change(&|record| record.stiffness = vec![-1.0]);
-        change(&|record| record.leads[0] = 2.0);
         change(&|record| record.guard = guard(1 << 20));
         let texts = changed.iter().map(|record| record.packed().expect("text"));
         let cut = |k: usize| found.film.0[..found.film.0.len() * k / 8].to_owned();

@@ -18,8 +18,8 @@
 //!   with the least trouble; `settled`: all pieces out of each
 //!   other's way, by the `conflicts` that they have and the places and times of
 //!   `births`, and `holes` in them that come and go, by where their `walks` and
-//!   `outline`s are at some `steps`; `unfolded`, `edgewise`: films with fewer folds, and
-//!   smoother ones; `guarded`: films that keep out of their own way at every t
+//!   `outline`s are at some `steps`; `unfolded`: films with fewer folds;
+//!   `guarded`: films that keep out of their own way at every t
 //! - `found`, `kept`: what was found, as a document keeps it
 //! - `part_time`: parts that make their way in their own time
 //! - `note`: what was done otherwise than asked; `mirrored`: what might have been
@@ -41,7 +41,6 @@ mod coat_options;
 mod coating;
 mod conflicts;
 mod drawings;
-mod edgewise;
 mod error;
 mod features;
 mod found;

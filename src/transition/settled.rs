@@ -12,7 +12,6 @@ use super::candidate::Candidate;
 use super::choice::{best_of_group, drafts_of_group};
 use super::conflicts::in_the_way;
 use super::drawings::Drawings;
-use super::edgewise::smoothed;
 use super::error::BuildError;
 use super::group::{Chosen, GroupOf};
 use super::guarded::guarded;
@@ -71,8 +70,8 @@ pub(super) fn best(
             .extend(mirrored::note(spec, drawings, &pieces, progress)?);
     }
     let levels = Levels::of(&film.matched, &drawings.looks);
-    let arap = smoothed(film.arap, &levels, progress)?;
-    // What was led by its edges moves a little otherwise.
+    let arap = unfolded(film.arap, progress)?;
+    // What is held stiffer moves a little otherwise.
     let holes = timed(&film.matched.pieces, &arap, &levels, progress)?;
     let film = placed(
         Film {
@@ -262,7 +261,6 @@ fn placed(film: Film, levels: &Levels, progress: &dyn Progress) -> Result<Film, 
             let settled = Settled {
                 lives: &placed.lives,
                 stiffness: film.arap.stiffness(),
-                leads: &film.arap.leads(),
             };
             Film {
                 arap: Arap::settled(&placed.mesh, options, settled, progress)?,

@@ -12,8 +12,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 mod alone;
-mod edgewise;
 mod painted;
+mod rim;
 mod staggered;
 mod upright;
 

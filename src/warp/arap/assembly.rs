@@ -10,6 +10,7 @@
 use super::angles::{self, choose_turns};
 use super::life::Life;
 use super::options::{ArapError, ArapOptions, Weights};
+use super::rim;
 use super::sides::Outlined;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
@@ -21,9 +22,6 @@ use crate::warp::part_path::{centroid, rotation};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FaceMap {
     pub map: Polar,
-    /// The angle by which the face turns further on its way than its map says; its
-    /// stretch makes up for it.
-    pub lead: f64,
     /// Gradients of the hat functions of the second and third vertex.
     pub gradients: DMat2,
     /// W times them.
@@ -41,7 +39,6 @@ impl FaceMap {
         let back = edges(sides[0]) * edges(sides[1]).inverse();
         Self {
             map,
-            lead: 0.0,
             gradients,
             weighted: gradients * weights[0] + back * target_gradients * weights[1],
             target_gradients,
@@ -62,7 +59,7 @@ impl FaceMap {
     }
 }
 
-/// One bar in no face.
+/// One bar in no face, or one edge of an outline.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct ElementMap {
     pub ends: [u32; 2],
@@ -157,11 +154,16 @@ impl LocalMaps {
         self
     }
 
-    /// With these leads of the faces instead; 0 beyond the list.
-    pub(super) fn led(mut self, by: &[f64]) -> Self {
-        let by = by.iter().copied().chain(std::iter::repeat(0.0));
-        for (face, by) in self.faces.iter_mut().zip(by) {
-            face.lead = by;
+    /// With the edges of drawn outlines as elements, where those are held.
+    pub(super) fn rimmed(
+        mut self,
+        mesh: &CompatibleMesh,
+        lives: &[Option<Life>],
+        (options, outlined): (&ArapOptions, Outlined),
+    ) -> Self {
+        if outlined.of(options.homotopy) == Outlined::Yes {
+            let edges = rim::edges(mesh, &self.faces, lives, options.symmetric);
+            self.elements.extend(edges);
         }
         self
     }
@@ -171,7 +173,6 @@ impl LocalMaps {
     pub(super) fn turning_back(mut self, there: &Self) -> Self {
         for (face, other) in self.faces.iter_mut().zip(&there.faces) {
             face.map.angle = -other.map.angle;
-            face.lead = -other.lead;
         }
         for (element, other) in self.elements.iter_mut().zip(&there.elements) {
             element.angle = -other.angle;

@@ -21,7 +21,7 @@
 //! - `assembly`: gradients, weights and the matrix
 //! - `stresses`: the right-hand side of a frame, many faces at a time
 //! - `bounded`: the maps of all faces together, for bounded distortion
-//! - `leads`: faces along the outline that turn as their edge does
+//! - `rim`: edges of outlines as elements of their own
 //! - `sides`: what keeps straight sides straight
 //! - `guard`: what is moved aside where the film would meet itself
 //! - `ridge`: what is added to a matrix that rounding has eaten at
@@ -35,11 +35,11 @@ mod assembly;
 mod bounded;
 mod drift;
 mod guard;
-mod leads;
 mod life;
 mod many;
 mod options;
 mod ridge;
+mod rim;
 mod sides;
 mod stresses;
 mod times;
@@ -96,7 +96,7 @@ pub struct Arap(Arc<Inner>);
 #[derive(Debug)]
 struct Inner {
     mesh: CompatibleMesh,
-    /// Shared by films that differ by the leads of their faces.
+    /// Shared by films that differ by their guards.
     cholesky: Arc<Cholesky>,
     ridge: Option<Ridge>,
     stresses: Stresses,
@@ -115,8 +115,6 @@ pub(crate) struct Settled<'a> {
     pub lives: &'a [Option<Life>],
     /// Of each face; 1 beyond the list.
     pub stiffness: &'a [f64],
-    /// Of each face, as [`Arap::led`] takes them; 0 beyond the list.
-    pub leads: &'a [f64],
 }
 
 impl Arap {
@@ -172,7 +170,7 @@ impl Arap {
     }
 
     /// The same mesh with other options, subdivided once more if they ask for it:
-    /// what a face is divided into is as stiff as the face, and leads as it does.
+    /// what a face is divided into is as stiff as the face.
     ///
     /// # Errors
     /// As [`Self::build`].
@@ -184,7 +182,6 @@ impl Arap {
         let settled = Settled {
             lives: self.lives(),
             stiffness: self.stiffness(),
-            leads: &self.leads(),
         };
         let rebuilt = Self::prepared(self.mesh(), options, (settled, self.0.outlined), progress)?;
         let Some(guard) = self.guard() else {
@@ -208,11 +205,8 @@ impl Arap {
         let mesh = mesh.subdivided(options.subdivisions)?;
         // Subdivision lists the children of a face one after the other.
         let children = 4_usize.saturating_pow(options.subdivisions);
-        let divided = |each: &[f64]| -> Vec<f64> {
-            let each = each.iter();
-            each.flat_map(|&by| repeat_n(by, children)).collect()
-        };
-        let [stiffness, leads] = [settled.stiffness, settled.leads].map(divided);
+        let stiffness = settled.stiffness.iter();
+        let stiffness: Vec<f64> = stiffness.flat_map(|&by| repeat_n(by, children)).collect();
         // After subdividing: an anchor may be one of the new vertices.
         options.path.check(mesh.source().len())?;
         checkpoint(progress, "decomposing", 0.1)?;
@@ -223,7 +217,7 @@ impl Arap {
         };
         let maps = LocalMaps::new(&mesh, &options, settled.lives)?
             .stiffened(&stiffness)
-            .led(&leads);
+            .rimmed(&mesh, settled.lives, (&options, outlined));
         let drawn = (settled.lives.to_vec(), outlined);
         Self::from_maps(mesh, maps, options, drawn, progress)
     }
@@ -344,6 +338,7 @@ impl Arap {
         let lives: Vec<_> = lives.map(|life| life.map(Life::backwards)).collect();
         let maps = LocalMaps::new(&mesh, &inner.options, &lives)?
             .stiffened(self.stiffness())
+            .rimmed(&mesh, &lives, (&inner.options, inner.outlined))
             .turning_back(&inner.maps);
         let drawn = (lives, inner.outlined);
         let swapped = Self::from_maps(mesh, maps, inner.options.clone(), drawn, progress)?;
@@ -423,35 +418,6 @@ impl Arap {
             drawn,
             progress,
         )
-    }
-
-    /// The same interpolation in which each face turns by so many radians more
-    /// than its polar rotation, less than a right angle either way; 0 for those beyond
-    /// the list. Costs no factorisation. Only the polar homotopy heeds it.
-    pub(crate) fn led(&self, by: &[f64]) -> Self {
-        let inner = &*self.0;
-        let maps = inner.maps.clone().led(by);
-        Self(Arc::new(Inner {
-            mesh: inner.mesh.clone(),
-            cholesky: Arc::clone(&inner.cholesky),
-            ridge: inner.ridge,
-            stresses: Stresses::new(&inner.mesh, &maps, inner.options.homotopy),
-            drift: inner.drift.clone(),
-            maps,
-            options: inner.options.clone(),
-            outlined: inner.outlined,
-            guard: None,
-        }))
-    }
-
-    /// By how much each face turns more than its polar rotation.
-    pub(crate) fn leads(&self) -> Vec<f64> {
-        self.0.maps.faces.iter().map(|face| face.lead).collect()
-    }
-
-    /// The leads with which faces along the outline turn as their edges do.
-    pub(crate) fn leads_along_edges(&self) -> Vec<f64> {
-        leads::along_edges(&self.0.mesh, &self.0.maps.faces)
     }
 
     /// What the weight of each face is multiplied with; 1 beyond the list.

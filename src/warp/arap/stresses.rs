@@ -52,8 +52,8 @@ struct Block {
     angle: Row,
     /// W g for the second and third corner, column by column.
     weighted: [Row; 4],
-    /// A matrix that acts on W g, column by column. Polar: the stretch, turned back by
-    /// what the face leads. Exponential: the projection onto its larger axis.
+    /// A matrix that acts on W g, column by column. Polar: the stretch.
+    /// Exponential: the projection onto its larger axis.
     middle: [Row; 4],
 }
 
@@ -187,7 +187,7 @@ impl Stresses {
             Some(bounded) => bounded.add(times, memory, forces),
             None => self.arch.dispatch(Pass(self, times, &mut *forces)),
         }
-        // Bars are few beside faces, and take the plain form.
+        // Bars and edges are few beside faces, and take the plain form.
         if self.homotopy != Homotopy::Linear {
             for element in &self.elements {
                 let t = times.of_vertex(element.ends[0] as usize);
@@ -260,12 +260,7 @@ impl WithSimd for Pass<'_> {
 
 impl Block {
     fn new(faces: &[FaceMap], homotopy: Homotopy) -> Self {
-        // Of the other homotopies nothing is led.
-        let lead = |face: &FaceMap| match homotopy {
-            Homotopy::Polar => face.lead,
-            _ => 0.0,
-        };
-        let [angle] = rows(faces, |face| [face.map.angle + lead(face)]);
+        let [angle] = rows(faces, |face| [face.map.angle]);
         Self {
             angle,
             weighted: rows(faces, |face| face.weighted.to_cols_array()),
@@ -274,8 +269,7 @@ impl Block {
                 let axis = SymmetricEigen::of(face.map.stretch).axis;
                 match homotopy {
                     Homotopy::Exponential => DMat2::from_cols(axis * axis.x, axis * axis.y),
-                    _ if lead(face) == 0.0 => face.map.stretch,
-                    _ => DMat2::from_angle(-lead(face)) * face.map.stretch,
+                    _ => face.map.stretch,
                 }
                 .to_cols_array()
             }),
