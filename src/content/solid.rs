@@ -130,6 +130,18 @@ impl Solid {
         inked.map(|ring| ring.points).collect()
     }
 
+    /// The boundary walks of parts that both designs have.
+    ///
+    /// # Panics
+    /// Where a walk goes by a vertex that has no place.
+    pub(crate) fn lasting_at(&self, places: &[DVec2]) -> Vec<Vec<DVec2>> {
+        let specks = self.specks.iter().flat_map(|speck| &speck.walks);
+        let swells = self.swells.iter().flat_map(Swell::walks);
+        let alone: BTreeSet<usize> = specks.chain(swells).copied().collect();
+        let lasting = (0..self.loops.len()).filter(|walk| !alone.contains(walk));
+        lasting.map(|walk| self.walk_at(walk, places)).collect()
+    }
+
     /// The rings of [`Self::rings_at`], each with its coat and its clock.
     fn inked_at(&self, places: &[DVec2], t: f64) -> Vec<InkedRing> {
         let coating = self.coating.as_ref();

@@ -28,6 +28,8 @@ pub struct FilmSample {
     pub perimeter: f64,
     /// By how much all boundaries turn, in radians; 2π for each that is convex.
     pub turning: f64,
+    /// The same of parts that both designs have.
+    pub turning_of_both: f64,
     /// Separate pieces; of a solid as its boundary walks have them.
     pub pieces: Option<usize>,
     /// Holes in them, likewise.
@@ -88,6 +90,9 @@ pub struct FilmReport {
     /// Largest excess of the boundaries' turning over what lies between the
     /// ends, as a share of that: jagged or wavy where neither end is.
     pub turning_excess: f64,
+    /// The same of parts that both designs have, without holes that come and go: what is
+    /// born as it is drawn turns as much as it ever does from the first moment.
+    pub turning_of_both_excess: f64,
     /// Pieces beyond the larger end.
     pub pieces_excess: Option<usize>,
     /// Holes beyond the larger end.
@@ -183,6 +188,7 @@ impl<'a> Sampler<'a> {
                 + lengths * solid.bar_width,
             perimeter: rings_perimeter(&rings) + 2.0 * lengths,
             turning: turning(&rings, self.diameter) + TAU * solid.gone_at(t) as f64,
+            turning_of_both: turning(&solid.lasting_at(places), self.diameter),
             pieces: self.topology.map(|[pieces, _]| pieces),
             holes: self.topology.map(|[_, holes]| holes),
             crossings: (!rings.is_empty()).then(|| crossings_at(t, solid, places)),
@@ -236,6 +242,7 @@ fn of_rings(t: f64, rings: &[Vec<DVec2>], diameter: f64) -> FilmSample {
         area: areas.iter().sum(),
         perimeter: rings_perimeter(rings),
         turning: turning(rings, diameter),
+        turning_of_both: turning(rings, diameter),
         pieces: Some(rings.len() - holes),
         holes: Some(holes),
         crossings: None,
@@ -257,6 +264,7 @@ fn report(
         samples.iter().find(is_bad).map(|s| s.t)
     };
     let turning: Vec<_> = samples.iter().map(|s| [s.t, s.turning]).collect();
+    let turning_of_both: Vec<_> = samples.iter().map(|s| [s.t, s.turning_of_both]).collect();
     let peak = |of: fn(Distribution) -> f64| {
         excess::of_peak(samples.iter().map(|s| Some(of(s.distortion?.conformal))))
     };
@@ -276,6 +284,7 @@ fn report(
         area_variation_excess: excess::of_variation(samples.iter().map(|s| s.area)),
         perimeter_variation_excess: excess::of_variation(samples.iter().map(|s| s.perimeter)),
         turning_excess: turning_excess(&turning),
+        turning_of_both_excess: turning_excess(&turning_of_both),
         pieces_excess: excess::of_count(samples.iter().map(|s| s.pieces)),
         holes_excess: excess::of_count(samples.iter().map(|s| s.holes)),
         motion,

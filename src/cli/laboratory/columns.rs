@@ -169,7 +169,7 @@ use Better::{Large, Small};
 use Unit::{Cells, Degrees, Diameters, Pure, Seconds, Share};
 
 /// All of them, in the order of the table.
-pub(super) const ALL: [Column; 60] = [
+pub(super) const ALL: [Column; 61] = [
     words("method", |r| {
         Some(Cell::new(r.warp, r.content).ok()?.words().report)
     }),
@@ -272,6 +272,10 @@ pub(super) const ALL: [Column; 60] = [
     number("conformal_p95_by_end", Pure, |r| {
         r.film.conformal_p95_by_end
     }),
+    number("turning_of_both_excess", Share, |r| {
+        Some(r.film.turning_of_both_excess)
+    })
+    .told("turning of parts that both have", Small),
 ];
 
 #[cfg(test)]
@@ -291,7 +295,7 @@ mod tests {
         max_acceleration_diameters grid_width_cells grid_height_cells import_s match_s \
         triangulate_s match_and_triangulate_s build_s frame_s figure_s measure_s \
         turning_excess_share proof unproved_t prove_s moved_aside_diameters \
-        conformal_by_end conformal_p95_by_end";
+        conformal_by_end conformal_p95_by_end turning_of_both_excess_share";
 
     #[test]
     fn headings_are_what_they_were() {
@@ -306,6 +310,6 @@ mod tests {
     fn words_say_the_unit() {
         let words: Vec<_> = ALL.iter().filter_map(Column::words).collect();
         assert!(words.contains(&"build in all, seconds".to_owned()));
-        assert_eq!(words.len(), 17);
+        assert_eq!(words.len(), 18);
     }
 }
