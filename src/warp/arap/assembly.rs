@@ -10,7 +10,6 @@
 use super::angles::{self, choose_turns};
 use super::life::Life;
 use super::options::{ArapError, ArapOptions, Weights};
-use super::rim;
 use super::sides::Outlined;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
@@ -150,20 +149,6 @@ impl LocalMaps {
             let times = factor(by, k) / factor(&before, k);
             face.weighted *= times;
             face.weights = face.weights.map(|weight| weight * times);
-        }
-        self
-    }
-
-    /// With the edges of drawn outlines as elements, where those are held.
-    pub(super) fn rimmed(
-        mut self,
-        mesh: &CompatibleMesh,
-        lives: &[Option<Life>],
-        (options, outlined): (&ArapOptions, Outlined),
-    ) -> Self {
-        if outlined.of(options.homotopy) == Outlined::Yes {
-            let edges = rim::edges(mesh, &self.faces, lives, options.symmetric);
-            self.elements.extend(edges);
         }
         self
     }

@@ -14,8 +14,10 @@
 //! a part does not depend on its size. It is the mean of both designs': the way
 //! back is the way.
 
-use super::assembly::{ElementMap, FaceMap};
+use super::assembly::{ElementMap, FaceMap, LocalMaps};
 use super::life::Life;
+use super::options::ArapOptions;
+use super::sides::Outlined;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{Bounds, DVec2};
 
@@ -29,8 +31,24 @@ const STIFFNESS: f64 = 0.04;
 /// The most of an edge: rounding of the shortest is not what holds the film.
 const MOST: f64 = 1e4;
 
+impl LocalMaps {
+    /// With the edges of drawn outlines as elements, where those are held.
+    pub(super) fn rimmed(
+        mut self,
+        mesh: &CompatibleMesh,
+        lives: &[Option<Life>],
+        (options, outlined): (&ArapOptions, Outlined),
+    ) -> Self {
+        if outlined.of(options.homotopy) == Outlined::Yes {
+            let edges = edges(mesh, &self.faces, lives, options.symmetric);
+            self.elements.extend(edges);
+        }
+        self
+    }
+}
+
 /// The edges of all outlines, but those of parts that come and go.
-pub(super) fn edges(
+fn edges(
     mesh: &CompatibleMesh,
     faces: &[FaceMap],
     lives: &[Option<Life>],
