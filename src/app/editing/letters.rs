@@ -13,24 +13,22 @@ pub const SAME: f64 = 0.02;
 /// and for the others the first that none had.
 #[must_use]
 pub fn kept(points: &[PointPair], before: &[(PointPair, usize)], reach: f64) -> Vec<usize> {
-    // Of one point that kept its source and one that kept its target the first is the same.
-    let distance = |a: &PointPair, b: &PointPair| {
-        let [source, target] = [a.source.distance(b.source), a.target.distance(b.target)];
-        [source.min(target), source]
-    };
-    let mut pairs: Vec<([f64; 2], usize, usize)> = Vec::new();
+    // What kept its source is the same before what kept its target.
+    let mut pairs: Vec<(bool, f64, usize, usize)> = Vec::new();
     for (k, point) in points.iter().enumerate() {
         for (other, letter) in before {
-            let apart = distance(point, other);
-            if apart[0] <= reach {
-                pairs.push((apart, k, *letter));
+            let source = point.source.distance(other.source);
+            let target = point.target.distance(other.target);
+            if source <= reach {
+                pairs.push((false, source, k, *letter));
+            } else if target <= reach {
+                pairs.push((true, target, k, *letter));
             }
         }
     }
-    let by = |a: &[f64; 2], b: &[f64; 2]| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1]));
-    pairs.sort_by(|a, b| by(&a.0, &b.0));
+    pairs.sort_by(|a, b| a.0.cmp(&b.0).then(a.1.total_cmp(&b.1)));
     let mut letters = vec![None; points.len()];
-    for (_, k, letter) in pairs {
+    for (_, _, k, letter) in pairs {
         if letters[k].is_none() && !letters.contains(&Some(letter)) {
             letters[k] = Some(letter);
         }

@@ -36,6 +36,9 @@ pub struct Sheet {
     pub features: Vec<PointPair>,
     /// What each of those is called, 0 for a.
     pub letters: Vec<usize>,
+    /// Points of the sheet before that are not on this one, with their letters: on the next
+    /// they may be again, as where a first film is followed by the best.
+    pub earlier: Vec<(PointPair, usize)>,
     /// Pairs of lines, as they stand in the project.
     pub lines: Vec<LinePair>,
     /// What is seen, and so what pins are for.
@@ -132,19 +135,24 @@ impl Sheet {
             links: placed.links,
             faulty: Vec::new(),
             letters: Vec::new(),
+            earlier: Vec::new(),
             by,
         }
     }
 
-    /// Calls each found point by a letter: as on the sheet before where it was there already.
+    /// Calls each found point by a letter: as on the two sheets before where it was there already.
     pub fn call(&mut self, before: Option<&Self>) {
         let sizes = self.sides.iter().flatten();
         let largest = sizes.map(|side| side.bounds.diameter()).fold(0.0, f64::max);
         let known: Vec<(PointPair, usize)> = before.map_or_else(Vec::new, |before| {
             let letters = before.letters.iter().copied();
-            before.features.iter().copied().zip(letters).collect()
+            let shown = before.features.iter().copied().zip(letters);
+            shown.chain(before.earlier.iter().copied()).collect()
         });
         self.letters = letters::kept(&self.features, &known, letters::SAME * largest);
+        let shown = before.map_or(0, |before| before.features.len());
+        let is_gone = |(_, letter): &&(PointPair, usize)| !self.letters.contains(letter);
+        self.earlier = known[..shown].iter().filter(is_gone).copied().collect();
     }
 
     /// Pins and lines may lie anywhere: they move the plane and not a boundary.
