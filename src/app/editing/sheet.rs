@@ -144,15 +144,16 @@ impl Sheet {
     pub fn call(&mut self, before: Option<&Self>) {
         let sizes = self.sides.iter().flatten();
         let largest = sizes.map(|side| side.bounds.diameter()).fold(0.0, f64::max);
-        let known: Vec<(PointPair, usize)> = before.map_or_else(Vec::new, |before| {
+        let shown: Vec<(PointPair, usize)> = before.map_or_else(Vec::new, |before| {
             let letters = before.letters.iter().copied();
-            let shown = before.features.iter().copied().zip(letters);
-            shown.chain(before.earlier.iter().copied()).collect()
+            before.features.iter().copied().zip(letters).collect()
         });
+        let earlier = before.map_or(&[][..], |before| &before.earlier);
+        let known = [&shown[..], earlier].concat();
         self.letters = letters::kept(&self.features, &known, letters::SAME * largest);
-        let shown = before.map_or(0, |before| before.features.len());
-        let is_gone = |(_, letter): &&(PointPair, usize)| !self.letters.contains(letter);
-        self.earlier = known[..shown].iter().filter(is_gone).copied().collect();
+        let gone = shown.into_iter();
+        let gone = gone.filter(|(_, letter)| !self.letters.contains(letter));
+        self.earlier = gone.collect();
     }
 
     /// Pins and lines may lie anywhere: they move the plane and not a boundary.
