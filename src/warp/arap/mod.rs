@@ -23,6 +23,7 @@
 //! - `bounded`: the maps of all faces together, for bounded distortion
 //! - `rim`: edges of outlines as elements of their own
 //! - `sides`: what keeps straight sides straight
+//! - `player`: what a film is made of, and a frame of it
 //! - `guard`: what is moved aside where the film would meet itself
 //! - `ridge`: what is added to a matrix that rounding has eaten at
 //! - `drift`: where parts as a whole are at t
@@ -38,6 +39,7 @@ mod guard;
 mod life;
 mod many;
 mod options;
+mod player;
 mod ridge;
 mod rim;
 mod sides;
@@ -57,13 +59,13 @@ pub use ridge::Ridge;
 use super::{Placement, Placer, Warp};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DVec2, Polar};
-use crate::homotopy::Homotopy;
-use crate::linalg::{Cholesky, FactorError, SymmetricMatrix, Workspace};
+use crate::linalg::{FactorError, SymmetricMatrix};
 use crate::mesh::Subdivision;
 use crate::progress::{Progress, checkpoint, still_wanted};
 use assembly::LocalMaps;
-use bounded::{Bounded, FARTHER, Memory, ROUNDS};
+use bounded::Bounded;
 use drift::Drift;
+use player::{Player, Prepared};
 use ridge::factored;
 use sides::Outlined;
 use std::iter::repeat_n;
@@ -91,22 +93,7 @@ use times::{PartTimes, Times};
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Arap(Arc<Inner>);
-
-#[derive(Debug)]
-struct Inner {
-    mesh: CompatibleMesh,
-    /// Shared by films that differ by their guards.
-    cholesky: Arc<Cholesky>,
-    ridge: Option<Ridge>,
-    stresses: Stresses,
-    drift: Drift,
-    maps: LocalMaps,
-    /// Options of the mesh as it is: nothing left to subdivide.
-    options: ArapOptions,
-    outlined: Outlined,
-    guard: Option<Arc<Guard>>,
-}
+pub struct Arap(Arc<Prepared>);
 
 /// What was settled about a mesh of outlines besides its options.
 #[derive(Clone, Copy, Debug, Default)]
@@ -243,7 +230,7 @@ impl Arap {
         let stresses = Stresses::new(&mesh, &maps, options.homotopy);
         still_wanted(progress)?;
         let drift = Drift::new(&mesh, &maps, place, options.path, lives);
-        Ok(Self(Arc::new(Inner {
+        Ok(Self(Arc::new(Prepared {
             mesh,
             cholesky: Arc::new(cholesky),
             ridge,
@@ -349,7 +336,7 @@ impl Arap {
     /// says, or are not.
     pub(crate) fn guarded(&self, guard: Option<Guard>) -> Self {
         let inner = &*self.0;
-        Self(Arc::new(Inner {
+        Self(Arc::new(Prepared {
             mesh: inner.mesh.clone(),
             cholesky: Arc::clone(&inner.cholesky),
             ridge: inner.ridge,
@@ -458,7 +445,7 @@ impl Arap {
         &self,
         clock: impl Fn(usize, f64) -> f64 + Send + Sync + 'static,
     ) -> Placer {
-        let mut player = Player::of(self);
+        let mut player = Player::of(&self.0);
         let mut times = PartTimes::default();
         let arap = Arc::clone(&self.0);
         Placer::new(self.at_rest(), move |t, placement| {
@@ -475,7 +462,7 @@ impl Arap {
 
 impl Warp for Arap {
     fn placer(&self) -> Placer {
-        let mut player = Player::of(self);
+        let mut player = Player::of(&self.0);
         Placer::new(self.at_rest(), move |t, placement| {
             player.place(Times::Even(t), placement);
         })
@@ -485,121 +472,5 @@ impl Warp for Arap {
         let lives = self.lives().iter().flatten();
         let lives = lives.flat_map(|life| [life.from, life.to]);
         lives.chain(self.guard_times().iter().copied()).collect()
-    }
-}
-
-/// A film with the memory that a frame takes.
-struct Player {
-    arap: Arc<Inner>,
-    /// Right-hand sides, then the deviation U: all x, all y, in elimination order.
-    deviation: Vec<f64>,
-    workspace: Workspace,
-    memory: Memory,
-    /// Bounded only: what is added to the deviation.
-    more: Vec<f64>,
-    /// Of each connected part.
-    shifts: Vec<DVec2>,
-}
-
-impl Player {
-    fn of(Arap(inner): &Arap) -> Self {
-        Self {
-            deviation: vec![0.0; 2 * inner.mesh.source().len()],
-            workspace: inner.cholesky.workspace(2),
-            memory: inner.stresses.memory(),
-            more: match inner.stresses.bounded() {
-                Some(_) => vec![0.0; 2 * inner.mesh.source().len()],
-                None => Vec::new(),
-            },
-            shifts: vec![DVec2::ZERO; inner.drift.part_count()],
-            arap: Arc::clone(inner),
-        }
-    }
-
-    fn place(&mut self, times: Times, placement: &mut Placement) {
-        let Self {
-            arap,
-            deviation,
-            workspace,
-            memory,
-            more,
-            shifts,
-        } = self;
-        let place = arap.cholesky.place_in_order();
-        let Placement {
-            in_frame,
-            in_source,
-            in_target,
-            ..
-        } = placement;
-        // The linear path needs no solve: its deviation is zero.
-        if arap.options.homotopy != Homotopy::Linear {
-            // The forces stand where the positions will stand.
-            arap.stresses
-                .right_hand_sides(times, place, (memory, in_frame), deviation);
-            arap.cholesky.solve_ordered(deviation, workspace);
-            if let Some(bounded) = arap.stresses.bounded() {
-                put_back(arap, bounded, times, deviation, (more, in_frame, workspace));
-            }
-            arap.drift.shifts(times, deviation, shifts);
-        }
-        let (dx, dy) = deviation.split_at(place.len());
-        for (run, part) in arap.drift.runs() {
-            let (shift, t) = (shifts[part], times.of_part(part));
-            // Of what only changes its size every map is that change: it
-            // deviates by nothing but rounding.
-            let (t, weight) = match arap.drift.life(part) {
-                Some(life) => (life.share(t), 0.0),
-                None => (t, 1.0),
-            };
-            let ends = in_source[run.clone()].iter().zip(&in_target[run.clone()]);
-            let rest = in_frame[run.clone()].iter_mut().zip(&place[run]);
-            for ((&p, &q), (out, &at)) in ends.zip(rest) {
-                let u = DVec2::new(dx[at as usize], dy[at as usize]);
-                // What is exactly 0 at an end is added last, so that the
-                // end is met to the last bit.
-                *out = (p * (1.0 - t) + q * t) + (u * weight + shift);
-            }
-        }
-        if let Some(guard) = &arap.guard {
-            for (run, part) in arap.drift.runs() {
-                let Some(mix) = guard.at(times.of_part(part)) else {
-                    continue;
-                };
-                guard.add(&mix, run.clone(), &mut in_frame[run]);
-            }
-        }
-    }
-}
-
-/// Puts faces back that are sheared more than at the worse end. `forces`, one for each
-/// vertex, and `more`, as long as the deviation, are memory to work in.
-fn put_back(
-    arap: &Inner,
-    bounded: &Bounded,
-    times: Times,
-    deviation: &mut [f64],
-    (more, forces, workspace): (&mut [f64], &mut [DVec2], &mut Workspace),
-) {
-    let place = arap.cholesky.place_in_order();
-    for _ in 0..ROUNDS {
-        forces.fill(DVec2::ZERO);
-        let (x, y) = deviation.split_at(place.len());
-        let strayed = |v: u32| {
-            let at = place[v as usize] as usize;
-            DVec2::new(x[at], y[at])
-        };
-        if !bounded.put_back(times, strayed, forces) {
-            return;
-        }
-        let (x, y) = more.split_at_mut(place.len());
-        for (force, &at) in forces.iter().zip(place) {
-            x[at as usize] = force.x;
-            y[at as usize] = force.y;
-        }
-        arap.cholesky.solve_ordered(more, workspace);
-        for (sum, by) in deviation.iter_mut().zip(more.iter()) {
-            *sum += FARTHER * by;
-        }
     }
 }

@@ -3,6 +3,7 @@
 
 use super::*;
 use crate::geometry::{DMat2, Polar, twice_signed_area};
+use crate::homotopy::Homotopy;
 use crate::progress::Silent;
 use std::f64::consts::{PI, TAU};
 
