@@ -11,6 +11,8 @@ mod drawings;
 mod films;
 #[path = "gpu/pictures.rs"]
 mod pictures;
+#[path = "gpu/runner.rs"]
+mod runner;
 #[path = "gpu/scenes.rs"]
 mod scenes;
 #[path = "gpu/studio.rs"]
@@ -21,6 +23,7 @@ use std::process::ExitCode;
 use image::RgbaImage;
 use morphospace::colour::Rgb;
 use morphospace::content::Content;
+use morphospace::export::{Drawing, PixelSize, View, rasterise};
 use morphospace::geometry::{Bounds, DVec2};
 use morphospace::stage::Show;
 
@@ -110,6 +113,27 @@ const TESTS: &[Test] = &[
         films::without_buffers_films_are_played_from_memory,
     ),
 ];
+
+impl Studio {
+    /// The scene at `t` from both, held against each other: GPU, CPU.
+    pub fn compare(&mut self, scene: &Scene, t: f64) -> (RgbaImage, RgbaImage) {
+        let gpu = self.picture(scene, t).expect("a picture");
+        let size = PixelSize::new(scene.size[0], scene.size[1]).expect("a size");
+        let view = View::fit(scene.view, size);
+        let frame = scene.transition.frame(t);
+        let cpu = rasterise(&Drawing::of_frame(
+            &frame,
+            &scene.style,
+            &view,
+            scene.ground,
+        ));
+        self.keep(&format!("{}-gpu", scene.name), t, &gpu);
+        self.keep(&format!("{}-cpu", scene.name), t, &cpu);
+        let name = format!("{} at {t}", scene.name);
+        check(&name, scene, t, &gpu, &cpu);
+        (gpu, cpu)
+    }
+}
 
 fn a_mesh_looks_the_same_on_both(studio: &mut Studio) {
     let scene = Scene::new("mesh", solid(0.0));
@@ -334,5 +358,5 @@ fn check(name: &str, scene: &Scene, t: f64, gpu: &RgbaImage, cpu: &RgbaImage) {
 }
 
 fn main() -> ExitCode {
-    studio::run(TESTS)
+    runner::run(TESTS)
 }

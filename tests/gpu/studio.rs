@@ -1,8 +1,7 @@
-//! A renderer without a window, and a runner that counts what it cannot run.
+//! A renderer without a window.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::catch_unwind;
 use std::path::PathBuf;
-use std::process::ExitCode;
 use std::time::{Duration, Instant};
 
 use bevy::app::PluginsState;
@@ -10,22 +9,19 @@ use bevy::log::LogPlugin;
 use bevy::prelude::*;
 use bevy::render::RenderPlugin;
 use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
-use bevy::render::render_resource::WgpuLimits;
-use bevy::render::renderer::initialize_renderer;
+use bevy::render::render_resource::{PollType, WgpuLimits};
+use bevy::render::renderer::{RenderAdapterInfo, RenderDevice, initialize_renderer};
 use bevy::render::settings::{Backends, RenderCreation, RenderResources, WgpuSettings};
 use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
 use image::RgbaImage;
 use morphospace::colour::Rgb;
-use morphospace::export::{Drawing, PixelSize, View, rasterise};
 use morphospace::geometry::{Bounds, DVec2};
 use morphospace::stage::{
     Blend, CaptureStage, FrameTimes, Morph, MorphPlugin, Show, StageCaptured, StageStyle,
     StageTransition, StageView,
 };
 use morphospace::transition::{Style, Transition};
-
-use crate::Test;
 
 /// What is looked at, and how.
 pub struct Scene {
@@ -143,7 +139,7 @@ impl Studio {
     /// Moves what is on the stage.
     pub fn move_to(&mut self, t: f64) {
         self.staged().get_mut::<Blend>().expect("a blend").t = t;
-        self.app.update();
+        self.frame();
     }
 
     /// Changes what of it is shown.
@@ -155,7 +151,7 @@ impl Studio {
     /// Another transition takes its place.
     pub fn replace(&mut self, by: &Transition) {
         self.staged().insert(StageTransition(by.clone()));
-        self.app.update();
+        self.frame();
     }
 
     /// Moves it about until the graphics card plays it.
@@ -175,7 +171,32 @@ impl Studio {
 
     /// Whether the graphics card summed what moved last.
     pub fn is_played(&self) -> bool {
-        self.app.world().resource::<FrameTimes>().is_played
+        self.times().is_played
+    }
+
+    /// One frame, to its end: without a window nothing else holds frames back, and those
+    /// that a card has not drawn yet pile up in front of the one that is waited for.
+    fn frame(&mut self) {
+        self.app.update();
+        let device = self.app.world().resource::<RenderDevice>();
+        device.poll(PollType::wait_indefinitely()).expect("a card");
+    }
+
+    /// What the last frames took of the processor.
+    pub fn times(&self) -> &FrameTimes {
+        self.app.world().resource::<FrameTimes>()
+    }
+
+    /// Counts from here on.
+    #[allow(dead_code, reason = "benches/stage.rs does")]
+    pub fn forget_times(&mut self) {
+        *self.app.world_mut().resource_mut::<FrameTimes>() = FrameTimes::default();
+    }
+
+    /// The graphics card and its driver, by their names.
+    pub fn adapter(&self) -> String {
+        let info = self.app.world().resource::<RenderAdapterInfo>();
+        format!("{}, {} {}", info.name, info.driver, info.driver_info)
     }
 
     /// Reads where the vertices are.
@@ -213,7 +234,7 @@ impl Studio {
     fn answer(&mut self) -> StageCaptured {
         let start = Instant::now();
         while start.elapsed() < Duration::from_secs(120) {
-            self.app.update();
+            self.frame();
             let world = self.app.world_mut();
             let mut answers = world.resource_mut::<Messages<StageCaptured>>();
             if let Some(answer) = answers.drain().next() {
@@ -221,25 +242,6 @@ impl Studio {
             }
         }
         panic!("the capture was never answered");
-    }
-
-    /// The scene at `t` from both, held against each other: GPU, CPU.
-    pub fn compare(&mut self, scene: &Scene, t: f64) -> (RgbaImage, RgbaImage) {
-        let gpu = self.picture(scene, t).expect("a picture");
-        let size = PixelSize::new(scene.size[0], scene.size[1]).expect("a size");
-        let view = View::fit(scene.view, size);
-        let frame = scene.transition.frame(t);
-        let cpu = rasterise(&Drawing::of_frame(
-            &frame,
-            &scene.style,
-            &view,
-            scene.ground,
-        ));
-        self.keep(&format!("{}-gpu", scene.name), t, &gpu);
-        self.keep(&format!("{}-cpu", scene.name), t, &cpu);
-        let name = format!("{} at {t}", scene.name);
-        crate::check(&name, scene, t, &gpu, &cpu);
-        (gpu, cpu)
     }
 
     /// Writes a picture where somebody wants to look at it.
@@ -283,57 +285,4 @@ struct Written(usize);
 fn count_written(mut events: MessageReader<AssetEvent<Mesh>>, mut written: ResMut<Written>) {
     let is_written = |event: &&AssetEvent<Mesh>| matches!(event, AssetEvent::Modified { .. });
     written.0 += events.read().filter(is_written).count();
-}
-
-/// Runs the tests whose name contains the first argument, in the manner of
-/// Rust's own runner.
-#[expect(clippy::print_stdout, reason = "a test runner reports on stdout")]
-pub fn run(tests: &[Test]) -> ExitCode {
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    let filter = arguments.iter().find(|a| !a.starts_with('-'));
-    let chosen = |name: &str| filter.is_none_or(|f| name.contains(f.as_str()));
-    let chosen: Vec<&Test> = tests.iter().filter(|(name, _)| chosen(name)).collect();
-    if arguments.iter().any(|a| a == "--list") {
-        chosen.iter().for_each(|(name, _)| println!("{name}: test"));
-        return ExitCode::SUCCESS;
-    }
-    println!("\nrunning {} tests", chosen.len());
-    let Some(mut studio) = Studio::open(None) else {
-        return run_nothing(&chosen);
-    };
-    let mut failed = 0;
-    for (name, test) in &chosen {
-        let result = catch_unwind(AssertUnwindSafe(|| test(&mut studio)));
-        let word = if result.is_ok() { "ok" } else { "FAILED" };
-        failed += usize::from(result.is_err());
-        println!("test {name} ... {word}");
-    }
-    summary(chosen.len() - failed, failed, 0)
-}
-
-#[expect(clippy::print_stdout, reason = "a test runner reports on stdout")]
-fn run_nothing(chosen: &[&Test]) -> ExitCode {
-    for (name, _) in chosen {
-        println!("test {name} ... ignored, there is no graphics adapter");
-    }
-    let required = std::env::var_os("MORPHOSPACE_REQUIRE_GPU").is_some_and(|v| v == "1");
-    if required {
-        println!("\nMORPHOSPACE_REQUIRE_GPU is set, but there is no graphics adapter");
-        return summary(0, chosen.len(), 0);
-    }
-    summary(0, 0, chosen.len())
-}
-
-#[expect(clippy::print_stdout, reason = "a test runner reports on stdout")]
-fn summary(passed: usize, failed: usize, ignored: usize) -> ExitCode {
-    let word = if failed == 0 { "ok" } else { "FAILED" };
-    println!(
-        "\ntest result: {word}. {passed} passed; {failed} failed; {ignored} ignored; \
-         0 measured; 0 filtered out\n"
-    );
-    if failed == 0 {
-        ExitCode::SUCCESS
-    } else {
-        ExitCode::FAILURE
-    }
 }
