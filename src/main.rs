@@ -15,13 +15,16 @@ fn main() -> ExitCode {
 fn open_window(request: cli::WindowRequest) -> ExitCode {
     use morphospace::app::{AppOptions, run};
     use std::process::Termination;
-    run(AppOptions {
+    let options = AppOptions {
         files: request.files,
         captures: request.captures,
         film_memory: request.film_memory,
         presents: request.present,
-    })
-    .report()
+    };
+    match run(options) {
+        Ok(exit) => exit.report(),
+        Err(why) => cli::no_window(why),
+    }
 }
 
 #[cfg(not(feature = "app"))]

@@ -25,6 +25,7 @@ use crate::app::opening::thumbnails;
 use crate::app::opening::watching::Watch;
 use crate::app::playing::presenting::whole_screen;
 use crate::app::playing::{pace, speaker, staging};
+use crate::app::starting::{NoWindow, opened};
 use crate::app::telling::spare::share_arenas;
 use crate::app::ui::draw::UiPlugin;
 use crate::export::Presets;
@@ -44,7 +45,14 @@ pub struct AppOptions {
 }
 
 /// Opens the window and returns when it was closed.
-pub fn run(options: AppOptions) -> AppExit {
+///
+/// # Errors
+/// [`NoWindow`] where there is none to open.
+pub fn run(options: AppOptions) -> Result<AppExit, NoWindow> {
+    opened(|| program(options).run())
+}
+
+fn program(options: AppOptions) -> App {
     let AppOptions {
         files,
         captures,
@@ -53,8 +61,8 @@ pub fn run(options: AppOptions) -> AppExit {
     } = options;
     share_arenas();
     let autosave = autosave();
-    App::new()
-        .add_plugins(DefaultPlugins.set(window(presents)))
+    let mut app = App::new();
+    app.add_plugins(DefaultPlugins.set(window(presents)))
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(CaptureFolder::choose(captures))
         .insert_resource(Recording::within(film_memory))
@@ -71,8 +79,8 @@ pub fn run(options: AppOptions) -> AppExit {
                 }
             },
         )
-        .add_systems(Startup, watch)
-        .run()
+        .add_systems(Startup, watch);
+    app
 }
 
 /// A file that has changed wakes the window, which may be at rest.

@@ -147,6 +147,11 @@ fn execute(command: &Command) -> Result<(), CliError> {
     }
 }
 
+/// Says why there is no window; the exit code of that.
+pub fn no_window(why: impl std::error::Error) -> ExitCode {
+    output::exit_code(Err(CliError::failed(why)))
+}
+
 /// Says that this program was built without its window; the exit code of that.
 pub fn without_window() -> ExitCode {
     output::exit_code(Err(CliError::Usage(

@@ -402,3 +402,21 @@ fn a_closed_pipe_is_no_crash() {
     assert_eq!(output.status.code(), Some(0), "{}", words(&output));
     assert_eq!(words(&output), "");
 }
+
+/// Where there is a window to open, and nowhere to open it.
+#[test]
+#[cfg(all(feature = "app", target_os = "linux"))]
+fn without_a_display_the_window_says_what_there_is_instead() {
+    let shop = Workshop::new();
+    let mut command = shop.command("a.svg b.svg");
+    command.env("HOME", shop.path("."));
+    for display in ["DISPLAY", "WAYLAND_DISPLAY", "WAYLAND_SOCKET"] {
+        command.env_remove(display);
+    }
+    let output = command.output().expect("the program runs");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    let last = said.lines().last().expect("a sentence");
+    assert!(last.contains("there is no display"), "{said}");
+    assert!(!said.contains("panicked"), "{said}");
+}
