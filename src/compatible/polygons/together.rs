@@ -5,7 +5,8 @@ use super::error::PolygonsError;
 use super::options::PolygonOptions;
 use super::pair::{PairMesh, to_unit};
 use super::piece::{self, Rings};
-use super::{bridges, coarsen, face, motion, quality, transfer};
+use super::transfer::Transfer;
+use super::{bridges, coarsen, face, motion, quality};
 use crate::compatible::CompatibleMesh;
 use crate::compatible::patchwork::Patchwork;
 use crate::geometry::{DVec2, Side, lexicographic};
@@ -111,16 +112,7 @@ pub(super) fn triangulated(
 ) -> Result<PairMesh, PolygonsError> {
     checkpoint(progress, "triangulating", 0.0)?;
     let carrying = Span::new(progress, 0.0, CARRIED);
-    let ways = Several::new(&carrying, 2);
-    // Which of both is the better one is not to be seen from the outlines.
-    let (forwards, backwards) = rayon::join(
-        || transferred(source, target, options, &ways.part(0)),
-        || transferred(target, source, options, &ways.part(1)),
-    );
-    let best = [forwards?, backwards?.map(PairMesh::swapped)]
-        .into_iter()
-        .flatten()
-        .min_by(|a, b| badness(a).total_cmp(&badness(b)));
+    let best = transferred(source, target, options, &carrying)?;
     let mut mesh = match best {
         Some(mesh) => mesh,
         None => from_base(source, target, &Span::new(progress, CARRIED, BASED))?,
@@ -129,18 +121,72 @@ pub(super) fn triangulated(
     Ok(mesh)
 }
 
-/// Improved just so far that both directions can be compared.
+/// The better of the transfers in both directions; none where both stay folded.
 fn transferred(
-    from: &Rings,
-    to: &Rings,
+    source: &Rings,
+    target: &Rings,
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<Option<PairMesh>, Cancelled> {
-    let mut mesh = transfer::transfer(from, to, options, progress)?;
-    if let Some(mesh) = &mut mesh {
-        quality::settle(mesh, progress)?;
+    let ways = Several::new(progress, 2);
+    let ways = [ways.part(0), ways.part(1)];
+    // Which of both is the better one is not to be seen from the outlines.
+    let [forwards, backwards] = in_both(
+        || Transfer::begin(source, target, options, &ways[0]),
+        || Transfer::begin(target, source, options, &ways[1]),
+    )?;
+    let [mut forwards, mut backwards] = [forwards, backwards];
+    in_both(
+        || {
+            forwards
+                .iter_mut()
+                .try_for_each(|way| way.unfold_soon(&ways[0]))
+        },
+        || {
+            backwards
+                .iter_mut()
+                .try_for_each(|way| way.unfold_soon(&ways[1]))
+        },
+    )?;
+    // What takes much longer than the other comes out worse, if at all.
+    if ![&forwards, &backwards]
+        .into_iter()
+        .flatten()
+        .any(Transfer::is_done)
+    {
+        in_both(
+            || forwards.iter_mut().try_for_each(|way| way.unfold(&ways[0])),
+            || {
+                backwards
+                    .iter_mut()
+                    .try_for_each(|way| way.unfold(&ways[1]))
+            },
+        )?;
     }
-    Ok(mesh)
+    let settled = |way: Option<Transfer>, progress: &dyn Progress| {
+        let mut mesh = way.and_then(Transfer::done);
+        if let Some(mesh) = &mut mesh {
+            // Just so far that they can be compared.
+            quality::settle(mesh, progress)?;
+        }
+        Ok(mesh)
+    };
+    let [forwards, backwards] = in_both(
+        || settled(forwards, &ways[0]),
+        || settled(backwards, &ways[1]),
+    )?;
+    let both = [forwards, backwards.map(PairMesh::swapped)];
+    let best = both.into_iter().flatten();
+    Ok(best.min_by(|a, b| badness(a).total_cmp(&badness(b))))
+}
+
+/// Work for both directions, beside each other.
+fn in_both<T: Send>(
+    forwards: impl FnOnce() -> Result<T, Cancelled> + Send,
+    backwards: impl FnOnce() -> Result<T, Cancelled> + Send,
+) -> Result<[T; 2], Cancelled> {
+    let (forwards, backwards) = rayon::join(forwards, backwards);
+    Ok([forwards?, backwards?])
 }
 
 pub(super) fn from_base(
