@@ -13,6 +13,7 @@ use super::super::options::MatchOptions;
 use super::cut::coarse;
 use crate::geometry::{DVec2, Region, Ring, segments_touch};
 use crate::progress::Progress;
+use rayon::prelude::*;
 
 /// Places of the boundary between which cuts are tried.
 /// The cuts grow with its square; a limb thinner than a fiftieth of the
@@ -158,14 +159,17 @@ fn cut_in_two(
     }
     ranked.sort_by(|a, b| a.0.total_cmp(&b.0));
     ranked.truncate(tried);
-    let costed = ranked.into_iter().map(|(rank, pieces)| {
+    let costed = ranked.into_par_iter().map(|(rank, pieces)| {
         let cost = match tried {
             1 => rank,
             _ => match_cost(goal, &pieces, progress) + RANK * rank,
         };
         (cost, pieces)
     });
+    // In their order, so that of equals the first in rank is the best.
+    let costed: Vec<(f64, [Region; 2])> = costed.collect();
     costed
+        .into_iter()
         .min_by(|a, b| a.0.total_cmp(&b.0))
         .map(|(_, pieces)| pieces)
 }
@@ -209,18 +213,18 @@ fn cuts(region: &Region, progress: &dyn Progress) -> Vec<(f64, [Region; 2])> {
     let ends: Vec<(f64, DVec2)> = (0..PLACES)
         .map(|k| (place(k), curve.point_at(place(k))))
         .collect();
-    let mut found = Vec::new();
-    for (k, &a) in ends.iter().enumerate() {
-        if progress.is_cancelled() {
-            break;
-        }
-        for &b in &ends[k + 1..] {
-            if let Some(pieces) = cut_between(region, &curve, a, b) {
-                found.push((a.1.distance(b.1), pieces));
-            }
-        }
-    }
-    found
+    let from = |(k, &a): (usize, &(f64, DVec2))| -> Vec<(f64, [Region; 2])> {
+        let others = match progress.is_cancelled() {
+            true => &[],
+            false => &ends[k + 1..],
+        };
+        let cut = |&b: &(f64, DVec2)| {
+            let pieces = cut_between(region, &curve, a, b)?;
+            Some((a.1.distance(b.1), pieces))
+        };
+        others.iter().filter_map(cut).collect()
+    };
+    ends.par_iter().enumerate().flat_map_iter(from).collect()
 }
 
 fn cut_between(
