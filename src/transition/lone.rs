@@ -4,28 +4,30 @@ use crate::compatible::CompatibleMesh;
 use crate::content::{Speck, Swell};
 use crate::geometry::{DVec2, Side, signed_area};
 use crate::warp::{Arap, Life};
+use rayon::iter::Either;
+use rayon::prelude::*;
 
 /// The parts that swell, which are the pieces with these numbers and connected
 /// parts of the film's mesh, and those that grow.
 pub(super) fn drawn(film: &Arap, swelling: &[usize]) -> (Vec<Swell>, Vec<Speck>) {
     let mesh = film.mesh();
     let (loops, parts) = (mesh.boundary_loops(), mesh.components());
-    let (mut swells, mut specks) = (Vec::new(), Vec::new());
-    for (piece, life) in film.lives().iter().enumerate() {
-        let Some(life) = *life else { continue };
+    let drawn = |(piece, life): (usize, &Option<Life>)| {
+        let life = (*life)?;
         let is_of_piece = |walk: &usize| {
             let first = loops[*walk].first();
             first.is_some_and(|&v| parts[v as usize] as usize == piece)
         };
         let walks: Vec<usize> = (0..loops.len()).filter(is_of_piece).collect();
         let part = Part::of(mesh, &loops, walks);
-        if swelling.contains(&piece) {
-            swells.extend(part.swell(life));
-        } else {
-            specks.push(part.speck(life));
-        }
-    }
-    (swells, specks)
+        Some(match swelling.contains(&piece) {
+            true => Either::Left(part.swell(life)?),
+            false => Either::Right(part.speck(life)),
+        })
+    };
+    // How thick each is takes some time.
+    let lives = film.lives().par_iter().enumerate();
+    lives.filter_map(drawn).partition_map(|drawn| drawn)
 }
 
 /// A part of one design alone.

@@ -80,6 +80,7 @@ pub(super) fn best(
             ..film
         },
         &levels,
+        spec.options.quality,
         progress,
     )?;
     let mut arap = unfolded(film.arap, progress)?;
@@ -253,9 +254,15 @@ fn meshed(chosen: Vec<Chosen>) -> Result<Vec<Candidate>, BuildError> {
 }
 
 /// A film with all that is born or dies in its place and time.
-fn placed(film: Film, levels: &Levels, progress: &dyn Progress) -> Result<Film, BuildError> {
+fn placed(
+    film: Film,
+    levels: &Levels,
+    quality: Quality,
+    progress: &dyn Progress,
+) -> Result<Film, BuildError> {
     let options = film.arap.options();
-    let placed = births::placed(&film.matched, &film.arap, (&film.holes, levels), progress)?;
+    let there = (&film.holes[..], levels);
+    let placed = births::placed(&film.matched, &film.arap, there, quality, progress)?;
     Ok(match placed {
         Some(placed) => {
             let settled = Settled {
