@@ -12,8 +12,9 @@ use std::path::Path;
 
 /// Largest file that is read. A bound on memory and no more: a file is held
 /// whole while it is read, a drawing takes some ten times its size on the way,
-/// and one that a person made is far smaller.
-pub const MAX_FILE_BYTES: u64 = 64 << 20;
+/// and one that a person made is far smaller. A mesh of a million vertices has
+/// 75 to 130 MiB as OBJ.
+pub const MAX_FILE_BYTES: u64 = 256 << 20;
 
 /// Why a file was not read.
 #[derive(Debug, thiserror::Error)]

@@ -21,7 +21,7 @@ const ROUNDS: usize = 60;
 /// Rounds in which the folds become fewer by a quarter, or it is given up: a trade,
 /// since the other direction and the base are left. Of 1404 transfers between icons 112
 /// stay folded; to see it of them took 3.0 s, now 1.7 s, and three others are given up as
-/// well, whose folds went away in 24 to 39 rounds.
+/// well, whose folds went away in 16 to 39 rounds.
 const PATIENCE: usize = 6;
 const LEFT: f64 = 0.75;
 

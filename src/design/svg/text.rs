@@ -8,12 +8,11 @@
 //! a comment for one, too little never.
 
 use super::error::{MAX_NODES, SvgError};
-use crate::design::MAX_FILE_BYTES;
 use std::collections::{HashMap, HashSet};
 
-/// Most bytes that entities may stand for: as many as a file may have without
-/// them. Drawings with a style in an entity write it out for each shape.
-const MAX_UNFOLDED: u64 = MAX_FILE_BYTES;
+/// Most bytes that entities may stand for. Drawings with a style in an entity write it
+/// out for each shape.
+const MAX_UNFOLDED: u64 = 64 << 20;
 
 /// Most comparisons of names: some 20,000 attributes of one element, which
 /// take a fraction of a second. Ten times as many take a hundred times as
