@@ -2,6 +2,8 @@
 
 use std::fs::File;
 
+use morphospace::design::MAX_FILE_BYTES;
+
 use crate::child::Folder;
 
 #[cfg(unix)]
@@ -42,6 +44,7 @@ fn folders_and_files_without_end_are_refused() {
         // Holes take no room on the disk.
         large.set_len(1 << 40).expect("grown");
     }
-    folder.refused("large.json", "more than the 64 MiB");
-    folder.refused_with(&["large.morph"], "large.morph", "more than the 64 MiB");
+    let said = format!("more than the {} MiB", MAX_FILE_BYTES >> 20);
+    folder.refused("large.json", &said);
+    folder.refused_with(&["large.morph"], "large.morph", &said);
 }
