@@ -5,12 +5,13 @@ use super::error::PolygonsError;
 use super::options::PolygonOptions;
 use super::pair::{PairMesh, to_unit};
 use super::piece::{self, Rings};
-use super::transfer::Transfer;
+use super::transfer::{ROUNDS, SOON, Transfer};
 use super::{bridges, coarsen, face, motion, quality};
 use crate::compatible::CompatibleMesh;
 use crate::compatible::patchwork::Patchwork;
 use crate::geometry::{DVec2, Side, lexicographic};
 use crate::progress::{Cancelled, Progress, Several, Span, checkpoint};
+use rayon::prelude::*;
 
 /// With more boundary points the base is made of what a front leaves: 200
 /// corners already cross up to 39,000 times, in as many vertices.
@@ -128,65 +129,37 @@ fn transferred(
     options: &PolygonOptions,
     progress: &dyn Progress,
 ) -> Result<Option<PairMesh>, Cancelled> {
-    let ways = Several::new(progress, 2);
-    let ways = [ways.part(0), ways.part(1)];
+    let shares = Several::new(progress, 2);
+    let shares = [shares.part(0), shares.part(1)];
     // Which of both is the better one is not to be seen from the outlines.
-    let [forwards, backwards] = in_both(
-        || Transfer::begin(source, target, options, &ways[0]),
-        || Transfer::begin(target, source, options, &ways[1]),
-    )?;
-    let [mut forwards, mut backwards] = [forwards, backwards];
-    in_both(
-        || {
-            forwards
-                .iter_mut()
-                .try_for_each(|way| way.unfold_soon(&ways[0]))
-        },
-        || {
-            backwards
-                .iter_mut()
-                .try_for_each(|way| way.unfold_soon(&ways[1]))
-        },
-    )?;
-    // What takes much longer than the other comes out worse, if at all.
-    if ![&forwards, &backwards]
-        .into_iter()
-        .flatten()
-        .any(Transfer::is_done)
-    {
-        in_both(
-            || forwards.iter_mut().try_for_each(|way| way.unfold(&ways[0])),
-            || {
-                backwards
-                    .iter_mut()
-                    .try_for_each(|way| way.unfold(&ways[1]))
-            },
-        )?;
+    let ways = [(source, target), (target, source)].into_par_iter();
+    let begun = ways
+        .zip(&shares)
+        .map(|((from, to), share)| Transfer::begin(from, to, options, share));
+    let mut both: Vec<Option<Transfer>> = begun.collect::<Result<_, _>>()?;
+    for rounds in [SOON, ROUNDS] {
+        let ways = both.par_iter_mut().zip(&shares);
+        ways.try_for_each(|(way, share)| match way {
+            Some(way) => way.unfold(rounds, share),
+            None => Ok(()),
+        })?;
+        // What takes much longer than the other comes out worse, if at all.
+        if both.iter().flatten().any(Transfer::is_done) {
+            break;
+        }
     }
-    let settled = |way: Option<Transfer>, progress: &dyn Progress| {
+    let settled = both.into_par_iter().zip(&shares).map(|(way, share)| {
         let mut mesh = way.and_then(Transfer::done);
         if let Some(mesh) = &mut mesh {
             // Just so far that they can be compared.
-            quality::settle(mesh, progress)?;
+            quality::settle(mesh, share)?;
         }
         Ok(mesh)
-    };
-    let [forwards, backwards] = in_both(
-        || settled(forwards, &ways[0]),
-        || settled(backwards, &ways[1]),
-    )?;
-    let both = [forwards, backwards.map(PairMesh::swapped)];
-    let best = both.into_iter().flatten();
+    });
+    let mut settled = settled.collect::<Result<Vec<Option<PairMesh>>, Cancelled>>()?;
+    let backwards = settled.pop().flatten().map(PairMesh::swapped);
+    let best = settled.into_iter().flatten().chain(backwards);
     Ok(best.min_by(|a, b| badness(a).total_cmp(&badness(b))))
-}
-
-/// Work for both directions, beside each other.
-fn in_both<T: Send>(
-    forwards: impl FnOnce() -> Result<T, Cancelled> + Send,
-    backwards: impl FnOnce() -> Result<T, Cancelled> + Send,
-) -> Result<[T; 2], Cancelled> {
-    let (forwards, backwards) = rayon::join(forwards, backwards);
-    Ok([forwards?, backwards?])
 }
 
 pub(super) fn from_base(

@@ -17,7 +17,10 @@ use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
 
 /// Rounds of shrinking ε: a bound for those that win a fold now and then; as a
 /// rule [`PATIENCE`] ends it.
-const ROUNDS: usize = 60;
+pub(super) const ROUNDS: usize = 60;
+/// Rounds after which a transfer is not gone on with, if that in the other direction is
+/// done by then.
+pub(super) const SOON: usize = PATIENCE;
 /// Rounds in which the folds become fewer by a quarter, or it is given up: a trade,
 /// since the other direction and the base are left. Of 1404 transfers between icons 112
 /// stay folded; to see it of them took 3.0 s, now 1.7 s, and three others are given up as
@@ -60,14 +63,13 @@ impl Transfer {
         Ok(is_laid.then_some(Self { mesh, folds }))
     }
 
-    /// As far as it gets in few rounds.
-    pub(super) fn unfold_soon(&mut self, progress: &dyn Progress) -> Result<(), Cancelled> {
-        self.folds.remove(&mut self.mesh, PATIENCE, progress)
-    }
-
-    /// As far as it gets.
-    pub(super) fn unfold(&mut self, progress: &dyn Progress) -> Result<(), Cancelled> {
-        self.folds.remove(&mut self.mesh, ROUNDS, progress)
+    /// As far as it gets in so many rounds in all.
+    pub(super) fn unfold(
+        &mut self,
+        rounds: usize,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
+        self.folds.remove(&mut self.mesh, rounds, progress)
     }
 
     /// No face is folded.
@@ -106,13 +108,12 @@ fn laid_over(
     if mesh.is_valid() {
         return Ok(true);
     }
-    let harmonic = harmonic(mesh, to, progress);
-    still_wanted(progress)?;
-    let is_laid = harmonic.is_some();
-    if let Some(harmonic) = harmonic {
-        mesh.points[1] = harmonic;
-    }
-    Ok(is_laid)
+    let Some(harmonic) = harmonic(mesh, to, progress) else {
+        still_wanted(progress)?;
+        return Ok(false);
+    };
+    mesh.points[1] = harmonic;
+    Ok(true)
 }
 
 /// Carries a valid mesh on: its first vertices move to `to` in the second
@@ -149,11 +150,8 @@ impl Folds {
             }
             let round = self.fewest.len();
             checkpoint(progress, "removing folds", round as f64 / ROUNDS as f64)?;
-            self.fewest.push(
-                self.fewest
-                    .last()
-                    .map_or(folds, |&fewest| fewest.min(folds)),
-            );
+            let fewest = self.fewest.last().map_or(folds, |&least| least.min(folds));
+            self.fewest.push(fewest);
             self.is_given_up = self.is_of_no_use() || !untangle(mesh, progress);
         }
         still_wanted(progress)

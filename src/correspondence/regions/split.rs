@@ -35,8 +35,7 @@ const LENGTH: f64 = 0.35;
 const RANK: f64 = 0.15;
 
 /// Up to so many pieces are cut off one after another, each cut with the
-/// matches of the best few: a second for 16, 40 for 100. Of 60 pairs of icons one has more
-/// than 8 and less than 17, and its first film was there a sixth later.
+/// matches of the best few: a second for 16, 40 for 100, and a first film waits for it.
 const FEW: usize = 8;
 
 /// The pieces in the order of `wanted`, or none if no straight cut is found,

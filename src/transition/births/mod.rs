@@ -49,7 +49,7 @@ pub(super) struct Placed {
 
 /// The match and the film's mesh with all parts that are born or die in their
 /// places and times; `None` where there are none. A draft has all in their own places:
-/// of 120 first films of icons 10 cross either way, and the slowest are there a tenth
+/// of 120 first films of icons 12 cross either way, and the slowest are there a tenth
 /// sooner.
 pub(super) fn placed(
     matched: &RegionMatch,
