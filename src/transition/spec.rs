@@ -132,9 +132,11 @@ impl TransitionSpec {
         outlines: &[Regions; 2],
         progress: &dyn Progress,
     ) -> Result<(), BuildError> {
-        let sizes = outlines.iter().flat_map(Regions::rings);
-        let sizes: Vec<usize> = sizes.map(|ring| ring.points().len()).collect();
-        Load::Rings.allow(sizes.len(), progress)?;
+        let pieces = outlines.iter().map(|regions| regions.len()).sum();
+        let rings = outlines.iter().flat_map(Regions::rings);
+        let sizes: Vec<usize> = rings.map(|ring| ring.points().len()).collect();
+        Load::Pieces.allow(pieces, progress)?;
+        Load::Holes.allow(sizes.len() - pieces, progress)?;
         Ok(Load::Points.allow(sizes.iter().sum(), progress)?)
     }
 

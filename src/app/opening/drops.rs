@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource, Time};
+use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource};
 use bevy::window::FileDragAndDrop;
 
 use crate::app::asking::intent::Intent;
@@ -10,14 +10,10 @@ use crate::app::keeping::autosave::Autosave;
 use crate::app::opening::closing::Question;
 use crate::app::playing::presenting::Presenting;
 
-/// Files that are dropped together arrive one by one; so long is waited for the next.
-const GATHER_SECS: f32 = 0.15;
-
 /// Files that were dropped: those still arriving, and one of which nobody knows what it is for.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Drop {
     arriving: Vec<PathBuf>,
-    quiet_secs: f32,
     undecided: Option<PathBuf>,
 }
 
@@ -66,9 +62,12 @@ fn in_numbers(name: &str) -> Vec<(String, u64)> {
 }
 
 /// Gathers dropped files and opens them together.
+///
+/// The system tells of each file alone, but of all that are dropped together before the next frame
+/// (`winit` on X11, Windows and macOS). A frame that brings none is waited for all the same: a file
+/// that came late would be taken for another drop.
 pub fn read_drops(
     mut drops: MessageReader<FileDragAndDrop>,
-    time: Res<Time>,
     mut state: ResMut<Drop>,
     presenting: Res<Presenting>,
     mut intents: MessageWriter<Intent>,
@@ -77,17 +76,14 @@ pub fn read_drops(
         // Nothing is opened before an audience, and nothing asked.
         drops.clear();
     }
-    for drop in drops.read() {
-        if let FileDragAndDrop::DroppedFile { path_buf, .. } = drop {
-            state.arriving.push(path_buf.clone());
-            state.quiet_secs = 0.0;
-        }
-    }
-    if state.arriving.is_empty() {
-        return;
-    }
-    state.quiet_secs += time.delta_secs();
-    if state.quiet_secs >= GATHER_SECS {
+    let new = drops.read().filter_map(|drop| match drop {
+        FileDragAndDrop::DroppedFile { path_buf, .. } => Some(path_buf.clone()),
+        _ => None,
+    });
+    let new: Vec<PathBuf> = new.collect();
+    if !new.is_empty() {
+        state.arriving.extend(new);
+    } else if state.is_arriving() {
         let mut files = std::mem::take(&mut state.arriving);
         // Many arrive in any order; that of their names is seen in every folder.
         if files.len() > 2 {
