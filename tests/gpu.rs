@@ -105,6 +105,10 @@ const TESTS: &[Test] = &[
         films::what_is_played_is_not_written,
     ),
     (
+        "no_frame_is_empty_where_one_takes_the_place_of_another",
+        films::no_frame_is_empty_where_one_takes_the_place_of_another,
+    ),
+    (
         "films_come_and_go_with_their_transitions",
         films::films_come_and_go_with_their_transitions,
     ),

@@ -130,13 +130,30 @@ impl FieldMaterial {
     pub(super) fn new(pairs: &[FieldPair], images: &mut Assets<Image>) -> Self {
         let first = pairs.iter().take(1).map(FieldPair::source);
         let nodes = first.chain(pairs.iter().map(FieldPair::target));
-        let nodes: Vec<_> = nodes.map(|field| images.add(texture(field))).collect();
+        let nodes: Vec<_> = nodes.map(|field| images.add(texture_of(field))).collect();
         Self {
             look: FieldLook::default(), // until it is drawn
             kind: FieldKind::default(),
             source: nodes[0].clone(),
             target: nodes[1].clone(),
             nodes,
+        }
+    }
+
+    /// One that shows nothing, as most are asked for: logarithms, and the fill alone.
+    pub(super) fn nothing(images: &mut Assets<Image>) -> Self {
+        let one = texture(UVec2::ONE, &[1.0]);
+        let node = images.add(one);
+        Self {
+            look: FieldLook::default(),
+            kind: FieldKind {
+                is_log: true,
+                shows_fill: true,
+                ..default()
+            },
+            source: node.clone(),
+            target: node,
+            nodes: Vec::new(),
         }
     }
 
@@ -173,13 +190,18 @@ impl FieldLook {
     }
 }
 
-/// A field as a texture of 32-bit floats, row 0 the lowest.
-fn texture(field: &DistanceField) -> Image {
+/// A field as a texture, row 0 the lowest.
+fn texture_of(field: &DistanceField) -> Image {
     let grid = field.grid();
+    texture(UVec2::new(grid.width, grid.height), field.values())
+}
+
+/// A texture of 32-bit floats.
+fn texture(size: UVec2, values: &[f32]) -> Image {
     Image::new(
-        UVec2::new(grid.width, grid.height).to_extents(),
+        size.to_extents(),
         TextureDimension::D2,
-        bytemuck::cast_slice(field.values()).to_vec(),
+        bytemuck::cast_slice(values).to_vec(),
         TextureFormat::R32Float,
         RenderAssetUsages::RENDER_WORLD,
     )

@@ -69,6 +69,7 @@ mod shapes;
 mod solve;
 mod times;
 mod view;
+mod warming;
 
 use bevy::asset::embedded_asset;
 use bevy::prelude::*;
@@ -190,7 +191,7 @@ fn add_drawing(app: &mut App) {
         Material2dPlugin::<colours::ColourMaterial>::default(),
         Material2dPlugin::<grid::GridMaterial>::default(),
     ))
-    .add_systems(Startup, card::find_card)
+    .add_systems(Startup, (card::find_card, warming::warm).chain())
     // An observer, so that parts go whenever their frame is taken away.
     .add_observer(dress::undress)
     .add_systems(

@@ -5,7 +5,7 @@ use morphospace::film::FilmOptions;
 use morphospace::progress::Silent;
 use morphospace::transition::Transition;
 
-use crate::scenes::{solid, wound};
+use crate::scenes::{field, perforated, solid, truss, wound};
 use crate::studio::{Scene, Studio};
 
 /// How much of two pictures of the stage may differ, one of which was played: single
@@ -164,4 +164,35 @@ pub fn films_come_and_go_with_their_transitions(studio: &mut Studio) {
     studio.clear();
     let (_, by_core) = studio.compare(&Scene::new("second", solid(0.0)), 0.35);
     crate::check("second", &scene, 0.35, &picture, &by_core);
+}
+
+/// A film that is improved, or opened after another, takes its place from one frame to
+/// the next: no frame between them shows neither, though it be drawn in ways that
+/// nothing was drawn in before.
+pub fn no_frame_is_empty_where_one_takes_the_place_of_another(_: &mut Studio) {
+    let mut studio = Studio::as_a_window().expect("the same adapter");
+    let first = Scene::new("replaced", solid(0.0));
+    let others: [(&str, &dyn Fn() -> Transition); 3] = [
+        ("rings", &perforated),
+        ("bars", &truss),
+        ("field", &|| field().swap_remove(0).1),
+    ];
+    for (name, make) in others {
+        let other = make();
+        let seen = Scene {
+            // Both lie in it.
+            view: first.view.union(&other.bounds()),
+            ..Scene::new("replaced", first.transition.clone())
+        };
+        studio.put(&seen, 0.3);
+        let pictures = studio.watch(&seen, |studio| studio.replace(&other), 6);
+        let shapes = pictures.iter().enumerate().map(|(k, picture)| {
+            studio.keep(&format!("replaced-by-{name}-{k}"), 0.3, picture);
+            let ground = picture.get_pixel(0, 0);
+            picture.pixels().filter(|pixel| *pixel != ground).count()
+        });
+        let shapes: Vec<usize> = shapes.collect();
+        assert!(shapes.iter().all(|n| *n > 0), "{name}: {shapes:?}");
+        studio.clear();
+    }
 }

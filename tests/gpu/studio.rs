@@ -1,25 +1,28 @@
 //! A renderer without a window.
 
+use std::collections::BTreeMap;
 use std::panic::catch_unwind;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
 use bevy::app::PluginsState;
+use bevy::camera::RenderTarget;
 use bevy::log::LogPlugin;
 use bevy::prelude::*;
 use bevy::render::RenderPlugin;
 use bevy::render::pipelined_rendering::PipelinedRenderingPlugin;
-use bevy::render::render_resource::{PollType, WgpuLimits};
+use bevy::render::render_resource::{PollType, TextureFormat, WgpuLimits};
 use bevy::render::renderer::{RenderAdapterInfo, RenderDevice, initialize_renderer};
 use bevy::render::settings::{Backends, RenderCreation, RenderResources, WgpuSettings};
+use bevy::render::view::screenshot::{Screenshot, ScreenshotCaptured};
 use bevy::window::ExitCondition;
 use bevy::winit::WinitPlugin;
 use image::RgbaImage;
 use morphospace::colour::Rgb;
 use morphospace::geometry::{Bounds, DVec2};
 use morphospace::stage::{
-    Blend, CaptureStage, FrameTimes, Morph, MorphPlugin, Show, StageCaptured, StageStyle,
-    StageTransition, StageView,
+    Blend, CaptureStage, FrameTimes, Morph, MorphPlugin, PipelinesReady, Show, StageCamera,
+    StageCaptured, StageStyle, StageTransition, StageView,
 };
 use morphospace::transition::{Style, Transition};
 
@@ -66,6 +69,16 @@ impl Studio {
     /// `None` where there is no graphics adapter at all; of one that can do no more
     /// than the limits say.
     pub fn open(limits: Option<WgpuLimits>) -> Option<Self> {
+        // Or pictures would lack what is not compiled yet.
+        Self::opened(limits, true)
+    }
+
+    /// One that compiles beside its frames, as a window does.
+    pub fn as_a_window() -> Option<Self> {
+        Self::opened(None, false)
+    }
+
+    fn opened(limits: Option<WgpuLimits>, waits: bool) -> Option<Self> {
         let renderer = catch_unwind(|| {
             let settings = WgpuSettings {
                 constrained_limits: limits,
@@ -74,7 +87,7 @@ impl Studio {
             let backends = settings.backends.unwrap_or(Backends::all());
             bevy::tasks::block_on(initialize_renderer(backends, None, &settings))
         });
-        let mut app = app(renderer.ok()?);
+        let mut app = app(renderer.ok()?, waits);
         while app.plugins_state() == PluginsState::Adding {
             bevy::tasks::tick_global_task_pools_on_main_thread();
         }
@@ -152,6 +165,63 @@ impl Studio {
     pub fn replace(&mut self, by: &Transition) {
         self.staged().insert(StageTransition(by.clone()));
         self.frame();
+    }
+
+    /// What a window would show of the scene in so many frames after the first, in which
+    /// something happens: as it is drawn, without waiting for anything.
+    pub fn watch(
+        &mut self,
+        scene: &Scene,
+        happens: impl FnOnce(&mut Self),
+        frames: usize,
+    ) -> Vec<RgbaImage> {
+        let [width, height] = scene.size;
+        let world = self.app.world_mut();
+        world
+            .resource_mut::<StageView>()
+            .fit(scene.view, UVec2::from(scene.size).as_vec2());
+        let format = TextureFormat::Rgba8UnormSrgb;
+        let image = Image::new_target_texture(width, height, format, None);
+        let image = world.resource_mut::<Assets<Image>>().add(image);
+        let target = RenderTarget::Image(image.clone().into());
+        let camera = world.spawn((StageCamera, target)).id();
+        // The camera is new, and what it draws is compiled for it.
+        let start = Instant::now();
+        for frame in 0.. {
+            self.frame();
+            if frame > 4 && self.app.world().resource::<PipelinesReady>().is_ready() {
+                break;
+            }
+            assert!(
+                start.elapsed() < Duration::from_secs(60),
+                "it is never ready"
+            );
+        }
+        let mut happens = Some(happens);
+        let mut frame = 0;
+        while self.app.world().resource::<Watched>().0.len() <= frames {
+            assert!(frame < 60 + frames, "the card does not answer");
+            if frame <= frames {
+                let shot = Screenshot::image(image.clone());
+                let note = move |shot: On<ScreenshotCaptured>, mut watched: ResMut<Watched>| {
+                    watched.0.insert(frame, shot.image.clone());
+                };
+                self.app.world_mut().spawn(shot).observe(note);
+            }
+            match happens.take() {
+                Some(happens) => happens(self),
+                None => self.frame(),
+            }
+            frame += 1;
+        }
+        let world = self.app.world_mut();
+        world.despawn(camera);
+        let watched = std::mem::take(&mut world.resource_mut::<Watched>().0);
+        let pictures = watched.into_values().map(|image| {
+            let data = image.data.expect("pixels");
+            RgbaImage::from_raw(width, height, data).expect("a picture")
+        });
+        pictures.collect()
     }
 
     /// Moves it about until the graphics card plays it.
@@ -253,7 +323,7 @@ impl Studio {
     }
 }
 
-fn app(renderer: RenderResources) -> App {
+fn app(renderer: RenderResources, waits: bool) -> App {
     let mut app = App::new();
     let plugins = DefaultPlugins
         .set(WindowPlugin {
@@ -263,7 +333,7 @@ fn app(renderer: RenderResources) -> App {
         })
         .set(RenderPlugin {
             render_creation: RenderCreation::Manual(renderer),
-            synchronous_pipeline_compilation: true,
+            synchronous_pipeline_compilation: waits,
             ..default()
         })
         .set(LogPlugin {
@@ -274,9 +344,14 @@ fn app(renderer: RenderResources) -> App {
         .disable::<PipelinedRenderingPlugin>();
     app.add_plugins((plugins, MorphPlugin))
         .init_resource::<Written>()
+        .init_resource::<Watched>()
         .add_systems(Last, count_written);
     app
 }
+
+/// What was seen, by the number of the frame.
+#[derive(Resource, Default)]
+struct Watched(BTreeMap<usize, Image>);
 
 /// How many meshes were written.
 #[derive(Resource, Default)]
