@@ -26,6 +26,7 @@ use crate::app::opening::watching::Watch;
 use crate::app::playing::presenting::whole_screen;
 use crate::app::playing::{pace, speaker, staging};
 use crate::app::starting::{NoWindow, opened};
+use crate::app::telling::job;
 use crate::app::telling::spare::share_arenas;
 use crate::app::ui::draw::UiPlugin;
 use crate::export::Presets;
@@ -79,7 +80,7 @@ fn program(options: AppOptions) -> App {
                 }
             },
         )
-        .add_systems(Startup, watch);
+        .add_systems(Startup, (watch, be_woken));
     app
 }
 
@@ -88,6 +89,15 @@ fn watch(watch: Res<Watch>, events: Res<EventLoopProxyWrapper>) {
     let events = events.clone();
     watch.start(move || {
         // The window is gone, and the thread with it.
+        events.send_event(WinitUserEvent::WakeUp).ok();
+    });
+}
+
+/// Work that has something to tell wakes it too.
+fn be_woken(events: Res<EventLoopProxyWrapper>) {
+    let events = events.clone();
+    job::wake_by(move || {
+        // The window is gone, and the work is nobody's.
         events.send_event(WinitUserEvent::WakeUp).ok();
     });
 }

@@ -112,6 +112,7 @@ fn what_nobody_sees_is_not_drawn() {
         waits: true,
         ticks: true,
         is_hidden: true,
+        frame: Duration::ZERO,
     };
     assert_ne!(hidden.mode(), UpdateMode::Continuous);
     // A clock alone is drawn twice a second.
@@ -120,7 +121,17 @@ fn what_nobody_sees_is_not_drawn() {
         waits: false,
         ticks: true,
         is_hidden: false,
+        frame: Duration::ZERO,
     };
-    let half = Duration::from_millis(500);
-    assert_eq!(clock.mode(), UpdateMode::reactive_low_power(half));
+    let in_millis = |millis| UpdateMode::reactive_low_power(Duration::from_millis(millis));
+    assert_eq!(clock.mode(), in_millis(500));
+    // Work keeps half of a processor that draws, and is seen to go on all the same.
+    for (frame, look) in [(16, 50), (40, 100), (150, 400), (5_000, 400)] {
+        let work = Pace {
+            waits: true,
+            frame: Duration::from_millis(frame),
+            ..clock
+        };
+        assert_eq!(work.mode(), in_millis(look), "{frame} ms");
+    }
 }

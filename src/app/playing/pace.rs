@@ -8,10 +8,11 @@ use std::time::Duration;
 
 use bevy::ecs::system::{NonSendMarker, SystemParam};
 use bevy::prelude::{
-    DetectChanges, Entity, Local, MessageReader, Query, Res, ResMut, Resource, With,
+    DetectChanges, Entity, Local, MessageReader, Messages, Query, Real, Res, ResMut, Resource,
+    Time, With,
 };
 use bevy::render::view::screenshot::Screenshot;
-use bevy::window::{PrimaryWindow, WindowEvent, WindowOccluded};
+use bevy::window::{PrimaryWindow, RequestRedraw, WindowEvent, WindowOccluded};
 use bevy::winit::{UpdateMode, WINIT_WINDOWS, WinitSettings};
 
 use crate::app::asking::choices::Preferences;
@@ -38,9 +39,12 @@ use crate::app::session::state::Session;
 use crate::app::telling::notices::Notices;
 use crate::stage::PipelinesReady;
 
-/// While work goes on, the window looks this often whether it is done: soon enough not to be
-/// noticed, and rarely enough to leave the processor to the work.
+/// While work goes on, the window shows this often how far it is; answers wake it. Where a frame
+/// takes longer, as where the processor draws, seldomer, to leave the processor to the work.
 const LOOK: Duration = Duration::from_millis(50);
+
+/// At most this is waited until it is shown how far work is: eight looks.
+const SELDOM: u32 = 3;
 
 /// A clock of seconds is drawn this often: never more than half a second behind.
 const TICK: Duration = Duration::from_millis(500);
@@ -53,6 +57,11 @@ const REST: Duration = Duration::from_secs(3600);
 /// have run, what they ask for is acted on a frame later and seen in the frame after that, and the
 /// renderer is a frame behind, and tells a frame later what it lacked.
 const SETTLING: u8 = 6;
+
+/// As many of them as are drawn one after the other while a transition is built: what is asked for,
+/// and its answer. On two cores that also draw, two icons were first seen after 1.1 to 1.6 s with
+/// all of them.
+const SETTLING_AT_WORK: u8 = 2;
 
 /// How soon the panels want to be drawn again of their own accord; without end where nothing of
 /// them moves.
@@ -76,6 +85,8 @@ pub struct Pace {
     pub ticks: bool,
     /// Nobody can see it.
     pub is_hidden: bool,
+    /// What a frame takes.
+    pub frame: Duration,
 }
 
 impl Pace {
@@ -87,10 +98,18 @@ impl Pace {
                 is_hidden: true, ..
             } => UpdateMode::reactive_low_power(REST),
             Self { moves: true, .. } => UpdateMode::Continuous,
-            Self { waits: true, .. } => UpdateMode::reactive_low_power(LOOK),
+            Self { waits: true, .. } => UpdateMode::reactive_low_power(self.look()),
             Self { ticks: true, .. } => UpdateMode::reactive_low_power(TICK),
             _ => UpdateMode::reactive_low_power(REST),
         }
+    }
+
+    /// How soon work is looked at again: at least half of the time is left to it. In steps, since
+    /// each change of the mode draws a frame.
+    fn look(self) -> Duration {
+        let mut looks = (0..SELDOM).map(|power| LOOK * 2_u32.pow(power));
+        let most = LOOK * 2_u32.pow(SELDOM);
+        looks.find(|look| *look >= self.frame * 2).unwrap_or(most)
     }
 }
 
@@ -129,8 +148,12 @@ impl Going<'_, '_> {
             || (self.preferences.panels && self.preferences.times)
             || self.captures.is_awaited()
             || !self.shots.is_empty()
-            || self.repaint.0.is_zero()
             || self.pipelines.as_ref().is_some_and(|p| !p.is_ready())
+    }
+
+    /// Panels slide, fade or find their size.
+    fn slides(&self) -> bool {
+        self.repaint.0.is_zero()
     }
 
     fn waits(&self) -> bool {
@@ -176,18 +199,31 @@ impl Going<'_, '_> {
 pub fn keep(
     going: Going,
     (mut events, mut intents): (MessageReader<WindowEvent>, MessageReader<Intent>),
-    mut occlusions: MessageReader<WindowOccluded>,
+    (mut occlusions, redraws): (
+        MessageReader<WindowOccluded>,
+        Option<ResMut<Messages<RequestRedraw>>>,
+    ),
     window: Query<Entity, With<PrimaryWindow>>,
-    (mut settling, mut is_covered): (Local<u8>, Local<bool>),
-    mut settings: ResMut<WinitSettings>,
+    (mut settling, mut is_covered, mut frame): (Local<u8>, Local<bool>, Local<Duration>),
+    (time, mut settings): (Res<Time<Real>>, ResMut<WinitSettings>),
     _main_thread: NonSendMarker,
 ) {
     let is_stirred = events.read().count() + intents.read().count() > 0 || going.is_new();
-    *settling = if is_stirred {
-        SETTLING
-    } else {
-        settling.saturating_sub(1)
+    let works = going.session.work().is_some();
+    *settling = match (is_stirred, works) {
+        (true, true) => SETTLING_AT_WORK,
+        (true, false) => SETTLING,
+        (false, _) => settling.saturating_sub(1),
     };
+    // Nothing was waited for since the frame before.
+    if settings.focused_mode == UpdateMode::Continuous {
+        *frame = time.delta();
+    }
+    // A transition that is awaited is worth more than panels that slide: they jump.
+    let jumps = works && *frame * 2 > LOOK;
+    if jumps && let Some(mut redraws) = redraws {
+        redraws.clear();
+    }
     let of_stage = |occlusion: &&WindowOccluded| !going.speaker.is_its(occlusion.window);
     if let Some(last) = occlusions.read().filter(of_stage).last() {
         *is_covered = last.occluded;
@@ -195,10 +231,11 @@ pub fn keep(
     // What the speaker sees goes on, and what is not kept yet is kept.
     let is_needed = going.speaker.is_open() || going.autosave.is_behind();
     let pace = Pace {
-        moves: *settling > 0 || going.moves(),
+        moves: *settling > 0 || going.moves() || (going.slides() && !jumps),
         waits: going.waits(),
         ticks: going.speaker.is_open(),
         is_hidden: !is_needed && (*is_covered || window.iter().any(is_minimised)),
+        frame: *frame,
     };
     let mode = pace.mode();
     // The same beside another window: a film goes on while notes are read. Looked at first:

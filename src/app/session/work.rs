@@ -7,7 +7,7 @@ use std::time::Duration;
 use crate::app::session::loading::{LoadError, Loaded, Meanwhile, Request, needs_build};
 use crate::app::session::open::Open;
 use crate::app::session::origin::Origin;
-use crate::app::telling::job::Job;
+use crate::app::telling::job::{self, Job};
 use crate::project::Project;
 
 /// A build that takes longer is given up when the settings change again. Shorter, and a build that
@@ -18,14 +18,16 @@ const PATIENCE: Duration = Duration::from_millis(1500);
 /// project would be seen twice; later, and a stage stays empty that need not.
 const PLAIN_AFTER: Duration = Duration::from_millis(1000);
 
-/// A draft is shown when what it is a draft of takes longer than this: sooner, and while a pin is
-/// dragged each place of it would be seen twice.
+/// A draft of what is open is shown when what it is a draft of takes longer than this: sooner, and
+/// while a pin is dragged each place of it would be seen twice. Of what is being opened it is shown
+/// at once.
 const DRAFT_AFTER: Duration = Duration::from_millis(300);
 
 impl Meanwhile {
-    fn is_shown_after(&self) -> Duration {
+    fn is_shown_after(&self, is_opening: bool) -> Duration {
         match self {
             Self::Plain(_) => PLAIN_AFTER,
+            Self::Draft(_) if is_opening => Duration::ZERO,
             Self::Draft(_) => DRAFT_AFTER,
         }
     }
@@ -61,7 +63,10 @@ impl Work {
             is_unsaved: matches!(request, Request::Rescued(_)),
             job: Job::start("the transition", move |progress| {
                 // Nobody listens any more once the work was given up.
-                request.carry_out(progress, |meanwhile| drop(sender.send(meanwhile)))
+                request.carry_out(progress, |meanwhile| {
+                    drop(sender.send(meanwhile));
+                    job::wake();
+                })
             }),
             has_draft: false,
             meanwhile: Mutex::new(receiver),
@@ -101,7 +106,9 @@ impl Work {
         // Of two the last: a draft is better than what moves nothing.
         self.waiting = receiver.try_iter().last().or(self.waiting.take());
         let lasts = self.job.lasts();
-        let shown = self.waiting.take_if(|m| lasts >= m.is_shown_after())?;
+        let is_opening = self.origin.is_some();
+        let is_due = |m: &mut Meanwhile| lasts >= m.is_shown_after(is_opening);
+        let shown = self.waiting.take_if(is_due)?;
         self.has_draft |= matches!(shown, Meanwhile::Draft(_));
         let (Meanwhile::Plain(loaded) | Meanwhile::Draft(loaded)) = shown;
         self.wanted = Some(loaded.project.project.clone());

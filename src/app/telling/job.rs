@@ -6,10 +6,36 @@
 
 use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
 use std::sync::mpsc::{Receiver, TryRecvError, channel};
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::progress::Progress;
+
+/// What wakes the window. One for the process, as its event loop is.
+static WAKE: OnceLock<Box<dyn Fn() + Send + Sync>> = OnceLock::new();
+
+/// Has the window woken by this whenever work has something to tell. Without it, as in tests,
+/// answers are found where they are looked for.
+pub fn wake_by(wake: impl Fn() + Send + Sync + 'static) {
+    // A second window of one process would wake by the same event loop.
+    drop(WAKE.set(Box::new(wake)));
+}
+
+/// Work has something to tell.
+pub fn wake() {
+    if let Some(wake) = WAKE.get() {
+        wake();
+    }
+}
+
+/// Wakes when it is dropped, so that a panic is told as soon as an answer.
+struct Wakes;
+
+impl Drop for Wakes {
+    fn drop(&mut self) {
+        wake();
+    }
+}
 
 /// How far the work is, and whether it is still wanted.
 #[derive(Debug, Default)]
@@ -66,6 +92,9 @@ impl<T: Send + 'static, E: Send + 'static> Job<T, E> {
         std::thread::Builder::new()
             .name(name.to_owned())
             .spawn(move || {
+                // Before the sender, so that it is dropped after.
+                let _wakes = Wakes;
+                let sender = sender;
                 // Nobody listens any more once the job was dropped; then the answer is not wanted.
                 sender.send(work(&theirs)).ok();
             })
