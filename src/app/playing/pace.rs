@@ -39,12 +39,15 @@ use crate::app::session::state::Session;
 use crate::app::telling::notices::Notices;
 use crate::stage::PipelinesReady;
 
-/// While work goes on, the window shows this often how far it is; answers wake it. Where a frame
-/// takes longer, as where the processor draws, seldomer, to leave the processor to the work.
-const LOOK: Duration = Duration::from_millis(50);
-
-/// At most this is waited until it is shown how far work is: eight looks.
-const SELDOM: u32 = 3;
+/// How long is waited, while work goes on, until it is shown how far it is; answers wake the
+/// window. The longer ones are for where a frame takes long, as where the processor draws, to leave
+/// it to the work. Steps, since each change of the mode draws a frame.
+const LOOKS: [Duration; 4] = [
+    Duration::from_millis(50),
+    Duration::from_millis(100),
+    Duration::from_millis(200),
+    Duration::from_millis(400),
+];
 
 /// A clock of seconds is drawn this often: never more than half a second behind.
 const TICK: Duration = Duration::from_millis(500);
@@ -79,7 +82,8 @@ impl Default for Repaint {
 pub struct Pace {
     /// Something moves, or what has just happened is not on the screen yet.
     pub moves: bool,
-    /// Something ends without telling: work, or the time that a message stays.
+    /// Something goes on that is seen to go on: work; or ends without telling: the time that a
+    /// message stays.
     pub waits: bool,
     /// A clock is shown.
     pub ticks: bool,
@@ -104,12 +108,11 @@ impl Pace {
         }
     }
 
-    /// How soon work is looked at again: at least half of the time is left to it. In steps, since
-    /// each change of the mode draws a frame.
+    /// How soon work is looked at again: at least half of the time is left to it.
     fn look(self) -> Duration {
-        let mut looks = (0..SELDOM).map(|power| LOOK * 2_u32.pow(power));
-        let most = LOOK * 2_u32.pow(SELDOM);
-        looks.find(|look| *look >= self.frame * 2).unwrap_or(most)
+        let [.., most] = LOOKS;
+        let enough = |look: &Duration| *look >= self.frame * 2;
+        LOOKS.into_iter().find(enough).unwrap_or(most)
     }
 }
 
@@ -220,7 +223,7 @@ pub fn keep(
         *frame = time.delta();
     }
     // A transition that is awaited is worth more than panels that slide: they jump.
-    let jumps = works && *frame * 2 > LOOK;
+    let jumps = works && *frame * 2 > LOOKS[0];
     if jumps && let Some(mut redraws) = redraws {
         redraws.clear();
     }
