@@ -17,6 +17,7 @@ use crate::app::capturing::{blends, copying, pictures};
 use crate::app::keeping::autosave::{self, Autosave};
 use crate::app::keeping::presets::KeptPresets;
 use crate::app::keeping::recent::{KeptRecent, Recent};
+use crate::app::keeping::strips::KeptStrips;
 use crate::app::logic::LogicPlugin;
 use crate::app::looking::recording::Recording;
 use crate::app::looking::{filmstrip, view};
@@ -71,6 +72,7 @@ fn program(options: AppOptions) -> App {
         .insert_resource(autosave)
         .insert_resource(KeptPresets::of_file(Presets::usual_path()))
         .insert_resource(KeptRecent::of_file(Recent::usual_path()))
+        .insert_resource(KeptStrips::usual())
         .add_systems(
             Startup,
             move |mut intents: MessageWriter<Intent>, gallery: Res<Gallery>| {
@@ -163,6 +165,7 @@ impl Plugin for WindowPlugins {
         app.add_plugins(UiPlugin)
             .init_resource::<pictures::Captures>()
             .init_non_send::<copying::Board>()
+            .init_resource::<KeptStrips>()
             .init_resource::<thumbnails::Thumbnails>()
             .init_resource::<filmstrip::Filmstrip>()
             .init_resource::<speaker::Speaker>()

@@ -5,6 +5,7 @@ use std::collections::{HashMap, VecDeque};
 use bevy::prelude::{DetectChangesMut, FromWorld, Res, ResMut, Resource, World};
 use image::RgbaImage;
 
+use crate::app::keeping::strips::KeptStrips;
 use crate::app::looking::filmstrip::row;
 use crate::app::opening::apply::Gallery;
 use crate::app::session::state::Session;
@@ -27,19 +28,30 @@ const MOST_FRAMES: usize = 5;
 /// All strips that there are yet.
 #[derive(Resource, Debug)]
 pub struct Thumbnails {
-    waiting: VecDeque<String>,
-    running: Option<Job<(String, RgbaImage), StripError>>,
-    done: HashMap<String, RgbaImage>,
+    waiting: VecDeque<Task>,
+    running: Option<(Task, Job<Strips, StripError>)>,
+    done: Strips,
+}
+
+type Strips = HashMap<String, RgbaImage>;
+
+/// How strips are come by.
+#[derive(Clone, Debug, PartialEq, Eq)]
+enum Task {
+    /// Those of an earlier start, all at once.
+    Read,
+    /// The one of that project.
+    Draw(String),
 }
 
 impl FromWorld for Thumbnails {
     fn from_world(world: &mut World) -> Self {
         let entries = &world.resource::<Gallery>().0;
-        let waiting = entries.iter().map(|entry| entry.name.clone()).collect();
+        let drawn = entries.iter().map(|entry| Task::Draw(entry.name.clone()));
         Self {
-            waiting,
+            waiting: std::iter::once(Task::Read).chain(drawn).collect(),
             running: None,
-            done: HashMap::new(),
+            done: Strips::new(),
         }
     }
 }
@@ -56,25 +68,50 @@ impl Thumbnails {
     pub fn get(&self, name: &str) -> Option<&RgbaImage> {
         self.done.get(name)
     }
+
+    /// Takes in what is done, and says what comes next.
+    fn next(&mut self, is_urgent_elsewhere: bool) -> Option<Task> {
+        if let Some((task, job)) = &self.running {
+            if is_urgent_elsewhere {
+                job.cancel();
+            }
+            match job.poll()? {
+                Ok(strips) => self.done.extend(strips),
+                // It was in the way, and has its turn again.
+                Err(_) if job.is_cancelled() => self.waiting.push_front(task.clone()),
+                // A project that cannot be shown has no strip; opening it tells why.
+                Err(_) => {}
+            }
+            self.running = None;
+        }
+        loop {
+            match self.waiting.front()? {
+                Task::Draw(name) if self.done.contains_key(name) => self.waiting.pop_front(),
+                Task::Draw(_) if is_urgent_elsewhere => return None,
+                _ => return self.waiting.pop_front(),
+            };
+        }
+    }
 }
 
 /// Takes in a strip that is done and starts the next, while nothing more urgent is going on.
-pub fn advance(session: Res<Session>, mut thumbnails: ResMut<Thumbnails>) {
+pub fn advance(session: Res<Session>, kept: Res<KeptStrips>, mut thumbnails: ResMut<Thumbnails>) {
     // Looked at in each frame; nobody asks whether it has changed.
     let thumbnails = thumbnails.bypass_change_detection();
-    // A project that cannot be shown has no strip; opening it tells why.
-    if let Some(Ok((name, strip))) = Job::take(&mut thumbnails.running) {
-        thumbnails.done.insert(name, strip);
-    }
-    if thumbnails.running.is_none()
-        && session.work().is_none()
-        && let Some(name) = thumbnails.waiting.pop_front()
-    {
-        thumbnails.running = Some(Job::start("a thumbnail", move |progress| {
+    let Some(task) = thumbnails.next(session.work().is_some()) else {
+        return;
+    };
+    let (kept, theirs) = (kept.clone(), task.clone());
+    let job = Job::start("a thumbnail", move |progress| match theirs {
+        Task::Read => Ok(kept.read(STRIP_PX)),
+        Task::Draw(name) => {
             let strip = strip(&name, progress)?;
-            Ok((name, strip))
-        }));
-    }
+            // Nobody has asked for it: what cannot be kept is drawn again at the next start.
+            kept.keep(&name, &strip).ok();
+            Ok(HashMap::from([(name, strip)]))
+        }
+    });
+    thumbnails.running = Some((task, job));
 }
 
 /// Why a strip cannot be had; never shown, opening the project tells the same.
@@ -107,4 +144,60 @@ fn strip(name: &str, progress: &dyn Progress) -> Result<RgbaImage, StripError> {
     let mut paper = RgbaImage::from_pixel(STRIP_PX.0, STRIP_PX.1, image::Rgba([r, g, b, 255]));
     image::imageops::overlay(&mut paper, &drawn, 0, 0);
     Ok(paper)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::progress::still_wanted;
+
+    fn with(waiting: impl IntoIterator<Item = Task>) -> Thumbnails {
+        Thumbnails {
+            waiting: waiting.into_iter().collect(),
+            running: None,
+            done: Strips::new(),
+        }
+    }
+
+    fn draw(name: &str) -> Task {
+        Task::Draw(name.to_owned())
+    }
+
+    /// What comes next, once what is running has answered.
+    fn next(thumbnails: &mut Thumbnails, is_urgent_elsewhere: bool) -> Option<Task> {
+        while thumbnails.running.is_some() {
+            if let Some(next) = thumbnails.next(is_urgent_elsewhere) {
+                return Some(next);
+            }
+            std::thread::yield_now();
+        }
+        thumbnails.next(is_urgent_elsewhere)
+    }
+
+    #[test]
+    fn what_was_read_is_not_drawn() {
+        let mut thumbnails = with([Task::Read, draw("gears"), draw("letters")]);
+        // Read at once, whatever else goes on.
+        assert_eq!(next(&mut thumbnails, true), Some(Task::Read));
+        let strip = HashMap::from([("gears".to_owned(), RgbaImage::new(1, 1))]);
+        thumbnails.running = Some((Task::Read, Job::start("strips", move |_| Ok(strip))));
+        assert_eq!(next(&mut thumbnails, false), Some(draw("letters")));
+        assert!(thumbnails.get("gears").is_some() && !thumbnails.is_busy());
+    }
+
+    #[test]
+    fn a_strip_makes_way_and_has_its_turn_again() {
+        let mut thumbnails = with([draw("letters")]);
+        let endless = Job::start("a strip", |progress| {
+            loop {
+                still_wanted(progress)?;
+                std::thread::yield_now();
+            }
+        });
+        thumbnails.running = Some((draw("gears"), endless));
+        assert_eq!(next(&mut thumbnails, true), None);
+        assert_eq!(next(&mut thumbnails, false), Some(draw("gears")));
+        assert_eq!(next(&mut thumbnails, false), Some(draw("letters")));
+        assert_eq!(next(&mut thumbnails, false), None);
+    }
 }

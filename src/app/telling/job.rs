@@ -154,6 +154,12 @@ impl<T: Send + 'static, E: Send + 'static> Job<T, E> {
     pub fn cancel(&self) {
         self.tracker.cancelled.store(true, Ordering::Relaxed);
     }
+
+    /// It was asked to stop.
+    #[must_use]
+    pub fn is_cancelled(&self) -> bool {
+        self.tracker.is_cancelled()
+    }
 }
 
 impl<T, E> Drop for Job<T, E> {

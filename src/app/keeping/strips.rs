@@ -1,0 +1,134 @@
+//! The film strips of the gallery, so that they are there at the next start: all of them take both
+//! cores of a small machine half a minute.
+
+use std::collections::HashMap;
+use std::fs;
+use std::hash::Hasher;
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::SystemTime;
+
+use bevy::prelude::Resource;
+use fnv::FnvHasher;
+use image::{ImageFormat, RgbaImage};
+
+use crate::atomic_file::AtomicFile;
+
+/// Strips as pictures, each by the name of its project. What cannot be kept or read is no loss: it
+/// is drawn again.
+#[derive(Resource, Clone, Debug, Default)]
+pub struct KeptStrips {
+    /// None where nothing is to be kept, as in tests.
+    folder: Option<PathBuf>,
+}
+
+impl KeptStrips {
+    /// Those of this program, in the user's folder for what can be made again.
+    #[must_use]
+    pub fn usual() -> Self {
+        let folder = dirs::cache_dir().zip(program());
+        Self::within(folder.map(|(cache, of)| cache.join("morphospace").join("strips").join(of)))
+    }
+
+    /// Those in a folder of their own.
+    #[must_use]
+    pub fn within(folder: Option<PathBuf>) -> Self {
+        Self { folder }
+    }
+
+    /// All that there are, of that width and height in pixels.
+    #[must_use]
+    pub fn read(&self, size: (u32, u32)) -> HashMap<String, RgbaImage> {
+        let files = self.folder.iter().filter_map(|it| fs::read_dir(it).ok());
+        let strips = files.flatten().flatten().filter_map(|file| {
+            let path = file.path();
+            let strip = image::open(&path).ok()?.into_rgba8();
+            let name = path.file_stem()?.to_str()?.to_owned();
+            (strip.dimensions() == size).then_some((name, strip))
+        });
+        strips.collect()
+    }
+
+    /// Keeps one.
+    ///
+    /// # Errors
+    /// It cannot be written.
+    pub fn keep(&self, name: &str, strip: &RgbaImage) -> io::Result<()> {
+        let Some(folder) = &self.folder else {
+            return Ok(());
+        };
+        if !folder.exists() {
+            fs::create_dir_all(folder)?;
+            self.forget_others();
+        }
+        let mut png = io::Cursor::new(Vec::new());
+        let encoded = strip.write_to(&mut png, ImageFormat::Png);
+        encoded.map_err(io::Error::other)?;
+        let mut file = AtomicFile::create(&folder.join(format!("{name}.png")))?;
+        file.file_mut().write_all(png.get_ref())?;
+        file.commit()
+    }
+
+    /// Those of other programs would lie there for good.
+    fn forget_others(&self) {
+        let parent = self.folder.as_deref().and_then(|folder| folder.parent());
+        let beside = parent.and_then(|parent| fs::read_dir(parent).ok());
+        for other in beside.into_iter().flatten().flatten() {
+            if Some(other.path()) != self.folder {
+                // Whoever else uses them draws them again.
+                fs::remove_dir_all(other.path()).ok();
+            }
+        }
+    }
+}
+
+/// What tells this program from others, which draw otherwise: version, length and date.
+fn program() -> Option<String> {
+    let file = std::env::current_exe().and_then(fs::metadata).ok()?;
+    let since = file.modified().ok()?.duration_since(SystemTime::UNIX_EPOCH);
+    let mut hasher = FnvHasher::default();
+    hasher.write(env!("CARGO_PKG_VERSION").as_bytes());
+    hasher.write_u64(file.len());
+    hasher.write_u128(since.ok()?.as_nanos());
+    Some(format!("{:016x}", hasher.finish()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use image::Rgba;
+
+    const SIZE: (u32, u32) = (6, 2);
+
+    #[test]
+    fn what_is_kept_is_read_again() -> io::Result<()> {
+        let folder = tempfile::tempdir()?;
+        let others = folder.path().join("others");
+        fs::create_dir_all(&others)?;
+        let kept = KeptStrips::within(Some(folder.path().join("these")));
+        assert!(kept.read(SIZE).is_empty());
+        let strip = RgbaImage::from_fn(SIZE.0, SIZE.1, |x, y| Rgba([x as u8, y as u8, 7, 128]));
+        kept.keep("gears", &strip)?;
+        assert_eq!(kept.read(SIZE), HashMap::from([("gears".into(), strip)]));
+        assert!(!others.exists(), "they would lie there for good");
+        Ok(())
+    }
+
+    #[test]
+    fn what_is_no_strip_is_left_out() -> io::Result<()> {
+        let folder = tempfile::tempdir()?;
+        let kept = KeptStrips::within(Some(folder.path().to_owned()));
+        kept.keep("small", &RgbaImage::new(1, 1))?;
+        fs::write(folder.path().join("broken.png"), "not a picture")?;
+        assert!(kept.read(SIZE).is_empty());
+        Ok(())
+    }
+
+    #[test]
+    fn without_a_folder_nothing_is_kept() -> io::Result<()> {
+        let kept = KeptStrips::default();
+        kept.keep("gears", &RgbaImage::new(SIZE.0, SIZE.1))?;
+        assert!(kept.read(SIZE).is_empty());
+        Ok(())
+    }
+}
