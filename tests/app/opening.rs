@@ -201,7 +201,6 @@ fn drop_files(window: &mut Window, paths: &[&Path]) {
                 window: Entity::PLACEHOLDER,
                 path_buf: path.to_path_buf(),
             });
-        window.update();
     }
     for _ in 0..20 {
         window.update();

@@ -10,10 +10,9 @@ use crate::app::keeping::autosave::Autosave;
 use crate::app::opening::closing::Question;
 use crate::app::playing::presenting::Presenting;
 
-/// Files that were dropped: those still arriving, and one of which nobody knows what it is for.
+/// A file that was dropped, of which nobody knows what it is for.
 #[derive(Resource, Clone, Debug, Default, PartialEq)]
 pub struct Drop {
-    arriving: Vec<PathBuf>,
     undecided: Option<PathBuf>,
 }
 
@@ -22,12 +21,6 @@ impl Drop {
     #[must_use]
     pub fn undecided(&self) -> Option<&Path> {
         self.undecided.as_deref()
-    }
-
-    /// Files are arriving that are not acted on yet.
-    #[must_use]
-    pub fn is_arriving(&self) -> bool {
-        !self.arriving.is_empty()
     }
 
     /// Something is to be decided.
@@ -61,14 +54,10 @@ fn in_numbers(name: &str) -> Vec<(String, u64)> {
     parts
 }
 
-/// Gathers dropped files and opens them together.
-///
-/// The system tells of each file alone, but of all that are dropped together before the next frame
-/// (`winit` on X11, Windows and macOS). A frame that brings none is waited for all the same: a file
-/// that came late would be taken for another drop.
+/// Opens what is dropped together, of which the system tells file by file, but of all before the
+/// next frame (`winit` on X11, Windows and macOS).
 pub fn read_drops(
     mut drops: MessageReader<FileDragAndDrop>,
-    mut state: ResMut<Drop>,
     presenting: Res<Presenting>,
     mut intents: MessageWriter<Intent>,
 ) {
@@ -76,21 +65,19 @@ pub fn read_drops(
         // Nothing is opened before an audience, and nothing asked.
         drops.clear();
     }
-    let new = drops.read().filter_map(|drop| match drop {
+    let files = drops.read().filter_map(|drop| match drop {
         FileDragAndDrop::DroppedFile { path_buf, .. } => Some(path_buf.clone()),
         _ => None,
     });
-    let new: Vec<PathBuf> = new.collect();
-    if !new.is_empty() {
-        state.arriving.extend(new);
-    } else if state.is_arriving() {
-        let mut files = std::mem::take(&mut state.arriving);
-        // Many arrive in any order; that of their names is seen in every folder.
-        if files.len() > 2 {
-            files.sort_by_cached_key(|path| in_numbers(&path.to_string_lossy()));
-        }
-        intents.write(Intent::Open(files));
+    let mut files: Vec<PathBuf> = files.collect();
+    if files.is_empty() {
+        return;
     }
+    // Many arrive in any order; that of their names is seen in every folder.
+    if files.len() > 2 {
+        files.sort_by_cached_key(|path| in_numbers(&path.to_string_lossy()));
+    }
+    intents.write(Intent::Open(files));
 }
 
 /// Forgets the undecided file once it is decided.

@@ -30,7 +30,6 @@ use crate::app::looking::measuring::Measured;
 use crate::app::looking::recording::Recording;
 use crate::app::looking::twin::Twin;
 use crate::app::opening::dialogs::Dialog;
-use crate::app::opening::drops::Drop;
 use crate::app::opening::thumbnails::Thumbnails;
 use crate::app::playing::playback::Playback;
 use crate::app::playing::presenting::Presenting;
@@ -140,7 +139,6 @@ pub struct Going<'w, 's> {
     map: Res<'w, MapView>,
     notices: Res<'w, Notices>,
     dialog: Res<'w, Dialog>,
-    drop: Res<'w, Drop>,
     repaint: Res<'w, Repaint>,
     pipelines: Option<Res<'w, PipelinesReady>>,
 }
@@ -178,7 +176,6 @@ impl Going<'_, '_> {
             || self.twin.is_busy()
             || self.map.is_busy()
             || self.dialog.asks().is_some()
-            || self.drop.is_arriving()
             // While the panels are hidden they wait themselves.
             || (self.preferences.panels && self.notices.is_passing())
     }
