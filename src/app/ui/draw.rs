@@ -37,6 +37,7 @@ impl Plugin for UiPlugin {
                     .after(EguiInputSet::WriteEguiEvents)
                     .before(EguiPreUpdateSet::BeginPass),
             )
+            .add_systems(PreUpdate, hush.after(EguiPreUpdateSet::InitContexts))
             // A letter that is new would be missing for a frame: the texture that it was put into
             // is sent to the renderer with the changes that are noted by then.
             .configure_sets(
@@ -67,6 +68,14 @@ const ROOMY: [f32; 2] = [1200.0, 1600.0];
 fn dress(added: On<Add, EguiContext>, mut contexts: Query<&mut EguiContext>) -> Result {
     theme::install(contexts.get_mut(added.entity)?.get_mut());
     Ok(())
+}
+
+/// When the next frame comes is the pace's to say, which knows what the panels ask for by
+/// [`note_repaint`]. They would also wake the window themselves, at work and at rest.
+fn hush(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
+    for mut context in &mut contexts {
+        context.get_mut().set_request_repaint_callback(|_| {});
+    }
 }
 
 fn keep_keys_from_widgets(
