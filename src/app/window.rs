@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use bevy::app::{HierarchyPropagatePlugin, PropagateSet};
+use bevy::app::{HierarchyPropagatePlugin, PropagateSet, TerminalCtrlCHandlerPlugin};
 use bevy::camera::visibility::{RenderLayers, VisibilitySystems};
 use bevy::camera::{CameraOutputMode, CompositingSpace};
 use bevy::prelude::*;
@@ -64,7 +64,11 @@ fn program(options: AppOptions) -> App {
     share_arenas();
     let autosave = autosave();
     let mut app = App::new();
-    app.add_plugins(DefaultPlugins.set(window(presents)))
+    // Whose handler wakes nobody; ours does.
+    let plugins = DefaultPlugins
+        .set(window(presents))
+        .disable::<TerminalCtrlCHandlerPlugin>();
+    app.add_plugins(plugins)
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(CaptureFolder::choose(captures))
         .insert_resource(Recording::within(film_memory))
@@ -82,8 +86,22 @@ fn program(options: AppOptions) -> App {
                 }
             },
         )
-        .add_systems(Startup, (watch, be_woken));
+        .add_systems(Startup, (watch, be_woken))
+        .add_systems(Update, TerminalCtrlCHandlerPlugin::exit_on_flag);
+    end_when_told();
     app
+}
+
+/// Ctrl-C in the terminal, and the system's wish that the program ends, are heard at rest too, where
+/// no frame would come to look at them.
+fn end_when_told() {
+    let listens = ctrlc::set_handler(|| {
+        TerminalCtrlCHandlerPlugin::gracefully_exit();
+        job::wake();
+    });
+    if let Err(error) = listens {
+        warn!("the window cannot be ended from the terminal: {error}");
+    }
 }
 
 /// A file that has changed wakes the window, which may be at rest.
