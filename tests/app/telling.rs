@@ -336,6 +336,44 @@ fn what_takes_very_long_is_begun_when_it_is_wanted_all_the_same_and_esc_ends_it(
 }
 
 #[test]
+fn what_was_refused_as_it_was_opened_is_built_when_it_is_wanted_all_the_same() {
+    let folder = tempfile::tempdir().expect("a folder");
+    // More pieces than are matched unasked.
+    let squares = |name: &str, side: f64| {
+        let square = |k: usize| {
+            let [x, y] = [k % 40, k / 40].map(|c| c * 10);
+            format!("M{x},{y}h{side}v{side}h-{side}z")
+        };
+        let all: String = (0..1000).map(square).collect();
+        let path = folder.path().join(name);
+        let svg = format!(r#"<svg xmlns="http://www.w3.org/2000/svg"><path d="{all}"/></svg>"#);
+        std::fs::write(&path, svg).expect("a file");
+        path
+    };
+    let files = vec![squares("a.svg", 4.0), squares("b.svg", 6.0)];
+    let mut window = Window::new();
+    window.send(Intent::Open(files));
+    window.wait();
+    let problems = window.problems();
+    assert!(problems[0].contains("2000 outlines"), "{problems:?}");
+    assert_eq!(cell(&window), Some(Cell::FIELD_BLEND), "what is shown");
+    window.send(Intent::Insist);
+    while window.session().told_work().is_none() {
+        assert!(window.session().work().is_some(), "nothing was begun");
+        std::thread::sleep(Duration::from_millis(1));
+        window.update();
+    }
+    window.press(KeyCode::Escape, Key::Escape);
+    let asked = window
+        .session()
+        .project()
+        .and_then(|p| p.warp.zip(p.content));
+    let shown = (Cell::FIELD_BLEND.warp(), Cell::FIELD_BLEND.content());
+    assert_eq!(asked, Some(shown), "the panel says what is shown");
+    assert_eq!(window.problems(), Vec::<String>::new());
+}
+
+#[test]
 fn measuring_is_stopped_and_taken_up_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path());

@@ -174,52 +174,49 @@ impl Rebuild {
 
     /// Where nothing but the times of parts and how coats lie has changed, the film is the same.
     fn shown_otherwise(&self) -> Option<Vec<Stage>> {
-        self.is_same_but_for(|options, now| {
+        let change = |options: &mut Options, now: &Options| {
             options.parts.clone_from(&now.parts);
             options.coats = now.coats;
-        })?;
-        self.each(|leg, transition| {
+        };
+        self.changed(change, |leg, transition| {
             let Options { parts, coats, .. } = leg.spec().ok()?.options;
             Some(transition.with_coats(&coats).with_part_times(&parts))
         })
     }
 
-    /// Whether the settings on the stage would be the new ones if this were changed in them, of
-    /// every leg.
-    fn is_same_but_for(&self, change: impl Fn(&mut Options, &Options)) -> Option<()> {
-        let mut same = self.staged.clone();
-        for leg in 0..same.leg_count() {
-            let (mut was, now) = (same.leg(leg), self.now.project.leg(leg));
-            change(&mut was.options, &now.options);
-            same.take_leg(leg, was);
-        }
-        (!needs_build(&same, &self.now.project)).then_some(())
-    }
-
     /// Where nothing but the mixing of the fields has changed, they need not be measured again.
     fn mixed_otherwise(&self) -> Option<Vec<Stage>> {
-        self.is_same_but_for(|options, now| options.field.blend = now.field.blend)?;
         let blend = self.now.project.options.field.blend;
-        self.each(|_, transition| transition.with_blend(blend).ok()?)
+        let change = |options: &mut Options, now: &Options| options.field.blend = now.field.blend;
+        self.changed(change, |_, transition| transition.with_blend(blend).ok()?)
     }
 
-    /// Another transition of each leg, if each has one.
-    fn each(
+    /// Another transition of each leg, where what is on the stage would be what is asked for if
+    /// this were changed in its settings. What stands there in place of what could not be had has
+    /// other settings.
+    fn changed(
         &self,
-        change: impl Fn(&LoadedProject, &Transition) -> Option<Transition>,
+        change: impl Fn(&mut Options, &Options),
+        make: impl Fn(&LoadedProject, &Transition) -> Option<Transition>,
     ) -> Option<Vec<Stage>> {
-        let legs = self.now.legs();
-        if legs.len() != self.stages.len() {
+        // Designs that have come are not read yet.
+        if self.now.project.leg_count() != self.stages.len() {
             return None;
         }
-        let changed = legs.iter().zip(&self.stages).enumerate();
-        let changed = changed.map(|(k, (leg, stage))| {
+        let legs = self.now.legs();
+        let made = legs.iter().zip(&self.stages).enumerate();
+        let made = made.map(|(k, (leg, stage))| {
+            let (mut was, settings) = (stage.settings.clone(), Settings::of(&self.now, k));
+            change(&mut was.pair.options, &settings.pair.options);
+            if was.needs_build(&settings) {
+                return None;
+            }
             Some(Stage {
-                settings: Settings::of(&self.now, k),
-                transition: change(leg, &stage.transition)?,
+                transition: make(leg, &stage.transition)?,
+                settings,
             })
         });
-        changed.collect()
+        made.collect()
     }
 }
 

@@ -13,7 +13,7 @@ use crate::file_name::safe;
 use crate::geometry::Bounds;
 use crate::one_line::OneLine;
 use crate::project::{LoadedProject, Project, ProjectError};
-use crate::transition::{Sequence, Transition};
+use crate::transition::{Cell, Sequence, Transition};
 
 /// A project that is open.
 #[derive(Debug)]
@@ -348,9 +348,24 @@ impl Open {
     /// The settings go back to those of the stage; no step of the history is left of it.
     pub fn give_up_changes(&mut self) {
         self.must_reread = false;
-        self.amend(|now, staged| now.clone_from(staged));
+        let cell = self.cell_on_stage();
+        self.amend(|now, staged| {
+            now.clone_from(staged);
+            // What was refused as it was opened is not what the stage shows.
+            if let Some(cell) = cell {
+                (now.warp, now.content) = (Some(cell.warp()), Some(cell.content()));
+            }
+        });
         // What could not be had is not asked for any more.
         self.forget_problems_of_what_is_shown();
+    }
+
+    /// By what all legs are shown; none where they differ.
+    fn cell_on_stage(&self) -> Option<Cell> {
+        let cell = |leg: &Leg| Some(leg.stage.as_ref()?.transition.cell());
+        let first = cell(self.legs.first()?)?;
+        let is_same = |leg: &Leg| cell(leg) == Some(first);
+        self.legs.iter().all(is_same).then_some(first)
     }
 
     /// The designs go back to those of the stage: a file that cannot be read is not kept.
