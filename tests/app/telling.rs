@@ -309,6 +309,15 @@ fn a_draft_that_is_good_enough_is_kept() {
     assert_eq!(settings, Some(Quality::Draft), "and says so");
 }
 
+/// Until the work is worth a word.
+fn wait_for_word(window: &mut Window) {
+    while window.session().told_work().is_none() {
+        assert!(window.session().work().is_some(), "nothing is begun");
+        std::thread::sleep(Duration::from_millis(1));
+        window.update();
+    }
+}
+
 #[test]
 fn what_takes_very_long_is_begun_when_it_is_wanted_all_the_same_and_esc_ends_it() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -324,11 +333,7 @@ fn what_takes_very_long_is_begun_when_it_is_wanted_all_the_same_and_esc_ends_it(
     let problems = window.problems();
     assert!(problems[0].contains("choose fewer cells"), "{problems:?}");
     window.send(Intent::Insist);
-    while window.session().told_work().is_none() {
-        assert!(window.session().work().is_some(), "it is refused again");
-        std::thread::sleep(Duration::from_millis(1));
-        window.update();
-    }
+    wait_for_word(&mut window);
     window.press(KeyCode::Escape, Key::Escape);
     assert_eq!(window.session().work(), None);
     assert_eq!(cells(&window), before);
@@ -358,11 +363,7 @@ fn what_was_refused_as_it_was_opened_is_built_when_it_is_wanted_all_the_same() {
     assert!(problems[0].contains("2000 outlines"), "{problems:?}");
     assert_eq!(cell(&window), Some(Cell::FIELD_BLEND), "what is shown");
     window.send(Intent::Insist);
-    while window.session().told_work().is_none() {
-        assert!(window.session().work().is_some(), "nothing was begun");
-        std::thread::sleep(Duration::from_millis(1));
-        window.update();
-    }
+    wait_for_word(&mut window);
     window.press(KeyCode::Escape, Key::Escape);
     let asked = window
         .session()

@@ -19,27 +19,54 @@ use crate::atomic_file::AtomicFile;
 #[derive(Resource, Clone, Debug, Default)]
 pub struct KeptStrips {
     /// None where nothing is to be kept, as in tests.
-    folder: Option<PathBuf>,
+    place: Option<Place>,
+}
+
+/// A folder for each program, which draw otherwise, in one of all.
+#[derive(Clone, Debug)]
+struct Place {
+    all: PathBuf,
+    program: String,
+}
+
+impl Place {
+    fn own(&self) -> PathBuf {
+        self.all.join(&self.program)
+    }
+
+    /// Makes the folder. Those of other programs would lie there for good.
+    fn make(&self) -> io::Result<()> {
+        fs::create_dir_all(self.own())?;
+        for other in fs::read_dir(&self.all)?.flatten() {
+            let name = other.file_name();
+            let is_program = name.to_str().is_some_and(is_program);
+            if is_program && name != *self.program {
+                // Whoever else uses them draws them again.
+                fs::remove_dir_all(other.path()).ok();
+            }
+        }
+        Ok(())
+    }
 }
 
 impl KeptStrips {
     /// Those of this program, in the user's folder for what can be made again.
     #[must_use]
     pub fn usual() -> Self {
-        let folder = dirs::cache_dir().zip(program());
-        Self::within(folder.map(|(cache, of)| cache.join("morphospace").join("strips").join(of)))
-    }
-
-    /// Those in a folder of their own.
-    #[must_use]
-    pub fn within(folder: Option<PathBuf>) -> Self {
-        Self { folder }
+        let all = dirs::cache_dir().map(|cache| cache.join("morphospace").join("strips"));
+        let place = all.zip(program());
+        Self {
+            place: place.map(|(all, program)| Place { all, program }),
+        }
     }
 
     /// All that there are, of that width and height in pixels.
     #[must_use]
     pub fn read(&self, size: (u32, u32)) -> HashMap<String, RgbaImage> {
-        let files = self.folder.iter().filter_map(|it| fs::read_dir(it).ok());
+        let files = self
+            .place
+            .iter()
+            .filter_map(|it| fs::read_dir(it.own()).ok());
         let strips = files.flatten().flatten().filter_map(|file| {
             let path = file.path();
             let strip = image::open(&path).ok()?.into_rgba8();
@@ -54,12 +81,12 @@ impl KeptStrips {
     /// # Errors
     /// It cannot be written.
     pub fn keep(&self, name: &str, strip: &RgbaImage) -> io::Result<()> {
-        let Some(folder) = &self.folder else {
+        let Some(place) = &self.place else {
             return Ok(());
         };
+        let folder = place.own();
         if !folder.exists() {
-            fs::create_dir_all(folder)?;
-            self.forget_others();
+            place.make()?;
         }
         let mut png = io::Cursor::new(Vec::new());
         let encoded = strip.write_to(&mut png, ImageFormat::Png);
@@ -67,18 +94,6 @@ impl KeptStrips {
         let mut file = AtomicFile::create(&folder.join(format!("{name}.png")))?;
         file.file_mut().write_all(png.get_ref())?;
         file.commit()
-    }
-
-    /// Those of other programs would lie there for good.
-    fn forget_others(&self) {
-        let parent = self.folder.as_deref().and_then(|folder| folder.parent());
-        let beside = parent.and_then(|parent| fs::read_dir(parent).ok());
-        for other in beside.into_iter().flatten().flatten() {
-            if Some(other.path()) != self.folder {
-                // Whoever else uses them draws them again.
-                fs::remove_dir_all(other.path()).ok();
-            }
-        }
     }
 }
 
@@ -93,6 +108,11 @@ fn program() -> Option<String> {
     Some(format!("{:016x}", hasher.finish()))
 }
 
+/// Whether that is such a name: nothing else is taken away.
+fn is_program(name: &str) -> bool {
+    name.len() == 16 && name.bytes().all(|byte| byte.is_ascii_hexdigit())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -100,26 +120,37 @@ mod tests {
 
     const SIZE: (u32, u32) = (6, 2);
 
+    fn within(folder: &tempfile::TempDir) -> KeptStrips {
+        let place = Place {
+            all: folder.path().to_owned(),
+            program: "0123456789abcdef".to_owned(),
+        };
+        KeptStrips { place: Some(place) }
+    }
+
     #[test]
     fn what_is_kept_is_read_again() -> io::Result<()> {
         let folder = tempfile::tempdir()?;
-        let others = folder.path().join("others");
-        fs::create_dir_all(&others)?;
-        let kept = KeptStrips::within(Some(folder.path().join("these")));
+        let [other, foreign] = ["fedcba9876543210", "mine"].map(|name| folder.path().join(name));
+        fs::create_dir_all(&other)?;
+        fs::create_dir_all(&foreign)?;
+        let kept = within(&folder);
         assert!(kept.read(SIZE).is_empty());
         let strip = RgbaImage::from_fn(SIZE.0, SIZE.1, |x, y| Rgba([x as u8, y as u8, 7, 128]));
         kept.keep("gears", &strip)?;
         assert_eq!(kept.read(SIZE), HashMap::from([("gears".into(), strip)]));
-        assert!(!others.exists(), "they would lie there for good");
+        assert!(!other.exists(), "it would lie there for good");
+        assert!(foreign.exists(), "what is no program's is left alone");
         Ok(())
     }
 
     #[test]
     fn what_is_no_strip_is_left_out() -> io::Result<()> {
         let folder = tempfile::tempdir()?;
-        let kept = KeptStrips::within(Some(folder.path().to_owned()));
+        let kept = within(&folder);
         kept.keep("small", &RgbaImage::new(1, 1))?;
-        fs::write(folder.path().join("broken.png"), "not a picture")?;
+        let own = folder.path().join("0123456789abcdef");
+        fs::write(own.join("broken.png"), "not a picture")?;
         assert!(kept.read(SIZE).is_empty());
         Ok(())
     }
