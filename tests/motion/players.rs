@@ -7,8 +7,9 @@ use std::time::{Duration, Instant};
 use image::{RgbaImage, imageops};
 use morphospace::export::PixelSize;
 
-/// Pictures beside each other on a sheet.
-const COLUMNS: usize = 5;
+/// Of what Chromium photographs at once: of a page of sixty million pixels it leaves
+/// some blank.
+const ROW_PX: u32 = 9600;
 
 /// How long a player may take for a sheet: the largest of the gallery take half a minute.
 const PATIENCE: Duration = Duration::from_secs(180);
@@ -40,10 +41,9 @@ impl Kind {
     }
 }
 
-/// The upper left corner of a picture on the sheet.
-pub fn cell(place: usize, size: PixelSize) -> [u32; 2] {
-    let (row, column) = ((place / COLUMNS) as u32, (place % COLUMNS) as u32);
-    [column * size.width(), row * size.height()]
+/// Pictures of a size that are taken at once.
+pub fn at_once(size: PixelSize) -> usize {
+    (ROW_PX / size.width()).max(1) as usize
 }
 
 /// A film that was written, as it is to be played.
@@ -90,23 +90,14 @@ impl Players {
         }
     }
 
-    /// A sheet of what a player shows at some frames, each with its t; transparent
-    /// where nothing is. None where there is no such player.
-    pub fn play(&self, film: &Written, frames: &[(f64, f64)], folder: &Path) -> Option<RgbaImage> {
-        let [width, height] = [film.size.width(), film.size.height()];
-        let rows = frames.len().div_ceil(COLUMNS) as u32;
-        let mut sheet = RgbaImage::new(COLUMNS as u32 * width, rows * height);
-        // A row at a time: of a page of sixty million pixels Chromium leaves some blank.
-        for (row, frames) in frames.chunks(COLUMNS).enumerate() {
-            let picture = self.row(film, frames, folder)?;
-            let top = row as i64 * i64::from(height);
-            imageops::replace(&mut sheet, &picture, 0, top);
-        }
-        Some(sheet)
-    }
-
-    /// A row of the sheet.
-    fn row(&self, film: &Written, frames: &[(f64, f64)], folder: &Path) -> Option<RgbaImage> {
+    /// What a player shows at a few frames, each with its t; transparent where nothing
+    /// is. None where there is no such player.
+    pub fn play(
+        &self,
+        film: &Written,
+        frames: &[(f64, f64)],
+        folder: &Path,
+    ) -> Option<Vec<RgbaImage>> {
         let Written {
             kind,
             text,
@@ -130,13 +121,15 @@ impl Players {
              body > * {{ display: inline-block; width: {width}px; height: {height}px; border: 0; overflow: hidden }}
              script {{ display: none !important }}
              </style><body>{body}",
-            COLUMNS as u32 * width
+            frames.len() as u32 * width
         );
         std::fs::write(folder.join("sheet.html"), page).expect("written");
         // A little higher: a window is not all picture.
-        let window = [COLUMNS as u32 * width, height + 200];
-        let picture = photographed(chromium, folder, window)?;
-        Some(imageops::crop_imm(&picture, 0, 0, window[0], height).to_image())
+        let window = [frames.len() as u32 * width, height + 200];
+        let row = photographed(chromium, folder, window)?;
+        let places = (0..frames.len() as u32).map(|k| k * width);
+        let pictures = places.map(|x| imageops::crop_imm(&row, x, 0, width, height).to_image());
+        Some(pictures.collect())
     }
 }
 
