@@ -36,6 +36,9 @@ const SHORT: f64 = 1e-4;
 /// A film that would take more pieces than this is a row of frames.
 const MOST_PIECES: usize = 400;
 
+/// Of so many frames one is looked at to know whether it would.
+const STRIDE: usize = 4;
+
 /// Times at which looks are taken in a piece.
 const LOOKS: usize = 16;
 
@@ -68,7 +71,8 @@ pub(super) fn record(
     let mut times = film.times().to_vec();
     times.sort_by(f64::total_cmp);
     times.dedup();
-    let was_recorded = has_ways && recorder.smooth(&times)?;
+    let is_smooth = has_ways && recorder.least_changes(&times)? <= MOST_PIECES;
+    let was_recorded = is_smooth && recorder.smooth(&times)?;
     if !was_recorded {
         recorder.frame_by_frame(&times)?;
     }
@@ -104,6 +108,19 @@ impl Recorder<'_> {
             self.push(0.5 * (before + t), 0.5 * (t + after), shapes);
         }
         Ok(())
+    }
+
+    /// How many outlines come or go, at least: each time that one does ends a piece, and
+    /// is closed in on by dozens of moments, which for thousands of parts takes minutes.
+    fn least_changes(&mut self, times: &[f64]) -> Result<usize, ExportError> {
+        let (mut changes, mut before) = (0, None);
+        for &t in times.iter().step_by(STRIDE) {
+            checkpoint(self.progress, DRAWING, 0.0)?;
+            let outlines: usize = self.moment(t).iter().map(Posed::outlines).sum();
+            changes += before.map_or(0, |before| outlines.abs_diff(before));
+            before = Some(outlines);
+        }
+        Ok(changes)
     }
 
     /// The whole way in pieces; false if those are too many.

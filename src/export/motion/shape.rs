@@ -114,6 +114,17 @@ impl Posed {
         })
     }
 
+    /// How many outlines it has.
+    pub(super) fn outlines(&self) -> usize {
+        match &*self.form {
+            Form::Fill { verbs, .. } | Form::Line { verbs, .. } => {
+                let starts = verbs.iter().filter(|&&verb| verb == Verb::Move);
+                starts.count()
+            }
+            Form::Bars | Form::Discs => self.points.len(),
+        }
+    }
+
     /// Whether the other is the same at another moment.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         self.form == other.form && self.points.len() == other.points.len()
