@@ -161,8 +161,14 @@ impl<'a> Scene<'a> {
     ) -> Vec<(f64, Birth)> {
         let own = self.carried(speck, life, film);
         let nearby = grid.map_or_else(Vec::new, |_| speck.own_places(own));
-        let growing = std::iter::once(own).chain(nearby);
-        let growing = growing.chain(grid.into_iter().flatten().copied());
+        let others = nearby
+            .into_iter()
+            .chain(grid.into_iter().flatten().copied());
+        // What begins at one place grows out of it as one picture would: nothing of it
+        // meets, however small it is.
+        let end = film.carried_back(speck.ends[speck.side], [0.0, 1.0][speck.side]);
+        let others = others.map(|place| place.lerp(end[speck.side.other()], speck.least));
+        let growing = std::iter::once(own).chain(others);
         let grows = |place: DVec2| {
             let birth = Birth {
                 place,

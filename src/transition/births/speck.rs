@@ -30,8 +30,8 @@ pub(super) struct Speck {
     pub(super) ends: [DVec2; 2],
     /// Its rings about its centroid, as large as they are.
     rings: Vec<Vec<DVec2>>,
-    /// Its size across as a share of its own.
-    least: f64,
+    /// Its size across where it is a speck, as a share of its own.
+    pub(super) least: f64,
     swelling: Swelling,
 }
 
