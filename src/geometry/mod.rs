@@ -19,6 +19,7 @@ mod repair;
 mod ring;
 mod segment;
 mod similarity;
+mod sliver;
 mod touching;
 mod turning;
 

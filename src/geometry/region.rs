@@ -5,6 +5,7 @@
 //! (`i_overlay` on a 64-bit integer grid), which moves points by less than
 //! 1e-15 of the size unless they all but coincide. It does not simplify: a noisy outline stays noisy.
 
+use super::sliver::Drawn;
 use super::{Bounds, DVec2, RANGE, Repairs, Ring, Similarity, SizeError, is_in_range};
 use i_overlay::core::fill_rule::FillRule as OverlayRule;
 use i_overlay::core::solver::{Precision, Solver};
@@ -88,7 +89,7 @@ pub enum RegionsError {
 
 impl Regions {
     /// Smallest area, relative to the square of the size, that counts as a
-    /// piece. A self-touching outline leaves slivers of about 1e-18.
+    /// piece, however it came about. A self-touching outline leaves slivers of about 1e-18.
     const MIN_RELATIVE_AREA: f64 = 1e-14;
 
     /// Points nearer than this to the one before, relative to the size, are one with
@@ -134,9 +135,11 @@ impl Regions {
     fn cleaned(rings: &[Vec<DVec2>], rule: FillRule) -> Result<(Self, usize), RegionsError> {
         let bounds = Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
         let extent = SizeError::check(&bounds)?;
+        let area = Self::MIN_RELATIVE_AREA * extent * extent;
         let smallest = Smallest {
-            area: Self::MIN_RELATIVE_AREA * extent * extent,
+            area,
             edge: Self::MIN_RELATIVE_EDGE * extent,
+            drawn: Drawn::of(rings, extent, area),
         };
         let origin = bounds.centre(); // coordinates about zero use the grid best
         let subject: Vec<Vec<[f64; 2]>> = rings
@@ -150,7 +153,7 @@ impl Regions {
         let found: usize = shapes.iter().map(Vec::len).sum();
         let regions: Vec<Region> = shapes
             .into_iter()
-            .filter_map(|shape| region_from(shape, origin, smallest))
+            .filter_map(|shape| region_from(shape, origin, &smallest))
             .collect();
         if regions.is_empty() {
             return Err(RegionsError::Empty);
@@ -258,14 +261,20 @@ fn check_range(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
 }
 
 /// What is smaller does not count.
-#[derive(Clone, Copy)]
 struct Smallest {
     area: f64,
     edge: f64,
+    drawn: Drawn,
+}
+
+impl Smallest {
+    fn is_sliver(&self, contour: &Ring) -> bool {
+        contour.signed_area().abs() <= self.area || self.drawn.leaves(contour)
+    }
 }
 
 /// One cleaned shape, outer contour first; `None` for a sliver.
-fn region_from(shape: Vec<Vec<[f64; 2]>>, origin: DVec2, smallest: Smallest) -> Option<Region> {
+fn region_from(shape: Vec<Vec<[f64; 2]>>, origin: DVec2, smallest: &Smallest) -> Option<Region> {
     let is_same = |a: DVec2, b: DVec2| a.distance_squared(b) <= smallest.edge * smallest.edge;
     let mut rings = shape.into_iter().filter_map(|contour| {
         let points = contour.into_iter().map(|p| DVec2::from(p) + origin);
@@ -277,12 +286,12 @@ fn region_from(shape: Vec<Vec<[f64; 2]>>, origin: DVec2, smallest: Smallest) -> 
         Ring::new(points).ok()
     });
     let outer = oriented(rings.next()?, true);
-    if outer.signed_area() <= smallest.area {
+    if smallest.is_sliver(&outer) {
         return None;
     }
     let holes = rings
         .map(|hole| oriented(hole, false))
-        .filter(|hole| -hole.signed_area() > smallest.area)
+        .filter(|hole| !smallest.is_sliver(hole))
         .collect();
     Some(Region { outer, holes })
 }
