@@ -118,8 +118,9 @@ named! { HoleRule {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
 pub enum PartRule {
-    /// A single part is split into several; of several parts and several, the
-    /// odd ones are born and die.
+    /// A single part is split into several, but not for one with less than a
+    /// thousandth of its design's area; of several parts and several, the odd ones
+    /// are born and die.
     #[default]
     Auto,
     /// The other design's part that fits best is split.

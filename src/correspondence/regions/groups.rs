@@ -5,7 +5,12 @@ use super::super::{Matching, PairError, PartRule};
 use super::locate::{Pinned, part_at};
 use super::looks::Looks;
 use super::outcome::RegionMatchError;
-use crate::geometry::{DVec2, Regions, Side};
+use crate::geometry::{DVec2, Region, Regions, Side};
+
+/// A part with less of its design's area than this is born or dies rather than that
+/// another is cut up for it: a leftover of a millionth had a rectangle cut along all of a
+/// side.
+const SPECK: f64 = 1e-3;
 
 /// Parts that belong together: one with one, one with several, or one alone.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -185,12 +190,17 @@ fn attach(
         PartRule::Alone => false,
     };
     let places = designs.map(relative_centres);
+    let is_speck = |side: Side, part: usize| {
+        let own = designs[side].iter().nth(part).map(Region::area);
+        rule == PartRule::Auto && own.is_some_and(|own| own < SPECK * designs[side].area())
+    };
     for (side, alone) in [
         (Side::Source, &pairing.dying),
         (Side::Target, &pairing.born),
     ] {
         for &part in alone {
-            let near = splits.then(|| nearest_group(groups, (&places, looks), side, part));
+            let may_cut = splits && !is_speck(side, part);
+            let near = may_cut.then(|| nearest_group(groups, (&places, looks), side, part));
             match near.flatten() {
                 Some(group) => groups[group].parts[side].push(part),
                 None => {

@@ -177,6 +177,21 @@ fn a_single_part_is_split_and_of_several_the_odd_one_is_born() {
 }
 
 #[test]
+fn a_part_is_not_cut_up_for_a_mark_beside_another() {
+    let one = design(&[block(0.0, 0.0, 9.0, 1.0)]);
+    let marked = design(&[block(0.0, 0.0, 9.0, 1.0), block(9.2, 0.9, 0.08, 0.08)]);
+    let born = |parts: PartRule| {
+        let wanted = Matching {
+            parts,
+            ..Matching::default()
+        };
+        let pieces = run(&one, &marked, &wanted).pieces;
+        pieces.iter().filter(|p| p.source_part.is_none()).count()
+    };
+    assert_eq!([PartRule::Auto, PartRule::Split].map(born), [1, 0]);
+}
+
+#[test]
 fn pins_pair_their_parts_and_links_do() {
     let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
     let mut wanted = Matching::default();
