@@ -3,7 +3,7 @@
 use super::{Bounds, DVec2, Ring, signed_area};
 
 /// A mean thickness, as a share of the size of all outlines: a tenth of a pixel in a
-/// picture of a thousand. Of 120 icons 17 have thinner ones, each of which would be a
+/// picture of a thousand. Of 120 icons 15 had thinner ones, each of which would be a
 /// part of its own that is born or dies.
 const THIN: f64 = 1e-4;
 
