@@ -2,20 +2,22 @@
 //! not there: where they are in it, and when they come and go.
 //!
 //! The largest first, each takes as much of the film as it can without crossing
-//! a boundary or a hole that has its time. Looked at at a few steps: what is
-//! crossed between two is missed.
+//! a boundary or a hole that has its time; one that cannot keeps the time in which it
+//! crosses least, and the others make way. Looked at at a few steps: what is crossed
+//! between two is missed.
 
 use super::births::times;
 use super::levels::Levels;
 use super::outline::Outline;
-use super::steps::{LAST, time};
+use super::steps::Steps;
 use super::walks::Walks;
 use crate::compatible::CompatibleMesh;
 use crate::content::Hole;
 use crate::correspondence::{PieceMatch, RingMatch};
 use crate::geometry::DVec2;
 use crate::progress::{Cancelled, Progress, still_wanted};
-use crate::warp::{Arap, Life, Warp};
+use crate::warp::{Arap, Life, Placer, Warp};
+use rayon::prelude::*;
 
 /// A hole, and the number of the piece that it is in.
 pub(super) type HoleOf = (usize, Hole);
@@ -33,11 +35,27 @@ pub(super) fn timed(
         return Ok(holes);
     }
     let mut scene = Scene::of(film, levels);
-    for (piece, hole) in &mut holes {
-        still_wanted(progress)?;
-        let level = levels.of_piece(*piece);
-        hole.life = scene.life(hole, level);
-        scene.add(hole, level);
+    let mut order: Vec<(usize, Option<Life>)> = (0..holes.len()).map(|k| (k, None)).collect();
+    let mut best = (usize::MAX, Vec::new());
+    for _ in 0..=holes.len() {
+        let lives = scene.lives(&holes, &order, levels, progress)?;
+        let crossed = lives.iter().map(|(_, _, crossed)| crossed).sum();
+        let late = lives.iter().position(|&(_, _, crossed)| crossed > 0);
+        // The first that crosses something comes before the others.
+        let late = late.filter(|&late| late > 0);
+        if let Some(late) = late {
+            order[late].1 = Some(lives[late].1);
+            order[..=late].rotate_right(1);
+        }
+        if crossed < best.0 {
+            best = (crossed, lives);
+        }
+        if late.is_none() {
+            break;
+        }
+    }
+    for (hole, life, _) in best.1 {
+        holes[hole].1.life = life;
     }
     Ok(holes)
 }
@@ -79,8 +97,9 @@ fn untimed(pieces: &[PieceMatch], mesh: &CompatibleMesh) -> Vec<HoleOf> {
     holes
 }
 
-/// What is there at each step.
+/// What is there at each step within the film.
 struct Scene {
+    times: Vec<f64>,
     /// Where all vertices are.
     places: Vec<Vec<DVec2>>,
     outlines: Vec<Vec<Outline>>,
@@ -89,23 +108,55 @@ struct Scene {
 impl Scene {
     fn of(film: &Arap, levels: &Levels) -> Self {
         let walks = Walks::of(film);
-        let mut placer = film.placer();
-        let place = |step: u32| {
-            placer.place(time(step));
-            placer.placement().in_frame.clone()
+        let steps = Steps::default();
+        let times = steps.times()[1..steps.last()].to_vec();
+        let at = |placer: &mut Placer, &t: &f64| {
+            placer.place(t);
+            let places = placer.placement().in_frame.clone();
+            let outlines = walks.outlines(&places, levels);
+            (places, outlines)
         };
-        let places: Vec<Vec<DVec2>> = (1..LAST).map(place).collect();
-        let outlines = places.iter().map(|places| walks.outlines(places, levels));
+        let all = times.par_iter().map_init(|| film.placer(), at);
+        let (places, outlines) = all.unzip();
         Self {
-            outlines: outlines.collect(),
+            times,
             places,
+            outlines,
         }
     }
 
-    /// The longest time in which a hole crosses least.
-    fn life(&self, hole: &Hole, level: usize) -> Life {
+    /// The holes in an order, when each is there if they choose in it, but for those of
+    /// which that is known, and at how many steps each then crosses anything.
+    fn lives(
+        &mut self,
+        holes: &[HoleOf],
+        order: &[(usize, Option<Life>)],
+        levels: &Levels,
+        progress: &dyn Progress,
+    ) -> Result<Vec<(usize, Life, usize)>, Cancelled> {
+        let of_both = self.outlines[0].len();
+        let mut lives = Vec::new();
+        for &(k, known) in order {
+            still_wanted(progress)?;
+            let (piece, hole) = &holes[k];
+            let level = levels.of_piece(*piece);
+            let (life, crossed) = self.life(hole, known, level);
+            let mut hole = hole.clone();
+            hole.life = life;
+            self.add(&hole, level);
+            lives.push((k, life, crossed));
+        }
+        self.outlines
+            .iter_mut()
+            .for_each(|all| all.truncate(of_both));
+        Ok(lives)
+    }
+
+    /// The longest time in which a hole crosses least, or the one that is known.
+    fn life(&self, hole: &Hole, known: Option<Life>, level: usize) -> (Life, usize) {
         let mut best = (usize::MAX, Life::WHOLE);
-        for life in times(hole.side()) {
+        let all = times(hole.side());
+        for life in all.filter(|life| known.is_none_or(|known| known == *life)) {
             let mut hole = hole.clone();
             hole.life = life;
             let crossed = self.crossed(&hole, level, best.0);
@@ -113,26 +164,31 @@ impl Scene {
                 best = (crossed, life);
             }
         }
-        best.1
+        (best.1, best.0)
     }
 
     /// The number of steps at which it crosses something or itself, counted on to `most`.
     fn crossed(&self, hole: &Hole, level: usize, most: usize) -> usize {
-        let steps = (1..LAST).zip(self.places.iter().zip(&self.outlines));
-        let crosses = |(step, (places, others)): (u32, (&Vec<DVec2>, &Vec<Outline>))| {
-            let ring = hole.at(places, time(step));
-            let ring = ring.map(|ring| Outline::of(ring, level));
+        let steps = self
+            .times
+            .iter()
+            .zip(self.places.iter().zip(&self.outlines));
+        let crosses = |&(&t, (places, others)): &(&f64, (&Vec<DVec2>, &Vec<Outline>))| {
+            let ring = hole.at(places, t).map(|ring| Outline::of(ring, level));
             ring.is_some_and(|ring| {
                 ring.crosses(&ring) || others.iter().any(|other| ring.crosses(other))
             })
         };
-        steps.filter(|&step| crosses(step)).take(most).count()
+        steps.filter(crosses).take(most).count()
     }
 
     fn add(&mut self, hole: &Hole, level: usize) {
-        for (step, (places, outlines)) in (1..LAST).zip(self.places.iter().zip(&mut self.outlines))
-        {
-            let ring = hole.at(places, time(step));
+        let steps = self
+            .times
+            .iter()
+            .zip(self.places.iter().zip(&mut self.outlines));
+        for (&t, (places, outlines)) in steps {
+            let ring = hole.at(places, t);
             outlines.extend(ring.map(|ring| Outline::of(ring, level)));
         }
     }

@@ -2,31 +2,62 @@
 //!
 //! Evenly, and closer together near both ends: there what is born lies next to what it
 //! comes from, and what dies beside what it goes to. By even steps alone 43 of 60 pairs of
-//! icons were proved not to cross, instead of 46.
+//! icons were proved not to cross, instead of 46. More can be put where a film turned out
+//! to need them.
 
 /// Even steps of the film, and how many of them at each end are divided in how many.
 const EVEN: u32 = 64;
 const DIVIDED: u32 = 2;
 const PARTS: u32 = 4;
 
-/// The number of the last step, at t = 1.
-pub(super) const LAST: u32 = EVEN + 2 * DIVIDED * (PARTS - 1);
+/// Times that are added are multiples of this, which a film run backwards has as well.
+const GRAIN: f64 = 1.0 / 65_536.0;
 
-/// The time of a step.
-pub(super) fn time(step: u32) -> f64 {
-    let near = |step: u32| f64::from(step) / f64::from(EVEN * PARTS);
-    if step <= DIVIDED * PARTS {
-        near(step)
-    } else if step >= LAST - DIVIDED * PARTS {
-        1.0 - near(LAST - step)
-    } else {
-        f64::from(step - DIVIDED * (PARTS - 1)) / f64::from(EVEN)
+/// Times from 0 to 1, both included, each later than the one before.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Steps(Vec<f64>);
+
+impl Default for Steps {
+    fn default() -> Self {
+        let even = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN));
+        let near = (0..DIVIDED * PARTS).map(|k| f64::from(k) / f64::from(EVEN * PARTS));
+        let mut times: Vec<f64> = even.chain(near.flat_map(|t| [t, 1.0 - t])).collect();
+        times.sort_by(f64::total_cmp);
+        times.dedup();
+        Self(times)
     }
 }
 
-/// The last step that is not after a time in [0, 1].
-pub(super) fn step_before(t: f64) -> u32 {
-    (0..=LAST).rev().find(|&step| time(step) <= t).unwrap_or(0)
+impl Steps {
+    pub(super) fn times(&self) -> &[f64] {
+        &self.0
+    }
+
+    /// The number of the last step, at t = 1.
+    pub(super) fn last(&self) -> usize {
+        self.0.len() - 1
+    }
+
+    /// The last step that is not after a time in [0, 1].
+    pub(super) fn before(&self, t: f64) -> usize {
+        self.0.partition_point(|&time| time <= t).max(1) - 1
+    }
+
+    /// How much of the film is nearer to a step than to the others.
+    pub(super) fn long(&self, step: usize) -> f64 {
+        let [before, after] = [step.saturating_sub(1), (step + 1).min(self.last())];
+        (self.0[after] - self.0[before]) / 2.0
+    }
+
+    /// Adds a step at a time within the film, and halfway to those about it.
+    pub(super) fn look_at(&mut self, t: f64) {
+        let before = self.before(t).min(self.last() - 1);
+        let about = [self.0[before], self.0[before + 1]];
+        let added = about.map(|end| end.midpoint(t)).into_iter().chain([t]);
+        self.0.extend(added.map(|t| (t / GRAIN).round() * GRAIN));
+        self.0.sort_by(f64::total_cmp);
+        self.0.dedup();
+    }
 }
 
 #[cfg(test)]
@@ -35,18 +66,38 @@ mod tests {
 
     #[test]
     fn they_run_from_end_to_end_and_back_alike() {
-        assert_eq!([time(0), time(LAST)], [0.0, 1.0]);
-        for step in 0..LAST {
-            let long = time(step + 1) - time(step);
+        let steps = Steps::default();
+        let times = steps.times();
+        assert_eq!([times[0], times[steps.last()]], [0.0, 1.0]);
+        for (step, pair) in times.windows(2).enumerate() {
+            let long = pair[1] - pair[0];
             assert!(long == 1.0 / 64.0 || long == 1.0 / 256.0, "{step}: {long}");
-            assert_eq!(time(step), 1.0 - time(LAST - step));
-            assert_eq!(step_before(time(step) + 1e-6), step);
+            assert_eq!(pair[0], 1.0 - times[steps.last() - step]);
+            assert_eq!(steps.before(pair[0] + 1e-6), step);
         }
         // What lives change at.
         assert!(
             (0..=8)
                 .map(|k| f64::from(k) / 8.0)
-                .all(|t| time(step_before(t)) == t)
+                .all(|t| times[steps.before(t)] == t)
         );
+    }
+
+    #[test]
+    fn more_are_added_alike_from_either_end() {
+        let [mut forwards, mut backwards] = [Steps::default(), Steps::default()];
+        for t in [0.3, 0.0, 1.0, 0.999_999_999] {
+            forwards.look_at(t);
+            // As a film run backwards is told, to rounding.
+            backwards.look_at(1.0 - t + 1e-12);
+        }
+        let mirrored: Vec<f64> = backwards.times().iter().map(|t| 1.0 - t).rev().collect();
+        assert_eq!(forwards.times(), mirrored);
+        assert!(forwards.times().windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!(
+            [forwards.times()[0], forwards.times()[forwards.last()]],
+            [0.0, 1.0]
+        );
+        assert!((forwards.times()[forwards.before(0.3 + GRAIN)] - 0.3).abs() < GRAIN);
     }
 }

@@ -8,7 +8,7 @@
 //!
 //! Guaranteed: exchanging the designs gives the same places, and the times
 //! reversed, unless two parts are equal in size. Not guaranteed: that there
-//! is a free place; nor anything between the steps that are looked at.
+//! is a free place; nor anything between the [`Steps`] that are looked at.
 
 mod carried;
 mod scene;
@@ -20,6 +20,7 @@ pub(super) use self::speck::times;
 use super::holes::HoleOf;
 use super::levels::Levels;
 use super::options::Quality;
+use super::steps::Steps;
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::DVec2;
@@ -54,7 +55,7 @@ pub(super) struct Placed {
 pub(super) fn placed(
     matched: &RegionMatch,
     film: &Arap,
-    (holes, levels): (&[HoleOf], &Levels),
+    (holes, levels, steps): (&[HoleOf], &Levels, &Steps),
     quality: Quality,
     progress: &dyn Progress,
 ) -> Result<Option<Placed>, Cancelled> {
@@ -67,7 +68,7 @@ pub(super) fn placed(
         return Ok(None);
     }
     let specks = Speck::all(matched, levels);
-    let mut scene = Scene::of(film, holes, levels);
+    let mut scene = Scene::of(film, holes, levels, steps);
     let mut swelling = Vec::new();
     let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
     for (rank, speck) in specks.iter().enumerate() {

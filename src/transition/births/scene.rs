@@ -9,7 +9,7 @@ use crate::geometry::{Bounds, DVec2};
 use crate::transition::holes::HoleOf;
 use crate::transition::levels::Levels;
 use crate::transition::outline::Outline;
-use crate::transition::steps::{LAST, step_before, time};
+use crate::transition::steps::Steps;
 use crate::transition::walks::Walks;
 use crate::warp::{Arap, Life, Placer, Warp};
 use rayon::prelude::*;
@@ -26,9 +26,9 @@ const PLACES: u32 = 7;
 /// knowing how good the best of them is.
 const AT_ONCE: usize = 8;
 
-/// What a step at which a part meets another costs, and the distance from its
+/// What it costs to meet another part all the time, and the distance from its
 /// own place, in diameters, against the share of the film that it waits.
-const MEETING: f64 = 10.0;
+const MEETING: f64 = 640.0;
 const DISTANCE: f64 = 2.0;
 
 /// Where, when and how a part is born or dies.
@@ -74,8 +74,9 @@ impl Birth {
 
 /// What is there at each step, both ends included.
 pub(super) struct Scene<'a> {
+    steps: &'a Steps,
     /// First of what both designs have, then of what has got its place.
-    steps: Vec<Vec<Outline>>,
+    outlines: Vec<Vec<Outline>>,
     /// How many outlines both designs have.
     of_both: usize,
     /// Of holes that come and go: as many as there are at each step.
@@ -87,23 +88,24 @@ pub(super) struct Scene<'a> {
 
 impl<'a> Scene<'a> {
     /// Of the pieces that both designs have.
-    pub(super) fn of(film: &Arap, holes: &[HoleOf], levels: &Levels) -> Self {
+    pub(super) fn of(film: &Arap, holes: &[HoleOf], levels: &Levels, steps: &'a Steps) -> Self {
         let walks = Walks::of(film);
-        let at = |placer: &mut Placer, step: u32| -> (Vec<Outline>, Vec<Outline>) {
-            placer.place(time(step));
+        let at = |placer: &mut Placer, &t: &f64| -> (Vec<Outline>, Vec<Outline>) {
+            placer.place(t);
             let places = &placer.placement().in_frame;
             let there = holes.iter().filter_map(|(piece, hole)| {
-                let ring = hole.at(places, time(step))?;
+                let ring = hole.at(places, t)?;
                 Some(Outline::of(ring, levels.of_piece(*piece)))
             });
             (walks.outlines(places, levels), there.collect())
         };
-        let steps = (0..=LAST).into_par_iter();
-        let (steps, holes): (Vec<Vec<Outline>>, _) = steps.map_init(|| film.placer(), at).unzip();
+        let all = steps.times().par_iter().map_init(|| film.placer(), at);
+        let (outlines, holes): (Vec<Vec<Outline>>, _) = all.unzip();
         Self {
-            of_both: steps[0].len(),
-            born: Vec::new(),
             steps,
+            of_both: outlines[0].len(),
+            born: Vec::new(),
+            outlines,
             holes,
             bounds: film.mesh().bounds(),
         }
@@ -201,31 +203,33 @@ impl<'a> Scene<'a> {
             .collect()
     }
 
-    /// The number of steps at which it meets something, counted on to `most`.
+    /// The share of the film in which it meets something, counted on to `most`.
     fn meetings(&self, speck: &Speck, birth: &Birth, film: &Arap, most: f64) -> f64 {
-        let mut count = 0.0;
+        let mut long = 0.0;
         // Every other first: most that meet anything do so for long.
-        let steps = (0..=LAST).step_by(2).chain((1..LAST).step_by(2));
+        let last = self.steps.last();
+        let steps = (0..=last).step_by(2).chain((1..=last).step_by(2));
         for step in steps {
             // While it is large it meets most.
-            let step = [step, LAST - step][speck.side];
-            let share = birth.life.share(time(step));
+            let step = [step, last - step][speck.side];
+            let t = self.steps.times()[step];
+            let share = birth.life.share(t);
             let is_whole = share == [0.0, 1.0][speck.side];
             // Where it is whole it is as it was drawn.
-            if count > most || is_whole {
+            if long > most || is_whole {
                 continue;
             }
-            let rings = birth.at(speck, film, time(step), MARGIN);
+            let rings = birth.at(speck, film, t, MARGIN);
             if !(self.crosses_none(step, &rings) && self.is_apart(step, &rings)) {
-                count += 1.0;
+                long += self.steps.long(step);
             }
         }
-        count
+        long
     }
 
-    fn crosses_none(&self, step: u32, rings: &[Outline]) -> bool {
+    fn crosses_none(&self, step: usize, rings: &[Outline]) -> bool {
         let others = || {
-            let [rings, holes] = [&self.steps, &self.holes].map(|all| &all[step as usize]);
+            let [rings, holes] = [&self.outlines, &self.holes].map(|all| &all[step]);
             rings.iter().chain(holes)
         };
         let crosses = |ring: &Outline| others().any(|other| ring.crosses(other));
@@ -233,11 +237,11 @@ impl<'a> Scene<'a> {
     }
 
     /// Whether it neither lies in another part nor over one.
-    fn is_apart(&self, step: u32, rings: &[Outline]) -> bool {
+    fn is_apart(&self, step: usize, rings: &[Outline]) -> bool {
         let Some(outer) = rings.first() else {
             return true;
         };
-        let [rings_there, holes] = [&self.steps, &self.holes].map(|all| &all[step as usize]);
+        let [rings_there, holes] = [&self.outlines, &self.holes].map(|all| &all[step]);
         let is_beside = |other: &&Outline| other.level == outer.level;
         let place = outer.points[0];
         let others = rings_there.iter().chain(holes).filter(is_beside);
@@ -250,8 +254,8 @@ impl<'a> Scene<'a> {
     /// Adds a speck that has got its place.
     pub(super) fn add(&mut self, speck: &'a Speck, birth: &Birth, film: &Arap) {
         self.born.push((speck, *birth));
-        for step in 0..=LAST {
-            self.steps[step as usize].extend(birth.at(speck, film, time(step), 0.0));
+        for (outlines, &t) in self.outlines.iter_mut().zip(self.steps.times()) {
+            outlines.extend(birth.at(speck, film, t, 0.0));
         }
     }
 
@@ -261,9 +265,9 @@ impl<'a> Scene<'a> {
         let (side, here) = (speck.side, speck.ends[speck.side]);
         let begins = begins(speck, life);
         // Of what both designs have, which is there in the same order at each step.
-        let both = |step: usize| &self.steps[step][..self.of_both];
-        let then = both(step_before(begins) as usize);
-        let now = both([0, LAST as usize][side]);
+        let both = |step: usize| &self.outlines[step][..self.of_both];
+        let then = both(self.steps.before(begins));
+        let now = both([0, self.steps.last()][side]);
         let born = self.born.iter().filter(|(around, _)| around.side == side);
         let born = born.filter_map(|(around, birth)| {
             let size = around.size_around(here)?;

@@ -2,8 +2,9 @@
 //!
 //! Rigid parts fold where their neighbours want something else, and outlines go through
 //! each other where nothing tells them not to. Each film is proved
-//! ([`crate::film::proof`]); one that cannot be is guarded. First what comes or goes
-//! does so later or earlier. Where that is not enough, the film is walked through, and
+//! ([`crate::film::proof`]); one that cannot be is guarded. Where it is what comes or goes
+//! that is met, who gives all of it its place is told when ([`Unproved::births`]); and
+//! what still is comes later, or goes earlier. Where that is not enough, the film is walked through, and
 //! what would meet is pushed aside by as little as keeps it apart: the smallest
 //! displacement, in an energy that knows of no spikes, for which faces stay positive
 //! and outlines apart. Both are done from either end. Each film so found is proved anew,
@@ -65,53 +66,69 @@ const MOST_FACES: usize = 20_000;
 /// Steps of two films that are compared.
 const COMPARED: u32 = 256;
 
-/// The film, guarded where it would fold or its outlines would meet. `swelling` are the
-/// pieces that are not drawn as the mesh has them.
-pub(super) fn guarded(
-    film: &Arap,
-    (pieces, swelling): (&[PieceMatch], &[usize]),
-    levels: &Levels,
-    progress: &dyn Progress,
-) -> Result<Arap, BuildError> {
-    if film.mesh().faces().len() > MOST_FACES {
-        return Ok(film.clone());
-    }
-    kept_apart(film, Drawn::of(pieces, swelling, levels), progress)
-}
+/// A film that is not proved, from either end.
+pub(super) struct Unproved([(Way, Tried); 2]);
 
-fn kept_apart(film: &Arap, drawn: Drawn, progress: &dyn Progress) -> Result<Arap, BuildError> {
-    let there = Way {
-        plain: film.clone(),
-        drawn,
-    };
-    let plain = match there.tried(film.clone(), progress)? {
-        Some(plain) if plain.trouble.is_some() => plain,
-        _ => return Ok(film.clone()),
-    };
-    // From either end: none of the designs is the first.
-    let back = Way {
-        plain: film.swapped(progress)?,
-        drawn: there.drawn.swapped(),
-    };
-    let Some(from_back) = back.tried(back.plain.clone(), progress)? else {
-        return Ok(film.clone());
-    };
-    let both = |of: &Trial, films: [&Tried; 2]| -> Result<[Tried; 2], BuildError> {
-        let (a, b) = rayon::join(|| of(&there, films[0]), || of(&back, films[1]));
-        Ok([a?, b?])
-    };
-    let mut best = both(
-        &|way, film| way.retimed(film, progress),
-        [&plain, &from_back],
-    )?;
-    if best.iter().all(|film| film.trouble.is_some()) {
-        best = both(&|way, film| way.pushed(film, progress), best.each_ref())?;
+impl Unproved {
+    /// Nothing where the film is proved, or too large to be guarded. `swelling` are the
+    /// pieces that are not drawn as the mesh has them.
+    pub(super) fn of(
+        film: &Arap,
+        (pieces, swelling): (&[PieceMatch], &[usize]),
+        levels: &Levels,
+        progress: &dyn Progress,
+    ) -> Result<Option<Self>, BuildError> {
+        if film.mesh().faces().len() > MOST_FACES {
+            return Ok(None);
+        }
+        Self::of_drawn(film, Drawn::of(pieces, swelling, levels), progress)
     }
-    let [forwards, backwards] = best;
-    if forwards.order() <= backwards.order() {
-        return Ok(forwards.film);
+
+    fn of_drawn(
+        film: &Arap,
+        drawn: Drawn,
+        progress: &dyn Progress,
+    ) -> Result<Option<Self>, BuildError> {
+        let there = Way {
+            plain: film.clone(),
+            drawn,
+        };
+        let plain = match there.tried(film.clone(), progress)? {
+            Some(plain) if plain.trouble.is_some() => plain,
+            _ => return Ok(None),
+        };
+        // From either end: none of the designs is the first.
+        let back = Way {
+            plain: film.swapped(progress)?,
+            drawn: there.drawn.swapped(),
+        };
+        let from_back = back.tried(back.plain.clone(), progress)?;
+        Ok(from_back.map(|from_back| Self([(there, plain), (back, from_back)])))
     }
-    Ok(backwards.film.swapped(progress)?)
+
+    /// When parts of one design alone meet something, as far as that is known.
+    pub(super) fn births(&self) -> Vec<f64> {
+        let [there, back] = self.0.each_ref().map(|(way, film)| way.birth(film));
+        there.into_iter().chain(back.map(|t| 1.0 - t)).collect()
+    }
+
+    /// The film in which the least is wrong.
+    pub(super) fn kept_apart(&self, progress: &dyn Progress) -> Result<Arap, BuildError> {
+        let [(there, plain), (back, from_back)] = &self.0;
+        let both = |of: &Trial, films: [&Tried; 2]| -> Result<[Tried; 2], BuildError> {
+            let (a, b) = rayon::join(|| of(there, films[0]), || of(back, films[1]));
+            Ok([a?, b?])
+        };
+        let mut best = both(&|way, film| way.retimed(film, progress), [plain, from_back])?;
+        if best.iter().all(|film| film.trouble.is_some()) {
+            best = both(&|way, film| way.pushed(film, progress), best.each_ref())?;
+        }
+        let [forwards, backwards] = best;
+        if forwards.order() <= backwards.order() {
+            return Ok(forwards.film);
+        }
+        Ok(backwards.film.swapped(progress)?)
+    }
 }
 
 /// What makes another of a film.
@@ -163,6 +180,15 @@ impl Way {
             differs: pushed + lives(&self.plain) - lives(&film),
             film,
         }))
+    }
+
+    /// When a part of one design alone meets something, if that is what comes first.
+    fn birth(&self, film: &Tried) -> Option<f64> {
+        let meeting = film.trouble?.meeting?;
+        let parts = film.film.mesh().components();
+        let both = [meeting.vertex, meeting.edge[0]].map(|v| parts[v as usize] as usize);
+        let is_born = both.iter().any(|&piece| self.drawn.alone(piece).is_some());
+        is_born.then_some(meeting.t)
     }
 
     /// The film in which what comes or goes does so later or earlier; the plain one where

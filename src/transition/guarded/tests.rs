@@ -33,6 +33,13 @@ fn at(film: &Arap, t: f64) -> Vec<DVec2> {
     placer.placement().in_frame.clone()
 }
 
+fn kept_apart(film: &Arap, drawn: Drawn) -> Arap {
+    match Unproved::of_drawn(film, drawn, &Silent).expect("nobody cancels") {
+        Some(unproved) => unproved.kept_apart(&Silent).expect("a film"),
+        None => film.clone(),
+    }
+}
+
 fn is_proved(film: &Arap, drawn: &Drawn) -> bool {
     let trouble = trouble(film, drawn, &Silent).expect("nobody cancels");
     trouble.expect("a film that settles").is_none()
@@ -52,7 +59,7 @@ fn passing(above: f64) -> Arap {
 fn where_nothing_is_wrong_the_film_is_the_plain_one() {
     let (plain, drawn) = (passing(2.1), Drawn::alone_of(&[None; 3]));
     assert!(is_proved(&plain, &drawn));
-    let guarded = kept_apart(&plain, drawn, &Silent).expect("a film");
+    let guarded = kept_apart(&plain, drawn);
     assert!(guarded.guard().is_none());
     assert_eq!(at(&guarded, 0.4), at(&plain, 0.4));
 }
@@ -61,7 +68,7 @@ fn where_nothing_is_wrong_the_film_is_the_plain_one() {
 fn what_would_graze_is_moved_aside_and_no_more() {
     let (plain, drawn) = (passing(1.8), Drawn::alone_of(&[None; 3]));
     assert!(!is_proved(&plain, &drawn));
-    let guarded = kept_apart(&plain, drawn.clone(), &Silent).expect("a film");
+    let guarded = kept_apart(&plain, drawn.clone());
     assert!(is_proved(&guarded, &drawn));
     for t in [0.0, 1.0] {
         assert_eq!(at(&guarded, t), at(&plain, t), "{t}");
@@ -78,9 +85,9 @@ fn what_would_graze_is_moved_aside_and_no_more() {
 #[test]
 fn backwards_it_is_the_film_of_the_exchanged_designs() {
     let (plain, drawn) = (passing(1.8), Drawn::alone_of(&[None; 3]));
-    let there = kept_apart(&plain, drawn.clone(), &Silent).expect("a film");
+    let there = kept_apart(&plain, drawn.clone());
     let swapped = plain.swapped(&Silent).expect("a film");
-    let back = kept_apart(&swapped, drawn.swapped(), &Silent).expect("a film");
+    let back = kept_apart(&swapped, drawn.swapped());
     for t in [0.3, 0.45, 0.5, 0.62] {
         let (a, b) = (at(&there, t), at(&back, 1.0 - t));
         let off = a
@@ -100,7 +107,7 @@ fn what_goes_all_the_way_through_stays_as_it_is() {
     let plain = film(&[[(y * 6.0, 1.0), (y * -46.0, 1.0)]], &[]);
     let drawn = Drawn::alone_of(&[None; 2]);
     assert!(!is_proved(&plain, &drawn));
-    let guarded = kept_apart(&plain, drawn, &Silent).expect("a film");
+    let guarded = kept_apart(&plain, drawn);
     assert_eq!(
         [0.0, 1.0].map(|t| at(&guarded, t)),
         [0.0, 1.0].map(|t| at(&plain, t))
@@ -118,8 +125,15 @@ fn what_is_born_on_the_way_of_another_waits() {
     let born = Life { from: 0.1, to: 1.0 };
     let plain = film(&squares, &[None, None, Some(born)]);
     let drawn = Drawn::alone_of(&[None, None, Some(Side::Target)]);
-    assert!(!is_proved(&plain, &drawn));
-    let guarded = kept_apart(&plain, drawn.clone(), &Silent).expect("a film");
+    let unproved = Unproved::of_drawn(&plain, drawn.clone(), &Silent).expect("nobody cancels");
+    let unproved = unproved.expect("it is run over");
+    // From either end it is the first thing that is met, and the last.
+    let met = unproved.births();
+    assert!(
+        met.len() == 2 && met[0] >= born.from && met[0] < met[1],
+        "{met:?}"
+    );
+    let guarded = unproved.kept_apart(&Silent).expect("a film");
     assert!(is_proved(&guarded, &drawn) && guarded.guard().is_none());
     let life = guarded.lives()[2].expect("a birth");
     assert!(

@@ -79,6 +79,27 @@ fn a_hole_that_is_alone_crosses_nothing_on_its_way() {
 }
 
 #[test]
+fn a_hole_makes_way_for_one_in_its_midst() {
+    // As long as it is there, the small one crosses it, whenever it comes.
+    let window = svg("M5 20h90v60h-90z M20 30v40h60v-40z");
+    let dot = svg("M5 20h90v60h-90z M45 45v10h10v-10z");
+    for (a, b) in [(&window, &dot), (&dot, &window)] {
+        let mut spec = TransitionSpec::new(Arc::clone(a), Arc::clone(b));
+        spec.options.matching.holes = HoleRule::Alone;
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        let mut frame = transition.frame(0.0);
+        let (mut crossings, mut most) = (0, 0);
+        for step in 0..=512 {
+            frame.seek(f64::from(step) / 512.0);
+            let rings = &frame.figure().rings;
+            crossings += count_crossings(rings);
+            most = most.max(rings.len());
+        }
+        assert_eq!((crossings, most), (0, 2), "one after the other");
+    }
+}
+
+#[test]
 fn a_draft_is_one_film_of_several_with_the_same_ends() {
     let (a, b) = (svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
     let spec = TransitionSpec::new(a, b);
