@@ -34,6 +34,8 @@ pub(crate) fn refusal(error: &io::Error) -> String {
             "a part of its path is no folder",
             "choose a folder that exists",
         ),
+        // Of a folder that was to be made.
+        ErrorKind::AlreadyExists => ("something of that name is there", "choose another name"),
         ErrorKind::IsADirectory => ("it is a folder", "choose another name"),
         _ => return format!("{error}; choose another folder or name"),
     };

@@ -81,6 +81,18 @@ mod tests {
     }
 
     #[test]
+    fn a_file_is_no_folder_for_them() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("film");
+        fs::write(&file, b"mine").expect("written");
+        let film = Film::evenly(0.0, 1.0, 2, 24.0).expect("a film");
+        let error = write_numbered(&camera(8, 8, None), &film, &names(&file, "#.png"), &Silent);
+        let told = error.expect_err("no folder").to_string();
+        assert!(told.contains("something of that name is there"), "{told}");
+        assert_eq!(fs::read(&file).expect("read"), b"mine");
+    }
+
+    #[test]
     fn parts_make_the_same_files_as_the_whole() {
         let (whole, split) = (tempfile::tempdir(), tempfile::tempdir());
         let (whole, split) = (whole.expect("a folder"), split.expect("a folder"));
