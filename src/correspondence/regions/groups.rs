@@ -190,9 +190,10 @@ fn attach(
         PartRule::Alone => false,
     };
     let places = designs.map(relative_centres);
+    let areas = designs.map(|design| design.iter().map(Region::area).collect::<Vec<f64>>());
+    let wholes = areas.each_ref().map(|areas| areas.iter().sum::<f64>());
     let is_speck = |side: Side, part: usize| {
-        let own = designs[side].iter().nth(part).map(Region::area);
-        rule == PartRule::Auto && own.is_some_and(|own| own < SPECK * designs[side].area())
+        rule == PartRule::Auto && areas[side][part] < SPECK * wholes[side]
     };
     for (side, alone) in [
         (Side::Source, &pairing.dying),
