@@ -26,8 +26,8 @@ const PLACES: u32 = 7;
 /// knowing how good the best of them is.
 const AT_ONCE: usize = 8;
 
-/// What it costs to meet another part all the time, and the distance from its
-/// own place, in diameters, against the share of the film that it waits.
+/// What it costs to meet another part all the time (10 for an even step), and the
+/// distance from its own place, in diameters, against the share of the film that it waits.
 const MEETING: f64 = 640.0;
 const DISTANCE: f64 = 2.0;
 

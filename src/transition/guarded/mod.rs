@@ -4,11 +4,11 @@
 //! each other where nothing tells them not to. Each film is proved
 //! ([`crate::film::proof`]); one that cannot be is guarded. Where it is what comes or goes
 //! that is met, who gives all of it its place is told when ([`Unproved::births`]); and
-//! what still is comes later, or goes earlier. Where that is not enough, the film is walked through, and
-//! what would meet is pushed aside by as little as keeps it apart: the smallest
-//! displacement, in an energy that knows of no spikes, for which faces stay positive
-//! and outlines apart. Both are done from either end. Each film so found is proved anew,
-//! and looked at more closely where that fails.
+//! what still is comes later, or goes earlier. Where that is not enough, the film is
+//! walked through, and what would meet is pushed aside by as little as keeps it apart:
+//! the smallest displacement, in an energy that knows of no spikes, for which faces stay
+//! positive and outlines apart. Both are done from either end. Each film so found is
+//! proved anew, and looked at more closely where that fails.
 //!
 //! Guaranteed: where nothing is wrong the film is the plain one, bit for bit; both ends
 //! are the designs; the film backwards is that of the exchanged designs. Not
