@@ -12,6 +12,9 @@ use std::sync::OnceLock;
 /// it is seen to jump, which is less bad.
 const JUMPS: [f64; 2] = [1.0 / 16.0, 1.0 / 32.0];
 
+/// What would meet something even so comes or goes at once.
+const AT_ONCE: f64 = 1.0 / 256.0;
+
 /// Places along its own outline that are searched.
 const OWN_PLACES: usize = 12;
 
@@ -173,7 +176,7 @@ impl Speck {
 
     /// The times in which it may change its size, the longest first.
     pub(super) fn times(&self) -> impl Iterator<Item = Life> {
-        times(self.side)
+        times(self.side).chain([life(self.side, AT_ONCE)])
     }
 }
 
@@ -181,7 +184,12 @@ impl Speck {
 /// longest first: all of them begin or end where that design is.
 pub(in crate::transition) fn times(side: Side) -> impl Iterator<Item = Life> {
     let eighths = (1..=8).rev().map(|eighths| f64::from(eighths) / 8.0);
-    eighths.chain(JUMPS).map(move |long| match side {
+    eighths.chain(JUMPS).map(move |long| life(side, long))
+}
+
+/// So much of the film, from the end where what changes its size is.
+fn life(side: Side, long: f64) -> Life {
+    match side {
         Side::Source => Life {
             from: 0.0,
             to: long,
@@ -190,7 +198,7 @@ pub(in crate::transition) fn times(side: Side) -> impl Iterator<Item = Life> {
             from: 1.0 - long,
             to: 1.0,
         },
-    })
+    }
 }
 
 /// The centroid of what some rings enclose together.
