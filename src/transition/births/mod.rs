@@ -68,16 +68,15 @@ pub(super) fn placed(
         return Ok(None);
     }
     let specks = Speck::all(matched, levels);
-    let mut scene = Scene::of(film, holes, levels, steps);
+    let mut scene = Scene::of(film, (holes, &specks), (levels, steps));
     let mut swelling = Vec::new();
     let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
     for (rank, speck) in specks.iter().enumerate() {
         still_wanted(progress)?;
-        let birth = scene.best(speck, film, rank < searched);
+        let birth = scene.place(speck, film, rank < searched);
         by[speck.piece][speck.side.other()] = birth.place - speck.ends[speck.side.other()];
         lives[speck.piece] = Some(birth.life);
         swelling.extend(birth.swells.then_some(speck.piece));
-        scene.add(speck, &birth, film);
     }
     let Some(mesh) = film.mesh().with_parts_moved(&by) else {
         return Ok(None);

@@ -5,7 +5,7 @@
 
 use super::carried::{carried_among, carried_within};
 use super::speck::Speck;
-use crate::geometry::{Bounds, DVec2};
+use crate::geometry::{Bounds, DVec2, Side};
 use crate::transition::holes::HoleOf;
 use crate::transition::levels::Levels;
 use crate::transition::outline::Outline;
@@ -83,12 +83,18 @@ pub(super) struct Scene<'a> {
     holes: Vec<Vec<Outline>>,
     /// What has got its place.
     born: Vec<(&'a Speck, Birth)>,
+    /// What has none yet, as it was drawn, the next one last.
+    unplaced: Vec<(Side, Vec<Outline>)>,
     bounds: Bounds,
 }
 
 impl<'a> Scene<'a> {
-    /// Of the pieces that both designs have.
-    pub(super) fn of(film: &Arap, holes: &[HoleOf], levels: &Levels, steps: &'a Steps) -> Self {
+    /// Of the pieces that both designs have, for parts that get their places in this order.
+    pub(super) fn of(
+        film: &Arap,
+        (holes, specks): (&[HoleOf], &[Speck]),
+        (levels, steps): (&Levels, &'a Steps),
+    ) -> Self {
         let walks = Walks::of(film);
         let at = |placer: &mut Placer, &t: &f64| -> (Vec<Outline>, Vec<Outline>) {
             placer.place(t);
@@ -101,18 +107,28 @@ impl<'a> Scene<'a> {
         };
         let all = steps.times().par_iter().map_init(|| film.placer(), at);
         let (outlines, holes): (Vec<Vec<Outline>>, _) = all.unzip();
+        let drawn = |speck: &Speck| (speck.side, speck.at(speck.ends[speck.side], 1.0));
         Self {
             steps,
             of_both: outlines[0].len(),
             born: Vec::new(),
+            unplaced: specks.iter().rev().map(drawn).collect(),
             outlines,
             holes,
             bounds: film.mesh().bounds(),
         }
     }
 
-    /// The best birth; its place is searched for only where that is asked for.
-    pub(super) fn best(&self, speck: &Speck, film: &Arap, is_searched: bool) -> Birth {
+    /// The best birth of the next one; its place is searched for only where that is asked
+    /// for.
+    pub(super) fn place(&mut self, speck: &'a Speck, film: &Arap, is_searched: bool) -> Birth {
+        self.unplaced.pop();
+        let birth = self.best(speck, film, is_searched);
+        self.add(speck, &birth, film);
+        birth
+    }
+
+    fn best(&self, speck: &Speck, film: &Arap, is_searched: bool) -> Birth {
         let mut best = (
             f64::INFINITY,
             Birth {
@@ -220,39 +236,52 @@ impl<'a> Scene<'a> {
                 continue;
             }
             let rings = birth.at(speck, film, t, MARGIN);
-            if !(self.crosses_none(step, &rings) && self.is_apart(step, &rings)) {
+            if !(self.crosses_none(step, speck.side, &rings)
+                && self.is_apart(step, speck.side, &rings))
+            {
                 long += self.steps.long(step);
             }
         }
         long
     }
 
-    fn crosses_none(&self, step: usize, rings: &[Outline]) -> bool {
-        let others = || {
-            let [rings, holes] = [&self.outlines, &self.holes].map(|all| &all[step]);
-            rings.iter().chain(holes)
-        };
+    /// What is there at a step, but for holes, for what one design has alone. What the
+    /// other has alone and has no place yet is there at its own end, whatever place it
+    /// gets: of some 80 parts of an icon one grew out of another that had just begun to go.
+    fn there(&self, step: usize, side: Side) -> impl Iterator<Item = &Outline> {
+        let near = [self.steps.last() - 1, 1][side];
+        let unplaced = self
+            .unplaced
+            .iter()
+            .filter(move |(of, _)| step == near && *of != side);
+        let unplaced = unplaced.flat_map(|(_, rings)| rings);
+        self.outlines[step].iter().chain(unplaced)
+    }
+
+    fn crosses_none(&self, step: usize, side: Side, rings: &[Outline]) -> bool {
+        let others = || self.there(step, side).chain(&self.holes[step]);
         let crosses = |ring: &Outline| others().any(|other| ring.crosses(other));
         !rings.iter().any(crosses)
     }
 
     /// Whether it neither lies in another part nor over one.
-    fn is_apart(&self, step: usize, rings: &[Outline]) -> bool {
+    fn is_apart(&self, step: usize, side: Side, rings: &[Outline]) -> bool {
         let Some(outer) = rings.first() else {
             return true;
         };
-        let [rings_there, holes] = [&self.outlines, &self.holes].map(|all| &all[step]);
         let is_beside = |other: &&Outline| other.level == outer.level;
         let place = outer.points[0];
-        let others = rings_there.iter().chain(holes).filter(is_beside);
+        let others = self
+            .there(step, side)
+            .chain(&self.holes[step])
+            .filter(is_beside);
         let is_within = others.map(|o| o.winding(place)).sum::<i32>() != 0;
         let around = |p: DVec2| rings.iter().map(|o| o.winding(p)).sum::<i32>();
-        let mut others = rings_there.iter().filter(is_beside);
+        let mut others = self.there(step, side).filter(is_beside);
         !is_within && !others.any(|other| around(other.points[0]) != 0)
     }
 
-    /// Adds a speck that has got its place.
-    pub(super) fn add(&mut self, speck: &'a Speck, birth: &Birth, film: &Arap) {
+    fn add(&mut self, speck: &'a Speck, birth: &Birth, film: &Arap) {
         self.born.push((speck, *birth));
         for (outlines, &t) in self.outlines.iter_mut().zip(self.steps.times()) {
             outlines.extend(birth.at(speck, film, t, 0.0));
