@@ -1,7 +1,7 @@
 //! What a film is made of, and a frame of it: right-hand sides, solve, placement.
 
 use super::assembly::LocalMaps;
-use super::bounded::{Bounded, FARTHER, Memory, ROUNDS};
+use super::bounded::{Bounded, Memory, ROUNDS};
 use super::drift::Drift;
 use super::guard::Guard;
 use super::options::ArapOptions;
@@ -83,7 +83,8 @@ impl Player {
                 .right_hand_sides(times, place, (memory, in_frame), deviation);
             arap.cholesky.solve_ordered(deviation, workspace);
             if let Some(bounded) = arap.stresses.bounded() {
-                put_back(arap, bounded, times, deviation, (more, in_frame, workspace));
+                let room = (&mut more[..], &mut in_frame[..], &mut *workspace);
+                put_back(arap, (bounded, times), deviation, memory, room);
             }
             arap.drift.shifts(times, deviation, shifts);
         }
@@ -120,30 +121,35 @@ impl Player {
 /// vertex, and `more`, as long as the deviation, are memory to work in.
 fn put_back(
     arap: &Prepared,
-    bounded: &Bounded,
-    times: Times,
+    (bounded, times): (&Bounded, Times),
     deviation: &mut [f64],
+    memory: &mut Memory,
     (more, forces, workspace): (&mut [f64], &mut [DVec2], &mut Workspace),
 ) {
     let place = arap.cholesky.place_in_order();
-    for _ in 0..ROUNDS {
-        forces.fill(DVec2::ZERO);
-        let (x, y) = deviation.split_at(place.len());
-        let strayed = |v: u32| {
-            let at = place[v as usize] as usize;
-            DVec2::new(x[at], y[at])
-        };
-        if !bounded.put_back(times, strayed, forces) {
-            return;
-        }
-        let (x, y) = more.split_at_mut(place.len());
+    let mut solve = |forces: &[DVec2], solved: &mut [f64]| {
+        let (x, y) = solved.split_at_mut(place.len());
         for (force, &at) in forces.iter().zip(place) {
             x[at as usize] = force.x;
             y[at as usize] = force.y;
         }
-        arap.cholesky.solve_ordered(more, workspace);
+        arap.cholesky.solve_ordered(solved, workspace);
+    };
+    let at = |solved: &[f64], v: u32| {
+        let at = place[v as usize] as usize;
+        DVec2::new(solved[at], solved[place.len() + at])
+    };
+    for _ in 0..ROUNDS {
+        if !bounded.find_beyond(times, memory, |v| at(deviation, v)) {
+            return;
+        }
+        bounded.put_back(memory, forces, |face, forces| {
+            solve(forces, more);
+            face.strayed(|v| at(more, v))
+        });
+        solve(forces, more);
         for (sum, by) in deviation.iter_mut().zip(more.iter()) {
-            *sum += FARTHER * by;
+            *sum += by;
         }
     }
 }

@@ -8,7 +8,7 @@ use crate::warp::arap::assembly::FaceMap;
 
 /// What is known of a face at every t.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Face {
+pub(in crate::warp::arap) struct Face {
     pub(super) corners: [u32; 3],
     /// From source to target.
     pub(super) map: Polar,
@@ -37,6 +37,12 @@ impl Face {
             back: of.map.matrix().inverse(),
             mass: (area(mesh.source()) * area(mesh.target())).sqrt(),
         }
+    }
+
+    /// What the face's own map is beside the straight line, of what its corners are.
+    pub(in crate::warp::arap) fn strayed(&self, of: impl Fn(u32) -> DVec2) -> DMat2 {
+        let [first, second, third] = self.corners.map(of);
+        DMat2::from_cols(second - first, third - first) * self.gradients.transpose()
     }
 
     /// Adds M W g to the corners.

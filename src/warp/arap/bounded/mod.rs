@@ -39,12 +39,13 @@ use crate::homotopy::Homotopy;
 use flat::Flattening;
 use layout::Face;
 use sheet::Sheet;
+use std::sync::OnceLock;
 
 /// How often what is sheared too much is put back, at most: most films need none.
 pub(super) const ROUNDS: u32 = 64;
 
 /// How many times as far as it should each time, since its neighbours pull it forth again.
-pub(super) const FARTHER: f64 = 1.8;
+const FARTHER: f64 = 1.8;
 
 /// Even steps at which it is tried whether a sheet can be flattened.
 const TRIED: u32 = 16;
@@ -65,11 +66,19 @@ struct Whole {
     is_flat: bool,
     /// How much its worst face is sheared between the designs.
     sheared: f64,
+    /// What has to be asked of each face for it to give way as it should, once it is
+    /// known.
+    unyielding: Vec<OnceLock<DMat2>>,
 }
 
 /// The memory that the maps of a frame take, a sheet each.
 #[derive(Debug, Default)]
-pub(super) struct Memory(Vec<OfSheet>);
+pub(super) struct Memory {
+    sheets: Vec<OfSheet>,
+    /// What is sheared too much, and how many that are, each by its weight.
+    beyond: Vec<Beyond>,
+    many: f64,
+}
 
 #[derive(Debug)]
 struct OfSheet {
@@ -91,6 +100,7 @@ impl Bounded {
             let sheared = faces.iter().map(|face| excess::sheared(face.map.matrix()));
             Whole {
                 sheared: sheared.fold(1.0, f64::max),
+                unyielding: faces.iter().map(|_| OnceLock::new()).collect(),
                 faces,
                 is_flat,
                 sheet,
@@ -111,12 +121,16 @@ impl Bounded {
             flattening: Flattening::of(&whole.sheet),
             maps: vec![DMat2::IDENTITY; whole.faces.len()],
         };
-        Memory(self.sheets.iter().map(of_sheet).collect())
+        Memory {
+            sheets: self.sheets.iter().map(of_sheet).collect(),
+            beyond: Vec::with_capacity(self.sheets.iter().map(|whole| whole.faces.len()).sum()),
+            many: 0.0,
+        }
     }
 
     /// Adds M(t) W g of each face to its corners.
     pub(super) fn add(&self, times: Times, memory: &mut Memory, forces: &mut [DVec2]) {
-        for (whole, memory) in self.sheets.iter().zip(&mut memory.0) {
+        for (whole, memory) in self.sheets.iter().zip(&mut memory.sheets) {
             let t = times.of_vertex(whole.faces[0].corners[0] as usize);
             whole.maps(t, memory);
             for (face, &map) in whole.faces.iter().zip(&memory.maps) {
@@ -126,34 +140,83 @@ impl Bounded {
     }
 }
 
+/// A face that is sheared more than at the worse end.
+#[derive(Clone, Copy, Debug)]
+struct Beyond {
+    sheet: usize,
+    face: usize,
+    /// What its map lacks.
+    by: DMat2,
+}
+
 impl Bounded {
-    /// Adds to the corners of each face what puts it back where it is sheared more than at
-    /// the worse end, of what deviates so from the straight line; whether any is.
-    /// Nothing at the ends themselves and beyond.
-    pub(super) fn put_back(
+    /// Finds what is sheared more than at the worse end, of what deviates so from the
+    /// straight line; whether anything is. Nothing is at the ends themselves and beyond.
+    pub(super) fn find_beyond(
         &self,
         times: Times,
+        memory: &mut Memory,
         deviation: impl Fn(u32) -> DVec2,
-        forces: &mut [DVec2],
     ) -> bool {
-        let mut any = false;
-        for whole in &self.sheets {
+        memory.beyond.clear();
+        memory.many = 0.0;
+        for (sheet, whole) in self.sheets.iter().enumerate() {
             let t = times.of_vertex(whole.faces[0].corners[0] as usize);
             if !(t > 0.0 && t < 1.0) {
                 continue;
             }
-            for face in &whole.faces {
-                let [first, second, third] = face.corners.map(&deviation);
-                let strayed =
-                    DMat2::from_cols(second - first, third - first) * face.gradients.transpose();
+            for (k, face) in whole.faces.iter().enumerate() {
                 let straight = DMat2::IDENTITY * (1.0 - t) + face.map.matrix() * t;
-                if let Some(by) = excess::taken_back(face, straight + strayed, whole.sheared) {
-                    face.pull(by, forces);
-                    any = true;
+                let map = straight + face.strayed(&deviation);
+                if let Some(back) = excess::taken_back(face, map, whole.sheared) {
+                    memory.many += back.weight;
+                    memory.beyond.push(Beyond {
+                        sheet,
+                        face: k,
+                        by: back.by,
+                    });
                 }
             }
         }
-        any
+        !memory.beyond.is_empty()
+    }
+
+    /// Writes to each corner what puts the faces back that were found. `answer` says how
+    /// a face's map changes where forces are so.
+    ///
+    /// A face that is put back as its map says gives way as little as its neighbours let
+    /// it, a needle by next to nothing: of two pairs of icons one was not there after 700
+    /// rounds. Alone it can be pushed by what it does not give way; n faces by an nth of
+    /// that: with K how all answer to all, K ⪯ 1 and K ⪯ n diag K, so that K⁻¹ is no less
+    /// than any mean of 1 and of (n diag K)⁻¹.
+    pub(super) fn put_back(
+        &self,
+        memory: &Memory,
+        forces: &mut [DVec2],
+        mut answer: impl FnMut(&Face, &[DVec2]) -> DMat2,
+    ) {
+        let one_of = memory.many.max(1.0).recip();
+        let faces = |beyond: &Beyond| {
+            let whole = &self.sheets[beyond.sheet];
+            (&whole.faces[beyond.face], &whole.unyielding[beyond.face])
+        };
+        for beyond in &memory.beyond {
+            let (face, unyielding) = faces(beyond);
+            unyielding.get_or_init(|| {
+                forces.fill(DVec2::ZERO);
+                face.pull(DMat2::IDENTITY, forces);
+                answer(face, forces).inverse()
+            });
+        }
+        forces.fill(DVec2::ZERO);
+        for beyond in &memory.beyond {
+            let (face, unyielding) = faces(beyond);
+            let Some(&unyielding) = unyielding.get() else {
+                continue;
+            };
+            let pushed = DMat2::IDENTITY * (FARTHER * (1.0 - one_of)) + unyielding * one_of.powi(2);
+            face.pull(beyond.by * pushed, forces);
+        }
     }
 }
 
