@@ -42,7 +42,7 @@ use sheet::Sheet;
 use std::sync::OnceLock;
 
 /// How often what is sheared too much is put back, at most: most films need none.
-pub(super) const ROUNDS: u32 = 64;
+pub(super) const ROUNDS: u32 = 128;
 
 /// How many times as far as it should each time, since its neighbours pull it forth again.
 const FARTHER: f64 = 1.8;
