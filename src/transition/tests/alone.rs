@@ -4,7 +4,7 @@
 use super::*;
 use crate::content::Content;
 use crate::correspondence::LonePart;
-use crate::geometry::{RingEdge, Side};
+use crate::geometry::{RingEdge, Side, winding};
 
 /// A plate with a row of holes.
 fn perforated(holes: u32) -> Arc<Design> {
@@ -199,6 +199,32 @@ fn a_film_in_which_nothing_has_a_partner_goes_from_one_design_to_the_other() {
     }
     frame.seek(0.5);
     assert!(area(&frame.figure().rings).is_finite());
+}
+
+#[test]
+fn nothing_is_born_in_what_has_just_begun_to_die() {
+    // Either would be free to come and go in its own place, were the other not there.
+    let one = svg("M10 10h30v80h-30z M62 42h16v16h-16z");
+    let two = svg("M10 10h30v80h-30z M55 35h30v30h-30z");
+    for (source, target) in [(&one, &two), (&two, &one)] {
+        let mut spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+        for side in Side::BOTH {
+            let at = DVec2::new(70.0, 50.0);
+            spec.options.matching.lone.push(LonePart { side, at });
+        }
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        let mut frame = transition.frame(0.0);
+        for step in 1..1024 {
+            frame.seek(f64::from(step) / 1024.0);
+            let rings = &frame.figure().rings;
+            assert_eq!(count_crossings(rings), 0, "{step}");
+            let lie_in_another = rings.iter().filter(|ring| {
+                let others = rings.iter().filter(|other| *other != *ring);
+                others.map(|other| winding(other, ring[0])).sum::<i32>() != 0
+            });
+            assert_eq!(lie_in_another.count(), 0, "{step}");
+        }
+    }
 }
 
 #[test]

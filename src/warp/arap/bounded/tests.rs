@@ -178,6 +178,25 @@ fn angles_around_a_hole_close() {
 }
 
 #[test]
+fn a_needle_keeps_the_bound() {
+    // Of a face that is that thin its neighbours hardly take notice.
+    let even = ring(|p| p);
+    let (inner, next) = (12, 13);
+    let near = |points: &[DVec2], share: f64| {
+        let mut points = points.to_vec();
+        let [a, b] = [inner, next].map(|v| points[v]);
+        points[inner + 48] = a.lerp(b, 0.5) * (1.0 + share);
+        points
+    };
+    let bent: Vec<DVec2> = even.source().iter().map(|&p| stretched(p)).collect();
+    let [source, target] = [near(even.source(), 2e-2), near(&bent, 2e-4)];
+    let mesh = CompatibleMesh::new(even.faces().to_vec(), source, target, vec![]);
+    let mesh = mesh.expect("positive");
+    let found = by_end(&mesh, &bounded(&mesh));
+    assert!(found <= 1.02, "{found}");
+}
+
+#[test]
 fn a_sheet_that_is_not_flat_takes_each_metric_by_itself() {
     let mesh = plate(stretched);
     let maps = LocalMaps::new(&mesh, &ArapOptions::default(), &[]).expect("maps");
