@@ -1,7 +1,7 @@
 //! What a film is made of, and a frame of it: right-hand sides, solve, placement.
 
 use super::assembly::LocalMaps;
-use super::bounded::{Bounded, Memory, ROUNDS};
+use super::bounded::{Bounded, FARTHER, FEW, Memory, PUT_BACK};
 use super::drift::Drift;
 use super::guard::Guard;
 use super::options::ArapOptions;
@@ -10,7 +10,7 @@ use super::sides::Outlined;
 use super::stresses::Stresses;
 use super::times::Times;
 use crate::compatible::CompatibleMesh;
-use crate::geometry::DVec2;
+use crate::geometry::{DMat2, DVec2};
 use crate::homotopy::Homotopy;
 use crate::linalg::{Cholesky, Workspace};
 use crate::warp::Placement;
@@ -139,17 +139,41 @@ fn put_back(
         let at = place[v as usize] as usize;
         DVec2::new(solved[at], solved[place.len() + at])
     };
-    for _ in 0..ROUNDS {
-        if !bounded.find_beyond(times, memory, |v| at(deviation, v)) {
+    let mut done = 0;
+    while done < PUT_BACK {
+        bounded.find_beyond(times, memory, |v| at(deviation, v));
+        if memory.beyond.is_empty() {
             return;
         }
-        bounded.put_back(memory, forces, |face, forces| {
+        if memory.beyond.len() > FEW {
+            forces.fill(DVec2::ZERO);
+            for &(beyond, by) in &memory.beyond {
+                bounded.face(beyond).pull(by * FARTHER, forces);
+            }
             solve(forces, more);
-            face.strayed(|v| at(more, v))
-        });
-        solve(forces, more);
-        for (sum, by) in deviation.iter_mut().zip(more.iter()) {
-            *sum += by;
+            add(deviation, more);
+            done += 1;
+            continue;
+        }
+        for &(beyond, _) in &memory.beyond {
+            let face = bounded.face(beyond);
+            let unyielding = bounded.unyielding(beyond, || {
+                forces.fill(DVec2::ZERO);
+                face.pull(DMat2::IDENTITY, forces);
+                solve(forces, more);
+                face.strayed(|v| at(more, v))
+            });
+            if let Some(by) = bounded.lacking(beyond, times, |v| at(deviation, v)) {
+                forces.fill(DVec2::ZERO);
+                face.pull(by * unyielding, forces);
+                solve(forces, more);
+                add(deviation, more);
+            }
+            done += 1;
         }
     }
+}
+
+fn add(sum: &mut [f64], by: &[f64]) {
+    sum.iter_mut().zip(by).for_each(|(sum, by)| *sum += by);
 }

@@ -55,16 +55,8 @@ pub(super) fn sheared(map: DMat2) -> f64 {
     Halves::of(map).sheared()
 }
 
-/// What has to be added to a map that is sheared too much.
-#[derive(Clone, Copy)]
-pub(super) struct Back {
-    pub(super) by: DMat2,
-    /// How far it is beyond, from 0 to 1 where as far as may be, and more is.
-    pub(super) weight: f64,
-}
-
 /// What has to be added to a map that is sheared more than `most`.
-fn back(map: DMat2, most: f64) -> Option<Back> {
+fn back(map: DMat2, most: f64) -> Option<DMat2> {
     let halves = Halves::of(map);
     let beyond = halves.sheared() / most - 1.0;
     let [turning, flipping] = halves.sizes;
@@ -81,24 +73,15 @@ fn back(map: DMat2, most: f64) -> Option<Back> {
         (large + small) / (2.0 * turning) - 1.0,
         (large - small) / (2.0 * flipping) - 1.0,
     ];
-    Some(Back {
-        by: halves.turning * by[0] + halves.flipping * by[1],
-        weight: (beyond / SOFT).min(1.0),
-    })
+    Some(halves.turning * by[0] + halves.flipping * by[1])
 }
 
 /// What has to be added to the map of a face, seen from both designs.
-pub(super) fn taken_back(face: &Face, map: DMat2, most: f64) -> Option<Back> {
+pub(super) fn taken_back(face: &Face, map: DMat2, most: f64) -> Option<DMat2> {
     let from_source = back(map, most);
-    let from_target = back(map * face.back, most).map(|back| Back {
-        by: back.by * face.map.matrix(),
-        ..back
-    });
+    let from_target = back(map * face.back, most).map(|by| by * face.map.matrix());
     match (from_source, from_target) {
-        (Some(a), Some(b)) => Some(Back {
-            by: (a.by + b.by) * 0.5,
-            weight: a.weight.max(b.weight),
-        }),
+        (Some(a), Some(b)) => Some((a + b) * 0.5),
         (a, b) => a.or(b),
     }
 }
@@ -115,8 +98,7 @@ mod tests {
         assert!(back(of(3.0, 1.0), 3.0).is_none());
         assert!((sheared(of(3.0, 1.0)) - 3.0).abs() < 1e-12);
         for worse in [of(9.0, 1.0), of(3.0, 1e-9), of(3.0, -0.5)] {
-            let Back { by, weight } = back(worse, 3.0).expect("beyond");
-            assert_eq!(weight, 1.0);
+            let by = back(worse, 3.0).expect("beyond");
             let found = sheared(worse + by);
             assert!(
                 (3.0..=3.0 * (1.0 + SOFT) + 1e-9).contains(&found),
@@ -124,8 +106,7 @@ mod tests {
             );
         }
         // Hardly beyond: all of it is left.
-        let Back { by, weight } = back(of(3.0 + 1e-6, 1.0), 3.0).expect("beyond");
-        assert!(weight < 1e-4, "{weight}");
+        let by = back(of(3.0 + 1e-6, 1.0), 3.0).expect("beyond");
         assert!(by.x_axis.length() < 1e-13, "{by}");
     }
 }

@@ -46,7 +46,7 @@ impl Face {
     }
 
     /// Adds M W g to the corners.
-    pub(super) fn pull(&self, map: DMat2, forces: &mut [DVec2]) {
+    pub(in crate::warp::arap) fn pull(&self, map: DMat2, forces: &mut [DVec2]) {
         let [first, second, third] = self.corners.map(|v| v as usize);
         let pulled = map * self.weighted;
         forces[first] -= pulled.x_axis + pulled.y_axis;

@@ -41,11 +41,18 @@ use layout::Face;
 use sheet::Sheet;
 use std::sync::OnceLock;
 
-/// How often what is sheared too much is put back, at most: most films need none.
-pub(super) const ROUNDS: u32 = 128;
+/// How often what is sheared too much is put back in a frame, at most: most films need
+/// none.
+pub(super) const PUT_BACK: usize = 128;
 
-/// How many times as far as it should each time, since its neighbours pull it forth again.
-const FARTHER: f64 = 1.8;
+/// How many times as far as it should all at once, since their neighbours pull them forth
+/// again.
+pub(super) const FARTHER: f64 = 1.8;
+
+/// So few faces are put back one after the other, each by what it does not give way. A
+/// needle gives way by next to nothing: of two pairs of icons one or two faces were not
+/// there after 700 times all at once.
+pub(super) const FEW: usize = 8;
 
 /// Even steps at which it is tried whether a sheet can be flattened.
 const TRIED: u32 = 16;
@@ -71,13 +78,19 @@ struct Whole {
     unyielding: Vec<OnceLock<DMat2>>,
 }
 
+/// A face that is sheared more than at the worse end.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Beyond {
+    sheet: usize,
+    face: usize,
+}
+
 /// The memory that the maps of a frame take, a sheet each.
 #[derive(Debug, Default)]
 pub(super) struct Memory {
     sheets: Vec<OfSheet>,
-    /// What is sheared too much, and how many that are, each by its weight.
-    beyond: Vec<Beyond>,
-    many: f64,
+    /// What is sheared too much, and what it lacks.
+    pub(super) beyond: Vec<(Beyond, DMat2)>,
 }
 
 #[derive(Debug)]
@@ -124,7 +137,6 @@ impl Bounded {
         Memory {
             sheets: self.sheets.iter().map(of_sheet).collect(),
             beyond: Vec::with_capacity(self.sheets.iter().map(|whole| whole.faces.len()).sum()),
-            many: 0.0,
         }
     }
 
@@ -140,83 +152,55 @@ impl Bounded {
     }
 }
 
-/// A face that is sheared more than at the worse end.
-#[derive(Clone, Copy, Debug)]
-struct Beyond {
-    sheet: usize,
-    face: usize,
-    /// What its map lacks.
-    by: DMat2,
-}
-
 impl Bounded {
     /// Finds what is sheared more than at the worse end, of what deviates so from the
-    /// straight line; whether anything is. Nothing is at the ends themselves and beyond.
+    /// straight line: nothing at the ends themselves and beyond.
     pub(super) fn find_beyond(
         &self,
         times: Times,
         memory: &mut Memory,
         deviation: impl Fn(u32) -> DVec2,
-    ) -> bool {
+    ) {
         memory.beyond.clear();
-        memory.many = 0.0;
         for (sheet, whole) in self.sheets.iter().enumerate() {
-            let t = times.of_vertex(whole.faces[0].corners[0] as usize);
-            if !(t > 0.0 && t < 1.0) {
-                continue;
-            }
-            for (k, face) in whole.faces.iter().enumerate() {
-                let straight = DMat2::IDENTITY * (1.0 - t) + face.map.matrix() * t;
-                let map = straight + face.strayed(&deviation);
-                if let Some(back) = excess::taken_back(face, map, whole.sheared) {
-                    memory.many += back.weight;
-                    memory.beyond.push(Beyond {
-                        sheet,
-                        face: k,
-                        by: back.by,
-                    });
+            for face in 0..whole.faces.len() {
+                let of = Beyond { sheet, face };
+                if let Some(by) = self.lacking(of, times, &deviation) {
+                    memory.beyond.push((of, by));
                 }
             }
         }
-        !memory.beyond.is_empty()
     }
 
-    /// Writes to each corner what puts the faces back that were found. `answer` says how
-    /// a face's map changes where forces are so.
-    ///
-    /// A face that is put back as its map says gives way as little as its neighbours let
-    /// it, a needle by next to nothing: of two pairs of icons one was not there after 700
-    /// rounds. Alone it can be pushed by what it does not give way; n faces by an nth of
-    /// that: with K how all answer to all, K ⪯ 1 and K ⪯ n diag K, so that K⁻¹ is no less
-    /// than any mean of 1 and of (n diag K)⁻¹.
-    pub(super) fn put_back(
+    /// What the map of a face lacks where it is sheared more than at the worse end.
+    pub(super) fn lacking(
         &self,
-        memory: &Memory,
-        forces: &mut [DVec2],
-        mut answer: impl FnMut(&Face, &[DVec2]) -> DMat2,
-    ) {
-        let one_of = memory.many.max(1.0).recip();
-        let faces = |beyond: &Beyond| {
-            let whole = &self.sheets[beyond.sheet];
-            (&whole.faces[beyond.face], &whole.unyielding[beyond.face])
-        };
-        for beyond in &memory.beyond {
-            let (face, unyielding) = faces(beyond);
-            unyielding.get_or_init(|| {
-                forces.fill(DVec2::ZERO);
-                face.pull(DMat2::IDENTITY, forces);
-                answer(face, forces).inverse()
-            });
+        Beyond { sheet, face }: Beyond,
+        times: Times,
+        deviation: impl Fn(u32) -> DVec2,
+    ) -> Option<DMat2> {
+        let whole = &self.sheets[sheet];
+        let face = &whole.faces[face];
+        let t = times.of_vertex(face.corners[0] as usize);
+        if !(t > 0.0 && t < 1.0) {
+            return None;
         }
-        forces.fill(DVec2::ZERO);
-        for beyond in &memory.beyond {
-            let (face, unyielding) = faces(beyond);
-            let Some(&unyielding) = unyielding.get() else {
-                continue;
-            };
-            let pushed = DMat2::IDENTITY * (FARTHER * (1.0 - one_of)) + unyielding * one_of.powi(2);
-            face.pull(beyond.by * pushed, forces);
-        }
+        let straight = DMat2::IDENTITY * (1.0 - t) + face.map.matrix() * t;
+        excess::taken_back(face, straight + face.strayed(deviation), whole.sheared)
+    }
+
+    pub(super) fn face(&self, Beyond { sheet, face }: Beyond) -> &Face {
+        &self.sheets[sheet].faces[face]
+    }
+
+    /// What has to be asked of a face alone for its map to change as it should. `answer`
+    /// is how it changes where it is asked for the identity.
+    pub(super) fn unyielding(
+        &self,
+        Beyond { sheet, face }: Beyond,
+        answer: impl FnOnce() -> DMat2,
+    ) -> DMat2 {
+        *self.sheets[sheet].unyielding[face].get_or_init(|| answer().inverse())
     }
 }
 
