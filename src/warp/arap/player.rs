@@ -165,7 +165,7 @@ fn put_back(
             });
             if let Some(by) = bounded.lacking(beyond, times, |v| at(deviation, v)) {
                 forces.fill(DVec2::ZERO);
-                face.pull(by * unyielding, forces);
+                face.pull(by * unyielding * FARTHER, forces);
                 solve(forces, more);
                 add(deviation, more);
             }
