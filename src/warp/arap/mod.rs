@@ -21,6 +21,7 @@
 //! - `assembly`: gradients, weights and the matrix
 //! - `stresses`: the right-hand side of a frame, many faces at a time
 //! - `bounded`: the maps of all faces together, for bounded distortion
+//! - `put_back`: what of these is sheared too much, solved once more
 //! - `rim`: edges of outlines as elements of their own
 //! - `sides`: what keeps straight sides straight
 //! - `player`: what a film is made of, and a frame of it
@@ -40,6 +41,7 @@ mod life;
 mod many;
 mod options;
 mod player;
+mod put_back;
 mod ridge;
 mod rim;
 mod sides;

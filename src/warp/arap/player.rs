@@ -1,16 +1,17 @@
 //! What a film is made of, and a frame of it: right-hand sides, solve, placement.
 
 use super::assembly::LocalMaps;
-use super::bounded::{Bounded, FARTHER, FEW, Memory, PUT_BACK};
+use super::bounded::Memory;
 use super::drift::Drift;
 use super::guard::Guard;
 use super::options::ArapOptions;
+use super::put_back::{self, Solver};
 use super::ridge::Ridge;
 use super::sides::Outlined;
 use super::stresses::Stresses;
 use super::times::Times;
 use crate::compatible::CompatibleMesh;
-use crate::geometry::{DMat2, DVec2};
+use crate::geometry::DVec2;
 use crate::homotopy::Homotopy;
 use crate::linalg::{Cholesky, Workspace};
 use crate::warp::Placement;
@@ -83,8 +84,8 @@ impl Player {
                 .right_hand_sides(times, place, (memory, in_frame), deviation);
             arap.cholesky.solve_ordered(deviation, workspace);
             if let Some(bounded) = arap.stresses.bounded() {
-                let room = (&mut more[..], &mut in_frame[..], &mut *workspace);
-                put_back(arap, (bounded, times), deviation, memory, room);
+                let solver = Solver::new(&arap.cholesky, in_frame, more, workspace);
+                put_back::put_back((bounded, times), deviation, memory, solver);
             }
             arap.drift.shifts(times, deviation, shifts);
         }
@@ -115,65 +116,4 @@ impl Player {
             }
         }
     }
-}
-
-/// Puts faces back that are sheared more than at the worse end. `forces`, one for each
-/// vertex, and `more`, as long as the deviation, are memory to work in.
-fn put_back(
-    arap: &Prepared,
-    (bounded, times): (&Bounded, Times),
-    deviation: &mut [f64],
-    memory: &mut Memory,
-    (more, forces, workspace): (&mut [f64], &mut [DVec2], &mut Workspace),
-) {
-    let place = arap.cholesky.place_in_order();
-    let mut solve = |forces: &[DVec2], solved: &mut [f64]| {
-        let (x, y) = solved.split_at_mut(place.len());
-        for (force, &at) in forces.iter().zip(place) {
-            x[at as usize] = force.x;
-            y[at as usize] = force.y;
-        }
-        arap.cholesky.solve_ordered(solved, workspace);
-    };
-    let at = |solved: &[f64], v: u32| {
-        let at = place[v as usize] as usize;
-        DVec2::new(solved[at], solved[place.len() + at])
-    };
-    let mut done = 0;
-    while done < PUT_BACK {
-        bounded.find_beyond(times, memory, |v| at(deviation, v));
-        if memory.beyond.is_empty() {
-            return;
-        }
-        if memory.beyond.len() > FEW {
-            forces.fill(DVec2::ZERO);
-            for &(beyond, by) in &memory.beyond {
-                bounded.face(beyond).pull(by * FARTHER, forces);
-            }
-            solve(forces, more);
-            add(deviation, more);
-            done += 1;
-            continue;
-        }
-        for &(beyond, _) in &memory.beyond {
-            let face = bounded.face(beyond);
-            let unyielding = bounded.unyielding(beyond, || {
-                forces.fill(DVec2::ZERO);
-                face.pull(DMat2::IDENTITY, forces);
-                solve(forces, more);
-                face.strayed(|v| at(more, v))
-            });
-            if let Some(by) = bounded.lacking(beyond, times, |v| at(deviation, v)) {
-                forces.fill(DVec2::ZERO);
-                face.pull(by * unyielding * FARTHER, forces);
-                solve(forces, more);
-                add(deviation, more);
-            }
-            done += 1;
-        }
-    }
-}
-
-fn add(sum: &mut [f64], by: &[f64]) {
-    sum.iter_mut().zip(by).for_each(|(sum, by)| *sum += by);
 }

@@ -19,7 +19,8 @@
 //! corners of a face unlike, the more so the larger the face; and around a hole the
 //! maps need not close.
 //!
-//! What is sheared more than at the worse end for all that is put back (`excess`).
+//! What is sheared more than at the worse end for all that is found here (`excess`), and
+//! put back by who solves.
 //!
 //! A sheet that cannot be flattened takes the metric of each face by itself,
 //! [`Homotopy::Bounded`] as it is written there, and that is told.
@@ -40,20 +41,6 @@ use flat::Flattening;
 use layout::Face;
 use sheet::Sheet;
 use std::sync::OnceLock;
-
-/// How often what is sheared too much is put back in a frame, at most: most films need
-/// none.
-pub(super) const PUT_BACK: usize = 128;
-
-/// How many times as far as it should each time, since its neighbours pull it forth again:
-/// any less than twice gets there (Young 1954, successive overrelaxation). By as far as it
-/// should, 128 times were not enough for 8 faces of an icon.
-pub(super) const FARTHER: f64 = 1.8;
-
-/// So few faces are put back one after the other, each by what it does not give way. A
-/// needle gives way by next to nothing: of two pairs of icons one or two faces were not
-/// there after 700 times all at once.
-pub(super) const FEW: usize = 8;
 
 /// Even steps at which it is tried whether a sheet can be flattened.
 const TRIED: u32 = 16;
@@ -194,14 +181,16 @@ impl Bounded {
         &self.sheets[sheet].faces[face]
     }
 
-    /// What has to be asked of a face alone for its map to change as it should. `answer`
-    /// is how it changes where it is asked for the identity.
+    /// What has to be asked of a face alone for its map to change as it should; the
+    /// identity where it does not give way at all. `answer` is how it changes where it is
+    /// asked for that.
     pub(super) fn unyielding(
         &self,
         Beyond { sheet, face }: Beyond,
         answer: impl FnOnce() -> DMat2,
     ) -> DMat2 {
-        *self.sheets[sheet].unyielding[face].get_or_init(|| answer().inverse())
+        let inverse = || Some(answer().inverse()).filter(|by| by.is_finite());
+        *self.sheets[sheet].unyielding[face].get_or_init(|| inverse().unwrap_or(DMat2::IDENTITY))
     }
 }
 
