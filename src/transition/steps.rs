@@ -10,6 +10,10 @@ const EVEN: u32 = 64;
 const DIVIDED: u32 = 2;
 const PARTS: u32 = 4;
 
+/// The first and the last of those, each divided in as many once more. What comes or goes
+/// at once takes so long, and is looked at while it does.
+pub(super) const LAST: f64 = 1.0 / (EVEN * PARTS) as f64;
+
 /// Times that are added are multiples of this, which a film run backwards has as well.
 const GRAIN: f64 = 1.0 / 65_536.0;
 
@@ -20,7 +24,10 @@ pub(super) struct Steps(Vec<f64>);
 impl Default for Steps {
     fn default() -> Self {
         let even = (0..=EVEN).map(|k| f64::from(k) / f64::from(EVEN));
-        let near = (0..DIVIDED * PARTS).map(|k| f64::from(k) / f64::from(EVEN * PARTS));
+        let last = (0..PARTS).map(|k| f64::from(k) * LAST / f64::from(PARTS));
+        let near = (0..DIVIDED * PARTS)
+            .map(|k| f64::from(k) * LAST)
+            .chain(last);
         let mut times: Vec<f64> = even.chain(near.flat_map(|t| [t, 1.0 - t])).collect();
         times.sort_by(f64::total_cmp);
         times.dedup();
@@ -71,7 +78,8 @@ mod tests {
         assert_eq!([times[0], times[steps.last()]], [0.0, 1.0]);
         for (step, pair) in times.windows(2).enumerate() {
             let long = pair[1] - pair[0];
-            assert!(long == 1.0 / 64.0 || long == 1.0 / 256.0, "{step}: {long}");
+            let all = [64, 256, 1024].map(|parts| 1.0 / f64::from(parts));
+            assert!(all.contains(&long), "{step}: {long}");
             assert_eq!(pair[0], 1.0 - times[steps.last() - step]);
             assert_eq!(steps.before(pair[0] + 1e-6), step);
         }

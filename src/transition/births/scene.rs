@@ -9,7 +9,7 @@ use crate::geometry::{Bounds, DVec2, Side};
 use crate::transition::holes::HoleOf;
 use crate::transition::levels::Levels;
 use crate::transition::outline::Outline;
-use crate::transition::steps::Steps;
+use crate::transition::steps::{LAST, Steps};
 use crate::transition::walks::Walks;
 use crate::warp::{Arap, Life, Placer, Warp};
 use rayon::prelude::*;
@@ -249,11 +249,10 @@ impl<'a> Scene<'a> {
     /// other has alone and has no place yet is there at its own end, whatever place it
     /// gets: of some 80 parts of an icon one grew out of another that had just begun to go.
     fn there(&self, step: usize, side: Side) -> impl Iterator<Item = &Outline> {
-        let near = [self.steps.last() - 1, 1][side];
-        let unplaced = self
-            .unplaced
-            .iter()
-            .filter(move |(of, _)| step == near && *of != side);
+        let t = self.steps.times()[step];
+        let is_near = [1.0 - t, t][side] <= LAST;
+        let unplaced = self.unplaced.iter();
+        let unplaced = unplaced.filter(move |(of, _)| is_near && *of != side);
         let unplaced = unplaced.flat_map(|(_, rings)| rings);
         self.outlines[step].iter().chain(unplaced)
     }

@@ -5,15 +5,13 @@ use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side, inset, inset_depth, ring_edges, signed_area, winding};
 use crate::transition::levels::Levels;
 use crate::transition::outline::Outline;
+use crate::transition::steps::LAST;
 use crate::warp::Life;
 use std::sync::OnceLock;
 
 /// Shorter times than an eighth of the film, for what would meet something in all longer ones:
 /// it is seen to jump, which is less bad.
 const JUMPS: [f64; 2] = [1.0 / 16.0, 1.0 / 32.0];
-
-/// What would meet something even so comes or goes at once.
-const AT_ONCE: f64 = 1.0 / 256.0;
 
 /// Places along its own outline that are searched.
 const OWN_PLACES: usize = 12;
@@ -174,9 +172,10 @@ impl Speck {
             .collect()
     }
 
-    /// The times in which it may change its size, the longest first.
+    /// The times in which it may change its size, the longest first. What would meet
+    /// something in all of them comes or goes at once.
     pub(super) fn times(&self) -> impl Iterator<Item = Life> {
-        times(self.side).chain([life(self.side, AT_ONCE)])
+        times(self.side).chain([life(self.side, LAST)])
     }
 }
 
