@@ -42,4 +42,4 @@ pub use ring::{Ring, RingError, perimeter, ring_edges, signed_area, winding};
 pub(crate) use segment::along_ray;
 pub use segment::{along_segment, distance_squared_to_segment, segments_cross, segments_touch};
 pub use similarity::{Similarity, SimilarityError};
-pub(crate) use turning::{turning, turning_excess};
+pub(crate) use turning::{excess_between, turning};

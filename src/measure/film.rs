@@ -9,7 +9,7 @@ use super::excess;
 use super::motion::{self, Motion};
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, Solid};
-use crate::geometry::{DVec2, perimeter, signed_area, turning, turning_excess};
+use crate::geometry::{DVec2, excess_between, perimeter, signed_area, turning};
 use crate::progress::{Cancelled, Progress, Span, Whole, checkpoint, still_wanted};
 use crate::transition::{Frame, Transition};
 use crate::warp::ArapError;
@@ -283,8 +283,8 @@ fn report(
         asymmetry,
         area_variation_excess: excess::of_variation(samples.iter().map(|s| s.area)),
         perimeter_variation_excess: excess::of_variation(samples.iter().map(|s| s.perimeter)),
-        turning_excess: turning_excess(&turning),
-        turning_of_both_excess: turning_excess(&turning_of_both),
+        turning_excess: excess_between(&turning),
+        turning_of_both_excess: excess_between(&turning_of_both),
         pieces_excess: excess::of_count(samples.iter().map(|s| s.pieces)),
         holes_excess: excess::of_count(samples.iter().map(|s| s.holes)),
         motion,

@@ -7,7 +7,7 @@ use super::options::Options;
 use super::rigid::arap;
 use crate::compatible::{CompatibleMesh, PolygonsError, of_piece};
 use crate::correspondence::{Holes, PieceMatch};
-use crate::geometry::{DVec2, count_crossings, orient2d, turning, turning_excess};
+use crate::geometry::{DVec2, count_crossings, excess_between, orient2d, signed_area, turning};
 use crate::homotopy::Homotopy;
 use crate::progress::{Cancelled, Progress, Span, still_wanted};
 use crate::warp::{Arap, ArapOptions, Warp};
@@ -35,6 +35,10 @@ const JAGGED: i32 = 3;
 /// 28 by 2, and nothing is distorted more for it.
 const UPSIDE_DOWN: i32 = 2;
 
+/// The power of one more than the share of area that a piece has beyond its ends, by
+/// which distortion counts as more.
+const SWOLLEN: i32 = 2;
+
 /// What turns by no more is upright, in radians.
 const UPRIGHT: f64 = FRAC_PI_6;
 
@@ -59,6 +63,8 @@ struct Trouble {
     crossings: usize,
     /// The share by which the outlines turn more than between the ends.
     turning: f64,
+    /// The share by which the piece has more area than between the ends.
+    swelling: f64,
     /// How far the piece turns as a whole, in radians.
     rotation: f64,
 }
@@ -142,11 +148,17 @@ impl Candidate {
             folds,
             crossings,
             turning,
+            swelling,
             rotation,
         } = self.trouble;
         let jagged = (1.0 + turning).powi(JAGGED);
         let upside_down = (1.0 + rotation.abs() / PI).powi(UPSIDE_DOWN);
-        (folds, crossings, self.distortion * jagged * upside_down)
+        let swollen = (1.0 + swelling).powi(SWOLLEN);
+        (
+            folds,
+            crossings,
+            self.distortion * jagged * upside_down * swollen,
+        )
     }
 }
 
@@ -155,7 +167,7 @@ impl Trouble {
         let mesh = arap.mesh();
         let (loops, diameter) = (mesh.boundary_loops(), mesh.diameter());
         let [mut folds, mut crossings] = [0; 2];
-        let mut turned = Vec::new();
+        let [mut turned, mut areas] = [const { Vec::new() }; 2];
         let mut placer = arap.placer();
         for step in 0..=STEPS {
             still_wanted(progress)?;
@@ -168,6 +180,7 @@ impl Trouble {
             // What is gone still counts as a point, which turns once.
             let gone = loops.len() + lone.len() - rings.len();
             turned.push([t, turning(&rings, diameter) + TAU * gone as f64]);
+            areas.push([t, rings.iter().map(|ring| signed_area(ring)).sum::<f64>()]);
             // The ends are the designs.
             if step > 0 && step < STEPS {
                 folds += folded(arap, places);
@@ -177,7 +190,8 @@ impl Trouble {
         Ok(Self {
             folds,
             crossings,
-            turning: turning_excess(&turned),
+            turning: excess_between(&turned),
+            swelling: excess_between(&areas),
             rotation: arap.rotation(),
         })
     }

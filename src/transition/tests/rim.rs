@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::design::import_file;
-use crate::geometry::{count_crossings, turning, turning_excess};
+use crate::geometry::{count_crossings, excess_between, turning};
 use crate::warp::{Arap, Warp};
 use std::path::Path;
 
@@ -24,7 +24,7 @@ fn seen(film: &Arap) -> (f64, usize) {
             count_crossings(&rings)
         };
     }
-    (turning_excess(&turned), crossings)
+    (excess_between(&turned), crossings)
 }
 
 #[test]

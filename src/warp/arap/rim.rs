@@ -116,7 +116,7 @@ fn diameters(mesh: &CompatibleMesh, parts: &[u32]) -> Vec<[f64; 2]> {
 #[cfg(test)]
 mod tests {
     use crate::compatible::CompatibleMesh;
-    use crate::geometry::{DVec2, orient2d, turning, turning_excess};
+    use crate::geometry::{DVec2, excess_between, orient2d, turning};
     use crate::progress::Silent;
     use crate::warp::{Arap, ArapOptions, Warp};
     use std::f64::consts::TAU;
@@ -164,7 +164,7 @@ mod tests {
             let rings: Vec<Vec<DVec2>> = outlines.iter().map(ring).collect();
             [t, turning(&rings, 2.4)]
         });
-        turning_excess(&turned.collect::<Vec<_>>())
+        excess_between(&turned.collect::<Vec<_>>())
     }
 
     #[test]
