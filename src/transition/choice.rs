@@ -5,17 +5,19 @@
 //! match is judged by its film. Each piece moves by itself, so that each is
 //! chosen for itself. Candidates come in rounds: first the match at the prices
 //! that were asked for, without the holes that have no partner; with these cut
-//! open or closed; where it folds, without any hole. Then other prices, where
-//! the shapes are unlike, and where the best film still folds or distorts much
-//! the last ones. The best of all so far is the one with the fewest folded faces
+//! open or closed. Then other prices, where the shapes are unlike, and where the best
+//! film still folds or distorts much the last ones. Where it folded as it was asked for,
+//! all of that without any hole. The best of all so far is the one with the fewest folded faces
 //! over all its steps, then the fewest crossings of its outlines, then the least
-//! distortion, outlines that grow jagged on the way included, then the earliest.
-//! What was chosen then slides, as long as that makes it better. A draft is the
-//! match that was asked for alone.
+//! distortion, outlines that grow jagged on the way and parts that swell included, then
+//! the earliest.
+//! What was chosen then slides, as long as that makes it better; with holes and without,
+//! if both were tried, before one is chosen. A draft is the match that was asked for
+//! alone.
 
 use super::candidate::Candidate;
 use super::error::BuildError;
-use super::group::{Chosen, GroupOf, Way, piece};
+use super::group::{Chosen, GroupOf, Way, piece, take_better};
 use super::spec::TransitionSpec;
 use crate::compatible::slid;
 use crate::correspondence::{HoleRule, Holes, MatchOptions, Matching};
@@ -55,12 +57,12 @@ const DRAFT_WORK: usize = 100_000;
 const CUT: Holes = Holes::By(HoleRule::Auto);
 
 /// How much is done once the match that was asked for has its film, that with
-/// its holes cut, that without holes, that which keeps up, and those at other
+/// its holes cut, those at other prices, that without holes, and these at other
 /// prices, as it is told.
 const FIRST: f64 = 0.2;
 const SECOND: f64 = 0.3;
-const THIRD: f64 = 0.6;
-const FOURTH: f64 = 0.62;
+const THIRD: f64 = 0.5;
+const FOURTH: f64 = 0.6;
 const FIFTH: f64 = 0.7;
 
 /// How often a piece slides.
@@ -81,24 +83,46 @@ pub(super) fn best_of_group(
         Some(drafts) => drafts.clone(),
         None => group.as_asked(&span(0.0, FIRST))?,
     };
+    let mut unpaired = Vec::new();
     if !group.prepared.is_crowd() {
-        let [second, third] = [span(FIRST, SECOND), span(SECOND, THIRD)];
         if !group.prepared.is_lined(group.group) {
-            group.try_holes(&mut chosen, CUT, &has_lone_holes, &second)?;
+            let lone: Vec<bool> = chosen.iter().map(has_lone_holes).collect();
+            group.try_holes(&mut chosen, CUT, &lone, &span(FIRST, SECOND))?;
         }
-        group.try_holes(&mut chosen, Holes::Unpaired, &has_folding_holes, &third)?;
-        group.try_upright(&mut chosen, MOST_WORK, &span(THIRD, FOURTH))?;
-        group.try_other_prices(&mut chosen, &span(FOURTH, FIFTH))?;
+        let folds: Vec<bool> = chosen.iter().map(has_folding_holes).collect();
+        let mut others = chosen.clone();
+        group.try_others(&mut chosen, &|_| true, &span(SECOND, THIRD))?;
+        group.try_holes(&mut others, Holes::Unpaired, &folds, &span(THIRD, FOURTH))?;
+        group.try_others(&mut others, &is_unpaired, &span(FOURTH, FIFTH))?;
+        let others = others
+            .into_iter()
+            .map(|other| Some(other).filter(is_unpaired));
+        unpaired = others.collect();
     }
     let last = span(FIFTH, 1.0);
     let shares = Several::new(&last, chosen.len());
-    let settled = chosen.into_par_iter().enumerate();
-    settled
-        .map(|(k, chosen)| match chosen {
-            Ok(best) => Ok(Ok(settled_by_sliding(best, group.spec, &shares.part(k))?)),
-            none => Ok(none),
+    let settled = |chosen: Chosen, progress: &dyn Progress| -> Result<Chosen, BuildError> {
+        Ok(match chosen {
+            Ok(best) => Ok(settled_by_sliding(best, group.spec, progress)?),
+            none => none,
         })
-        .collect()
+    };
+    unpaired.resize_with(chosen.len(), || None);
+    let pairs = chosen.into_par_iter().zip(unpaired).enumerate();
+    let best = pairs.map(|(k, (chosen, unpaired))| {
+        let share = shares.part(k);
+        let Some(unpaired) = unpaired else {
+            return Ok(vec![settled(chosen, &share)?]);
+        };
+        let [first, second] = [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| Span::new(&share, a, b));
+        let mut best = vec![settled(chosen, &first)?];
+        // Only now: the holes of D and P slide to where they can be paired, those of a
+        // frame of letters do not.
+        take_better(&mut best, vec![settled(unpaired, &second)?.ok()]);
+        Ok(best)
+    });
+    let best: Vec<Vec<Chosen>> = best.collect::<Result<_, BuildError>>()?;
+    Ok(best.concat())
 }
 
 /// Each piece as it was asked for, or as it was drawn where it would turn far: the
@@ -110,7 +134,7 @@ pub(super) fn drafts_of_group(
     let [asking, turning] = [(0.0, 0.7), (0.7, 1.0)].map(|(a, b)| Span::new(progress, a, b));
     let mut chosen = group.as_asked(&asking)?;
     if !group.prepared.is_crowd() {
-        group.try_upright(&mut chosen, DRAFT_WORK, &turning)?;
+        group.try_upright(&mut chosen, (&|_| true, DRAFT_WORK), &turning)?;
     }
     Ok(chosen)
 }
@@ -122,7 +146,7 @@ impl GroupOf<'_> {
         &self,
         chosen: &mut [Chosen],
         holes: Holes,
-        wants: &dyn Fn(&Chosen) -> bool,
+        wants: &[bool],
         progress: &dyn Progress,
     ) -> Result<(), BuildError> {
         let asked = &self.spec.options.matching;
@@ -130,8 +154,19 @@ impl GroupOf<'_> {
             return Ok(());
         }
         let options = asked.options();
-        let wants: Vec<bool> = chosen.iter().map(wants).collect();
-        self.try_ways(chosen, &[Way { options, holes }], &wants, progress)
+        self.try_ways(chosen, &[Way { options, holes }], wants, progress)
+    }
+
+    /// Tries what else there is besides holes, of those pieces.
+    fn try_others(
+        &self,
+        chosen: &mut [Chosen],
+        of: &dyn Fn(&Chosen) -> bool,
+        progress: &dyn Progress,
+    ) -> Result<(), BuildError> {
+        let [turning, pricing] = [(0.0, 0.2), (0.2, 1.0)].map(|(a, b)| Span::new(progress, a, b));
+        self.try_upright(chosen, (of, MOST_WORK), &turning)?;
+        self.try_other_prices(chosen, of, &pricing)
     }
 
     /// Tries other prices where the shapes are unlike, and then those for want
@@ -139,6 +174,7 @@ impl GroupOf<'_> {
     fn try_other_prices(
         &self,
         chosen: &mut [Chosen],
+        of: &dyn Fn(&Chosen) -> bool,
         progress: &dyn Progress,
     ) -> Result<(), BuildError> {
         let spans = [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| Span::new(progress, a, b));
@@ -152,6 +188,7 @@ impl GroupOf<'_> {
                 // of icons of 58.
                 Ok(best) => best.folds() || best.distortion > DISTORTED,
             };
+            let wants = |chosen: &Chosen| of(chosen) && wants(chosen);
             let wants = affordable(chosen, &wants, round.len(), MOST_WORK);
             self.try_with_their_holes(chosen, round, &wants, span)?;
         }
@@ -162,7 +199,7 @@ impl GroupOf<'_> {
     fn try_upright(
         &self,
         chosen: &mut [Chosen],
-        most_work: usize,
+        (of, most_work): (&dyn Fn(&Chosen) -> bool, usize),
         progress: &dyn Progress,
     ) -> Result<(), BuildError> {
         let asked = &self.spec.options.matching;
@@ -173,7 +210,8 @@ impl GroupOf<'_> {
             keep_up: true,
             ..asked.options()
         };
-        let wants = affordable(chosen, &turns_far, 1, most_work);
+        let wants = |chosen: &Chosen| of(chosen) && turns_far(chosen);
+        let wants = affordable(chosen, &wants, 1, most_work);
         self.try_with_their_holes(chosen, &[upright], &wants, progress)
     }
 
@@ -247,6 +285,13 @@ fn has_folding_holes(chosen: &Chosen) -> bool {
     let piece = piece(chosen);
     let folds = chosen.as_ref().map_or(true, Candidate::folds);
     piece.is_in_both() && piece.rings.len() > 1 && folds
+}
+
+/// None of the holes of the piece has a partner, for want of better.
+fn is_unpaired(chosen: &Chosen) -> bool {
+    chosen
+        .as_ref()
+        .is_ok_and(|best| best.holes == Holes::Unpaired)
 }
 
 /// What was chosen, its correspondence and its map improved together as long

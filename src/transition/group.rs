@@ -113,7 +113,7 @@ impl GroupOf<'_> {
 }
 
 /// Takes those that are better, piece by piece, and the earlier among equals.
-fn take_better(chosen: &mut [Chosen], found: Vec<Option<Candidate>>) {
+pub(super) fn take_better(chosen: &mut [Chosen], found: Vec<Option<Candidate>>) {
     for (chosen, found) in chosen.iter_mut().zip(found) {
         let is_better = |found: &Candidate| match &*chosen {
             Ok(best) => found.is_better_than(best),
