@@ -94,10 +94,8 @@ pub(super) fn best_of_group(
         group.try_others(&mut chosen, &|_| true, &span(SECOND, THIRD))?;
         group.try_holes(&mut others, Holes::Unpaired, &folds, &span(THIRD, FOURTH))?;
         group.try_others(&mut others, &is_unpaired, &span(FOURTH, FIFTH))?;
-        let others = others
-            .into_iter()
-            .map(|other| Some(other).filter(is_unpaired));
-        unpaired = others.collect();
+        let others = others.into_iter().map(Some);
+        unpaired = others.map(|other| other.filter(is_unpaired)).collect();
     }
     let last = span(FIFTH, 1.0);
     let shares = Several::new(&last, chosen.len());

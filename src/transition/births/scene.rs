@@ -236,9 +236,8 @@ impl<'a> Scene<'a> {
                 continue;
             }
             let rings = birth.at(speck, film, t, MARGIN);
-            if !(self.crosses_none(step, speck.side, &rings)
-                && self.is_apart(step, speck.side, &rings))
-            {
+            let side = speck.side;
+            if !(self.crosses_none(step, side, &rings) && self.is_apart(step, side, &rings)) {
                 long += self.steps.long(step);
             }
         }

@@ -17,12 +17,12 @@ use crate::linalg::{Cholesky, Workspace};
 const MOST: usize = 128;
 
 /// How many times as far as it should: any less than twice gets there (Young 1954,
-/// successive overrelaxation). By as far as it should, 8 faces of an icon were not there
-/// after 128 times.
+/// successive overrelaxation). By as far as it should, a face of an icon was sheared more
+/// than twice what it may be after 128 times.
 const FARTHER: f64 = 1.8;
 
-/// So few are put back one after the other: of two pairs of icons one or two faces were
-/// not there after 700 times all at once.
+/// So few are put back one after the other: all at once, a face of an icon was sheared
+/// four times what it may be after 128 times.
 const FEW: usize = 8;
 
 /// Solves for what deviates by forces, with the memory of a frame to work in.
