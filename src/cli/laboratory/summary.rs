@@ -26,7 +26,7 @@ pub(in crate::cli) struct Summary {
     pub with_crossings: usize,
     /// Of them those with more pieces or holes on the way than at the ends.
     pub with_tears: usize,
-    /// Medians and worst values of the main measures.
+    /// Medians, worst tenths and worst values of the main measures.
     pub measures: Vec<Measured>,
 }
 
@@ -36,6 +36,8 @@ pub(in crate::cli) struct Measured {
     #[serde(skip)]
     words: String,
     pub median: f64,
+    /// What a tenth of the pairs are worse than.
+    pub worst_tenth: f64,
     pub worst: f64,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub spread: Option<Histogram>,
@@ -84,10 +86,11 @@ impl Summary {
         }
         if !self.measures.is_empty() {
             lines.gap();
-            lines.cells(("", NAMES), ["median", "worst"]);
+            lines.cells(("", NAMES), ["median", "worst tenth", "worst"]);
         }
         for told in &self.measures {
-            lines.cells((&told.words, NAMES), [told.median, told.worst].map(short));
+            let values = [told.median, told.worst_tenth, told.worst];
+            lines.cells((&told.words, NAMES), values.map(short));
         }
         for told in &self.measures {
             if let Some(spread) = &told.spread {
@@ -104,21 +107,33 @@ fn measured(reports: &[&Report], column: &Column) -> Option<Measured> {
     let (_, better) = column.told?;
     let mut all: Vec<f64> = reports.iter().filter_map(|r| column.number(r)).collect();
     all.sort_unstable_by(f64::total_cmp);
-    let middle = all.len() / 2;
+    if matches!(better, Better::Large) {
+        all.reverse();
+    }
     // None where no pair has the measure, such as faces of a field.
-    let upper = *all.get(middle)?;
-    let lower = all[(all.len() - 1) / 2];
+    let worst = *all.last()?;
+    let [median, worst_tenth] = [0.5, 0.9].map(|share| quantile(&all, share));
     let is_drawn = column.is_drawn && all.len() >= ENOUGH;
     Some(Measured {
         column: column.heading(),
         words: column.words()?,
-        median: 0.5 * (lower + upper),
-        worst: match better {
-            Better::Small => *all.last()?,
-            Better::Large => *all.first()?,
-        },
+        median,
+        worst_tenth,
+        worst,
         spread: is_drawn.then(|| Histogram::of(&all)).flatten(),
     })
+}
+
+/// What that share of sorted values, one at least, comes before; between two of them
+/// on a straight line (Hyndman and Fan 1996, definition 7).
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let at = share * (sorted.len() - 1) as f64;
+    let [below, above] = [at.floor(), at.ceil()].map(|k| sorted[k as usize]);
+    if below == above {
+        // Two infinities have nothing between them.
+        return below;
+    }
+    below + (at - at.floor()) * (above - below)
 }
 
 #[cfg(test)]
@@ -162,6 +177,9 @@ mod tests {
         };
         assert_eq!(of("conformal_excess"), Some((2.0, 3.0)));
         assert_eq!(of("min_angle_source_deg"), Some((15.0, 10.0)));
+        let angle = |m: &&Measured| m.column == "min_angle_source_deg";
+        let angle = summary.measures.iter().find(angle).expect("angles");
+        assert!((angle.worst_tenth - 11.0).abs() < 1e-12, "{angle:?}");
         let text = summary.text();
         assert!(text.contains("failures                                       1"));
         assert!(!text.contains("not come to"));
@@ -174,5 +192,17 @@ mod tests {
             text.contains("with a fold at some t                     0 of 1"),
             "{text}"
         );
+    }
+
+    #[test]
+    fn a_tenth_lies_beyond_the_worst_tenth() {
+        let all: Vec<f64> = (0..=20).map(f64::from).collect();
+        assert_eq!(quantile(&all, 0.9), 18.0);
+        assert_eq!(quantile(&[7.0], 0.9), 7.0);
+        assert!((quantile(&[1.0, 2.0], 0.9) - 1.9).abs() < 1e-12);
+        // What turns inside out is as bad as can be.
+        let infinite = [1.0, f64::INFINITY, f64::INFINITY];
+        assert_eq!(quantile(&infinite, 0.9), f64::INFINITY);
+        assert_eq!(quantile(&infinite, 0.4), f64::INFINITY);
     }
 }
