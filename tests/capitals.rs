@@ -79,6 +79,28 @@ fn each_capital_becomes_another_and_is_become() {
 }
 
 #[test]
+fn a_counter_becomes_a_counter() {
+    let letters = capitals();
+    let letter = |name: char| &letters[name as usize - 'A' as usize];
+    for (from, to) in [('D', 'P'), ('P', 'D'), ('A', 'R'), ('O', 'D')] {
+        let spec = TransitionSpec::new(Arc::clone(letter(from)), Arc::clone(letter(to)));
+        let transition = Transition::build(&spec, &Silent).expect("a film");
+        let counter = |t: f64| -> f64 {
+            let rings = transition.frame(t).figure().rings;
+            assert_eq!(rings.len(), 2, "{from} to {to} at {t}");
+            let areas = rings.chunks(1).map(area);
+            areas.fold(0.0, f64::min).abs()
+        };
+        let least = counter(0.0).min(counter(1.0));
+        for k in 1..16 {
+            let t = f64::from(k) / 16.0;
+            // Every length of it may be a tenth too short.
+            assert!(counter(t) > 0.8 * least, "{from} to {to} at {t}");
+        }
+    }
+}
+
+#[test]
 #[ignore = "650 pairs: minutes in a build without optimisation"]
 fn all_capitals_become_all_others() {
     let all = (0..26).flat_map(|a| (0..26).map(move |b| (a, b)));
