@@ -7,10 +7,11 @@
 //! that were asked for, without the holes that have no partner; with these cut
 //! open or closed. Then other prices, where the shapes are unlike, and where the best
 //! film still folds or distorts much the last ones. Where it folded as it was asked for,
-//! all of that without any hole. The best of all so far is the one with the fewest folded faces
-//! over all its steps, then the fewest crossings of its outlines, then the least
-//! distortion, outlines that grow jagged on the way and parts that swell included, then
-//! the earliest.
+//! all of that without any hole. The best of all so far is the one with the fewest
+//! folded faces over all its steps, then the fewest crossings of its outlines, then the
+//! least distortion, outlines that grow jagged on the way and parts that swell included,
+//! then the earliest.
+//!
 //! What was chosen then slides, as long as that makes it better; with holes and without,
 //! if both were tried, before one is chosen. A draft is the match that was asked for
 //! alone.
