@@ -1,0 +1,136 @@
+use super::*;
+use crate::colour::Rgb;
+use crate::content::{BlendSpace, ContentKind};
+use crate::field::Metric;
+use crate::homotopy::Homotopy;
+use crate::transition::{Boundary, Easing, Fit, Guarding, PaintRule, PlayMode, Quality};
+use crate::warp::{ArapPath, Course, WarpKind, Weights};
+use clap::{CommandFactory, Parser};
+
+#[derive(Debug, Parser)]
+struct Alone {
+    #[command(flatten)]
+    method: MethodArgs,
+}
+
+fn edited(flags: &str) -> Result<Project, CliError> {
+    let words = std::iter::once("x").chain(flags.split_whitespace());
+    let alone = Alone::try_parse_from(words).map_err(CliError::usage)?;
+    let mut project = Project::pair("a.svg", "b.svg");
+    alone.method.edit(&mut project)?;
+    Ok(project)
+}
+
+#[test]
+fn every_listed_name_is_one_of_the_project_file() {
+    for argument in Alone::command().get_arguments() {
+        let flag = argument.get_long().unwrap_or_default();
+        for value in argument.get_possible_values() {
+            let flags = format!("--{flag} {}", value.get_name());
+            let takes_value = argument.get_action().takes_values();
+            assert!(!takes_value || edited(&flags).is_ok(), "{flags}");
+        }
+    }
+}
+
+#[test]
+fn no_flag_changes_nothing() {
+    let project = Project::pair("a.svg", "b.svg");
+    assert_eq!(edited("").expect("edited"), project);
+}
+
+#[test]
+fn flags_reach_their_options() {
+    let project = edited(
+        "--method field --fit same-area --quality draft --guard plain --bar-width 0.02 --homotopy exponential \
+         --weights 1,2.5 --one-sided --extra-turns 0,-1 --anchor 3 --subdivisions 1 \
+         --metric chessboard --boundary binary --space real --epsilon 2 --threshold -1.5 \
+         --cells 64 --margin 0.2 --path straight",
+    )
+    .expect("edited");
+    assert_eq!(
+        (project.warp, project.content),
+        (Some(WarpKind::None), Some(ContentKind::Field))
+    );
+    assert_eq!(
+        (project.fit, project.options.bar_width),
+        (Fit::SameArea, 0.02)
+    );
+    assert_eq!(project.options.quality, Quality::Draft);
+    assert_eq!(project.options.guard, Guarding::Plain);
+    assert_eq!(project.options.arap.homotopy, Homotopy::Exponential);
+    assert_eq!(
+        project.options.arap.weights,
+        Weights::PerFace(vec![1.0, 2.5])
+    );
+    assert_eq!(
+        (
+            project.options.arap.symmetric,
+            project.options.arap.subdivisions
+        ),
+        (false, 1)
+    );
+    assert_eq!(project.options.arap.extra_turns, [0, -1]);
+    assert_eq!(project.options.arap.path, ArapPath::Anchor(3));
+    assert_eq!(project.options.field.metric, Metric::Chessboard);
+    assert_eq!(project.options.field.boundary, Boundary::Binary);
+    assert_eq!(project.options.field.blend.space, BlendSpace::Real);
+    assert_eq!(
+        (
+            project.options.field.blend.epsilon,
+            project.options.field.blend.threshold
+        ),
+        (2.0, -1.5)
+    );
+    assert_eq!(
+        (project.options.field.cells, project.options.field.margin),
+        (64, 0.2)
+    );
+    assert_eq!(project.options.paths.course, Course::Straight);
+}
+
+#[test]
+fn flags_reach_import_timing_and_style() {
+    let project = edited(
+        "--image-threshold 99 --invert --specks 4 --tolerance 0.01 --no-strokes --colours \
+         --from -0.5 --to 1.5 --duration 3 --hold 0 --easing ease-in --play loop \
+         --source-colour #010203 --target-colour #040506 --no-joints --paint one \
+         --fade --reorder-at 0.3",
+    )
+    .expect("edited");
+    let import = project.designs[1].import;
+    assert_eq!((import.threshold, import.invert), (Some(99), true));
+    assert_eq!((import.specks_px, import.tolerance), (4, 0.01));
+    assert!(!import.strokes && import.colours);
+    assert_eq!((project.timing.from, project.timing.to), (-0.5, 1.5));
+    assert_eq!(
+        (project.timing.duration_secs, project.timing.hold_secs),
+        (3.0, 0.0)
+    );
+    assert_eq!(
+        (project.timing.easing, project.timing.play),
+        (Easing::EaseIn.into(), PlayMode::Loop)
+    );
+    assert_eq!(project.style.source, Rgb([1, 2, 3]));
+    assert_eq!(
+        (project.style.target, project.style.joints),
+        (Rgb([4, 5, 6]), false)
+    );
+    assert_eq!(project.options.paint, PaintRule::One);
+    let coats = project.options.coats;
+    assert!(coats.fade && coats.reorder_at == 0.3);
+}
+
+#[test]
+fn nonsense_is_wrong_use() {
+    for flags in [
+        "--homotopy cubic",
+        "--weights 1,x",
+        "--duration 0",
+        "--to 0",
+        "--source-colour red",
+        "--anchor 1 --centroid",
+    ] {
+        assert!(matches!(edited(flags), Err(CliError::Usage(_))), "{flags}");
+    }
+}
