@@ -1,5 +1,8 @@
 //! The stage's systems without a window and without a renderer.
 
+mod families;
+mod files;
+
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -13,9 +16,8 @@ use morphospace::geometry::{Bounds, DVec2};
 use morphospace::mesh::TriangleMesh;
 use morphospace::progress::Silent;
 use morphospace::stage::{
-    Blend, BlendWeights, BuildFailed, CaptureStage, FrameTimes, MeshFamily, Morph, MorphDesigns,
-    MorphPlugin, MorphSystems, Show, SourceMesh, StageCamera, StageCaptured, StageStyle,
-    StageTransition, StageView, TargetMesh,
+    Blend, BuildFailed, CaptureStage, FrameTimes, Morph, MorphPlugin, MorphSystems, Show,
+    SourceMesh, StageCamera, StageCaptured, StageStyle, StageTransition, StageView, TargetMesh,
 };
 use morphospace::transition::{Cell, Style, Transition, TransitionSpec};
 use morphospace::warp::WarpKind;
@@ -486,146 +488,4 @@ fn components_are_known_to_reflection() {
     };
     let copy = style.reflect_clone_and_take::<StageStyle>();
     assert_eq!(copy.expect("a copy").style, style.style);
-}
-
-#[test]
-fn many_meshes_are_blended_by_their_weights() {
-    let mut app = drawing_app();
-    let wide = strip(4, |p| DVec2::new(1.5 * p.x, 0.8 * p.y));
-    let meshes = vec![straight(), turned(), wide.clone()];
-    let entity = app.world_mut().spawn(MeshFamily(meshes)).id();
-    until(&mut app, |world| world.get::<Morph>(entity).is_some());
-    // Nothing was said of how much of each: it is the first.
-    assert_eq!(places(&app, entity), straight().positions());
-    let weigh = |app: &mut App, weights: &[f64]| {
-        app.world_mut()
-            .entity_mut(entity)
-            .insert(BlendWeights(weights.to_vec()));
-        app.update();
-        places(app, entity)
-    };
-    assert_eq!(weigh(&mut app, &[0.0, 0.0, 1.0]), wide.positions());
-    let mixed = weigh(&mut app, &[0.25, 0.5, 0.25]);
-    assert!(mixed.iter().all(|p| p.is_finite()) && mixed != wide.positions());
-    // What are no weights leave it as it is.
-    assert_eq!(weigh(&mut app, &[1.0]), mixed);
-    assert_eq!(weigh(&mut app, &[f64::NAN, 0.5, 0.5]), mixed);
-    assert_eq!(weigh(&mut app, &[0.0, 1.0, 0.0]), turned().positions());
-    // It is drawn as two are.
-    let parts = app.world().get::<Children>(entity).map(|parts| parts.len());
-    assert!(parts.is_some_and(|parts| parts > 0));
-    // Another family takes its place.
-    app.world_mut()
-        .entity_mut(entity)
-        .insert(MeshFamily(vec![turned(), straight()]))
-        .insert(BlendWeights(vec![0.0, 1.0]));
-    until(&mut app, |world| {
-        let morph = world.get::<Morph>(entity).expect("a morph");
-        morph.frame().placement().in_frame == straight().positions()
-    });
-}
-
-#[test]
-fn meshes_of_other_faces_are_no_family() {
-    #[derive(Resource, Default)]
-    struct Said(Vec<String>);
-    let mut app = bare_app();
-    app.init_resource::<Said>();
-    app.add_observer(|failed: On<BuildFailed>, mut said: ResMut<Said>| {
-        said.0.push(failed.error.to_string());
-    });
-    let meshes = vec![straight(), strip(3, |p| p)];
-    app.world_mut().spawn(MeshFamily(meshes));
-    app.world_mut().spawn(MeshFamily(vec![straight()]));
-    until(&mut app, |world| world.resource::<Said>().0.len() == 2);
-    let said = app.world().resource::<Said>();
-    assert!(
-        said.0.iter().any(|words| words.contains("at least two")),
-        "{:?}",
-        said.0
-    );
-}
-
-/// A triangle as an SVG, so many units wide.
-fn drawn(width: u32) -> String {
-    format!(
-        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 99 9'><path d='M0 0H{width}L0 9Z'/></svg>"
-    )
-}
-
-/// A drawing app whose assets are these drawings.
-fn app_of(drawings: &[(&str, String)]) -> (App, tempfile::TempDir) {
-    let folder = tempfile::tempdir().expect("a folder");
-    for (name, drawing) in drawings {
-        std::fs::write(folder.path().join(name), drawing).expect("a file");
-    }
-    let mut app = App::new();
-    let file_path = folder.path().to_string_lossy().into_owned();
-    let assets = AssetPlugin {
-        file_path,
-        ..default()
-    };
-    app.add_plugins((MinimalPlugins, assets, MorphPlugin));
-    (app, folder)
-}
-
-fn load(app: &App, names: &[&str]) -> MorphDesigns {
-    let server = app.world().resource::<AssetServer>();
-    let paths = names.iter().map(|name| (*name).to_owned());
-    MorphDesigns(paths.map(|path| server.load(path)).collect())
-}
-
-fn width(world: &World, entity: Entity) -> f64 {
-    let frame = world.get::<Morph>(entity).expect("a morph").frame();
-    let places = frame.placement().in_frame.iter();
-    let xs = || places.clone().map(|p| p.x);
-    xs().fold(f64::MIN, f64::max) - xs().fold(f64::MAX, f64::min)
-}
-
-#[test]
-fn designs_are_assets_and_read_again() {
-    let drawings = [
-        ("a.svg", drawn(20)),
-        ("b.svg", drawn(40)),
-        ("c.svg", drawn(80)),
-    ];
-    let (mut app, folder) = app_of(&drawings);
-    let pair = load(&app, &["a.svg", "b.svg"]);
-    let pair = app.world_mut().spawn((pair, Blend { t: 1.0 })).id();
-    let many = load(&app, &["a.svg", "b.svg", "c.svg"]);
-    let weights = BlendWeights(vec![0.0, 0.0, 1.0]);
-    let many = app.world_mut().spawn((many, weights)).id();
-    until(&mut app, |world| {
-        has::<Morph>(pair)(world) && has::<Morph>(many)(world)
-    });
-    assert!((width(app.world(), pair) - 40.0).abs() < 1e-9);
-    app.update();
-    assert!((width(app.world(), many) - 80.0).abs() < 1e-9);
-
-    std::fs::write(folder.path().join("b.svg"), drawn(60)).expect("a file");
-    app.world().resource::<AssetServer>().reload("b.svg");
-    until(&mut app, |world| (width(world, pair) - 60.0).abs() < 1e-9);
-    // Where one cannot be read any more, what was there stays.
-    std::fs::write(folder.path().join("b.svg"), "no drawing").expect("a file");
-    #[derive(Resource, Default)]
-    struct Said(Vec<(Entity, String)>);
-    app.init_resource::<Said>();
-    app.add_observer(|failed: On<BuildFailed>, mut said: ResMut<Said>| {
-        said.0.push((failed.entity, failed.error.to_string()));
-    });
-    app.world().resource::<AssetServer>().reload("b.svg");
-    // More than once, maybe: the asset server itself tries a second time.
-    let is_told = |world: &World, entity| {
-        let said = &world.resource::<Said>().0;
-        said.iter().any(|&(of, _)| of == entity)
-    };
-    until(&mut app, |world| {
-        is_told(world, pair) && is_told(world, many)
-    });
-    let said = &app.world().resource::<Said>().0;
-    assert!(
-        said.iter().all(|(_, words)| words.contains("b.svg")),
-        "{said:?}"
-    );
-    assert!((width(app.world(), pair) - 60.0).abs() < 1e-9);
 }
