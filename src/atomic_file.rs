@@ -17,6 +17,8 @@ use std::io::{self, Read, Seek, Write};
 use std::path::{Path, PathBuf};
 
 pub(crate) use leftovers::remove_leftovers;
+#[cfg(feature = "app")]
+pub(crate) use refusal::reason;
 pub(crate) use refusal::refusal;
 
 /// A file on its way.

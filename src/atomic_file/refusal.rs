@@ -5,7 +5,21 @@ use std::io::{self, ErrorKind};
 /// What the system refused, and what to do; no path, which the caller knows
 /// better.
 pub(crate) fn refusal(error: &io::Error) -> String {
-    let (reason, way_out) = match error.kind() {
+    match words(error.kind()) {
+        Some((reason, way_out)) => format!("{reason}; {way_out}"),
+        None => format!("{error}; choose another folder or name"),
+    }
+}
+
+/// What the system refused alone, where nobody is asked for another place.
+#[cfg(feature = "app")]
+pub(crate) fn reason(error: &io::Error) -> String {
+    words(error.kind()).map_or_else(|| error.to_string(), |(reason, _)| reason.to_owned())
+}
+
+/// Why, and what to do.
+fn words(kind: ErrorKind) -> Option<(&'static str, &'static str)> {
+    Some(match kind {
         ErrorKind::StorageFull => (
             "the disk is full",
             "make room on it, or choose a folder on another one",
@@ -37,7 +51,6 @@ pub(crate) fn refusal(error: &io::Error) -> String {
         // Of a folder that was to be made.
         ErrorKind::AlreadyExists => ("something of that name is there", "choose another name"),
         ErrorKind::IsADirectory => ("it is a folder", "choose another name"),
-        _ => return format!("{error}; choose another folder or name"),
-    };
-    format!("{reason}; {way_out}")
+        _ => return None,
+    })
 }

@@ -15,6 +15,7 @@ use crate::app::session::loading::Request;
 use crate::app::session::state::Session;
 use crate::app::telling::job::{Job, JobError};
 use crate::app::telling::notices::{About, Notices};
+use crate::atomic_file::reason;
 use crate::project::Project;
 
 /// The shortest time between two writes: with what a write takes, no more than five seconds of
@@ -158,8 +159,12 @@ pub fn follow(mut autosave: ResMut<Autosave>, session: Res<Session>, mut notices
 }
 
 fn cannot_keep(path: &Path, error: &JobError<io::Error>) -> String {
+    let reason = match error {
+        JobError::Failed(error) => reason(error),
+        broken => broken.to_string(),
+    };
     format!(
-        "Changes cannot be kept in {} ({error}): save the project now and then.",
+        "Changes cannot be kept in {} ({reason}): save the project now and then.",
         path.display()
     )
 }
