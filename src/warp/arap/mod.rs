@@ -23,6 +23,7 @@
 //! - `bounded`: the maps of all faces together, for bounded distortion
 //! - `put_back`: what of these is sheared too much, solved once more
 //! - `rim`: edges of outlines as elements of their own
+//! - `lengths`: how long these are on their way
 //! - `sides`: what keeps straight sides straight
 //! - `player`: what a film is made of, and a frame of it
 //! - `guard`: what is moved aside where the film would meet itself
@@ -37,6 +38,7 @@ mod assembly;
 mod bounded;
 mod drift;
 mod guard;
+mod lengths;
 mod life;
 mod many;
 mod options;
@@ -229,7 +231,13 @@ impl Arap {
         })?;
         checkpoint(progress, "preparing frames", 0.9)?;
         let place = cholesky.place_in_order();
-        let stresses = Stresses::new(&mesh, &maps, options.homotopy);
+        let mut stresses = Stresses::new(&mesh, &maps, options.homotopy);
+        lengths::find(
+            &mut stresses,
+            &mesh,
+            (&cholesky, options.homotopy),
+            progress,
+        )?;
         still_wanted(progress)?;
         let drift = Drift::new(&mesh, &maps, place, options.path, lives);
         Ok(Self(Arc::new(Prepared {
