@@ -1,19 +1,21 @@
 //! What one face costs in its two embeddings, with gradients.
 //!
-//! The cost is symmetric in the two designs: the squared conformal
+//! The cost is symmetric in the two designs: the fourth power of the conformal
 //! distortion of the map between them (Hormann, Greiner 2000), the squared
 //! shape of the face in each, and a little of the change of area. It grows
 //! beyond all bounds as a face flattens in either design.
+//!
+//! By the fourth power and the shapes as they are, instead of the square and a twentieth
+//! of the shapes, conformal distortion (95th percentile, median and worst tenth) of 60
+//! pairs of outlines went from 2.9 and 9.7 to 2.4 and 6.6, of 200 of letters from 3.8 and
+//! 8.2 to 2.7 and 5.8, of 60 of icons from 5.4 and 22 to 3.7 and 19; by the fourth power
+//! alone of outlines to 2.6 and 7.8, and thinner faces. By the sixth icons have 33.
 
 use crate::geometry::{DVec2, orient2d, twice_signed_area};
 
 pub(super) type Corners = [DVec2; 3];
 
-/// What the shape in each design counts against the distortion between them.
-/// Little, since the film is what is seen; at nothing, a face that is as thin
-/// in one design as in the other would cost nothing.
-const SHAPE: f64 = 0.05;
-/// What the change of area counts. Less yet, since parts do grow and shrink;
+/// What the change of area counts. Little, since parts do grow and shrink;
 /// without it faces could trade their areas for nothing.
 pub(super) const AREA: f64 = 0.02;
 
@@ -61,6 +63,7 @@ pub(super) fn evaluate(p: Corners, q: Corners, area: f64) -> Option<Cost> {
     let both = 0.5 * inverse[0] * inverse[1];
     // (σ₁/σ₂ + σ₂/σ₁) / 2 = |J|² / (2 det J), where det J = det[1] / det[0].
     let conformal = dirichlet(products[0], e[1]) * both;
+    let squared = conformal * conformal;
     let ratios = [det[0] * inverse[1], det[1] * inverse[0]];
     let mut gradients = [[DVec2::ZERO; 3]; 2];
     let mut shapes = [0.0; 2];
@@ -69,12 +72,12 @@ pub(super) fn evaluate(p: Corners, q: Corners, area: f64) -> Option<Cost> {
         let equilateral = inverse[d] / (2.0 * 3f64.sqrt());
         shapes[d] = squares(e[d]) * equilateral;
         // By the doubled area, which both squares are divided by.
-        let by_det = -2.0 * conformal * conformal - 2.0 * SHAPE * shapes[d] * shapes[d]
+        let by_det = -4.0 * squared * squared - 2.0 * shapes[d] * shapes[d]
             + area * 0.5 * (ratios[d] - ratios[1 - d]);
         let by_det = by_det * inverse[d];
         let (by_dirichlet, by_squares) = (
-            4.0 * conformal * both,
-            4.0 * SHAPE * shapes[d] * equilateral,
+            8.0 * squared * conformal * both,
+            4.0 * shapes[d] * equilateral,
         );
         let pulls = products[1 - d].map(|product| by_dirichlet * product + by_squares);
         for k in 0..3 {
@@ -85,8 +88,8 @@ pub(super) fn evaluate(p: Corners, q: Corners, area: f64) -> Option<Cost> {
                 pulls[next] * e[d][next] - pulls[last] * e[d][last] + by_det * e[d][k].perp();
         }
     }
-    let value = conformal * conformal
-        + SHAPE * (shapes[0] * shapes[0] + shapes[1] * shapes[1])
+    let value = squared * squared
+        + (shapes[0] * shapes[0] + shapes[1] * shapes[1])
         + area * 0.5 * (ratios[0] + ratios[1]);
     // An area may be so small that its inverse is not finite.
     value.is_finite().then_some(Cost { value, gradients })
@@ -103,9 +106,8 @@ pub(super) fn stiffness(p: Corners, q: Corners) -> [[f64; 3]; 2] {
     [0, 1].map(|d| {
         let equilateral = 2.0 * 3f64.sqrt() * det[d];
         let shape = squares(e[d]) / equilateral;
-        let of_edge = |product: f64| {
-            4.0 * conformal * product / (2.0 * det[0] * det[1]) + 4.0 * SHAPE * shape / equilateral
-        };
+        let of_map = 8.0 * conformal.powi(3) / (2.0 * det[0] * det[1]);
+        let of_edge = |product: f64| of_map * product + 4.0 * shape / equilateral;
         products[1 - d].map(of_edge)
     })
 }

@@ -25,12 +25,10 @@ const EARLY_STEPS: usize = 8;
 /// Most steps times faces in each round: only meshes far larger than their
 /// boundary, from the hardest matches, feel it.
 const MOST_WORK: usize = 1_200_000;
-/// Faces that cost more are split while there is room: a conformal distortion
-/// of about 2.4.
+/// Faces that cost more are split while there is room: where they are equilateral in both
+/// designs, which costs 3, a distortion of about 1.3. By 20 instead, outlines of
+/// one class are distorted by 1.87 and not by 1.77.
 const COSTLY: f64 = 6.0;
-/// A vertex goes if no face around it then costs more than this, a distortion
-/// of about 1.4, or than the worst one costs now.
-const GOOD: f64 = 2.0;
 /// Most faces times rounds before it is left as it is: two polygons of 200
 /// corners that cross 39,000 times get the two rounds that come first.
 const MOST_THINNED: usize = 150_000;
@@ -176,7 +174,7 @@ fn collapse_all(mesh: &mut PairMesh, progress: &dyn Progress) -> Result<usize, C
         let present = mesh
             .faces_at(v)
             .map(|face| mesh.cost(face))
-            .fold(GOOD, f64::max);
+            .fold(0.0, f64::max);
         let best = mesh
             .neighbours(v)
             .into_iter()

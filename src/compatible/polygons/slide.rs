@@ -22,11 +22,11 @@ use crate::geometry::Side;
 use crate::linalg::{Cholesky, SymmetricMatrix, Workspace};
 use crate::progress::Progress;
 
-/// What the change of area costs against the square of the conformal
-/// distortion: without it a map without distortion would crowd whole limbs
-/// into a point. Of 60 pairs of outlines the 95th percentile of conformal distortion is
-/// 3.2 in the median with 1, 2.9 with this, and with a tenth 2.6, but 11 instead of 9 in
-/// the worst tenth; isometric distortion is 3.2 with 1 and with a half.
+/// What the change of area costs against the fourth power of the conformal distortion:
+/// without it a map without distortion would crowd whole limbs into a point. Of 60 pairs of
+/// outlines of one class the 95th percentile of conformal distortion is 1.87 in the median
+/// with 1, 1.77 with this; of 200 of letters, area up and down is 0.028 and 0.045 in the
+/// worst tenth.
 const AREA: f64 = 0.45;
 
 /// Share of its own stiffness that holds each unknown: as for springs.
