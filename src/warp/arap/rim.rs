@@ -4,8 +4,8 @@
 //! directions that do not fit together, and what is smooth in both designs is
 //! jagged between them. So each edge of an outline is an element too, with
 //! the energy ½ k |Δv − e(t)|²: its vector e turns evenly, on the branch of the
-//! rotation of its face, and is as long as `lengths` says. The angle between two edges that are as
-//! they should be then goes evenly from the one in the source to the one in
+//! rotation of its face, and is as long as `lengths` says. The angle between two edges
+//! that are as they should be then goes evenly from the one in the source to the one in
 //! the target, and the sum of the sizes of all of them is never more than
 //! what lies between the designs.
 //!
