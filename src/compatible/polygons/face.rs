@@ -7,9 +7,9 @@
 //!
 //! By the fourth power and the shapes as they are, instead of the square and a twentieth
 //! of the shapes, conformal distortion (95th percentile, median and worst tenth) of 60
-//! pairs of outlines went from 2.9 and 9.7 to 2.4 and 6.6, of 200 of letters from 3.8 and
-//! 8.2 to 2.7 and 5.8, of 60 of icons from 5.4 and 22 to 3.7 and 19; by the fourth power
-//! alone of outlines to 2.6 and 7.8, and thinner faces. By the sixth icons have 33.
+//! pairs of outlines went from 3.0 and 11.4 to 2.4 and 5.9, of 200 of letters from 3.8 and
+//! 8.0 to 2.7 and 5.4, of 60 of icons from 5.1 and 22 to 4.0 and 23. By the sixth power
+//! the last is 33; with a twentieth of the shapes, faces are thinner by a half.
 
 use crate::geometry::{DVec2, orient2d, twice_signed_area};
 
