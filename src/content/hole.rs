@@ -11,9 +11,7 @@ use crate::warp::Life;
 /// A hole of one design in the faces of a placement.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Hole {
-    /// The design that has it.
-    side: Side,
-    /// As it is there, clockwise.
+    /// As it is in the design that has it, clockwise.
     ring: Vec<DVec2>,
     /// For each of its points where it is in the faces.
     hosts: Vec<Host>,
@@ -65,22 +63,15 @@ impl Host {
 }
 
 impl Hole {
-    /// A hole that `side` has, drawn on `faces`, whose vertices are at `places`
-    /// in that design; `None` if they have no area.
+    /// A hole of the design that its `life` names, drawn on `faces`, whose vertices are at
+    /// `places` in that design; `None` if they have no area.
     ///
     /// # Panics
     /// If a face has a vertex without a place.
     #[must_use]
-    pub fn new(
-        side: Side,
-        ring: &[DVec2],
-        faces: &[[u32; 3]],
-        places: &[DVec2],
-        life: Life,
-    ) -> Option<Self> {
+    pub fn new(ring: &[DVec2], faces: &[[u32; 3]], places: &[DVec2], life: Life) -> Option<Self> {
         let hosts = ring.iter().map(|&p| Host::of(p, faces, places));
         Some(Self {
-            side,
             hosts: hosts.collect::<Option<_>>()?,
             ring: ring.to_vec(),
             life,
@@ -90,7 +81,7 @@ impl Hole {
     /// The design that has it.
     #[must_use]
     pub fn side(&self) -> Side {
-        self.side
+        self.life.side
     }
 
     /// What it encloses in its design, positive.
@@ -105,16 +96,7 @@ impl Hole {
 
     /// Whether there is nothing of it at `t`.
     pub(crate) fn is_gone(&self, t: f64) -> bool {
-        self.size(t) == 0.0
-    }
-
-    /// How large it is at `t`, across, as a share of what it is in its design.
-    fn size(&self, t: f64) -> f64 {
-        let share = self.life.share(t);
-        match self.side {
-            Side::Source => 1.0 - share,
-            Side::Target => share,
-        }
+        self.life.is_gone(t)
     }
 
     /// Its outline at `t`, when the vertices are at `places`; `None` where it is
@@ -127,11 +109,11 @@ impl Hole {
         if self.is_gone(t) {
             return None;
         }
-        if t == [0.0, 1.0][self.side] {
+        if t == [0.0, 1.0][self.side()] {
             return Some(self.ring.clone());
         }
         let ring = self.hosts.iter().map(|host| host.at(places));
-        Some(shrunk(ring.collect(), self.size(t)))
+        Some(shrunk(ring.collect(), self.life.size(t)))
     }
 }
 
@@ -160,7 +142,7 @@ mod tests {
         let mut places = square(2.0);
         places.reverse();
         let faces = [[0, 1, 2], [0, 2, 3]];
-        let hole = Hole::new(side, &square(1.0), &faces, &places, Life::WHOLE);
+        let hole = Hole::new(&square(1.0), &faces, &places, Life::whole(side));
         (hole.expect("faces with an area"), places)
     }
 
@@ -181,7 +163,7 @@ mod tests {
             .iter()
             .map(|p| p.perp() * 3.0 + DVec2::X * 7.0)
             .collect();
-        let at = hole.at(&moved, 0.5).expect("half as large");
+        let at = hole.at(&moved, 2.0 / 3.0).expect("half as large");
         for (p, q) in at.iter().zip(square(1.0)) {
             let wanted = q.perp() * 1.5 + DVec2::X * 7.0;
             assert!(p.distance(wanted) < 1e-12, "{p} {wanted}");
@@ -192,11 +174,10 @@ mod tests {
     fn faces_without_area_hold_no_hole() {
         let places = vec![DVec2::ZERO; 3];
         let none = Hole::new(
-            Side::Source,
             &square(1.0),
             &[[0, 1, 2]],
             &places,
-            Life::WHOLE,
+            Life::whole(Side::Source),
         );
         assert_eq!(none, None);
     }

@@ -106,16 +106,8 @@ impl InkedBars {
 pub struct Speck {
     /// Its boundary walks, by their numbers.
     pub walks: Vec<usize>,
-    /// The design that has it.
-    pub side: Side,
     /// When it changes its size.
     pub life: Life,
-}
-
-impl Speck {
-    fn is_gone(&self, t: f64) -> bool {
-        self.life.share(t) == [1.0, 0.0][self.side]
-    }
 }
 
 impl Solid {
@@ -300,7 +292,7 @@ impl Solid {
     }
 
     fn is_gone(&self, speck: &Speck, t: f64) -> bool {
-        speck.is_gone(self.part_time(&speck.walks, t))
+        speck.life.is_gone(self.part_time(&speck.walks, t))
     }
 
     /// A part as far as it has swollen.

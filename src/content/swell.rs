@@ -4,14 +4,12 @@
 //! Such a part keeps within its own outline all the time, so that it is in
 //! nobody's way who keeps out of that.
 
-use crate::geometry::{DVec2, Side, inset, inset_depth};
+use crate::geometry::{DVec2, inset, inset_depth};
 use crate::warp::Life;
 
 /// A part of one design that swells, in the stead of some boundary walks.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Swell {
-    /// The design that has it.
-    side: Side,
     /// The walks in whose stead it is drawn, by their numbers; the first goes
     /// around the others.
     walks: Vec<usize>,
@@ -24,14 +22,13 @@ pub struct Swell {
 }
 
 impl Swell {
-    /// A part that `side` has, of walks with these numbers that are these rings
-    /// there, the outer one first.
+    /// A part of walks with these numbers that are these rings in the design that has it,
+    /// the outer one first.
     #[must_use]
-    pub fn new(side: Side, walks: Vec<usize>, rings: &[Vec<DVec2>], life: Life) -> Self {
+    pub fn new(walks: Vec<usize>, rings: &[Vec<DVec2>], life: Life) -> Self {
         let middle = rings.first().map_or(DVec2::ZERO, |ring| middle(ring));
         let about = |ring: &Vec<DVec2>| ring.iter().map(|&p| p - middle).collect();
         Self {
-            side,
             walks,
             depth: inset_depth(rings),
             rings: rings.iter().map(about).collect(),
@@ -46,11 +43,7 @@ impl Swell {
 
     /// How much of its thickness it has at `t`.
     pub(crate) fn share(&self, t: f64) -> f64 {
-        let share = self.life.share(t);
-        match self.side {
-            Side::Source => 1.0 - share,
-            Side::Target => share,
-        }
+        self.life.size(t)
     }
 
     /// Its rings at `t`, when the first of its walks is at these places; none
@@ -78,6 +71,7 @@ pub(crate) fn middle(points: &[DVec2]) -> DVec2 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geometry::Side;
 
     #[test]
     fn a_part_swells_within_its_outline() {
@@ -87,13 +81,16 @@ mod tests {
                 .to_vec()
         };
         let hole: Vec<DVec2> = ring(2.0).into_iter().rev().collect();
-        let life = Life { from: 0.5, to: 1.0 };
-        let frame = Swell::new(Side::Target, vec![3, 4], &[ring(4.0), hole], life);
+        let life = Life {
+            from: 0.5,
+            ..Life::whole(Side::Target)
+        };
+        let frame = Swell::new(vec![3, 4], &[ring(4.0), hole], life);
         let away = DVec2::new(10.0, 0.0);
         // As small as it may be where it is not there: its middle counts.
         let walk: Vec<DVec2> = ring(0.01).into_iter().map(|p| p + away).collect();
         assert!(frame.at(&walk, 0.5).is_empty());
-        let half = frame.at(&walk, 0.75);
+        let half = frame.at(&walk, 2.0 / 3.0);
         assert_eq!(half.len(), 2);
         let reach = |p: &DVec2| (*p - away).abs().max_element();
         assert!(

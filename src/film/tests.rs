@@ -3,7 +3,7 @@
 use super::*;
 use crate::compatible::CompatibleMesh;
 use crate::easing::Easing;
-use crate::geometry::DVec2;
+use crate::geometry::{DVec2, Side};
 use crate::homotopy::Homotopy;
 use crate::progress::Silent;
 use crate::warp::{Arap, ArapOptions, Clock, Life, Staggered};
@@ -175,7 +175,11 @@ fn with_a_birth() -> (CompatibleMesh, [Option<Life>; 2]) {
         .copied()
         .chain(b.target().iter().map(|p| *p + away));
     let mesh = CompatibleMesh::new(faces.collect(), source.collect(), target.collect(), vec![]);
-    let life = Life { from: 0.4, to: 0.8 };
+    let life = Life {
+        side: Side::Target,
+        from: 0.4,
+        to: 0.8,
+    };
     (mesh.expect("a mesh"), [None, Some(life)])
 }
 

@@ -67,7 +67,7 @@ impl Found {
 
 /// Counted up when a film of the same match and mesh moves otherwise than before: what
 /// was kept is then found anew.
-const FILMS: u32 = 2;
+const FILMS: u32 = 3;
 
 /// What a film is found for: its outlines and how they look, and the options that it hangs on.
 pub(super) fn key(options: &Options, drawings: &Drawings) -> String {

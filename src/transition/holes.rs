@@ -72,10 +72,14 @@ pub(super) fn with_lives(
     lives: &[Life],
 ) -> Option<Vec<HoleOf>> {
     let mut holes = untimed(pieces, mesh);
+    let is_of = |((_, hole), life): (&HoleOf, &Life)| hole.side() == life.side;
+    if holes.len() != lives.len() || !holes.iter().zip(lives).all(is_of) {
+        return None;
+    }
     for ((_, hole), &life) in holes.iter_mut().zip(lives) {
         hole.life = life;
     }
-    (holes.len() == lives.len()).then_some(holes)
+    Some(holes)
 }
 
 /// The largest first. Of equal ones the order of the pieces decides, which a
@@ -91,7 +95,7 @@ fn untimed(pieces: &[PieceMatch], mesh: &CompatibleMesh) -> Vec<HoleOf> {
         let faces: Vec<[u32; 3]> = mesh.faces().iter().filter(is_here).copied().collect();
         let hole = |ring: &RingMatch| {
             let (side, points) = ring.whole()?;
-            let hole = Hole::new(side, points, &faces, places[side], Life::WHOLE)?;
+            let hole = Hole::new(points, &faces, places[side], Life::whole(side))?;
             Some((k, hole))
         };
         piece.lone.iter().filter_map(hole).collect()
@@ -158,7 +162,7 @@ impl Scene {
 
     /// The longest time in which a hole crosses least, or the one that is known.
     fn life(&self, hole: &Hole, known: Option<Life>, level: usize) -> (Life, usize) {
-        let mut best = (usize::MAX, Life::WHOLE);
+        let mut best = (usize::MAX, Life::whole(hole.side()));
         let all = times(hole.side());
         for life in all.filter(|life| known.is_none_or(|known| known == *life)) {
             let mut hole = hole.clone();

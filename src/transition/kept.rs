@@ -175,9 +175,12 @@ impl Record {
                 && rings.all(|ring| ring.is_sound())
                 && cuts.all(DVec2::is_finite)
         };
+        let is_of = |(life, piece): (&Option<Life>, &PieceMatch)| {
+            life.is_none_or(|life| life.is_sound() && piece.alone() == Some(life.side))
+        };
         self.pieces.iter().all(is_piece)
             && self.lives.len() <= pieces
-            && self.lives.iter().flatten().all(Life::is_sound)
+            && self.lives.iter().zip(&self.pieces).all(is_of)
             && self.holes.iter().all(Life::is_sound)
             && self.swelling.iter().all(|&piece| piece < pieces)
             && self.stiffness.len() <= self.faces.len()
@@ -193,6 +196,7 @@ impl Record {
 mod tests {
     use super::*;
     use crate::design::{Design, ImportOptions, import};
+    use crate::geometry::Side;
     use crate::progress::Silent;
     use crate::transition::found::key;
     use crate::transition::{Guarding, Quality, Transition, TransitionSpec};
@@ -320,8 +324,15 @@ mod tests {
         change(&|record| record.pieces.clear());
         change(&|record| record.pieces[0].rings.clear());
         change(&|record| record.pieces[0].rings[0].target.truncate(2));
-        change(&|record| record.holes.push(Life::WHOLE));
-        change(&|record| record.lives = vec![Some(Life { from: 0.5, to: 0.5 })]);
+        change(&|record| record.holes.push(Life::whole(Side::Source)));
+        change(&|record| record.holes[0].side = record.holes[0].side.other());
+        let birth = record().lives.iter().position(Option::is_some);
+        let birth = birth.expect("a birth");
+        let change_life = |record: &mut Record, by: &dyn Fn(&mut Life)| {
+            record.lives[birth].as_mut().map(by);
+        };
+        change(&|record| change_life(record, &|life| life.to = life.from));
+        change(&|record| change_life(record, &|life| life.side = life.side.other()));
         change(&|record| record.swelling = vec![99]);
         change(&|record| record.stiffness = vec![-1.0]);
         change(&|record| record.guard = guard(1 << 20));
@@ -336,12 +347,7 @@ mod tests {
         }
         // What is sound is taken, so that the films above were no others.
         let mut record = record();
-        let first = record
-            .lives
-            .iter()
-            .position(Option::is_some)
-            .expect("a birth");
-        record.lives[first] = Some(Life { from: 0.3, to: 0.4 });
+        change_life(&mut record, &|life| [life.from, life.to] = [0.3, 0.4]);
         spec.found = Found {
             of: found.of.clone(),
             film: record.packed().expect("text").into(),

@@ -2,7 +2,7 @@
 
 use crate::compatible::CompatibleMesh;
 use crate::content::{Speck, Swell};
-use crate::geometry::{DVec2, Side, signed_area};
+use crate::geometry::{DVec2, signed_area};
 use crate::warp::{Arap, Life};
 use rayon::iter::Either;
 use rayon::prelude::*;
@@ -19,10 +19,9 @@ pub(super) fn drawn(film: &Arap, swelling: &[usize]) -> (Vec<Swell>, Vec<Speck>)
             first.is_some_and(|&v| parts[v as usize] as usize == piece)
         };
         let walks: Vec<usize> = (0..loops.len()).filter(is_of_piece).collect();
-        let part = Part::of(mesh, &loops, walks);
         Some(match swelling.contains(&piece) {
-            true => Either::Left(part.swell(life)?),
-            false => Either::Right(part.speck(life)),
+            true => Either::Left(swell(mesh, &loops, walks, life)?),
+            false => Either::Right(Speck { walks, life }),
         })
     };
     // How thick each is takes some time.
@@ -30,50 +29,20 @@ pub(super) fn drawn(film: &Arap, swelling: &[usize]) -> (Vec<Swell>, Vec<Speck>)
     lives.filter_map(drawn).partition_map(|drawn| drawn)
 }
 
-/// A part of one design alone.
-struct Part {
-    side: Side,
-    /// The numbers of its walks.
-    walks: Vec<usize>,
-    /// Where they are in that design.
-    rings: Vec<Vec<DVec2>>,
-}
-
-impl Part {
-    fn of(mesh: &CompatibleMesh, loops: &[Vec<u32>], walks: Vec<usize>) -> Self {
-        let mut ends = [mesh.source(), mesh.target()].map(|places| {
-            let ring = |&walk: &usize| loops[walk].iter().map(|&v| places[v as usize]).collect();
-            walks.iter().map(ring).collect::<Vec<Vec<DVec2>>>()
-        });
-        let area = |rings: &[Vec<DVec2>]| rings.iter().map(|ring| signed_area(ring)).sum::<f64>();
-        let [source, target] = ends.each_ref().map(|rings| area(rings));
-        let side = if source > target {
-            Side::Source
-        } else {
-            Side::Target
-        };
-        Self {
-            side,
-            walks,
-            rings: std::mem::take(&mut ends[side]),
-        }
-    }
-
-    fn speck(self, life: Life) -> Speck {
-        Speck {
-            walks: self.walks,
-            side: self.side,
-            life,
-        }
-    }
-
-    /// None of a part without a boundary.
-    fn swell(mut self, life: Life) -> Option<Swell> {
-        // The outer walk first, by which it is placed.
-        let outer = |k: &usize| signed_area(&self.rings[*k]);
-        let first = (0..self.walks.len()).max_by(|a, b| outer(a).total_cmp(&outer(b)))?;
-        self.walks.swap(0, first);
-        self.rings.swap(0, first);
-        Some(Swell::new(self.side, self.walks, &self.rings, life))
-    }
+/// A part of these walks that swells; none of one without a boundary.
+fn swell(
+    mesh: &CompatibleMesh,
+    loops: &[Vec<u32>],
+    mut walks: Vec<usize>,
+    life: Life,
+) -> Option<Swell> {
+    let places = [mesh.source(), mesh.target()][life.side];
+    let ring = |&walk: &usize| loops[walk].iter().map(|&v| places[v as usize]).collect();
+    let mut rings: Vec<Vec<DVec2>> = walks.iter().map(ring).collect();
+    // The outer walk first, by which it is placed.
+    let outer = |k: &usize| signed_area(&rings[*k]);
+    let first = (0..walks.len()).max_by(|a, b| outer(a).total_cmp(&outer(b)))?;
+    walks.swap(0, first);
+    rings.swap(0, first);
+    Some(Swell::new(walks, &rings, life))
 }

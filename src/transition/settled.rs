@@ -109,7 +109,7 @@ fn kept_apart(
         if (options.quality, options.guard) != (Quality::Best, Guarding::Guarded) {
             return Ok(film);
         }
-        let pieces = (&film.matched.pieces[..], &film.swelling[..]);
+        let pieces = (film.matched.pieces.len(), &film.swelling[..]);
         let Some(unproved) = Unproved::of(&film.arap, pieces, levels, progress)? else {
             return Ok(film);
         };

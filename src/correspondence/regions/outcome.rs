@@ -152,6 +152,15 @@ impl PieceMatch {
         self.source_part.is_some() && self.target_part.is_some()
     }
 
+    /// The design that has it alone, if one has.
+    pub(crate) fn alone(&self) -> Option<Side> {
+        match (self.source_part, self.target_part) {
+            (Some(_), Some(_)) => None,
+            (Some(_), None) => Some(Side::Source),
+            (None, _) => Some(Side::Target),
+        }
+    }
+
     /// The piece with the vertices of its rings at other places, ring by ring as
     /// `Course::places` has them.
     pub(crate) fn moved(&self, places: &[Vec<[f64; 2]>]) -> Self {

@@ -34,7 +34,7 @@ const SEARCHED: usize = 100;
 /// When each piece changes its size, before anything is chosen: a part of one
 /// design alone all the time.
 pub(super) fn lives(matched: &RegionMatch) -> Vec<Option<Life>> {
-    let life = |piece: &PieceMatch| (!piece.is_in_both()).then_some(Life::WHOLE);
+    let life = |piece: &PieceMatch| piece.alone().map(Life::whole);
     matched.pieces.iter().map(life).collect()
 }
 

@@ -46,7 +46,7 @@ impl Birth {
     fn at(&self, speck: &Speck, film: &Arap, t: f64, margin: f64) -> Vec<Outline> {
         let share = self.life.share(t);
         // A speck is not drawn.
-        if share == [1.0, 0.0][speck.side] {
+        if self.life.is_gone(t) {
             return Vec::new();
         }
         let centre = film.carried(speck.ends_at(self.place), share, t);
@@ -133,7 +133,7 @@ impl<'a> Scene<'a> {
             f64::INFINITY,
             Birth {
                 place: speck.ends[speck.side.other()],
-                life: Life::WHOLE,
+                life: Life::whole(speck.side),
                 swells: false,
             },
         );

@@ -57,10 +57,11 @@ impl Speck {
     /// All of a match, the largest first.
     pub(super) fn all(matched: &RegionMatch, levels: &Levels) -> Vec<Self> {
         let pieces = matched.pieces.iter().enumerate();
-        let mut all: Vec<Self> = pieces
-            .filter(|(_, piece)| !piece.is_in_both())
-            .map(|(k, piece)| Self::of(k, piece, levels.of_piece(k)))
-            .collect();
+        let alone = |(k, piece): (usize, &PieceMatch)| {
+            let side = piece.alone()?;
+            Some(Self::of(k, piece, (side, levels.of_piece(k))))
+        };
+        let mut all: Vec<Self> = pieces.filter_map(alone).collect();
         let key = |s: &Self| [s.ends[s.side].x, s.ends[s.side].y];
         all.sort_by(|a, b| {
             let order = b.area.total_cmp(&a.area);
@@ -73,11 +74,7 @@ impl Speck {
         all
     }
 
-    fn of(piece: usize, matched: &PieceMatch, level: usize) -> Self {
-        let side = match matched.source_part {
-            Some(_) => Side::Source,
-            None => Side::Target,
-        };
+    fn of(piece: usize, matched: &PieceMatch, (side, level): (Side, usize)) -> Self {
         let rings = |side: Side| {
             matched
                 .rings
@@ -188,14 +185,12 @@ pub(in crate::transition) fn times(side: Side) -> impl Iterator<Item = Life> {
 
 /// So much of the film, from the end where what changes its size is.
 fn life(side: Side, long: f64) -> Life {
+    let whole = Life::whole(side);
     match side {
-        Side::Source => Life {
-            from: 0.0,
-            to: long,
-        },
+        Side::Source => Life { to: long, ..whole },
         Side::Target => Life {
             from: 1.0 - long,
-            to: 1.0,
+            ..whole
         },
     }
 }

@@ -4,7 +4,6 @@
 //! Where and when they come and go was chosen by what is seen at steps
 //! ([`crate::transition::births`]); what is between those is known to the proof.
 
-use super::drawn::Drawn;
 use super::trouble::Trouble;
 use crate::geometry::Side;
 use crate::warp::{Arap, Life};
@@ -26,7 +25,7 @@ pub(super) enum Shifted {
 }
 
 /// What can be done about a trouble by shifting lives.
-pub(super) fn shifted(film: &Arap, drawn: &Drawn, trouble: &Trouble) -> Shifted {
+pub(super) fn shifted(film: &Arap, trouble: &Trouble) -> Shifted {
     let Some(meeting) = trouble.meeting else {
         return Shifted::OfOthers;
     };
@@ -34,7 +33,7 @@ pub(super) fn shifted(film: &Arap, drawn: &Drawn, trouble: &Trouble) -> Shifted 
     let both = [meeting.vertex, meeting.edge[0]].map(|v| parts[v as usize] as usize);
     let shifted = |&piece: &usize| {
         let life = film.lives().get(piece).copied().flatten()?;
-        let next = match drawn.alone(piece)? {
+        let next = match life.side {
             Side::Source => Life {
                 to: life.to.min(trouble.t) - SHIFT,
                 ..life

@@ -37,7 +37,6 @@ mod yielding;
 
 use super::error::BuildError;
 use super::levels::Levels;
-use crate::correspondence::PieceMatch;
 use crate::film::proof::Walk;
 use crate::geometry::{DVec2, count_crossings, orient2d};
 use crate::progress::{Progress, still_wanted};
@@ -74,7 +73,7 @@ impl Unproved {
     /// pieces that are not drawn as the mesh has them.
     pub(super) fn of(
         film: &Arap,
-        (pieces, swelling): (&[PieceMatch], &[usize]),
+        (pieces, swelling): (usize, &[usize]),
         levels: &Levels,
         progress: &dyn Progress,
     ) -> Result<Option<Self>, BuildError> {
@@ -100,7 +99,7 @@ impl Unproved {
         // From either end: none of the designs is the first.
         let back = Way {
             plain: film.swapped(progress)?,
-            drawn: there.drawn.swapped(),
+            drawn: there.drawn.clone(),
         };
         let from_back = back.tried(back.plain.clone(), progress)?;
         Ok(from_back.map(|from_back| Self([(there, plain), (back, from_back)])))
@@ -187,7 +186,9 @@ impl Way {
         let meeting = film.trouble?.meeting?;
         let parts = film.film.mesh().components();
         let both = [meeting.vertex, meeting.edge[0]].map(|v| parts[v as usize] as usize);
-        let is_born = both.iter().any(|&piece| self.drawn.alone(piece).is_some());
+        let lives = film.film.lives();
+        let is_born = |&piece: &usize| lives.get(piece).is_some_and(Option::is_some);
+        let is_born = both.iter().any(is_born);
         is_born.then_some(meeting.t)
     }
 
@@ -199,7 +200,7 @@ impl Way {
             let Some(trouble) = tried.trouble else {
                 break;
             };
-            let lives = match lives::shifted(&tried.film, &self.drawn, &trouble) {
+            let lives = match lives::shifted(&tried.film, &trouble) {
                 Shifted::To(lives) => lives,
                 Shifted::TooShort => return Ok(plain.clone()),
                 Shifted::OfOthers => break,

@@ -2,6 +2,7 @@ use super::*;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::Side;
 use crate::progress::Silent;
+use crate::transition::levels::Levels;
 use crate::warp::{ArapOptions, Life};
 
 /// A square on its corner about a point, from which its corners are so far in either
@@ -57,7 +58,7 @@ fn passing(above: f64) -> Arap {
 
 #[test]
 fn where_nothing_is_wrong_the_film_is_the_plain_one() {
-    let (plain, drawn) = (passing(2.1), Drawn::alone_of(&[None; 3]));
+    let (plain, drawn) = (passing(2.1), Drawn::of(3, &[], &Levels::default()));
     assert!(is_proved(&plain, &drawn));
     let guarded = kept_apart(&plain, drawn);
     assert!(guarded.guard().is_none());
@@ -66,7 +67,7 @@ fn where_nothing_is_wrong_the_film_is_the_plain_one() {
 
 #[test]
 fn what_would_graze_is_moved_aside_and_no_more() {
-    let (plain, drawn) = (passing(1.8), Drawn::alone_of(&[None; 3]));
+    let (plain, drawn) = (passing(1.8), Drawn::of(3, &[], &Levels::default()));
     assert!(!is_proved(&plain, &drawn));
     let guarded = kept_apart(&plain, drawn.clone());
     assert!(is_proved(&guarded, &drawn));
@@ -84,10 +85,10 @@ fn what_would_graze_is_moved_aside_and_no_more() {
 
 #[test]
 fn backwards_it_is_the_film_of_the_exchanged_designs() {
-    let (plain, drawn) = (passing(1.8), Drawn::alone_of(&[None; 3]));
+    let (plain, drawn) = (passing(1.8), Drawn::of(3, &[], &Levels::default()));
     let there = kept_apart(&plain, drawn.clone());
     let swapped = plain.swapped(&Silent).expect("a film");
-    let back = kept_apart(&swapped, drawn.swapped());
+    let back = kept_apart(&swapped, drawn);
     for t in [0.3, 0.45, 0.5, 0.62] {
         let (a, b) = (at(&there, t), at(&back, 1.0 - t));
         let off = a
@@ -105,7 +106,7 @@ fn what_goes_all_the_way_through_stays_as_it_is() {
     // there is none.
     let y = DVec2::new(0.0, 1.0);
     let plain = film(&[[(y * 6.0, 1.0), (y * -46.0, 1.0)]], &[]);
-    let drawn = Drawn::alone_of(&[None; 2]);
+    let drawn = Drawn::of(2, &[], &Levels::default());
     assert!(!is_proved(&plain, &drawn));
     let guarded = kept_apart(&plain, drawn);
     assert_eq!(
@@ -122,9 +123,12 @@ fn what_is_born_on_the_way_of_another_waits() {
         [(-0.1 * x, 0.5), (0.9 * x, 0.5)],
         [(DVec2::ZERO, speck), (DVec2::ZERO, 0.5)],
     ];
-    let born = Life { from: 0.1, to: 1.0 };
+    let born = Life {
+        from: 0.1,
+        ..Life::whole(Side::Target)
+    };
     let plain = film(&squares, &[None, None, Some(born)]);
-    let drawn = Drawn::alone_of(&[None, None, Some(Side::Target)]);
+    let drawn = Drawn::of(3, &[], &Levels::default());
     let unproved = Unproved::of_drawn(&plain, drawn.clone(), &Silent).expect("nobody cancels");
     let unproved = unproved.expect("it is run over");
     // From either end it is the first thing that is met, and the last.
