@@ -167,9 +167,9 @@ impl<'a> Scene<'a> {
         best.1
     }
 
-    /// The births of a time, with how far each is from the part's own place; also
-    /// those at the places of a grid and along its own outline where there is a
-    /// grid.
+    /// The births of a time, with how far each is from the part's own place; where there
+    /// is a grid also those at its places and along the part's own outline, and those that
+    /// swell.
     fn births(
         &self,
         speck: &Speck,
@@ -205,7 +205,9 @@ impl<'a> Scene<'a> {
             };
             (place.distance(own), birth)
         };
-        let swelling = [own, drawn[speck.side.other()]].map(swells);
+        let swelling = [own, drawn[speck.side.other()]].into_iter().map(swells);
+        // How a part swells takes long to find out.
+        let swelling = swelling.filter(|_| grid.is_some());
         growing.map(grows).chain(swelling).collect()
     }
 
