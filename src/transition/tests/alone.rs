@@ -28,7 +28,7 @@ fn holes_of_one_design_shrink_where_they_are() {
     spec.options.matching.holes = HoleRule::Alone;
     let transition = Transition::build(&spec, &Silent).unwrap();
     let mut frame = transition.frame(0.0);
-    for (t, wanted) in [(0.0, -200.0), (0.5, -100.0)] {
+    for (t, wanted) in [(0.0, -200.0), (2.0 / 3.0, -50.0)] {
         frame.seek(t);
         let areas = sorted(&frame.figure().rings);
         assert_eq!(areas.len(), 6);

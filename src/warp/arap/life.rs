@@ -8,16 +8,20 @@
 
 use crate::geometry::Side;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::FRAC_PI_2;
+
+/// How much sooner than evenly it grows, from 0 to 1. With more, what lies against
+/// something at its end nears it more slowly than that does, and they meet: as a quarter of a
+/// sine one of 60 pairs of icons was not proved. Of those, and of 60 random other ones, the
+/// worst tenth of the area up and down is 0.62 and 0.64 by 0, 0.51 and 0.40 by 0.5, 0.45 and
+/// 0.39 by this; that of turning 0.32 and 0.42, 0.31 and 0.40, 0.33 and 0.35.
+const SOONER: f64 = 0.75;
 
 /// When what one design has alone changes its size and place from one end to the other,
 /// within [0, 1]. Before and after it keeps those of that end.
 ///
-/// Its size across runs as a quarter of a sine, and with it its area as evenly as it can: of
-/// two alike of which one goes as the other comes, both together enclose the same all the
-/// time. By a size that runs evenly they would have half of it halfway: of 60 pairs of icons
-/// the area ran up and down by 0.62 in the worst tenth, now by 0.51, and outlines turned by
-/// 0.32 too much, now by 0.27.
+/// It grows fast at first and slowly at last, and goes the same way backwards, so that its
+/// area changes about as evenly as time: of two alike of which one goes as the other comes
+/// both together enclose 0.95 of one halfway. By a size that changes evenly it would be half.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Life {
     /// The design that has it.
@@ -51,9 +55,8 @@ impl Life {
     /// use morphospace::{geometry::Side, warp::Life};
     /// let late = Life { from: 0.5, ..Life::whole(Side::Target) };
     /// assert_eq!([0.0, 0.4, 1.0, 1.2].map(|t| late.size(t)), [0.0, 0.0, 1.0, 1.0]);
-    /// // One that goes while it comes has what is left of their area.
-    /// let gone = Life { side: Side::Source, ..late };
-    /// assert!((late.size(0.8).powi(2) + gone.size(0.8).powi(2) - 1.0).abs() < 1e-12);
+    /// // Its area at half time.
+    /// assert!((0.45..0.5).contains(&late.size(0.75).powi(2)));
     /// assert!((late.backwards().size(0.2) - late.size(0.8)).abs() < 1e-12);
     /// ```
     #[must_use]
@@ -63,7 +66,7 @@ impl Life {
             Side::Source => 1.0 - time,
             Side::Target => time,
         };
-        (FRAC_PI_2 * grown).sin()
+        grown * (1.0 + SOONER * (1.0 - grown))
     }
 
     /// How much of the change is done at `t`, as exactly.

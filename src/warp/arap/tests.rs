@@ -551,7 +551,7 @@ fn a_part_that_is_a_point_waits_and_moves_with_the_whole() {
     assert_eq!(at(&arap, 1.0), mesh.target());
     let length = |places: &[DVec2]| places[8].distance(places[12]);
     assert!(length(&at(&arap, 0.75)) < 3e-4);
-    // A third of its time, the sine of 30 degrees.
+    // Half as large after a third of its time.
     assert!((length(&at(&arap, 5.0 / 6.0)) - 1.0).abs() < 1e-3);
     // What waits turns about the others' centroid as they do.
     let from_the_first = |places: &[DVec2]| places[8].distance(places[0]);
