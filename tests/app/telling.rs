@@ -284,6 +284,8 @@ fn with_draft(folder: &Path) -> Window {
 fn a_draft_plays_until_a_better_film_takes_its_place_unseen() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_draft(folder.path());
+    // The draft may be there sooner than a word is worth its while.
+    wait_for_word(&mut window);
     let told = window.session().told_work().map(|(stage, _)| stage);
     assert_eq!(told, Some("improving the film"));
     let asked = window.session().project().map(|p| p.options.quality);
