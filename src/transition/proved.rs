@@ -6,9 +6,8 @@ use super::ready::Transition;
 use crate::content::{Content, Solid};
 use crate::film::proof::{Proof, Walk};
 use crate::film::{Film, FilmError, FilmOptions};
-use crate::geometry::Side;
 use crate::progress::{Progress, Span};
-use crate::warp::{Arap, Clock, Life};
+use crate::warp::{Arap, Clock};
 use serde::Serialize;
 use std::fmt;
 
@@ -75,19 +74,7 @@ fn walks(solid: &Solid) -> Vec<Walk> {
         let speck = solid.specks.iter().find(|speck| speck.walks.contains(&k));
         let clock = solid.clocks.as_ref();
         let clock = clock.map_or(Clock::WHOLE, |clocks| clocks.clocks[clocks.of_walks[k]]);
-        match speck.map(|speck| speck.life) {
-            Some(Life {
-                side: Side::Source,
-                to,
-                ..
-            }) => [0.0, clock.when(to)],
-            Some(Life {
-                side: Side::Target,
-                from,
-                ..
-            }) => [clock.when(from), 1.0],
-            None => [0.0, 1.0],
-        }
+        speck.map_or([0.0, 1.0], |speck| speck.life.there(|t| clock.when(t)))
     };
     let walks = solid.loops.iter().enumerate();
     walks

@@ -149,7 +149,7 @@ impl PieceMatch {
     /// Whether it is a part of both designs, neither born nor dying.
     #[must_use]
     pub fn is_in_both(&self) -> bool {
-        self.source_part.is_some() && self.target_part.is_some()
+        self.alone().is_none()
     }
 
     /// The design that has it alone, if one has.

@@ -51,7 +51,7 @@ pub(super) struct Placed {
 /// The match and the film's mesh with all parts that are born or die in their
 /// places and times; `None` where there are none. In a draft all grow, and in their own
 /// places: of 120 first films of icons 8 cross either way, and the slowest is there after
-/// 0.9 s and not after 1.25 s.
+/// 0.9 s and not after 1.3 s.
 pub(super) fn placed(
     matched: &RegionMatch,
     film: &Arap,

@@ -1,9 +1,8 @@
 //! What is drawn of a film as its mesh has it, and when.
 
 use crate::film::proof::Walk;
-use crate::geometry::Side;
 use crate::transition::levels::Levels;
-use crate::warp::{Arap, Life};
+use crate::warp::Arap;
 
 /// What is known of the pieces of a match.
 #[derive(Clone, Debug)]
@@ -37,19 +36,7 @@ impl Drawn {
             let piece = vertices.first().map_or(0, |&v| parts[v as usize] as usize);
             let Piece { level, swells, .. } = *self.pieces.get(piece)?;
             let life = film.lives().get(piece).copied().flatten();
-            let drawn = match life {
-                Some(Life {
-                    side: Side::Source,
-                    to,
-                    ..
-                }) => [0.0, to],
-                Some(Life {
-                    side: Side::Target,
-                    from,
-                    ..
-                }) => [from, 1.0],
-                None => [0.0, 1.0],
-            };
+            let drawn = life.map_or([0.0, 1.0], |life| life.there(|t| t));
             (!swells).then_some(Walk {
                 vertices,
                 level,

@@ -78,6 +78,15 @@ impl Life {
         }
     }
 
+    /// From when to when within the film there is something of it, where a clock shows t
+    /// `when` it says.
+    pub(crate) fn there(self, when: impl Fn(f64) -> f64) -> [f64; 2] {
+        match self.side {
+            Side::Source => [0.0, when(self.to)],
+            Side::Target => [when(self.from), 1.0],
+        }
+    }
+
     /// Whether there is nothing of it at `t`.
     #[must_use]
     pub fn is_gone(self, t: f64) -> bool {
