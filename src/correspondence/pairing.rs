@@ -2,7 +2,8 @@
 //!
 //! Parts are paired by the assignment of least cost in position, size and
 //! shape, as many as there are on the side with fewer. What stays alone is
-//! born or dies. Parts clicked together stay together.
+//! born or dies, which costs the more the larger it is. Parts clicked together
+//! stay together.
 //!
 //! Guarantees: the pairing is an optimal assignment, deterministic, and that
 //! from B to A is the same as that from A to B. Does not split one part into
@@ -46,6 +47,11 @@ pub enum PairError {
 const POSITION: f64 = 1.0;
 const SIZE: f64 = 0.15;
 const SHAPE: f64 = 0.25;
+
+/// What it costs that all of a design stays alone, a part by its share of the area. By it
+/// the area up and down of the worst tenth of 60 pairs of icons went from 0.45 to 0.40; it
+/// is the same by thrice as much, by which a bar would become the ring around it and another.
+const ALONE: f64 = 0.3;
 
 /// The centre of each region's outer boundary, relative to the design's box:
 /// what parts are first compared by.
@@ -232,11 +238,16 @@ fn pair(
         .cmp(&b.len())
         .then_with(|| lexicographic(keys(source, &a), keys(target, &b)));
     let mut pairs = fixed.to_vec();
+    // All rows are paired: what a column would cost alone is saved.
     if order == Ordering::Greater {
-        let given = assign(b.len(), a.len(), |r, c| target[b[r]].unlike(&source[a[c]]));
+        let alone = alone(source);
+        let cost = |r: usize, c: usize| target[b[r]].unlike(&source[a[c]]) - alone[a[c]];
+        let given = assign(b.len(), a.len(), cost);
         pairs.extend(given.iter().enumerate().map(|(r, &c)| [a[c], b[r]]));
     } else {
-        let given = assign(a.len(), b.len(), |r, c| source[a[r]].unlike(&target[b[c]]));
+        let alone = alone(target);
+        let cost = |r: usize, c: usize| source[a[r]].unlike(&target[b[c]]) - alone[b[c]];
+        let given = assign(a.len(), b.len(), cost);
         pairs.extend(given.iter().enumerate().map(|(r, &c)| [a[r], b[c]]));
     }
     pairs.sort_unstable();
@@ -244,6 +255,15 @@ fn pair(
     let dying = without(&pairs, source.len(), 0);
     let born = without(&pairs, target.len(), 1);
     Ok(Pairing { pairs, dying, born })
+}
+
+/// What each of these parts of a design would cost alone.
+fn alone(parts: &[Part]) -> Vec<f64> {
+    let areas = parts.iter().map(|part| (2.0 * part.log_size).exp());
+    let areas: Vec<f64> = areas.collect();
+    // What is too small for a square has no share.
+    let total = areas.iter().sum::<f64>().max(f64::MIN_POSITIVE);
+    areas.iter().map(|area| ALONE * area / total).collect()
 }
 
 fn check(fixed: &[[usize; 2]], sources: usize, targets: usize) -> Result<(), PairError> {
@@ -342,6 +362,22 @@ mod tests {
             pair_parts([&two, &three], &Looks::default(), &[], NONE),
             Ok(swapped(&there))
         );
+    }
+
+    #[test]
+    fn the_large_part_is_not_left_alone_for_a_small_one_that_lies_nearer() {
+        let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(8.0, 0.0, 2.0, 2.0)]);
+        let three = regions(&[
+            block(0.0, 0.0, 0.6, 0.6),
+            block(3.0, 0.0, 4.0, 4.0),
+            block(9.4, 0.0, 0.6, 0.6),
+        ]);
+        let there = pair_parts([&two, &three], &Looks::default(), &[], NONE).expect("pairs");
+        let area = |part: usize| three.iter().nth(part).map_or(0.0, Region::area);
+        assert_eq!(there.born.len(), 1);
+        assert!(area(there.born[0]) < 1.0, "{there:?}");
+        let back = pair_parts([&three, &two], &Looks::default(), &[], NONE);
+        assert_eq!(back, Ok(swapped(&there)));
     }
 
     #[test]

@@ -195,6 +195,7 @@ impl Record {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::correspondence::PointPair;
     use crate::design::{Design, ImportOptions, import};
     use crate::geometry::Side;
     use crate::progress::Silent;
@@ -215,7 +216,14 @@ mod tests {
         let badge = svg(
             "M32 30h12v40h-12z M56 32h12v38h-12z M50 2a48 48 0 0 1 0 96a48 48 0 0 1 0-96 M50 12a38 38 0 0 0 0 76a38 38 0 0 0 0-76 M2 2h6v6h-6z",
         );
-        TransitionSpec::new(bars, badge)
+        let mut spec = TransitionSpec::new(bars, badge);
+        // The bar with a hole is not to become the ring.
+        let at = |design: &Design| design.form.bounds().centre() - 12.0 * DVec2::X;
+        spec.options.matching.links = vec![PointPair {
+            source: at(&spec.source),
+            target: at(&spec.target),
+        }];
+        spec
     }
 
     fn built(spec: &TransitionSpec) -> Transition {
