@@ -66,7 +66,7 @@ fn conflicts(
 /// What each piece is worth: the mean of both designs' shares of what the
 /// outer rings enclose. A badge is worth as much as what it goes around, which
 /// can grow in it while it cannot grow around that.
-fn worths(matched: &RegionMatch) -> Vec<f64> {
+pub(super) fn worths(matched: &RegionMatch) -> Vec<f64> {
     let shares = |side: Side| -> Vec<f64> {
         let outer = |piece: &PieceMatch| {
             let ring = piece.rings.first();

@@ -15,8 +15,8 @@
 //!   large
 //! - `candidate`: a matched piece and what is seen of its film; `group`: the
 //!   pieces of some parts, matched in several ways; `choice`: of several the one
-//!   with the least trouble; `settled`: all pieces out of each
-//!   other's way, by the `conflicts` that they have and the places and times of
+//!   with the least trouble; `parted`: all pieces out of each
+//!   other's way, by the `conflicts` that they have; `settled`: with the places and times of
 //!   `births`, and `holes` in them that come and go, by where their `walks` and
 //!   `outline`s are at some `steps`; `unfolded`: films with fewer folds;
 //!   `guarded`: films that keep out of their own way at every t
@@ -59,6 +59,7 @@ mod note;
 mod options;
 mod outline;
 mod part_time;
+mod parted;
 mod plane;
 mod proved;
 mod ready;

@@ -25,6 +25,15 @@ impl Group {
         let first = |side: Side| self.parts[side].first().copied().unwrap_or(usize::MAX);
         Side::BOTH.map(first)
     }
+
+    /// Which part it is, of a part alone.
+    pub(super) fn alone(&self) -> Option<(Side, usize)> {
+        match [&self.parts[0][..], &self.parts[1][..]] {
+            [&[part], []] => Some((Side::Source, part)),
+            [[], &[part]] => Some((Side::Target, part)),
+            _ => None,
+        }
+    }
 }
 
 /// Who becomes whom, by place, form and look, and as it was said by hand of parts: pairs
@@ -216,7 +225,7 @@ fn attach(
 
 /// The group whose single part on the other side lies nearest, of those in the
 /// coat of the part that may be cut.
-fn nearest_group(
+pub(super) fn nearest_group(
     groups: &[Group],
     (places, looks): (&[Vec<DVec2>; 2], &Looks),
     side: Side,

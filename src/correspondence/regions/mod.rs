@@ -28,6 +28,7 @@ mod outcome;
 mod piece;
 mod prepared;
 mod released;
+mod shared_out;
 mod sides;
 mod slits;
 mod split;

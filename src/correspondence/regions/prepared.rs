@@ -19,8 +19,9 @@ use rayon::prelude::*;
 const PREPARED: f64 = 0.2;
 
 /// Two designs with their parts in groups, and split where they are to be.
+#[derive(Clone)]
 pub(crate) struct Prepared<'a> {
-    designs: [&'a Regions; 2],
+    pub(super) designs: [&'a Regions; 2],
     looks: &'a Looks,
     pub(super) wanted: &'a Matching,
     /// Parts that somebody linked or pinned to each other.
@@ -35,6 +36,7 @@ pub(crate) struct Prepared<'a> {
 }
 
 /// The parts of a design, and their centres.
+#[derive(Clone)]
 struct Parts<'a> {
     regions: Vec<&'a Region>,
     centres: Vec<DVec2>,
@@ -77,6 +79,12 @@ impl<'a> Prepared<'a> {
             .collect();
         still_wanted(progress)?;
         Ok(prepared)
+    }
+
+    /// Takes groups with the pieces that each is cut into, in their order.
+    pub(super) fn set_groups(&mut self, mut groups: Vec<(Group, Option<Vec<Region>>)>) {
+        groups.sort_by_key(|(group, _)| group.key());
+        (self.groups, self.pieces) = groups.into_iter().unzip();
     }
 
     /// Whether a line runs along any part of a group, in which no cut may be seen.

@@ -41,8 +41,7 @@ impl Prepared<'_> {
             }
             groups.extend(each(&alone).map(|group| (group, None)));
         }
-        groups.sort_by_key(|(group, _)| group.key());
-        (self.groups, self.pieces) = groups.into_iter().unzip();
+        self.set_groups(groups);
         is_other
     }
 
