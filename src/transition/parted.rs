@@ -20,7 +20,7 @@ use super::rigid::{allow, coarse};
 use super::spec::TransitionSpec;
 use crate::compatible::{OutlinesError, joined};
 use crate::correspondence::{Group, Prepared, RegionMatch};
-use crate::progress::{Progress, Several, Span};
+use crate::progress::{Progress, Several, Span, still_wanted};
 use crate::warp::Arap;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
@@ -90,9 +90,13 @@ pub(super) fn parted(
         .map(|(from, to)| Span::new(progress, from, to));
     let mut drafts = apart(prepared, spec, &as_asked, &drafting)?;
     if let Some(mut other) = prepared.shared_out(&sharing) {
-        let shared = apart(&mut other, spec, &as_asked, &sharing)?;
-        let saved = drafts.alone() - shared.alone();
-        if saved > SAVED && shared.misfit() < drafts.misfit() {
+        // What cannot be had is no better: there is a film without it.
+        let shared = apart(&mut other, spec, &as_asked, &sharing).ok();
+        still_wanted(&sharing)?;
+        let is_better = |shared: &Parted| {
+            drafts.alone() - shared.alone() > SAVED && shared.misfit() < drafts.misfit()
+        };
+        if let Some(shared) = shared.filter(is_better) {
             (*prepared, drafts) = (other, shared);
         }
     }
