@@ -27,23 +27,6 @@ pub(crate) fn turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
     rings.iter().map(of).sum()
 }
 
-/// By how much what was measured at `t` exceeds what lies between the ends, as a
-/// share of that, where it does so most; pairs `[t, W]`, t from 0 to 1.
-pub(crate) fn excess_between(measured: &[[f64; 2]]) -> f64 {
-    let (Some([_, first]), Some([_, last])) = (measured.first(), measured.last()) else {
-        return 0.0;
-    };
-    let share = |[t, found]: &[f64; 2]| {
-        let between = (1.0 - t) * first + t * last;
-        if between > 0.0 {
-            found / between - 1.0
-        } else {
-            0.0
-        }
-    };
-    measured.iter().map(share).fold(0.0, f64::max)
-}
-
 /// Points along a closed ring, evenly: one a step, three at least.
 fn sampled(ring: &[DVec2], step: f64) -> Vec<DVec2> {
     let length = perimeter(ring);
@@ -95,12 +78,5 @@ mod tests {
     fn a_ring_without_length_turns_as_the_least_ring_does() {
         assert_eq!(turning(&[vec![DVec2::ONE; 3]], 1.0), TAU);
         assert_eq!(turning(&[], 1.0), 0.0);
-    }
-
-    #[test]
-    fn only_what_lies_above_the_line_between_the_ends_is_too_much() {
-        assert_eq!(excess_between(&[[0.0, 6.0], [0.5, 7.0], [1.0, 8.0]]), 0.0);
-        assert_eq!(excess_between(&[[0.0, 6.0], [0.5, 14.0], [1.0, 8.0]]), 1.0);
-        assert_eq!(excess_between(&[]), 0.0);
     }
 }

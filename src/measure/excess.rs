@@ -4,23 +4,6 @@ use super::distortion::{Strain, edges};
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
 
-/// How much a quantity runs up and down beyond what its ends need, as a
-/// fraction of the larger end: (Σ |Δ| − |end − end|) / max(|end|).
-pub(super) fn of_variation(values: impl Iterator<Item = f64>) -> f64 {
-    let values: Vec<f64> = values.collect();
-    let (Some(first), Some(last)) = (values.first(), values.last()) else {
-        return 0.0;
-    };
-    let variation: f64 = values.windows(2).map(|w| (w[1] - w[0]).abs()).sum();
-    let scale = first.abs().max(last.abs());
-    // What is 0 at both ends has no scale to be held against.
-    if scale > 0.0 {
-        ((variation - (last - first).abs()) / scale).max(0.0)
-    } else {
-        0.0
-    }
-}
-
 /// The largest value by the larger one of the ends; `None` where nothing was
 /// measured.
 pub(super) fn of_peak(values: impl Iterator<Item = Option<f64>>) -> Option<f64> {
@@ -62,18 +45,6 @@ pub(super) fn of_distortion(mesh: &CompatibleMesh, paths: &[Vec<DVec2>]) -> [f64
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_monotone_run_has_no_excess() {
-        assert_eq!(of_variation([1.0, 2.0, 4.0].into_iter()), 0.0);
-        assert_eq!(of_variation([4.0, 4.0, 1.0].into_iter()), 0.0);
-        assert_eq!(of_variation(std::iter::empty()), 0.0);
-    }
-
-    #[test]
-    fn a_dip_counts_down_and_up() {
-        assert_eq!(of_variation([4.0, 1.0, 4.0].into_iter()), 1.5);
-    }
 
     #[test]
     fn a_peak_is_held_against_the_larger_end() {

@@ -9,7 +9,7 @@ use super::excess;
 use super::motion::{self, Motion};
 use crate::compatible::CompatibleMesh;
 use crate::content::{Content, Solid};
-use crate::geometry::{DVec2, excess_between, perimeter, signed_area, turning};
+use crate::geometry::{DVec2, excess_between, perimeter, signed_area, turning, variation_excess};
 use crate::progress::{Cancelled, Progress, Span, Whole, checkpoint, still_wanted};
 use crate::transition::{Frame, Transition};
 use crate::warp::ArapError;
@@ -281,8 +281,8 @@ fn report(
         isometric_excess: excess.map(|e| e[1]),
         area_distortion_excess: excess.map(|e| e[2]),
         asymmetry,
-        area_variation_excess: excess::of_variation(samples.iter().map(|s| s.area)),
-        perimeter_variation_excess: excess::of_variation(samples.iter().map(|s| s.perimeter)),
+        area_variation_excess: variation_excess(samples.iter().map(|s| s.area)),
+        perimeter_variation_excess: variation_excess(samples.iter().map(|s| s.perimeter)),
         turning_excess: excess_between(&turning),
         turning_of_both_excess: excess_between(&turning_of_both),
         pieces_excess: excess::of_count(samples.iter().map(|s| s.pieces)),
