@@ -145,8 +145,13 @@ fn films_of_rigid_parts_are_recorded_in_few_solves() {
             }
             let film = transition.record(&FilmOptions::default(), &Silent);
             let film = film.expect(&entry.name);
-            // Its coil turns three times.
-            let most = if entry.name == "fern" { 32 } else { 16 };
+            let most = match entry.name.as_str() {
+                // Its coil turns three times.
+                "fern" => 32,
+                // The last letter of a word stands still until halfway.
+                "day-to-night" => 32,
+                _ => 16,
+            };
             let solves = film.solves();
             assert!(solves <= most, "{}: {solves}", entry.name);
             recorded += 1;

@@ -63,6 +63,11 @@ impl Host {
 }
 
 impl Hole {
+    /// As it is in its design.
+    pub(crate) fn ring(&self) -> &Vec<DVec2> {
+        &self.ring
+    }
+
     /// A hole of the design that its `life` names, drawn on `faces`, whose vertices are at
     /// `places` in that design; `None` if they have no area.
     ///
@@ -82,6 +87,13 @@ impl Hole {
     #[must_use]
     pub fn side(&self) -> Side {
         self.life.side
+    }
+
+    /// The area that it would have were it whole, as a share of what it has in its design,
+    /// when the vertices are at `places`.
+    pub(crate) fn stretch(&self, places: &[DVec2]) -> f64 {
+        let ring: Vec<DVec2> = self.hosts.iter().map(|host| host.at(places)).collect();
+        signed_area(&ring) / signed_area(&self.ring)
     }
 
     /// What it encloses in its design, positive.

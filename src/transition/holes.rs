@@ -1,15 +1,15 @@
 //! Holes that one design has alone, and which the film moves as if they were
 //! not there: where they are in it, and when they come and go.
 //!
-//! The largest first, each takes as much of the film as it can without crossing
-//! a boundary or a hole that has its time; one that cannot keeps the time in which it
-//! crosses least, and the others make way. Looked at at a few steps: what is crossed
-//! between two is missed.
+//! The largest first, each takes, of the times in which it crosses no boundary and no hole
+//! that has its time, the one that suits the timetable best; one that cannot keeps the time
+//! in which it crosses least, and the others make way. Looked at at a few steps: what is
+//! crossed between two is missed.
 
-use super::births::times;
 use super::levels::Levels;
 use super::outline::Outline;
 use super::steps::Steps;
+use super::timetable::Timetable;
 use super::walks::Walks;
 use crate::compatible::CompatibleMesh;
 use crate::content::Hole;
@@ -34,15 +34,28 @@ pub(super) fn timed(
     levels: &Levels,
     progress: &dyn Progress,
 ) -> Result<Vec<HoleOf>, Cancelled> {
+    let long = |holes: &[HoleOf]| Timetable::long(holes.iter().map(|(_, hole)| hole.side()));
+    timed_by(pieces, film, levels, &long, progress)
+}
+
+/// The same, in times that suit those of what else comes and goes.
+pub(super) fn timed_by(
+    pieces: &[PieceMatch],
+    film: &Arap,
+    levels: &Levels,
+    timetable: &dyn Fn(&[HoleOf]) -> Timetable,
+    progress: &dyn Progress,
+) -> Result<Vec<HoleOf>, Cancelled> {
     let mut holes = untimed(pieces, film.mesh());
     if holes.is_empty() {
         return Ok(holes);
     }
+    let timetable = timetable(&holes);
     let mut scene = Scene::of(film, levels);
     let mut order: Vec<(usize, Option<Life>)> = (0..holes.len()).map(|k| (k, None)).collect();
     let mut best = (usize::MAX, Vec::new());
     for _ in 0..=MAKING_WAY {
-        let lives = scene.lives(&holes, &order, levels, progress)?;
+        let lives = scene.lives((&holes, &order), levels, timetable.clone(), progress)?;
         let crossed = lives.iter().map(|(_, _, crossed)| crossed).sum();
         let late = lives.iter().position(|&(_, _, crossed)| crossed > 0);
         // The first that crosses something comes before the others.
@@ -137,9 +150,9 @@ impl Scene {
     /// which that is known, and at how many steps each then crosses anything.
     fn lives(
         &mut self,
-        holes: &[HoleOf],
-        order: &[(usize, Option<Life>)],
+        (holes, order): (&[HoleOf], &[(usize, Option<Life>)]),
         levels: &Levels,
+        mut timetable: Timetable,
         progress: &dyn Progress,
     ) -> Result<Vec<(usize, Life, usize)>, Cancelled> {
         let of_both = self.outlines[0].len();
@@ -148,7 +161,9 @@ impl Scene {
             still_wanted(progress)?;
             let (piece, hole) = &holes[k];
             let level = levels.of_piece(*piece);
-            let (life, crossed) = self.life(hole, known, level);
+            let times = timetable.ranked(k);
+            let (life, crossed) = self.life(hole, &times, known, level);
+            timetable.set(k, life);
             let mut hole = hole.clone();
             hole.life = life;
             self.add(&hole, level);
@@ -160,10 +175,16 @@ impl Scene {
         Ok(lives)
     }
 
-    /// The longest time in which a hole crosses least, or the one that is known.
-    fn life(&self, hole: &Hole, known: Option<Life>, level: usize) -> (Life, usize) {
+    /// The first of the times in which a hole crosses least, or the one that is known.
+    fn life(
+        &self,
+        hole: &Hole,
+        times: &[(f64, Life)],
+        known: Option<Life>,
+        level: usize,
+    ) -> (Life, usize) {
         let mut best = (usize::MAX, Life::whole(hole.side()));
-        let all = times(hole.side());
+        let all = times.iter().map(|&(_, life)| life);
         for life in all.filter(|life| known.is_none_or(|known| known == *life)) {
             let mut hole = hole.clone();
             hole.life = life;

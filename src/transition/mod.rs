@@ -10,14 +10,14 @@
 //! - `options`, `spec`: what a transition is built from; `arrange`: how the
 //!   designs are laid into one frame
 //! - `build`: from a specification to a transition, by way of `solids`
-//!   (rigid parts, and in `lone` how those of one design are drawn, or `boundaries` alone) and `plane` (warps of the plane,
-//!   from the `features` that they go by); `rigid`: a mesh that is not too
-//!   large
+//!   (rigid parts, and in `lone` how those of one design are drawn, or `boundaries`
+//!   alone) and `plane` (warps of the plane, from the `features` that they go by);
+//!   `rigid`: a mesh that is not too large
 //! - `candidate`: a matched piece and what is seen of its film; `group`: the
 //!   pieces of some parts, matched in several ways; `choice`: of several the one
-//!   with the least trouble; `parted`: all pieces out of each
-//!   other's way, by the `conflicts` that they have; `settled`: with the places and times of
-//!   `births`, and `holes` in them that come and go, by where their `walks` and
+//!   with the least trouble; `parted`: all pieces out of each other's way, by the
+//!   `conflicts` that they have; `settled`: with the places of `births`, and `holes` in them
+//!   that come and go, all in their times by one `timetable`, by where their `walks` and
 //!   `outline`s are at some `steps`; `unfolded`: films with fewer folds;
 //!   `guarded`: films that keep out of their own way at every t
 //! - `found`, `kept`: what was found, as a document keeps it
@@ -72,6 +72,7 @@ mod spec;
 mod staggered;
 mod steps;
 mod style;
+mod timetable;
 mod timing;
 mod unfolded;
 mod walks;

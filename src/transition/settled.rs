@@ -5,7 +5,7 @@ use super::births;
 use super::drawings::Drawings;
 use super::error::BuildError;
 use super::guarded::Unproved;
-use super::holes::{HoleOf, timed};
+use super::holes::{HoleOf, timed_by};
 use super::levels::Levels;
 use super::mirrored;
 use super::note::Note;
@@ -54,7 +54,10 @@ pub(super) fn best(
     let levels = Levels::of(&matched, &drawings.looks);
     let arap = unfolded(parted.arap, progress)?;
     // What is held stiffer moves a little otherwise.
-    let holes = timed(&matched.pieces, &arap, &levels, progress)?;
+    let timetable = |holes: &[HoleOf]| {
+        births::timetable(&matched, &arap, (holes, &levels), spec.options.quality)
+    };
+    let holes = timed_by(&matched.pieces, &arap, &levels, &timetable, progress)?;
     let film = Film {
         matched,
         arap,

@@ -16,12 +16,13 @@ mod speck;
 
 use self::scene::Scene;
 use self::speck::Speck;
-pub(super) use self::speck::times;
 use super::holes::HoleOf;
 use super::levels::Levels;
 use super::options::Quality;
 use super::steps::Steps;
+use super::timetable::Timetable;
 use crate::compatible::CompatibleMesh;
+use crate::content::Hole;
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::DVec2;
 use crate::progress::{Cancelled, Progress, still_wanted};
@@ -36,6 +37,29 @@ const SEARCHED: usize = 100;
 pub(super) fn lives(matched: &RegionMatch) -> Vec<Option<Life>> {
     let life = |piece: &PieceMatch| piece.alone().map(Life::whole);
     matched.pieces.iter().map(life).collect()
+}
+
+/// When holes and parts come and go; the holes first.
+pub(super) fn timetable(
+    matched: &RegionMatch,
+    film: &Arap,
+    (holes, levels): (&[HoleOf], &Levels),
+    quality: Quality,
+) -> Timetable {
+    timetable_of(&Speck::all(matched, levels), film, holes, quality)
+}
+
+fn timetable_of(specks: &[Speck], film: &Arap, holes: &[HoleOf], quality: Quality) -> Timetable {
+    let holes = holes.iter().map(|(_, hole)| hole);
+    let parts = specks
+        .iter()
+        .map(|speck| (speck.side, speck.ends[speck.side], &speck.rings[..]));
+    match quality {
+        Quality::Draft => {
+            Timetable::long(holes.map(Hole::side).chain(parts.map(|(side, ..)| side)))
+        }
+        Quality::Best => Timetable::calm(film, holes, parts),
+    }
 }
 
 /// A match and its mesh with all that is born or dies in its place.
@@ -69,11 +93,22 @@ pub(super) fn placed(
     }
     let specks = Speck::all(matched, levels);
     let mut scene = Scene::of(film, (holes, &specks), (levels, steps));
-    let mut swelling = Vec::new();
-    let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
+    let mut timetable = timetable_of(&specks, film, holes, quality);
+    for (k, (_, hole)) in holes.iter().enumerate() {
+        timetable.set(k, hole.life);
+    }
     for (rank, speck) in specks.iter().enumerate() {
         still_wanted(progress)?;
-        let birth = scene.place(speck, film, rank < searched);
+        scene.place(
+            speck,
+            (&mut timetable, holes.len() + rank),
+            film,
+            rank < searched,
+        );
+    }
+    let mut swelling = Vec::new();
+    let mut by = vec![[DVec2::ZERO; 2]; matched.pieces.len()];
+    for (speck, birth) in scene.births() {
         by[speck.piece][speck.side.other()] = birth.place - speck.ends[speck.side.other()];
         lives[speck.piece] = Some(birth.life);
         swelling.extend(birth.swells.then_some(speck.piece));

@@ -1,7 +1,8 @@
 //! What is there on the way, and where in it a part can grow.
 //!
 //! Of the places that are as free the one is taken that is nearest to a
-//! part's own place in the whole, and of the times the longest.
+//! part's own place in the whole, and of the times the one that suits the
+//! [`Timetable`] best.
 
 use super::carried::{carried_among, carried_within};
 use super::speck::Speck;
@@ -10,6 +11,7 @@ use crate::transition::holes::HoleOf;
 use crate::transition::levels::Levels;
 use crate::transition::outline::Outline;
 use crate::transition::steps::{LAST, Steps};
+use crate::transition::timetable::Timetable;
 use crate::transition::walks::Walks;
 use crate::warp::{Arap, Life, Placer, Warp};
 use rayon::prelude::*;
@@ -24,12 +26,13 @@ const PLACES: u32 = 7;
 
 /// Births that are looked at beside each other. More would be looked at without
 /// knowing how good the best of them is.
-const AT_ONCE: usize = 8;
+const ABREAST: usize = 8;
 
-/// What it costs to meet another part all the time (10 for an even step), and the
-/// distance from its own place, in diameters, against the share of the film that it waits.
-const MEETING: f64 = 640.0;
-const DISTANCE: f64 = 2.0;
+/// What it costs to meet another part all the time (5 for an even step), the distance from
+/// its own place, in diameters, and to come at once, against the unrest of the film.
+const MEETING: f64 = 320.0;
+const DISTANCE: f64 = 1.0;
+const AT_ONCE: f64 = 0.5;
 
 /// Where, when and how a part is born or dies.
 #[derive(Clone, Copy)]
@@ -72,17 +75,23 @@ impl Birth {
     }
 }
 
+/// What has got its place.
+struct Born<'a> {
+    speck: &'a Speck,
+    birth: Birth,
+    /// At each step.
+    outlines: Vec<Vec<Outline>>,
+}
+
 /// What is there at each step, both ends included.
 pub(super) struct Scene<'a> {
     steps: &'a Steps,
-    /// First of what both designs have, then of what has got its place.
+    /// Of what both designs have.
     outlines: Vec<Vec<Outline>>,
-    /// How many outlines both designs have.
-    of_both: usize,
     /// Of holes that come and go: as many as there are at each step.
     holes: Vec<Vec<Outline>>,
     /// What has got its place.
-    born: Vec<(&'a Speck, Birth)>,
+    born: Vec<Born<'a>>,
     /// What has none yet, as it was drawn, the next one last.
     unplaced: Vec<(Side, Vec<Outline>)>,
     bounds: Bounds,
@@ -110,7 +119,6 @@ impl<'a> Scene<'a> {
         let drawn = |speck: &Speck| (speck.side, speck.at(speck.ends[speck.side], 1.0));
         Self {
             steps,
-            of_both: outlines[0].len(),
             born: Vec::new(),
             unplaced: specks.iter().rev().map(drawn).collect(),
             outlines,
@@ -119,16 +127,42 @@ impl<'a> Scene<'a> {
         }
     }
 
-    /// The best birth of the next one; its place is searched for only where that is asked
-    /// for.
-    pub(super) fn place(&mut self, speck: &'a Speck, film: &Arap, is_searched: bool) -> Birth {
+    /// Gives the next one, which has this number in the timetable, its best birth; its place
+    /// is searched for only where that is asked for.
+    pub(super) fn place(
+        &mut self,
+        speck: &'a Speck,
+        (timetable, k): (&mut Timetable, usize),
+        film: &Arap,
+        is_searched: bool,
+    ) {
         self.unplaced.pop();
-        let birth = self.best(speck, film, is_searched);
-        self.add(speck, &birth, film);
-        birth
+        let birth = self.best(speck, (timetable, k), film, is_searched);
+        timetable.set(k, birth.life);
+        if birth.swells {
+            timetable.set_growth(k, speck.swelling(film.mesh().diameter()));
+        }
+        let times = self.steps.times().iter();
+        let outlines = times.map(|&t| birth.at(speck, film, t, 0.0)).collect();
+        self.born.push(Born {
+            speck,
+            birth,
+            outlines,
+        });
     }
 
-    fn best(&self, speck: &Speck, film: &Arap, is_searched: bool) -> Birth {
+    /// Where, when and how all were born that have got their places.
+    pub(super) fn births(&self) -> impl Iterator<Item = (&Speck, &Birth)> {
+        self.born.iter().map(|born| (born.speck, &born.birth))
+    }
+
+    fn best(
+        &self,
+        speck: &Speck,
+        (timetable, k): (&Timetable, usize),
+        film: &Arap,
+        is_searched: bool,
+    ) -> Birth {
         let mut best = (
             f64::INFINITY,
             Birth {
@@ -137,21 +171,31 @@ impl<'a> Scene<'a> {
                 swells: false,
             },
         );
+        let diameter = film.mesh().diameter();
+        let extra = |birth: &Birth| match birth.swells {
+            true => timetable.extra(k, birth.life, speck.swelling(diameter)),
+            false => 0.0,
+        };
+        let ranked = timetable.ranked(k);
+        // What comes at once is for want of better.
+        let most = ranked.last().map_or(0.0, |(cost, _)| *cost);
+        let at_once = (most + AT_ONCE, speck.at_once());
         let grid = if is_searched { self.grid() } else { Vec::new() };
-        for life in speck.times() {
-            let waits = 1.0 - (life.to - life.from);
-            if waits >= best.0 {
-                break; // a shorter time costs more
+        for (unrest, life) in ranked.into_iter().chain([at_once]) {
+            if unrest >= best.0 {
+                break; // the next one costs more
             }
-            let mut births = self.births(speck, film, life, is_searched.then_some(&grid));
+            let mut births = self.births_in(speck, film, life, is_searched.then_some(&grid));
             // The nearest first: they cost least, and what costs more than they do need
             // not be looked at to its end. What swells last: it takes longest to look at.
             births.sort_by(|(a, p), (b, q)| p.swells.cmp(&q.swells).then(a.total_cmp(b)));
             // Most need no other place than their own.
             let (own, others) = births.split_at(1);
-            for some in std::iter::once(own).chain(others.chunks(AT_ONCE)) {
+            for some in std::iter::once(own).chain(others.chunks(ABREAST)) {
                 let cost = |(distance, birth): &(f64, Birth)| {
-                    let known = waits + DISTANCE * distance / self.bounds.diameter();
+                    let known = unrest + DISTANCE * distance / self.bounds.diameter();
+                    // How a part swells takes long to find out.
+                    let known = (known < best.0).then(|| known + extra(birth))?;
                     let most = (best.0 - known) / MEETING;
                     (known < best.0)
                         .then(|| known + MEETING * self.meetings(speck, birth, film, most))
@@ -170,7 +214,7 @@ impl<'a> Scene<'a> {
     /// The births of a time, with how far each is from the part's own place; where there
     /// is a grid also those at its places and along the part's own outline, and those that
     /// swell.
-    fn births(
+    fn births_in(
         &self,
         speck: &Speck,
         film: &Arap,
@@ -206,7 +250,6 @@ impl<'a> Scene<'a> {
             (place.distance(own), birth)
         };
         let swelling = [own, drawn[speck.side.other()]].into_iter().map(swells);
-        // How a part swells takes long to find out.
         let swelling = swelling.filter(|_| grid.is_some());
         growing.map(grows).chain(swelling).collect()
     }
@@ -255,7 +298,8 @@ impl<'a> Scene<'a> {
         let unplaced = self.unplaced.iter();
         let unplaced = unplaced.filter(move |(of, _)| is_near && *of != side);
         let unplaced = unplaced.flat_map(|(_, rings)| rings);
-        self.outlines[step].iter().chain(unplaced)
+        let born = self.born.iter().flat_map(move |born| &born.outlines[step]);
+        self.outlines[step].iter().chain(born).chain(unplaced)
     }
 
     fn crosses_none(&self, step: usize, side: Side, rings: &[Outline]) -> bool {
@@ -281,26 +325,18 @@ impl<'a> Scene<'a> {
         !is_within && !others.any(|other| around(other.points[0]) != 0)
     }
 
-    fn add(&mut self, speck: &'a Speck, birth: &Birth, film: &Arap) {
-        self.born.push((speck, *birth));
-        for (outlines, &t) in self.outlines.iter_mut().zip(self.steps.times()) {
-            outlines.extend(birth.at(speck, film, t, 0.0));
-        }
-    }
-
     /// Its own place when it is a speck: where what it lies in is then, or
     /// what lies around it.
     fn carried(&self, speck: &Speck, life: Life, film: &Arap) -> DVec2 {
         let (side, here) = (speck.side, speck.ends[speck.side]);
         let begins = begins(speck, life);
         // Of what both designs have, which is there in the same order at each step.
-        let both = |step: usize| &self.outlines[step][..self.of_both];
-        let then = both(self.steps.before(begins));
-        let now = both([0, self.steps.last()][side]);
-        let born = self.born.iter().filter(|(around, _)| around.side == side);
-        let born = born.filter_map(|(around, birth)| {
-            let size = around.size_around(here)?;
-            Some((size, birth.takes(around, film, here, begins)))
+        let then = &self.outlines[self.steps.before(begins)];
+        let now = &self.outlines[[0, self.steps.last()][side]];
+        let born = self.born.iter().filter(|born| born.speck.side == side);
+        let born = born.filter_map(|born| {
+            let size = born.speck.size_around(here)?;
+            Some((size, born.birth.takes(born.speck, film, here, begins)))
         });
         let around = born.chain(carried_within(here, now, then));
         let innermost = around.min_by(|a, b| a.0.total_cmp(&b.0));

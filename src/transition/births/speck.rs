@@ -6,18 +6,12 @@ use crate::geometry::{DVec2, Side, inset, inset_depth, ring_edges, signed_area, 
 use crate::transition::levels::Levels;
 use crate::transition::outline::Outline;
 use crate::transition::steps::LAST;
+use crate::transition::timetable::{Growth, SIZES, life};
 use crate::warp::Life;
 use std::sync::OnceLock;
 
-/// Shorter times than an eighth of the film, for what would meet something in all longer ones:
-/// it is seen to jump, which is less bad.
-const JUMPS: [f64; 2] = [1.0 / 16.0, 1.0 / 32.0];
-
 /// Places along its own outline that are searched.
 const OWN_PLACES: usize = 12;
-
-/// Thicknesses that are looked at of a part that swells.
-const LEVELS: usize = 16;
 
 /// A part of one design alone.
 pub(super) struct Speck {
@@ -30,7 +24,7 @@ pub(super) struct Speck {
     /// Its centroids in source and target.
     pub(super) ends: [DVec2; 2],
     /// Its rings about its centroid, as large as they are.
-    rings: Vec<Vec<DVec2>>,
+    pub(super) rings: Vec<Vec<DVec2>>,
     /// Its size across where it is a speck, as a share of its own.
     pub(super) least: f64,
     swelling: Swelling,
@@ -40,14 +34,14 @@ pub(super) struct Speck {
 #[derive(Default)]
 struct Swelling {
     depth: OnceLock<f64>,
-    levels: [OnceLock<Vec<Vec<DVec2>>>; LEVELS + 1],
+    levels: [OnceLock<Vec<Vec<DVec2>>>; SIZES + 1],
 }
 
 impl Swelling {
     fn level(&self, level: usize, rings: &[Vec<DVec2>]) -> &[Vec<DVec2>] {
         self.levels[level].get_or_init(|| {
             let depth = self.depth.get_or_init(|| inset_depth(rings));
-            let thin = 1.0 - level as f64 / LEVELS as f64;
+            let thin = 1.0 - level as f64 / SIZES as f64;
             inset(rings, depth * thin)
         })
     }
@@ -157,8 +151,8 @@ impl Speck {
     /// `centre` were it a speck that grows: swelling, somewhat thicker than it
     /// is.
     pub(super) fn swollen(&self, centre: DVec2, share: f64) -> Vec<Outline> {
-        let level = (self.size(share) * LEVELS as f64).ceil();
-        let level = level.clamp(0.0, LEVELS as f64);
+        let level = (self.size(share) * SIZES as f64).ceil();
+        let level = level.clamp(0.0, SIZES as f64);
         let at = centre + self.off_middle_at(share);
         let placed = |ring: &Vec<DVec2>| ring.iter().map(|&p| at + p).collect();
         self.swelling
@@ -169,29 +163,14 @@ impl Speck {
             .collect()
     }
 
-    /// The times in which it may change its size, the longest first. What would meet
-    /// something in all of them comes or goes at once.
-    pub(super) fn times(&self) -> impl Iterator<Item = Life> {
-        times(self.side).chain([life(self.side, LAST)])
+    /// What it is while it swells; `diameter` is that of the whole.
+    pub(super) fn swelling(&self, diameter: f64) -> Growth {
+        Growth::of(|size| self.swelling.level(size, &self.rings), diameter)
     }
-}
 
-/// The times in which what one design has alone may change its size, the
-/// longest first: all of them begin or end where that design is.
-pub(in crate::transition) fn times(side: Side) -> impl Iterator<Item = Life> {
-    let eighths = (1..=8).rev().map(|eighths| f64::from(eighths) / 8.0);
-    eighths.chain(JUMPS).map(move |long| life(side, long))
-}
-
-/// So much of the film, from the end where what changes its size is.
-fn life(side: Side, long: f64) -> Life {
-    let whole = Life::whole(side);
-    match side {
-        Side::Source => Life { to: long, ..whole },
-        Side::Target => Life {
-            from: 1.0 - long,
-            ..whole
-        },
+    /// What would meet something in all times comes or goes at once.
+    pub(super) fn at_once(&self) -> Life {
+        life(self.side, LAST)
     }
 }
 
