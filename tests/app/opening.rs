@@ -38,6 +38,35 @@ fn every_gallery_project_opens() {
 }
 
 #[test]
+fn two_designs_that_come_together_play_and_projects_do_not() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = |name: &str, points: &str| {
+        let text = format!(
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 9 9\"><path d=\"M{points}z\"/></svg>"
+        );
+        let path = folder.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path
+    };
+    let [a, b] = [
+        file("a.svg", "0,0 9,0 9,3 0,3"),
+        file("b.svg", "0,0 3,0 3,9 0,9"),
+    ];
+    let mut window = Window::new();
+    window.send(Intent::Open(vec![a.clone()]));
+    window.wait();
+    assert!(!window.playback().is_playing(), "there is nothing to see");
+    window.send(Intent::Open(vec![a, b]));
+    window.wait();
+    assert!(window.playback().is_playing());
+    window.send(Intent::TogglePlay);
+    assert!(!window.playback().is_playing(), "it is not begun again");
+    window.send(Intent::OpenGallery(entries()[0].clone()));
+    window.wait();
+    assert!(!window.playback().is_playing());
+}
+
+#[test]
 fn a_file_that_is_none_is_said_and_the_open_project_stays() {
     let mut window = Window::with_gallery();
     let title = window.session().title();

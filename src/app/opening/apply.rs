@@ -14,6 +14,7 @@ use crate::app::looking::view::KeepsFit;
 use crate::app::opening::closing::{Lost, Question};
 use crate::app::opening::drops::Drop;
 use crate::app::playing::playback::{Playback, SAME_T};
+use crate::app::playing::presenting::Presenting;
 use crate::app::session::loading::{Problem, Request};
 use crate::app::session::origin::absolute;
 use crate::app::session::saving::SaveError;
@@ -247,8 +248,9 @@ pub fn poll(
     mut session: ResMut<Session>,
     mut notices: ResMut<Notices>,
     mut playback: ResMut<Playback>,
-    (mut keeps_fit, editor): (ResMut<KeepsFit>, Res<Editor>),
+    (mut keeps_fit, editor, presenting): (ResMut<KeepsFit>, Res<Editor>, Res<Presenting>),
     mut told: Local<Vec<Arc<Design>>>,
+    mut is_to_play: Local<bool>,
 ) {
     // Polled in each frame: only an outcome is a change.
     let may_change = playback.may_change_film(session.timing());
@@ -279,6 +281,15 @@ pub fn poll(
         Some(Outcome::Opened) => {
             playback.begin(session.timing());
             keeps_fit.0 = true;
+            // Who brings two wants to see what lies between them; of more a way is chosen
+            // first, and a project is played by whoever shows it.
+            *is_to_play = session.is_new_pair() && !presenting.is_on();
+        }
+    }
+    if *is_to_play && session.has_film() {
+        *is_to_play = false;
+        if !playback.is_playing() && playback.t() == session.timing().from {
+            playback.toggle(session.timing(), session.stops());
         }
     }
     notices.well(About::Opening);

@@ -68,6 +68,16 @@ impl Open {
         }
     }
 
+    /// Two designs that were opened together, as they came.
+    #[must_use]
+    pub fn is_new_pair(&self) -> bool {
+        let is_pair = match self.loaded.project.designs.as_slice() {
+            [a, b] => a.path != b.path,
+            _ => false,
+        };
+        is_pair && self.origin == Origin::Unsaved && !self.is_dirty()
+    }
+
     /// What is kept of it until it is saved.
     ///
     /// # Errors

@@ -305,6 +305,19 @@ impl Session {
         self.open.as_ref().is_some_and(Open::is_dirty)
     }
 
+    /// Two designs that were opened together are open, as they came.
+    #[must_use]
+    pub fn is_new_pair(&self) -> bool {
+        self.open.as_ref().is_some_and(Open::is_new_pair)
+    }
+
+    /// The film on the stage is by the method that is asked for, be it as a draft.
+    #[must_use]
+    pub fn has_film(&self) -> bool {
+        let is_by_it = |work: &Work| work.has_draft;
+        self.transition().is_some() && self.work.as_ref().is_none_or(is_by_it)
+    }
+
     /// The open project was taken up again after the program had ended without saving it.
     #[must_use]
     pub fn is_rescued(&self) -> bool {
