@@ -13,13 +13,13 @@
 //!   (rigid parts, and in `lone` how those of one design are drawn, or `boundaries`
 //!   alone) and `plane` (warps of the plane, from the `features` that they go by);
 //!   `rigid`: a mesh that is not too large
-//! - `candidate`: a matched piece and what is seen of its film; `group`: the
-//!   pieces of some parts, matched in several ways; `choice`: of several the one
-//!   with the least trouble; `parted`: all pieces out of each other's way, by the
-//!   `conflicts` that they have; `settled`: with the places of `births`, and `holes` in them
-//!   that come and go, all in their times by one `timetable`, by where their `walks` and
-//!   `outline`s are at some `steps`; `unfolded`: films with fewer folds;
-//!   `guarded`: films that keep out of their own way at every t
+//! - `candidate`: a matched piece and what is seen of its film; `group`: the pieces
+//!   of some parts, matched in several ways; `choice`: of several the one with the
+//!   least trouble; `parted`: all pieces out of each other's way, by the `conflicts`
+//!   that they have; `settled`: with the places of `births`, and `holes` in them that
+//!   come and go, all in their times by one `timetable` of their `growth`, by where
+//!   their `walks` and `outline`s are at some `steps`; `unfolded`: films with fewer
+//!   folds; `guarded`: films that keep out of their own way at every t
 //! - `found`, `kept`: what was found, as a document keeps it
 //! - `part_time`: parts that make their way in their own time
 //! - `note`: what was done otherwise than asked; `mirrored`: what might have been
@@ -46,6 +46,7 @@ mod features;
 mod found;
 mod frame;
 mod group;
+mod growth;
 mod guarded;
 mod holes;
 mod kept;

@@ -10,6 +10,7 @@
 //! Guaranteed: exchanging the designs gives the times reversed. Not guaranteed: that there
 //! are no better ones; one after the other is changed as long as that helps.
 
+use super::growth::Growth;
 use super::walks::Walks;
 use crate::content::Hole;
 use crate::geometry::{
@@ -21,9 +22,6 @@ use std::f64::consts::TAU;
 
 /// Even steps at which unrest is looked at.
 const STEPS: usize = 64;
-
-/// Sizes at which what grows is looked at.
-pub(super) const SIZES: usize = 16;
 
 /// How often all are gone through.
 const ROUNDS: u32 = 4;
@@ -65,46 +63,6 @@ pub(super) fn life(side: Side, long: f64) -> Life {
 fn eighths(side: Side) -> impl Iterator<Item = Life> {
     let long = (1..=8).rev().map(|eighths| f64::from(eighths) / 8.0);
     long.map(move |long| life(side, long))
-}
-
-/// Turning in radians, beyond that of as many points as there are outlines, and area of
-/// what grows, from no size to its own in even steps.
-#[derive(Clone)]
-pub(super) struct Growth([[f64; 2]; SIZES + 1]);
-
-impl Growth {
-    /// Of what grows in size; `diameter` is that of the whole.
-    fn scaled(rings: &[Vec<DVec2>], diameter: f64) -> Self {
-        let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
-        Self::by(rings.len(), |size| {
-            [turning(rings, diameter / size), area * size * size]
-        })
-    }
-
-    /// Of what is this at each step; `diameter` is that of the whole.
-    pub(super) fn of<'a>(at: impl Fn(usize) -> &'a [Vec<DVec2>], diameter: f64) -> Self {
-        Self::by(at(SIZES).len(), |size| {
-            let rings = at((size * SIZES as f64) as usize);
-            let area = rings.iter().map(|ring| signed_area(ring)).sum();
-            [turning(rings, diameter), area]
-        })
-    }
-
-    fn by(outlines: usize, at: impl Fn(f64) -> [f64; 2]) -> Self {
-        let mut all = [[0.0; 2]; SIZES + 1];
-        for (k, found) in all.iter_mut().enumerate().skip(1) {
-            let [turning, area] = at(k as f64 / SIZES as f64);
-            *found = [turning - TAU * outlines as f64, area];
-        }
-        Self(all)
-    }
-
-    fn at(&self, size: f64) -> [f64; 2] {
-        let at = size * SIZES as f64;
-        let below = (at as usize).min(SIZES - 1);
-        let [a, b] = [self.0[below], self.0[below + 1]];
-        [0, 1].map(|k| a[k] + (b[k] - a[k]) * (at - below as f64))
-    }
 }
 
 /// What comes or goes.
@@ -155,7 +113,7 @@ impl Timetable {
     /// In which each takes as long as it can, whatever the others do.
     pub(super) fn long(sides: impl Iterator<Item = Side>) -> Self {
         let coming = sides.map(|side| Coming {
-            growth: Growth([[0.0; 2]; SIZES + 1]),
+            growth: Growth::NONE,
             stretch: None,
             place: DVec2::ZERO,
             life: Life::whole(side),
@@ -398,7 +356,7 @@ fn unrest(sums: &[[f64; 2]]) -> f64 {
 mod tests {
     use super::*;
 
-    /// A comb that turns eight times as much as what is convex, here.
+    /// It turns much more than what is convex does.
     fn comb(x: f64) -> Vec<DVec2> {
         let mut ring: Vec<DVec2> = (0..=16)
             .map(|k| DVec2::new(f64::from(k) / 16.0, f64::from(k % 2)))

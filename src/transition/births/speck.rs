@@ -3,10 +3,11 @@
 use crate::content::middle;
 use crate::correspondence::{PieceMatch, RegionMatch};
 use crate::geometry::{DVec2, Side, inset, inset_depth, ring_edges, signed_area, winding};
+use crate::transition::growth::{Growth, SIZES};
 use crate::transition::levels::Levels;
 use crate::transition::outline::Outline;
 use crate::transition::steps::LAST;
-use crate::transition::timetable::{Growth, SIZES, life};
+use crate::transition::timetable::life;
 use crate::warp::Life;
 use std::sync::OnceLock;
 
