@@ -9,7 +9,7 @@
 use super::levels::Levels;
 use super::outline::Outline;
 use super::steps::Steps;
-use super::timetable::Timetable;
+use super::timetable::{Timetable, eighths};
 use super::walks::Walks;
 use crate::compatible::CompatibleMesh;
 use crate::content::Hole;
@@ -22,6 +22,9 @@ use rayon::prelude::*;
 /// How often holes make way: the pairs of icons and of glyphs that need it take one, and
 /// each time costs as much as the first.
 const MAKING_WAY: u32 = 3;
+
+/// What it costs in the plan to cross anything: more than a film can be restless.
+const CROSSING: f64 = 10.0;
 
 /// A hole, and the number of the piece that it is in.
 pub(super) type HoleOf = (usize, Hole);
@@ -50,8 +53,12 @@ pub(super) fn timed_by(
     if holes.is_empty() {
         return Ok(holes);
     }
-    let timetable = timetable(&holes);
     let mut scene = Scene::of(film, levels);
+    let mut timetable = timetable(&holes);
+    timetable.plan(0, |k| match holes.get(k) {
+        Some((piece, hole)) => scene.prices(hole, levels.of_piece(*piece)),
+        None => Vec::new(), // a part
+    });
     let mut order: Vec<(usize, Option<Life>)> = (0..holes.len()).map(|k| (k, None)).collect();
     let mut best = (usize::MAX, Vec::new());
     for _ in 0..=MAKING_WAY {
@@ -173,6 +180,17 @@ impl Scene {
             .iter_mut()
             .for_each(|all| all.truncate(of_both));
         Ok(lives)
+    }
+
+    /// What each of the times costs a hole that are chosen from.
+    fn prices(&self, hole: &Hole, level: usize) -> Vec<f64> {
+        let price = |life: Life| {
+            let mut hole = hole.clone();
+            hole.life = life;
+            CROSSING * self.crossed(&hole, level, 1) as f64
+        };
+        let lives: Vec<Life> = eighths(hole.side()).collect();
+        lives.into_par_iter().map(price).collect()
     }
 
     /// The first of the times in which a hole crosses least, or the one that is known.

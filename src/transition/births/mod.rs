@@ -58,7 +58,7 @@ fn timetable_of(specks: &[Speck], film: &Arap, holes: &[HoleOf], quality: Qualit
         Quality::Draft => {
             Timetable::long(holes.map(Hole::side).chain(parts.map(|(side, ..)| side)))
         }
-        Quality::Best => Timetable::calm(film, holes, parts),
+        Quality::Best => Timetable::of(film, holes, parts),
     }
 }
 
@@ -97,6 +97,9 @@ pub(super) fn placed(
     for (k, (_, hole)) in holes.iter().enumerate() {
         timetable.set(k, hole.life);
     }
+    timetable.plan(holes.len(), |k| {
+        scene.prices(&specks[k - holes.len()], film)
+    });
     for (rank, speck) in specks.iter().enumerate() {
         still_wanted(progress)?;
         scene.place(
