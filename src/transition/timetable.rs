@@ -126,7 +126,7 @@ impl Coming {
 
     /// Adds its turning and area to those at each step, so often.
     fn add(&self, sums: &mut [[f64; 2]], times: f64) {
-        let last = (sums.len() - 1) as f64;
+        let last = sums.len().saturating_sub(1) as f64;
         for (k, sum) in sums.iter_mut().enumerate() {
             let size = self.life.size(k as f64 / last);
             if size > 0.0 {
