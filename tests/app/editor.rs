@@ -259,11 +259,12 @@ fn parts_are_paired_by_two_clicks_and_freed_by_one() {
         let ring = &sides[side].parts[part][0];
         ring.iter().sum::<DVec2>() / ring.len() as f64
     };
-    window.act(EditorAct::Tool(Tool::Parts));
     let source = inside(&window, Side::Source, 0);
     let target = inside(&window, Side::Target, 1);
     let other = inside(&window, Side::Target, 0);
     window.act(EditorAct::Click(touch(Side::Source, source.x, source.y)));
+    // Nobody has to ask for parts first: within one there is nothing else to click.
+    assert_eq!(window.editor().tool, Tool::Parts);
     assert!(window.editor().first_part.is_some());
     window.act(EditorAct::Click(touch(Side::Target, target.x, target.y)));
     window.wait();
@@ -287,6 +288,12 @@ fn parts_are_paired_by_two_clicks_and_freed_by_one() {
         pieces.any(|piece| piece.fate == Fate::Dies && piece.is_linked)
     };
     assert!(dies(&window));
+    // Its boundary cannot be pinned: there, too, it is taken to be paired.
+    let corner = window.sheet().sides.as_ref().expect("outlines")[Side::Source].parts[0][0][0];
+    window.act(EditorAct::Tool(Tool::Pins));
+    window.act(EditorAct::Click(touch(Side::Source, corner.x, corner.y)));
+    assert_eq!(window.editor().tool, Tool::Parts);
+    assert!(window.editor().first_part.is_some() && window.editor().refusal.is_none());
     window.act(EditorAct::Remove(touch(Side::Source, source.x, source.y)));
     window.wait();
     assert!(window.matching().lone.is_empty() && !dies(&window));

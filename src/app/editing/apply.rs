@@ -7,7 +7,7 @@ use crate::app::asking::hand::Gesture;
 use crate::app::asking::intent::Intent;
 use crate::app::editing::editor::{CutEnd, Editor, Grab, Handle};
 use crate::app::editing::panes::Pane;
-use crate::app::editing::sheet::Sheet;
+use crate::app::editing::sheet::{Fate, Sheet, SheetPiece};
 use crate::app::session::state::Session;
 use crate::content::ContentKind;
 use crate::correspondence::{LonePart, Matching, PointPair, RingCut};
@@ -207,7 +207,7 @@ impl Editor {
             .is_some_and(|foot| foot.distance <= touch.reach);
         let landing = sheet.landing(touch, self.snaps);
         let Some(here) = landing.filter(|_| is_near || sheet.is_free()) else {
-            return;
+            return self.take_part(touch, sheet, said);
         };
         let partner = if sheet.is_free() {
             Some(here)
@@ -216,12 +216,24 @@ impl Editor {
         };
         let Some(there) = partner else {
             self.refusal = Some(NO_PARTNER);
+            if sheet.is_alone(touch) {
+                self.take_part(touch, sheet, said);
+            }
             return;
         };
         let pin = sheet.own_pair(&Pair::on(touch.side, here, there));
         keep_found(sheet, said);
         said.pins.push(pin);
         self.selected = Some(Handle::Pin(said.pins.len() - 1));
+    }
+
+    /// Where there is nothing to pin, a click takes a part, of several, to be paired by the next.
+    fn take_part(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
+        let is_part = sheet.part(touch.side, touch.at, touch.reach).is_some();
+        if sheet.pieces.len() > 1 && is_part {
+            (self.tool, self.refusal) = (Tool::Parts, None);
+            self.pair(touch, sheet, said);
+        }
     }
 
     fn pair(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
@@ -338,6 +350,17 @@ fn unlink(sheet: &Sheet, said: &mut Matching, parts: [Option<usize>; 2]) {
 }
 
 impl Sheet {
+    /// There is a part here that has no partner.
+    fn is_alone(&self, touch: Touch) -> bool {
+        let part = self.part(touch.side, touch.at, touch.reach);
+        let is_it = |piece: &SheetPiece| piece.parts[touch.side] == part;
+        let mut alone = self
+            .pieces
+            .iter()
+            .filter(|piece| piece.fate != Fate::Paired);
+        part.is_some() && alone.any(is_it)
+    }
+
     /// A point of the frame in a design's own coordinates.
     fn own(&self, side: Side, p: DVec2) -> DVec2 {
         self.by[side].inverse().apply(p)

@@ -165,6 +165,10 @@ fn advice(painter: &Painter, scene: &Scene, stage: Rect, inks: &Inks) {
             "Draw a line along an edge; it appears on both sides. Drag its ends to where they \
              belong, right-click an end to delete it."
         }
+        (Tool::Pins, _) if scene.sheet.pieces.len() > 1 => {
+            "Click a boundary to pin it, drag a point to move it (Shift: no snapping), \
+             right-click a pin to delete it. Click inside a part to pair it."
+        }
         (Tool::Pins, _) => {
             "Click a boundary to pin it, drag a point to move it (Shift: no snapping), \
              right-click a pin to delete it."
