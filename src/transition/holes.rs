@@ -55,10 +55,11 @@ pub(super) fn timed_by(
     }
     let mut scene = Scene::of(film, levels);
     let mut timetable = timetable(&holes);
-    timetable.plan(0, |k| match holes.get(k) {
+    let prices = |k| match holes.get(k) {
         Some((piece, hole)) => scene.prices(hole, levels.of_piece(*piece)),
         None => Vec::new(), // a part
-    });
+    };
+    timetable.plan(0, prices, progress)?;
     let mut order: Vec<(usize, Option<Life>)> = (0..holes.len()).map(|k| (k, None)).collect();
     let mut best = (usize::MAX, Vec::new());
     for _ in 0..=MAKING_WAY {

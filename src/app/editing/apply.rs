@@ -215,9 +215,9 @@ impl Editor {
             sheet.partner(touch.side, here)
         };
         let Some(there) = partner else {
-            self.refusal = Some(NO_PARTNER);
-            if sheet.is_alone(touch) {
-                self.take_part(touch, sheet, said);
+            match sheet.is_alone(touch) {
+                true => self.take_part(touch, sheet, said),
+                false => self.refusal = Some(NO_PARTNER),
             }
             return;
         };
@@ -231,7 +231,7 @@ impl Editor {
     fn take_part(&mut self, touch: Touch, sheet: &Sheet, said: &mut Matching) {
         let is_part = sheet.part(touch.side, touch.at, touch.reach).is_some();
         if sheet.pieces.len() > 1 && is_part {
-            (self.tool, self.refusal) = (Tool::Parts, None);
+            self.tool = Tool::Parts;
             self.pair(touch, sheet, said);
         }
     }

@@ -97,9 +97,8 @@ pub(super) fn placed(
     for (k, (_, hole)) in holes.iter().enumerate() {
         timetable.set(k, hole.life);
     }
-    timetable.plan(holes.len(), |k| {
-        scene.prices(&specks[k - holes.len()], film)
-    });
+    let prices = |k: usize| scene.prices(&specks[k - holes.len()], film);
+    timetable.plan(holes.len(), prices, progress)?;
     for (rank, speck) in specks.iter().enumerate() {
         still_wanted(progress)?;
         scene.place(

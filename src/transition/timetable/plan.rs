@@ -5,6 +5,7 @@
 
 use super::{GRAIN, ORDERLY, Timetable, eighths, life};
 use crate::geometry::{Bounds, DVec2, Side};
+use crate::progress::{Cancelled, Progress, still_wanted};
 use crate::warp::Life;
 use std::ops::Range;
 
@@ -29,11 +30,17 @@ impl Timetable {
     /// Chooses the times in which a film is restless least, but for the first ones, which have
     /// theirs, and for those after the most that are planned. Each time costs what `prices`
     /// says, if anything, for what is in the way in it.
-    pub(in crate::transition) fn plan(&mut self, fixed: usize, prices: impl Fn(usize) -> Vec<f64>) {
+    pub(in crate::transition) fn plan(
+        &mut self,
+        fixed: usize,
+        prices: impl Fn(usize) -> Vec<f64>,
+        progress: &dyn Progress,
+    ) -> Result<(), Cancelled> {
         if self.sums.is_empty() {
-            return;
+            return Ok(());
         }
         for k in (fixed..self.coming.len()).take(PRICED) {
+            still_wanted(progress)?;
             self.coming[k].prices = prices(k);
         }
         let free = fixed..self.coming.len().min(fixed + PLANNED);
@@ -41,6 +48,7 @@ impl Timetable {
         for coming in &mut self.coming {
             coming.prices.clear();
         }
+        Ok(())
     }
 
     /// The best that is found from several starts: all of them all the time, one after
@@ -83,9 +91,7 @@ impl Timetable {
         for _ in 0..ROUNDS {
             let mut is_better = false;
             for k in free.clone() {
-                let costs = self.costs(k).into_iter();
-                let least = costs.min_by(|(a, _), (b, _)| a.total_cmp(b));
-                let life = least.map_or(self.coming[k].life, |(_, life)| life);
+                let life = self.best_time(k);
                 is_better |= life != self.coming[k].life;
                 self.set(k, life);
             }
@@ -94,6 +100,13 @@ impl Timetable {
             }
         }
         self
+    }
+
+    /// The first of the times that cost one of them least, while the others keep theirs.
+    fn best_time(&self, k: usize) -> Life {
+        let costs = self.costs(k).into_iter();
+        let least = costs.min_by(|(a, _), (b, _)| a.total_cmp(b));
+        least.map_or(self.coming[k].life, |(_, life)| life)
     }
 
     /// Changes the times of two of the largest at once, where that helps, and says whether it
@@ -110,11 +123,7 @@ impl Timetable {
                 for life in eighths(self.coming[a].life.side) {
                     let mut next = self.clone();
                     next.set(a, life);
-                    let costs = next.costs(b).into_iter();
-                    let Some((_, life)) = costs.min_by(|(a, _), (b, _)| a.total_cmp(b)) else {
-                        continue;
-                    };
-                    next.set(b, life);
+                    next.set(b, next.best_time(b));
                     if next.cost() < best.cost() - GRAIN {
                         best = next;
                     }

@@ -2,6 +2,7 @@
 
 use super::plan::absence;
 use super::*;
+use crate::progress::Silent;
 
 /// It turns much more than what is convex does.
 fn comb(x: f64) -> Vec<DVec2> {
@@ -38,7 +39,7 @@ fn lives(timetable: &Timetable) -> Vec<Life> {
 
 /// The same, with times that are planned; nothing is in the way of anything.
 fn planned(mut all: Timetable) -> Timetable {
-    all.plan(0, |_| Vec::new());
+    all.plan(0, |_| Vec::new(), &Silent).expect("wanted");
     all
 }
 
@@ -88,7 +89,8 @@ fn times_that_are_not_free_are_planned_around() {
     let price = |life: Life| f64::from(u8::from(life.from < 0.75));
     let mut all = combs(&sides);
     all.set(0, life(Side::Source, 0.5));
-    all.plan(1, |k| eighths(sides[k]).map(price).collect());
+    let prices = |k: usize| eighths(sides[k]).map(price).collect();
+    all.plan(1, prices, &Silent).expect("wanted");
     let lives = lives(&all);
     assert_eq!(lives[0], life(Side::Source, 0.5));
     assert!(lives[1..].iter().all(|life| life.from >= 0.75), "{lives:?}");
