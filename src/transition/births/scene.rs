@@ -21,9 +21,11 @@ use rayon::prelude::*;
 /// Enough that it is seen to keep clear; no pair fixed it.
 const MARGIN: f64 = 0.05;
 
-/// Places along either side of the box that are searched. With 7 the worst tenth of the area of
-/// 60 pairs of icons is 0.22 instead of 0.20.
+/// Positions searched along each side of the bounding box (heuristic).
 const PLACES: u32 = 10;
+/// Positions searched for all parts together (resource limit: a hundred nested rings, none of
+/// which finds a free position, took minutes).
+const PLACES_OF_ALL: f64 = 2400.0;
 
 /// Births that are looked at beside each other. More would be looked at without
 /// knowing how good the best of them is.
@@ -101,6 +103,8 @@ pub(super) struct Scene<'a> {
     /// What has none yet, as it was drawn, the next one last.
     unplaced: Vec<(Side, Vec<Outline>)>,
     bounds: Bounds,
+    /// Candidate positions.
+    grid: Vec<DVec2>,
 }
 
 impl<'a> Scene<'a> {
@@ -122,6 +126,7 @@ impl<'a> Scene<'a> {
         };
         let all = steps.times().par_iter().map_init(|| film.placer(), at);
         let (outlines, holes): (Vec<Vec<Outline>>, _) = all.unzip();
+        let bounds = film.mesh().bounds();
         let drawn = |speck: &Speck| (speck.side, speck.at(speck.ends[speck.side], 1.0));
         Self {
             steps,
@@ -129,7 +134,8 @@ impl<'a> Scene<'a> {
             unplaced: specks.iter().rev().map(drawn).collect(),
             outlines,
             holes,
-            bounds: film.mesh().bounds(),
+            grid: grid(bounds, specks.len()),
+            bounds,
         }
     }
 
@@ -186,12 +192,11 @@ impl<'a> Scene<'a> {
         // What comes at once is for want of better.
         let most = ranked.last().map_or(0.0, |(cost, _)| *cost);
         let at_once = (most + AT_ONCE, speck.at_once());
-        let grid = if is_searched { self.grid() } else { Vec::new() };
         for (unrest, life) in ranked.into_iter().chain([at_once]) {
             if unrest >= best.0 {
                 break; // the next one costs more
             }
-            let births = self.births_in(speck, film, life, is_searched.then_some(&grid));
+            let births = self.births_in(speck, film, life, is_searched);
             let cost = |birth: &Birth| unrest + extra(birth);
             if let Some(cheaper) = self.cheapest((speck, births), film, cost, best.0) {
                 best = cheaper;
@@ -203,9 +208,8 @@ impl<'a> Scene<'a> {
     /// What each of the times costs a part that are chosen from: how far from its own place it
     /// is to be, and for how long it meets something even so.
     pub(super) fn prices(&self, speck: &Speck, film: &Arap) -> Vec<f64> {
-        let grid = self.grid();
         let price = |life: Life| {
-            let mut births = self.births_in(speck, film, life, Some(&grid));
+            let mut births = self.births_in(speck, film, life, true);
             // What that does to the film depends on the others.
             births.retain(|(_, birth)| !birth.swells);
             let cheapest = self.cheapest((speck, births), film, |_| 0.0, DEAR);
@@ -253,21 +257,20 @@ impl<'a> Scene<'a> {
         birth.map(|birth| (cost, birth))
     }
 
-    /// The births of a time, with how far each is from the part's own place; where there
-    /// is a grid also those at its places and along the part's own outline, and those that
+    /// The births of a time, with how far each is from the part's own place; where they are
+    /// searched also those at other places and along the part's own outline, and those that
     /// swell.
     fn births_in(
         &self,
         speck: &Speck,
         film: &Arap,
         life: Life,
-        grid: Option<&Vec<DVec2>>,
+        is_searched: bool,
     ) -> Vec<(f64, Birth)> {
         let own = self.carried(speck, life, film);
-        let nearby = grid.map_or_else(Vec::new, |_| speck.own_places(own));
-        let others = nearby
-            .into_iter()
-            .chain(grid.into_iter().flatten().copied());
+        let nearby = speck.own_places(own).into_iter();
+        let others = nearby.chain(self.grid.iter().copied());
+        let others = others.filter(|_| is_searched);
         // What begins at one place grows out of it as one picture would: nothing of it
         // meets, however small it is.
         let end = film.carried_back(speck.ends[speck.side], [0.0, 1.0][speck.side]);
@@ -292,18 +295,8 @@ impl<'a> Scene<'a> {
             (place.distance(own), birth)
         };
         let swelling = [own, drawn[speck.side.other()]].into_iter().map(swells);
-        let swelling = swelling.filter(|_| grid.is_some());
+        let swelling = swelling.filter(|_| is_searched);
         growing.map(grows).chain(swelling).collect()
-    }
-
-    fn grid(&self) -> Vec<DVec2> {
-        let at = |k: u32| (f64::from(k) + 0.5) / f64::from(PLACES);
-        let place =
-            |i: u32, j: u32| self.bounds.min + self.bounds.size() * DVec2::new(at(i), at(j));
-        (0..PLACES)
-            .flat_map(|i| (0..PLACES).map(move |j| (i, j)))
-            .map(|(i, j)| place(i, j))
-            .collect()
     }
 
     /// The share of the film in which it meets something, counted on to `most`.
@@ -387,4 +380,16 @@ impl<'a> Scene<'a> {
 /// When a part is a speck that grows, or was one.
 fn begins(speck: &Speck, life: Life) -> f64 {
     [life.to, life.from][speck.side]
+}
+
+/// Grid of candidate positions in `bounds` for each of `parts` parts.
+fn grid(bounds: Bounds, parts: usize) -> Vec<DVec2> {
+    let most = (PLACES_OF_ALL / parts.max(1) as f64).sqrt();
+    let places = PLACES.min(most as u32);
+    let at = |k: u32| (f64::from(k) + 0.5) / f64::from(places);
+    let place = |i: u32, j: u32| bounds.min + bounds.size() * DVec2::new(at(i), at(j));
+    (0..places)
+        .flat_map(|i| (0..places).map(move |j| (i, j)))
+        .map(|(i, j)| place(i, j))
+        .collect()
 }
