@@ -5,11 +5,11 @@
 
 use criterion::Criterion;
 use image::{Rgba, RgbaImage};
-use morphospace::content::{ColourMix, PicturePair, Raster};
+use morphospace::content::{ColourMix, PicturePair, PictureRaster};
 use morphospace::correspondence::LinePair;
 use morphospace::design::Picture;
 use morphospace::geometry::{Bounds, DVec2};
-use morphospace::warp::{LineOptions, Lines, OnGrid, PlaneGrid, Warp};
+use morphospace::warp::{GridWarp, LineOptions, LineWarp, PlaneGrid, Warp};
 use std::error::Error;
 
 const SIZE: [u32; 2] = [1920, 1080];
@@ -28,10 +28,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         max: DVec2::new(f64::from(width), f64::from(height)),
     };
     let lines: Vec<LinePair> = (0..40).map(line).collect();
-    let lines = Lines::new(&frame, &lines, &[], &LineOptions::default())?;
-    let warp = OnGrid::new(lines, PlaneGrid::covering(&frame.padded(40.0), 160));
+    let lines = LineWarp::new(&frame, &lines, &[], &LineOptions::default())?;
+    let warp = GridWarp::new(lines, PlaneGrid::covering(&frame.padded(40.0), 160));
     let mut placer = warp.placer();
-    let raster = Raster {
+    let raster = PictureRaster {
         size: SIZE,
         corner: DVec2::new(0.0, f64::from(height)),
         pixel: 1.0,

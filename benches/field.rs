@@ -8,7 +8,7 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use morphospace::content::{FieldBlend, FieldPair};
 use morphospace::field::{DistanceField, Grid, Mask, Metric, distance_transform};
 use morphospace::geometry::{DVec2, FillRule, Regions};
-use morphospace::progress::Silent;
+use morphospace::work::progress::Silent;
 use std::error::Error;
 use std::f64::consts::TAU;
 

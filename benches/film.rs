@@ -9,10 +9,10 @@
 
 use criterion::{BenchmarkId, Criterion};
 use morphospace::compatible::CompatibleMesh;
-use morphospace::film::{Film, FilmOptions};
 use morphospace::geometry::DVec2;
-use morphospace::progress::Silent;
+use morphospace::recording::{Recording, RecordingOptions};
 use morphospace::warp::{Arap, ArapOptions, Placer, Warp};
+use morphospace::work::progress::Silent;
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::error::Error;
 use std::hint::black_box;
@@ -92,7 +92,11 @@ fn main() -> Result<()> {
     for (name, side) in [("100k", 317), ("1M", 1000)] {
         let arap = Arap::build(&sheet(side)?, &ArapOptions::default(), &Silent)?;
         let begun = Instant::now();
-        let film = Film::record(Arc::new(arap.clone()), &FilmOptions::default(), &Silent)?;
+        let film = Recording::record(
+            Arc::new(arap.clone()),
+            &RecordingOptions::default(),
+            &Silent,
+        )?;
         println!(
             "film of {name}: recorded in {:.3} s by {} solves, {} bytes a vertex, error {:.1e}",
             begun.elapsed().as_secs_f64(),

@@ -20,9 +20,9 @@ use faer::sparse::{SparseColMat, Triplet};
 use faer::{Conj, MatMut, Par, Side};
 use morphospace::compatible::CompatibleMesh;
 use morphospace::geometry::DVec2;
-use morphospace::linalg::{Cholesky, SymmetricMatrix};
-use morphospace::progress::Silent;
+use morphospace::numerics::{Cholesky, SymmetricMatrix};
 use morphospace::warp::{Arap, ArapOptions, Warp};
+use morphospace::work::progress::Silent;
 use std::hint::black_box;
 
 /// A square sheet of `side`² vertices, and the same bent into a half ring.

@@ -10,13 +10,13 @@
 
 use criterion::Criterion;
 use image::{DynamicImage, ImageFormat, Rgba, RgbaImage};
-use morphospace::content::{ContentKind, Raster};
+use morphospace::content::{ContentKind, PictureRaster};
 use morphospace::correspondence::LinePair;
 use morphospace::design::{Design, ImportOptions, import};
 use morphospace::geometry::{Bounds, DVec2};
-use morphospace::progress::Silent;
-use morphospace::transition::{Cell, Frame, Transition, TransitionSpec};
-use morphospace::warp::{LineOptions, Lines, Placement, PlaneGrid, PlaneWarp, WarpKind};
+use morphospace::transition::{Frame, Transition, TransitionMethod, TransitionSpec};
+use morphospace::warp::{LineOptions, LineWarp, Placement, PlaneGrid, PlaneWarp, WarpKind};
+use morphospace::work::progress::Silent;
 use std::error::Error;
 use std::io::Cursor;
 use std::process::Command;
@@ -29,7 +29,7 @@ const SIDE: usize = 1024;
 const COUNT: u32 = 40;
 
 /// The frame, its pixels in the plane.
-const PIXELS: Raster = Raster {
+const PIXELS: PictureRaster = PictureRaster {
     size: [SIDE as u32; 2],
     corner: DVec2::new(0.0, SIDE as f64),
     pixel: 1.0,
@@ -78,7 +78,7 @@ fn design(shift: u32) -> Result<Arc<Design>> {
 
 fn transition() -> Result<Transition> {
     let mut spec = TransitionSpec::new(design(0)?, design(1)?);
-    spec.cell = Cell::new(WarpKind::Lines, ContentKind::Colours)?;
+    spec.cell = TransitionMethod::new(WarpKind::Lines, ContentKind::Colours)?;
     spec.options.matching.lines = (0..COUNT).map(pair).collect();
     Ok(Transition::build(&spec, &Silent)?)
 }
@@ -193,7 +193,7 @@ fn warp(criterion: &mut Criterion) -> Result<()> {
             falloff,
             ..LineOptions::default()
         };
-        let mut warp = Lines::new(&bounds, &lines, &[], &options)?;
+        let mut warp = LineWarp::new(&bounds, &lines, &[], &options)?;
         let mut designs = [grid.places().to_vec(), grid.places().to_vec()];
         let name = format!("frame/{} places, b = {falloff}", grid.places().len());
         criterion.bench_function(&name, |bench| {

@@ -3,7 +3,7 @@
 //! `cargo bench --no-default-features --bench matching`
 
 use criterion::{BenchmarkId, Criterion};
-use morphospace::correspondence::{Curve, MatchOptions, match_curves};
+use morphospace::correspondence::{BoundaryCurve, MatchOptions, match_curves};
 use morphospace::geometry::{DVec2, Ring};
 use std::error::Error;
 use std::f64::consts::TAU;
@@ -19,13 +19,15 @@ fn main() -> Result<()> {
 }
 
 /// A lobed outline without symmetry.
-fn lobes(count: u32, lobes: f64) -> Result<Curve> {
+fn lobes(count: u32, lobes: f64) -> Result<BoundaryCurve> {
     let point = |k: u32| {
         let a = TAU * f64::from(k) / f64::from(count);
         let radius = 2.0 + (lobes * a).sin().powi(3) + 0.3 * a.cos();
         radius * DVec2::from_angle(a)
     };
-    Ok(Curve::closed(&Ring::new((0..count).map(point).collect())?)?)
+    Ok(BoundaryCurve::closed(&Ring::new(
+        (0..count).map(point).collect(),
+    )?)?)
 }
 
 /// Two outlines of the same number of points, by samples and by points.

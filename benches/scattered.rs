@@ -10,7 +10,7 @@ use criterion::{BenchmarkId, Criterion, Throughput};
 use morphospace::correspondence::PointPair;
 use morphospace::geometry::{Bounds, DVec2};
 use morphospace::warp::{
-    Basis, Lattice, LatticeOptions, PlaneGrid, PlaneWarp, Scattered, ScatteredOptions,
+    Lattice, LatticeOptions, PlaneGrid, PlaneWarp, RadialBasis, ScatteredOptions, ScatteredWarp,
 };
 use std::error::Error;
 
@@ -40,7 +40,7 @@ fn value(p: &DVec2) -> DVec2 {
     DVec2::new((3.0 * p.x).sin() + p.y * p.y, p.x * (2.0 * p.y).cos())
 }
 
-fn with(basis: Basis) -> ScatteredOptions {
+fn with(basis: RadialBasis) -> ScatteredOptions {
     ScatteredOptions {
         basis,
         width: 0.25 / std::f64::consts::SQRT_2, // a quarter of the side
@@ -58,7 +58,11 @@ fn rasters(criterion: &mut Criterion) -> Result<()> {
     let mut group = criterion.benchmark_group("raster");
     group.sample_size(10);
     group.throughput(Throughput::Elements(512 * 512));
-    for basis in [Basis::ThinPlate, Basis::Gaussian, Basis::Multiquadric] {
+    for basis in [
+        RadialBasis::ThinPlate,
+        RadialBasis::Gaussian,
+        RadialBasis::Multiquadric,
+    ] {
         for count in [50, 200, 500] {
             let centres = spread(count, 0.0).into_iter();
             let pairs: Vec<_> = centres
@@ -67,7 +71,7 @@ fn rasters(criterion: &mut Criterion) -> Result<()> {
                     target: value(&source),
                 })
                 .collect();
-            let mut warp = Scattered::new(&SQUARE, &pairs, &[], with(basis))?;
+            let mut warp = ScatteredWarp::new(&SQUARE, &pairs, &[], with(basis))?;
             for threads in [1, 2] {
                 let pool = rayon::ThreadPoolBuilder::new()
                     .num_threads(threads)
@@ -101,8 +105,12 @@ fn frames(criterion: &mut Criterion) -> Result<()> {
     let mut group = criterion.benchmark_group("frame");
     group.sample_size(10);
     for count in [10, 50, 200, 500] {
-        for basis in [Basis::ThinPlate, Basis::Gaussian, Basis::Multiquadric] {
-            let warp = Scattered::new(&SQUARE, &pairs(count), &[], with(basis))?;
+        for basis in [
+            RadialBasis::ThinPlate,
+            RadialBasis::Gaussian,
+            RadialBasis::Multiquadric,
+        ] {
+            let warp = ScatteredWarp::new(&SQUARE, &pairs(count), &[], with(basis))?;
             group.bench_function(BenchmarkId::new(format!("{basis:?}"), count), |b| {
                 b.iter(frame(&warp));
             });

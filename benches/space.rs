@@ -5,12 +5,12 @@
 
 use criterion::Criterion;
 use morphospace::design::Design;
-use morphospace::export::{Drawing, PixelSize, View, rasterise};
+use morphospace::export::{Drawing, PixelSize, PlaneView, rasterise};
 use morphospace::geometry::DVec2;
-use morphospace::measure::Landscape;
-use morphospace::progress::Silent;
-use morphospace::space::{Map, MapLayout, Space, SpaceSpec};
-use morphospace::transition::Style;
+use morphospace::measure::MapLandscape;
+use morphospace::space::{DesignSpace, MapLayout, SpaceSpec, WeightMap};
+use morphospace::transition::TransitionStyle;
+use morphospace::work::progress::Silent;
 use std::error::Error;
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -24,10 +24,10 @@ const SIZE: [u32; 2] = [360, 472];
 fn main() -> Result<(), Box<dyn Error>> {
     let mut criterion = Criterion::default().configure_from_args().sample_size(30);
     let designs: Vec<Arc<Design>> = (0..6).map(flower).collect::<Result<_, _>>()?;
-    let space = Space::build(&SpaceSpec::new(designs), &Silent)?;
+    let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent)?;
     // Fields would be another figure.
     space.family().ok_or("no common mesh")?;
-    let map = Map::new(&MapLayout::Polygon.sites(space.likeness()))?;
+    let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness()))?;
     let mut frame = space.frame();
     let mut weights = [0.0; 6];
     let mut k = 0;
@@ -43,20 +43,20 @@ fn main() -> Result<(), Box<dyn Error>> {
     });
     let size = PixelSize::new(SIZE[0], SIZE[1])?;
     let bounds = space.bounds();
-    let view = View::fit(bounds.padded(0.04 * bounds.diameter()), size);
+    let view = PlaneView::fit(bounds.padded(0.04 * bounds.diameter()), size);
     criterion.bench_function("weights, solve and draw, 6 designs", |bencher| {
         bencher.iter(|| {
             map.weights(place(), &mut weights);
             frame.seek(&weights);
             let mut drawing = Drawing::new(size, None);
             let tint = space.tint(&weights);
-            drawing.push_figure(&frame.figure(), tint, &Style::default(), &view);
+            drawing.push_figure(&frame.figure(), tint, &TransitionStyle::default(), &view);
             rasterise(&drawing)
         });
     });
     let mut slow = Criterion::default().configure_from_args().sample_size(10);
     slow.bench_function("64 x 64 measures of the map", |bencher| {
-        bencher.iter(|| Landscape::of((&space, &map), 64, 1.2, &Silent));
+        bencher.iter(|| MapLandscape::of((&space, &map), 64, 1.2, &Silent));
     });
     slow.final_summary();
     Ok(())

@@ -15,12 +15,12 @@
 mod studio;
 
 use morphospace::design::Design;
-use morphospace::film::FilmOptions;
 use morphospace::geometry::DVec2;
 use morphospace::mesh::{MeshError, TriangleMesh};
-use morphospace::progress::Silent;
 use morphospace::project::gallery;
+use morphospace::recording::RecordingOptions;
 use morphospace::transition::{Transition, TransitionSpec};
+use morphospace::work::progress::Silent;
 use std::error::Error;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -106,7 +106,7 @@ fn measured(studio: &mut Studio, made: Made) -> Result<String, Box<dyn Error>> {
     let first = begun.elapsed();
     let solved = frames(studio, &scene)?;
     let begun = Instant::now();
-    transition.record(&FilmOptions::default(), &Silent)?;
+    transition.record(&RecordingOptions::default(), &Silent)?;
     let recorded = begun.elapsed();
     studio.wait_until_played();
     let played = frames(studio, &scene)?;

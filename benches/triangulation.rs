@@ -6,7 +6,7 @@
 use criterion::{BenchmarkId, Criterion};
 use morphospace::compatible::{CompatibleMesh, PolygonOptions};
 use morphospace::geometry::DVec2;
-use morphospace::progress::Silent;
+use morphospace::work::progress::Silent;
 use std::f64::consts::TAU;
 
 type Pair = [Vec<Vec<DVec2>>; 2];

@@ -10,11 +10,11 @@ use bevy::prelude::*;
 use morphospace::colour::Rgb;
 use morphospace::geometry::DVec2;
 use morphospace::mesh::{MeshError, TriangleMesh};
-use morphospace::space::Map;
+use morphospace::space::WeightMap;
 use morphospace::stage::{
-    BlendWeights, BuildFailed, MeshFamily, MorphPlugin, MorphSystems, Show, StageStyle,
+    BlendWeights, BuildFailed, MeshFamily, MorphPlugin, MorphSystems, StageStyle, StageVisibility,
 };
-use morphospace::transition::Style;
+use morphospace::transition::TransitionStyle;
 
 /// Half a side of the square that the puck walks in, and where its middle is.
 const HALF: f32 = 110.0;
@@ -31,7 +31,7 @@ const SITES: [Vec2; 4] = [
 /// What is dragged, and the map that it walks on.
 #[derive(Component)]
 struct Puck {
-    map: Map,
+    map: WeightMap,
     has_been_touched: bool,
 }
 
@@ -75,13 +75,13 @@ fn spawn_stars(mut commands: Commands) -> Result {
             star(130.0, 150.0, 0.0)?,
         ]),
         StageStyle {
-            style: Style {
+            style: TransitionStyle {
                 source: Rgb([0x4c, 0x8f, 0xd6]),
                 target: Rgb([0xe3, 0x9a, 0x3b]),
                 ground: Rgb([0x1b, 0x1f, 0x27]),
                 ..default()
             },
-            show: Show {
+            show: StageVisibility {
                 wireframe: true,
                 ..default()
             },
@@ -105,7 +105,7 @@ fn spawn_puck(
         commands.spawn((dot, Transform::from_translation(at.extend(0.0))));
     }
     let puck = Puck {
-        map: Map::new(&SITES.map(|site| site.as_dvec2()))?,
+        map: WeightMap::new(&SITES.map(|site| site.as_dvec2()))?,
         has_been_touched: false,
     };
     commands.spawn((puck, shape(Circle::new(12.0).into(), 0xd0)));

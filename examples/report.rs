@@ -6,9 +6,9 @@
 use std::error::Error;
 
 use morphospace::measure::{self, Verdict};
-use morphospace::progress::Silent;
 use morphospace::project::gallery;
 use morphospace::transition::Transition;
+use morphospace::work::progress::Silent;
 use serde_json::{Value, json};
 
 /// At how many values of t the film is measured.

@@ -11,9 +11,10 @@ use morphospace::colour::Rgb;
 use morphospace::geometry::DVec2;
 use morphospace::mesh::{MeshError, TriangleMesh};
 use morphospace::stage::{
-    Blend, BuildFailed, Morph, MorphPlugin, MorphSystems, Show, SourceMesh, StageStyle, TargetMesh,
+    Blend, BuildFailed, Morph, MorphPlugin, MorphSystems, SourceMesh, StageStyle, StageVisibility,
+    TargetMesh,
 };
-use morphospace::transition::Style;
+use morphospace::transition::TransitionStyle;
 
 /// Seconds from one star to the other and back.
 const PERIOD_SECS: f64 = 6.0;
@@ -64,13 +65,13 @@ fn spawn_pair(mut commands: Commands) -> Result {
         SourceMesh(star(110.0, 190.0, 0.0)?),
         TargetMesh(star(150.0, 330.0, 0.5)?),
         StageStyle {
-            style: Style {
+            style: TransitionStyle {
                 source: Rgb([0x4c, 0x8f, 0xd6]),
                 target: Rgb([0xe3, 0x9a, 0x3b]),
                 ground: Rgb([0x1b, 0x1f, 0x27]),
                 ..default()
             },
-            show: Show {
+            show: StageVisibility {
                 wireframe: true,
                 ..default()
             },

@@ -7,7 +7,7 @@
 
 mod gradient;
 
-pub use gradient::{Course, Gradient, Spread, Stop};
+pub use gradient::{Gradient, GradientGeometry, GradientSpread, GradientStop};
 
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -36,13 +36,13 @@ pub struct Rgb(pub [u8; 3]);
 /// A text that is no colour.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("\"{0}\" is no colour; write it as #rrggbb, for example #3b78c2")]
-pub struct NoColour(String);
+pub struct ColourError(String);
 
 impl std::str::FromStr for Rgb {
-    type Err = NoColour;
+    type Err = ColourError;
 
-    fn from_str(text: &str) -> Result<Self, NoColour> {
-        let wrong = || NoColour(text.to_owned());
+    fn from_str(text: &str) -> Result<Self, ColourError> {
+        let wrong = || ColourError(text.to_owned());
         let hex = text.strip_prefix('#').ok_or_else(wrong)?;
         // `from_str_radix` alone would take "+f6fb3".
         if hex.len() != 6 || !hex.bytes().all(|b| b.is_ascii_hexdigit()) {
@@ -180,19 +180,19 @@ impl Paint {
 
 /// A line along an outline, half of it on either side.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Line {
+pub struct StrokeStyle {
     /// What it is drawn with.
     pub paint: Paint,
     /// How wide it is, in units of the design.
     pub width: f64,
     /// What its corners look like.
-    pub join: Join,
+    pub join: StrokeJoin,
 }
 
 /// What the corners of a line look like.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Join {
+pub enum StrokeJoin {
     /// Pointed, unless the point is farther from the corner than this many half
     /// widths: then cut off.
     Mitre(f64),
@@ -202,7 +202,7 @@ pub enum Join {
     Bevel,
 }
 
-impl Line {
+impl StrokeStyle {
     /// The line at `t` on the way from one to another: paint and width change
     /// evenly, the corners in the middle. Where there is none at an end it has no
     /// width there.
@@ -322,21 +322,21 @@ mod tests {
 
     #[test]
     fn a_line_that_one_end_has_alone_grows_in_width() {
-        let line = Line {
+        let line = StrokeStyle {
             paint: Rgb([1, 2, 3]).into(),
             width: 4.0,
-            join: Join::Round,
+            join: StrokeJoin::Round,
         };
-        assert_eq!(Line::between([None, None], 0.5), None);
-        assert_eq!(Line::between([None, Some(line)], 1.0), Some(line));
-        let quarter = Line::between([None, Some(line)], 0.25).expect("a line");
+        assert_eq!(StrokeStyle::between([None, None], 0.5), None);
+        assert_eq!(StrokeStyle::between([None, Some(line)], 1.0), Some(line));
+        let quarter = StrokeStyle::between([None, Some(line)], 0.25).expect("a line");
         assert_eq!((quarter.width, quarter.paint), (1.0, line.paint));
-        let wide = Line {
+        let wide = StrokeStyle {
             width: 8.0,
-            join: Join::Bevel,
+            join: StrokeJoin::Bevel,
             ..line
         };
-        let half = Line::between([Some(line), Some(wide)], 0.5).expect("a line");
-        assert_eq!((half.width, half.join), (6.0, Join::Bevel));
+        let half = StrokeStyle::between([Some(line), Some(wide)], 0.5).expect("a line");
+        assert_eq!((half.width, half.join), (6.0, StrokeJoin::Bevel));
     }
 }

@@ -97,20 +97,17 @@
 //! Coordinates are `f64` with y up. The core keeps no global state, logs
 //! nothing and prints nothing.
 
-mod atomic_file;
-pub mod budget;
-pub mod colour;
-pub mod easing;
-#[cfg(feature = "cli")]
-mod file_name;
-pub mod names;
-mod one_line;
-pub mod progress;
-mod reading;
+mod io;
+pub mod settings;
+pub mod time;
+pub mod work;
 
+pub mod colour;
+
+mod error;
 pub mod geometry;
-pub mod linalg;
 pub mod mesh;
+pub mod numerics;
 
 pub mod field;
 
@@ -120,12 +117,10 @@ pub mod correspondence;
 
 pub mod compatible;
 
-pub mod homotopy;
-
 pub mod content;
 pub mod warp;
 
-pub mod film;
+pub mod recording;
 
 pub mod transition;
 
@@ -137,8 +132,6 @@ pub mod project;
 
 pub mod export;
 
-mod short;
-
 #[cfg(feature = "bevy")]
 pub mod stage;
 
@@ -149,10 +142,10 @@ pub mod app;
 pub mod cli;
 
 pub use design::Design;
+pub use error::{Error, open_pair, open_project};
 pub use export::{Camera, PixelSize};
 pub use geometry::DVec2;
-pub use short::{Error, open_pair, open_project};
-pub use transition::{Cell, Figure, Frame, Transition};
+pub use transition::{Frame, Transition, TransitionMethod, VectorFigure};
 
 /// What the readme shows is compiled.
 #[cfg(doctest)]

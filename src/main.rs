@@ -2,12 +2,13 @@
 
 use std::process::ExitCode;
 
-use morphospace::cli::{self, Launch};
+use morphospace::cli;
+use morphospace::cli::LaunchOutcome;
 
 fn main() -> ExitCode {
     match cli::run(std::env::args_os()) {
-        Launch::Done(code) => code,
-        Launch::Window(request) => open_window(request),
+        LaunchOutcome::Done(code) => code,
+        LaunchOutcome::Window(request) => open_window(request),
     }
 }
 

@@ -14,9 +14,9 @@ use morphospace::correspondence::PointPair;
 use morphospace::design::Truss;
 use morphospace::measure::{self, Verdict};
 use morphospace::mesh::TriangleMesh;
-use morphospace::progress::{Progress, Silent};
 use morphospace::transition::{BuildError, TransitionSpec};
-use morphospace::{Cell, DVec2, Design, Transition};
+use morphospace::work::progress::{Progress, Silent};
+use morphospace::{DVec2, Design, Transition, TransitionMethod};
 
 /// Five times the half second that is promised.
 const BOUND: Duration = Duration::from_millis(2500);
@@ -211,7 +211,7 @@ fn trusses_are_cancelled_at_every_stage() {
 #[test]
 fn fields_are_cancelled_at_every_stage() {
     let (source, target) = (gear("gear", 40, 0.3, 3), gear("ring", 17, 0.6, 1));
-    for cell in Cell::all().filter(|cell| cell.content() == ContentKind::Field) {
+    for cell in TransitionMethod::all().filter(|cell| cell.content() == ContentKind::Field) {
         let mut spec = spec(&source, &target);
         spec.cell = cell;
         spec.options.field.cells = 700;
@@ -233,7 +233,7 @@ fn the_choice_of_a_method_is_cancelled_at_every_stage() {
 #[test]
 fn a_plane_about_many_pins_is_cancelled_at_every_stage() {
     let mut spec = spec(&gear("gear", 30, 0.3, 3), &gear("ring", 17, 0.6, 1));
-    spec.cell = Cell::all()
+    spec.cell = TransitionMethod::all()
         .find(|cell| cell.content() == ContentKind::Field)
         .expect("a cell");
     let pin = |k: u32| {
@@ -279,7 +279,7 @@ fn what_would_take_very_long_is_said_in_advance() {
         Transition::build(&spec, &Silent).is_ok(),
         "a blend meanwhile"
     );
-    spec.cell = Cell::RIGID_PARTS;
+    spec.cell = TransitionMethod::RIGID_PARTS;
     // Subdivisions are counted before anything is done.
     spec.source = Arc::clone(&net);
     spec.target = net;
@@ -291,7 +291,7 @@ fn what_would_take_very_long_is_said_in_advance() {
         "{refused}"
     );
     spec.options.arap.subdivisions = 0;
-    spec.cell = Cell::FIELD_BLEND;
+    spec.cell = TransitionMethod::FIELD_BLEND;
     spec.options.field.cells = 8192;
     let refused = Transition::build(&spec, &Silent).expect_err("too much");
     assert!(

@@ -5,8 +5,8 @@
 
 use morphospace::design::{Design, ImportOptions, import_file};
 use morphospace::geometry::orient2d;
-use morphospace::progress::Silent;
 use morphospace::transition::{Transition, TransitionSpec};
+use morphospace::work::progress::Silent;
 use rayon::prelude::*;
 use std::path::Path;
 use std::sync::Arc;

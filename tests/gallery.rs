@@ -1,17 +1,17 @@
 //! The bundled projects are what the gallery says of them.
 
-use morphospace::film::FilmOptions;
 use morphospace::geometry::DVec2;
-use morphospace::progress::Silent;
 use morphospace::project::{LoadedProject, gallery};
-use morphospace::transition::{Figure, Sequence, Transition};
+use morphospace::recording::RecordingOptions;
+use morphospace::transition::{Sequence, Transition, VectorFigure};
+use morphospace::work::progress::Silent;
 
 fn build(name: &str) -> Transition {
     let loaded = gallery::load(name).expect(name);
     loaded.legs()[0].build(&Silent).expect(name)
 }
 
-fn at(name: &str, t: f64) -> Figure {
+fn at(name: &str, t: f64) -> VectorFigure {
     build(name).frame(t).figure()
 }
 
@@ -24,7 +24,7 @@ fn signed_area(ring: &[DVec2]) -> f64 {
 }
 
 /// Pieces and holes of a figure; specks of less than a cell do not count.
-fn pieces_and_holes(figure: &Figure) -> (usize, usize) {
+fn pieces_and_holes(figure: &VectorFigure) -> (usize, usize) {
     let areas: Vec<f64> = figure.rings.iter().map(|ring| signed_area(ring)).collect();
     let largest = areas.iter().copied().fold(0.0, f64::max);
     let speck = largest * 1e-4;
@@ -73,7 +73,7 @@ fn a_way_through_many_designs_leads_back() {
     let built: Vec<Transition> = built.collect::<Result<_, _>>().expect("built");
     let sequence = Sequence::new(built).expect("legs").leading_back(true);
     let mut frame = sequence.frame(0.0);
-    let area = |figure: &Figure| -> f64 { figure.rings.iter().map(|r| signed_area(r)).sum() };
+    let area = |figure: &VectorFigure| -> f64 { figure.rings.iter().map(|r| signed_area(r)).sum() };
     let first = area(&frame.now().figure());
     frame.seek(5.0);
     assert!((area(&frame.now().figure()) - first).abs() < 1e-9 * first);
@@ -143,7 +143,7 @@ fn films_of_rigid_parts_are_recorded_in_few_solves() {
             if transition.arap().is_none() {
                 continue;
             }
-            let film = transition.record(&FilmOptions::default(), &Silent);
+            let film = transition.record(&RecordingOptions::default(), &Silent);
             let film = film.expect(&entry.name);
             let most = match entry.name.as_str() {
                 // Its coil turns three times.

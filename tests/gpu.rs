@@ -23,9 +23,9 @@ use std::process::ExitCode;
 use image::RgbaImage;
 use morphospace::colour::Rgb;
 use morphospace::content::Content;
-use morphospace::export::{Drawing, PixelSize, View, rasterise};
+use morphospace::export::{Drawing, PixelSize, PlaneView, rasterise};
 use morphospace::geometry::{Bounds, DVec2};
-use morphospace::stage::Show;
+use morphospace::stage::StageVisibility;
 
 use scenes::{field, of_gallery, perforated, solid, truss};
 use studio::{Scene, Studio};
@@ -123,7 +123,7 @@ impl Studio {
     pub fn compare(&mut self, scene: &Scene, t: f64) -> (RgbaImage, RgbaImage) {
         let gpu = self.picture(scene, t).expect("a picture");
         let size = PixelSize::new(scene.size[0], scene.size[1]).expect("a size");
-        let view = View::fit(scene.view, size);
+        let view = PlaneView::fit(scene.view, size);
         let frame = scene.transition.frame(t);
         let cpu = rasterise(&Drawing::of_frame(
             &frame,
@@ -269,11 +269,11 @@ fn every_size_is_drawn_and_others_are_refused(studio: &mut Studio) {
 }
 
 fn overlays_are_seen(studio: &mut Studio) {
-    let fill_only = Show {
+    let fill_only = StageVisibility {
         bars: true,
-        ..Show::default()
+        ..StageVisibility::default()
     };
-    type Switch = fn(&mut Show);
+    type Switch = fn(&mut StageVisibility);
     let shows: [(&str, Switch); 4] = [
         ("wireframe", |show| show.wireframe = true),
         ("ghosts", |show| show.ghosts = true),

@@ -3,9 +3,9 @@
 
 use image::{DynamicImage, GrayImage, ImageFormat, Luma};
 use morphospace::design::{
-    Design, DxfError, Form, ImportError, ImportOptions, JsonError, ObjError, ObjFault,
-    PictureError, PolygonsError, Problem, ReadError, Source, SvgError, TrussInputError,
-    UnknownFormat, import, import_file,
+    Design, DesignForm, DesignSource, DxfError, ImportError, ImportOptions, ImportProblem,
+    JsonError, ObjError, ObjFault, PolygonsImportError, ReadError, SilhouetteError, SvgError,
+    TrussInputError, UnknownFormat, import, import_file,
 };
 use proptest::prelude::*;
 use std::io::Cursor;
@@ -38,7 +38,7 @@ fn read(bytes: &[u8]) -> Result<Design, ImportError> {
     import("given", bytes, &ImportOptions::default())
 }
 
-fn problem(bytes: &[u8]) -> Problem {
+fn problem(bytes: &[u8]) -> ImportProblem {
     let error = read(bytes).expect_err("bad input");
     let message = error.to_string();
     assert!(message.starts_with("given: "), "{message}");
@@ -86,18 +86,24 @@ fn a_missing_file_a_folder_and_an_empty_file_are_named() {
     let options = ImportOptions::default();
     let missing = folder.path().join("nowhere.png");
     let error = import_file(&missing, &options).expect_err("missing");
-    assert!(matches!(error.problem, Problem::Read(ReadError::Missing)));
+    assert!(matches!(
+        error.problem,
+        ImportProblem::Read(ReadError::Missing)
+    ));
     assert!(
         error
             .to_string()
             .contains("nowhere.png: there is no such file")
     );
     let error = import_file(folder.path(), &options).expect_err("a folder");
-    assert!(matches!(error.problem, Problem::Read(ReadError::Folder)));
+    assert!(matches!(
+        error.problem,
+        ImportProblem::Read(ReadError::Folder)
+    ));
     let empty = folder.path().join("empty.svg");
     std::fs::write(&empty, "").expect("written");
     let error = import_file(&empty, &options).expect_err("empty");
-    assert!(matches!(error.problem, Problem::Empty));
+    assert!(matches!(error.problem, ImportProblem::Empty));
     assert!(import_file(Path::new(""), &options).is_err());
 }
 
@@ -136,7 +142,9 @@ fn truncated_pictures_are_refused() {
             assert!(
                 matches!(
                     problem(&bytes[..keep]),
-                    Problem::Picture(PictureError::Truncated | PictureError::Damaged(_))
+                    ImportProblem::Picture(
+                        SilhouetteError::Truncated | SilhouetteError::Damaged(_)
+                    )
                 ),
                 "{format:?} {keep}"
             );
@@ -149,15 +157,15 @@ fn truncated_texts_are_refused() {
     // What is no JSON is neither truss nor polygons, and told by its line.
     assert!(matches!(
         problem(&TRUSS.as_bytes()[..40]),
-        Problem::Polygons(PolygonsError::Json(JsonError { line: 1, .. }))
+        ImportProblem::Polygons(PolygonsImportError::Json(JsonError { line: 1, .. }))
     ));
     assert!(matches!(
         problem(&SVG.as_bytes()[..90]),
-        Problem::Svg(SvgError::Xml(_))
+        ImportProblem::Svg(SvgError::Xml(_))
     ));
     assert!(matches!(
         problem(&OBJ.as_bytes()[..OBJ.len() - 4]),
-        Problem::Obj(ObjError::Line {
+        ImportProblem::Obj(ObjError::Line {
             line: 6,
             fault: ObjFault::TooFewCorners(2)
         })
@@ -185,13 +193,13 @@ fn a_picture_that_claims_to_be_huge_is_refused_by_its_size() {
         );
         assert!(matches!(
             found,
-            Problem::Picture(PictureError::TooManyPixels { .. })
+            ImportProblem::Picture(SilhouetteError::TooManyPixels { .. })
         ));
     }
     // The largest that is read gets as far as its missing pixels.
     assert!(matches!(
         problem(&png_claiming(8192, 6144)),
-        Problem::Picture(PictureError::Damaged(_))
+        ImportProblem::Picture(SilhouetteError::Damaged(_))
     ));
 }
 
@@ -206,7 +214,7 @@ fn an_empty_mask_is_refused() {
             .expect("encodes");
         assert!(matches!(
             problem(&bytes.into_inner()),
-            Problem::Picture(PictureError::Empty { .. } | PictureError::OneTone)
+            ImportProblem::Picture(SilhouetteError::Empty { .. } | SilhouetteError::OneTone)
         ));
     }
 }
@@ -216,7 +224,7 @@ fn hostile_meshes_and_trusses_are_named() {
     let nan = OBJ.replace("v 1 1 0", "v NaN 1 0");
     assert!(matches!(
         problem(nan.as_bytes()),
-        Problem::Obj(ObjError::Line {
+        ImportProblem::Obj(ObjError::Line {
             line: 3,
             fault: ObjFault::Place(3)
         })
@@ -224,7 +232,7 @@ fn hostile_meshes_and_trusses_are_named() {
     let outside = OBJ.replace("f 1 3 4", "f 1 3 5");
     assert!(matches!(
         problem(outside.as_bytes()),
-        Problem::Obj(ObjError::Line {
+        ImportProblem::Obj(ObjError::Line {
             line: 6,
             fault: ObjFault::OutOfRange {
                 face: 2,
@@ -242,12 +250,12 @@ fn hostile_meshes_and_trusses_are_named() {
     let deep = format!("{{\"nodes\": {}", "[".repeat(100_000));
     assert!(matches!(
         problem(deep.as_bytes()),
-        Problem::Polygons(PolygonsError::Json(JsonError { line: 1, .. }))
+        ImportProblem::Polygons(PolygonsImportError::Json(JsonError { line: 1, .. }))
     ));
     let closed = format!("{{\"nodes\": {}{}}}", "[".repeat(1000), "]".repeat(1000));
     assert!(matches!(
         problem(closed.as_bytes()),
-        Problem::Truss(TrussInputError::Json(JsonError { line: 1, .. }))
+        ImportProblem::Truss(TrussInputError::Json(JsonError { line: 1, .. }))
     ));
 }
 
@@ -261,7 +269,7 @@ fn nested_use_is_refused() {
     let text = format!(r#"<svg xmlns="http://www.w3.org/2000/svg">{body}</svg>"#);
     assert!(matches!(
         problem(text.as_bytes()),
-        Problem::Svg(SvgError::TooManyElements { .. })
+        ImportProblem::Svg(SvgError::TooManyElements { .. })
     ));
 }
 
@@ -269,19 +277,19 @@ fn nested_use_is_refused() {
 fn other_formats_and_noise_are_refused_in_words() {
     assert!(matches!(
         problem(b"GIF89a....."),
-        Problem::Unknown(UnknownFormat::Other { .. })
+        ImportProblem::Unknown(UnknownFormat::Other { .. })
     ));
     assert!(matches!(
         problem(b"\x1f\x8b\x08\0"),
-        Problem::Unknown(UnknownFormat::Other { .. })
+        ImportProblem::Unknown(UnknownFormat::Other { .. })
     ));
     assert!(matches!(
         problem(b"hello"),
-        Problem::Unknown(UnknownFormat::Unknown)
+        ImportProblem::Unknown(UnknownFormat::Unknown)
     ));
     assert!(matches!(
         problem(b"<p>hello</p>"),
-        Problem::Unknown(UnknownFormat::XmlWithoutSvg)
+        ImportProblem::Unknown(UnknownFormat::XmlWithoutSvg)
     ));
 }
 
@@ -293,7 +301,7 @@ fn options_out_of_range_are_refused() {
             ..ImportOptions::default()
         };
         let error = import("given", OBJ.as_bytes(), &options).expect_err("out of range");
-        assert!(matches!(error.problem, Problem::Options(_)));
+        assert!(matches!(error.problem, ImportProblem::Options(_)));
     }
     let exact = ImportOptions {
         tolerance: 0.0,
@@ -301,7 +309,7 @@ fn options_out_of_range_are_refused() {
     };
     assert!(matches!(
         import("given", SVG.as_bytes(), &exact).expect("read").form,
-        Form::Outline(_)
+        DesignForm::Outline(_)
     ));
 }
 
@@ -393,15 +401,15 @@ proptest! {
 
     #[test]
     fn any_text_is_drawn_or_refused(text in ".{0,12}") {
-        let source = Source::Text { text, font: None };
+        let source = DesignSource::Text { text, font: None };
         drop(source.import(&ImportOptions::default()));
     }
 
     #[test]
     fn any_path_is_written_as_it_was_understood(path in "(glyph:)?[a-z%@#./4]{0,16}") {
         let nothing = |_: &Path| false;
-        let source = Source::parse(path.as_ref(), nothing);
-        prop_assert_eq!(Source::parse(&source.to_path(), nothing), source);
+        let source = DesignSource::parse(path.as_ref(), nothing);
+        prop_assert_eq!(DesignSource::parse(&source.to_path(), nothing), source);
     }
 
     #[test]
@@ -419,7 +427,7 @@ proptest! {
         if cuts {
             bytes.truncate(cut.index(bytes.len()));
         }
-        let source = Source::Text { text: "Dfi 8".into(), font: Some("a.ttf".into()) };
+        let source = DesignSource::Text { text: "Dfi 8".into(), font: Some("a.ttf".into()) };
         drop(source.import_bytes(&bytes, &ImportOptions::default()));
     }
 
@@ -471,7 +479,9 @@ fn deep_and_hostile_polygons_are_refused() {
     ] {
         assert!(matches!(
             problem(text.as_bytes()),
-            Problem::Polygons(PolygonsError::Json { .. } | PolygonsError::TooManyObjects)
+            ImportProblem::Polygons(
+                PolygonsImportError::Json { .. } | PolygonsImportError::TooManyObjects
+            )
         ));
     }
     let error = read(b"{\"rings\": [[[0,0],[1,0],[\"x\",1]]]}").expect_err("no number");
@@ -486,12 +496,12 @@ fn hostile_drawings_as_dxf_are_refused() {
     let whole = dxf();
     assert!(matches!(
         problem(&whole.as_bytes()[..whole.len() / 2]),
-        Problem::Dxf(DxfError::Truncated { .. } | DxfError::Code { .. })
+        ImportProblem::Dxf(DxfError::Truncated { .. } | DxfError::Code { .. })
     ));
     let many = format!("0\nSECTION\n2\nENTITIES\n{}", "0\nLINE\n".repeat(2_000_000));
     assert!(matches!(
         problem(many.as_bytes()),
-        Problem::Dxf(DxfError::TooMany)
+        ImportProblem::Dxf(DxfError::TooMany)
     ));
 }
 
@@ -506,10 +516,13 @@ fn an_element_is_asked_for_of_drawings_only() {
     let design = import_file(&at("a.svg#u"), &options).expect("an element");
     assert_eq!(design.name, "u");
     let error = import_file(&at("a.obj#u"), &options).expect_err("no drawing");
-    assert!(matches!(error.problem, Problem::NoElements { .. }));
+    assert!(matches!(error.problem, ImportProblem::NoElements { .. }));
     assert!(error.to_string().contains("a.obj#u: only an SVG drawing"));
     // A file of that very name is that file.
     assert!(import_file(&at("b.svg#u"), &options).is_ok());
     let error = import_file(&at("c.svg#u"), &options).expect_err("no file");
-    assert!(matches!(error.problem, Problem::Read(ReadError::Missing)));
+    assert!(matches!(
+        error.problem,
+        ImportProblem::Read(ReadError::Missing)
+    ));
 }

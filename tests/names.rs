@@ -5,15 +5,17 @@ use std::fmt::{Debug, Display};
 
 use morphospace::content::{BlendSpace, ContentKind};
 use morphospace::correspondence::{HoleRule, PartRule};
-use morphospace::easing::Easing;
-use morphospace::export::{Aspect, FilmKind, Purpose, StillKind};
+use morphospace::export::{Aspect, FilmKind, LayoutPreset, StillKind};
 use morphospace::field::Metric;
-use morphospace::homotopy::Homotopy;
 use morphospace::measure::{MapMeasure, Quantity};
-use morphospace::names::{Choice, keys};
+use morphospace::settings::choice::{Choice, keys};
 use morphospace::space::MapLayout;
-use morphospace::transition::{Boundary, Fit, Guarding, PlayMode, Quality};
-use morphospace::warp::{Basis, Between, Course, Travel, WarpKind};
+use morphospace::time::easing::NamedEasing;
+use morphospace::transition::{
+    BuildQuality, CollisionAvoidance, DesignFit, FieldBoundary, PlayMode,
+};
+use morphospace::warp::homotopy::Homotopy;
+use morphospace::warp::{FeatureTravel, LineInterpolation, RadialBasis, VertexPath, WarpKind};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
@@ -53,22 +55,22 @@ fn keys_are_those_of_the_files_that_there_are() {
     table::<ContentKind>("colours field solid");
     table::<HoleRule>("alone auto close cut");
     table::<PartRule>("alone auto split");
-    table::<Easing>("ease-in ease-out linear smooth");
+    table::<NamedEasing>("ease-in ease-out linear smooth");
     table::<Metric>("chessboard city-block euclidean quasi-euclidean");
     table::<Homotopy>("bounded exponential linear linear-after-polar polar");
-    table::<Boundary>("binary exact");
-    table::<Fit>("as-drawn centred same-area");
+    table::<FieldBoundary>("binary exact");
+    table::<DesignFit>("as-drawn centred same-area");
     table::<PlayMode>("loop once ping-pong");
-    table::<Quality>("best draft");
-    table::<Guarding>("guarded plain");
-    table::<Basis>("gaussian multiquadric thin-plate");
-    table::<Between>("ends middle-and-angle");
-    table::<Course>("intrinsic straight");
-    table::<Travel>("auto straight whole");
+    table::<BuildQuality>("best draft");
+    table::<CollisionAvoidance>("guarded plain");
+    table::<RadialBasis>("gaussian multiquadric thin-plate");
+    table::<LineInterpolation>("ends middle-and-angle");
+    table::<VertexPath>("intrinsic straight");
+    table::<FeatureTravel>("auto straight whole");
     table::<WarpKind>("arap lattice lines none paths scattered");
     table::<FilmKind>("apng gif html json mp4 svg");
     table::<Aspect>("16:9 1:1 4:3 9:16 own");
-    table::<Purpose>("deck page post story");
+    table::<LayoutPreset>("deck page post story");
     table::<StillKind>("dxf png svg");
     table::<MapMeasure>("area distortion perimeter travel");
     table::<MapLayout>("likeness line polygon");

@@ -3,9 +3,9 @@
 use image::RgbaImage;
 use morphospace::colour::Rgb;
 use morphospace::design::{Design, ImportOptions, import};
-use morphospace::export::{Camera, PixelSize, View};
-use morphospace::progress::Silent;
-use morphospace::transition::{Style, Transition, TransitionSpec};
+use morphospace::export::{Camera, PixelSize, PlaneView};
+use morphospace::transition::{Transition, TransitionSpec, TransitionStyle};
+use morphospace::work::progress::Silent;
 use resvg::{tiny_skia, usvg};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -104,8 +104,8 @@ fn the_ends_of_a_film_look_like_the_drawings() {
             let size = PixelSize::new(expected.width(), expected.height()).expect("a size");
             let camera = Camera {
                 sequence: film.clone().into(),
-                style: Style::default(),
-                view: View::fit(design.extent, size),
+                style: TransitionStyle::default(),
+                view: PlaneView::fit(design.extent, size),
                 ground: Some(Rgb([255; 3])),
                 captions: None,
             };

@@ -2,35 +2,50 @@
 
 use bevy::prelude::*;
 
-use crate::app::asking::choices::Preferences;
-use crate::app::asking::hand::{self, Typing};
-use crate::app::asking::intent::Intent;
-use crate::app::asking::keymap::{self, KeyMap};
-use crate::app::capturing::files::{CaptureFolder, Workshop};
-use crate::app::capturing::films;
-use crate::app::capturing::{estimate, framing, kept};
-use crate::app::editing::editor::Editor;
-use crate::app::editing::sheet::Sheet;
-use crate::app::editing::{apply, refresh};
-use crate::app::keeping::autosave::{self, Autosave};
-use crate::app::keeping::{presets, recent};
-use crate::app::looking::choosing::{self, Choosing};
-use crate::app::looking::helping::{self, Helping};
-use crate::app::looking::map::MapView;
-use crate::app::looking::measuring::{self, Measured};
-use crate::app::looking::recording::{self, Recording};
-use crate::app::looking::times;
-use crate::app::looking::twin::{self, Twin};
-use crate::app::looking::view::{self, KeepsFit, StageArea};
-use crate::app::looking::{blending, onion, preferences, walking};
-use crate::app::opening::apply::{self as opening, Gallery};
-use crate::app::opening::closing::{self, Question};
-use crate::app::opening::{dialogs, drops, preview, watching};
-use crate::app::playing::playback::{self, Playback};
-use crate::app::playing::presenting::{self, Presenting};
-use crate::app::playing::staging;
+use crate::app::analysis::film_measures;
+use crate::app::analysis::film_measures::StageMeasures;
+use crate::app::analysis::method_search;
+use crate::app::analysis::method_search::MethodSearch;
+use crate::app::analysis::stage_recording;
+use crate::app::analysis::stage_recording::StageRecording;
+use crate::app::analysis::suggestions;
+use crate::app::analysis::suggestions::Suggestions;
+use crate::app::capture::film_exporter;
+use crate::app::capture::{estimate, film_framing, saved_blends};
+use crate::app::compare::comparison;
+use crate::app::compare::comparison::Comparison;
+use crate::app::editing::editor::MatchEditor;
+use crate::app::editing::sheet::MatchSheet;
+use crate::app::editing::{actions, refresh};
+use crate::app::files::project_actions as opening;
+use crate::app::files::project_actions::GalleryEntries;
+use crate::app::files::{drop, file_dialog, file_preview, file_watcher};
+use crate::app::input::gesture;
+use crate::app::input::gesture::KeyboardFocus;
+use crate::app::input::intent::Intent;
+use crate::app::input::preferences::Preferences;
+use crate::app::key_map;
+use crate::app::key_map::KeyMap;
+use crate::app::map::map_view::MapView;
+use crate::app::map::{map_actions, update};
+use crate::app::notices;
+use crate::app::notices::Notices;
+use crate::app::output_files::{CaptureFolder, ScratchFolder};
+use crate::app::persistence::autosave;
+use crate::app::persistence::autosave::Autosave;
+use crate::app::persistence::{film_presets, recent_files};
+use crate::app::playback::player;
+use crate::app::playback::player::Playback;
+use crate::app::presentation::presenter;
+use crate::app::presentation::presenter::Presentation;
 use crate::app::session::state::Session;
-use crate::app::telling::notices::{self, Notices};
+use crate::app::stage_sync;
+use crate::app::unsaved_question;
+use crate::app::unsaved_question::UnsavedQuestion;
+use crate::app::view::frame_intervals;
+use crate::app::view::stage_area;
+use crate::app::view::stage_area::{AutoFit, StageArea};
+use crate::app::view::{onion_skins, preference_actions};
 use crate::stage::MorphSystems;
 
 /// Everything that needs neither a window nor a graphics card.
@@ -45,10 +60,10 @@ impl Plugin for LogicPlugin {
             .add_systems(
                 Update,
                 (
-                    times::record,
-                    hand::note_gesture,
-                    keymap::read_keys,
-                    drops::read_drops,
+                    frame_intervals::record,
+                    gesture::track_gesture,
+                    key_map::read_keys,
+                    drop::read_drops,
                 )
                     .in_set(Input),
             )
@@ -56,10 +71,10 @@ impl Plugin for LogicPlugin {
             .add_systems(
                 Update,
                 (
-                    staging::stage_transition,
-                    staging::stage_twin,
-                    staging::stage_t,
-                    staging::stage_style,
+                    stage_sync::stage_transition,
+                    stage_sync::stage_twin,
+                    stage_sync::stage_t,
+                    stage_sync::stage_style,
                 )
                     .chain()
                     .after(Play)
@@ -75,41 +90,41 @@ fn init(app: &mut App) {
         .add_message::<bevy::window::CursorMoved>()
         .init_resource::<ClearColor>()
         .init_resource::<ButtonInput<MouseButton>>()
-        .init_resource::<hand::Gesture>()
-        .init_resource::<Gallery>()
+        .init_resource::<gesture::Gesture>()
+        .init_resource::<GalleryEntries>()
         .init_resource::<Session>()
         .init_resource::<Playback>()
-        .init_resource::<Presenting>()
+        .init_resource::<Presentation>()
         .init_resource::<Preferences>()
         .init_resource::<KeyMap>()
-        .init_resource::<Typing>()
-        .init_resource::<hand::Marked>()
-        .init_resource::<Editor>()
-        .init_resource::<Sheet>()
-        .init_resource::<Measured>()
-        .init_resource::<Choosing>()
-        .init_resource::<onion::Onion>()
-        .init_resource::<Helping>()
-        .init_resource::<Recording>()
-        .init_resource::<Twin>()
+        .init_resource::<KeyboardFocus>()
+        .init_resource::<gesture::TextSelected>()
+        .init_resource::<MatchEditor>()
+        .init_resource::<MatchSheet>()
+        .init_resource::<StageMeasures>()
+        .init_resource::<MethodSearch>()
+        .init_resource::<onion_skins::OnionSkins>()
+        .init_resource::<Suggestions>()
+        .init_resource::<StageRecording>()
+        .init_resource::<Comparison>()
         .init_resource::<MapView>()
-        .init_resource::<kept::Cataloguing>()
+        .init_resource::<saved_blends::SavedBlendsExport>()
         .init_resource::<Notices>()
-        .init_resource::<Question>()
+        .init_resource::<UnsavedQuestion>()
         .init_resource::<Autosave>()
-        .init_resource::<presets::KeptPresets>()
-        .init_resource::<recent::KeptRecent>()
-        .init_resource::<drops::Drop>()
-        .init_resource::<watching::Watch>()
-        .init_resource::<dialogs::Dialog>()
-        .init_resource::<preview::Preview>()
-        .init_resource::<films::Recorder>()
-        .init_resource::<framing::FilmFrame>()
-        .init_resource::<Workshop>()
-        .init_resource::<estimate::Estimate>()
+        .init_resource::<film_presets::StoredPresets>()
+        .init_resource::<recent_files::StoredRecentFiles>()
+        .init_resource::<drop::DroppedDesign>()
+        .init_resource::<file_watcher::FileWatcher>()
+        .init_resource::<file_dialog::FileDialogRequest>()
+        .init_resource::<file_preview::FilePreview>()
+        .init_resource::<film_exporter::FilmExporter>()
+        .init_resource::<film_framing::FilmFraming>()
+        .init_resource::<ScratchFolder>()
+        .init_resource::<estimate::ExportEstimate>()
         .init_resource::<StageArea>()
-        .init_resource::<KeepsFit>()
-        .init_resource::<times::WholeFrame>()
+        .init_resource::<AutoFit>()
+        .init_resource::<frame_intervals::FrameIntervals>()
         .insert_resource(CaptureFolder::choose(None));
 }
 
@@ -118,56 +133,56 @@ fn init(app: &mut App) {
 fn act() -> impl IntoScheduleConfigs<bevy::ecs::system::ScheduleSystem, ()> {
     (
         // Before all that reads intents, so that closing takes no frame longer than a key.
-        closing::read_close_requests,
+        unsaved_question::read_close_requests,
         // Before what opens or shows anything: Esc leaves what was there when it was pressed.
-        (view::back, presenting::apply).chain(),
-        (preferences::apply, presets::apply).chain(),
+        (stage_area::back, presenter::apply).chain(),
+        (preference_actions::apply, film_presets::apply).chain(),
         // Questions before what they hold back.
         // The lowest question first: each looks whether another lies above it.
         (
-            drops::decide,
+            drop::decide,
             autosave::rescue,
-            closing::answer,
-            closing::close,
+            unsaved_question::answer,
+            unsaved_question::close,
         )
             .chain(),
-        (dialogs::choose, dialogs::open, preview::follow).chain(),
+        (file_dialog::choose, file_dialog::open, file_preview::follow).chain(),
         (
             opening::open,
             opening::edit,
-            apply::apply,
-            measuring::apply,
-            choosing::apply,
-            helping::apply,
+            actions::apply,
+            film_measures::apply,
+            method_search::apply,
+            suggestions::apply,
             opening::save,
             opening::poll,
             refresh::refresh,
         )
             .chain(),
         (
-            recording::follow,
-            measuring::follow,
-            helping::follow,
-            twin::apply,
-            twin::follow,
-            (walking::apply, blending::follow, kept::export).chain(),
+            stage_recording::follow,
+            film_measures::follow,
+            suggestions::follow,
+            comparison::apply,
+            comparison::follow,
+            (map_actions::apply, update::follow, saved_blends::export).chain(),
         )
             .chain(),
         // Moved on before it is told where to go: else the time of a rest would be played at once.
-        (playback::advance, presenting::begin, playback::apply).chain(),
-        (staging::follow_leg, presenting::hide_pointer).chain(),
+        (player::advance, presenter::begin, player::apply).chain(),
+        (stage_sync::follow_leg, presenter::hide_pointer).chain(),
         (
-            films::apply,
-            films::report,
-            framing::follow,
+            film_exporter::apply,
+            film_exporter::report,
+            film_framing::follow,
             estimate::follow,
         )
             .chain(),
-        view::apply,
-        watching::follow,
-        onion::follow,
+        stage_area::apply,
+        file_watcher::follow,
+        onion_skins::follow,
         // After all that changes the project or takes it for saved.
-        (autosave::follow, recent::follow).chain(),
+        (autosave::follow, recent_files::follow).chain(),
         notices::apply,
     )
         .chain()

@@ -11,26 +11,28 @@ use bevy::window::{ExitCondition, WindowMode, WindowResolution};
 use bevy::winit::{EventLoopProxyWrapper, WinitUserEvent};
 use bevy_egui::{EguiGlobalSettings, PrimaryEguiContext};
 
-use crate::app::asking::intent::Intent;
-use crate::app::capturing::files::CaptureFolder;
-use crate::app::capturing::{blends, copying, pictures};
-use crate::app::keeping::autosave::{self, Autosave};
-use crate::app::keeping::presets::KeptPresets;
-use crate::app::keeping::recent::{KeptRecent, Recent};
-use crate::app::keeping::strips::KeptStrips;
+use crate::app::analysis::stage_recording::StageRecording;
+use crate::app::capture::{blend_image, clipboard, image};
+use crate::app::files::file_watcher::FileWatcher;
+use crate::app::files::gallery_thumbnails;
+use crate::app::files::project_actions::GalleryEntries;
+use crate::app::input::intent::Intent;
+use crate::app::jobs::allocator::share_arenas;
+use crate::app::jobs::job;
 use crate::app::logic::LogicPlugin;
-use crate::app::looking::recording::Recording;
-use crate::app::looking::{filmstrip, view};
-use crate::app::opening::apply::Gallery;
-use crate::app::opening::thumbnails;
-use crate::app::opening::watching::Watch;
-use crate::app::playing::presenting::whole_screen;
-use crate::app::playing::{pace, speaker, staging};
-use crate::app::starting::{NoWindow, opened};
-use crate::app::telling::job;
-use crate::app::telling::spare::share_arenas;
+use crate::app::no_window::{NoWindowError, catch_no_window};
+use crate::app::output_files::CaptureFolder;
+use crate::app::persistence::autosave;
+use crate::app::persistence::autosave::Autosave;
+use crate::app::persistence::film_presets::StoredPresets;
+use crate::app::persistence::gallery_strips::GalleryStripCache;
+use crate::app::persistence::recent_files::{RecentFiles, StoredRecentFiles};
+use crate::app::presentation::presenter::fullscreen_mode;
+use crate::app::presentation::speaker_window;
 use crate::app::ui::draw::UiPlugin;
-use crate::export::Presets;
+use crate::app::view::{filmstrip, stage_area};
+use crate::app::{redraw_pace, stage_sync};
+use crate::export::FilmPresets;
 use crate::stage::{MorphPlugin, MorphSystems, StageCamera};
 
 /// What the command line hands to the window.
@@ -49,9 +51,9 @@ pub struct AppOptions {
 /// Opens the window and returns when it was closed.
 ///
 /// # Errors
-/// [`NoWindow`] where there is none to open.
-pub fn run(options: AppOptions) -> Result<AppExit, NoWindow> {
-    opened(|| program(options).run())
+/// [`NoWindowError`] where there is none to open.
+pub fn run(options: AppOptions) -> Result<AppExit, NoWindowError> {
+    catch_no_window(|| program(options).run())
 }
 
 fn program(options: AppOptions) -> App {
@@ -71,15 +73,15 @@ fn program(options: AppOptions) -> App {
     app.add_plugins(plugins)
         .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
         .insert_resource(CaptureFolder::choose(captures))
-        .insert_resource(Recording::within(film_memory))
+        .insert_resource(StageRecording::within(film_memory))
         .insert_resource(autosave.workshop())
         .insert_resource(autosave)
-        .insert_resource(KeptPresets::of_file(Presets::usual_path()))
-        .insert_resource(KeptRecent::of_file(Recent::usual_path()))
-        .insert_resource(KeptStrips::usual())
+        .insert_resource(StoredPresets::of_file(FilmPresets::usual_path()))
+        .insert_resource(StoredRecentFiles::of_file(RecentFiles::usual_path()))
+        .insert_resource(GalleryStripCache::usual())
         .add_systems(
             Startup,
-            move |mut intents: MessageWriter<Intent>, gallery: Res<Gallery>| {
+            move |mut intents: MessageWriter<Intent>, gallery: Res<GalleryEntries>| {
                 intents.write(first(&files, &gallery));
                 if presents {
                     intents.write(Intent::Present { is_all: true });
@@ -105,7 +107,7 @@ fn end_when_told() {
 }
 
 /// A file that has changed wakes the window, which may be at rest.
-fn watch(watch: Res<Watch>, events: Res<EventLoopProxyWrapper>) {
+fn watch(watch: Res<FileWatcher>, events: Res<EventLoopProxyWrapper>) {
     let events = events.clone();
     watch.start(move || {
         // The window is gone, and the thread with it.
@@ -116,7 +118,7 @@ fn watch(watch: Res<Watch>, events: Res<EventLoopProxyWrapper>) {
 /// Work that has something to tell wakes it too.
 fn be_woken(events: Res<EventLoopProxyWrapper>) {
     let events = events.clone();
-    job::wake_by(move || {
+    job::set_waker(move || {
         // The window is gone, and the work is nobody's.
         events.send_event(WinitUserEvent::WakeUp).ok();
     });
@@ -133,7 +135,7 @@ fn autosave() -> Autosave {
     })
 }
 
-fn first(files: &[PathBuf], gallery: &Gallery) -> Intent {
+fn first(files: &[PathBuf], gallery: &GalleryEntries) -> Intent {
     let bundled = match files {
         [] => gallery.0.first().map(|entry| entry.name.clone()),
         [one] => one
@@ -153,7 +155,7 @@ fn window(presents: bool) -> WindowPlugin {
             name: Some("morphospace".to_owned()),
             // From its first frame on.
             mode: if presents {
-                whole_screen()
+                fullscreen_mode()
             } else {
                 WindowMode::Windowed
             },
@@ -181,29 +183,29 @@ pub struct WindowPlugins;
 impl Plugin for WindowPlugins {
     fn build(&self, app: &mut App) {
         app.add_plugins(UiPlugin)
-            .init_resource::<pictures::Captures>()
-            .init_non_send::<copying::Board>()
-            .init_resource::<KeptStrips>()
-            .init_resource::<thumbnails::Thumbnails>()
+            .init_resource::<image::ImageCaptures>()
+            .init_non_send::<clipboard::SystemClipboard>()
+            .init_resource::<GalleryStripCache>()
+            .init_resource::<gallery_thumbnails::GalleryThumbnails>()
             .init_resource::<filmstrip::Filmstrip>()
-            .init_resource::<speaker::Speaker>()
+            .init_resource::<speaker_window::SpeakerWindow>()
             .add_systems(Startup, spawn_cameras)
             // Last: what this frame has begun decides how soon the next one comes.
-            .add_systems(Last, pace::keep)
+            .add_systems(Last, redraw_pace::set_redraw_pace)
             .add_systems(
                 Update,
                 (
-                    view::window_mode,
-                    (view::fit, view::place_camera).chain(),
-                    (speaker::apply, speaker::follow).chain(),
-                    (thumbnails::advance, filmstrip::follow),
+                    stage_area::window_mode,
+                    (stage_area::fit, stage_area::place_camera).chain(),
+                    (speaker_window::apply, speaker_window::follow).chain(),
+                    (gallery_thumbnails::advance, filmstrip::follow),
                 )
                     .after(MorphSystems::Playback)
                     .before(MorphSystems::Build),
             )
             .add_systems(
                 Update,
-                (pictures::ask, copying::copy_shapes, blends::take)
+                (image::ask, clipboard::copy_shapes, blend_image::take)
                     .after(MorphSystems::Draw)
                     .before(MorphSystems::Capture),
             )
@@ -211,7 +213,7 @@ impl Plugin for WindowPlugins {
                 PostUpdate,
                 // After the first camera has been placed, and before transforms are passed on: else
                 // the second would lag a frame.
-                view::place_twin.before(TransformSystems::Propagate),
+                stage_area::place_twin.before(TransformSystems::Propagate),
             )
             .add_plugins(HierarchyPropagatePlugin::<RenderLayers>::new(PostUpdate))
             .configure_sets(
@@ -220,7 +222,7 @@ impl Plugin for WindowPlugins {
             )
             .add_systems(
                 Update,
-                (pictures::receive, pictures::report).after(MorphSystems::Capture),
+                (image::receive, image::report).after(MorphSystems::Capture),
             );
     }
 }
@@ -232,11 +234,11 @@ fn spawn_cameras(mut commands: Commands, mut egui: ResMut<EguiGlobalSettings>) {
     egui.auto_create_primary_context = false;
     commands.spawn(StageCamera);
     commands.spawn((
-        view::TwinCamera,
+        stage_area::ComparisonCamera,
         Camera2d,
         Msaa::Sample4,
         CompositingSpace::Srgb,
-        staging::TWIN_LAYER,
+        stage_sync::TWIN_LAYER,
         Camera {
             order: 1,
             // The first camera has cleared the whole window.

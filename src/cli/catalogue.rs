@@ -5,20 +5,20 @@ use std::path::PathBuf;
 use clap::Args;
 
 use crate::export::{Catalogue, CatalogueOrder};
-use crate::progress::{Span, Whole};
-use crate::project::KeptPlace;
+use crate::project::SavedPlace;
+use crate::work::progress::{ProgressSpan, WholeProgress};
 
 use super::error::CliError;
-use super::inputs::Inputs;
+use super::inputs::InputArgs;
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
-use super::values::{Ground, ground, one_of};
+use super::value_parsers::{BackgroundColour, ground, one_of};
 
 #[derive(Debug, Args)]
 pub(super) struct CatalogueArgs {
     #[command(flatten)]
-    inputs: Inputs,
+    inputs: InputArgs,
 
     /// The folder that it is written into, made where it is missing: each kept place as SVG and
     /// DXF, all as catalogue.png, their measures as catalogue.csv
@@ -30,12 +30,12 @@ pub(super) struct CatalogueArgs {
     sort: CatalogueOrder,
 
     /// Those of at least so many stars
-    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=i64::from(KeptPlace::MOST_STARS)))]
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u8).range(0..=i64::from(SavedPlace::MOST_STARS)))]
     stars: u8,
 
     /// The colour behind: #rrggbb, or transparent [default: the project's]
     #[arg(long, value_name = "COLOUR", value_parser = ground)]
-    ground: Option<Ground>,
+    ground: Option<BackgroundColour>,
 
     #[command(flatten)]
     method: MethodArgs,
@@ -43,8 +43,8 @@ pub(super) struct CatalogueArgs {
 
 pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
-    let whole = Whole::new(&terminal);
-    let building = Span::new(&whole, 0.0, 0.7);
+    let whole = WholeProgress::new(&terminal);
+    let building = ProgressSpan::new(&whole, 0.0, 0.7);
     let (loaded, space, _) = args.inputs.open_space(&args.method, &building)?;
     let kept = &loaded.project.map.kept;
     if kept.is_empty() {
@@ -62,9 +62,9 @@ pub(super) fn run(args: &CatalogueArgs) -> Result<(), CliError> {
         )));
     }
     let style = &loaded.project.style;
-    let given = args.ground.map(|Ground(ground)| ground);
+    let given = args.ground.map(|BackgroundColour(ground)| ground);
     let ground = given.unwrap_or(Some(style.ground));
-    let writing = Span::new(&whole, 0.7, 1.0);
+    let writing = ProgressSpan::new(&whole, 0.7, 1.0);
     let written = catalogue
         .write(&space, (style, ground), &args.out, &writing)
         .map_err(CliError::failed)?;

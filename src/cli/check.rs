@@ -6,11 +6,11 @@
 use clap::Args;
 
 use crate::measure;
-use crate::progress::{Span, Whole};
+use crate::work::progress::{ProgressSpan, WholeProgress};
 
 use super::error::CliError;
-use super::inputs::Inputs;
-use super::laboratory::{Batch, MeasuredSpace, Measuring, text};
+use super::inputs::InputArgs;
+use super::laboratory::{MeasuringArgs, PairBatchArgs, SpaceMeasurement, text};
 use super::output;
 use super::terminal::Terminal;
 
@@ -20,10 +20,10 @@ use super::terminal::Terminal;
     .required_unless_present("pairs")))]
 pub(super) struct CheckArgs {
     #[command(flatten)]
-    inputs: Option<Inputs>,
+    inputs: Option<InputArgs>,
 
     #[command(flatten)]
-    batch: Option<Batch>,
+    batch: Option<PairBatchArgs>,
 
     /// The space of all designs instead of each leg: its common mesh, its edges, its
     /// middle, and 200 blends all over it
@@ -35,7 +35,7 @@ pub(super) struct CheckArgs {
     json: bool,
 
     #[command(flatten)]
-    measuring: Measuring,
+    measuring: MeasuringArgs,
 }
 
 pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
@@ -49,7 +49,7 @@ pub(super) fn run(args: &CheckArgs) -> Result<(), CliError> {
     }
 }
 
-fn one(args: &CheckArgs, inputs: &Inputs) -> Result<(), CliError> {
+fn one(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
     let measured = args.measuring.of(inputs, &terminal)?;
     // Its line goes before the report comes.
@@ -69,14 +69,14 @@ fn one(args: &CheckArgs, inputs: &Inputs) -> Result<(), CliError> {
 /// Blends all over a space that are looked at.
 const BLENDS: usize = 200;
 
-fn map(args: &CheckArgs, inputs: &Inputs) -> Result<(), CliError> {
+fn map(args: &CheckArgs, inputs: &InputArgs) -> Result<(), CliError> {
     let terminal = Terminal::new();
-    let whole = Whole::new(&terminal);
-    let building = Span::new(&whole, 0.0, 0.7);
+    let whole = WholeProgress::new(&terminal);
+    let building = ProgressSpan::new(&whole, 0.0, 0.7);
     let (_, space, build) = inputs.open_space(args.measuring.method(), &building)?;
-    let measuring = Span::new(&whole, 0.7, 1.0);
+    let measuring = ProgressSpan::new(&whole, 0.7, 1.0);
     let report = measure::space(&space, BLENDS, &measuring).map_err(CliError::failed)?;
-    let measured = MeasuredSpace::new(&space, report, build);
+    let measured = SpaceMeasurement::new(&space, report, build);
     drop(terminal);
     output::data(&match args.json {
         true => output::json(&measured)?,
@@ -84,7 +84,7 @@ fn map(args: &CheckArgs, inputs: &Inputs) -> Result<(), CliError> {
     })
 }
 
-fn table(args: &CheckArgs, batch: &Batch) -> Result<(), CliError> {
+fn table(args: &CheckArgs, batch: &PairBatchArgs) -> Result<(), CliError> {
     let outcome = batch.run(&args.measuring, &Terminal::new())?;
     let summary = &outcome.summary;
     output::data(&if args.json {

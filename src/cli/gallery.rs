@@ -23,8 +23,8 @@ pub(super) fn run(args: &GalleryArgs) -> Result<(), CliError> {
     })
 }
 
-fn table(entries: &[gallery::Entry]) -> String {
+fn table(entries: &[gallery::GalleryEntry]) -> String {
     let width = entries.iter().map(|e| e.name.len()).max().unwrap_or(0);
-    let line = |e: &gallery::Entry| format!("gallery:{:width$}  {}\n", e.name, e.title);
+    let line = |e: &gallery::GalleryEntry| format!("gallery:{:width$}  {}\n", e.name, e.title);
     entries.iter().map(line).collect()
 }

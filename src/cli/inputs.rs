@@ -5,11 +5,11 @@ use std::time::{Duration, Instant};
 
 use clap::Args;
 
-use crate::design::{Format, Source};
-use crate::progress::{Progress, Span, beside, checkpoint};
+use crate::design::{DesignSource, Format};
 use crate::project::{LoadedProject, Project, gallery};
-use crate::space::Space;
+use crate::space::DesignSpace;
 use crate::transition::{Sequence, Transition};
+use crate::work::progress::{Progress, ProgressSpan, beside, checkpoint};
 
 use super::error::CliError;
 use super::options::MethodArgs;
@@ -18,7 +18,7 @@ use super::options::MethodArgs;
 const READ: f64 = 0.1;
 
 #[derive(Clone, Debug, Args)]
-pub(super) struct Inputs {
+pub(super) struct InputArgs {
     #[arg(value_name = "PROJECT | A B ...", num_args = 1.., required = true, help = help())]
     inputs: Vec<PathBuf>,
 }
@@ -33,7 +33,7 @@ fn help() -> String {
 
 /// A project that is ready to be played.
 #[derive(Debug)]
-pub(super) struct Opened {
+pub(super) struct OpenedProject {
     /// The project with the flags applied, and its designs.
     pub loaded: LoadedProject,
     /// What it shows.
@@ -63,7 +63,7 @@ impl OpenedPair {
     }
 }
 
-impl Inputs {
+impl InputArgs {
     /// Two designs.
     pub fn pair(source: &Path, target: &Path) -> Self {
         let inputs = vec![source.to_owned(), target.to_owned()];
@@ -71,11 +71,15 @@ impl Inputs {
     }
 
     /// Reads, imports, applies the flags and builds.
-    pub fn open(&self, method: &MethodArgs, progress: &dyn Progress) -> Result<Opened, CliError> {
+    pub fn open(
+        &self,
+        method: &MethodArgs,
+        progress: &dyn Progress,
+    ) -> Result<OpenedProject, CliError> {
         let mut loaded = self.load(method, progress)?;
-        let building = Span::new(progress, READ, 1.0);
+        let building = ProgressSpan::new(progress, READ, 1.0);
         let sequence = method.build_all(&mut loaded, &building)?;
-        Ok(Opened { loaded, sequence })
+        Ok(OpenedProject { loaded, sequence })
     }
 
     /// Reads, imports and applies the flags; builds each leg apart, and hands it over.
@@ -89,7 +93,7 @@ impl Inputs {
         let loaded = self.load(method, progress)?;
         // Laying the designs in one frame belongs to neither time.
         let import_time = start.elapsed();
-        let building = Span::new(progress, READ, 1.0);
+        let building = ProgressSpan::new(progress, READ, 1.0);
         for mut leg in loaded.legs() {
             let start = Instant::now();
             let transition = method.build(&mut leg, &building)?;
@@ -109,10 +113,10 @@ impl Inputs {
         &self,
         method: &MethodArgs,
         progress: &dyn Progress,
-    ) -> Result<(LoadedProject, Space, Duration), CliError> {
+    ) -> Result<(LoadedProject, DesignSpace, Duration), CliError> {
         let loaded = self.load(method, progress)?;
         let start = Instant::now();
-        let building = Span::new(progress, READ, 1.0);
+        let building = ProgressSpan::new(progress, READ, 1.0);
         let space = loaded.built_space(None, &building);
         let space = space.map_err(CliError::no_film)?;
         Ok((loaded, space, start.elapsed()))
@@ -169,8 +173,8 @@ impl Inputs {
 
 /// One of them alone is half a pair.
 fn is_design(path: &Path) -> bool {
-    match Source::of(path) {
-        Source::File {
+    match DesignSource::of(path) {
+        DesignSource::File {
             path,
             element: None,
         } => Format::ALL.iter().any(|format| format.ends(&path)),

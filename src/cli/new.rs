@@ -4,7 +4,7 @@ use std::path::{Component, Path, PathBuf};
 
 use clap::Args;
 
-use crate::design::Source;
+use crate::design::DesignSource;
 use crate::project::{LoadedProject, Project};
 use crate::transition::TransitionSpec;
 
@@ -100,7 +100,7 @@ fn folder_of(path: &Path) -> &Path {
 
 /// A design as a project in a folder names it.
 fn named_from(path: &Path, folder: &Path) -> Result<PathBuf, CliError> {
-    let source = Source::of(path);
+    let source = DesignSource::of(path);
     let Some(file) = source.file() else {
         return Ok(source.to_path());
     };

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 
 use serde::Serialize;
 
-use crate::one_line::{OneLine, is_hidden};
+use crate::io::sanitize::{SanitizedLine, is_hidden};
 
 use super::error::CliError;
 
@@ -51,7 +51,7 @@ fn shown(json: &str) -> String {
 /// Writes a line of words to stderr, whatever has come into them. Where even
 /// that fails, nobody listens.
 pub(super) fn words(line: &str) {
-    writeln!(io::stderr().lock(), "{}", OneLine(line)).unwrap_or_default();
+    writeln!(io::stderr().lock(), "{}", SanitizedLine(line)).unwrap_or_default();
 }
 
 /// Tells how a command ended.

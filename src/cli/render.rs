@@ -10,22 +10,23 @@ use clap::Args;
 
 use crate::colour::Rgb;
 use crate::export::{
-    Aspect, Camera, Captions, Drawing, ExportError, Film, FilmKind, FilmPreset, Layout, MethodRow,
-    PixelSize, Presets, Purpose, StillKind, Target, View, comparison, endings, even_times, framing,
-    map_sheet, sheet, write_film, write_still,
+    Aspect, Camera, Captions, Drawing, ExportError, ExportTarget, FilmKind, FilmPreset,
+    FilmPresets, FilmSpec, LayoutPreset, MethodRow, PictureLayout, PixelSize, PlaneView, StillKind,
+    comparison_sheet, contact_sheet, even_times, extension_list, framing, map_sheet, write_film,
+    write_still,
 };
-use crate::names::{Choice, keys};
-use crate::progress::{Progress, Span, Whole};
 use crate::project::Project;
-use crate::space::{Map, MapLayout};
+use crate::settings::choice::{Choice, keys};
+use crate::space::{MapLayout, WeightMap};
 use crate::transition::PlayMode;
+use crate::work::progress::{Progress, ProgressSpan, WholeProgress};
 
 use super::error::CliError;
-use super::inputs::{Inputs, Opened};
+use super::inputs::{InputArgs, OpenedProject};
 use super::options::MethodArgs;
 use super::output;
 use super::terminal::Terminal;
-use super::values::{Ground, grid, ground, one_of, range};
+use super::value_parsers::{BackgroundColour, grid, ground, one_of, range};
 
 /// The longer side of a picture of free size, in pixels: half a screen's width.
 const LONGER_SIDE_PX: u32 = 960;
@@ -40,7 +41,7 @@ const MAX_CELLS: u64 = 1_000;
 #[derive(Debug, Args)]
 pub(super) struct RenderArgs {
     #[command(flatten)]
-    inputs: Inputs,
+    inputs: InputArgs,
 
     #[arg(long, short, value_name = "PATH", help = out_help())]
     out: PathBuf,
@@ -88,7 +89,7 @@ pub(super) struct RenderArgs {
 
     /// The colour behind: #rrggbb, or transparent [default: the project's]
     #[arg(long, value_name = "COLOUR", value_parser = ground)]
-    ground: Option<Ground>,
+    ground: Option<BackgroundColour>,
 
     #[command(flatten)]
     method: MethodArgs,
@@ -101,7 +102,7 @@ struct LayoutArgs {
     /// What it is made for, a shape, a size, and captions: deck, post, story, page, or a look that
     /// was kept in the window
     #[arg(long, value_name = "NAME", conflicts_with = "size", value_parser = preset)]
-    preset: Option<Preset>,
+    preset: Option<PresetChoice>,
 
     /// The shape of pictures
     #[arg(long, conflicts_with = "size", value_parser = one_of::<Aspect>())]
@@ -122,22 +123,22 @@ struct LayoutArgs {
 
 impl LayoutArgs {
     /// The layout that is asked for; none where nothing is said of its shape.
-    fn layout(&self) -> Option<Layout> {
+    fn layout(&self) -> Option<PictureLayout> {
         let is_asked = self.preset.is_some()
             || self.aspect.is_some()
             || self.lines.is_some()
             || self.frame_margin.is_some()
             || self.captions;
-        let plain = || Layout {
+        let plain = || PictureLayout {
             aspect: Aspect::Own,
-            ..Layout::default()
+            ..PictureLayout::default()
         };
         let base = match &self.preset {
             None => plain(),
-            Some(Preset::Made(purpose)) => purpose.layout(),
-            Some(Preset::Kept(kept)) => kept.layout(),
+            Some(PresetChoice::Made(purpose)) => purpose.layout(),
+            Some(PresetChoice::Kept(kept)) => kept.layout(),
         };
-        is_asked.then(|| Layout {
+        is_asked.then(|| PictureLayout {
             aspect: self.aspect.unwrap_or(base.aspect),
             lines: self.lines.unwrap_or(base.lines),
             margin: self.frame_margin.unwrap_or(base.margin),
@@ -148,26 +149,26 @@ impl LayoutArgs {
 
 /// A look by its name.
 #[derive(Clone, Copy, Debug)]
-enum Preset {
+enum PresetChoice {
     /// One of those that everybody has.
-    Made(Purpose),
+    Made(LayoutPreset),
     /// One that was kept.
     Kept(FilmPreset),
 }
 
-fn preset(name: &str) -> Result<Preset, String> {
-    if let Ok(purpose) = Purpose::of_key(name) {
-        return Ok(Preset::Made(purpose));
+fn preset(name: &str) -> Result<PresetChoice, String> {
+    if let Ok(purpose) = LayoutPreset::of_key(name) {
+        return Ok(PresetChoice::Made(purpose));
     }
-    let kept = match Presets::usual_path() {
+    let kept = match FilmPresets::usual_path() {
         Some(path) => {
-            Presets::read(&path).map_err(|error| format!("{}: {error}", path.display()))?
+            FilmPresets::read(&path).map_err(|error| format!("{}: {error}", path.display()))?
         }
-        None => Presets::default(),
+        None => FilmPresets::default(),
     };
-    let known = keys::<Purpose>().map(str::to_owned);
+    let known = keys::<LayoutPreset>().map(str::to_owned);
     let known: Vec<String> = known.chain(kept.0.keys().cloned()).collect();
-    let found = kept.0.get(name).copied().map(Preset::Kept);
+    let found = kept.0.get(name).copied().map(PresetChoice::Kept);
     found.ok_or_else(|| format!("write {}", known.join(", ")))
 }
 
@@ -181,7 +182,7 @@ fn margin(text: &str) -> Result<f64, String> {
 impl RenderArgs {
     fn fps(&self) -> f64 {
         let of_preset = match &self.layout.preset {
-            Some(Preset::Kept(kept)) => f64::from(kept.fps),
+            Some(PresetChoice::Kept(kept)) => f64::from(kept.fps),
             _ => 30.0,
         };
         self.fps.unwrap_or(of_preset)
@@ -192,13 +193,13 @@ fn out_help() -> String {
     format!(
         "What to write: NAME{} (with --at or --sheet), {}, name-####.png or a folder (numbered \
          pictures)",
-        endings::<StillKind>(),
-        endings::<FilmKind>()
+        extension_list::<StillKind>(),
+        extension_list::<FilmKind>()
     )
 }
 
 pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
-    let target = Target::of_path(&args.out).map_err(CliError::usage)?;
+    let target = ExportTarget::of_path(&args.out).map_err(CliError::usage)?;
     let shown = shown(args, &target)?;
     let target = if shown.is_none() {
         target.moving()
@@ -208,8 +209,8 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     // Before the designs are read, which may take long.
     check(args, &target, shown)?;
     let terminal = Terminal::new();
-    let whole = Whole::new(&terminal);
-    if let (Some(Shown::Map(grid)), Target::Still(kind, path)) = (shown, &target) {
+    let whole = WholeProgress::new(&terminal);
+    if let (Some(MapOrFilm::Map(grid)), ExportTarget::Still(kind, path)) = (shown, &target) {
         let (drawing, notes) = map(args, grid, &whole)?;
         write_still(&drawing, *kind, path).map_err(CliError::failed)?;
         drop(terminal);
@@ -219,10 +220,10 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
     }
     let opened = args
         .inputs
-        .open(&args.method, &Span::new(&whole, 0.0, 0.5))?;
-    let rest = Span::new(&whole, 0.5, 1.0);
+        .open(&args.method, &ProgressSpan::new(&whole, 0.0, 0.5))?;
+    let rest = ProgressSpan::new(&whole, 0.5, 1.0);
     let written = match (target, shown) {
-        (Target::Still(kind, path), Some(shown)) => {
+        (ExportTarget::Still(kind, path), Some(shown)) => {
             let drawing = drawn(args, &opened, shown, &rest)?;
             write_still(&drawing, kind, &path).map_err(CliError::failed)?;
             vec![path]
@@ -238,7 +239,7 @@ pub(super) fn run(args: &RenderArgs) -> Result<(), CliError> {
 
 /// What one picture shows.
 #[derive(Clone, Copy)]
-enum Shown {
+enum MapOrFilm {
     /// The frame at a t.
     Frame(f64),
     /// A contact sheet of so many frames.
@@ -255,7 +256,7 @@ fn is_numbered(path: &Path) -> bool {
 }
 
 /// What the flags want to see in one picture; `None` for a film.
-fn shown(args: &RenderArgs, target: &Target) -> Result<Option<Shown>, CliError> {
+fn shown(args: &RenderArgs, target: &ExportTarget) -> Result<Option<MapOrFilm>, CliError> {
     let count = args.sheet.map(|count| count as usize);
     if let Some(t) = args.at.iter().find(|t| !t.is_finite()) {
         return Err(CliError::Usage(format!(
@@ -263,56 +264,60 @@ fn shown(args: &RenderArgs, target: &Target) -> Result<Option<Shown>, CliError> 
         )));
     }
     if let Some(grid) = args.map {
-        return Ok(Some(Shown::Map(grid)));
+        return Ok(Some(MapOrFilm::Map(grid)));
     }
     match args.at.as_slice() {
         // Frames of their own, where several are asked for or the name has a number.
-        at if matches!(target, Target::Numbered(_))
+        at if matches!(target, ExportTarget::Numbered(_))
             && !args.out.is_dir()
             && (at.len() > 1 || (at.len() == 1 && is_numbered(&args.out))) =>
         {
             Ok(None)
         }
-        &[t] => Ok(Some(Shown::Frame(t))),
+        &[t] => Ok(Some(MapOrFilm::Frame(t))),
         [_, _, ..] => Err(CliError::Usage(format!(
             "--at names {} moments: write name-####.svg for numbered pictures, or give one",
             args.at.len()
         ))),
-        [] if args.compare => Ok(Some(Shown::Methods(count.unwrap_or(COMPARED)))),
-        [] => Ok(count.map(Shown::Sheet)),
+        [] if args.compare => Ok(Some(MapOrFilm::Methods(count.unwrap_or(COMPARED)))),
+        [] => Ok(count.map(MapOrFilm::Sheet)),
     }
 }
 
 /// Whether the output's name fits the flags, before the work and not after it.
-fn check(args: &RenderArgs, target: &Target, shown: Option<Shown>) -> Result<(), CliError> {
+fn check(
+    args: &RenderArgs,
+    target: &ExportTarget,
+    shown: Option<MapOrFilm>,
+) -> Result<(), CliError> {
     if shown.is_some() && args.out.is_dir() {
-        let (path, endings) = (args.out.display(), endings::<StillKind>());
+        let (path, extension_list) = (args.out.display(), extension_list::<StillKind>());
         return Err(CliError::Usage(format!(
-            "`{path}` is a folder: name a file in it, one that ends in {endings}"
+            "`{path}` is a folder: name a file in it, one that ends in {extension_list}"
         )));
     }
     let flags = match (target, shown) {
-        (Target::Still(_, path), None) => {
+        (ExportTarget::Still(_, path), None) => {
             return Err(CliError::Usage(format!(
                 "`{0}` is one picture: add --at T for one moment or --sheet N for a contact sheet, or write name-####.{1} for numbered pictures",
                 path.display(),
                 path.extension().unwrap_or_default().to_string_lossy(),
             )));
         }
-        (Target::Still(..), Some(_)) | (_, None) => return Ok(()),
-        (_, Some(Shown::Methods(_))) => "--compare makes",
-        (_, Some(Shown::Map(_))) => "--map makes",
+        (ExportTarget::Still(..), Some(_)) | (_, None) => return Ok(()),
+        (_, Some(MapOrFilm::Methods(_))) => "--compare makes",
+        (_, Some(MapOrFilm::Map(_))) => "--map makes",
         (_, Some(_)) => "--at and --sheet make",
     };
-    let (path, endings) = (args.out.display(), endings::<StillKind>());
-    let words = format!("{flags} one picture: end `{path}` in {endings}");
+    let (path, extension_list) = (args.out.display(), extension_list::<StillKind>());
+    let words = format!("{flags} one picture: end `{path}` in {extension_list}");
     Err(CliError::Usage(words))
 }
 
 fn drawn(
     args: &RenderArgs,
-    opened: &Opened,
-    shown: Shown,
+    opened: &OpenedProject,
+    shown: MapOrFilm,
     progress: &dyn Progress,
 ) -> Result<Drawing, CliError> {
     let project = &opened.loaded.project;
@@ -320,27 +325,27 @@ fn drawn(
     let ground = ground_of(args, project);
     let times = |count| even_times(project.timing.from, project.timing.to, count);
     Ok(match shown {
-        Shown::Frame(t) => {
+        MapOrFilm::Frame(t) => {
             // Seen as the film is, so that pictures of one project fit together.
             let seen: Vec<f64> = times(17).into_iter().chain([t]).collect();
             camera(args, opened, &seen, false)?.shoot(t)
         }
-        Shown::Sheet(count) => {
+        MapOrFilm::Sheet(count) => {
             let times = times(count);
             let bounds = framing(sequence, &times);
-            sheet(sequence, style, &times, bounds, args.size, ground)
+            contact_sheet(sequence, style, &times, bounds, args.size, ground)
         }
-        Shown::Methods(_) if project.is_sequence() || project.follows_path() => {
+        MapOrFilm::Methods(_) if project.is_sequence() || project.follows_path() => {
             return Err(CliError::Usage(
                 "--compare is of two designs: name the two of which you want to see all methods"
                     .to_owned(),
             ));
         }
-        Shown::Map(grid) => map(args, grid, progress)?.0,
-        Shown::Methods(count) => {
+        MapOrFilm::Map(grid) => map(args, grid, progress)?.0,
+        MapOrFilm::Methods(count) => {
             let spec = opened.loaded.spec().map_err(CliError::failed)?;
             let rows = MethodRow::all(&spec, progress).map_err(CliError::failed)?;
-            comparison(&rows, style, &times(count), ground).map_err(CliError::failed)?
+            comparison_sheet(&rows, style, &times(count), ground).map_err(CliError::failed)?
         }
     })
 }
@@ -353,7 +358,9 @@ fn map(
 ) -> Result<(Drawing, Vec<String>), CliError> {
     let (loaded, space, _) = args.inputs.open_space(&args.method, progress)?;
     let map = match args.sites {
-        Some(layout) => Map::new(&layout.sites(space.likeness())).map_err(CliError::failed)?,
+        Some(layout) => {
+            WeightMap::new(&layout.sites(space.likeness())).map_err(CliError::failed)?
+        }
         None => loaded.map_of(&space).map_err(CliError::failed)?,
     };
     let ground = ground_of(args, &loaded.project);
@@ -367,8 +374,8 @@ fn map(
 
 fn film(
     args: &RenderArgs,
-    opened: &Opened,
-    target: Target,
+    opened: &OpenedProject,
+    target: ExportTarget,
     progress: &dyn Progress,
 ) -> Result<Vec<PathBuf>, CliError> {
     let whole = whole_film(args, &opened.loaded.project, &target)?;
@@ -376,7 +383,7 @@ fn film(
         Some(range) => whole.part(range.clone()).map_err(CliError::usage)?,
         None => whole.clone(),
     };
-    let is_mp4 = matches!(target, Target::Film(FilmKind::Mp4, _));
+    let is_mp4 = matches!(target, ExportTarget::Film(FilmKind::Mp4, _));
     // Framed by the whole film, so that parts made apart fit together.
     let camera = camera(args, opened, whole.times(), is_mp4)?;
     if args.size.is_some_and(|size| size != camera.view.size()) {
@@ -392,15 +399,19 @@ fn film(
     })
 }
 
-fn whole_film(args: &RenderArgs, project: &Project, target: &Target) -> Result<Film, CliError> {
+fn whole_film(
+    args: &RenderArgs,
+    project: &Project,
+    target: &ExportTarget,
+) -> Result<FilmSpec, CliError> {
     let mut timing = project.timing;
-    if matches!(target, Target::Numbered(_)) {
+    if matches!(target, ExportTarget::Numbered(_)) {
         timing.play = PlayMode::Once;
     }
     let film = match args.frames {
-        _ if !args.at.is_empty() => Film::at(args.at.clone(), args.fps()),
-        None => Film::of_timing(&timing, &project.stops, args.fps()),
-        Some(count) => Film::evenly(timing.from, timing.to, count, args.fps())
+        _ if !args.at.is_empty() => FilmSpec::at(args.at.clone(), args.fps()),
+        None => FilmSpec::of_timing(&timing, &project.stops, args.fps()),
+        Some(count) => FilmSpec::evenly(timing.from, timing.to, count, args.fps())
             .map(|film| film.playing(timing.play)),
     };
     let film = film.map_err(CliError::usage)?;
@@ -409,7 +420,7 @@ fn whole_film(args: &RenderArgs, project: &Project, target: &Target) -> Result<F
 
 fn camera(
     args: &RenderArgs,
-    opened: &Opened,
+    opened: &OpenedProject,
     times: &[f64],
     is_even: bool,
 ) -> Result<Camera, CliError> {
@@ -420,7 +431,7 @@ fn camera(
         (Some(layout), Some(size)) => layout.view_of(bounds, size),
         (None, size) => {
             let size = size.unwrap_or_else(|| PixelSize::of_shape(bounds, LONGER_SIDE_PX));
-            View::fit(bounds, if is_even { size.to_even() } else { size })
+            PlaneView::fit(bounds, if is_even { size.to_even() } else { size })
         }
     };
     let project = &opened.loaded.project;
@@ -434,7 +445,7 @@ fn camera(
     })
 }
 
-fn captions(args: &RenderArgs, opened: &Opened) -> Captions {
+fn captions(args: &RenderArgs, opened: &OpenedProject) -> Captions {
     let project = &opened.loaded.project;
     let names = opened.loaded.names_on_the_way();
     let ground = ground_of(args, project).unwrap_or(project.style.ground);
@@ -442,7 +453,7 @@ fn captions(args: &RenderArgs, opened: &Opened) -> Captions {
 }
 
 fn ground_of(args: &RenderArgs, project: &Project) -> Option<Rgb> {
-    let given = args.ground.map(|Ground(ground)| ground);
+    let given = args.ground.map(|BackgroundColour(ground)| ground);
     given.unwrap_or(Some(project.style.ground))
 }
 

@@ -8,7 +8,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::progress::Progress;
+use crate::work::progress::Progress;
 
 static CANCELLED: AtomicBool = AtomicBool::new(false);
 

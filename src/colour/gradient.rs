@@ -10,20 +10,20 @@ use glam::{DAffine2, DVec2};
 #[derive(Clone, Debug, PartialEq)]
 pub struct Gradient {
     /// Along what it changes.
-    pub course: Course,
+    pub course: GradientGeometry,
     /// From the gradient's own space to the plane. A straight one runs from 0 to 1
     /// along x, a round one from its focus to the unit circle.
     pub frame: DAffine2,
     /// Paints along the way, by ascending place; two at one place are an edge.
-    pub stops: Vec<Stop>,
+    pub stops: Vec<GradientStop>,
     /// What comes before the first stop's end of the way and after the last one's.
-    pub spread: Spread,
+    pub spread: GradientSpread,
 }
 
 /// The way of a gradient in its own space.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Course {
+pub enum GradientGeometry {
     /// Along x.
     Straight,
     /// From a circle within the unit circle to that.
@@ -37,7 +37,7 @@ pub enum Course {
 
 /// A paint at a place of the way, from 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Stop {
+pub struct GradientStop {
     /// The place.
     pub at: f64,
     /// The paint there.
@@ -47,7 +47,7 @@ pub struct Stop {
 /// How a gradient goes on beyond its way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
-pub enum Spread {
+pub enum GradientSpread {
     /// As it is at its ends.
     Pad,
     /// Back and forth.
@@ -84,7 +84,7 @@ impl Gradient {
     /// The same with each paint as another.
     #[must_use]
     pub fn repainted(&self, paint: impl Fn(Paint) -> Paint) -> Self {
-        let stop = |stop: &Stop| Stop {
+        let stop = |stop: &GradientStop| GradientStop {
             paint: paint(stop.paint),
             ..*stop
         };
@@ -124,7 +124,7 @@ impl Gradient {
     }
 
     /// Stops at all places where either has one, on both sides of edges.
-    fn mixed_stops(&self, other: &Self, t: f64) -> Vec<Stop> {
+    fn mixed_stops(&self, other: &Self, t: f64) -> Vec<GradientStop> {
         let all = self.stops.iter().chain(&other.stops);
         let mut places: Vec<f64> = all.map(|stop| stop.at).collect();
         places.sort_by(f64::total_cmp);
@@ -136,7 +136,7 @@ impl Gradient {
             paints
                 .into_iter()
                 .flatten()
-                .map(move |paint| Stop { at, paint })
+                .map(move |paint| GradientStop { at, paint })
         });
         stops.collect()
     }
@@ -165,7 +165,7 @@ impl Gradient {
     }
 }
 
-impl Course {
+impl GradientGeometry {
     /// On the way to another of the same kind.
     fn mixed(self, other: Self, t: f64) -> Option<Self> {
         match (self, other) {
@@ -216,15 +216,15 @@ mod tests {
     use super::*;
 
     fn straight(stops: &[(f64, [u8; 3])]) -> Gradient {
-        let stop = |&(at, colour): &(f64, [u8; 3])| Stop {
+        let stop = |&(at, colour): &(f64, [u8; 3])| GradientStop {
             at,
             paint: Rgb(colour).into(),
         };
         Gradient {
-            course: Course::Straight,
+            course: GradientGeometry::Straight,
             frame: DAffine2::IDENTITY,
             stops: stops.iter().map(stop).collect(),
-            spread: Spread::Pad,
+            spread: GradientSpread::Pad,
         }
     }
 
@@ -250,7 +250,7 @@ mod tests {
     fn gradients_of_two_kinds_meet_in_the_mean_of_both() {
         let a = straight(&[(0.0, BLACK), (1.0, BLACK)]);
         let mut b = straight(&[(0.0, WHITE), (1.0, WHITE)]);
-        b.course = Course::Round {
+        b.course = GradientGeometry::Round {
             focus: DVec2::ZERO,
             inner: 0.0,
         };

@@ -4,7 +4,7 @@ use crate::geometry::{Bounds, DVec2, ring_edges};
 
 /// Points along the rectangle at most so far apart, counter-clockwise from its
 /// lower left corner.
-pub(super) fn border(frame: &Bounds, spacing: f64) -> Vec<DVec2> {
+pub(super) fn border_points(frame: &Bounds, spacing: f64) -> Vec<DVec2> {
     let mut points = Vec::new();
     for (a, b) in ring_edges(&frame.corners()) {
         let pieces = (a.distance(b) / spacing).ceil().max(1.0) as u32;

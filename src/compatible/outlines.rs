@@ -1,28 +1,28 @@
 //! A whole match triangulated: piece by piece, joined into one mesh.
 
-use super::patchwork::Patchwork;
-use super::{CompatibleMesh, PolygonOptions, PolygonsError};
+use super::assembly::MeshAssembly;
+use super::{CompatibleMesh, PieceMeshError, PolygonOptions};
 use crate::correspondence::{PieceMatch, RegionMatch};
-use crate::progress::{Progress, Several};
+use crate::work::progress::{Progress, ProgressShares};
 use rayon::prelude::*;
 
 /// A piece that was not triangulated.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{}{error}", self.place())]
-pub struct OutlinesError {
+pub struct OutlineMeshError {
     /// Its index.
     pub piece: usize,
     /// How many there are.
     pub pieces: usize,
     /// What is wrong with it.
-    pub error: PolygonsError,
+    pub error: PieceMeshError,
 }
 
-impl OutlinesError {
+impl OutlineMeshError {
     /// Which piece it is, where there are several and it is to blame.
     fn place(&self) -> String {
         match self.error {
-            PolygonsError::Cancelled(_) => String::new(),
+            PieceMeshError::Cancelled(_) => String::new(),
             _ if self.pieces == 1 => String::new(),
             _ => format!("piece {} of {}: ", self.piece + 1, self.pieces),
         }
@@ -34,14 +34,14 @@ impl CompatibleMesh {
     /// those of the one before, its rings' vertices first and in order.
     ///
     /// # Errors
-    /// [`OutlinesError`] names the piece, or tells that the work was
+    /// [`OutlineMeshError`] names the piece, or tells that the work was
     /// cancelled.
     ///
     /// ```
     /// use morphospace::compatible::{CompatibleMesh, PolygonOptions};
     /// use morphospace::correspondence::{Matching, match_regions};
     /// use morphospace::geometry::{DVec2, FillRule, Regions};
-    /// use morphospace::progress::Silent;
+    /// use morphospace::work::progress::Silent;
     /// let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from).to_vec();
     /// let kite = [(0.0, 0.0), (1.0, -2.0), (2.0, 0.0), (1.0, 1.0)].map(DVec2::from).to_vec();
     /// let [a, b] = [Regions::from_rings(&[square], FillRule::NonZero)?,
@@ -55,34 +55,36 @@ impl CompatibleMesh {
         matched: &RegionMatch,
         options: &PolygonOptions,
         progress: &dyn Progress,
-    ) -> Result<Self, OutlinesError> {
+    ) -> Result<Self, OutlineMeshError> {
         let pieces = matched.pieces.len();
-        let shares = Several::new(progress, pieces);
+        let shares = ProgressShares::new(progress, pieces);
         let meshes = matched.pieces.par_iter().enumerate().map(|(piece, rings)| {
-            of_piece(rings, options, &shares.part(piece)).map_err(|error| OutlinesError {
+            mesh_of_piece(rings, options, &shares.part(piece)).map_err(|error| OutlineMeshError {
                 piece,
                 pieces,
                 error,
             })
         });
-        Ok(joined(&meshes.collect::<Result<Vec<_>, _>>()?))
+        Ok(merged_meshes(&meshes.collect::<Result<Vec<_>, _>>()?))
     }
 }
 
 /// The mesh of one piece.
-pub(crate) fn of_piece(
+pub(crate) fn mesh_of_piece(
     piece: &PieceMatch,
     options: &PolygonOptions,
     progress: &dyn Progress,
-) -> Result<CompatibleMesh, PolygonsError> {
+) -> Result<CompatibleMesh, PieceMeshError> {
     let source: Vec<_> = piece.rings.iter().map(|ring| &ring.source).collect();
     let target: Vec<_> = piece.rings.iter().map(|ring| &ring.target).collect();
     CompatibleMesh::from_piece(&source, &target, options, progress)
 }
 
 /// The meshes as one, in order.
-pub(crate) fn joined<'a>(meshes: impl IntoIterator<Item = &'a CompatibleMesh>) -> CompatibleMesh {
-    let mut whole = Patchwork::default();
+pub(crate) fn merged_meshes<'a>(
+    meshes: impl IntoIterator<Item = &'a CompatibleMesh>,
+) -> CompatibleMesh {
+    let mut whole = MeshAssembly::default();
     for mesh in meshes {
         // Pieces lie apart: no vertex is shared.
         whole.add(

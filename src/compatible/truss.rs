@@ -24,23 +24,23 @@
 //! only further points inside a panel would make one possible, and that
 //! pieces which lie inside a panel without a bar to it move with it.
 
-mod crossings;
+mod bar_conflicts;
+mod blocks;
 mod error;
-mod pieces;
-mod polygon;
+mod panel_triangulation;
 
 use crate::design::Truss;
-use crate::geometry::{DVec2, Pair, Side, signed_area};
+use crate::geometry::{DVec2, Side, SourceTarget, signed_area};
 use crate::mesh::undirected;
-use crate::progress::{Progress, checkpoint, still_wanted};
+use crate::work::progress::{Progress, checkpoint, still_wanted};
+use blocks::PlanarBlocks;
 use error::MAX_PANEL_NODES;
 pub use error::TrussError;
-pub(super) use error::listed;
-use pieces::Pieces;
+pub(super) use error::list_first;
 use std::collections::HashSet;
 
 /// Faces, and bars that are two-point elements.
-pub(super) type Panels = (Vec<[u32; 3]>, Vec<[u32; 2]>);
+pub(super) type PanelMesh = (Vec<[u32; 3]>, Vec<[u32; 2]>);
 
 /// Triangles between the bars, positive in both designs, and the bars that
 /// are in no panel.
@@ -48,25 +48,25 @@ pub(super) type Panels = (Vec<[u32; 3]>, Vec<[u32; 2]>);
 /// # Errors
 /// [`TrussError`] names the first difference, or the nodes of a panel that
 /// cannot be triangulated, or tells that the work was cancelled.
-pub(super) fn panels(
+pub(super) fn triangulate_panels(
     source: &Truss,
     target: &Truss,
     progress: &dyn Progress,
-) -> Result<Panels, TrussError> {
+) -> Result<PanelMesh, TrussError> {
     check_same(source, target)?;
-    let nodes = Pair {
+    let nodes = SourceTarget {
         source: source.nodes(),
         target: target.nodes(),
     };
     let bars = source.bars();
-    let conflicts = crossings::in_either(bars, nodes, progress)?;
-    let thinned = crossings::thinned(bars.len(), &conflicts, progress)?;
+    let conflicts = bar_conflicts::find_conflicts(bars, nodes, progress)?;
+    let thinned = bar_conflicts::remove_greedily(bars.len(), &conflicts, progress)?;
     let first = with_kept(bars, nodes, &thinned, progress);
     still_wanted(progress)?;
     if first.is_ok() || conflicts.is_empty() {
         return first;
     }
-    let uncrossed = crossings::uncrossed(bars.len(), &conflicts);
+    let uncrossed = bar_conflicts::keep_uncrossed(bars.len(), &conflicts);
     // Of two failures the first: it is about the bars that are there.
     with_kept(bars, nodes, &uncrossed, progress).or(first)
 }
@@ -92,16 +92,16 @@ fn check_same(source: &Truss, target: &Truss) -> Result<(), TrussError> {
 /// The panels between the bars that are kept, triangulated.
 fn with_kept(
     bars: &[[u32; 2]],
-    nodes: Pair<&[DVec2]>,
+    nodes: SourceTarget<&[DVec2]>,
     kept: &[bool],
     progress: &dyn Progress,
-) -> Result<Panels, TrussError> {
+) -> Result<PanelMesh, TrussError> {
     let those = |are_kept: bool| {
         let those = bars.iter().zip(kept).filter(move |(_, k)| **k == are_kept);
         those.map(|(bar, _)| *bar)
     };
     let plane: Vec<[u32; 2]> = those(true).collect();
-    let pieces = Pieces::of(&plane, nodes.source);
+    let pieces = PlanarBlocks::of(&plane, nodes.source);
     check_sides(&pieces.panels, nodes)?;
     let mut faces = Vec::new();
     let count = pieces.panels.len() as f64;
@@ -116,7 +116,7 @@ fn with_kept(
 
 /// Panels run counter-clockwise in the source. Where none does in the target it
 /// is a mirror image; where some do not, the first is a fault.
-fn check_sides(cycles: &[Vec<u32>], nodes: Pair<&[DVec2]>) -> Result<(), TrussError> {
+fn check_sides(cycles: &[Vec<u32>], nodes: SourceTarget<&[DVec2]>) -> Result<(), TrussError> {
     let turned = |cycle: &Vec<u32>| {
         let corners = cycle.iter().map(|&node| nodes.target[node as usize]);
         // Where rounding errs the panel is flat, and gets no triangles either.
@@ -133,13 +133,13 @@ fn check_sides(cycles: &[Vec<u32>], nodes: Pair<&[DVec2]>) -> Result<(), TrussEr
 
 fn triangles(
     cycle: &[u32],
-    nodes: Pair<&[DVec2]>,
+    nodes: SourceTarget<&[DVec2]>,
     progress: &dyn Progress,
 ) -> Result<Vec<[u32; 3]>, TrussError> {
     if cycle.len() > MAX_PANEL_NODES {
         return Err(TrussError::TooLarge(cycle.to_vec()));
     }
-    let found = polygon::triangulated(cycle, nodes, progress)?;
+    let found = panel_triangulation::triangulate_panel(cycle, nodes, progress)?;
     found.ok_or_else(|| TrussError::NoTriangulation(cycle.to_vec()))
 }
 

@@ -10,20 +10,20 @@
 //! is shown is cut to a rectangle on its way from the source's to the target's.
 
 mod layer;
-mod linear;
-mod set;
+mod linear_light;
+mod many_designs;
 
-pub use layer::Layer;
-pub use set::PictureSet;
+pub use layer::PictureLayer;
+pub use many_designs::PictureSet;
 
-use super::scan::{Facet, scan};
+use super::placement_scan::{SourceFacet, scan};
 use crate::design::Picture;
-use crate::easing::Easing;
 use crate::geometry::{Bounds, DVec2};
+use crate::time::easing::NamedEasing;
 use crate::warp::Placement;
 use image::RgbaImage;
-use layer::Sampler;
-use linear::{Encoder, Light, mixed};
+use layer::PictureSampler;
+use linear_light::{LinearLight, SrgbEncoder, mixed};
 use serde::{Deserialize, Serialize};
 
 /// How the mix of two pictures runs over t.
@@ -37,7 +37,7 @@ use serde::{Deserialize, Serialize};
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ColourMix {
     /// How fast within its span.
-    pub curve: Easing,
+    pub curve: NamedEasing,
     /// The t at which the source begins to give way, in [0, 1).
     pub from: f64,
     /// The t from which on only the target is seen, in (from, 1].
@@ -56,7 +56,7 @@ impl Default for ColourMix {
     /// Evenly, all the way.
     fn default() -> Self {
         Self {
-            curve: Easing::Linear,
+            curve: NamedEasing::Linear,
             from: 0.0,
             to: 1.0,
         }
@@ -89,13 +89,13 @@ impl ColourMix {
 /// The content *colours*: two pictures and how they mix. Cloning is cheap.
 #[derive(Clone, Debug)]
 pub struct PicturePair {
-    layers: [Layer; 2],
+    layers: [PictureLayer; 2],
     mix: ColourMix,
 }
 
 /// Where the pixels of an output lie in the plane.
 #[derive(Clone, Copy, Debug)]
-pub struct Raster {
+pub struct PictureRaster {
     /// Pixels across and down.
     pub size: [u32; 2],
     /// The upper left corner of the upper left pixel.
@@ -104,7 +104,7 @@ pub struct Raster {
     pub pixel: f64,
 }
 
-impl Raster {
+impl PictureRaster {
     /// Where a point of the plane is, in pixels from the upper left corner.
     fn located(&self, p: DVec2) -> DVec2 {
         let d = (p - self.corner) / self.pixel;
@@ -121,7 +121,8 @@ impl PicturePair {
         mix.check()?;
         // Decoding takes as long as several frames, and each knows nothing of
         // the other.
-        let (source, target) = rayon::join(|| Layer::new(source), || Layer::new(target));
+        let (source, target) =
+            rayon::join(|| PictureLayer::new(source), || PictureLayer::new(target));
         Ok(Self {
             layers: [source, target],
             mix,
@@ -130,7 +131,7 @@ impl PicturePair {
 
     /// Source and target.
     #[must_use]
-    pub fn layers(&self) -> &[Layer; 2] {
+    pub fn layers(&self) -> &[PictureLayer; 2] {
         &self.layers
     }
 
@@ -159,13 +160,13 @@ impl PicturePair {
     /// # Panics
     /// Where a face of the placement has a vertex without a place.
     #[must_use]
-    pub fn render(&self, placement: &Placement, t: f64, raster: &Raster) -> RgbaImage {
+    pub fn render(&self, placement: &Placement, t: f64, raster: &PictureRaster) -> RgbaImage {
         let [width, height] = raster.size;
         let mut out = RgbaImage::new(width, height);
         let (pixels, _) = out.as_chunks_mut::<4>();
         let to_lattice = |p: DVec2| raster.located(p) - 0.5;
-        let paint = Paint::new(self, t, raster);
-        let filler = |facet: Facet| paint.filler(facet);
+        let paint = PicturePaint::new(self, t, raster);
+        let filler = |facet: SourceFacet| paint.filler(facet);
         scan(placement, to_lattice, width as usize, pixels, filler);
         out
     }
@@ -176,34 +177,34 @@ impl PicturePair {
 const CHUNK: usize = 32;
 
 /// How runs of pixels are painted.
-struct Paint<'a> {
-    layers: [Sampler<'a>; 2],
+struct PicturePaint<'a> {
+    layers: [PictureSampler<'a>; 2],
     /// Of the target, in the mix.
     share: f32,
     /// Of each column and of each row, how much is shown.
     shown: [Vec<f32>; 2],
-    encoder: Encoder,
+    encoder: SrgbEncoder,
 }
 
-impl<'a> Paint<'a> {
-    fn new(pair: &'a PicturePair, t: f64, raster: &Raster) -> Self {
+impl<'a> PicturePaint<'a> {
+    fn new(pair: &'a PicturePair, t: f64, raster: &PictureRaster) -> Self {
         Self {
             layers: [0, 1].map(|k| pair.layers[k].sampler(raster.pixel)),
             share: pair.mix.share(t) as f32,
             shown: shown(pair.window(t), raster),
-            encoder: Encoder::new(),
+            encoder: SrgbEncoder::new(),
         }
     }
 
     /// Writes the pixels of a face, a part of a row at a time.
-    fn filler(&self, facet: Facet) -> impl FnMut(usize, usize, &mut [[u8; 4]]) {
+    fn filler(&self, facet: SourceFacet) -> impl FnMut(usize, usize, &mut [[u8; 4]]) {
         let [columns, rows] = &self.shown;
         // No sample of the output is farther than this from another.
         let reach = columns.len().max(rows.len());
         let [source, target] = &self.layers;
         let source = source.across(&facet.source, facet.first, reach);
         let target = target.across(&facet.target, facet.first, reach);
-        let mut lights = [Light::ZERO; CHUNK];
+        let mut lights = [LinearLight::ZERO; CHUNK];
         move |x, y, pixels| {
             // One picture after the other, so that the rows of only one are
             // walked at a time.
@@ -232,7 +233,7 @@ impl<'a> Paint<'a> {
 
 /// How much of each column of a raster, and of each row, a rectangle covers: of a pixel it
 /// covers its share of the column times that of the row.
-fn shown(window: Bounds, raster: &Raster) -> [Vec<f32>; 2] {
+fn shown(window: Bounds, raster: &PictureRaster) -> [Vec<f32>; 2] {
     let low = raster.located(DVec2::new(window.min.x, window.max.y));
     let high = raster.located(DVec2::new(window.max.x, window.min.y));
     let along = |count: u32, low: f64, high: f64| {

@@ -13,15 +13,15 @@
 //! guarantee: between the ends, a blend may tear or merge parts.
 
 mod carried;
-mod set;
+mod many_designs;
 
-pub use set::FieldSet;
+pub use many_designs::FieldSet;
 
 use std::sync::Arc;
 
 use crate::field::{DistanceField, Grid, contour};
 use crate::geometry::DVec2;
-use crate::names::named;
+use crate::settings::choice::named;
 use serde::{Deserialize, Serialize};
 
 /// What is done to distances before they are mixed.
@@ -156,7 +156,7 @@ impl FieldBlend {
 /// use morphospace::content::{FieldBlend, FieldPair};
 /// use morphospace::field::{DistanceField, Grid, Mask, Metric};
 /// use morphospace::geometry::DVec2;
-/// use morphospace::progress::Silent;
+/// use morphospace::work::progress::Silent;
 ///
 /// let grid = Grid::new(3, 1, DVec2::ZERO, 1.0)?;
 /// let field = |bits: [bool; 3]| -> Result<_, Box<dyn std::error::Error>> {

@@ -1,14 +1,14 @@
 //! Solid regions and bars that are carried by the vertices of a placement.
 
-use super::{Coating, Hole, Inked, Swell};
+use super::{InkedLayer, PaintLayerStack, SwellingShape, TransientHole};
 use crate::colour::Paint;
-use crate::geometry::{Crossing, DVec2, RingEdge, Side, count_crossings, crossings};
-use crate::warp::{Clock, Life};
+use crate::geometry::{DVec2, EdgeCrossing, RingEdge, Side, count_crossings, crossings};
+use crate::warp::{PartClock, TimeWindow};
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
 /// What is drawn over the vertices of a placement.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Solid {
+pub struct SolidContent {
     /// Closed boundary walks of the filled faces, as vertex indices; empty
     /// for a truss, whose panels only carry its nodes.
     pub loops: Vec<Vec<u32>>,
@@ -20,24 +20,24 @@ pub struct Solid {
     /// Width of the bars, in units of the designs.
     pub bar_width: f64,
     /// Holes in the filled faces that one of the designs has alone.
-    pub holes: Vec<Hole>,
+    pub holes: Vec<TransientHole>,
     /// Parts that one of the designs has alone and that swell, each drawn in
     /// the stead of its walks.
-    pub swells: Vec<Swell>,
+    pub swells: Vec<SwellingShape>,
     /// Parts that one of the designs has alone and that grow, which are not
     /// drawn while they are specks.
-    pub specks: Vec<Speck>,
+    pub specks: Vec<SeedShape>,
     /// How all that is painted; none where it has one colour.
-    pub coating: Option<Coating>,
+    pub coating: Option<PaintLayerStack>,
     /// When its parts make their way; none where all do as the whole.
-    pub clocks: Option<Clocks>,
+    pub clocks: Option<BarClocks>,
 }
 
 /// The clocks of the parts of a solid.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Clocks {
+pub struct BarClocks {
     /// What there is of clocks; the last is that of the whole.
-    pub clocks: Vec<Clock>,
+    pub clocks: Vec<PartClock>,
     /// For each boundary walk its clock.
     pub of_walks: Vec<usize>,
     /// For each hole its clock.
@@ -46,7 +46,7 @@ pub struct Clocks {
     pub of_vertices: Vec<usize>,
 }
 
-impl Clocks {
+impl BarClocks {
     fn of_vertex(&self, vertex: u32) -> usize {
         self.of_vertices[vertex as usize]
     }
@@ -103,14 +103,14 @@ impl InkedBars {
 
 /// A part that grows from a speck, or shrinks to one.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Speck {
+pub struct SeedShape {
     /// Its boundary walks, by their numbers.
     pub walks: Vec<usize>,
     /// When it changes its size.
-    pub life: Life,
+    pub life: TimeWindow,
 }
 
-impl Solid {
+impl SolidContent {
     /// The boundary walks at `t`, when the vertices are at these places; then
     /// the parts that swell and the holes, those that are there.
     ///
@@ -128,7 +128,7 @@ impl Solid {
     /// Where a walk goes by a vertex that has no place.
     pub(crate) fn lasting_at(&self, places: &[DVec2]) -> Vec<Vec<DVec2>> {
         let specks = self.specks.iter().flat_map(|speck| &speck.walks);
-        let swells = self.swells.iter().flat_map(Swell::walks);
+        let swells = self.swells.iter().flat_map(SwellingShape::walks);
         let alone: BTreeSet<usize> = specks.chain(swells).copied().collect();
         let lasting = (0..self.loops.len()).filter(|walk| !alone.contains(walk));
         lasting.map(|walk| self.walk_at(walk, places)).collect()
@@ -190,13 +190,13 @@ impl Solid {
     /// # Panics
     /// Where a walk goes by a vertex that has no place.
     #[must_use]
-    pub fn coated_at(&self, places: &[DVec2], t: f64) -> Vec<Inked> {
+    pub fn coated_at(&self, places: &[DVec2], t: f64) -> Vec<InkedLayer> {
         let Some(coating) = &self.coating else {
             let rings = self.rings_at(places, t);
-            return vec![Inked {
+            return vec![InkedLayer {
                 t,
                 rings,
-                ..Inked::default()
+                ..InkedLayer::default()
             }];
         };
         let mut of_coats = vec![BTreeMap::<InkKey, Vec<Vec<DVec2>>>::new(); coating.coats.len()];
@@ -215,11 +215,11 @@ impl Solid {
                 let shows = |v: u32| clocks.is_none_or(|all| all.of_vertex(v) == key.clock);
                 let gradients = coating.coats[coat].shading.at(places, shows);
                 let t = clocks.map_or(t, |all| all.clocks[key.clock].at(t));
-                let inked = Inked {
+                let inked = InkedLayer {
                     coat,
                     t,
                     rings,
-                    ..Inked::default()
+                    ..InkedLayer::default()
                 };
                 coating.coats[coat].ink(inked, gradients, key.fading)
             })
@@ -232,7 +232,7 @@ impl Solid {
     /// # Panics
     /// Where a walk goes by a vertex that has no place.
     #[must_use]
-    pub fn crossings_at(&self, places: &[DVec2], t: f64) -> Vec<Crossing> {
+    pub fn crossings_at(&self, places: &[DVec2], t: f64) -> Vec<EdgeCrossing> {
         let Some(coating) = &self.coating else {
             return crossings(&self.rings_at(places, t));
         };
@@ -272,7 +272,7 @@ impl Solid {
 
     /// The walks that are drawn as they are at `t`, by their numbers.
     fn walks(&self, t: f64) -> impl Iterator<Item = usize> {
-        let swelling = self.swelling(t).flat_map(Swell::walks);
+        let swelling = self.swelling(t).flat_map(SwellingShape::walks);
         let gone = self
             .specks
             .iter()
@@ -286,17 +286,17 @@ impl Solid {
     }
 
     /// The parts that are not as they were drawn at `t`.
-    fn swelling(&self, t: f64) -> impl Iterator<Item = &Swell> {
+    fn swelling(&self, t: f64) -> impl Iterator<Item = &SwellingShape> {
         let swells = self.swells.iter();
         swells.filter(move |swell| swell.share(self.part_time(swell.walks(), t)) < 1.0)
     }
 
-    fn is_gone(&self, speck: &Speck, t: f64) -> bool {
+    fn is_gone(&self, speck: &SeedShape, t: f64) -> bool {
         speck.life.is_gone(self.part_time(&speck.walks, t))
     }
 
     /// A part as far as it has swollen.
-    fn swollen(&self, swell: &Swell, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
+    fn swollen(&self, swell: &SwellingShape, places: &[DVec2], t: f64) -> Vec<Vec<DVec2>> {
         let first = swell.walks().first();
         let first = first.map(|&walk| self.walk_at(walk, places));
         swell.at(&first.unwrap_or_default(), self.part_time(swell.walks(), t))
@@ -330,7 +330,7 @@ impl Solid {
     /// How many of the rings that come and go are not there at `t`: points, to
     /// what counts rings.
     pub(crate) fn gone_at(&self, t: f64) -> usize {
-        let swollen = |swell: &Swell| swell.share(self.part_time(swell.walks(), t));
+        let swollen = |swell: &SwellingShape| swell.share(self.part_time(swell.walks(), t));
         let swells = self.swells.iter().filter(|swell| swollen(swell) <= 0.0);
         let specks = self.specks.iter().filter(|speck| self.is_gone(speck, t));
         let walks: usize = swells
@@ -341,7 +341,7 @@ impl Solid {
     }
 
     /// All holes, and whether each is gone at `t`.
-    fn holes_at(&self, t: f64) -> impl Iterator<Item = (&Hole, bool)> {
+    fn holes_at(&self, t: f64) -> impl Iterator<Item = (&TransientHole, bool)> {
         let holes = self.holes.iter().enumerate();
         holes.map(move |(k, hole)| (hole, hole.is_gone(self.hole_time(k, t))))
     }

@@ -17,10 +17,10 @@
 //! of the few tried; detail finer than the samples is matched by arc length.
 
 use super::boundary_match::BoundaryMatch;
-use super::curve::Curve;
+use super::curve::BoundaryCurve;
+use super::curve_problem::CurveMatchProblem;
 use super::options::{MatchError, MatchOptions, check};
 use super::pins::{self, Pin};
-use super::problem::Problem;
 use crate::geometry::{DVec2, lexicographic};
 use std::cmp::Ordering;
 
@@ -40,8 +40,8 @@ use std::cmp::Ordering;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 pub fn match_curves(
-    source: &Curve,
-    target: &Curve,
+    source: &BoundaryCurve,
+    target: &BoundaryCurve,
     pins: &[Pin],
     options: &MatchOptions,
 ) -> Result<BoundaryMatch, MatchError> {
@@ -51,18 +51,23 @@ pub fn match_curves(
     let back = pins::ordered(&inverses, target, source)?;
     // Solved in one order and turned round: sums and ties would else differ.
     if order(source, &there, target, &back) == Ordering::Greater {
-        return Ok(Problem::new(target, source, back, options)
+        return Ok(CurveMatchProblem::new(target, source, back, options)
             .solve([target, source])
             .inverse());
     }
-    Ok(Problem::new(source, target, there, options).solve([source, target]))
+    Ok(CurveMatchProblem::new(source, target, there, options).solve([source, target]))
 }
 
 /// A total order of curves with their pins, so that a pair is solved in one
 /// order only.
-fn order(a: &Curve, a_pins: &[[f64; 2]], b: &Curve, b_pins: &[[f64; 2]]) -> Ordering {
+fn order(
+    a: &BoundaryCurve,
+    a_pins: &[[f64; 2]],
+    b: &BoundaryCurve,
+    b_pins: &[[f64; 2]],
+) -> Ordering {
     let flat = |p: &DVec2| p.to_array();
-    let points = |c: &Curve| c.points().iter().flat_map(flat).collect::<Vec<_>>();
+    let points = |c: &BoundaryCurve| c.points().iter().flat_map(flat).collect::<Vec<_>>();
     let count = a.points().len().cmp(&b.points().len());
     let shape = || lexicographic(points(a), points(b));
     let pinned = || lexicographic(a_pins.concat(), b_pins.concat());

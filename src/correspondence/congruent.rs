@@ -9,9 +9,9 @@
 //! That is the iterated closest point (Besl, McKay 1992), kept near the match
 //! that was found.
 
-use super::curve::Curve;
-use super::in_order::{in_order, is_pin};
-use crate::geometry::{DVec2, Fit};
+use super::curve::BoundaryCurve;
+use super::knot_order::{is_pin, ordered_knots};
+use crate::geometry::{DVec2, SimilarityFit};
 
 /// Curves count as nearly the same where matched points are off by no more
 /// than this, as a root of the mean square in lengths of the target.
@@ -36,10 +36,10 @@ const EXACT: f64 = 1e-9;
 /// Knots with each source point matched to where it falls on the target,
 /// where the curves are nearly the same; none where they are not. `knots` is
 /// ascending in the source; pins stay.
-pub(super) fn settled(
+pub(super) fn registered_knots(
     knots: &[[f64; 2]],
     pins: &[[f64; 2]],
-    [source, target]: [&Curve; 2],
+    [source, target]: [&BoundaryCurve; 2],
 ) -> Option<Vec<[f64; 2]>> {
     let length = target.length();
     let mut places: Vec<f64> = knots.iter().map(|k| k[1]).collect();
@@ -47,7 +47,7 @@ pub(super) fn settled(
     let points: Vec<DVec2> = knots.iter().map(|k| source.point_at(k[0])).collect();
     for round in 0..ROUNDS {
         let landed: Vec<DVec2> = places.iter().map(|&b| target.point_at(b)).collect();
-        let fit = Fit::of(&points, &landed)?;
+        let fit = SimilarityFit::of(&points, &landed)?;
         // Later rounds only come nearer.
         if round == 0 && fit.residual(&points, &landed) > ALIKE * length {
             return None;
@@ -80,7 +80,7 @@ pub(super) fn settled(
         }
     }
     let settled: Vec<[f64; 2]> = knots.iter().zip(places).map(|(k, b)| [k[0], b]).collect();
-    let kept = in_order(knots, &settled, pins);
+    let kept = ordered_knots(knots, &settled, pins);
     // What loses many knots did not settle.
     (2 * kept.len() > knots.len()).then_some(kept)
 }
@@ -90,9 +90,9 @@ mod tests {
     use super::*;
     use crate::geometry::Ring;
 
-    fn closed(points: &[(f64, f64)]) -> Curve {
+    fn closed(points: &[(f64, f64)]) -> BoundaryCurve {
         let points = points.iter().map(|&p| DVec2::from(p)).collect();
-        Curve::closed(&Ring::new(points).expect("a ring")).expect("a size")
+        BoundaryCurve::closed(&Ring::new(points).expect("a ring")).expect("a size")
     }
 
     #[test]
@@ -100,7 +100,7 @@ mod tests {
         let square = closed(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
         let bar = closed(&[(0.0, 0.0), (3.0, 0.0), (3.0, 1.0), (0.0, 1.0)]);
         let knots = [0.0, 0.25, 0.5, 0.75].map(|place| [place, place]);
-        assert_eq!(settled(&knots, &[], [&square, &bar]), None);
+        assert_eq!(registered_knots(&knots, &[], [&square, &bar]), None);
     }
 
     #[test]
@@ -112,7 +112,7 @@ mod tests {
                 [place, (place + 0.004 * f64::from(k % 3)).rem_euclid(1.0)]
             })
             .collect();
-        let found = settled(&knots, &[], [&shape, &shape]).expect("nearly the same");
+        let found = registered_knots(&knots, &[], [&shape, &shape]).expect("nearly the same");
         assert!(found.len() > 30);
         for [a, b] in found {
             let off = shape.point_at(a).distance(shape.point_at(b));

@@ -1,6 +1,6 @@
 //! Closed curves by arc length, with the unwrapped direction of their tangent.
 //!
-//! A place on a [`Curve`] is the fraction of its length from the first point,
+//! A place on a [`BoundaryCurve`] is the fraction of its length from the first point,
 //! in [0, 1); so it keeps its meaning when the curve is moved, turned or
 //! enlarged.
 //!
@@ -8,7 +8,7 @@
 //! it, both over a stated length of the curve. Means over the *unwrapped*
 //! direction know no jump at ±π, and jitter of the outline cancels in them.
 
-use crate::geometry::{DVec2, Ring, along_segment, perimeter};
+use crate::geometry::{DVec2, Ring, nearest_segment_parameter, perimeter};
 use std::f64::consts::TAU;
 
 /// A bend below this is none, in radians: a pixel over the width of twenty
@@ -17,7 +17,7 @@ const LEAST_BEND: f64 = 1e-5;
 
 /// A closed polyline that knows its places by arc length.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Curve {
+pub struct BoundaryCurve {
     points: Vec<DVec2>,
     /// Place of each point, and at the end the place 1.
     places: Vec<f64>,
@@ -32,13 +32,13 @@ pub struct Curve {
 /// The length of a ring is no positive finite number in floating point.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the outline is too large or too small to be measured; scale it to an ordinary size")]
-pub struct CurveError;
+pub struct CurveLengthError;
 
-impl Curve {
+impl BoundaryCurve {
     /// A closed boundary.
     ///
     /// # Errors
-    /// [`CurveError`] if its length overflows or underflows.
+    /// [`CurveLengthError`] if its length overflows or underflows.
     ///
     /// ```
     /// use morphospace::{correspondence::Curve, geometry::{DVec2, Ring}};
@@ -47,8 +47,8 @@ impl Curve {
     /// assert_eq!(curve.point_at(0.625), DVec2::new(0.5, 1.0));
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
-    pub fn closed(ring: &Ring) -> Result<Self, CurveError> {
-        let edges = unit_edges(ring).ok_or(CurveError)?;
+    pub fn closed(ring: &Ring) -> Result<Self, CurveLengthError> {
+        let edges = unit_edges(ring).ok_or(CurveLengthError)?;
         let mut places = vec![0.0];
         let mut sum = 0.0;
         for edge in &edges {
@@ -56,7 +56,7 @@ impl Curve {
             places.push(sum);
         }
         if !(sum.is_finite() && sum > 0.0) {
-            return Err(CurveError);
+            return Err(CurveLengthError);
         }
         places.iter_mut().for_each(|place| *place /= sum);
         let directions = unwrapped(&edges);
@@ -165,7 +165,7 @@ impl Curve {
     /// distance and place, if it is nearer than `best`.
     fn nearer(&self, best: (f64, f64), p: DVec2, e: usize, [low, high]: [f64; 2]) -> (f64, f64) {
         let (from, to) = (self.points[e], self.points[(e + 1) % self.points.len()]);
-        let along = along_segment(p, from, to).clamp(low, high);
+        let along = nearest_segment_parameter(p, from, to).clamp(low, high);
         let distance = p.distance_squared(from.lerp(to, along));
         if distance < best.0 {
             let [start, end] = [self.places[e], self.places[e + 1]];

@@ -11,15 +11,15 @@
 //! Guarantees: the cost of each k is the least of all paths that start there.
 //! Among equally cheap paths the choice is deterministic, nothing more.
 
-use super::path_grid::{Prices, Route, Scratch};
+use super::path_grid::{GridPath, PathBuffers, StepCosts};
 
 /// So few starts are solved on one thread.
 const FEW: usize = 16;
 
 /// The cheapest path of each starting column 0 ≤ k < n. The grid has
 /// 2n columns at least, a row for each target sample and the first one again.
-pub(super) fn all_starts(prices: &Prices, n: usize) -> Vec<Route> {
-    let first = prices.shortest([0, n], |_| [0, n], &mut Scratch::default());
+pub(super) fn all_starts(prices: &StepCosts, n: usize) -> Vec<GridPath> {
+    let first = prices.shortest([0, n], |_| [0, n], &mut PathBuffers::default());
     let mut between = vec![None; n.saturating_sub(1)];
     // The start n columns on is the first one again, one round later.
     let last = first.shifted(n);
@@ -29,7 +29,7 @@ pub(super) fn all_starts(prices: &Prices, n: usize) -> Vec<Route> {
         0,
         [&first, &last],
         &mut between,
-        &mut Scratch::default(),
+        &mut PathBuffers::default(),
     );
     let first = std::iter::once(first);
     first.chain(between.into_iter().flatten()).collect()
@@ -37,12 +37,12 @@ pub(super) fn all_starts(prices: &Prices, n: usize) -> Vec<Route> {
 
 /// Solves the starts after `left`, strictly between two solved ones.
 fn halve(
-    prices: &Prices,
+    prices: &StepCosts,
     n: usize,
     left: usize,
-    [low, high]: [&Route; 2],
-    between: &mut [Option<Route>],
-    scratch: &mut Scratch,
+    [low, high]: [&GridPath; 2],
+    between: &mut [Option<GridPath>],
+    scratch: &mut PathBuffers,
 ) {
     if between.is_empty() {
         return;
@@ -57,7 +57,7 @@ fn halve(
         rayon::join(
             || halve(prices, n, left, [low, &found], before, scratch),
             || {
-                let scratch = &mut Scratch::default();
+                let scratch = &mut PathBuffers::default();
                 halve(prices, n, middle, [&found, high], &mut after[1..], scratch);
             },
         );
@@ -113,7 +113,7 @@ mod tests {
             let routes = all_starts(&grid.prices(), n);
             prop_assert_eq!(routes.len(), n);
             for (k, route) in routes.iter().enumerate() {
-                let plain = grid.prices().shortest([k, k + n], |_| [k, k + n], &mut Scratch::default());
+                let plain = grid.prices().shortest([k, k + n], |_| [k, k + n], &mut PathBuffers::default());
                 prop_assert!((route.cost - plain.cost).abs() <= 1e-12 * (1.0 + plain.cost));
                 prop_assert_eq!(route.rows[0][0], k);
                 prop_assert_eq!(route.rows.last().map(|row| row[1]), Some(k + n));
@@ -130,7 +130,7 @@ mod tests {
             let at = |i: usize, j: usize| seed[8 * i + j];
             let (there, _) = unrolled(&a, &b, &(0..n * m).map(|k| at(k % n, k / n)).collect::<Vec<_>>(), 0.5);
             let (back, _) = unrolled(&b, &a, &(0..n * m).map(|k| at(k / m, k % m)).collect::<Vec<_>>(), 0.5);
-            let least = |routes: Vec<Route>| routes.iter().map(|r| r.cost).fold(f64::INFINITY, f64::min);
+            let least = |routes: Vec<GridPath>| routes.iter().map(|r| r.cost).fold(f64::INFINITY, f64::min);
             let (c, d) = (least(all_starts(&there.prices(), n)), least(all_starts(&back.prices(), m)));
             prop_assert!((c - d).abs() <= 1e-12 * (1.0 + c));
         }

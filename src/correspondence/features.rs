@@ -6,8 +6,8 @@
 //! centre are compared too: they tell apart what bends alike, such as the
 //! fingers of a hand.
 
-use super::curve::Curve;
-use super::samples::Samples;
+use super::curve::BoundaryCurve;
+use super::samples::CurveSamples;
 use super::thickness::log_thickness;
 use crate::geometry::DVec2;
 use std::f64::consts::PI;
@@ -49,7 +49,7 @@ const HALF_DISTANCE: f64 = 1.0;
 
 /// The features of each sample of a curve.
 #[derive(Clone, Debug)]
-pub(super) struct Features {
+pub(super) struct BoundaryFeatures {
     turning: Vec<[f64; REACHES.len()]>,
     log_thickness: Vec<f64>,
     tangent: Vec<DVec2>,
@@ -57,8 +57,8 @@ pub(super) struct Features {
     position: Vec<DVec2>,
 }
 
-impl Features {
-    pub fn of(curve: &Curve, samples: &Samples) -> Self {
+impl BoundaryFeatures {
+    pub fn of(curve: &BoundaryCurve, samples: &CurveSamples) -> Self {
         let places = &samples.places;
         let direction = |s: f64| curve.direction(s - TANGENT_REACH, s + TANGENT_REACH);
         let posed: Vec<(f64, f64)> = places.iter().map(|&s| (s, direction(s))).collect();

@@ -14,7 +14,7 @@
 //! place, times how many corners a path bends around. Holes are not seen: a
 //! ring that was cut open is a polygon along its slits.
 
-use super::curve::Curve;
+use super::curve::BoundaryCurve;
 use crate::geometry::{DVec2, twice_signed_area};
 use crate::mesh::Connectivity;
 use crate::mesh::triangulation::constrained_delaunay;
@@ -30,8 +30,8 @@ pub(super) struct InnerDistances {
 impl InnerDistances {
     /// Between all places of a closed curve; none if it is no simple polygon
     /// that runs counter-clockwise: inside of a hole there is nothing.
-    pub fn of(curve: &Curve, places: &[f64]) -> Option<Self> {
-        let inside = Inside::of(curve, places)?;
+    pub fn of(curve: &BoundaryCurve, places: &[f64]) -> Option<Self> {
+        let inside = TriangulatedPolygon::of(curve, places)?;
         let count = places.len();
         let mut lengths = vec![0.0; count * count];
         for (place, row) in lengths.chunks_exact_mut(count).enumerate() {
@@ -51,7 +51,7 @@ impl InnerDistances {
 }
 
 /// A triangulated simple polygon with places on its boundary.
-struct Inside<'a> {
+struct TriangulatedPolygon<'a> {
     points: &'a [DVec2],
     faces: Vec<[u32; 3]>,
     connectivity: Connectivity,
@@ -64,7 +64,7 @@ struct Inside<'a> {
 
 /// A corner of a funnel, and how far it is from where all paths begin.
 #[derive(Clone, Copy)]
-struct Bend {
+struct FunnelVertex {
     at: DVec2,
     length: f64,
 }
@@ -72,15 +72,15 @@ struct Bend {
 /// The shortest paths to both ends of an edge that is crossed: from its left
 /// end, seen from where they come, to where they part, to its right end.
 struct Funnel {
-    bends: Vec<Bend>,
+    bends: Vec<FunnelVertex>,
     apex: usize,
     /// Beyond the edge, and the edge's corner of that face.
     face: usize,
     corner: usize,
 }
 
-impl<'a> Inside<'a> {
-    fn of(curve: &'a Curve, places: &[f64]) -> Option<Self> {
+impl<'a> TriangulatedPolygon<'a> {
+    fn of(curve: &'a BoundaryCurve, places: &[f64]) -> Option<Self> {
         let points = curve.points();
         let faces = constrained_delaunay(&[points]).ok()?;
         let connectivity = Connectivity::new(&faces).ok()?;
@@ -108,7 +108,7 @@ impl<'a> Inside<'a> {
         for &other in &self.places_of[face] {
             lengths[other] = from.distance(self.places[other]);
         }
-        let bend = |at: DVec2| Bend {
+        let bend = |at: DVec2| FunnelVertex {
             at,
             length: from.distance(at),
         };
@@ -135,7 +135,13 @@ impl<'a> Inside<'a> {
     }
 
     /// A funnel to an edge of a face, if there is a face across.
-    fn beyond(&self, face: usize, corner: usize, bends: Vec<Bend>, apex: usize) -> Option<Funnel> {
+    fn beyond(
+        &self,
+        face: usize,
+        corner: usize,
+        bends: Vec<FunnelVertex>,
+        apex: usize,
+    ) -> Option<Funnel> {
         let across = self.connectivity.neighbour(face, corner % 3)?;
         let end = self.faces[face][(corner + 1) % 3];
         let corner = self.faces[across].iter().position(|&v| v == end)?;
@@ -151,7 +157,7 @@ impl<'a> Inside<'a> {
 impl Funnel {
     /// Where the shortest path to a point beyond the edge leaves the funnel,
     /// and its end there.
-    fn reach(&self, to: DVec2) -> (usize, Bend) {
+    fn reach(&self, to: DVec2) -> (usize, FunnelVertex) {
         let at = |k: usize| self.bends[k].at;
         let mut parts = self.apex;
         while parts > 0 && twice_signed_area(at(parts), at(parts - 1), to) > 0.0 {
@@ -165,12 +171,16 @@ impl Funnel {
             }
         }
         let length = self.bends[parts].length + at(parts).distance(to);
-        (parts, Bend { at: to, length })
+        (parts, FunnelVertex { at: to, length })
     }
 
     /// The funnels to the edges left and right of the corner ahead, each with
     /// its apex.
-    fn split(self, parts: usize, ahead: Bend) -> ((Vec<Bend>, usize), (Vec<Bend>, usize)) {
+    fn split(
+        self,
+        parts: usize,
+        ahead: FunnelVertex,
+    ) -> ((Vec<FunnelVertex>, usize), (Vec<FunnelVertex>, usize)) {
         let mut left = self.bends[..=parts].to_vec();
         left.push(ahead);
         let mut right = vec![ahead];
@@ -203,9 +213,9 @@ mod tests {
     use super::*;
     use crate::geometry::Ring;
 
-    fn curve(points: &[(f64, f64)]) -> Curve {
+    fn curve(points: &[(f64, f64)]) -> BoundaryCurve {
         let points = points.iter().map(|&p| DVec2::from(p)).collect();
-        Curve::closed(&Ring::new(points).expect("a ring")).expect("a size")
+        BoundaryCurve::closed(&Ring::new(points).expect("a ring")).expect("a size")
     }
 
     /// A bar along x and then up: its inner corner is at (3, 1).

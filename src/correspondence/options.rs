@@ -1,6 +1,6 @@
 //! How boundaries are matched, and why they cannot be.
 
-use super::curve::{Curve, CurveError};
+use super::curve::{BoundaryCurve, CurveLengthError};
 use super::pins::PinError;
 use serde::{Deserialize, Serialize};
 
@@ -40,7 +40,7 @@ impl Default for MatchOptions {
 pub enum MatchError {
     /// A curve has no usable length.
     #[error(transparent)]
-    Curve(#[from] CurveError),
+    Curve(#[from] CurveLengthError),
     /// The pins contradict each other.
     #[error(transparent)]
     Pins(#[from] PinError),
@@ -63,8 +63,8 @@ pub enum MatchError {
 
 /// Whether two curves can be matched at all, pins aside.
 pub(super) fn check(
-    source: &Curve,
-    target: &Curve,
+    source: &BoundaryCurve,
+    target: &BoundaryCurve,
     options: &MatchOptions,
 ) -> Result<(), MatchError> {
     if source.turning_number() * target.turning_number() < 0 {

@@ -9,9 +9,9 @@
 //! from B to A is the same as that from A to B. Does not split one part into
 //! several.
 
-use super::assignment::assign;
-use super::regions::{Look, Looks};
+use super::regions::{PartLook, PartLooks};
 use crate::geometry::{DVec2, Region, Regions, Ring, Side, lexicographic};
+use crate::numerics::assignment::assign;
 use std::cmp::Ordering;
 use std::f64::consts::TAU;
 
@@ -58,7 +58,7 @@ const ALONE: f64 = 0.3;
 pub(super) fn relative_centres(design: &Regions) -> Vec<DVec2> {
     let bounds = design.bounds();
     let (origin, size) = (bounds.centre(), bounds.size().max_element());
-    let centre = |region: &Region| Part::of(&region.outer, 0, origin, size, 0.0).position;
+    let centre = |region: &Region| PartFeatures::of(&region.outer, 0, origin, size, 0.0).position;
     design.iter().map(centre).collect()
 }
 
@@ -72,16 +72,16 @@ pub(super) fn relative_centres(design: &Regions) -> Vec<DVec2> {
 /// [`PairError`] if a fixed pair names no part, or a part twice.
 pub(super) fn pair_parts(
     designs: [&Regions; 2],
-    looks: &Looks,
+    looks: &PartLooks,
     fixed: &[[usize; 2]],
     taken: [&[usize]; 2],
 ) -> Result<Pairing, PairError> {
     let [source, target] = Side::BOTH.map(|side| {
         let bounds = designs[side].bounds();
         let (origin, size) = (bounds.centre(), bounds.size().max_element());
-        let part = |(k, region): (usize, &Region)| Part {
+        let part = |(k, region): (usize, &Region)| PartFeatures {
             look: looks.0[side].get(k).cloned().unwrap_or_default(),
-            ..Part::of(&region.outer, region.holes.len(), origin, size, 0.0)
+            ..PartFeatures::of(&region.outer, region.holes.len(), origin, size, 0.0)
         };
         designs[side]
             .iter()
@@ -109,7 +109,7 @@ pub(super) fn pair_holes(
         // Measures that do not change when the region is turned.
         let origin = moments(&region.outer).centre;
         let size = region.outer.signed_area().abs().sqrt();
-        let part = |hole: &Ring| Part::of(hole, 0, origin, size, turn);
+        let part = |hole: &Ring| PartFeatures::of(hole, 0, origin, size, turn);
         region.holes.iter().map(part).collect::<Vec<_>>()
     };
     // Half of the turn each: as exact one way as the other.
@@ -123,7 +123,7 @@ pub(super) fn pair_holes(
 
 /// What is compared of a part.
 #[derive(Clone, Debug)]
-struct Part {
+struct PartFeatures {
     /// Centre relative to the design, in its size.
     position: DVec2,
     /// Logarithm of the root of the area relative to the design's size.
@@ -134,10 +134,10 @@ struct Part {
     slenderness: f64,
     holes: f64,
     /// How it is painted.
-    look: Look,
+    look: PartLook,
 }
 
-impl Part {
+impl PartFeatures {
     fn of(ring: &Ring, holes: usize, origin: DVec2, size: f64, turn: f64) -> Self {
         let moments = moments(ring);
         let area = ring.signed_area().abs();
@@ -153,7 +153,7 @@ impl Part {
             roundness: tame(round.min(1.0)),
             slenderness: tame(moments.slenderness),
             holes: holes as f64,
-            look: Look::default(),
+            look: PartLook::default(),
         }
     }
 
@@ -174,20 +174,20 @@ impl Part {
             roundness,
             slenderness,
             holes,
-            look: Look { height, .. },
+            look: PartLook { height, .. },
         } = *self;
         [p.x, p.y, log_size, roundness, slenderness, holes, height]
     }
 }
 
 /// Centre and slenderness of a polygon's boundary.
-struct Moments {
+struct BoundaryMoments {
     centre: DVec2,
     slenderness: f64,
 }
 
 /// Taken along the boundary, which has length even where it has no area.
-fn moments(ring: &Ring) -> Moments {
+fn moments(ring: &Ring) -> BoundaryMoments {
     // About a point of its own: far from the origin sums lose their digits.
     let base = ring.points()[0];
     let (mut length, mut sum) = (0.0, DVec2::ZERO);
@@ -206,15 +206,15 @@ fn moments(ring: &Ring) -> Moments {
     }
     let (mean, radius) = (0.5 * (xx + yy), (0.5 * (xx - yy)).hypot(xy));
     let ratio = ((mean - radius) / (mean + radius)).max(0.0);
-    Moments {
+    BoundaryMoments {
         centre,
         slenderness: ratio.sqrt(),
     }
 }
 
 fn pair(
-    source: &[Part],
-    target: &[Part],
+    source: &[PartFeatures],
+    target: &[PartFeatures],
     fixed: &[[usize; 2]],
     taken: [&[usize]; 2],
 ) -> Result<Pairing, PairError> {
@@ -228,7 +228,7 @@ fn pair(
         without(fixed, source.len(), 0),
         without(fixed, target.len(), 1),
     );
-    let keys = |parts: &[Part], free: &[usize]| -> Vec<f64> {
+    let keys = |parts: &[PartFeatures], free: &[usize]| -> Vec<f64> {
         free.iter().flat_map(|&k| parts[k].key()).collect()
     };
     // `assign` wants no more rows than columns, and one order whichever way it
@@ -258,7 +258,7 @@ fn pair(
 }
 
 /// What each of these parts of a design would cost alone.
-fn alone(parts: &[Part]) -> Vec<f64> {
+fn alone(parts: &[PartFeatures]) -> Vec<f64> {
     let areas = parts.iter().map(|part| (2.0 * part.log_size).exp());
     let areas: Vec<f64> = areas.collect();
     // What is too small for a square has no share.
@@ -335,7 +335,7 @@ mod tests {
                 .collect::<Vec<_>>()
         };
         let other = four.transformed(&moved);
-        let pairing = pair_parts([&four, &other], &Looks::default(), &[], NONE).expect("pairs");
+        let pairing = pair_parts([&four, &other], &PartLooks::default(), &[], NONE).expect("pairs");
         let (a, b) = (centres(&four), centres(&other));
         assert_eq!(pairing.pairs.len(), 4);
         for [i, j] in pairing.pairs {
@@ -351,7 +351,7 @@ mod tests {
             block(9.0, 0.0, 2.0, 2.0),
         ]);
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
-        let there = pair_parts([&three, &two], &Looks::default(), &[], NONE).expect("pairs");
+        let there = pair_parts([&three, &two], &PartLooks::default(), &[], NONE).expect("pairs");
         assert_eq!(
             (there.pairs.len(), there.dying.len(), there.born.len()),
             (2, 1, 0)
@@ -359,7 +359,7 @@ mod tests {
         let middle = three.iter().nth(there.dying[0]).expect("a part");
         assert!((middle.outer.signed_area() - 1.0).abs() < 1e-9);
         assert_eq!(
-            pair_parts([&two, &three], &Looks::default(), &[], NONE),
+            pair_parts([&two, &three], &PartLooks::default(), &[], NONE),
             Ok(swapped(&there))
         );
     }
@@ -372,11 +372,11 @@ mod tests {
             block(3.0, 0.0, 4.0, 4.0),
             block(9.4, 0.0, 0.6, 0.6),
         ]);
-        let there = pair_parts([&two, &three], &Looks::default(), &[], NONE).expect("pairs");
+        let there = pair_parts([&two, &three], &PartLooks::default(), &[], NONE).expect("pairs");
         let area = |part: usize| three.iter().nth(part).map_or(0.0, Region::area);
         assert_eq!(there.born.len(), 1);
         assert!(area(there.born[0]) < 1.0, "{there:?}");
-        let back = pair_parts([&three, &two], &Looks::default(), &[], NONE);
+        let back = pair_parts([&three, &two], &PartLooks::default(), &[], NONE);
         assert_eq!(back, Ok(swapped(&there)));
     }
 
@@ -408,15 +408,16 @@ mod tests {
     #[test]
     fn fixed_pairs_are_kept_and_checked() {
         let two = regions(&[block(0.0, 0.0, 2.0, 2.0), block(9.0, 0.0, 2.0, 2.0)]);
-        let crossed = pair_parts([&two, &two], &Looks::default(), &[[0, 1]], NONE).expect("pairs");
+        let crossed =
+            pair_parts([&two, &two], &PartLooks::default(), &[[0, 1]], NONE).expect("pairs");
         assert_eq!(crossed.pairs, vec![[0, 1], [1, 0]]);
         assert_eq!(
-            pair_parts([&two, &two], &Looks::default(), &[[0, 1], [0, 0]], NONE),
+            pair_parts([&two, &two], &PartLooks::default(), &[[0, 1], [0, 0]], NONE),
             Err(PairError::Twice(0))
         );
         let missing = PairError::NoSuchPart { part: 7, count: 2 };
         assert_eq!(
-            pair_parts([&two, &two], &Looks::default(), &[[0, 7]], NONE),
+            pair_parts([&two, &two], &PartLooks::default(), &[[0, 7]], NONE),
             Err(missing)
         );
     }

@@ -23,7 +23,7 @@ pub(super) struct PathGrid {
 /// What each step of a grid costs, a row for each sample of the target:
 /// infinite where the step would come from outside.
 #[derive(Debug)]
-pub(super) struct Prices {
+pub(super) struct StepCosts {
     width: usize,
     rows: usize,
     both: Vec<f64>,
@@ -33,14 +33,14 @@ pub(super) struct Prices {
 
 /// A path: for each row the first and the last column it visits.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Route {
+pub(super) struct GridPath {
     pub cost: f64,
     pub rows: Vec<[usize; 2]>,
 }
 
 /// Buffers of the dynamic program, kept between solves.
 #[derive(Debug, Default)]
-pub(super) struct Scratch {
+pub(super) struct PathBuffers {
     above: Vec<f64>,
     here: Vec<f64>,
     came: Vec<u8>,
@@ -68,9 +68,9 @@ impl PathGrid {
     }
 
     /// The price of each step, for a search that visits them many times.
-    pub fn prices(&self) -> Prices {
+    pub fn prices(&self) -> StepCosts {
         let (width, rows) = (self.source.len(), self.target.len());
-        let mut prices = Prices {
+        let mut prices = StepCosts {
             width,
             rows,
             both: vec![f64::INFINITY; width * rows],
@@ -100,7 +100,7 @@ impl PathGrid {
     }
 }
 
-impl Prices {
+impl StepCosts {
     /// The cheapest path from `start` in row 0 to `end` in the last row that
     /// keeps to the windows of columns, both ends included and nondecreasing
     /// from row to row. O(cells in the windows).
@@ -108,8 +108,8 @@ impl Prices {
         &self,
         [start, end]: [usize; 2],
         window: impl Fn(usize) -> [usize; 2],
-        scratch: &mut Scratch,
-    ) -> Route {
+        scratch: &mut PathBuffers,
+    ) -> GridPath {
         let window = |j: usize| [window(j)[0].max(start), window(j)[1].min(end)];
         scratch.reset(self.width);
         // As if a row above the first led to the start, and nowhere else.
@@ -122,13 +122,13 @@ impl Prices {
         }
         let cost = scratch.above[1 + end];
         let rows = trace(scratch, self.rows, start, end, |j| window(j)[0]);
-        Route { cost, rows }
+        GridPath { cost, rows }
     }
 
     /// The costs of one row from those of the row above.
-    fn row(&self, j: usize, [low, high]: [usize; 2], scratch: &mut Scratch) {
+    fn row(&self, j: usize, [low, high]: [usize; 2], scratch: &mut PathBuffers) {
         let (cells, count) = (j * self.width + low, high + 1 - low);
-        let Scratch {
+        let PathBuffers {
             above, here, came, ..
         } = scratch;
         // Column i is kept at 1 + i; what lies left of the window is not
@@ -166,7 +166,7 @@ impl Prices {
     }
 }
 
-impl Scratch {
+impl PathBuffers {
     fn reset(&mut self, width: usize) {
         for row in [&mut self.above, &mut self.here] {
             row.clear();
@@ -179,7 +179,7 @@ impl Scratch {
 
 /// The path walked back from its end.
 fn trace(
-    scratch: &Scratch,
+    scratch: &PathBuffers,
     count: usize,
     start: usize,
     end: usize,
@@ -201,7 +201,7 @@ fn trace(
     rows
 }
 
-impl Route {
+impl GridPath {
     /// The nodes in order, from the start to the end.
     pub fn nodes(&self) -> Vec<[usize; 2]> {
         let row = |(j, &[first, last]): (usize, &[usize; 2])| (first..=last).map(move |i| [i, j]);
@@ -231,7 +231,7 @@ mod tests {
             stretch: 0.2,
         };
         let prices = grid.prices();
-        let route = prices.shortest([0, 3], |_| [0, 3], &mut Scratch::default());
+        let route = prices.shortest([0, 3], |_| [0, 3], &mut PathBuffers::default());
         assert!((route.cost - cheapest(&grid, 3, 2)).abs() < 1e-15);
         let nodes = route.nodes();
         let price = |w: &[[usize; 2]]| {

@@ -1,12 +1,12 @@
 //! Pins: pairs of places that the user says are the same.
 
-use super::curve::Curve;
-use crate::geometry::Pair;
+use super::curve::BoundaryCurve;
+use crate::geometry::SourceTarget;
 
 /// A place of the source and one of the target that are the same point, each
 /// as a fraction of its curve's length from the first point.
-/// [`Curve::nearest`] gives that of a clicked point.
-pub type Pin = Pair<f64>;
+/// [`BoundaryCurve::nearest`] gives that of a clicked point.
+pub type Pin = SourceTarget<f64>;
 
 /// Pins that no continuous match can honour; in messages they count from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -31,8 +31,8 @@ pub enum PinError {
 /// The order of the target may start anywhere.
 pub(super) fn ordered(
     pins: &[Pin],
-    source: &Curve,
-    target: &Curve,
+    source: &BoundaryCurve,
+    target: &BoundaryCurve,
 ) -> Result<Vec<[f64; 2]>, PinError> {
     let mut places = Vec::with_capacity(pins.len());
     for (k, pin) in pins.iter().enumerate() {

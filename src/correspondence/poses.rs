@@ -1,8 +1,8 @@
 //! The rotations of one design onto the other that are worth a search, and
 //! the best path over them.
 
+use super::curve_problem::CurveMatchProblem;
 use super::features::PoseWeights;
-use super::problem::Problem;
 use rayon::prelude::*;
 
 /// What turning adds to the cost, relative and absolute, times 1 − cos of the
@@ -29,7 +29,7 @@ const NEAR_TIE: f64 = 1.15;
 const SAME_POSE: f64 = 0.02;
 
 /// A path with the comparison it was found by.
-pub(super) struct Solution {
+pub(super) struct PathSolution {
     /// Unit steps, counted on over the seams.
     pub(super) nodes: Vec<[usize; 2]>,
     pub(super) unlike: Vec<f64>,
@@ -41,9 +41,9 @@ pub(super) struct Solution {
     rotation: f64,
 }
 
-impl Problem {
+impl CurveMatchProblem {
     /// The best path over the poses that a search through fewer samples left.
-    pub(super) fn posed_solution(&self) -> Solution {
+    pub(super) fn posed_solution(&self) -> PathSolution {
         let blind = self.blind();
         if self.keep_up {
             return self.posed(&blind, 0.0, PoseWeights::FIXED);
@@ -54,7 +54,7 @@ impl Problem {
             None => self.poses(&blind),
         };
         let tried = self.solutions(&blind, poses).into_iter();
-        let least = |best: Solution, next: Solution| {
+        let least = |best: PathSolution, next: PathSolution| {
             if next.score < best.score { next } else { best }
         };
         let best = tried.reduce(least);
@@ -99,15 +99,15 @@ impl Problem {
     }
 
     /// The best path at each of some poses.
-    fn solutions(&self, blind: &[f64], poses: Vec<f64>) -> Vec<Solution> {
+    fn solutions(&self, blind: &[f64], poses: Vec<f64>) -> Vec<PathSolution> {
         let posed = |pose| self.posed(blind, pose, PoseWeights::FREE);
         poses.into_par_iter().map(posed).collect()
     }
 
-    fn posed(&self, blind: &[f64], pose: f64, weights: PoseWeights) -> Solution {
+    fn posed(&self, blind: &[f64], pose: f64, weights: PoseWeights) -> PathSolution {
         let [a, b] = [&self.source_features, &self.target_features];
         let found = self.best_path(a.unlike_posed(b, blind, pose, weights));
-        Solution { pose, ..found }
+        PathSolution { pose, ..found }
     }
 
     /// Rotations worth trying, the likeliest first, none of them near another.
@@ -128,8 +128,8 @@ impl Problem {
     }
 
     /// The best path by how unlike samples are, over all starts.
-    pub(super) fn best_path(&self, unlike: Vec<f64>) -> Solution {
-        let mut best: Option<Solution> = None;
+    pub(super) fn best_path(&self, unlike: Vec<f64>) -> PathSolution {
+        let mut best: Option<PathSolution> = None;
         self.visit_paths(&unlike, |cost, nodes| {
             if best.as_ref().is_some_and(|b| cost >= b.score) {
                 return; // rotation only adds
@@ -138,7 +138,7 @@ impl Problem {
             let rotation = self.rotation(&nodes);
             let score = scored(cost, rotation);
             if best.as_ref().is_none_or(|b| score < b.score) {
-                best = Some(Solution {
+                best = Some(PathSolution {
                     nodes,
                     unlike: Vec::new(),
                     cost,
@@ -149,7 +149,7 @@ impl Problem {
             }
         });
         let best = best.unwrap_or_else(|| unreachable!("there is a path for each start"));
-        Solution { unlike, ..best }
+        PathSolution { unlike, ..best }
     }
 }
 

@@ -6,7 +6,7 @@
 //! proportional to the reach, however many points draw the bend, so that
 //! corners do not depend on the resolution of the outline.
 
-use super::curve::Curve;
+use super::curve::BoundaryCurve;
 
 /// Reach of the turning by which corners are found, in fractions of the
 /// length; an outline of 140 even points has this spacing.
@@ -25,14 +25,14 @@ const LEAST_GAP: f64 = 0.5;
 
 /// Sampled places in ascending order.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Samples {
+pub(super) struct CurveSamples {
     pub places: Vec<f64>,
 }
 
-impl Samples {
+impl CurveSamples {
     /// About `count` places; `fixed` ones (pins) are among them whatever
     /// their gaps.
-    pub fn of(curve: &Curve, count: u32, fixed: &[f64]) -> Self {
+    pub fn of(curve: &BoundaryCurve, count: u32, fixed: &[f64]) -> Self {
         let spacing = 1.0 / f64::from(count.max(3));
         let anchors = anchors(curve, spacing, fixed);
         let mut places = Vec::new();
@@ -77,7 +77,7 @@ fn fill(places: &mut Vec<f64>, from: f64, to: f64, spacing: f64) {
 
 /// What is kept exactly: pins and corners; at least one place, so that the
 /// phase of the samples does not depend on where the outline starts.
-fn anchors(curve: &Curve, spacing: f64, fixed: &[f64]) -> Vec<f64> {
+fn anchors(curve: &BoundaryCurve, spacing: f64, fixed: &[f64]) -> Vec<f64> {
     let mut kept = fixed.to_vec();
     kept.sort_by(f64::total_cmp);
     kept.dedup();
@@ -109,7 +109,7 @@ fn insert_apart(kept: &mut Vec<f64>, place: f64, gap: f64) -> bool {
 
 /// Places of corners with their absolute turning, the strongest first. The
 /// points next to a corner see it too: they are left out.
-pub(super) fn corners(curve: &Curve) -> Vec<(f64, f64)> {
+pub(super) fn corners(curve: &BoundaryCurve) -> Vec<(f64, f64)> {
     let near_reach = 0.25 * CORNER_REACH;
     let is_corner = |&place: &f64| {
         let wide = curve.turning(place, CORNER_REACH).abs();
@@ -124,7 +124,7 @@ pub(super) fn corners(curve: &Curve) -> Vec<(f64, f64)> {
 }
 
 /// The point of greatest turning, taken wide.
-fn bendiest(curve: &Curve) -> f64 {
+fn bendiest(curve: &BoundaryCurve) -> f64 {
     let turn = |place: f64| curve.turning(place, 4.0 * CORNER_REACH).abs();
     let mut best = (f64::NEG_INFINITY, 0.0);
     for &place in curve.places() {
@@ -142,11 +142,11 @@ mod tests {
     use crate::geometry::{DVec2, Ring};
     use std::f64::consts::TAU;
 
-    fn curve(points: Vec<DVec2>) -> Curve {
-        Curve::closed(&Ring::new(points).expect("a ring")).expect("a size")
+    fn curve(points: Vec<DVec2>) -> BoundaryCurve {
+        BoundaryCurve::closed(&Ring::new(points).expect("a ring")).expect("a size")
     }
 
-    fn square(per_side: u32) -> Curve {
+    fn square(per_side: u32) -> BoundaryCurve {
         let corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
         let side = |k: usize| {
             (0..per_side).map(move |i| {
@@ -161,7 +161,7 @@ mod tests {
         for per_side in [1, 2, 7, 50, 333] {
             let square = square(per_side);
             assert_eq!(corners(&square).len(), 4, "{per_side} edges a side");
-            let samples = Samples::of(&square, 100, &[]);
+            let samples = CurveSamples::of(&square, 100, &[]);
             assert_eq!(samples.places.len(), 100);
             for k in 0..4 {
                 let place = 0.25 * f64::from(k);
@@ -176,14 +176,14 @@ mod tests {
             let point = |k: u32| DVec2::from_angle(TAU * f64::from(k) / f64::from(n));
             let circle = curve((0..n).map(point).collect());
             assert!(corners(&circle).is_empty(), "{n} points");
-            assert_eq!(Samples::of(&circle, 160, &[]).places.len(), 160);
+            assert_eq!(CurveSamples::of(&circle, 160, &[]).places.len(), 160);
         }
     }
 
     #[test]
     fn pins_are_samples_even_where_they_crowd() {
         let pins = [0.1, 0.1 + 1e-9, 0.25 + 1e-7];
-        let samples = Samples::of(&square(1), 50, &pins);
+        let samples = CurveSamples::of(&square(1), 50, &pins);
         assert!(pins.iter().all(|&pin| samples.index_of(pin).is_some()));
         assert!(samples.places.windows(2).all(|w| w[0] < w[1]));
         assert_eq!(samples.index_of(0.25), None);

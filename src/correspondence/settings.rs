@@ -4,8 +4,8 @@
 //! a design that is drawn anew keeps what was said of it.
 
 use super::MatchOptions;
-use crate::geometry::{DVec2, Pair, RANGE, Side, Similarity, is_in_range};
-use crate::names::named;
+use crate::geometry::{DVec2, RANGE_MESSAGE, Side, Similarity, SourceTarget, is_in_range};
+use crate::settings::choice::named;
 use serde::{Deserialize, Serialize};
 
 /// How two designs are matched.
@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Matching {
+pub struct MatchSettings {
     /// Keep "up": compare directions as drawn instead of up to a rotation.
     pub keep_up: bool,
     /// Price of stretch against bending, at least 0; where it is not given,
@@ -43,7 +43,7 @@ pub struct Matching {
     pub links: Vec<PointPair>,
     /// Parts without a partner, whatever looks like one.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub lone: Vec<LonePart>,
+    pub lone: Vec<UnmatchedPart>,
     /// Where rings are cut open.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub cuts: Vec<RingCut>,
@@ -51,16 +51,16 @@ pub struct Matching {
 
 /// A point of the source and one of the target, in each design's own
 /// coordinates.
-pub type PointPair = Pair<DVec2>;
+pub type PointPair = SourceTarget<DVec2>;
 
 /// A line of the source and one of the target, each from end to end, in each
 /// design's own coordinates.
-pub type LinePair = Pair<[DVec2; 2]>;
+pub type LinePair = SourceTarget<[DVec2; 2]>;
 
 /// A part that has no partner: it appears or vanishes.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct LonePart {
+pub struct UnmatchedPart {
     /// The design that has it.
     pub side: Side,
     /// A point in or near it, in the design's own coordinates.
@@ -81,8 +81,8 @@ pub struct RingCut {
 
 /// A place that cannot be meant. Places count from 1 in messages.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{what} {} {RANGE}", index + 1)]
-pub struct PlaceError {
+#[error("{what} {} {RANGE_MESSAGE}", index + 1)]
+pub struct MatchPlaceError {
     /// What has it: a pin, a line, a link or a cut.
     pub what: &'static str,
     /// Its index.
@@ -158,7 +158,7 @@ impl LinePair {
     }
 }
 
-impl LonePart {
+impl UnmatchedPart {
     /// The same part of the designs exchanged.
     #[must_use]
     pub fn swapped(&self) -> Self {
@@ -180,7 +180,7 @@ impl RingCut {
     }
 }
 
-impl Matching {
+impl MatchSettings {
     /// The same without all that is said of points: for other designs.
     #[must_use]
     pub fn without_places(&self) -> Self {
@@ -197,8 +197,8 @@ impl Matching {
     /// Checks that all places are numbers that can be reckoned with.
     ///
     /// # Errors
-    /// [`PlaceError`] names the first pin, line, link, lone part or cut that has others.
-    pub fn check(&self) -> Result<(), PlaceError> {
+    /// [`MatchPlaceError`] names the first pin, line, link, lone part or cut that has others.
+    pub fn check(&self) -> Result<(), MatchPlaceError> {
         let of_pair = |pair: &PointPair| [pair.source, pair.target].map(is_in_range) == [true; 2];
         let of_line = |line: &LinePair| {
             let ends = line.source.iter().chain(&line.target);
@@ -236,7 +236,7 @@ impl Matching {
                 hole: by.apply(cut.hole),
             }
         };
-        let lone = |part: &LonePart| LonePart {
+        let lone = |part: &UnmatchedPart| UnmatchedPart {
             at: by[part.side].apply(part.at),
             ..*part
         };
@@ -257,7 +257,7 @@ impl Matching {
             pins: swapped(&self.pins),
             lines: swapped(&self.lines),
             links: swapped(&self.links),
-            lone: self.lone.iter().map(LonePart::swapped).collect(),
+            lone: self.lone.iter().map(UnmatchedPart::swapped).collect(),
             cuts: self.cuts.iter().map(RingCut::swapped).collect(),
             ..*self
         }
@@ -265,13 +265,17 @@ impl Matching {
 }
 
 /// The first that is not good, as an error.
-fn first<T>(what: &'static str, all: &[T], is_good: impl Fn(&T) -> bool) -> Result<(), PlaceError> {
+fn first<T>(
+    what: &'static str,
+    all: &[T],
+    is_good: impl Fn(&T) -> bool,
+) -> Result<(), MatchPlaceError> {
     match all.iter().position(|one| !is_good(one)) {
-        Some(index) => Err(PlaceError { what, index }),
+        Some(index) => Err(MatchPlaceError { what, index }),
         None => Ok(()),
     }
 }
 
-fn swapped<T: Copy>(pairs: &[Pair<T>]) -> Vec<Pair<T>> {
+fn swapped<T: Copy>(pairs: &[SourceTarget<T>]) -> Vec<SourceTarget<T>> {
     pairs.iter().map(|pair| pair.swapped()).collect()
 }

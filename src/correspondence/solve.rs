@@ -2,19 +2,19 @@
 //! equal curves settled upon each other.
 
 use super::boundary_match::BoundaryMatch;
-use super::congruent::settled;
-use super::curve::Curve;
-use super::poses::Solution;
-use super::problem::Problem;
-use super::refine::refine;
+use super::congruent::registered_knots;
+use super::curve::BoundaryCurve;
+use super::curve_problem::CurveMatchProblem;
+use super::monotone_path::refine;
+use super::poses::PathSolution;
 
 /// Samples by which the refined path may leave the coarse one.
 /// One more than the longest step of the refinement.
 const REACH: usize = 9;
 
-impl Problem {
+impl CurveMatchProblem {
     /// The match of the two curves, which are those it was made of.
-    pub fn solve(self, curves: [&Curve; 2]) -> BoundaryMatch {
+    pub fn solve(self, curves: [&BoundaryCurve; 2]) -> BoundaryMatch {
         let inside = self.solution_inside();
         let solution = inside.unwrap_or_else(|| self.posed_solution());
         let nodes = self.strict(&solution);
@@ -27,7 +27,7 @@ impl Problem {
         knots.sort_by(|a, b| a[0].total_cmp(&b[0]));
         BoundaryMatch {
             rotation: self.rotation(&nodes),
-            knots: settled(&knots, &self.pins, curves).unwrap_or(knots),
+            knots: registered_knots(&knots, &self.pins, curves).unwrap_or(knots),
             cost: solution.cost,
             pins: self.pins,
         }
@@ -36,7 +36,7 @@ impl Problem {
     /// The solution as a strictly monotone path. One without pins is
     /// cut at its most telling node, then at the far side, to leave no trace
     /// of the cut.
-    fn strict(&self, solution: &Solution) -> Vec<[usize; 2]> {
+    fn strict(&self, solution: &PathSolution) -> Vec<[usize; 2]> {
         let fixed = self.fixed_nodes();
         if fixed.is_empty() {
             let start = self.most_telling(solution);
@@ -61,7 +61,7 @@ impl Problem {
     }
 
     /// A stretch of a path refined; its ends stay.
-    fn refined(&self, solution: &Solution, nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
+    fn refined(&self, solution: &PathSolution, nodes: &[[usize; 2]]) -> Vec<[usize; 2]> {
         let [from, to] = [nodes[0], nodes[nodes.len() - 1]];
         let grid = self.grid(&solution.unlike, from, to);
         let local: Vec<_> = nodes
@@ -76,7 +76,7 @@ impl Problem {
     }
 
     /// The node of a path that is bent most, and alike, in both.
-    fn most_telling(&self, solution: &Solution) -> [usize; 2] {
+    fn most_telling(&self, solution: &PathSolution) -> [usize; 2] {
         let (n, m) = (self.source.places.len(), self.target.places.len());
         let tells = |&[i, j]: &[usize; 2]| {
             let (i, j) = (i % n, j % m);

@@ -21,7 +21,10 @@ fn match_rings(
     pins: &[Pin],
     options: &MatchOptions,
 ) -> Result<BoundaryMatch, MatchError> {
-    let [source, target] = [Curve::closed(source)?, Curve::closed(target)?];
+    let [source, target] = [
+        BoundaryCurve::closed(source)?,
+        BoundaryCurve::closed(target)?,
+    ];
     match_curves(&source, &target, pins, options)
 }
 
@@ -111,7 +114,7 @@ fn started_at(ring: &Ring, first: usize) -> Ring {
 }
 
 fn resampled(ring: &Ring, count: u32) -> Ring {
-    let curve = Curve::closed(ring).expect("a size");
+    let curve = BoundaryCurve::closed(ring).expect("a size");
     let place = |k: u32| curve.point_at((f64::from(k) + 0.37) / f64::from(count));
     self::ring((0..count).map(place).collect())
 }
@@ -121,8 +124,8 @@ fn resampled(ring: &Ring, count: u32) -> Ring {
 fn error(source: &Ring, target: &Ring, expected: impl Fn(DVec2) -> DVec2) -> f64 {
     let found = matched(source, target);
     let (a, b) = (
-        Curve::closed(source).expect("a size"),
-        Curve::closed(target).expect("a size"),
+        BoundaryCurve::closed(source).expect("a size"),
+        BoundaryCurve::closed(target).expect("a size"),
     );
     let at = |k: u32| {
         let place = f64::from(k) / 500.0;
@@ -235,9 +238,11 @@ fn pins_hold_where_designs_are_nearly_the_same() {
     let other = resampled(&shape, 97);
     let pin = Pin {
         source: 0.25,
-        target: Curve::closed(&other)
-            .expect("a size")
-            .nearest(Curve::closed(&shape).expect("a size").point_at(0.26)),
+        target: BoundaryCurve::closed(&other).expect("a size").nearest(
+            BoundaryCurve::closed(&shape)
+                .expect("a size")
+                .point_at(0.26),
+        ),
     };
     let found = match_rings(&shape, &other, &[pin], &MatchOptions::default()).expect("a match");
     assert!(found.knots().contains(&pin.to_array()));
@@ -330,8 +335,8 @@ fn pins_are_honoured_exactly() {
     let inverse = match_rings(&b, &a, &pins.map(Pin::swapped), &options);
     assert_eq!(inverse, Ok(found.inverse()));
     let (a, b) = (
-        Curve::closed(&a).expect("a size"),
-        Curve::closed(&b).expect("a size"),
+        BoundaryCurve::closed(&a).expect("a size"),
+        BoundaryCurve::closed(&b).expect("a size"),
     );
     let shared = found.polygons(&a, &b, f64::INFINITY);
     assert!(
@@ -434,12 +439,12 @@ fn what_cannot_be_matched_is_an_error() {
     );
     assert_eq!(
         match_rings(&huge, &huge, &[], &options),
-        Err(MatchError::Curve(CurveError))
+        Err(MatchError::Curve(CurveLengthError))
     );
 }
 
 fn assert_shared(a: &Ring, b: &Ring, spacing: f64) -> SharedPolygons {
-    let curves = [a, b].map(|r| Curve::closed(r).expect("a size"));
+    let curves = [a, b].map(|r| BoundaryCurve::closed(r).expect("a size"));
     let shared = matched(a, b).polygons(&curves[0], &curves[1], spacing);
     for (own, polygon) in [(a, &shared.source), (b, &shared.target)] {
         assert_eq!(polygon.len(), shared.places.len());

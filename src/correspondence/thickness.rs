@@ -9,8 +9,8 @@
 //! to rounding. A curve that turns no way around has no inside; its thickness is
 //! the same everywhere.
 
-use super::curve::Curve;
-use crate::geometry::{DVec2, EdgeBoxes, signed_area};
+use super::curve::BoundaryCurve;
+use crate::geometry::{DVec2, EdgeBvh, signed_area};
 use std::f64::consts::FRAC_PI_6;
 
 /// Rays at these multiples of 30° from the inward normal. At a tip those
@@ -24,7 +24,7 @@ const OWN: f64 = 1e-7;
 /// Logarithm of the thickness at each place, less its mean along the curve.
 /// With each place, ascending, comes the mean direction of the boundary there,
 /// in radians.
-pub(super) fn log_thickness(curve: &Curve, places: &[(f64, f64)]) -> Vec<f64> {
+pub(super) fn log_thickness(curve: &BoundaryCurve, places: &[(f64, f64)]) -> Vec<f64> {
     let turns = curve.turning_number();
     if turns == 0 {
         return vec![0.0; places.len()];
@@ -35,7 +35,7 @@ pub(super) fn log_thickness(curve: &Curve, places: &[(f64, f64)]) -> Vec<f64> {
         return vec![0.0; places.len()];
     }
     let side = f64::from(turns.signum());
-    let edges = EdgeBoxes::of(points);
+    let edges = EdgeBvh::of(points);
     let at = |&(place, direction): &(f64, f64)| {
         let from = curve.point_at(place);
         let mut lengths = RAYS.map(|k| {
@@ -84,7 +84,7 @@ mod tests {
         for reversed in [false, true] {
             let ring = Ring::new(steps.map(DVec2::from).to_vec()).expect("a ring");
             let ring = if reversed { ring.reversed() } else { ring };
-            let curve = Curve::closed(&ring).expect("length");
+            let curve = BoundaryCurve::closed(&ring).expect("length");
             let direction = if reversed { std::f64::consts::PI } else { 0.0 };
             let mut places = [5.0, 15.0].map(|x| (curve.nearest(DVec2::new(x, 0.0)), direction));
             places.sort_by(|a, b| a.0.total_cmp(&b.0));

@@ -1,27 +1,27 @@
 //! Why a file did not become a design, in one sentence for its owner.
 
 use super::{
-    DxfError, ObjError, OptionsError, PictureError, PolygonsError, SvgError, TextError,
-    TrussInputError, UnknownFormat,
+    DxfError, ImportOptionsError, ObjError, PolygonsImportError, SilhouetteError, SvgError,
+    TextError, TrussInputError, UnknownFormat,
 };
-use crate::one_line::OneLine;
-use crate::reading::ReadError;
+use crate::io::read::ReadError;
+use crate::io::sanitize::SanitizedLine;
 
 /// A file that could not be read as a design. Its message names the file,
 /// the place and the way out.
 #[derive(Debug, thiserror::Error)]
-#[error("{}", OneLine(format_args!("{file}: {problem}")))]
+#[error("{}", SanitizedLine(format_args!("{file}: {problem}")))]
 pub struct ImportError {
     /// The file, as it was given.
     pub file: String,
     /// What is wrong with it.
-    pub problem: Problem,
+    pub problem: ImportProblem,
 }
 
 /// What is wrong with a file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum Problem {
+pub enum ImportProblem {
     /// The file is not there, is no file, or is too large.
     #[error(transparent)]
     Read(#[from] ReadError),
@@ -45,10 +45,10 @@ pub enum Problem {
     Unknown(#[from] UnknownFormat),
     /// An option is out of range.
     #[error(transparent)]
-    Options(#[from] OptionsError),
+    Options(#[from] ImportOptionsError),
     /// A picture without a usable silhouette.
     #[error(transparent)]
-    Picture(#[from] PictureError),
+    Picture(#[from] SilhouetteError),
     /// A drawing without a usable outline.
     #[error(transparent)]
     Svg(#[from] SvgError),
@@ -60,7 +60,7 @@ pub enum Problem {
     Text(#[from] TextError),
     /// JSON without usable polygons.
     #[error(transparent)]
-    Polygons(#[from] PolygonsError),
+    Polygons(#[from] PolygonsImportError),
     /// A mesh that is none.
     #[error(transparent)]
     Obj(#[from] ObjError),

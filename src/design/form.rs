@@ -1,11 +1,12 @@
 //! A design: what it consists of, what area that fills, and how it is made
 //! without a file.
 
-use super::coat::Coat;
 use super::note::ImportNote;
 use super::options::ImportOptions;
+use super::paint_layer::PaintLayer;
 use super::picture::Picture;
-use super::silhouette::{self, PictureError, Tones};
+use super::silhouette;
+use super::silhouette::{PictureTones, SilhouetteError};
 use super::truss::Truss;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError, Similarity};
 use crate::mesh::TriangleMesh;
@@ -23,21 +24,21 @@ pub struct Design {
     /// What people call it: the file's name without its ending.
     pub name: String,
     /// The form itself, y up.
-    pub form: Form,
+    pub form: DesignForm,
     /// The rectangle of the picture or the page, its lower left corner at the
     /// origin, or the box around a mesh, a truss or an element of a drawing.
     pub extent: Bounds,
     /// The picture that it came as, if it did.
     pub picture: Option<Picture>,
     /// What it shows in its own paint, the lowest first; none where it has none.
-    pub coats: Vec<Coat>,
+    pub coats: Vec<PaintLayer>,
     /// What was repaired or left out while it was read.
     pub notes: Vec<ImportNote>,
 }
 
 /// What a design consists of.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Form {
+pub enum DesignForm {
     /// Filled regions with holes.
     Outline(Regions),
     /// Triangles that carry a correspondence.
@@ -57,7 +58,7 @@ impl Design {
     /// # Ok::<(), morphospace::mesh::MeshError>(())
     /// ```
     #[must_use]
-    pub fn new(name: impl Into<String>, form: impl Into<Form>) -> Self {
+    pub fn new(name: impl Into<String>, form: impl Into<DesignForm>) -> Self {
         let form = form.into();
         Self {
             name: name.into(),
@@ -106,22 +107,22 @@ impl Design {
     /// million every fourth is kept, or fewer, and that is told.
     ///
     /// # Errors
-    /// [`PictureError`] if an option is out of range or no figure stands out.
+    /// [`SilhouetteError`] if an option is out of range or no figure stands out.
     pub fn of_picture(
         name: impl Into<String>,
         pixels: RgbaImage,
         options: &ImportOptions,
-    ) -> Result<Self, PictureError> {
+    ) -> Result<Self, SilhouetteError> {
         options.check()?;
         let coats = match options.colours {
-            true => silhouette::flat::coats(&pixels, options)?,
+            true => silhouette::flat_colours::flat_colour_layers(&pixels, options)?,
             false => Vec::new(),
         };
         let is_shaded = options.colours && coats.is_empty();
         // The colours make room before the boundary is looked for.
         let seen = match covered(&coats) {
             Some(regions) => Ok(regions),
-            None => Err(Tones::of(&pixels, options)?),
+            None => Err(PictureTones::of(&pixels, options)?),
         };
         let given = pixels.dimensions();
         let picture = Picture::bounded(pixels);
@@ -147,9 +148,9 @@ impl Design {
         Self {
             name: self.name.clone(),
             form: match &self.form {
-                Form::Outline(regions) => Form::Outline(regions.transformed(by)),
-                Form::Mesh(mesh) => Form::Mesh(mesh.transformed(by)),
-                Form::Truss(truss) => Form::Truss(truss.transformed(by)),
+                DesignForm::Outline(regions) => DesignForm::Outline(regions.transformed(by)),
+                DesignForm::Mesh(mesh) => DesignForm::Mesh(mesh.transformed(by)),
+                DesignForm::Truss(truss) => DesignForm::Truss(truss.transformed(by)),
             },
             extent: Bounds::of(corners).unwrap_or(self.extent),
             picture: self.picture.as_ref().map(|picture| picture.transformed(by)),
@@ -174,14 +175,14 @@ impl Design {
     /// [`RegionsError`] if no area is left, such as bars of no width.
     pub fn outline(&self, bar_width: f64) -> Result<Regions, RegionsError> {
         match &self.form {
-            Form::Outline(regions) => Ok(regions.clone()),
-            Form::Mesh(mesh) => of_mesh(mesh),
-            Form::Truss(truss) => of_truss(truss, bar_width),
+            DesignForm::Outline(regions) => Ok(regions.clone()),
+            DesignForm::Mesh(mesh) => of_mesh(mesh),
+            DesignForm::Truss(truss) => of_truss(truss, bar_width),
         }
     }
 }
 
-impl Form {
+impl DesignForm {
     /// The smallest box around it.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
@@ -193,19 +194,19 @@ impl Form {
     }
 }
 
-impl From<Regions> for Form {
+impl From<Regions> for DesignForm {
     fn from(regions: Regions) -> Self {
         Self::Outline(regions)
     }
 }
 
-impl From<TriangleMesh> for Form {
+impl From<TriangleMesh> for DesignForm {
     fn from(mesh: TriangleMesh) -> Self {
         Self::Mesh(mesh)
     }
 }
 
-impl From<Truss> for Form {
+impl From<Truss> for DesignForm {
     fn from(truss: Truss) -> Self {
         Self::Truss(truss)
     }
@@ -269,14 +270,14 @@ fn capsule(a: DVec2, b: DVec2, radius: f64) -> Vec<DVec2> {
 }
 
 /// Outlines as a reader gives them: a design without a name.
-pub(super) struct Outlines {
+pub(super) struct ImportedOutlines {
     pub(super) regions: Regions,
     pub(super) extent: Bounds,
-    pub(super) coats: Vec<Coat>,
+    pub(super) coats: Vec<PaintLayer>,
     pub(super) notes: Vec<ImportNote>,
 }
 
-impl Outlines {
+impl ImportedOutlines {
     pub(super) fn named(self, name: String) -> Design {
         Design {
             extent: self.extent,
@@ -288,7 +289,7 @@ impl Outlines {
 }
 
 /// What all coats cover together; none where there are none.
-fn covered(coats: &[Coat]) -> Option<Regions> {
+fn covered(coats: &[PaintLayer]) -> Option<Regions> {
     let rings = coats.iter().flat_map(|coat| coat.regions.rings());
     let rings: Vec<Vec<DVec2>> = rings.map(|ring| ring.points().to_vec()).collect();
     Regions::from_rings(&rings, FillRule::NonZero).ok()

@@ -87,12 +87,12 @@ impl Format {
     /// Names in a row for a sentence: `PNG, JPEG, BMP or WebP`.
     #[must_use]
     pub fn listed(formats: &[Self]) -> String {
-        any_of(formats.iter().map(|format| format.name()))
+        or_list(formats.iter().map(|format| format.name()))
     }
 }
 
 /// Words in a row for a sentence: `a, b or c`.
-pub(crate) fn any_of<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> String {
+pub(crate) fn or_list<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> String {
     let words: Vec<W> = words.into_iter().collect();
     let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
     match words.as_slice() {

@@ -1,14 +1,15 @@
 //! From the bytes of a file, or text in a font, to a design.
 
-use super::error::{ImportError, Problem};
+use super::error::{ImportError, ImportProblem};
 use super::form::Design;
 use super::format::Format;
 use super::options::ImportOptions;
 use super::sniff::sniff;
-use super::source::Source;
+use super::source::DesignSource;
 use super::truss::Truss;
 use super::{dxf, lettering, obj, polygons, silhouette, svg};
-use crate::reading::{self, check_size};
+use crate::io::read;
+use crate::io::read::check_size;
 use std::path::Path;
 
 /// Reads a design from the bytes of a file, whatever its format. `name`
@@ -30,28 +31,28 @@ pub fn import(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Desig
 }
 
 /// Reads a design from a file, or from whatever else a path may mean: see
-/// [`Source`]. The design is named after the file, without its ending.
+/// [`DesignSource`]. The design is named after the file, without its ending.
 ///
 /// # Errors
 /// [`ImportError`] names the file, the place in it and the way out.
 pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Design, ImportError> {
-    Source::of(path).import(options)
+    DesignSource::of(path).import(options)
 }
 
-impl Source {
+impl DesignSource {
     /// Reads the design.
     ///
     /// # Errors
     /// [`ImportError`] names the source, the place in it and the way out.
     pub fn import(&self, options: &ImportOptions) -> Result<Design, ImportError> {
         let bytes = match self.file() {
-            Some(path) => reading::read(path).map_err(|error| self.error(error.into()))?,
+            Some(path) => read::read(path).map_err(|error| self.error(error.into()))?,
             None => Vec::new(),
         };
         self.import_bytes(&bytes, options)
     }
 
-    /// Reads the design from the bytes of [`Source::file`]; they are not
+    /// Reads the design from the bytes of [`DesignSource::file`]; they are not
     /// looked at where there is none.
     ///
     /// # Errors
@@ -67,7 +68,7 @@ impl Source {
             Self::Text { text, font } => {
                 options.check()?;
                 if font.is_some() && bytes.is_empty() {
-                    return Err(Problem::Empty);
+                    return Err(ImportProblem::Empty);
                 }
                 let font = font.is_some().then_some(bytes);
                 Ok(lettering::read(text, font, options.tolerance)?.named(name))
@@ -76,7 +77,7 @@ impl Source {
         read().map_err(|problem| self.error(problem))
     }
 
-    fn error(&self, problem: Problem) -> ImportError {
+    fn error(&self, problem: ImportProblem) -> ImportError {
         let file = self.to_path().display().to_string();
         ImportError { file, problem }
     }
@@ -88,16 +89,16 @@ fn read(
     bytes: &[u8],
     element: Option<&str>,
     options: &ImportOptions,
-) -> Result<Design, Problem> {
+) -> Result<Design, ImportProblem> {
     options.check()?;
     if bytes.is_empty() {
-        return Err(Problem::Empty);
+        return Err(ImportProblem::Empty);
     }
     // Again, for bytes may come from elsewhere than a file.
     check_size(bytes)?;
     let format = sniff(bytes)?;
     if let (Some(id), true) = (element, format != Format::Svg) {
-        return Err(Problem::NoElements { id: id.to_owned() });
+        return Err(ImportProblem::NoElements { id: id.to_owned() });
     }
     Ok(match format {
         Format::Picture(format) => {
@@ -112,11 +113,11 @@ fn read(
 }
 
 /// The bytes as text, without a byte order mark.
-fn text(bytes: &[u8]) -> Result<&str, Problem> {
+fn text(bytes: &[u8]) -> Result<&str, ImportProblem> {
     std::str::from_utf8(bytes)
         // JSON with the mark in front is none for its parser.
         .map(|text| text.trim_start_matches('\u{feff}'))
-        .map_err(|e| Problem::NotUtf8 {
+        .map_err(|e| ImportProblem::NotUtf8 {
             line: 1 + bytes[..e.valid_up_to()]
                 .iter()
                 .filter(|&&b| b == b'\n')
@@ -150,7 +151,7 @@ mod tests {
         let bytes = b"v 0 0 0\nv 1 0 0\nv \xff 1 0\nf 1 2 3\n";
         let error = import("t.obj", bytes, &ImportOptions::default()).expect_err("bad text");
         assert!(
-            matches!(error.problem, Problem::NotUtf8 { line: 3 }),
+            matches!(error.problem, ImportProblem::NotUtf8 { line: 3 }),
             "{error}"
         );
     }

@@ -13,7 +13,7 @@
 //! and colour glyphs, more than one line.
 
 use super::flatten::{Flattener, MIN_TOLERANCE, TooManyPoints};
-use super::form::Outlines;
+use super::form::ImportedOutlines;
 use crate::geometry::{Bounds, DVec2, FillRule, Regions, RegionsError};
 use harfrust::{ShapeOptions, ShaperData, UnicodeBuffer};
 use skrifa::instance::{LocationRef, Size};
@@ -82,7 +82,11 @@ const EM: f64 = 1000.0;
 
 /// Draws `text`. `font` is a font's bytes or `None` for the bundled font,
 /// `tolerance` a fraction of the page's longer side.
-pub(super) fn read(text: &str, font: Option<&[u8]>, tolerance: f64) -> Result<Outlines, TextError> {
+pub(super) fn read(
+    text: &str,
+    font: Option<&[u8]>,
+    tolerance: f64,
+) -> Result<ImportedOutlines, TextError> {
     let characters = text.chars().count();
     match characters {
         0 => return Err(TextError::Empty),
@@ -95,7 +99,7 @@ pub(super) fn read(text: &str, font: Option<&[u8]>, tolerance: f64) -> Result<Ou
     let font = font_of(font.unwrap_or(BUNDLED_FONT))?;
     // Shaping would draw a box for what the font lacks.
     check_characters(&font, text)?;
-    Line::shaped(&font, text)?.outlined(&font, tolerance)
+    TextLine::shaped(&font, text)?.outlined(&font, tolerance)
 }
 
 /// The font in a file, or the first of a collection.
@@ -122,14 +126,14 @@ fn check_characters(font: &FontRef, text: &str) -> Result<(), TextError> {
 }
 
 /// Glyphs at their places, in units of the design.
-struct Line {
+struct TextLine {
     glyphs: Vec<(GlyphId, DVec2)>,
     /// Units of the design for one of the font.
     scale: f64,
     page: Bounds,
 }
 
-impl Line {
+impl TextLine {
     fn shaped(font: &FontRef, text: &str) -> Result<Self, TextError> {
         let metrics = font.metrics(Size::unscaled(), LocationRef::default());
         if metrics.units_per_em == 0 {
@@ -171,7 +175,7 @@ impl Line {
         })
     }
 
-    fn outlined(&self, font: &FontRef, tolerance: f64) -> Result<Outlines, TextError> {
+    fn outlined(&self, font: &FontRef, tolerance: f64) -> Result<ImportedOutlines, TextError> {
         // One em at least: a single narrow letter is no reason to be finer.
         let longer = self.page.size().max_element().max(EM);
         let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * longer);
@@ -186,7 +190,7 @@ impl Line {
             })?);
         }
         let regions = Regions::from_rings(&rings, FillRule::NonZero)?;
-        Ok(Outlines {
+        Ok(ImportedOutlines {
             coats: Vec::new(),
             extent: self.page.union(&regions.bounds()),
             regions,
@@ -199,7 +203,7 @@ fn drawn(glyphs: &OutlineGlyphCollection, glyph: GlyphId) -> Result<PathBuilder,
     let missing = || TextError::NoOutline {
         glyph: glyph.to_u32(),
     };
-    let mut pen = Pen(PathBuilder::new());
+    let mut pen = GlyphPen(PathBuilder::new());
     // Hints fit an outline to the pixels of a size, and here are none.
     let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
     let outline = glyphs.get(glyph).ok_or_else(missing)?;
@@ -208,9 +212,9 @@ fn drawn(glyphs: &OutlineGlyphCollection, glyph: GlyphId) -> Result<PathBuilder,
 }
 
 /// Collects one glyph in the font's units.
-struct Pen(PathBuilder);
+struct GlyphPen(PathBuilder);
 
-impl OutlinePen for Pen {
+impl OutlinePen for GlyphPen {
     fn move_to(&mut self, x: f32, y: f32) {
         self.0.move_to(x, y);
     }

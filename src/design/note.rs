@@ -1,7 +1,7 @@
 //! What was repaired or left out while a design was read, in words.
 
 use crate::geometry::{DVec2, FillRule, Repairs};
-use crate::one_line::OneLine;
+use crate::io::sanitize::SanitizedLine;
 use std::collections::BTreeMap;
 use std::fmt;
 
@@ -119,9 +119,9 @@ impl ImportNote {
 /// What there is in a file besides what is asked for, as the end of a clause:
 /// `, only 2 TEXT`; how many of which kind.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OnlyThese(pub BTreeMap<String, usize>);
+pub struct OtherKinds(pub BTreeMap<String, usize>);
 
-impl fmt::Display for OnlyThese {
+impl fmt::Display for OtherKinds {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for (i, (kind, count)) in self.0.iter().enumerate() {
             let before = if i == 0 { ", only " } else { ", " };
@@ -169,7 +169,7 @@ impl fmt::Display for ImportNote {
             }
             Self::Skipped { kind, count } => {
                 let kinds = ["object", "objects"]
-                    .map(|what| format!("{what} of the kind {}", OneLine(kind)));
+                    .map(|what| format!("{what} of the kind {}", SanitizedLine(kind)));
                 left_out(f, *count, kinds)
             }
             Self::Strokes(_)
@@ -200,7 +200,7 @@ impl ImportNote {
             Self::Font(name) => write!(
                 f,
                 "the font {} is not on this machine, another one is shown; install it, or convert text to paths",
-                OneLine(name)
+                SanitizedLine(name)
             ),
             Self::Characters(n) => {
                 left_out(f, *n, ["character", "characters"])?;

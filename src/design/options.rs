@@ -39,7 +39,7 @@ fn is_set(value: &bool) -> bool {
 /// An option that is out of its range.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum OptionsError {
+pub enum ImportOptionsError {
     /// The tolerance is not a number from 0 to 0.1.
     #[error("the outline tolerance is {0}; give a fraction of the longer side from 0 to 0.1")]
     Tolerance(f64),
@@ -69,13 +69,13 @@ impl ImportOptions {
     /// At a tenth of the longer side a form is left with a handful of corners.
     const MAX_TOLERANCE: f64 = 0.1;
 
-    pub(super) fn check(&self) -> Result<(), OptionsError> {
+    pub(super) fn check(&self) -> Result<(), ImportOptionsError> {
         // NaN is in no range, and is refused with the rest.
         if !(0.0..=Self::MAX_TOLERANCE).contains(&self.tolerance) {
-            return Err(OptionsError::Tolerance(self.tolerance));
+            return Err(ImportOptionsError::Tolerance(self.tolerance));
         }
         if self.threshold == Some(0) {
-            return Err(OptionsError::Threshold);
+            return Err(ImportOptionsError::Threshold);
         }
         Ok(())
     }

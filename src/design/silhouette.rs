@@ -14,12 +14,12 @@
 //! threshold is one for the whole picture; but where a picture is of flat
 //! colours, `flat` can take each for itself.
 
-mod fit;
-pub(super) mod flat;
+pub(super) mod flat_colours;
+mod polygon_fit;
 
-use self::fit::Traced;
-use super::options::{ImportOptions, OptionsError};
-use crate::field::{Samples, SamplesError, contour};
+use self::polygon_fit::TracedPoint;
+use super::options::{ImportOptions, ImportOptionsError};
+use crate::field::{SampledField, SampledFieldError, contour};
 use crate::geometry::{DVec2, FillRule, Regions, RegionsError};
 use crate::mesh::components;
 use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Limits, RgbaImage};
@@ -29,7 +29,7 @@ use std::io::Cursor;
 /// Why a picture gives no silhouette.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
-pub enum PictureError {
+pub enum SilhouetteError {
     /// The file says that it is larger than is read.
     #[error(
         "the picture claims {width} × {height} pixels, more than the {} million that are read; save a smaller one",
@@ -70,10 +70,10 @@ pub enum PictureError {
     TooRagged,
     /// An option is out of range.
     #[error(transparent)]
-    Options(#[from] OptionsError),
+    Options(#[from] ImportOptionsError),
     /// The samples do not fill the picture.
     #[error(transparent)]
-    Samples(#[from] SamplesError),
+    Samples(#[from] SampledFieldError),
     /// Nothing could be made of the boundary.
     #[error(transparent)]
     Regions(#[from] RegionsError),
@@ -106,7 +106,7 @@ const GREY: f64 = 0.05;
 
 /// What tells a picture's figure from its ground: a byte a pixel, lowest row
 /// first, so that the colours need not be kept while the boundary is found.
-pub(super) struct Tones {
+pub(super) struct PictureTones {
     width: u32,
     height: u32,
     bytes: Vec<u8>,
@@ -114,8 +114,11 @@ pub(super) struct Tones {
     above_is_figure: bool,
 }
 
-impl Tones {
-    pub(super) fn of(picture: &RgbaImage, options: &ImportOptions) -> Result<Self, PictureError> {
+impl PictureTones {
+    pub(super) fn of(
+        picture: &RgbaImage,
+        options: &ImportOptions,
+    ) -> Result<Self, SilhouetteError> {
         let (width, height) = picture.dimensions();
         let by_opacity = picture.pixels().any(|p| p.0[3] != u8::MAX);
         // Rows from below, as y points up.
@@ -128,7 +131,7 @@ impl Tones {
         let threshold = match options.threshold {
             Some(threshold) => threshold,
             None if by_opacity => 128,
-            None => otsu(&bytes).ok_or(PictureError::OneTone)?,
+            None => otsu(&bytes).ok_or(SilhouetteError::OneTone)?,
         };
         let above = by_opacity || !border_is_above(&bytes, width as usize, threshold);
         Ok(Self {
@@ -142,18 +145,18 @@ impl Tones {
 
     /// The silhouette that the picture shows, in pixels from its lower left
     /// corner.
-    pub(super) fn regions(self, options: &ImportOptions) -> Result<Regions, PictureError> {
+    pub(super) fn regions(self, options: &ImportOptions) -> Result<Regions, SilhouetteError> {
         let tolerance = options.tolerance * f64::from(self.width.max(self.height));
         let mut figure = self.figure();
         figure.remove_specks(options.specks_px);
         figure.trace(tolerance)
     }
 
-    fn figure(self) -> Figure {
+    fn figure(self) -> FigureSamples {
         let sign = if self.above_is_figure { 1.0 } else { -1.0 };
         let level = f32::from(self.threshold) - 0.5; // no tone is on it
         let sample = |&tone: &u8| sign * (f32::from(tone) - level);
-        Figure {
+        FigureSamples {
             width: self.width,
             height: self.height,
             samples: self.bytes.iter().map(sample).collect(),
@@ -170,9 +173,9 @@ fn jpeg_ends(bytes: &[u8]) -> bool {
 }
 
 /// The pixels of a picture of a known format, turned as it says.
-pub(super) fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, PictureError> {
+pub(super) fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, SilhouetteError> {
     if format == ImageFormat::Jpeg && !jpeg_ends(bytes) {
-        return Err(PictureError::Truncated); // the decoder would fill up with grey
+        return Err(SilhouetteError::Truncated); // the decoder would fill up with grey
     }
     if let Some(size) = claimed_by_png(bytes, format) {
         check_size(size)?; // the decoder looks for pixels first
@@ -197,33 +200,33 @@ fn claimed_by_png(bytes: &[u8], format: ImageFormat) -> Option<(u32, u32)> {
         .flatten()
 }
 
-fn check_size((width, height): (u32, u32)) -> Result<(), PictureError> {
+fn check_size((width, height): (u32, u32)) -> Result<(), SilhouetteError> {
     match u64::from(width) * u64::from(height) {
-        0 => Err(PictureError::NoPixels),
+        0 => Err(SilhouetteError::NoPixels),
         1..=MAX_PIXELS => Ok(()),
-        _ => Err(PictureError::TooManyPixels { width, height }),
+        _ => Err(SilhouetteError::TooManyPixels { width, height }),
     }
 }
 
-fn damaged(error: ImageError) -> PictureError {
+fn damaged(error: ImageError) -> SilhouetteError {
     match &error {
         ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof => {
-            PictureError::Truncated
+            SilhouetteError::Truncated
         }
-        _ => PictureError::Damaged(error),
+        _ => SilhouetteError::Damaged(error),
     }
 }
 
 /// Samples at the pixel centres, lowest row first: positive in the figure,
 /// negative on the ground, never zero.
-struct Figure {
+struct FigureSamples {
     width: u32,
     height: u32,
     samples: Vec<f32>,
     threshold: u8,
 }
 
-impl Figure {
+impl FigureSamples {
     /// Islands of fewer pixels than `least` go over to the ground, then holes
     /// to the figure. Ground that reaches the border is no hole.
     fn remove_specks(&mut self, least: u32) {
@@ -260,38 +263,38 @@ impl Figure {
 
     /// The boundary at level zero, to within `tolerance` pixels in the mean, or
     /// within what the pixels leave open where that is more.
-    fn trace(&self, tolerance: f64) -> Result<Regions, PictureError> {
+    fn trace(&self, tolerance: f64) -> Result<Regions, SilhouetteError> {
         let threshold = self.threshold;
         // Chords of a curve are off by two thirds of this, in the mean.
         let flatness = (2.0 * tolerance).max(GREY);
         // Before tracing, whose rings would take the room.
         self.check_raggedness()?;
-        let samples = Samples::new(self.width, self.height, &self.samples)?;
+        let samples = SampledField::new(self.width, self.height, &self.samples)?;
         // Samples lie at the middles of pixels, the origin at a corner.
         let corner_from_centre = DVec2::splat(0.5);
-        let known = Known::of(self);
+        let known = BoundarySlack::of(self);
         let outline = |ring: &Vec<DVec2>| {
-            let traced = |&p: &DVec2| Traced {
+            let traced = |&p: &DVec2| TracedPoint {
                 point: p + corner_from_centre,
                 slack: known.slack(p).max(flatness),
             };
-            let boundary: Vec<Traced> = ring.iter().map(traced).collect();
-            fit::fitted(&fit::filled_up(&boundary), flatness)
+            let boundary: Vec<TracedPoint> = ring.iter().map(traced).collect();
+            polygon_fit::fit_outline(&polygon_fit::resampled(&boundary), flatness)
         };
         let traced = contour::trace_samples(&samples, 0.0);
         let rings: Vec<Vec<DVec2>> = traced.par_iter().map(outline).collect();
         if rings.is_empty() {
-            return Err(PictureError::Empty { threshold });
+            return Err(SilhouetteError::Empty { threshold });
         }
         // Rings do not cross, and each lies within those of the other kind.
         Regions::from_rings(&rings, FillRule::EvenOdd).map_err(|error| match error {
-            RegionsError::Empty => PictureError::Empty { threshold },
+            RegionsError::Empty => SilhouetteError::Empty { threshold },
             error => error.into(),
         })
     }
 
     /// Counts sign changes along rows and columns: as many as boundary points.
-    fn check_raggedness(&self) -> Result<(), PictureError> {
+    fn check_raggedness(&self) -> Result<(), SilhouetteError> {
         let width = self.width as usize;
         let changes = |pair: (&f32, &f32)| (pair.0 * pair.1) < 0.0;
         let across: usize = self
@@ -301,21 +304,21 @@ impl Figure {
             .sum();
         let upwards = self.samples.iter().zip(&self.samples[width..]);
         if across + upwards.filter(|&p| changes(p)).count() > MAX_POINTS {
-            return Err(PictureError::TooRagged);
+            return Err(SilhouetteError::TooRagged);
         }
         Ok(())
     }
 }
 
 /// How well a picture knows where its boundary runs.
-struct Known<'a> {
-    figure: &'a Figure,
+struct BoundarySlack<'a> {
+    figure: &'a FigureSamples,
     /// What a sample of full ink and of bare ground has at least.
     full: [f32; 2],
 }
 
-impl<'a> Known<'a> {
-    fn of(figure: &'a Figure) -> Self {
+impl<'a> BoundarySlack<'a> {
+    fn of(figure: &'a FigureSamples) -> Self {
         let most = |sign: f32| {
             figure
                 .samples

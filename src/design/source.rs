@@ -12,7 +12,7 @@
 //! called `glyph:FORM` is meant by `./glyph:FORM`. In the text of a glyph
 //! `%40` is `@` and `%25` is `%`: any byte of UTF-8 may be written so.
 
-use crate::one_line::OneLine;
+use crate::io::sanitize::SanitizedLine;
 use std::borrow::Cow;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
@@ -27,7 +27,7 @@ use std::path::{Path, PathBuf};
 /// # Ok::<(), morphospace::design::ImportError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Source {
+pub enum DesignSource {
     /// A file, or an element of a drawing.
     File {
         /// The file.
@@ -51,7 +51,7 @@ const GLYPH: &str = "glyph:";
 /// fonts are among them, so that they are refused and not drawn.
 const FONTS: [&str; 6] = ["ttf", "otf", "ttc", "otc", "woff", "woff2"];
 
-impl Source {
+impl DesignSource {
     /// What a path means. Files are looked up to tell a name with `#` in it
     /// from an element; nothing is read.
     #[must_use]
@@ -131,10 +131,10 @@ impl Source {
                 (path.file_stem().unwrap_or(path.as_os_str())).to_string_lossy()
             }
         };
-        OneLine(name).to_string()
+        SanitizedLine(name).to_string()
     }
 
-    /// As it is written down: [`Source::parse`] gives the same source again,
+    /// As it is written down: [`DesignSource::parse`] gives the same source again,
     /// unless a file of that very name is there.
     #[must_use]
     pub fn to_path(&self) -> PathBuf {
@@ -160,7 +160,7 @@ impl Source {
 }
 
 /// The text and the font after `glyph:`.
-fn text_of(written: &str) -> Source {
+fn text_of(written: &str) -> DesignSource {
     let is_font = |path: &str| {
         let ending = Path::new(path).extension().and_then(|e| e.to_str());
         ending.is_some_and(|e| FONTS.iter().any(|font| e.eq_ignore_ascii_case(font)))
@@ -169,7 +169,7 @@ fn text_of(written: &str) -> Source {
         Some((text, font)) if is_font(font) => (text, Some(font.into())),
         _ => (written, None),
     };
-    Source::Text {
+    DesignSource::Text {
         text: unescaped(text),
         font,
     }
@@ -196,19 +196,19 @@ fn unescaped(text: &str) -> String {
 mod tests {
     use super::*;
 
-    fn parsed(written: &str) -> Source {
-        Source::parse(written.as_ref(), |path| path == Path::new("a#b.svg"))
+    fn parsed(written: &str) -> DesignSource {
+        DesignSource::parse(written.as_ref(), |path| path == Path::new("a#b.svg"))
     }
 
-    fn text(text: &str, font: Option<&str>) -> Source {
-        Source::Text {
+    fn text(text: &str, font: Option<&str>) -> DesignSource {
+        DesignSource::Text {
             text: text.to_owned(),
             font: font.map(PathBuf::from),
         }
     }
 
-    fn file(path: &str, element: Option<&str>) -> Source {
-        Source::File {
+    fn file(path: &str, element: Option<&str>) -> DesignSource {
+        DesignSource::File {
             path: path.into(),
             element: element.map(str::to_owned),
         }

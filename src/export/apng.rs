@@ -9,14 +9,14 @@ use std::path::Path;
 
 use png::{BitDepth, BlendOp, ColorType, DisposeOp, Encoder, EncodingError, Writer};
 
-use crate::atomic_file::AtomicFile;
-use crate::progress::{Progress, Span};
+use crate::io::atomic_file::AtomicFile;
+use crate::work::progress::{Progress, ProgressSpan};
 
-use super::camera::{Camera, DRAWING};
-use super::check::{DRAWN, check_apng};
+use super::camera::{Camera, DRAWING_STAGE};
 use super::error::ExportError;
-use super::film::{Film, Run};
+use super::film_spec::{FilmSpec, FrameRun};
 use super::raster::{rasterise, samples};
+use super::readback::{DRAWN_FRACTION, check_apng};
 
 /// Writes the film.
 ///
@@ -25,7 +25,7 @@ use super::raster::{rasterise, samples};
 /// more.
 pub fn write_apng(
     camera: &Camera,
-    film: &Film,
+    film: &FilmSpec,
     path: &Path,
     progress: &dyn Progress,
 ) -> Result<(), ExportError> {
@@ -38,8 +38,8 @@ pub fn write_apng(
         writer(&mut output, camera, film, runs.len()).map_err(ExportError::encode(path))?;
     camera.shoot_runs(
         &runs,
-        DRAWING,
-        &Span::new(progress, 0.0, DRAWN),
+        DRAWING_STAGE,
+        &ProgressSpan::new(progress, 0.0, DRAWN_FRACTION),
         |drawing| Ok(samples(&rasterise(&drawing), camera.ground.is_some())),
         |run, pixels| {
             let (numerator, denominator) = delay(film, run);
@@ -55,7 +55,7 @@ pub fn write_apng(
     output.flush().map_err(ExportError::write(path))?;
     drop(output);
     let written = file.written().map_err(ExportError::write(path))?;
-    let checking = Span::new(progress, DRAWN, 1.0);
+    let checking = ProgressSpan::new(progress, DRAWN_FRACTION, 1.0);
     check_apng(written, runs.len(), path, &checking)?;
     file.commit().map_err(ExportError::write(path))
 }
@@ -63,7 +63,7 @@ pub fn write_apng(
 fn writer<W: Write>(
     output: W,
     camera: &Camera,
-    film: &Film,
+    film: &FilmSpec,
     frames: usize,
 ) -> Result<Writer<W>, EncodingError> {
     let size = camera.view.size();
@@ -82,7 +82,7 @@ fn writer<W: Write>(
 }
 
 /// Seconds as a fraction of 16-bit numbers.
-fn delay(film: &Film, run: Run) -> (u16, u16) {
+fn delay(film: &FilmSpec, run: FrameRun) -> (u16, u16) {
     let fps = film.fps();
     if fps.fract() == 0.0
         && let Ok(count) = u16::try_from(run.count)
@@ -100,20 +100,20 @@ fn delay(film: &Film, run: Run) -> (u16, u16) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::testing::camera;
-    use crate::progress::Silent;
+    use crate::export::test_camera::camera;
+    use crate::work::progress::Silent;
     use std::fs::File;
     use std::io::BufReader;
 
     #[test]
     fn delays_are_exact_at_whole_rates() {
-        let film = Film::evenly(0.0, 1.0, 6, 24.0).expect("a film");
+        let film = FilmSpec::evenly(0.0, 1.0, 6, 24.0).expect("a film");
         assert!(film.runs().iter().all(|&run| delay(&film, run) == (1, 24)));
     }
 
     #[test]
     fn odd_rates_do_not_drift() {
-        let film = Film::evenly(0.0, 1.0, 300, 29.97).expect("a film");
+        let film = FilmSpec::evenly(0.0, 1.0, 300, 29.97).expect("a film");
         let runs = film.runs();
         let millis = runs.iter().map(|&run| u32::from(delay(&film, run).0));
         assert_eq!(millis.sum::<u32>(), 10_010);
@@ -121,9 +121,12 @@ mod tests {
 
     #[test]
     fn frames_are_those_of_the_raster() {
-        for ground in [None, Some(crate::transition::Style::default().ground)] {
+        for ground in [
+            None,
+            Some(crate::transition::TransitionStyle::default().ground),
+        ] {
             let camera = camera(40, 30, ground);
-            let film = Film::evenly(0.0, 1.0, 4, 24.0).expect("a film");
+            let film = FilmSpec::evenly(0.0, 1.0, 4, 24.0).expect("a film");
             let folder = tempfile::tempdir().expect("a folder");
             let path = folder.path().join("film.apng");
             write_apng(&camera, &film, &path, &Silent).expect("written");

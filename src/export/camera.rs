@@ -9,17 +9,17 @@ use rayon::prelude::*;
 
 use crate::colour::Rgb;
 use crate::geometry::Bounds;
-use crate::progress::{Cancelled, Progress, checkpoint};
-use crate::transition::{Sequence, SequenceFrame, Style};
+use crate::transition::{Sequence, SequenceFrame, TransitionStyle};
+use crate::work::progress::{Cancelled, Progress, checkpoint};
 
 use super::captions::Captions;
 use super::drawing::Drawing;
 use super::error::ExportError;
-use super::film::{Run, even_times};
+use super::film_spec::{FrameRun, even_times};
 use super::raster::rasterise;
 use super::size::PixelSize;
 use super::svg::to_svg;
-use super::view::View;
+use super::view::PlaneView;
 
 /// Memory for frames that are drawn ahead of being written, in bytes: 32 of
 /// 1920 × 1080.
@@ -30,7 +30,7 @@ pub const BATCH_BYTES: u64 = 256 << 20;
 const FRAMING_SAMPLES: usize = 33;
 
 /// The stage of drawing a film's frames, as [`Progress`] is told.
-pub(super) const DRAWING: &str = "drawing frames";
+pub(super) const DRAWING_STAGE: &str = "drawing frames";
 
 /// A transition or several in sequence, how they look, and from where they are seen.
 #[derive(Clone, Debug)]
@@ -38,9 +38,9 @@ pub struct Camera {
     /// What is shown.
     pub sequence: Sequence,
     /// In which colours.
-    pub style: Style,
+    pub style: TransitionStyle,
     /// Which part of the plane, at which size.
-    pub view: View,
+    pub view: PlaneView,
     /// On which ground; `None` is transparent.
     pub ground: Option<Rgb>,
     /// What stands below.
@@ -56,9 +56,9 @@ impl Camera {
         let times = even_times(0.0, sequence.end(), FRAMING_SAMPLES);
         let bounds = framing(&sequence, &times);
         Self {
-            view: View::fit(bounds, PixelSize::of_shape(bounds, longer_side_px)),
+            view: PlaneView::fit(bounds, PixelSize::of_shape(bounds, longer_side_px)),
             sequence,
-            style: Style::default(),
+            style: TransitionStyle::default(),
             ground: None,
             captions: None,
         }
@@ -97,18 +97,18 @@ impl Camera {
     /// [`ExportError::Cancelled`], or what `make` and `take` return.
     pub fn shoot_runs<T: Send>(
         &self,
-        runs: &[Run],
+        runs: &[FrameRun],
         stage: &'static str,
         progress: &dyn Progress,
         make: impl Fn(Drawing) -> Result<T, ExportError> + Sync,
-        mut take: impl FnMut(Run, T) -> Result<(), ExportError>,
+        mut take: impl FnMut(FrameRun, T) -> Result<(), ExportError>,
     ) -> Result<(), ExportError> {
         let mut done = 0;
         // Cores finish frames in any order, files want them in theirs: a batch
         // is drawn on all, then handed over.
         for batch in runs.chunks(batch_len(self.view.size())) {
             checkpoint(progress, stage, done as f64 / runs.len() as f64)?;
-            let shoot = |frame: &mut SequenceFrame, run: &Run| {
+            let shoot = |frame: &mut SequenceFrame, run: &FrameRun| {
                 if progress.is_cancelled() {
                     return Err(Cancelled.into());
                 }

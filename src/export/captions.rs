@@ -3,7 +3,7 @@
 use super::drawing::Drawing;
 use crate::colour::{Paint, Rgb};
 use crate::geometry::DVec2;
-use crate::transition::Stop;
+use crate::transition::TransitionStop;
 
 /// The share of the way to the middle between two names that one stays whole, and that
 /// at which it is gone.
@@ -32,7 +32,7 @@ impl Captions {
     /// t. They are dark or light, whichever can be read on that ground.
     #[must_use]
     pub fn new<'a>(
-        stops: &[Stop],
+        stops: &[TransitionStop],
         designs: impl IntoIterator<Item = &'a str>,
         ground: Rgb,
     ) -> Self {
@@ -99,8 +99,8 @@ impl Captions {
 mod tests {
     use super::*;
 
-    fn stop(t: f64, name: &str) -> Stop {
-        Stop::at(t).named(name)
+    fn stop(t: f64, name: &str) -> TransitionStop {
+        TransitionStop::at(t).named(name)
     }
 
     #[test]

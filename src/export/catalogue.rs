@@ -3,24 +3,24 @@
 
 use std::path::{Path, PathBuf};
 
+use super::contact_sheet::SheetLayout;
 use super::drawing::Drawing;
 use super::error::ExportError;
-use super::sheet::SheetLayout;
+use super::labels::text_colour_on;
 use super::size::PixelSize;
 use super::still::{encoded, write_atomically};
 use super::target::StillKind;
-use super::view::View;
-use super::words::ink_on;
+use super::view::PlaneView;
 use crate::colour::Rgb;
-use crate::file_name::safe;
 use crate::geometry::{Bounds, DVec2};
+use crate::io::file_name::safe;
+use crate::io::sanitize::SanitizedLine;
 use crate::measure::{BlendMeasures, BlendSampler};
-use crate::names::named;
-use crate::one_line::OneLine;
-use crate::progress::{Progress, checkpoint};
-use crate::project::KeptPlace;
-use crate::space::{Map, Space};
-use crate::transition::Style;
+use crate::project::SavedPlace;
+use crate::settings::choice::named;
+use crate::space::{DesignSpace, WeightMap};
+use crate::transition::TransitionStyle;
+use crate::work::progress::{Progress, checkpoint};
 
 /// Pixels along the longer side of a single picture.
 const LONGER_SIDE_PX: u32 = 960;
@@ -56,13 +56,13 @@ named! { CatalogueOrder {
 /// Kept places with what is measured of them.
 #[derive(Clone, Debug)]
 pub struct Catalogue {
-    entries: Vec<Entry>,
+    entries: Vec<CatalogueEntry>,
 }
 
 /// One of them.
 #[derive(Clone, Debug)]
-struct Entry {
-    kept: KeptPlace,
+struct CatalogueEntry {
+    kept: SavedPlace,
     weights: Vec<f64>,
     measures: BlendMeasures,
 }
@@ -74,28 +74,29 @@ impl Catalogue {
     /// If the map has not as many sites as the space has designs.
     #[must_use]
     pub fn new(
-        (space, map): (&Space, &Map),
-        kept: &[KeptPlace],
+        (space, map): (&DesignSpace, &WeightMap),
+        kept: &[SavedPlace],
         least_stars: u8,
         order: CatalogueOrder,
     ) -> Self {
         let mut sampler = BlendSampler::of(space);
-        let entry = |kept: &KeptPlace| {
+        let entry = |kept: &SavedPlace| {
             let mut weights = vec![0.0; space.designs().len()];
             map.weights(kept.at, &mut weights);
             let mut kept = kept.clone();
             if kept.name.is_empty() {
                 kept.name = space.told(&weights);
             }
-            Entry {
+            CatalogueEntry {
                 measures: sampler.at(&weights),
                 weights,
                 kept,
             }
         };
         let wanted = kept.iter().filter(|kept| kept.stars >= least_stars);
-        let mut entries: Vec<Entry> = wanted.map(entry).collect();
-        let distortion = |entry: &Entry| entry.measures.quality.conformal_p95.unwrap_or(1.0);
+        let mut entries: Vec<CatalogueEntry> = wanted.map(entry).collect();
+        let distortion =
+            |entry: &CatalogueEntry| entry.measures.quality.conformal_p95.unwrap_or(1.0);
         entries.sort_by(|a, b| match order {
             CatalogueOrder::Kept => std::cmp::Ordering::Equal,
             CatalogueOrder::Stars => b.kept.stars.cmp(&a.kept.stars),
@@ -126,15 +127,15 @@ impl Catalogue {
     /// [`ExportError`] names the file that cannot be written; those before it are whole.
     pub fn write(
         &self,
-        space: &Space,
-        (style, ground): (&Style, Option<Rgb>),
+        space: &DesignSpace,
+        (style, ground): (&TransitionStyle, Option<Rgb>),
         folder: &Path,
         progress: &dyn Progress,
     ) -> Result<Vec<PathBuf>, ExportError> {
         std::fs::create_dir_all(folder).map_err(ExportError::write(folder))?;
         let bounds = space.bounds();
         let bounds = bounds.padded(0.04 * bounds.diameter());
-        let view = View::fit(bounds, PixelSize::of_shape(bounds, LONGER_SIDE_PX));
+        let view = PlaneView::fit(bounds, PixelSize::of_shape(bounds, LONGER_SIDE_PX));
         let mut written = Vec::new();
         for (k, entry) in self.entries.iter().enumerate() {
             checkpoint(progress, "writing", k as f64 / self.len() as f64)?;
@@ -171,7 +172,12 @@ impl Catalogue {
 
     /// All side by side, with their names and stars.
     #[must_use]
-    pub fn sheet(&self, space: &Space, style: &Style, ground: Option<Rgb>) -> Drawing {
+    pub fn sheet(
+        &self,
+        space: &DesignSpace,
+        style: &TransitionStyle,
+        ground: Option<Rgb>,
+    ) -> Drawing {
         // Names are long where nobody gave one: the cells of slender designs are wider.
         let own = space.bounds();
         let beside = 0.5 * (own.size().y - own.size().x).max(0.0) * DVec2::X;
@@ -183,20 +189,27 @@ impl Catalogue {
         let mut drawing = Drawing::new(layout.size, ground);
         for (k, entry) in self.entries.iter().enumerate() {
             let (corner, inner, base) = layout.cell(k);
-            let view = View::fit_cell(bounds, layout.size, corner, inner);
+            let view = PlaneView::fit_cell(bounds, layout.size, corner, inner);
             self.draw(space, k, style, &view, &mut drawing);
             let words = match entry.kept.stars {
-                0 => OneLine(&entry.kept.name).to_string(),
-                stars => format!("{}, {stars} of 5", OneLine(&entry.kept.name)),
+                0 => SanitizedLine(&entry.kept.name).to_string(),
+                stars => format!("{}, {stars} of 5", SanitizedLine(&entry.kept.name)),
             };
             let [width, height] = layout.label_room(inner);
             let room = [width, 0.8 * height];
-            drawing.push_label_within(&words, base, room, ink_on(ground));
+            drawing.push_label_within(&words, base, room, text_colour_on(ground));
         }
         drawing
     }
 
-    fn draw(&self, space: &Space, k: usize, style: &Style, view: &View, drawing: &mut Drawing) {
+    fn draw(
+        &self,
+        space: &DesignSpace,
+        k: usize,
+        style: &TransitionStyle,
+        view: &PlaneView,
+        drawing: &mut Drawing,
+    ) {
         let weights = &self.entries[k].weights;
         let mut frame = space.frame();
         frame.seek(weights);
@@ -204,11 +217,11 @@ impl Catalogue {
     }
 
     /// A row for each, its weights by the names of the designs.
-    fn table(&self, space: &Space) -> Result<Vec<u8>, String> {
+    fn table(&self, space: &DesignSpace) -> Result<Vec<u8>, String> {
         let mut table = csv::Writer::from_writer(Vec::new());
         let before = ["file", "name", "stars", "note", "x", "y"].map(str::to_owned);
         let weights = space.designs().iter();
-        let weights = weights.map(|design| format!("weight of {}", OneLine(&design.name)));
+        let weights = weights.map(|design| format!("weight of {}", SanitizedLine(&design.name)));
         let behind = [
             "area",
             "perimeter",
@@ -224,14 +237,14 @@ impl Catalogue {
         let wrong = |error: csv::Error| error.to_string();
         table.write_record(header).map_err(wrong)?;
         for (k, entry) in self.entries.iter().enumerate() {
-            let Entry { kept, measures, .. } = entry;
+            let CatalogueEntry { kept, measures, .. } = entry;
             let number = |value: f64| value.to_string();
             let maybe = |value: Option<f64>| value.map_or_else(String::new, number);
             let before = [
                 stem(k, kept),
-                OneLine(&kept.name).to_string(),
+                SanitizedLine(&kept.name).to_string(),
                 kept.stars.to_string(),
-                OneLine(&kept.note).to_string(),
+                SanitizedLine(&kept.note).to_string(),
                 number(kept.at.x),
                 number(kept.at.y),
             ];
@@ -252,7 +265,7 @@ impl Catalogue {
 }
 
 /// The name of its files without an ending: no two have the same, and none has blanks or signs.
-fn stem(k: usize, kept: &KeptPlace) -> String {
+fn stem(k: usize, kept: &SavedPlace) -> String {
     let name = safe(&kept.name);
     let words = name.split(|c: char| !c.is_alphanumeric());
     let words: Vec<&str> = words.filter(|word| !word.is_empty()).collect();
@@ -263,28 +276,28 @@ fn stem(k: usize, kept: &KeptPlace) -> String {
 mod tests {
     use super::*;
     use crate::design::Design;
-    use crate::export::drawing::Item;
-    use crate::export::outline::Step;
-    use crate::progress::Silent;
+    use crate::export::drawing::DrawingItem;
+    use crate::export::outline::PathCommand;
     use crate::space::{MapLayout, SpaceSpec};
+    use crate::work::progress::Silent;
     use std::sync::Arc;
 
-    fn space() -> (Space, Map) {
+    fn space() -> (DesignSpace, WeightMap) {
         let tent = |name: &str, h: f64| {
             let ring = [[0.0, 0.0], [2.0, 0.0], [1.0, h]];
             Arc::new(Design::of_rings(name, [ring]).expect("a design"))
         };
         let designs = vec![tent("low", 1.0), tent("high", 2.0), tent("tower", 4.0)];
-        let space = Space::build(&SpaceSpec::new(designs), &Silent).expect("a space");
-        let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
+        let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent).expect("a space");
+        let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
         (space, map)
     }
 
-    fn kept(map: &Map) -> Vec<KeptPlace> {
-        let place = |site: DVec2, name: &str, stars: u8| KeptPlace {
+    fn kept(map: &WeightMap) -> Vec<SavedPlace> {
+        let place = |site: DVec2, name: &str, stars: u8| SavedPlace {
             name: name.to_owned(),
             stars,
-            ..KeptPlace::new(site)
+            ..SavedPlace::new(site)
         };
         vec![
             place(map.sites()[2], "a/b", 2),
@@ -300,7 +313,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let to = folder.path().join("new/catalogue");
         let catalogue = Catalogue::new((&space, &map), &kept, 0, CatalogueOrder::Area);
-        let look = (&Style::default(), None);
+        let look = (&TransitionStyle::default(), None);
         let written = catalogue.write(&space, look, &to, &Silent).expect("files");
         assert_eq!(written.len(), 3 * 2 + 2);
         assert!(written.iter().all(|path| path.exists()));
@@ -322,21 +335,21 @@ mod tests {
     #[test]
     fn long_names_keep_to_their_own_cells() {
         let (space, map) = space();
-        let long = |site: DVec2| KeptPlace {
+        let long = |site: DVec2| SavedPlace {
             name: "a name that says of which designs it is how much".to_owned(),
-            ..KeptPlace::new(site)
+            ..SavedPlace::new(site)
         };
-        let kept: Vec<KeptPlace> = map.sites().iter().map(|site| long(*site)).collect();
+        let kept: Vec<SavedPlace> = map.sites().iter().map(|site| long(*site)).collect();
         let catalogue = Catalogue::new((&space, &map), &kept, 0, CatalogueOrder::Kept);
-        let sheet = catalogue.sheet(&space, &Style::default(), None);
+        let sheet = catalogue.sheet(&space, &TransitionStyle::default(), None);
         let spans = sheet.items.iter().filter_map(|item| match item {
-            Item::Fill {
+            DrawingItem::Fill {
                 outline,
                 label: Some(_),
                 ..
             } => {
                 let xs = outline.steps.iter().filter_map(|step| match step {
-                    Step::Move(p) | Step::Line(p) => Some(p.x),
+                    PathCommand::Move(p) | PathCommand::Line(p) => Some(p.x),
                     _ => None,
                 });
                 Some([xs.clone().fold(f64::MAX, f64::min), xs.fold(0.0, f64::max)])

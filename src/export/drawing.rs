@@ -3,7 +3,7 @@
 //!
 //! A [`Drawing`] is a short list of plain shapes in pixels, y **down**: filled
 //! outlines, round-ended bars, discs, glyph outlines and pictures. The flip
-//! from the core's upward y happens in [`View::to_px`] and nowhere else.
+//! from the core's upward y happens in [`PlaneView::to_px`] and nowhere else.
 //!
 //! Guarantees: solids are closed outlines filled by the nonzero rule, never
 //! triangles with hairlines between them; every coordinate is finite and at
@@ -15,16 +15,16 @@ use std::collections::HashSet;
 use glam::UVec2;
 use image::RgbaImage;
 
-use crate::colour::{Gradient, Line, Paint, Rgb};
-use crate::content::{Content, InkedBars, Raster};
+use crate::colour::{Gradient, Paint, Rgb, StrokeStyle};
+use crate::content::{Content, InkedBars, PictureRaster};
 use crate::geometry::{Bounds, DVec2};
 use crate::space::SpaceFrame;
-use crate::transition::{Coated, Figure, Frame, Style};
+use crate::transition::{FigureLayer, Frame, TransitionStyle, VectorFigure};
 
-use super::outline::{Outline, is_drawable};
+use super::glyph_outlines;
+use super::outline::{OutlinePath, is_drawable};
 use super::size::PixelSize;
-use super::text;
-use super::view::View;
+use super::view::PlaneView;
 
 /// Radius of a joint's disc, in bar widths.
 pub const JOINT_RADIUS: f64 = 0.9;
@@ -37,11 +37,11 @@ const JOINT_CORE_LIGHTNESS: f64 = 0.6;
 
 /// One shape of a [`Drawing`]; what has a colour and no paint is opaque.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Item {
+pub enum DrawingItem {
     /// A filled outline; `label` says in words what it shows, where it is text.
     Fill {
         /// What is filled.
-        outline: Outline,
+        outline: OutlinePath,
         /// With what.
         paint: Paint,
         /// The gradient that the paint is the mean of, in pixels, y down.
@@ -52,9 +52,9 @@ pub enum Item {
     /// A line along closed outlines.
     Line {
         /// The outlines.
-        outline: Outline,
+        outline: OutlinePath,
         /// Paint, corners, and the width in pixels.
-        line: Line,
+        line: StrokeStyle,
     },
     /// Straight bars with round ends.
     Bars {
@@ -101,9 +101,9 @@ pub struct Drawing {
     /// The colour behind everything; `None` is transparent.
     pub ground: Option<Rgb>,
     /// Shapes, the lowest first.
-    pub items: Vec<Item>,
+    pub items: Vec<DrawingItem>,
     /// How the shapes were seen, where they are one frame.
-    pub view: Option<View>,
+    pub view: Option<PlaneView>,
 }
 
 impl Drawing {
@@ -118,7 +118,12 @@ impl Drawing {
     }
 
     /// A frame as it is seen through `view`, over the whole picture.
-    pub fn of_frame(frame: &Frame, style: &Style, view: &View, ground: Option<Rgb>) -> Self {
+    pub fn of_frame(
+        frame: &Frame,
+        style: &TransitionStyle,
+        view: &PlaneView,
+        ground: Option<Rgb>,
+    ) -> Self {
         let mut drawing = Self::new(view.size(), ground);
         drawing.push_frame(frame, style, view);
         drawing.view = Some(*view);
@@ -126,7 +131,7 @@ impl Drawing {
     }
 
     /// Adds a frame as it is seen through `view`.
-    pub fn push_frame(&mut self, frame: &Frame, style: &Style, view: &View) {
+    pub fn push_frame(&mut self, frame: &Frame, style: &TransitionStyle, view: &PlaneView) {
         if matches!(frame.transition().content(), Content::Colours(_)) {
             let places = frame.figure().rings.concat();
             return self.push_pixels(&places, view, |raster| frame.picture(raster));
@@ -135,7 +140,7 @@ impl Drawing {
     }
 
     /// Adds a blend of many designs as it is seen through `view`.
-    pub fn push_blend(&mut self, blend: &SpaceFrame, style: &Style, view: &View) {
+    pub fn push_blend(&mut self, blend: &SpaceFrame, style: &TransitionStyle, view: &PlaneView) {
         match blend.window() {
             Some(window) => {
                 self.push_pixels(&window.corners(), view, |raster| blend.picture(raster));
@@ -151,8 +156,8 @@ impl Drawing {
     fn push_pixels(
         &mut self,
         places: &[DVec2],
-        view: &View,
-        picture: impl FnOnce(&Raster) -> Option<RgbaImage>,
+        view: &PlaneView,
+        picture: impl FnOnce(&PictureRaster) -> Option<RgbaImage>,
     ) {
         let Some(covered) = Bounds::of(places.iter().map(|&p| view.to_px(p))) else {
             return;
@@ -166,20 +171,26 @@ impl Drawing {
         if size.min_element() == 0 {
             return;
         }
-        let raster = Raster {
+        let raster = PictureRaster {
             size: size.to_array(),
             corner: view.to_plane(low),
             pixel: 1.0 / view.px_per_unit(),
         };
         if let Some(image) = picture(&raster) {
             let corner = low.as_uvec2();
-            self.items.push(Item::Picture { image, corner });
+            self.items.push(DrawingItem::Picture { image, corner });
         }
     }
 
     /// Adds a figure as it looks at `t`: coat by coat, or in the style's one
     /// colour; joints as discs with a lighter core.
-    pub fn push_figure(&mut self, figure: &Figure, t: f64, style: &Style, view: &View) {
+    pub fn push_figure(
+        &mut self,
+        figure: &VectorFigure,
+        t: f64,
+        style: &TransitionStyle,
+        view: &PlaneView,
+    ) {
         let colour = style.fill_at(t);
         match figure.coats.as_slice() {
             [] => self.push_rings(&figure.rings, (colour.into(), None), view),
@@ -207,8 +218,8 @@ impl Drawing {
         height_px: f64,
         paint: impl Into<Paint>,
     ) {
-        self.items.push(Item::Fill {
-            outline: text::centred(words, base_px, height_px),
+        self.items.push(DrawingItem::Fill {
+            outline: glyph_outlines::centred(words, base_px, height_px),
             paint: paint.into(),
             gradient: None,
             label: Some(words.to_owned()),
@@ -224,19 +235,25 @@ impl Drawing {
         paint: impl Into<Paint>,
     ) {
         // Of no width where there is nothing to be seen.
-        let width = text::width(words, height_px).max(f64::MIN_POSITIVE);
+        let width = glyph_outlines::width(words, height_px).max(f64::MIN_POSITIVE);
         let height_px = height_px * (width_px / width).min(1.0);
         self.push_label(words, base_px, height_px, paint);
     }
 
     /// Coats that lie on each other in one opaque paint are filled as one: the
     /// smooth edges of parts that touch would show what is below.
-    fn push_coats(&mut self, coats: &[Coated], figure: &Figure, style: &Style, view: &View) {
+    fn push_coats(
+        &mut self,
+        coats: &[FigureLayer],
+        figure: &VectorFigure,
+        style: &TransitionStyle,
+        view: &PlaneView,
+    ) {
         let mut coats = coats.iter().map(|coat| {
             let gradients = coat.gradients.each_ref().map(Option::as_ref);
             let gradient = style.gradient_at(gradients, coat.paints, coat.t);
             let paint = style.paint_at(coat.paints, coat.t);
-            let line = Line::between(coat.lines, coat.t);
+            let line = StrokeStyle::between(coat.lines, coat.t);
             (coat.rings.clone(), (paint, gradient), line)
         });
         let mut next = coats.next();
@@ -260,11 +277,11 @@ impl Drawing {
         &mut self,
         rings: &[Vec<DVec2>],
         (paint, gradient): (Paint, Option<Gradient>),
-        view: &View,
+        view: &PlaneView,
     ) {
         let outline = outline_of(rings, view);
         if !outline.steps.is_empty() && paint.opacity > 0.0 {
-            self.items.push(Item::Fill {
+            self.items.push(DrawingItem::Fill {
                 outline,
                 paint,
                 gradient: gradient.map(|gradient| gradient.moved(view.affine())),
@@ -273,14 +290,14 @@ impl Drawing {
         }
     }
 
-    fn push_line(&mut self, rings: &[Vec<DVec2>], line: Line, view: &View) {
+    fn push_line(&mut self, rings: &[Vec<DVec2>], line: StrokeStyle, view: &PlaneView) {
         let outline = outline_of(rings, view);
-        let line = Line {
+        let line = StrokeStyle {
             width: line.width * view.px_per_unit(),
             ..line
         };
         if !outline.steps.is_empty() && line.paint.opacity > 0.0 && line.width > 0.0 {
-            self.items.push(Item::Line { outline, line });
+            self.items.push(DrawingItem::Line { outline, line });
         }
     }
 
@@ -292,18 +309,18 @@ impl Drawing {
                 continue;
             }
             let centres = joints.then(|| joint_centres(&segments));
-            self.items.push(Item::Bars {
+            self.items.push(DrawingItem::Bars {
                 segments,
                 width_px,
                 colour,
             });
             let Some(centres) = centres else { continue };
-            self.items.push(Item::Discs {
+            self.items.push(DrawingItem::Discs {
                 centres: centres.clone(),
                 radius_px: JOINT_RADIUS * width_px,
                 colour,
             });
-            cores.push(Item::Discs {
+            cores.push(DrawingItem::Discs {
                 centres,
                 radius_px: JOINT_CORE_RADIUS * width_px,
                 colour: joint_core(colour),
@@ -313,8 +330,8 @@ impl Drawing {
     }
 }
 
-fn outline_of(rings: &[Vec<DVec2>], view: &View) -> Outline {
-    let mut outline = Outline::default();
+fn outline_of(rings: &[Vec<DVec2>], view: &PlaneView) -> OutlinePath {
+    let mut outline = OutlinePath::default();
     for ring in rings {
         outline.push_ring(ring.iter().map(|&p| view.to_px(p)));
     }
@@ -337,14 +354,14 @@ fn joint_centres(segments: &[[DVec2; 2]]) -> Vec<DVec2> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::colour::Join;
+    use crate::colour::StrokeJoin;
 
     const BLUE: Rgb = Rgb([59, 125, 216]);
 
-    fn blue() -> Style {
-        Style {
+    fn blue() -> TransitionStyle {
+        TransitionStyle {
             source: BLUE,
-            ..Style::default()
+            ..TransitionStyle::default()
         }
     }
 
@@ -360,41 +377,41 @@ mod tests {
             opacity,
         });
         let paints = [red, red, none, BLUE.into()];
-        let coats = paints.iter().enumerate().map(|(k, &paint)| Coated {
+        let coats = paints.iter().enumerate().map(|(k, &paint)| FigureLayer {
             rings: k..k + 1,
             paints: [Some(paint), None],
             gradients: [None, None],
             lines: [None; 2],
             t: 0.0,
         });
-        let figure = Figure {
+        let figure = VectorFigure {
             rings: [0.0, 1.0, 1.5, 2.0].map(square).to_vec(),
             coats: coats.collect(),
-            ..Figure::default()
+            ..VectorFigure::default()
         };
         let mut drawing = Drawing::new(PixelSize::new(4, 4).expect("a legal size"), None);
         drawing.push_figure(&figure, 0.0, &blue(), &view());
-        let filled = |item: &Item| match item {
-            Item::Fill { outline, paint, .. } => (outline.steps.len(), *paint),
+        let filled = |item: &DrawingItem| match item {
+            DrawingItem::Fill { outline, paint, .. } => (outline.steps.len(), *paint),
             other => panic!("only fills were expected: {other:?}"),
         };
         let found: Vec<_> = drawing.items.iter().map(filled).collect();
         assert_eq!(found, [(8, red), (4, BLUE.into())]);
         // A line is over its own coat and under the next.
-        let line = Line {
+        let line = StrokeStyle {
             paint: red,
             width: 0.02,
-            join: Join::Round,
+            join: StrokeJoin::Round,
         };
         let mut lined = figure.clone();
         lined.coats[0].lines = [Some(line), None];
         drawing.items.clear();
         drawing.push_figure(&lined, 0.0, &blue(), &view());
         let [
-            Item::Fill { .. },
-            Item::Line { line, .. },
-            Item::Fill { .. },
-            Item::Fill { .. },
+            DrawingItem::Fill { .. },
+            DrawingItem::Line { line, .. },
+            DrawingItem::Fill { .. },
+            DrawingItem::Fill { .. },
         ] = drawing.items.as_slice()
         else {
             panic!("a line over the first coat: {:?}", drawing.items);
@@ -402,30 +419,30 @@ mod tests {
         assert!((line.width - 2.0).abs() < 1e-12);
     }
 
-    fn view() -> View {
+    fn view() -> PlaneView {
         let bounds = Bounds {
             min: DVec2::new(-1.0, 0.0),
             max: DVec2::new(3.0, 2.0),
         };
-        View::fit(bounds, PixelSize::new(400, 400).expect("a legal size"))
+        PlaneView::fit(bounds, PixelSize::new(400, 400).expect("a legal size"))
     }
 
     #[test]
     fn bars_share_one_joint_at_a_common_node() {
         let node = [DVec2::ZERO, DVec2::X, DVec2::Y];
-        let figure = Figure {
+        let figure = VectorFigure {
             rings: vec![],
             bars: vec![[node[0], node[1]], [node[1], node[2]], [node[2], node[0]]],
             bar_width: 0.1,
-            ..Figure::default()
+            ..VectorFigure::default()
         };
         let size = PixelSize::new(400, 400).expect("a legal size");
         let mut drawing = Drawing::new(size, None);
         drawing.push_figure(&figure, 0.0, &blue(), &view());
         let [
-            Item::Bars { width_px, .. },
-            Item::Discs { centres, .. },
-            Item::Discs { colour, .. },
+            DrawingItem::Bars { width_px, .. },
+            DrawingItem::Discs { centres, .. },
+            DrawingItem::Discs { colour, .. },
         ] = drawing.items.as_slice()
         else {
             panic!("bars, joints and cores were expected: {:?}", drawing.items);
@@ -439,7 +456,7 @@ mod tests {
     fn what_cannot_be_drawn_is_left_out() {
         let far = DVec2::new(1e300, 0.0);
         let nan = DVec2::new(f64::NAN, 0.0);
-        let figure = Figure {
+        let figure = VectorFigure {
             rings: vec![
                 vec![DVec2::ZERO, DVec2::X, far],
                 vec![DVec2::ZERO, DVec2::X],
@@ -447,7 +464,7 @@ mod tests {
             ],
             bars: vec![[DVec2::ZERO, far]],
             bar_width: 0.1,
-            ..Figure::default()
+            ..VectorFigure::default()
         };
         let mut drawing = Drawing::new(PixelSize::new(4, 4).expect("a legal size"), None);
         drawing.push_figure(&figure, 0.0, &blue(), &view());

@@ -12,16 +12,16 @@ use std::collections::BTreeSet;
 use crate::colour::Rgb;
 use crate::geometry::DVec2;
 
-use super::drawing::{Drawing, Item};
-use super::outline::{Outline, Step};
-use super::view::View;
+use super::drawing::{Drawing, DrawingItem};
+use super::outline::{OutlinePath, PathCommand};
+use super::view::PlaneView;
 
 /// Straight steps that a curve becomes.
 const STEPS: usize = 12;
 
 /// A drawing as a document; `None` where it holds a picture, which has no outlines.
 pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
-    let paper = Paper {
+    let paper = DxfCoordinates {
         view: drawing.view,
         height_px: f64::from(drawing.size.height()),
     };
@@ -29,15 +29,15 @@ pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
     let mut entities = String::new();
     for item in &drawing.items {
         let colour = match item {
-            Item::Fill { outline, paint, .. } => {
+            DrawingItem::Fill { outline, paint, .. } => {
                 entities += &paper.polylines(outline, paint.colour, None);
                 paint.colour
             }
-            Item::Line { outline, line } => {
+            DrawingItem::Line { outline, line } => {
                 entities += &paper.polylines(outline, line.paint.colour, Some(line.width));
                 line.paint.colour
             }
-            Item::Bars {
+            DrawingItem::Bars {
                 segments, colour, ..
             } => {
                 let line = |[a, b]: &[DVec2; 2]| {
@@ -47,7 +47,7 @@ pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
                 entities.extend(segments.iter().map(line));
                 *colour
             }
-            Item::Discs {
+            DrawingItem::Discs {
                 centres,
                 radius_px,
                 colour,
@@ -60,7 +60,7 @@ pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
                 entities.extend(centres.iter().map(circle));
                 *colour
             }
-            Item::Picture { .. } => return None,
+            DrawingItem::Picture { .. } => return None,
         };
         layers.insert(colour.0);
     }
@@ -74,12 +74,12 @@ pub(super) fn to_dxf(drawing: &Drawing) -> Option<String> {
 }
 
 /// From pixels, y down, to what is written.
-struct Paper {
-    view: Option<View>,
+struct DxfCoordinates {
+    view: Option<PlaneView>,
     height_px: f64,
 }
 
-impl Paper {
+impl DxfCoordinates {
     fn place(&self, px: DVec2) -> DVec2 {
         match &self.view {
             Some(view) => view.to_plane(px),
@@ -98,7 +98,7 @@ impl Paper {
         format!("{code}\n{x}\n{next}\n{y}\n")
     }
 
-    fn polylines(&self, outline: &Outline, colour: Rgb, width_px: Option<f64>) -> String {
+    fn polylines(&self, outline: &OutlinePath, colour: Rgb, width_px: Option<f64>) -> String {
         let layer = layer(colour);
         let width = width_px.map_or_else(String::new, |width| {
             let width = number(self.length(width));
@@ -116,10 +116,10 @@ impl Paper {
 }
 
 /// The contours as polygons.
-fn rings(outline: &Outline) -> Vec<Vec<DVec2>> {
+fn rings(outline: &OutlinePath) -> Vec<Vec<DVec2>> {
     let mut rings: Vec<Vec<DVec2>> = Vec::new();
     for step in &outline.steps {
-        if let Step::Move(p) = *step {
+        if let PathCommand::Move(p) = *step {
             rings.push(vec![p]);
             continue;
         }
@@ -128,16 +128,16 @@ fn rings(outline: &Outline) -> Vec<Vec<DVec2>> {
         };
         let from = ring[ring.len() - 1];
         match *step {
-            Step::Line(p) => ring.push(p),
-            Step::Quad(c, p) => ring.extend(shares().map(|s| {
+            PathCommand::Line(p) => ring.push(p),
+            PathCommand::Quad(c, p) => ring.extend(shares().map(|s| {
                 let (a, b) = (from.lerp(c, s), c.lerp(p, s));
                 a.lerp(b, s)
             })),
-            Step::Cubic(c, d, p) => ring.extend(shares().map(|s| {
+            PathCommand::Cubic(c, d, p) => ring.extend(shares().map(|s| {
                 let (a, b, e) = (from.lerp(c, s), c.lerp(d, s), d.lerp(p, s));
                 a.lerp(b, s).lerp(b.lerp(e, s), s)
             })),
-            Step::Move(_) | Step::Close => {}
+            PathCommand::Move(_) | PathCommand::Close => {}
         }
     }
     rings
@@ -191,8 +191,8 @@ fn number(x: f64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::design::{Form, ImportOptions, import};
-    use crate::export::testing::camera;
+    use crate::design::{DesignForm, ImportOptions, import};
+    use crate::export::test_camera::camera;
 
     #[test]
     fn a_frame_comes_back_as_large_as_it_is() {
@@ -200,7 +200,7 @@ mod tests {
         let text = to_dxf(&camera.shoot(0.5)).expect("outlines");
         let read = import("half.dxf", text.as_bytes(), &ImportOptions::default());
         let read = read.expect("a design");
-        let Form::Outline(regions) = &read.form else {
+        let DesignForm::Outline(regions) = &read.form else {
             panic!("outlines: {:?}", read.form);
         };
         let figure = camera.sequence.frame(0.5).now().figure();

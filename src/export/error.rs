@@ -4,8 +4,8 @@ use std::fmt::Display;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::atomic_file::refusal;
-use crate::progress::Cancelled;
+use crate::io::atomic_file::refusal;
+use crate::work::progress::Cancelled;
 
 /// Why an export did not come to its end. Nothing half-written is left.
 #[derive(Debug, thiserror::Error)]
@@ -80,11 +80,13 @@ impl ExportError {
     }
 
     /// An encoder refused to write `path`, or the system did.
-    pub(super) fn encode<E: Into<Refused>>(path: impl Into<PathBuf>) -> impl FnOnce(E) -> Self {
+    pub(super) fn encode<E: Into<EncodeFailure>>(
+        path: impl Into<PathBuf>,
+    ) -> impl FnOnce(E) -> Self {
         let path = path.into();
         move |error| match error.into() {
-            Refused::BySystem(source) => Self::Write { path, source },
-            Refused::ByEncoder(reason) => Self::Encode { path, reason },
+            EncodeFailure::BySystem(source) => Self::Write { path, source },
+            EncodeFailure::ByEncoder(reason) => Self::Encode { path, reason },
         }
     }
 
@@ -99,12 +101,12 @@ impl ExportError {
 
 /// Who did not want to write: the libraries pass the system's reasons on among
 /// their own.
-pub(super) enum Refused {
+pub(super) enum EncodeFailure {
     BySystem(io::Error),
     ByEncoder(String),
 }
 
-impl From<gif::EncodingError> for Refused {
+impl From<gif::EncodingError> for EncodeFailure {
     fn from(error: gif::EncodingError) -> Self {
         match error {
             gif::EncodingError::Io(error) => Self::BySystem(error),
@@ -113,7 +115,7 @@ impl From<gif::EncodingError> for Refused {
     }
 }
 
-impl From<png::EncodingError> for Refused {
+impl From<png::EncodingError> for EncodeFailure {
     fn from(error: png::EncodingError) -> Self {
         match error {
             png::EncodingError::IoError(error) => Self::BySystem(error),
@@ -122,7 +124,7 @@ impl From<png::EncodingError> for Refused {
     }
 }
 
-impl From<image::ImageError> for Refused {
+impl From<image::ImageError> for EncodeFailure {
     fn from(error: image::ImageError) -> Self {
         // Its pictures are encoded in memory.
         Self::ByEncoder(error.to_string())

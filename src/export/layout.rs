@@ -5,10 +5,10 @@
 //! square.
 
 use super::captions::Captions;
-use super::size::{PixelSize, SizeError};
-use super::view::View;
+use super::size::{PixelSize, PixelSizeError};
+use super::view::PlaneView;
 use crate::geometry::{Bounds, DVec2};
-use crate::names::named;
+use crate::settings::choice::named;
 
 /// The shape of a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -53,7 +53,7 @@ const LONGEST: f64 = 16.0 / 9.0;
 
 /// The shape and the size of pictures, and what is left free in them.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Layout {
+pub struct PictureLayout {
     /// Their shape.
     pub aspect: Aspect,
     /// Pixels along the shorter side.
@@ -64,7 +64,7 @@ pub struct Layout {
     pub has_captions: bool,
 }
 
-impl Default for Layout {
+impl Default for PictureLayout {
     fn default() -> Self {
         Self {
             aspect: Aspect::default(),
@@ -75,7 +75,7 @@ impl Default for Layout {
     }
 }
 
-impl Layout {
+impl PictureLayout {
     /// The view of all that lies in `bounds`. Sides are even, as films want them.
     ///
     /// ```
@@ -88,15 +88,15 @@ impl Layout {
     /// ```
     ///
     /// # Errors
-    /// [`SizeError`] where there are no lines, or too many.
-    pub fn view(&self, bounds: Bounds) -> Result<View, SizeError> {
+    /// [`PixelSizeError`] where there are no lines, or too many.
+    pub fn view(&self, bounds: Bounds) -> Result<PlaneView, PixelSizeError> {
         Ok(self.view_of(bounds, self.size(bounds)?))
     }
 
     /// The view of all that lies in `bounds` in a picture of another size, with margin
     /// and room for a caption as asked for.
     #[must_use]
-    pub fn view_of(&self, bounds: Bounds, size: PixelSize) -> View {
+    pub fn view_of(&self, bounds: Bounds, size: PixelSize) -> PlaneView {
         let shorter = size.as_dvec2().min_element();
         let margin = self.margin.clamp(0.0, 0.4) * shorter;
         let below = if self.has_captions {
@@ -106,10 +106,10 @@ impl Layout {
         };
         let corner = DVec2::splat(margin);
         let cell = size.as_dvec2() - 2.0 * corner - DVec2::new(0.0, below);
-        View::fit_cell(bounds, size, corner, cell.max(DVec2::ONE))
+        PlaneView::fit_cell(bounds, size, corner, cell.max(DVec2::ONE))
     }
 
-    fn size(&self, bounds: Bounds) -> Result<PixelSize, SizeError> {
+    fn size(&self, bounds: Bounds) -> Result<PixelSize, PixelSizeError> {
         let shorter = f64::from(self.lines);
         let Some(ratio) = self.aspect.ratio() else {
             let own = bounds.size();
@@ -135,7 +135,7 @@ impl Layout {
 /// Layouts for what films are mostly made for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Purpose {
+pub enum LayoutPreset {
     /// Slides of a talk.
     Deck,
     /// A square post.
@@ -146,28 +146,28 @@ pub enum Purpose {
     Page,
 }
 
-named! { Purpose {
+named! { LayoutPreset {
     Deck: "deck", "Slides", "16:9, 1920 × 1080, with captions from the stops";
     Post: "post", "Post", "1:1, 1080 × 1080";
     Story: "story", "Story", "9:16, 1080 × 1920, with captions from the stops";
     Page: "page", "Page", "The drawing's own shape, small";
 } }
 
-impl Purpose {
+impl LayoutPreset {
     /// Its layout.
     #[must_use]
-    pub fn layout(self) -> Layout {
+    pub fn layout(self) -> PictureLayout {
         let (aspect, lines, has_captions) = match self {
             Self::Deck => (Aspect::Wide, 1080, true),
             Self::Post => (Aspect::Square, 1080, false),
             Self::Story => (Aspect::Tall, 1080, true),
             Self::Page => (Aspect::Own, 480, false),
         };
-        Layout {
+        PictureLayout {
             aspect,
             lines,
             has_captions,
-            ..Layout::default()
+            ..PictureLayout::default()
         }
     }
 }
@@ -186,10 +186,10 @@ mod tests {
     #[test]
     fn sizes_go_by_the_shorter_side() {
         let sizes = Aspect::ALL.map(|aspect| {
-            let layout = Layout {
+            let layout = PictureLayout {
                 aspect,
                 lines: 720,
-                ..Layout::default()
+                ..PictureLayout::default()
             };
             layout.view(wide()).expect("a view").size().to_string()
         });
@@ -202,10 +202,10 @@ mod tests {
 
     #[test]
     fn margins_and_captions_are_left_free() {
-        let layout = Layout {
+        let layout = PictureLayout {
             margin: 0.1,
             has_captions: true,
-            ..Purpose::Post.layout()
+            ..LayoutPreset::Post.layout()
         };
         let view = layout.view(wide()).expect("a view");
         let [low, high] = [wide().min, wide().max].map(|p| view.to_px(p));
@@ -216,10 +216,10 @@ mod tests {
     #[test]
     fn no_lines_and_too_many_are_refused() {
         for (aspect, lines) in [(Aspect::Wide, 0), (Aspect::Own, 0), (Aspect::Own, 99_999)] {
-            let layout = Layout {
+            let layout = PictureLayout {
                 aspect,
                 lines,
-                ..Layout::default()
+                ..PictureLayout::default()
             };
             assert!(layout.view(wide()).is_err(), "{layout:?}");
         }

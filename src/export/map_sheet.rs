@@ -4,24 +4,24 @@
 //! Guarantees: one scale for all cells; each design is in the cell nearest to its site, as
 //! it was drawn; cells beside the hull of the sites are empty.
 
+use super::contact_sheet::SheetLayout;
 use super::drawing::Drawing;
-use super::sheet::SheetLayout;
+use super::labels::text_colour_on;
 use super::size::PixelSize;
-use super::view::View;
-use super::words::ink_on;
+use super::view::PlaneView;
 use crate::colour::Rgb;
 use crate::geometry::DVec2;
-use crate::one_line::OneLine;
-use crate::space::{Map, Space};
-use crate::transition::Style;
+use crate::io::sanitize::SanitizedLine;
+use crate::space::{DesignSpace, WeightMap};
+use crate::transition::TransitionStyle;
 
 /// Draws so many columns and rows of a map into one sheet.
 ///
 /// # Panics
 /// If the map has not as many sites as the space has designs.
 pub fn map_sheet(
-    (space, map): (&Space, &Map),
-    style: &Style,
+    (space, map): (&DesignSpace, &WeightMap),
+    style: &TransitionStyle,
     [columns, rows]: [usize; 2],
     size: Option<PixelSize>,
     ground: Option<Rgb>,
@@ -29,7 +29,7 @@ pub fn map_sheet(
     let bounds = space.bounds();
     let layout = SheetLayout::grid([columns, rows], bounds, size);
     let mut drawing = Drawing::new(layout.size, ground);
-    let ink = ink_on(ground);
+    let ink = text_colour_on(ground);
     let mut frame = space.frame();
     let mut weights = vec![0.0; space.designs().len()];
     for (index, place) in map
@@ -43,7 +43,7 @@ pub fn map_sheet(
         let (corner, inner, base) = layout.cell(index);
         map.weights(place, &mut weights);
         frame.seek(&weights);
-        let view = View::fit_cell(bounds, layout.size, corner, inner);
+        let view = PlaneView::fit_cell(bounds, layout.size, corner, inner);
         drawing.push_blend(&frame, style, &view);
         if let Some(name) = name_at(space, map, place) {
             drawing.push_label_within(&name, base, layout.label_room(inner), ink);
@@ -53,18 +53,18 @@ pub fn map_sheet(
 }
 
 /// What the design is called whose site is there.
-fn name_at(space: &Space, map: &Map, place: DVec2) -> Option<String> {
+fn name_at(space: &DesignSpace, map: &WeightMap, place: DVec2) -> Option<String> {
     let design = map.sites().iter().position(|site| *site == place)?;
-    Some(OneLine(&space.designs()[design].name).to_string())
+    Some(SanitizedLine(&space.designs()[design].name).to_string())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::design::Design;
-    use crate::export::Item;
-    use crate::progress::Silent;
+    use crate::export::DrawingItem;
     use crate::space::{MapLayout, SpaceSpec};
+    use crate::work::progress::Silent;
     use std::sync::Arc;
 
     #[test]
@@ -74,12 +74,12 @@ mod tests {
             Arc::new(Design::of_rings(name, [ring]).expect("a design"))
         };
         let designs = vec![tent("low", 1.0), tent("high", 2.0), tent("tower", 4.0)];
-        let space = Space::build(&SpaceSpec::new(designs), &Silent).expect("a space");
-        let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
-        let style = Style::default();
+        let space = DesignSpace::build(&SpaceSpec::new(designs), &Silent).expect("a space");
+        let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
+        let style = TransitionStyle::default();
         let drawing = map_sheet((&space, &map), &style, [5, 5], None, None);
         let labels = drawing.items.iter().filter_map(|item| match item {
-            Item::Fill { label, .. } => label.clone(),
+            DrawingItem::Fill { label, .. } => label.clone(),
             _ => None,
         });
         let mut labels: Vec<String> = labels.collect();

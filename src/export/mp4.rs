@@ -21,15 +21,15 @@ use yuv::{
     rgba_to_yuv420,
 };
 
-use crate::atomic_file::AtomicFile;
-use crate::progress::{Cancelled, Progress, Span};
+use crate::io::atomic_file::AtomicFile;
+use crate::work::progress::{Cancelled, Progress, ProgressSpan};
 
-use super::camera::{Camera, DRAWING};
-use super::check::{CHECKING, DRAWN};
+use super::camera::{Camera, DRAWING_STAGE};
 use super::error::ExportError;
-use super::film::Film;
+use super::film_spec::FilmSpec;
 use super::raster::rasterise;
-use ffmpeg::Words;
+use super::readback::{CHECKING_STAGE, DRAWN_FRACTION};
+use ffmpeg::FfmpegMessages;
 
 /// Writes the film; the camera's size must be even on both sides
 /// ([`PixelSize::to_even`](super::PixelSize::to_even)), or ffmpeg refuses it.
@@ -39,7 +39,7 @@ use ffmpeg::Words;
 /// fails or writes less than it was given, or nobody wants the film any more.
 pub fn write_mp4(
     camera: &Camera,
-    film: &Film,
+    film: &FilmSpec,
     path: &Path,
     progress: &dyn Progress,
 ) -> Result<(), ExportError> {
@@ -48,18 +48,18 @@ pub fn write_mp4(
     }
     // The folder is tried before ffmpeg is.
     let file = AtomicFile::create(path).map_err(ExportError::write(path))?;
-    let job = Job {
+    let job = FfmpegJob {
         path,
         temporary: file.temporary_path(),
         progress,
     };
-    let command = ffmpeg::encoding(camera.view.size(), film.fps(), job.temporary);
+    let command = ffmpeg::encode_command(camera.view.size(), film.fps(), job.temporary);
     let mut fed = Ok(());
     let words = job.run(command, |mut stdin| {
         fed = camera.shoot_runs(
             &film.runs(),
-            DRAWING,
-            &Span::new(progress, 0.0, DRAWN),
+            DRAWING_STAGE,
+            &ProgressSpan::new(progress, 0.0, DRAWN_FRACTION),
             |drawing| Ok(planes(&rasterise(&drawing))),
             |run, bytes| {
                 // ffmpeg knows a rate and no holds: a run goes in frame by frame.
@@ -96,11 +96,11 @@ fn planes(image: &RgbaImage) -> Vec<u8> {
 #[must_use]
 pub fn has_ffmpeg() -> bool {
     static FOUND: OnceLock<bool> = OnceLock::new();
-    *FOUND.get_or_init(ffmpeg::is_there)
+    *FOUND.get_or_init(ffmpeg::is_available)
 }
 
 /// What ffmpeg has to do with one file.
-struct Job<'a> {
+struct FfmpegJob<'a> {
     /// What it is going to be called.
     path: &'a Path,
     /// What it is called until it is whole.
@@ -108,9 +108,13 @@ struct Job<'a> {
     progress: &'a dyn Progress,
 }
 
-impl Job<'_> {
+impl FfmpegJob<'_> {
     /// Runs ffmpeg to a good end.
-    fn run(&self, command: Command, feed: impl FnOnce(ChildStdin)) -> Result<Words, ExportError> {
+    fn run(
+        &self,
+        command: Command,
+        feed: impl FnOnce(ChildStdin),
+    ) -> Result<FfmpegMessages, ExportError> {
         let ended = match ffmpeg::run(command, self.progress, feed) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
                 return Err(ExportError::NoFfmpeg);
@@ -128,18 +132,18 @@ impl Job<'_> {
     }
 
     /// Looks at what is there: `words` of whoever wrote it prove nothing.
-    fn check(&self, count: usize, words: &Words) -> Result<(), ExportError> {
-        self.progress.report(CHECKING, DRAWN);
-        let reason = match File::open(self.temporary).and_then(|mut file| boxes::frames(&mut file))
-        {
-            // Each is in the file; whether it is a picture only a decoder tells.
-            Ok(found) if found == count => {
-                let decoding = ffmpeg::decoding(self.temporary);
-                return self.run(decoding, drop).map(drop);
-            }
-            Ok(found) => format!("{found} of {count} frames are there"),
-            Err(error) => error.to_string(),
-        };
+    fn check(&self, count: usize, words: &FfmpegMessages) -> Result<(), ExportError> {
+        self.progress.report(CHECKING_STAGE, DRAWN_FRACTION);
+        let reason =
+            match File::open(self.temporary).and_then(|mut file| boxes::frame_count(&mut file)) {
+                // Each is in the file; whether it is a picture only a decoder tells.
+                Ok(found) if found == count => {
+                    let decoding = ffmpeg::decode_command(self.temporary);
+                    return self.run(decoding, drop).map(drop);
+                }
+                Ok(found) => format!("{found} of {count} frames are there"),
+                Err(error) => error.to_string(),
+            };
         Err(match words.last.as_str() {
             _ if words.tell_of_full_disk => self.full(),
             "" => ExportError::not_whole(self.path, reason),

@@ -7,9 +7,9 @@ use crate::geometry::DVec2;
 /// lose all their digits out there.
 pub const MAX_COORDINATE_PX: f64 = 1.0e7;
 
-/// One step of an [`Outline`], in pixels, y down.
+/// One step of an [`OutlinePath`], in pixels, y down.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Step {
+pub enum PathCommand {
     /// Starts a new closed contour at the point.
     Move(DVec2),
     /// A straight line to the point.
@@ -24,20 +24,26 @@ pub enum Step {
 
 /// Closed contours that are filled together by the nonzero rule.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Outline {
-    /// Contours, each from a [`Step::Move`] to a [`Step::Close`].
-    pub steps: Vec<Step>,
+pub struct OutlinePath {
+    /// Contours, each from a [`PathCommand::Move`] to a [`PathCommand::Close`].
+    pub steps: Vec<PathCommand>,
 }
 
-impl Outline {
+impl OutlinePath {
     /// Adds a closed polygon; one with a point that cannot be drawn is left out.
     pub fn push_ring(&mut self, ring_px: impl ExactSizeIterator<Item = DVec2> + Clone) {
         if ring_px.len() < 3 || !ring_px.clone().all(is_drawable) {
             return;
         }
-        let step = |(i, p)| if i == 0 { Step::Move(p) } else { Step::Line(p) };
+        let step = |(i, p)| {
+            if i == 0 {
+                PathCommand::Move(p)
+            } else {
+                PathCommand::Line(p)
+            }
+        };
         self.steps.extend(ring_px.enumerate().map(step));
-        self.steps.push(Step::Close);
+        self.steps.push(PathCommand::Close);
     }
 }
 

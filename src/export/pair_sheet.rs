@@ -3,19 +3,19 @@
 //!
 //! Guarantees: names, words and frames do not overlap, whatever their length;
 //! what does not fit ends in an ellipsis; the sheet keeps within
-//! [`LONGEST_SHEET_PX`] by smaller frames, then by leaving out the last strips,
+//! [`MAX_SHEET_SIDE_PX`] by smaller frames, then by leaving out the last strips,
 //! which it says. Strips run down in blocks that make the sheet a little wider
 //! than high.
 
 use crate::colour::Rgb;
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::{Figure, Style, Transition};
+use crate::transition::{Transition, TransitionStyle, VectorFigure};
 
 use super::camera::framing;
 use super::drawing::Drawing;
-use super::size::{LONGEST_SHEET_PX, PixelSize, SizeError};
-use super::view::View;
-use super::words::{BAD, Type, ink_on};
+use super::labels::{ERROR_COLOUR, LabelStyle, text_colour_on};
+use super::size::{MAX_SHEET_SIDE_PX, PixelSize, PixelSizeError};
+use super::view::PlaneView;
 
 /// Sides of a frame, in pixels: the largest with which all strips fit.
 const CELLS_PX: [f64; 4] = [104.0, 84.0, 64.0, 48.0];
@@ -27,7 +27,7 @@ const GAP_PX: f64 = 8.0;
 const WORDS_PX: f64 = 230.0;
 
 /// How the words are set.
-const TYPE: Type = Type {
+const TYPE: LabelStyle = LabelStyle {
     letters_px: 13.0,
     line_px: 16.0,
 };
@@ -50,19 +50,19 @@ const SHAPE: f64 = 1.4;
 /// # Ok::<(), morphospace::export::SizeError>(())
 /// ```
 #[derive(Clone, Debug, Default)]
-pub struct Strip {
+pub struct PairStrip {
     name: String,
     words: String,
     is_bad: bool,
-    frames: Vec<(Figure, f64)>,
-    style: Style,
+    frames: Vec<(VectorFigure, f64)>,
+    style: TransitionStyle,
     bounds: Option<Bounds>,
 }
 
-impl Strip {
+impl PairStrip {
     /// Frames of a transition at the given t, with words under its name.
     #[must_use]
-    pub fn of(name: &str, transition: &Transition, style: &Style, times: &[f64]) -> Self {
+    pub fn of(name: &str, transition: &Transition, style: &TransitionStyle, times: &[f64]) -> Self {
         let mut frame = transition.frame(0.0);
         let mut shoot = |&t: &f64| {
             frame.seek(t);
@@ -99,20 +99,20 @@ impl Strip {
 
 /// Where everything is.
 #[derive(Clone, Copy, Debug)]
-struct Layout {
+struct PairSheetLayout {
     cell_px: f64,
     columns: usize,
     rows: usize,
     blocks: usize,
 }
 
-impl Layout {
+impl PairSheetLayout {
     /// With the largest frames with which `strips` of them fit, or else the
     /// smallest ones.
     fn new(strips: usize, columns: usize) -> Self {
         let layouts = CELLS_PX.map(|cell_px| Self::balanced(strips.max(1), columns, cell_px));
         // Largest first: the first that fits is the one.
-        let fits = |layout: &&Self| layout.size().max_element() <= LONGEST_SHEET_PX;
+        let fits = |layout: &&Self| layout.size().max_element() <= MAX_SHEET_SIDE_PX;
         let fitting = layouts.iter().find(fits).copied();
         fitting.unwrap_or_else(|| Self::fullest(columns))
     }
@@ -144,7 +144,7 @@ impl Layout {
             blocks: 1,
         };
         let strip = one.strip();
-        let most = |side: f64| ((LONGEST_SHEET_PX - 2.0 * GAP_PX) / side).max(1.0) as usize;
+        let most = |side: f64| ((MAX_SHEET_SIDE_PX - 2.0 * GAP_PX) / side).max(1.0) as usize;
         Self {
             rows: most(strip.y),
             blocks: most(strip.x),
@@ -185,11 +185,14 @@ impl Layout {
 /// thousand.
 ///
 /// # Errors
-/// [`SizeError`] if strips have so many frames that none fits.
-pub fn pair_sheet(strips: &[Strip], ground: Option<Rgb>) -> Result<(Drawing, usize), SizeError> {
+/// [`PixelSizeError`] if strips have so many frames that none fits.
+pub fn pair_sheet(
+    strips: &[PairStrip],
+    ground: Option<Rgb>,
+) -> Result<(Drawing, usize), PixelSizeError> {
     let frames = strips.iter().map(|s| s.frames.len());
     let columns = frames.max().unwrap_or(0).max(FEWEST_COLUMNS);
-    let layout = Layout::new(strips.len(), columns);
+    let layout = PairSheetLayout::new(strips.len(), columns);
     let mut drawing = Drawing::new(PixelSize::holding(layout.size())?, ground);
     let shown = strips.len().min(layout.capacity());
     for (index, strip) in strips[..shown].iter().enumerate() {
@@ -198,9 +201,9 @@ pub fn pair_sheet(strips: &[Strip], ground: Option<Rgb>) -> Result<(Drawing, usi
     Ok((drawing, shown))
 }
 
-fn push_strip(drawing: &mut Drawing, strip: &Strip, layout: &Layout, corner: DVec2) {
-    let ink = ink_on(drawing.ground);
-    let words = if strip.is_bad { BAD } else { ink };
+fn push_strip(drawing: &mut Drawing, strip: &PairStrip, layout: &PairSheetLayout, corner: DVec2) {
+    let ink = text_colour_on(drawing.ground);
+    let words = if strip.is_bad { ERROR_COLOUR } else { ink };
     let lines = ((layout.strip().y - GAP_PX) / LINE_PX) as usize;
     let named = TYPE.push(drawing, &strip.name, (WORDS_PX, lines.min(2)), corner, ink);
     let below = corner + DVec2::new(0.0, named as f64 * LINE_PX);
@@ -220,7 +223,7 @@ fn push_strip(drawing: &mut Drawing, strip: &Strip, layout: &Layout, corner: DVe
     );
     for (i, (figure, t)) in strip.frames.iter().enumerate() {
         let at = frames + DVec2::new(i as f64 * step, 0.0);
-        let view = View::fit_cell(bounds, drawing.size, at, DVec2::splat(layout.cell_px));
+        let view = PlaneView::fit_cell(bounds, drawing.size, at, DVec2::splat(layout.cell_px));
         drawing.push_figure(figure, *t, &strip.style, &view);
     }
 }
@@ -232,9 +235,9 @@ mod tests {
     #[test]
     fn strips_do_not_overlap_and_stay_on_the_sheet() {
         for count in [1, 2, 7, 60, 120, 600, 100_000] {
-            let layout = Layout::new(count, 7);
+            let layout = PairSheetLayout::new(count, 7);
             let size = layout.size();
-            assert!(size.max_element() <= LONGEST_SHEET_PX, "{count}: {size}");
+            assert!(size.max_element() <= MAX_SHEET_SIDE_PX, "{count}: {size}");
             let shown = count.min(layout.capacity());
             assert!(shown == count || shown > 1_000, "{count}: {shown}");
             for index in [0, shown / 2, shown - 1] {
@@ -247,7 +250,7 @@ mod tests {
 
     #[test]
     fn sixty_pairs_are_a_picture_of_a_picture_s_shape() {
-        let size = Layout::new(60, 7).size();
+        let size = PairSheetLayout::new(60, 7).size();
         let ratio = size.x / size.y;
         assert!(
             (0.8..2.2).contains(&ratio) && size.max_element() < 5_000.0,

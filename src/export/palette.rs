@@ -10,17 +10,17 @@
 use std::collections::HashMap;
 
 /// How often each colour occurs.
-pub(super) type Histogram = HashMap<[u8; 3], u64>;
+pub(super) type ColourHistogram = HashMap<[u8; 3], u64>;
 
 /// At most 256 colours and, for any colour, which of them is nearest.
 #[derive(Clone, Debug)]
-pub(super) struct Palette(Vec<[u8; 3]>);
+pub(super) struct GifPalette(Vec<[u8; 3]>);
 
-impl Palette {
+impl GifPalette {
     /// At most `limit` colours that stand for those of the histogram; black
     /// alone where it is empty.
-    pub fn of(histogram: Histogram, limit: usize) -> Self {
-        let mut colours: Vec<Counted> = histogram.into_iter().collect();
+    pub fn of(histogram: ColourHistogram, limit: usize) -> Self {
+        let mut colours: Vec<ColourCount> = histogram.into_iter().collect();
         // A map has no order; sorting makes the palette the same at each run.
         colours.sort_unstable();
         if colours.is_empty() {
@@ -62,19 +62,19 @@ impl Palette {
     }
 }
 
-type Counted = ([u8; 3], u64);
+type ColourCount = ([u8; 3], u64);
 
 /// Colours that will become one.
 #[derive(Debug)]
 struct ColourBox {
-    colours: Vec<Counted>,
+    colours: Vec<ColourCount>,
     mean: [f64; 3],
     axis: usize,
     error: f64,
 }
 
 impl ColourBox {
-    fn of(colours: Vec<Counted>) -> Self {
+    fn of(colours: Vec<ColourCount>) -> Self {
         let total: f64 = colours.iter().map(|c| c.1 as f64).sum();
         let mean_of = |f: &dyn Fn([u8; 3]) -> f64| {
             colours.iter().map(|c| c.1 as f64 * f(c.0)).sum::<f64>() / total
@@ -93,7 +93,7 @@ impl ColourBox {
     /// Both sides of the mean along the widest axis; `None` for one colour.
     fn cut(self) -> Option<(Self, Self)> {
         let (axis, at) = (self.axis, self.mean[self.axis]);
-        let is_low = |c: &Counted| f64::from(c.0[axis]) <= at;
+        let is_low = |c: &ColourCount| f64::from(c.0[axis]) <= at;
         let (low, high): (Vec<_>, Vec<_>) = self.colours.into_iter().partition(is_low);
         let both = !low.is_empty() && !high.is_empty();
         both.then(|| (Self::of(low), Self::of(high)))
@@ -108,14 +108,14 @@ impl ColourBox {
 mod tests {
     use super::*;
 
-    fn histogram(colours: impl IntoIterator<Item = ([u8; 3], u64)>) -> Histogram {
+    fn histogram(colours: impl IntoIterator<Item = ([u8; 3], u64)>) -> ColourHistogram {
         colours.into_iter().collect()
     }
 
     #[test]
     fn few_colours_are_kept_exactly() {
         let colours = (0..200u8).map(|i| ([i, 255 - i, 7], u64::from(i) + 1));
-        let palette = Palette::of(histogram(colours), 255);
+        let palette = GifPalette::of(histogram(colours), 255);
         for i in 0..200u8 {
             let index = usize::from(palette.nearest([i, 255 - i, 7]));
             assert_eq!(palette.colours()[index], [i, 255 - i, 7]);
@@ -125,7 +125,7 @@ mod tests {
     #[test]
     fn many_colours_become_the_limit_and_stay_near() {
         let ramp = (0..=255u8).flat_map(|i| (0..8u8).map(move |j| ([i, i / 2 + 8 * j, 200], 5)));
-        let palette = Palette::of(histogram(ramp.clone()), 64);
+        let palette = GifPalette::of(histogram(ramp.clone()), 64);
         assert_eq!(palette.colours().len(), 64);
         for (colour, _) in ramp {
             let near = palette.colours()[usize::from(palette.nearest(colour))];
@@ -136,8 +136,11 @@ mod tests {
 
     #[test]
     fn an_empty_film_has_a_palette_and_two_colours_can_become_one() {
-        assert_eq!(Palette::of(Histogram::default(), 255).colours(), [[0; 3]]);
+        assert_eq!(
+            GifPalette::of(ColourHistogram::default(), 255).colours(),
+            [[0; 3]]
+        );
         let two = histogram([([0, 0, 0], 1), ([255, 255, 255], 3)]);
-        assert_eq!(Palette::of(two, 1).colours(), [[191; 3]]);
+        assert_eq!(GifPalette::of(two, 1).colours(), [[191; 3]]);
     }
 }

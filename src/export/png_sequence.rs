@@ -10,14 +10,14 @@
 use std::fs;
 use std::path::PathBuf;
 
-use crate::atomic_file;
-use crate::progress::Progress;
+use crate::io::atomic_file;
+use crate::work::progress::Progress;
 
-use super::camera::{Camera, DRAWING};
+use super::camera::{Camera, DRAWING_STAGE};
 use super::error::ExportError;
-use super::film::Film;
+use super::film_spec::FilmSpec;
 use super::still::encoded;
-use super::target::Numbered;
+use super::target::NumberedFiles;
 
 /// Writes the frames and returns their paths in order.
 ///
@@ -26,8 +26,8 @@ use super::target::Numbered;
 /// more; the frames before it stay.
 pub fn write_numbered(
     camera: &Camera,
-    film: &Film,
-    names: &Numbered,
+    film: &FilmSpec,
+    names: &NumberedFiles,
     progress: &dyn Progress,
 ) -> Result<Vec<PathBuf>, ExportError> {
     fs::create_dir_all(&names.folder).map_err(ExportError::write(&names.folder))?;
@@ -38,7 +38,7 @@ pub fn write_numbered(
     let first = names.path(film.first_number());
     camera.shoot_runs(
         &film.runs(),
-        DRAWING,
+        DRAWING_STAGE,
         progress,
         |drawing| encoded(&drawing, names.kind, &first),
         |run, bytes| {
@@ -57,14 +57,14 @@ pub fn write_numbered(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::Target;
-    use crate::export::testing::camera;
-    use crate::progress::{Cancelled, Silent};
+    use crate::export::ExportTarget;
+    use crate::export::test_camera::camera;
+    use crate::work::progress::{Cancelled, Silent};
     use std::path::Path;
 
-    fn names(folder: &Path, pattern: &str) -> Numbered {
-        match Target::of_path(&folder.join(pattern)) {
-            Ok(Target::Numbered(names)) => names,
+    fn names(folder: &Path, pattern: &str) -> NumberedFiles {
+        match ExportTarget::of_path(&folder.join(pattern)) {
+            Ok(ExportTarget::Numbered(names)) => names,
             other => panic!("{pattern}: {other:?}"),
         }
     }
@@ -85,7 +85,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let file = folder.path().join("film");
         fs::write(&file, b"mine").expect("written");
-        let film = Film::evenly(0.0, 1.0, 2, 24.0).expect("a film");
+        let film = FilmSpec::evenly(0.0, 1.0, 2, 24.0).expect("a film");
         let error = write_numbered(&camera(8, 8, None), &film, &names(&file, "#.png"), &Silent);
         let told = error.expect_err("no folder").to_string();
         assert!(told.contains("something of that name is there"), "{told}");
@@ -97,7 +97,7 @@ mod tests {
         let (whole, split) = (tempfile::tempdir(), tempfile::tempdir());
         let (whole, split) = (whole.expect("a folder"), split.expect("a folder"));
         let camera = camera(20, 16, None);
-        let film = Film::evenly(0.0, 1.0, 9, 24.0).expect("a film");
+        let film = FilmSpec::evenly(0.0, 1.0, 9, 24.0).expect("a film");
         let all = names(whole.path(), "x-###.png");
         let written = write_numbered(&camera, &film, &all, &Silent).expect("written");
         assert_eq!(written.len(), 9);
@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn holds_fill_their_numbers_and_svg_can_be_numbered_too() {
         let folder = tempfile::tempdir().expect("a folder");
-        let film = Film::evenly(0.5, 0.5, 3, 24.0).expect("a film");
+        let film = FilmSpec::evenly(0.5, 0.5, 3, 24.0).expect("a film");
         assert_eq!(film.runs().len(), 1);
         let names = names(folder.path(), "#.svg");
         write_numbered(&camera(20, 16, None), &film, &names, &Silent).expect("written");
@@ -124,17 +124,17 @@ mod tests {
 
     #[test]
     fn a_cancel_stops_it_and_leaves_no_half_file() {
-        struct AtOnce;
-        impl Progress for AtOnce {
+        struct AlwaysCancelled;
+        impl Progress for AlwaysCancelled {
             fn report(&self, _: &'static str, _: f64) {}
             fn is_cancelled(&self) -> bool {
                 true
             }
         }
         let folder = tempfile::tempdir().expect("a folder");
-        let film = Film::evenly(0.0, 1.0, 3, 24.0).expect("a film");
+        let film = FilmSpec::evenly(0.0, 1.0, 3, 24.0).expect("a film");
         let names = names(&folder.path().join("new"), "");
-        let cancelled = write_numbered(&camera(20, 16, None), &film, &names, &AtOnce);
+        let cancelled = write_numbered(&camera(20, 16, None), &film, &names, &AlwaysCancelled);
         assert!(matches!(cancelled, Err(ExportError::Cancelled(Cancelled))));
         assert!(listing(&folder.path().join("new")).is_empty());
     }

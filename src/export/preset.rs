@@ -6,9 +6,9 @@ use std::path::Path;
 
 use serde::{Deserialize, Serialize};
 
-use super::layout::{Aspect, Layout};
+use super::layout::{Aspect, PictureLayout};
 use super::target::FilmKind;
-use crate::atomic_file::AtomicFile;
+use crate::io::atomic_file::AtomicFile;
 
 /// What is kept of how films are made.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -34,8 +34,8 @@ pub struct FilmPreset {
 impl FilmPreset {
     /// Its layout.
     #[must_use]
-    pub fn layout(&self) -> Layout {
-        Layout {
+    pub fn layout(&self) -> PictureLayout {
+        PictureLayout {
             aspect: self.aspect,
             lines: self.lines,
             margin: self.margin,
@@ -54,9 +54,9 @@ impl FilmPreset {
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Presets(pub BTreeMap<String, FilmPreset>);
+pub struct FilmPresets(pub BTreeMap<String, FilmPreset>);
 
-impl Presets {
+impl FilmPresets {
     /// Where the window keeps them; none where the system has no such place.
     #[cfg(feature = "cli")]
     #[must_use]
@@ -107,7 +107,7 @@ mod tests {
     fn what_was_kept_is_read_back() -> io::Result<()> {
         let folder = tempfile::tempdir()?;
         let path = folder.path().join("new").join("films.toml");
-        assert_eq!(Presets::read(&path)?, Presets::default());
+        assert_eq!(FilmPresets::read(&path)?, FilmPresets::default());
         let preset = FilmPreset {
             aspect: Aspect::Tall,
             lines: 1080,
@@ -121,11 +121,13 @@ mod tests {
             ..preset
         };
         let all = [("story, ours", preset), ("frames", pngs)];
-        let presets = Presets(all.map(|(name, preset)| (name.to_owned(), preset)).into());
+        let presets = FilmPresets(all.map(|(name, preset)| (name.to_owned(), preset)).into());
         presets.write(&path)?;
-        assert_eq!(Presets::read(&path)?, presets);
+        assert_eq!(FilmPresets::read(&path)?, presets);
         std::fs::write(&path, "[talk]\naspect = \"round\"\n")?;
-        let error = Presets::read(&path).err().map(|error| error.to_string());
+        let error = FilmPresets::read(&path)
+            .err()
+            .map(|error| error.to_string());
         assert!(error.is_some_and(|error| error.contains("16:9")));
         Ok(())
     }

@@ -12,10 +12,12 @@ use tiny_skia::{
     Transform,
 };
 
-use crate::colour::{Course, Gradient, Join, Line, Paint, Rgb, Spread};
+use crate::colour::{
+    Gradient, GradientGeometry, GradientSpread, Paint, Rgb, StrokeJoin, StrokeStyle,
+};
 
-use super::drawing::{Drawing, Item};
-use super::outline::{Outline, Step};
+use super::drawing::{Drawing, DrawingItem};
+use super::outline::{OutlinePath, PathCommand};
 
 /// Paints a drawing.
 pub fn rasterise(drawing: &Drawing) -> RgbaImage {
@@ -34,9 +36,9 @@ pub fn rasterise(drawing: &Drawing) -> RgbaImage {
     image
 }
 
-fn paint(item: &Item, canvas: &mut PixmapMut<'_>) {
+fn paint(item: &DrawingItem, canvas: &mut PixmapMut<'_>) {
     match item {
-        Item::Fill {
+        DrawingItem::Fill {
             outline,
             paint,
             gradient,
@@ -46,13 +48,13 @@ fn paint(item: &Item, canvas: &mut PixmapMut<'_>) {
             let paint = shaded.unwrap_or_else(|| plain(*paint));
             fill(path_of(outline), &paint, canvas);
         }
-        Item::Line { outline, line } => draw_line(path_of(outline), line, canvas),
-        Item::Bars {
+        DrawingItem::Line { outline, line } => draw_line(path_of(outline), line, canvas),
+        DrawingItem::Bars {
             segments,
             width_px,
             colour,
         } => stroke(segments, *width_px, *colour, canvas),
-        Item::Discs {
+        DrawingItem::Discs {
             centres,
             radius_px,
             colour,
@@ -62,13 +64,13 @@ fn paint(item: &Item, canvas: &mut PixmapMut<'_>) {
                 fill(disc, &plain((*colour).into()), canvas);
             }
         }
-        Item::Picture { image, corner } => picture(image, *corner, canvas),
+        DrawingItem::Picture { image, corner } => picture(image, *corner, canvas),
     }
 }
 
 /// A circle of four cubic curves, 0.03 % of the radius off at most. (tiny-skia's
 /// own is of quadratic ones and visibly too small, by an eighth of a pixel.)
-fn disc(centre: DVec2, radius: f64) -> Outline {
+fn disc(centre: DVec2, radius: f64) -> OutlinePath {
     // 4/3 (√2 − 1): the curve meets the circle in the middle of the quarter,
     // too.
     const HANDLE: f64 = 0.552_284_749_830_793_4;
@@ -76,12 +78,12 @@ fn disc(centre: DVec2, radius: f64) -> Outline {
         let from = DVec2::from_angle(f64::from(i) * std::f64::consts::FRAC_PI_2);
         let to = from.perp();
         let at = |p: DVec2| centre + radius * p;
-        Step::Cubic(at(from + HANDLE * to), at(to + HANDLE * from), at(to))
+        PathCommand::Cubic(at(from + HANDLE * to), at(to + HANDLE * from), at(to))
     };
-    let start = Step::Move(centre + DVec2::new(radius, 0.0));
+    let start = PathCommand::Move(centre + DVec2::new(radius, 0.0));
     let steps = std::iter::once(start).chain((0..4).map(quarter));
-    Outline {
-        steps: steps.chain([Step::Close]).collect(),
+    OutlinePath {
+        steps: steps.chain([PathCommand::Close]).collect(),
     }
 }
 
@@ -115,17 +117,17 @@ fn stroke(segments: &[[DVec2; 2]], width_px: f64, colour: Rgb, canvas: &mut Pixm
     }
 }
 
-fn draw_line(path: Option<Path>, line: &Line, canvas: &mut PixmapMut<'_>) {
+fn draw_line(path: Option<Path>, line: &StrokeStyle, canvas: &mut PixmapMut<'_>) {
     let stroke = Stroke {
         width: line.width as f32,
         line_join: match line.join {
-            Join::Mitre(_) => LineJoin::Miter,
-            Join::Round => LineJoin::Round,
-            Join::Bevel => LineJoin::Bevel,
+            StrokeJoin::Mitre(_) => LineJoin::Miter,
+            StrokeJoin::Round => LineJoin::Round,
+            StrokeJoin::Bevel => LineJoin::Bevel,
         },
         miter_limit: match line.join {
-            Join::Mitre(limit) => limit as f32,
-            Join::Round | Join::Bevel => 1.0,
+            StrokeJoin::Mitre(limit) => limit as f32,
+            StrokeJoin::Round | StrokeJoin::Bevel => 1.0,
         },
         ..Stroke::default()
     };
@@ -135,18 +137,18 @@ fn draw_line(path: Option<Path>, line: &Line, canvas: &mut PixmapMut<'_>) {
     }
 }
 
-fn path_of(outline: &Outline) -> Option<Path> {
+fn path_of(outline: &OutlinePath) -> Option<Path> {
     let mut builder = PathBuilder::new();
     let xy = |p: DVec2| (p.x as f32, p.y as f32);
     for step in &outline.steps {
         match *step {
-            Step::Move(p) => builder.move_to(xy(p).0, xy(p).1),
-            Step::Line(p) => builder.line_to(xy(p).0, xy(p).1),
-            Step::Quad(c, p) => builder.quad_to(xy(c).0, xy(c).1, xy(p).0, xy(p).1),
-            Step::Cubic(c, d, p) => {
+            PathCommand::Move(p) => builder.move_to(xy(p).0, xy(p).1),
+            PathCommand::Line(p) => builder.line_to(xy(p).0, xy(p).1),
+            PathCommand::Quad(c, p) => builder.quad_to(xy(c).0, xy(c).1, xy(p).0, xy(p).1),
+            PathCommand::Cubic(c, d, p) => {
                 builder.cubic_to(xy(c).0, xy(c).1, xy(d).0, xy(d).1, xy(p).0, xy(p).1);
             }
-            Step::Close => builder.close(),
+            PathCommand::Close => builder.close(),
         }
     }
     builder.finish()
@@ -194,16 +196,18 @@ fn shaded(gradient: &Gradient) -> Option<tiny_skia::Paint<'static>> {
         GradientStop::new(stop.at as f32, colour)
     });
     let mode = match gradient.spread {
-        Spread::Pad => SpreadMode::Pad,
-        Spread::Reflect => SpreadMode::Reflect,
-        Spread::Repeat => SpreadMode::Repeat,
+        GradientSpread::Pad => SpreadMode::Pad,
+        GradientSpread::Reflect => SpreadMode::Reflect,
+        GradientSpread::Repeat => SpreadMode::Repeat,
     };
     let [sx, ky, kx, sy, tx, ty] = gradient.frame.to_cols_array().map(|x| x as f32);
     let frame = Transform::from_row(sx, ky, kx, sy, tx, ty);
     let (stops, zero) = (stops.collect(), Point::zero());
     let shader = match gradient.course {
-        Course::Straight => LinearGradient::new(zero, Point::from_xy(1.0, 0.0), stops, mode, frame),
-        Course::Round { focus, inner } => {
+        GradientGeometry::Straight => {
+            LinearGradient::new(zero, Point::from_xy(1.0, 0.0), stops, mode, frame)
+        }
+        GradientGeometry::Round { focus, inner } => {
             let focus = Point::from_xy(focus.x as f32, focus.y as f32);
             RadialGradient::new(focus, inner as f32, zero, 1.0, stops, mode, frame)
         }
@@ -245,7 +249,7 @@ mod tests {
     use super::*;
     use crate::export::PixelSize;
 
-    fn painted(items: Vec<Item>, ground: Option<Rgb>) -> RgbaImage {
+    fn painted(items: Vec<DrawingItem>, ground: Option<Rgb>) -> RgbaImage {
         let size = PixelSize::new(40, 40).expect("a legal size");
         rasterise(&Drawing {
             size,
@@ -264,21 +268,21 @@ mod tests {
     #[test]
     fn discs_and_bars_cover_their_areas() {
         let middle = DVec2::splat(20.3);
-        let disc = Item::Discs {
+        let disc = DrawingItem::Discs {
             centres: vec![middle],
             radius_px: 7.2,
             colour: RED,
         };
         let area = std::f64::consts::PI * 7.2 * 7.2;
         assert!((coverage(&painted(vec![disc], None)) - area).abs() < 0.02 * area);
-        let bar = Item::Bars {
+        let bar = DrawingItem::Bars {
             segments: vec![[DVec2::new(8.0, 20.0), DVec2::new(32.0, 20.0)]],
             width_px: 6.0,
             colour: RED,
         };
         let area = 24.0 * 6.0 + std::f64::consts::PI * 9.0;
         assert!((coverage(&painted(vec![bar], None)) - area).abs() < 0.02 * area);
-        let nothing = Item::Bars {
+        let nothing = DrawingItem::Bars {
             segments: vec![[DVec2::ZERO, DVec2::splat(40.0)]],
             width_px: 0.0,
             colour: RED,
@@ -288,7 +292,7 @@ mod tests {
 
     #[test]
     fn alpha_is_straight_and_grounds_are_exact() {
-        let half = Item::Fill {
+        let half = DrawingItem::Fill {
             outline: disc(DVec2::splat(20.0), 10.0),
             paint: RED.into(),
             gradient: None,
@@ -320,7 +324,7 @@ mod tests {
         let mut image = RgbaImage::from_pixel(20, 30, image::Rgba([0, 200, 0, 255]));
         image.put_pixel(19, 29, image::Rgba([0, 0, 0, 0]));
         let corner = UVec2::new(10, 4);
-        let painted = painted(vec![Item::Picture { image, corner }], None);
+        let painted = painted(vec![DrawingItem::Picture { image, corner }], None);
         assert_eq!(painted.get_pixel(10, 4).0, [0, 200, 0, 255]);
         assert_eq!(painted.get_pixel(28, 33).0, [0, 200, 0, 255]);
         assert_eq!(painted.get_pixel(29, 33).0[3], 0);
@@ -330,7 +334,7 @@ mod tests {
 
     #[test]
     fn shapes_far_outside_do_no_harm() {
-        let far = Item::Bars {
+        let far = DrawingItem::Bars {
             segments: vec![[DVec2::splat(-1e7), DVec2::new(1e7, 9e6)]],
             width_px: 3e6,
             colour: RED,

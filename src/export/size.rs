@@ -16,7 +16,7 @@ pub const MAX_SIDE_PX: u32 = 16_384;
 pub const MAX_PIXELS: u64 = 1 << 27;
 
 /// The longer side of the largest sheet, in pixels: what every viewer opens.
-pub(super) const LONGEST_SHEET_PX: f64 = 8_192.0;
+pub(super) const MAX_SHEET_SIDE_PX: f64 = 8_192.0;
 
 /// A picture's width and height in pixels, both at least 1.
 ///
@@ -35,7 +35,7 @@ pub struct PixelSize {
 
 /// Why a size cannot be had.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum SizeError {
+pub enum PixelSizeError {
     /// Not two whole numbers with an `x` between them.
     #[error("`{0}` is not a size: write it as WIDTHxHEIGHT in pixels, for example 1280x720")]
     Unreadable(String),
@@ -63,14 +63,14 @@ impl PixelSize {
     /// A size within the limits.
     ///
     /// # Errors
-    /// [`SizeError`] where a side is 0 or the picture is too large.
-    pub fn new(width: u32, height: u32) -> Result<Self, SizeError> {
+    /// [`PixelSizeError`] where a side is 0 or the picture is too large.
+    pub fn new(width: u32, height: u32) -> Result<Self, PixelSizeError> {
         if width == 0 || height == 0 {
-            return Err(SizeError::Empty { width, height });
+            return Err(PixelSizeError::Empty { width, height });
         }
         let pixels = u64::from(width) * u64::from(height);
         if width.max(height) > MAX_SIDE_PX || pixels > MAX_PIXELS {
-            return Err(SizeError::TooLarge { width, height });
+            return Err(PixelSizeError::TooLarge { width, height });
         }
         Ok(Self { width, height })
     }
@@ -100,8 +100,8 @@ impl PixelSize {
     /// Room for sides of any length: rounded up to whole pixels.
     ///
     /// # Errors
-    /// [`SizeError`] where a side is 0 or the picture is too large.
-    pub(super) fn holding(sides_px: DVec2) -> Result<Self, SizeError> {
+    /// [`PixelSizeError`] where a side is 0 or the picture is too large.
+    pub(super) fn holding(sides_px: DVec2) -> Result<Self, PixelSizeError> {
         // `as` saturates, and what is far too large is refused as such.
         let [width, height] = sides_px.to_array().map(|side| side.ceil() as u32);
         Self::new(width, height)
@@ -143,10 +143,10 @@ fn even(side_px: u32) -> u32 {
 }
 
 impl FromStr for PixelSize {
-    type Err = SizeError;
+    type Err = PixelSizeError;
 
-    fn from_str(text: &str) -> Result<Self, SizeError> {
-        let unreadable = || SizeError::Unreadable(text.to_owned());
+    fn from_str(text: &str) -> Result<Self, PixelSizeError> {
+        let unreadable = || PixelSizeError::Unreadable(text.to_owned());
         let (width, height) = text.split_once(['x', 'X', '×']).ok_or_else(unreadable)?;
         let side = |digits: &str| digits.trim().parse::<u32>().map_err(|_| unreadable());
         Self::new(side(width)?, side(height)?)
@@ -169,13 +169,16 @@ mod tests {
         assert!(PixelSize::new(MAX_SIDE_PX, 8_192).is_ok());
         assert!(matches!(
             PixelSize::new(MAX_SIDE_PX, MAX_SIDE_PX),
-            Err(SizeError::TooLarge { .. })
+            Err(PixelSizeError::TooLarge { .. })
         ));
         assert!(matches!(
             PixelSize::new(MAX_SIDE_PX + 1, 1),
-            Err(SizeError::TooLarge { .. })
+            Err(PixelSizeError::TooLarge { .. })
         ));
-        assert!(matches!(PixelSize::new(0, 7), Err(SizeError::Empty { .. })));
+        assert!(matches!(
+            PixelSize::new(0, 7),
+            Err(PixelSizeError::Empty { .. })
+        ));
     }
 
     #[test]

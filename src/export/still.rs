@@ -4,7 +4,7 @@ use std::path::Path;
 
 use image::codecs::png::{CompressionType, FilterType, PngEncoder};
 
-use crate::atomic_file;
+use crate::io::atomic_file;
 
 use super::drawing::Drawing;
 use super::dxf::to_dxf;

@@ -9,11 +9,13 @@ use std::fmt::{self, Write};
 use glam::{DVec2, UVec2};
 use image::codecs::png::PngEncoder;
 
-use crate::colour::{Course, Gradient, Join, Line, Paint, Rgb, Spread, Stop};
+use crate::colour::{
+    Gradient, GradientGeometry, GradientSpread, GradientStop, Paint, Rgb, StrokeJoin, StrokeStyle,
+};
 
-use super::drawing::{Drawing, Item};
-use super::outline::{Outline, Step};
-use super::words::Number;
+use super::drawing::{Drawing, DrawingItem};
+use super::labels::ShortNumber;
+use super::outline::{OutlinePath, PathCommand};
 
 /// Writes a drawing as an SVG document.
 pub fn to_svg(drawing: &Drawing) -> String {
@@ -32,15 +34,15 @@ pub fn to_svg(drawing: &Drawing) -> String {
 }
 
 /// The element of an item with its number.
-fn element(k: usize, item: &Item) -> String {
+fn element(k: usize, item: &DrawingItem) -> String {
     match item {
-        Item::Fill {
+        DrawingItem::Fill {
             outline,
             paint,
             gradient: None,
             label,
         } => fill(outline, &painted(paint), label.as_deref()),
-        Item::Fill {
+        DrawingItem::Fill {
             outline,
             gradient: Some(gradient),
             label,
@@ -49,32 +51,32 @@ fn element(k: usize, item: &Item) -> String {
             let fill = fill(outline, &format!("fill=\"url(#g{k})\""), label.as_deref());
             format!("{}{fill}", shaded(k, gradient))
         }
-        Item::Line { outline, line } => drawn_line(outline, line),
-        Item::Bars {
+        DrawingItem::Line { outline, line } => drawn_line(outline, line),
+        DrawingItem::Bars {
             segments,
             width_px,
             colour,
         } => format!(
             "<path fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linecap=\"round\" d=\"{}\"/>",
             colour,
-            Number(*width_px),
+            ShortNumber(*width_px),
             segments
                 .iter()
-                .map(|[a, b]| format!("M{}L{}", Point(*a), Point(*b)))
+                .map(|[a, b]| format!("M{}L{}", SvgPoint(*a), SvgPoint(*b)))
                 .collect::<String>()
         ),
-        Item::Discs {
+        DrawingItem::Discs {
             centres,
             radius_px,
             colour,
         } => discs(centres, *radius_px, *colour),
-        Item::Picture { image, corner } => picture(image, *corner),
+        DrawingItem::Picture { image, corner } => picture(image, *corner),
     }
 }
 
-fn fill(outline: &Outline, ink: &str, label: Option<&str>) -> String {
+fn fill(outline: &OutlinePath, ink: &str, label: Option<&str>) -> String {
     let label = label.map_or_else(String::new, |words| {
-        format!(" role=\"img\" aria-label=\"{}\"", Escaped(words))
+        format!(" role=\"img\" aria-label=\"{}\"", XmlEscaped(words))
     });
     let steps: String = outline.steps.iter().map(step).collect();
     format!("<path{label} {ink} d=\"{steps}\"/>")
@@ -87,76 +89,76 @@ fn painted(paint: &Paint) -> String {
         false => format!(
             "fill=\"{}\" fill-opacity=\"{}\"",
             paint.colour,
-            Number(paint.opacity)
+            ShortNumber(paint.opacity)
         ),
     }
 }
 
 /// A gradient by a number.
 fn shaded(k: usize, gradient: &Gradient) -> String {
-    let stop = |stop: &Stop| {
+    let stop = |stop: &GradientStop| {
         let Paint { colour, opacity } = stop.paint;
         let opacity = match stop.paint.is_opaque() {
             true => String::new(),
-            false => format!(" stop-opacity=\"{}\"", Number(opacity)),
+            false => format!(" stop-opacity=\"{}\"", ShortNumber(opacity)),
         };
-        let at = Number(100.0 * stop.at);
+        let at = ShortNumber(100.0 * stop.at);
         format!("<stop offset=\"{at}%\" stop-color=\"{colour}\"{opacity}/>")
     };
     let stops: String = gradient.stops.iter().map(stop).collect();
     let (kind, way) = match gradient.course {
-        Course::Straight => ("linear", "x1=\"0\" y1=\"0\" x2=\"1\" y2=\"0\"".to_owned()),
-        Course::Round { focus, inner } => {
+        GradientGeometry::Straight => ("linear", "x1=\"0\" y1=\"0\" x2=\"1\" y2=\"0\"".to_owned()),
+        GradientGeometry::Round { focus, inner } => {
             let way = format!(
                 "cx=\"0\" cy=\"0\" r=\"1\" fx=\"{}\" fy=\"{}\" fr=\"{}\"",
-                Number(focus.x),
-                Number(focus.y),
-                Number(inner)
+                ShortNumber(focus.x),
+                ShortNumber(focus.y),
+                ShortNumber(inner)
             );
             ("radial", way)
         }
     };
     let spread = match gradient.spread {
-        Spread::Pad => "",
-        Spread::Reflect => " spreadMethod=\"reflect\"",
-        Spread::Repeat => " spreadMethod=\"repeat\"",
+        GradientSpread::Pad => "",
+        GradientSpread::Reflect => " spreadMethod=\"reflect\"",
+        GradientSpread::Repeat => " spreadMethod=\"repeat\"",
     };
     let frame = gradient
         .frame
         .to_cols_array()
-        .map(|x| Number(x).to_string());
+        .map(|x| ShortNumber(x).to_string());
     let frame = frame.join(" ");
     format!(
         "<{kind}Gradient id=\"g{k}\" gradientUnits=\"userSpaceOnUse\" {way}{spread} gradientTransform=\"matrix({frame})\">{stops}</{kind}Gradient>"
     )
 }
 
-fn drawn_line(outline: &Outline, line: &Line) -> String {
-    let Line { paint, width, join } = line;
+fn drawn_line(outline: &OutlinePath, line: &StrokeStyle) -> String {
+    let StrokeStyle { paint, width, join } = line;
     let join = match join {
-        Join::Mitre(limit) => format!("miter\" stroke-miterlimit=\"{}", Number(*limit)),
-        Join::Round => "round".to_owned(),
-        Join::Bevel => "bevel".to_owned(),
+        StrokeJoin::Mitre(limit) => format!("miter\" stroke-miterlimit=\"{}", ShortNumber(*limit)),
+        StrokeJoin::Round => "round".to_owned(),
+        StrokeJoin::Bevel => "bevel".to_owned(),
     };
     let opacity = match paint.is_opaque() {
         true => String::new(),
-        false => format!(" stroke-opacity=\"{}\"", Number(paint.opacity)),
+        false => format!(" stroke-opacity=\"{}\"", ShortNumber(paint.opacity)),
     };
     let steps: String = outline.steps.iter().map(step).collect();
     format!(
         "<path fill=\"none\" stroke=\"{}\"{opacity} stroke-width=\"{}\" stroke-linejoin=\"{join}\" d=\"{steps}\"/>",
         paint.colour,
-        Number(*width)
+        ShortNumber(*width)
     )
 }
 
-fn step(step: &Step) -> String {
+fn step(step: &PathCommand) -> String {
     match *step {
-        Step::Move(p) => format!("M{}", Point(p)),
-        Step::Line(p) => format!("L{}", Point(p)),
-        Step::Quad(c, p) => format!("Q{} {}", Point(c), Point(p)),
-        Step::Cubic(c, d, p) => format!("C{} {} {}", Point(c), Point(d), Point(p)),
-        Step::Close => "Z".to_owned(),
+        PathCommand::Move(p) => format!("M{}", SvgPoint(p)),
+        PathCommand::Line(p) => format!("L{}", SvgPoint(p)),
+        PathCommand::Quad(c, p) => format!("Q{} {}", SvgPoint(c), SvgPoint(p)),
+        PathCommand::Cubic(c, d, p) => format!("C{} {} {}", SvgPoint(c), SvgPoint(d), SvgPoint(p)),
+        PathCommand::Close => "Z".to_owned(),
     }
 }
 
@@ -164,9 +166,9 @@ fn discs(centres: &[DVec2], radius_px: f64, colour: Rgb) -> String {
     let circle = |c: &DVec2| {
         format!(
             "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
-            Number(c.x),
-            Number(c.y),
-            Number(radius_px)
+            ShortNumber(c.x),
+            ShortNumber(c.y),
+            ShortNumber(radius_px)
         )
     };
     let circles: String = centres.iter().map(circle).collect();
@@ -207,19 +209,19 @@ fn base64(bytes: &[u8]) -> String {
     text
 }
 
-struct Point(DVec2);
+struct SvgPoint(DVec2);
 
-impl fmt::Display for Point {
+impl fmt::Display for SvgPoint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} {}", Number(self.0.x), Number(self.0.y))
+        write!(f, "{} {}", ShortNumber(self.0.x), ShortNumber(self.0.y))
     }
 }
 
 /// Text that may stand in an attribute; characters that XML forbids become
 /// the replacement character.
-pub(super) struct Escaped<'a>(pub &'a str);
+pub(super) struct XmlEscaped<'a>(pub &'a str);
 
-impl fmt::Display for Escaped<'_> {
+impl fmt::Display for XmlEscaped<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         for c in self.0.chars() {
             match c {
@@ -239,9 +241,9 @@ impl fmt::Display for Escaped<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::export::{PixelSize, View, rasterise};
+    use crate::export::{PixelSize, PlaneView, rasterise};
     use crate::geometry::Bounds;
-    use crate::transition::{Figure, Style};
+    use crate::transition::{TransitionStyle, VectorFigure};
     use tiny_skia::{FillRule, Paint, Pixmap};
 
     #[test]
@@ -318,24 +320,24 @@ mod tests {
         let hole: Vec<_> = ring(2.0, 4.0).into_iter().rev().collect();
         let points = |ring: Vec<[f64; 2]>| ring.into_iter().map(DVec2::from_array).collect();
         let corner = DVec2::new(6.0, 1.0);
-        let figure = Figure {
+        let figure = VectorFigure {
             rings: vec![points(ring(1.0, 5.0)), points(hole)],
             bars: vec![
                 [corner, DVec2::new(9.0, 5.0)],
                 [corner, DVec2::new(9.5, 1.25)],
             ],
             bar_width: 0.4,
-            ..Figure::default()
+            ..VectorFigure::default()
         };
         let bounds = Bounds {
             min: DVec2::ZERO,
             max: DVec2::new(10.0, 6.0),
         };
-        let view = View::fit(bounds, PixelSize::new(200, 120).expect("a legal size"));
+        let view = PlaneView::fit(bounds, PixelSize::new(200, 120).expect("a legal size"));
         let mut drawing = Drawing::new(view.size(), ground);
-        let style = Style {
+        let style = TransitionStyle {
             source: Rgb([59, 125, 216]),
-            ..Style::default()
+            ..TransitionStyle::default()
         };
         drawing.push_figure(&figure, 0.0, &style, &view);
         let black = Rgb([0; 3]);

@@ -1,9 +1,9 @@
 //! What a path asks for: its name tells the kind of picture or film.
 
-use crate::design::any_of;
+use crate::design::or_list;
 use std::path::{Path, PathBuf};
 
-use crate::names::{Choice, keys, named};
+use crate::settings::choice::{Choice, keys, named};
 
 /// What the pictures in a folder are called.
 const IN_FOLDER: &str = "frame-####.png";
@@ -53,13 +53,13 @@ named! { FilmKind {
 
 /// The endings of all kinds in a row, for a sentence: `.png or .svg`.
 #[must_use]
-pub fn endings<K: Choice>() -> String {
-    any_of(keys::<K>().map(|key| format!(".{key}")))
+pub fn extension_list<K: Choice>() -> String {
+    or_list(keys::<K>().map(|key| format!(".{key}")))
 }
 
 /// Numbered pictures: `folder/prefix0007suffix`.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Numbered {
+pub struct NumberedFiles {
     /// Where they lie.
     pub folder: PathBuf,
     /// What stands before the number.
@@ -72,7 +72,7 @@ pub struct Numbered {
     pub kind: StillKind,
 }
 
-impl Numbered {
+impl NumberedFiles {
     /// The path of one frame.
     pub fn path(&self, number: usize) -> PathBuf {
         let (prefix, digits, suffix) = (&self.prefix, self.digits, &self.suffix);
@@ -83,41 +83,41 @@ impl Numbered {
 
 /// What is written, and where.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Target {
+pub enum ExportTarget {
     /// One picture.
     Still(StillKind, PathBuf),
     /// One file that moves.
     Film(FilmKind, PathBuf),
     /// A picture a frame.
-    Numbered(Numbered),
+    Numbered(NumberedFiles),
 }
 
 /// A path that names no kind.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum TargetError {
+pub enum ExportTargetError {
     /// An extension that is none of ours.
     #[error(
         "`{}` names no kind of picture: end it in {} for one, in {} for a film, in name-####.png for numbered pictures, or in / for a folder of them",
-        .0.display(), endings::<StillKind>(), endings::<FilmKind>()
+        .0.display(), extension_list::<StillKind>(), extension_list::<FilmKind>()
     )]
     Unknown(PathBuf),
     /// `####` in a name that is no still picture.
     #[error(
         "`{}` numbers its frames: end it in {}, or leave the # out",
-        .0.display(), endings::<StillKind>()
+        .0.display(), extension_list::<StillKind>()
     )]
     NotNumbered(PathBuf),
 }
 
-impl Target {
+impl ExportTarget {
     /// Reads the kind from the name: the extension of a [`StillKind`] or of a
     /// [`FilmKind`]; `name-####.png` (or `.svg`) for numbered pictures; a
     /// folder (one that exists, a name that ends in `/`, or one without
     /// extension) for numbered PNGs in it.
     ///
     /// # Errors
-    /// [`TargetError`] where the name tells nothing.
-    pub fn of_path(path: &Path) -> Result<Self, TargetError> {
+    /// [`ExportTargetError`] where the name tells nothing.
+    pub fn of_path(path: &Path) -> Result<Self, ExportTargetError> {
         if is_folder(path) {
             let names = by_pattern(path, IN_FOLDER, StillKind::Png);
             return Ok(Self::Numbered(names));
@@ -127,7 +127,7 @@ impl Target {
         let still = StillKind::of_key(&extension).ok();
         let name = path.file_name().and_then(|name| name.to_str());
         if let Some(name) = name.filter(|name| name.contains('#')) {
-            let kind = still.ok_or_else(|| TargetError::NotNumbered(path.to_owned()))?;
+            let kind = still.ok_or_else(|| ExportTargetError::NotNumbered(path.to_owned()))?;
             let folder = path.parent().unwrap_or(Path::new(""));
             return Ok(Self::Numbered(by_pattern(folder, name, kind)));
         }
@@ -135,12 +135,12 @@ impl Target {
         let film = FilmKind::of_key(&extension).ok();
         let still = still.map(|kind| Self::Still(kind, path.to_owned()));
         let film = film.map(|kind| Self::Film(kind, path.to_owned()));
-        let unknown = || TargetError::Unknown(path.to_owned());
+        let unknown = || ExportTargetError::Unknown(path.to_owned());
         still.or(film).ok_or_else(unknown)
     }
 }
 
-impl Target {
+impl ExportTarget {
     /// The same for who wants a film: a name whose ending stands for a picture and for a
     /// film means the film.
     #[must_use]
@@ -161,12 +161,12 @@ fn is_folder(path: &Path) -> bool {
 }
 
 /// The last run of `#` in the name is the number.
-fn by_pattern(folder: &Path, name: &str, kind: StillKind) -> Numbered {
+fn by_pattern(folder: &Path, name: &str, kind: StillKind) -> NumberedFiles {
     // There is one in the name: that is what made it a pattern.
     let end = name.rfind('#').map_or(0, |last| last + 1);
     let before = &name[..end];
     let prefix = before.trim_end_matches('#');
-    Numbered {
+    NumberedFiles {
         folder: folder.to_owned(),
         prefix: prefix.to_owned(),
         digits: before.len() - prefix.len(),
@@ -179,14 +179,14 @@ fn by_pattern(folder: &Path, name: &str, kind: StillKind) -> Numbered {
 mod tests {
     use super::*;
 
-    fn target(path: &str) -> Result<Target, TargetError> {
-        Target::of_path(Path::new(path))
+    fn target(path: &str) -> Result<ExportTarget, ExportTargetError> {
+        ExportTarget::of_path(Path::new(path))
     }
 
     #[test]
     fn extensions_tell_the_kind() {
-        let still = |kind, path: &str| Ok(Target::Still(kind, path.into()));
-        let film = |kind, path: &str| Ok(Target::Film(kind, path.into()));
+        let still = |kind, path: &str| Ok(ExportTarget::Still(kind, path.into()));
+        let film = |kind, path: &str| Ok(ExportTarget::Film(kind, path.into()));
         assert_eq!(target("a/b.PNG"), still(StillKind::Png, "a/b.PNG"));
         assert_eq!(target("b.svg"), still(StillKind::Svg, "b.svg"));
         assert_eq!(target("b.gif"), film(FilmKind::Gif, "b.gif"));
@@ -194,19 +194,22 @@ mod tests {
         assert_eq!(target("b.mp4"), film(FilmKind::Mp4, "b.mp4"));
         assert_eq!(target("b.html"), film(FilmKind::Html, "b.html"));
         assert_eq!(target("b.json"), film(FilmKind::Lottie, "b.json"));
-        let moving = target("b.svg").map(Target::moving);
+        let moving = target("b.svg").map(ExportTarget::moving);
         assert_eq!(moving, film(FilmKind::Svg, "b.svg"));
-        assert!(matches!(target("b.jpg"), Err(TargetError::Unknown(_))));
+        assert!(matches!(
+            target("b.jpg"),
+            Err(ExportTargetError::Unknown(_))
+        ));
         assert!(matches!(
             target("b-##.gif"),
-            Err(TargetError::NotNumbered(_))
+            Err(ExportTargetError::NotNumbered(_))
         ));
     }
 
     #[test]
     fn patterns_and_folders_number_their_files() {
         let paths = |text: &str| match target(text) {
-            Ok(Target::Numbered(numbered)) => [7, 12345].map(|n| numbered.path(n)),
+            Ok(ExportTarget::Numbered(numbered)) => [7, 12345].map(|n| numbered.path(n)),
             other => panic!("{text}: {other:?}"),
         };
         assert_eq!(

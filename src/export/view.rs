@@ -8,14 +8,14 @@ use super::size::PixelSize;
 ///
 /// The whole rectangle is visible, centred, at one scale in both directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
+pub struct PlaneView {
     size: PixelSize,
     centre: DVec2,
     middle_px: DVec2,
     px_per_unit: f64,
 }
 
-impl View {
+impl PlaneView {
     /// Fits `bounds` into a picture of the given size.
     pub fn fit(bounds: Bounds, size: PixelSize) -> Self {
         Self::fit_cell(bounds, size, DVec2::ZERO, size.as_dvec2())
@@ -85,12 +85,12 @@ impl View {
 mod tests {
     use super::*;
 
-    fn view() -> View {
+    fn view() -> PlaneView {
         let bounds = Bounds {
             min: DVec2::new(-1.0, 0.0),
             max: DVec2::new(3.0, 2.0),
         };
-        View::fit(bounds, PixelSize::new(400, 400).expect("a legal size"))
+        PlaneView::fit(bounds, PixelSize::new(400, 400).expect("a legal size"))
     }
 
     #[test]
@@ -107,7 +107,7 @@ mod tests {
             min: DVec2::splat(5.0),
             max: DVec2::splat(5.0),
         };
-        let view = View::fit(bounds, PixelSize::new(10, 20).expect("a legal size"));
+        let view = PlaneView::fit(bounds, PixelSize::new(10, 20).expect("a legal size"));
         assert_eq!(view.to_px(DVec2::splat(5.0)), DVec2::new(5.0, 10.0));
     }
 }

@@ -9,7 +9,7 @@
 //! the other side is at distance 0.
 
 use super::Mask;
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::work::progress::{Cancelled, Progress, checkpoint};
 use std::ops::Range;
 
 /// Rows between two looks at whether the work was cancelled.
@@ -23,7 +23,7 @@ pub(super) fn distances(
     progress: &dyn Progress,
 ) -> Result<Vec<f32>, Cancelled> {
     let height = mask.height() as usize;
-    let mut lengths = Lengths::of(mask);
+    let mut lengths = ChamferWeights::of(mask);
     let report = |done: usize| {
         let fraction = 0.5 * done as f64 / height as f64;
         checkpoint(progress, "measuring distances", fraction)
@@ -49,14 +49,14 @@ pub(super) fn distances(
 
 /// Sides and unsigned distances, with the ring of outside cells around the
 /// picture.
-struct Lengths {
+struct ChamferWeights {
     sides: Vec<bool>,
     lengths: Vec<f64>,
     /// Cells in a row, ring included.
     stride: usize,
 }
 
-impl Lengths {
+impl ChamferWeights {
     /// The sides, and no distance yet.
     fn of(mask: &Mask) -> Self {
         let (width, height) = (mask.width() as usize, mask.height() as usize);

@@ -16,7 +16,7 @@
 
 use rayon::prelude::*;
 
-use super::samples::Samples;
+use super::sampled_field::SampledField;
 use crate::geometry::DVec2;
 
 /// How far apart, in cells, the two ends of a crossing's bracket may be at the
@@ -76,7 +76,7 @@ where
     if width == 0 || height == 0 {
         return Vec::new();
     }
-    let squares = Squares {
+    let squares = MarchingSquares {
         columns: width as usize + 4,
         rows: height as usize + 4,
         known,
@@ -92,29 +92,29 @@ where
 }
 
 /// [`trace`] for a picture whose value between samples is bilinear.
-pub fn trace_samples(samples: &Samples, level: f64) -> Vec<Vec<DVec2>> {
+pub fn trace_samples(samples: &SampledField, level: f64) -> Vec<Vec<DVec2>> {
     let (width, height) = (samples.width(), samples.height());
     trace(width, height, |x, y| samples.bilinear(x, y), level)
 }
 
 /// A lattice edge: twice the index of its lower left node, plus 1 where it
 /// points up.
-type Edge = usize;
+type LatticeEdge = usize;
 
 /// The part of a contour in one square: it enters by the first edge and leaves
 /// by the second, the inside on its left.
-type Segment = (Edge, Edge);
+type ContourSegment = (LatticeEdge, LatticeEdge);
 
 /// The lattice, widened by two nodes on each side: the picture's border, and a
 /// ring in the same place that is always outside and closes every contour.
-struct Squares<K, F> {
+struct MarchingSquares<K, F> {
     columns: usize,
     rows: usize,
     known: K,
     above: F,
 }
 
-impl<K, F> Squares<K, F>
+impl<K, F> MarchingSquares<K, F>
 where
     K: Fn(usize, usize) -> Option<bool> + Sync,
     F: Fn(f64, f64) -> f64 + Sync,
@@ -150,8 +150,8 @@ where
     }
 
     /// All segments, sorted by the edge that they start from.
-    fn segments(&self, inside: &[bool]) -> Vec<Segment> {
-        let mut segments: Vec<Segment> = (0..self.rows - 1)
+    fn segments(&self, inside: &[bool]) -> Vec<ContourSegment> {
+        let mut segments: Vec<ContourSegment> = (0..self.rows - 1)
             .into_par_iter()
             .flat_map_iter(|row| self.row_segments(row, inside))
             .collect();
@@ -159,7 +159,7 @@ where
         segments
     }
 
-    fn row_segments(&self, row: usize, inside: &[bool]) -> Vec<Segment> {
+    fn row_segments(&self, row: usize, inside: &[bool]) -> Vec<ContourSegment> {
         let lower = &inside[row * self.columns..][..self.columns];
         let upper = &inside[(row + 1) * self.columns..][..self.columns];
         let mut out = Vec::new();
@@ -176,7 +176,7 @@ where
 
     /// The one or two segments of a square; corners and edges
     /// counter-clockwise from the lower left.
-    fn square(&self, column: usize, row: usize, corners: [bool; 4], out: &mut Vec<Segment>) {
+    fn square(&self, column: usize, row: usize, corners: [bool; 4], out: &mut Vec<ContourSegment>) {
         let node = row * self.columns + column;
         let edges = [
             2 * node,
@@ -204,7 +204,7 @@ where
     }
 
     /// Where the contour crosses an edge.
-    fn crossing(&self, edge: Edge) -> DVec2 {
+    fn crossing(&self, edge: LatticeEdge) -> DVec2 {
         let (column, row) = (edge / 2 % self.columns, edge / 2 / self.columns);
         let upright = edge % 2;
         let a = self.position(column, row);
@@ -268,7 +268,7 @@ fn between(lo: (f64, f64), hi: (f64, f64), middle: bool) -> f64 {
 
 /// Links segments, sorted by start, into closed chains of edges. Every edge
 /// that ends a segment starts another, so that following them comes back.
-fn chains(segments: &[Segment]) -> Vec<Vec<Edge>> {
+fn chains(segments: &[ContourSegment]) -> Vec<Vec<LatticeEdge>> {
     let mut used = vec![false; segments.len()];
     let mut chains = Vec::new();
     for first in 0..segments.len() {

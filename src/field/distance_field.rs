@@ -6,17 +6,19 @@
 //! guarantee: between samples it is no distance, and near the medial axis it
 //! is rounded off by up to half a cell.
 
-use super::{Grid, GridError, Mask, MaskError, Metric, Samples, SamplesError, distance_transform};
-use super::{polygon, scan};
+use super::{
+    Grid, GridError, Mask, MaskError, Metric, SampledField, SampledFieldError, distance_transform,
+};
+use super::{inside, polygon_distance};
 use crate::geometry::{DVec2, Regions};
-use crate::progress::{Cancelled, Progress};
+use crate::work::progress::{Cancelled, Progress};
 
 /// A signed distance for each sample of a grid.
 ///
 /// ```
 /// use morphospace::field::{DistanceField, Grid};
 /// use morphospace::geometry::{DVec2, FillRule, Regions};
-/// use morphospace::progress::Silent;
+/// use morphospace::work::progress::Silent;
 ///
 /// let square = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)].map(DVec2::from);
 /// let square = Regions::from_rings(&[square.to_vec()], FillRule::NonZero)?;
@@ -44,7 +46,7 @@ pub enum FieldError {
     Mask(#[from] MaskError),
     /// There are not as many values as cells.
     #[error(transparent)]
-    Length(#[from] SamplesError),
+    Length(#[from] SampledFieldError),
     /// A value is NaN or infinite.
     #[error("the distance at cell ({x}, {y}) is not a finite number; measure the field again")]
     NotFinite {
@@ -67,7 +69,7 @@ impl DistanceField {
     pub fn new(grid: Grid, values: Vec<f32>) -> Result<Self, FieldError> {
         grid.check()?;
         let Grid { width, height, .. } = grid;
-        SamplesError::check(width, height, values.len())?;
+        SampledFieldError::check(width, height, values.len())?;
         if let Some(bad) = values.iter().position(|v| !v.is_finite()) {
             let (x, y) = (bad as u32 % width, bad as u32 / width);
             return Err(FieldError::NotFinite { x, y });
@@ -99,7 +101,7 @@ impl DistanceField {
         if (mask.width(), mask.height()) != (grid.width, grid.height) {
             let (width, height) = (grid.width, grid.height);
             let values = mask.bits().len();
-            return Err(SamplesError {
+            return Err(SampledFieldError {
                 width,
                 height,
                 values,
@@ -124,9 +126,9 @@ impl DistanceField {
     ) -> Result<Self, FieldError> {
         grid.check()?;
         // In the grid's own units: distances are counted in cells.
-        let edges = scan::edges(regions, &grid);
-        let mut values = polygon::distances(&edges, &grid, progress)?;
-        for (value, inside) in values.iter_mut().zip(scan::inside(&edges, &grid)) {
+        let edges = inside::edges(regions, &grid);
+        let mut values = polygon_distance::distances(&edges, &grid, progress)?;
+        for (value, inside) in values.iter_mut().zip(inside::inside(&edges, &grid)) {
             if !inside {
                 *value = 0.0 - *value; // 0 stays 0 and does not become −0
             }
@@ -164,8 +166,8 @@ impl DistanceField {
 
     /// The values as a lattice that can be read between its samples.
     #[must_use]
-    pub fn samples(&self) -> Samples<'_> {
-        Samples::of_grid(&self.grid, &self.values)
+    pub fn samples(&self) -> SampledField<'_> {
+        SampledField::of_grid(&self.grid, &self.values)
     }
 
     /// The bilinear value, in cells, at a point of the plane; beyond the

@@ -13,7 +13,7 @@ use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use super::Mask;
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::work::progress::{Cancelled, Progress, checkpoint};
 
 /// Columns that a thread sweeps at a time. Stored one strip after the other: a
 /// strip of a 2048² mask stays in the second-level cache, and a row of it is
@@ -95,13 +95,13 @@ fn sweep<'a>(
 /// A piece of a lower envelope: the parabola (x − vertex)² + height, lowest
 /// from `start` to the start of the next piece.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+struct ParabolaPiece {
     vertex: i32,
     height: i32,
     start: i32,
 }
 
-impl Piece {
+impl ParabolaPiece {
     fn at(&self, x: i32) -> i32 {
         (x - self.vertex) * (x - self.vertex) + self.height
     }
@@ -110,7 +110,7 @@ impl Piece {
 /// The second pass and what it needs for a row.
 struct RowPass {
     squares: Vec<i32>,
-    envelope: Vec<Piece>,
+    envelope: Vec<ParabolaPiece>,
 }
 
 impl RowPass {
@@ -173,7 +173,7 @@ impl RowPass {
     }
 
     fn push(&mut self, vertex: i32, height: i32, first: i32, end: i32) {
-        let mut piece = Piece {
+        let mut piece = ParabolaPiece {
             vertex,
             height,
             start: first,
@@ -195,7 +195,7 @@ impl RowPass {
 
 /// The first cell where `right` is below `left`, which is lower at the cell
 /// where it starts, so that no number here is negative.
-fn meeting(left: &Piece, right: &Piece) -> i32 {
+fn meeting(left: &ParabolaPiece, right: &ParabolaPiece) -> i32 {
     let rise = right.vertex * right.vertex + right.height - left.vertex * left.vertex - left.height;
     let run = 2 * (right.vertex - left.vertex);
     (rise as u32 / run as u32) as i32 + 1

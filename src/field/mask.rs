@@ -4,8 +4,8 @@
 //! mask has at least one inside cell, and no side above [`Grid::MAX_SIDE`].
 //! Does not guarantee: parts thinner than a cell may fall between the centres.
 
-use super::scan;
-use super::{Grid, GridError, SamplesError};
+use super::inside;
+use super::{Grid, GridError, SampledFieldError};
 use crate::geometry::{DVec2, Regions};
 
 /// Which cells are inside, row-major, row 0 the lowest.
@@ -34,7 +34,7 @@ pub struct Mask {
 pub enum MaskError {
     /// There are not as many bits as cells.
     #[error(transparent)]
-    Length(#[from] SamplesError),
+    Length(#[from] SampledFieldError),
     /// No cell is inside.
     #[error("no cell is inside the design: choose another threshold, or more cells")]
     Empty,
@@ -52,7 +52,7 @@ impl Mask {
     pub fn new(width: u32, height: u32, bits: Vec<bool>) -> Result<Self, MaskError> {
         // A mask is as large as a grid may be, wherever that lies.
         Grid::new(width, height, DVec2::ZERO, 1.0)?;
-        SamplesError::check(width, height, bits.len())?;
+        SampledFieldError::check(width, height, bits.len())?;
         if !bits.contains(&true) {
             return Err(MaskError::Empty);
         }
@@ -70,7 +70,7 @@ impl Mask {
     /// Where the grid is none, or no centre is inside.
     pub fn from_regions(regions: &Regions, grid: &Grid) -> Result<Self, MaskError> {
         grid.check()?;
-        let bits = scan::inside(&scan::edges(regions, grid), grid);
+        let bits = inside::inside(&inside::edges(regions, grid), grid);
         Self::new(grid.width, grid.height, bits)
     }
 
@@ -157,7 +157,7 @@ mod tests {
         assert_eq!(Mask::new(2, 2, vec![false; 4]), Err(MaskError::Empty));
         assert!(matches!(
             Mask::new(2, 2, vec![true; 3]),
-            Err(MaskError::Length(SamplesError { values: 3, .. }))
+            Err(MaskError::Length(SampledFieldError { values: 3, .. }))
         ));
         for (width, height) in [
             (0, 1),

@@ -11,8 +11,8 @@
 //! over the threads of the caller's rayon pool, the others on one.
 
 use super::{Mask, chamfer, euclidean};
-use crate::names::named;
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::settings::choice::named;
+use crate::work::progress::{Cancelled, Progress, checkpoint};
 use std::f64::consts::SQRT_2;
 
 /// How far two cells are apart, `dx` columns and `dy` rows from each other
@@ -43,7 +43,7 @@ named! { Metric {
 ///
 /// ```
 /// use morphospace::field::{Mask, Metric, distance_transform};
-/// use morphospace::progress::Silent;
+/// use morphospace::work::progress::Silent;
 ///
 /// let mask = Mask::new(5, 1, vec![false, true, true, true, false])?;
 /// let found = distance_transform(&mask, Metric::Euclidean, &Silent)?;

@@ -20,7 +20,7 @@ pub struct RingEdge {
 
 /// Two edges whose insides meet in one point.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Crossing {
+pub struct EdgeCrossing {
     /// The edges, in the order of their rings and points.
     pub edges: [RingEdge; 2],
     /// Where they meet.
@@ -50,17 +50,17 @@ pub fn count_crossings(rings: &[Vec<DVec2>]) -> usize {
 /// assert_eq!(crossings(&[bow])[0].place, DVec2::splat(0.5));
 /// ```
 #[must_use]
-pub fn crossings(rings: &[Vec<DVec2>]) -> Vec<Crossing> {
+pub fn crossings(rings: &[Vec<DVec2>]) -> Vec<EdgeCrossing> {
     let mut found = Vec::new();
     sweep(rings, |a, b| found.push(crossing(rings, a, b)));
-    let key = |c: &Crossing| c.edges.map(|e| (e.ring, e.point));
+    let key = |c: &EdgeCrossing| c.edges.map(|e| (e.ring, e.point));
     found.sort_unstable_by_key(key);
     found
 }
 
 /// An edge by what the sweep asks of it first.
 #[derive(Clone, Copy)]
-struct Span {
+struct SweepEdge {
     /// Where it begins and ends along the sweep.
     along: [f64; 2],
     /// And across.
@@ -85,17 +85,17 @@ fn sweep(rings: &[Vec<DVec2>], mut found: impl FnMut(RingEdge, RingEdge)) {
     }
 }
 
-fn spans(rings: &[Vec<DVec2>]) -> Vec<Span> {
+fn spans(rings: &[Vec<DVec2>]) -> Vec<SweepEdge> {
     let sorted = |a: f64, b: f64| [a.min(b), a.max(b)];
-    let mut spans: Vec<Span> = ring_edges(rings)
-        .map(|(edge, ends)| Span {
+    let mut spans: Vec<SweepEdge> = ring_edges(rings)
+        .map(|(edge, ends)| SweepEdge {
             along: sorted(ends[0].x, ends[1].x),
             across: sorted(ends[0].y, ends[1].y),
             edge,
             ends,
         })
         .collect();
-    let crowded = |of: fn(&Span) -> [f64; 2]| {
+    let crowded = |of: fn(&SweepEdge) -> [f64; 2]| {
         let all = spans.iter().map(of);
         let (mut sum, mut low, mut high) = (0.0, f64::INFINITY, f64::NEG_INFINITY);
         for [a, b] in all {
@@ -121,7 +121,7 @@ fn ring_edges(rings: &[Vec<DVec2>]) -> impl Iterator<Item = (RingEdge, [DVec2; 2
     })
 }
 
-fn crossing(rings: &[Vec<DVec2>], a: RingEdge, b: RingEdge) -> Crossing {
+fn crossing(rings: &[Vec<DVec2>], a: RingEdge, b: RingEdge) -> EdgeCrossing {
     let ends = |e: RingEdge| {
         let ring = &rings[e.ring];
         [ring[e.point], ring[(e.point + 1) % ring.len()]]
@@ -130,7 +130,7 @@ fn crossing(rings: &[Vec<DVec2>], a: RingEdge, b: RingEdge) -> Crossing {
     let (begin, end) = (orient2d(r, s, p), orient2d(r, s, q));
     let mut edges = [a, b];
     edges.sort_unstable_by_key(|e| (e.ring, e.point));
-    Crossing {
+    EdgeCrossing {
         edges,
         place: p.lerp(q, begin / (begin - end)),
     }

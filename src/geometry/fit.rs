@@ -4,14 +4,14 @@ use super::{DAffine2, DMat2, DVec2};
 
 /// A rotation and scaling about one mean onto another, by least squares.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Fit {
+pub(crate) struct SimilarityFit {
     /// Rotation and scale as a complex number: Σ p̄ q / Σ |p|² about the means.
     pub factor: DVec2,
     /// The mean of the points, and of where they go.
     pub means: [DVec2; 2],
 }
 
-impl Fit {
+impl SimilarityFit {
     /// Of as many points as places; none where either are all one.
     pub fn of(points: &[DVec2], places: &[DVec2]) -> Option<Self> {
         let count = points.len() as f64;
@@ -49,7 +49,7 @@ const FLAT: f64 = 1e-12;
 
 /// The affine map by least squares of as many points as places; of points on a line a
 /// similarity, of one point an offset.
-pub(crate) fn affine(points: &[DVec2], places: &[DVec2]) -> DAffine2 {
+pub(crate) fn fit_affine(points: &[DVec2], places: &[DVec2]) -> DAffine2 {
     let count = points.len().max(1) as f64;
     let [from, to] = [points, places].map(|all| all.iter().sum::<DVec2>() / count);
     let (mut own, mut across) = (DMat2::ZERO, DMat2::ZERO);
@@ -62,7 +62,7 @@ pub(crate) fn affine(points: &[DVec2], places: &[DVec2]) -> DAffine2 {
     let linear = if own.determinant() > FLAT * size * size {
         across * own.inverse()
     } else {
-        Fit::of(points, places).map_or(DMat2::IDENTITY, |fit| {
+        SimilarityFit::of(points, places).map_or(DMat2::IDENTITY, |fit| {
             DMat2::from_cols(fit.factor, fit.factor.perp())
         })
     };
@@ -78,8 +78,11 @@ mod tests {
         let map = DAffine2::from_cols_array(&[2.0, 0.5, -1.0, 1.5, 30.0, -4.0]);
         let corners = [(0.0, 0.0), (4.0, 1.0), (3.0, 5.0), (-1.0, 2.0)].map(DVec2::from);
         let places = corners.map(|p| map.transform_point2(p));
-        let off =
-            |(p, q): (DVec2, DVec2)| affine(&corners, &places).transform_point2(p).distance(q);
+        let off = |(p, q): (DVec2, DVec2)| {
+            fit_affine(&corners, &places)
+                .transform_point2(p)
+                .distance(q)
+        };
         assert!(
             corners
                 .into_iter()
@@ -90,10 +93,10 @@ mod tests {
         // On a line, where a similarity is the most that can be known; and one point.
         let line = [(0.0, 0.0), (2.0, 0.0)].map(DVec2::from);
         let turned = [(1.0, 1.0), (1.0, 5.0)].map(DVec2::from);
-        let up = affine(&line, &turned).transform_point2(DVec2::Y);
+        let up = fit_affine(&line, &turned).transform_point2(DVec2::Y);
         assert!(up.distance(DVec2::new(-1.0, 1.0)) < 1e-12, "{up}");
         assert_eq!(
-            affine(&[DVec2::X], &[DVec2::Y]).transform_point2(DVec2::X),
+            fit_affine(&[DVec2::X], &[DVec2::Y]).transform_point2(DVec2::X),
             DVec2::Y
         );
     }

@@ -28,7 +28,7 @@ pub(crate) fn inset(rings: &[Vec<DVec2>], depth: f64) -> Vec<Vec<DVec2>> {
 
 /// The depth of [`inset`] from which on nothing is left: the radius of the
 /// largest disc in a region, to a thousandth.
-pub(crate) fn inset_depth(rings: &[Vec<DVec2>]) -> f64 {
+pub(crate) fn inradius(rings: &[Vec<DVec2>]) -> f64 {
     let area: f64 = rings.iter().map(|ring| signed_area(ring)).sum();
     // No disc is larger than all there is.
     let (mut some, mut none) = (0.0, (area.max(0.0) / std::f64::consts::PI).sqrt());
@@ -64,7 +64,7 @@ mod tests {
         let thin = inset(&frame, 0.5);
         assert_eq!(thin.len(), 2);
         assert!((area(&thin) - (25.0 - 9.0)).abs() < 1e-6, "{thin:?}");
-        assert!((inset_depth(&frame) - 1.0).abs() < 2e-3);
+        assert!((inradius(&frame) - 1.0).abs() < 2e-3);
         assert!(inset(&frame, 1.01).is_empty());
     }
 
@@ -73,7 +73,7 @@ mod tests {
         let least = inset(&[square(2.0)], 0.25);
         assert!((area(&least) - 3.5 * 3.5).abs() < 1e-6);
         assert!(inset(&[], 1.0).is_empty());
-        assert_eq!(inset_depth(&[]), 0.0);
+        assert_eq!(inradius(&[]), 0.0);
         assert!(inset(&[vec![DVec2::ONE; 3]], 1.0).is_empty());
     }
 }

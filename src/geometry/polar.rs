@@ -10,14 +10,14 @@ use super::{DMat2, DVec2};
 /// unique. For det M ≤ 0 the factors still multiply to M, but the stretch is
 /// not positive; callers refuse such matrices before they come here.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Polar {
+pub struct PolarDecomposition {
     /// θ in radians, any real.
     pub angle: f64,
     /// The symmetric factor.
     pub stretch: DMat2,
 }
 
-impl Polar {
+impl PolarDecomposition {
     /// With θ = atan2(c − b, a + d) in (−π, π], for M = [a b; c d], S = R(−θ) M.
     ///
     /// ```
@@ -115,7 +115,7 @@ mod tests {
             let v = DMat2::from_angle(phi);
             let stretch = v * DMat2::from_diagonal(DVec2::new(s1, s1 * ratio)) * v.transpose();
             let m = DMat2::from_angle(turn) * stretch;
-            let polar = Polar::of(m);
+            let polar = PolarDecomposition::of(m);
             let svd = rotation_by_svd(m);
             let closed = DMat2::from_angle(polar.angle);
             prop_assert!((closed - svd).abs_diff_eq(DMat2::ZERO, 1e-9));

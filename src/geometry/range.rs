@@ -18,7 +18,7 @@ pub const MAX_COORDINATE: f64 = 1e18;
 pub const MIN_SIZE: f64 = 1e-18;
 
 /// What is said of a point that is not [`is_in_range`].
-pub(crate) const RANGE: &str =
+pub(crate) const RANGE_MESSAGE: &str =
     "has a coordinate that is no number from -1e18 to 1e18; correct it, or scale the design";
 
 /// How far away from the origin a design may lie, in its longer sides: there
@@ -29,7 +29,7 @@ const MAX_DISTANCE: f64 = 1e12;
 /// Why a size cannot be reckoned with.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum SizeError {
+pub enum DesignSizeError {
     /// Points that lie on one another, or as good as.
     #[error(
         "all of it lies within {0:e}, less than the least size of {MIN_SIZE:e}; scale the design up"
@@ -47,7 +47,7 @@ pub enum SizeError {
     },
 }
 
-impl SizeError {
+impl DesignSizeError {
     /// The longer side of what can be reckoned with.
     pub(crate) fn check(bounds: &Bounds) -> Result<f64, Self> {
         let size = bounds.size().max_element();
@@ -69,9 +69,9 @@ pub fn is_in_range(p: DVec2) -> bool {
 
 /// A place as messages have it: with four digits, at whatever size.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct About(pub DVec2);
+pub(crate) struct ApproxPoint(pub DVec2);
 
-impl fmt::Display for About {
+impl fmt::Display for ApproxPoint {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let rounded = |x: f64| format!("{x:.3e}").parse().unwrap_or(x);
         write!(f, "about ({}, {})", rounded(self.0.x), rounded(self.0.y))
@@ -89,7 +89,7 @@ mod tests {
             (1.0 / 3.0, 1234.56, "about (0.3333, 1235)"),
             (1e15, -2.5e-7, "about (1000000000000000, -0.00000025)"),
         ] {
-            assert_eq!(About(DVec2::new(x, y)).to_string(), told);
+            assert_eq!(ApproxPoint(DVec2::new(x, y)).to_string(), told);
         }
     }
 }

@@ -5,8 +5,10 @@
 //! (`i_overlay` on a 64-bit integer grid), which moves points by less than
 //! 1e-15 of the size unless they all but coincide. It does not simplify: a noisy outline stays noisy.
 
-use super::sliver::Drawn;
-use super::{Bounds, DVec2, RANGE, Repairs, Ring, Similarity, SizeError, is_in_range};
+use super::sliver::SliverTest;
+use super::{
+    Bounds, DVec2, DesignSizeError, RANGE_MESSAGE, Repairs, Ring, Similarity, is_in_range,
+};
 use i_overlay::core::fill_rule::FillRule as OverlayRule;
 use i_overlay::core::solver::{Precision, Solver};
 use i_overlay::float::simplify::SimplifyShape;
@@ -72,7 +74,7 @@ pub enum RegionsError {
     /// A coordinate is no number, or beyond [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: super::MAX_COORDINATE
-    #[error("point {} of outline {} {RANGE}", point + 1, ring + 1)]
+    #[error("point {} of outline {} {RANGE_MESSAGE}", point + 1, ring + 1)]
     OutOfRange {
         /// Index of the ring.
         ring: usize,
@@ -81,7 +83,7 @@ pub enum RegionsError {
     },
     /// All points lie on one another, or as good as.
     #[error(transparent)]
-    Size(#[from] SizeError),
+    Size(#[from] DesignSizeError),
     /// No area is left.
     #[error("the outlines enclose no area; draw a closed, filled shape")]
     Empty,
@@ -134,12 +136,12 @@ impl Regions {
     /// The regions and how many slivers were left out.
     fn cleaned(rings: &[Vec<DVec2>], rule: FillRule) -> Result<(Self, usize), RegionsError> {
         let bounds = Bounds::of(rings.iter().flatten().copied()).ok_or(RegionsError::Empty)?;
-        let extent = SizeError::check(&bounds)?;
+        let extent = DesignSizeError::check(&bounds)?;
         let area = Self::MIN_RELATIVE_AREA * extent * extent;
-        let smallest = Smallest {
+        let smallest = SliverLimits {
             area,
             edge: Self::MIN_RELATIVE_EDGE * extent,
-            drawn: Drawn::of(rings, extent, area),
+            drawn: SliverTest::of(rings, extent, area),
         };
         let origin = bounds.centre(); // coordinates about zero use the grid best
         let subject: Vec<Vec<[f64; 2]>> = rings
@@ -261,20 +263,24 @@ fn check_range(rings: &[Vec<DVec2>]) -> Result<(), RegionsError> {
 }
 
 /// What is smaller does not count.
-struct Smallest {
+struct SliverLimits {
     area: f64,
     edge: f64,
-    drawn: Drawn,
+    drawn: SliverTest,
 }
 
-impl Smallest {
+impl SliverLimits {
     fn is_sliver(&self, contour: &Ring) -> bool {
         contour.signed_area().abs() <= self.area || self.drawn.leaves(contour)
     }
 }
 
 /// One cleaned shape, outer contour first; `None` for a sliver.
-fn region_from(shape: Vec<Vec<[f64; 2]>>, origin: DVec2, smallest: &Smallest) -> Option<Region> {
+fn region_from(
+    shape: Vec<Vec<[f64; 2]>>,
+    origin: DVec2,
+    smallest: &SliverLimits,
+) -> Option<Region> {
     let is_same = |a: DVec2, b: DVec2| a.distance_squared(b) <= smallest.edge * smallest.edge;
     let mut rings = shape.into_iter().filter_map(|contour| {
         let points = contour.into_iter().map(|p| DVec2::from(p) + origin);

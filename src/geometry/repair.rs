@@ -93,14 +93,14 @@ impl Repairs {
     }
 
     fn cross(&mut self, rings: &[Vec<DVec2>]) {
-        let mut edges: Vec<Edge> = rings
+        let mut edges: Vec<BoxedEdge> = rings
             .iter()
             .flat_map(|ring| ring_edges(ring))
-            .map(Edge::new)
+            .map(BoxedEdge::new)
             .collect();
         edges.sort_unstable_by(|e, f| e.bounds.min.x.total_cmp(&f.bounds.min.x));
         let mut tests = TESTS_PER_EDGE * edges.len();
-        let mut active: Vec<Edge> = Vec::new();
+        let mut active: Vec<BoxedEdge> = Vec::new();
         for edge in edges {
             active.retain(|other| other.bounds.max.x >= edge.bounds.min.x);
             // Combs and hatchings stand beside each other all along the sweep.
@@ -116,7 +116,7 @@ impl Repairs {
         }
     }
 
-    fn compare(&mut self, e: &Edge, f: &Edge) {
+    fn compare(&mut self, e: &BoxedEdge, f: &BoxedEdge) {
         if e.bounds.min.y > f.bounds.max.y || f.bounds.min.y > e.bounds.max.y {
             return;
         }
@@ -136,13 +136,13 @@ fn differ(a: f64, b: f64) -> bool {
 }
 
 #[derive(Clone, Copy)]
-struct Edge {
+struct BoxedEdge {
     a: DVec2,
     b: DVec2,
     bounds: Bounds,
 }
 
-impl Edge {
+impl BoxedEdge {
     fn new((a, b): (DVec2, DVec2)) -> Self {
         let bounds = Bounds::at(a).union(&Bounds::at(b));
         Self { a, b, bounds }

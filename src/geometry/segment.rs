@@ -11,7 +11,7 @@ use super::{DVec2, orient2d};
 /// assert_eq!(along_segment(DVec2::new(3.0, 5.0), DVec2::ZERO, DVec2::new(4.0, 0.0)), 0.75);
 /// ```
 #[must_use]
-pub fn along_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
+pub fn nearest_segment_parameter(p: DVec2, a: DVec2, b: DVec2) -> f64 {
     let edge = b - a;
     // 0/0 where the ends are one, or so near that the square underflows.
     let along = (p - a).dot(edge) / edge.length_squared();
@@ -31,7 +31,7 @@ pub fn along_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
 /// ```
 #[must_use]
 pub fn distance_squared_to_segment(p: DVec2, a: DVec2, b: DVec2) -> f64 {
-    p.distance_squared(a + along_segment(p, a, b) * (b - a))
+    p.distance_squared(a + nearest_segment_parameter(p, a, b) * (b - a))
 }
 
 /// Whether two segments, ends included, have a point in common; exact.
@@ -66,7 +66,11 @@ pub fn segments_cross([a, b]: [DVec2; 2], [c, d]: [DVec2; 2]) -> bool {
 
 /// How far along a ray the segment from `a` to `b` is met, in lengths of
 /// `direction`; none if it is not, or lies behind.
-pub(crate) fn along_ray(from: DVec2, direction: DVec2, (a, b): (DVec2, DVec2)) -> Option<f64> {
+pub(crate) fn ray_hit_parameter(
+    from: DVec2,
+    direction: DVec2,
+    (a, b): (DVec2, DVec2),
+) -> Option<f64> {
     let (edge, offset) = (b - a, a - from);
     let across = direction.perp_dot(edge);
     // Parallel lines: infinite or NaN, and so outside the range.

@@ -1,6 +1,6 @@
 //! Similarities: how one design is laid over another.
 
-use super::{Bounds, DAffine2, DMat2, DVec2, RANGE, SizeError, is_in_range};
+use super::{Bounds, DAffine2, DMat2, DVec2, DesignSizeError, RANGE_MESSAGE, is_in_range};
 use serde::{Deserialize, Serialize};
 
 /// A mirror, then a scale, then a rotation about the origin, then an offset.
@@ -28,11 +28,11 @@ pub enum SimilarityError {
     #[error("the offset and the rotation of a placement must be finite numbers")]
     NotFinite,
     /// What it lays down is out of range.
-    #[error("laid down, a corner of the design {RANGE}")]
+    #[error("laid down, a corner of the design {RANGE_MESSAGE}")]
     OutOfRange,
     /// What it lays down is too small.
     #[error(transparent)]
-    Size(#[from] SizeError),
+    Size(#[from] DesignSizeError),
 }
 
 impl Default for Similarity {
@@ -74,7 +74,7 @@ impl Similarity {
             return Err(SimilarityError::OutOfRange);
         }
         let laid = Bounds::of(corners).unwrap_or(*bounds);
-        Ok(SizeError::check(&laid).map(drop)?)
+        Ok(DesignSizeError::check(&laid).map(drop)?)
     }
 
     /// The linear part; its determinant is negative when mirrored.

@@ -12,12 +12,12 @@ const THIN: f64 = 1e-4;
 const SMALL: f64 = 0.01;
 
 /// What was drawn, to tell a sliver by.
-pub(super) struct Drawn {
+pub(super) struct SliverTest {
     outlines: Vec<(Bounds, f64)>,
     thin: f64,
 }
 
-impl Drawn {
+impl SliverTest {
     /// Outlines with more than this area.
     pub(super) fn of(rings: &[Vec<DVec2>], extent: f64, area: f64) -> Self {
         let outlines = rings.iter().filter_map(|ring| {

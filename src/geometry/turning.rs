@@ -11,7 +11,7 @@ use std::f64::consts::TAU;
 const ALONG_DIAMETER: f64 = 200.0;
 
 /// By how much all rings turn, in radians; `diameter` is that of the whole.
-pub(crate) fn turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
+pub(crate) fn total_turning(rings: &[Vec<DVec2>], diameter: f64) -> f64 {
     let step = diameter / ALONG_DIAMETER;
     let of = |ring: &Vec<DVec2>| {
         let points = sampled(ring, step);
@@ -61,8 +61,8 @@ mod tests {
     #[test]
     fn what_is_convex_turns_once() {
         let square = ring(&[(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)]);
-        assert!((turning(std::slice::from_ref(&square), 1.5) - TAU).abs() < 1e-9);
-        assert!((turning(&[square.clone(), square], 1.5) - 2.0 * TAU).abs() < 1e-9);
+        assert!((total_turning(std::slice::from_ref(&square), 1.5) - TAU).abs() < 1e-9);
+        assert!((total_turning(&[square.clone(), square], 1.5) - 2.0 * TAU).abs() < 1e-9);
     }
 
     #[test]
@@ -71,12 +71,12 @@ mod tests {
             .map(|k| DVec2::new(f64::from(k) * 0.025, 0.05 * f64::from(k % 2)))
             .collect();
         saw.extend([DVec2::new(1.0, 1.0), DVec2::new(0.0, 1.0)]);
-        assert!(turning(&[saw], 1.4) > 8.0 * TAU);
+        assert!(total_turning(&[saw], 1.4) > 8.0 * TAU);
     }
 
     #[test]
     fn a_ring_without_length_turns_as_the_least_ring_does() {
-        assert_eq!(turning(&[vec![DVec2::ONE; 3]], 1.0), TAU);
-        assert_eq!(turning(&[], 1.0), 0.0);
+        assert_eq!(total_turning(&[vec![DVec2::ONE; 3]], 1.0), TAU);
+        assert_eq!(total_turning(&[], 1.0), 0.0);
     }
 }

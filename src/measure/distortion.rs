@@ -54,19 +54,19 @@ pub struct Distortion {
 /// ```
 #[must_use]
 pub fn distortion(mesh: &CompatibleMesh, places: &[DVec2]) -> Option<Distortion> {
-    let faces: Vec<(Strain, f64)> = mesh
+    let faces: Vec<(FaceStrain, f64)> = mesh
         .faces()
         .iter()
         .map(|face| {
             let rest = edges(mesh.source(), face);
-            let strain = Strain {
+            let strain = FaceStrain {
                 folded: is_folded(places, face),
-                ..Strain::of(edges(places, face) * rest.inverse())
+                ..FaceStrain::of(edges(places, face) * rest.inverse())
             };
             (strain, rest.determinant())
         })
         .collect();
-    let over = |measure: fn(&Strain) -> f64| {
+    let over = |measure: fn(&FaceStrain) -> f64| {
         distribution(faces.iter().map(|(s, area)| (measure(s), *area)).collect())
     };
     let dets = faces.iter().map(|(strain, _)| strain.det);
@@ -74,9 +74,9 @@ pub fn distortion(mesh: &CompatibleMesh, places: &[DVec2]) -> Option<Distortion>
         folds: faces.iter().filter(|(s, _)| s.folded).count(),
         min_det: dets.clone().fold(f64::INFINITY, f64::min),
         max_det: dets.fold(f64::NEG_INFINITY, f64::max),
-        conformal: over(Strain::conformal)?,
-        isometric: over(Strain::isometric)?,
-        area: over(Strain::area)?,
+        conformal: over(FaceStrain::conformal)?,
+        isometric: over(FaceStrain::isometric)?,
+        area: over(FaceStrain::area)?,
     })
 }
 
@@ -96,14 +96,14 @@ pub(super) fn is_folded(places: &[DVec2], face: &[u32; 3]) -> bool {
 
 /// What a Jacobian does to lengths.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Strain {
+pub(super) struct FaceStrain {
     large: f64,
     small: f64,
     pub(super) det: f64,
     folded: bool,
 }
 
-impl Strain {
+impl FaceStrain {
     pub(super) fn of(m: DMat2) -> Self {
         let (large, small) = singular_values(m);
         let det = m.determinant();
@@ -183,7 +183,7 @@ mod tests {
     fn a_shear_by_hand() {
         // [1 s; 0 1] has σ₁ − 1/σ₁ = s and det 1.
         let s = 1.5;
-        let strain = Strain::of(DMat2::from_cols(DVec2::X, DVec2::new(s, 1.0)));
+        let strain = FaceStrain::of(DMat2::from_cols(DVec2::X, DVec2::new(s, 1.0)));
         let large = 0.5 * (s + f64::hypot(s, 2.0));
         assert!((strain.conformal() - large * large).abs() < 1e-12);
         assert!((strain.isometric() - large).abs() < 1e-12);

@@ -7,7 +7,7 @@ use serde::Serialize;
 /// fractions of the design's diameter.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 #[non_exhaustive]
-pub struct Motion {
+pub struct MotionReport {
     /// Mean length of the vertices' paths.
     pub mean_travel: f64,
     /// Length of the longest one.
@@ -18,7 +18,7 @@ pub struct Motion {
 
 /// Measures paths sampled at evenly spaced t; `None` for fewer than three
 /// samples.
-pub(super) fn motion(samples: &[Vec<DVec2>], step: f64, diameter: f64) -> Option<Motion> {
+pub(super) fn motion(samples: &[Vec<DVec2>], step: f64, diameter: f64) -> Option<MotionReport> {
     let first = samples.first()?;
     if samples.len() < 3 || first.is_empty() || diameter <= 0.0 {
         return None;
@@ -37,7 +37,7 @@ pub(super) fn motion(samples: &[Vec<DVec2>], step: f64, diameter: f64) -> Option
         let [a, b, c] = [&three[0], &three[1], &three[2]];
         (0..a.len()).map(move |i| (a[i] - 2.0 * b[i] + c[i]).length())
     });
-    Some(Motion {
+    Some(MotionReport {
         mean_travel: travel.iter().sum::<f64>() / travel.len() as f64,
         max_travel: travel.iter().copied().fold(0.0, f64::max),
         max_acceleration: bends.fold(0.0, f64::max) / (step * step * diameter),

@@ -1,10 +1,10 @@
 //! How much trouble a film is, to hold one method against another.
 
-use super::film::{FilmReport, film};
+use super::film_report::{FilmReport, film};
 use crate::content::ContentKind;
-use crate::progress::{Progress, Several, Span};
-use crate::transition::{BuildError, Cell, Transition, TransitionSpec};
+use crate::transition::{BuildError, Transition, TransitionMethod, TransitionSpec};
 use crate::warp::WarpKind;
+use crate::work::progress::{Progress, ProgressShares, ProgressSpan};
 use std::cmp::Ordering;
 use std::fmt;
 
@@ -29,7 +29,7 @@ const BUILT: f64 = 0.9;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Rating {
+pub struct FilmRating {
     folds: usize,
     crossings: usize,
     /// Pieces and holes that neither design has.
@@ -42,7 +42,7 @@ pub struct Rating {
     is_solid: bool,
 }
 
-impl Rating {
+impl FilmRating {
     /// A look at a film; none of pictures, of which nothing is measured.
     ///
     /// # Errors
@@ -50,7 +50,7 @@ impl Rating {
     pub fn of(
         transition: &Transition,
         progress: &dyn Progress,
-    ) -> Result<Option<Self>, crate::progress::Cancelled> {
+    ) -> Result<Option<Self>, crate::work::progress::Cancelled> {
         let content = transition.cell().content();
         if content == ContentKind::Colours {
             return Ok(None);
@@ -117,7 +117,7 @@ impl Rating {
     }
 }
 
-impl fmt::Display for Rating {
+impl fmt::Display for FilmRating {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let counts = [
             (self.folds, "face folds", "faces fold"),
@@ -149,13 +149,17 @@ impl fmt::Display for Rating {
 pub fn auto(
     spec: &TransitionSpec,
     progress: &dyn Progress,
-) -> Result<(Transition, Option<Rating>), BuildError> {
+) -> Result<(Transition, Option<FilmRating>), BuildError> {
     if spec.cell.content() == ContentKind::Colours {
         return Ok((Transition::build(spec, progress)?, None));
     }
-    let carried = Cell::new(WarpKind::Arap, ContentKind::Field)?;
-    let cells = [Cell::RIGID_PARTS, carried, Cell::FIELD_BLEND];
-    let shares = Several::new(progress, cells.len());
+    let carried = TransitionMethod::new(WarpKind::Arap, ContentKind::Field)?;
+    let cells = [
+        TransitionMethod::RIGID_PARTS,
+        carried,
+        TransitionMethod::FIELD_BLEND,
+    ];
+    let shares = ProgressShares::new(progress, cells.len());
     let mut built = Vec::new();
     let mut failed = None;
     for (k, cell) in cells.into_iter().enumerate() {
@@ -164,17 +168,17 @@ pub fn auto(
             ..spec.clone()
         };
         let share = shares.part(k);
-        match Transition::build(&spec, &Span::new(&share, 0.0, BUILT)) {
+        match Transition::build(&spec, &ProgressSpan::new(&share, 0.0, BUILT)) {
             Ok(transition) => {
-                let rating = Rating::of(&transition, &Span::new(&share, BUILT, 1.0))?;
+                let rating = FilmRating::of(&transition, &ProgressSpan::new(&share, BUILT, 1.0))?;
                 built.push((transition, rating));
             }
             Err(error) if progress.is_cancelled() => return Err(error),
             Err(error) => failed = failed.or(Some(error)),
         }
     }
-    let ratings: Vec<Option<Rating>> = built.iter().map(|(_, rating)| *rating).collect();
-    let best = Rating::best(&ratings).unwrap_or(0);
+    let ratings: Vec<Option<FilmRating>> = built.iter().map(|(_, rating)| *rating).collect();
+    let best = FilmRating::best(&ratings).unwrap_or(0);
     match (best < built.len(), failed) {
         (true, _) => Ok(built.swap_remove(best)),
         (false, Some(error)) => Err(error),
@@ -186,8 +190,8 @@ pub fn auto(
 mod tests {
     use super::*;
 
-    fn rating(crossings: usize, pieces: usize, unrest: f64) -> Rating {
-        Rating {
+    fn rating(crossings: usize, pieces: usize, unrest: f64) -> FilmRating {
+        FilmRating {
             folds: 0,
             crossings,
             pieces,
@@ -202,12 +206,12 @@ mod tests {
     fn faults_count_before_unrest_and_nothing_is_worst() {
         let (calm, restless) = (rating(0, 0, 0.1), rating(0, 0, 0.4));
         let (crossed, torn) = (rating(2, 0, 0.0), rating(0, 3, 0.0));
-        let gone = Rating {
+        let gone = FilmRating {
             is_gone: true,
             ..calm
         };
         let mut all = [gone, torn, crossed, restless, calm];
-        all.sort_by(Rating::compare);
+        all.sort_by(FilmRating::compare);
         assert_eq!(all, [calm, restless, crossed, torn, gone]);
         let words = [crossed, torn, gone, calm].map(|rating| rating.to_string());
         let wanted = [
@@ -222,8 +226,11 @@ mod tests {
     #[test]
     fn the_first_of_the_best_is_chosen_where_there_is_a_choice() {
         let (a, b) = (rating(0, 0, 0.1), rating(1, 0, 0.0));
-        assert_eq!(Rating::best(&[Some(b), None, Some(a), Some(a)]), Some(2));
-        assert_eq!(Rating::best(&[None, Some(a)]), None);
-        assert_eq!(Rating::best(&[]), None);
+        assert_eq!(
+            FilmRating::best(&[Some(b), None, Some(a), Some(a)]),
+            Some(2)
+        );
+        assert_eq!(FilmRating::best(&[None, Some(a)]), None);
+        assert_eq!(FilmRating::best(&[]), None);
     }
 }

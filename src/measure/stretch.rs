@@ -15,7 +15,7 @@ const WINDOW: f64 = 0.03;
 
 /// The boundary about one of its vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Stretch {
+pub(super) struct EdgeStretch {
     pub vertex: u32,
     /// Share of the target by share of the source: 1 is even.
     pub ratio: f64,
@@ -23,7 +23,7 @@ pub(super) struct Stretch {
     pub weight: f64,
 }
 
-impl Stretch {
+impl EdgeStretch {
     /// max(k, 1/k).
     pub fn unevenness(&self) -> f64 {
         self.ratio.max(1.0 / self.ratio)
@@ -31,7 +31,7 @@ impl Stretch {
 }
 
 /// The stretch about each vertex of each boundary loop.
-pub(super) fn boundary(mesh: &CompatibleMesh) -> Vec<Stretch> {
+pub(super) fn boundary(mesh: &CompatibleMesh) -> Vec<EdgeStretch> {
     let loops = mesh.boundary_loops();
     let of_loop = |walk: &Vec<u32>| {
         let [source, target] = [mesh.source(), mesh.target()].map(|points| lengths(walk, points));
@@ -53,7 +53,7 @@ fn lengths(walk: &[u32], points: &[DVec2]) -> Vec<f64> {
     walk.iter().zip(next).map(length).collect()
 }
 
-fn stretches(walk: &[u32], source: &[f64], target: &[f64]) -> Vec<Stretch> {
+fn stretches(walk: &[u32], source: &[f64], target: &[f64]) -> Vec<EdgeStretch> {
     let n = walk.len();
     let (whole_source, whole_target) = (source.iter().sum::<f64>(), target.iter().sum::<f64>());
     let about = |i: usize| {
@@ -69,7 +69,7 @@ fn stretches(walk: &[u32], source: &[f64], target: &[f64]) -> Vec<Stretch> {
                 break;
             }
         }
-        Stretch {
+        EdgeStretch {
             vertex: walk[i],
             ratio: in_target / in_source,
             weight: 0.5 * (source[i] + source[(i + n - 1) % n]),

@@ -4,11 +4,11 @@ use super::*;
 use crate::content::ContentKind;
 use crate::design::{Design, ImportOptions, import};
 use crate::geometry::{DMat2, DVec2};
-use crate::homotopy::Homotopy;
-use crate::progress::{Cancelled, Progress, Silent};
 use crate::project::gallery;
-use crate::transition::{Cell, Transition, TransitionSpec};
-use crate::warp::{ArapOptions, Course, WarpKind};
+use crate::transition::{Transition, TransitionMethod, TransitionSpec};
+use crate::warp::homotopy::Homotopy;
+use crate::warp::{ArapOptions, VertexPath, WarpKind};
+use crate::work::progress::{Cancelled, Progress, Silent};
 use std::fmt::Write as _;
 use std::sync::Arc;
 
@@ -65,8 +65,8 @@ fn film_of(map: impl Fn(DVec2) -> DVec2, homotopy: Homotopy) -> FilmReport {
 fn boundary_paths_are_measured_by_what_is_seen() {
     let loaded = gallery::load("gecko").expect("bundled");
     let mut spec = loaded.spec().expect("a specification");
-    spec.cell = Cell::new(WarpKind::Paths, ContentKind::Solid).expect("a cell");
-    for course in [Course::Straight, Course::Intrinsic] {
+    spec.cell = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).expect("a cell");
+    for course in [VertexPath::Straight, VertexPath::Intrinsic] {
         spec.options.paths.course = course;
         let transition = Transition::build(&spec, &Silent).expect("a transition");
         let report = film(&transition, 17, &Silent).expect("not cancelled");
@@ -80,9 +80,9 @@ fn boundary_paths_are_measured_by_what_is_seen() {
         );
         assert_eq!(verdict.is_clear(), report.worst_crossings == Some(0));
         if let Some(finding) = verdict.findings.first() {
-            assert!(matches!(finding.trouble, Trouble::Crossings { .. }));
+            assert!(matches!(finding.trouble, FindingKind::Crossings { .. }));
             let said = (&finding.cause, &finding.remedy);
-            assert_eq!(said, (&Cause::NothingInside, &Remedy::RigidParts));
+            assert_eq!(said, (&FindingCause::NothingInside, &Remedy::RigidParts));
         } else {
             assert_eq!(verdict.headline(), "no crossings");
         }
@@ -169,9 +169,9 @@ fn steiner_points_are_those_inside() {
     assert!((report.min_angle_target_deg - 45.0).abs() < 1e-9);
 }
 
-struct Unwanted;
+struct CancelledMeasure;
 
-impl Progress for Unwanted {
+impl Progress for CancelledMeasure {
     fn report(&self, _: &'static str, _: f64) {}
 
     fn is_cancelled(&self) -> bool {
@@ -183,6 +183,9 @@ impl Progress for Unwanted {
 fn both_looks_stop_when_cancelled() {
     let (faces, points) = sheet(1, 1);
     let still = transition(&faces, &points, &points, ArapOptions::default());
-    assert_eq!(film(&still, 9, &Unwanted).map(|_| ()), Err(Cancelled));
-    assert_eq!(Verdict::of(&still, 9, &Unwanted), Err(Cancelled));
+    assert_eq!(
+        film(&still, 9, &CancelledMeasure).map(|_| ()),
+        Err(Cancelled)
+    );
+    assert_eq!(Verdict::of(&still, 9, &CancelledMeasure), Err(Cancelled));
 }

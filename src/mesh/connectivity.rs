@@ -132,9 +132,9 @@ impl Connectivity {
 }
 
 /// (edge with the smaller vertex first, whether run that way, half-edge).
-type Half = ([u32; 2], bool, u32);
+type SortedHalfEdge = ([u32; 2], bool, u32);
 
-fn sorted_edges(faces: &[[u32; 3]]) -> Vec<Half> {
+fn sorted_edges(faces: &[[u32; 3]]) -> Vec<SortedHalfEdge> {
     let mut edges = Vec::with_capacity(3 * faces.len());
     for (f, face) in faces.iter().enumerate() {
         for (k, [a, b]) in sides(*face).into_iter().enumerate() {
@@ -147,7 +147,7 @@ fn sorted_edges(faces: &[[u32; 3]]) -> Vec<Half> {
 
 /// By their smaller vertices in one pass, and then the few of each: of six million that
 /// takes a fraction of sorting all.
-fn sort(edges: &mut Vec<Half>) {
+fn sort(edges: &mut Vec<SortedHalfEdge>) {
     let vertices = edges.iter().map(|([a, _], ..)| *a as usize + 1).max();
     let Some(vertices) = vertices.filter(|count| *count <= edges.len()) else {
         // Few edges of vertices with large numbers.

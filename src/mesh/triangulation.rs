@@ -14,17 +14,17 @@ mod domain;
 mod refine;
 
 pub use domain::TriangulationError;
-pub use refine::Refinement;
+pub use refine::RefinementOptions;
 
 use crate::geometry::DVec2;
-use crate::progress::Progress;
-use domain::Domain;
+use crate::work::progress::Progress;
+use domain::TriangulationDomain;
 use spade::handles::{FaceHandle, InnerTag};
 use spade::{DelaunayTriangulation, Point2, Triangulation as _};
 
 /// Points, the walks' first, and counter-clockwise faces.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Triangulated {
+pub struct RefinedTriangulation {
     /// The walks' corners in order, then the points that were added.
     pub points: Vec<DVec2>,
     /// Three indices into the points each.
@@ -49,7 +49,7 @@ pub struct Triangulated {
 pub fn constrained_delaunay<W: AsRef<[DVec2]>>(
     walks: &[W],
 ) -> Result<Vec<[u32; 3]>, TriangulationError> {
-    let domain = Domain::of(walks)?;
+    let domain = TriangulationDomain::of(walks)?;
     Ok(domain.faces())
 }
 
@@ -59,14 +59,14 @@ pub fn constrained_delaunay<W: AsRef<[DVec2]>>(
 /// # Errors
 /// [`TriangulationError`] if the walks bound no single piece, or if the work
 /// is cancelled.
-pub fn refined<W: AsRef<[DVec2]>>(
+pub fn refined_delaunay<W: AsRef<[DVec2]>>(
     walks: &[W],
-    refinement: &Refinement,
+    refinement: &RefinementOptions,
     progress: &dyn Progress,
-) -> Result<Triangulated, TriangulationError> {
-    let mut domain = Domain::of(walks)?;
+) -> Result<RefinedTriangulation, TriangulationError> {
+    let mut domain = TriangulationDomain::of(walks)?;
     domain.refine(refinement, progress)?;
-    Ok(Triangulated {
+    Ok(RefinedTriangulation {
         points: domain.points(walks),
         faces: domain.faces(),
     })
@@ -106,7 +106,7 @@ pub fn delaunay(points: &[DVec2]) -> Result<Vec<[u32; 3]>, TriangulationError> {
 mod tests {
     use super::*;
     use crate::geometry::{orient2d, twice_signed_area};
-    use crate::progress::Silent;
+    use crate::work::progress::Silent;
 
     fn points<const N: usize>(points: [(f64, f64); N]) -> Vec<DVec2> {
         points.map(DVec2::from).to_vec()
@@ -168,11 +168,11 @@ mod tests {
         let faces = constrained_delaunay(std::slice::from_ref(&walk)).expect("a slit");
         assert_eq!(faces.len() + 2, walk.len());
         assert!((area(&walk, &faces) - 15.0).abs() < 1e-12);
-        let fine = Refinement {
+        let fine = RefinementOptions {
             max_edge: Some(0.3),
             max_points: 1000,
         };
-        let mesh = refined(std::slice::from_ref(&walk), &fine, &Silent).expect("a slit");
+        let mesh = refined_delaunay(std::slice::from_ref(&walk), &fine, &Silent).expect("a slit");
         assert_eq!(mesh.points[..walk.len()], walk);
         assert!((area(&mesh.points, &mesh.faces) - 15.0).abs() < 1e-9);
         assert_eq!(mesh.faces.len() + walk.len() + 2, 2 * mesh.points.len());
@@ -180,11 +180,11 @@ mod tests {
 
     #[test]
     fn a_refinement_keeps_the_boundary() {
-        let fine = Refinement {
+        let fine = RefinementOptions {
             max_edge: Some(0.3),
             max_points: 1000,
         };
-        let mesh = refined(&[u_shape()], &fine, &Silent).expect("simple");
+        let mesh = refined_delaunay(&[u_shape()], &fine, &Silent).expect("simple");
         assert_eq!(mesh.points[..8], u_shape());
         assert!(mesh.faces.len() > 5);
         assert!((area(&mesh.points, &mesh.faces) - 7.0).abs() < 1e-9);

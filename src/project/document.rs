@@ -1,12 +1,14 @@
 //! The document itself, as it stands in the file.
 
-use super::leg::Leg;
 use super::map::MapSettings;
+use super::segment_settings::SegmentRecord;
 use super::title::title_of;
 use crate::content::ContentKind;
-use crate::design::{ImportOptions, Source};
+use crate::design::{DesignSource, ImportOptions};
 use crate::geometry::Similarity;
-use crate::transition::{Fit, Found, Options, Stop, Style, Timing};
+use crate::transition::{
+    CachedMatch, DesignFit, Timing, TransitionOptions, TransitionStop, TransitionStyle,
+};
 use crate::warp::WarpKind;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -53,7 +55,7 @@ pub struct Project {
     pub content: Option<ContentKind>,
     /// How the target is fitted to the source.
     #[serde(default)]
-    pub fit: Fit,
+    pub fit: DesignFit,
     /// The given forms, at least two, in the order in which the film goes through them.
     pub designs: Vec<DesignEntry>,
     /// Whether the last one leads back to the first. From version 2 on.
@@ -62,7 +64,7 @@ pub struct Project {
     /// Where there are more than two: what belongs to the way from each to the next, in
     /// order; what is missing at the end has nothing of its own. From version 2 on.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub legs: Vec<Leg>,
+    pub legs: Vec<SegmentRecord>,
     /// The map of all designs. From version 2 on.
     #[serde(default, skip_serializing_if = "is_default")]
     pub map: MapSettings,
@@ -70,19 +72,19 @@ pub struct Project {
     /// file.
     // Reading through `flatten` would lose unknown keys and lines.
     #[serde(flatten, skip_deserializing)]
-    pub options: Options,
+    pub options: TransitionOptions,
     /// How it runs over time.
     #[serde(default)]
     pub timing: Timing,
     /// How it is painted.
     #[serde(default)]
-    pub style: Style,
+    pub style: TransitionStyle,
     /// Named places on the way.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub stops: Vec<Stop>,
+    pub stops: Vec<TransitionStop>,
     /// The film that was found for it when it was saved.
-    #[serde(default, skip_serializing_if = "Found::is_none")]
-    pub found: Found,
+    #[serde(default, skip_serializing_if = "CachedMatch::is_none")]
+    pub found: CachedMatch,
 }
 
 /// One of the given forms.
@@ -90,7 +92,7 @@ pub struct Project {
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
 pub struct DesignEntry {
     /// The file, relative to the document, with `/` between folders; or an
-    /// element of a drawing or text, as [`Source`] has it.
+    /// element of a drawing or text, as [`DesignSource`] has it.
     pub path: PathBuf,
     /// What it is called; where it is empty, the file's name.
     #[serde(default, skip_serializing_if = "String::is_empty")]
@@ -155,7 +157,10 @@ impl Project {
     pub fn of<P: Into<PathBuf>>(designs: impl IntoIterator<Item = P>) -> Self {
         let designs: Vec<_> = designs.into_iter().map(DesignEntry::new).collect();
         // Of the paths, for nothing is read yet.
-        let names: Vec<_> = designs.iter().map(|d| Source::of(&d.path).name()).collect();
+        let names: Vec<_> = designs
+            .iter()
+            .map(|d| DesignSource::of(&d.path).name())
+            .collect();
         let mut project = Self::bare(title_of(&names), designs);
         let legs = project.leg_count() as f64;
         project.timing.to = legs;
@@ -170,22 +175,23 @@ impl Project {
             description: String::new(),
             warp: None,
             content: None,
-            fit: Fit::default(),
+            fit: DesignFit::default(),
             designs,
             closed: false,
             legs: Vec::new(),
             map: MapSettings::default(),
-            options: Options::default(),
+            options: TransitionOptions::default(),
             timing: Timing::default(),
-            style: Style::default(),
+            style: TransitionStyle::default(),
             stops: Vec::new(),
-            found: Found::default(),
+            found: CachedMatch::default(),
         }
     }
 
     /// The oldest version that can say it.
     pub(super) fn needed_version(&self) -> u32 {
-        let has_times = |stop: &Stop| stop.hold_secs != 0.0 || stop.duration_secs.is_some();
+        let has_times =
+            |stop: &TransitionStop| stop.hold_secs != 0.0 || stop.duration_secs.is_some();
         let has_map = self.map != MapSettings::default();
         if self.is_sequence() || has_map || self.stops.iter().any(has_times) {
             FORMAT_VERSION

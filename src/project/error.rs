@@ -3,14 +3,14 @@
 use super::document::FORMAT_VERSION;
 use super::map::MapError;
 use crate::content::{ColourMixError, FieldPairError};
-use crate::correspondence::PlaceError;
+use crate::correspondence::MatchPlaceError;
 use crate::design::ImportError;
 use crate::geometry::SimilarityError;
+use crate::io::read::ReadError;
+use crate::io::sanitize::SanitizedLine;
 use crate::mesh::TooManyVertices;
-use crate::one_line::OneLine;
-use crate::reading::ReadError;
 use crate::space::SpaceError;
-use crate::transition::{BuildError, CoatOptionsError, PartTimeError, TimingError};
+use crate::transition::{BuildError, PaintLayerOptionsError, PartTimeError, TimingError};
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 #[non_exhaustive]
 pub enum ProjectError {
     /// What is wrong, and in which file.
-    #[error("{}", OneLine(format_args!("{}: {error}", file.display())))]
+    #[error("{}", SanitizedLine(format_args!("{}: {error}", file.display())))]
     InFile {
         /// The document.
         file: PathBuf,
@@ -36,7 +36,7 @@ pub enum ProjectError {
     #[error("this is not a text file; a .morph document is TOML in UTF-8")]
     NotText,
     /// A key or value is wrong.
-    #[error("line {line}: {}", OneLine(message))]
+    #[error("line {line}: {}", SanitizedLine(message))]
     Syntax {
         /// Counted from 1.
         line: usize,
@@ -89,7 +89,7 @@ pub enum ProjectError {
     Colours(#[from] ColourMixError),
     /// A pin or the like is nowhere.
     #[error(transparent)]
-    Place(#[from] PlaceError),
+    Place(#[from] MatchPlaceError),
     /// There are too many subdivisions.
     #[error(transparent)]
     Subdivisions(#[from] TooManyVertices),
@@ -101,7 +101,7 @@ pub enum ProjectError {
     PartTime(#[from] PartTimeError),
     /// Coats change places at no time.
     #[error(transparent)]
-    Coats(#[from] CoatOptionsError),
+    Coats(#[from] PaintLayerOptionsError),
     /// The map is none.
     #[error(transparent)]
     Map(#[from] MapError),
@@ -118,7 +118,10 @@ pub enum ProjectError {
     #[error("the project cannot be written ({0}); correct that value")]
     Write(String),
     /// No bundled project of that name.
-    #[error("the gallery has no project \"{}\"; it has {known}", OneLine(name))]
+    #[error(
+        "the gallery has no project \"{}\"; it has {known}",
+        SanitizedLine(name)
+    )]
     NotInGallery {
         /// What was asked for.
         name: String,

@@ -2,15 +2,15 @@
 
 use super::document::Project;
 use super::error::ProjectError;
-use super::load::{FILES, LoadedProject};
+use super::loaded::{FILES, LoadedProject};
 use include_dir::File;
 use std::path::Path;
 
-pub use super::load::bytes;
+pub use super::loaded::bytes;
 
 /// A bundled project.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
-pub struct Entry {
+pub struct GalleryEntry {
     /// What it is opened by: `gallery:NAME`.
     pub name: String,
     /// What it is called.
@@ -23,11 +23,11 @@ pub struct Entry {
 ///
 /// # Errors
 /// [`ProjectError`] if a bundled document is wrong; the tests read them all.
-pub fn list() -> Result<Vec<Entry>, ProjectError> {
+pub fn list() -> Result<Vec<GalleryEntry>, ProjectError> {
     let mut entries = names()
         .map(|name| {
             let project = document(name)?;
-            Ok(Entry {
+            Ok(GalleryEntry {
                 name: name.to_owned(),
                 title: project.title,
                 description: project.description,

@@ -2,7 +2,7 @@
 
 use crate::geometry::DVec2;
 use crate::mesh::{NaturalNeighbours, SitesError};
-use crate::space::{Likeness, MapLayout, MapPath};
+use crate::space::{DesignDistances, MapLayout, MapPath};
 use serde::{Deserialize, Serialize};
 
 /// The map of all designs: how they are laid out, the path over it, and the places that
@@ -21,13 +21,13 @@ pub struct MapSettings {
     pub path: MapPath,
     /// Blends that are worth keeping.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub kept: Vec<KeptPlace>,
+    pub kept: Vec<SavedPlace>,
 }
 
 /// A blend that is worth keeping.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields, rename_all = "kebab-case")]
-pub struct KeptPlace {
+pub struct SavedPlace {
     /// Where it is on the map.
     pub at: DVec2,
     /// What it is called; may be empty.
@@ -36,7 +36,7 @@ pub struct KeptPlace {
     /// What there is to say about it; may be empty.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub note: String,
-    /// How good it is: up to [`KeptPlace::MOST_STARS`], none where nobody has said.
+    /// How good it is: up to [`SavedPlace::MOST_STARS`], none where nobody has said.
     #[serde(default, skip_serializing_if = "is_default")]
     pub stars: u8,
 }
@@ -56,7 +56,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
     *value == T::default()
 }
 
-impl KeptPlace {
+impl SavedPlace {
     /// Of the best ones.
     pub const MOST_STARS: u8 = 5;
 
@@ -95,7 +95,7 @@ pub enum MapError {
     TooMany,
     /// A kept place is nowhere, or has too many stars.
     #[error(
-        "kept place {} is not on the map, or has more than {} stars", .0 + 1, KeptPlace::MOST_STARS
+        "kept place {} is not on the map, or has more than {} stars", .0 + 1, SavedPlace::MOST_STARS
     )]
     Kept(usize),
 }
@@ -103,7 +103,7 @@ pub enum MapError {
 impl MapSettings {
     /// Where the designs are.
     #[must_use]
-    pub fn sites(&self, likeness: &Likeness) -> Vec<DVec2> {
+    pub fn sites(&self, likeness: &DesignDistances) -> Vec<DVec2> {
         match self.sites.len() == likeness.count() {
             true => self.sites.clone(),
             false => self.layout.sites(likeness),
@@ -129,7 +129,7 @@ impl MapSettings {
         if places.len().max(self.kept.len()) > MOST_PLACES {
             return Err(MapError::TooMany);
         }
-        let is_sound = |kept: &KeptPlace| is_near(kept.at) && kept.stars <= KeptPlace::MOST_STARS;
+        let is_sound = |kept: &SavedPlace| is_near(kept.at) && kept.stars <= SavedPlace::MOST_STARS;
         match self.kept.iter().position(|kept| !is_sound(kept)) {
             Some(bad) => Err(MapError::Kept(bad)),
             None => Ok(()),

@@ -4,8 +4,8 @@
 use super::*;
 use crate::colour::Rgb;
 use crate::geometry::{DVec2, Similarity};
-use crate::transition::{Easing, Fit, PlayMode, Stop};
-use crate::warp::{ArapPath, Course, WarpKind, Weights};
+use crate::transition::{DesignFit, NamedEasing, PlayMode, TransitionStop};
+use crate::warp::{ArapPath, FaceWeights, VertexPath, WarpKind};
 use proptest::prelude::*;
 use std::path::Path;
 
@@ -75,7 +75,7 @@ fn options_stand_beside_the_other_keys() {
         "version",
     ];
     assert_eq!(keys(&project), always, "defaults are left out");
-    project.options.travel = crate::warp::Travel::Whole;
+    project.options.travel = crate::warp::FeatureTravel::Whole;
     project.options.matching.stretch = Some(0.5);
     project.options.lattice.fold_free = !project.options.lattice.fold_free;
     for key in ["travel", "match", "lattice"] {
@@ -261,7 +261,7 @@ proptest! {
         let mut project = Project::pair("a b/ä.png", "..\\c'\"\n.svg");
         project.title = names[0].clone();
         project.description = names[1].clone();
-        project.fit = [Fit::AsDrawn, Fit::Centred, Fit::SameArea, Fit::Centred][pick];
+        project.fit = [DesignFit::AsDrawn, DesignFit::Centred, DesignFit::SameArea, DesignFit::Centred][pick];
         project.warp = flag.then_some(WarpKind::Arap);
         project.options.bar_width = positive[0];
         project.designs[0].name = names[2].clone();
@@ -273,11 +273,11 @@ proptest! {
             mirror: flag,
         };
         project.options.arap.extra_turns = turns;
-        project.options.arap.weights = if flag { Weights::PerFace(positive.clone()) } else { Weights::Uniform };
+        project.options.arap.weights = if flag { FaceWeights::PerFace(positive.clone()) } else { FaceWeights::Uniform };
         project.options.arap.path = if flag { ArapPath::Anchor(3) } else { ArapPath::Centroid };
-        project.options.paths.course = if flag { Course::Straight } else { Course::Intrinsic };
+        project.options.paths.course = if flag { VertexPath::Straight } else { VertexPath::Intrinsic };
         project.timing.duration_secs = positive[2];
-        project.timing.easing = Easing::ALL[pick].into();
+        project.timing.easing = NamedEasing::ALL[pick].into();
         project.timing.play = [PlayMode::Once, PlayMode::Loop, PlayMode::PingPong, PlayMode::Once][pick];
         project.options.field.blend.epsilon = positive[3];
         project.options.field.blend.threshold = numbers[3];
@@ -285,14 +285,14 @@ proptest! {
         // Rests at stops are said from version 2 on.
         project.version = FORMAT_VERSION;
         project.stops = vec![
-            Stop {
+            TransitionStop {
                 hold_secs: positive[1],
                 duration_secs: flag.then_some(positive[0]),
                 note: names[3].clone(),
                 easing: Some("0.25,0,0.5,1".parse().expect("a curve")),
-                ..Stop::at(numbers[4]).named(&names[3])
+                ..TransitionStop::at(numbers[4]).named(&names[3])
             },
-            Stop::at(numbers[5]),
+            TransitionStop::at(numbers[5]),
         ];
         let text = project.to_toml().expect("can be written");
         prop_assert_eq!(Project::parse(&text).expect(&text), project);

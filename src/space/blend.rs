@@ -1,13 +1,13 @@
 //! A space of designs and its moments.
 
+use super::design_distance::DesignDistances;
 use super::error::SpaceNote;
-use super::likeness::Likeness;
-use super::pictures::Pictures;
-use crate::compatible::Family;
-use crate::content::{FieldSet, Raster};
+use super::picture_space::PictureSpace;
+use crate::compatible::CompatibleFamily;
+use crate::content::{FieldSet, PictureRaster};
 use crate::design::Design;
 use crate::geometry::{Bounds, DVec2};
-use crate::transition::{Figure, tint};
+use crate::transition::{VectorFigure, colour_fraction};
 use crate::warp::{ArapBlend, BlendPlacer};
 use image::RgbaImage;
 use std::sync::Arc;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 ///
 /// ```
 /// use morphospace::Design;
-/// use morphospace::progress::Silent;
+/// use morphospace::work::progress::Silent;
 /// use morphospace::space::{Space, SpaceSpec};
 /// use std::sync::Arc;
 ///
@@ -29,22 +29,22 @@ use std::sync::Arc;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Space(Arc<Inner>);
+pub struct DesignSpace(Arc<DesignSpaceData>);
 
 /// What a space consists of.
 #[derive(Debug)]
-pub(super) struct Inner {
+pub(super) struct DesignSpaceData {
     pub designs: Vec<Arc<Design>>,
-    pub seen: Seen,
+    pub seen: BlendContent,
     pub bounds: Bounds,
     pub bar_width: f64,
-    pub likeness: Likeness,
+    pub likeness: DesignDistances,
     pub notes: Vec<SpaceNote>,
 }
 
 /// What is seen of a blend.
 #[derive(Debug)]
-pub(super) enum Seen {
+pub(super) enum BlendContent {
     /// Rigid parts.
     Solid {
         blend: ArapBlend,
@@ -56,16 +56,16 @@ pub(super) enum Seen {
     /// Distance fields.
     Field(FieldSet),
     /// Pictures.
-    Colours(Box<Pictures>),
+    Colours(Box<PictureSpace>),
 }
 
-impl From<Inner> for Space {
-    fn from(inner: Inner) -> Self {
+impl From<DesignSpaceData> for DesignSpace {
+    fn from(inner: DesignSpaceData) -> Self {
         Self(Arc::new(inner))
     }
 }
 
-impl Space {
+impl DesignSpace {
     /// The designs, laid into one frame.
     #[must_use]
     pub fn designs(&self) -> &[Arc<Design>] {
@@ -80,27 +80,27 @@ impl Space {
 
     /// The common mesh of the designs, where they are blended as rigid parts.
     #[must_use]
-    pub fn family(&self) -> Option<&Family> {
+    pub fn family(&self) -> Option<&CompatibleFamily> {
         match &self.0.seen {
-            Seen::Solid { blend, .. } => Some(blend.family()),
-            Seen::Field(_) | Seen::Colours(_) => None,
+            BlendContent::Solid { blend, .. } => Some(blend.family()),
+            BlendContent::Field(_) | BlendContent::Colours(_) => None,
         }
     }
 
     /// How unlike the designs are.
     #[must_use]
-    pub fn likeness(&self) -> &Likeness {
+    pub fn likeness(&self) -> &DesignDistances {
         &self.0.likeness
     }
 
     /// Whether pictures are what is seen of it.
     #[must_use]
     pub fn is_of_pictures(&self) -> bool {
-        matches!(self.0.seen, Seen::Colours(_))
+        matches!(self.0.seen, BlendContent::Colours(_))
     }
 
     /// What is seen of it.
-    pub(super) fn seen(&self) -> &Seen {
+    pub(super) fn seen(&self) -> &BlendContent {
         &self.0.seen
     }
 
@@ -121,7 +121,7 @@ impl Space {
     pub fn tint(&self, weights: &[f64]) -> f64 {
         let last = self.0.designs.len().saturating_sub(1);
         let each = weights.iter().enumerate();
-        each.map(|(k, weight)| weight * tint(k as f64, (last, false)))
+        each.map(|(k, weight)| weight * colour_fraction(k as f64, (last, false)))
             .sum()
     }
 
@@ -131,8 +131,8 @@ impl Space {
         let mut weights = vec![0.0; self.0.designs.len()];
         weights[0] = 1.0;
         let placer = match &self.0.seen {
-            Seen::Solid { blend, .. } => Some(blend.placer()),
-            Seen::Field(_) | Seen::Colours(_) => None,
+            BlendContent::Solid { blend, .. } => Some(blend.placer()),
+            BlendContent::Field(_) | BlendContent::Colours(_) => None,
         };
         SpaceFrame {
             space: self.clone(),
@@ -145,7 +145,7 @@ impl Space {
 /// One blend of a space.
 #[derive(Debug)]
 pub struct SpaceFrame {
-    space: Space,
+    space: DesignSpace,
     /// Of rigid parts.
     placer: Option<BlendPlacer>,
     weights: Vec<f64>,
@@ -196,16 +196,16 @@ impl SpaceFrame {
 
     /// The space that this is a blend of.
     #[must_use]
-    pub fn space(&self) -> &Space {
+    pub fn space(&self) -> &DesignSpace {
         &self.space
     }
 
     /// The blend as pixels, where pictures are what is seen: sRGB with straight alpha.
     #[must_use]
-    pub fn picture(&self, raster: &Raster) -> Option<RgbaImage> {
+    pub fn picture(&self, raster: &PictureRaster) -> Option<RgbaImage> {
         match &self.space.0.seen {
-            Seen::Colours(pictures) => Some(pictures.render(&self.weights, raster)),
-            Seen::Solid { .. } | Seen::Field(_) => None,
+            BlendContent::Colours(pictures) => Some(pictures.render(&self.weights, raster)),
+            BlendContent::Solid { .. } | BlendContent::Field(_) => None,
         }
     }
 
@@ -213,17 +213,17 @@ impl SpaceFrame {
     #[must_use]
     pub fn window(&self) -> Option<Bounds> {
         match &self.space.0.seen {
-            Seen::Colours(pictures) => Some(pictures.set.window(&self.weights)),
-            Seen::Solid { .. } | Seen::Field(_) => None,
+            BlendContent::Colours(pictures) => Some(pictures.set.window(&self.weights)),
+            BlendContent::Solid { .. } | BlendContent::Field(_) => None,
         }
     }
 
     /// The blend as polygons and bars; of pictures nothing.
     #[must_use]
-    pub fn figure(&self) -> Figure {
+    pub fn figure(&self) -> VectorFigure {
         let bar_width = self.space.0.bar_width;
         match (&self.space.0.seen, self.places()) {
-            (Seen::Solid { walks, bars, .. }, Some(places)) => Figure {
+            (BlendContent::Solid { walks, bars, .. }, Some(places)) => VectorFigure {
                 rings: walks
                     .iter()
                     .map(|walk| walk.iter().map(|&v| places[v as usize]).collect())
@@ -233,14 +233,14 @@ impl SpaceFrame {
                     .map(|bar| bar.map(|v| places[v as usize]))
                     .collect(),
                 bar_width,
-                ..Figure::default()
+                ..VectorFigure::default()
             },
-            (Seen::Field(fields), _) => Figure {
+            (BlendContent::Field(fields), _) => VectorFigure {
                 rings: fields.contour(&self.weights),
-                ..Figure::default()
+                ..VectorFigure::default()
             },
-            (Seen::Colours(_), _) => Figure::default(),
-            (Seen::Solid { .. }, None) => unreachable!("rigid parts are placed"),
+            (BlendContent::Colours(_), _) => VectorFigure::default(),
+            (BlendContent::Solid { .. }, None) => unreachable!("rigid parts are placed"),
         }
     }
 }

@@ -1,23 +1,25 @@
 //! From designs to a space: everything that can fail.
 
-use super::blend::{Inner, Seen, Space};
+use super::blend::{BlendContent, DesignSpace, DesignSpaceData};
+use super::design_distance::DesignDistances;
 use super::error::{SpaceError, SpaceNote};
-use super::likeness::Likeness;
-use super::pictures::Pictures;
-use crate::budget::Load;
-use crate::compatible::{Family, FamilyError};
+use super::picture_space::PictureSpace;
+use crate::compatible::{CompatibleFamily, FamilyError};
 use crate::content::{ContentKind, FieldSet};
-use crate::correspondence::{Matching, RegionMatch};
-use crate::design::{Design, Form, Truss};
+use crate::correspondence::{MatchSettings, RegionMatch};
+use crate::design::{Design, DesignForm, Truss};
 use crate::field::Grid;
 use crate::geometry::{Bounds, DVec2, Regions};
 use crate::mesh::TriangleMesh;
-use crate::progress::{Progress, Several, Span, Whole, checkpoint, still_wanted};
 use crate::transition::{
-    BuildError, Cell, Guarding, Options, PaintRule, Quality, Transition, TransitionSpec, bar_width,
-    field_frame, measured, outline,
+    BuildError, BuildQuality, CollisionAvoidance, PaintRule, Transition, TransitionMethod,
+    TransitionOptions, TransitionSpec, bar_width, field_frame, measured, outline,
 };
 use crate::warp::{ArapBlend, ManyFeatures, WarpKind};
+use crate::work::budget::WorkloadKind;
+use crate::work::progress::{
+    Progress, ProgressShares, ProgressSpan, WholeProgress, checkpoint, still_wanted,
+};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -44,8 +46,8 @@ pub struct SpaceSpec {
     /// How many features only some of them have, which is told.
     pub lone_features: usize,
     /// The options of both; pins, links and cuts are of two designs, and left out.
-    pub options: Options,
-    /// Whether what takes very long is begun all the same; see [`crate::budget`].
+    pub options: TransitionOptions,
+    /// Whether what takes very long is begun all the same; see [`crate::work::budget`].
     pub patient: bool,
 }
 
@@ -59,7 +61,7 @@ impl SpaceSpec {
             warp: WarpKind::None,
             features: ManyFeatures::default(),
             lone_features: 0,
-            options: Options::default(),
+            options: TransitionOptions::default(),
             patient: false,
         }
     }
@@ -68,11 +70,11 @@ impl SpaceSpec {
     fn pair(&self, source: usize, target: usize) -> TransitionSpec {
         let [a, b] = [source, target].map(|k| Arc::clone(&self.designs[k]));
         let mut spec = TransitionSpec::new(a, b);
-        spec.cell = Cell::RIGID_PARTS;
+        spec.cell = TransitionMethod::RIGID_PARTS;
         spec.others = self.designs.clone();
         spec.patient = self.patient;
-        spec.options = Options {
-            matching: Matching {
+        spec.options = TransitionOptions {
+            matching: MatchSettings {
                 pins: Vec::new(),
                 lines: Vec::new(),
                 links: Vec::new(),
@@ -83,14 +85,14 @@ impl SpaceSpec {
             parts: Vec::new(),
             paint: PaintRule::One,
             // The match alone is wanted.
-            guard: Guarding::Plain,
+            guard: CollisionAvoidance::Plain,
             ..self.options.clone()
         };
         spec
     }
 }
 
-impl Space {
+impl DesignSpace {
     /// Matches, triangulates and factors, or measures the fields.
     ///
     /// # Errors
@@ -100,7 +102,7 @@ impl Space {
         if count < 2 {
             return Err(SpaceError::TooFew(count));
         }
-        let progress = &Whole::new(progress).patient(spec.patient);
+        let progress = &WholeProgress::new(progress).patient(spec.patient);
         if spec.content == Some(ContentKind::Colours) {
             return Self::of_pictures(spec, progress);
         }
@@ -110,8 +112,8 @@ impl Space {
         if spec.designs.iter().any(|design| !design.coats.is_empty()) {
             notes.push(SpaceNote::OneColour);
         }
-        let made = Made::of(spec, bar_width, &Span::new(progress, 0.0, 0.3))?;
-        let rest = Span::new(progress, 0.3, 1.0);
+        let made = BuiltContent::of(spec, bar_width, &ProgressSpan::new(progress, 0.0, 0.3))?;
+        let rest = ProgressSpan::new(progress, 0.3, 1.0);
         let solid = match spec.content {
             Some(ContentKind::Solid) | None => Some(made.solid(spec, &rest)?),
             Some(_) => None,
@@ -128,7 +130,7 @@ impl Space {
                 fields(spec, &first, bar_width, &rest)?
             }
         };
-        let mut inner = Inner {
+        let mut inner = DesignSpaceData {
             designs: spec.designs.clone(),
             bounds: field_frame(&first, bar_width),
             seen,
@@ -136,47 +138,47 @@ impl Space {
             likeness: made.likeness,
             notes,
         };
-        if let Seen::Solid { blend, .. } = &inner.seen {
+        if let BlendContent::Solid { blend, .. } = &inner.seen {
             inner.bounds = swept(inner.bounds, blend, bar_width);
         }
         Ok(inner.into())
     }
 
     fn of_pictures(spec: &SpaceSpec, progress: &dyn Progress) -> Result<Self, SpaceError> {
-        let pictures = Pictures::of(
+        let pictures = PictureSpace::of(
             &spec.designs,
             (spec.warp, &spec.features),
             &spec.options,
             progress,
         )?;
         let lone = Some(spec.lone_features).filter(|lone| *lone > 0);
-        let inner = Inner {
+        let inner = DesignSpaceData {
             designs: spec.designs.clone(),
             bounds: pictures.bounds(),
             bar_width: 0.0,
             likeness: pictures.likeness(),
             notes: lone.map(SpaceNote::LoneFeatures).into_iter().collect(),
-            seen: Seen::Colours(Box::new(pictures)),
+            seen: BlendContent::Colours(Box::new(pictures)),
         };
         Ok(inner.into())
     }
 }
 
 /// What the designs are, and how unlike each other.
-struct Made {
-    form: Forms,
-    likeness: Likeness,
+struct BuiltContent {
+    form: CommonForms,
+    likeness: DesignDistances,
 }
 
 /// Designs that share their connectivity, or are matched.
-enum Forms {
+enum CommonForms {
     /// A common mesh, or why there is none, and the bars.
-    Given(Result<Family, FamilyError>, Vec<[u32; 2]>),
+    Given(Result<CompatibleFamily, FamilyError>, Vec<[u32; 2]>),
     /// It is to be made.
     Outlines,
 }
 
-impl Made {
+impl BuiltContent {
     fn of(spec: &SpaceSpec, bar_width: f64, progress: &dyn Progress) -> Result<Self, SpaceError> {
         if let Some(given) = Self::given(&spec.designs, progress)? {
             return Ok(given);
@@ -189,16 +191,16 @@ impl Made {
         for two in outlines.windows(2) {
             let rings = two.iter().flat_map(Regions::rings);
             let points = rings.map(|ring| ring.points().len()).sum();
-            if let Err(error) = Load::Points.allow(points, progress) {
+            if let Err(error) = WorkloadKind::Points.allow(points, progress) {
                 return Ok(Self {
-                    form: Forms::Given(Err(error.into()), Vec::new()),
-                    likeness: Likeness::even(outlines.len()),
+                    form: CommonForms::Given(Err(error.into()), Vec::new()),
+                    likeness: DesignDistances::even(outlines.len()),
                 });
             }
         }
         Ok(Self {
-            form: Forms::Outlines,
-            likeness: Likeness::of_outlines(&outlines, &spec.options.matching, progress)?,
+            form: CommonForms::Outlines,
+            likeness: DesignDistances::of_outlines(&outlines, &spec.options.matching, progress)?,
         })
     }
 
@@ -212,16 +214,16 @@ impl Made {
         }
         let form = if let Some(trusses) = trusses {
             let bars = trusses[0].bars().to_vec();
-            Load::Bars
+            WorkloadKind::Bars
                 .allow(bars.len(), progress)
                 .map_err(BuildError::from)?;
-            Forms::Given(Family::from_trusses(&trusses, progress), bars)
+            CommonForms::Given(CompatibleFamily::from_trusses(&trusses, progress), bars)
         } else if let Some(meshes) = meshes {
-            Forms::Given(Family::from_meshes(&meshes), Vec::new())
+            CommonForms::Given(CompatibleFamily::from_meshes(&meshes), Vec::new())
         } else {
             return Ok(None);
         };
-        let likeness = Likeness::of_points(&places);
+        let likeness = DesignDistances::of_points(&places);
         Ok(Some(Self { form, likeness }))
     }
 
@@ -230,11 +232,11 @@ impl Made {
         &self,
         spec: &SpaceSpec,
         progress: &dyn Progress,
-    ) -> Result<Result<Seen, FamilyError>, SpaceError> {
+    ) -> Result<Result<BlendContent, FamilyError>, SpaceError> {
         let (family, bars) = match &self.form {
-            Forms::Given(family, bars) => (family.clone(), bars.clone()),
-            Forms::Outlines => {
-                let matching = Span::new(progress, 0.0, 0.9);
+            CommonForms::Given(family, bars) => (family.clone(), bars.clone()),
+            CommonForms::Outlines => {
+                let matching = ProgressSpan::new(progress, 0.0, 0.9);
                 (self.outlines(spec, &matching)?, Vec::new())
             }
         };
@@ -244,13 +246,13 @@ impl Made {
             Ok(family) => family,
             Err(error) => return Ok(Err(error)),
         };
-        let blend = ArapBlend::build(&family, &Span::new(progress, 0.9, 1.0))?;
+        let blend = ArapBlend::build(&family, &ProgressSpan::new(progress, 0.9, 1.0))?;
         let walks = match bars.is_empty() {
             true => family.boundary_loops(),
             // Of a truss its bars are drawn, and nothing between them.
             false => Vec::new(),
         };
-        Ok(Ok(Seen::Solid { blend, walks, bars }))
+        Ok(Ok(BlendContent::Solid { blend, walks, bars }))
     }
 
     /// A common mesh of outlines: all are matched with the one that is least unlike them.
@@ -258,25 +260,28 @@ impl Made {
         &self,
         spec: &SpaceSpec,
         progress: &dyn Progress,
-    ) -> Result<Result<Family, FamilyError>, SpaceError> {
+    ) -> Result<Result<CompatibleFamily, FamilyError>, SpaceError> {
         let hubs = self.likeness.by_nearness();
         let asked = spec.options.quality;
-        let drafts = hubs.iter().take(HUBS).map(|&hub| (hub, Quality::Draft));
+        let drafts = hubs
+            .iter()
+            .take(HUBS)
+            .map(|&hub| (hub, BuildQuality::Draft));
         let best = hubs.first().map(|&hub| (hub, asked));
         let tries: Vec<_> = best
-            .filter(|_| asked != Quality::Draft)
+            .filter(|_| asked != BuildQuality::Draft)
             .into_iter()
             .chain(drafts)
             .collect();
-        let several = Several::new(progress, tries.len());
+        let several = ProgressShares::new(progress, tries.len());
         let mut first = None;
         for (tried, &way) in tries.iter().enumerate() {
             let progress = &several.part(tried);
-            let matches = matches(spec, way, &Span::new(progress, 0.0, 0.7))?;
+            let matches = matches(spec, way, &ProgressSpan::new(progress, 0.0, 0.7))?;
             let matches: Vec<Option<&RegionMatch>> = matches.iter().map(Option::as_ref).collect();
             let options = &spec.options.triangulation;
-            let meshing = Span::new(progress, 0.7, 1.0);
-            let family = Family::from_outlines(way.0, &matches, options, &meshing);
+            let meshing = ProgressSpan::new(progress, 0.7, 1.0);
+            let family = CompatibleFamily::from_outlines(way.0, &matches, options, &meshing);
             still_wanted(progress)?;
             match family {
                 Ok(family) => return Ok(Ok(family)),
@@ -293,11 +298,11 @@ impl Made {
 /// The match of the hub with each other design, as the best film between the two has it.
 fn matches(
     spec: &SpaceSpec,
-    (hub, quality): (usize, Quality),
+    (hub, quality): (usize, BuildQuality),
     progress: &dyn Progress,
 ) -> Result<Vec<Option<RegionMatch>>, SpaceError> {
     let count = spec.designs.len();
-    let several = Several::new(progress, count);
+    let several = ProgressShares::new(progress, count);
     let matched = |design: usize| {
         if design == hub {
             return Ok(None);
@@ -313,7 +318,7 @@ fn matches(
 
 fn truss(design: &Arc<Design>) -> Option<&Truss> {
     match &design.form {
-        Form::Truss(truss) => Some(truss),
+        DesignForm::Truss(truss) => Some(truss),
         _ => None,
     }
 }
@@ -321,15 +326,15 @@ fn truss(design: &Arc<Design>) -> Option<&Truss> {
 /// The points of what has some of its own.
 fn points(design: &Arc<Design>) -> Option<Vec<DVec2>> {
     match &design.form {
-        Form::Truss(truss) => Some(truss.nodes().to_vec()),
-        Form::Mesh(mesh) => Some(mesh.positions().to_vec()),
-        Form::Outline(_) => None,
+        DesignForm::Truss(truss) => Some(truss.nodes().to_vec()),
+        DesignForm::Mesh(mesh) => Some(mesh.positions().to_vec()),
+        DesignForm::Outline(_) => None,
     }
 }
 
 fn mesh(design: &Arc<Design>) -> Option<&TriangleMesh> {
     match &design.form {
-        Form::Mesh(mesh) => Some(mesh),
+        DesignForm::Mesh(mesh) => Some(mesh),
         _ => None,
     }
 }
@@ -340,16 +345,16 @@ fn fields(
     frame: &TransitionSpec,
     bar_width: f64,
     progress: &dyn Progress,
-) -> Result<Seen, SpaceError> {
+) -> Result<BlendContent, SpaceError> {
     checkpoint(progress, "measuring distances", 0.0)?;
     let options = &spec.options.field;
     let bounds = field_frame(frame, bar_width);
     let grid = Grid::covering(&bounds, options.cells, options.margin).map_err(BuildError::from)?;
     let cells = grid.cells() * spec.designs.len();
-    Load::Cells
+    WorkloadKind::Cells
         .allow(cells, progress)
         .map_err(BuildError::from)?;
-    let several = Several::new(progress, spec.designs.len());
+    let several = ProgressShares::new(progress, spec.designs.len());
     let field = |(k, design): (usize, &Arc<Design>)| {
         let progress = &several.part(k);
         let outline = outline(design, bar_width, progress)?;
@@ -361,7 +366,7 @@ fn fields(
     still_wanted(progress)?;
     let fields = fields.into_iter().collect::<Result<_, _>>()?;
     let set = FieldSet::new(fields, options.blend).map_err(BuildError::from)?;
-    Ok(Seen::Field(
+    Ok(BlendContent::Field(
         set.unwrap_or_else(|| unreachable!("there are designs")),
     ))
 }

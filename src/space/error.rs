@@ -1,10 +1,10 @@
 //! Why there is no space, and what was done otherwise than asked.
 
 use crate::compatible::FamilyError;
-use crate::one_line::OneLine;
-use crate::progress::Cancelled;
+use crate::io::sanitize::SanitizedLine;
 use crate::transition::BuildError;
 use crate::warp::ArapError;
+use crate::work::progress::Cancelled;
 
 /// Why designs span no space.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -35,7 +35,7 @@ pub enum SpaceError {
 #[non_exhaustive]
 pub enum SpaceNote {
     /// They are blended as fields.
-    #[error("blended as fields: {}", OneLine(.0))]
+    #[error("blended as fields: {}", SanitizedLine(.0))]
     AsFields(String),
     /// Pins and lines that do not lead on from design to design.
     #[error("{0} pins and lines are of some of the pictures alone, and lead nothing here")]

@@ -1,9 +1,9 @@
 //! Where the designs are on a map.
 
-use super::likeness::Likeness;
+use super::design_distance::DesignDistances;
 use crate::geometry::DVec2;
-use crate::linalg::symmetric_eigen;
-use crate::names::named;
+use crate::numerics::symmetric_eigen;
+use crate::settings::choice::named;
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, TAU};
 
 /// How the designs are laid out on a map.
@@ -36,7 +36,7 @@ const CROWDED: f64 = 1.3;
 impl MapLayout {
     /// A site for each design, within one unit of the origin.
     #[must_use]
-    pub fn sites(self, likeness: &Likeness) -> Vec<DVec2> {
+    pub fn sites(self, likeness: &DesignDistances) -> Vec<DVec2> {
         match self {
             Self::Polygon => polygon(likeness.count()),
             Self::Line => line(likeness.count()),
@@ -66,7 +66,7 @@ fn line(count: usize) -> Vec<DVec2> {
 
 /// Classical scaling (Torgerson 1952): the sites whose distances are nearest to the costs,
 /// in as far as the plane has room for them.
-fn scaled(likeness: &Likeness) -> Vec<DVec2> {
+fn scaled(likeness: &DesignDistances) -> Vec<DVec2> {
     let count = likeness.count();
     let squares: Vec<f64> = (0..count * count)
         .map(|at| likeness.between(at / count, at % count).powi(2))
@@ -178,7 +178,8 @@ mod tests {
                 .map(DVec2::from)
                 .to_vec()
         };
-        let likeness = Likeness::of_points(&[places(0.0), places(2.0), places(0.2), places(2.2)]);
+        let likeness =
+            DesignDistances::of_points(&[places(0.0), places(2.0), places(0.2), places(2.2)]);
         let sites = MapLayout::Likeness.sites(&likeness);
         let far = |a: usize, b: usize| sites[a].distance(sites[b]);
         assert!(far(0, 2) < far(0, 1) && far(1, 3) < far(1, 2));
@@ -190,12 +191,12 @@ mod tests {
             places(0.2),
             places(5.0),
         ];
-        let sites = MapLayout::Likeness.sites(&Likeness::of_points(&unlike));
+        let sites = MapLayout::Likeness.sites(&DesignDistances::of_points(&unlike));
         let [least, most] =
             [f64::min, f64::max].map(|of| sites.iter().map(|site| site.x).fold(0.0, of));
         assert!((least + most).abs() < 0.05 && most > 0.9, "{sites:?}");
         // The same design twice is still two.
-        let same = Likeness::of_points(&[places(0.0), places(0.0), places(1.0)]);
+        let same = DesignDistances::of_points(&[places(0.0), places(0.0), places(1.0)]);
         let sites = MapLayout::Likeness.sites(&same);
         assert!(sites[0].distance(sites[1]) > 0.2);
     }

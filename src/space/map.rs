@@ -14,12 +14,12 @@ use crate::mesh::{NaturalNeighbours, SitesError};
 /// # Ok::<(), morphospace::mesh::SitesError>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Map {
+pub struct WeightMap {
     neighbours: NaturalNeighbours,
     bounds: Bounds,
 }
 
-impl Map {
+impl WeightMap {
     /// # Errors
     /// [`SitesError`] if there is no site, or two are in one place.
     pub fn new(sites: &[DVec2]) -> Result<Self, SitesError> {
@@ -97,7 +97,7 @@ mod tests {
     #[test]
     fn the_corners_of_a_square_are_the_corners_of_its_grid() {
         let sites = [(-1.0, 1.0), (1.0, 1.0), (1.0, -1.0), (-1.0, -1.0)].map(DVec2::from);
-        let map = Map::new(&sites).expect("sites");
+        let map = WeightMap::new(&sites).expect("sites");
         let grid = map.grid(3, 5);
         assert_eq!(grid.len(), 15);
         assert_eq!([0, 2, 14, 12].map(|at| grid[at]), sites.map(Some));
@@ -106,11 +106,11 @@ mod tests {
 
     #[test]
     fn there_is_nothing_beside_a_triangle_and_a_line_is_one_row() {
-        let map = Map::new(&[DVec2::Y, DVec2::new(1.0, -1.0), DVec2::new(-1.0, -1.0)]);
+        let map = WeightMap::new(&[DVec2::Y, DVec2::new(1.0, -1.0), DVec2::new(-1.0, -1.0)]);
         let grid = map.expect("sites").grid(9, 9);
         assert_eq!((grid[0], grid[8]), (None, None));
         assert_eq!(grid[4], Some(DVec2::Y));
-        let line = Map::new(&[DVec2::NEG_X, DVec2::ZERO, DVec2::X]).expect("sites");
+        let line = WeightMap::new(&[DVec2::NEG_X, DVec2::ZERO, DVec2::X]).expect("sites");
         let grid = line.grid(5, 1);
         assert!(grid.iter().all(Option::is_some));
         assert_eq!(grid[2], Some(DVec2::ZERO));

@@ -1,6 +1,6 @@
 //! A path over a map: smooth, through places, some of which are stops.
 
-use crate::geometry::{DVec2, along_segment};
+use crate::geometry::{DVec2, nearest_segment_parameter};
 use serde::{Deserialize, Serialize};
 
 /// A place that a path goes through.
@@ -73,14 +73,14 @@ impl MapPath {
 /// The curve of a path, by its length.
 #[derive(Clone, Debug)]
 pub struct MapCurve {
-    spans: Vec<Span>,
+    spans: Vec<CurveSpan>,
     /// For each leg the numbers of its first span and of that behind its last.
     legs: Vec<[usize; 2]>,
 }
 
 /// From one place to the next.
 #[derive(Clone, Debug)]
-struct Span {
+struct CurveSpan {
     /// Coefficients of 1, u, u² and u³, u in [0, 1].
     cubic: [DVec2; 4],
     /// The place at u = 1, to the last bit: it may be a design's site.
@@ -92,7 +92,7 @@ struct Span {
 /// Pieces of a span whose lengths are added: with more, nothing moves by a pixel.
 const STEPS: usize = 32;
 
-impl Span {
+impl CurveSpan {
     fn new(cubic: [DVec2; 4], end: DVec2) -> Self {
         let mut span = Self {
             cubic,
@@ -145,7 +145,7 @@ impl MapCurve {
             return None;
         }
         let places: Vec<DVec2> = path.places.iter().map(|place| place.at).collect();
-        let spans = (1..places.len()).map(|k| Span::new(cubic(&places, k), places[k]));
+        let spans = (1..places.len()).map(|k| CurveSpan::new(cubic(&places, k), places[k]));
         Some(Self {
             spans: spans.collect(),
             legs,
@@ -161,7 +161,7 @@ impl MapCurve {
     /// How long a leg is.
     #[must_use]
     pub fn length(&self, leg: usize) -> f64 {
-        self.of(leg).iter().map(Span::length).sum()
+        self.of(leg).iter().map(CurveSpan::length).sum()
     }
 
     /// The place at a share of a leg's length; beyond its ends straight on.
@@ -191,11 +191,11 @@ impl MapCurve {
     /// Where it is at a t that counts the stops, from 0.
     #[must_use]
     pub fn at(&self, t: f64) -> DVec2 {
-        let (leg, share) = crate::transition::place(self.legs.len(), t);
+        let (leg, share) = crate::transition::segment_at(self.legs.len(), t);
         self.place(leg, share)
     }
 
-    fn of(&self, leg: usize) -> &[Span] {
+    fn of(&self, leg: usize) -> &[CurveSpan] {
         let [from, to] = self.legs[leg];
         &self.spans[from..to]
     }
@@ -208,7 +208,7 @@ pub fn thinned(line: &[DVec2], off: f64) -> Vec<DVec2> {
     let (Some(&first), Some(&last)) = (line.first(), line.last()) else {
         return Vec::new();
     };
-    let far = |p: &DVec2| p.distance(first.lerp(last, along_segment(*p, first, last)));
+    let far = |p: &DVec2| p.distance(first.lerp(last, nearest_segment_parameter(*p, first, last)));
     let within = line.iter().enumerate().take(line.len() - 1).skip(1);
     let worst = within.max_by(|a, b| far(a.1).total_cmp(&far(b.1)));
     match worst {

@@ -1,9 +1,9 @@
 use super::*;
 use crate::content::ContentKind;
-use crate::design::{Design, Form, Truss};
+use crate::design::{Design, DesignForm, Truss};
 use crate::geometry::{Bounds, DVec2};
-use crate::progress::{Cancelled, Progress, Silent};
-use crate::transition::{BuildError, Cell, Transition, TransitionSpec};
+use crate::transition::{BuildError, Transition, TransitionMethod, TransitionSpec};
+use crate::work::progress::{Cancelled, Progress, Silent};
 use proptest::prelude::*;
 use std::sync::Arc;
 
@@ -48,8 +48,8 @@ fn truss(name: &str, height: f64) -> Arc<Design> {
     Arc::new(Design::new(name, truss))
 }
 
-fn space(designs: Vec<Arc<Design>>) -> Space {
-    Space::build(&SpaceSpec::new(designs), &Silent).expect("a space")
+fn space(designs: Vec<Arc<Design>>) -> DesignSpace {
+    DesignSpace::build(&SpaceSpec::new(designs), &Silent).expect("a space")
 }
 
 fn corner(count: usize, at: usize) -> Vec<f64> {
@@ -110,7 +110,7 @@ fn trusses_are_blended_bar_by_bar() {
     let height = figure.bars[2][1].y - figure.bars[2][0].y;
     assert!((2.0..4.0).contains(&height), "{height}");
     frame.seek(&corner(3, 1));
-    let Form::Truss(high) = &space.designs()[1].form else {
+    let DesignForm::Truss(high) = &space.designs()[1].form else {
         panic!("a truss");
     };
     let drawn: Vec<_> = high.segments().collect();
@@ -135,7 +135,7 @@ fn what_has_no_common_mesh_is_blended_as_fields() {
         content: Some(ContentKind::Solid),
         ..SpaceSpec::new(designs())
     };
-    let error = Space::build(&spec, &Silent).expect_err("no common mesh");
+    let error = DesignSpace::build(&spec, &Silent).expect_err("no common mesh");
     assert!(matches!(error, SpaceError::NoFamily(_)), "{error}");
     // The frames alone have one.
     let alone = space(vec![frame("thin", 2.5), frame("thick", 1.0)]);
@@ -152,12 +152,12 @@ fn what_is_too_much_to_match_is_blended_as_fields() {
     let disc = Arc::new(Design::of_rings("disc", [ring]).expect("a disc"));
     let mut spec = SpaceSpec::new(vec![star("star", 5, 1.5), disc]);
     spec.options.field.cells = 32;
-    let space = Space::build(&spec, &Silent).expect("fields");
+    let space = DesignSpace::build(&spec, &Silent).expect("fields");
     assert!(space.family().is_none());
     let told = space.notes()[0].to_string();
     assert!(told.contains("points of outlines take longer"), "{told}");
     spec.content = Some(ContentKind::Solid);
-    let error = Space::build(&spec, &Silent).expect_err("too much");
+    let error = DesignSpace::build(&spec, &Silent).expect_err("too much");
     assert!(matches!(error, SpaceError::NoFamily(_)), "{error}");
 }
 
@@ -168,9 +168,9 @@ fn fields_of_two_are_the_pair() {
         content: Some(ContentKind::Field),
         ..SpaceSpec::new(vec![a.clone(), b.clone()])
     };
-    let space = Space::build(&spec, &Silent).expect("a space");
+    let space = DesignSpace::build(&spec, &Silent).expect("a space");
     let mut pair = TransitionSpec::new(a, b);
-    pair.cell = Cell::FIELD_BLEND;
+    pair.cell = TransitionMethod::FIELD_BLEND;
     let pair = Transition::build(&pair, &Silent).expect("a pair");
     let mut frame = space.frame();
     for t in [0.0, 0.3, 1.0, 1.2] {
@@ -193,20 +193,20 @@ fn weights_that_do_not_sum_to_one_are_made_to() {
 #[test]
 fn too_few_designs_and_a_cancel_are_told() {
     let build = |designs: Vec<Arc<Design>>, progress: &dyn Progress| {
-        Space::build(&SpaceSpec::new(designs), progress)
+        DesignSpace::build(&SpaceSpec::new(designs), progress)
     };
     let one = build(vec![star("a", 5, 1.0)], &Silent);
     assert!(matches!(one, Err(SpaceError::TooFew(1))));
     #[derive(Debug)]
-    struct Never;
-    impl Progress for Never {
+    struct NeverReady;
+    impl Progress for NeverReady {
         fn report(&self, _: &'static str, _: f64) {}
         fn is_cancelled(&self) -> bool {
             true
         }
     }
     let designs = vec![star("a", 5, 1.0), star("b", 6, 1.0), frame("c", 1.0)];
-    let cancelled = build(designs, &Never);
+    let cancelled = build(designs, &NeverReady);
     let is_cancel = matches!(
         cancelled,
         Err(SpaceError::Cancelled(Cancelled) | SpaceError::Build(BuildError::Cancelled(Cancelled)))
@@ -250,7 +250,7 @@ fn a_path_is_a_film_of_the_blends_that_it_comes_by() {
         star("b", 6, 0.8),
         star("c", 4, 1.0),
     ]);
-    let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("a map");
+    let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness())).expect("a map");
     let sites = map.sites();
     let path = walk(&[sites[0], DVec2::new(0.1, 0.2), sites[2]]);
     let film = space.film(&map, &path, &Silent).expect("a film");
@@ -280,7 +280,7 @@ fn a_path_is_a_film_of_the_blends_that_it_comes_by() {
     );
     assert!(first.compatible().is_some() && first.arap().is_none());
     // It is smooth, and so it can be played from memory.
-    let recorded = first.record(&crate::film::FilmOptions::default(), &Silent);
+    let recorded = first.record(&crate::recording::RecordingOptions::default(), &Silent);
     assert!(recorded.is_ok(), "{recorded:?}");
 }
 
@@ -290,8 +290,8 @@ fn a_path_through_fields_is_what_the_map_shows() {
         content: Some(ContentKind::Field),
         ..SpaceSpec::new(vec![star("a", 5, 1.5), frame("b", 1.0), star("c", 4, 2.0)])
     };
-    let space = Space::build(&spec, &Silent).expect("a space");
-    let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("a map");
+    let space = DesignSpace::build(&spec, &Silent).expect("a space");
+    let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness())).expect("a map");
     let sites = map.sites();
     let film = space.film(&map, &walk(&[sites[1], sites[2], DVec2::ZERO]), &Silent);
     let film = film.expect("a film");
@@ -322,19 +322,19 @@ fn a_path_through_fields_is_what_the_map_shows() {
 #[test]
 fn trusses_go_along_a_path_with_their_bars() {
     let space = space(vec![truss("a", 1.0), truss("b", 2.0), truss("c", 3.0)]);
-    let map = Map::new(&MapLayout::Line.sites(space.likeness())).expect("a map");
+    let map = WeightMap::new(&MapLayout::Line.sites(space.likeness())).expect("a map");
     let film = space.film(&map, &walk(&[DVec2::NEG_X, DVec2::new(0.5, 0.0)]), &Silent);
     let film = film.expect("a film");
     let frame = film.frame(1.0);
     assert_eq!(frame.now().figure().bars.len(), 7);
-    let Form::Truss(end) = &film.legs()[0].designs()[1].form else {
+    let DesignForm::Truss(end) = &film.legs()[0].designs()[1].form else {
         panic!("no truss");
     };
     assert_eq!(end.bars().len(), 7);
     // Other sites than designs, or no path, is no film.
     let none = space.film(&map, &MapPath::default(), &Silent);
     assert!(matches!(none, Err(SpaceError::NoPath)));
-    let other = Map::new(&[DVec2::ZERO, DVec2::X]).expect("a map");
+    let other = WeightMap::new(&[DVec2::ZERO, DVec2::X]).expect("a map");
     let none = space.film(&other, &walk(&[DVec2::ZERO, DVec2::X]), &Silent);
     assert!(matches!(none, Err(SpaceError::NoPath)));
 }

@@ -11,33 +11,34 @@ use bevy::prelude::*;
 use bevy::tasks::futures::check_ready;
 use bevy::tasks::{AsyncComputeTaskPool, Task};
 
-use crate::design::{Design, Form};
+use crate::design::{Design, DesignForm};
 use crate::mesh::TriangleMesh;
-use crate::progress::Progress;
-use crate::space::Steered;
+use crate::space::SteeredTransition;
 use crate::transition::{BuildError, Transition, TransitionSpec};
 use crate::warp::ArapOptions;
+use crate::work::progress::Progress;
 
 use super::components::{
     Blend, BuildFailed, Morph, MorphOptions, SourceMesh, StageTransition, TargetMesh,
 };
-use super::dress::Undressed;
-use super::family::{self, MeshFamily, Steering};
+use super::mesh_family;
+use super::mesh_family::{FamilySteering, MeshFamily};
+use super::part_assembly::WithoutParts;
 
 /// A build that is running. Dropping it (with its entity, or for a newer one)
 /// cancels the build.
 #[derive(Component)]
-pub(super) struct Building {
-    task: Task<Result<Built, BuildError>>,
-    wanted: Arc<Wanted>,
+pub(super) struct TransitionBuild {
+    task: Task<Result<BuildOutcome, BuildError>>,
+    wanted: Arc<BuildRequest>,
 }
 
-impl Building {
+impl TransitionBuild {
     /// Starts it on the pool.
     pub(super) fn start(
-        work: impl FnOnce(&dyn Progress) -> Result<Built, BuildError> + Send + 'static,
+        work: impl FnOnce(&dyn Progress) -> Result<BuildOutcome, BuildError> + Send + 'static,
     ) -> Self {
-        let wanted = Arc::new(Wanted(AtomicBool::new(true)));
+        let wanted = Arc::new(BuildRequest(AtomicBool::new(true)));
         // The task owns a share of the flag: it may outlive the entity.
         let progress = Arc::clone(&wanted);
         let task = AsyncComputeTaskPool::get().spawn(async move { work(&*progress) });
@@ -46,23 +47,23 @@ impl Building {
 }
 
 /// What comes of it.
-pub(super) enum Built {
+pub(super) enum BuildOutcome {
     /// Of two meshes.
     Pair(Transition),
     /// Of many.
-    Family(Steered),
+    Family(SteeredTransition),
 }
 
-impl Drop for Building {
+impl Drop for TransitionBuild {
     fn drop(&mut self) {
         // No other memory hangs on the flag.
         self.wanted.0.store(false, Ordering::Relaxed);
     }
 }
 
-struct Wanted(AtomicBool);
+struct BuildRequest(AtomicBool);
 
-impl Progress for Wanted {
+impl Progress for BuildRequest {
     fn report(&self, _stage: &'static str, _fraction: f64) {}
 
     fn is_cancelled(&self) -> bool {
@@ -90,7 +91,8 @@ pub(super) fn start_builds(
         let (source, target) = (source.0.clone(), target.0.clone());
         let options = options.0.clone();
         let work = move |progress: &dyn Progress| build(source, target, options, progress);
-        let building = Building::start(move |progress| work(progress).map(Built::Pair));
+        let building =
+            TransitionBuild::start(move |progress| work(progress).map(BuildOutcome::Pair));
         commands.entity(entity).try_insert(building);
     }
 }
@@ -102,8 +104,9 @@ pub(super) fn start_families(
 ) {
     for (entity, MeshFamily(meshes)) in &changed {
         let meshes = meshes.clone();
-        let building =
-            Building::start(move |progress| family::build(meshes, progress).map(Built::Family));
+        let building = TransitionBuild::start(move |progress| {
+            mesh_family::build(meshes, progress).map(BuildOutcome::Family)
+        });
         commands.entity(entity).try_insert(building);
     }
 }
@@ -124,7 +127,7 @@ fn build(
 /// Takes in what has been built.
 pub(super) fn finish_builds(
     mut commands: Commands,
-    mut building: Query<(Entity, &mut Building, Option<&Blend>)>,
+    mut building: Query<(Entity, &mut TransitionBuild, Option<&Blend>)>,
 ) {
     for (entity, mut building, blend) in &mut building {
         let Some(result) = check_ready(&mut building.task) else {
@@ -132,22 +135,22 @@ pub(super) fn finish_builds(
         };
         // The entity may be gone when commands are applied: all of them only
         // try.
-        commands.entity(entity).try_remove::<Building>();
+        commands.entity(entity).try_remove::<TransitionBuild>();
         match result {
-            Ok(Built::Pair(transition)) => {
+            Ok(BuildOutcome::Pair(transition)) => {
                 let t = blend.map_or(0.0, |blend| blend.t);
                 let morph = Morph(transition.frame(t));
                 let mut entity = commands.entity(entity);
-                entity.try_remove::<Steering>();
-                entity.try_insert((morph, Undressed));
+                entity.try_remove::<FamilySteering>();
+                entity.try_insert((morph, WithoutParts));
             }
-            Ok(Built::Family(steered)) => {
+            Ok(BuildOutcome::Family(steered)) => {
                 // Sought to its weights before anybody sees it.
                 let morph = Morph(steered.transition().frame(0.0));
-                let steering = Steering(steered);
+                let steering = FamilySteering(steered);
                 commands
                     .entity(entity)
-                    .try_insert((morph, steering, Undressed));
+                    .try_insert((morph, steering, WithoutParts));
             }
             Err(error) => commands.trigger(BuildFailed { entity, error }),
         }
@@ -165,8 +168,8 @@ pub(super) fn adopt_transitions(
         entity
             // A build under way would put its own frame in place of this one
             // later.
-            .try_remove::<Building>()
-            .try_insert((morph, Undressed));
+            .try_remove::<TransitionBuild>()
+            .try_insert((morph, WithoutParts));
         match transition.compatible().and_then(|_| meshes(transition)) {
             Some(meshes) => entity.try_insert(meshes),
             // Those of the transition before this one would be stale.
@@ -180,7 +183,7 @@ pub(super) fn adopt_transitions(
 /// are no mesh; such a transition stands on the stage without.
 fn meshes(transition: &Transition) -> Option<(SourceMesh, TargetMesh)> {
     let [source, target] = transition.designs();
-    if let (Form::Mesh(source), Form::Mesh(target)) = (&source.form, &target.form) {
+    if let (DesignForm::Mesh(source), DesignForm::Mesh(target)) = (&source.form, &target.form) {
         return Some((SourceMesh(source.clone()), TargetMesh(target.clone())));
     }
     let compatible = transition.compatible()?;

@@ -3,7 +3,7 @@
 use bevy::camera::CompositingSpace;
 use bevy::prelude::*;
 
-use super::view::StageView;
+use super::stage_view::StageView;
 
 /// Marks a camera that shows what [`StageView`] says.
 ///

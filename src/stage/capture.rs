@@ -21,7 +21,7 @@ use crate::geometry::Bounds;
 
 use super::components::Blend;
 use super::pipelines::PipelinesReady;
-use super::view::{StageView, units_per_px};
+use super::stage_view::{StageView, units_per_px};
 
 /// Frames to wait for the graphics card before a capture is given up: twenty
 /// seconds at 60 a second. Longer and a user waits for nothing, shorter and a
@@ -55,9 +55,9 @@ pub struct StageCaptured {
 
 /// Captures that are under way.
 #[derive(Resource, Default)]
-pub(super) struct Captures(Vec<Capture>);
+pub(super) struct PendingCaptures(Vec<CaptureTarget>);
 
-struct Capture {
+struct CaptureTarget {
     id: u64,
     camera: Entity,
     image: Handle<Image>,
@@ -67,7 +67,7 @@ struct Capture {
 }
 
 /// What a picture is made with; all of it is missing without a renderer.
-type Graphics<'w> = (
+type RenderAccess<'w> = (
     Option<ResMut<'w, Assets<Image>>>,
     Option<Res<'w, RenderDevice>>,
     Option<Res<'w, PipelinesReady>>,
@@ -78,8 +78,8 @@ pub(super) fn begin_captures(
     mut commands: Commands,
     mut requests: MessageReader<CaptureStage>,
     mut answers: MessageWriter<StageCaptured>,
-    mut captures: ResMut<Captures>,
-    graphics: Graphics,
+    mut captures: ResMut<PendingCaptures>,
+    graphics: RenderAccess,
     view: Res<StageView>,
 ) {
     let (Some(mut images), Some(device), Some(ready)) = graphics else {
@@ -109,7 +109,7 @@ pub(super) fn begin_captures(
         // Other pipelines than the window's may be wanted: its format is
         // another.
         ready.start_over();
-        captures.0.push(Capture {
+        captures.0.push(CaptureTarget {
             id: request.id,
             camera,
             image,
@@ -156,7 +156,7 @@ fn camera(request: &CaptureStage, image: &Handle<Image>, anchor: glam::DVec2) ->
 pub(super) fn advance_captures(
     mut commands: Commands,
     mut answers: MessageWriter<StageCaptured>,
-    mut captures: ResMut<Captures>,
+    mut captures: ResMut<PendingCaptures>,
     ready: Option<Res<PipelinesReady>>,
     blends: Query<&Blend>,
 ) {
@@ -186,9 +186,9 @@ fn finish_capture(
     shot: On<ScreenshotCaptured>,
     mut commands: Commands,
     mut answers: MessageWriter<StageCaptured>,
-    mut captures: ResMut<Captures>,
+    mut captures: ResMut<PendingCaptures>,
 ) {
-    let is_it = |capture: &Capture| capture.shot == Some(shot.entity);
+    let is_it = |capture: &CaptureTarget| capture.shot == Some(shot.entity);
     // It was given up in the meantime, and has its answer.
     let Some(index) = captures.0.iter().position(is_it) else {
         return;

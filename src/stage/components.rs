@@ -8,7 +8,7 @@
 use bevy::prelude::*;
 
 use crate::mesh::TriangleMesh;
-use crate::transition::{BuildError, Frame, Style, Transition};
+use crate::transition::{BuildError, Frame, Transition, TransitionStyle};
 use crate::warp::ArapOptions;
 
 /// The design at t = 0, as triangles. Together with a [`TargetMesh`] of the
@@ -82,15 +82,15 @@ pub struct StageTransition(pub Transition);
 pub struct StageStyle {
     /// Colours, shared with the exporters.
     #[reflect(ignore, clone)]
-    pub style: Style,
+    pub style: TransitionStyle,
     /// What is shown.
-    pub show: Show,
+    pub show: StageVisibility,
 }
 
 /// What of a transition is shown; what does not apply to it is ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Reflect)]
 #[reflect(Clone, Debug, Default, PartialEq)]
-pub struct Show {
+pub struct StageVisibility {
     /// The filled form (solids and fields).
     pub fill: bool,
     /// The edges of the triangulation.
@@ -108,7 +108,7 @@ pub struct Show {
     pub grid: bool,
 }
 
-impl Default for Show {
+impl Default for StageVisibility {
     fn default() -> Self {
         Self {
             fill: true,

@@ -13,12 +13,12 @@ use bevy::platform::collections::HashSet;
 use bevy::prelude::*;
 
 use crate::design::{Design, ImportError, ImportOptions, extensions, import};
-use crate::progress::Progress;
 use crate::transition::{BuildError, Transition, TransitionSpec};
+use crate::work::progress::Progress;
 
-use super::build::{Building, Built};
+use super::build::{BuildOutcome, TransitionBuild};
 use super::components::{Blend, BuildFailed, StageStyle};
-use super::family::{BlendWeights, steered};
+use super::mesh_family::{BlendWeights, steered};
 
 /// A design of a file, as `AssetServer::load` reads it: every format that
 /// [`import`](crate::design::import) knows, with its [`ImportOptions`] as settings.
@@ -126,18 +126,18 @@ pub(super) fn start_designs(
         }
         let all = ids().map(|id| assets.get(id).map(|asset| Arc::clone(&asset.0)));
         if let Some(all) = all.collect::<Option<Vec<_>>>() {
-            let building = Building::start(move |progress| build(all, progress));
+            let building = TransitionBuild::start(move |progress| build(all, progress));
             commands.entity(entity).try_insert(building);
         }
     }
 }
 
-fn build(designs: Vec<Arc<Design>>, progress: &dyn Progress) -> Result<Built, BuildError> {
+fn build(designs: Vec<Arc<Design>>, progress: &dyn Progress) -> Result<BuildOutcome, BuildError> {
     match <[_; 2]>::try_from(designs) {
         Ok([source, target]) => {
             let spec = TransitionSpec::new(source, target);
-            Transition::build(&spec, progress).map(Built::Pair)
+            Transition::build(&spec, progress).map(BuildOutcome::Pair)
         }
-        Err(designs) => steered(designs, progress).map(Built::Family),
+        Err(designs) => steered(designs, progress).map(BuildOutcome::Family),
     }
 }

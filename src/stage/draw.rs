@@ -11,32 +11,32 @@ use bevy::render::render_resource::Buffer;
 use crate::content::Content;
 use crate::transition::Frame;
 
-use super::colours::ColourLook;
 use super::components::{Morph, StageStyle};
-use super::field::{FieldKind, FieldLook, FieldMaterial};
-use super::grid::GridLook;
-use super::ink::linear;
-use super::paint::{Paint, Paints};
-use super::parts::{Part, PartKind, Unmade};
-use super::played::{PlayedMaterial, Sum};
-use super::reels::Sent;
-use super::times::FrameTimes;
+use super::field_material::{FieldKind, FieldLook, FieldMaterial};
+use super::frame_times::FrameTimes;
+use super::ink_material::linear;
+use super::paint::{StagePaint, StagePaints};
+use super::parts::{MissingParts, PartKind, StagePart};
+use super::picture_material::ColourLook;
+use super::recorded_material::{PlayedMaterial, RecordedSum};
+use super::uploaded_recording::UploadState;
+use super::warp_grid::GridLook;
 
-type Roots = (
+type DrawnRoots = (
     Ref<'static, Morph>,
     Ref<'static, StageStyle>,
     &'static Children,
-    Option<&'static Sent>,
+    Option<&'static UploadState>,
 );
 
 /// A frame, or how it looks, or what shows it, is new.
-type Changes = Or<(Changed<Morph>, Changed<StageStyle>, Changed<Children>)>;
+type DrawChanges = Or<(Changed<Morph>, Changed<StageStyle>, Changed<Children>)>;
 
 /// Writes vertices and materials.
 pub(super) fn draw_morphs(
-    roots: Query<Roots, Changes>,
-    mut parts: Query<(&mut Part, &mut Visibility, &Mesh2d)>,
-    mut paints: Paints,
+    roots: Query<DrawnRoots, DrawChanges>,
+    mut parts: Query<(&mut StagePart, &mut Visibility, &Mesh2d)>,
+    mut paints: StagePaints,
     mut times: ResMut<FrameTimes>,
 ) {
     let start = Instant::now();
@@ -58,7 +58,7 @@ pub(super) fn draw_morphs(
             if !is_shown {
                 continue;
             }
-            if let Some(Unmade(make)) = part.unmade.take() {
+            if let Some(MissingParts(make)) = part.unmade.take() {
                 // It stands for this part alone, and for as long.
                 paints.meshes.insert(mesh, make(frame)).ok();
             }
@@ -82,10 +82,16 @@ pub(super) fn draw_morphs(
 }
 
 /// Brings a part's material up to the frame.
-fn paint(part: &Part, frame: &Frame, style: &StageStyle, sent: Option<&Sent>, paints: &mut Paints) {
+fn paint(
+    part: &StagePart,
+    frame: &Frame,
+    style: &StageStyle,
+    sent: Option<&UploadState>,
+    paints: &mut StagePaints,
+) {
     let (t, origin) = (frame.t(), part.origin);
     match (&part.paint, frame.transition().content()) {
-        (Paint::Ink(ink), _) => {
+        (StagePaint::Ink(ink), _) => {
             let colour = linear(part.kind.colour(t, style));
             renew(&mut paints.inks, ink, |ink| &mut ink.colour, colour);
             if let PartKind::Coats(coats) = &part.kind {
@@ -93,7 +99,7 @@ fn paint(part: &Part, frame: &Frame, style: &StageStyle, sent: Option<&Sent>, pa
                 renew(&mut paints.inks, ink, |ink| &mut ink.gradients, gradients);
             }
         }
-        (Paint::Played(played), _) => {
+        (StagePaint::Played(played), _) => {
             let colour = linear(part.kind.colour(t, style));
             renew(&mut paints.played, played, |part| &mut part.colour, colour);
             let sum = match sent.and_then(|sent| sent.at(t)) {
@@ -101,15 +107,15 @@ fn paint(part: &Part, frame: &Frame, style: &StageStyle, sent: Option<&Sent>, pa
                     change_reel(&mut paints.played, played, reel);
                     sum
                 }
-                None => Sum::default(),
+                None => RecordedSum::default(),
             };
             renew(&mut paints.played, played, |part| &mut part.sum, sum);
         }
-        (Paint::Grid(grid), _) => {
+        (StagePaint::Grid(grid), _) => {
             let look = GridLook::new(frame, origin, style);
             renew(&mut paints.grids, grid, |grid| &mut grid.look, look);
         }
-        (Paint::Field(field), Content::Field(fields)) => {
+        (StagePaint::Field(field), Content::Field(fields)) => {
             let (pair, within) = fields.place(t);
             change_pair(&mut paints.fields, field, pair);
             let look = FieldLook::new(&fields.pairs()[pair], within, t, style);
@@ -117,12 +123,12 @@ fn paint(part: &Part, frame: &Frame, style: &StageStyle, sent: Option<&Sent>, pa
             let kind = FieldKind::new(fields, style);
             renew(&mut paints.fields, field, |field| &mut field.kind, kind);
         }
-        (Paint::Picture(picture), Content::Colours(pair)) => {
+        (StagePaint::Picture(picture), Content::Colours(pair)) => {
             let look = ColourLook::new(pair, t, origin);
             renew(&mut paints.colours, picture, |part| &mut part.look, look);
         }
         // An entity has parts of one transition only.
-        (Paint::Field(_) | Paint::Picture(_), _) => {}
+        (StagePaint::Field(_) | StagePaint::Picture(_), _) => {}
     }
 }
 

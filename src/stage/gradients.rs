@@ -5,7 +5,7 @@ use bevy::prelude::*;
 use bevy::render::render_resource::ShaderType;
 use glam::{DAffine2, DVec2};
 
-use crate::colour::{Course, Gradient, Paint, Spread};
+use crate::colour::{Gradient, GradientGeometry, GradientSpread, Paint};
 
 /// How many numbers there are, four at a time: a gradient takes two of them, and two for
 /// each stop. What has no place any more shows its mean.
@@ -13,11 +13,11 @@ const ROOM: usize = 512;
 
 /// All gradients of a frame.
 #[derive(Clone, Debug, PartialEq, ShaderType)]
-pub(super) struct Gradients {
+pub(super) struct GradientTextures {
     numbers: [Vec4; ROOM],
 }
 
-impl Default for Gradients {
+impl Default for GradientTextures {
     fn default() -> Self {
         Self {
             numbers: [Vec4::ZERO; ROOM],
@@ -27,8 +27,8 @@ impl Default for Gradients {
 
 /// Gradients as they are put into the table.
 #[derive(Default)]
-pub(super) struct Table {
-    pub(super) gradients: Gradients,
+pub(super) struct GradientTable {
+    pub(super) gradients: GradientTextures,
     /// Where each begins.
     firsts: Vec<usize>,
     taken: usize,
@@ -36,27 +36,27 @@ pub(super) struct Table {
 
 /// A gradient in the table.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Shaded {
+pub(super) struct ShadedFaces {
     first: usize,
     /// From the plane to the gradient's own space.
     into: DAffine2,
 }
 
-impl Table {
+impl GradientTable {
     /// Puts a gradient in, if there is room and it is not flat.
-    pub(super) fn put(&mut self, gradient: &Gradient) -> Option<Shaded> {
+    pub(super) fn put(&mut self, gradient: &Gradient) -> Option<ShadedFaces> {
         let into = gradient.frame.inverse();
         if !into.is_finite() || gradient.stops.is_empty() {
             return None;
         }
         let spread = match gradient.spread {
-            Spread::Pad => 0.0,
-            Spread::Reflect => 1.0,
-            Spread::Repeat => 2.0,
+            GradientSpread::Pad => 0.0,
+            GradientSpread::Reflect => 1.0,
+            GradientSpread::Repeat => 2.0,
         };
         let (kind, focus, inner) = match gradient.course {
-            Course::Straight => (0.0, DVec2::ZERO, 0.0),
-            Course::Round { focus, inner } => (1.0, focus, inner),
+            GradientGeometry::Straight => (0.0, DVec2::ZERO, 0.0),
+            GradientGeometry::Round { focus, inner } => (1.0, focus, inner),
         };
         let head = Vec4::new(kind, spread, gradient.stops.len() as f32, inner as f32);
         let focus = focus.as_vec2().extend(0.0).extend(0.0);
@@ -65,7 +65,7 @@ impl Table {
             [encoded(stop.paint), at]
         });
         let numbers: Vec<Vec4> = [head, focus].into_iter().chain(stops).collect();
-        Some(Shaded {
+        Some(ShadedFaces {
             first: self.put_numbers(&numbers)?,
             into,
         })
@@ -90,7 +90,7 @@ impl Table {
     }
 }
 
-impl Shaded {
+impl ShadedFaces {
     /// What stands in the place of a colour: no opacity is negative.
     pub(super) fn mark(&self) -> [f32; 4] {
         [self.first as f32, 0.0, 0.0, -1.0]
@@ -111,21 +111,21 @@ fn encoded(paint: Paint) -> Vec4 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::colour::{Rgb, Stop};
+    use crate::colour::{GradientStop, Rgb};
 
     #[test]
     fn what_has_no_room_is_left_out() {
-        let stop = |at: f64| Stop {
+        let stop = |at: f64| GradientStop {
             at,
             paint: Rgb([9; 3]).into(),
         };
         let gradient = |count: u32| Gradient {
-            course: Course::Straight,
+            course: GradientGeometry::Straight,
             frame: DAffine2::from_scale(DVec2::splat(2.0)),
             stops: (0..count).map(|k| stop(f64::from(k) / 300.0)).collect(),
-            spread: Spread::Pad,
+            spread: GradientSpread::Pad,
         };
-        let mut table = Table::default();
+        let mut table = GradientTable::default();
         assert!(table.put(&gradient(0)).is_none());
         let first = table.put(&gradient(200)).expect("room");
         assert_eq!(first.place(DVec2::new(1.0, 4.0)), [0.5, 2.0]);

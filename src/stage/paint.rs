@@ -4,15 +4,15 @@
 use bevy::ecs::system::SystemParam;
 use bevy::prelude::*;
 
-use super::colours::ColourMaterial;
-use super::field::FieldMaterial;
-use super::grid::GridMaterial;
-use super::ink::InkMaterial;
-use super::played::PlayedMaterial;
+use super::field_material::FieldMaterial;
+use super::ink_material::InkMaterial;
+use super::picture_material::ColourMaterial;
+use super::recorded_material::PlayedMaterial;
+use super::warp_grid::GridMaterial;
 
 /// The material of a part.
 #[derive(Clone, Debug)]
-pub(super) enum Paint {
+pub(super) enum StagePaint {
     Ink(Handle<InkMaterial>),
     Played(Handle<PlayedMaterial>),
     Field(Handle<FieldMaterial>),
@@ -22,7 +22,7 @@ pub(super) enum Paint {
 
 /// All that is drawn with.
 #[derive(SystemParam)]
-pub(super) struct Paints<'w> {
+pub(super) struct StagePaints<'w> {
     pub(super) meshes: ResMut<'w, Assets<Mesh>>,
     pub(super) images: ResMut<'w, Assets<Image>>,
     pub(super) inks: ResMut<'w, Assets<InkMaterial>>,

@@ -10,34 +10,34 @@ use crate::export::joint_core;
 use crate::transition::Frame;
 use crate::warp::WarpKind;
 
-use super::carried;
-use super::coats::Coats;
+use super::carried_mesh;
 use super::components::StageStyle;
-use super::fill;
-use super::ink::InkKind;
-use super::paint::Paint;
-use super::reels::Sent;
-use super::shapes::{BarShapes, positions, write_corners, write_points};
-use super::view::StageView;
+use super::ink_material::InkKind;
+use super::paint::StagePaint;
+use super::paint_layers::LayerMesh;
+use super::ring_fill;
+use super::stage_view::StageView;
+use super::uploaded_recording::UploadState;
+use super::vertices::{BarShapes, positions, write_corners, write_points};
 
 /// A render entity of a transition.
 #[derive(Component, Debug)]
-pub(super) struct Part {
+pub(super) struct StagePart {
     pub(super) kind: PartKind,
-    pub(super) paint: Paint,
+    pub(super) paint: StagePaint,
     /// The point of the plane that the vertices are relative to.
     pub(super) origin: DVec2,
     /// How its mesh is made, once it is shown.
-    pub(super) unmade: Option<Unmade>,
+    pub(super) unmade: Option<MissingParts>,
     /// The vertices are not those of the frame: they have not been written
     /// since the frame moved.
     pub(super) stale: bool,
 }
 
 /// A mesh that has not been wanted yet.
-pub(super) struct Unmade(pub(super) Box<dyn FnOnce(&Frame) -> Mesh + Send + Sync>);
+pub(super) struct MissingParts(pub(super) Box<dyn FnOnce(&Frame) -> Mesh + Send + Sync>);
 
-impl fmt::Debug for Unmade {
+impl fmt::Debug for MissingParts {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Unmade")
     }
@@ -50,7 +50,7 @@ pub(super) enum PartKind {
     /// Boundaries that bring no faces, or more holes than those.
     Rings,
     /// Faces or boundaries in several paints.
-    Coats(Coats),
+    Coats(LayerMesh),
     Field,
     Picture,
     Bars(BarShapes),
@@ -134,11 +134,11 @@ impl PartKind {
     }
 }
 
-impl Part {
+impl StagePart {
     /// Whether the graphics card knows where its vertices are at `t`.
-    pub(super) fn is_played(&self, sent: Option<&Sent>, t: f64) -> bool {
+    pub(super) fn is_played(&self, sent: Option<&UploadState>, t: f64) -> bool {
         let is_there = sent.is_some_and(|sent| sent.shows(t));
-        is_there && matches!(self.paint, Paint::Played(_))
+        is_there && matches!(self.paint, StagePaint::Played(_))
     }
 
     /// Whether it is shown and wants to know where its vertices are as the frame moves
@@ -148,7 +148,7 @@ impl Part {
         frame: &Frame,
         t: f64,
         style: &StageStyle,
-        sent: Option<&Sent>,
+        sent: Option<&UploadState>,
     ) -> bool {
         let is_outdated = self.kind.outdated(true, false, frame);
         self.kind.is_shown(style) && is_outdated && !self.is_played(sent, t)
@@ -163,12 +163,12 @@ impl Part {
             PartKind::Coats(coats) => {
                 coats.write(frame, &style.style, origin, mesh);
             }
-            PartKind::Rings => fill::write(frame, origin, mesh),
+            PartKind::Rings => ring_fill::write(frame, origin, mesh),
             PartKind::Field | PartKind::Picture => {
                 let content = frame.transition().content();
-                carried::write(frame, origin, Some(content), mesh);
+                carried_mesh::write(frame, origin, Some(content), mesh);
             }
-            PartKind::Grid => carried::write(frame, origin, None, mesh),
+            PartKind::Grid => carried_mesh::write(frame, origin, None, mesh),
             PartKind::SourceGhost | PartKind::TargetGhost => {}
             PartKind::Faces => write_points(points, origin, positions(mesh)),
             PartKind::Wire { .. } => write_corners(points, faces, origin, positions(mesh)),
@@ -180,7 +180,7 @@ impl Part {
 }
 
 /// Puts parts where they are in Bevy's world.
-pub(super) fn place_parts(view: Res<StageView>, mut parts: Query<(&Part, &mut Transform)>) {
+pub(super) fn place_parts(view: Res<StageView>, mut parts: Query<(&StagePart, &mut Transform)>) {
     for (part, transform) in &mut parts {
         // Subtracted in double precision: designs may lie far from zero, and
         // the view follows them.

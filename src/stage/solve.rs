@@ -10,21 +10,21 @@ use bevy::platform::time::Instant;
 use bevy::prelude::*;
 
 use super::components::{Blend, Morph, StageStyle};
-use super::parts::Part;
-use super::reels::Sent;
-use super::times::FrameTimes;
+use super::frame_times::FrameTimes;
+use super::parts::StagePart;
+use super::uploaded_recording::UploadState;
 
 /// A frame, and what is drawn of it.
-type Morphs = (
+type MorphEntities = (
     &'static Blend,
     &'static mut Morph,
-    Option<(&'static Sent, &'static StageStyle, &'static Children)>,
+    Option<(&'static UploadState, &'static StageStyle, &'static Children)>,
 );
 
 /// Seeks every frame whose blend parameter moved.
 pub(super) fn solve_frames(
-    mut morphs: Query<Morphs, Changed<Blend>>,
-    parts: Query<&Part>,
+    mut morphs: Query<MorphEntities, Changed<Blend>>,
+    parts: Query<&StagePart>,
     mut times: ResMut<FrameTimes>,
 ) {
     let start = Instant::now();
@@ -34,7 +34,7 @@ pub(super) fn solve_frames(
         // changed, and what is drawn goes by that.
         if t.is_finite() && morph.frame().t() != t {
             let is_played = drawn.is_some_and(|(sent, style, children)| {
-                let reads = |part: &Part| part.reads(morph.frame(), t, style, Some(sent));
+                let reads = |part: &StagePart| part.reads(morph.frame(), t, style, Some(sent));
                 !parts.iter_many(children).any(reads)
             });
             if is_played {

@@ -1,26 +1,27 @@
 //! From two designs to a transition: everything that can fail.
 
-use super::arrange::extent;
-use super::boundaries;
+use super::any_warp::BuiltWarp;
+use super::boundary_paths;
+use super::common_frame::extent;
 use super::error::BuildError;
-use super::measured;
-use super::moved::Moved;
-use super::note::Note;
+use super::note::TransitionNote;
 use super::plane;
-use super::ready::{Inner, Slot, Transition};
 use super::solids;
 use super::spec::{TransitionSpec, bar_width};
-use crate::budget::Load;
-use crate::content::{Content, ContentKind, Fields, PicturePair};
-use crate::design::{Design, Form};
+use super::transition::{RecordingSlot, Transition, TransitionData};
+use crate::content::{Content, ContentKind, FieldContent, PicturePair};
+use crate::design::{Design, DesignForm};
 use crate::field::Grid;
 use crate::geometry::Bounds;
-use crate::progress::{Cancelled, Progress, Silent, Span, Whole, checkpoint, still_wanted};
 use crate::warp::{Arap, Placement, Warp, WarpKind};
+use crate::work::budget::WorkloadKind;
+use crate::work::progress::{
+    Cancelled, Progress, ProgressSpan, Silent, WholeProgress, checkpoint, still_wanted,
+};
 use std::sync::Arc;
 
 /// What moves, what is seen, and the box around it.
-type Made = (Moved, Content, Bounds);
+type BuiltParts = (BuiltWarp, Content, Bounds);
 
 impl Transition {
     /// Two designs by the method that suits them best, with default options,
@@ -49,7 +50,7 @@ impl Transition {
 }
 
 /// What [`Transition::build`] builds, or why it cannot, by the designs' names.
-fn built(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildError> {
+fn built(spec: &TransitionSpec, progress: &dyn Progress) -> Result<TransitionData, BuildError> {
     made(spec, progress).map_err(|error| match progress.is_cancelled() {
         // A cancel is nobody's fault: it names no design.
         true => error,
@@ -57,14 +58,14 @@ fn built(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildE
     })
 }
 
-fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildError> {
+fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<TransitionData, BuildError> {
     // Before any work: a window asks the same to grey a button out.
     TransitionSpec::available(spec.cell, &spec.source, &spec.target)?;
-    let progress = &Whole::new(progress).patient(spec.patient);
+    let progress = &WholeProgress::new(progress).patient(spec.patient);
     if spec.cell.warp() == WarpKind::Arap {
         // Four times as many at each round: at ten a single face is too much.
         let children = 4_usize.saturating_pow(spec.options.arap.subdivisions);
-        Load::Faces.allow(children, progress)?;
+        WorkloadKind::Faces.allow(children, progress)?;
     }
     let bar_width = bar_width(spec)?;
     let (mut moved, content, bounds) = match spec.cell.content() {
@@ -72,24 +73,24 @@ fn made(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Inner, BuildEr
         ContentKind::Field => fields(spec, bar_width, progress)?,
         ContentKind::Colours => colours(spec, progress)?,
     };
-    let of_match = moved.matched.iter().flat_map(Note::of_match);
+    let of_match = moved.matched.iter().flat_map(TransitionNote::of_match);
     moved.notes.extend(of_match);
     let ridge = moved.warp.arap().and_then(Arap::ridge);
     moved
         .notes
-        .extend(ridge.map(|ridge| Note::Stiffened { share: ridge.share }));
+        .extend(ridge.map(|ridge| TransitionNote::Stiffened { share: ridge.share }));
     let parts = moved.warp.arap().map_or(0, Arap::unflattened);
     moved
         .notes
-        .extend((parts > 0).then_some(Note::Unflattened { parts }));
-    let made = Inner {
+        .extend((parts > 0).then_some(TransitionNote::Unflattened { parts }));
+    let made = TransitionData {
         cell: spec.cell,
         designs: [spec.source.clone(), spec.target.clone()],
         moved,
         content,
         bounds,
         bar_width,
-        film: Slot::default(),
+        film: RecordingSlot::default(),
     };
     Ok(made.coated(&spec.options.coats).timed(&spec.options.parts))
 }
@@ -98,9 +99,9 @@ fn solids(
     spec: &TransitionSpec,
     bar_width: f64,
     progress: &dyn Progress,
-) -> Result<Made, BuildError> {
+) -> Result<BuiltParts, BuildError> {
     let (moved, solid) = match spec.cell.warp() {
-        WarpKind::Paths => boundaries::paths(spec, bar_width, progress)?,
+        WarpKind::Paths => boundary_paths::paths(spec, bar_width, progress)?,
         _ => solids::rigid_parts(spec, bar_width, progress)?,
     };
     let room = if solid.bars.is_empty() {
@@ -122,24 +123,29 @@ fn fields(
     spec: &TransitionSpec,
     bar_width: f64,
     progress: &dyn Progress,
-) -> Result<Made, BuildError> {
+) -> Result<BuiltParts, BuildError> {
     checkpoint(progress, "measuring distances", 0.0)?;
     let frame = field_frame(spec, bar_width);
     let grid = Grid::covering(&frame, spec.options.field.cells, spec.options.field.margin)?;
-    Load::Cells.allow(grid.cells(), progress)?;
-    let span = |from, to| Span::new(progress, from, to);
-    let whole = measured::whole(spec, grid, bar_width, &span(0.0, 0.4))?;
+    WorkloadKind::Cells.allow(grid.cells(), progress)?;
+    let span = |from, to| ProgressSpan::new(progress, from, to);
+    let whole = super::distance_fields::whole_fields(spec, grid, bar_width, &span(0.0, 0.4))?;
     // Over the grid with its margin: a carried field is looked up there too.
     let mut moved = plane::warp(spec, &grid.bounds(), bar_width, &span(0.7, 1.0))?;
     let placer = moved.warp.as_warp().placer();
-    let (painted, note) =
-        measured::painted(spec, &grid, bar_width, placer.placement(), &span(0.4, 0.7))?;
+    let (painted, note) = super::distance_fields::painted_fields(
+        spec,
+        &grid,
+        bar_width,
+        placer.placement(),
+        &span(0.4, 0.7),
+    )?;
     moved.notes.extend(note);
     let is_carried = spec.cell.warp() != WarpKind::None;
-    let fields = Fields::new(whole, painted, is_carried);
+    let fields = FieldContent::new(whole, painted, is_carried);
     if spec.options.field.is_switched() {
         // First, as the fields were made before the warp.
-        moved.notes.insert(0, Note::BinaryBoundary);
+        moved.notes.insert(0, TransitionNote::BinaryBoundary);
     }
     let bounds = if is_carried {
         let seen = |placement: &Placement, t| {
@@ -152,7 +158,7 @@ fn fields(
     Ok((moved, Content::Field(fields), bounds))
 }
 
-fn colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<Made, BuildError> {
+fn colours(spec: &TransitionSpec, progress: &dyn Progress) -> Result<BuiltParts, BuildError> {
     checkpoint(progress, "reading colours", 0.0)?;
     let picture = |design: &Design| {
         let missing = || BuildError::Unavailable(format!("{} has no colours", design.name));
@@ -193,7 +199,7 @@ fn swept(
 /// meshes and trusses with the thickness of their bars.
 pub(crate) fn field_frame(spec: &TransitionSpec, bar_width: f64) -> Bounds {
     let of = |design: &Design| match design.form {
-        Form::Truss(_) => design.extent.padded(0.5 * bar_width),
+        DesignForm::Truss(_) => design.extent.padded(0.5 * bar_width),
         _ => design.extent.union(&extent(design)),
     };
     let boxes = spec.all().map(|design| of(design));

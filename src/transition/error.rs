@@ -1,16 +1,16 @@
 //! Why there is no transition.
 
-use super::cells::NoSuchCell;
-use crate::budget::TooMuch;
-use crate::compatible::{CompatibleError, OutlinesError, PinnedError};
+use super::method::UnsupportedMethod;
+use crate::compatible::{CompatibleError, FramePinsError, OutlineMeshError};
 use crate::content::{ColourMixError, FieldPairError};
 use crate::correspondence::RegionMatchError;
 use crate::design::Design;
 use crate::field::{FieldError, GridError};
 use crate::geometry::{RegionsError, Side};
-use crate::one_line::OneLine;
-use crate::progress::Cancelled;
+use crate::io::sanitize::SanitizedLine;
 use crate::warp::{ArapError, LatticeError, LinesError, PathsError, ScatteredError};
+use crate::work::budget::WorkloadTooLarge;
+use crate::work::progress::Cancelled;
 
 /// Why a transition could not be built.
 #[derive(Clone, Debug, thiserror::Error)]
@@ -21,9 +21,9 @@ pub enum BuildError {
     Unavailable(String),
     /// The warp and the content do not go together.
     #[error(transparent)]
-    NoSuchCell(#[from] NoSuchCell),
+    NoSuchCell(#[from] UnsupportedMethod),
     /// Which designs do not go together, and why.
-    #[error("{}", OneLine(format_args!("{source_name} to {target_name}: {error}")))]
+    #[error("{}", SanitizedLine(format_args!("{source_name} to {target_name}: {error}")))]
     Between {
         /// Name of the source.
         source_name: String,
@@ -40,7 +40,7 @@ pub enum BuildError {
     Match(#[from] RegionMatchError),
     /// The matched outlines were not triangulated.
     #[error(transparent)]
-    Triangulation(#[from] OutlinesError),
+    Triangulation(#[from] OutlineMeshError),
     /// The rigidity-preserving interpolation failed.
     #[error(transparent)]
     Arap(#[from] ArapError),
@@ -66,7 +66,7 @@ pub enum BuildError {
     Colours(#[from] ColourMixError),
     /// The frame could not be triangulated with its pins.
     #[error(transparent)]
-    Frame(#[from] PinnedError),
+    Frame(#[from] FramePinsError),
     /// The warp by lines could not be made.
     #[error(transparent)]
     Lines(#[from] LinesError),
@@ -84,7 +84,7 @@ pub enum BuildError {
     BarWidth(f64),
     /// It would take very long, or very much memory.
     #[error(transparent)]
-    TooMuch(#[from] TooMuch),
+    TooMuch(#[from] WorkloadTooLarge),
     /// Nobody wants the result.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),

@@ -1,11 +1,11 @@
 //! One moment of a transition.
 
-use super::lazy::Lazy;
-use super::options::Options;
-use super::ready::Transition;
-use crate::colour::{Gradient, Line, Paint};
-use crate::content::{Content, Raster};
-use crate::design::{Design, Form};
+use super::lazy_placement::LazyPlacement;
+use super::options::TransitionOptions;
+use super::transition::Transition;
+use crate::colour::{Gradient, Paint, StrokeStyle};
+use crate::content::{Content, PictureRaster};
+use crate::design::{Design, DesignForm};
 use crate::geometry::DVec2;
 use crate::warp::{Placement, Placer};
 use image::RgbaImage;
@@ -16,18 +16,18 @@ use std::sync::Arc;
 #[derive(Debug)]
 pub struct Frame {
     transition: Transition,
-    places: Lazy,
+    places: LazyPlacement,
 }
 
 /// What a frame looks like, evaluated on the CPU.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Figure {
+pub struct VectorFigure {
     /// Closed polygons, to be filled together by the non-zero rule; or coat by
     /// coat where there are coats.
     pub rings: Vec<Vec<DVec2>>,
     /// What is painted in colours of its own, the lowest first: all rings, or
     /// none.
-    pub coats: Vec<Coated>,
+    pub coats: Vec<FigureLayer>,
     /// Bars, from end to end.
     pub bars: Vec<[DVec2; 2]>,
     /// For each bar its paints in source and target, or empty.
@@ -38,7 +38,7 @@ pub struct Figure {
 
 /// Rings of a figure that are painted alike.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Coated {
+pub struct FigureLayer {
     /// Their indices.
     pub rings: Range<usize>,
     /// Their paint in source and target; see [`Style::paint_at`].
@@ -50,8 +50,8 @@ pub struct Coated {
     ///
     /// [`Style::gradient_at`]: super::Style::gradient_at
     pub gradients: [Option<Gradient>; 2],
-    /// The line along them in source and target; see [`Line::between`].
-    pub lines: [Option<Line>; 2],
+    /// The line along them in source and target; see [`StrokeStyle::between`].
+    pub lines: [Option<StrokeStyle>; 2],
     /// The time that they show, by which all that is mixed: that of the frame,
     /// unless parts have times of their own.
     pub t: f64,
@@ -63,7 +63,7 @@ impl Transition {
     #[must_use]
     pub fn frame(&self, t: f64) -> Frame {
         let mut frame = Frame {
-            places: Lazy::new(self.player(), 0.0),
+            places: LazyPlacement::new(self.player(), 0.0),
             transition: self.clone(),
         };
         frame.seek(t);
@@ -82,7 +82,7 @@ impl Transition {
 
     /// Source and target as they were given, for ghosts behind the frames.
     #[must_use]
-    pub fn outlines(&self) -> [Figure; 2] {
+    pub fn outlines(&self) -> [VectorFigure; 2] {
         let designs = self.designs().each_ref();
         designs.map(|design| ghost(design, self.bar_width()))
     }
@@ -128,30 +128,30 @@ impl Frame {
     /// The frame as polygons and bars; of pictures the rectangle that they
     /// fill.
     #[must_use]
-    pub fn figure(&self) -> Figure {
+    pub fn figure(&self) -> VectorFigure {
         match self.transition.content() {
-            Content::Solid(solid) => self.coated(Figure {
+            Content::Solid(solid) => self.coated(VectorFigure {
                 bars: solid.bars_at(&self.placement().in_frame),
                 bar_paints: solid.bar_paints.clone(),
                 bar_width: solid.bar_width,
-                ..Figure::default()
+                ..VectorFigure::default()
             }),
-            Content::Field(_) => self.coated(Figure::default()),
-            Content::Colours(pair) => Figure {
+            Content::Field(_) => self.coated(VectorFigure::default()),
+            Content::Colours(pair) => VectorFigure {
                 rings: vec![pair.window(self.t()).corners().to_vec()],
-                ..Figure::default()
+                ..VectorFigure::default()
             },
         }
     }
 
     /// With the rings of this frame, coat by coat.
-    fn coated(&self, mut figure: Figure) -> Figure {
+    fn coated(&self, mut figure: VectorFigure) -> VectorFigure {
         let content = self.transition.content();
         for inked in content.coated_at(self.placement(), self.t()) {
             let first = figure.rings.len();
             figure.rings.extend(inked.rings);
             if content.coating().is_some() {
-                figure.coats.push(Coated {
+                figure.coats.push(FigureLayer {
                     rings: first..figure.rings.len(),
                     paints: inked.paints,
                     gradients: inked.gradients,
@@ -166,7 +166,7 @@ impl Frame {
     /// The frame as pixels, where pictures are what is seen: sRGB with
     /// straight alpha.
     #[must_use]
-    pub fn picture(&self, raster: &Raster) -> Option<RgbaImage> {
+    pub fn picture(&self, raster: &PictureRaster) -> Option<RgbaImage> {
         match self.transition.content() {
             Content::Colours(pair) => Some(pair.render(self.placement(), self.t(), raster)),
             Content::Solid(_) | Content::Field(_) => None,
@@ -174,7 +174,7 @@ impl Frame {
     }
 }
 
-impl Figure {
+impl VectorFigure {
     /// A design on its own, in its own paint where it has some, and else in that
     /// of the style at `t`.
     #[must_use]
@@ -182,7 +182,7 @@ impl Figure {
         if design.coats.is_empty() {
             return ghost(
                 design,
-                Options::default().bar_width * design.extent.diameter(),
+                TransitionOptions::default().bar_width * design.extent.diameter(),
             );
         }
         let mut figure = Self::default();
@@ -190,7 +190,7 @@ impl Figure {
             let from = figure.rings.len();
             let rings = coat.regions.rings().map(|ring| ring.points().to_vec());
             figure.rings.extend(rings);
-            figure.coats.push(Coated {
+            figure.coats.push(FigureLayer {
                 rings: from..figure.rings.len(),
                 paints: [coat.paint; 2],
                 gradients: [coat.gradient.clone(), coat.gradient.clone()],
@@ -203,28 +203,28 @@ impl Figure {
 }
 
 /// A design on its own.
-fn ghost(design: &Design, bar_width: f64) -> Figure {
+fn ghost(design: &Design, bar_width: f64) -> VectorFigure {
     let rings = |walks: Vec<&[DVec2]>| walks.into_iter().map(<[DVec2]>::to_vec).collect();
     match &design.form {
-        Form::Outline(regions) => Figure {
+        DesignForm::Outline(regions) => VectorFigure {
             rings: rings(regions.rings().map(|ring| ring.points()).collect()),
-            ..Figure::default()
+            ..VectorFigure::default()
         },
-        Form::Mesh(mesh) => {
+        DesignForm::Mesh(mesh) => {
             let at = |walk: Vec<u32>| walk.iter().map(|&v| mesh.positions()[v as usize]).collect();
-            Figure {
+            VectorFigure {
                 rings: mesh.boundary_loops().into_iter().map(at).collect(),
-                ..Figure::default()
+                ..VectorFigure::default()
             }
         }
-        Form::Truss(truss) => Figure {
+        DesignForm::Truss(truss) => VectorFigure {
             bars: truss.segments().collect(),
             bar_paints: {
                 let colours = truss.parts().colours.iter();
                 colours.map(|&rgb| [Some(rgb.into()); 2]).collect()
             },
             bar_width,
-            ..Figure::default()
+            ..VectorFigure::default()
         },
     }
 }

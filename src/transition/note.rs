@@ -2,7 +2,7 @@
 
 #[cfg(doc)]
 use crate::compatible::CompatibleMesh;
-use crate::compatible::SurroundingsError;
+use crate::compatible::FrameOutlinesError;
 use crate::correspondence::{MatchNote, RegionMatch, RegionMatchError};
 use serde::{Serialize, Serializer};
 use std::fmt;
@@ -11,7 +11,7 @@ use std::fmt;
 /// instead, or what might be better. The transition plays all the same. Serialised as its words.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
-pub enum Note {
+pub enum TransitionNote {
     /// The outlines were matched otherwise than asked.
     Match(MatchNote),
     /// Pins that were found were thinned out until the frame did not fold.
@@ -23,7 +23,7 @@ pub enum Note {
     },
     /// The outlines could not be edges of the frame's mesh; pins along them
     /// carry it.
-    NotByOutlines(SurroundingsError),
+    NotByOutlines(FrameOutlinesError),
     /// Pins on the outlines do not match them; the pins alone carry the frame.
     NotMatched(RegionMatchError),
     /// The designs would match far better if one of them were mirrored.
@@ -54,14 +54,14 @@ pub enum Note {
     },
 }
 
-impl Note {
+impl TransitionNote {
     /// What a match could not do as it was asked for.
     pub(super) fn of_match(matched: &RegionMatch) -> impl Iterator<Item = Self> {
         matched.notes().copied().map(Self::Match)
     }
 }
 
-impl fmt::Display for Note {
+impl fmt::Display for TransitionNote {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Match(note) => note.fmt(f),
@@ -105,7 +105,7 @@ impl fmt::Display for Note {
     }
 }
 
-impl Serialize for Note {
+impl Serialize for TransitionNote {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         serializer.collect_str(self)
     }
@@ -119,23 +119,35 @@ mod tests {
     fn a_note_says_what_was_done_instead() {
         let cut = RegionMatchError::Cut(1);
         for (note, words) in [
-            (Note::FewerPins { left: 12, of: 24 }, "12 of the 24 pins"),
             (
-                Note::NotByOutlines(SurroundingsError::Nesting),
+                TransitionNote::FewerPins { left: 12, of: 24 },
+                "12 of the 24 pins",
+            ),
+            (
+                TransitionNote::NotByOutlines(FrameOutlinesError::Nesting),
                 "lie within each other in different ways",
             ),
-            (Note::NotMatched(cut), "cut 2 does not run straight"),
-            (Note::Match(MatchNote::PinLeftOut(0)), "pin 1 is left out"),
-            (Note::BinaryBoundary, "between cells"),
             (
-                Note::Mirrored {
+                TransitionNote::NotMatched(cut),
+                "cut 2 does not run straight",
+            ),
+            (
+                TransitionNote::Match(MatchNote::PinLeftOut(0)),
+                "pin 1 is left out",
+            ),
+            (TransitionNote::BinaryBoundary, "between cells"),
+            (
+                TransitionNote::Mirrored {
                     as_drawn: 8.0,
                     mirrored: 1.1,
                 },
                 "1.1 instead of 8.0",
             ),
-            (Note::Stiffened { share: 1e-11 }, "1e-11 of the diagonal"),
-            (Note::Unflattened { parts: 2 }, "2 of the parts"),
+            (
+                TransitionNote::Stiffened { share: 1e-11 },
+                "1e-11 of the diagonal",
+            ),
+            (TransitionNote::Unflattened { parts: 2 }, "2 of the parts"),
         ] {
             let said = note.to_string();
             assert!(said.contains(words) && !said.contains('\n'), "{said}");

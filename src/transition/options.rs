@@ -1,15 +1,15 @@
 //! The options of all methods, each once: a document holds them as they stand
 //! in its file, a specification as a transition is built from them.
 
-use super::coat_options::CoatOptions;
+use super::paint_layer_options::PaintLayerOptions;
 use super::part_time::PartTime;
 use crate::compatible::PolygonOptions;
 use crate::content::{ColourMix, FieldBlend};
-use crate::correspondence::Matching;
+use crate::correspondence::MatchSettings;
 use crate::field::Metric;
-use crate::names::named;
+use crate::settings::choice::named;
 use crate::warp::{
-    ArapOptions, LatticeOptions, LineOptions, PathOptions, ScatteredOptions, Travel,
+    ArapOptions, FeatureTravel, LatticeOptions, LineOptions, PathOptions, ScatteredOptions,
 };
 use serde::{Deserialize, Serialize};
 
@@ -25,17 +25,17 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 #[non_exhaustive]
-pub struct Options {
+pub struct TransitionOptions {
     /// How the features of warps of the plane travel.
     #[serde(skip_serializing_if = "is_default")]
-    pub travel: Travel,
+    pub travel: FeatureTravel,
     /// Width of the bars of a truss, as a fraction of the larger design's
     /// diameter.
     pub bar_width: f64,
     /// How outlines are matched: in a document in the coordinates of each
     /// design, in a specification in those of the common frame.
     #[serde(rename = "match", skip_serializing_if = "is_default")]
-    pub matching: Matching,
+    pub matching: MatchSettings,
     /// Parts that make their way in their own time, as rigid parts.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub parts: Vec<PartTime>,
@@ -44,13 +44,13 @@ pub struct Options {
     pub paint: PaintRule,
     /// How painted parts come and go.
     #[serde(skip_serializing_if = "is_default")]
-    pub coats: CoatOptions,
+    pub coats: PaintLayerOptions,
     /// How much is tried for a film of outlines.
     #[serde(skip_serializing_if = "is_default")]
-    pub quality: Quality,
+    pub quality: BuildQuality,
     /// Whether that film keeps out of its own way.
     #[serde(skip_serializing_if = "is_default")]
-    pub guard: Guarding,
+    pub guard: CollisionAvoidance,
     /// How matched outlines are triangulated.
     #[serde(skip_serializing_if = "is_default")]
     pub triangulation: PolygonOptions,
@@ -75,17 +75,17 @@ pub struct Options {
     pub lattice: LatticeOptions,
 }
 
-impl Default for Options {
+impl Default for TransitionOptions {
     fn default() -> Self {
         Self {
-            travel: Travel::default(),
+            travel: FeatureTravel::default(),
             bar_width: 0.012,
-            matching: Matching::default(),
+            matching: MatchSettings::default(),
             parts: Vec::new(),
             paint: PaintRule::default(),
-            coats: CoatOptions::default(),
-            quality: Quality::default(),
-            guard: Guarding::default(),
+            coats: PaintLayerOptions::default(),
+            quality: BuildQuality::default(),
+            guard: CollisionAvoidance::default(),
             triangulation: PolygonOptions::default(),
             arap: ArapOptions::default(),
             paths: PathOptions::default(),
@@ -105,7 +105,7 @@ fn is_default<T: Default + PartialEq>(value: &T) -> bool {
 /// How much is tried for a film of rigid parts of outlines.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Quality {
+pub enum BuildQuality {
     /// One match, and its film as it comes.
     Draft,
     /// Several matches; the one whose film has the least trouble is improved.
@@ -113,7 +113,7 @@ pub enum Quality {
     Best,
 }
 
-named! { Quality {
+named! { BuildQuality {
     Draft: "draft", "Draft", "The first film, at once";
     Best: "best", "Best", "Several matches are tried, and the best film is improved";
 } }
@@ -121,7 +121,7 @@ named! { Quality {
 /// What is done where a film of rigid parts of outlines folds, or its outlines meet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Guarding {
+pub enum CollisionAvoidance {
     /// It is moved aside by as little as keeps it apart. Of the best film only: the first
     /// one is there at once.
     #[default]
@@ -130,7 +130,7 @@ pub enum Guarding {
     Plain,
 }
 
-named! { Guarding {
+named! { CollisionAvoidance {
     Guarded: "guarded", "Guarded", "What would fold or cross is moved aside, a little";
     Plain: "plain", "Plain", "As rigid as it can be, whatever it meets";
 } }
@@ -154,7 +154,7 @@ named! { PaintRule {
 /// Where the boundary of a distance field runs.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Boundary {
+pub enum FieldBoundary {
     /// Where the outline is; Euclidean only.
     #[default]
     Exact,
@@ -162,7 +162,7 @@ pub enum Boundary {
     Binary,
 }
 
-named! { Boundary {
+named! { FieldBoundary {
     Exact: "exact", "Exact", "Where the drawing has it: smooth";
     Binary: "binary", "Binary", "Between cells, as the paper's tool: stepped";
 } }
@@ -173,10 +173,10 @@ named! { Boundary {
 #[non_exhaustive]
 pub struct FieldOptions {
     /// How distance is measured; all but the Euclidean need
-    /// [`Boundary::Binary`].
+    /// [`FieldBoundary::Binary`].
     pub metric: Metric,
     /// Where the boundary runs.
-    pub boundary: Boundary,
+    pub boundary: FieldBoundary,
     /// How the two fields are mixed.
     pub blend: FieldBlend,
     /// Cells along the longer side of the frame. Distances, ε and the
@@ -190,7 +190,7 @@ impl Default for FieldOptions {
     fn default() -> Self {
         Self {
             metric: Metric::Euclidean,
-            boundary: Boundary::default(),
+            boundary: FieldBoundary::default(),
             blend: FieldBlend::default(),
             cells: 512,
             margin: 0.1,
@@ -202,11 +202,11 @@ impl FieldOptions {
     /// Whether the boundary runs on the outline: the metrics that are not
     /// Euclidean belong to the pixels of a binary picture.
     pub(super) fn is_exact(&self) -> bool {
-        self.boundary == Boundary::Exact && self.metric == Metric::Euclidean
+        self.boundary == FieldBoundary::Exact && self.metric == Metric::Euclidean
     }
 
     /// Whether the boundary cannot be as exact as it is asked for.
     pub(super) fn is_switched(&self) -> bool {
-        self.boundary == Boundary::Exact && !self.is_exact()
+        self.boundary == FieldBoundary::Exact && !self.is_exact()
     }
 }

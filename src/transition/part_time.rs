@@ -3,9 +3,9 @@
 //! What is said of a part is said by a point of a design, and holds for all that
 //! the part becomes: where it is split, for each of the pieces.
 
-use crate::easing::Ease;
-use crate::geometry::{DVec2, RANGE, Side, Similarity, is_in_range};
-use crate::warp::Clock;
+use crate::geometry::{DVec2, RANGE_MESSAGE, Side, Similarity, is_in_range};
+use crate::time::easing::EasingFunction;
+use crate::warp::PartClock;
 use serde::{Deserialize, Serialize};
 
 /// When a part makes its way within the film.
@@ -25,7 +25,7 @@ pub struct PartTime {
     pub to: f64,
     /// How it runs in between.
     #[serde(default)]
-    pub easing: Ease,
+    pub easing: EasingFunction,
 }
 
 /// Several times as many as parts that are matched.
@@ -43,7 +43,7 @@ pub enum PartTimeError {
     #[error("{0} times of parts are too many; give {MOST_TIMES} at most")]
     TooMany(usize),
     /// The point is too far out.
-    #[error("the part of time {} {RANGE}", .0 + 1)]
+    #[error("the part of time {} {RANGE_MESSAGE}", .0 + 1)]
     Place(usize),
     /// It does not set out and then arrive.
     #[error(
@@ -79,16 +79,16 @@ impl PartTime {
 
     /// When it makes its way.
     #[must_use]
-    pub fn clock(&self) -> Clock {
+    pub fn clock(&self) -> PartClock {
         let Self {
             from, to, easing, ..
         } = *self;
-        Clock { from, to, easing }
+        PartClock { from, to, easing }
     }
 
     /// The same by another clock.
     #[must_use]
-    pub fn with_clock(self, Clock { from, to, easing }: Clock) -> Self {
+    pub fn with_clock(self, PartClock { from, to, easing }: PartClock) -> Self {
         Self {
             from,
             to,

@@ -1,21 +1,21 @@
 //! Warps of the whole plane for fields and colours: from pins and lines to a
 //! warp on a grid, or to rigid parts of the frame.
 
+use super::any_warp::{AnyWarp, BuiltWarp};
+use super::arap_build::build_arap;
 use super::error::BuildError;
-use super::features::Features;
-use super::moved::{AnyWarp, Moved};
-use super::note::Note;
-use super::rigid::arap;
+use super::note::TransitionNote;
+use super::plane_features::PlaneFeatures;
 use super::spec::TransitionSpec;
-use crate::compatible::{CompatibleMesh, PinnedError, SurroundingsError};
+use crate::compatible::{CompatibleMesh, FrameOutlinesError, FramePinsError};
 use crate::content::ContentKind;
 use crate::correspondence::{LinePair, PointPair, RegionMatch};
 use crate::geometry::Bounds;
-use crate::progress::{Progress, Span, beside, checkpoint};
 use crate::warp::{
-    Lattice, Lines, OnGrid, PlaneGrid, PlaneWarp, RigidPart, Scattered, Split, Still, Travel,
-    Turned, Warp, WarpKind,
+    CommonRigidMotion, FeatureTravel, GridWarp, IdentityWarp, Lattice, LineWarp, PlaneGrid,
+    PlaneWarp, RigidElasticPlaneWarp, RigidElasticWarp, ScatteredWarp, Warp, WarpKind,
 };
+use crate::work::progress::{Progress, ProgressSpan, beside, checkpoint};
 use std::sync::Arc;
 
 /// Squares of the grid along the longer side of the frame, on which a warp is
@@ -42,13 +42,13 @@ pub(super) fn warp(
     frame: &Bounds,
     bar_width: f64,
     progress: &dyn Progress,
-) -> Result<Moved, BuildError> {
+) -> Result<BuiltWarp, BuildError> {
     let kind = spec.cell.warp();
     if kind == WarpKind::None {
-        return Ok(AnyWarp::Still(Still::new(*frame)).into());
+        return Ok(AnyWarp::Still(IdentityWarp::new(*frame)).into());
     }
-    let features = Features::of(spec, bar_width, &Span::new(progress, 0.0, 0.4))?;
-    let progress = &Span::new(progress, 0.4, 1.0);
+    let features = PlaneFeatures::of(spec, bar_width, &ProgressSpan::new(progress, 0.0, 0.4))?;
+    let progress = &ProgressSpan::new(progress, 0.4, 1.0);
     if kind == WarpKind::Arap {
         return rigid(spec, frame, features, progress);
     }
@@ -57,7 +57,7 @@ pub(super) fn warp(
     let (spec, frame, features) = (spec.clone(), *frame, Arc::new(features));
     let theirs = Arc::clone(&features);
     let warp = beside(progress, move || of_features(&spec, &frame, &theirs))?;
-    Ok(Moved {
+    Ok(BuiltWarp {
         automatic: features.automatic(),
         notes: features.notes.clone(),
         ..AnyWarp::Plane(warp?).into()
@@ -68,16 +68,16 @@ pub(super) fn warp(
 fn of_features(
     spec: &TransitionSpec,
     frame: &Bounds,
-    features: &Features,
+    features: &PlaneFeatures,
 ) -> Result<Arc<dyn Warp>, BuildError> {
     let options = &spec.options;
     let work = features.points.len() + 4 * features.lines.len();
     match spec.cell.warp() {
         WarpKind::Lines => on_grid(spec, frame, features, work, |frame, points, lines| {
-            Ok(Lines::new(frame, lines, points, &options.lines)?)
+            Ok(LineWarp::new(frame, lines, points, &options.lines)?)
         }),
         WarpKind::Scattered => on_grid(spec, frame, features, work, |frame, points, lines| {
-            Ok(Scattered::new(frame, points, lines, options.scattered)?)
+            Ok(ScatteredWarp::new(frame, points, lines, options.scattered)?)
         }),
         WarpKind::Lattice => {
             let work = LATTICE_WORK;
@@ -98,27 +98,27 @@ fn of_features(
 fn on_grid<W: PlaneWarp>(
     spec: &TransitionSpec,
     frame: &Bounds,
-    Features { points, lines, .. }: &Features,
+    PlaneFeatures { points, lines, .. }: &PlaneFeatures,
     work: usize,
     new: impl FnOnce(&Bounds, &[PointPair], &[LinePair]) -> Result<W, BuildError>,
 ) -> Result<Arc<dyn Warp>, BuildError> {
     let is_whole = match spec.options.travel {
-        Travel::Auto => spec.cell.content() == ContentKind::Field,
-        Travel::Whole => true,
-        Travel::Straight => false,
+        FeatureTravel::Auto => spec.cell.content() == ContentKind::Field,
+        FeatureTravel::Whole => true,
+        FeatureTravel::Straight => false,
     };
-    let rigid = RigidPart::of(points, lines).filter(|_| is_whole);
+    let rigid = CommonRigidMotion::of(points, lines).filter(|_| is_whole);
     Ok(match rigid {
         Some(rigid) => {
-            let warp = Split::new(rigid, frame, points, lines, new)?;
+            let warp = RigidElasticPlaneWarp::new(rigid, frame, points, lines, new)?;
             // What turns leaves the frame on its way; pictures are cut to it.
             let seen = match spec.cell.content() {
                 ContentKind::Field => rigid.swept(frame),
                 ContentKind::Colours | ContentKind::Solid => *frame,
             };
-            Arc::new(OnGrid::new(warp, grid(&seen, work)))
+            Arc::new(GridWarp::new(warp, grid(&seen, work)))
         }
-        None => Arc::new(OnGrid::new(new(frame, points, lines)?, grid(frame, work))),
+        None => Arc::new(GridWarp::new(new(frame, points, lines)?, grid(frame, work))),
     })
 }
 
@@ -137,9 +137,9 @@ fn grid(frame: &Bounds, work: usize) -> PlaneGrid {
 fn rigid(
     spec: &TransitionSpec,
     frame: &Bounds,
-    mut features: Features,
+    mut features: PlaneFeatures,
     progress: &dyn Progress,
-) -> Result<Moved, BuildError> {
+) -> Result<BuiltWarp, BuildError> {
     let mut notes = std::mem::take(&mut features.notes);
     let mut pins = features.as_points();
     let found = pins.len();
@@ -147,7 +147,7 @@ fn rigid(
     if let Some(matched) = &features.matched {
         match about_outlines(spec, frame, &features, matched, progress)? {
             Ok(made) => warp = Some(made),
-            Err(error) => notes.push(Note::NotByOutlines(error)),
+            Err(error) => notes.push(TransitionNote::NotByOutlines(error)),
         }
     }
     let warp = match warp {
@@ -155,14 +155,14 @@ fn rigid(
         None => about_pins(spec, frame, features.are_automatic, &mut pins, progress)?,
     };
     if pins.len() < found {
-        notes.push(Note::FewerPins {
+        notes.push(TransitionNote::FewerPins {
             left: pins.len(),
             of: found,
         });
     }
     // Pins that somebody set are shown as theirs already.
     pins.retain(|_| features.are_automatic);
-    Ok(Moved {
+    Ok(BuiltWarp {
         automatic: pins,
         notes,
         ..warp.into()
@@ -182,7 +182,7 @@ fn about_pins(
     let mesh = loop {
         match CompatibleMesh::around_pins(&frame, pins, progress) {
             Ok(mesh) => break mesh,
-            Err(PinnedError::Folds { .. } | PinnedError::Coincide { .. })
+            Err(FramePinsError::Folds { .. } | FramePinsError::Coincide { .. })
                 if are_automatic && !pins.is_empty() =>
             {
                 *pins = pins.iter().copied().step_by(2).collect();
@@ -194,7 +194,7 @@ fn about_pins(
             Err(error) => return Err(error.into()),
         }
     };
-    let arap = arap(&mesh, &spec.options.arap, &[], progress)?;
+    let arap = build_arap(&mesh, &spec.options.arap, &[], progress)?;
     Ok(AnyWarp::Rigid(arap))
 }
 
@@ -203,14 +203,16 @@ fn about_pins(
 fn about_outlines(
     spec: &TransitionSpec,
     frame: &Bounds,
-    features: &Features,
+    features: &PlaneFeatures,
     matched: &RegionMatch,
     progress: &dyn Progress,
-) -> Result<Result<AnyWarp, SurroundingsError>, BuildError> {
+) -> Result<Result<AnyWarp, FrameOutlinesError>, BuildError> {
     let options = &spec.options;
     let rigid = match options.travel {
-        Travel::Auto | Travel::Whole => RigidPart::of(&features.points, &features.lines),
-        Travel::Straight => None,
+        FeatureTravel::Auto | FeatureTravel::Whole => {
+            CommonRigidMotion::of(&features.points, &features.lines)
+        }
+        FeatureTravel::Straight => None,
     };
     let (matched, frame) = match &rigid {
         Some(rigid) => (&rigid.match_at_rest(matched), rigid.frame_at_rest(frame)),
@@ -227,9 +229,9 @@ fn about_outlines(
             return Ok(Err(error));
         }
     };
-    let arap = arap(&mesh, &options.arap, &[], progress)?;
+    let arap = build_arap(&mesh, &options.arap, &[], progress)?;
     Ok(Ok(match rigid {
-        Some(rigid) => AnyWarp::Turned(Turned::new(rigid, arap)),
+        Some(rigid) => AnyWarp::Turned(RigidElasticWarp::new(rigid, arap)),
         None => AnyWarp::Rigid(arap),
     }))
 }

@@ -9,8 +9,8 @@
 //! rests there, or is eased, so that nobody sees it.
 
 use super::frame::Frame;
-use super::ready::Transition;
-use super::style::Style;
+use super::style::TransitionStyle;
+use super::transition::Transition;
 use crate::geometry::Bounds;
 use std::sync::Arc;
 
@@ -102,7 +102,7 @@ impl Sequence {
     /// the last one it extrapolates.
     #[must_use]
     pub fn place(&self, t: f64) -> (usize, f64) {
-        place(self.legs.len(), t)
+        segment_at(self.legs.len(), t)
     }
 
     /// The box that holds every frame for t from the first design to the last, nearly.
@@ -130,7 +130,7 @@ impl Sequence {
     /// How a leg is painted where the whole is painted so: colours that go with t go once
     /// through all legs.
     #[must_use]
-    pub fn style_of(&self, leg: usize, style: &Style) -> Style {
+    pub fn style_of(&self, leg: usize, style: &TransitionStyle) -> TransitionStyle {
         style_of(leg, (self.legs.len(), self.leads_back), style)
     }
 
@@ -152,7 +152,7 @@ impl Sequence {
 
 /// As [`Sequence::place`], of so many legs.
 #[must_use]
-pub fn place(legs: usize, t: f64) -> (usize, f64) {
+pub fn segment_at(legs: usize, t: f64) -> (usize, f64) {
     let last = legs.saturating_sub(1);
     // `as` saturates, and takes what is no number for 0.
     let leg = (t.floor().max(0.0) as usize).min(last);
@@ -161,9 +161,9 @@ pub fn place(legs: usize, t: f64) -> (usize, f64) {
 
 /// As [`Sequence::style_of`], of so many legs, which lead back or do not.
 #[must_use]
-pub fn style_of(leg: usize, all: (usize, bool), style: &Style) -> Style {
-    let at = |k: usize| style.fill_at(tint(k as f64, all));
-    Style {
+pub fn style_of(leg: usize, all: (usize, bool), style: &TransitionStyle) -> TransitionStyle {
+    let at = |k: usize| style.fill_at(colour_fraction(k as f64, all));
+    TransitionStyle {
         source: at(leg),
         target: at(leg + 1),
         ..*style
@@ -173,7 +173,7 @@ pub fn style_of(leg: usize, all: (usize, bool), style: &Style) -> Style {
 /// Where between the first colour of a style and its second one so many legs have come at
 /// `t`: from one to the other, and back where they lead back.
 #[must_use]
-pub fn tint(t: f64, (legs, leads_back): (usize, bool)) -> f64 {
+pub fn colour_fraction(t: f64, (legs, leads_back): (usize, bool)) -> f64 {
     let share = t / legs.max(1) as f64;
     match leads_back {
         true => 1.0 - (2.0 * share - 1.0).abs(),
@@ -228,7 +228,7 @@ impl SequenceFrame {
 
     /// How it is painted where the whole is painted so; see [`Sequence::style_of`].
     #[must_use]
-    pub fn style(&self, style: &Style) -> Style {
+    pub fn style(&self, style: &TransitionStyle) -> TransitionStyle {
         self.sequence.style_of(self.leg, style)
     }
 }
@@ -292,7 +292,7 @@ mod tests {
 
     #[test]
     fn colours_go_once_through_all_legs() {
-        let (sequence, style) = (three(), Style::default());
+        let (sequence, style) = (three(), TransitionStyle::default());
         let [first, second] = [0, 1].map(|leg| sequence.style_of(leg, &style));
         assert_eq!(first.source, style.source);
         assert_eq!(second.target, style.target);

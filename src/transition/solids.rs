@@ -3,23 +3,25 @@
 //! Two meshes bring their triangulation along, two trusses their panels; all
 //! other forms are matched as outlines.
 
-use super::coating::{self, Walks};
-use super::drawings::Drawings;
+use super::any_warp::{AnyWarp, BuiltWarp};
+use super::arap_build::check_size;
+use super::cached_match;
+use super::drawing_pair::DrawingPair;
 use super::error::BuildError;
-use super::found;
-use super::kept::{self, Kept};
-use super::lone;
-use super::moved::{AnyWarp, Moved};
 use super::options::PaintRule;
-use super::rigid::allow;
-use super::settled;
+use super::piece_coating;
+use super::piece_coating::PieceBoundaryLoops;
+use super::rigid_solution;
+use super::solution_cache;
+use super::solution_cache::KeyedSolution;
 use super::spec::TransitionSpec;
+use super::transients::shapes;
 use crate::colour::{Paint, Rgb};
 use crate::compatible::{CompatibleError, CompatibleMesh, TrussError};
-use crate::content::Solid;
-use crate::design::{Form, Truss};
-use crate::progress::{Progress, checkpoint};
+use crate::content::SolidContent;
+use crate::design::{DesignForm, Truss};
 use crate::warp::Arap;
+use crate::work::progress::{Progress, checkpoint};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -28,19 +30,19 @@ pub(super) fn rigid_parts(
     spec: &TransitionSpec,
     bar_width: f64,
     progress: &dyn Progress,
-) -> Result<(Moved, Solid), BuildError> {
+) -> Result<(BuiltWarp, SolidContent), BuildError> {
     checkpoint(progress, "triangulating", 0.0)?;
-    let mut solid = Solid {
+    let mut solid = SolidContent {
         bar_width,
-        ..Solid::default()
+        ..SolidContent::default()
     };
     let mut drawings = None;
     let (arap, kept) = match (&spec.source.form, &spec.target.form) {
-        (Form::Mesh(a), Form::Mesh(b)) => {
+        (DesignForm::Mesh(a), DesignForm::Mesh(b)) => {
             let mesh = CompatibleMesh::from_meshes(a, b);
             (given(spec, mesh, progress)?, None)
         }
-        (Form::Truss(a), Form::Truss(b)) => {
+        (DesignForm::Truss(a), DesignForm::Truss(b)) => {
             solid.bars = a.bars().to_vec();
             solid.bar_paints = paints(spec.options.paint, [a, b]);
             let mesh = CompatibleMesh::from_trusses(a, b, progress);
@@ -49,7 +51,11 @@ pub(super) fn rigid_parts(
         _ => {
             let drawn = drawings.insert(spec.drawings(bar_width, progress)?);
             let kept = found_or_best(spec, drawn, progress)?;
-            let arap = settled::as_options_ask(&kept.film.arap, &spec.options.arap, progress)?;
+            let arap = rigid_solution::with_requested_options(
+                &kept.film.arap,
+                &spec.options.arap,
+                progress,
+            )?;
             (arap, Some(Arc::new(kept)))
         }
     };
@@ -59,12 +65,12 @@ pub(super) fn rigid_parts(
     }
     let film = kept.as_ref().map(|kept| &kept.film);
     if let Some((film, drawings)) = film.zip(drawings) {
-        let walks = Walks::of_mesh(arap.mesh());
-        solid.coating = coating::coating(&drawings, &film.matched, &walks, &film.holes);
+        let walks = PieceBoundaryLoops::of_mesh(arap.mesh());
+        solid.coating = piece_coating::coating(&drawings, &film.matched, &walks, &film.holes);
         solid.holes = film.holes.iter().map(|(_, hole)| hole.clone()).collect();
-        (solid.swells, solid.specks) = lone::drawn(&arap, &film.swelling);
+        (solid.swells, solid.specks) = shapes::drawn(&arap, &film.swelling);
     }
-    let moved = Moved {
+    let moved = BuiltWarp {
         matched: film.map(|film| film.matched.clone()),
         notes: film.map_or_else(Vec::new, |film| film.notes.clone()),
         kept,
@@ -92,15 +98,15 @@ fn paints(rule: PaintRule, trusses: [&Truss; 2]) -> Vec<[Option<Paint>; 2]> {
 /// What was found before for the same outlines and options, or the best film.
 fn found_or_best(
     spec: &TransitionSpec,
-    drawings: &Drawings,
+    drawings: &DrawingPair,
     progress: &dyn Progress,
-) -> Result<Kept, BuildError> {
-    let key = found::key(&spec.options, drawings);
-    let film = match kept::film(&spec.found, &key, &spec.options, progress)? {
+) -> Result<KeyedSolution, BuildError> {
+    let key = cached_match::cache_key(&spec.options, drawings);
+    let film = match solution_cache::restore(&spec.found, &key, &spec.options, progress)? {
         Some(film) => film,
-        None => settled::best(spec, drawings, progress)?,
+        None => rigid_solution::solve_best(spec, drawings, progress)?,
     };
-    Ok(Kept { key, film })
+    Ok(KeyedSolution { key, film })
 }
 
 /// The interpolation of a triangulation that the designs brought along.
@@ -115,6 +121,6 @@ fn given(
         error => BuildError::from(error),
     })?;
     let options = &spec.options.arap;
-    allow(&mesh, options, progress)?;
+    check_size(&mesh, options, progress)?;
     Ok(Arap::build(&mesh, options, progress)?)
 }

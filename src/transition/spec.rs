@@ -1,16 +1,17 @@
 //! What a transition is built from.
 
-use super::arrange::extent;
-use super::cells::Cell;
-use super::drawings::Drawings;
+use super::cached_match;
+use super::cached_match::CachedMatch;
+use super::common_frame::extent;
+use super::drawing_pair::DrawingPair;
 use super::error::BuildError;
-use super::found::{self, Found};
-use super::options::{Options, PaintRule, Quality};
-use crate::budget::Load;
+use super::method::TransitionMethod;
+use super::options::{BuildQuality, PaintRule, TransitionOptions};
 use crate::content::ContentKind;
-use crate::design::{Coat, Design, Form, Format, Picture};
+use crate::design::{Design, DesignForm, Format, PaintLayer, Picture};
 use crate::geometry::{Regions, RegionsError};
-use crate::progress::{Progress, beside, checkpoint};
+use crate::work::budget::WorkloadKind;
+use crate::work::progress::{Progress, beside, checkpoint};
 use std::sync::Arc;
 
 /// Everything a transition is built from: two designs laid into one frame, a
@@ -23,15 +24,15 @@ pub struct TransitionSpec {
     /// The design at t = 1.
     pub target: Arc<Design>,
     /// Warp and content.
-    pub cell: Cell,
+    pub cell: TransitionMethod,
     /// The options of all methods; places of the match are in the common
     /// frame.
-    pub options: Options,
+    pub options: TransitionOptions,
     /// Whether what takes very long is begun all the same; see
-    /// [`crate::budget`].
+    /// [`crate::work::budget`].
     pub patient: bool,
     /// What was found before, taken where it was found for this.
-    pub found: Found,
+    pub found: CachedMatch,
     /// The other designs of a sequence, laid into the same frame: all its fields lie on
     /// one grid, and all its bars have one width.
     pub others: Vec<Arc<Design>>,
@@ -45,17 +46,17 @@ impl TransitionSpec {
             .iter()
             .all(|d| d.picture.as_ref().is_some_and(Picture::is_photograph));
         let cell = if are_photographs {
-            Cell::CROSS_DISSOLVE
+            TransitionMethod::CROSS_DISSOLVE
         } else {
-            Cell::RIGID_PARTS
+            TransitionMethod::RIGID_PARTS
         };
         Self {
             source,
             target,
             cell,
-            options: Options::default(),
+            options: TransitionOptions::default(),
             patient: false,
-            found: Found::default(),
+            found: CachedMatch::default(),
             others: Vec::new(),
         }
     }
@@ -66,13 +67,14 @@ impl TransitionSpec {
     pub fn draft(&self, progress: &dyn Progress) -> Option<Self> {
         let are_given = matches!(
             (&self.source.form, &self.target.form),
-            (Form::Mesh(_), Form::Mesh(_)) | (Form::Truss(_), Form::Truss(_))
+            (DesignForm::Mesh(_), DesignForm::Mesh(_))
+                | (DesignForm::Truss(_), DesignForm::Truss(_))
         );
-        let is_tried = self.cell == Cell::RIGID_PARTS && !are_given;
-        let is_asked = is_tried && self.options.quality != Quality::Draft;
+        let is_tried = self.cell == TransitionMethod::RIGID_PARTS && !are_given;
+        let is_asked = is_tried && self.options.quality != BuildQuality::Draft;
         (is_asked && !self.is_found(progress)).then(|| {
             let mut draft = self.clone();
-            draft.options.quality = Quality::Draft;
+            draft.options.quality = BuildQuality::Draft;
             draft
         })
     }
@@ -89,7 +91,7 @@ impl TransitionSpec {
             return false;
         }
         let drawings = bar_width(self).and_then(|width| self.drawings(width, progress));
-        let key = drawings.map(|drawings| found::key(&self.options, &drawings));
+        let key = drawings.map(|drawings| cached_match::cache_key(&self.options, &drawings));
         key.is_ok_and(|key| self.found.is_for(&key))
     }
 
@@ -114,14 +116,14 @@ impl TransitionSpec {
         &self,
         bar_width: f64,
         progress: &dyn Progress,
-    ) -> Result<Drawings, BuildError> {
+    ) -> Result<DrawingPair, BuildError> {
         let designs = [&self.source, &self.target];
         let is_painted = designs.iter().any(|design| !design.coats.is_empty());
         if self.options.paint == PaintRule::One || !is_painted {
-            return Ok(Drawings::plain(self.outlines(bar_width, progress)?));
+            return Ok(DrawingPair::plain(self.outlines(bar_width, progress)?));
         }
         let [source, target] = designs.map(|design| coats_of(design, bar_width, progress));
-        let drawings = Drawings::of([source?, target?]).ok_or(RegionsError::Empty)?;
+        let drawings = DrawingPair::of([source?, target?]).ok_or(RegionsError::Empty)?;
         self.allow(&drawings.outlines, progress)?;
         Ok(drawings)
     }
@@ -135,9 +137,9 @@ impl TransitionSpec {
         let pieces = outlines.iter().map(|regions| regions.len()).sum();
         let rings = outlines.iter().flat_map(Regions::rings);
         let sizes: Vec<usize> = rings.map(|ring| ring.points().len()).collect();
-        Load::Pieces.allow(pieces, progress)?;
-        Load::Holes.allow(sizes.len() - pieces, progress)?;
-        Ok(Load::Points.allow(sizes.iter().sum(), progress)?)
+        WorkloadKind::Pieces.allow(pieces, progress)?;
+        WorkloadKind::Holes.allow(sizes.len() - pieces, progress)?;
+        Ok(WorkloadKind::Points.allow(sizes.iter().sum(), progress)?)
     }
 
     /// Whether designs of these kinds can be interpolated by `cell`, without
@@ -145,7 +147,11 @@ impl TransitionSpec {
     ///
     /// # Errors
     /// [`BuildError::Unavailable`] with the reason, for a greyed button.
-    pub fn available(cell: Cell, source: &Design, target: &Design) -> Result<(), BuildError> {
+    pub fn available(
+        cell: TransitionMethod,
+        source: &Design,
+        target: &Design,
+    ) -> Result<(), BuildError> {
         // Every form has an outline; not every one came as a picture.
         if cell.content() != ContentKind::Colours {
             return Ok(());
@@ -178,11 +184,11 @@ pub(crate) fn outline(
     bar_width: f64,
     progress: &dyn Progress,
 ) -> Result<Regions, BuildError> {
-    if matches!(design.form, Form::Outline(_)) {
+    if matches!(design.form, DesignForm::Outline(_)) {
         return Ok(design.outline(bar_width)?);
     }
-    if let Form::Truss(truss) = &design.form {
-        Load::Bars.allow(truss.bars().len(), progress)?;
+    if let DesignForm::Truss(truss) = &design.form {
+        WorkloadKind::Bars.allow(truss.bars().len(), progress)?;
     }
     checkpoint(progress, "uniting", 0.0)?;
     let design = Arc::clone(design);
@@ -194,9 +200,9 @@ fn coats_of(
     design: &Arc<Design>,
     bar_width: f64,
     progress: &dyn Progress,
-) -> Result<Vec<Coat>, BuildError> {
+) -> Result<Vec<PaintLayer>, BuildError> {
     let coats = if design.coats.is_empty() {
-        vec![Coat {
+        vec![PaintLayer {
             regions: outline(design, bar_width, progress)?,
             paint: None,
             gradient: None,
@@ -207,7 +213,7 @@ fn coats_of(
     } else {
         design.coats.clone()
     };
-    let apart = coats.into_iter().map(|coat| Coat {
+    let apart = coats.into_iter().map(|coat| PaintLayer {
         regions: coat.regions.pulled_apart(),
         ..coat
     });

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 /// Colours and marks of a transition.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
-pub struct Style {
+pub struct TransitionStyle {
     /// Fill at t = 0.
     pub source: Rgb,
     /// Fill at t = 1.
@@ -17,7 +17,7 @@ pub struct Style {
     pub joints: bool,
 }
 
-impl Default for Style {
+impl Default for TransitionStyle {
     /// Blue to orange on warm white: told apart in every common form of
     /// colour blindness.
     fn default() -> Self {
@@ -30,7 +30,7 @@ impl Default for Style {
     }
 }
 
-impl Style {
+impl TransitionStyle {
     /// The fill at `t`.
     #[must_use]
     pub fn fill_at(&self, t: f64) -> Rgb {
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn ends_are_exact_and_extrapolation_stays_at_them() {
-        let style = Style::default();
+        let style = TransitionStyle::default();
         for (t, colour) in [
             (-1.0, style.source),
             (0.0, style.source),

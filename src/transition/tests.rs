@@ -6,15 +6,15 @@ use crate::content::ContentKind;
 use crate::correspondence::{HoleRule, MatchNote, PartRule};
 use crate::design::{Design, ImportOptions, import};
 use crate::geometry::{DVec2, Similarity, count_crossings};
-use crate::progress::{Progress, Silent};
 use crate::warp::WarpKind;
+use crate::work::progress::{Progress, Silent};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-mod alone;
-mod painted;
-mod rim;
-mod staggered;
+mod outline_turning;
+mod paint;
+mod part_times;
+mod transients;
 mod upright;
 
 fn design(text: &str) -> Arc<Design> {
@@ -32,7 +32,7 @@ const TRUSS: &str = r#"{"nodes": [[0,0],[2,0],[1,1.5]], "bars": [[0,1],[1,2],[2,
 
 fn field_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
     let mut spec = TransitionSpec::new(source, target);
-    spec.cell = Cell::new(WarpKind::None, ContentKind::Field).unwrap();
+    spec.cell = TransitionMethod::new(WarpKind::None, ContentKind::Field).unwrap();
     spec.options.field.cells = 128;
     spec
 }
@@ -117,7 +117,7 @@ fn a_truss_is_seen_by_both_methods() {
 
 fn paths_spec(source: Arc<Design>, target: Arc<Design>) -> TransitionSpec {
     let mut spec = TransitionSpec::new(source, target);
-    spec.cell = Cell::new(WarpKind::Paths, ContentKind::Solid).unwrap();
+    spec.cell = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
     spec
 }
 
@@ -157,7 +157,7 @@ fn a_letter_is_born_from_a_point() {
         .unwrap()
         .spec()
         .unwrap();
-    spec.cell = Cell::new(WarpKind::Paths, ContentKind::Solid).unwrap();
+    spec.cell = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
     let transition = Transition::build(&spec, &Silent).unwrap();
     let pieces = &transition.matched().unwrap().pieces;
     let born = pieces.iter().filter(|p| p.source_part.is_none());
@@ -255,22 +255,22 @@ fn fits_centre_and_scale_the_target() {
     let still = Similarity::IDENTITY;
     let bounds = |design: &Design| design.outline(0.0).unwrap().bounds();
     for (fit, width) in [
-        (Fit::AsDrawn, 40.0),
-        (Fit::Centred, 40.0),
-        (Fit::SameArea, 20.0),
+        (DesignFit::AsDrawn, 40.0),
+        (DesignFit::Centred, 40.0),
+        (DesignFit::SameArea, 20.0),
     ] {
-        let [a, b] = [&small, &large].map(|d| arranged(d, (&small, fit), still).unwrap());
+        let [a, b] = [&small, &large].map(|d| place_in_frame(d, (&small, fit), still).unwrap());
         assert!(Arc::ptr_eq(&a, &small), "the first stays as it is");
         assert!((bounds(&b).size().x - width).abs() < 1e-6, "{fit:?}");
         let together = bounds(&a).centre().distance(bounds(&b).centre()) < 1e-6;
-        assert_eq!(together, fit != Fit::AsDrawn, "{fit:?}");
+        assert_eq!(together, fit != DesignFit::AsDrawn, "{fit:?}");
     }
     let placement = Similarity {
         rotation: std::f64::consts::FRAC_PI_4,
         offset: DVec2::new(5.0, 0.0),
         ..Similarity::IDENTITY
     };
-    let a = arranged(&small, (&small, Fit::AsDrawn), placement).unwrap();
+    let a = place_in_frame(&small, (&small, DesignFit::AsDrawn), placement).unwrap();
     let moved = bounds(&a).centre() - bounds(&small).centre();
     assert!(
         moved.distance(DVec2::new(5.0, 0.0)) < 1e-6,
@@ -280,7 +280,7 @@ fn fits_centre_and_scale_the_target() {
         scale: 0.0,
         ..Similarity::IDENTITY
     };
-    assert!(arranged(&large, (&small, Fit::AsDrawn), flat).is_err());
+    assert!(place_in_frame(&large, (&small, DesignFit::AsDrawn), flat).is_err());
 }
 
 #[test]
@@ -294,14 +294,14 @@ fn a_mirrored_target_is_offered_the_mirror() {
         ..Similarity::IDENTITY
     };
     let source = design(SQUARE);
-    let target = arranged(&design(mirrored), (&source, Fit::AsDrawn), flip).unwrap();
+    let target = place_in_frame(&design(mirrored), (&source, DesignFit::AsDrawn), flip).unwrap();
     Transition::build(&TransitionSpec::new(source, target), &Silent).unwrap();
 }
 
 /// Cancels at the n-th report.
-struct CancelAt(usize, AtomicUsize);
+struct CancelAtReport(usize, AtomicUsize);
 
-impl Progress for CancelAt {
+impl Progress for CancelAtReport {
     fn report(&self, _stage: &'static str, _fraction: f64) {
         self.1.fetch_add(1, Ordering::Relaxed);
     }
@@ -318,7 +318,7 @@ fn a_build_can_be_cancelled_at_every_report() {
     let paths = paths_spec(svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
     for spec in [arap, field, paths] {
         for at in 1.. {
-            let progress = CancelAt(at, AtomicUsize::new(0));
+            let progress = CancelAtReport(at, AtomicUsize::new(0));
             let built = Transition::build(&spec, &progress);
             if progress.1.load(Ordering::Relaxed) < at {
                 built.unwrap();
@@ -342,7 +342,7 @@ fn arrow(turned: bool) -> Arc<Design> {
 fn what_turns_with_its_field_is_not_cut_off_at_the_frame() {
     for warp in [WarpKind::Scattered, WarpKind::Lattice, WarpKind::Arap] {
         let mut spec = field_spec(arrow(false), arrow(true));
-        spec.cell = Cell::new(warp, ContentKind::Field).unwrap();
+        spec.cell = TransitionMethod::new(warp, ContentKind::Field).unwrap();
         let transition = Transition::build(&spec, &Silent).unwrap();
         let rings = transition.frame(0.5).figure().rings;
         let ends = area(&transition.frame(0.0).figure().rings);
@@ -359,7 +359,7 @@ fn what_turns_with_its_field_is_not_cut_off_at_the_frame() {
 #[test]
 fn pins_that_were_found_can_be_taken_over_by_hand() {
     let mut spec = field_spec(arrow(false), arrow(true));
-    spec.cell = Cell::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    spec.cell = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
     let found = Transition::build(&spec, &Silent).unwrap();
     assert!(found.automatic_pins().len() > 8);
     spec.options.matching.pins = found.automatic_pins().to_vec();
@@ -374,7 +374,7 @@ fn rigid_parts_carry_a_field_that_only_turned_rigidly() {
     let boot = "M10 10h20v40h30v20h-50z";
     let turned = "M20 70v-20h40v-30h20v50z";
     let mut spec = field_spec(svg(boot), svg(turned));
-    spec.cell = Cell::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    spec.cell = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
     let transition = Transition::build(&spec, &Silent).unwrap();
     let mut frame = transition.frame(0.0);
     for t in [0.0, 0.2, 0.5, 0.9, 1.0] {
@@ -404,7 +404,7 @@ fn one_part_and_two_are_carried_by_every_warp() {
     ] {
         for (source, target) in [(&one, &two), (&two, &one)] {
             let mut spec = field_spec(Arc::clone(source), Arc::clone(target));
-            spec.cell = Cell::new(warp, ContentKind::Field).unwrap();
+            spec.cell = TransitionMethod::new(warp, ContentKind::Field).unwrap();
             let transition = Transition::build(&spec, &Silent).unwrap();
             assert!(!transition.frame(0.5).figure().rings.is_empty(), "{warp:?}");
         }
@@ -414,7 +414,7 @@ fn one_part_and_two_are_carried_by_every_warp() {
 #[test]
 fn what_carries_fields_and_pictures_as_rigid_parts_is_told() {
     let mut fields = field_spec(arrow(false), arrow(true));
-    fields.cell = Cell::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    fields.cell = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
     let mut loaded = crate::project::gallery::load("portraits-points").unwrap();
     loaded.project.warp = Some(WarpKind::Arap);
     let pictures = loaded.spec().unwrap();
@@ -434,7 +434,7 @@ fn every_cell_of_the_table_is_built() {
     let loaded = crate::project::gallery::load("portraits-points").unwrap();
     let pictures = loaded.spec().unwrap();
     let (a, b) = (svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
-    for cell in Cell::all() {
+    for cell in TransitionMethod::all() {
         let mut spec = match cell.content() {
             ContentKind::Colours => pictures.clone(),
             ContentKind::Solid | ContentKind::Field => field_spec(Arc::clone(&a), Arc::clone(&b)),
@@ -450,7 +450,7 @@ fn every_cell_of_the_table_is_built() {
 
 fn rigid_fields(source: &str, target: &str) -> TransitionSpec {
     let mut spec = field_spec(svg(source), svg(target));
-    spec.cell = Cell::new(WarpKind::Arap, ContentKind::Field).unwrap();
+    spec.cell = TransitionMethod::new(WarpKind::Arap, ContentKind::Field).unwrap();
     spec.options.matching.holes = HoleRule::Close;
     spec
 }
@@ -461,7 +461,11 @@ fn parts_that_leave_a_hole_are_carried_by_fewer_pins_and_that_is_told() {
     let outside = "M5 20h60v60h-60z M15 30v40h40v-40z M80 45h10v10h-10z";
     let spec = rigid_fields(inside, outside);
     let transition = Transition::build(&spec, &Silent).unwrap();
-    let [Note::NotByOutlines(_), Note::FewerPins { left, of }] = transition.notes() else {
+    let [
+        TransitionNote::NotByOutlines(_),
+        TransitionNote::FewerPins { left, of },
+    ] = transition.notes()
+    else {
         panic!("{:?}", transition.notes());
     };
     assert!(left < of, "{left} of {of}");
@@ -481,7 +485,7 @@ fn pins_that_do_not_match_their_outlines_carry_alone_and_that_is_told() {
     }];
     let transition = Transition::build(&spec, &Silent).unwrap();
     assert!(
-        matches!(transition.notes(), [Note::NotMatched(_)]),
+        matches!(transition.notes(), [TransitionNote::NotMatched(_)]),
         "{:?}",
         transition.notes()
     );
@@ -497,8 +501,8 @@ fn a_boundary_that_cannot_be_exact_is_told() {
         assert_eq!(mixed.unwrap().notes(), transition.notes());
         transition.notes().to_vec()
     };
-    assert_eq!(notes(&spec), [Note::BinaryBoundary]);
-    spec.options.field.boundary = Boundary::Binary;
+    assert_eq!(notes(&spec), [TransitionNote::BinaryBoundary]);
+    spec.options.field.boundary = FieldBoundary::Binary;
     assert_eq!(notes(&spec), []);
 }
 
@@ -518,7 +522,7 @@ fn what_a_match_could_not_do_is_told() {
     assert!(
         matches!(
             transition.notes(),
-            [Note::Match(MatchNote::Uncut { part: 0, .. })]
+            [TransitionNote::Match(MatchNote::Uncut { part: 0, .. })]
         ),
         "{:?}",
         transition.notes()

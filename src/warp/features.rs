@@ -43,13 +43,13 @@ pub enum FeatureError {
 
 /// Checked pairs, with lines sampled.
 #[derive(Clone, Debug)]
-pub(super) struct Features {
+pub(super) struct WarpFeatures {
     pairs: Vec<PointPair>,
     /// The frame's diameter, or 1 if it has none.
     pub(super) unit: f64,
 }
 
-impl Features {
+impl WarpFeatures {
     /// # Errors
     /// [`FeatureError`] on coordinates that are not finite, and on too many
     /// features. Pairs are counted from 1.
@@ -135,7 +135,7 @@ mod tests {
             source: [DVec2::ZERO, DVec2::X],
             target: [DVec2::Y, DVec2::ONE],
         };
-        let features = Features::new(&frame, &[], &[line])?;
+        let features = WarpFeatures::new(&frame, &[], &[line])?;
         let halfway: Vec<DVec2> = features.at(0.5).map(|(at, _)| at).collect();
         let wanted = [0.0, 0.25, 0.5, 0.75, 1.0].map(|x| DVec2::new(x, 0.5));
         assert_eq!(halfway, wanted);
@@ -143,7 +143,7 @@ mod tests {
             source: DVec2::ZERO,
             target: DVec2::X * 1e9,
         };
-        let features = Features::new(&frame, &[far], &[line])?;
+        let features = WarpFeatures::new(&frame, &[far], &[line])?;
         let places: Vec<_> = features.at(1.0).map(|(at, _)| at).collect();
         // What is far beyond the frame is held nearer; the rest stays.
         assert!(places[0] != far.target && places[0].is_finite());

@@ -2,11 +2,11 @@
 //! offered, listed or reported.
 //!
 //! A new warp is a variant of [`WarpKind`] with its row of names, and a
-//! constant of [`Words`] here; command line, window, reports and the table of
+//! constant of [`WarpLabels`] here; command line, window, reports and the table of
 //! cells read it from there. Warps know nothing of contents, so a column is
 //! named by a field.
 
-use crate::names::named;
+use crate::settings::choice::named;
 
 /// Which warp: a row of the table.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -65,7 +65,7 @@ impl WarpKind {
     /// assert!(WarpKind::None.words().solid.is_err());
     /// ```
     #[must_use]
-    pub const fn words(self) -> &'static Words {
+    pub const fn words(self) -> &'static WarpLabels {
         match self {
             Self::None => &NONE,
             Self::Paths => &PATHS,
@@ -79,23 +79,23 @@ impl WarpKind {
 
 /// What is said of a warp.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Words {
+pub struct WarpLabels {
     /// Its name in a report, in full; of no warp nothing is said.
     pub name: &'static str,
     /// With solids.
-    pub solid: Column,
+    pub solid: CellSupport,
     /// With distance fields.
-    pub field: Column,
+    pub field: CellSupport,
     /// With two pictures.
-    pub colours: Column,
+    pub colours: CellSupport,
 }
 
 /// What is said of a warp with one content, or why they do not go together.
-pub type Column = Result<CellWords, &'static str>;
+pub type CellSupport = Result<CellLabels, &'static str>;
 
 /// What is said of a warp with one content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct CellWords {
+pub struct CellLabels {
     /// What it is called, in a few words.
     pub name: &'static str,
     /// What it is called on a button, beside the title of its row.
@@ -113,8 +113,8 @@ const NOTHING_TO_LOOK_UP: &str = "this warp says where to look in the designs, a
 const NOTHING_INSIDE: &str = "this warp moves the points of an outline and nothing inside it; choose solids, or rigid parts (arap) to carry fields and colours";
 
 /// A field that a warp carries.
-const fn carried_field(name: &'static str, report: &'static str) -> CellWords {
-    CellWords {
+const fn carried_field(name: &'static str, report: &'static str) -> CellLabels {
+    CellLabels {
         name,
         button: "Carried field",
         report,
@@ -124,8 +124,8 @@ const fn carried_field(name: &'static str, report: &'static str) -> CellWords {
 }
 
 /// Two pictures that a warp carries.
-const fn morph(name: &'static str, report: &'static str) -> CellWords {
-    CellWords {
+const fn morph(name: &'static str, report: &'static str) -> CellLabels {
+    CellLabels {
         name,
         button: "Morph",
         report,
@@ -134,17 +134,17 @@ const fn morph(name: &'static str, report: &'static str) -> CellWords {
     }
 }
 
-const NONE: Words = Words {
+const NONE: WarpLabels = WarpLabels {
     name: "",
     solid: Err("a solid changes by moving, so it needs a warp; choose rigid parts (arap)"),
-    field: Ok(CellWords {
+    field: Ok(CellLabels {
         name: "field blend",
         button: "Blend",
         report: "field",
         sentence: "Blends how far each point lies from the two outlines. Any shapes, with holes; \
                    parts that move grow out of each other instead of turning.",
     }),
-    colours: Ok(CellWords {
+    colours: Ok(CellLabels {
         name: "cross-dissolve",
         button: "Dissolve",
         report: "dissolve",
@@ -152,9 +152,9 @@ const NONE: Words = Words {
     }),
 };
 
-const ARAP: Words = Words {
+const ARAP: WarpLabels = WarpLabels {
     name: "rigid parts",
-    solid: Ok(CellWords {
+    solid: Ok(CellLabels {
         name: "rigid parts",
         button: "Rigid parts",
         report: "arap",
@@ -165,9 +165,9 @@ const ARAP: Words = Words {
     colours: Ok(morph("pictures by rigid parts", "arap warp")),
 };
 
-const PATHS: Words = Words {
+const PATHS: WarpLabels = WarpLabels {
     name: "boundary paths",
-    solid: Ok(CellWords {
+    solid: Ok(CellLabels {
         name: "boundary paths",
         button: "Outlines",
         report: "paths",
@@ -178,21 +178,21 @@ const PATHS: Words = Words {
     colours: Err(NOTHING_INSIDE),
 };
 
-const LINES: Words = Words {
+const LINES: WarpLabels = WarpLabels {
     name: "pairs of lines",
     solid: Err(NOTHING_TO_LOOK_UP),
     field: Ok(carried_field("fields by lines", "lines")),
     colours: Ok(morph("pictures by lines", "lines")),
 };
 
-const SCATTERED: Words = Words {
+const SCATTERED: WarpLabels = WarpLabels {
     name: "scattered points",
     solid: Err(NOTHING_TO_LOOK_UP),
     field: Ok(carried_field("fields by scattered points", "scattered")),
     colours: Ok(morph("pictures by scattered points", "scattered")),
 };
 
-const LATTICE: Words = Words {
+const LATTICE: WarpLabels = WarpLabels {
     name: "B-spline lattices",
     solid: Err(NOTHING_TO_LOOK_UP),
     field: Ok(carried_field("fields by lattices", "lattice")),

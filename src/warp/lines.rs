@@ -30,27 +30,27 @@
 //! - `scaled`: coordinates whose products neither overflow nor vanish
 //! - `kernel`: weights and the sums over lines, many places at a time
 
-mod between;
 mod kernel;
 mod line;
+mod moving_line;
 mod options;
-mod scaled;
+mod scaled_plane;
 
 #[cfg(test)]
 mod tests;
 
-pub use options::{Between, LineOptions, LinesError};
+pub use options::{LineInterpolation, LineOptions, LinesError};
 
 use super::features::{FeatureError, check};
 use super::plane::{PlaneWarp, in_chunks};
 use crate::correspondence::{LinePair, PointPair};
 use crate::geometry::{Bounds, DVec2};
-use between::Moving;
 use kernel::{LARGEST_A, LEAST_A};
-use line::{Feature, Line};
-use options::Constants;
+use line::{FieldLine, LineFeature};
+use moving_line::MovingLine;
+use options::BeierNeelyConstants;
 use pulp::Arch;
-use scaled::Scaled;
+use scaled_plane::ScaledPlane;
 
 /// The length, in diameters of the frame, of a line that weighs as much as a
 /// pin: about that of the lines which people draw along a feature.
@@ -79,24 +79,24 @@ const CHUNK: usize = 1024;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Clone, Debug)]
-pub struct Lines {
-    features: Vec<(Moving, Option<f64>)>,
-    between: Between,
-    at_t: LinesAtT,
+pub struct LineWarp {
+    features: Vec<(MovingLine, Option<f64>)>,
+    between: LineInterpolation,
+    at_t: LinesAtTime,
 }
 
 /// The lines at a t, which move the plane together, into both designs.
 #[derive(Clone, Debug)]
-struct LinesAtT {
+struct LinesAtTime {
     arch: Arch,
-    constants: Constants,
-    plane: Scaled,
+    constants: BeierNeelyConstants,
+    plane: ScaledPlane,
     /// a, scaled.
     a: f64,
-    lines: Vec<Line>,
+    lines: Vec<FieldLine>,
 }
 
-impl Lines {
+impl LineWarp {
     /// A warp by lines and pins, in the coordinates of the frame. Without any
     /// nothing moves.
     ///
@@ -110,10 +110,10 @@ impl Lines {
     ) -> Result<Self, LinesError> {
         let diameter = diameter(frame)?;
         check(points, lines)?;
-        let line = |line: &LinePair| Moving::new(line.source, line.target);
-        let pin = |pin: &PointPair| Moving::new([pin.source; 2], [pin.target; 2]);
+        let line = |line: &LinePair| MovingLine::new(line.source, line.target);
+        let pin = |pin: &PointPair| MovingLine::new([pin.source; 2], [pin.target; 2]);
         // A pin has no length to be weighed by.
-        let nominal = |moving: Moving| {
+        let nominal = |moving: MovingLine| {
             let length = moving.is_point().then_some(PIN_LENGTH * diameter);
             (moving, length)
         };
@@ -121,7 +121,7 @@ impl Lines {
         Ok(Self {
             features: moving.map(nominal).collect(),
             between: options.between,
-            at_t: LinesAtT::new(options.constants(diameter)?),
+            at_t: LinesAtTime::new(options.constants(diameter)?),
         })
     }
 }
@@ -136,27 +136,27 @@ fn diameter(frame: &Bounds) -> Result<f64, FeatureError> {
     Ok(if diameter > 0.0 { diameter } else { 1.0 })
 }
 
-impl LinesAtT {
+impl LinesAtTime {
     /// No lines yet.
-    fn new(constants: Constants) -> Self {
+    fn new(constants: BeierNeelyConstants) -> Self {
         Self {
             arch: Arch::new(),
             constants,
-            plane: Scaled::default(),
+            plane: ScaledPlane::default(),
             a: constants.a,
             lines: Vec::new(),
         }
     }
 
     /// Replaces the lines. Those that overflowed on their way are left out.
-    fn fill(&mut self, features: impl Iterator<Item = Feature> + Clone) {
-        let features = features.filter(Feature::is_finite);
-        self.plane = Scaled::around(features.clone());
+    fn fill(&mut self, features: impl Iterator<Item = LineFeature> + Clone) {
+        let features = features.filter(LineFeature::is_finite);
+        self.plane = ScaledPlane::around(features.clone());
         let (plane, a) = (self.plane, self.constants.a * self.plane.per_unit);
         // The kernel's weights are finite for an a in this range only.
         self.a = a.clamp(LEAST_A, LARGEST_A);
         self.lines.clear();
-        let lines = features.map(|feature| Line::new(&plane.feature(&feature), a));
+        let lines = features.map(|feature| FieldLine::new(&plane.feature(&feature), a));
         self.lines.extend(lines);
         self.weigh();
     }
@@ -176,7 +176,7 @@ impl LinesAtT {
     /// Where each place is looked up in both designs. All slices are as long
     /// as `places`, or what is beyond the shortest is left as it is.
     fn map_into(&self, places: &[DVec2], designs: [&mut [DVec2]; 2]) {
-        let lines = kernel::Lines {
+        let lines = kernel::ScaledLines {
             lines: &self.lines,
             plane: self.plane,
             a: self.a,
@@ -186,7 +186,7 @@ impl LinesAtT {
     }
 }
 
-impl PlaneWarp for Lines {
+impl PlaneWarp for LineWarp {
     fn look_up(
         &mut self,
         t: f64,
@@ -195,7 +195,7 @@ impl PlaneWarp for Lines {
         in_target: &mut [DVec2],
     ) {
         let lines = &mut self.at_t;
-        lines.fill(self.features.iter().map(|(moving, nominal)| Feature {
+        lines.fill(self.features.iter().map(|(moving, nominal)| LineFeature {
             in_frame: moving.at(t, self.between),
             in_designs: [moving.source, moving.target],
             nominal: *nominal,

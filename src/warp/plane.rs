@@ -4,7 +4,7 @@
 //! a design is seen there, so that no hole opens. They are evaluated on a grid
 //! that covers the frame and are taken as linear on its triangles.
 
-use super::{Missed, Placement, Placer, Warp};
+use super::{MissedFeatures, Placement, Placer, Warp};
 use crate::geometry::{Bounds, DVec2};
 use rayon::prelude::*;
 use std::fmt::Debug;
@@ -26,7 +26,7 @@ pub trait PlaneWarp: Clone + Debug + Send + Sync + 'static {
     );
 
     /// The features that are missed at t by more than is asked for.
-    fn missed(&self, _t: f64) -> Option<Missed> {
+    fn missed(&self, _t: f64) -> Option<MissedFeatures> {
         None
     }
 }
@@ -97,20 +97,20 @@ impl PlaneGrid {
 
 /// A plane warp on a grid: a row of the table.
 #[derive(Debug)]
-pub struct OnGrid<W> {
+pub struct GridWarp<W> {
     warp: W,
     grid: PlaneGrid,
 }
 
-impl<W: PlaneWarp> OnGrid<W> {
+impl<W: PlaneWarp> GridWarp<W> {
     /// The warp as it is seen in a frame.
     pub const fn new(warp: W, grid: PlaneGrid) -> Self {
         Self { warp, grid }
     }
 }
 
-impl<W: PlaneWarp> Warp for OnGrid<W> {
-    fn missed(&self, t: f64) -> Option<Missed> {
+impl<W: PlaneWarp> Warp for GridWarp<W> {
+    fn missed(&self, t: f64) -> Option<MissedFeatures> {
         self.warp.missed(t)
     }
 

@@ -2,39 +2,39 @@
 //! another is there sooner.
 //!
 //! A part is at t where the plain film has it at another time, which its
-//! [`Clock`] tells. The film of the parts is the same, and so are its ends;
+//! [`PartClock`] tells. The film of the parts is the same, and so are its ends;
 //! what the whole does between them, each part does when its time has come. Since
 //! parts do not touch, a frame is one solve, however many clocks there are. Where
 //! an anchor holds the film, it is held in the time of the anchor's part.
 
 use super::{Arap, Placer, Warp};
-use crate::easing::{Ease, Easing};
+use crate::time::easing::{EasingFunction, NamedEasing};
 use std::sync::Arc;
 
 /// When a part makes its way: it waits until `from`, arrives at `to`, and runs
 /// in between as `easing` says. Beyond [0, 1] it goes on as the whole does.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Clock {
+pub struct PartClock {
     /// When it sets out, from 0.
     pub from: f64,
     /// When it arrives, later than that, up to 1.
     pub to: f64,
     /// How it runs in between.
-    pub easing: Ease,
+    pub easing: EasingFunction,
 }
 
-impl Clock {
+impl PartClock {
     /// That of the whole.
     pub const WHOLE: Self = Self {
         from: 0.0,
         to: 1.0,
-        easing: Ease::Named(Easing::Linear),
+        easing: EasingFunction::Named(NamedEasing::Linear),
     };
 
     /// The time that it shows at `t`: exactly 0 and 1 at the ends.
     ///
     /// ```
-    /// use morphospace::easing::Easing;
+    /// use morphospace::time::easing::Easing;
     /// use morphospace::warp::Clock;
     /// let late = Clock { from: 0.5, to: 1.0, easing: Easing::Linear.into() };
     /// assert_eq!([0.0, 0.5, 0.75, 1.0].map(|t| late.at(t)), [0.0, 0.0, 0.5, 1.0]);
@@ -66,24 +66,24 @@ impl Clock {
 
 /// Rigid parts with a clock each.
 #[derive(Clone, Debug)]
-pub struct Staggered {
+pub struct StaggeredArap {
     arap: Arap,
-    clocks: Arc<[Clock]>,
+    clocks: Arc<[PartClock]>,
     /// For each connected part the number of its clock.
     of_parts: Arc<[u32]>,
     /// For each vertex its connected part.
     of_vertices: Arc<[u32]>,
 }
 
-impl Staggered {
+impl StaggeredArap {
     /// The same film, in which the connected parts of the mesh have these clocks,
     /// each by its number; that of the whole beyond the list.
     ///
     /// # Panics
     /// If there is no clock of a number.
     #[must_use]
-    pub fn new(arap: Arap, clocks: &[Clock], of_parts: &[Option<usize>]) -> Self {
-        let clocks: Arc<[Clock]> = clocks.iter().copied().chain([Clock::WHOLE]).collect();
+    pub fn new(arap: Arap, clocks: &[PartClock], of_parts: &[Option<usize>]) -> Self {
+        let clocks: Arc<[PartClock]> = clocks.iter().copied().chain([PartClock::WHOLE]).collect();
         let whole = clocks.len() - 1;
         let of_vertices: Arc<[u32]> = arap.mesh().components().into();
         let count = of_vertices
@@ -124,20 +124,20 @@ impl Staggered {
     pub(crate) fn backwards(&self, arap: Arap) -> Self {
         Self {
             arap,
-            clocks: self.clocks.iter().map(Clock::backwards).collect(),
+            clocks: self.clocks.iter().map(PartClock::backwards).collect(),
             ..self.clone()
         }
     }
 
     /// The clock of a vertex.
     #[must_use]
-    pub fn clock(&self, vertex: u32) -> Clock {
+    pub fn clock(&self, vertex: u32) -> PartClock {
         let part = self.of_vertices[vertex as usize];
         self.clocks[self.of_parts[part as usize] as usize]
     }
 }
 
-impl Warp for Staggered {
+impl Warp for StaggeredArap {
     fn placer(&self) -> Placer {
         let of_parts = Arc::clone(&self.of_parts);
         let clocks = Arc::clone(&self.clocks);
@@ -164,8 +164,8 @@ mod tests {
     use super::*;
     use crate::compatible::CompatibleMesh;
     use crate::geometry::{DMat2, DVec2};
-    use crate::progress::Silent;
     use crate::warp::ArapOptions;
+    use crate::work::progress::Silent;
 
     /// Two triangles far apart that turn and go up.
     fn film() -> Arap {
@@ -188,16 +188,16 @@ mod tests {
         placer.placement().in_frame.clone()
     }
 
-    const LATE: Clock = Clock {
+    const LATE: PartClock = PartClock {
         from: 0.5,
         to: 1.0,
-        easing: Ease::Named(Easing::EaseIn),
+        easing: EasingFunction::Named(NamedEasing::EaseIn),
     };
 
     #[test]
     fn a_part_is_where_the_plain_film_has_it_when_its_time_has_come() {
         let film = film();
-        let late = Staggered::new(film.clone(), &[LATE], &[None, Some(0)]);
+        let late = StaggeredArap::new(film.clone(), &[LATE], &[None, Some(0)]);
         for t in [0.0, 0.3, 0.5, 0.8, 1.0, 1.2, -0.4] {
             let (plain, own) = (at(&film, t), at(&film, LATE.at(t)));
             let expected: Vec<DVec2> = plain[..3].iter().chain(&own[3..]).copied().collect();
@@ -211,7 +211,7 @@ mod tests {
     #[test]
     fn backwards_is_the_same_film() {
         let film = film();
-        let late = Staggered::new(film.clone(), &[LATE], &[Some(0)]);
+        let late = StaggeredArap::new(film.clone(), &[LATE], &[Some(0)]);
         let back = film.swapped(&Silent).expect("the film backwards");
         let back = late.backwards(back);
         for t in [0.1, 0.5, 0.75, 0.9] {

@@ -4,7 +4,9 @@ use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{IntoScheduleConfigs, PostUpdate, Query, ResMut, Resource};
 use bevy_egui::egui::Shape;
 use bevy_egui::{EguiFullOutput, EguiPostUpdateSet};
-use morphospace::app::{About, Answer, Intent, Measured, Notices, Question, Twin};
+use morphospace::app::{
+    Comparison, Intent, NoticeTopic, Notices, StageMeasures, UnsavedAnswer, UnsavedQuestion,
+};
 
 use crate::window::Window;
 
@@ -67,15 +69,15 @@ fn worry(window: &mut Window) {
     window.type_char(KeyCode::KeyV, "v");
     let done = |window: &Window| {
         let world = window.0.world();
-        world.resource::<Measured>().measures().is_some()
-            && world.resource::<Twin>().transition().is_some()
+        world.resource::<StageMeasures>().measures().is_some()
+            && world.resource::<Comparison>().transition().is_some()
     };
     while !done(window) {
         std::thread::sleep(std::time::Duration::from_millis(1));
         window.update();
     }
     let mut notices = window.0.world_mut().resource_mut::<Notices>();
-    notices.problem(About::Film, "a problem");
+    notices.problem(NoticeTopic::Film, "a problem");
     notices.done("a confirmation");
 }
 
@@ -125,8 +127,15 @@ fn what_is_asked_for_is_shown_to_whoever_asked() {
     window.send(Intent::AddStop);
     window.send(Intent::Close);
     assert!(drawn(&mut window).says("Unsaved changes"));
-    window.send(Intent::Answer(Answer::Stay));
-    assert!(window.0.world().resource::<Question>().text().is_none());
+    window.send(Intent::Answer(UnsavedAnswer::Stay));
+    assert!(
+        window
+            .0
+            .world()
+            .resource::<UnsavedQuestion>()
+            .text()
+            .is_none()
+    );
     assert_eq!(drawn(&mut window).shapes, 0);
 }
 

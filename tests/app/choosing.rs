@@ -3,17 +3,17 @@
 use std::path::Path;
 use std::time::Duration;
 
-use morphospace::app::{Choosing, Intent};
-use morphospace::{Cell, Transition};
+use morphospace::app::{Intent, MethodSearch};
+use morphospace::{Transition, TransitionMethod};
 
 use crate::window::Window;
 
-fn cell(window: &Window) -> Option<Cell> {
+fn cell(window: &Window) -> Option<TransitionMethod> {
     window.session().transition().map(Transition::cell)
 }
 
 fn is_trying(window: &Window) -> bool {
-    window.0.world().resource::<Choosing>().told().is_some()
+    window.0.world().resource::<MethodSearch>().told().is_some()
 }
 
 /// Two outlines that blend as fields, of which pieces break off on the way.
@@ -29,7 +29,7 @@ fn with_fields(folder: &Path) -> Window {
     let mut window = Window::new();
     window.send(Intent::Open(vec![bar, upright]));
     window.wait();
-    let field = Cell::FIELD_BLEND;
+    let field = TransitionMethod::FIELD_BLEND;
     window.send(Intent::UseCell(field.warp(), field.content()));
     window.wait();
     assert_eq!(cell(&window), Some(field));
@@ -46,10 +46,10 @@ fn the_best_method_is_taken_and_can_be_taken_back() {
         window.update();
     }
     window.wait();
-    assert_eq!(cell(&window), Some(Cell::RIGID_PARTS));
+    assert_eq!(cell(&window), Some(TransitionMethod::RIGID_PARTS));
     window.send(Intent::Undo);
     window.wait();
-    assert_eq!(cell(&window), Some(Cell::FIELD_BLEND));
+    assert_eq!(cell(&window), Some(TransitionMethod::FIELD_BLEND));
 }
 
 #[test]
@@ -61,5 +61,5 @@ fn a_choice_that_is_stopped_changes_nothing() {
     window.send(Intent::Back);
     assert!(!is_trying(&window));
     window.wait();
-    assert_eq!(cell(&window), Some(Cell::FIELD_BLEND));
+    assert_eq!(cell(&window), Some(TransitionMethod::FIELD_BLEND));
 }

@@ -5,12 +5,14 @@ use std::path::Path;
 use crate::window::Window;
 use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::{ButtonInput, MouseButton, Vec2};
-use morphospace::app::{EditorAct, Fate, Handle, Intent, Pane, PaneView, Tool, Touch};
+use morphospace::app::{
+    EditorAction, EditorHandle, EditorPane, EditorPointer, EditorTool, Intent, PaneView, PieceFate,
+};
 use morphospace::content::Content;
-use morphospace::correspondence::Matching;
+use morphospace::correspondence::MatchSettings;
 use morphospace::geometry::{DVec2, Side};
 use morphospace::project::Project;
-use morphospace::transition::{Ease, PaintRule, PartTime};
+use morphospace::transition::{EasingFunction, PaintRule, PartTime};
 
 /// An L and the same L stretched, as outlines; and two squares beside each other.
 fn write_outline(folder: &Path, name: &str, d: &str) -> std::path::PathBuf {
@@ -39,8 +41,8 @@ fn with_outlines(folder: &Path, source: &str, target: &str) -> Window {
     window
 }
 
-fn touch(side: Side, x: f64, y: f64) -> Touch {
-    Touch {
+fn touch(side: Side, x: f64, y: f64) -> EditorPointer {
+    EditorPointer {
         side,
         at: DVec2::new(x, y),
         reach: 3.0,
@@ -91,17 +93,17 @@ fn a_click_on_a_boundary_pins_it_where_it_is_matched() {
         .expect("a boundary");
     let mut hand = touch(Side::Source, on.point.x, on.point.y);
     hand.reach = 1.0;
-    window.act(EditorAct::Click(hand));
+    window.act(EditorAction::Click(hand));
     window.wait();
     assert_eq!(window.matching().pins.len(), 1);
-    assert_eq!(window.editor().selected, Some(Handle::Pin(0)));
+    assert_eq!(window.editor().selected, Some(EditorHandle::Pin(0)));
     let pin = window.sheet().pins[0];
     assert!(pin.source.distance(on.point) < 1e-9);
     assert!(place.is_finite() && pin.target.is_finite());
     assert!(window.session().problem().is_none());
     window.send(Intent::Undo);
     window.wait();
-    assert_eq!(window.matching(), Matching::default());
+    assert_eq!(window.matching(), MatchSettings::default());
     assert!(window.sheet().pins.is_empty());
 }
 
@@ -116,10 +118,10 @@ fn points_keep_their_letters_when_one_is_pinned() {
     };
     let before = called(&window);
     let pinned = before[0].1;
-    window.act(EditorAct::Press(touch(Side::Source, pinned.x, pinned.y)));
+    window.act(EditorAction::Press(touch(Side::Source, pinned.x, pinned.y)));
     let beside = touch(Side::Source, pinned.x + 4.0, pinned.y);
-    window.act(EditorAct::Drag(beside, Vec2::new(3.0, 0.0)));
-    window.act(EditorAct::Release);
+    window.act(EditorAction::Drag(beside, Vec2::new(3.0, 0.0)));
+    window.act(EditorAction::Release);
     window.wait();
     assert_eq!(window.matching().pins.len(), 1);
     let after = called(&window);
@@ -161,15 +163,18 @@ fn a_point_that_is_dragged_becomes_a_pin_that_snaps_and_is_honoured() {
         .world_mut()
         .resource_mut::<ButtonInput<MouseButton>>();
     buttons.press(MouseButton::Left);
-    window.act(EditorAct::Press(start));
+    window.act(EditorAction::Press(start));
     let halfway = from.target.lerp(to, 0.5);
-    window.act(EditorAct::Drag(
+    window.act(EditorAction::Drag(
         touch(Side::Target, halfway.x, halfway.y),
         step,
     ));
     let near = to + DVec2::new(1.0, 1.0);
-    window.act(EditorAct::Drag(touch(Side::Target, near.x, near.y), step));
-    window.act(EditorAct::Release);
+    window.act(EditorAction::Drag(
+        touch(Side::Target, near.x, near.y),
+        step,
+    ));
+    window.act(EditorAction::Release);
     let mut buttons = window
         .0
         .world_mut()
@@ -237,9 +242,9 @@ fn delete_and_backspace_take_the_chosen_pin_away() {
     ] {
         let from = window.sheet().features[0];
         let hand = touch(Side::Source, from.source.x, from.source.y);
-        window.act(EditorAct::Press(hand));
-        window.act(EditorAct::Drag(hand, Vec2::new(1.0, 0.0)));
-        window.act(EditorAct::Release);
+        window.act(EditorAction::Press(hand));
+        window.act(EditorAction::Drag(hand, Vec2::new(1.0, 0.0)));
+        window.act(EditorAction::Release);
         assert_eq!(window.matching().pins.len(), 1);
         window.send(Intent::Faster);
         let speed = window.playback().speed();
@@ -262,39 +267,47 @@ fn parts_are_paired_by_two_clicks_and_freed_by_one() {
     let source = inside(&window, Side::Source, 0);
     let target = inside(&window, Side::Target, 1);
     let other = inside(&window, Side::Target, 0);
-    window.act(EditorAct::Click(touch(Side::Source, source.x, source.y)));
+    window.act(EditorAction::Click(touch(Side::Source, source.x, source.y)));
     // Nobody has to ask for parts first: within one there is nothing else to click.
-    assert_eq!(window.editor().tool, Tool::Parts);
+    assert_eq!(window.editor().tool, EditorTool::Parts);
     assert!(window.editor().first_part.is_some());
-    window.act(EditorAct::Click(touch(Side::Target, target.x, target.y)));
+    window.act(EditorAction::Click(touch(Side::Target, target.x, target.y)));
     window.wait();
     assert_eq!(window.matching().links.len(), 1);
     assert!(window.sheet().pieces.iter().any(|piece| piece.is_linked));
     // A part has one partner: the new pair replaces the old one.
-    window.act(EditorAct::Click(touch(Side::Target, other.x, other.y)));
-    window.act(EditorAct::Click(touch(Side::Source, source.x, source.y)));
+    window.act(EditorAction::Click(touch(Side::Target, other.x, other.y)));
+    window.act(EditorAction::Click(touch(Side::Source, source.x, source.y)));
     window.wait();
     assert_eq!(window.matching().links.len(), 1);
-    window.act(EditorAct::Remove(touch(Side::Source, source.x, source.y)));
+    window.act(EditorAction::Remove(touch(
+        Side::Source,
+        source.x,
+        source.y,
+    )));
     assert!(window.matching().links.is_empty());
     // Two clicks more, the second beside all parts, and it has no partner.
     window.wait();
-    window.act(EditorAct::Click(touch(Side::Source, source.x, source.y)));
-    window.act(EditorAct::Click(touch(Side::Target, 5000.0, 5000.0)));
+    window.act(EditorAction::Click(touch(Side::Source, source.x, source.y)));
+    window.act(EditorAction::Click(touch(Side::Target, 5000.0, 5000.0)));
     window.wait();
     assert_eq!(window.matching().lone.len(), 1);
     let dies = |window: &Window| {
         let mut pieces = window.sheet().pieces.iter();
-        pieces.any(|piece| piece.fate == Fate::Dies && piece.is_linked)
+        pieces.any(|piece| piece.fate == PieceFate::Dies && piece.is_linked)
     };
     assert!(dies(&window));
     // Its boundary cannot be pinned: there, too, it is taken to be paired.
     let corner = window.sheet().sides.as_ref().expect("outlines")[Side::Source].parts[0][0][0];
-    window.act(EditorAct::Tool(Tool::Pins));
-    window.act(EditorAct::Click(touch(Side::Source, corner.x, corner.y)));
-    assert_eq!(window.editor().tool, Tool::Parts);
+    window.act(EditorAction::Tool(EditorTool::Pins));
+    window.act(EditorAction::Click(touch(Side::Source, corner.x, corner.y)));
+    assert_eq!(window.editor().tool, EditorTool::Parts);
     assert!(window.editor().first_part.is_some() && window.editor().refusal.is_none());
-    window.act(EditorAct::Remove(touch(Side::Source, source.x, source.y)));
+    window.act(EditorAction::Remove(touch(
+        Side::Source,
+        source.x,
+        source.y,
+    )));
     window.wait();
     assert!(window.matching().lone.is_empty() && !dies(&window));
     window.wait();
@@ -321,7 +334,7 @@ fn of_painted_parts_the_hand_takes_the_one_that_is_seen() {
     window.send(Intent::Open(files));
     window.wait();
     window.type_char(KeyCode::KeyE, "e");
-    window.act(EditorAct::Tool(Tool::Parts));
+    window.act(EditorAction::Tool(EditorTool::Parts));
     assert_eq!(window.sheet().pieces.len(), 3);
     // Each is named where it is seen.
     for piece in 0..3 {
@@ -336,8 +349,8 @@ fn of_painted_parts_the_hand_takes_the_one_that_is_seen() {
         own.expect("a disc").at[0]
     });
     for [from, to] in [[gold, teal], [teal, gold]] {
-        window.act(EditorAct::Click(touch(Side::Source, from.x, from.y)));
-        window.act(EditorAct::Click(touch(Side::Target, to.x, to.y)));
+        window.act(EditorAction::Click(touch(Side::Source, from.x, from.y)));
+        window.act(EditorAction::Click(touch(Side::Target, to.x, to.y)));
         window.wait();
     }
     assert_eq!(window.matching().links.len(), 2);
@@ -368,7 +381,7 @@ fn a_part_is_given_its_own_time_and_keeps_it_with_the_project() {
         at,
         from: 0.5,
         to: 1.0,
-        easing: Ease::default(),
+        easing: EasingFunction::default(),
     };
     let waiting = |window: &Window| {
         let transition = window.session().transition().expect("a film").clone();
@@ -407,15 +420,18 @@ fn a_cut_that_is_dragged_is_asked_for() {
     let found = window.sheet().cuts[0];
     assert_eq!(found.asked, None);
     let at = found.cut.outer;
-    window.act(EditorAct::Press(touch(Side::Source, at.x, at.y)));
+    window.act(EditorAction::Press(touch(Side::Source, at.x, at.y)));
     let to = at + DVec2::new(2.0, 2.0);
-    window.act(EditorAct::Drag(touch(Side::Source, to.x, to.y), Vec2::ONE));
-    window.act(EditorAct::Release);
+    window.act(EditorAction::Drag(
+        touch(Side::Source, to.x, to.y),
+        Vec2::ONE,
+    ));
+    window.act(EditorAction::Release);
     window.wait();
     assert_eq!(window.matching().cuts.len(), 1);
     assert_eq!(window.sheet().cuts[0].asked, Some(0));
     assert!(window.session().problem().is_none());
-    window.act(EditorAct::Clear);
+    window.act(EditorAction::Clear);
     window.wait();
     assert_eq!(window.sheet().cuts[0].asked, None);
 }
@@ -426,9 +442,9 @@ fn another_design_forgets_the_points_of_the_old_one() {
     let mut window = with_outlines(folder.path(), L, TALL_L);
     let from = window.sheet().features[0];
     let hand = touch(Side::Source, from.source.x, from.source.y);
-    window.act(EditorAct::Press(hand));
-    window.act(EditorAct::Drag(hand, Vec2::new(1.0, 0.0)));
-    window.act(EditorAct::Release);
+    window.act(EditorAction::Press(hand));
+    window.act(EditorAction::Drag(hand, Vec2::new(1.0, 0.0)));
+    window.act(EditorAction::Release);
     window.wait();
     let other = write_outline(folder.path(), "other.svg", TWO);
     window.send(Intent::ReplaceDesign(1, other));
@@ -444,8 +460,8 @@ fn the_editor_zooms_to_the_pointer_and_fits_again() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path(), L, TALL_L);
     let at = Vec2::new(40.0, -30.0);
-    let (pane, factor) = (Pane::Design(Side::Source), 2.0);
-    window.act(EditorAct::Zoom { pane, at, factor });
+    let (pane, factor) = (EditorPane::Design(Side::Source), 2.0);
+    window.act(EditorAction::Zoom { pane, at, factor });
     // What was under the pointer lies there still: at = pan + zoom * p, before and after.
     let view = window.editor().panes.view(pane);
     assert_eq!(view.zoom, 2.0);

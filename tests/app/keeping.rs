@@ -3,7 +3,7 @@
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-use morphospace::app::{Autosave, Intent, Rescue};
+use morphospace::app::{Autosave, Intent, RecoveryAnswer};
 
 use crate::window::{Window, entries};
 
@@ -49,7 +49,7 @@ fn what_was_not_saved_is_offered_at_the_next_start() {
     let title = killed(folder.path());
     let mut window = keeping(Window::new(), folder.path());
     assert_eq!(lost(&window), Some(title.clone()));
-    window.send(Intent::Rescue(Rescue::Restore));
+    window.send(Intent::Rescue(RecoveryAnswer::Restore));
     window.wait();
     assert_eq!(window.session().title(), title);
     assert!(window.session().is_dirty(), "it is still not saved");
@@ -64,7 +64,7 @@ fn what_was_not_saved_is_offered_at_the_next_start() {
 fn what_is_put_off_is_offered_again_and_what_is_discarded_is_not() {
     let folder = tempfile::tempdir().expect("a folder");
     let title = killed(folder.path());
-    for answer in [Rescue::Later, Rescue::Discard] {
+    for answer in [RecoveryAnswer::Later, RecoveryAnswer::Discard] {
         let mut window = keeping(Window::new(), folder.path());
         assert_eq!(lost(&window), Some(title.clone()));
         window.send(Intent::Rescue(answer));
@@ -104,7 +104,7 @@ fn what_cannot_be_opened_again_stays_kept() {
     drop(window);
     std::fs::remove_file(&pair[0]).expect("there");
     let mut window = keeping(Window::new(), folder.path());
-    window.send(Intent::Rescue(Rescue::Restore));
+    window.send(Intent::Rescue(RecoveryAnswer::Restore));
     window.wait();
     assert_eq!(window.problems().len(), 1);
     window.send(Intent::OpenGallery(entries().remove(0)));
@@ -117,7 +117,7 @@ fn what_cannot_be_opened_again_stays_kept() {
     drop(window);
     file("a.json");
     let mut window = keeping(Window::new(), folder.path());
-    window.send(Intent::Rescue(Rescue::Restore));
+    window.send(Intent::Rescue(RecoveryAnswer::Restore));
     window.wait();
     assert!(window.session().transition().is_some() && window.session().is_dirty());
 }

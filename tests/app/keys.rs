@@ -3,9 +3,9 @@
 use crate::window::{Window, close};
 use bevy::input::ButtonState;
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::{Intent, Typing};
+use morphospace::app::{Intent, KeyboardFocus};
 use morphospace::content::ContentKind;
-use morphospace::transition::{Cell, PlayMode};
+use morphospace::transition::{PlayMode, TransitionMethod};
 
 #[test]
 fn space_plays_and_pauses() {
@@ -130,14 +130,14 @@ fn stops_are_set_jumped_to_and_played_to() {
 #[test]
 fn no_key_acts_while_text_is_written() {
     let mut window = Window::with_gallery();
-    window.0.insert_resource(Typing(true));
+    window.0.insert_resource(KeyboardFocus(true));
     window.press(KeyCode::Space, Key::Space);
     window.type_char(KeyCode::Digit5, "5");
     window.type_char(KeyCode::KeyS, "s");
     assert!(!window.playback().is_playing());
     assert_eq!(window.t(), window.session().timing().from);
     assert!(window.messages().is_empty());
-    window.0.insert_resource(Typing(false));
+    window.0.insert_resource(KeyboardFocus(false));
     window.update();
     assert_eq!(
         window.t(),
@@ -201,6 +201,6 @@ fn tab_takes_the_next_method_that_can_be_had() {
         seen.push(next);
     }
     // Two outlines have no colours; everything else can be had.
-    let can = |cell: &Cell| cell.content() != ContentKind::Colours;
-    assert_eq!(seen.len(), Cell::all().filter(can).count());
+    let can = |cell: &TransitionMethod| cell.content() != ContentKind::Colours;
+    assert_eq!(seen.len(), TransitionMethod::all().filter(can).count());
 }

@@ -237,7 +237,7 @@ fn the_way_of_the_puck_becomes_a_path_and_places_are_kept() {
     let side = made
         .land()
         .found()
-        .map(morphospace::measure::Landscape::side);
+        .map(morphospace::measure::MapLandscape::side);
     assert_eq!(side, Some(64));
 }
 

@@ -5,7 +5,7 @@ use std::path::Path;
 use crate::window::{Window, entries};
 use bevy::prelude::{Entity, With};
 use bevy::window::{FileDragAndDrop, WindowCloseRequested};
-use morphospace::app::{Answer, Intent, OnStage, Question};
+use morphospace::app::{Intent, OnStage, UnsavedAnswer, UnsavedQuestion};
 use morphospace::content::Content;
 use morphospace::stage::{Blend, StageTransition};
 
@@ -103,15 +103,29 @@ fn closing_asks_about_changes_and_only_then() {
     window.0.world_mut().write_message(request.clone());
     window.update();
     window.update();
-    assert!(window.0.world().resource::<Question>().text().is_some());
+    assert!(
+        window
+            .0
+            .world()
+            .resource::<UnsavedQuestion>()
+            .text()
+            .is_some()
+    );
     assert!(window.0.should_exit().is_none());
-    window.send(Intent::Answer(Answer::Stay));
-    assert!(window.0.world().resource::<Question>().text().is_none());
+    window.send(Intent::Answer(UnsavedAnswer::Stay));
+    assert!(
+        window
+            .0
+            .world()
+            .resource::<UnsavedQuestion>()
+            .text()
+            .is_none()
+    );
     assert!(window.session().is_dirty());
     window.0.world_mut().write_message(request);
     window.update();
     window.update();
-    window.send(Intent::Answer(Answer::Discard));
+    window.send(Intent::Answer(UnsavedAnswer::Discard));
     window.update();
     assert!(window.0.should_exit().is_some());
 }
@@ -126,7 +140,14 @@ fn opening_something_else_asks_about_changes() {
     window.send(Intent::OpenGallery(other));
     window.wait();
     assert_eq!(window.session().title(), title);
-    assert!(window.0.world().resource::<Question>().text().is_some());
+    assert!(
+        window
+            .0
+            .world()
+            .resource::<UnsavedQuestion>()
+            .text()
+            .is_some()
+    );
 }
 
 #[test]

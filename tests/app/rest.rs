@@ -6,7 +6,7 @@ use bevy::input::keyboard::{Key, KeyCode};
 use bevy::prelude::Entity;
 use bevy::window::WindowOccluded;
 use bevy::winit::{UpdateMode, WinitSettings};
-use morphospace::app::{Measured, Notices, Pace};
+use morphospace::app::{Notices, RedrawPace, StageMeasures};
 
 use crate::window::Window;
 
@@ -50,7 +50,14 @@ fn settle(window: &mut Window) -> usize {
 fn at_rest_nothing_is_drawn() {
     let mut window = Window::with_panels();
     settle(&mut window);
-    assert!(window.0.world().resource::<Measured>().measures().is_some());
+    assert!(
+        window
+            .0
+            .world()
+            .resource::<StageMeasures>()
+            .measures()
+            .is_some()
+    );
     for _ in 0..50 {
         window.update();
         assert!(waits(&window) > LONG);
@@ -107,7 +114,7 @@ fn what_nobody_sees_is_not_drawn() {
     };
     assert!(cover(true) > LONG);
     assert_eq!(cover(false), Duration::ZERO);
-    let hidden = Pace {
+    let hidden = RedrawPace {
         moves: true,
         waits: true,
         ticks: true,
@@ -116,7 +123,7 @@ fn what_nobody_sees_is_not_drawn() {
     };
     assert_ne!(hidden.mode(), UpdateMode::Continuous);
     // A clock alone is drawn twice a second.
-    let clock = Pace {
+    let clock = RedrawPace {
         moves: false,
         waits: false,
         ticks: true,
@@ -127,7 +134,7 @@ fn what_nobody_sees_is_not_drawn() {
     assert_eq!(clock.mode(), in_millis(500));
     // Work keeps half of a processor that draws, and is seen to go on all the same.
     for (frame, look) in [(16, 50), (40, 100), (150, 400), (5_000, 400)] {
-        let work = Pace {
+        let work = RedrawPace {
             waits: true,
             frame: Duration::from_millis(frame),
             ..clock

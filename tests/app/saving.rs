@@ -3,18 +3,27 @@
 use std::path::{Path, PathBuf};
 
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::{Answer, Dialog, Intent, Kind, Notices, Purpose};
-use morphospace::progress::Silent;
+use morphospace::app::{
+    DialogPurpose, FileDialogRequest, Intent, NoticeKind, Notices, UnsavedAnswer,
+};
+use morphospace::work::progress::Silent;
 
 use crate::window::{Window, entries};
 
-fn asks(window: &Window) -> Option<Purpose> {
-    window.0.world().resource::<Dialog>().asks().cloned()
+fn asks(window: &Window) -> Option<DialogPurpose> {
+    window
+        .0
+        .world()
+        .resource::<FileDialogRequest>()
+        .asks()
+        .cloned()
 }
 
 fn said(window: &Window) -> Vec<String> {
     let notices = window.0.world().resource::<Notices>().list();
-    let done = notices.iter().filter(|notice| notice.kind == Kind::Done);
+    let done = notices
+        .iter()
+        .filter(|notice| notice.kind == NoticeKind::Done);
     done.map(|notice| notice.text.clone()).collect()
 }
 
@@ -87,7 +96,7 @@ fn a_project_without_a_file_is_asked_for_a_place_and_told_where_it_is() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = changed();
     window.send(Intent::Save);
-    assert_eq!(asks(&window), Some(Purpose::Save(name())));
+    assert_eq!(asks(&window), Some(DialogPurpose::Save(name())));
     let path = folder.path().join("mine");
     choose(&mut window, &[&path]);
     let path = path.with_extension("morph");
@@ -99,7 +108,7 @@ fn a_project_without_a_file_is_asked_for_a_place_and_told_where_it_is() {
     window.send(Intent::Save);
     assert!(asks(&window).is_none() && !window.session().is_dirty());
     window.send(Intent::AskOpen);
-    let dialog: &Dialog = window.0.world().resource();
+    let dialog: &FileDialogRequest = window.0.world().resource();
     assert_eq!(dialog.folder(), Some(folder.path()));
 }
 
@@ -107,9 +116,9 @@ fn a_project_without_a_file_is_asked_for_a_place_and_told_where_it_is() {
 fn leaving_the_dialog_is_told_and_nothing_is_closed() {
     let mut window = changed();
     window.send(Intent::Close);
-    window.send(Intent::Answer(Answer::Save));
+    window.send(Intent::Answer(UnsavedAnswer::Save));
     window.update();
-    assert!(matches!(asks(&window), Some(Purpose::Save(_))));
+    assert!(matches!(asks(&window), Some(DialogPurpose::Save(_))));
     assert!(!choose(&mut window, &[]));
     assert!(
         said(&window)
@@ -132,7 +141,7 @@ fn closing_waits_for_the_save_and_an_error_keeps_the_window() {
     let mut window = changed();
     let mut close_and_save_to = |path: PathBuf| {
         window.send(Intent::Close);
-        window.send(Intent::Answer(Answer::Save));
+        window.send(Intent::Answer(UnsavedAnswer::Save));
         window.update();
         let is_closed = choose(&mut window, &[&path]);
         (window.problems(), is_closed)
@@ -160,7 +169,10 @@ fn a_name_that_becomes_that_of_another_file_is_asked_about() {
     choose(&mut window, &[&folder.path().join("taken")]);
     assert_eq!(std::fs::read_to_string(&taken).expect("text"), "precious");
     assert!(window.problems()[0].contains("taken.morph"));
-    assert_eq!(asks(&window), Some(Purpose::Save("taken.morph".into())));
+    assert_eq!(
+        asks(&window),
+        Some(DialogPurpose::Save("taken.morph".into()))
+    );
     // The dialog asks itself about a file that is pointed at.
     choose(&mut window, &[&taken]);
     assert!(!window.session().is_dirty() && window.problems().is_empty());
@@ -177,7 +189,7 @@ fn what_is_chosen_is_opened() {
     again.send(Intent::SaveAs);
     assert_eq!(asks(&again), None, "there is nothing to save");
     again.send(Intent::AskOpen);
-    assert_eq!(asks(&again), Some(Purpose::Open));
+    assert_eq!(asks(&again), Some(DialogPurpose::Open));
     choose(&mut again, &[&path]);
     again.wait();
     assert_eq!(again.session().path(), Some(path.as_path()));

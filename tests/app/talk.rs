@@ -1,21 +1,21 @@
 //! A talk: nothing but the drawing, from the first stop, by the keys of a talk alone.
 
 use bevy::input::keyboard::{Key, KeyCode};
-use morphospace::app::{Intent, Presenting, Question};
-use morphospace::transition::Stop;
+use morphospace::app::{Intent, Presentation, UnsavedQuestion};
+use morphospace::transition::TransitionStop;
 
 use crate::window::Window;
 
 fn with_stops() -> Window {
     let mut window = Window::with_gallery();
     let mut project = window.session().project().expect("a project").clone();
-    project.stops = [0.25, 0.75].map(Stop::at).into();
+    project.stops = [0.25, 0.75].map(TransitionStop::at).into();
     project.stops[0].name = "here".to_owned();
     window.send(Intent::Edit(Box::new(project)));
     window
 }
 
-fn talk(window: &Window) -> &Presenting {
+fn talk(window: &Window) -> &Presentation {
     window.0.world().resource()
 }
 
@@ -100,7 +100,7 @@ fn closing_in_a_talk_ends_it_and_asks_where_it_is_seen() {
     present(&mut window);
     window.send(Intent::Close);
     assert!(!talk(&window).is_on() && window.preferences().panels);
-    let question = window.0.world().resource::<Question>();
+    let question = window.0.world().resource::<UnsavedQuestion>();
     assert!(question.text().is_some() && window.0.should_exit().is_none());
 }
 

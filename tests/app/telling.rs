@@ -6,13 +6,14 @@ use std::time::Duration;
 
 use bevy::input::keyboard::{Key, KeyCode};
 use morphospace::app::{
-    Answer, CaptureFolder, FilmLook, Intent, Measured, Preferences, Question, Recorder, Session,
+    CaptureFolder, FilmExportOptions, FilmExporter, Intent, Preferences, Session, StageMeasures,
+    UnsavedAnswer, UnsavedQuestion,
 };
 use morphospace::correspondence::PointPair;
-use morphospace::export::{Aspect, Layout};
+use morphospace::export::{Aspect, PictureLayout};
 use morphospace::geometry::DVec2;
 use morphospace::project::Project;
-use morphospace::transition::{Cell, Quality};
+use morphospace::transition::{BuildQuality, TransitionMethod};
 
 use crate::window::Window;
 
@@ -66,7 +67,7 @@ fn cross_pins(project: &mut Project) {
     .into();
 }
 
-fn cell(window: &Window) -> Option<Cell> {
+fn cell(window: &Window) -> Option<TransitionMethod> {
     window.session().transition().map(|t| t.cell())
 }
 
@@ -82,16 +83,18 @@ fn a_problem_goes_with_its_cause() {
     window.send(Intent::Redo);
     window.wait();
     assert_eq!(window.problems().len(), 1);
-    let field = Cell::FIELD_BLEND;
+    let field = TransitionMethod::FIELD_BLEND;
     window.send(Intent::UseCell(field.warp(), field.content()));
     window.wait();
     assert_eq!(cell(&window), Some(field));
     assert_eq!(window.problems(), Vec::<String>::new(), "another method");
     window.send(Intent::Open(vec!["/nowhere/at-all.morph".into()]));
-    window.send(Intent::Answer(Answer::Discard));
+    window.send(Intent::Answer(UnsavedAnswer::Discard));
     window.wait();
     assert_eq!(window.problems().len(), 1);
-    let dissolved = Cell::all().find(|cell| *cell != field).expect("another");
+    let dissolved = TransitionMethod::all()
+        .find(|cell| *cell != field)
+        .expect("another");
     window.send(Intent::UseCell(dissolved.warp(), dissolved.content()));
     window.send(Intent::UseCell(field.warp(), field.content()));
     window.wait();
@@ -100,7 +103,7 @@ fn a_problem_goes_with_its_cause() {
 fn record(window: &mut Window, folder: PathBuf) {
     window.0.insert_resource(CaptureFolder(folder));
     window.send(Intent::Record);
-    while window.0.world().resource::<Recorder>().work().is_some() {
+    while window.0.world().resource::<FilmExporter>().work().is_some() {
         std::thread::sleep(Duration::from_millis(1));
         window.update();
     }
@@ -124,13 +127,13 @@ fn a_film_has_the_shape_that_was_said() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path());
     edit(&mut window, |project| project.timing.duration_secs = 0.1);
-    let layout = Layout {
+    let layout = PictureLayout {
         aspect: Aspect::Tall,
         lines: 90,
-        ..Layout::default()
+        ..PictureLayout::default()
     };
     window.send(Intent::Prefer(Preferences {
-        film: FilmLook {
+        film: FilmExportOptions {
             layout,
             ..Default::default()
         },
@@ -159,11 +162,19 @@ fn not_saving_before_another_project_opens_leaves_a_film_alone() {
     window.send(Intent::Record);
     let other = write_outline(folder.path(), "other.svg", SQUARE);
     window.send(Intent::Open(vec![other.clone(), other]));
-    assert!(window.0.world().resource::<Question>().text().is_some());
-    window.send(Intent::Answer(Answer::Discard));
+    assert!(
+        window
+            .0
+            .world()
+            .resource::<UnsavedQuestion>()
+            .text()
+            .is_some()
+    );
+    window.send(Intent::Answer(UnsavedAnswer::Discard));
     window.wait();
     assert!(!window.session().is_dirty());
-    let is_recording = |window: &Window| window.0.world().resource::<Recorder>().work().is_some();
+    let is_recording =
+        |window: &Window| window.0.world().resource::<FilmExporter>().work().is_some();
     for _ in 0..20 {
         std::thread::sleep(Duration::from_millis(5));
         window.update();
@@ -171,11 +182,18 @@ fn not_saving_before_another_project_opens_leaves_a_film_alone() {
     assert!(is_recording(&window));
     // Closing asks about it, and waits until what was begun is taken away.
     window.send(Intent::Close);
-    assert!(window.0.world().resource::<Question>().text().is_some());
+    assert!(
+        window
+            .0
+            .world()
+            .resource::<UnsavedQuestion>()
+            .text()
+            .is_some()
+    );
     window.press(KeyCode::Escape, Key::Escape);
     assert!(is_recording(&window) && window.0.should_exit().is_none());
     window.send(Intent::Close);
-    window.send(Intent::Answer(Answer::Discard));
+    window.send(Intent::Answer(UnsavedAnswer::Discard));
     while window.0.should_exit().is_none() {
         std::thread::sleep(Duration::from_millis(1));
         window.update();
@@ -195,11 +213,11 @@ fn a_method_that_cannot_be_had_is_replaced_by_one_that_can() {
     let mut again = Window::new();
     again.send(Intent::Open(vec![path]));
     again.wait();
-    assert_eq!(cell(&again), Some(Cell::FIELD_BLEND));
+    assert_eq!(cell(&again), Some(TransitionMethod::FIELD_BLEND));
     let [problem] = &again.problems()[..] else {
         panic!("one problem");
     };
-    assert!(problem.contains("pin") && problem.contains(Cell::FIELD_BLEND.name()));
+    assert!(problem.contains("pin") && problem.contains(TransitionMethod::FIELD_BLEND.name()));
     assert!(!again.session().is_dirty(), "the document is as it was");
     edit(&mut again, |project| {
         project.options.matching.pins.clear();
@@ -230,7 +248,7 @@ fn what_takes_long_to_open_is_shown_by_the_plainest_method_meanwhile() {
         again.update();
     }
     assert_eq!(session(&again), (true, true), "it is still being built");
-    assert_eq!(cell(&again), Some(Cell::FIELD_BLEND));
+    assert_eq!(cell(&again), Some(TransitionMethod::FIELD_BLEND));
     let asked = again
         .session()
         .project()
@@ -246,7 +264,7 @@ fn what_takes_long_to_open_is_shown_by_the_plainest_method_meanwhile() {
         .session()
         .project()
         .and_then(|p| Some((p.warp?, p.content?)));
-    let field = Cell::FIELD_BLEND;
+    let field = TransitionMethod::FIELD_BLEND;
     assert_eq!(now, Some((field.warp(), field.content())));
 }
 
@@ -261,7 +279,7 @@ fn star(tips: u32, inner: f64) -> String {
     format!("M{}Z", &corners[1..])
 }
 
-fn staged(window: &Window) -> Option<Quality> {
+fn staged(window: &Window) -> Option<BuildQuality> {
     let settings = window.session().staged_settings();
     settings.map(|settings| settings.options.quality)
 }
@@ -272,7 +290,7 @@ fn with_draft(folder: &Path) -> Window {
     let target = write_outline(folder, "target.svg", &star(4, 30.0));
     let mut window = Window::new();
     window.send(Intent::Open(vec![source, target]));
-    while staged(&window) != Some(Quality::Draft) {
+    while staged(&window) != Some(BuildQuality::Draft) {
         assert!(window.session().work().is_some(), "there was no draft");
         std::thread::sleep(Duration::from_millis(1));
         window.update();
@@ -289,9 +307,9 @@ fn a_draft_plays_until_a_better_film_takes_its_place_unseen() {
     let told = window.session().told_work().map(|(stage, _)| stage);
     assert_eq!(told, Some("improving the film"));
     let asked = window.session().project().map(|p| p.options.quality);
-    assert_eq!(asked, Some(Quality::Best), "what is asked for stays");
+    assert_eq!(asked, Some(BuildQuality::Best), "what is asked for stays");
     window.send(Intent::TogglePlay);
-    while staged(&window) == Some(Quality::Draft) {
+    while staged(&window) == Some(BuildQuality::Draft) {
         std::thread::sleep(Duration::from_millis(1));
         window.update();
     }
@@ -308,7 +326,7 @@ fn a_draft_that_is_good_enough_is_kept() {
     window.send(Intent::CancelWork);
     assert!(window.session().work().is_none() && window.session().transition().is_some());
     let settings = window.session().project().map(|p| p.options.quality);
-    assert_eq!(settings, Some(Quality::Draft), "and says so");
+    assert_eq!(settings, Some(BuildQuality::Draft), "and says so");
 }
 
 /// Until the work is worth a word.
@@ -325,10 +343,10 @@ fn what_takes_very_long_is_begun_when_it_is_wanted_all_the_same_and_esc_ends_it(
     let folder = tempfile::tempdir().expect("a folder");
     let mut window = with_outlines(folder.path());
     edit(&mut window, |project| {
-        let field = Cell::FIELD_BLEND;
+        let field = TransitionMethod::FIELD_BLEND;
         (project.warp, project.content) = (Some(field.warp()), Some(field.content()));
     });
-    assert_eq!(cell(&window), Some(Cell::FIELD_BLEND));
+    assert_eq!(cell(&window), Some(TransitionMethod::FIELD_BLEND));
     let cells = |window: &Window| window.session().project().map(|p| p.options.field.cells);
     let before = cells(&window);
     edit(&mut window, |project| project.options.field.cells = 4000);
@@ -363,7 +381,11 @@ fn what_was_refused_as_it_was_opened_is_built_when_it_is_wanted_all_the_same() {
     window.wait();
     let problems = window.problems();
     assert!(problems[0].contains("2000 outlines"), "{problems:?}");
-    assert_eq!(cell(&window), Some(Cell::FIELD_BLEND), "what is shown");
+    assert_eq!(
+        cell(&window),
+        Some(TransitionMethod::FIELD_BLEND),
+        "what is shown"
+    );
     window.send(Intent::Insist);
     wait_for_word(&mut window);
     window.press(KeyCode::Escape, Key::Escape);
@@ -371,7 +393,10 @@ fn what_was_refused_as_it_was_opened_is_built_when_it_is_wanted_all_the_same() {
         .session()
         .project()
         .and_then(|p| p.warp.zip(p.content));
-    let shown = (Cell::FIELD_BLEND.warp(), Cell::FIELD_BLEND.content());
+    let shown = (
+        TransitionMethod::FIELD_BLEND.warp(),
+        TransitionMethod::FIELD_BLEND.content(),
+    );
     assert_eq!(asked, Some(shown), "the panel says what is shown");
     assert_eq!(window.problems(), Vec::<String>::new());
 }
@@ -383,11 +408,11 @@ fn measuring_is_stopped_and_taken_up_again() {
     // 16,000 faces, whose measures take many seconds.
     edit(&mut window, |project| project.options.arap.subdivisions = 4);
     let measured = |window: &Window| {
-        let measured: &Measured = window.0.world().resource();
+        let measured: &StageMeasures = window.0.world().resource();
         (measured.told().is_some(), measured.is_broken_off())
     };
     while measured(&window) != (true, false) {
-        let found: &Measured = window.0.world().resource();
+        let found: &StageMeasures = window.0.world().resource();
         assert!(found.measures().is_none(), "measured too soon");
         std::thread::sleep(Duration::from_millis(1));
         window.update();
@@ -399,6 +424,6 @@ fn measuring_is_stopped_and_taken_up_again() {
     assert_eq!(measured(&window), (false, true));
     window.send(Intent::Measure);
     window.update();
-    let again: &Measured = window.0.world().resource();
+    let again: &StageMeasures = window.0.world().resource();
     assert!(again.is_busy() && !again.is_broken_off());
 }

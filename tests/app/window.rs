@@ -12,10 +12,10 @@ use bevy::time::TimeUpdateStrategy;
 use bevy::window::PrimaryWindow;
 use bevy::winit::{WinitPlugin, WinitSettings};
 use morphospace::app::{
-    Editor, EditorAct, Gallery, Intent, Kind, LogicPlugin, Notices, Playback, Preferences, Session,
-    Sheet, WindowPlugins,
+    EditorAction, GalleryEntries, Intent, LogicPlugin, MatchEditor, MatchSheet, NoticeKind,
+    Notices, Playback, Preferences, Session, WindowPlugins,
 };
-use morphospace::correspondence::Matching;
+use morphospace::correspondence::MatchSettings;
 use morphospace::project::gallery;
 use morphospace::stage::MorphPlugin;
 
@@ -47,7 +47,7 @@ impl Window {
         app.add_plugins(plugins.disable::<WinitPlugin>().disable::<LogPlugin>());
         app.insert_resource(WinitSettings::default())
             // Their strips would be drawn beside the tests.
-            .insert_resource(Gallery(Vec::new()))
+            .insert_resource(GalleryEntries(Vec::new()))
             .add_plugins((MorphPlugin, LogicPlugin, WindowPlugins))
             .insert_resource(TimeUpdateStrategy::ManualDuration(FRAME));
         app.finish();
@@ -113,7 +113,7 @@ impl Window {
         let notices = self.0.world().resource::<Notices>().list();
         notices
             .iter()
-            .filter(|n| matches!(n.kind, Kind::Problem(_)))
+            .filter(|n| matches!(n.kind, NoticeKind::Problem(_)))
             .map(|n| n.text.clone())
             .collect()
     }
@@ -153,20 +153,20 @@ impl Window {
         self.key(ButtonState::Released, code, key, false);
     }
 
-    pub fn editor(&self) -> &Editor {
+    pub fn editor(&self) -> &MatchEditor {
         self.0.world().resource()
     }
 
-    pub fn sheet(&self) -> &Sheet {
+    pub fn sheet(&self) -> &MatchSheet {
         self.0.world().resource()
     }
 
-    pub fn matching(&self) -> Matching {
+    pub fn matching(&self) -> MatchSettings {
         let project = self.session().project().expect("a project");
         project.options.matching.clone()
     }
 
-    pub fn act(&mut self, act: EditorAct) {
+    pub fn act(&mut self, act: EditorAction) {
         self.send(Intent::Editor(act));
     }
 

@@ -3,10 +3,10 @@
 use image::RgbaImage;
 use morphospace::content::ContentKind;
 use morphospace::design::{ImportOptions, import_file};
-use morphospace::export::{Drawing, PixelSize, View, rasterise};
-use morphospace::progress::Silent;
-use morphospace::transition::{Cell, Transition, TransitionSpec};
+use morphospace::export::{Drawing, PixelSize, PlaneView, rasterise};
+use morphospace::transition::{Transition, TransitionMethod, TransitionSpec};
 use morphospace::warp::WarpKind;
+use morphospace::work::progress::Silent;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -26,7 +26,7 @@ const PAIRS: [(&str, &str); 3] = [
     ("fish", "sunset"),
 ];
 
-fn film(names: [&str; 2], cell: Cell) -> Transition {
+fn film(names: [&str; 2], cell: TransitionMethod) -> Transition {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/drawings");
     let [source, target] = names.map(|name| {
         let path = folder.join(format!("{name}.svg"));
@@ -40,7 +40,7 @@ fn film(names: [&str; 2], cell: Cell) -> Transition {
 fn both(studio: &mut Studio, scene: &Scene, t: f64) -> (RgbaImage, RgbaImage) {
     let gpu = studio.picture(scene, t).expect("a picture");
     let [width, height] = scene.size;
-    let view = View::fit(scene.view, PixelSize::new(width, height).expect("a size"));
+    let view = PlaneView::fit(scene.view, PixelSize::new(width, height).expect("a size"));
     let frame = scene.transition.frame(t);
     let drawing = Drawing::of_frame(&frame, &scene.style, &view, scene.ground);
     let cpu = rasterise(&drawing);
@@ -71,7 +71,7 @@ fn compare(
     [source, target]: [&'static str; 2],
     cell: (WarpKind, ContentKind),
 ) {
-    let of = Cell::new(cell.0, cell.1).expect("a cell");
+    let of = TransitionMethod::new(cell.0, cell.1).expect("a cell");
     let mut scene = Scene::new(source, film([source, target], of));
     for (t, is_clear) in [
         (0.0, false),

@@ -1,9 +1,9 @@
 //! Films that the graphics card plays, held against frames that were solved.
 
 use bevy::render::render_resource::WgpuLimits;
-use morphospace::film::FilmOptions;
-use morphospace::progress::Silent;
+use morphospace::recording::RecordingOptions;
 use morphospace::transition::Transition;
+use morphospace::work::progress::Silent;
 
 use crate::scenes::{field, perforated, solid, truss, wound};
 use crate::studio::{Scene, Studio};
@@ -13,7 +13,7 @@ use crate::studio::{Scene, Studio};
 const PLAYED: f64 = 1e-4;
 
 fn recorded(transition: Transition) -> Transition {
-    let film = transition.record(&FilmOptions::default(), &Silent);
+    let film = transition.record(&RecordingOptions::default(), &Silent);
     film.expect("a film");
     transition
 }

@@ -1,8 +1,8 @@
 //! Pictures: the stage's pixels held against the core's own.
 
 use image::{Rgba, RgbaImage};
-use morphospace::content::Raster;
-use morphospace::export::{PixelSize, View};
+use morphospace::content::PictureRaster;
+use morphospace::export::{PixelSize, PlaneView};
 use morphospace::geometry::{Bounds, DVec2};
 use morphospace::transition::Transition;
 
@@ -79,8 +79,8 @@ impl Difference {
 fn both(studio: &mut Studio, scene: &Scene, t: f64) -> [RgbaImage; 2] {
     let gpu = studio.picture(scene, t).expect("a picture");
     let [width, height] = scene.size;
-    let view = View::fit(scene.view, PixelSize::new(width, height).expect("a size"));
-    let raster = Raster {
+    let view = PlaneView::fit(scene.view, PixelSize::new(width, height).expect("a size"));
+    let raster = PictureRaster {
         size: scene.size,
         corner: view.to_plane(DVec2::ZERO),
         pixel: 1.0 / view.px_per_unit(),

@@ -6,15 +6,15 @@ use std::sync::Arc;
 use image::{Rgba, RgbaImage};
 use morphospace::content::{BlendSpace, ContentKind, FieldBlend};
 use morphospace::correspondence::HoleRule;
-use morphospace::design::{Design, Form, Picture, Truss};
+use morphospace::design::{Design, DesignForm, Picture, Truss};
 use morphospace::geometry::{DVec2, FillRule, Regions};
 use morphospace::mesh::TriangleMesh;
-use morphospace::progress::Silent;
 use morphospace::project::gallery;
-use morphospace::transition::{Cell, Transition, TransitionSpec};
+use morphospace::transition::{Transition, TransitionMethod, TransitionSpec};
 use morphospace::warp::WarpKind;
+use morphospace::work::progress::Silent;
 
-fn design(form: impl Into<Form>) -> Arc<Design> {
+fn design(form: impl Into<DesignForm>) -> Arc<Design> {
     Arc::new(Design::new("scene", form))
 }
 
@@ -50,7 +50,7 @@ fn strip(columns: u32, offset: f64, bent: impl Fn(DVec2) -> DVec2) -> Transition
             let [b, c, d] = [a + rows + 1, a + rows + 2, a + 1];
             [[a, b, c], [a, c, d]]
         });
-        Form::Mesh(TriangleMesh::new(positions, faces.collect()).expect("a mesh"))
+        DesignForm::Mesh(TriangleMesh::new(positions, faces.collect()).expect("a mesh"))
     };
     let source = design(mesh(&|p| p));
     let target = design(mesh(&bent));
@@ -76,7 +76,7 @@ pub fn perforated() -> Transition {
     let corner = vec![corner.map(DVec2::from).to_vec()];
     let [source, target] = [plate, corner].map(|rings| {
         let regions = Regions::from_rings(&rings, FillRule::EvenOdd).expect("regions");
-        design(Form::Outline(regions))
+        design(DesignForm::Outline(regions))
     });
     let mut spec = TransitionSpec::new(source, target);
     spec.options.matching.holes = HoleRule::Alone;
@@ -103,7 +103,7 @@ pub fn truss() -> Transition {
             }
         }
         let truss = Truss::new(lower.chain(upper).collect(), bars).expect("a truss");
-        Form::Truss(truss)
+        DesignForm::Truss(truss)
     };
     let mut spec = TransitionSpec::new(design(truss(0.0)), design(truss(2.0)));
     spec.options.bar_width = 0.02;
@@ -120,7 +120,7 @@ fn ring(centre: DVec2, radius: f64, squash: f64) -> Vec<DVec2> {
 /// A ring that parts into two ellipses, in each space, thin and thick ε.
 pub fn field() -> Vec<(&'static str, Transition)> {
     let regions = |rings: &[Vec<DVec2>]| {
-        design(Form::Outline(
+        design(DesignForm::Outline(
             Regions::from_rings(rings, FillRule::EvenOdd).expect("regions"),
         ))
     };
@@ -134,7 +134,7 @@ pub fn field() -> Vec<(&'static str, Transition)> {
         ("field-sharp", BlendSpace::Log, 0.01, 0.0),
         ("field-real", BlendSpace::Real, 1.0, -2.5),
     ];
-    let cell = Cell::new(WarpKind::None, ContentKind::Field).expect("a cell");
+    let cell = TransitionMethod::new(WarpKind::None, ContentKind::Field).expect("a cell");
     let transition = |(name, space, epsilon, threshold)| {
         let mut spec = TransitionSpec::new(source.clone(), target.clone());
         spec.cell = cell;

@@ -21,17 +21,17 @@ use image::RgbaImage;
 use morphospace::colour::Rgb;
 use morphospace::geometry::{Bounds, DVec2};
 use morphospace::stage::{
-    Blend, CaptureStage, FrameTimes, Morph, MorphPlugin, PipelinesReady, Show, StageCamera,
-    StageCaptured, StageStyle, StageTransition, StageView,
+    Blend, CaptureStage, FrameTimes, Morph, MorphPlugin, PipelinesReady, StageCamera,
+    StageCaptured, StageStyle, StageTransition, StageView, StageVisibility,
 };
-use morphospace::transition::{Style, Transition};
+use morphospace::transition::{Transition, TransitionStyle};
 
 /// What is looked at, and how.
 pub struct Scene {
     pub name: &'static str,
     pub transition: Transition,
-    pub style: Style,
-    pub show: Show,
+    pub style: TransitionStyle,
+    pub show: StageVisibility,
     pub ground: Option<Rgb>,
     pub size: [u32; 2],
     pub view: Bounds,
@@ -41,7 +41,7 @@ pub struct Scene {
 
 impl Scene {
     pub fn new(name: &'static str, transition: Transition) -> Self {
-        let style = Style::default();
+        let style = TransitionStyle::default();
         let bounds = transition.bounds();
         Self {
             view: bounds.padded(0.05 * bounds.diameter()),
@@ -49,7 +49,7 @@ impl Scene {
             transition,
             ground: Some(style.ground),
             style,
-            show: Show::default(),
+            show: StageVisibility::default(),
             size: [640, 480],
             astray: 0,
         }
@@ -156,7 +156,7 @@ impl Studio {
     }
 
     /// Changes what of it is shown.
-    pub fn show(&mut self, change: impl FnOnce(&mut Show)) {
+    pub fn show(&mut self, change: impl FnOnce(&mut StageVisibility)) {
         let mut staged = self.staged();
         change(&mut staged.get_mut::<StageStyle>().expect("a style").show);
     }

@@ -13,10 +13,10 @@ use std::path::Path;
 
 use image::RgbaImage;
 use morphospace::content::ContentKind;
-use morphospace::export::{Camera, Film, Motion, PixelSize, View, framing};
-use morphospace::progress::Silent;
+use morphospace::export::{Camera, FilmSpec, PixelSize, PlaneView, VectorAnimation, framing};
 use morphospace::project::{LoadedProject, gallery};
 use morphospace::transition::Transition;
+use morphospace::work::progress::Silent;
 
 use players::{Kind, Players, Written};
 
@@ -65,8 +65,8 @@ fn off_colour(a: &RgbaImage, b: &RgbaImage) -> f64 {
 
 struct Shot {
     camera: Camera,
-    film: Film,
-    motion: Motion,
+    film: FilmSpec,
+    motion: VectorAnimation,
     /// The frames that are compared.
     frames: Vec<usize>,
 }
@@ -80,17 +80,17 @@ impl Shot {
             return None;
         }
         let project = &loaded.project;
-        let film = Film::of_timing(&project.timing, &project.stops, 30.0).expect("a film");
+        let film = FilmSpec::of_timing(&project.timing, &project.stops, 30.0).expect("a film");
         let bounds = framing(&transition, film.times());
         let size = PixelSize::of_shape(bounds, side_px(&transition));
         let camera = Camera {
             sequence: transition.into(),
             style: project.style,
-            view: View::fit(bounds, size),
+            view: PlaneView::fit(bounds, size),
             ground: None,
             captions: None,
         };
-        let motion = Motion::record(&camera, &film, &Silent).expect("a motion");
+        let motion = VectorAnimation::record(&camera, &film, &Silent).expect("a motion");
         let (from, to) = (project.timing.from, project.timing.to);
         let frame = |k: usize| {
             let t = from + (to - from) * k as f64 / (COMPARED - 1) as f64;
@@ -153,7 +153,12 @@ fn say(line: &str) {
 }
 
 /// Plays one format of a project; a line where it is not what it has to be.
-fn played(shot: &Shot, kind: Kind, entry: &gallery::Entry, players: &Players) -> Option<String> {
+fn played(
+    shot: &Shot,
+    kind: Kind,
+    entry: &gallery::GalleryEntry,
+    players: &Players,
+) -> Option<String> {
     let text = shot.text(kind, &entry.title);
     let folder = tempfile::tempdir().expect("a folder");
     let kept = std::env::var_os("MORPHOSPACE_MOTION_OUT")

@@ -3,7 +3,7 @@
 use super::Rings;
 use morphospace::geometry::orient2d;
 use morphospace::measure::film;
-use morphospace::progress::Silent;
+use morphospace::work::progress::Silent;
 use morphospace::{Design, Transition};
 
 /// What a valid film may still do, to be counted.

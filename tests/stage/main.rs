@@ -14,13 +14,14 @@ use morphospace::content::ContentKind;
 use morphospace::design::Design;
 use morphospace::geometry::{Bounds, DVec2};
 use morphospace::mesh::TriangleMesh;
-use morphospace::progress::Silent;
 use morphospace::stage::{
-    Blend, BuildFailed, CaptureStage, FrameTimes, Morph, MorphPlugin, MorphSystems, Show,
-    SourceMesh, StageCamera, StageCaptured, StageStyle, StageTransition, StageView, TargetMesh,
+    Blend, BuildFailed, CaptureStage, FrameTimes, Morph, MorphPlugin, MorphSystems, SourceMesh,
+    StageCamera, StageCaptured, StageStyle, StageTransition, StageView, StageVisibility,
+    TargetMesh,
 };
-use morphospace::transition::{Cell, Style, Transition, TransitionSpec};
+use morphospace::transition::{Transition, TransitionMethod, TransitionSpec, TransitionStyle};
 use morphospace::warp::WarpKind;
+use morphospace::work::progress::Silent;
 
 /// A strip of squares, each cut in two.
 fn strip(squares: u32, place: impl Fn(DVec2) -> DVec2) -> TriangleMesh {
@@ -41,7 +42,7 @@ fn turned() -> TriangleMesh {
     strip(4, |p| DVec2::new(-p.y, p.x))
 }
 
-fn transition(offset: DVec2, cell: Cell) -> Transition {
+fn transition(offset: DVec2, cell: TransitionMethod) -> Transition {
     let design = |mesh: TriangleMesh| Arc::new(Design::new("strip", mesh));
     let source = design(strip(4, |p| p + offset));
     let target = design(strip(4, |p| DVec2::new(-p.y, p.x) + offset));
@@ -51,16 +52,16 @@ fn transition(offset: DVec2, cell: Cell) -> Transition {
     Transition::build(&spec, &Silent).expect("a transition")
 }
 
-fn arap() -> Cell {
-    Cell::new(WarpKind::Arap, ContentKind::Solid).expect("a cell")
+fn arap() -> TransitionMethod {
+    TransitionMethod::new(WarpKind::Arap, ContentKind::Solid).expect("a cell")
 }
 
-fn paths() -> Cell {
-    Cell::new(WarpKind::Paths, ContentKind::Solid).expect("a cell")
+fn paths() -> TransitionMethod {
+    TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).expect("a cell")
 }
 
-fn field() -> Cell {
-    Cell::new(WarpKind::None, ContentKind::Field).expect("a cell")
+fn field() -> TransitionMethod {
+    TransitionMethod::new(WarpKind::None, ContentKind::Field).expect("a cell")
 }
 
 /// Only builds and solves.
@@ -341,7 +342,7 @@ fn what_was_hidden_is_up_to_date_when_it_is_shown() {
         meshes_of(app, entity).into_iter().find(is_wire)
     };
     let show = |app: &mut App, wireframe: bool| {
-        let show = Show {
+        let show = StageVisibility {
             wireframe,
             ..default()
         };
@@ -480,7 +481,7 @@ fn components_are_known_to_reflection() {
         assert!(known.is_some(), "{name}");
     }
     let style = StageStyle {
-        style: Style {
+        style: TransitionStyle {
             ground: Rgb([1, 2, 3]),
             ..default()
         },

@@ -2,13 +2,13 @@
 
 use bevy::prelude::Resource;
 
-use crate::app::asking::acts::Tool;
-use crate::app::editing::panes::Panes;
+use crate::app::editing::panes::EditorPanes;
+use crate::app::input::editor_action::EditorTool;
 use crate::geometry::{DVec2, Side};
 
 /// What the hand can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Handle {
+pub enum EditorHandle {
     /// A pin, by its number in the project.
     Pin(usize),
     /// A point that was matched without being asked for, by its number on the sheet.
@@ -30,7 +30,7 @@ pub enum CutEnd {
 
 /// What the hand holds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Grab {
+pub enum EditorGrab {
     /// A pin, by its number in the project.
     Pin(usize),
     /// A point that becomes a pin as soon as it moves.
@@ -51,38 +51,38 @@ pub enum Grab {
 
 /// How the sheet is looked at, and what the hand does with it.
 #[derive(Resource, Clone, Debug, PartialEq)]
-pub struct Editor {
+pub struct MatchEditor {
     /// The editor is shown in place of the stage.
     pub is_open: bool,
     /// What a click does.
-    pub tool: Tool,
+    pub tool: EditorTool,
     /// Pins snap to corners.
     pub snaps: bool,
     /// The triangles are shown.
     pub triangles: bool,
     /// What is under the pointer.
-    pub hovered: Option<Handle>,
+    pub hovered: Option<EditorHandle>,
     /// The boundary under the pointer and what it is matched with: source and target.
     pub trace: Option<[DVec2; 2]>,
     /// The part under the pointer while parts are being paired.
     pub part: Option<(Side, usize)>,
     /// What was clicked last.
-    pub selected: Option<Handle>,
+    pub selected: Option<EditorHandle>,
     /// What the hand holds, and on which side.
-    pub grabbed: Option<(Side, Grab)>,
+    pub grabbed: Option<(Side, EditorGrab)>,
     /// The first of two parts that are to be paired, with the point that names it.
     pub first_part: Option<(Side, usize, DVec2)>,
     /// Why the last act came to nothing.
     pub refusal: Option<&'static str>,
     /// How the designs and the film are looked at.
-    pub panes: Panes,
+    pub panes: EditorPanes,
 }
 
-impl Default for Editor {
+impl Default for MatchEditor {
     fn default() -> Self {
         Self {
             is_open: false,
-            tool: Tool::default(),
+            tool: EditorTool::default(),
             snaps: true,
             triangles: false,
             hovered: None,
@@ -92,15 +92,15 @@ impl Default for Editor {
             grabbed: None,
             first_part: None,
             refusal: None,
-            panes: Panes::default(),
+            panes: EditorPanes::default(),
         }
     }
 }
 
-impl Editor {
+impl MatchEditor {
     /// A handle is under the pointer, or is what was clicked last.
     #[must_use]
-    pub fn is_lit(&self, handle: Handle) -> bool {
+    pub fn is_lit(&self, handle: EditorHandle) -> bool {
         [self.hovered, self.selected].contains(&Some(handle))
     }
 

@@ -10,7 +10,7 @@ const ZOOMS: [f32; 2] = [0.2, 100.0];
 
 /// What is seen of a design or of the film.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pane {
+pub enum EditorPane {
     /// One of the designs.
     Design(Side),
     /// The film between them.
@@ -49,30 +49,30 @@ impl PaneView {
 
 /// The panes of the editor.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Panes {
+pub struct EditorPanes {
     /// The film is shown beside the designs.
     pub film: bool,
     /// What is done to one pane is done to all.
     pub together: bool,
     views: [PaneView; 3],
-    moved_last: Pane,
+    moved_last: EditorPane,
 }
 
-impl Default for Panes {
+impl Default for EditorPanes {
     fn default() -> Self {
         Self {
             film: true,
             together: true,
             views: [PaneView::default(); 3],
-            moved_last: Pane::Film,
+            moved_last: EditorPane::Film,
         }
     }
 }
 
-impl Panes {
+impl EditorPanes {
     /// How a pane is looked at.
     #[must_use]
-    pub fn view(&self, pane: Pane) -> PaneView {
+    pub fn view(&self, pane: EditorPane) -> PaneView {
         self.views[index(pane)]
     }
 
@@ -90,20 +90,20 @@ impl Panes {
     }
 
     /// Moves a pane, or all.
-    pub fn pan(&mut self, pane: Pane, delta: Vec2) {
+    pub fn pan(&mut self, pane: EditorPane, delta: Vec2) {
         for view in self.moved(pane) {
             view.pan += delta;
         }
     }
 
     /// Enlarges a pane, or all, about a point given in logical pixels from its middle, y down.
-    pub fn zoom_at(&mut self, pane: Pane, at: Vec2, factor: f32) {
+    pub fn zoom_at(&mut self, pane: EditorPane, at: Vec2, factor: f32) {
         for view in self.moved(pane) {
             view.zoom_at(at, factor);
         }
     }
 
-    fn moved(&mut self, pane: Pane) -> &mut [PaneView] {
+    fn moved(&mut self, pane: EditorPane) -> &mut [PaneView] {
         self.moved_last = pane;
         if self.together {
             &mut self.views
@@ -113,10 +113,10 @@ impl Panes {
     }
 }
 
-fn index(pane: Pane) -> usize {
+fn index(pane: EditorPane) -> usize {
     match pane {
-        Pane::Design(side) => side.index(),
-        Pane::Film => 2,
+        EditorPane::Design(side) => side.index(),
+        EditorPane::Film => 2,
     }
 }
 
@@ -124,14 +124,14 @@ fn index(pane: Pane) -> usize {
 mod tests {
     use super::*;
 
-    const SOURCE: Pane = Pane::Design(Side::Source);
+    const SOURCE: EditorPane = EditorPane::Design(Side::Source);
 
     #[test]
     fn what_is_under_the_pointer_stays_there() {
-        let mut panes = Panes::default();
+        let mut panes = EditorPanes::default();
         let at = Vec2::new(30.0, -12.0);
         panes.zoom_at(SOURCE, at, 2.0);
-        let view = panes.view(Pane::Film);
+        let view = panes.view(EditorPane::Film);
         assert_eq!(view.zoom, 2.0);
         assert!((view.pan + 2.0 * at - at).length() < 1e-4);
         panes.zoom_at(SOURCE, at, f32::NAN);
@@ -140,14 +140,14 @@ mod tests {
 
     #[test]
     fn panes_go_together_or_apart() {
-        let mut panes = Panes {
+        let mut panes = EditorPanes {
             together: false,
-            ..Panes::default()
+            ..EditorPanes::default()
         };
         panes.pan(SOURCE, Vec2::X);
-        assert_eq!(panes.view(Pane::Film), PaneView::default());
+        assert_eq!(panes.view(EditorPane::Film), PaneView::default());
         panes.set_together(true);
-        assert_eq!(panes.view(Pane::Film).pan, Vec2::X);
+        assert_eq!(panes.view(EditorPane::Film).pan, Vec2::X);
         panes.fit();
         assert_eq!(panes.view(SOURCE), PaneView::default());
     }

@@ -3,7 +3,7 @@
 //! Rings are lists of points, closed from the last to the first. All distances are those of the
 //! frame that both designs lie in.
 
-use crate::geometry::{DVec2, along_segment};
+use crate::geometry::{DVec2, nearest_segment_parameter};
 
 /// A vertex that turns by more than this, in radians, is a corner that pins snap to: curves are
 /// flattened to smaller turns.
@@ -11,7 +11,7 @@ const CORNER: f64 = 0.44;
 
 /// A place on one of several rings.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Foot {
+pub struct NearestRingPoint {
     /// Which ring.
     pub ring: usize,
     /// The vertex that the edge starts from.
@@ -25,16 +25,16 @@ pub struct Foot {
 }
 
 /// The nearest place on any of the rings.
-pub fn nearest<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> Option<Foot> {
-    let mut best: Option<Foot> = None;
+pub fn nearest<'a>(rings: impl Iterator<Item = &'a [DVec2]>, p: DVec2) -> Option<NearestRingPoint> {
+    let mut best: Option<NearestRingPoint> = None;
     for (ring, points) in rings.enumerate() {
         for edge in 0..points.len() {
             let (a, b) = (points[edge], points[(edge + 1) % points.len()]);
-            let along = along_segment(p, a, b);
+            let along = nearest_segment_parameter(p, a, b);
             let point = a.lerp(b, along);
             let distance = point.distance(p);
             if best.is_none_or(|best| distance < best.distance) {
-                best = Some(Foot {
+                best = Some(NearestRingPoint {
                     ring,
                     edge,
                     along,
@@ -72,7 +72,7 @@ fn crossings<'a>(rings: impl Iterator<Item = &'a [DVec2]>, y: f64) -> impl Itera
 
 /// A point inside the rings where a word can stand: in the widest place at their middle height
 /// that none of what lies `above` covers. None where all of it is covered.
-pub fn seen(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2> {
+pub fn label_point(rings: &[&[DVec2]], above: &[&[Vec<DVec2>]]) -> Option<DVec2> {
     let ys = || rings.iter().flat_map(|ring| ring.iter().map(|p| p.y));
     let low = ys().reduce(f64::min)?;
     let high = ys().reduce(f64::max)?;
@@ -139,7 +139,7 @@ pub fn places(points: &[DVec2]) -> (Vec<f64>, f64) {
 ///
 /// # Panics
 /// There are no points.
-pub fn at(points: &[DVec2], places: &[f64], place: f64) -> DVec2 {
+pub fn point_at(points: &[DVec2], places: &[f64], place: f64) -> DVec2 {
     let place = place.rem_euclid(1.0);
     let next = places.partition_point(|p| *p <= place);
     // The first place is 0, so there is always one before.
@@ -187,7 +187,7 @@ mod tests {
         assert!(!encloses(rings(), DVec2::new(0.75, 1.0)));
         assert!(!encloses(rings(), DVec2::new(3.0, 1.0)));
         assert_eq!(spans(rings(), 1.0), [[0.0, 0.5], [1.0, 2.0]]);
-        let at = seen(&[&ring, &hole], &[]).expect("a place");
+        let at = label_point(&[&ring, &hole], &[]).expect("a place");
         assert!(encloses(rings(), at));
     }
 
@@ -199,18 +199,18 @@ mod tests {
             vec![corners.map(DVec2::from).to_vec()]
         };
         let [low, middle, high] = [cover(0.0, 0.4), cover(0.3, 1.6), cover(1.7, 2.0)];
-        let at = seen(&[&square], &[&middle]).expect("a place");
+        let at = label_point(&[&square], &[&middle]).expect("a place");
         assert!(!(0.3..=1.6).contains(&at.y), "{at}");
-        let at = seen(&[&square], &[&low, &middle, &high]).expect("a place");
+        let at = label_point(&[&square], &[&low, &middle, &high]).expect("a place");
         assert!((1.6..=1.7).contains(&at.y), "{at}");
-        assert_eq!(seen(&[&square], &[&cover(0.0, 2.0)]), None);
+        assert_eq!(label_point(&[&square], &[&cover(0.0, 2.0)]), None);
         let left = vec![vec![
             DVec2::ZERO,
             DVec2::new(1.5, 0.0),
             DVec2::new(1.5, 2.0),
             DVec2::new(0.0, 2.0),
         ]];
-        assert_eq!(seen(&[&square], &[&left]).map(|at| at.x), Some(1.75));
+        assert_eq!(label_point(&[&square], &[&left]).map(|at| at.x), Some(1.75));
     }
 
     #[test]
@@ -228,8 +228,8 @@ mod tests {
         let (places, length) = places(&ring);
         assert_eq!(length, 8.0);
         assert_eq!(places, [0.0, 0.25, 0.5, 0.75]);
-        assert_eq!(at(&ring, &places, 0.375), DVec2::new(2.0, 1.0));
-        assert_eq!(at(&ring, &places, -0.125), DVec2::new(0.0, 1.0));
-        assert_eq!(at(&ring, &places, 1.0), DVec2::ZERO);
+        assert_eq!(point_at(&ring, &places, 0.375), DVec2::new(2.0, 1.0));
+        assert_eq!(point_at(&ring, &places, -0.125), DVec2::new(0.0, 1.0));
+        assert_eq!(point_at(&ring, &places, 1.0), DVec2::ZERO);
     }
 }

@@ -2,17 +2,17 @@
 
 use bevy::prelude::{DetectChanges, Local, Res, ResMut};
 
-use crate::app::editing::editor::{Editor, Handle};
-use crate::app::editing::sheet::Sheet;
-use crate::app::session::loading::Problem;
+use crate::app::editing::editor::{EditorHandle, MatchEditor};
+use crate::app::editing::sheet::MatchSheet;
+use crate::app::session::load::TransitionProblem;
 use crate::app::session::state::Session;
 use crate::transition::Transition;
 
 /// Lays the sheet out anew where the project, its transition or the editor is another.
 pub fn refresh(
     session: Res<Session>,
-    mut editor: ResMut<Editor>,
-    mut sheet: ResMut<Sheet>,
+    mut editor: ResMut<MatchEditor>,
+    mut sheet: ResMut<MatchSheet>,
     mut was_open: Local<bool>,
 ) {
     // A closed one too: the panel lists its parts.
@@ -21,7 +21,7 @@ pub fn refresh(
     if !(is_opened || session.is_changed()) {
         return;
     }
-    let mut laid_out = Sheet::of(&session);
+    let mut laid_out = MatchSheet::of(&session);
     // Points of other designs are others, though they lie where these were.
     let before = std::mem::take(&mut *sheet);
     let is_same = !is_opened && before.sides == laid_out.sides;
@@ -30,12 +30,12 @@ pub fn refresh(
     if sheet.sides.is_none() {
         editor.is_open = false;
     }
-    let is_there = |handle: &Handle| sheet.handles().any(|other| other == *handle);
+    let is_there = |handle: &EditorHandle| sheet.handles().any(|other| other == *handle);
     editor.selected = editor.selected.filter(is_there);
     editor.hovered = editor.hovered.filter(is_there);
 }
 
-impl Sheet {
+impl MatchSheet {
     /// The designs of the stage side by side, and how they go together.
     #[must_use]
     pub fn of(session: &Session) -> Self {
@@ -52,7 +52,9 @@ impl Sheet {
         let transition = session.transition();
         let matched = transition.and_then(Transition::matched);
         let mut sheet = Self {
-            faulty: session.problem().map_or_else(Vec::new, Problem::pins),
+            faulty: session
+                .problem()
+                .map_or_else(Vec::new, TransitionProblem::pins),
             // But what pins are for is as the settings are: the tools change with the method at
             // once.
             content: project.content,

@@ -5,13 +5,13 @@
 
 use bevy::prelude::Resource;
 
-use crate::app::editing::ring::SheetRing;
-use crate::app::editing::{features, letters, polyline};
+use crate::app::editing::sheet_ring::SheetRing;
+use crate::app::editing::{labels, polyline, sample_points};
 use crate::content::ContentKind;
 use crate::correspondence::{
-    LinePair, Matching, PieceMatch, PointPair, RegionMatch, RingCut, RingKind,
+    LinePair, MatchSettings, PieceMatch, PointPair, RegionMatch, RingCut, RingKind,
 };
-use crate::design::{Design, Form, Picture};
+use crate::design::{Design, DesignForm, Picture};
 use crate::geometry::{Bounds, DVec2, Side, Similarity};
 use crate::transition::PaintRule;
 
@@ -21,7 +21,7 @@ const SAME_CUT: f64 = 0.25;
 
 /// Both designs and their match.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Sheet {
+pub struct MatchSheet {
     /// Source and target; none where there is nothing to match.
     pub sides: Option<[SheetSide; 2]>,
     /// The matched rings; none while there is no transition.
@@ -71,7 +71,7 @@ pub struct SheetPiece {
     /// What it is called: the same on both sides.
     pub name: String,
     /// What becomes of it.
-    pub fate: Fate,
+    pub fate: PieceFate,
     /// Where its name stands, in the source and in the target.
     pub at: [DVec2; 2],
     /// It was paired by hand, or said to have no partner.
@@ -82,7 +82,7 @@ pub struct SheetPiece {
 
 /// What becomes of a piece.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
+pub enum PieceFate {
     /// It is in both designs.
     Paired,
     /// It is in the target only, and grows from a point.
@@ -102,7 +102,7 @@ pub struct SheetCut {
     pub asked: Option<usize>,
 }
 
-impl Sheet {
+impl MatchSheet {
     /// Lays out a pair of designs, given as their files have them and painted as they were
     /// matched. Nothing where one of them has triangles or bars of its own.
     #[must_use]
@@ -110,7 +110,7 @@ impl Sheet {
         designs: [&Design; 2],
         by: [Similarity; 2],
         paint: PaintRule,
-        matching: &Matching,
+        matching: &MatchSettings,
         matched: Option<&RegionMatch>,
     ) -> Self {
         let side = |k: usize| side(designs[k], &by[k], paint);
@@ -124,7 +124,7 @@ impl Sheet {
         let sides = [source, target];
         Self {
             // A pin says more than a found point, so points keep away from pins.
-            features: features::chosen(&rings, &placed.pins),
+            features: sample_points::chosen(&rings, &placed.pins),
             pieces: names(pieces, &sides, &placed),
             cuts: cuts(pieces, &placed.cuts, diameter),
             sides: Some(sides),
@@ -150,7 +150,7 @@ impl Sheet {
         });
         let earlier = before.map_or(&[][..], |before| &before.earlier);
         let known = [&shown[..], earlier].concat();
-        self.letters = letters::kept(&self.features, &known, letters::SAME * largest);
+        self.letters = labels::stable_letters(&self.features, &known, labels::SAME * largest);
         let gone = shown.into_iter();
         let gone = gone.filter(|(_, letter)| !self.letters.contains(letter));
         self.earlier = gone.collect();
@@ -173,7 +173,7 @@ impl Sheet {
 
     /// The nearest place on the boundary of one side.
     #[must_use]
-    pub fn on_boundary(&self, side: Side, p: DVec2) -> Option<polyline::Foot> {
+    pub fn on_boundary(&self, side: Side, p: DVec2) -> Option<polyline::NearestRingPoint> {
         let parts = &self.sides.as_ref()?[side].parts;
         polyline::nearest(parts.iter().flatten().map(Vec::as_slice), p)
     }
@@ -222,7 +222,7 @@ fn uppermost(parts: &[Vec<Vec<DVec2>>], p: DVec2) -> Option<usize> {
 }
 
 fn side(design: &Design, by: &Similarity, paint: PaintRule) -> Option<SheetSide> {
-    let Form::Outline(outline) = &design.form else {
+    let DesignForm::Outline(outline) = &design.form else {
         return None;
     };
     // In their own paint parts are matched coat by coat, and hide each other.
@@ -266,7 +266,7 @@ fn rings(pieces: &[PieceMatch]) -> Vec<SheetRing> {
     pieces.iter().enumerate().flat_map(of).collect()
 }
 
-fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &Matching) -> Vec<SheetPiece> {
+fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &MatchSettings) -> Vec<SheetPiece> {
     let part_at = |side: Side, p: DVec2| uppermost(&sides[side].parts, p);
     let links = said.links.iter();
     let linked: Vec<[Option<usize>; 2]> = links
@@ -291,9 +291,9 @@ fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &Matching) -> Vec<
     let piece = |(k, piece): (usize, &PieceMatch)| {
         let parts = [piece.source_part, piece.target_part];
         let fate = match parts {
-            [Some(_), None] => Fate::Dies,
-            [None, Some(_)] => Fate::Born,
-            _ => Fate::Paired,
+            [Some(_), None] => PieceFate::Dies,
+            [None, Some(_)] => PieceFate::Born,
+            _ => PieceFate::Paired,
         };
         let at = Side::BOTH.map(|side| {
             let own = parts[side].and_then(|k| Some((k, (*boxes[side].get(k)?)?)));
@@ -306,7 +306,7 @@ fn names(pieces: &[PieceMatch], sides: &[SheetSide; 2], said: &Matching) -> Vec<
             middle(piece, side, &above)
         });
         SheetPiece {
-            name: letters::of_part(k),
+            name: labels::of_part(k),
             fate,
             at,
             is_linked: is_said(&parts),
@@ -323,8 +323,8 @@ fn middle(piece: &PieceMatch, side: Side, above: &[&[Vec<DVec2>]]) -> DVec2 {
     let rings: Vec<&[DVec2]> = rings.collect();
     let first = rings.first().and_then(|ring| ring.first());
     // What is covered is named where it would be; a ring that is a point has no inside.
-    polyline::seen(&rings, above)
-        .or_else(|| polyline::seen(&rings, &[]))
+    polyline::label_point(&rings, above)
+        .or_else(|| polyline::label_point(&rings, &[]))
         .or(first.copied())
         .unwrap_or_default()
 }

@@ -17,7 +17,7 @@ const MOST_STEPS: usize = 200;
 
 /// A project at one moment.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Snapshot {
+pub struct ProjectSnapshot {
     /// The project.
     pub project: Project,
     /// What its relative paths are relative to; `None` where it is bundled.
@@ -26,22 +26,22 @@ pub struct Snapshot {
 
 /// One step.
 #[derive(Clone, Debug)]
-struct Step {
-    before: Snapshot,
-    after: Snapshot,
+struct HistoryStep {
+    before: ProjectSnapshot,
+    after: ProjectSnapshot,
     mark: Option<u64>,
     amends: bool,
 }
 
-impl Edit for Step {
+impl Edit for HistoryStep {
     type Target = ();
-    type Output = Snapshot;
+    type Output = ProjectSnapshot;
 
-    fn edit(&mut self, (): &mut ()) -> Snapshot {
+    fn edit(&mut self, (): &mut ()) -> ProjectSnapshot {
         self.after.clone()
     }
 
-    fn undo(&mut self, (): &mut ()) -> Snapshot {
+    fn undo(&mut self, (): &mut ()) -> ProjectSnapshot {
         self.before.clone()
     }
 
@@ -62,30 +62,36 @@ impl Edit for Step {
 
 /// The steps that can be taken back and taken again.
 #[derive(Debug)]
-pub struct History(Record<Step>);
+pub struct UndoHistory(Record<HistoryStep>);
 
-impl Default for History {
+impl Default for UndoHistory {
     fn default() -> Self {
         Self(Record::builder().limit(MOST_STEPS).saved(false).build())
     }
 }
 
-impl History {
+impl UndoHistory {
     /// Notes a change that was made.
-    pub fn note(&mut self, before: Snapshot, after: Snapshot, mark: Option<u64>) {
+    pub fn note(&mut self, before: ProjectSnapshot, after: ProjectSnapshot, mark: Option<u64>) {
         self.push(before, after, mark, false);
     }
 
     /// Notes that the last change did not come to stay, or not as it was.
-    pub fn amend(&mut self, before: Snapshot, after: Snapshot) {
+    pub fn amend(&mut self, before: ProjectSnapshot, after: ProjectSnapshot) {
         self.push(before, after, None, true);
     }
 
-    fn push(&mut self, before: Snapshot, after: Snapshot, mark: Option<u64>, amends: bool) {
+    fn push(
+        &mut self,
+        before: ProjectSnapshot,
+        after: ProjectSnapshot,
+        mark: Option<u64>,
+        amends: bool,
+    ) {
         if before == after {
             return;
         }
-        let step = Step {
+        let step = HistoryStep {
             before,
             after,
             mark,
@@ -107,12 +113,12 @@ impl History {
     }
 
     /// What to go back to.
-    pub fn undo(&mut self) -> Option<Snapshot> {
+    pub fn undo(&mut self) -> Option<ProjectSnapshot> {
         self.0.undo(&mut ())
     }
 
     /// What to go on to.
-    pub fn redo(&mut self) -> Option<Snapshot> {
+    pub fn redo(&mut self) -> Option<ProjectSnapshot> {
         self.0.redo(&mut ())
     }
 }
@@ -121,10 +127,10 @@ impl History {
 mod tests {
     use super::*;
 
-    fn at(title: &str) -> Snapshot {
+    fn at(title: &str) -> ProjectSnapshot {
         let mut project = Project::pair("a.svg", "b.svg");
         title.clone_into(&mut project.title);
-        Snapshot {
+        ProjectSnapshot {
             project,
             folder: None,
         }
@@ -132,7 +138,7 @@ mod tests {
 
     #[test]
     fn one_movement_is_one_step() {
-        let mut history = History::default();
+        let mut history = UndoHistory::default();
         history.note(at("0"), at("1"), Some(7));
         history.note(at("1"), at("2"), Some(7));
         history.note(at("2"), at("3"), Some(8));
@@ -144,7 +150,7 @@ mod tests {
 
     #[test]
     fn what_no_hand_did_is_never_joined() {
-        let mut history = History::default();
+        let mut history = UndoHistory::default();
         history.note(at("0"), at("1"), None);
         history.note(at("1"), at("2"), None);
         assert_eq!(history.undo(), Some(at("1")));
@@ -152,7 +158,7 @@ mod tests {
 
     #[test]
     fn a_movement_that_comes_back_is_no_step() {
-        let mut history = History::default();
+        let mut history = UndoHistory::default();
         history.note(at("0"), at("1"), Some(7));
         history.note(at("1"), at("0"), Some(7));
         assert!(!history.can_undo());
@@ -160,7 +166,7 @@ mod tests {
 
     #[test]
     fn a_change_that_was_given_up_is_no_step() {
-        let mut history = History::default();
+        let mut history = UndoHistory::default();
         history.note(at("0"), at("1"), None);
         history.note(at("1"), at("2"), None);
         history.amend(at("2"), at("1"));
@@ -169,7 +175,7 @@ mod tests {
 
     #[test]
     fn a_new_change_forgets_what_was_taken_back() {
-        let mut history = History::default();
+        let mut history = UndoHistory::default();
         history.note(at("0"), at("1"), None);
         history.undo();
         history.note(at("0"), at("2"), None);

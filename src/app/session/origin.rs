@@ -2,11 +2,11 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::design::Source;
+use crate::design::DesignSource;
 
 /// Where the open project comes from.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Origin {
+pub enum ProjectOrigin {
     /// A bundled project, by its name.
     Gallery(String),
     /// A file.
@@ -20,5 +20,5 @@ pub enum Origin {
 pub fn absolute(path: &Path) -> PathBuf {
     // Not canonical: a link that is followed later names the file that it then points to.
     let whole = |file: &Path| std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
-    Source::of(path).at(whole).to_path()
+    DesignSource::of(path).at(whole).to_path()
 }

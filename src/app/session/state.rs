@@ -11,23 +11,25 @@ use std::time::Duration;
 
 use bevy::prelude::Resource;
 
-use crate::app::session::history::{History, Snapshot};
-use crate::app::session::loading::{LoadError, Problem, Request};
-use crate::app::session::open::Open;
-use crate::app::session::rescue::Kept;
-use crate::app::session::saving::SaveError;
-use crate::app::session::work::Work;
-use crate::app::telling::job::JobError;
+use crate::app::jobs::job::JobError;
+use crate::app::session::document::OpenDocument;
+use crate::app::session::history::{ProjectSnapshot, UndoHistory};
+use crate::app::session::load::{LoadError, LoadRequest, TransitionProblem};
+use crate::app::session::save::SaveError;
+use crate::app::session::transition_work::TransitionWork;
+use crate::app::session::unsaved_project::UnsavedProject;
 use crate::content::ContentKind;
-use crate::design::{Design, Form};
+use crate::design::{Design, DesignForm};
 use crate::geometry::Bounds;
 use crate::project::{LoadedProject, Project, ProjectError};
-use crate::transition::{BuildError, Sequence, Stop, Style, Timing, Transition, place, style_of};
+use crate::transition::{
+    BuildError, Sequence, Timing, Transition, TransitionStop, TransitionStyle, segment_at, style_of,
+};
 use crate::warp::{Arap, WarpKind};
 
 /// What [`Session::poll`] found.
 #[derive(Debug)]
-pub enum Outcome {
+pub enum WorkOutcome {
     /// Another project is open; [`Session::problem`] tells why, where it has no transition.
     Opened,
     /// The open project has a new transition.
@@ -40,7 +42,7 @@ pub enum Outcome {
 
 /// Why a method cannot be had.
 #[derive(Debug, thiserror::Error)]
-pub enum Unavailable {
+pub enum MethodUnavailable {
     /// There is nothing to show by it.
     #[error("no project is open")]
     NothingOpen,
@@ -52,8 +54,8 @@ pub enum Unavailable {
 /// The project that is open, its transition, and the work on the next one.
 #[derive(Resource, Debug, Default)]
 pub struct Session {
-    open: Option<Open>,
-    work: Option<Work>,
+    open: Option<OpenDocument>,
+    work: Option<TransitionWork>,
     is_stale: bool,
 }
 
@@ -72,7 +74,7 @@ impl Session {
     /// more.
     #[must_use]
     pub fn project(&self) -> Option<&Project> {
-        self.open.as_ref().map(Open::seen)
+        self.open.as_ref().map(OpenDocument::seen)
     }
 
     /// The open project with all its legs.
@@ -132,7 +134,7 @@ impl Session {
     /// The number of the leg that is looked at, from 0.
     #[must_use]
     pub fn leg(&self) -> usize {
-        self.open.as_ref().map_or(0, Open::leg)
+        self.open.as_ref().map_or(0, OpenDocument::leg)
     }
 
     /// How many legs there are.
@@ -156,8 +158,8 @@ impl Session {
     /// The leg of what is on the stage that is shown at a t.
     #[must_use]
     pub fn leg_at(&self, t: f64) -> usize {
-        let legs = self.open.as_ref().map_or(1, Open::leg_count);
-        place(legs, t).0
+        let legs = self.open.as_ref().map_or(1, OpenDocument::leg_count);
+        segment_at(legs, t).0
     }
 
     /// Looks at another leg.
@@ -184,7 +186,7 @@ impl Session {
 
     /// Why the settings, as they are now, make no transition.
     #[must_use]
-    pub fn problem(&self) -> Option<&Problem> {
+    pub fn problem(&self) -> Option<&TransitionProblem> {
         self.open.as_ref()?.problem()
     }
 
@@ -196,13 +198,14 @@ impl Session {
 
     /// How the open project is painted.
     #[must_use]
-    pub fn style(&self) -> Style {
-        self.whole().map_or_else(Style::default, |p| p.style)
+    pub fn style(&self) -> TransitionStyle {
+        self.whole()
+            .map_or_else(TransitionStyle::default, |p| p.style)
     }
 
     /// How the leg that is looked at is painted.
     #[must_use]
-    pub fn style_here(&self) -> Style {
+    pub fn style_here(&self) -> TransitionStyle {
         style_of(self.leg(), self.way(), &self.style())
     }
 
@@ -215,7 +218,7 @@ impl Session {
 
     /// The stops of the open project.
     #[must_use]
-    pub fn stops(&self) -> &[Stop] {
+    pub fn stops(&self) -> &[TransitionStop] {
         self.whole().map_or(&[], |project| &project.stops)
     }
 
@@ -234,28 +237,32 @@ impl Session {
     /// The files that its designs were read from.
     #[must_use]
     pub fn files(&self) -> Vec<PathBuf> {
-        self.open.as_ref().map_or_else(Vec::new, Open::files)
+        self.open
+            .as_ref()
+            .map_or_else(Vec::new, OpenDocument::files)
     }
 
     /// What the open project is called.
     #[must_use]
     pub fn title(&self) -> String {
-        self.open.as_ref().map_or_else(String::new, Open::title)
+        self.open
+            .as_ref()
+            .map_or_else(String::new, OpenDocument::title)
     }
 
     /// What files that belong to the project are called.
     #[must_use]
     pub fn file_stem(&self) -> String {
         let open = self.open.as_ref();
-        open.map_or_else(|| "untitled".to_owned(), Open::file_stem)
+        open.map_or_else(|| "untitled".to_owned(), OpenDocument::file_stem)
     }
 
     /// Whether the open designs can be shown by this cell; otherwise why not.
     ///
     /// # Errors
     /// The reason, for a grey button.
-    pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), Unavailable> {
-        let open = self.open.as_ref().ok_or(Unavailable::NothingOpen)?;
+    pub fn available(&self, warp: WarpKind, content: ContentKind) -> Result<(), MethodUnavailable> {
+        let open = self.open.as_ref().ok_or(MethodUnavailable::NothingOpen)?;
         for leg in open.whole_on_stage().legs() {
             leg.available(warp, content)?;
         }
@@ -273,14 +280,14 @@ impl Session {
     #[must_use]
     pub fn has_bars(&self) -> bool {
         let mut designs = self.all_designs().iter();
-        designs.any(|design| matches!(design.form, Form::Truss(_)))
+        designs.any(|design| matches!(design.form, DesignForm::Truss(_)))
     }
 
     /// Some design names its own colours.
     #[must_use]
     pub fn has_paints(&self) -> bool {
         let is_painted = |design: &Arc<Design>| match &design.form {
-            Form::Truss(truss) => !truss.parts().colours.is_empty(),
+            DesignForm::Truss(truss) => !truss.parts().colours.is_empty(),
             _ => !design.coats.is_empty(),
         };
         self.all_designs().iter().any(is_painted)
@@ -293,7 +300,9 @@ impl Session {
         let pair = self.designs();
         !self.whole().is_some_and(Project::follows_path)
             && !pair.is_empty()
-            && pair.iter().all(|d| matches!(d.form, Form::Outline(_)))
+            && pair
+                .iter()
+                .all(|d| matches!(d.form, DesignForm::Outline(_)))
     }
 }
 
@@ -302,19 +311,19 @@ impl Session {
     /// There are changes that are not saved.
     #[must_use]
     pub fn is_dirty(&self) -> bool {
-        self.open.as_ref().is_some_and(Open::is_dirty)
+        self.open.as_ref().is_some_and(OpenDocument::is_dirty)
     }
 
     /// Two designs that were opened together are open, as they came.
     #[must_use]
     pub fn is_new_pair(&self) -> bool {
-        self.open.as_ref().is_some_and(Open::is_new_pair)
+        self.open.as_ref().is_some_and(OpenDocument::is_new_pair)
     }
 
     /// The film on the stage is by the method that is asked for, be it as a draft.
     #[must_use]
     pub fn has_film(&self) -> bool {
-        let is_by_it = |work: &Work| work.has_draft;
+        let is_by_it = |work: &TransitionWork| work.has_draft;
         self.transition().is_some() && self.work.as_ref().is_none_or(is_by_it)
     }
 
@@ -336,8 +345,8 @@ impl Session {
     /// # Errors
     /// A project cannot be written as text.
     #[must_use]
-    pub fn kept(&self) -> Option<Result<Kept, ProjectError>> {
-        self.open.as_ref().map(Open::kept)
+    pub fn kept(&self) -> Option<Result<UnsavedProject, ProjectError>> {
+        self.open.as_ref().map(OpenDocument::kept)
     }
 
     /// What to ask about them.
@@ -414,7 +423,7 @@ impl Session {
     /// # Errors
     /// A bundled design that it names cannot be written; the project is as it was.
     pub fn undo(&mut self) -> Result<bool, SaveError> {
-        self.go(History::undo)
+        self.go(UndoHistory::undo)
     }
 
     /// Makes the change again that was taken back last; `false` where there is none.
@@ -422,12 +431,12 @@ impl Session {
     /// # Errors
     /// As [`undo`](Self::undo).
     pub fn redo(&mut self) -> Result<bool, SaveError> {
-        self.go(History::redo)
+        self.go(UndoHistory::redo)
     }
 
     fn go(
         &mut self,
-        step: impl FnOnce(&mut History) -> Option<Snapshot>,
+        step: impl FnOnce(&mut UndoHistory) -> Option<ProjectSnapshot>,
     ) -> Result<bool, SaveError> {
         let Some(open) = &mut self.open else {
             return Ok(false);
@@ -490,9 +499,9 @@ impl Session {
     }
 
     /// Opens something else, beside the stage.
-    pub fn open(&mut self, request: Request) {
+    pub fn open(&mut self, request: LoadRequest) {
         self.is_stale = false;
-        self.work = Some(Work::start(request));
+        self.work = Some(TransitionWork::start(request));
     }
 
     /// Gives up the work; the settings go back to what the stage shows.
@@ -509,25 +518,30 @@ impl Session {
 
     /// Takes in work that is done and starts what waits for it. A better film than the draft that
     /// is on the stage waits until it `may_change`, which nobody should see.
-    pub fn poll(&mut self, may_change: bool) -> Option<Outcome> {
-        let is_held = |work: &Work| work.has_draft && !may_change;
+    pub fn poll(&mut self, may_change: bool) -> Option<WorkOutcome> {
+        let is_held = |work: &TransitionWork| work.has_draft && !may_change;
         let outcome = match &self.work {
             Some(work) if is_held(work) => None,
             _ => self.take_work().or_else(|| self.take_meanwhile()),
         };
         // A build runs on while a slider is dragged, so that its way is seen; but not for long.
-        let is_free = self.work.as_ref().is_none_or(Work::can_be_given_up);
+        let is_free = self
+            .work
+            .as_ref()
+            .is_none_or(TransitionWork::can_be_given_up);
         if self.is_stale
             && is_free
             && let Some(open) = &self.open
         {
             self.is_stale = false;
-            self.work = Some(Work::start(Request::Rebuild(Box::new(open.rebuild()))));
+            self.work = Some(TransitionWork::start(LoadRequest::Rebuild(Box::new(
+                open.rebuild(),
+            ))));
         }
         outcome
     }
 
-    fn take_meanwhile(&mut self) -> Option<Outcome> {
+    fn take_meanwhile(&mut self) -> Option<WorkOutcome> {
         let work = self.work.as_mut()?;
         let opened = work.opened();
         let (loaded, origin) = work.take_meanwhile()?;
@@ -535,14 +549,14 @@ impl Session {
             (Some(origin), open) => {
                 self.is_stale = false;
                 *open = Some(opened(loaded, origin));
-                Some(Outcome::Opened)
+                Some(WorkOutcome::Opened)
             }
-            (None, Some(open)) => open.restage(loaded).then_some(Outcome::Rebuilt),
+            (None, Some(open)) => open.restage(loaded).then_some(WorkOutcome::Rebuilt),
             (None, None) => None,
         }
     }
 
-    fn take_work(&mut self) -> Option<Outcome> {
+    fn take_work(&mut self) -> Option<WorkOutcome> {
         let answer = self.work.as_ref()?.job.poll()?;
         let work = self.work.take()?;
         let (opened, origin) = (work.opened(), work.origin);
@@ -550,13 +564,13 @@ impl Session {
             (Ok(loaded), Some(origin), open) => {
                 self.is_stale = false;
                 *open = Some(opened(loaded, origin));
-                Outcome::Opened
+                WorkOutcome::Opened
             }
             (Ok(built), None, Some(open)) => {
                 if open.restage(built) {
-                    Outcome::Rebuilt
+                    WorkOutcome::Rebuilt
                 } else {
-                    Outcome::NotRebuilt
+                    WorkOutcome::NotRebuilt
                 }
             }
             // What is open is never closed, only followed by something else.
@@ -566,7 +580,7 @@ impl Session {
                     // What cannot be read would fail at every build from now on.
                     open.give_up_designs();
                 }
-                Outcome::Failed(error)
+                WorkOutcome::Failed(error)
             }
         })
     }

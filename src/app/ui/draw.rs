@@ -9,17 +9,19 @@ use bevy_egui::{
     EguiPreUpdateSet, EguiPrimaryContextPass, egui,
 };
 
-use crate::app::asking::hand::{Marked, Typing};
-use crate::app::asking::intent::Intent;
-use crate::app::looking::view::StageArea;
-use crate::app::playing::pace::Repaint;
+use crate::app::input::gesture::{KeyboardFocus, TextSelected};
+use crate::app::input::intent::Intent;
+use crate::app::redraw_pace::PanelRepaint;
 use crate::app::ui::kit::theme;
-use crate::app::ui::overlays::{files, help, notices, questions, times, work};
+use crate::app::ui::overlays::{file_dialog, frame_times, help, notices, progress, questions};
 use crate::app::ui::panels::inspector;
-use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::{area, film, map, map_bar, onion, talk, twin, verdict};
-use crate::app::ui::timeline::{plots, strip};
+use crate::app::ui::stage::{
+    area, checks, comparison, film_frame, map, map_toolbar, onion, presentation,
+};
+use crate::app::ui::timeline::{panel, plots};
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::app::ui::{gallery, match_editor, speaker, toolbar};
+use crate::app::view::stage_area::StageArea;
 
 /// Draws the panels with egui.
 #[derive(Debug)]
@@ -28,8 +30,8 @@ pub struct UiPlugin;
 impl Plugin for UiPlugin {
     fn build(&self, app: &mut App) {
         app.add_plugins(EguiPlugin::default())
-            .init_resource::<gallery::Textures>()
-            .init_resource::<files::Files>()
+            .init_resource::<gallery::GalleryTextures>()
+            .init_resource::<file_dialog::FileDialogState>()
             .add_systems(
                 PreUpdate,
                 keep_keys_from_widgets
@@ -48,7 +50,7 @@ impl Plugin for UiPlugin {
             .add_observer(speaker::join)
             .add_systems(speaker::SpeakerPass, speaker::draw)
             .add_systems(EguiPrimaryContextPass, draw)
-            .init_resource::<Repaint>()
+            .init_resource::<PanelRepaint>()
             .add_systems(
                 PostUpdate,
                 note_repaint
@@ -80,7 +82,7 @@ fn hush(mut contexts: Query<&mut EguiContext, Added<EguiContext>>) {
 
 fn keep_keys_from_widgets(
     mut contexts: Query<&mut bevy_egui::EguiInput>,
-    typing: Res<Typing>,
+    typing: Res<KeyboardFocus>,
     mut held: Local<egui::Modifiers>,
 ) {
     for mut input in &mut contexts {
@@ -94,7 +96,7 @@ fn keep_keys_from_widgets(
 }
 
 /// The panels say themselves when they move: a switch that slides, a tip that is about to come.
-fn note_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<Repaint>) {
+fn note_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<PanelRepaint>) {
     let outputs = outputs.iter().filter_map(|output| output.0.as_ref());
     let delays = outputs.flat_map(|output| output.viewport_output.values());
     let soonest = delays.map(|viewport| viewport.repaint_delay).min();
@@ -103,14 +105,17 @@ fn note_repaint(outputs: Query<&EguiFullOutput>, mut repaint: ResMut<Repaint>) {
 
 fn draw(
     mut contexts: EguiContexts,
-    scene: Scene,
-    (mut textures, mut files): (ResMut<gallery::Textures>, ResMut<files::Files>),
-    (mut typing, mut marked): (ResMut<Typing>, ResMut<Marked>),
+    scene: UiState,
+    (mut textures, mut files): (
+        ResMut<gallery::GalleryTextures>,
+        ResMut<file_dialog::FileDialogState>,
+    ),
+    (mut typing, mut marked): (ResMut<KeyboardFocus>, ResMut<TextSelected>),
     mut area: ResMut<StageArea>,
     mut intents: MessageWriter<Intent>,
 ) -> Result {
     let ctx = contexts.ctx_mut()?.clone();
-    theme::choose(&ctx, scene.preferences.theme);
+    theme::apply_theme(&ctx, scene.preferences.theme);
     let mut acts = Intents::new();
     let mut root = egui::Ui::new(
         ctx.clone(),
@@ -125,14 +130,14 @@ fn draw(
     let stage = root.available_rect_before_wrap();
     let first = middle(&mut root, &scene, stage, &mut acts);
     overlays(&ctx, &scene, stage, &mut acts);
-    files::show(&ctx, &scene, &mut files, &mut acts);
+    file_dialog::show(&ctx, &scene, &mut files, &mut acts);
     area.set_if_neq(StageArea::from_points(first.left_top(), first.size()));
-    typing.set_if_neq(Typing(
+    typing.set_if_neq(KeyboardFocus(
         // A menu takes arrows and Esc for itself, and so does what asks for files.
         ctx.text_edit_focused() || egui::Popup::is_any_open(&ctx) || scene.dialog.asks().is_some(),
     ));
     let selection = ctx.plugin_or_default::<egui::text_selection::LabelSelectionState>();
-    marked.set_if_neq(Marked(selection.lock().has_selection()));
+    marked.set_if_neq(TextSelected(selection.lock().has_selection()));
     // Acted on in the next frame: the panels are drawn when the systems have run.
     intents.write_batch(acts);
     Ok(())
@@ -140,9 +145,14 @@ fn draw(
 
 /// What the panels leave: the stage, a second method beside it, the map, or the match editor. Returns the
 /// part that the stage takes.
-fn middle(root: &mut egui::Ui, scene: &Scene, stage: egui::Rect, acts: &mut Intents) -> egui::Rect {
+fn middle(
+    root: &mut egui::Ui,
+    scene: &UiState,
+    stage: egui::Rect,
+    acts: &mut Intents,
+) -> egui::Rect {
     if scene.presenting.is_on() {
-        return talk::show(root, scene, stage, acts);
+        return presentation::show(root, scene, stage, acts);
     }
     if scene.editor.is_open {
         return match_editor::show(root, scene, stage, acts);
@@ -151,28 +161,28 @@ fn middle(root: &mut egui::Ui, scene: &Scene, stage: egui::Rect, acts: &mut Inte
         return map::show(root, scene, stage, acts);
     }
     if scene.twin.is_shown {
-        return twin::show(root, scene, stage, acts);
+        return comparison::show(root, scene, stage, acts);
     }
     area::show(root, stage, "stage", acts);
     if scene.preferences.panels {
-        area::empty(root, scene, stage);
+        area::empty_hint(root, scene, stage);
         onion::show(root, scene, stage);
-        verdict::mark(root, scene, stage);
-        film::frame(root, scene, stage);
+        checks::mark(root, scene, stage);
+        film_frame::frame(root, scene, stage);
     }
     stage
 }
 
 fn panels(
     root: &mut egui::Ui,
-    scene: &Scene,
-    textures: &mut gallery::Textures,
+    scene: &UiState,
+    textures: &mut gallery::GalleryTextures,
     acts: &mut Intents,
 ) {
     toolbar::show(root, scene, acts);
     // Each takes its edge from what the ones before it have left: the timeline is as wide as the
     // window, the side panels stand between it and the toolbar.
-    strip::show(root, scene, acts);
+    panel::show(root, scene, acts);
     if scene.preferences.plots {
         plots::show(root, scene, acts);
     }
@@ -183,21 +193,21 @@ fn panels(
     }
     inspector::show(root, scene, acts);
     if scene.preferences.times {
-        times::strip(root, scene);
+        frame_times::strip(root, scene);
     }
     if !scene.editor.is_open {
         if scene.map.is_shown {
-            map_bar::strip(root, scene, acts);
+            map_toolbar::strip(root, scene, acts);
         } else {
             if scene.twin.is_shown {
-                twin::strip(root, scene, acts);
+                comparison::strip(root, scene, acts);
             }
-            verdict::strip(root, scene, acts);
+            checks::strip(root, scene, acts);
         }
     }
 }
 
-fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut Intents) {
+fn overlays(ctx: &egui::Context, scene: &UiState, stage: egui::Rect, acts: &mut Intents) {
     if scene.editor.is_open {
         match_editor::overlay(ctx, scene, stage, acts);
     }
@@ -215,13 +225,13 @@ fn overlays(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut In
 }
 
 /// What the program has to tell of itself.
-fn told(ctx: &egui::Context, scene: &Scene, stage: egui::Rect, acts: &mut Intents) {
+fn told(ctx: &egui::Context, scene: &UiState, stage: egui::Rect, acts: &mut Intents) {
     // What is left in the middle for messages: each layer takes its height from it.
     let mut below = stage;
     if scene.editor.is_open {
         below.min.y += match_editor::BAR_HEIGHT;
     }
-    work::show(ctx, scene, below, acts);
+    progress::show(ctx, scene, below, acts);
     if scene.editor.is_open {
         below.max.y -= match_editor::ADVICE_HEIGHT;
     }

@@ -8,11 +8,11 @@ use bevy_egui::egui::{
     Sense, StrokeKind, TextureHandle, TextureOptions, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
-use crate::app::asking::intent::Intent;
-use crate::app::opening::thumbnails::STRIP_PX;
-use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, Palette, RADIUS, SMALL};
-use crate::app::ui::kit::widgets::{ground, quiet};
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::files::gallery_thumbnails::STRIP_PX;
+use crate::app::input::intent::Intent;
+use crate::app::ui::kit::theme::{CARD_RADIUS, GRID, RADIUS, SMALL, ThemePalette};
+use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::project::gallery;
 
 const WIDTH: f32 = 232.0;
@@ -20,18 +20,18 @@ const PICTURE_HEIGHT: f32 = 72.0;
 
 /// The thumbnails that egui already has.
 #[derive(Resource, Default)]
-pub struct Textures(HashMap<String, TextureHandle>);
+pub struct GalleryTextures(HashMap<String, TextureHandle>);
 
 /// Draws the gallery on the left.
-pub fn show(root: &mut Ui, scene: &Scene, textures: &mut Textures, acts: &mut Intents) {
-    let frame = ground(root, [16, 8, 8, 0]);
+pub fn show(root: &mut Ui, scene: &UiState, textures: &mut GalleryTextures, acts: &mut Intents) {
+    let frame = panel_frame(root, [16, 8, 8, 0]);
     Panel::left("gallery")
         .exact_size(WIDTH)
         .resizable(false)
         .frame(frame)
         .show(root, |ui| {
             recent(ui, scene, acts);
-            ui.label(quiet(ui, "Gallery").strong());
+            ui.label(secondary_text(ui, "Gallery").strong());
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 // Less than there is: the scroll bar stands in the rest.
                 ui.set_width(WIDTH - 32.0);
@@ -46,12 +46,12 @@ pub fn show(root: &mut Ui, scene: &Scene, textures: &mut Textures, acts: &mut In
 }
 
 /// What was opened last, a line each.
-fn recent(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+fn recent(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
     let opened = scene.recent.opened();
     if opened.is_empty() {
         return;
     }
-    ui.label(quiet(ui, "Recent").strong());
+    ui.label(secondary_text(ui, "Recent").strong());
     ui.set_max_width(WIDTH - 32.0);
     ui.with_layout(Layout::top_down_justified(Align::LEFT), |ui| {
         ui.spacing_mut().item_spacing.y = 0.0;
@@ -68,8 +68,13 @@ fn recent(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     ui.add_space(GRID);
 }
 
-fn card(ui: &mut Ui, scene: &Scene, textures: &mut Textures, entry: &gallery::Entry) -> Response {
-    let palette = Palette::of(ui);
+fn card(
+    ui: &mut Ui,
+    scene: &UiState,
+    textures: &mut GalleryTextures,
+    entry: &gallery::GalleryEntry,
+) -> Response {
+    let palette = ThemePalette::of(ui);
     let (width, ink) = (ui.available_width(), palette.text);
     // Wrapped: what tells two of them apart may stand at the end.
     let title = ui
@@ -113,9 +118,9 @@ fn show_when_new(ui: &Ui, name: &str, card: &Response) {
     }
 }
 
-fn thumbnail(ui: &Ui, scene: &Scene, textures: &mut Textures, name: &str, rect: Rect) {
+fn thumbnail(ui: &Ui, scene: &UiState, textures: &mut GalleryTextures, name: &str, rect: Rect) {
     ui.painter()
-        .rect_filled(rect, RADIUS, Palette::of(ui).panel);
+        .rect_filled(rect, RADIUS, ThemePalette::of(ui).panel);
     let Some(image) = scene.thumbnails.get(name) else {
         return;
     };

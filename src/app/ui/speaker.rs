@@ -9,15 +9,15 @@ use bevy_egui::egui::{self, CentralPanel, Id, Label, Layout, RichText, ScrollAre
 use bevy_egui::{EguiContext, EguiSchedule, PrimaryEguiContext};
 use image::RgbaImage;
 
-use crate::app::asking::choices::Preferences;
-use crate::app::playing::playback::{Playback, SAME_T};
-use crate::app::playing::presenting::Presenting;
-use crate::app::playing::speaker::{Speaker, SpeakerCamera};
+use crate::app::input::preferences::Preferences;
+use crate::app::playback::player::{Playback, SAME_T};
+use crate::app::presentation::presenter::Presentation;
+use crate::app::presentation::speaker_window::{SpeakerCamera, SpeakerWindow};
 use crate::app::session::state::Session;
 use crate::app::ui::kit::texture::texture;
 use crate::app::ui::kit::theme::{self, GRID};
-use crate::app::ui::kit::widgets::{ground, quiet};
-use crate::transition::Stop;
+use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
+use crate::transition::TransitionStop;
 
 /// When egui draws the speaker's window.
 #[derive(ScheduleLabel, Clone, Debug, PartialEq, Eq, Hash)]
@@ -34,13 +34,13 @@ pub fn join(added: On<Add, SpeakerCamera>, mut commands: Commands) {
 pub fn draw(
     mut contexts: Query<&mut EguiContext, Without<PrimaryEguiContext>>,
     (session, playback): (Res<Session>, Res<Playback>),
-    (presenting, speaker, preferences): (Res<Presenting>, Res<Speaker>, Res<Preferences>),
+    (presenting, speaker, preferences): (Res<Presentation>, Res<SpeakerWindow>, Res<Preferences>),
 ) {
     let Ok(mut context) = contexts.single_mut() else {
         return;
     };
     let ctx = context.get_mut().clone();
-    theme::choose(&ctx, preferences.theme);
+    theme::apply_theme(&ctx, preferences.theme);
     let mut root = egui::Ui::new(
         ctx.clone(),
         "speaker".into(),
@@ -48,7 +48,7 @@ pub fn draw(
             .layer_id(egui::LayerId::background())
             .max_rect(ctx.viewport_rect()),
     );
-    let frame = ground(&root, [24, 24, 24, 24]);
+    let frame = panel_frame(&root, [24, 24, 24, 24]);
     let stops = session.stops();
     let names = session.names_on_the_way();
     let next = playback.next_stop(session.timing(), stops);
@@ -60,14 +60,14 @@ pub fn draw(
             let half = (ui.available_width() - 3.0 * GRID) / 2.0;
             ui.vertical(|ui| {
                 ui.set_width(half);
-                here(ui, Place::at(playback.t(), stops, &names));
+                here(ui, SpeakerMoment::at(playback.t(), stops, &names));
             });
             ui.add_space(2.0 * GRID);
             ui.vertical(|ui| {
                 ui.set_width(half);
                 coming(
                     ui,
-                    next.map(|t| Place::at(t, stops, &names)),
+                    next.map(|t| SpeakerMoment::at(t, stops, &names)),
                     speaker.picture(),
                 );
             });
@@ -76,16 +76,16 @@ pub fn draw(
 }
 
 /// What there is to say of a t.
-struct Place<'a> {
+struct SpeakerMoment<'a> {
     t: f64,
-    stop: Option<&'a Stop>,
+    stop: Option<&'a TransitionStop>,
     /// Of the design that is there.
     design: Option<&'a str>,
 }
 
-impl<'a> Place<'a> {
+impl<'a> SpeakerMoment<'a> {
     /// `names` are those of the designs, at each whole t.
-    fn at(t: f64, stops: &'a [Stop], names: &'a [String]) -> Self {
+    fn at(t: f64, stops: &'a [TransitionStop], names: &'a [String]) -> Self {
         let is_here = |place: f64| (place - t).abs() < SAME_T;
         let design = names.iter().enumerate().find(|(k, _)| is_here(*k as f64));
         Self {
@@ -107,15 +107,15 @@ fn head(ui: &mut Ui, lasts: Duration) {
     let (minutes, secs) = (secs / 60, secs % 60);
     ui.label(RichText::new(format!("{minutes}:{secs:02}")).size(44.0))
         .on_hover_text("How long the talk has run.");
-    ui.label(quiet(
+    ui.label(secondary_text(
         ui,
         "Page Down: on · Page Up: back · B: black · T: captions · N: this window · Esc: end",
     ));
     ui.add_space(2.0 * GRID);
 }
 
-fn here(ui: &mut Ui, place: Place<'_>) {
-    ui.label(quiet(ui, "Now"));
+fn here(ui: &mut Ui, place: SpeakerMoment<'_>) {
+    ui.label(secondary_text(ui, "Now"));
     match (place.name(), place.stop) {
         (Some(name), _) => large(ui, name),
         (None, Some(_)) => {}
@@ -127,7 +127,7 @@ fn here(ui: &mut Ui, place: Place<'_>) {
     ui.add_space(GRID);
     ScrollArea::vertical().show(ui, |ui| {
         if stop.note.is_empty() {
-            ui.label(quiet(
+            ui.label(secondary_text(
                 ui,
                 "No notes: right-click a stop on the timeline to write some.",
             ));
@@ -141,8 +141,8 @@ fn large(ui: &mut Ui, words: &str) {
     ui.add(Label::new(RichText::new(words).size(22.0)).wrap());
 }
 
-fn coming(ui: &mut Ui, next: Option<Place<'_>>, picture: Option<Arc<RgbaImage>>) {
-    ui.label(quiet(ui, "Next"));
+fn coming(ui: &mut Ui, next: Option<SpeakerMoment<'_>>, picture: Option<Arc<RgbaImage>>) {
+    ui.label(secondary_text(ui, "Next"));
     let Some(place) = next else {
         large(ui, "the end");
         return;

@@ -2,13 +2,13 @@
 
 use bevy_egui::egui::{self, Align, Color32, Layout, Margin, Panel, Rect, RichText, Ui, vec2};
 
-use crate::app::asking::acts::EditorAct;
-use crate::app::asking::choices::{Preferences, ThemeChoice};
-use crate::app::asking::intent::Intent;
+use crate::app::input::editor_action::EditorAction;
+use crate::app::input::intent::Intent;
+use crate::app::input::preferences::{Preferences, ThemeChoice};
 use crate::app::ui::kit::icons;
-use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{act_button, from_right, quiet};
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::kit::theme::{GRID, ThemePalette};
+use crate::app::ui::kit::widgets::{from_right, intent_button, secondary_text};
+use crate::app::ui::ui_state::{Intents, UiState};
 
 const HEIGHT: f32 = 48.0;
 
@@ -16,9 +16,9 @@ const HEIGHT: f32 = 48.0;
 const EDITED: f32 = 56.0;
 
 /// Draws the toolbar.
-pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
+pub fn show(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
     let frame = egui::Frame::new()
-        .fill(Palette::of(root).panel)
+        .fill(ThemePalette::of(root).panel)
         .inner_margin(Margin::symmetric(16, 8));
     Panel::top("toolbar")
         .exact_size(HEIGHT)
@@ -58,7 +58,7 @@ fn mark(ui: &mut Ui) {
     }
 }
 
-fn title(ui: &mut Ui, scene: &Scene) {
+fn title(ui: &mut Ui, scene: &UiState) {
     let is_edited = scene.session.is_dirty();
     ui.scope(|ui| {
         let beside = if is_edited { EDITED } else { 0.0 };
@@ -66,30 +66,30 @@ fn title(ui: &mut Ui, scene: &Scene) {
         ui.add(egui::Label::new(scene.session.title()).truncate());
     });
     if is_edited {
-        ui.label(quiet(ui, "edited"))
+        ui.label(secondary_text(ui, "edited"))
             .on_hover_text("Has changes that are not saved yet. Ctrl S saves them.");
     }
 }
 
-fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+fn buttons(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
     ui.spacing_mut().item_spacing.x = 4.0;
     if ui.button("?").on_hover_text("All keys (? or F1)").clicked() {
         acts.push(Intent::ToggleHelp);
     }
     theme_button(ui, scene, acts);
     let tip = "Show the whole transition (Z)";
-    act_button(ui, icons::FIT, tip, Intent::FitView, acts);
+    intent_button(ui, icons::FIT, tip, Intent::FitView, acts);
     ui.add_space(GRID);
-    let accent = Palette::of(ui).accent;
+    let accent = ThemePalette::of(ui).accent;
     let tip = "A second method beside the stage (V)";
-    let icon = icons::TWIN.inked(scene.twin.is_shown.then_some(accent));
-    act_button(ui, icon, tip, Intent::ToggleTwin, acts);
+    let icon = icons::COMPARE.inked(scene.twin.is_shown.then_some(accent));
+    intent_button(ui, icon, tip, Intent::ToggleTwin, acts);
     let tip = "The map of all designs (D)";
     let icon = icons::MAP.inked(scene.map.is_shown.then_some(accent));
-    act_button(ui, icon, tip, Intent::ToggleMap, acts);
+    intent_button(ui, icon, tip, Intent::ToggleMap, acts);
     let tip = "Plots of the measures against t (P)";
     let icon = icons::PLOT.inked(scene.preferences.plots.then_some(accent));
-    act_button(ui, icon, tip, Intent::TogglePlots, acts);
+    intent_button(ui, icon, tip, Intent::TogglePlots, acts);
     match_button(ui, scene, acts);
     ui.add_space(GRID);
     capture_buttons(ui, scene, acts);
@@ -97,13 +97,13 @@ fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     history_buttons(ui, scene, acts);
     ui.add_space(GRID);
     let tip = "Save the project (Ctrl S)";
-    act_button(ui, icons::SAVE, tip, Intent::Save, acts);
+    intent_button(ui, icons::SAVE, tip, Intent::Save, acts);
     let tip = "Open a project, or one or two designs (Ctrl O)";
-    act_button(ui, icons::OPEN, tip, Intent::AskOpen, acts);
+    intent_button(ui, icons::OPEN, tip, Intent::AskOpen, acts);
 }
 
 /// From right to left.
-fn capture_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+fn capture_buttons(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
     let options = Preferences {
         film_options: !scene.preferences.film_options,
         ..*scene.preferences
@@ -111,9 +111,9 @@ fn capture_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     let ink = scene
         .preferences
         .film_options
-        .then_some(Palette::of(ui).accent);
+        .then_some(ThemePalette::of(ui).accent);
     let tip = "Shape, size and kind of pictures and films";
-    act_button(
+    intent_button(
         ui,
         icons::MORE.inked(ink),
         tip,
@@ -122,16 +122,16 @@ fn capture_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     );
     let tip = "Present: nothing but the drawing, from the first stop (F5)";
     let talk = Intent::Present { is_all: false };
-    act_button(ui, icons::PRESENT, tip, talk, acts);
+    intent_button(ui, icons::PRESENT, tip, talk, acts);
     let tip = "Record one pass as a film, in the background (G)";
-    let icon = icons::RECORD.inked(Some(Palette::of(ui).problem));
-    act_button(ui, icon, tip, Intent::Record, acts);
+    let icon = icons::RECORD.inked(Some(ThemePalette::of(ui).problem));
+    intent_button(ui, icon, tip, Intent::Record, acts);
     let tip = "Picture of the stage (S); with the panels: Shift S";
     let picture = Intent::Screenshot { with_panels: false };
-    act_button(ui, icons::CAMERA, tip, picture, acts);
+    intent_button(ui, icons::CAMERA, tip, picture, acts);
 }
 
-fn match_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+fn match_button(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
     let can = scene.session.can_match();
     let tip = if can {
         "Which point is which: source and target side by side (E)"
@@ -139,26 +139,26 @@ fn match_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         "Not available: there is nothing to match in designs that have triangles or bars of their \
          own"
     };
-    let ink = scene.editor.is_open.then_some(Palette::of(ui).accent);
+    let ink = scene.editor.is_open.then_some(ThemePalette::of(ui).accent);
     let icon = icons::MATCH.inked(ink);
     ui.add_enabled_ui(can, |ui| {
-        act_button(ui, icon, tip, Intent::Editor(EditorAct::Toggle), acts);
+        intent_button(ui, icon, tip, Intent::Editor(EditorAction::Toggle), acts);
     });
 }
 
 /// From right to left.
-fn history_buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+fn history_buttons(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
     ui.add_enabled_ui(scene.session.can_redo(), |ui| {
         let tip = "Make the change again that was undone (Ctrl Shift Z or Ctrl Y)";
-        act_button(ui, icons::REDO, tip, Intent::Redo, acts);
+        intent_button(ui, icons::REDO, tip, Intent::Redo, acts);
     });
     ui.add_enabled_ui(scene.session.can_undo(), |ui| {
         let tip = "Undo the last change (Ctrl Z)";
-        act_button(ui, icons::UNDO, tip, Intent::Undo, acts);
+        intent_button(ui, icons::UNDO, tip, Intent::Undo, acts);
     });
 }
 
-fn theme_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+fn theme_button(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
     let (icon, theme, tip) = match scene.preferences.theme {
         ThemeChoice::Dark => (icons::SUN, ThemeChoice::Light, "Light panels"),
         ThemeChoice::Light => (icons::MOON, ThemeChoice::Dark, "Dark panels"),
@@ -167,5 +167,5 @@ fn theme_button(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         theme,
         ..*scene.preferences
     };
-    act_button(ui, icon, tip, Intent::Prefer(other), acts);
+    intent_button(ui, icon, tip, Intent::Prefer(other), acts);
 }

@@ -4,10 +4,10 @@ use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use crate::progress::Progress;
+use crate::work::progress::Progress;
 
 /// Stages and the seconds that they took.
-pub(in crate::cli) type Stages = BTreeMap<&'static str, f64>;
+pub(in crate::cli) type StageDurations = BTreeMap<&'static str, f64>;
 
 /// Stages that belong to rigid parts once a mesh is there, and to fields.
 const NOT_TRIANGULATING: [&str; 5] = [
@@ -24,16 +24,16 @@ const NOT_TRIANGULATING: [&str; 5] = [
 /// the stage that was reported last, so that the stages add up to the whole.
 pub(in crate::cli) struct StageClock<'a> {
     inner: &'a dyn Progress,
-    heard: Mutex<Heard>,
+    heard: Mutex<StageReports>,
 }
 
 #[derive(Default)]
-struct Heard {
+struct StageReports {
     now: Option<(&'static str, Instant)>,
-    stages: Stages,
+    stages: StageDurations,
 }
 
-impl Heard {
+impl StageReports {
     fn change_to(&mut self, stage: Option<&'static str>) {
         let at = Instant::now();
         let before = std::mem::replace(&mut self.now, stage.map(|stage| (stage, at)));
@@ -52,7 +52,7 @@ impl<'a> StageClock<'a> {
     }
 
     /// Ends the stage that runs, and tells of all.
-    pub fn stages(&self) -> Stages {
+    pub fn stages(&self) -> StageDurations {
         // Times are whole whenever the lock is free, even after a panic.
         let mut heard = self.heard.lock().unwrap_or_else(PoisonError::into_inner);
         heard.change_to(None);
@@ -77,12 +77,12 @@ impl Progress for StageClock<'_> {
 }
 
 /// Seconds of the stages that match boundaries and parts.
-pub(super) fn matching(stages: &Stages) -> f64 {
+pub(super) fn matching(stages: &StageDurations) -> f64 {
     total(stages, is_matching)
 }
 
 /// Seconds of the stages that make a common triangulation.
-pub(super) fn triangulating(stages: &Stages) -> f64 {
+pub(super) fn triangulating(stages: &StageDurations) -> f64 {
     total(stages, |stage| {
         !is_matching(stage) && !NOT_TRIANGULATING.contains(&stage)
     })
@@ -92,7 +92,7 @@ fn is_matching(stage: &str) -> bool {
     stage.starts_with("match") || stage.starts_with("pairing")
 }
 
-fn total(stages: &Stages, is: impl Fn(&str) -> bool) -> f64 {
+fn total(stages: &StageDurations, is: impl Fn(&str) -> bool) -> f64 {
     let chosen = stages.iter().filter(|(stage, _)| is(stage));
     // Not summed: of none that is -0.
     chosen.fold(0.0, |sum, (_, seconds)| sum + seconds)
@@ -101,7 +101,7 @@ fn total(stages: &Stages, is: impl Fn(&str) -> bool) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::Silent;
+    use crate::work::progress::Silent;
     use std::time::Duration;
 
     #[test]
@@ -122,6 +122,6 @@ mod tests {
         assert_eq!(names, ["factoring", "matching", "triangulating"]);
         assert!(matching(&stages) >= 0.006);
         assert_eq!(triangulating(&stages), stages["triangulating"]);
-        assert_eq!(clock.stages(), Stages::new());
+        assert_eq!(clock.stages(), StageDurations::new());
     }
 }

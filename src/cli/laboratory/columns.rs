@@ -5,9 +5,9 @@
 //! stand in the headings: lengths called `share` are fractions, those called
 //! `diameters` fractions of the larger design's diameter.
 
-use super::report::{FindingReport, Report};
-use crate::measure::{Distribution, FilmReport, MeshReport, Motion};
-use crate::transition::Cell;
+use super::report::{FindingReport, PairReport};
+use crate::measure::{Distribution, FilmReport, MeshReport, MotionReport};
+use crate::transition::TransitionMethod;
 
 /// Which way the pair was taken: `forward`, `backward`.
 pub(super) const DIRECTION: &str = "direction";
@@ -16,26 +16,26 @@ pub(super) const DIRECTION: &str = "direction";
 pub(super) const STATUS: &str = "status";
 
 /// One measure of a report.
-pub(super) struct Column {
+pub(super) struct ReportColumn {
     name: &'static str,
-    unit: Unit,
-    read: Read,
+    unit: ColumnUnit,
+    read: ColumnReader,
     /// What the summary calls it and which of its values are the good ones, if
     /// it tells of them.
-    pub told: Option<(&'static str, Better)>,
+    pub told: Option<(&'static str, BetterDirection)>,
     /// Whether the summary draws its values as bars.
     pub is_drawn: bool,
 }
 
 /// Which values are the good ones.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Better {
+pub(super) enum BetterDirection {
     Small,
     Large,
 }
 
 #[derive(Clone, Copy)]
-enum Unit {
+enum ColumnUnit {
     Pure,
     Share,
     Degrees,
@@ -44,7 +44,7 @@ enum Unit {
     Seconds,
 }
 
-impl Unit {
+impl ColumnUnit {
     /// At the end of a heading, and of words.
     const fn suffixes(self) -> [&'static str; 2] {
         match self {
@@ -60,12 +60,12 @@ impl Unit {
 
 /// How a report is read.
 #[derive(Clone, Copy)]
-enum Read {
-    Number(fn(&Report) -> Option<f64>),
-    Words(fn(&Report) -> Option<&str>),
+enum ColumnReader {
+    Number(fn(&PairReport) -> Option<f64>),
+    Words(fn(&PairReport) -> Option<&str>),
 }
 
-impl Column {
+impl ReportColumn {
     /// What it is called in the table.
     pub fn heading(&self) -> String {
         format!("{}{}", self.name, self.unit.suffixes()[0])
@@ -78,24 +78,24 @@ impl Column {
     }
 
     /// Its number in a report, where it is one and there is one.
-    pub fn number(&self, report: &Report) -> Option<f64> {
+    pub fn number(&self, report: &PairReport) -> Option<f64> {
         match self.read {
-            Read::Number(of) => of(report),
-            Read::Words(_) => None,
+            ColumnReader::Number(of) => of(report),
+            ColumnReader::Words(_) => None,
         }
     }
 
     /// Its cell: of a number as many digits as it takes to read it back.
-    pub fn cell(&self, report: &Report) -> String {
+    pub fn cell(&self, report: &PairReport) -> String {
         // Without a number the cell is empty: 0 would be a measurement.
         let text = match self.read {
-            Read::Number(of) => of(report).map(|x| x.to_string()),
-            Read::Words(of) => of(report).map(str::to_owned),
+            ColumnReader::Number(of) => of(report).map(|x| x.to_string()),
+            ColumnReader::Words(of) => of(report).map(str::to_owned),
         };
         text.unwrap_or_default()
     }
 
-    const fn told(self, words: &'static str, better: Better) -> Self {
+    const fn told(self, words: &'static str, better: BetterDirection) -> Self {
         Self {
             told: Some((words, better)),
             ..self
@@ -105,7 +105,7 @@ impl Column {
     const fn drawn(self, words: &'static str) -> Self {
         Self {
             is_drawn: true,
-            ..self.told(words, Better::Small)
+            ..self.told(words, BetterDirection::Small)
         }
     }
 }
@@ -115,8 +115,8 @@ pub(super) fn is_own(heading: &str) -> bool {
     heading == DIRECTION || heading == STATUS || ALL.iter().any(|own| own.heading() == heading)
 }
 
-const fn column(name: &'static str, unit: Unit, read: Read) -> Column {
-    Column {
+const fn column(name: &'static str, unit: ColumnUnit, read: ColumnReader) -> ReportColumn {
+    ReportColumn {
         name,
         unit,
         read,
@@ -125,15 +125,19 @@ const fn column(name: &'static str, unit: Unit, read: Read) -> Column {
     }
 }
 
-const fn number(name: &'static str, unit: Unit, of: fn(&Report) -> Option<f64>) -> Column {
-    column(name, unit, Read::Number(of))
+const fn number(
+    name: &'static str,
+    unit: ColumnUnit,
+    of: fn(&PairReport) -> Option<f64>,
+) -> ReportColumn {
+    column(name, unit, ColumnReader::Number(of))
 }
 
-const fn words(name: &'static str, of: fn(&Report) -> Option<&str>) -> Column {
-    column(name, Pure, Read::Words(of))
+const fn words(name: &'static str, of: fn(&PairReport) -> Option<&str>) -> ReportColumn {
+    column(name, Pure, ColumnReader::Words(of))
 }
 
-fn finding(report: &Report) -> Option<&FindingReport> {
+fn finding(report: &PairReport) -> Option<&FindingReport> {
     report.verdict.findings.first()
 }
 
@@ -141,37 +145,42 @@ fn count(n: usize) -> Option<f64> {
     Some(n as f64)
 }
 
-fn mesh(report: &Report, of: fn(&MeshReport) -> f64) -> Option<f64> {
+fn mesh(report: &PairReport, of: fn(&MeshReport) -> f64) -> Option<f64> {
     report.mesh.as_ref().map(of)
 }
 
-fn film(report: &Report, of: fn(&FilmReport) -> Option<usize>) -> Option<f64> {
+fn film(report: &PairReport, of: fn(&FilmReport) -> Option<usize>) -> Option<f64> {
     count(of(&report.film)?)
 }
 
-fn motion(report: &Report, of: fn(&Motion) -> f64) -> Option<f64> {
+fn motion(report: &PairReport, of: fn(&MotionReport) -> f64) -> Option<f64> {
     report.film.motion.as_ref().map(of)
 }
 
-fn conformal(report: &Report) -> Option<&Distribution> {
+fn conformal(report: &PairReport) -> Option<&Distribution> {
     Some(&report.mesh.as_ref()?.distortion.conformal)
 }
 
-fn isometric(report: &Report) -> Option<&Distribution> {
+fn isometric(report: &PairReport) -> Option<&Distribution> {
     Some(&report.mesh.as_ref()?.distortion.isometric)
 }
 
-fn area(report: &Report) -> Option<&Distribution> {
+fn area(report: &PairReport) -> Option<&Distribution> {
     Some(&report.mesh.as_ref()?.distortion.area)
 }
 
-use Better::{Large, Small};
-use Unit::{Cells, Degrees, Diameters, Pure, Seconds, Share};
+use BetterDirection::{Large, Small};
+use ColumnUnit::{Cells, Degrees, Diameters, Pure, Seconds, Share};
 
 /// All of them, in the order of the table.
-pub(super) const ALL: [Column; 61] = [
+pub(super) const ALL: [ReportColumn; 61] = [
     words("method", |r| {
-        Some(Cell::new(r.warp, r.content).ok()?.words().report)
+        Some(
+            TransitionMethod::new(r.warp, r.content)
+                .ok()?
+                .words()
+                .report,
+        )
     }),
     words("verdict", |r| Some(&r.verdict.words)),
     number("verdict_t", Pure, |r| Some(finding(r)?.finding.t)),
@@ -299,7 +308,7 @@ mod tests {
 
     #[test]
     fn headings_are_what_they_were() {
-        let found: Vec<_> = ALL.iter().map(Column::heading).collect();
+        let found: Vec<_> = ALL.iter().map(ReportColumn::heading).collect();
         assert_eq!(found.join(" "), HEADINGS);
         assert!(found.iter().all(|heading| is_own(heading)));
         assert!(is_own(DIRECTION) && is_own(STATUS));
@@ -308,7 +317,7 @@ mod tests {
 
     #[test]
     fn words_say_the_unit() {
-        let words: Vec<_> = ALL.iter().filter_map(Column::words).collect();
+        let words: Vec<_> = ALL.iter().filter_map(ReportColumn::words).collect();
         assert!(words.contains(&"build in all, seconds".to_owned()));
         assert_eq!(words.len(), 18);
     }

@@ -1,6 +1,6 @@
 //! Numbers as people read them, and aligned lines of them.
 
-use crate::one_line::OneLine;
+use crate::io::sanitize::SanitizedLine;
 
 /// Four digits.
 pub(super) fn short(x: f64) -> String {
@@ -28,11 +28,11 @@ pub(super) fn short(x: f64) -> String {
 
 /// Lines of text.
 #[derive(Default)]
-pub(super) struct Lines(pub String);
+pub(super) struct NumberLines(pub String);
 
-impl Lines {
+impl NumberLines {
     pub fn line(&mut self, text: &str) {
-        self.0 += &OneLine(text.trim_end()).to_string();
+        self.0 += &SanitizedLine(text.trim_end()).to_string();
         self.0.push('\n');
     }
 

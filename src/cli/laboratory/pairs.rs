@@ -13,19 +13,22 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use clap::Args;
 use rayon::prelude::*;
 
-use super::report::{Measuring, Report};
-use super::rows::{self, Partial};
-use super::summary::Summary;
-use super::table::{self, Row, RowError, Table};
+use super::report::{MeasuringArgs, PairReport};
+use super::rows;
+use super::rows::PartialTable;
+use super::summary::PairSummary;
+use super::table;
+use super::table::{PairRowError, PairTable, PairTableRow};
 use crate::cli::error::CliError;
-use crate::cli::inputs::{Inputs, OpenedPair};
-use crate::design::Source;
+use crate::cli::inputs::{InputArgs, OpenedPair};
+use crate::design::DesignSource;
 use crate::export::{
-    ExportError, StillKind, Strip, Target, even_times, pair_sheet, write_atomically, write_still,
+    ExportError, ExportTarget, PairStrip, StillKind, even_times, pair_sheet, write_atomically,
+    write_still,
 };
-use crate::one_line::OneLine;
-use crate::progress::Progress;
-use crate::transition::Style;
+use crate::io::sanitize::SanitizedLine;
+use crate::transition::TransitionStyle;
+use crate::work::progress::Progress;
 
 /// Frames of a strip of the sheet.
 const STRIP_FRAMES: usize = 7;
@@ -34,7 +37,7 @@ const STRIP_FRAMES: usize = 7;
 // The fields are needed of a table only, so that the parser must not ask for
 // them.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct Batch {
+pub(in crate::cli) struct PairBatchArgs {
     /// A table of pairs instead: a CSV file with the columns source and target,
     /// paths relative to its folder; other columns are carried along
     #[arg(long, value_name = "FILE.csv", required = false, requires = "out")]
@@ -60,9 +63,9 @@ pub(in crate::cli) struct Batch {
 }
 
 /// What became of a table.
-pub(in crate::cli) struct Outcome {
+pub(in crate::cli) struct PairBatchOutcome {
     /// All pairs in short.
-    pub summary: Summary,
+    pub summary: PairSummary,
     /// The files that were written, in words.
     pub written: Vec<String>,
     /// The line of the first pair that failed, and why it did.
@@ -72,21 +75,25 @@ pub(in crate::cli) struct Outcome {
 }
 
 /// A row in one direction.
-struct Job<'a> {
-    row: &'a Row,
+struct PairJob<'a> {
+    row: &'a PairTableRow,
     backward: bool,
 }
 
 /// What came of it.
-struct Done<'a> {
-    job: &'a Job<'a>,
-    report: Result<Report, String>,
-    strip: Option<Strip>,
+struct PairResult<'a> {
+    job: &'a PairJob<'a>,
+    report: Result<PairReport, String>,
+    strip: Option<PairStrip>,
 }
 
-impl Batch {
+impl PairBatchArgs {
     /// Measures every pair and writes what was found.
-    pub fn run(&self, measuring: &Measuring, progress: &dyn Progress) -> Result<Outcome, CliError> {
+    pub fn run(
+        &self,
+        measuring: &MeasuringArgs,
+        progress: &dyn Progress,
+    ) -> Result<PairBatchOutcome, CliError> {
         let sheet = match &self.sheet {
             Some(path) => Some((sheet_kind(path)?, path)),
             None => None,
@@ -95,7 +102,7 @@ impl Batch {
         let table = table::read(&self.pairs)
             .map_err(|error| CliError::Failed(format!("`{}`: {error}", self.pairs.display())))?;
         let jobs = self.jobs(&table);
-        let partial = Partial::begin(&self.out, &rows::header(&table));
+        let partial = PartialTable::begin(&self.out, &rows::header(&table));
         let partial = partial.map_err(|source| {
             let path = self.out.clone();
             CliError::failed(ExportError::Write { path, source })
@@ -108,9 +115,9 @@ impl Batch {
             progress.report("writing", 1.0);
             (self.write(&table, &done, partial, sheet)?, None)
         };
-        let failure = |d: &Done<'_>| Some((d.job.row.line, d.report.as_ref().err()?.clone()));
-        Ok(Outcome {
-            summary: Summary::of(done.iter().map(|d| d.report.as_ref().ok()), unfinished),
+        let failure = |d: &PairResult<'_>| Some((d.job.row.line, d.report.as_ref().err()?.clone()));
+        Ok(PairBatchOutcome {
+            summary: PairSummary::of(done.iter().map(|d| d.report.as_ref().ok()), unfinished),
             written,
             first_failure: done.iter().find_map(failure),
             ended,
@@ -120,12 +127,12 @@ impl Batch {
     /// Writes report and sheet; what was written, in words.
     fn write(
         &self,
-        table: &Table,
-        done: &[Done<'_>],
-        partial: Partial,
+        table: &PairTable,
+        done: &[PairResult<'_>],
+        partial: PartialTable,
         sheet: Option<(StillKind, &PathBuf)>,
     ) -> Result<Vec<String>, CliError> {
-        let all = std::iter::once(rows::header(table)).chain(done.iter().map(Done::row));
+        let all = std::iter::once(rows::header(table)).chain(done.iter().map(PairResult::row));
         let bytes = all.collect::<Vec<_>>().concat();
         write_atomically(&self.out, &bytes).map_err(|error| {
             let kept = partial.path.display();
@@ -174,10 +181,10 @@ impl Batch {
         Ok(())
     }
 
-    fn jobs<'a>(&self, table: &'a Table) -> Vec<Job<'a>> {
+    fn jobs<'a>(&self, table: &'a PairTable) -> Vec<PairJob<'a>> {
         let directions: &[bool] = if self.both { &[false, true] } else { &[false] };
         let of_row = |row| {
-            let job = move |&backward| Job { row, backward };
+            let job = move |&backward| PairJob { row, backward };
             directions.iter().map(job)
         };
         table.rows.iter().flat_map(of_row).collect()
@@ -187,11 +194,11 @@ impl Batch {
     /// before nobody wanted them any more.
     fn work<'a>(
         &self,
-        jobs: &'a [Job<'a>],
-        partial: &Partial,
-        measuring: &Measuring,
+        jobs: &'a [PairJob<'a>],
+        partial: &PartialTable,
+        measuring: &MeasuringArgs,
         progress: &dyn Progress,
-    ) -> Vec<Done<'a>> {
+    ) -> Vec<PairResult<'a>> {
         const STAGE: &str = "checking pairs";
         let finished = AtomicUsize::new(0);
         progress.report(STAGE, 0.0);
@@ -218,12 +225,12 @@ impl Batch {
 
     fn one<'a>(
         &self,
-        job: &'a Job<'a>,
-        measuring: &Measuring,
+        job: &'a PairJob<'a>,
+        measuring: &MeasuringArgs,
         progress: &dyn Progress,
-    ) -> Done<'a> {
+    ) -> PairResult<'a> {
         let measured = || {
-            let (opened, report) = measuring.of_pair(&job.inputs()?, &Quiet(progress))?;
+            let (opened, report) = measuring.of_pair(&job.inputs()?, &QuietProgress(progress))?;
             let strip = self.sheet.is_some().then(|| strip(&opened, &report, job));
             Ok((report.without_samples(), strip))
         };
@@ -233,18 +240,18 @@ impl Batch {
             Ok((report, strip)) => (Ok(report), strip),
             Err(error) => {
                 // For a cell of the table.
-                let reason = OneLine(error).to_string();
-                let failed = || Strip::failed(&job.name(), &format!("failed: {reason}"));
+                let reason = SanitizedLine(error).to_string();
+                let failed = || PairStrip::failed(&job.name(), &format!("failed: {reason}"));
                 let strip = self.sheet.is_some().then(failed);
                 (Err(reason), strip)
             }
         };
-        Done { job, report, strip }
+        PairResult { job, report, strip }
     }
 }
 
 /// Says how far the work came, and where that is.
-fn ended(partial: Partial, of: usize) -> Result<String, CliError> {
+fn ended(partial: PartialTable, of: usize) -> Result<String, CliError> {
     let count = partial.rows();
     if count == 0 {
         partial.remove().map_err(CliError::failed)?;
@@ -265,16 +272,16 @@ fn of_panic(panic: &(dyn Any + Send)) -> CliError {
     ))
 }
 
-impl Done<'_> {
+impl PairResult<'_> {
     fn row(&self) -> Vec<u8> {
         let report = self.report.as_ref().map_err(String::as_str);
         rows::row(self.job.row, self.job.backward, report)
     }
 }
 
-impl Job<'_> {
+impl PairJob<'_> {
     /// Source and target, the way round that they are taken.
-    fn pair(&self) -> Result<[&Path; 2], &RowError> {
+    fn pair(&self) -> Result<[&Path; 2], &PairRowError> {
         let [source, target] = self.row.pair.as_ref()?;
         Ok(match self.backward {
             true => [target, source],
@@ -282,24 +289,24 @@ impl Job<'_> {
         })
     }
 
-    fn inputs(&self) -> Result<Inputs, CliError> {
+    fn inputs(&self) -> Result<InputArgs, CliError> {
         let [source, target] = self.pair().map_err(CliError::failed)?;
-        Ok(Inputs::pair(source, target))
+        Ok(InputArgs::pair(source, target))
     }
 
     /// The pair by the names of its designs.
     fn name(&self) -> String {
         match self.pair() {
-            Ok(pair) => pair.map(|path| Source::of(path).name()).join(" to "),
+            Ok(pair) => pair.map(|path| DesignSource::of(path).name()).join(" to "),
             Err(_) => format!("line {}", self.row.line),
         }
     }
 }
 
 /// Passes a cancel on, and keeps the many stages of many pairs to itself.
-struct Quiet<'a>(&'a dyn Progress);
+struct QuietProgress<'a>(&'a dyn Progress);
 
-impl Progress for Quiet<'_> {
+impl Progress for QuietProgress<'_> {
     fn report(&self, _: &'static str, _: f64) {}
 
     fn is_cancelled(&self) -> bool {
@@ -308,8 +315,8 @@ impl Progress for Quiet<'_> {
 }
 
 fn sheet_kind(path: &Path) -> Result<StillKind, CliError> {
-    match Target::of_path(path) {
-        Ok(Target::Still(kind, _)) => Ok(kind),
+    match ExportTarget::of_path(path) {
+        Ok(ExportTarget::Still(kind, _)) => Ok(kind),
         _ => Err(CliError::Usage(format!(
             "`{}` is no picture: end --sheet in .png or .svg",
             path.display()
@@ -317,17 +324,17 @@ fn sheet_kind(path: &Path) -> Result<StillKind, CliError> {
     }
 }
 
-fn strip(opened: &OpenedPair, report: &Report, job: &Job<'_>) -> Strip {
-    let style: &Style = &opened.loaded.project.style;
+fn strip(opened: &OpenedPair, report: &PairReport, job: &PairJob<'_>) -> PairStrip {
+    let style: &TransitionStyle = &opened.loaded.project.style;
     let times = even_times(0.0, 1.0, STRIP_FRAMES);
-    Strip::of(&job.name(), &opened.transition, style, &times)
+    PairStrip::of(&job.name(), &opened.transition, style, &times)
         .saying(&report.verdict.words, !report.verdict.findings.is_empty())
 }
 
 /// Writes the sheet; words about strips that had no room.
-fn write_sheet(done: &[Done<'_>], kind: StillKind, path: &Path) -> Result<String, CliError> {
-    let strips: Vec<Strip> = done.iter().filter_map(|d| d.strip.clone()).collect();
-    let ground = Some(Style::default().ground);
+fn write_sheet(done: &[PairResult<'_>], kind: StillKind, path: &Path) -> Result<String, CliError> {
+    let strips: Vec<PairStrip> = done.iter().filter_map(|d| d.strip.clone()).collect();
+    let ground = Some(TransitionStyle::default().ground);
     let (drawing, shown) = pair_sheet(&strips, ground).map_err(CliError::failed)?;
     write_still(&drawing, kind, path).map_err(CliError::failed)?;
     Ok(if shown < strips.len() {

@@ -6,17 +6,18 @@ use std::time::{Duration, Instant};
 use clap::Args;
 use serde::Serialize;
 
-use super::clock::{self, StageClock, Stages};
+use super::clock;
+use super::clock::{StageClock, StageDurations};
 use crate::cli::error::CliError;
-use crate::cli::inputs::{Inputs, OpenedPair};
+use crate::cli::inputs::{InputArgs, OpenedPair};
 use crate::cli::options::MethodArgs;
 use crate::content::{Content, ContentKind};
-use crate::design::{Design, Form};
-use crate::film::{FilmError, FilmOptions};
+use crate::design::{Design, DesignForm};
 use crate::measure::{self, FilmReport, Finding, MeshReport, Verdict};
-use crate::progress::{Progress, Span, Whole};
-use crate::transition::{Note, Proved, Transition};
+use crate::recording::{RecordingError, RecordingOptions};
+use crate::transition::{Transition, TransitionNote, TransitionProof};
 use crate::warp::WarpKind;
+use crate::work::progress::{Progress, ProgressSpan, WholeProgress};
 
 /// Frames whose times are taken: an odd number has a middle, and the first few,
 /// which find cold caches, are far from it.
@@ -27,7 +28,7 @@ const BUILT: f64 = 0.6;
 
 /// How transitions are built and measured.
 #[derive(Debug, Args)]
-pub(in crate::cli) struct Measuring {
+pub(in crate::cli) struct MeasuringArgs {
     /// At how many values of t, evenly from 0 to 1, the film is measured
     #[arg(long, value_name = "N", default_value_t = 65, value_parser = clap::value_parser!(u64).range(2..=10_000))]
     samples: u64,
@@ -40,7 +41,7 @@ pub(in crate::cli) struct Measuring {
     method: MethodArgs,
 }
 
-impl Measuring {
+impl MeasuringArgs {
     /// How transitions are built.
     pub fn method(&self) -> &MethodArgs {
         &self.method
@@ -49,9 +50,9 @@ impl Measuring {
     /// As [`Self::of`], of what is no sequence.
     pub fn of_pair(
         &self,
-        inputs: &Inputs,
+        inputs: &InputArgs,
         progress: &dyn Progress,
-    ) -> Result<(OpenedPair, Report), CliError> {
+    ) -> Result<(OpenedPair, PairReport), CliError> {
         let first = self.of(inputs, progress)?.into_iter().next();
         Ok(first.unwrap_or_else(|| unreachable!("there is a leg")))
     }
@@ -59,17 +60,17 @@ impl Measuring {
     /// Builds a transition, or each leg of a sequence, and measures it.
     pub fn of(
         &self,
-        inputs: &Inputs,
+        inputs: &InputArgs,
         progress: &dyn Progress,
-    ) -> Result<Vec<(OpenedPair, Report)>, CliError> {
-        let whole = Whole::new(progress);
-        let building = Span::new(&whole, 0.0, BUILT);
+    ) -> Result<Vec<(OpenedPair, PairReport)>, CliError> {
+        let whole = WholeProgress::new(progress);
+        let building = ProgressSpan::new(&whole, 0.0, BUILT);
         let clock = StageClock::new(&building);
-        let measuring = Span::new(&whole, BUILT, 1.0);
+        let measuring = ProgressSpan::new(&whole, BUILT, 1.0);
         let mut all = Vec::new();
         inputs.open_each(&self.method, &clock, |opened| {
             let samples = self.samples as usize;
-            let mut report = Report::of(&opened, clock.stages(), samples, &measuring)?;
+            let mut report = PairReport::of(&opened, clock.stages(), samples, &measuring)?;
             if self.prove {
                 report.proof = ProofReport::of(&opened.transition, progress)?;
             }
@@ -82,7 +83,7 @@ impl Measuring {
 
 /// Everything that is measured.
 #[derive(Debug, Serialize)]
-pub(in crate::cli) struct Report {
+pub(in crate::cli) struct PairReport {
     pub title: String,
     pub warp: WarpKind,
     pub content: ContentKind,
@@ -93,7 +94,7 @@ pub(in crate::cli) struct Report {
     pub faces: Option<usize>,
     /// Width and height of the fields' grid.
     pub grid: Option<[u32; 2]>,
-    pub seconds: Seconds,
+    pub seconds: ReportSeconds,
     pub verdict: VerdictReport,
     pub mesh: Option<MeshReport>,
     pub film: FilmReport,
@@ -116,7 +117,7 @@ pub(in crate::cli) struct DesignReport {
 
 /// How long each stage took.
 #[derive(Debug, Serialize)]
-pub(in crate::cli) struct Seconds {
+pub(in crate::cli) struct ReportSeconds {
     /// Reading and importing the designs.
     pub import: f64,
     /// Matching boundaries and parts.
@@ -133,7 +134,7 @@ pub(in crate::cli) struct Seconds {
     /// Measuring all that is reported here.
     pub measure: f64,
     /// The stages of building by name.
-    pub stages: Stages,
+    pub stages: StageDurations,
 }
 
 /// What is proved, with its words.
@@ -144,14 +145,14 @@ pub(in crate::cli) struct ProofReport {
     pub seconds: f64,
     /// None where there is no film.
     #[serde(flatten)]
-    pub proved: Option<Proved>,
+    pub proved: Option<TransitionProof>,
 }
 
 impl ProofReport {
     fn of(transition: &Transition, progress: &dyn Progress) -> Result<Option<Self>, CliError> {
         let start = Instant::now();
-        let proved = match transition.prove(&FilmOptions::default(), progress) {
-            Err(FilmError::Cancelled(cancelled)) => return Err(CliError::failed(cancelled)),
+        let proved = match transition.prove(&RecordingOptions::default(), progress) {
+            Err(RecordingError::Cancelled(cancelled)) => return Err(CliError::failed(cancelled)),
             proved => proved,
         };
         let words = match &proved {
@@ -178,7 +179,7 @@ pub(in crate::cli) struct VerdictReport {
     pub words: String,
     pub findings: Vec<FindingReport>,
     /// What was done otherwise than asked while the transition was built.
-    pub notes: Vec<Note>,
+    pub notes: Vec<TransitionNote>,
 }
 
 #[derive(Debug, Serialize)]
@@ -207,11 +208,11 @@ impl VerdictReport {
     }
 }
 
-impl Report {
+impl PairReport {
     /// Measures a transition at so many t.
     pub fn of(
         opened: &OpenedPair,
-        stages: Stages,
+        stages: StageDurations,
         samples: usize,
         progress: &dyn Progress,
     ) -> Result<Self, CliError> {
@@ -220,10 +221,11 @@ impl Report {
         let start = Instant::now();
         let mesh = transition.compatible();
         let mesh_report = mesh.and_then(measure::mesh);
-        let [filming, judging] = [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| Span::new(progress, a, b));
+        let [filming, judging] =
+            [(0.0, 0.5), (0.5, 1.0)].map(|(a, b)| ProgressSpan::new(progress, a, b));
         let film = measure::film(transition, samples, &filming).map_err(CliError::failed)?;
         let verdict = Verdict::of_film(transition, &film, &judging).map_err(CliError::failed)?;
-        let seconds = Seconds {
+        let seconds = ReportSeconds {
             import: opened.import_time.as_secs_f64(),
             matching: clock::matching(&stages),
             triangulate: clock::triangulating(&stages),
@@ -265,12 +267,12 @@ impl Report {
 
 fn of_design(design: &Arc<Design>) -> DesignReport {
     let (kind, points) = match &design.form {
-        Form::Outline(regions) => {
+        DesignForm::Outline(regions) => {
             let points = regions.rings().map(|ring| ring.points().len()).sum();
             ("outline", points)
         }
-        Form::Mesh(mesh) => ("mesh", mesh.positions().len()),
-        Form::Truss(truss) => ("truss", truss.nodes().len()),
+        DesignForm::Mesh(mesh) => ("mesh", mesh.positions().len()),
+        DesignForm::Truss(truss) => ("truss", truss.nodes().len()),
     };
     DesignReport {
         name: design.name.clone(),

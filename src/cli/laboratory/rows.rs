@@ -12,19 +12,23 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
 use super::columns;
-use super::report::Report;
-use super::table::{Row, Table};
+use super::report::PairReport;
+use super::table::{PairTable, PairTableRow};
 
 /// The names of all columns: those of the table, then the report's.
-pub(super) fn header(table: &Table) -> Vec<u8> {
+pub(super) fn header(table: &PairTable) -> Vec<u8> {
     let own = [columns::DIRECTION, columns::STATUS].map(str::to_owned);
-    let measures = columns::ALL.iter().map(columns::Column::heading);
+    let measures = columns::ALL.iter().map(columns::ReportColumn::heading);
     let names = table.header.iter().cloned().chain(own).chain(measures);
     line(names.map(String::into_bytes))
 }
 
 /// What became of a row of the table.
-pub(super) fn row(row: &Row, backward: bool, report: Result<&Report, &str>) -> Vec<u8> {
+pub(super) fn row(
+    row: &PairTableRow,
+    backward: bool,
+    report: Result<&PairReport, &str>,
+) -> Vec<u8> {
     let direction = if backward { "backward" } else { "forward" };
     let status = report.err().unwrap_or("ok");
     let measures = columns::ALL.iter().map(|column| match report {
@@ -44,18 +48,18 @@ fn line(cells: impl Iterator<Item = Vec<u8>>) -> Vec<u8> {
 }
 
 /// Rows of a report that is not whole yet.
-pub(super) struct Partial {
+pub(super) struct PartialTable {
     /// Where they are.
     pub path: PathBuf,
-    kept: Mutex<Kept>,
+    kept: Mutex<SavedRows>,
 }
 
-struct Kept {
+struct SavedRows {
     file: File,
     rows: usize,
 }
 
-impl Partial {
+impl PartialTable {
     /// Begins a new file beside the place of the report.
     ///
     /// # Errors
@@ -68,7 +72,7 @@ impl Partial {
                 Err(error) => return Err(error),
                 Ok(mut file) => {
                     let begun = file.write_all(header);
-                    let kept = Mutex::new(Kept { file, rows: 0 });
+                    let kept = Mutex::new(SavedRows { file, rows: 0 });
                     let partial = Self { path, kept };
                     // Without rows it is of no use to anybody.
                     return match begun {
@@ -85,7 +89,7 @@ impl Partial {
     pub fn keep(&self, row: &[u8]) {
         // Rows are whole whenever the lock is free, even after a panic.
         let mut kept = self.kept.lock().unwrap_or_else(PoisonError::into_inner);
-        let Kept { file, rows } = &mut *kept;
+        let SavedRows { file, rows } = &mut *kept;
         let Ok(end) = file.stream_position() else {
             return;
         };
@@ -138,7 +142,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let report = folder.path().join("a.b.csv");
         for name in ["a.b.partial.csv", "a.b.partial-2.csv"] {
-            let partial = Partial::begin(&report, b"x\n").expect("begun");
+            let partial = PartialTable::begin(&report, b"x\n").expect("begun");
             assert_eq!(partial.path, folder.path().join(name));
             partial.keep(b"1\n");
             assert_eq!(partial.rows(), 1);

@@ -4,11 +4,11 @@ use std::time::{Duration, Instant};
 
 use serde::Serialize;
 
-use super::number::{Lines, percent, short};
-use crate::content::Raster;
+use super::number::{NumberLines, percent, short};
+use crate::content::PictureRaster;
 use crate::geometry::DVec2;
 use crate::measure::{BlendReport, SpaceReport};
-use crate::space::Space;
+use crate::space::DesignSpace;
 
 /// Blends whose times are taken: an odd number has a middle.
 const TIMED: usize = 101;
@@ -21,7 +21,7 @@ const NAMES: usize = 28;
 
 /// Everything that is measured of a space, and how long it took.
 #[derive(Debug, Serialize)]
-pub(in crate::cli) struct MeasuredSpace {
+pub(in crate::cli) struct SpaceMeasurement {
     #[serde(flatten)]
     report: SpaceReport,
     /// For matching, triangulating and factoring, or for the fields.
@@ -32,9 +32,9 @@ pub(in crate::cli) struct MeasuredSpace {
     are_pictures: bool,
 }
 
-impl MeasuredSpace {
+impl SpaceMeasurement {
     /// What was measured of a space that took so long to build.
-    pub fn new(space: &Space, report: SpaceReport, build: Duration) -> Self {
+    pub fn new(space: &DesignSpace, report: SpaceReport, build: Duration) -> Self {
         Self {
             report,
             build_seconds: build.as_secs_f64(),
@@ -46,7 +46,7 @@ impl MeasuredSpace {
     /// For people.
     pub fn text(&self) -> String {
         let report = &self.report;
-        let mut lines = Lines::default();
+        let mut lines = NumberLines::default();
         lines.line(&report.designs.join(", "));
         lines.gap();
         let how = match (report.vertices, report.faces) {
@@ -92,7 +92,7 @@ impl MeasuredSpace {
     }
 
     /// What is wrong with blends in the middle and all over.
-    fn all_over(&self, lines: &mut Lines) {
+    fn all_over(&self, lines: &mut NumberLines) {
         let report = &self.report;
         let none = || std::iter::once(String::new());
         lines.cells(("the middle", NAMES), none().chain(cells(&report.middle)));
@@ -118,11 +118,11 @@ fn cells(blend: &BlendReport) -> [String; 4] {
 }
 
 /// The median time of a blend, from weights to outlines or to a picture.
-fn timed(space: &Space) -> Duration {
+fn timed(space: &DesignSpace) -> Duration {
     let count = space.designs().len();
     let mut frame = space.frame();
     let bounds = space.bounds();
-    let raster = Raster {
+    let raster = PictureRaster {
         size: [PICTURE_PX; 2],
         corner: DVec2::new(bounds.min.x, bounds.max.y),
         pixel: bounds.size().max_element() / f64::from(PICTURE_PX),

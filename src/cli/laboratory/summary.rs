@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::columns::{self, Better, Column};
+use super::columns;
+use super::columns::{BetterDirection, ReportColumn};
 use super::histogram::Histogram;
-use super::number::{Lines, short};
-use super::report::Report;
+use super::number::{NumberLines, short};
+use super::report::PairReport;
 
 /// The fewest values whose spread is drawn: of fewer, median and worst say as
 /// much.
@@ -13,7 +14,7 @@ const ENOUGH: usize = 10;
 
 /// The whole table in short.
 #[derive(Debug, Serialize)]
-pub(in crate::cli) struct Summary {
+pub(in crate::cli) struct PairSummary {
     /// Rows, each direction of its own.
     pub pairs: usize,
     /// Of them those that could not be built.
@@ -27,11 +28,11 @@ pub(in crate::cli) struct Summary {
     /// Of them those with more pieces or holes on the way than at the ends.
     pub with_tears: usize,
     /// Medians, worst tenths and worst values of the main measures.
-    pub measures: Vec<Measured>,
+    pub measures: Vec<MeasuredPairs>,
 }
 
 #[derive(Debug, Serialize)]
-pub(in crate::cli) struct Measured {
+pub(in crate::cli) struct MeasuredPairs {
     pub column: String,
     #[serde(skip)]
     words: String,
@@ -43,16 +44,16 @@ pub(in crate::cli) struct Measured {
     pub spread: Option<Histogram>,
 }
 
-impl Summary {
+impl PairSummary {
     /// Of the report on each pair, `None` for those that failed, and of the number
     /// of those that there are no reports on.
     pub fn of<'a>(
-        reports: impl IntoIterator<Item = Option<&'a Report>>,
+        reports: impl IntoIterator<Item = Option<&'a PairReport>>,
         unfinished: usize,
     ) -> Self {
-        let rows: Vec<Option<&Report>> = reports.into_iter().collect();
-        let done: Vec<&Report> = rows.iter().copied().flatten().collect();
-        let with = |is: fn(&Report) -> bool| done.iter().filter(|report| is(report)).count();
+        let rows: Vec<Option<&PairReport>> = reports.into_iter().collect();
+        let done: Vec<&PairReport> = rows.iter().copied().flatten().collect();
+        let with = |is: fn(&PairReport) -> bool| done.iter().filter(|report| is(report)).count();
         let columns = columns::ALL.iter();
         Self {
             pairs: rows.len() + unfinished,
@@ -68,7 +69,7 @@ impl Summary {
     /// In aligned lines.
     pub fn text(&self) -> String {
         const NAMES: usize = 36;
-        let mut lines = Lines::default();
+        let mut lines = NumberLines::default();
         let built = self.pairs - self.unfinished - self.failures;
         let of = |n: usize| format!("{n} of {built}");
         for (name, value) in [
@@ -103,18 +104,18 @@ impl Summary {
     }
 }
 
-fn measured(reports: &[&Report], column: &Column) -> Option<Measured> {
+fn measured(reports: &[&PairReport], column: &ReportColumn) -> Option<MeasuredPairs> {
     let (_, better) = column.told?;
     let mut all: Vec<f64> = reports.iter().filter_map(|r| column.number(r)).collect();
     all.sort_unstable_by(f64::total_cmp);
-    if matches!(better, Better::Large) {
+    if matches!(better, BetterDirection::Large) {
         all.reverse();
     }
     // None where no pair has the measure, such as faces of a field.
     let worst = *all.last()?;
     let [median, worst_tenth] = [0.5, 0.9].map(|share| quantile(&all, share));
     let is_drawn = column.is_drawn && all.len() >= ENOUGH;
-    Some(Measured {
+    Some(MeasuredPairs {
         column: column.heading(),
         words: column.words()?,
         median,
@@ -138,15 +139,15 @@ fn quantile(sorted: &[f64], share: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
-    use super::super::clock::Stages;
+    use super::super::clock::StageDurations;
     use super::*;
     use crate::cli::inputs::OpenedPair;
-    use crate::progress::Silent;
     use crate::project::gallery;
     use crate::transition::Transition;
+    use crate::work::progress::Silent;
     use std::time::Duration;
 
-    fn report() -> Report {
+    fn report() -> PairReport {
         let loaded = gallery::load("triangle-polar").expect("bundled");
         let spec = loaded.spec().expect("a spec");
         let opened = OpenedPair {
@@ -155,7 +156,7 @@ mod tests {
             import_time: Duration::ZERO,
             build_time: Duration::ZERO,
         };
-        Report::of(&opened, Stages::new(), 3, &Silent).expect("measured")
+        PairReport::of(&opened, StageDurations::new(), 3, &Silent).expect("measured")
     }
 
     #[test]
@@ -168,7 +169,7 @@ mod tests {
             report
         };
         let [a, b, c] = [with(1.0, 20.0, 0), with(3.0, 10.0, 4), with(2.0, 15.0, 0)];
-        let summary = Summary::of([Some(&a), None, Some(&b), Some(&c)], 0);
+        let summary = PairSummary::of([Some(&a), None, Some(&b), Some(&c)], 0);
         assert_eq!((summary.pairs, summary.failures), (4, 1));
         assert_eq!((summary.with_folds, summary.with_crossings), (1, 0));
         let of = |column: &str| {
@@ -177,13 +178,13 @@ mod tests {
         };
         assert_eq!(of("conformal_excess"), Some((2.0, 3.0)));
         assert_eq!(of("min_angle_source_deg"), Some((15.0, 10.0)));
-        let angle = |m: &&Measured| m.column == "min_angle_source_deg";
+        let angle = |m: &&MeasuredPairs| m.column == "min_angle_source_deg";
         let angle = summary.measures.iter().find(angle).expect("angles");
         assert!((angle.worst_tenth - 11.0).abs() < 1e-12, "{angle:?}");
         let text = summary.text();
         assert!(text.contains("failures                                       1"));
         assert!(!text.contains("not come to"));
-        let text = Summary::of([Some(&a), None], 5).text();
+        let text = PairSummary::of([Some(&a), None], 5).text();
         assert!(
             text.contains("not come to                                    5"),
             "{text}"

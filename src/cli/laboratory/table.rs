@@ -7,32 +7,33 @@ use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
 use super::columns;
-use crate::design::Source;
-use crate::one_line::OneLine;
-use crate::reading::{self, ReadError};
+use crate::design::DesignSource;
+use crate::io::read;
+use crate::io::read::ReadError;
+use crate::io::sanitize::SanitizedLine;
 
 /// A table that can be worked on.
 #[derive(Debug)]
-pub(super) struct Table {
+pub(super) struct PairTable {
     /// The names of its columns.
     pub header: Vec<String>,
-    pub rows: Vec<Row>,
+    pub rows: Vec<PairTableRow>,
 }
 
 /// A row with as many cells as the header.
 #[derive(Debug)]
-pub(super) struct Row {
+pub(super) struct PairTableRow {
     /// The line of the file at which it begins, from 1.
     pub line: u64,
     /// What it says, to be carried along.
     pub cells: Vec<Vec<u8>>,
     /// The two files, or why there are none.
-    pub pair: Result<[PathBuf; 2], RowError>,
+    pub pair: Result<[PathBuf; 2], PairRowError>,
 }
 
 /// Why there is no table.
 #[derive(Debug, thiserror::Error)]
-pub(super) enum TableError {
+pub(super) enum PairTableError {
     #[error(transparent)]
     Read(#[from] ReadError),
     #[error("the table is UTF-16; save it as CSV in UTF-8")]
@@ -55,7 +56,7 @@ pub(super) enum TableError {
 
 /// Why a row names no pair.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub(super) enum RowError {
+pub(super) enum PairRowError {
     #[error("the row has {found} cells and the header {wanted}; quote cells that hold commas")]
     Cells { found: usize, wanted: usize },
     #[error("the {0} is not text in UTF-8; save the table in UTF-8")]
@@ -67,16 +68,16 @@ pub(super) enum RowError {
 }
 
 /// Reads a table; its paths are relative to its folder.
-pub(super) fn read(path: &Path) -> Result<Table, TableError> {
-    let bytes = reading::read(path)?;
+pub(super) fn read(path: &Path) -> Result<PairTable, PairTableError> {
+    let bytes = read::read(path)?;
     let folder = path.parent().unwrap_or(Path::new(""));
     parsed(&bytes, folder)
 }
 
-fn parsed(bytes: &[u8], folder: &Path) -> Result<Table, TableError> {
+fn parsed(bytes: &[u8], folder: &Path) -> Result<PairTable, PairTableError> {
     const UTF8_MARK: &[u8] = b"\xef\xbb\xbf";
     if bytes.starts_with(b"\xff\xfe") || bytes.starts_with(b"\xfe\xff") {
-        return Err(TableError::Utf16);
+        return Err(PairTableError::Utf16);
     }
     let bytes = bytes.strip_prefix(UTF8_MARK).unwrap_or(bytes);
     // A row of another length is that row's error, and the header has errors of
@@ -86,46 +87,46 @@ fn parsed(bytes: &[u8], folder: &Path) -> Result<Table, TableError> {
         .has_headers(false)
         .from_reader(bytes);
     let mut records = reader.byte_records();
-    let first = records.next().ok_or(TableError::Empty)?;
-    let header = header(&first.map_err(TableError::Csv)?)?;
+    let first = records.next().ok_or(PairTableError::Empty)?;
+    let header = header(&first.map_err(PairTableError::Csv)?)?;
     let pair = [column(&header, "source")?, column(&header, "target")?];
     let mut rows = Vec::new();
     for record in records {
-        let record = record.map_err(TableError::Csv)?;
+        let record = record.map_err(PairTableError::Csv)?;
         if !record.iter().all(|cell| cell.trim_ascii().is_empty()) {
             rows.push(row(&record, header.len(), pair, folder));
         }
     }
     if rows.is_empty() {
-        return Err(TableError::NoPairs);
+        return Err(PairTableError::NoPairs);
     }
-    Ok(Table { header, rows })
+    Ok(PairTable { header, rows })
 }
 
-fn header(record: &csv::ByteRecord) -> Result<Vec<String>, TableError> {
+fn header(record: &csv::ByteRecord) -> Result<Vec<String>, PairTableError> {
     let name = |cell: &[u8]| {
         let text = std::str::from_utf8(cell).ok().filter(|t| !t.contains('\0'));
         text.map(|name| name.trim().to_owned())
-            .ok_or(TableError::HeaderNotText)
+            .ok_or(PairTableError::HeaderNotText)
     };
     let names: Vec<String> = record.iter().map(name).collect::<Result<_, _>>()?;
     let mut seen = HashSet::new();
     for name in names.iter().filter(|name| !name.is_empty()) {
         if !seen.insert(name) {
-            return Err(TableError::Twice(cut(name)));
+            return Err(PairTableError::Twice(cut(name)));
         }
         if columns::is_own(name) {
-            return Err(TableError::Own(cut(name)));
+            return Err(PairTableError::Own(cut(name)));
         }
     }
     Ok(names)
 }
 
-fn column(header: &[String], wanted: &'static str) -> Result<usize, TableError> {
+fn column(header: &[String], wanted: &'static str) -> Result<usize, PairTableError> {
     let mut names = header.iter();
     names
         .position(|name| name == wanted)
-        .ok_or_else(|| TableError::Missing(wanted, quoted(header)))
+        .ok_or_else(|| PairTableError::Missing(wanted, quoted(header)))
 }
 
 fn quoted(names: &[String]) -> String {
@@ -141,14 +142,14 @@ fn quoted(names: &[String]) -> String {
 /// The beginning of a text that may be very long.
 fn cut(text: &str) -> String {
     const MOST: usize = 60;
-    let line = OneLine(text).to_string();
+    let line = SanitizedLine(text).to_string();
     if line.chars().count() <= MOST {
         return line;
     }
     line.chars().take(MOST).chain(['\u{2026}']).collect()
 }
 
-fn row(record: &csv::ByteRecord, width: usize, pair: [usize; 2], folder: &Path) -> Row {
+fn row(record: &csv::ByteRecord, width: usize, pair: [usize; 2], folder: &Path) -> PairTableRow {
     let mut cells: Vec<Vec<u8>> = record.iter().take(width).map(<[u8]>::to_vec).collect();
     // So that the report's own columns stand under their headings.
     cells.resize(width, Vec::new());
@@ -159,7 +160,7 @@ fn row(record: &csv::ByteRecord, width: usize, pair: [usize; 2], folder: &Path) 
         let source = path(&cells[source], "source", folder)?;
         let target = path(&cells[target], "target", folder)?;
         if record.len() != width {
-            return Err(RowError::Cells {
+            return Err(PairRowError::Cells {
                 found: record.len(),
                 wanted: width,
             });
@@ -167,34 +168,34 @@ fn row(record: &csv::ByteRecord, width: usize, pair: [usize; 2], folder: &Path) 
         Ok([source, target])
     };
     let pair = paths();
-    Row {
+    PairTableRow {
         line: record.position().map_or(0, csv::Position::line),
         cells,
         pair,
     }
 }
 
-fn path(cell: &[u8], column: &'static str, folder: &Path) -> Result<PathBuf, RowError> {
-    let text = std::str::from_utf8(cell).map_err(|_| RowError::NotText(column))?;
+fn path(cell: &[u8], column: &'static str, folder: &Path) -> Result<PathBuf, PairRowError> {
+    let text = std::str::from_utf8(cell).map_err(|_| PairRowError::NotText(column))?;
     let text = text.trim();
     if text.is_empty() {
-        return Err(RowError::Empty(column));
+        return Err(PairRowError::Empty(column));
     }
     if text.contains(['\n', '\r', '\0']) {
-        return Err(RowError::Lines(column, cut(text)));
+        return Err(PairRowError::Lines(column, cut(text)));
     }
-    Ok(Source::in_folder(folder, text.as_ref()).to_path())
+    Ok(DesignSource::in_folder(folder, text.as_ref()).to_path())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    fn table(text: &str) -> Result<Table, TableError> {
+    fn table(text: &str) -> Result<PairTable, PairTableError> {
         parsed(text.as_bytes(), Path::new("folder"))
     }
 
-    fn pairs(text: &str) -> Vec<Result<[String; 2], RowError>> {
+    fn pairs(text: &str) -> Vec<Result<[String; 2], PairRowError>> {
         let rows = table(text).expect("a table").rows.into_iter();
         let name = |path: PathBuf| path.to_string_lossy().replace('\\', "/");
         rows.map(|row| row.pair.map(|pair| pair.map(name)))

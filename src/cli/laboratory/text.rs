@@ -1,11 +1,11 @@
 //! The report of one transition for people: short, in aligned lines.
 //! Everything else is in the JSON.
 
-use super::number::{Lines, percent, short};
-use super::report::{DesignReport, Report};
+use super::number::{NumberLines, percent, short};
+use super::report::{DesignReport, PairReport};
 use crate::content::ContentKind;
-use crate::measure::{Distribution, FilmSample, MeshReport, Motion, Quantity};
-use crate::names::Choice;
+use crate::measure::{Distribution, FilmSample, MeshReport, MotionReport, Quantity};
+use crate::settings::choice::Choice;
 
 /// Room for what stands at the left.
 const NAMES: usize = 12;
@@ -26,8 +26,8 @@ const LISTED: [(&str, Quantity); 8] = [
 ];
 
 /// The whole report.
-pub(in crate::cli) fn text(report: &Report) -> String {
-    let mut lines = Lines::default();
+pub(in crate::cli) fn text(report: &PairReport) -> String {
+    let mut lines = NumberLines::default();
     lines.line(&report.title);
     lines.gap();
     method(report, &mut lines);
@@ -43,13 +43,13 @@ pub(in crate::cli) fn text(report: &Report) -> String {
     lines.0
 }
 
-impl Lines {
+impl NumberLines {
     fn row(&mut self, name: &str, text: &str) {
         self.line(&format!("{name:<NAMES$} {text}"));
     }
 }
 
-fn method(report: &Report, lines: &mut Lines) {
+fn method(report: &PairReport, lines: &mut NumberLines) {
     let content = match report.content {
         ContentKind::Solid => "",
         ContentKind::Field => "distance fields",
@@ -100,7 +100,7 @@ fn of_design(design: &DesignReport) -> String {
     )
 }
 
-fn verdict(report: &Report, lines: &mut Lines) {
+fn verdict(report: &PairReport, lines: &mut NumberLines) {
     lines.gap();
     let findings = &report.verdict.findings;
     if findings.is_empty() {
@@ -120,7 +120,7 @@ fn verdict(report: &Report, lines: &mut Lines) {
     }
 }
 
-fn distortion(report: &Report, mesh: &MeshReport, lines: &mut Lines) {
+fn distortion(report: &PairReport, mesh: &MeshReport, lines: &mut NumberLines) {
     lines.gap();
     let heads = ["median", "95 %", "worst", "    worse on the way"];
     lines.cells(("at t = 1", NAMES), heads);
@@ -139,7 +139,7 @@ fn distortion(report: &Report, mesh: &MeshReport, lines: &mut Lines) {
     }
 }
 
-fn film(report: &Report, lines: &mut Lines) {
+fn film(report: &PairReport, lines: &mut NumberLines) {
     let film = &report.film;
     lines.gap();
     let seen = |count: Option<usize>, first: Option<f64>| {
@@ -171,13 +171,13 @@ fn film(report: &Report, lines: &mut Lines) {
 }
 
 /// Solids keep theirs, so that it is told of fields only.
-fn topology(report: &Report) -> Option<String> {
+fn topology(report: &PairReport) -> Option<String> {
     let (pieces, holes) = report.film.pieces_excess.zip(report.film.holes_excess)?;
     (report.content == ContentKind::Field)
         .then(|| format!("{pieces} pieces and {holes} holes more than at the ends"))
 }
 
-fn motion(motion: &Motion) -> String {
+fn motion(motion: &MotionReport) -> String {
     format!(
         "travel {} mean, {} most; acceleration {} (diameters, rigid motion taken out)",
         short(motion.mean_travel),
@@ -186,7 +186,7 @@ fn motion(motion: &Motion) -> String {
     )
 }
 
-fn samples(samples: &[FilmSample], lines: &mut Lines) {
+fn samples(samples: &[FilmSample], lines: &mut NumberLines) {
     let known = |(_, quantity): &&(&str, Quantity)| {
         samples.first().is_some_and(|s| quantity.at(s).is_some())
     };
@@ -203,7 +203,7 @@ fn samples(samples: &[FilmSample], lines: &mut Lines) {
     }
 }
 
-fn times(report: &Report, lines: &mut Lines) {
+fn times(report: &PairReport, lines: &mut NumberLines) {
     let seconds = &report.seconds;
     let once = [
         ("import", seconds.import),

@@ -2,20 +2,22 @@ use super::*;
 use crate::colour::Rgb;
 use crate::content::{BlendSpace, ContentKind};
 use crate::field::Metric;
-use crate::homotopy::Homotopy;
-use crate::transition::{Boundary, Easing, Fit, Guarding, PaintRule, PlayMode, Quality};
-use crate::warp::{ArapPath, Course, WarpKind, Weights};
+use crate::transition::{
+    BuildQuality, CollisionAvoidance, DesignFit, FieldBoundary, NamedEasing, PaintRule, PlayMode,
+};
+use crate::warp::homotopy::Homotopy;
+use crate::warp::{ArapPath, FaceWeights, VertexPath, WarpKind};
 use clap::{CommandFactory, Parser};
 
 #[derive(Debug, Parser)]
-struct Alone {
+struct ParsedMethodArgs {
     #[command(flatten)]
     method: MethodArgs,
 }
 
 fn edited(flags: &str) -> Result<Project, CliError> {
     let words = std::iter::once("x").chain(flags.split_whitespace());
-    let alone = Alone::try_parse_from(words).map_err(CliError::usage)?;
+    let alone = ParsedMethodArgs::try_parse_from(words).map_err(CliError::usage)?;
     let mut project = Project::pair("a.svg", "b.svg");
     alone.method.edit(&mut project)?;
     Ok(project)
@@ -23,7 +25,7 @@ fn edited(flags: &str) -> Result<Project, CliError> {
 
 #[test]
 fn every_listed_name_is_one_of_the_project_file() {
-    for argument in Alone::command().get_arguments() {
+    for argument in ParsedMethodArgs::command().get_arguments() {
         let flag = argument.get_long().unwrap_or_default();
         for value in argument.get_possible_values() {
             let flags = format!("--{flag} {}", value.get_name());
@@ -54,14 +56,14 @@ fn flags_reach_their_options() {
     );
     assert_eq!(
         (project.fit, project.options.bar_width),
-        (Fit::SameArea, 0.02)
+        (DesignFit::SameArea, 0.02)
     );
-    assert_eq!(project.options.quality, Quality::Draft);
-    assert_eq!(project.options.guard, Guarding::Plain);
+    assert_eq!(project.options.quality, BuildQuality::Draft);
+    assert_eq!(project.options.guard, CollisionAvoidance::Plain);
     assert_eq!(project.options.arap.homotopy, Homotopy::Exponential);
     assert_eq!(
         project.options.arap.weights,
-        Weights::PerFace(vec![1.0, 2.5])
+        FaceWeights::PerFace(vec![1.0, 2.5])
     );
     assert_eq!(
         (
@@ -73,7 +75,7 @@ fn flags_reach_their_options() {
     assert_eq!(project.options.arap.extra_turns, [0, -1]);
     assert_eq!(project.options.arap.path, ArapPath::Anchor(3));
     assert_eq!(project.options.field.metric, Metric::Chessboard);
-    assert_eq!(project.options.field.boundary, Boundary::Binary);
+    assert_eq!(project.options.field.boundary, FieldBoundary::Binary);
     assert_eq!(project.options.field.blend.space, BlendSpace::Real);
     assert_eq!(
         (
@@ -86,7 +88,7 @@ fn flags_reach_their_options() {
         (project.options.field.cells, project.options.field.margin),
         (64, 0.2)
     );
-    assert_eq!(project.options.paths.course, Course::Straight);
+    assert_eq!(project.options.paths.course, VertexPath::Straight);
 }
 
 #[test]
@@ -109,7 +111,7 @@ fn flags_reach_import_timing_and_style() {
     );
     assert_eq!(
         (project.timing.easing, project.timing.play),
-        (Easing::EaseIn.into(), PlayMode::Loop)
+        (NamedEasing::EaseIn.into(), PlayMode::Loop)
     );
     assert_eq!(project.style.source, Rgb([1, 2, 3]));
     assert_eq!(

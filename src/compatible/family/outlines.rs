@@ -1,14 +1,14 @@
 //! A family of outlines, each matched with one of them.
 
-use super::boundary::{PieceRings, shared};
-use super::{Family, FamilyError};
+use super::shared_boundary::{PieceRings, shared_rings};
+use super::{CompatibleFamily, FamilyError};
 use crate::compatible::PolygonOptions;
-use crate::compatible::polygons::in_all;
+use crate::compatible::polygons::triangulate_many;
 use crate::correspondence::RegionMatch;
-use crate::progress::{Progress, Several};
+use crate::work::progress::{Progress, ProgressShares};
 use rayon::prelude::*;
 
-impl Family {
+impl CompatibleFamily {
     /// Outlines with the same parts and holes, each matched with that of the *hub*: the
     /// vertices of each piece follow those of the one before, its rings' first.
     ///
@@ -28,12 +28,14 @@ impl Family {
             return Err(FamilyError::TooFew(matches.len()));
         }
         let pieces =
-            shared(hub, matches).map_err(|design| FamilyError::Parts { design, of: hub })?;
-        let several = Several::new(progress, pieces.len());
+            shared_rings(hub, matches).map_err(|design| FamilyError::Parts { design, of: hub })?;
+        let several = ProgressShares::new(progress, pieces.len());
         let triangulated = |(k, piece): (usize, &PieceRings)| {
-            in_all(piece, hub, options, &several.part(k)).map_err(|(design, error)| match error {
-                Some(error) => FamilyError::Outline { design, error },
-                None => FamilyError::Folds,
+            triangulate_many(piece, hub, options, &several.part(k)).map_err(|(design, error)| {
+                match error {
+                    Some(error) => FamilyError::Outline { design, error },
+                    None => FamilyError::Folds,
+                }
             })
         };
         // In order, so that the first fault is told whatever the number of threads.

@@ -1,8 +1,8 @@
 use super::*;
 use crate::compatible::PolygonOptions;
-use crate::correspondence::{Matching, RegionMatch, match_regions};
+use crate::correspondence::{MatchSettings, RegionMatch, match_regions};
 use crate::geometry::{FillRule, Regions, orient2d};
-use crate::progress::Silent;
+use crate::work::progress::Silent;
 use proptest::prelude::*;
 
 /// A flower of so many petals, maybe with a hole.
@@ -22,20 +22,21 @@ fn flower(corners: u32, petals: f64, depth: f64, hole: Option<f64>) -> Regions {
     Regions::from_rings(&rings, FillRule::EvenOdd).expect("a flower")
 }
 
-fn family_of(designs: &[Regions], hub: usize) -> Result<Family, FamilyError> {
+fn family_of(designs: &[Regions], hub: usize) -> Result<CompatibleFamily, FamilyError> {
     let matches: Vec<Option<RegionMatch>> = designs
         .iter()
         .enumerate()
         .map(|(k, design)| {
-            let matched = || match_regions(&designs[hub], design, &Matching::default(), &Silent);
+            let matched =
+                || match_regions(&designs[hub], design, &MatchSettings::default(), &Silent);
             (k != hub).then(|| matched().expect("a match"))
         })
         .collect();
     let matches: Vec<Option<&RegionMatch>> = matches.iter().map(Option::as_ref).collect();
-    Family::from_outlines(hub, &matches, &PolygonOptions::default(), &Silent)
+    CompatibleFamily::from_outlines(hub, &matches, &PolygonOptions::default(), &Silent)
 }
 
-fn assert_family(family: &Family, designs: &[Regions]) {
+fn assert_family(family: &CompatibleFamily, designs: &[Regions]) {
     for (places, design) in family.places().iter().zip(designs) {
         for face in family.faces().iter() {
             let [a, b, c] = face.map(|v| places[v as usize]);
@@ -60,7 +61,7 @@ fn outlines_with_a_hole_are_a_family() {
         let family = family_of(&designs, hub).expect("a family");
         assert_family(&family, &designs);
         let [a, b] = [0, 1].map(|k| &designs[k]);
-        let pair = match_regions(a, b, &Matching::default(), &Silent).expect("a match");
+        let pair = match_regions(a, b, &MatchSettings::default(), &Silent).expect("a match");
         let pair = CompatibleMesh::from_outlines(&pair, &PolygonOptions::default(), &Silent);
         let most = 3 * pair.expect("a mesh").source().len();
         let count = family.places()[0].len();
@@ -104,16 +105,16 @@ fn trusses_must_have_the_same_bars() {
     };
     let all = [[0, 1], [1, 2], [2, 0]];
     let [a, b, c] = [1.0, 2.0, 3.0].map(|height| truss(height, &all));
-    let family = Family::from_trusses(&[&a, &b, &c], &Silent).expect("a family");
+    let family = CompatibleFamily::from_trusses(&[&a, &b, &c], &Silent).expect("a family");
     assert_eq!((family.count(), family.faces().len()), (3, 1));
     let other = truss(2.0, &all[..2]);
-    let error = Family::from_trusses(&[&a, &b, &other], &Silent).expect_err("a bar less");
+    let error = CompatibleFamily::from_trusses(&[&a, &b, &other], &Silent).expect_err("a bar less");
     assert!(
         matches!(error, FamilyError::Unlike { design: 2, .. }),
         "{error}"
     );
     assert_eq!(
-        Family::from_trusses(&[&a], &Silent).err(),
+        CompatibleFamily::from_trusses(&[&a], &Silent).err(),
         Some(FamilyError::TooFew(1))
     );
 }

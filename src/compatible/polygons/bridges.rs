@@ -5,16 +5,16 @@
 //! through the triangulation from edge midpoint to edge midpoint, and the
 //! diagonal gets as many points. Its points become movable vertices.
 
+use super::boundary_rings::BoundaryRings;
 use super::chords;
-use super::error::PolygonsError;
+use super::error::PieceMeshError;
 use super::overlay::overlay;
-use super::pair::PairMesh;
-use super::piece::Rings;
-use crate::compatible::patchwork::Patchwork;
+use super::pair_mesh::PairMesh;
+use crate::compatible::assembly::MeshAssembly;
 use crate::geometry::{DVec2, Side};
 use crate::mesh::triangulation::constrained_delaunay;
 use crate::mesh::{Connectivity, sides};
-use crate::progress::{Progress, checkpoint};
+use crate::work::progress::{Progress, checkpoint};
 use std::collections::{HashMap, VecDeque};
 
 /// Diagonals tried for each bridge, shortest first. Each is a search through
@@ -24,13 +24,13 @@ const TRIED: usize = 12;
 
 /// A corner of a walk in both designs and the vertex that it is.
 #[derive(Clone, Copy)]
-struct Corner {
+struct BridgeCorner {
     at: [DVec2; 2],
     vertex: u32,
 }
 
 /// Both designs' walks, which bound pieces that correspond.
-struct Walks(Vec<Vec<Corner>>);
+struct PieceLoops(Vec<Vec<BridgeCorner>>);
 
 /// A bridge between two corners, by their places in all walks, with its
 /// inner points.
@@ -40,14 +40,14 @@ struct Bridge {
 }
 
 /// A mesh that is valid over the reals.
-pub(super) fn base(
-    source: &Rings,
-    target: &Rings,
+pub(super) fn bridged_base(
+    source: &BoundaryRings,
+    target: &BoundaryRings,
     progress: &dyn Progress,
-) -> Result<PairMesh, PolygonsError> {
+) -> Result<PairMesh, PieceMeshError> {
     let fixed = source.points.len();
-    let mut walks = Walks::of(source, target);
-    let mut whole = Patchwork {
+    let mut walks = PieceLoops::of(source, target);
+    let mut whole = MeshAssembly {
         points: [source.points.clone(), target.points.clone()],
         faces: Vec::new(),
     };
@@ -78,10 +78,10 @@ pub(super) fn base(
     Ok(PairMesh::new(fixed, whole.points, whole.faces))
 }
 
-impl Walks {
-    fn of(source: &Rings, target: &Rings) -> Self {
+impl PieceLoops {
+    fn of(source: &BoundaryRings, target: &BoundaryRings) -> Self {
         let pairs = source.points.iter().zip(&target.points);
-        let corner = |(vertex, (&p, &q))| Corner { at: [p, q], vertex };
+        let corner = |(vertex, (&p, &q))| BridgeCorner { at: [p, q], vertex };
         let mut corners = (0..).zip(pairs).map(corner);
         let walks = source.walks().into_iter();
         Self(
@@ -91,14 +91,17 @@ impl Walks {
         )
     }
 
-    fn corners(&self) -> impl Iterator<Item = &Corner> {
+    fn corners(&self) -> impl Iterator<Item = &BridgeCorner> {
         self.0.iter().flatten()
     }
 
     /// The bridge from the first walk to another one that needs the fewest
     /// inner points, and is straight in one design.
-    fn bridge(&self) -> Result<Bridge, PolygonsError> {
-        let nets = [Net::of(self, Side::Source)?, Net::of(self, Side::Target)?];
+    fn bridge(&self) -> Result<Bridge, PieceMeshError> {
+        let nets = [
+            MidpointGraph::of(self, Side::Source)?,
+            MidpointGraph::of(self, Side::Target)?,
+        ];
         let ways = (0..2).flat_map(|straight| {
             let diagonals = self.diagonals(&nets[straight], straight).into_iter();
             let bent = &nets[1 - straight];
@@ -107,15 +110,15 @@ impl Walks {
         // Of equal ones the first: straight in the source, and the shortest.
         let (straight, ends, bent) = ways
             .min_by_key(|(_, _, bent)| bent.len())
-            .ok_or(PolygonsError::NoBridge)?;
+            .ok_or(PieceMeshError::NoBridge)?;
         let inner = self.along(ends, straight, &bent);
         Ok(Bridge { ends, inner })
     }
 
     /// The shortest diagonals from the first walk to the others.
-    fn diagonals(&self, net: &Net, design: usize) -> Vec<[usize; 2]> {
+    fn diagonals(&self, net: &MidpointGraph, design: usize) -> Vec<[usize; 2]> {
         let outer = self.0[0].len() as u32;
-        let corners: Vec<&Corner> = self.corners().collect();
+        let corners: Vec<&BridgeCorner> = self.corners().collect();
         let length = |&[a, b]: &[usize; 2]| {
             let [a, b] = [a, b].map(|k| corners[k].at[design]);
             a.distance_squared(b)
@@ -136,7 +139,7 @@ impl Walks {
     /// The inner points of a bridge, given those in the design where it is
     /// not straight.
     fn along(&self, ends: [usize; 2], straight: usize, inner: &[DVec2]) -> Vec<[DVec2; 2]> {
-        let corners: Vec<&Corner> = self.corners().collect();
+        let corners: Vec<&BridgeCorner> = self.corners().collect();
         let [a, b] = ends.map(|end| corners[end].at[straight]);
         let count = inner.len() as f64 + 1.0;
         let place = |(k, &bent): (usize, &DVec2)| {
@@ -160,15 +163,15 @@ impl Walks {
         }
         let hole = self.0.remove(w);
         let outer = std::mem::take(&mut self.0[0]);
-        let there: Vec<Corner> = bridge
+        let there: Vec<BridgeCorner> = bridge
             .inner
             .iter()
             .zip(first..)
-            .map(|(&at, vertex)| Corner { at, vertex })
+            .map(|(&at, vertex)| BridgeCorner { at, vertex })
             .collect();
         // Both walks all around, first corner to first corner, so that either
         // bank of the bridge has both its ends.
-        let around = |walk: &[Corner], from: usize| {
+        let around = |walk: &[BridgeCorner], from: usize| {
             let n = walk.len();
             (0..=n).map(|k| walk[(from + k) % n]).collect::<Vec<_>>()
         };
@@ -184,7 +187,7 @@ impl Walks {
 
 /// A triangulation to find ways in: from corner to edge midpoint to edge
 /// midpoint to corner.
-struct Net {
+struct MidpointGraph {
     faces: Vec<[u32; 3]>,
     connectivity: Connectivity,
     points: Vec<DVec2>,
@@ -192,14 +195,14 @@ struct Net {
 
 /// For each face that was reached the face and its side by which, if it is
 /// not one of the first.
-type Reached = HashMap<usize, Option<(usize, usize)>>;
+type PredecessorMap = HashMap<usize, Option<(usize, usize)>>;
 
-impl Net {
-    fn of(walks: &Walks, side: Side) -> Result<Self, PolygonsError> {
-        let points = |walk: &Vec<Corner>| walk.iter().map(|c| c.at[side]).collect::<Vec<_>>();
+impl MidpointGraph {
+    fn of(walks: &PieceLoops, side: Side) -> Result<Self, PieceMeshError> {
+        let points = |walk: &Vec<BridgeCorner>| walk.iter().map(|c| c.at[side]).collect::<Vec<_>>();
         let walks: Vec<Vec<DVec2>> = walks.0.iter().map(points).collect();
         let faces =
-            constrained_delaunay(&walks).map_err(|error| PolygonsError::Base { side, error })?;
+            constrained_delaunay(&walks).map_err(|error| PieceMeshError::Base { side, error })?;
         let connectivity = Connectivity::new(&faces)
             .unwrap_or_else(|_| unreachable!("faces of a triangulation meet edge to edge"));
         Ok(Self {
@@ -218,7 +221,7 @@ impl Net {
         let mut open: VecDeque<usize> = (0..self.faces.len())
             .filter(|&f| self.faces[f].contains(&from))
             .collect();
-        let mut reached: Reached = open.iter().map(|&f| (f, None)).collect();
+        let mut reached: PredecessorMap = open.iter().map(|&f| (f, None)).collect();
         while let Some(f) = open.pop_front() {
             if self.faces[f].contains(&to) {
                 return Some(self.way(f, &reached));
@@ -235,7 +238,7 @@ impl Net {
         None
     }
 
-    fn way(&self, mut face: usize, reached: &Reached) -> Vec<DVec2> {
+    fn way(&self, mut face: usize, reached: &PredecessorMap) -> Vec<DVec2> {
         let mut points = Vec::new();
         while let Some(&Some((before, k))) = reached.get(&face) {
             let [a, b] = sides(self.faces[before])[k].map(|v| self.points[v as usize]);

@@ -8,11 +8,11 @@
 //! is all that is promised; a chord valid in both costs nothing, so that two
 //! equal polygons end without crossings.
 
-use super::error::PolygonsError;
+use super::error::PieceMeshError;
 use crate::geometry::{DVec2, Side, orient2d, segments_touch};
 use crate::mesh::sides;
 use crate::mesh::triangulation::{TriangulationError, constrained_delaunay};
-use crate::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, still_wanted};
 
 /// Up to so many vertices crossings are minimised, in O(n³): 10 million
 /// triangles, each chord held against all diagonals, at every turn. Beyond,
@@ -36,9 +36,9 @@ pub(super) fn triangulations(
     source: &[DVec2],
     target: &[DVec2],
     progress: &dyn Progress,
-) -> Result<[Vec<[u32; 3]>; 2], PolygonsError> {
-    let refused = |side, error| PolygonsError::Base { side, error };
-    let has_slits = |points| !doubled(points).is_empty();
+) -> Result<[Vec<[u32; 3]>; 2], PieceMeshError> {
+    let refused = |side, error| PieceMeshError::Base { side, error };
+    let has_slits = |points| !coincident_corners(points).is_empty();
     if source.len() > SEARCHED || has_slits(source) || has_slits(target) {
         let alone = |side: Side, points| {
             constrained_delaunay(&[points]).map_err(|error| refused(side, error))
@@ -47,7 +47,10 @@ pub(super) fn triangulations(
     }
     // The source first takes what is a chord of both, and then they answer
     // each other, the target first.
-    let chords = [Chords::of(source, progress)?, Chords::of(target, progress)?];
+    let chords = [
+        InteriorChords::of(source, progress)?,
+        InteriorChords::of(target, progress)?,
+    ];
     let points = [source, target];
     let not_shared = |i, j| f64::from(u8::from(!chords[1].inside(i, j)));
     let first = cheapest(points[0], &chords[0], not_shared, progress)?;
@@ -68,7 +71,7 @@ pub(super) fn triangulations(
 }
 
 /// The corners that share their place with another one: those of slits.
-pub(super) fn doubled(points: &[DVec2]) -> Vec<u32> {
+pub(super) fn coincident_corners(points: &[DVec2]) -> Vec<u32> {
     // Negative zero is zero.
     let at = |v: u32| points[v as usize] + 0.0;
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
@@ -81,12 +84,12 @@ pub(super) fn doubled(points: &[DVec2]) -> Vec<u32> {
 }
 
 /// Which chords lie inside a polygon.
-struct Chords {
+struct InteriorChords {
     n: usize,
     inside: Vec<bool>,
 }
 
-impl Chords {
+impl InteriorChords {
     fn of(points: &[DVec2], progress: &dyn Progress) -> Result<Self, Cancelled> {
         let n = points.len();
         let mut inside = vec![false; n * n];
@@ -153,7 +156,7 @@ pub(super) fn interleave([a, b]: [u32; 2], [c, d]: [u32; 2]) -> bool {
 /// The triangulation of least total `cost` of its diagonals.
 fn cheapest(
     points: &[DVec2],
-    chords: &Chords,
+    chords: &InteriorChords,
     cost: impl Fn(usize, usize) -> f64,
     progress: &dyn Progress,
 ) -> Result<Vec<[u32; 3]>, Cancelled> {
@@ -226,7 +229,7 @@ fn collect(best: &[(f64, usize)], n: usize) -> Vec<[u32; 3]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::Silent;
+    use crate::work::progress::Silent;
 
     #[test]
     fn equal_polygons_share_their_triangulation() {
@@ -240,7 +243,7 @@ mod tests {
     #[test]
     fn a_chord_through_a_vertex_is_not_inside() {
         let points = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (1.0, 1.0), (0.0, 2.0)].map(DVec2::from);
-        let chords = Chords::of(&points, &Silent).expect("not cancelled");
+        let chords = InteriorChords::of(&points, &Silent).expect("not cancelled");
         assert!(!chords.inside(0, 2) && chords.inside(0, 3) && chords.inside(1, 3));
     }
 }

@@ -8,10 +8,10 @@
 //! bounds corresponding pieces again. It halves the number of points at each
 //! turn where the boundary has detail; how far it comes is not promised.
 
-use super::chords::doubled;
-use super::front::{Coarse, Front};
-use super::piece::Rings;
-use crate::progress::{Cancelled, Progress};
+use super::advancing_front::{AdvancingFront, FrontRing};
+use super::boundary_rings::BoundaryRings;
+use super::chords::coincident_corners;
+use crate::work::progress::{Cancelled, Progress};
 use std::collections::HashSet;
 
 /// Turns of the front stop when fewer points than this share go: at each turn
@@ -23,20 +23,24 @@ const TURNS: usize = 40;
 
 /// Moves the front inwards until it has at most `enough` points or gets
 /// stuck.
-pub(super) fn coarsened(
-    source: &Rings,
-    target: &Rings,
+pub(super) fn coarsen(
+    source: &BoundaryRings,
+    target: &BoundaryRings,
     enough: usize,
     progress: &dyn Progress,
-) -> Result<Coarse, Cancelled> {
-    let mut coarse = Coarse::of(source, target);
+) -> Result<AdvancingFront, Cancelled> {
+    let mut coarse = AdvancingFront::of(source, target);
     // Corners of slits stay: one bank lies on the other, and a sight line from
     // either would touch both.
-    let kept: HashSet<u32> = coarse.points.iter().flat_map(|p| doubled(p)).collect();
+    let kept: HashSet<u32> = coarse
+        .points
+        .iter()
+        .flat_map(|p| coincident_corners(p))
+        .collect();
     for turn in 0..TURNS {
         let before = coarse.size();
         for r in 0..coarse.rings.len() {
-            Front::of(&mut coarse, r, &kept).advance(turn, progress)?;
+            FrontRing::of(&mut coarse, r, &kept).advance(turn, progress)?;
         }
         let size = coarse.size();
         if size <= enough || (before - size) as f64 <= WORTHWHILE * before as f64 {
@@ -49,9 +53,9 @@ pub(super) fn coarsened(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::compatible::polygons::{face, piece};
+    use crate::compatible::polygons::{boundary_rings, face_cost};
     use crate::geometry::{DVec2, Side};
-    use crate::progress::Silent;
+    use crate::work::progress::Silent;
     use std::f64::consts::TAU;
 
     #[test]
@@ -67,14 +71,14 @@ mod tests {
             let at = |k: u32| r * DVec2::from_angle(-TAU * f64::from(k) / 100.0);
             (0..100).map(at).collect()
         };
-        let source = Rings::of(&[wave(5.0), hole(0.3)]);
-        let target = Rings::of(&[wave(3.0), hole(0.5)]);
-        let coarse = coarsened(&source, &target, 60, &Silent).expect("not cancelled");
+        let source = BoundaryRings::of(&[wave(5.0), hole(0.3)]);
+        let target = BoundaryRings::of(&[wave(3.0), hole(0.5)]);
+        let coarse = coarsen(&source, &target, 60, &Silent).expect("not cancelled");
         assert!(coarse.size() < 200, "{}", coarse.size());
         for (d, side) in Side::BOTH.into_iter().enumerate() {
-            assert_eq!(piece::check(&coarse.core(d), side), Ok(()));
+            assert_eq!(boundary_rings::check(&coarse.core(d), side), Ok(()));
             for face in &coarse.faces {
-                assert!(face::is_positive(
+                assert!(face_cost::is_positive(
                     face.map(|v| coarse.points[d][v as usize])
                 ));
             }

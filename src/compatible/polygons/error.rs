@@ -1,20 +1,20 @@
 //! Why two pieces were not triangulated together.
 
-use crate::compatible::elements::CompatibleError;
-use crate::geometry::{About, DVec2, Side};
+use crate::compatible::validation::CompatibleError;
+use crate::geometry::{ApproxPoint, DVec2, Side};
 use crate::mesh::triangulation::TriangulationError;
-use crate::progress::Cancelled;
+use crate::work::progress::Cancelled;
 
 /// An edge of a boundary ring, named by its first point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct RingEdge {
+pub struct PieceEdge {
     /// 0 for the outer boundary, 1 for the first hole.
     pub ring: usize,
     /// The edge runs from this point of the ring to the next.
     pub edge: usize,
 }
 
-impl std::fmt::Display for RingEdge {
+impl std::fmt::Display for PieceEdge {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(f, "edge {} of {}", self.edge + 1, ring_name(self.ring))
     }
@@ -31,7 +31,7 @@ fn ring_name(ring: usize) -> String {
 /// at 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum PolygonsError {
+pub enum PieceMeshError {
     /// No outer boundary.
     #[error("there is no outline; give at least one ring of points")]
     NoOutline,
@@ -65,12 +65,12 @@ pub enum PolygonsError {
         vertex: usize,
     },
     /// Two edges touch, or points coincide, other than along a slit.
-    #[error("outlines of the {side} touch or cross {}, where they are matched by more points than they were drawn with: keep them further apart there, or choose another method", About(*place))]
+    #[error("outlines of the {side} touch or cross {}, where they are matched by more points than they were drawn with: keep them further apart there, or choose another method", ApproxPoint(*place))]
     NotSimple {
         /// In which design.
         side: Side,
         /// The edges, of the rings that were given.
-        edges: [RingEdge; 2],
+        edges: [PieceEdge; 2],
         /// Where the first of them begins.
         place: DVec2,
     },
@@ -96,13 +96,13 @@ pub enum PolygonsError {
     /// A design's rings were refused, and no fault of theirs was found.
     #[error(
         "the outline of the {side} was not triangulated: {error}; it is finest {}, leave out a point there",
-        About(*place)
+        ApproxPoint(*place)
     )]
     Refused {
         /// Which design.
         side: Side,
         /// Its shortest edge: the likeliest cause.
-        shortest: RingEdge,
+        shortest: PieceEdge,
         /// Where that begins.
         place: DVec2,
         /// What the triangulation says.
@@ -124,7 +124,7 @@ pub enum PolygonsError {
         error: TriangulationError,
     },
     /// Faces of the guaranteed base that rounding left without area.
-    #[error("{} without area in the {side}, {}: the outline is thinner there than its coordinates are exact; thicken it there, or move the match of that place", if *faces == 1 { "a common face is".to_owned() } else { format!("{faces} common faces are") }, About(*place))]
+    #[error("{} without area in the {side}, {}: the outline is thinner there than its coordinates are exact; thicken it there, or move the match of that place", if *faces == 1 { "a common face is".to_owned() } else { format!("{faces} common faces are") }, ApproxPoint(*place))]
     Folded {
         /// In which design.
         side: Side,
@@ -143,7 +143,7 @@ pub enum PolygonsError {
     Cancelled(#[from] Cancelled),
 }
 
-impl PolygonsError {
+impl PieceMeshError {
     /// The same said of the designs exchanged.
     pub(super) fn swapped(mut self) -> Self {
         if let Self::Base { side, .. } | Self::Folded { side, .. } = &mut self {

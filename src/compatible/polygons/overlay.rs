@@ -12,16 +12,16 @@
 //! checks every face exactly. There may be O(n²) crossings.
 
 use super::chords::{diagonals, interleave};
-use super::pair::PairMesh;
+use super::pair_mesh::PairMesh;
 use crate::geometry::DVec2;
 use crate::mesh::{sides, undirected};
-use crate::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, still_wanted};
 use std::collections::HashMap;
 
 type Chord = [u32; 2];
 
 /// Where a chord of the source's triangulation crosses one of the target's.
-struct Crossing {
+struct ChordCrossing {
     vertex: u32,
     /// Which of the crossings on its chord it is in either design, counted
     /// from 1 at the chord's smaller end.
@@ -36,7 +36,7 @@ pub(super) fn overlay(
     progress: &dyn Progress,
 ) -> Result<PairMesh, Cancelled> {
     let n = source.len();
-    let mut vertices = Vertices {
+    let mut vertices = OverlayVertices {
         crossings: HashMap::new(),
         points: [source.to_vec(), target.to_vec()],
     };
@@ -57,9 +57,9 @@ pub(super) fn overlay(
 }
 
 /// The corners of all cells: the polygons' vertices and the crossings.
-struct Vertices {
+struct OverlayVertices {
     /// By the chords of either design.
-    crossings: HashMap<[Chord; 2], Crossing>,
+    crossings: HashMap<[Chord; 2], ChordCrossing>,
     points: [Vec<DVec2>; 2],
 }
 
@@ -72,7 +72,7 @@ fn in_order(design: usize, own: Chord, other: Chord) -> [Chord; 2] {
     }
 }
 
-impl Vertices {
+impl OverlayVertices {
     /// Numbers all crossings and places them in both designs.
     fn place_crossings(
         &mut self,
@@ -90,7 +90,7 @@ impl Vertices {
                     let new = || {
                         let vertex = self.points[0].len() as u32;
                         self.points.iter_mut().for_each(|p| p.push(DVec2::ZERO));
-                        Crossing {
+                        ChordCrossing {
                             vertex,
                             ranks: [0; 2],
                         }
@@ -168,7 +168,7 @@ impl Vertices {
         let apexes = if k == 3 { 1 } else { k };
         let worth = |fan: &[[u32; 3]]| {
             let worst = |points: &Vec<DVec2>| {
-                let shape = |f: &[u32; 3]| super::face::shape(f.map(|v| points[v as usize]));
+                let shape = |f: &[u32; 3]| super::face_cost::shape(f.map(|v| points[v as usize]));
                 fan.iter().map(shape).fold(1.0, f64::max)
             };
             worst(&self.points[0]).max(worst(&self.points[1]))

@@ -1,15 +1,15 @@
 //! Better angles in both designs at once, never leaving validity: flips,
 //! collapses of needless vertices, splits, and moves that lower the cost of
-//! the faces (see [`super::face`]) in both embeddings together.
+//! the faces (see [`super::face_cost`]) in both embeddings together.
 
-use super::face;
+use super::face_cost;
 use super::options::PolygonOptions;
-use super::pair::PairMesh;
+use super::pair_mesh::PairMesh;
 use super::relax::relax;
 use super::transfer::split_chords;
 use crate::geometry::{Bounds, DVec2};
 use crate::mesh::sides;
-use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
+use crate::work::progress::{Cancelled, Progress, checkpoint, still_wanted};
 use std::collections::HashSet;
 
 /// Rounds of flips and moves. A trade, as all steps here: further rounds cost
@@ -120,7 +120,7 @@ fn split_costly(
 
 /// In the design where the face is thinner.
 fn longest_inner_edge(mesh: &PairMesh, face: [u32; 3]) -> Option<[u32; 2]> {
-    let [p, q] = mesh.corners(face).map(face::shape);
+    let [p, q] = mesh.corners(face).map(face_cost::shape);
     let points = &mesh.points[usize::from(p <= q)];
     let length = |[a, b]: [u32; 2]| points[a as usize].distance_squared(points[b as usize]);
     sides(face)
@@ -260,7 +260,7 @@ fn descent(mesh: &PairMesh, v: u32, faces: &[[u32; 3]]) -> [DVec2; 2] {
     let mut reach = [f64::INFINITY; 2];
     for &face in faces {
         let [p, q] = mesh.corners(face);
-        let Some(cost) = face::evaluate(p, q, face::AREA) else {
+        let Some(cost) = face_cost::evaluate(p, q, face_cost::AREA_WEIGHT) else {
             continue;
         };
         for (k, &u) in face.iter().enumerate() {

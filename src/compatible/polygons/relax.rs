@@ -4,17 +4,17 @@
 //! Guaranteed: a valid mesh stays valid, since the cost is infinite outside
 //! and the result is checked exactly. A minimum is not promised.
 
-use super::face;
-use super::motion::Motion;
-use super::pair::PairMesh;
+use super::face_cost;
+use super::mesh_energy::MeshEnergy;
+use super::pair_mesh::PairMesh;
 use super::springs::Springs;
-use crate::progress::Progress;
+use crate::work::progress::Progress;
 
 /// All inner vertices moved together by at most `steps` steps; given up if
 /// rounding leaves a face that is not exactly positive, and ended early by a
 /// cancel.
 pub(super) fn relax(mesh: &mut PairMesh, steps: usize, progress: &dyn Progress) {
-    let motion = Motion::of_inner(mesh, face::AREA);
+    let motion = MeshEnergy::of_inner(mesh, face_cost::AREA_WEIGHT);
     let Some([mut source, mut target]) = springs(&motion, mesh, progress) else {
         return;
     };
@@ -29,11 +29,11 @@ pub(super) fn relax(mesh: &mut PairMesh, steps: usize, progress: &dyn Progress) 
 
 /// The curvature of the cost where areas are kept, as springs in each
 /// design.
-fn springs(motion: &Motion, mesh: &PairMesh, progress: &dyn Progress) -> Option<[Springs; 2]> {
+fn springs(motion: &MeshEnergy, mesh: &PairMesh, progress: &dyn Progress) -> Option<[Springs; 2]> {
     let of = |d: usize| {
         let springs = motion.faces.iter().flat_map(|&(face, weight)| {
             let [p, q] = mesh.corners(face);
-            let stiffness = face::stiffness(p, q)[d];
+            let stiffness = face_cost::stiffness(p, q)[d];
             let ends = |k: usize| [face[(k + 1) % 3], face[(k + 2) % 3]];
             [0, 1, 2].map(|k| (ends(k), weight * stiffness[k]))
         });

@@ -9,18 +9,18 @@
 //! places exchanged, bit by bit. Not guaranteed: that the places are in order
 //! around corners, or a minimum.
 
-use super::face;
-use super::motion::{Motion, Slider};
+use super::boundary_rings::BoundaryRings;
+use super::face_cost;
+use super::mesh_energy::{MeshEnergy, SlidingVertex};
 use super::options::PolygonOptions;
-use super::pair::PairMesh;
-use super::piece::Rings;
+use super::pair_mesh::PairMesh;
 use super::quality::refit;
-use super::together::goes_first;
+use super::two_designs::precedes;
 use crate::compatible::CompatibleMesh;
 use crate::correspondence::PieceMatch;
 use crate::geometry::Side;
-use crate::linalg::{Cholesky, SymmetricMatrix, Workspace};
-use crate::progress::Progress;
+use crate::numerics::{Cholesky, CholeskyWorkspace, SymmetricMatrix};
+use crate::work::progress::Progress;
 
 /// What the change of area costs against the fourth power of the conformal distortion:
 /// without it a map without distortion would crowd whole limbs into a point. Of 60 pairs of
@@ -40,7 +40,7 @@ const ROUNDS: usize = 4;
 /// For each ring of a piece the places of its vertices, as
 /// `Course::places`, by which the map distorts less than by those that it
 /// has in this mesh of it; none where nothing slides.
-pub(crate) fn slid(
+pub(crate) fn slide_outlines(
     piece: &PieceMatch,
     mesh: &CompatibleMesh,
     options: &PolygonOptions,
@@ -48,9 +48,9 @@ pub(crate) fn slid(
 ) -> Option<Vec<Vec<[f64; 2]>>> {
     let rings = Side::BOTH.map(|side| {
         let rings = piece.rings.iter().map(|r| [&r.source, &r.target][side]);
-        Rings::of(&rings.collect::<Vec<_>>())
+        BoundaryRings::of(&rings.collect::<Vec<_>>())
     });
-    let sides = if goes_first(&rings[0], &rings[1]) {
+    let sides = if precedes(&rings[0], &rings[1]) {
         Side::BOTH
     } else {
         [Side::Target, Side::Source]
@@ -61,8 +61,8 @@ pub(crate) fn slid(
         return None;
     }
     for _ in 0..ROUNDS {
-        let motion = Motion::new(&pair, &sliders, scales, AREA);
-        let mut proxy = Proxy::of(&motion, &pair, &sliders, progress)?;
+        let motion = MeshEnergy::new(&pair, &sliders, scales, AREA);
+        let mut proxy = QuadraticProxy::of(&motion, &pair, &sliders, progress)?;
         let (at, slid) = motion.minimised(STEPS, |forces| proxy.solve(forces), progress);
         if !pair.move_to(at) {
             return None;
@@ -76,13 +76,13 @@ pub(crate) fn slid(
 }
 
 /// A slider for each vertex on a matched ring that nobody pinned.
-fn sliders(piece: &PieceMatch, sides: [Side; 2]) -> Vec<Slider<'_>> {
+fn sliders(piece: &PieceMatch, sides: [Side; 2]) -> Vec<SlidingVertex<'_>> {
     let mut first = 0;
     let mut all = Vec::new();
     for ring in &piece.rings {
         if let Some(course) = &ring.course {
             let free = (0..course.places().len()).filter(|&k| !course.is_pinned(k));
-            all.extend(free.map(|k| Slider {
+            all.extend(free.map(|k| SlidingVertex {
                 vertex: (first + k) as u32,
                 curves: sides.map(|side| &course.curves()[side]),
                 places: sides.map(|side| course.places()[k][side]),
@@ -94,7 +94,7 @@ fn sliders(piece: &PieceMatch, sides: [Side; 2]) -> Vec<Slider<'_>> {
 }
 
 /// The places of all vertices, ring by ring, once the sliders slid.
-fn places(piece: &PieceMatch, sides: [Side; 2], sliders: &[Slider]) -> Vec<Vec<[f64; 2]>> {
+fn places(piece: &PieceMatch, sides: [Side; 2], sliders: &[SlidingVertex]) -> Vec<Vec<[f64; 2]>> {
     let mut first = 0;
     let mut sliders = sliders.iter().peekable();
     let rings = piece.rings.iter().map(|ring| {
@@ -120,7 +120,10 @@ fn of_one_area(mesh: &CompatibleMesh, fixed: usize, sides: [Side; 2]) -> (PairMe
     let points = [mesh.source(), mesh.target()];
     let scales = sides.map(|side| {
         let corners = |face: &[u32; 3]| face.map(|v| points[side][v as usize]);
-        let doubled = mesh.faces().iter().map(|face| face::doubled(corners(face)));
+        let doubled = mesh
+            .faces()
+            .iter()
+            .map(|face| face_cost::twice_area(corners(face)));
         doubled.sum::<f64>().sqrt().recip()
     });
     let placed = |d: usize| points[sides[d]].iter().map(|&p| p * scales[d]).collect();
@@ -131,17 +134,17 @@ fn of_one_area(mesh: &CompatibleMesh, fixed: usize, sides: [Side; 2]) -> (PairMe
 /// The curvature of the cost where areas are kept, over all unknowns: springs
 /// between vertices, of which those on the outlines have one way to go in both
 /// designs.
-struct Proxy {
+struct QuadraticProxy {
     factor: Cholesky,
-    workspace: Workspace,
+    workspace: CholeskyWorkspace,
 }
 
-impl Proxy {
+impl QuadraticProxy {
     /// None where the springs do not hold, or on a cancel.
     fn of(
-        motion: &Motion,
+        motion: &MeshEnergy,
         mesh: &PairMesh,
-        sliders: &[Slider],
+        sliders: &[SlidingVertex],
         progress: &dyn Progress,
     ) -> Option<Self> {
         let n = motion.inner.len();
@@ -167,7 +170,7 @@ impl Proxy {
         let mut own = vec![f64::MIN_POSITIVE; unknowns];
         for &(face, weight) in &motion.faces {
             let [p, q] = mesh.corners(face);
-            for (d, stiffness) in face::stiffness(p, q).iter().enumerate() {
+            for (d, stiffness) in face_cost::stiffness(p, q).iter().enumerate() {
                 for k in 0..3 {
                     let spring = weight * stiffness[k];
                     let ends = [face[(k + 1) % 3], face[(k + 2) % 3]];
@@ -201,9 +204,9 @@ impl Proxy {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::correspondence::{Matching, PointPair, match_regions};
+    use crate::correspondence::{MatchSettings, PointPair, match_regions};
     use crate::geometry::{DVec2, FillRule, Regions};
-    use crate::progress::Silent;
+    use crate::work::progress::Silent;
 
     fn region(points: &[(f64, f64)]) -> Regions {
         let ring = points.iter().copied().map(DVec2::from).collect();
@@ -226,20 +229,22 @@ mod tests {
     }
 
     fn piece(designs: [&Regions; 2], pins: Vec<PointPair>) -> PieceMatch {
-        let wanted = Matching {
+        let wanted = MatchSettings {
             pins,
-            ..Matching::default()
+            ..MatchSettings::default()
         };
         let matched = match_regions(designs[0], designs[1], &wanted, &Silent);
         matched.expect("a match").pieces.remove(0)
     }
 
     fn mesh(piece: &PieceMatch) -> CompatibleMesh {
-        crate::compatible::of_piece(piece, &PolygonOptions::default(), &Silent).expect("a mesh")
+        crate::compatible::mesh_of_piece(piece, &PolygonOptions::default(), &Silent)
+            .expect("a mesh")
     }
 
     fn slid(piece: &PieceMatch) -> PieceMatch {
-        let places = super::slid(piece, &mesh(piece), &PolygonOptions::default(), &Silent);
+        let places =
+            super::slide_outlines(piece, &mesh(piece), &PolygonOptions::default(), &Silent);
         piece.moved(&places.expect("something slides"))
     }
 

@@ -3,8 +3,8 @@
 //! grow with the mesh (Kovalsky, Galun, Lipman 2016, "Accelerated quadratic
 //! proxy for geometric optimization").
 
-use crate::linalg::{Cholesky, SymmetricMatrix, Workspace};
-use crate::progress::Progress;
+use crate::numerics::{Cholesky, CholeskyWorkspace, SymmetricMatrix};
+use crate::work::progress::Progress;
 
 /// Share of the mean stiffness that holds each vertex on its own: keeps the
 /// matrix definite where springs cancel. Six digits below the springs it
@@ -13,7 +13,7 @@ const HELD: f64 = 1e-6;
 
 pub(super) struct Springs {
     factor: Cholesky,
-    workspace: Workspace,
+    workspace: CholeskyWorkspace,
 }
 
 impl Springs {
@@ -57,7 +57,7 @@ impl Springs {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::progress::Silent;
+    use crate::work::progress::Silent;
 
     #[test]
     fn a_chain_of_springs_is_stretched_evenly() {

@@ -2,15 +2,16 @@
 
 mod pieces;
 
-use super::error::PolygonsError;
+use super::boundary_rings;
+use super::boundary_rings::BoundaryRings;
+use super::error::PieceMeshError;
 use super::options::PolygonOptions;
-use super::pair::PairMesh;
-use super::piece::{self, Rings};
-use super::together::from_base;
-use super::touching;
+use super::pair_mesh::PairMesh;
+use super::ring_contacts;
+use super::two_designs::from_base;
 use crate::compatible::CompatibleMesh;
 use crate::geometry::{DVec2, Ring, Side, orient2d};
-use crate::progress::Silent;
+use crate::work::progress::Silent;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -41,7 +42,7 @@ fn two_opt(n: usize, random: &mut Random) -> Vec<DVec2> {
     let mut points: Vec<DVec2> = (0..n)
         .map(|_| DVec2::new(random.next(), random.next()))
         .collect();
-    while let Some([i, j]) = touching::touching_edges(&[&points]) {
+    while let Some([i, j]) = ring_contacts::touching_edges(&[&points]) {
         points[i + 1..=j].reverse();
     }
     counter_clockwise(points)
@@ -168,7 +169,12 @@ fn together(source: &[DVec2], target: &[DVec2]) -> CompatibleMesh {
 }
 
 fn base(source: &[DVec2], target: &[DVec2]) -> PairMesh {
-    let mesh = from_base(&Rings::of(&[source]), &Rings::of(&[target]), &Silent).expect("simple");
+    let mesh = from_base(
+        &BoundaryRings::of(&[source]),
+        &BoundaryRings::of(&[target]),
+        &Silent,
+    )
+    .expect("simple");
     let (faces, [p, q]) = mesh.compacted();
     hold(
         &CompatibleMesh::new(faces, p, q, vec![]).expect("valid"),
@@ -186,7 +192,8 @@ fn pair(kinds: (usize, usize), n: usize, seed: u64) -> Option<[Vec<DVec2>; 2]> {
     let m = target.len();
     let source = with_points(source, m);
     target.rotate_left((random.next() * m as f64) as usize);
-    let simple = |points| piece::check(&Rings::of(&[points]), Side::Source).is_ok();
+    let simple =
+        |points| boundary_rings::check(&BoundaryRings::of(&[points]), Side::Source).is_ok();
     (simple(&source) && simple(&target)).then_some([source, target])
 }
 
@@ -263,14 +270,14 @@ fn what_cannot_be_triangulated_is_named() {
     };
     assert_eq!(
         of(&square, &square[1..], &options),
-        Err(PolygonsError::Counts {
+        Err(PieceMeshError::Counts {
             ring: 0,
             points: [8, 7]
         })
     );
     let mut nan = square.clone();
     nan[3].x = f64::NAN;
-    let not_finite = PolygonsError::NotFinite {
+    let not_finite = PieceMeshError::NotFinite {
         side: Side::Target,
         ring: 0,
         vertex: 3,
@@ -279,13 +286,13 @@ fn what_cannot_be_triangulated_is_named() {
     let reversed: Vec<DVec2> = square.iter().rev().copied().collect();
     assert_eq!(
         of(&reversed, &square, &options),
-        Err(PolygonsError::Clockwise(Side::Source))
+        Err(PieceMeshError::Clockwise(Side::Source))
     );
     let zero = PolygonOptions {
         edge_length: Some(0.0),
     };
     assert_eq!(
         of(&square, &square, &zero),
-        Err(PolygonsError::EdgeLength(0.0))
+        Err(PieceMeshError::EdgeLength(0.0))
     );
 }

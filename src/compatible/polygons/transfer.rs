@@ -6,21 +6,21 @@
 //! angles cheaply and guarantees nothing: where folds remain there is no
 //! result.
 
+use super::boundary_rings::BoundaryRings;
 use super::options::PolygonOptions;
-use super::pair::PairMesh;
-use super::piece::Rings;
+use super::pair_mesh::PairMesh;
 use super::untangle::untangle;
-use crate::geometry::{Bounds, DVec2, Fit};
-use crate::linalg::{Cholesky, SymmetricMatrix};
-use crate::mesh::triangulation::{Refinement, refined};
-use crate::progress::{Cancelled, Progress, checkpoint, still_wanted};
+use crate::geometry::{Bounds, DVec2, SimilarityFit};
+use crate::mesh::triangulation::{RefinementOptions, refined_delaunay};
+use crate::numerics::{Cholesky, SymmetricMatrix};
+use crate::work::progress::{Cancelled, Progress, checkpoint, still_wanted};
 
 /// Rounds of shrinking ε: a bound for those that win a fold now and then; as a
 /// rule [`PATIENCE`] ends it.
-pub(super) const ROUNDS: usize = 60;
+pub(super) const MAX_ROUNDS: usize = 60;
 /// Rounds after which a transfer is not gone on with, if that in the other direction is
 /// done by then.
-pub(super) const SOON: usize = PATIENCE;
+pub(super) const FIRST_ROUNDS: usize = PATIENCE;
 /// Rounds in which the folds become fewer by a quarter, or it is given up: a trade,
 /// since the other direction and the base are left. Of 1404 transfers between icons 112
 /// stay folded; to see it of them took 3.0 s, now 1.7 s, and three others are given up as
@@ -31,26 +31,26 @@ const LEFT: f64 = 0.75;
 /// One polygon's refined triangulation on its way to the other.
 pub(super) struct Transfer {
     mesh: PairMesh,
-    folds: Folds,
+    folds: FoldHistory,
 }
 
 impl Transfer {
     /// Both polygons' common mesh, refined in the first and laid over the second, where
     /// it may fold; `None` where there is none.
     pub(super) fn begin(
-        from: &Rings,
-        to: &Rings,
+        from: &BoundaryRings,
+        to: &BoundaryRings,
         options: &PolygonOptions,
         progress: &dyn Progress,
     ) -> Result<Option<Self>, Cancelled> {
-        let refinement = Refinement {
+        let refinement = RefinementOptions {
             max_edge: options
                 .edge_length
                 .map(|share| share * Bounds::diameter_of(&from.points)),
             max_points: options.most_points(from.points.len()),
         };
         // The base is made of the same walks, and says what is wrong with them.
-        let start = refined(&from.walks(), &refinement, progress);
+        let start = refined_delaunay(&from.walks(), &refinement, progress);
         still_wanted(progress)?;
         let Ok(start) = start else {
             return Ok(None);
@@ -59,7 +59,7 @@ impl Transfer {
         let mut mesh = PairMesh::new(n, [points.clone(), points], start.faces);
         split_chords(&mut mesh);
         let is_laid = laid_over(&mut mesh, &to.points, progress)?;
-        let folds = Folds::default();
+        let folds = FoldHistory::default();
         Ok(is_laid.then_some(Self { mesh, folds }))
     }
 
@@ -85,13 +85,13 @@ impl Transfer {
 
 /// Carries a mesh whose first vertices belong at `to` in the second design;
 /// folds may remain.
-pub(super) fn carry(
+pub(super) fn transfer_onto(
     mesh: &mut PairMesh,
     to: &[DVec2],
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
     if laid_over(mesh, to, progress)? {
-        Folds::default().remove(mesh, ROUNDS, progress)?;
+        FoldHistory::default().remove(mesh, MAX_ROUNDS, progress)?;
     }
     Ok(())
 }
@@ -118,24 +118,24 @@ fn laid_over(
 
 /// Carries a valid mesh on: its first vertices move to `to` in the second
 /// design, the others start from where they are; folds may remain.
-pub(super) fn carry_on(
+pub(super) fn continue_transfer(
     mesh: &mut PairMesh,
     to: &[DVec2],
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
     mesh.points[1][..mesh.fixed].copy_from_slice(&to[..mesh.fixed]);
-    Folds::default().remove(mesh, ROUNDS, progress)
+    FoldHistory::default().remove(mesh, MAX_ROUNDS, progress)
 }
 
 /// The folds of a mesh, as they become fewer.
 #[derive(Default)]
-struct Folds {
+struct FoldHistory {
     /// The fewest before each round.
     fewest: Vec<usize>,
     is_given_up: bool,
 }
 
-impl Folds {
+impl FoldHistory {
     /// Goes on until there are none, it is of no use, or so many rounds are done in all.
     fn remove(
         &mut self,
@@ -149,7 +149,7 @@ impl Folds {
                 break;
             }
             let round = self.fewest.len();
-            checkpoint(progress, "removing folds", round as f64 / ROUNDS as f64)?;
+            checkpoint(progress, "removing folds", round as f64 / MAX_ROUNDS as f64)?;
             let fewest = self.fewest.last().map_or(folds, |&least| least.min(folds));
             self.fewest.push(fewest);
             self.is_given_up = self.is_of_no_use() || !untangle(mesh, progress);
@@ -182,7 +182,7 @@ fn lay(mesh: &mut PairMesh, to: &[DVec2]) {
     let [points, placed] = &mut mesh.points;
     placed[..n].copy_from_slice(to);
     // What has no size has no similarity; it is no valid mesh either.
-    let Some(fit) = Fit::of(&points[..n], to) else {
+    let Some(fit) = SimilarityFit::of(&points[..n], to) else {
         return;
     };
     let [from, to] = fit.means;

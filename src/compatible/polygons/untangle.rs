@@ -3,12 +3,12 @@
 //! Kaporin, Kudryavtseva, Protais, Ray, Sokolov 2021, "Foldover-free maps in
 //! 50 lines of code").
 
-use super::face;
-use super::lbfgs::minimise;
-use super::pair::PairMesh;
+use super::face_cost;
+use super::pair_mesh::PairMesh;
 use super::springs::Springs;
 use crate::geometry::{DMat2, DVec2};
-use crate::progress::Progress;
+use crate::numerics::lbfgs::minimise;
+use crate::work::progress::Progress;
 
 /// Least ε, in units of the mean determinant. A smaller one lets thinner faces
 /// be, and makes a steeper barrier, which takes shorter steps.
@@ -18,7 +18,7 @@ const LEAST_EPSILON: f64 = 1e-3;
 const STEPS: usize = 30;
 
 /// A face as the energy sees it.
-struct Piece {
+struct UntangleFace {
     corners: [usize; 3],
     /// From edges in the target to the Jacobian, scaled to a mean
     /// determinant of one.
@@ -26,15 +26,18 @@ struct Piece {
     share: f64,
 }
 
-impl Piece {
+impl UntangleFace {
     fn jacobian(&self, at: impl Fn(usize) -> DVec2) -> DMat2 {
         let [a, b, c] = self.corners.map(at);
         DMat2::from_cols(b - a, c - a) * self.from_edges
     }
 }
 
-fn pieces(mesh: &PairMesh) -> Vec<Piece> {
-    let doubled = |d: usize| mesh.faces().map(move |f| face::doubled(mesh.corners(f)[d]));
+fn pieces(mesh: &PairMesh) -> Vec<UntangleFace> {
+    let doubled = |d: usize| {
+        mesh.faces()
+            .map(move |f| face_cost::twice_area(mesh.corners(f)[d]))
+    };
     let total: f64 = doubled(0).sum();
     // Folds cancel in the sum: it is the area of the target's polygon,
     // whatever its inside does yet.
@@ -42,7 +45,7 @@ fn pieces(mesh: &PairMesh) -> Vec<Piece> {
     let piece = |face: [u32; 3]| {
         let [p, _] = mesh.corners(face);
         let edges = DMat2::from_cols(p[1] - p[0], p[2] - p[0]);
-        Piece {
+        UntangleFace {
             corners: face.map(|v| v as usize),
             from_edges: edges.inverse() * scale,
             share: edges.determinant() / total,
@@ -79,7 +82,7 @@ pub(super) fn untangle(mesh: &mut PairMesh, progress: &dyn Progress) -> bool {
 }
 
 /// The curvature of the energy near no distortion, up to a factor.
-fn springs(pieces: &[Piece], movable: &[u32], progress: &dyn Progress) -> Option<Springs> {
+fn springs(pieces: &[UntangleFace], movable: &[u32], progress: &dyn Progress) -> Option<Springs> {
     let springs = pieces.iter().flat_map(|piece| {
         let weight = 2.0 * piece.share;
         // |J|² is a sum over edges of the corners' cotangents.
@@ -96,7 +99,7 @@ fn springs(pieces: &[Piece], movable: &[u32], progress: &dyn Progress) -> Option
 }
 
 fn energy(
-    pieces: &[Piece],
+    pieces: &[UntangleFace],
     start: &[DVec2],
     fixed: usize,
     epsilon: f64,

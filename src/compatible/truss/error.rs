@@ -1,8 +1,8 @@
 //! Why two trusses have no common triangulation.
 
-use crate::budget::TooMuch;
 use crate::geometry::Side;
-use crate::progress::Cancelled;
+use crate::work::budget::WorkloadTooLarge;
+use crate::work::progress::Cancelled;
 
 /// Most nodes of one panel; the program takes about a second then, over 160
 /// million triangles.
@@ -30,17 +30,17 @@ pub enum TrussError {
     )]
     Mirrored,
     /// A panel is turned over.
-    #[error("the panel of nodes {} is turned over between source and target; move its nodes in one design", listed(.0, SHOWN))]
+    #[error("the panel of nodes {} is turned over between source and target; move its nodes in one design", list_first(.0, SHOWN))]
     Flipped(Vec<u32>),
     /// No diagonals are valid in both designs.
-    #[error("the panel of nodes {} has no triangles that are valid in both designs; add a bar or a node inside it", listed(.0, SHOWN))]
+    #[error("the panel of nodes {} has no triangles that are valid in both designs; add a bar or a node inside it", list_first(.0, SHOWN))]
     NoTriangulation(Vec<u32>),
     /// A panel of very many nodes.
-    #[error("the panel of nodes {} has {} nodes, more than {MAX_PANEL_NODES}; divide it by bars", listed(.0, SHOWN), .0.len())]
+    #[error("the panel of nodes {} has {} nodes, more than {MAX_PANEL_NODES}; divide it by bars", list_first(.0, SHOWN), .0.len())]
     TooLarge(Vec<u32>),
     /// Bars cross very often.
     #[error(transparent)]
-    TooMuch(#[from] TooMuch),
+    TooMuch(#[from] WorkloadTooLarge),
     /// Nobody wants the result.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
@@ -51,7 +51,7 @@ pub enum TrussError {
 const SHOWN: usize = 8;
 
 /// "0, 4, 5 and 9 more".
-pub(in crate::compatible) fn listed<T: ToString>(numbers: &[T], shown: usize) -> String {
+pub(in crate::compatible) fn list_first<T: ToString>(numbers: &[T], shown: usize) -> String {
     let names: Vec<String> = numbers.iter().take(shown).map(T::to_string).collect();
     match numbers.len().saturating_sub(shown) {
         0 => names.join(", "),

@@ -1,6 +1,6 @@
 use super::*;
 use crate::geometry::orient2d;
-use crate::progress::Silent;
+use crate::work::progress::Silent;
 
 fn truss(nodes: &[(f64, f64)], bars: &[[u32; 2]]) -> Truss {
     let nodes = nodes.iter().map(|&p| p.into()).collect();
@@ -14,12 +14,12 @@ fn positive(faces: &[[u32; 3]], truss: &Truss) -> bool {
     })
 }
 
-fn panels(source: &Truss, target: &Truss) -> Result<Panels, TrussError> {
-    super::panels(source, target, &Silent)
+fn panels(source: &Truss, target: &Truss) -> Result<PanelMesh, TrussError> {
+    super::triangulate_panels(source, target, &Silent)
 }
 
 /// Both orders of the designs give the same, valid result.
-fn both_ways(source: &Truss, target: &Truss) -> Panels {
+fn both_ways(source: &Truss, target: &Truss) -> PanelMesh {
     let found = panels(source, target).expect("panels");
     assert!(positive(&found.0, source) && positive(&found.0, target));
     assert_eq!(panels(target, source), Ok(found.clone()));
@@ -209,7 +209,7 @@ fn differences_and_turned_panels_are_named() {
 }
 
 /// Every triangulation of a small polygon tried.
-fn brute(cycle: &[u32], pair: Pair<&[DVec2]>) -> Option<f64> {
+fn brute(cycle: &[u32], pair: SourceTarget<&[DVec2]>) -> Option<f64> {
     if cycle.len() < 3 {
         return Some(f64::INFINITY);
     }
@@ -224,7 +224,7 @@ fn brute(cycle: &[u32], pair: Pair<&[DVec2]>) -> Option<f64> {
         .max_by(f64::total_cmp)
 }
 
-fn sines(face: [u32; 3], pair: Pair<&[DVec2]>) -> Option<f64> {
+fn sines(face: [u32; 3], pair: SourceTarget<&[DVec2]>) -> Option<f64> {
     let mut least = f64::INFINITY;
     for nodes in [pair.source, pair.target] {
         let [a, b, c] = face.map(|node| nodes[node as usize]);
@@ -251,9 +251,9 @@ proptest::proptest! {
             }).collect()
         };
         let (source, target) = (around(|r| r.0), around(|r| r.1));
-        let pair = Pair { source: &source[..], target: &target[..] };
+        let pair = SourceTarget { source: &source[..], target: &target[..] };
         let cycle: Vec<u32> = (0..count as u32).collect();
-        let found = polygon::triangulated(&cycle, pair, &Silent).expect("not cancelled");
+        let found = panel_triangulation::triangulate_panel(&cycle, pair, &Silent).expect("not cancelled");
         let found = found.map(|faces| {
             faces.iter().map(|&f| sines(f, pair).unwrap_or(-1.0)).fold(f64::INFINITY, f64::min)
         });

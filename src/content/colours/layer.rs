@@ -1,7 +1,7 @@
 //! One of the two pictures, to be looked up anywhere in the plane.
 
-use super::super::scan::Plane;
-use super::linear::{Light, coded_premultiplied, decoded, mean, mixed};
+use super::super::placement_scan::AffinePlane;
+use super::linear_light::{LinearLight, coded_premultiplied, decoded, mean, mixed};
 use crate::design::Picture;
 use crate::geometry::{Bounds, DMat2, DVec2};
 use glam::DAffine2;
@@ -12,29 +12,29 @@ use std::sync::Arc;
 /// A picture in linear light, in its own size and smaller ones, where it lies
 /// in the plane. Cloning is cheap.
 #[derive(Clone, Debug)]
-pub struct Layer {
+pub struct PictureLayer {
     picture: Picture,
-    levels: Arc<Vec<Level>>,
+    levels: Arc<Vec<MipLevel>>,
     /// From the plane to the picture's own coordinates: x across, y down.
     from_plane: DAffine2,
 }
 
 /// The picture at one size, row by row from above.
 #[derive(Debug)]
-pub(super) struct Level {
+pub(super) struct MipLevel {
     width: usize,
     height: usize,
     /// One pixel for each and, so that every pixel has one to its right and one
     /// below, another row and one more.
-    light: Vec<Light>,
+    light: Vec<LinearLight>,
 }
 
-impl Layer {
+impl PictureLayer {
     /// Decodes a picture. Takes 22 bytes a pixel.
     #[must_use]
     pub fn new(picture: &Picture) -> Self {
-        let mut levels = vec![Level::of(picture.pixels())];
-        while let Some(next) = levels.last().and_then(Level::halved) {
+        let mut levels = vec![MipLevel::of(picture.pixels())];
+        while let Some(next) = levels.last().and_then(MipLevel::halved) {
             levels.push(next);
         }
         let inverse = picture.place().inverse();
@@ -73,7 +73,7 @@ impl Layer {
     /// many sizes there are.
     #[must_use]
     pub fn texture(&self) -> (Vec<u8>, u32) {
-        let lights = self.levels.iter().flat_map(Level::pixels);
+        let lights = self.levels.iter().flat_map(MipLevel::pixels);
         let bytes = lights.flat_map(|&light| coded_premultiplied(light));
         (bytes.collect(), self.levels.len() as u32)
     }
@@ -86,7 +86,7 @@ impl Layer {
     /// Made to be looked up for pixels of the given size in the plane: of the
     /// smaller sizes the one whose pixels are not much finer, so that nothing
     /// flickers where many of the picture's go into one.
-    pub(super) fn sampler(&self, size: f64) -> Sampler<'_> {
+    pub(super) fn sampler(&self, size: f64) -> PictureSampler<'_> {
         let ratio = (size / self.pixel()).max(1.0);
         // A picture may have been shrunk to nothing.
         let wanted = if ratio.is_finite() {
@@ -101,7 +101,7 @@ impl Layer {
         let scale = level.size() / self.levels[0].size();
         // A sample is at the centre of its pixel, half a one from the corner.
         let from_plane = scaled(scale, DVec2::splat(-0.5)) * self.from_plane;
-        Sampler { level, from_plane }
+        PictureSampler { level, from_plane }
     }
 }
 
@@ -112,8 +112,8 @@ fn scaled(by: DVec2, offset: DVec2) -> DAffine2 {
 
 /// A layer at one of its sizes.
 #[derive(Clone, Copy)]
-pub(super) struct Sampler<'a> {
-    level: &'a Level,
+pub(super) struct PictureSampler<'a> {
+    level: &'a MipLevel,
     from_plane: DAffine2,
 }
 
@@ -124,14 +124,19 @@ const ONE: f64 = (1u64 << 32) as f64;
 /// there is nothing but the edge. Twice as far away does not overflow.
 const FAR: f64 = (1u64 << 29) as f64;
 
-impl<'a> Sampler<'a> {
+impl<'a> PictureSampler<'a> {
     /// Made to be looked up where samples near `first`, up to `reach` columns
     /// and rows further on, see it.
     ///
     /// Places are exact to `reach` · 2⁻³⁰ pixels where from one sample to the
     /// next they are up to 2²⁸ / `reach` pixels apart. Longer steps, which
     /// meet pixels that have nothing to do with each other, are shortened.
-    pub fn across(&self, plane: &Plane, first: [usize; 2], reach: usize) -> Sight<'a> {
+    pub fn across(
+        &self,
+        plane: &AffinePlane,
+        first: [usize; 2],
+        reach: usize,
+    ) -> PixelFootprint<'a> {
         // From the start, at most FAR away, `reach` steps across and as many
         // down leave it at most twice as far.
         let farthest = 0.5 * FAR / reach.max(1) as f64;
@@ -146,7 +151,7 @@ impl<'a> Sampler<'a> {
         let start = self
             .from_plane
             .transform_point2(plane.at(first[0], first[1]));
-        Sight {
+        PixelFootprint {
             light: &level.light,
             width: level.width,
             last: [last(level.width), last(level.height)],
@@ -160,8 +165,8 @@ impl<'a> Sampler<'a> {
 
 /// A picture as the samples of a face see it. Places are in fixed point: 32
 /// bits are behind the point.
-pub(super) struct Sight<'a> {
-    light: &'a [Light],
+pub(super) struct PixelFootprint<'a> {
+    light: &'a [LinearLight],
     width: usize,
     last: [i64; 2],
     first: [usize; 2],
@@ -170,7 +175,7 @@ pub(super) struct Sight<'a> {
     by_y: [i64; 2],
 }
 
-impl Sight<'_> {
+impl PixelFootprint<'_> {
     /// For each of `lights` what `with` makes of it and of the light that the
     /// samples of row `y` see from column `x` on: bilinear between pixel
     /// centres, beyond the picture its mirror image.
@@ -178,8 +183,8 @@ impl Sight<'_> {
     pub fn look(
         &self,
         [x, y]: [usize; 2],
-        lights: &mut [Light],
-        with: impl Fn(Light, Light) -> Light,
+        lights: &mut [LinearLight],
+        with: impl Fn(LinearLight, LinearLight) -> LinearLight,
     ) {
         // Counted from the face's own first sample: that keeps the products
         // small, and what they lose.
@@ -194,7 +199,7 @@ impl Sight<'_> {
     }
 
     #[inline]
-    fn at(&self, x: i64, y: i64) -> Light {
+    fn at(&self, x: i64, y: i64) -> LinearLight {
         let (x, y) = (mirrored(x, self.last[0]), mirrored(y, self.last[1]));
         let at = (y >> 32) as usize * self.width + (x >> 32) as usize;
         let (u, v) = (behind_the_point(x), behind_the_point(y));
@@ -233,12 +238,12 @@ fn behind_the_point(x: i64) -> f32 {
     ((x as u32) >> 8) as i32 as f32 * (1.0 / BITS)
 }
 
-impl Level {
-    fn new(width: usize, height: usize, mut light: Vec<Light>) -> Self {
+impl MipLevel {
+    fn new(width: usize, height: usize, mut light: Vec<LinearLight>) -> Self {
         let whole = width * height + width + 1;
         // `resize` alone would make room for twice as much.
         light.reserve_exact(whole - light.len());
-        light.resize(whole, Light::ZERO);
+        light.resize(whole, LinearLight::ZERO);
         Self {
             width,
             height,
@@ -258,7 +263,7 @@ impl Level {
         DVec2::new(self.width as f64, self.height as f64)
     }
 
-    fn pixels(&self) -> &[Light] {
+    fn pixels(&self) -> &[LinearLight] {
         &self.light[..self.width * self.height]
     }
 
@@ -292,31 +297,31 @@ impl Level {
 
 #[cfg(test)]
 mod tests {
-    use super::super::linear::Encoder;
+    use super::super::linear_light::SrgbEncoder;
     use super::*;
     use image::Rgba;
 
     /// The light at one point.
-    fn at(sampler: &Sampler<'_>, first: DVec2) -> Light {
-        let plane = Plane {
+    fn at(sampler: &PictureSampler<'_>, first: DVec2) -> LinearLight {
+        let plane = AffinePlane {
             origin: first,
             by_x: DVec2::ZERO,
             by_y: DVec2::ZERO,
         };
-        let mut light = [Light::ZERO];
+        let mut light = [LinearLight::ZERO];
         let sight = sampler.across(&plane, [0, 0], 1);
         sight.look([0, 0], &mut light, |_, light| light);
         light[0]
     }
 
-    fn encoded(light: Light) -> Rgba<u8> {
-        Encoder::new().encoded(light)
+    fn encoded(light: LinearLight) -> Rgba<u8> {
+        SrgbEncoder::new().encoded(light)
     }
 
     #[test]
     fn pixels_are_met_at_their_centres_and_edges_are_mirrors() {
         let image = RgbaImage::from_fn(5, 3, |x, y| Rgba([50 * x as u8, 80 * y as u8, 7, 255]));
-        let layer = Layer::new(&Picture::new(image.clone()));
+        let layer = PictureLayer::new(&Picture::new(image.clone()));
         let sampler = layer.sampler(1.0);
         for (x, y, pixel) in image.enumerate_pixels() {
             let centre = DVec2::new(f64::from(x) + 0.5, 3.0 - f64::from(y) - 0.5);
@@ -335,7 +340,7 @@ mod tests {
             let v = if (x + y) % 2 == 0 { 255 } else { 0 };
             Rgba([v, v, v, 255])
         });
-        let layer = Layer::new(&Picture::new(image));
+        let layer = PictureLayer::new(&Picture::new(image));
         let sampler = layer.sampler(8.0);
         let light = at(&sampler, DVec2::new(20.3, 31.7));
         assert!((light.x - 0.5).abs() < 1e-6);

@@ -2,7 +2,7 @@ mod reference;
 
 use super::*;
 use crate::geometry::Similarity;
-use crate::warp::{Still, Warp};
+use crate::warp::{IdentityWarp, Warp};
 use image::Rgba;
 
 fn picture(seed: u32) -> Picture {
@@ -13,11 +13,11 @@ fn picture(seed: u32) -> Picture {
 
 fn still(pair: &PicturePair) -> crate::warp::Placer {
     let [a, b] = [0, 1].map(|k| pair.layers()[k].bounds());
-    Still::new(a.union(&b).padded(2.0)).placer()
+    IdentityWarp::new(a.union(&b).padded(2.0)).placer()
 }
 
 /// The pixels of the picture themselves.
-const OWN: Raster = Raster {
+const OWN: PictureRaster = PictureRaster {
     size: [40, 30],
     corner: DVec2::new(0.0, 30.0),
     pixel: 1.0,
@@ -36,7 +36,7 @@ fn the_ends_are_the_pictures() {
 fn in_the_middle_light_is_halved() {
     let grey = |v: u8| Picture::new(RgbaImage::from_pixel(4, 4, Rgba([v, v, v, 255])));
     let pair = PicturePair::new(&grey(0), &grey(255), ColourMix::default()).expect("a mix");
-    let raster = Raster {
+    let raster = PictureRaster {
         size: [4, 4],
         corner: DVec2::new(0.0, 4.0),
         pixel: 1.0,
@@ -50,7 +50,7 @@ fn the_colour_of_what_is_transparent_does_not_bleed() {
     let red = Picture::new(RgbaImage::from_pixel(2, 2, Rgba([255, 0, 0, 255])));
     let none = Picture::new(RgbaImage::from_pixel(2, 2, Rgba([0, 255, 0, 0])));
     let pair = PicturePair::new(&red, &none, ColourMix::default()).expect("a mix");
-    let raster = Raster {
+    let raster = PictureRaster {
         size: [2, 2],
         corner: DVec2::new(0.0, 2.0),
         pixel: 1.0,
@@ -67,7 +67,7 @@ fn the_window_cuts_within_pixels() {
         ..Similarity::default()
     });
     let pair = PicturePair::new(&white, &wide, ColourMix::default()).expect("a mix");
-    let raster = Raster {
+    let raster = PictureRaster {
         size: [9, 9],
         corner: DVec2::new(-0.5, 8.5),
         pixel: 1.0,

@@ -5,9 +5,9 @@
 //! blended as ever. Pulled-back values are no distances any more; L is applied
 //! to them as they are.
 
-use super::super::scan::scan;
+use super::super::placement_scan::scan;
 use super::FieldPair;
-use crate::field::{Samples, contour};
+use crate::field::{SampledField, contour};
 use crate::geometry::{Bounds, DVec2};
 use crate::warp::Placement;
 
@@ -60,7 +60,7 @@ impl FieldPair {
             },
         );
         // Never so: a grid has a cell at least, and there are as many samples.
-        let Ok(samples) = Samples::new(width, height, &samples) else {
+        let Ok(samples) = SampledField::new(width, height, &samples) else {
             return Vec::new();
         };
         let mut rings = contour::trace_samples(&samples, 0.0);

@@ -1,6 +1,6 @@
 use super::*;
 use crate::geometry::{Bounds, FillRule, Regions, signed_area};
-use crate::progress::Silent;
+use crate::work::progress::Silent;
 use proptest::prelude::*;
 use std::f64::consts::{PI, TAU};
 

@@ -5,8 +5,8 @@
 //! use them for any polygon). Where that leaves the part, or comes near its
 //! boundary, the nearest place with room is taken.
 
-use super::outcome::POINT_SIZE;
-use crate::geometry::{Bounds, DVec2, Region, Ring, along_ray};
+use super::region_match::POINT_SIZE;
+use crate::geometry::{Bounds, DVec2, Region, Ring, ray_hit_parameter};
 
 /// A place keeps at least this share of the best clearance there is.
 /// More would draw holes to the middle of the part, less to its rim, where
@@ -22,13 +22,13 @@ const CLEARANCE_SHARE: f64 = 0.2;
 const SEARCHED: usize = 256;
 
 /// Points of one ring on both sides, vertex by vertex.
-pub(super) struct Vertices<'a> {
+pub(super) struct RingVertices<'a> {
     pub(super) from: &'a [DVec2],
     pub(super) to: &'a [DVec2],
 }
 
 /// The room in a part for holes that close to points of it.
-pub(super) struct Room<'a> {
+pub(super) struct FreeSpace<'a> {
     part: &'a Region,
     /// Places in it with their distance to its boundary.
     places: Vec<(DVec2, f64)>,
@@ -38,7 +38,7 @@ pub(super) struct Room<'a> {
     size: f64,
 }
 
-impl<'a> Room<'a> {
+impl<'a> FreeSpace<'a> {
     pub(super) fn of(part: &'a Region) -> Self {
         let places = places(part).map(|p| (p, to_boundary(part, p)));
         Self {
@@ -54,7 +54,7 @@ impl<'a> Room<'a> {
     pub(super) fn point_ring(
         &mut self,
         hole: &Ring,
-        outer: &Vertices,
+        outer: &RingVertices,
         rotation: f64,
     ) -> Vec<DVec2> {
         let wanted = carried(outer, centre(hole));
@@ -123,7 +123,7 @@ pub(super) fn centre(ring: &Ring) -> DVec2 {
 }
 
 /// Where mean value coordinates put `p`.
-fn carried(outer: &Vertices, p: DVec2) -> Option<DVec2> {
+fn carried(outer: &RingVertices, p: DVec2) -> Option<DVec2> {
     let n = outer.from.len();
     // tan(α/2) from sine and cosine of α, times both lengths, which cancel.
     let half_tangent = |k: usize| {
@@ -155,7 +155,7 @@ fn places(part: &Region) -> impl Iterator<Item = DVec2> + '_ {
             .rings()
             .flat_map(Ring::edges)
             .filter(|edge| *edge != (a, b))
-            .filter_map(|edge| along_ray(from, inwards, edge))
+            .filter_map(|edge| ray_hit_parameter(from, inwards, edge))
             .fold(f64::INFINITY, f64::min);
         let place = from + 0.5 * depth * inwards;
         (depth.is_finite() && depth > 0.0 && place.is_finite()).then_some(place)

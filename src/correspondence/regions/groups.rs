@@ -1,10 +1,10 @@
 //! Which parts go together: pairs, one with several, and parts alone.
 
 use super::super::pairing::{Pairing, pair_parts, relative_centres};
-use super::super::{Matching, PairError, PartRule};
-use super::locate::{Pinned, part_at};
-use super::looks::Looks;
-use super::outcome::RegionMatchError;
+use super::super::{MatchSettings, PairError, PartRule};
+use super::locate::{LocatedPin, part_at};
+use super::region_match::RegionMatchError;
+use crate::correspondence::looks::PartLooks;
 use crate::geometry::{DVec2, Region, Regions, Side};
 
 /// A part with less of its design's area than this is born or dies rather than that
@@ -14,12 +14,12 @@ const SPECK: f64 = 1e-3;
 
 /// Parts that belong together: one with one, one with several, or one alone.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(crate) struct Group {
+pub(crate) struct PartGroup {
     /// For source and target, ascending.
     pub(super) parts: [Vec<usize>; 2],
 }
 
-impl Group {
+impl PartGroup {
     /// What groups are sorted by: their first parts, none last.
     pub(super) fn key(&self) -> [usize; 2] {
         let first = |side: Side| self.parts[side].first().copied().unwrap_or(usize::MAX);
@@ -43,12 +43,12 @@ impl Group {
 /// Where what was said by hand cannot be.
 pub(crate) fn paired_parts(
     designs: [&Regions; 2],
-    looks: &Looks,
-    wanted: &Matching,
+    looks: &PartLooks,
+    wanted: &MatchSettings,
 ) -> Result<Vec<[Option<usize>; 2]>, RegionMatchError> {
     let groups = grouped(designs, looks, wanted, &[])?;
     // Of one with several each goes its own way; of several with several none is left out.
-    let pairs = |Group { parts }: &Group| -> Vec<[Option<usize>; 2]> {
+    let pairs = |PartGroup { parts }: &PartGroup| -> Vec<[Option<usize>; 2]> {
         let count = parts.iter().map(Vec::len).max().unwrap_or(0);
         let of = |side: Side, k: usize| parts[side].get(k).or(parts[side].last()).copied();
         (0..count)
@@ -61,10 +61,10 @@ pub(crate) fn paired_parts(
 /// All parts of both designs in groups, in the order of the source's parts.
 pub(super) fn grouped(
     designs: [&Regions; 2],
-    looks: &Looks,
-    wanted: &Matching,
-    pins: &[Pinned],
-) -> Result<Vec<Group>, RegionMatchError> {
+    looks: &PartLooks,
+    wanted: &MatchSettings,
+    pins: &[LocatedPin],
+) -> Result<Vec<PartGroup>, RegionMatchError> {
     let mut groups = said(designs, wanted, pins)?;
     let fixed: Vec<[usize; 2]> = groups
         .iter()
@@ -81,7 +81,7 @@ pub(super) fn grouped(
     let pairing = unmixed(pairing, looks, &fixed);
     for pair in &pairing.pairs {
         if !fixed.contains(pair) {
-            groups.push(Group {
+            groups.push(PartGroup {
                 parts: pair.map(|part| vec![part]),
             });
         }
@@ -92,13 +92,13 @@ pub(super) fn grouped(
         part.sort_unstable();
     }
     // Parts that are born have no number in the source: they come last.
-    groups.sort_by_key(Group::key);
+    groups.sort_by_key(PartGroup::key);
     Ok(groups)
 }
 
 /// Lets go of pairs of a letter and something else, where anything else is paired: of a
 /// wave that becomes the second letter of a word neither is recognised.
-fn unmixed(pairing: Pairing, looks: &Looks, fixed: &[[usize; 2]]) -> Pairing {
+fn unmixed(pairing: Pairing, looks: &PartLooks, fixed: &[[usize; 2]]) -> Pairing {
     let is_mixed = |pair: &[usize; 2]| {
         let [a, b] = Side::BOTH.map(|side| looks.is_text(side, pair[side]));
         a != b && !fixed.contains(pair)
@@ -120,10 +120,10 @@ fn unmixed(pairing: Pairing, looks: &Looks, fixed: &[[usize; 2]]) -> Pairing {
 }
 
 /// The pairs of parts that links and pins name, each once, ascending.
-pub(super) fn said_pairs(
+pub(super) fn fixed_pairs(
     designs: [&Regions; 2],
-    wanted: &Matching,
-    pins: &[Pinned],
+    wanted: &MatchSettings,
+    pins: &[LocatedPin],
 ) -> Vec<[usize; 2]> {
     let linked = wanted
         .links
@@ -139,18 +139,18 @@ pub(super) fn said_pairs(
 /// The groups that links and pins name.
 fn said(
     designs: [&Regions; 2],
-    wanted: &Matching,
-    pins: &[Pinned],
-) -> Result<Vec<Group>, RegionMatchError> {
-    let mut groups: Vec<Group> = Vec::new();
-    for pair in said_pairs(designs, wanted, pins) {
+    wanted: &MatchSettings,
+    pins: &[LocatedPin],
+) -> Result<Vec<PartGroup>, RegionMatchError> {
+    let mut groups: Vec<PartGroup> = Vec::new();
+    for pair in fixed_pairs(designs, wanted, pins) {
         let touching = groups.iter_mut().find(|g| {
             Side::BOTH
                 .iter()
                 .any(|&side| g.parts[side].contains(&pair[side]))
         });
         let Some(group) = touching else {
-            groups.push(Group {
+            groups.push(PartGroup {
                 parts: pair.map(|part| vec![part]),
             });
             continue;
@@ -172,12 +172,12 @@ fn said(
 
 /// The parts that are said to have no partner, each in a group of its own; a
 /// pair that is said of a part counts more.
-fn lone(designs: [&Regions; 2], wanted: &Matching, said: &[Group]) -> Vec<Group> {
-    let mut lone: Vec<Group> = Vec::new();
+fn lone(designs: [&Regions; 2], wanted: &MatchSettings, said: &[PartGroup]) -> Vec<PartGroup> {
+    let mut lone: Vec<PartGroup> = Vec::new();
     for part in &wanted.lone {
-        let mut group = Group::default();
+        let mut group = PartGroup::default();
         group.parts[part.side].push(part_at(designs[part.side], part.at));
-        let is_in = |g: &Group| g.parts[part.side].contains(&group.parts[part.side][0]);
+        let is_in = |g: &PartGroup| g.parts[part.side].contains(&group.parts[part.side][0]);
         if !said.iter().chain(&lone).any(is_in) {
             lone.push(group);
         }
@@ -188,8 +188,8 @@ fn lone(designs: [&Regions; 2], wanted: &Matching, said: &[Group]) -> Vec<Group>
 /// Gives the parts that are left over to a group to be split, of those that are
 /// in their coat, or a group of their own.
 fn attach(
-    groups: &mut Vec<Group>,
-    (designs, looks): ([&Regions; 2], &Looks),
+    groups: &mut Vec<PartGroup>,
+    (designs, looks): ([&Regions; 2], &PartLooks),
     rule: PartRule,
     pairing: &Pairing,
 ) {
@@ -214,7 +214,7 @@ fn attach(
             match near.flatten() {
                 Some(group) => groups[group].parts[side].push(part),
                 None => {
-                    let mut group = Group::default();
+                    let mut group = PartGroup::default();
                     group.parts[side].push(part);
                     groups.push(group);
                 }
@@ -226,20 +226,20 @@ fn attach(
 /// The group whose single part on the other side lies nearest, of those in the
 /// coat of the part that may be cut.
 pub(super) fn nearest_group(
-    groups: &[Group],
-    (places, looks): (&[Vec<DVec2>; 2], &Looks),
+    groups: &[PartGroup],
+    (places, looks): (&[Vec<DVec2>; 2], &PartLooks),
     side: Side,
     part: usize,
 ) -> Option<usize> {
     let here = places[side][part];
     let coat = |part: usize| looks.coat(side, part);
-    let is_in_coat = |g: &Group| g.parts[side].iter().all(|&own| coat(own) == coat(part));
-    let is_whole = |g: &Group| looks.is_lined(side.other(), g.parts[side.other()][0]);
+    let is_in_coat = |g: &PartGroup| g.parts[side].iter().all(|&own| coat(own) == coat(part));
+    let is_whole = |g: &PartGroup| looks.is_lined(side.other(), g.parts[side.other()][0]);
     let single = groups
         .iter()
         .enumerate()
         .filter(|(_, g)| g.parts[side.other()].len() == 1 && is_in_coat(g) && !is_whole(g));
-    let far = |g: &Group| places[side.other()][g.parts[side.other()][0]].distance_squared(here);
+    let far = |g: &PartGroup| places[side.other()][g.parts[side.other()][0]].distance_squared(here);
     single
         .min_by(|a, b| far(a.1).total_cmp(&far(b.1)))
         .map(|(k, _)| k)

@@ -1,27 +1,27 @@
 //! Which part and which ring of it a point of a design belongs to.
 
-use super::super::{Matching, PointPair};
-use super::outcome::RegionMatchError;
+use super::super::{MatchSettings, PointPair};
+use super::region_match::RegionMatchError;
 use crate::geometry::{DVec2, Regions};
 
 /// A ring of a design: the part, and 0 for its outer ring or 1 + k for hole k.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct RingAt {
+pub(super) struct RingIndex {
     pub(super) part: usize,
     pub(super) ring: usize,
 }
 
 /// A pin with the rings it lies on, source first.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pinned {
+pub(super) struct LocatedPin {
     /// Its number among all pins.
     pub(super) index: usize,
-    pub(super) on: [RingAt; 2],
+    pub(super) on: [RingIndex; 2],
     pub(super) points: [DVec2; 2],
 }
 
 /// Everything that was said is finite.
-pub(super) fn check(wanted: &Matching) -> Result<(), RegionMatchError> {
+pub(super) fn check(wanted: &MatchSettings) -> Result<(), RegionMatchError> {
     let pairs = wanted.pins.iter().chain(&wanted.links);
     let cuts = wanted.cuts.iter().map(|cut| [cut.outer, cut.hole]);
     let lone = wanted.lone.iter().map(|part| [part.at; 2]);
@@ -35,23 +35,23 @@ pub(super) fn check(wanted: &Matching) -> Result<(), RegionMatchError> {
 }
 
 /// Each pin with the rings nearest to its ends.
-pub(super) fn pins(wanted: &Matching, designs: [&Regions; 2]) -> Vec<Pinned> {
+pub(super) fn pins(wanted: &MatchSettings, designs: [&Regions; 2]) -> Vec<LocatedPin> {
     let located = |(index, pair): (usize, &PointPair)| {
         let points = pair.to_array();
         let on = [0, 1].map(|s| nearest_ring(designs[s], points[s]));
-        Pinned { index, on, points }
+        LocatedPin { index, on, points }
     };
     wanted.pins.iter().enumerate().map(located).collect()
 }
 
 /// The ring that runs nearest to a point.
-pub(super) fn nearest_ring(design: &Regions, p: DVec2) -> RingAt {
-    let mut best = (f64::INFINITY, RingAt { part: 0, ring: 0 });
+pub(super) fn nearest_ring(design: &Regions, p: DVec2) -> RingIndex {
+    let mut best = (f64::INFINITY, RingIndex { part: 0, ring: 0 });
     for (part, region) in design.iter().enumerate() {
         for (ring, outline) in region.rings().enumerate() {
             let distance = outline.distance_squared(p);
             if distance < best.0 {
-                best = (distance, RingAt { part, ring });
+                best = (distance, RingIndex { part, ring });
             }
         }
     }

@@ -8,11 +8,11 @@
 //! ranked: their form says little of a part of a part.
 
 use super::super::boundary::match_curves;
-use super::super::curve::Curve;
+use super::super::curve::BoundaryCurve;
 use super::super::options::MatchOptions;
-use super::cut::coarse;
+use super::ring_cut::coarse_options;
 use crate::geometry::{DVec2, Region, Ring, segments_touch};
-use crate::progress::Progress;
+use crate::work::progress::Progress;
 use rayon::prelude::*;
 
 /// Places of the boundary between which cuts are tried.
@@ -58,7 +58,7 @@ pub(super) fn split(
     for step in 0..order.len() - 1 {
         let others: Vec<&Region> = order[step + 1..].iter().map(|&k| wanted[k]).collect();
         let first = [wanted[order[step]]];
-        let goal = Goal::of(&first, &others);
+        let goal = SplitGoal::of(&first, &others);
         let [first, left] = cut_in_two(&rest, &goal, TRIED, progress)?;
         pieces[order[step]] = Some(first);
         rest = left;
@@ -84,7 +84,7 @@ fn halve(
     let those = |order: &[usize]| order.iter().map(|&k| wanted[k]).collect::<Vec<_>>();
     let (first, others) = (those(near), those(far));
     // One cut: there is nothing to match it by.
-    let [first, rest] = cut_in_two(&region, &Goal::of(&first, &others), 1, progress)?;
+    let [first, rest] = cut_in_two(&region, &SplitGoal::of(&first, &others), 1, progress)?;
     halve(first, wanted, near, pieces, progress)?;
     halve(rest, wanted, far, pieces, progress)
 }
@@ -111,7 +111,7 @@ fn middle(region: &Region) -> DVec2 {
 }
 
 /// What a cut is to bring about.
-struct Goal<'a> {
+struct SplitGoal<'a> {
     first: &'a [&'a Region],
     others: &'a [&'a Region],
     share: f64,
@@ -119,7 +119,7 @@ struct Goal<'a> {
     apart: DVec2,
 }
 
-impl<'a> Goal<'a> {
+impl<'a> SplitGoal<'a> {
     fn of(first: &'a [&'a Region], others: &'a [&'a Region]) -> Self {
         let area = |parts: &[&Region]| parts.iter().map(|r| r.area()).sum::<f64>();
         let [first_area, other_area] = [area(first), area(others)];
@@ -140,7 +140,7 @@ impl<'a> Goal<'a> {
 /// The best cut of the `tried` first in rank; of one it is the first.
 fn cut_in_two(
     region: &Region,
-    goal: &Goal,
+    goal: &SplitGoal,
     tried: usize,
     progress: &dyn Progress,
 ) -> Option<[Region; 2]> {
@@ -174,7 +174,7 @@ fn cut_in_two(
         .map(|(_, pieces)| pieces)
 }
 
-fn rank(goal: &Goal, first: &Region, rest: &Region) -> f64 {
+fn rank(goal: &SplitGoal, first: &Region, rest: &Region) -> f64 {
     let total = first.area() + rest.area();
     let share = first.area() / total;
     let off = (share / goal.share).ln().abs() + ((1.0 - share) / (1.0 - goal.share)).ln().abs();
@@ -184,16 +184,19 @@ fn rank(goal: &Goal, first: &Region, rest: &Region) -> f64 {
 
 /// How unlike the pieces are to what is wanted; only those that stand alone
 /// are matched.
-fn match_cost(goal: &Goal, [first, rest]: &[Region; 2], progress: &dyn Progress) -> f64 {
+fn match_cost(goal: &SplitGoal, [first, rest]: &[Region; 2], progress: &dyn Progress) -> f64 {
     let cost = |piece: &Region, wanted: &Region| {
         if progress.is_cancelled() {
             return f64::INFINITY;
         }
-        let curves = [Curve::closed(&piece.outer), Curve::closed(&wanted.outer)];
+        let curves = [
+            BoundaryCurve::closed(&piece.outer),
+            BoundaryCurve::closed(&wanted.outer),
+        ];
         let [Ok(a), Ok(b)] = curves else {
             return f64::INFINITY;
         };
-        let options = coarse(&MatchOptions::default());
+        let options = coarse_options(&MatchOptions::default());
         match_curves(&a, &b, &[], &options).map_or(f64::INFINITY, |m| m.cost())
     };
     let alone = |share: f64, piece: &Region, wanted: &[&Region]| match wanted {
@@ -206,7 +209,7 @@ fn match_cost(goal: &Goal, [first, rest]: &[Region; 2], progress: &dyn Progress)
 /// All straight cuts tried, with their lengths and the two pieces; fewer on a
 /// cancel.
 fn cuts(region: &Region, progress: &dyn Progress) -> Vec<(f64, [Region; 2])> {
-    let Ok(curve) = Curve::closed(&region.outer) else {
+    let Ok(curve) = BoundaryCurve::closed(&region.outer) else {
         return Vec::new();
     };
     let place = |k: u32| f64::from(k) / f64::from(PLACES);
@@ -229,7 +232,7 @@ fn cuts(region: &Region, progress: &dyn Progress) -> Vec<(f64, [Region; 2])> {
 
 fn cut_between(
     region: &Region,
-    curve: &Curve,
+    curve: &BoundaryCurve,
     (from, a): (f64, DVec2),
     (to, b): (f64, DVec2),
 ) -> Option<[Region; 2]> {

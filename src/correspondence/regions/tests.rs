@@ -1,9 +1,9 @@
 //! Whole designs matched: parts, holes, cuts.
 
 use super::*;
-use crate::correspondence::{HoleRule, LonePart, PartRule, PointPair, RingCut};
+use crate::correspondence::{HoleRule, PartRule, PointPair, RingCut, UnmatchedPart};
 use crate::geometry::{Bounds, DVec2, FillRule, Ring, Side};
-use crate::progress::Silent;
+use crate::work::progress::Silent;
 
 fn block(x: f64, y: f64, w: f64, h: f64) -> Vec<DVec2> {
     [(x, y), (x + w, y), (x + w, y + h), (x, y + h)]
@@ -22,7 +22,7 @@ fn plate(holes: &[(f64, f64)]) -> Regions {
     design(&rings)
 }
 
-fn run(a: &Regions, b: &Regions, wanted: &Matching) -> RegionMatch {
+fn run(a: &Regions, b: &Regions, wanted: &MatchSettings) -> RegionMatch {
     let matched = match_regions(a, b, wanted, &Silent).expect("matched");
     for piece in &matched.pieces {
         for ring in &piece.rings {
@@ -51,9 +51,9 @@ fn holes_close_beside_each_other_and_not_in_one_another() {
         .chain(holes)
         .collect();
     let (full, bare) = (design(&rings), design(&rings[..1]));
-    let wanted = Matching {
+    let wanted = MatchSettings {
         holes: HoleRule::Close,
-        ..Matching::default()
+        ..MatchSettings::default()
     };
     for (matched, side) in [
         (run(&full, &bare, &wanted), Side::Target),
@@ -74,9 +74,9 @@ fn holes_close_beside_each_other_and_not_in_one_another() {
 
 #[test]
 fn equal_holes_are_matched_and_odd_ones_close() {
-    let wanted = Matching {
+    let wanted = MatchSettings {
         holes: HoleRule::Close,
-        ..Matching::default()
+        ..MatchSettings::default()
     };
     let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(7.0, 2.5)]));
     let matched = run(&two, &one, &wanted);
@@ -99,9 +99,9 @@ fn equal_holes_are_matched_and_odd_ones_close() {
 fn a_ring_cut_open_keeps_its_area_and_its_slit_point_by_point() {
     let ring = design(&[block(-3.0, -3.0, 6.0, 6.0), block(-2.0, -2.0, 4.0, 4.0)]);
     let strip = design(&[block(0.0, 0.0, 20.0, 1.0)]);
-    let wanted = Matching {
+    let wanted = MatchSettings {
         holes: HoleRule::Cut,
-        ..Matching::default()
+        ..MatchSettings::default()
     };
     let matched = run(&ring, &strip, &wanted);
     let piece = &matched.pieces[0];
@@ -132,7 +132,7 @@ fn a_ring_cut_open_keeps_its_area_and_its_slit_point_by_point() {
 fn a_cut_that_was_asked_for_is_made_there() {
     let ring = design(&[block(-3.0, -3.0, 6.0, 6.0), block(-2.0, -2.0, 4.0, 4.0)]);
     let strip = design(&[block(0.0, 0.0, 20.0, 1.0)]);
-    let mut wanted = Matching::default();
+    let mut wanted = MatchSettings::default();
     wanted.cuts.push(RingCut {
         side: Side::Source,
         outer: DVec2::new(1.0, 3.4),
@@ -155,23 +155,23 @@ fn a_single_part_is_split_and_of_several_the_odd_one_is_born() {
         block(8.0, 0.0, 2.0, 1.0),
     ]);
     let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
-    let split = run(&one, &three, &Matching::default());
+    let split = run(&one, &three, &MatchSettings::default());
     assert_eq!(split.pieces.len(), 3);
     let whole: f64 = split.pieces.iter().map(|p| area(&p.rings[0].source)).sum();
     assert!((whole - 9.0).abs() < 1e-9);
     for piece in &split.pieces {
         assert!((area(&piece.rings[0].source) - 3.0).abs() < 0.7);
     }
-    let born = run(&two, &three, &Matching::default());
+    let born = run(&two, &three, &MatchSettings::default());
     let odd: Vec<_> = born
         .pieces
         .iter()
         .filter(|p| p.source_part.is_none())
         .collect();
     assert_eq!((born.pieces.len(), odd.len()), (3, 1));
-    let wanted = Matching {
+    let wanted = MatchSettings {
         parts: PartRule::Alone,
-        ..Matching::default()
+        ..MatchSettings::default()
     };
     assert_eq!(run(&one, &three, &wanted).pieces.len(), 3);
 }
@@ -181,9 +181,9 @@ fn a_part_is_not_cut_up_for_a_mark_beside_another() {
     let one = design(&[block(0.0, 0.0, 9.0, 1.0)]);
     let marked = design(&[block(0.0, 0.0, 9.0, 1.0), block(9.2, 0.9, 0.08, 0.08)]);
     let born = |parts: PartRule| {
-        let wanted = Matching {
+        let wanted = MatchSettings {
             parts,
-            ..Matching::default()
+            ..MatchSettings::default()
         };
         let pieces = run(&one, &marked, &wanted).pieces;
         pieces.iter().filter(|p| p.source_part.is_none()).count()
@@ -194,7 +194,7 @@ fn a_part_is_not_cut_up_for_a_mark_beside_another() {
 #[test]
 fn pins_pair_their_parts_and_links_do() {
     let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
-    let mut wanted = Matching::default();
+    let mut wanted = MatchSettings::default();
     wanted.links.push(PointPair {
         source: DVec2::new(1.0, 0.5),
         target: DVec2::new(5.0, 0.5),
@@ -207,9 +207,9 @@ fn pins_pair_their_parts_and_links_do() {
     for [a, b] in parts(&crossed) {
         assert_ne!(a, b);
     }
-    let pinned = Matching {
+    let pinned = MatchSettings {
         pins: wanted.links.drain(..).collect(),
-        ..Matching::default()
+        ..MatchSettings::default()
     };
     assert_eq!(parts(&run(&two, &two, &pinned)), parts(&crossed));
 }
@@ -218,14 +218,14 @@ fn pins_pair_their_parts_and_links_do() {
 fn parts_said_to_be_alone_have_no_partner_unless_one_is_said() {
     let two = design(&[block(0.0, 0.0, 2.0, 1.0), block(4.0, 0.0, 2.0, 1.0)]);
     let one = design(&[block(0.0, 0.0, 2.0, 1.0)]);
-    let parts = |a: &Regions, b: &Regions, wanted: &Matching| -> Vec<_> {
+    let parts = |a: &Regions, b: &Regions, wanted: &MatchSettings| -> Vec<_> {
         let both = |p: &PieceMatch| [p.source_part, p.target_part];
         run(a, b, wanted).pieces.iter().map(both).collect()
     };
     let at = DVec2::new(1.0, 0.5);
-    let mut wanted = Matching::default();
+    let mut wanted = MatchSettings::default();
     for side in Side::BOTH {
-        wanted.lone.push(LonePart { side, at });
+        wanted.lone.push(UnmatchedPart { side, at });
     }
     // A single part of several on the other side is not split for the lone one.
     let found = parts(&two, &one, &wanted);
@@ -258,14 +258,14 @@ fn contradictory_pins_are_named_by_their_numbers_among_all() {
         source: a.into(),
         target: b.into(),
     };
-    let wanted = Matching {
+    let wanted = MatchSettings {
         pins: vec![
             pin((0.0, 0.0), (0.0, 0.0)),
             pin((4.0, 0.0), (4.0, 0.0)),
             pin((5.0, 0.0), (6.0, 1.0)),
             pin((6.0, 1.0), (5.0, 0.0)),
         ],
-        ..Matching::default()
+        ..MatchSettings::default()
     };
     let error = match_regions(&two, &two, &wanted, &Silent).expect_err("crossing");
     assert!(matches!(error, RegionMatchError::Pins(_)), "{error}");
@@ -296,9 +296,9 @@ fn a_hole_that_no_straight_cut_reaches_closes_and_is_told() {
     let plate = block(0.0, 0.0, 20.0, 20.0);
     let source = design(&[plate.clone(), winding.clone(), block(9.0, 9.0, 2.0, 2.0)]);
     let target = design(&[plate, winding]);
-    let mut wanted = Matching {
+    let mut wanted = MatchSettings {
         holes: HoleRule::Cut,
-        ..Matching::default()
+        ..MatchSettings::default()
     };
     let uncut = |matched: &RegionMatch| {
         let notes: Vec<MatchNote> = matched.notes().copied().collect();
@@ -325,9 +325,9 @@ fn a_hole_that_no_straight_cut_reaches_closes_and_is_told() {
 #[test]
 fn holes_that_are_alone_are_left_out_of_the_piece() {
     let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(1.0, 2.0)]));
-    let wanted = Matching {
+    let wanted = MatchSettings {
         holes: HoleRule::Alone,
-        ..Matching::default()
+        ..MatchSettings::default()
     };
     for (matched, side) in [
         (run(&two, &one, &wanted), Side::Source),
@@ -348,11 +348,11 @@ fn holes_that_are_alone_are_left_out_of_the_piece() {
 #[test]
 fn without_pairs_all_holes_are_alone() {
     let (two, one) = (plate(&[(1.0, 2.0), (7.0, 2.0)]), plate(&[(1.0, 2.0)]));
-    let wanted = Matching::default();
-    let alike = Looks::default();
-    let prepared = Prepared::new([&two, &one], &alike, &wanted, &Silent).expect("prepared");
+    let wanted = MatchSettings::default();
+    let alike = PartLooks::default();
+    let prepared = MatchPlan::new([&two, &one], &alike, &wanted, &Silent).expect("prepared");
     let options = wanted.options();
-    let pieces = prepared.matched_group(0, &options, Holes::Unpaired, &Silent);
+    let pieces = prepared.matched_group(0, &options, HolePolicy::Unpaired, &Silent);
     let pieces = pieces.expect("matched");
     assert_eq!((pieces[0].rings.len(), pieces[0].lone.len()), (1, 3));
 }

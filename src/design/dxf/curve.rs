@@ -22,15 +22,15 @@ const MIN_BULGE: f64 = 1e-7;
 
 /// A piece of an outline.
 #[derive(Clone, Debug)]
-pub(super) enum Curve {
+pub(super) enum DxfCurve {
     Line([DVec2; 2]),
-    Arc(Arc),
-    Spline(Spline),
+    Arc(EllipseArc),
+    Spline(NurbsCurve),
 }
 
 /// centre + cos φ · u + sin φ · v for φ from `from` to `from + sweep`.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Arc {
+pub(super) struct EllipseArc {
     pub centre: DVec2,
     pub u: DVec2,
     pub v: DVec2,
@@ -40,14 +40,14 @@ pub(super) struct Arc {
 
 /// A NURBS curve whose numbers have been checked.
 #[derive(Clone, Debug)]
-pub(super) struct Spline {
+pub(super) struct NurbsCurve {
     degree: usize,
     knots: Vec<f64>,
     /// x w, y w, w.
     control: Vec<DVec3>,
 }
 
-impl Curve {
+impl DxfCurve {
     /// From p to q with the tangent of a quarter of the arc's angle, counter-
     /// clockwise positive.
     pub fn bulging(p: DVec2, q: DVec2, bulge: f64) -> Self {
@@ -62,7 +62,7 @@ impl Curve {
         }
         let v = u.perp();
         let sweep = 4.0 * bulge.atan();
-        Self::Arc(Arc {
+        Self::Arc(EllipseArc {
             centre,
             u,
             v,
@@ -74,13 +74,13 @@ impl Curve {
     pub fn moved(&self, by: &DAffine2) -> Self {
         match self {
             Self::Line(ends) => Self::Line(ends.map(|p| by.transform_point2(p))),
-            Self::Arc(arc) => Self::Arc(Arc {
+            Self::Arc(arc) => Self::Arc(EllipseArc {
                 centre: by.transform_point2(arc.centre),
                 u: by.transform_vector2(arc.u),
                 v: by.transform_vector2(arc.v),
                 ..*arc
             }),
-            Self::Spline(spline) => Self::Spline(Spline {
+            Self::Spline(spline) => Self::Spline(NurbsCurve {
                 degree: spline.degree,
                 knots: spline.knots.clone(),
                 control: spline.control.iter().map(|c| moved(*c, by)).collect(),
@@ -118,7 +118,7 @@ impl Curve {
     }
 }
 
-impl Arc {
+impl EllipseArc {
     fn at(&self, share: f64) -> DVec2 {
         let (sin, cos) = (self.from + share * self.sweep).sin_cos();
         self.centre + cos * self.u + sin * self.v
@@ -154,7 +154,7 @@ fn projected(control: DVec3) -> DVec2 {
     control.truncate() / control.z
 }
 
-impl Spline {
+impl NurbsCurve {
     /// Most that is read: CAD programs stop at 25.
     pub const MAX_DEGREE: usize = 25;
 

@@ -1,11 +1,11 @@
 //! A file's sections: the layers that are seen, the blocks, the objects, and
 //! blocks put in their places.
 
-use super::curve::Curve;
-use super::entity::{Entity, Record, Shape};
+use super::colours::{EntityStyle, LayerColours, from_index, from_rgb_bits};
+use super::curve::DxfCurve;
+use super::entity::{DxfEntity, DxfRecord, EntityShape};
 use super::error::{DxfError, MAX_DEPTH, MAX_OBJECTS};
-use super::ink::{Ink, Layers, of_bits, of_number};
-use super::pairs::{Pair, Pairs};
+use super::pairs::{GroupPair, PairReader};
 use crate::colour::Rgb;
 use glam::{DAffine2, DVec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
@@ -20,16 +20,16 @@ const MAX_KINDS: usize = 50;
 
 /// A drawing's curves.
 #[derive(Default)]
-pub(super) struct Drawing {
+pub(super) struct DxfDrawing {
     /// Each curves one after the other.
-    pub paths: Vec<Path>,
+    pub paths: Vec<DxfPath>,
     /// How many objects of which kind were left out.
     pub skipped: BTreeMap<String, usize>,
 }
 
 /// Curves one after the other.
-pub(super) struct Path {
-    pub curves: Vec<Curve>,
+pub(super) struct DxfPath {
+    pub curves: Vec<DxfCurve>,
     /// Whether they close.
     pub is_closed: bool,
     /// The name of its layer, and its colour.
@@ -37,27 +37,27 @@ pub(super) struct Path {
 }
 
 #[derive(Default)]
-struct Block {
+struct DxfBlock {
     base: DVec2,
-    entities: Vec<Entity>,
+    entities: Vec<DxfEntity>,
 }
 
 #[derive(Default)]
-struct Reader {
+struct DxfReader {
     hidden_layers: HashSet<Vec<u8>>,
-    layers: Layers,
-    blocks: HashMap<Vec<u8>, Block>,
+    layers: LayerColours,
+    blocks: HashMap<Vec<u8>, DxfBlock>,
     /// The block that is open, and its name.
-    open: Option<(Vec<u8>, Block)>,
-    entities: Vec<Entity>,
+    open: Option<(Vec<u8>, DxfBlock)>,
+    entities: Vec<DxfEntity>,
     objects: usize,
-    drawing: Drawing,
+    drawing: DxfDrawing,
 }
 
 /// Reads a whole file.
-pub(super) fn read(bytes: &[u8]) -> Result<Drawing, DxfError> {
-    let mut records = Records::of(bytes)?;
-    let mut reader = Reader::default();
+pub(super) fn read(bytes: &[u8]) -> Result<DxfDrawing, DxfError> {
+    let mut records = RecordReader::of(bytes)?;
+    let mut reader = DxfReader::default();
     // Of the section that is open: whether it is read.
     let mut section = None;
     loop {
@@ -79,15 +79,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<Drawing, DxfError> {
 }
 
 /// Reads one record after the other, with a look at the next.
-struct Records<'a> {
-    pairs: Pairs<'a>,
+struct RecordReader<'a> {
+    pairs: PairReader<'a>,
     /// The pair that the next record begins with; `None` at the file's end.
-    head: Option<Pair<'a>>,
+    head: Option<GroupPair<'a>>,
 }
 
-impl<'a> Records<'a> {
+impl<'a> RecordReader<'a> {
     fn of(bytes: &'a [u8]) -> Result<Self, DxfError> {
-        let mut pairs = Pairs::of(bytes);
+        let mut pairs = PairReader::of(bytes);
         let mut head = pairs.next()?;
         while head.is_some_and(|pair| pair.code != 0) {
             head = pairs.next()?;
@@ -96,8 +96,8 @@ impl<'a> Records<'a> {
     }
 
     /// The next record; at the file's end one of the kind EOF.
-    fn next(&mut self) -> Result<Record<'a>, DxfError> {
-        let mut record = Record {
+    fn next(&mut self) -> Result<DxfRecord<'a>, DxfError> {
+        let mut record = DxfRecord {
             kind: self.head.map_or(b"EOF", |head| head.text()),
             at: self.head.map_or(self.pairs.place(), |head| head.at),
             pairs: Vec::new(),
@@ -111,9 +111,9 @@ impl<'a> Records<'a> {
             match self.head {
                 // Some programs write no EOF behind the last section.
                 None if record.kind != b"ENDSEC" => return Err(DxfError::Truncated(at)),
-                None | Some(Pair { code: 0, .. }) => return Ok(record),
+                None | Some(GroupPair { code: 0, .. }) => return Ok(record),
                 Some(
-                    pair @ Pair {
+                    pair @ GroupPair {
                         code: 2 | 8 | 10..=79 | 210..=239 | 420,
                         ..
                     },
@@ -134,8 +134,8 @@ fn at_most(count: usize, most: usize) -> Result<(), DxfError> {
     }
 }
 
-impl Reader {
-    fn take(&mut self, record: &Record, records: &mut Records) -> Result<(), DxfError> {
+impl DxfReader {
+    fn take(&mut self, record: &DxfRecord, records: &mut RecordReader) -> Result<(), DxfError> {
         match record.kind {
             b"SEQEND" | b"TABLE" | b"ENDTAB" => {}
             b"LAYER" => self.layer(record)?,
@@ -154,15 +154,15 @@ impl Reader {
         Ok(())
     }
 
-    fn layer(&mut self, record: &Record) -> Result<(), DxfError> {
+    fn layer(&mut self, record: &DxfRecord) -> Result<(), DxfError> {
         let is_frozen = record.whole(70)? & 1 != 0;
         // The colour, which is negative while the layer is off.
         let number = record.whole(62)?;
         let is_off = number < 0;
-        let exact = record.bits()?.map(of_bits);
+        let exact = record.bits()?.map(from_rgb_bits);
         let name = record.text(2).to_owned();
         self.layers
-            .insert(name, exact.or_else(|| of_number(number)));
+            .insert(name, exact.or_else(|| from_index(number)));
         if is_frozen || is_off {
             self.hidden_layers.insert(record.text(2).to_owned());
         }
@@ -170,7 +170,7 @@ impl Reader {
     }
 
     /// Takes an object into the block that is open, or into the drawing.
-    fn keep(&mut self, record: &Record, shape: Option<Shape>) -> Result<(), DxfError> {
+    fn keep(&mut self, record: &DxfRecord, shape: Option<EntityShape>) -> Result<(), DxfError> {
         let is_hidden = record.whole(60)? != 0 || self.hidden_layers.contains(record.text(8));
         let is_on_paper = record.whole(67)? != 0;
         if is_hidden || is_on_paper {
@@ -178,7 +178,7 @@ impl Reader {
         }
         self.count()?;
         let ink = record.ink()?;
-        let entity = shape.map(|shape| Entity { shape, ink });
+        let entity = shape.map(|shape| DxfEntity { shape, ink });
         match (entity, &mut self.open) {
             (Some(entity), Some((_, block))) => block.entities.push(entity),
             (Some(entity), None) => self.entities.push(entity),
@@ -195,8 +195,8 @@ impl Reader {
     }
 
     /// All curves, with blocks copied to their places.
-    fn placed(self) -> Result<Drawing, DxfError> {
-        let mut placing = Placing {
+    fn placed(self) -> Result<DxfDrawing, DxfError> {
+        let mut placing = BlockExpansion {
             blocks: &self.blocks,
             layers: &self.layers,
             steps: 0,
@@ -207,9 +207,9 @@ impl Reader {
     }
 }
 
-fn named_block(record: &Record) -> Result<(Vec<u8>, Block), DxfError> {
+fn named_block(record: &DxfRecord) -> Result<(Vec<u8>, DxfBlock), DxfError> {
     let base = DVec2::new(record.real(10, 0.0)?, record.real(20, 0.0)?);
-    let block = Block {
+    let block = DxfBlock {
         base,
         entities: Vec::new(),
     };
@@ -223,37 +223,37 @@ fn skip(skipped: &mut BTreeMap<String, usize>, kind: &[u8]) {
     }
 }
 
-struct Placing<'b> {
-    blocks: &'b HashMap<Vec<u8>, Block>,
-    layers: &'b Layers,
+struct BlockExpansion<'b> {
+    blocks: &'b HashMap<Vec<u8>, DxfBlock>,
+    layers: &'b LayerColours,
     steps: usize,
-    drawing: Drawing,
+    drawing: DxfDrawing,
 }
 
-impl Placing<'_> {
+impl BlockExpansion<'_> {
     /// Puts objects where `by` says; recurses [`MAX_DEPTH`] levels at most.
     /// `outer` is what the block is drawn with that they are in.
     fn place(
         &mut self,
-        entities: &[Entity],
+        entities: &[DxfEntity],
         by: &DAffine2,
-        outer: Option<&Ink>,
+        outer: Option<&EntityStyle>,
         depth: usize,
     ) -> Result<(), DxfError> {
-        for Entity { shape, ink } in entities {
+        for DxfEntity { shape, ink } in entities {
             let ink = ink.within(outer);
             match shape {
-                Shape::Path { curves, is_closed } => {
-                    self.count(curves.iter().map(Curve::size).sum())?;
+                EntityShape::Path { curves, is_closed } => {
+                    self.count(curves.iter().map(DxfCurve::size).sum())?;
                     let curves = curves.iter().map(|curve| curve.moved(by)).collect();
                     let rgb = ink.rgb(self.layers);
-                    self.drawing.paths.push(Path {
+                    self.drawing.paths.push(DxfPath {
                         curves,
                         is_closed: *is_closed,
                         drawn: (ink.layer, rgb),
                     });
                 }
-                Shape::Insert { block, places } => match self.blocks.get(block) {
+                EntityShape::Insert { block, places } => match self.blocks.get(block) {
                     None => skip(&mut self.drawing.skipped, b"INSERT"),
                     Some(_) if depth >= MAX_DEPTH => return Err(DxfError::TooDeep),
                     Some(block) => {

@@ -4,26 +4,29 @@
 //! own (the "arbitrary axis algorithm" of the DXF Reference); they are seen
 //! from above, as a plan.
 
-use super::curve::{Arc, Curve, Spline};
-use super::error::{DxfError, Place};
-use super::ink::{Colour, Ink};
-use super::pairs::Pair;
+use super::colours::{ColourSource, EntityStyle};
+use super::curve::{DxfCurve, EllipseArc, NurbsCurve};
+use super::error::{DxfError, DxfPlace};
+use super::pairs::GroupPair;
 use crate::geometry::DVec2;
 use glam::{DAffine2, DMat2, DVec3};
 use std::f64::consts::TAU;
 
 /// An object, and what it is drawn with.
 #[derive(Debug)]
-pub(super) struct Entity {
-    pub shape: Shape,
-    pub ink: Ink,
+pub(super) struct DxfEntity {
+    pub shape: EntityShape,
+    pub ink: EntityStyle,
 }
 
 /// What an object gives.
 #[derive(Debug)]
-pub(super) enum Shape {
+pub(super) enum EntityShape {
     /// Curves one after the other.
-    Path { curves: Vec<Curve>, is_closed: bool },
+    Path {
+        curves: Vec<DxfCurve>,
+        is_closed: bool,
+    },
     /// A copy of a block, for each of the places.
     Insert {
         block: Vec<u8>,
@@ -36,41 +39,41 @@ pub(super) enum Shape {
 const MAX_COPIES: i64 = 10_000;
 
 /// An object's kind and its pairs.
-pub(super) struct Record<'a> {
+pub(super) struct DxfRecord<'a> {
     pub kind: &'a [u8],
-    pub at: Place,
-    pub pairs: Vec<Pair<'a>>,
+    pub at: DxfPlace,
+    pub pairs: Vec<GroupPair<'a>>,
 }
 
-impl<'a> Record<'a> {
-    fn first(&self, code: i32) -> Option<&Pair<'a>> {
+impl<'a> DxfRecord<'a> {
+    fn first(&self, code: i32) -> Option<&GroupPair<'a>> {
         self.pairs.iter().find(|pair| pair.code == code)
     }
 
     pub fn real(&self, code: i32, default: f64) -> Result<f64, DxfError> {
-        self.first(code).map_or(Ok(default), Pair::real)
+        self.first(code).map_or(Ok(default), GroupPair::real)
     }
 
     pub fn whole(&self, code: i32) -> Result<i64, DxfError> {
-        self.first(code).map_or(Ok(0), Pair::whole)
+        self.first(code).map_or(Ok(0), GroupPair::whole)
     }
 
     pub fn text(&self, code: i32) -> &'a [u8] {
-        self.first(code).map_or(b"", Pair::text)
+        self.first(code).map_or(b"", GroupPair::text)
     }
 
     /// What the object is drawn with.
-    pub fn ink(&self) -> Result<Ink, DxfError> {
-        let number = self.first(62).map_or(Ok(256), Pair::whole)?;
-        Ok(Ink {
+    pub fn ink(&self) -> Result<EntityStyle, DxfError> {
+        let number = self.first(62).map_or(Ok(256), GroupPair::whole)?;
+        Ok(EntityStyle {
             layer: self.text(8).into(),
-            colour: Colour::of(number, self.bits()?),
+            colour: ColourSource::of(number, self.bits()?),
         })
     }
 
     /// The 24 bits of its colour, where it has any.
     pub fn bits(&self) -> Result<Option<i64>, DxfError> {
-        self.first(420).map(Pair::whole).transpose()
+        self.first(420).map(GroupPair::whole).transpose()
     }
 
     fn point(&self, code: i32) -> Result<DVec3, DxfError> {
@@ -84,7 +87,7 @@ impl<'a> Record<'a> {
     /// The numbers that stand under a code, in order.
     fn reals(&self, code: i32) -> Result<Vec<f64>, DxfError> {
         let pairs = self.pairs.iter().filter(|pair| pair.code == code);
-        pairs.map(Pair::real).collect()
+        pairs.map(GroupPair::real).collect()
     }
 
     /// The points whose x stands under a code and whose y under ten more.
@@ -128,9 +131,9 @@ impl<'a> Record<'a> {
 
     /// The object as curves; `None` where it is of a kind without an outline.
     /// POLYLINE needs its vertices and goes another way.
-    pub fn shape(&self) -> Result<Option<Shape>, DxfError> {
+    pub fn shape(&self) -> Result<Option<EntityShape>, DxfError> {
         Ok(Some(match self.kind {
-            b"LINE" => open(Curve::Line([
+            b"LINE" => open(DxfCurve::Line([
                 self.point(10)?.truncate(),
                 self.point(11)?.truncate(),
             ])),
@@ -147,13 +150,13 @@ impl<'a> Record<'a> {
         }))
     }
 
-    fn light_polyline(&self) -> Result<Shape, DxfError> {
-        let mut corners: Vec<Corner> = Vec::new();
+    fn light_polyline(&self) -> Result<EntityShape, DxfError> {
+        let mut corners: Vec<PolylineVertex> = Vec::new();
         for pair in &self.pairs {
             match (pair.code, corners.last_mut()) {
                 (10, _) => {
                     let point = DVec2::new(pair.real()?, 0.0);
-                    corners.push(Corner { point, bulge: 0.0 });
+                    corners.push(PolylineVertex { point, bulge: 0.0 });
                 }
                 (20, Some(corner)) => corner.point.y = pair.real()?,
                 (42, Some(corner)) => corner.bulge = pair.real()?,
@@ -165,7 +168,7 @@ impl<'a> Record<'a> {
     }
 
     /// A POLYLINE with its vertices; `None` for a mesh.
-    pub fn polyline(&self, vertices: &[Record]) -> Result<Option<Shape>, DxfError> {
+    pub fn polyline(&self, vertices: &[DxfRecord]) -> Result<Option<EntityShape>, DxfError> {
         let flags = self.whole(70)?;
         if flags & (16 | 64) != 0 {
             return Ok(None);
@@ -181,7 +184,7 @@ impl<'a> Record<'a> {
                 false => vertex.real(42, 0.0)?,
             };
             let point = DVec2::new(vertex.real(10, 0.0)?, vertex.real(20, 0.0)?);
-            corners.push(Corner { point, bulge });
+            corners.push(PolylineVertex { point, bulge });
         }
         let plan = match is_in_space {
             true => DAffine2::IDENTITY,
@@ -190,10 +193,10 @@ impl<'a> Record<'a> {
         Ok(Some(polyline(&corners, flags & 1 != 0, &plan)))
     }
 
-    fn arc(&self, from: f64, sweep: f64) -> Result<Shape, DxfError> {
+    fn arc(&self, from: f64, sweep: f64) -> Result<EntityShape, DxfError> {
         let centre = self.point(10)?;
         let radius = self.real(40, 0.0)?;
-        let arc = Arc {
+        let arc = EllipseArc {
             centre: centre.truncate(),
             u: DVec2::new(radius, 0.0),
             v: DVec2::new(0.0, radius),
@@ -203,12 +206,12 @@ impl<'a> Record<'a> {
         Ok(of_arc(arc, &self.plan(centre.z)?))
     }
 
-    fn ellipse(&self) -> Result<Shape, DxfError> {
+    fn ellipse(&self) -> Result<EntityShape, DxfError> {
         let (centre, major) = (self.point(10)?, self.point(11)?);
         // Given in the plan already, unlike a circle's: no plane of its own.
         let minor = self.real(40, 1.0)? * self.normal()?.cross(major);
         let (from, to) = (self.real(41, 0.0)?, self.real(42, TAU)?);
-        let arc = Arc {
+        let arc = EllipseArc {
             centre: centre.truncate(),
             u: major.truncate(),
             v: minor.truncate(),
@@ -219,20 +222,20 @@ impl<'a> Record<'a> {
     }
 
     /// `None` for one that is given by the points it goes through only.
-    fn spline(&self) -> Result<Option<Shape>, DxfError> {
+    fn spline(&self) -> Result<Option<EntityShape>, DxfError> {
         let points = self.points(10)?;
         if points.is_empty() {
             return Ok(None);
         }
         let degree = usize::try_from(self.whole(71)?).unwrap_or(0);
         let (knots, weights) = (self.reals(40)?, self.reals(41)?);
-        let spline = Spline::new(degree, knots, &points, &weights).ok_or_else(|| {
+        let spline = NurbsCurve::new(degree, knots, &points, &weights).ok_or_else(|| {
             self.broken("its degree, knots, control points and weights do not go together")
         })?;
-        Ok(Some(open(Curve::Spline(spline))))
+        Ok(Some(open(DxfCurve::Spline(spline))))
     }
 
-    fn insert(&self) -> Result<Shape, DxfError> {
+    fn insert(&self) -> Result<EntityShape, DxfError> {
         let at = self.point(10)?;
         let plan = self.plan(at.z)?;
         let scale = DVec2::new(self.real(41, 1.0)?, self.real(42, 1.0)?);
@@ -255,7 +258,7 @@ impl<'a> Record<'a> {
                 );
             }
         }
-        Ok(Shape::Insert {
+        Ok(EntityShape::Insert {
             block: self.text(2).to_owned(),
             places,
         })
@@ -269,35 +272,35 @@ fn turn(from: f64, to: f64) -> f64 {
     if sweep <= 1e-12 { TAU } else { sweep }
 }
 
-fn open(curve: Curve) -> Shape {
-    Shape::Path {
+fn open(curve: DxfCurve) -> EntityShape {
+    EntityShape::Path {
         curves: vec![curve],
         is_closed: false,
     }
 }
 
-fn of_arc(arc: Arc, plan: &DAffine2) -> Shape {
-    Shape::Path {
+fn of_arc(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
+    EntityShape::Path {
         is_closed: arc.is_whole(),
-        curves: vec![Curve::Arc(arc).moved(plan)],
+        curves: vec![DxfCurve::Arc(arc).moved(plan)],
     }
 }
 
-struct Corner {
+struct PolylineVertex {
     point: DVec2,
     /// Of the side that begins here: the tangent of a quarter of its angle.
     bulge: f64,
 }
 
-fn polyline(corners: &[Corner], is_closed: bool, plan: &DAffine2) -> Shape {
+fn polyline(corners: &[PolylineVertex], is_closed: bool, plan: &DAffine2) -> EntityShape {
     // No corner has no side, and open ones have a side less.
     let last = corners.len().saturating_sub(1);
     let sides = if is_closed { corners.len() } else { last };
     let side = |i: usize| {
         let (a, b) = (&corners[i], &corners[(i + 1) % corners.len()]);
-        Curve::bulging(a.point, b.point, a.bulge).moved(plan)
+        DxfCurve::bulging(a.point, b.point, a.bulge).moved(plan)
     };
-    Shape::Path {
+    EntityShape::Path {
         curves: (0..sides).map(side).collect(),
         is_closed,
     }

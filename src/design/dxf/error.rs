@@ -2,7 +2,7 @@
 //! a file.
 
 use crate::design::flatten::TooManyPoints;
-use crate::design::note::OnlyThese;
+use crate::design::note::OtherKinds;
 use crate::geometry::{DVec2, RegionsError};
 use std::fmt;
 
@@ -19,20 +19,20 @@ pub(super) const MAX_DEPTH: usize = 16;
 pub enum DxfError {
     /// A group code that is none.
     #[error("{0}: there is no group code where one should be; save the drawing again as DXF")]
-    Code(Place),
+    Code(DxfPlace),
     /// The file breaks off.
     #[error("{0}: the file ends in the middle; save or copy it again")]
-    Truncated(Place),
+    Truncated(DxfPlace),
     /// A number that is none, or beyond [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("{0}: there is no number from -1e18 to 1e18 here; correct it, or scale the drawing")]
-    Number(Place),
+    Number(DxfPlace),
     /// An object whose parts do not fit.
     #[error("{at}: {kind} cannot be used: {what}; correct or remove it")]
     Broken {
         /// Where the object begins.
-        at: Place,
+        at: DxfPlace,
         /// Its kind, as the file calls it.
         kind: String,
         /// What is wrong.
@@ -53,7 +53,7 @@ pub enum DxfError {
     TooManyPoints(#[from] TooManyPoints),
     /// There is nothing to read.
     #[error("there is no line, arc or curve in the drawing{0}; draw or explode the outlines")]
-    Nothing(OnlyThese),
+    Nothing(OtherKinds),
     /// Curves, but no ring.
     #[error(
         "none of the curves close: one of {count} ends at ({}, {}) and nothing goes on there; join the curves end to end",
@@ -72,14 +72,14 @@ pub enum DxfError {
 
 /// Where something stands in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Place {
+pub enum DxfPlace {
     /// A line of text, from 1.
     Line(usize),
     /// A byte of a binary file, from 0.
     Byte(usize),
 }
 
-impl fmt::Display for Place {
+impl fmt::Display for DxfPlace {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Line(line) => write!(f, "line {line}"),

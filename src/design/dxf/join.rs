@@ -12,7 +12,7 @@ use std::collections::{HashMap, HashSet};
 
 /// What joining gives.
 #[derive(Debug, Default)]
-pub(super) struct Joined {
+pub(super) struct JoinedCurves {
     pub rings: Vec<Vec<DVec2>>,
     /// For each ring the numbers of its curves.
     pub of_rings: Vec<Vec<usize>>,
@@ -23,10 +23,10 @@ pub(super) struct Joined {
 }
 
 /// Joins open curves, each of two points at least.
-pub(super) fn joined(curves: Vec<Vec<DVec2>>, within: f64) -> Joined {
-    let mut result = Joined::default();
+pub(super) fn join_curves(curves: Vec<Vec<DVec2>>, within: f64) -> JoinedCurves {
+    let mut result = JoinedCurves::default();
     let (curves, numbers) = result.without_duplicates(curves);
-    let mut graph = Graph::of(&curves, within);
+    let mut graph = EndpointGraph::of(&curves, within);
     result.loose = graph.without_loose(&curves);
     for start in 0..curves.len() {
         graph.walk(start, &curves, &mut result);
@@ -37,7 +37,7 @@ pub(super) fn joined(curves: Vec<Vec<DVec2>>, within: f64) -> Joined {
     result
 }
 
-impl Joined {
+impl JoinedCurves {
     /// The others, and their numbers.
     fn without_duplicates(&mut self, curves: Vec<Vec<DVec2>>) -> (Vec<Vec<DVec2>>, Vec<usize>) {
         let bits = |p: &DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits); // -0 is 0
@@ -59,7 +59,7 @@ impl Joined {
 }
 
 /// Which curves meet where.
-struct Graph {
+struct EndpointGraph {
     /// The places of each curve's first and last point.
     ends: Vec<[usize; 2]>,
     /// The curves at each place; one that begins and ends there twice.
@@ -67,9 +67,9 @@ struct Graph {
     is_used: Vec<bool>,
 }
 
-impl Graph {
+impl EndpointGraph {
     fn of(curves: &[Vec<DVec2>], within: f64) -> Self {
-        let mut places = Places::new(curves, within);
+        let mut places = EndpointIndex::new(curves, within);
         let both = |curve: &Vec<DVec2>| [curve[0], curve[curve.len() - 1]].map(|p| places.of(p));
         let ends: Vec<_> = curves.iter().map(both).collect();
         let mut at = vec![Vec::new(); places.points.len()];
@@ -118,19 +118,19 @@ impl Graph {
     }
 
     /// Walks from a curve as far as there are curves.
-    fn walk(&mut self, start: usize, curves: &[Vec<DVec2>], result: &mut Joined) {
+    fn walk(&mut self, start: usize, curves: &[Vec<DVec2>], result: &mut JoinedCurves) {
         if self.is_used[start] {
             return;
         }
         let mut here = self.ends[start][0];
-        let mut trail: Vec<Step> = Vec::new();
+        let mut trail: Vec<TrailStep> = Vec::new();
         let mut steps_from: HashMap<usize, usize> = HashMap::from([(here, 0)]);
         let mut next = Some(start);
         while let Some(curve) = next {
             self.is_used[curve] = true;
             let [first, last] = self.ends[curve];
             let is_forward = first == here;
-            trail.push(Step {
+            trail.push(TrailStep {
                 from: here,
                 curve,
                 is_forward,
@@ -142,7 +142,7 @@ impl Graph {
                     for step in &trail[closed + 1..] {
                         steps_from.remove(&step.from);
                     }
-                    let steps: Vec<Step> = trail.drain(closed..).collect();
+                    let steps: Vec<TrailStep> = trail.drain(closed..).collect();
                     let of_ring = steps.iter().map(|step| step.curve);
                     result.of_rings.push(of_ring.collect());
                     let ring = steps.iter().flat_map(|step| step.points(curves));
@@ -159,13 +159,13 @@ impl Graph {
     }
 }
 
-struct Step {
+struct TrailStep {
     from: usize,
     curve: usize,
     is_forward: bool,
 }
 
-impl Step {
+impl TrailStep {
     /// The curve's points in the order of the walk, without the last, which is
     /// the first of the next.
     fn points<'c>(&self, curves: &'c [Vec<DVec2>]) -> impl Iterator<Item = DVec2> + use<'c> {
@@ -177,14 +177,14 @@ impl Step {
 
 /// Points further apart than a distance, with what is nearer to one of them
 /// counted as it.
-struct Places {
+struct EndpointIndex {
     origin: DVec2,
     within: f64,
     points: Vec<DVec2>,
     cells: HashMap<[i64; 2], Vec<usize>>,
 }
 
-impl Places {
+impl EndpointIndex {
     fn new(curves: &[Vec<DVec2>], within: f64) -> Self {
         Self {
             origin: curves.first().map_or(DVec2::ZERO, |curve| curve[0]),
@@ -236,7 +236,7 @@ mod tests {
             [(0, 4), (0, 0)],
             [(0, 0), (4, 0)],
         ];
-        let found = joined(lines.iter().map(|l| curve(l)).collect(), 0.1);
+        let found = join_curves(lines.iter().map(|l| curve(l)).collect(), 0.1);
         assert_eq!(found.rings.len(), 1);
         assert_eq!(found.rings[0].len(), 4);
         assert_eq!((found.duplicates, found.loose.len()), (1, 0));
@@ -250,7 +250,7 @@ mod tests {
             curve(&[(9, 9), (9, 8)]),
             curve(&[(4, 4), (0, 0)]),
         ];
-        let found = joined(lines.to_vec(), 0.1);
+        let found = join_curves(lines.to_vec(), 0.1);
         assert_eq!((found.rings.len(), found.loose.len()), (1, 2));
     }
 
@@ -263,7 +263,7 @@ mod tests {
             curve(&[(0, 0), (1, 5)]),
             curve(&[(1, 5), (0, 0), (0, 0)]),
         ];
-        let found = joined(lines, 0.1);
+        let found = join_curves(lines, 0.1);
         assert_eq!((found.rings.len(), found.loose.len()), (3, 0));
     }
 
@@ -273,8 +273,8 @@ mod tests {
             curve(&[(0, 0), (40, 0), (40, 40)]),
             curve(&[(0, 1), (41, 40)]),
         ];
-        assert_eq!(joined(lines.clone(), 2.0).rings.len(), 1);
-        let apart = joined(lines, 0.5);
+        assert_eq!(join_curves(lines.clone(), 2.0).rings.len(), 1);
+        let apart = join_curves(lines, 0.5);
         assert_eq!((apart.rings.len(), apart.loose.len()), (0, 2));
     }
 }

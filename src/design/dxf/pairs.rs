@@ -3,39 +3,39 @@
 //!
 //! Nothing is copied: values are slices of the file.
 
-use super::error::{DxfError, Place};
+use super::error::{DxfError, DxfPlace};
 use crate::geometry::MAX_COORDINATE;
 
 /// What a binary file begins with.
 pub(in crate::design) const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
 #[derive(Clone, Copy, Debug)]
-enum Value<'a> {
+enum GroupValue<'a> {
     Text(&'a [u8]),
     Number(f64),
 }
 
 /// A group code and its value.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pair<'a> {
+pub(super) struct GroupPair<'a> {
     pub code: i32,
-    pub at: Place,
-    value: Value<'a>,
+    pub at: DxfPlace,
+    value: GroupValue<'a>,
 }
 
-impl<'a> Pair<'a> {
+impl<'a> GroupPair<'a> {
     /// The value as text; a binary number has none.
     pub fn text(&self) -> &'a [u8] {
         match self.value {
-            Value::Text(text) => text,
-            Value::Number(_) => b"",
+            GroupValue::Text(text) => text,
+            GroupValue::Number(_) => b"",
         }
     }
 
     pub fn real(&self) -> Result<f64, DxfError> {
         let number = match self.value {
-            Value::Number(number) => Some(number),
-            Value::Text(text) => std::str::from_utf8(text).ok().and_then(|t| t.parse().ok()),
+            GroupValue::Number(number) => Some(number),
+            GroupValue::Text(text) => std::str::from_utf8(text).ok().and_then(|t| t.parse().ok()),
         };
         // Of angles and knots too, which are reckoned with. NaN is in no range.
         let number = number.filter(|n: &f64| n.abs() <= MAX_COORDINATE);
@@ -49,15 +49,15 @@ impl<'a> Pair<'a> {
 }
 
 /// Reads one pair after the other.
-pub(super) struct Pairs<'a> {
+pub(super) struct PairReader<'a> {
     bytes: &'a [u8],
     position: usize,
     line: usize,
-    form: Form,
+    form: DxfEncoding,
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Form {
+enum DxfEncoding {
     Text,
     /// Group codes of one byte, or three from 255 on: up to release 12.
     Narrow,
@@ -65,14 +65,14 @@ enum Form {
     Wide,
 }
 
-impl<'a> Pairs<'a> {
+impl<'a> PairReader<'a> {
     pub fn of(bytes: &'a [u8]) -> Self {
         let bare = bytes.strip_prefix(BINARY);
         let form = match bare {
-            None => Form::Text,
+            None => DxfEncoding::Text,
             // The first code is 0, in two bytes or in one before the S of SECTION.
-            Some([0, 0, ..]) => Form::Wide,
-            Some(_) => Form::Narrow,
+            Some([0, 0, ..]) => DxfEncoding::Wide,
+            Some(_) => DxfEncoding::Narrow,
         };
         let start = bytes.len() - bare.map_or(bytes.len(), <[u8]>::len);
         Self {
@@ -84,8 +84,8 @@ impl<'a> Pairs<'a> {
     }
 
     /// The next pair; `None` where the file ends.
-    pub fn next(&mut self) -> Result<Option<Pair<'a>>, DxfError> {
-        if self.form == Form::Text {
+    pub fn next(&mut self) -> Result<Option<GroupPair<'a>>, DxfError> {
+        if self.form == DxfEncoding::Text {
             return self.next_text();
         }
         if self.position >= self.bytes.len() {
@@ -94,18 +94,18 @@ impl<'a> Pairs<'a> {
         let at = self.place();
         let code = self.binary_code()?;
         let value = self.binary_value(code)?;
-        Ok(Some(Pair { code, at, value }))
+        Ok(Some(GroupPair { code, at, value }))
     }
 
     /// Where reading goes on.
-    pub fn place(&self) -> Place {
+    pub fn place(&self) -> DxfPlace {
         match self.form {
-            Form::Text => Place::Line(self.line + 1),
-            _ => Place::Byte(self.position),
+            DxfEncoding::Text => DxfPlace::Line(self.line + 1),
+            _ => DxfPlace::Byte(self.position),
         }
     }
 
-    fn next_text(&mut self) -> Result<Option<Pair<'a>>, DxfError> {
+    fn next_text(&mut self) -> Result<Option<GroupPair<'a>>, DxfError> {
         let at = self.place();
         let Some(code) = self.line() else {
             return Ok(None);
@@ -118,8 +118,8 @@ impl<'a> Pairs<'a> {
         let code = code.ok_or(DxfError::Code(at))?;
         let at = self.place();
         let value = self.line().ok_or(DxfError::Truncated(at))?;
-        let value = Value::Text(value);
-        Ok(Some(Pair { code, at, value }))
+        let value = GroupValue::Text(value);
+        Ok(Some(GroupPair { code, at, value }))
     }
 
     fn line(&mut self) -> Option<&'a [u8]> {
@@ -135,7 +135,7 @@ impl<'a> Pairs<'a> {
 
     fn binary_code(&mut self) -> Result<i32, DxfError> {
         // Codes from 255 on follow in two bytes of their own.
-        if self.form == Form::Narrow {
+        if self.form == DxfEncoding::Narrow {
             let [code] = self.take()?;
             if code != 255 {
                 return Ok(code.into());
@@ -144,22 +144,22 @@ impl<'a> Pairs<'a> {
         Ok(i16::from_le_bytes(self.take()?).into())
     }
 
-    fn binary_value(&mut self, code: i32) -> Result<Value<'a>, DxfError> {
+    fn binary_value(&mut self, code: i32) -> Result<GroupValue<'a>, DxfError> {
         Ok(match code {
             10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
-                Value::Number(f64::from_le_bytes(self.take()?))
+                GroupValue::Number(f64::from_le_bytes(self.take()?))
             }
             60..=79 | 170..=179 | 270..=289 | 370..=389 | 400..=409 | 1060..=1070 => {
-                Value::Number(i16::from_le_bytes(self.take()?).into())
+                GroupValue::Number(i16::from_le_bytes(self.take()?).into())
             }
             90..=99 | 420..=429 | 440..=459 | 1071 => {
-                Value::Number(i32::from_le_bytes(self.take()?).into())
+                GroupValue::Number(i32::from_le_bytes(self.take()?).into())
             }
-            160..=169 => Value::Number(i64::from_le_bytes(self.take()?) as f64),
-            290..=299 => Value::Number(self.take::<1>()?[0].into()),
+            160..=169 => GroupValue::Number(i64::from_le_bytes(self.take()?) as f64),
+            290..=299 => GroupValue::Number(self.take::<1>()?[0].into()),
             310..=319 | 1004 => {
                 let [length] = self.take()?;
-                Value::Text(self.slice(length.into())?)
+                GroupValue::Text(self.slice(length.into())?)
             }
             0..=9
             | 100..=109
@@ -169,7 +169,7 @@ impl<'a> Pairs<'a> {
             | 410..=419
             | 430..=439
             | 470..=481
-            | 999..=1009 => Value::Text(self.string()?),
+            | 999..=1009 => GroupValue::Text(self.string()?),
             _ => return Err(DxfError::Code(self.place())),
         })
     }

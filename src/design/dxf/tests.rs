@@ -40,7 +40,7 @@ fn binary(text: &str, wide: bool) -> Vec<u8> {
     bytes
 }
 
-fn found(entities: &str) -> Result<Outlines, DxfError> {
+fn found(entities: &str) -> Result<ImportedOutlines, DxfError> {
     read(text(&[("ENTITIES", entities)]).as_bytes(), 1e-5)
 }
 
@@ -252,7 +252,7 @@ fn square_on(layer: &str, x: f64, side: f64, more: &str) -> String {
 fn painted(sections: &[(&str, &str)]) -> Vec<(Option<Rgb>, String, f64)> {
     let file = text(sections);
     let outlines = read(file.as_bytes(), 1e-5).expect("an outline");
-    let coat = |coat: &Coat| {
+    let coat = |coat: &PaintLayer| {
         let colour = coat.paint.map(|paint| paint.colour);
         (colour, coat.name.clone(), coat.regions.area().round())
     };

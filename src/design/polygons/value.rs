@@ -3,15 +3,15 @@
 //! What is wrong is told at once, and where it is on the way out: each value
 //! adds its step to the path of an error from within it.
 
-use crate::design::json::JsonError;
-use crate::design::note::OnlyThese;
-use crate::geometry::{DVec2, RANGE, RegionsError, is_in_range};
+use crate::design::json_error::JsonError;
+use crate::design::note::OtherKinds;
+use crate::geometry::{DVec2, RANGE_MESSAGE, RegionsError, is_in_range};
 use serde_json::Value;
 
 /// Why JSON gives no polygons.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
-pub enum PolygonsError {
+pub enum PolygonsImportError {
     /// Not JSON.
     #[error(transparent)]
     Json(#[from] JsonError),
@@ -30,7 +30,7 @@ pub enum PolygonsError {
     TooManyObjects,
     /// There is not one polygon.
     #[error("there is no polygon in the file{0}; save filled outlines")]
-    NoPolygon(OnlyThese),
+    NoPolygon(OtherKinds),
     /// Nothing is enclosed.
     #[error(transparent)]
     Regions(#[from] RegionsError),
@@ -59,21 +59,21 @@ pub enum PolygonsFault {
     /// A point with a coordinate beyond [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
-    #[error("{RANGE}")]
+    #[error("{RANGE_MESSAGE}")]
     Place,
     /// A type that GeoJSON does not have.
     #[error("is of the type \"{0}\", which GeoJSON does not have; correct the type")]
     Type(String),
 }
 
-impl From<PolygonsFault> for PolygonsError {
+impl From<PolygonsFault> for PolygonsImportError {
     fn from(fault: PolygonsFault) -> Self {
         let path = String::new();
         Self::Value { path, fault }
     }
 }
 
-impl PolygonsError {
+impl PolygonsImportError {
     /// The same, seen from a step further out.
     pub(super) fn within(self, step: &str) -> Self {
         match self {
@@ -90,16 +90,16 @@ impl PolygonsError {
 /// few it has there.
 pub(super) const MAX_OBJECTS: usize = 1_000_000;
 
-pub(super) type Ring = Vec<DVec2>;
+pub(super) type JsonRing = Vec<DVec2>;
 
-type Result<T> = std::result::Result<T, PolygonsError>;
+type PolygonsResult<T> = std::result::Result<T, PolygonsImportError>;
 
 const POINT: &str = "a point, as in [1.5, 2]";
 pub(super) const RING: &str = "a ring, as in [[0, 0], [4, 0], [0, 3]]";
 pub(super) const RINGS: &str = "a list of rings";
 
 /// That something else should be here.
-pub(super) fn expected(expected: &'static str, value: &Value) -> PolygonsError {
+pub(super) fn type_mismatch(expected: &'static str, value: &Value) -> PolygonsImportError {
     let found = match value {
         Value::Null => "null",
         Value::Bool(_) => "true or false",
@@ -113,30 +113,30 @@ pub(super) fn expected(expected: &'static str, value: &Value) -> PolygonsError {
 }
 
 /// Reads each value of what should be a list.
-pub(super) fn each<T>(
+pub(super) fn read_list<T>(
     value: &Value,
     what: &'static str,
-    mut read: impl FnMut(&Value) -> Result<T>,
-) -> Result<Vec<T>> {
-    let list = value.as_array().ok_or_else(|| expected(what, value))?;
+    mut read: impl FnMut(&Value) -> PolygonsResult<T>,
+) -> PolygonsResult<Vec<T>> {
+    let list = value.as_array().ok_or_else(|| type_mismatch(what, value))?;
     let read = |(i, value)| read(value).map_err(|error| error.within(&format!("[{i}]")));
     list.iter().enumerate().map(read).collect()
 }
 
 /// Reads a member of an object, if it is there.
-pub(super) fn member<T>(
+pub(super) fn read_member<T>(
     object: &Value,
     key: &'static str,
-    read: impl FnOnce(&Value) -> Result<T>,
-) -> Result<Option<T>> {
+    read: impl FnOnce(&Value) -> PolygonsResult<T>,
+) -> PolygonsResult<Option<T>> {
     let read = object.get(key).map(read).transpose();
     read.map_err(|error| error.within(&format!(".{key}")))
 }
 
-fn point(value: &Value) -> Result<DVec2> {
+fn point(value: &Value) -> PolygonsResult<DVec2> {
     let number = |value: &Value| {
         let number = value.as_f64();
-        number.ok_or_else(|| expected("two numbers for a point", value))
+        number.ok_or_else(|| type_mismatch("two numbers for a point", value))
     };
     match value.as_array().map(Vec::as_slice) {
         Some([x, y, ..]) => {
@@ -144,20 +144,20 @@ fn point(value: &Value) -> Result<DVec2> {
             let found = is_in_range(point).then_some(point);
             found.ok_or_else(|| PolygonsFault::Place.into())
         }
-        _ => Err(expected(POINT, value)),
+        _ => Err(type_mismatch(POINT, value)),
     }
 }
 
-pub(super) fn ring(value: &Value) -> Result<Ring> {
-    each(value, RING, point)
+pub(super) fn ring(value: &Value) -> PolygonsResult<JsonRing> {
+    read_list(value, RING, point)
 }
 
-pub(super) fn rings(value: &Value) -> Result<Vec<Ring>> {
-    each(value, RINGS, ring)
+pub(super) fn rings(value: &Value) -> PolygonsResult<Vec<JsonRing>> {
+    read_list(value, RINGS, ring)
 }
 
-pub(super) fn polygons(value: &Value) -> Result<Vec<Vec<Ring>>> {
-    each(value, "a list of polygons, each a list of rings", rings)
+pub(super) fn polygons(value: &Value) -> PolygonsResult<Vec<Vec<JsonRing>>> {
+    read_list(value, "a list of polygons, each a list of rings", rings)
 }
 
 /// Lists in lists down to the first number.

@@ -1,5 +1,5 @@
 use super::*;
-use crate::design::{Design, Form, Problem, import};
+use crate::design::{Design, DesignForm, ImportProblem, import};
 use image::{GrayImage, Luma, Rgba};
 
 fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
@@ -11,13 +11,13 @@ fn encoded(picture: impl Into<DynamicImage>, format: ImageFormat) -> Vec<u8> {
     bytes.into_inner()
 }
 
-fn read_with(bytes: &[u8], options: &ImportOptions) -> Result<Design, Problem> {
+fn read_with(bytes: &[u8], options: &ImportOptions) -> Result<Design, ImportProblem> {
     import("picture", bytes, options).map_err(|e| e.problem)
 }
 
 fn regions(bytes: &[u8], options: &ImportOptions) -> Regions {
     match read_with(bytes, options).expect("a silhouette").form {
-        Form::Outline(regions) => regions,
+        DesignForm::Outline(regions) => regions,
         other => unreachable!("{other:?}"),
     }
 }
@@ -165,7 +165,7 @@ fn specks_and_pinholes_go_and_the_rest_stays() {
     };
     assert!(matches!(
         read_with(&bytes, &all),
-        Err(Problem::Picture(PictureError::Empty { .. }))
+        Err(ImportProblem::Picture(SilhouetteError::Empty { .. }))
     ));
 }
 
@@ -191,7 +191,7 @@ fn a_picture_full_of_ink_is_its_rectangle_and_one_of_none_is_an_error() {
     let options = ImportOptions::default();
     assert!(matches!(
         read_with(&one_tone, &options),
-        Err(Problem::Picture(PictureError::OneTone))
+        Err(ImportProblem::Picture(SilhouetteError::OneTone))
     ));
     let full = ImportOptions {
         threshold: Some(100),
@@ -202,7 +202,9 @@ fn a_picture_full_of_ink_is_its_rectangle_and_one_of_none_is_an_error() {
     let clear = encoded(RgbaImage::new(4, 4), ImageFormat::Png);
     assert!(matches!(
         read_with(&clear, &options),
-        Err(Problem::Picture(PictureError::Empty { threshold: 128 }))
+        Err(ImportProblem::Picture(SilhouetteError::Empty {
+            threshold: 128
+        }))
     ));
 }
 
@@ -248,7 +250,7 @@ fn noise_is_refused_before_it_is_traced() {
     let bytes = encoded(noise, ImageFormat::Bmp);
     assert!(matches!(
         read_with(&bytes, &ImportOptions::default()),
-        Err(Problem::Picture(PictureError::TooRagged))
+        Err(ImportProblem::Picture(SilhouetteError::TooRagged))
     ));
 }
 

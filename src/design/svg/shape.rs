@@ -1,26 +1,26 @@
 //! What is painted at once.
 
-use super::edge::Edge;
-use super::layers::Rings;
+use super::ink_layers::WindingRings;
+use super::stroke::ShapeStroke;
 use crate::colour::{Gradient, Paint};
 use crate::geometry::Bounds;
 
 /// What one fill or one stroke covers, or a fill with the stroke along it.
-pub(super) struct Shape {
+pub(super) struct SvgShape {
     /// To be filled by winding.
-    pub rings: Rings,
+    pub rings: WindingRings,
     pub paint: Paint,
     /// On the page, y up; the paint is its mean.
     pub gradient: Option<Gradient>,
     pub is_stroke: bool,
     pub is_text: bool,
     /// The stroke along the rings, if it goes with them.
-    pub edge: Option<Edge>,
+    pub edge: Option<ShapeStroke>,
     /// The id of its element, if it has one.
     pub name: String,
 }
 
-impl Shape {
+impl SvgShape {
     /// The box around all that it covers.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         let edge = self.edge.iter().flat_map(|edge| &edge.rings);

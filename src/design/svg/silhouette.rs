@@ -2,16 +2,16 @@
 //! ink and paper.
 
 use super::error::SvgError;
-use super::layers::{Layers, Rings};
-use super::paint::Painted;
-use super::shape::Shape;
+use super::ink_layers::{InkLayers, WindingRings};
+use super::painter::PaintedDrawing;
+use super::shape::SvgShape;
 use crate::colour::{Paint, Rgb};
 use crate::geometry::{DVec2, FillRule, Regions};
 
 /// What is ink in the end, with its strokes or without. Shapes of pure white are
 /// paper where anything else is painted.
 pub(super) fn silhouette(
-    painted: &Painted,
+    painted: &PaintedDrawing,
     page: DVec2,
     strokes: bool,
 ) -> Result<Regions, SvgError> {
@@ -22,7 +22,7 @@ pub(super) fn silhouette(
             .flat_map(|shape| sides(shape, strokes))
     };
     let white_is_paper = shapes().any(|(_, paint)| !is_white(paint));
-    let mut layers = Layers::of_page(page);
+    let mut layers = InkLayers::of_page(page);
     for (rings, paint) in shapes() {
         layers.lay(rings.clone(), white_is_paper && is_white(paint));
     }
@@ -34,7 +34,7 @@ pub(super) fn silhouette(
 }
 
 /// The fill of a shape and its stroke, those that are seen and wanted.
-fn sides(shape: &Shape, strokes: bool) -> impl Iterator<Item = (&Rings, &Paint)> {
+fn sides(shape: &SvgShape, strokes: bool) -> impl Iterator<Item = (&WindingRings, &Paint)> {
     let is_read = (strokes || !shape.is_stroke) && shape.paint.opacity > 0.0;
     let fill = is_read.then_some((&shape.rings, &shape.paint));
     let edge = shape.edge.as_ref().filter(|_| strokes);

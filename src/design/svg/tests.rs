@@ -19,7 +19,7 @@ fn read(text: &str, tolerance: f64) -> Result<(Regions, Bounds), SvgError> {
 }
 
 /// The outlines of an element with strokes, and what was told.
-fn stroked(body: &str, element: Option<&str>) -> Result<Outlines, SvgError> {
+fn stroked(body: &str, element: Option<&str>) -> Result<ImportedOutlines, SvgError> {
     let options = ImportOptions {
         tolerance: 1e-5,
         strokes: true,

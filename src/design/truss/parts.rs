@@ -1,8 +1,8 @@
 //! What a truss consists of, as it stands in a file, and the checks of it.
 
 use crate::colour::Rgb;
-use crate::design::json::JsonError;
-use crate::geometry::{Bounds, DVec2, RANGE, SizeError, is_in_range};
+use crate::design::json_error::JsonError;
+use crate::geometry::{Bounds, DVec2, DesignSizeError, RANGE_MESSAGE, is_in_range};
 use serde::Deserialize;
 use std::collections::HashMap;
 
@@ -16,10 +16,10 @@ pub struct TrussParts {
     pub bars: Vec<[u32; 2]>,
     /// Nodes that are held.
     #[serde(default)]
-    pub supports: Vec<Support>,
+    pub supports: Vec<TrussSupport>,
     /// Forces at nodes.
     #[serde(default)]
-    pub loads: Vec<Load>,
+    pub loads: Vec<TrussLoad>,
     /// Section area of each bar, or empty.
     #[serde(default)]
     pub areas: Vec<f64>,
@@ -28,7 +28,7 @@ pub struct TrussParts {
     pub colours: Vec<Rgb>,
     /// Materials that bars may be of.
     #[serde(default)]
-    pub materials: Vec<Material>,
+    pub materials: Vec<TrussMaterial>,
     /// Index of each bar's material, or empty.
     #[serde(default)]
     pub bar_materials: Vec<u32>,
@@ -37,7 +37,7 @@ pub struct TrussParts {
 /// A node that is held.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Support {
+pub struct TrussSupport {
     /// The node, from 0.
     pub node: u32,
     /// Whether it is held along x and along y of the design as drawn.
@@ -47,7 +47,7 @@ pub struct Support {
 /// A force at a node.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Load {
+pub struct TrussLoad {
     /// The node, from 0.
     pub node: u32,
     /// The force along x and y.
@@ -57,7 +57,7 @@ pub struct Load {
 /// A material that bars may be of.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Material {
+pub struct TrussMaterial {
     /// What it is called.
     pub name: String,
     /// Young's modulus, positive.
@@ -84,11 +84,11 @@ pub enum TrussInputError {
     /// A coordinate is no number, or beyond [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
-    #[error("node {0} {RANGE}")]
+    #[error("node {0} {RANGE_MESSAGE}")]
     Place(usize),
     /// All nodes lie on one another, or as good as.
     #[error(transparent)]
-    Size(#[from] SizeError),
+    Size(#[from] DesignSizeError),
     /// A number is NaN or infinite, or not positive where it must be.
     #[error("{what} {index} has a number that cannot be used; {rule}")]
     Number {
@@ -193,7 +193,7 @@ impl TrussParts {
         self.check_held()?;
         let all = Bounds::of(self.nodes.iter().copied());
         Ok(all
-            .map_or(Ok(0.0), |all| SizeError::check(&all))
+            .map_or(Ok(0.0), |all| DesignSizeError::check(&all))
             .map(drop)?)
     }
 

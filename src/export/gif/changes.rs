@@ -5,7 +5,7 @@
 
 use image::RgbaImage;
 
-use crate::export::palette::Palette;
+use crate::export::palette::GifPalette;
 
 /// Index of the transparent colour; colours take the indices below it.
 pub(super) const TRANSPARENT: u8 = 255;
@@ -16,7 +16,7 @@ pub(super) const TRANSPARENT: u8 = 255;
 const SLACK: u8 = 6;
 
 /// A frame in the colours of a palette.
-pub(super) struct Indexed {
+pub(super) struct IndexedFrame {
     /// As it was drawn.
     pub image: RgbaImage,
     /// For each pixel its colour.
@@ -25,7 +25,7 @@ pub(super) struct Indexed {
 
 /// A rectangle of a frame that is drawn over the one before.
 #[derive(Debug, PartialEq)]
-pub(super) struct Patch {
+pub(super) struct FramePatch {
     /// Columns before it.
     pub left: u32,
     /// Rows above it.
@@ -36,7 +36,7 @@ pub(super) struct Patch {
     pub indices: Vec<u8>,
 }
 
-impl Patch {
+impl FramePatch {
     /// Rows of it.
     pub fn height(&self) -> u32 {
         self.indices.len() as u32 / self.width
@@ -45,16 +45,21 @@ impl Patch {
 
 /// What is shown once some frames have been drawn over each other.
 #[derive(Default)]
-pub(super) struct Canvas(Vec<u8>);
+pub(super) struct GifCanvas(Vec<u8>);
 
-impl Canvas {
+impl GifCanvas {
     /// What has to be drawn for a frame without transparent pixels; where it is
     /// not `held`, colours may be off by a little.
-    pub fn patch(&mut self, next: &Indexed, is_held: bool, palette: &Palette) -> Patch {
+    pub fn patch(
+        &mut self,
+        next: &IndexedFrame,
+        is_held: bool,
+        palette: &GifPalette,
+    ) -> FramePatch {
         let width = next.image.width();
         if self.0.is_empty() {
             self.0.clone_from(&next.indices);
-            return cut(width, &self.0);
+            return crop_to_opaque(width, &self.0);
         }
         let slack = if is_held { 0 } else { SLACK };
         let colours = palette.colours();
@@ -75,13 +80,13 @@ impl Canvas {
             index
         });
         let changes: Vec<u8> = changes.collect();
-        cut(width, &changes)
+        crop_to_opaque(width, &changes)
     }
 }
 
 /// The smallest rectangle of a frame that holds all that is not transparent, one
 /// pixel at least.
-pub(super) fn cut(width: u32, indices: &[u8]) -> Patch {
+pub(super) fn crop_to_opaque(width: u32, indices: &[u8]) -> FramePatch {
     let columns = width as usize;
     let is_drawn = |&k: &usize| indices[k] != TRANSPARENT;
     let drawn = || (0..indices.len()).filter(is_drawn);
@@ -92,7 +97,7 @@ pub(super) fn cut(width: u32, indices: &[u8]) -> Patch {
     let right = |row: &[u8]| row.iter().rposition(|&k| k != TRANSPARENT);
     let left = rows().filter_map(left).min().unwrap_or(0);
     let right = rows().filter_map(right).max().unwrap_or(0);
-    Patch {
+    FramePatch {
         left: left as u32,
         top: top as u32,
         width: (right - left + 1) as u32,
@@ -107,17 +112,17 @@ mod tests {
 
     const GREYS: [u8; 4] = [0, 4, 100, 200];
 
-    fn palette() -> Palette {
-        Palette::of(GREYS.map(|grey| ([grey; 3], 1)).into(), 255)
+    fn palette() -> GifPalette {
+        GifPalette::of(GREYS.map(|grey| ([grey; 3], 1)).into(), 255)
     }
 
     /// Three columns, in these greys of the palette.
-    fn frame(indices: &[u8]) -> Indexed {
+    fn frame(indices: &[u8]) -> IndexedFrame {
         let image = RgbaImage::from_fn(3, indices.len() as u32 / 3, |x, y| {
             let [grey, ..] = [GREYS[usize::from(indices[(3 * y + x) as usize])]];
             Rgba([grey, grey, grey, 255])
         });
-        Indexed {
+        IndexedFrame {
             image,
             indices: indices.to_vec(),
         }
@@ -125,12 +130,12 @@ mod tests {
 
     #[test]
     fn only_what_changes_is_drawn() {
-        let (palette, mut canvas) = (palette(), Canvas::default());
+        let (palette, mut canvas) = (palette(), GifCanvas::default());
         let whole = canvas.patch(&frame(&[0; 9]), true, &palette);
         assert_eq!((whole.width, whole.height()), (3, 3));
         let next = frame(&[0, 0, 0, 0, 2, 0, 0, 3, 0]);
         let patch = canvas.patch(&next, true, &palette);
-        let expected = Patch {
+        let expected = FramePatch {
             left: 1,
             top: 1,
             width: 1,
@@ -143,7 +148,7 @@ mod tests {
 
     #[test]
     fn a_colour_may_be_off_by_a_little_but_not_where_it_is_held() {
-        let (palette, mut canvas) = (palette(), Canvas::default());
+        let (palette, mut canvas) = (palette(), GifCanvas::default());
         canvas.patch(&frame(&[0, 2, 3]), true, &palette);
         let next = frame(&[1, 2, 3]);
         let moving = canvas.patch(&next, false, &palette);

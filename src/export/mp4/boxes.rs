@@ -12,13 +12,13 @@ use std::ops::Range;
 const TO_SIZES: [&[u8; 4]; 6] = [b"moov", b"trak", b"mdia", b"minf", b"stbl", b"stsz"];
 
 /// A box's kind, and where its content is.
-type Found = ([u8; 4], Range<u64>);
+type Mp4Box = ([u8; 4], Range<u64>);
 
 /// The number of frames of the first track.
 ///
 /// # Errors
 /// An [`io::Error`] where the file is cut off, or lacks a box.
-pub(super) fn frames(file: &mut (impl Read + Seek)) -> io::Result<usize> {
+pub(super) fn frame_count(file: &mut (impl Read + Seek)) -> io::Result<usize> {
     let end = file.seek(SeekFrom::End(0))?;
     let top = boxes(file, 0..end)?;
     let media = top.iter().filter(|(kind, _)| kind == b"mdat");
@@ -47,7 +47,7 @@ pub(super) fn frames(file: &mut (impl Read + Seek)) -> io::Result<usize> {
 }
 
 /// The boxes in a part of the file, which they fill.
-fn boxes(file: &mut (impl Read + Seek), within: Range<u64>) -> io::Result<Vec<Found>> {
+fn boxes(file: &mut (impl Read + Seek), within: Range<u64>) -> io::Result<Vec<Mp4Box>> {
     let mut found = Vec::new();
     let mut start = within.start;
     while start < within.end {
@@ -72,7 +72,7 @@ fn boxes(file: &mut (impl Read + Seek), within: Range<u64>) -> io::Result<Vec<Fo
     Ok(found)
 }
 
-fn content_of(boxes: &[Found], wanted: &[u8; 4]) -> io::Result<Range<u64>> {
+fn content_of(boxes: &[Mp4Box], wanted: &[u8; 4]) -> io::Result<Range<u64>> {
     let found = boxes.iter().find(|(kind, _)| kind == wanted);
     let found = found.map(|(_, content)| content.clone());
     found.ok_or_else(|| io::Error::other(format!("it has no part `{}`", wanted.escape_ascii())))
@@ -112,7 +112,7 @@ mod tests {
     }
 
     fn found(bytes: &[u8]) -> Result<usize, String> {
-        frames(&mut Cursor::new(bytes)).map_err(|error| error.to_string())
+        frame_count(&mut Cursor::new(bytes)).map_err(|error| error.to_string())
     }
 
     #[test]

@@ -11,7 +11,7 @@ use std::thread;
 use std::time::Duration;
 
 use super::super::size::PixelSize;
-use crate::progress::Progress;
+use crate::work::progress::Progress;
 
 /// How often it is looked whether ffmpeg ended and whether it is still wanted: a
 /// tenth of what a cancel may take.
@@ -21,14 +21,14 @@ const LOOK_EVERY: Duration = Duration::from_millis(50);
 const FULL: &str = "No space left on device";
 
 /// How it ended.
-pub(super) struct Ended {
+pub(super) struct FfmpegOutcome {
     pub status: ExitStatus,
-    pub words: Words,
+    pub words: FfmpegMessages,
 }
 
 /// What it said.
 #[derive(Default)]
-pub(super) struct Words {
+pub(super) struct FfmpegMessages {
     /// The last line that says anything.
     pub last: String,
     /// Whether any line says that the disk is full; the last one may not.
@@ -36,7 +36,7 @@ pub(super) struct Words {
 }
 
 /// It can be started.
-pub(super) fn is_there() -> bool {
+pub(super) fn is_available() -> bool {
     let mut command = quiet();
     command.arg("-version").stdin(Stdio::null());
     command.stdout(Stdio::null()).stderr(Stdio::null());
@@ -44,7 +44,7 @@ pub(super) fn is_there() -> bool {
 }
 
 /// Encodes raw frames that it is fed, as planes of BT.709.
-pub(super) fn encoding(size: PixelSize, fps: f64, output: &Path) -> Command {
+pub(super) fn encode_command(size: PixelSize, fps: f64, output: &Path) -> Command {
     // Said of what goes in and of what comes out, so that nothing is converted.
     let colours = "-color_range tv -colorspace bt709 -color_primaries bt709 -color_trc bt709";
     let input = format!("-f rawvideo -pix_fmt yuv420p -s {size} -r {fps} {colours} -i -");
@@ -60,7 +60,7 @@ pub(super) fn encoding(size: PixelSize, fps: f64, output: &Path) -> Command {
 }
 
 /// Decodes every frame of a file and keeps nothing.
-pub(super) fn decoding(file: &Path) -> Command {
+pub(super) fn decode_command(file: &Path) -> Command {
     let mut command = quiet();
     command.args(["-xerror", "-i"]).arg(as_file(file));
     command.args(["-f", "null", "-"]);
@@ -76,7 +76,7 @@ pub(super) fn run(
     mut command: Command,
     progress: &dyn Progress,
     feed: impl FnOnce(ChildStdin),
-) -> io::Result<Ended> {
+) -> io::Result<FfmpegOutcome> {
     let mut child = command
         .stdin(Stdio::piped())
         .stdout(Stdio::null())
@@ -92,11 +92,11 @@ pub(super) fn run(
         let broke_off = |_| Err(io::Error::other("nobody watched it"));
         watching.join().unwrap_or_else(broke_off)
     })?;
-    Ok(Ended {
+    Ok(FfmpegOutcome {
         status,
         words: match progress.is_cancelled() {
             // Whoever it started itself may hold its stderr open.
-            true => Words::default(),
+            true => FfmpegMessages::default(),
             false => words.join().unwrap_or_default(),
         },
     })
@@ -130,8 +130,8 @@ fn as_file(path: &Path) -> OsString {
 }
 
 /// Reads to the end, so that ffmpeg never waits for a reader, whatever it says.
-fn heard(stderr: impl Read) -> Words {
-    let mut words = Words::default();
+fn heard(stderr: impl Read) -> FfmpegMessages {
+    let mut words = FfmpegMessages::default();
     let lines = BufReader::new(stderr).split(b'\n').map_while(Result::ok);
     for line in lines {
         let line = String::from_utf8_lossy(&line);

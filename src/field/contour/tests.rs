@@ -21,7 +21,7 @@ fn picture(text: &str) -> (u32, u32, Vec<f32>) {
 
 fn contours(text: &str) -> Vec<Vec<DVec2>> {
     let (width, height, values) = picture(text);
-    let samples = Samples::new(width, height, &values).expect("a rectangular picture");
+    let samples = SampledField::new(width, height, &values).expect("a rectangular picture");
     trace_samples(&samples, 0.0)
 }
 
@@ -143,7 +143,7 @@ fn the_area_inside_a_random_picture_is_that_of_its_contours() {
     for _ in 0..50 {
         let inside: Vec<bool> = (0..11 * 9).map(|_| bit()).collect();
         let values: Vec<f32> = inside.iter().map(|&i| if i { 1.0 } else { -1.0 }).collect();
-        let samples = Samples::new(11, 9, &values).expect("11 × 9");
+        let samples = SampledField::new(11, 9, &values).expect("11 × 9");
         let total: f64 = trace_samples(&samples, 0.0).iter().map(|c| area(c)).sum();
         assert!((total - area_by_squares(&samples)).abs() < 1e-9);
     }
@@ -151,7 +151,7 @@ fn the_area_inside_a_random_picture_is_that_of_its_contours() {
 
 /// Marching squares area of a ±1 picture, by quarter cells: each square's
 /// inside is decided by its corners and, for saddles, its centre.
-fn area_by_squares(samples: &Samples) -> f64 {
+fn area_by_squares(samples: &SampledField) -> f64 {
     let (w, h) = (f64::from(samples.width()), f64::from(samples.height()));
     let axis = |count: f64| {
         let mut at: Vec<f64> = (0..count as u32).map(f64::from).collect();

@@ -1,6 +1,6 @@
 use super::*;
 use crate::geometry::FillRule;
-use crate::progress::Silent;
+use crate::work::progress::Silent;
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -129,7 +129,7 @@ fn hostile_values_and_sizes_are_refused() {
     let grid = Grid::new(2, 2, DVec2::ZERO, 1.0).expect("a grid");
     assert!(matches!(
         DistanceField::new(grid, vec![0.0; 3]),
-        Err(FieldError::Length(SamplesError { values: 3, .. }))
+        Err(FieldError::Length(SampledFieldError { values: 3, .. }))
     ));
     assert_eq!(
         DistanceField::new(grid, vec![0.0, 1.0, f32::NAN, 0.0]),
@@ -158,8 +158,8 @@ fn hostile_values_and_sizes_are_refused() {
 
 #[test]
 fn a_polygon_field_can_be_cancelled() {
-    struct Never;
-    impl Progress for Never {
+    struct CancelledFieldProgress;
+    impl Progress for CancelledFieldProgress {
         fn report(&self, _stage: &'static str, _fraction: f64) {}
         fn is_cancelled(&self) -> bool {
             true
@@ -168,7 +168,7 @@ fn a_polygon_field_can_be_cancelled() {
     let shape = regions(&[ring(5, |_| 1.0, DVec2::ZERO)]);
     let grid = Grid::covering(&shape.bounds(), 32, 0.1).expect("a grid");
     assert_eq!(
-        DistanceField::from_regions(&shape, grid, &Never),
+        DistanceField::from_regions(&shape, grid, &CancelledFieldProgress),
         Err(FieldError::Cancelled(Cancelled))
     );
 }

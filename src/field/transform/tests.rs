@@ -1,6 +1,6 @@
 use super::super::testing::mask;
 use super::*;
-use crate::progress::Silent;
+use crate::work::progress::Silent;
 use proptest::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
@@ -220,9 +220,9 @@ fn one_thread_and_many_find_the_same() -> Result<(), rayon::ThreadPoolBuildError
 }
 
 /// Cancelled after so many reports.
-struct Patience(AtomicUsize);
+struct CancelAfter(AtomicUsize);
 
-impl Progress for Patience {
+impl Progress for CancelAfter {
     fn report(&self, _stage: &'static str, fraction: f64) {
         assert!((0.0..=1.0).contains(&fraction));
         let left = self.0.load(Ordering::Relaxed);
@@ -239,7 +239,7 @@ fn every_metric_can_be_cancelled_on_its_way() {
     let mask = Mask::new(200, 300, vec![true; 200 * 300]).expect("a legal mask");
     for metric in METRICS {
         for reports in [1, 3] {
-            let patience = Patience(AtomicUsize::new(reports));
+            let patience = CancelAfter(AtomicUsize::new(reports));
             let found = distance_transform(&mask, metric, &patience);
             assert_eq!(found, Err(Cancelled), "{metric:?} after {reports}");
         }

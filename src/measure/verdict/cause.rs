@@ -1,14 +1,14 @@
 //! What is measured where the trouble of rigid parts is worst.
 
-use super::finding::Cause;
-use crate::content::Solid;
-use crate::geometry::{Crossing, RingEdge};
+use super::finding::FindingCause;
+use crate::content::SolidContent;
 use crate::geometry::{DVec2, twice_signed_area};
-use crate::homotopy::Homotopy;
-use crate::measure::distortion::{Strain, edges};
+use crate::geometry::{EdgeCrossing, RingEdge};
+use crate::measure::distortion::{FaceStrain, edges};
 use crate::measure::stretch;
 use crate::transition::Transition;
 use crate::warp::Arap;
+use crate::warp::homotopy::Homotopy;
 use std::f64::consts::{FRAC_PI_3, PI};
 
 /// A stretch of the boundary that is longer or shorter than this many times
@@ -21,18 +21,23 @@ const UNEVEN: f64 = 3.0;
 const FLATTENED: f64 = 0.1;
 
 /// A transition of rigid parts at the t of a trouble.
-pub(super) struct Scene<'a> {
+pub(super) struct CauseSearch<'a> {
     pub transition: &'a Transition,
     pub arap: &'a Arap,
-    pub solid: &'a Solid,
+    pub solid: &'a SolidContent,
     pub t: f64,
     pub places: Vec<DVec2>,
     pub angles: Vec<f64>,
     pub part_of: Vec<u32>,
 }
 
-impl<'a> Scene<'a> {
-    pub fn new(transition: &'a Transition, arap: &'a Arap, solid: &'a Solid, t: f64) -> Self {
+impl<'a> CauseSearch<'a> {
+    pub fn new(
+        transition: &'a Transition,
+        arap: &'a Arap,
+        solid: &'a SolidContent,
+        t: f64,
+    ) -> Self {
         Self {
             transition,
             arap,
@@ -53,7 +58,7 @@ impl<'a> Scene<'a> {
     pub fn det(&self, face: usize) -> f64 {
         let mesh = self.arap.mesh();
         let corners = &mesh.faces()[face];
-        Strain::of(edges(&self.places, corners) * edges(mesh.source(), corners).inverse()).det
+        FaceStrain::of(edges(&self.places, corners) * edges(mesh.source(), corners).inverse()).det
     }
 
     /// The face at an edge of the boundary.
@@ -97,7 +102,7 @@ impl<'a> Scene<'a> {
 }
 
 /// Its own path flattens a face, before any neighbour has its say.
-pub(super) fn straight_paths(scene: &Scene<'_>, face: usize, t: f64) -> Option<Cause> {
+pub(super) fn straight_paths(scene: &CauseSearch<'_>, face: usize, t: f64) -> Option<FindingCause> {
     let homotopy = scene.arap.options().homotopy;
     if homotopy.keeps_orientation() {
         return None;
@@ -109,7 +114,7 @@ pub(super) fn straight_paths(scene: &Scene<'_>, face: usize, t: f64) -> Option<C
     // Against the polar path, whose area only runs from end to end.
     let left = homotopy.at(&map, t).determinant();
     let kept = Homotopy::Polar.at(&map, t).determinant();
-    (left < FLATTENED * kept).then_some(Cause::StraightPaths {
+    (left < FLATTENED * kept).then_some(FindingCause::StraightPaths {
         homotopy,
         turn: map.angle,
     })
@@ -117,7 +122,7 @@ pub(super) fn straight_paths(scene: &Scene<'_>, face: usize, t: f64) -> Option<C
 
 /// The part of a face and one that it hangs on turn by more than half a turn
 /// against each other; named is that which turns further.
-pub(super) fn far_turn_of_part(scene: &Scene<'_>, face: usize) -> Option<Cause> {
+pub(super) fn far_turn_of_part(scene: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
     let part = scene.part_of[face];
     let mean = |p: u32| scene.mean_angle(|f| scene.part_of[f] == p);
     let own = mean(part)?;
@@ -130,20 +135,20 @@ pub(super) fn far_turn_of_part(scene: &Scene<'_>, face: usize) -> Option<Cause> 
     } else {
         (part, own - angle)
     };
-    (turn.abs() > PI).then_some(Cause::FarTurn {
+    (turn.abs() > PI).then_some(FindingCause::FarTurn {
         part: Some(part as usize),
         turn,
     })
 }
 
 /// A face turns by more than half a turn against the whole.
-pub(super) fn far_turn(scene: &Scene<'_>, face: usize) -> Option<Cause> {
+pub(super) fn far_turn(scene: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
     let turn = scene.angles[face] - scene.mean_angle(|_| true)?;
-    (turn.abs() > PI).then_some(Cause::FarTurn { part: None, turn })
+    (turn.abs() > PI).then_some(FindingCause::FarTurn { part: None, turn })
 }
 
 /// The boundary near a face is stretched unevenly.
-pub(super) fn uneven_match(scene: &Scene<'_>, face: usize) -> Option<Cause> {
+pub(super) fn uneven_match(scene: &CauseSearch<'_>, face: usize) -> Option<FindingCause> {
     /// How far from the face the boundary may be, by its diameter.
     const NEAR: f64 = 0.1;
     let mesh = scene.arap.mesh();
@@ -155,7 +160,7 @@ pub(super) fn uneven_match(scene: &Scene<'_>, face: usize) -> Option<Cause> {
         .into_iter()
         .filter(|s| source[s.vertex as usize].distance(about) < near)
         .max_by(|a, b| a.unevenness().total_cmp(&b.unevenness()))?;
-    (worst.unevenness() > UNEVEN).then(|| Cause::UnevenMatch {
+    (worst.unevenness() > UNEVEN).then(|| FindingCause::UnevenMatch {
         ratio: worst.ratio,
         source: source[worst.vertex as usize],
         target: target[worst.vertex as usize],
@@ -163,7 +168,7 @@ pub(super) fn uneven_match(scene: &Scene<'_>, face: usize) -> Option<Cause> {
 }
 
 /// The largest difference of angles across an edge of one of the faces.
-pub(super) fn unlike_neighbours(scene: &Scene<'_>, faces: &[usize]) -> Option<Cause> {
+pub(super) fn unlike_neighbours(scene: &CauseSearch<'_>, faces: &[usize]) -> Option<FindingCause> {
     let connectivity = scene.arap.mesh().connectivity();
     let across = |f: usize| (0..3).filter_map(move |k| Some((f, connectivity.neighbour(f, k)?)));
     let turn = faces
@@ -171,11 +176,11 @@ pub(super) fn unlike_neighbours(scene: &Scene<'_>, faces: &[usize]) -> Option<Ca
         .flat_map(|&f| across(f))
         .map(|(a, b)| (scene.angles[a] - scene.angles[b]).abs())
         .reduce(f64::max)?;
-    (turn > FRAC_PI_3).then_some(Cause::UnlikeNeighbours { turn })
+    (turn > FRAC_PI_3).then_some(FindingCause::UnlikeNeighbours { turn })
 }
 
 /// Whether two edges of one ring are less than a tenth of it apart.
-pub(super) fn near_each_other(scene: &Scene<'_>, crossing: &Crossing) -> bool {
+pub(super) fn near_each_other(scene: &CauseSearch<'_>, crossing: &EdgeCrossing) -> bool {
     let [a, b] = crossing.edges;
     let n = scene.solid.loops.get(a.ring).map_or(0, Vec::len);
     let between = a.point.abs_diff(b.point);

@@ -1,52 +1,53 @@
 //! What is found in fields.
 
-use super::finding::{Cause, Finding, Remedy, Trouble};
+use super::defect_scan;
+use super::defect_scan::MomentCounts;
+use super::finding::{Finding, FindingCause, FindingKind, Remedy};
 use super::remedy;
-use super::scan::{self, Glance};
 use crate::content::FieldPair;
 use crate::geometry::{DVec2, signed_area};
-use crate::progress::{Cancelled, Progress};
 use crate::transition::Transition;
+use crate::work::progress::{Cancelled, Progress};
 
 /// Designs that share less than this have little to do with each other.
 /// Half: below, more of the smaller design appears than moves.
 const LITTLE_OVERLAP: f64 = 0.5;
 
 /// A trouble by its count, and by the count at the larger end.
-type Told = fn(usize, usize) -> Trouble;
+type FieldFinding = fn(usize, usize) -> FindingKind;
 
 pub(super) fn findings(
     transition: &Transition,
     pair: &FieldPair,
-    glances: &[Glance],
+    glances: &[MomentCounts],
     progress: &dyn Progress,
 ) -> Result<Vec<Finding>, Cancelled> {
     let (Some(first), Some(last)) = (glances.first(), glances.last()) else {
         return Ok(Vec::new());
     };
-    let ends = |of: scan::Count| of(first).max(of(last));
+    let ends = |of: defect_scan::DefectCounts| of(first).max(of(last));
     let mut troubles = Vec::new();
     // Not `worst`: what is wrong here is that a count is too small.
-    let gone = scan::times(glances, |g| g.pieces == 0);
+    let gone = defect_scan::times(glances, |g| g.pieces == 0);
     if let (Some(&begin), Some(&end)) = (gone.first(), gone.last())
         && ends(|g| g.pieces) > 0
     {
-        troubles.push((Trouble::Gone, (gone[gone.len() / 2], [begin, end])));
+        troubles.push((FindingKind::Gone, (gone[gone.len() / 2], [begin, end])));
     }
-    let counted: [(scan::Count, Told); 2] = [
+    let counted: [(defect_scan::DefectCounts, FieldFinding); 2] = [
         (
             |g| g.pieces,
-            |count, at_ends| Trouble::Pieces { count, at_ends },
+            |count, at_ends| FindingKind::Pieces { count, at_ends },
         ),
         (
             |g| g.holes,
-            |count, at_ends| Trouble::Holes { count, at_ends },
+            |count, at_ends| FindingKind::Holes { count, at_ends },
         ),
     ];
     for (of, trouble) in counted {
         let at_ends = ends(of);
-        if let Some(worst) = scan::worst(glances, of, at_ends) {
-            troubles.push((trouble(scan::most(glances, of), at_ends), worst));
+        if let Some(worst) = defect_scan::worst(glances, of, at_ends) {
+            troubles.push((trouble(defect_scan::most(glances, of), at_ends), worst));
         }
     }
     let told = |(trouble, (t, span))| finding(transition, pair, trouble, t, span);
@@ -58,16 +59,16 @@ pub(super) fn findings(
 fn finding(
     transition: &Transition,
     pair: &FieldPair,
-    trouble: Trouble,
+    trouble: FindingKind,
     t: f64,
     span: [f64; 2],
 ) -> Finding {
     let share = overlap(pair);
     // Fields that do not overlap vanish and appear whatever the space.
     let (cause, remedy) = if share < LITTLE_OVERLAP {
-        (Cause::LittleOverlap { share }, Remedy::LayOver)
+        (FindingCause::LittleOverlap { share }, Remedy::LayOver)
     } else {
-        (Cause::BlindFields, Remedy::RigidParts)
+        (FindingCause::BlindFields, Remedy::RigidParts)
     };
     Finding {
         place: place_of(transition, pair, &trouble, t),
@@ -80,8 +81,8 @@ fn finding(
 }
 
 /// The middle of the smallest piece or hole, or of the frame.
-fn place_of(transition: &Transition, pair: &FieldPair, trouble: &Trouble, t: f64) -> DVec2 {
-    let wanted = if matches!(trouble, Trouble::Holes { .. }) {
+fn place_of(transition: &Transition, pair: &FieldPair, trouble: &FindingKind, t: f64) -> DVec2 {
+    let wanted = if matches!(trouble, FindingKind::Holes { .. }) {
         -1.0
     } else {
         1.0

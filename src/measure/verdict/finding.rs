@@ -1,10 +1,10 @@
 //! What can be found in a film: trouble, its cause and what helps.
 
 use crate::content::BlendSpace;
-use crate::geometry::Crossing;
 use crate::geometry::DVec2;
-use crate::homotopy::Homotopy;
-use crate::transition::Options;
+use crate::geometry::EdgeCrossing;
+use crate::transition::TransitionOptions;
+use crate::warp::homotopy::Homotopy;
 use serde::Serialize;
 
 /// One kind of trouble, where it is worst.
@@ -12,7 +12,7 @@ use serde::Serialize;
 #[non_exhaustive]
 pub struct Finding {
     /// What is seen.
-    pub trouble: Trouble,
+    pub trouble: FindingKind,
     /// Where there is most of it: the t to go to.
     pub t: f64,
     /// The first and the last t at which it is seen.
@@ -20,7 +20,7 @@ pub struct Finding {
     /// Where in the frame at `t`.
     pub place: DVec2,
     /// What is measured there.
-    pub cause: Cause,
+    pub cause: FindingCause,
     /// What to do.
     pub remedy: Remedy,
 }
@@ -29,7 +29,7 @@ pub struct Finding {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
-pub enum Trouble {
+pub enum FindingKind {
     /// Faces are turned over or flat.
     Folds {
         /// Their numbers, from 0.
@@ -38,7 +38,7 @@ pub enum Trouble {
     /// The boundary crosses itself.
     Crossings {
         /// Where.
-        crossings: Vec<Crossing>,
+        crossings: Vec<EdgeCrossing>,
     },
     /// A contour has more pieces than at either end.
     Pieces {
@@ -74,7 +74,7 @@ pub enum Trouble {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(tag = "kind", rename_all = "kebab-case")]
 #[non_exhaustive]
-pub enum Cause {
+pub enum FindingCause {
     /// The local maps run straight, and flatten what turns.
     StraightPaths {
         /// How they run.
@@ -140,7 +140,7 @@ pub enum Remedy {
     /// An option. It was tried.
     Change {
         /// Which.
-        change: Change,
+        change: SettingChange,
         /// How many faces, crossings, pieces or holes too many it leaves at
         /// the worst t.
         left: usize,
@@ -179,7 +179,7 @@ pub enum Remedy {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
-pub enum Change {
+pub enum SettingChange {
     /// Of how the local maps move.
     Homotopy(Homotopy),
     /// To the symmetric energy.
@@ -190,9 +190,9 @@ pub enum Change {
     Space(BlendSpace),
 }
 
-impl Change {
+impl SettingChange {
     /// Makes the change in the options of a transition or project.
-    pub fn apply(&self, options: &mut Options) {
+    pub fn apply(&self, options: &mut TransitionOptions) {
         match self {
             Self::Homotopy(homotopy) => options.arap.homotopy = *homotopy,
             Self::Symmetric => options.arap.symmetric = true,

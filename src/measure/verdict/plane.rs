@@ -1,23 +1,23 @@
 //! What goes wrong with warps of the plane: places that are seen twice, and
 //! features that are missed.
 
-use super::finding::{Cause, Finding, Remedy, Trouble};
+use super::finding::{Finding, FindingCause, FindingKind, Remedy};
 use crate::content::Content;
 use crate::geometry::{Bounds, DVec2, twice_signed_area};
-use crate::measure::film::even_steps;
-use crate::progress::{Cancelled, Progress, checkpoint};
+use crate::measure::film_report::even_steps;
 use crate::transition::{Frame, Transition};
-use crate::warp::{Missed, WarpKind};
+use crate::warp::{MissedFeatures, WarpKind};
+use crate::work::progress::{Cancelled, Progress, checkpoint};
 
 /// Folds over less than this share of the frame are not seen.
 /// On a window of 1000 by 1000 a spot of some 22 pixels across.
 const SEEN: f64 = 5e-4;
 
 /// The worst of one kind so far, how bad it is, and the span of all.
-type Worst = Option<(f64, Finding)>;
+type WorstFold = Option<(f64, Finding)>;
 
 /// Keeps the worse of two, and the span of both.
-fn keep(worst: &mut Worst, size: f64, mut finding: Finding) {
+fn keep(worst: &mut WorstFold, size: f64, mut finding: Finding) {
     if let Some((before, known)) = worst {
         known.span[1] = finding.t;
         finding.span = known.span;
@@ -40,18 +40,18 @@ pub(super) fn findings(
     }
     let bounds = transition.bounds();
     let mut frame = transition.frame(0.0);
-    let (mut folds, mut missed) = (Worst::None, Worst::None);
+    let (mut folds, mut missed) = (WorstFold::None, WorstFold::None);
     for t in even_steps(steps) {
         checkpoint(progress, "looking for folds of the plane", t)?;
         frame.seek(t);
         let (share, place) = folded(&frame, &bounds);
         if share > SEEN {
             let finding = Finding {
-                trouble: Trouble::PlaneFolds { share },
+                trouble: FindingKind::PlaneFolds { share },
                 t,
                 span: [t, t],
                 place,
-                cause: Cause::SeenTwice,
+                cause: FindingCause::SeenTwice,
                 remedy: Remedy::Lattices,
             };
             keep(&mut folds, share, finding);
@@ -67,14 +67,14 @@ pub(super) fn findings(
         .collect())
 }
 
-fn of_missed(missed: &Missed, t: f64, diameter: f64) -> Finding {
+fn of_missed(missed: &MissedFeatures, t: f64, diameter: f64) -> Finding {
     let (cause, remedy) = if missed.unfolded {
-        (Cause::OutOfReach, Remedy::LetFold)
+        (FindingCause::OutOfReach, Remedy::LetFold)
     } else {
-        (Cause::FeaturesMeet, Remedy::MovePins)
+        (FindingCause::FeaturesMeet, Remedy::MovePins)
     };
     Finding {
-        trouble: Trouble::Missed {
+        trouble: FindingKind::Missed {
             count: missed.count,
             by: missed.by / diameter,
         },
@@ -135,8 +135,8 @@ mod tests {
     use super::*;
     use crate::correspondence::PointPair;
     use crate::measure::Verdict;
-    use crate::progress::Silent;
     use crate::project::gallery;
+    use crate::work::progress::Silent;
 
     /// Two pins that change places between four that stay, by a warp.
     fn crossed(warp: WarpKind, fold_free: bool) -> Verdict {
@@ -164,7 +164,7 @@ mod tests {
         let [finding] = verdict.findings.as_slice() else {
             panic!("{}", verdict.headline());
         };
-        assert!(matches!(finding.trouble, Trouble::PlaneFolds { share } if share > 0.01));
+        assert!(matches!(finding.trouble, FindingKind::PlaneFolds { share } if share > 0.01));
         assert_eq!(finding.remedy, Remedy::Lattices);
     }
 
@@ -174,7 +174,7 @@ mod tests {
         let [finding] = verdict.findings.as_slice() else {
             panic!("{}", verdict.headline());
         };
-        assert!(matches!(finding.trouble, Trouble::Missed { count: 2, by } if by > 0.001));
+        assert!(matches!(finding.trouble, FindingKind::Missed { count: 2, by } if by > 0.001));
         assert_eq!(finding.remedy, Remedy::LetFold);
     }
 }

@@ -1,14 +1,15 @@
 //! What helps: options are tried, the rest is named.
 
-use super::cause::Scene;
-use super::finding::{Cause, Change, Finding, Remedy, Trouble};
-use super::scan::{self, Glance};
-use crate::content::{BlendSpace, FieldPair, Solid};
-use crate::design::Form;
-use crate::homotopy::Homotopy;
-use crate::progress::{Cancelled, Progress, Several};
-use crate::transition::{Options, Transition};
+use super::cause::CauseSearch;
+use super::defect_scan;
+use super::defect_scan::MomentCounts;
+use super::finding::{Finding, FindingCause, FindingKind, Remedy, SettingChange};
+use crate::content::{BlendSpace, FieldPair, SolidContent};
+use crate::design::DesignForm;
+use crate::transition::{Transition, TransitionOptions};
+use crate::warp::homotopy::Homotopy;
 use crate::warp::{Arap, ArapError};
+use crate::work::progress::{Cancelled, Progress, ProgressShares};
 
 /// Meshes with more faces than this are not built again to try an option: a
 /// trial of so many takes about a quarter of a second.
@@ -16,7 +17,7 @@ const MOST_FACES: usize = 20_000;
 
 /// What a person can do about a face, where no option helps: pins belong to
 /// matched outlines, meshes and trusses have vertices.
-pub(super) fn by_hand(scene: &Scene<'_>, face: usize) -> Remedy {
+pub(super) fn by_hand(scene: &CauseSearch<'_>, face: usize) -> Remedy {
     let mesh = scene.arap.mesh();
     let [source, target] = [mesh.source(), mesh.target()].map(|p| scene.centroid(face, p));
     Remedy::MoveVertices { source, target }
@@ -27,8 +28,8 @@ pub(super) fn by_hand(scene: &Scene<'_>, face: usize) -> Remedy {
 pub(super) fn for_rigid_parts(
     transition: &Transition,
     arap: &Arap,
-    solid: &Solid,
-    glances: &[Glance],
+    solid: &SolidContent,
+    glances: &[MomentCounts],
     found: &mut [Finding],
     progress: &dyn Progress,
 ) -> Result<(), Cancelled> {
@@ -36,7 +37,9 @@ pub(super) fn for_rigid_parts(
         return Ok(());
     }
     let designs = transition.designs();
-    let has_pins = designs.iter().any(|d| matches!(d.form, Form::Outline(_)));
+    let has_pins = designs
+        .iter()
+        .any(|d| matches!(d.form, DesignForm::Outline(_)));
     for finding in &mut *found {
         if has_pins {
             finding.remedy = pin(finding);
@@ -48,7 +51,7 @@ pub(super) fn for_rigid_parts(
     }
     let now = glances;
     let changes = changes(arap, found);
-    let shares = Several::new(progress, changes.len());
+    let shares = ProgressShares::new(progress, changes.len());
     for (k, change) in changes.iter().enumerate() {
         let film = (transition, arap, solid);
         let Some(then) = tried(change, film, now.len(), &shares.part(k))? else {
@@ -64,18 +67,18 @@ pub(super) fn for_rigid_parts(
 /// A pin where the match is uneven, or else where the trouble is.
 fn pin(finding: &Finding) -> Remedy {
     match (&finding.cause, &finding.remedy) {
-        (&Cause::UnevenMatch { source, target, .. }, _)
+        (&FindingCause::UnevenMatch { source, target, .. }, _)
         | (_, &Remedy::MoveVertices { source, target }) => Remedy::Pin { source, target },
         (_, other) => other.clone(),
     }
 }
 
 /// The options that are worth a trial, the likeliest first.
-fn changes(arap: &Arap, found: &[Finding]) -> Vec<Change> {
+fn changes(arap: &Arap, found: &[Finding]) -> Vec<SettingChange> {
     let options = arap.options();
     let mut changes = Vec::new();
     for finding in found {
-        if let &Cause::FarTurn {
+        if let &FindingCause::FarTurn {
             part: Some(part),
             turn,
         } = &finding.cause
@@ -85,17 +88,17 @@ fn changes(arap: &Arap, found: &[Finding]) -> Vec<Change> {
     }
     for homotopy in [Homotopy::Polar, Homotopy::Exponential] {
         if options.homotopy != homotopy {
-            changes.push(Change::Homotopy(homotopy));
+            changes.push(SettingChange::Homotopy(homotopy));
         }
     }
     if !options.symmetric {
-        changes.push(Change::Symmetric);
+        changes.push(SettingChange::Symmetric);
     }
     changes
 }
 
 /// A whole turn less for a part, so that it turns the other way.
-fn the_other_way(arap: &Arap, part: usize, turn: f64) -> Change {
+fn the_other_way(arap: &Arap, part: usize, turn: f64) -> SettingChange {
     let given = &arap.options().extra_turns;
     let each = |p: usize| match given.as_slice() {
         [all] => *all,
@@ -106,23 +109,23 @@ fn the_other_way(arap: &Arap, part: usize, turn: f64) -> Change {
     if let Some(own) = turns.get_mut(part) {
         *own -= if turn > 0.0 { 1 } else { -1 };
     }
-    Change::ExtraTurns(turns)
+    SettingChange::ExtraTurns(turns)
 }
 
 /// What is wrong with the change made; `None` where it cannot be made.
 fn tried(
-    change: &Change,
-    (transition, arap, solid): (&Transition, &Arap, &Solid),
+    change: &SettingChange,
+    (transition, arap, solid): (&Transition, &Arap, &SolidContent),
     steps: usize,
     progress: &dyn Progress,
-) -> Result<Option<Vec<Glance>>, Cancelled> {
-    let mut options = Options {
+) -> Result<Option<Vec<MomentCounts>>, Cancelled> {
+    let mut options = TransitionOptions {
         arap: arap.options().clone(),
-        ..Options::default()
+        ..TransitionOptions::default()
     };
     change.apply(&mut options);
     match arap.rebuilt(&options.arap, progress) {
-        Ok(other) => scan::rigid_parts(transition, &other, solid, steps, progress).map(Some),
+        Ok(other) => defect_scan::rigid_parts(transition, &other, solid, steps, progress).map(Some),
         Err(ArapError::Cancelled(cancelled)) => Err(cancelled),
         Err(_) => Ok(None),
     }
@@ -130,19 +133,25 @@ fn tried(
 
 /// Takes a change that leaves less of the trouble, and no more of the other,
 /// than what was found before.
-fn take_if_better(finding: &mut Finding, change: &Change, now: &[Glance], then: &[Glance]) {
-    let (own, other): (scan::Count, scan::Count) = match finding.trouble {
-        Trouble::Folds { .. } => (|g| g.folds, |g| g.crossings),
+fn take_if_better(
+    finding: &mut Finding,
+    change: &SettingChange,
+    now: &[MomentCounts],
+    then: &[MomentCounts],
+) {
+    let (own, other): (defect_scan::DefectCounts, defect_scan::DefectCounts) = match finding.trouble
+    {
+        FindingKind::Folds { .. } => (|g| g.folds, |g| g.crossings),
         _ => (|g| g.crossings, |g| g.folds),
     };
-    let of = scan::most(now, own);
+    let of = defect_scan::most(now, own);
     let best = match finding.remedy {
         Remedy::Change { left, .. } => left,
         _ => of,
     };
-    let left = scan::most(then, own);
+    let left = defect_scan::most(then, own);
     // Folds undone at the price of new crossings are no remedy.
-    if left < best && scan::most(then, other) <= scan::most(now, other) {
+    if left < best && defect_scan::most(then, other) <= defect_scan::most(now, other) {
         let change = change.clone();
         finding.remedy = Remedy::Change { change, left, of };
     }
@@ -167,21 +176,21 @@ pub(super) fn for_fields(
     let Ok(Some(other)) = transition.with_blend(blend) else {
         return Ok(());
     };
-    let then = scan::fields(&other, steps, progress)?;
+    let then = defect_scan::fields(&other, steps, progress)?;
     for finding in found {
         let (of, left) = match finding.trouble {
-            Trouble::Pieces { count, at_ends } => (
+            FindingKind::Pieces { count, at_ends } => (
                 count - at_ends,
-                scan::most(&then, |g| g.pieces).saturating_sub(at_ends),
+                defect_scan::most(&then, |g| g.pieces).saturating_sub(at_ends),
             ),
-            Trouble::Holes { count, at_ends } => (
+            FindingKind::Holes { count, at_ends } => (
                 count - at_ends,
-                scan::most(&then, |g| g.holes).saturating_sub(at_ends),
+                defect_scan::most(&then, |g| g.holes).saturating_sub(at_ends),
             ),
             _ => (1, usize::from(then.iter().any(|g| g.pieces == 0))),
         };
         if left < of {
-            let change = Change::Space(blend.space);
+            let change = SettingChange::Space(blend.space);
             finding.remedy = Remedy::Change { change, left, of };
         }
     }

@@ -1,19 +1,21 @@
 //! What is found in rigid parts and in boundaries.
 
-use super::cause::{self, Scene};
-use super::finding::{Cause, Finding, Remedy, Trouble};
+use super::cause;
+use super::cause::CauseSearch;
+use super::defect_scan;
+use super::defect_scan::MomentCounts;
+use super::finding::{Finding, FindingCause, FindingKind, Remedy};
 use super::remedy;
-use super::scan::{self, Glance};
 use crate::compatible::CompatibleMesh;
-use crate::content::Solid;
+use crate::content::SolidContent;
 use crate::geometry::DVec2;
-use crate::progress::{Cancelled, Progress};
 use crate::transition::Transition;
+use crate::work::progress::{Cancelled, Progress};
 
 pub(super) fn findings(
     transition: &Transition,
-    solid: &Solid,
-    glances: &[Glance],
+    solid: &SolidContent,
+    glances: &[MomentCounts],
     progress: &dyn Progress,
 ) -> Result<Vec<Finding>, Cancelled> {
     let Some(arap) = transition.arap() else {
@@ -26,12 +28,12 @@ pub(super) fn findings(
         return Ok(found);
     };
     let mut found = Vec::new();
-    if let Some((t, span)) = scan::worst(glances, |g| g.folds, 0) {
-        let scene = Scene::new(transition, arap, solid, t);
+    if let Some((t, span)) = defect_scan::worst(glances, |g| g.folds, 0) {
+        let scene = CauseSearch::new(transition, arap, solid, t);
         found.extend(of_folds(&scene, t, span));
     }
-    if let Some((t, span)) = scan::worst(glances, |g| g.crossings, 0) {
-        let scene = Scene::new(transition, arap, solid, t);
+    if let Some((t, span)) = defect_scan::worst(glances, |g| g.crossings, 0) {
+        let scene = CauseSearch::new(transition, arap, solid, t);
         found.extend(of_crossings(&scene, t, span));
     }
     remedy::for_rigid_parts(transition, arap, solid, glances, &mut found, progress)?;
@@ -39,16 +41,20 @@ pub(super) fn findings(
 }
 
 /// Crossings of a boundary that has nothing inside.
-fn of_boundaries(transition: &Transition, solid: &Solid, glances: &[Glance]) -> Option<Finding> {
-    let (t, span) = scan::worst(glances, |g| g.crossings, 0)?;
+fn of_boundaries(
+    transition: &Transition,
+    solid: &SolidContent,
+    glances: &[MomentCounts],
+) -> Option<Finding> {
+    let (t, span) = defect_scan::worst(glances, |g| g.crossings, 0)?;
     let frame = transition.frame(t);
     let crossings = solid.crossings_at(&frame.placement().in_frame, t);
     Some(Finding {
         place: crossings.first()?.place,
-        trouble: Trouble::Crossings { crossings },
+        trouble: FindingKind::Crossings { crossings },
         t,
         span,
-        cause: Cause::NothingInside,
+        cause: FindingCause::NothingInside,
         remedy: Remedy::RigidParts,
     })
 }
@@ -57,36 +63,36 @@ fn of_boundaries(transition: &Transition, solid: &Solid, glances: &[Glance]) -> 
 fn of_blends(
     transition: &Transition,
     mesh: &CompatibleMesh,
-    solid: &Solid,
-    glances: &[Glance],
+    solid: &SolidContent,
+    glances: &[MomentCounts],
 ) -> Vec<Finding> {
     let finding = |(t, span), place, trouble| Finding {
         trouble,
         t,
         span,
         place,
-        cause: Cause::Unclear,
+        cause: FindingCause::Unclear,
         remedy: Remedy::AnotherWay,
     };
-    let folds = scan::worst(glances, |g| g.folds, 0).and_then(|at| {
+    let folds = defect_scan::worst(glances, |g| g.folds, 0).and_then(|at| {
         let frame = transition.frame(at.0);
         let places = &frame.placement().in_frame;
-        let faces: Vec<usize> = scan::folded(mesh.faces(), places).collect();
+        let faces: Vec<usize> = defect_scan::folded(mesh.faces(), places).collect();
         let corners = mesh.faces()[*faces.first()?].map(|v| places[v as usize]);
         let middle = corners.iter().sum::<DVec2>() / 3.0;
-        Some(finding(at, middle, Trouble::Folds { faces }))
+        Some(finding(at, middle, FindingKind::Folds { faces }))
     });
-    let crossings = scan::worst(glances, |g| g.crossings, 0).and_then(|at| {
+    let crossings = defect_scan::worst(glances, |g| g.crossings, 0).and_then(|at| {
         let frame = transition.frame(at.0);
         let crossings = solid.crossings_at(&frame.placement().in_frame, at.0);
         let place = crossings.first()?.place;
-        Some(finding(at, place, Trouble::Crossings { crossings }))
+        Some(finding(at, place, FindingKind::Crossings { crossings }))
     });
     folds.into_iter().chain(crossings).collect()
 }
 
-fn of_folds(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
-    let faces: Vec<usize> = scan::folded(scene.arap.mesh().faces(), &scene.places).collect();
+fn of_folds(scene: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
+    let faces: Vec<usize> = defect_scan::folded(scene.arap.mesh().faces(), &scene.places).collect();
     let by_det = |a: &&usize, b: &&usize| scene.det(**a).total_cmp(&scene.det(**b));
     let worst = *faces.iter().min_by(by_det)?;
     // What an option can change comes first, then what a pin can, and last what
@@ -98,15 +104,15 @@ fn of_folds(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
         .or_else(|| cause::far_turn(scene, worst));
     Some(Finding {
         place: scene.centroid(worst, &scene.places),
-        trouble: Trouble::Folds { faces },
+        trouble: FindingKind::Folds { faces },
         t,
         span,
-        cause: cause.unwrap_or(Cause::Unclear),
+        cause: cause.unwrap_or(FindingCause::Unclear),
         remedy: remedy::by_hand(scene, worst),
     })
 }
 
-fn of_crossings(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
+fn of_crossings(scene: &CauseSearch<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
     let found = scene.solid.crossings_at(&scene.places, t);
     let first = *found.first()?;
     let faces: Vec<usize> = first
@@ -125,13 +131,13 @@ fn of_crossings(scene: &Scene<'_>, t: f64, span: [f64; 2]) -> Option<Finding> {
             let near = cause::near_each_other(scene, &first);
             near.then(|| cause::uneven_match(scene, a)).flatten()
         });
-    let meet = || Cause::PlacesMeet {
+    let meet = || FindingCause::PlacesMeet {
         turns: [a, b].map(|f| scene.angles[f]),
         source: [a, b].map(|f| scene.centroid(f, scene.arap.mesh().source())),
     };
     Some(Finding {
         place: first.place,
-        trouble: Trouble::Crossings { crossings: found },
+        trouble: FindingKind::Crossings { crossings: found },
         t,
         span,
         cause: cause.unwrap_or_else(meet),

@@ -1,18 +1,19 @@
 //! Films that go wrong by construction, and one cause after the other.
 
-use super::cause::{self, Scene};
+use super::cause;
+use super::cause::CauseSearch;
 use super::*;
 use crate::content::BlendSpace;
 use crate::content::Content;
 use crate::design::{ImportOptions, import};
 use crate::field::Metric;
 use crate::geometry::{DMat2, DVec2};
-use crate::homotopy::Homotopy;
 use crate::measure::film;
 use crate::measure::tests::{sheet, transition};
-use crate::progress::Silent;
-use crate::transition::{Note, Options, Transition, TransitionSpec};
+use crate::transition::{Transition, TransitionNote, TransitionOptions, TransitionSpec};
 use crate::warp::ArapOptions;
+use crate::warp::homotopy::Homotopy;
+use crate::work::progress::Silent;
 use std::f64::consts::PI;
 use std::sync::Arc;
 
@@ -46,12 +47,12 @@ fn half_turn(homotopy: Homotopy) -> Transition {
 fn straight_paths_fold_where_the_determinant_is_negative() {
     let found = verdict(&half_turn(Homotopy::Linear));
     let finding = &found.findings[0];
-    assert!(matches!(&finding.trouble, Trouble::Folds { faces } if faces.len() == 16));
+    assert!(matches!(&finding.trouble, FindingKind::Folds { faces } if faces.len() == 16));
     let [first, last] = finding.span;
     assert!((first - 0.25).abs() <= STEP && (last - 0.5).abs() <= STEP);
     assert!((finding.t - 0.375).abs() <= STEP, "{}", finding.t);
     assert!(
-        matches!(finding.cause, Cause::StraightPaths { turn, .. } if (turn.abs() - PI).abs() < 1e-9)
+        matches!(finding.cause, FindingCause::StraightPaths { turn, .. } if (turn.abs() - PI).abs() < 1e-9)
     );
     let Remedy::Change {
         change,
@@ -61,7 +62,7 @@ fn straight_paths_fold_where_the_determinant_is_negative() {
     else {
         panic!("{:?}", finding.remedy);
     };
-    assert_eq!(*change, Change::Homotopy(Homotopy::Polar));
+    assert_eq!(*change, SettingChange::Homotopy(Homotopy::Polar));
     assert_eq!(finding.headline(), "16 faces fold at t = 0.38");
     assert!(found.headline().starts_with("16 faces fold at t = 0.38"));
     assert!(finding.cause.to_string().contains("180°"));
@@ -93,10 +94,10 @@ fn a_part_that_turns_too_far_is_turned_the_other_way() {
         let found = verdict(&hinge(vec![0, turns]));
         let finding = &found.findings[0];
         assert!(
-            matches!(finding.trouble, Trouble::Crossings { .. }),
+            matches!(finding.trouble, FindingKind::Crossings { .. }),
             "{found:?}"
         );
-        let Cause::FarTurn {
+        let FindingCause::FarTurn {
             part: Some(1),
             turn,
         } = finding.cause
@@ -110,7 +111,7 @@ fn a_part_that_turns_too_far_is_turned_the_other_way() {
         else {
             panic!("{:?}", finding.remedy);
         };
-        assert_eq!(*change, Change::ExtraTurns(vec![0, 0]));
+        assert_eq!(*change, SettingChange::ExtraTurns(vec![0, 0]));
         assert!(found.headline().starts_with("the boundary crosses itself"));
         assert!(finding.place.length() < 4.0);
     }
@@ -145,12 +146,12 @@ fn limbs_that_run_into_each_other_are_seen_from_both_sides() {
     let transition = recoiled();
     let found = verdict(&transition);
     let finding = &found.findings[0];
-    let Trouble::Crossings { crossings } = &finding.trouble else {
+    let FindingKind::Crossings { crossings } = &finding.trouble else {
         panic!("{found:?}");
     };
     assert_eq!(finding.place, crossings[0].place);
     assert!((finding.t - 0.5).abs() < 0.25, "{}", finding.t);
-    let Cause::PlacesMeet { turns: [a, b], .. } = finding.cause else {
+    let FindingCause::PlacesMeet { turns: [a, b], .. } = finding.cause else {
         panic!("{:?}", finding.cause);
     };
     assert!((a - b).abs() > 0.5, "{a} {b}");
@@ -160,11 +161,11 @@ fn limbs_that_run_into_each_other_are_seen_from_both_sides() {
     ));
 }
 
-fn scene(transition: &Transition, test: impl FnOnce(&Scene<'_>)) {
+fn scene(transition: &Transition, test: impl FnOnce(&CauseSearch<'_>)) {
     let (Some(arap), Content::Solid(solid)) = (transition.arap(), transition.content()) else {
         panic!("rigid parts");
     };
-    test(&Scene::new(transition, arap, solid, 0.5));
+    test(&CauseSearch::new(transition, arap, solid, 0.5));
 }
 
 #[test]
@@ -178,7 +179,7 @@ fn a_far_turn_within_one_part_is_measured_against_the_whole() {
     );
     scene(&uncoiled, |scene| {
         // The faces at the ends turn by about a whole turn against the middle.
-        let Some(Cause::FarTurn { part: None, turn }) = cause::far_turn(scene, 0) else {
+        let Some(FindingCause::FarTurn { part: None, turn }) = cause::far_turn(scene, 0) else {
             panic!("{:?}", cause::far_turn(scene, 0));
         };
         assert!(turn.abs() > PI);
@@ -205,7 +206,7 @@ fn a_squeezed_boundary_is_named_where_it_is() {
     let target: Vec<_> = source.iter().map(moved).collect();
     let squeezed = transition(&faces, &source, &target, ArapOptions::default());
     scene(&squeezed, |scene| {
-        let Some(Cause::UnevenMatch {
+        let Some(FindingCause::UnevenMatch {
             ratio,
             source,
             target,
@@ -217,7 +218,7 @@ fn a_squeezed_boundary_is_named_where_it_is() {
         assert!((source - DVec2::new(20.0, 0.0)).abs().max_element() <= 2.0);
         assert!((target - DVec2::new(20.0, 0.0)).abs().max_element() <= 0.4);
         assert_eq!(cause::uneven_match(scene, 0), None, "far from it");
-        let words = Cause::UnevenMatch {
+        let words = FindingCause::UnevenMatch {
             ratio: 0.25,
             source,
             target,
@@ -235,7 +236,8 @@ fn neighbours_that_turn_apart_are_named() {
     let target: Vec<_> = source.iter().map(shear).collect();
     let sheared = transition(&faces, &source, &target, ArapOptions::default());
     scene(&sheared, |scene| {
-        let Some(Cause::UnlikeNeighbours { turn }) = cause::unlike_neighbours(scene, &[1]) else {
+        let Some(FindingCause::UnlikeNeighbours { turn }) = cause::unlike_neighbours(scene, &[1])
+        else {
             panic!("no cause");
         };
         // A shear by s turns by atan(s / 2), here both ways.
@@ -255,7 +257,7 @@ fn fields_by(source: &str, target: &str, metric: Metric) -> Transition {
         Arc::new(import("drawing", svg.as_bytes(), &ImportOptions::default()).expect("a drawing"))
     };
     let mut spec = TransitionSpec::new(read(source), read(target));
-    spec.cell = crate::transition::Cell::FIELD_BLEND;
+    spec.cell = crate::transition::TransitionMethod::FIELD_BLEND;
     spec.options.field.cells = 96;
     spec.options.field.metric = metric;
     Transition::build(&spec, &Silent).expect("a transition")
@@ -269,8 +271,8 @@ fn rect(x: u32, y: u32, width: u32, height: u32) -> String {
 fn fields_that_do_not_overlap_leave_nothing() {
     let found = verdict(&fields(&rect(5, 20, 20, 20), &rect(75, 20, 20, 20)));
     let finding = &found.findings[0];
-    assert_eq!(finding.trouble, Trouble::Gone);
-    assert_eq!(finding.cause, Cause::LittleOverlap { share: 0.0 });
+    assert_eq!(finding.trouble, FindingKind::Gone);
+    assert_eq!(finding.cause, FindingCause::LittleOverlap { share: 0.0 });
     assert_eq!(finding.remedy, Remedy::LayOver);
     assert_eq!(
         found.headline(),
@@ -287,12 +289,12 @@ fn fields_that_lose_a_bridge_fall_apart() {
     let finding = &found.findings[0];
     assert_eq!(
         finding.trouble,
-        Trouble::Pieces {
+        FindingKind::Pieces {
             count: 2,
             at_ends: 1
         }
     );
-    assert_eq!(finding.cause, Cause::BlindFields);
+    assert_eq!(finding.cause, FindingCause::BlindFields);
     assert_eq!(finding.remedy, Remedy::RigidParts);
     assert!((finding.t - 0.5).abs() < 0.2);
     assert!(
@@ -313,19 +315,19 @@ fn a_verdict_tells_how_the_film_was_made() {
     let (a, b) = (rect(10, 10, 40, 40), rect(15, 10, 50, 40));
     assert_eq!(verdict(&fields(&a, &b)).notes, []);
     let found = verdict(&fields_by(&a, &b, Metric::Chessboard));
-    assert_eq!(found.notes, [Note::BinaryBoundary]);
+    assert_eq!(found.notes, [TransitionNote::BinaryBoundary]);
     assert!(found.is_clear(), "a note is no trouble");
 }
 
 #[test]
 fn a_change_is_made_in_the_options() {
-    let mut options = Options::default();
+    let mut options = TransitionOptions::default();
     options.arap.symmetric = false;
     for change in [
-        Change::Homotopy(Homotopy::Exponential),
-        Change::Symmetric,
-        Change::ExtraTurns(vec![0, -1]),
-        Change::Space(BlendSpace::Real),
+        SettingChange::Homotopy(Homotopy::Exponential),
+        SettingChange::Symmetric,
+        SettingChange::ExtraTurns(vec![0, -1]),
+        SettingChange::Space(BlendSpace::Real),
     ] {
         change.apply(&mut options);
         assert!(!change.to_string().is_empty());

@@ -3,7 +3,7 @@
 
 use crate::geometry::DVec2;
 use crate::mesh::{components, undirected};
-use crate::progress::Cancelled;
+use crate::work::progress::Cancelled;
 use spade::handles::FixedVertexHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation as _};
 use std::collections::{HashMap, HashSet};
@@ -31,17 +31,17 @@ pub enum TriangulationError {
     Cancelled(#[from] Cancelled),
 }
 
-pub(super) type Delaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
+pub(super) type ConstrainedDelaunay = ConstrainedDelaunayTriangulation<Point2<f64>>;
 
 /// No corner of a walk.
 const NONE: u32 = u32::MAX;
 
 /// The merged points before, at and after a corner of a walk.
-type Corner = [u32; 3];
+type LoopCorner = [u32; 3];
 
-pub(super) struct Domain {
-    pub(super) delaunay: Delaunay,
-    merged: Vec<Corner>,
+pub(super) struct TriangulationDomain {
+    pub(super) delaunay: ConstrainedDelaunay,
+    merged: Vec<LoopCorner>,
     /// How many merged points there are; added ones follow them.
     fixed: usize,
     /// The walks' edges between merged points, as they are run: a slit's in
@@ -49,12 +49,12 @@ pub(super) struct Domain {
     walked: HashSet<[u32; 2]>,
 }
 
-impl Domain {
+impl TriangulationDomain {
     pub(super) fn of<W: AsRef<[DVec2]>>(walks: &[W]) -> Result<Self, TriangulationError> {
         let (points, merged) = merged_points(walks)?;
         let mut walked = HashSet::new();
         // Once each way: more would leave no wedge of the piece between them.
-        let is_new = |&[_, a, b]: &Corner| a != b && walked.insert([a, b]);
+        let is_new = |&[_, a, b]: &LoopCorner| a != b && walked.insert([a, b]);
         if !merged.iter().all(is_new) {
             return Err(TriangulationError::NotSimple);
         }
@@ -66,7 +66,7 @@ impl Domain {
         edges.dedup();
         let (fixed, constraints) = (points.len(), edges.len());
         let mut conflict = false;
-        let delaunay = Delaunay::try_bulk_load_cdt(points, edges, |_| conflict = true)
+        let delaunay = ConstrainedDelaunay::try_bulk_load_cdt(points, edges, |_| conflict = true)
             .map_err(|_| TriangulationError::OutOfRange)?;
         // Crossings are conflicts; edges along each other change the count.
         if conflict
@@ -218,7 +218,7 @@ impl Domain {
 /// Different points, and which of them each corner has.
 fn merged_points<W: AsRef<[DVec2]>>(
     walks: &[W],
-) -> Result<(Vec<Point2<f64>>, Vec<Corner>), TriangulationError> {
+) -> Result<(Vec<Point2<f64>>, Vec<LoopCorner>), TriangulationError> {
     let least = walks.iter().map(|w| w.as_ref().len()).min().unwrap_or(0);
     if least < 3 {
         return Err(TriangulationError::TooFewPoints(least));

@@ -2,20 +2,20 @@
 //! Ruppert 1995): circumcentres of bad faces, largest circle first, unless
 //! they lie beyond the boundary or too near to it.
 
-use super::domain::{Delaunay, Domain};
+use super::domain::{ConstrainedDelaunay, TriangulationDomain};
 use crate::geometry::{Bounds, DVec2, orient2d};
-use crate::progress::{Cancelled, Progress, still_wanted};
+use crate::work::progress::{Cancelled, Progress, still_wanted};
 use spade::handles::{DirectedEdgeHandle, FaceHandle, FixedVertexHandle, InnerTag};
 use spade::{Point2, Triangulation as _};
 use std::cmp::Reverse;
 use std::collections::{BTreeMap, HashSet};
 
-type Edge<'a> = DirectedEdgeHandle<'a, Point2<f64>, (), spade::CdtEdge<()>, ()>;
-type Face<'a> = FaceHandle<'a, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
+type SpadeEdge<'a> = DirectedEdgeHandle<'a, Point2<f64>, (), spade::CdtEdge<()>, ()>;
+type SpadeFace<'a> = FaceHandle<'a, InnerTag, Point2<f64>, (), spade::CdtEdge<()>, ()>;
 
 /// How fine a triangulation is to be.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Refinement {
+pub struct RefinementOptions {
     /// Longest edge wanted, roughly; `None` leaves it to the angles.
     pub max_edge: Option<f64>,
     /// The most points that may be added.
@@ -33,25 +33,25 @@ const SMALLEST_SHARE: f64 = 1e-14;
 /// A face's place among the bad ones: the bits of its circumcircle's squared
 /// radius, which order as it does since it is not negative, and its vertices,
 /// so that of equal circles one is always the first.
-type Rank = (u64, Reverse<[FixedVertexHandle; 3]>);
+type BadFaceRank = (u64, Reverse<[FixedVertexHandle; 3]>);
 
 /// What makes a face bad.
-struct Limits {
+struct FaceLimits {
     /// Least squared ratio of the shortest edge to the circumradius.
     ratio: f64,
     area: f64,
     least_area: f64,
 }
 
-impl Domain {
+impl TriangulationDomain {
     pub(super) fn refine(
         &mut self,
-        refinement: &Refinement,
+        refinement: &RefinementOptions,
         progress: &dyn Progress,
     ) -> Result<(), Cancelled> {
         let limits = self.limits(refinement);
         let winding = self.winding();
-        let mut bad: BTreeMap<Rank, DVec2> = self
+        let mut bad: BTreeMap<BadFaceRank, DVec2> = self
             .delaunay
             .inner_faces()
             .filter(|face| winding[face.index()] == 1)
@@ -75,12 +75,12 @@ impl Domain {
         Ok(())
     }
 
-    fn limits(&self, refinement: &Refinement) -> Limits {
+    fn limits(&self, refinement: &RefinementOptions) -> FaceLimits {
         let positions = self.delaunay.vertices().map(|v| at(v.position()));
         let size = Bounds::of(positions).map_or(0.0, |bounds| bounds.size().max_element());
         let least_area = SMALLEST_SHARE * size * size;
         let equilateral = |edge: f64| (0.25 * 3f64.sqrt() * edge * edge).max(least_area);
-        Limits {
+        FaceLimits {
             // The least angle α lies opposite the shortest side l: l = 2 R sin α.
             ratio: (2.0 * MIN_ANGLE.sin()).powi(2),
             area: refinement.max_edge.map_or(f64::INFINITY, equilateral),
@@ -89,9 +89,9 @@ impl Domain {
     }
 }
 
-impl Limits {
+impl FaceLimits {
     /// The rank of a bad face, and its circumcentre.
-    fn judge(&self, face: Face<'_>) -> Option<(Rank, DVec2)> {
+    fn judge(&self, face: SpadeFace<'_>) -> Option<(BadFaceRank, DVec2)> {
         let area = face.area();
         if area <= self.least_area {
             return None;
@@ -112,7 +112,7 @@ impl Limits {
 /// Puts a vertex into a circumcentre, if the face is still there and the
 /// place is inside and no nearer to the boundary than half its edge.
 fn insert(
-    delaunay: &mut Delaunay,
+    delaunay: &mut ConstrainedDelaunay,
     [a, b, c]: [FixedVertexHandle; 3],
     centre: DVec2,
 ) -> Option<FixedVertexHandle> {
@@ -132,7 +132,7 @@ fn insert(
 
 /// Whether no edge of the boundary that a new point's faces would meet hides
 /// the point or has it in its diametral circle.
-fn is_free(face: Face<'_>, centre: DVec2) -> bool {
+fn is_free(face: SpadeFace<'_>, centre: DVec2) -> bool {
     let mut seen: HashSet<usize> = HashSet::from([face.index()]);
     let mut open = vec![face];
     let mut reached = false;
@@ -165,17 +165,17 @@ fn at(p: Point2<f64>) -> DVec2 {
 }
 
 /// Whether a point is on the face's side of an edge, or on it.
-fn sees(edge: Edge<'_>, p: DVec2) -> bool {
+fn sees(edge: SpadeEdge<'_>, p: DVec2) -> bool {
     let [a, b] = edge.positions().map(at);
     orient2d(a, b, p) >= 0.0
 }
 
-fn encroaches(edge: Edge<'_>, p: DVec2) -> bool {
+fn encroaches(edge: SpadeEdge<'_>, p: DVec2) -> bool {
     let [a, b] = edge.positions().map(at);
     (a - p).dot(b - p) <= 0.0
 }
 
-fn in_circle(face: Face<'_>, p: DVec2) -> bool {
+fn in_circle(face: SpadeFace<'_>, p: DVec2) -> bool {
     let (centre, radius_squared) = face.circumcircle();
     p.distance_squared(at(centre)) < radius_squared
 }

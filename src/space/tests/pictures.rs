@@ -1,7 +1,7 @@
 //! Pictures of many designs.
 
 use super::*;
-use crate::content::{PicturePair, Raster};
+use crate::content::{PicturePair, PictureRaster};
 use crate::correspondence::LinePair;
 use crate::design::Picture;
 use crate::warp::{ManyFeatures, WarpKind};
@@ -49,15 +49,15 @@ fn spec(order: &[usize], warp: WarpKind) -> SpaceSpec {
     spec
 }
 
-fn raster() -> Raster {
-    Raster {
+fn raster() -> PictureRaster {
+    PictureRaster {
         size: [SIDE; 2],
         corner: DVec2::new(0.0, f64::from(SIDE)),
         pixel: 1.0,
     }
 }
 
-fn seen(space: &Space, weights: &[f64]) -> RgbaImage {
+fn seen(space: &DesignSpace, weights: &[f64]) -> RgbaImage {
     let mut frame = space.frame();
     frame.seek(weights);
     frame.picture(&raster()).expect("pictures")
@@ -79,12 +79,12 @@ const KINDS: [WarpKind; 4] = [
 #[test]
 fn each_picture_is_at_its_corner_and_their_order_does_not_matter() {
     for kind in KINDS {
-        let space = Space::build(&spec(&[0, 1, 2], kind), &Silent).expect("a space");
+        let space = DesignSpace::build(&spec(&[0, 1, 2], kind), &Silent).expect("a space");
         for (k, design) in space.designs().iter().enumerate() {
             let own = design.picture.as_ref().expect("a picture");
             assert_eq!(&seen(&space, &corner(3, k)), own.pixels().as_ref());
         }
-        let turned = Space::build(&spec(&[2, 0, 1], kind), &Silent).expect("a space");
+        let turned = DesignSpace::build(&spec(&[2, 0, 1], kind), &Silent).expect("a space");
         let there = seen(&space, &[0.5, 0.2, 0.3]);
         assert!(
             off(&there, &seen(&turned, &[0.3, 0.5, 0.2])) <= 1,
@@ -97,11 +97,11 @@ fn each_picture_is_at_its_corner_and_their_order_does_not_matter() {
 fn two_pictures_are_a_pair() {
     for kind in [WarpKind::None, WarpKind::Lines, WarpKind::Scattered] {
         let spec = spec(&[0, 1], kind);
-        let space = Space::build(&spec, &Silent).expect("a space");
+        let space = DesignSpace::build(&spec, &Silent).expect("a space");
         let [a, b] = [0, 1].map(|k| Arc::clone(&spec.designs[k]));
         let pictures = [&a, &b].map(|design| design.picture.clone().expect("a picture"));
         let mut pair = TransitionSpec::new(a, b);
-        pair.cell = Cell::new(kind, ContentKind::Colours).expect("a cell");
+        pair.cell = TransitionMethod::new(kind, ContentKind::Colours).expect("a cell");
         pair.options.matching.lines = vec![LinePair {
             source: line(PLACES[0]),
             target: line(PLACES[1]),
@@ -124,7 +124,7 @@ fn two_pictures_are_a_pair() {
 fn what_has_a_line_in_all_is_led_between_them() {
     let weights = [1.0 / 3.0; 3];
     let middle = PLACES.iter().map(|p| DVec2::from(*p)).sum::<DVec2>() / 3.0;
-    let space = Space::build(&spec(&[0, 1, 2], WarpKind::Lines), &Silent).expect("a space");
+    let space = DesignSpace::build(&spec(&[0, 1, 2], WarpKind::Lines), &Silent).expect("a space");
     let picture = seen(&space, &weights);
     let at = |p: DVec2| *picture.get_pixel(p.x as u32, (f64::from(SIDE) - p.y) as u32);
     // Red, green and blue in equal parts, in linear light.
@@ -134,7 +134,7 @@ fn what_has_a_line_in_all_is_led_between_them() {
         "{r} {g} {b}"
     );
     // In place each would shine through where it was.
-    let still = Space::build(&spec(&[0, 1, 2], WarpKind::None), &Silent).expect("a space");
+    let still = DesignSpace::build(&spec(&[0, 1, 2], WarpKind::None), &Silent).expect("a space");
     let there = seen(&still, &weights);
     let ghost = DVec2::from(PLACES[0]) - DVec2::splat(4.0);
     let ghost = *there.get_pixel(ghost.x as u32, (f64::from(SIDE) - ghost.y) as u32);
@@ -143,14 +143,14 @@ fn what_has_a_line_in_all_is_led_between_them() {
 
 #[test]
 fn a_blend_is_a_picture_of_its_own_and_a_way_leads_from_one_to_the_next() {
-    let space = Space::build(&spec(&[0, 1, 2], WarpKind::Lines), &Silent).expect("a space");
+    let space = DesignSpace::build(&spec(&[0, 1, 2], WarpKind::Lines), &Silent).expect("a space");
     let weights = [0.25, 0.25, 0.5];
     let design = space.design(&weights, "mixed");
     let picture = design.picture.as_ref().expect("a picture");
     assert_eq!(picture.bounds(), space.bounds());
     assert!(off(picture.pixels(), &seen(&space, &weights)) <= 1);
 
-    let map = Map::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
+    let map = WeightMap::new(&MapLayout::Polygon.sites(space.likeness())).expect("sites");
     let mut path = MapPath::default();
     let sites = map.sites().to_vec();
     for at in [sites[0], DVec2::ZERO, sites[2]] {
@@ -169,7 +169,7 @@ fn a_blend_is_a_picture_of_its_own_and_a_way_leads_from_one_to_the_next() {
 fn what_has_no_picture_is_said() {
     let mut spec = spec(&[0, 1, 2], WarpKind::None);
     spec.designs[1] = star("star", 5, 1.0);
-    let error = Space::build(&spec, &Silent).expect_err("an outline");
+    let error = DesignSpace::build(&spec, &Silent).expect_err("an outline");
     assert_eq!(error.to_string(), "star has no colours");
 }
 
@@ -181,6 +181,6 @@ fn more_than_memory_has_room_for_is_said_before_it_is_begun() {
     let design = Arc::new(design);
     let mut spec = SpaceSpec::new(vec![design; 5]);
     spec.content = Some(ContentKind::Colours);
-    let error = Space::build(&spec, &Silent).expect_err("too much");
+    let error = DesignSpace::build(&spec, &Silent).expect_err("too much");
     assert!(error.to_string().contains("pixels of pictures"), "{error}");
 }

@@ -24,7 +24,7 @@ pub enum AngleError {
 }
 
 /// `angle` plus the whole turns that bring it nearest to `reference`.
-pub(super) fn nearest(angle: f64, reference: f64) -> f64 {
+pub(super) fn nearest_branch(angle: f64, reference: f64) -> f64 {
     angle + TAU * ((reference - angle) / TAU).round()
 }
 
@@ -47,7 +47,7 @@ pub(super) fn make_consistent(
         while let Some(face) = queue.pop_front() {
             for other in (0..3).filter_map(|k| connectivity.neighbour(face, k)) {
                 if !std::mem::replace(&mut done[other], true) {
-                    angles[other] = nearest(angles[other], angles[face]);
+                    angles[other] = nearest_branch(angles[other], angles[face]);
                     queue.push_back(other);
                 }
             }
@@ -87,7 +87,7 @@ pub(super) fn choose_turns(
     // Faces are positive, so that no part has an area of 0.
     let means: Vec<f64> = sums.iter().map(|(sum, area)| sum / area).collect();
     let first = means.first().map_or(whole, |&mean| {
-        let reduced = nearest(mean, 0.0);
+        let reduced = nearest_branch(mean, 0.0);
         // `round` may leave −π, whose film would go the other way than that of π.
         if reduced <= -PI {
             reduced + TAU
@@ -97,7 +97,7 @@ pub(super) fn choose_turns(
     });
     // The first part is on its own branch; the others follow it by way of the
     // whole, or a part of ±170° would go around the other way than its fellow.
-    let whole = nearest(whole, first);
+    let whole = nearest_branch(whole, first);
     let extra = |part: usize| match extra_turns {
         [all] => f64::from(*all),
         each => each.get(part).map_or(0.0, |&turns| f64::from(turns)),
@@ -109,7 +109,7 @@ pub(super) fn choose_turns(
             let chosen = if part == 0 {
                 first
             } else {
-                nearest(mean, whole)
+                nearest_branch(mean, whole)
             };
             chosen - mean + TAU * extra(part)
         })

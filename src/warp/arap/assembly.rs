@@ -8,19 +8,19 @@
 //! ½ |Δv − e(t)|², an area like length²/2 times a relative stretch squared.
 
 use super::angles::{self, choose_turns};
-use super::life::Life;
-use super::options::{ArapError, ArapOptions, Weights};
-use super::sides::Outlined;
+use super::options::{ArapError, ArapOptions, FaceWeights};
+use super::straight_sides::OutlineConstraints;
+use super::time_window::TimeWindow;
 use crate::compatible::CompatibleMesh;
-use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
-use crate::linalg::SymmetricMatrix;
+use crate::geometry::{DMat2, DVec2, PolarDecomposition, twice_signed_area};
+use crate::numerics::SymmetricMatrix;
 use crate::warp::part_path::{centroid, rotation};
 
 /// One face: its local map and W g for its second and third vertex; the first
 /// has minus their sum.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct FaceMap {
-    pub map: Polar,
+    pub map: PolarDecomposition,
     /// Gradients of the hat functions of the second and third vertex.
     pub gradients: DMat2,
     /// W times them.
@@ -33,7 +33,7 @@ pub(super) struct FaceMap {
 
 impl FaceMap {
     /// Between faces with these corners, in source and target.
-    fn new(map: Polar, sides: [[DVec2; 3]; 2], weights: [f64; 2]) -> Self {
+    fn new(map: PolarDecomposition, sides: [[DVec2; 3]; 2], weights: [f64; 2]) -> Self {
         let [gradients, target_gradients] = sides.map(gradients);
         let back = edges(sides[0]) * edges(sides[1]).inverse();
         Self {
@@ -89,11 +89,12 @@ impl LocalMaps {
     pub(super) fn new(
         mesh: &CompatibleMesh,
         options: &ArapOptions,
-        lives: &[Option<Life>],
+        lives: &[Option<TimeWindow>],
     ) -> Result<Self, ArapError> {
-        let areas = Areas::of(mesh);
+        let areas = MeshAreas::of(mesh);
         let maps: Vec<DMat2> = mesh.faces().iter().map(|f| local_map(mesh, *f)).collect();
-        let polars: Vec<Polar> = maps.iter().map(|&m| Polar::of(m)).collect();
+        let polars: Vec<PolarDecomposition> =
+            maps.iter().map(|&m| PolarDecomposition::of(m)).collect();
         let mut face_angles: Vec<f64> = polars.iter().map(|p| p.angle).collect();
         angles::make_consistent(mesh.connectivity(), &mut face_angles)?;
         let part_of = mesh.connectivity().dual_components();
@@ -108,16 +109,16 @@ impl LocalMaps {
         let faces = (0..maps.len())
             .map(|f| {
                 let weight = |area: f64| match &options.weights {
-                    Weights::Area => area,
-                    Weights::Uniform => 1.0,
-                    Weights::PerFace(each) => each[f],
+                    FaceWeights::Area => area,
+                    FaceWeights::Uniform => 1.0,
+                    FaceWeights::PerFace(each) => each[f],
                 };
                 let [source, target] = [0, 1].map(|side| weight(areas.faces[side][f]));
                 let weights = match options.symmetric {
                     true => [0.5 * source, 0.5 * target],
                     false => [source, 0.0],
                 };
-                let map = Polar {
+                let map = PolarDecomposition {
                     angle: face_angles[f],
                     ..polars[f]
                 };
@@ -125,7 +126,7 @@ impl LocalMaps {
                 FaceMap::new(map, sides.map(|at| corners(at, mesh.faces()[f])), weights)
             })
             .collect();
-        let by_area = options.weights == Weights::Area;
+        let by_area = options.weights == FaceWeights::Area;
         let elements = mesh
             .elements()
             .iter()
@@ -170,7 +171,11 @@ impl LocalMaps {
     /// The right-hand sides add up to zero over a component, so that a
     /// grounded vertex stays exactly where it is and the choice of the ground
     /// has no influence.
-    pub(super) fn matrix(&self, mesh: &CompatibleMesh, outlined: Outlined) -> SymmetricMatrix {
+    pub(super) fn matrix(
+        &self,
+        mesh: &CompatibleMesh,
+        outlined: OutlineConstraints,
+    ) -> SymmetricMatrix {
         let (mut matrix, diagonal) = self.energy(mesh);
         let components = mesh.components();
         let mut grounded = vec![false; diagonal.len()];
@@ -184,7 +189,11 @@ impl LocalMaps {
     }
 
     /// K, which does not know where connected components are.
-    pub(super) fn free_matrix(&self, mesh: &CompatibleMesh, outlined: Outlined) -> SymmetricMatrix {
+    pub(super) fn free_matrix(
+        &self,
+        mesh: &CompatibleMesh,
+        outlined: OutlineConstraints,
+    ) -> SymmetricMatrix {
         let (mut matrix, diagonal) = self.energy(mesh);
         outlined.hold(mesh, &diagonal, &mut matrix);
         matrix
@@ -263,19 +272,19 @@ fn element_map(
     ElementMap {
         ends,
         vector: p,
-        angle: angles::nearest(p.perp_dot(q).atan2(p.dot(q)), whole_angle),
+        angle: angles::nearest_branch(p.perp_dot(q).atan2(p.dot(q)), whole_angle),
         stretch: (length_q / length_p).sqrt(),
         stiffness,
     }
 }
 
 /// Areas of faces and, as length²/2, of elements; source, then target.
-struct Areas {
+struct MeshAreas {
     faces: [Vec<f64>; 2],
     elements: [Vec<f64>; 2],
 }
 
-impl Areas {
+impl MeshAreas {
     fn of(mesh: &CompatibleMesh) -> Self {
         let faces = |points: &[DVec2]| {
             let area = |f: &[u32; 3]| {
@@ -323,7 +332,7 @@ impl Areas {
 
 /// The masses without those of parts that are points in one of the designs:
 /// they say nothing of how it turns.
-fn counted(mesh: &CompatibleMesh, masses: &[f64], lives: &[Option<Life>]) -> Vec<f64> {
+fn counted(mesh: &CompatibleMesh, masses: &[f64], lives: &[Option<TimeWindow>]) -> Vec<f64> {
     if lives.iter().all(Option::is_none) {
         return masses.to_vec();
     }

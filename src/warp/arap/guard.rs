@@ -25,7 +25,7 @@ pub(crate) struct Guard {
 
 /// The rows around a time, and how much each of them counts.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Mix {
+pub(super) struct GuardMix {
     rows: [usize; 4],
     weights: [f64; 4],
 }
@@ -123,7 +123,7 @@ impl Guard {
     }
 
     /// What counts at a time; nothing where nothing is moved.
-    pub(super) fn at(&self, t: f64) -> Option<Mix> {
+    pub(super) fn at(&self, t: f64) -> Option<GuardMix> {
         let after = self.times.partition_point(|&time| time <= t);
         if after == 0 || after == self.times.len() {
             return None;
@@ -148,11 +148,11 @@ impl Guard {
         };
         pull(0, 2, s * (1.0 - s) * (1.0 - s));
         pull(1, 3, s * s * (s - 1.0));
-        Some(Mix { rows, weights })
+        Some(GuardMix { rows, weights })
     }
 
     /// Moves the vertices of a run, whose places these are.
-    pub(super) fn add(&self, mix: &Mix, run: Range<usize>, places: &mut [DVec2]) {
+    pub(super) fn add(&self, mix: &GuardMix, run: Range<usize>, places: &mut [DVec2]) {
         let from = self
             .vertices
             .partition_point(|&vertex| (vertex as usize) < run.start);

@@ -1,18 +1,18 @@
 //! How rigid parts move: options, and what may be wrong with them.
 
 use super::angles::AngleError;
-use crate::geometry::{About, DVec2};
-use crate::homotopy::Homotopy;
-use crate::linalg::FactorError;
+use crate::geometry::{ApproxPoint, DVec2};
 use crate::mesh::{MAX_ROUNDS, TooManyVertices};
-use crate::progress::Cancelled;
+use crate::numerics::FactorError;
+use crate::warp::homotopy::Homotopy;
+use crate::work::progress::Cancelled;
 use serde::{Deserialize, Serialize};
 
 /// How faces are weighted in the energy.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
-pub enum Weights {
+pub enum FaceWeights {
     /// By area: the result does not depend on how the inside is divided.
     #[default]
     Area,
@@ -23,7 +23,7 @@ pub enum Weights {
     PerFace(Vec<f64>),
 }
 
-impl Weights {
+impl FaceWeights {
     /// The weights after every face was split into four so many times.
     ///
     /// # Errors
@@ -88,7 +88,7 @@ pub struct ArapOptions {
     /// How each local map moves.
     pub homotopy: Homotopy,
     /// How faces are weighted.
-    pub weights: Weights,
+    pub weights: FaceWeights,
     /// Both directions in one energy, or the paper's one-sided one.
     pub symmetric: bool,
     /// Whole turns added: a single number for everything, or one for each
@@ -104,7 +104,7 @@ impl Default for ArapOptions {
     fn default() -> Self {
         Self {
             homotopy: Homotopy::default(),
-            weights: Weights::default(),
+            weights: FaceWeights::default(),
             symmetric: true,
             extra_turns: Vec::new(),
             path: ArapPath::default(),
@@ -156,7 +156,7 @@ pub enum ArapError {
     /// equations: a place of them in the source and in the target.
     #[error(
         "the equations have no solution: what lies {} in the source and {} in the target is too thin to move; thicken it, match it otherwise, or choose another method",
-        About(.0[0]), About(.0[1])
+        ApproxPoint(.0[0]), ApproxPoint(.0[1])
     )]
     Thin([DVec2; 2]),
     /// The matrix could not be factored.

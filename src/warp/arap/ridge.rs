@@ -5,8 +5,8 @@
 //! of a few shares of the diagonal is added with which it can be factored, and
 //! that is told.
 
-use crate::linalg::{Cholesky, FactorError, SymmetricMatrix};
-use crate::progress::{Cancelled, Progress};
+use crate::numerics::{Cholesky, FactorError, SymmetricMatrix};
+use crate::work::progress::{Cancelled, Progress};
 
 /// Shares of the diagonal that are added where rounding has eaten a pivot.
 /// Faces a ten-thousandth as large as their neighbours, about a hole that
@@ -29,7 +29,7 @@ pub struct Ridge {
 /// # Errors
 /// [`Cancelled`] if nobody wants the result any more; within, [`FactorError`]
 /// if it cannot be factored with the largest ridge either.
-pub(super) fn factored(
+pub(super) fn factor_with_ridge(
     mut matrix: SymmetricMatrix,
     progress: &dyn Progress,
 ) -> Result<Result<(Cholesky, Option<Ridge>), FactorError>, Cancelled> {

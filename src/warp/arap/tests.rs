@@ -2,9 +2,9 @@
 #![expect(clippy::unwrap_used, reason = "tests")]
 
 use super::*;
-use crate::geometry::{DMat2, Polar, Side, twice_signed_area};
-use crate::homotopy::Homotopy;
-use crate::progress::Silent;
+use crate::geometry::{DMat2, PolarDecomposition, Side, twice_signed_area};
+use crate::warp::homotopy::Homotopy;
+use crate::work::progress::Silent;
 use std::f64::consts::{PI, TAU};
 
 const TIMES: [f64; 7] = [-0.3, 0.1, 0.25, 0.5, 0.77, 0.9, 1.4];
@@ -88,7 +88,7 @@ fn all_options() -> Vec<ArapOptions> {
     let mut all = Vec::new();
     for homotopy in Homotopy::ALL {
         for symmetric in [true, false] {
-            for weights in [Weights::Area, Weights::Uniform] {
+            for weights in [FaceWeights::Area, FaceWeights::Uniform] {
                 all.push(ArapOptions {
                     homotopy,
                     symmetric,
@@ -210,7 +210,7 @@ fn one_sided_energy(
             };
             let (d, area) = edges(mesh.source());
             let m = edges(mesh.target()).0 * d.inverse();
-            let map = Polar {
+            let map = PolarDecomposition {
                 angle,
                 stretch: DMat2::from_angle(-angle) * m,
             };
@@ -429,7 +429,7 @@ fn many_faces_at_a_time_equal_the_plain_homotopies() {
     let mesh =
         CompatibleMesh::new(vec![[0, 1, 2]], source.clone(), target.clone(), vec![]).unwrap();
     let edges = |v: &[DVec2]| DMat2::from_cols(v[1] - v[0], v[2] - v[0]);
-    let map = Polar::of(edges(&target) * edges(&source).inverse());
+    let map = PolarDecomposition::of(edges(&target) * edges(&source).inverse());
     for homotopy in Homotopy::ALL {
         let mut at = film(&mesh, &with(homotopy));
         for t in TIMES {
@@ -447,7 +447,7 @@ fn weights_are_checked() {
     let mesh = bent_pair();
     for bad in [vec![1.0; 3], vec![0.0; 24], vec![f64::NAN; 24]] {
         let options = ArapOptions {
-            weights: Weights::PerFace(bad),
+            weights: FaceWeights::PerFace(bad),
             ..ArapOptions::default()
         };
         let error = Arap::build(&mesh, &options, &Silent).unwrap_err();
@@ -465,8 +465,8 @@ fn weights_are_checked() {
         film(&mesh, &options)(0.5)
     };
     let same = largest_distance(
-        &uniform(Weights::PerFace(vec![7.0; 24])),
-        &uniform(Weights::Uniform),
+        &uniform(FaceWeights::PerFace(vec![7.0; 24])),
+        &uniform(FaceWeights::Uniform),
     );
     assert!(same < 1e-12);
 }
@@ -478,7 +478,7 @@ fn a_stiff_part_keeps_its_shape_better() {
         let mut weights = vec![1.0; 24];
         weights[face] = weight;
         let options = ArapOptions {
-            weights: Weights::PerFace(weights),
+            weights: FaceWeights::PerFace(weights),
             ..ArapOptions::default()
         };
         let arap = Arap::build(&mesh, &options, &Silent).unwrap();
@@ -505,7 +505,7 @@ fn on_a_thread(length: f64) -> CompatibleMesh {
 #[test]
 fn what_is_added_to_a_matrix_is_told() {
     let options = ArapOptions {
-        weights: Weights::Uniform,
+        weights: FaceWeights::Uniform,
         ..ArapOptions::default()
     };
     let ridge = |mesh| Arap::build(&mesh, &options, &Silent).unwrap().ridge();
@@ -535,9 +535,9 @@ fn a_part_that_is_a_point_waits_and_moves_with_the_whole() {
     let (source, target) = (places().map(small).collect(), places().map(moved).collect());
     let faces = whole.faces().to_vec();
     let mesh = CompatibleMesh::new(faces, source, target, whole.elements().to_vec()).unwrap();
-    let late = Life {
+    let late = TimeWindow {
         from: 0.75,
-        ..Life::whole(Side::Target)
+        ..TimeWindow::whole(Side::Target)
     };
     let lives = [None, Some(late)];
     let arap = Arap::of_outlines(&mesh, &ArapOptions::default(), &lives, &Silent).unwrap();

@@ -9,12 +9,12 @@
 //! Where a layer has no control points it is zero, and it is twice
 //! continuously differentiable.
 
-use super::blocks::Blocks;
+use super::control_grid::ControlGrid;
 use crate::geometry::{Bounds, DVec2};
 
 /// How a feature counts in a fit.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Pull {
+pub(super) struct FeaturePull {
     /// Where it is.
     pub(super) at: DVec2,
     /// How far it should go.
@@ -25,16 +25,16 @@ pub(super) struct Pull {
 
 /// Displacements of the plane.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Layer {
+pub(super) struct SplineLayer {
     spacing: f64,
     /// Where the first control point's own cell begins.
     origin: DVec2,
-    controls: Blocks,
+    controls: ControlGrid,
 }
 
 /// The first of the four control points along each axis, and the values of
 /// their basis functions.
-struct Stencil {
+struct SplineStencil {
     first: [usize; 2],
     basis: [[f64; 4]; 2],
 }
@@ -52,7 +52,7 @@ fn basis(s: f64) -> [f64; 4] {
     ]
 }
 
-impl Layer {
+impl SplineLayer {
     /// Makes the layer one of `spacing` over `domain`, with nothing moved.
     fn reset(&mut self, domain: &Bounds, spacing: f64) {
         let cells = (domain.size() / spacing).ceil();
@@ -66,7 +66,7 @@ impl Layer {
 
     /// `None` where all four columns or rows of control points are outside.
     #[inline(always)]
-    fn stencil(&self, p: DVec2) -> Option<Stencil> {
+    fn stencil(&self, p: DVec2) -> Option<SplineStencil> {
         let at = (p - self.origin) / self.spacing;
         let low = at.floor();
         let [columns, rows] = self.controls.size();
@@ -76,7 +76,7 @@ impl Layer {
             && low.y + 4.0 <= rows as f64;
         inside.then(|| {
             let s = at - low;
-            Stencil {
+            SplineStencil {
                 first: [low.x as usize, low.y as usize],
                 basis: [basis(s.x), basis(s.y)],
             }
@@ -89,7 +89,7 @@ impl Layer {
         &mut self,
         domain: &Bounds,
         spacing: f64,
-        pulls: impl Iterator<Item = Pull>,
+        pulls: impl Iterator<Item = FeaturePull>,
         most: f64,
     ) {
         self.reset(domain, spacing);
@@ -101,8 +101,8 @@ impl Layer {
 
     /// Adds one feature to the sums: w² φ and w² with φ = w z / Σ w² (eqs. 3
     /// to 5).
-    fn ask(&mut self, pull: &Pull) {
-        let Some(Stencil { first, basis }) = self.stencil(pull.at) else {
+    fn ask(&mut self, pull: &FeaturePull) {
+        let Some(SplineStencil { first, basis }) = self.stencil(pull.at) else {
             return;
         };
         let square = |b: &[f64; 4]| b.iter().map(|b| b * b).sum::<f64>();
@@ -121,7 +121,7 @@ impl Layer {
     /// By how much a place is displaced.
     #[inline]
     pub(super) fn at(&self, p: DVec2) -> DVec2 {
-        let Some(Stencil { first, basis }) = self.stencil(p) else {
+        let Some(SplineStencil { first, basis }) = self.stencil(p) else {
             return DVec2::ZERO;
         };
         self.controls.sum(first, &basis[0], &basis[1])
@@ -132,10 +132,10 @@ impl Layer {
 mod tests {
     use super::*;
 
-    impl Layer {
+    impl SplineLayer {
         /// The derivatives of the displacement by x and by y.
         pub(in crate::warp::lattice) fn gradient(&self, p: DVec2) -> [DVec2; 2] {
-            let Some(Stencil { first, basis }) = self.stencil(p) else {
+            let Some(SplineStencil { first, basis }) = self.stencil(p) else {
                 return [DVec2::ZERO; 2];
             };
             let at = (p - self.origin) / self.spacing;
@@ -162,8 +162,8 @@ mod tests {
         max: DVec2::new(7.0, 9.0),
     };
 
-    fn one(at: DVec2, by: DVec2) -> Pull {
-        Pull {
+    fn one(at: DVec2, by: DVec2) -> FeaturePull {
+        FeaturePull {
             at,
             by,
             weight: 1.0,
@@ -180,7 +180,7 @@ mod tests {
 
     #[test]
     fn a_feature_alone_is_met_wherever_it_is() {
-        let mut layer = Layer::default();
+        let mut layer = SplineLayer::default();
         for spacing in [3.0, 0.7, 0.1] {
             for k in 0..50 {
                 let at = DVec2::new(0.13, 0.17) * f64::from(k) - DVec2::ONE;
@@ -199,7 +199,7 @@ mod tests {
 
     #[test]
     fn the_gradient_is_that_of_the_displacement() {
-        let mut layer = Layer::default();
+        let mut layer = SplineLayer::default();
         let pulls = [(1.0, 2.0), (1.3, 2.5), (4.0, 0.0)].map(|(x, y)| {
             let at = DVec2::new(x, y);
             one(at, at.perp())

@@ -4,17 +4,17 @@ use crate::warp::features::FeatureError;
 use serde::{Deserialize, Serialize};
 
 /// Levels that may follow those asked for where a feature is not met.
-pub const MORE_LEVELS: u32 = 3;
+pub const MAX_EXTRA_LEVELS: u32 = 3;
 
 /// Cells of the finest lattice along the longer side of the frame.
-pub const FINEST: u32 = 1024;
+pub const MAX_LATTICE_CELLS: u32 = 1024;
 
 /// Options of the warp by lattices.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct LatticeOptions {
     /// How many lattices, each twice as fine as the one before; 1 to 9. Up to
-    /// [`MORE_LEVELS`] follow while a feature is not met.
+    /// [`MAX_EXTRA_LEVELS`] follow while a feature is not met.
     pub levels: u32,
     /// Cells of the first lattice along the longer side of the frame; 1 to
     /// 32. Fewer move more of the plane with a feature.
@@ -53,7 +53,7 @@ pub enum LatticeError {
     Coarsest(u32),
     /// The last lattice is too fine.
     #[error(
-        "the finest lattice would have {0} cells along a side: at most {FINEST}; use fewer levels or a coarser first lattice"
+        "the finest lattice would have {0} cells along a side: at most {MAX_LATTICE_CELLS}; use fewer levels or a coarser first lattice"
     )]
     Finest(u32),
     /// The tolerance is out of range.
@@ -74,7 +74,7 @@ impl LatticeOptions {
             return Err(LatticeError::Coarsest(self.coarsest));
         }
         let finest = self.coarsest << (self.levels - 1);
-        if finest > FINEST {
+        if finest > MAX_LATTICE_CELLS {
             return Err(LatticeError::Finest(finest));
         }
         if !(self.tolerance > 0.0 && self.tolerance <= 1.0) {
@@ -85,7 +85,7 @@ impl LatticeOptions {
 
     /// How many levels there may be in the end.
     pub(super) fn most_levels(&self) -> u32 {
-        let finer = FINEST / (self.coarsest << (self.levels - 1));
-        self.levels + MORE_LEVELS.min(finer.ilog2())
+        let finer = MAX_LATTICE_CELLS / (self.coarsest << (self.levels - 1));
+        self.levels + MAX_EXTRA_LEVELS.min(finer.ilog2())
     }
 }

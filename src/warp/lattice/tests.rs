@@ -2,7 +2,7 @@ use super::*;
 use crate::warp::FeatureError;
 use proptest::prelude::*;
 
-type Tested = Result<(), Box<dyn std::error::Error>>;
+type LatticeTestResult = Result<(), Box<dyn std::error::Error>>;
 
 const FRAME: Bounds = Bounds {
     min: DVec2::new(-1.0, 2.0),
@@ -44,7 +44,7 @@ fn moderate(count: usize) -> Vec<PointPair> {
 }
 
 #[test]
-fn features_are_met_to_the_tolerance() -> Tested {
+fn features_are_met_to_the_tolerance() -> LatticeTestResult {
     for options in [LatticeOptions::default(), summed()] {
         for count in [1, 2, 10, 40] {
             let pairs = moderate(count);
@@ -73,7 +73,7 @@ fn features_are_met_to_the_tolerance() -> Tested {
 }
 
 #[test]
-fn a_feature_crosses_the_frame() -> Tested {
+fn a_feature_crosses_the_frame() -> LatticeTestResult {
     let pairs = [
         pair((-0.9, 2.1), (2.9, 4.9)),
         pair((1.0, 2.1), (1.0, 2.1)),
@@ -89,7 +89,7 @@ fn a_feature_crosses_the_frame() -> Tested {
 }
 
 #[test]
-fn ends_are_met_to_the_last_bit_and_nothing_moves_nothing() -> Tested {
+fn ends_are_met_to_the_last_bit_and_nothing_moves_nothing() -> LatticeTestResult {
     let places = spread(200, 0.5);
     for options in [LatticeOptions::default(), summed()] {
         let warp = Lattice::new(&FRAME, &moderate(30), &[], options)?;
@@ -103,7 +103,7 @@ fn ends_are_met_to_the_last_bit_and_nothing_moves_nothing() -> Tested {
 }
 
 #[test]
-fn what_is_far_from_the_frame_moves_nothing_there() -> Tested {
+fn what_is_far_from_the_frame_moves_nothing_there() -> LatticeTestResult {
     let places = spread(200, 0.5);
     let far = pair((40.0, 3.0), (41.0, 3.0));
     let warp = Lattice::new(&FRAME, &[far], &[], LatticeOptions::default())?;
@@ -113,7 +113,7 @@ fn what_is_far_from_the_frame_moves_nothing_there() -> Tested {
 }
 
 #[test]
-fn features_fade_out_without_a_jump() -> Tested {
+fn features_fade_out_without_a_jump() -> LatticeTestResult {
     let places = spread(100, 0.5);
     let at = |x: f64| -> Result<Vec<DVec2>, LatticeError> {
         let leaving = pair((x, 3.0), (x, 4.0));
@@ -163,7 +163,7 @@ fn least_determinant(warp: &Lattice, t: f64, steps: u32) -> f64 {
 }
 
 #[test]
-fn summed_layers_fold_where_composed_ones_do_not() -> Tested {
+fn summed_layers_fold_where_composed_ones_do_not() -> LatticeTestResult {
     let pairs = [pair((0.5, 3.5), (1.5, 3.5)), pair((1.2, 3.5), (0.8, 3.5))];
     let folding = Lattice::new(&FRAME, &pairs, &[], summed())?;
     assert!(least_determinant(&folding, 0.0, 150) < 0.0);
@@ -173,7 +173,7 @@ fn summed_layers_fold_where_composed_ones_do_not() -> Tested {
 }
 
 #[test]
-fn features_that_meet_report_what_is_left() -> Tested {
+fn features_that_meet_report_what_is_left() -> LatticeTestResult {
     let pairs = [pair((0.0, 3.0), (2.0, 4.0)), pair((2.0, 4.0), (0.0, 3.0))];
     let warp = Lattice::new(&FRAME, &pairs, &[], LatticeOptions::default())?;
     let half = 0.5 * 5.0_f64.sqrt();
@@ -224,7 +224,7 @@ fn what_is_out_of_range_is_refused() {
 }
 
 #[test]
-fn options_are_read_in_kebab_case() -> Tested {
+fn options_are_read_in_kebab_case() -> LatticeTestResult {
     let read: LatticeOptions = toml::from_str("fold-free = false\ncoarsest = 2")?;
     assert_eq!((read.fold_free, read.coarsest, read.levels), (false, 2, 5));
     assert!(toml::from_str::<LatticeOptions>("fold_free = false").is_err());

@@ -7,8 +7,8 @@
 //! on the way to it, if places are no farther than [`FARTHEST`] and a is from
 //! [`LEAST_A`] to [`LARGEST_A`].
 
-use super::line::{Affine, Line};
-use super::scaled::Scaled;
+use super::line::{AffineFunction, FieldLine};
+use super::scaled_plane::ScaledPlane;
 use crate::geometry::DVec2;
 use crate::warp::elementary::{exp, ln};
 use pulp::{Arch, Simd, WithSimd, bytemuck};
@@ -18,7 +18,7 @@ use pulp::{Arch, Simd, WithSimd, bytemuck};
 const GROUP: usize = 2;
 
 /// Vectors that are handled together.
-type Group<S> = [<S as Simd>::f64s; GROUP];
+type VectorGroup<S> = [<S as Simd>::f64s; GROUP];
 
 /// How many places there are in a block.
 const BLOCK: usize = 128;
@@ -40,47 +40,57 @@ pub(super) const LARGEST_A: f64 = 1e30;
 const LEAST_WEIGHT: f64 = 1e-300;
 
 /// A number of each place of a block.
-type Row = [f64; BLOCK];
+type PlaceLanes = [f64; BLOCK];
 
 /// How weight falls with q = a + dist: strength / q^b. Places come in pairs of
 /// vectors: one division does for both weights, as 1/q = (the other q) /
 /// (product of both).
-trait Falloff: Copy {
+trait WeightFalloff: Copy {
     /// `strength` / q^b.
-    fn weights<S: Simd>(self, simd: S, strength: S::f64s, q: Group<S>) -> Group<S>;
+    fn weights<S: Simd>(self, simd: S, strength: S::f64s, q: VectorGroup<S>) -> VectorGroup<S>;
 }
 
 /// b = 1.
 #[derive(Clone, Copy)]
-struct Inverse;
+struct InverseFalloff;
 
 /// b = 2.
 #[derive(Clone, Copy)]
-struct Square;
+struct InverseSquareFalloff;
 
 /// Any b.
 #[derive(Clone, Copy)]
-struct Power(f64);
+struct InversePowerFalloff(f64);
 
-impl Falloff for Inverse {
+impl WeightFalloff for InverseFalloff {
     #[inline(always)]
-    fn weights<S: Simd>(self, simd: S, strength: S::f64s, [p, q]: Group<S>) -> Group<S> {
+    fn weights<S: Simd>(
+        self,
+        simd: S,
+        strength: S::f64s,
+        [p, q]: VectorGroup<S>,
+    ) -> VectorGroup<S> {
         let both = simd.div_f64s(strength, simd.mul_f64s(p, q));
         [simd.mul_f64s(both, q), simd.mul_f64s(both, p)]
     }
 }
 
-impl Falloff for Square {
+impl WeightFalloff for InverseSquareFalloff {
     #[inline(always)]
-    fn weights<S: Simd>(self, simd: S, strength: S::f64s, [p, q]: Group<S>) -> Group<S> {
+    fn weights<S: Simd>(
+        self,
+        simd: S,
+        strength: S::f64s,
+        [p, q]: VectorGroup<S>,
+    ) -> VectorGroup<S> {
         let squares = [simd.mul_f64s(p, p), simd.mul_f64s(q, q)];
-        Inverse.weights(simd, strength, squares)
+        InverseFalloff.weights(simd, strength, squares)
     }
 }
 
-impl Falloff for Power {
+impl WeightFalloff for InversePowerFalloff {
     #[inline(always)]
-    fn weights<S: Simd>(self, simd: S, strength: S::f64s, mut q: Group<S>) -> Group<S> {
+    fn weights<S: Simd>(self, simd: S, strength: S::f64s, mut q: VectorGroup<S>) -> VectorGroup<S> {
         for value in bytemuck::cast_slice_mut::<_, f64>(&mut q) {
             *value = exp(-self.0 * ln(*value));
         }
@@ -90,10 +100,10 @@ impl Falloff for Power {
 
 /// Lines to be summed over.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lines<'a> {
-    pub(super) lines: &'a [Line],
+pub(super) struct ScaledLines<'a> {
+    pub(super) lines: &'a [FieldLine],
     /// What they are scaled by.
-    pub(super) plane: Scaled,
+    pub(super) plane: ScaledPlane,
     /// The paper's a, scaled.
     pub(super) a: f64,
     /// The paper's b.
@@ -102,31 +112,36 @@ pub(super) struct Lines<'a> {
 
 /// Where each place is looked up in both designs: moved by Σ w D / Σ w, and
 /// not at all where there are no lines.
-pub(super) fn look_up(arch: Arch, lines: Lines<'_>, places: &[DVec2], designs: [&mut [DVec2]; 2]) {
+pub(super) fn look_up(
+    arch: Arch,
+    lines: ScaledLines<'_>,
+    places: &[DVec2],
+    designs: [&mut [DVec2]; 2],
+) {
     let b = lines.b;
     let job = (lines, places, designs);
     if b == 2.0 {
-        arch.dispatch(Pass(Square, job));
+        arch.dispatch(LinePass(InverseSquareFalloff, job));
     } else if b == 1.0 {
-        arch.dispatch(Pass(Inverse, job));
+        arch.dispatch(LinePass(InverseFalloff, job));
     } else {
-        arch.dispatch(Pass(Power(b), job));
+        arch.dispatch(LinePass(InversePowerFalloff(b), job));
     }
 }
 
 /// The work, to be compiled for several widths of vectors.
-struct Pass<'a, F>(F, (Lines<'a>, &'a [DVec2], [&'a mut [DVec2]; 2]));
+struct LinePass<'a, F>(F, (ScaledLines<'a>, &'a [DVec2], [&'a mut [DVec2]; 2]));
 
-impl<F: Falloff> WithSimd for Pass<'_, F> {
+impl<F: WeightFalloff> WithSimd for LinePass<'_, F> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, simd: S) {
         let Self(falloff, (lines, places, [source, target])) = self;
-        let mut cells = [Cell::new(simd); CELLS];
+        let mut cells = [LaneCell::new(simd); CELLS];
         let designs = source.chunks_mut(BLOCK).zip(target.chunks_mut(BLOCK));
         for (places, designs) in places.chunks(BLOCK).zip(designs) {
-            let mut block = Block::of(places);
+            let mut block = PlaceBlock::of(places);
             // The last block may be short; what is behind it is not computed.
             let used = places.len().div_ceil(GROUP * S::F64_LANES);
             for start in (0..used).step_by(CELLS) {
@@ -145,14 +160,14 @@ impl<F: Falloff> WithSimd for Pass<'_, F> {
 }
 
 /// A block of places, and how far each is moved in both designs.
-struct Block {
+struct PlaceBlock {
     /// x and y. Behind the last place stands that place again, and what is
     /// computed there is computed in vain.
-    places: [Row; 2],
-    moved: [[Row; 2]; 2],
+    places: [PlaceLanes; 2],
+    moved: [[PlaceLanes; 2]; 2],
 }
 
-impl Block {
+impl PlaceBlock {
     #[inline(always)]
     fn of(places: &[DVec2]) -> Self {
         // `chunks` yields no empty block.
@@ -170,18 +185,18 @@ impl Block {
 
     /// The places of a group, with no line added.
     #[inline(always)]
-    fn cell<S: Simd>(&self, simd: S, at: usize, plane: &Scaled) -> Cell<S> {
+    fn cell<S: Simd>(&self, simd: S, at: usize, plane: &ScaledPlane) -> LaneCell<S> {
         let [x, y] = self.places.each_ref().map(|row| groups::<S>(row)[at]);
-        Cell {
+        LaneCell {
             x: scaled(simd, x, plane.per_unit, plane.centre.x),
             y: scaled(simd, y, plane.per_unit, plane.centre.y),
-            ..Cell::new(simd)
+            ..LaneCell::new(simd)
         }
     }
 
     /// `unit` Σ w D / Σ w of a group.
     #[inline(always)]
-    fn take<S: Simd>(&mut self, simd: S, at: usize, cell: &Cell<S>, unit: f64) {
+    fn take<S: Simd>(&mut self, simd: S, at: usize, cell: &LaneCell<S>, unit: f64) {
         // Without lines Σ w and the sums are 0, and 0 / 10⁻³⁰⁰ is no movement.
         let [one, unit, least] = [1.0, unit, LEAST_WEIGHT].map(|x| simd.splat_f64s(x));
         let mut factors = cell.weight;
@@ -212,8 +227,13 @@ impl Block {
 /// A line's weights wait long for its roots: so these are begun one line
 /// ahead, for all cells, and no processor needs to look far.
 #[inline(always)]
-fn sum<S: Simd>(simd: S, falloff: impl Falloff, lines: Lines<'_>, cells: &mut [Cell<S>]) {
-    let Lines { lines, a, .. } = lines;
+fn sum<S: Simd>(
+    simd: S,
+    falloff: impl WeightFalloff,
+    lines: ScaledLines<'_>,
+    cells: &mut [LaneCell<S>],
+) {
+    let ScaledLines { lines, a, .. } = lines;
     let [Some(first), Some(last)] = [lines.first(), lines.last()] else {
         return;
     };
@@ -236,16 +256,16 @@ fn sum<S: Simd>(simd: S, falloff: impl Falloff, lines: Lines<'_>, cells: &mut [C
 /// that lie across lines of the cache are slow.
 #[derive(Clone, Copy)]
 #[repr(align(64))]
-struct Cell<S: Simd> {
-    x: Group<S>,
-    y: Group<S>,
+struct LaneCell<S: Simd> {
+    x: VectorGroup<S>,
+    y: VectorGroup<S>,
     /// a + dist, of the line that comes next.
-    q: Group<S>,
-    weight: Group<S>,
-    moved: [[Group<S>; 2]; 2],
+    q: VectorGroup<S>,
+    weight: VectorGroup<S>,
+    moved: [[VectorGroup<S>; 2]; 2],
 }
 
-impl<S: Simd> Cell<S> {
+impl<S: Simd> LaneCell<S> {
     #[inline(always)]
     fn new(simd: S) -> Self {
         let zero = [simd.splat_f64s(0.0); GROUP];
@@ -260,7 +280,7 @@ impl<S: Simd> Cell<S> {
 
     /// a + dist.
     #[inline(always)]
-    fn reach(&self, simd: S, a: f64, line: &Line) -> Group<S> {
+    fn reach(&self, simd: S, a: f64, line: &FieldLine) -> VectorGroup<S> {
         let all = |value| simd.splat_f64s(value);
         let (half, a, zero) = (all(line.half), all(a), all(0.0));
         let mut q = self.q;
@@ -278,7 +298,7 @@ impl<S: Simd> Cell<S> {
 
     /// Adds w and w D of a line, whose q is known.
     #[inline(always)]
-    fn add(&mut self, simd: S, falloff: impl Falloff, line: &Line) {
+    fn add(&mut self, simd: S, falloff: impl WeightFalloff, line: &FieldLine) {
         let w = falloff.weights(simd, simd.splat_f64s(line.strength), self.q);
         for (sum, &w) in self.weight.iter_mut().zip(&w) {
             *sum = simd.add_f64s(*sum, w);
@@ -296,7 +316,12 @@ impl<S: Simd> Cell<S> {
 
 /// Coordinates as the lines know them, none farther than [`FARTHEST`].
 #[inline(always)]
-fn scaled<S: Simd>(simd: S, mut group: Group<S>, per_unit: f64, centre: f64) -> Group<S> {
+fn scaled<S: Simd>(
+    simd: S,
+    mut group: VectorGroup<S>,
+    per_unit: f64,
+    centre: f64,
+) -> VectorGroup<S> {
     let [per_unit, centre, farthest] = [
         simd.splat_f64s(per_unit),
         simd.splat_f64s(centre),
@@ -313,19 +338,19 @@ fn scaled<S: Simd>(simd: S, mut group: Group<S>, per_unit: f64, centre: f64) -> 
 
 /// The numbers of a row in groups of vectors.
 #[inline(always)]
-fn groups<S: Simd>(row: &Row) -> &[Group<S>] {
+fn groups<S: Simd>(row: &PlaceLanes) -> &[VectorGroup<S>] {
     S::as_simd_f64s(row).0.as_chunks().0
 }
 
 /// The same to write to.
 #[inline(always)]
-fn groups_mut<S: Simd>(row: &mut Row) -> &mut [Group<S>] {
+fn groups_mut<S: Simd>(row: &mut PlaceLanes) -> &mut [VectorGroup<S>] {
     S::as_mut_simd_f64s(row).0.as_chunks_mut().0
 }
 
 /// c + a x + b y.
 #[inline(always)]
-fn affine<S: Simd>(simd: S, [c, a, b]: Affine, x: S::f64s, y: S::f64s) -> S::f64s {
+fn affine<S: Simd>(simd: S, [c, a, b]: AffineFunction, x: S::f64s, y: S::f64s) -> S::f64s {
     let [c, a, b] = [simd.splat_f64s(c), simd.splat_f64s(a), simd.splat_f64s(b)];
     simd.mul_add_e_f64s(x, a, simd.mul_add_e_f64s(y, b, c))
 }

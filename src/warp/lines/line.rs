@@ -13,7 +13,7 @@
 use crate::geometry::{DMat2, DVec2};
 
 /// A line from end to end.
-pub(super) type Segment = [DVec2; 2];
+pub(super) type LineEnds = [DVec2; 2];
 
 /// A line, or its fellow, shorter than this part of the other becomes a point
 /// by and by.
@@ -24,32 +24,32 @@ const NO_LENGTH: f64 = 1e-150;
 
 /// A line of the frame and its fellows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Feature {
-    pub(super) in_frame: Segment,
-    pub(super) in_designs: [Segment; 2],
+pub(super) struct LineFeature {
+    pub(super) in_frame: LineEnds,
+    pub(super) in_designs: [LineEnds; 2],
     /// The length by which it is weighed, if not by that of the line.
     pub(super) nominal: Option<f64>,
 }
 
 /// c, a and b of c + a x + b y for a place (x, y), scaled.
-pub(super) type Affine = [f64; 3];
+pub(super) type AffineFunction = [f64; 3];
 
 /// A line as the kernel reads it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Line {
+pub(super) struct FieldLine {
     /// How far along the line a place is, from its middle.
-    pub(super) along: Affine,
+    pub(super) along: AffineFunction,
     /// How far to the left of the line it is.
-    pub(super) across: Affine,
+    pub(super) across: AffineFunction,
     /// Half the length.
     pub(super) half: f64,
     /// (length / greatest length)^(b p).
     pub(super) strength: f64,
     /// The displacement D into each design, x and y.
-    pub(super) carries: [[Affine; 2]; 2],
+    pub(super) carries: [[AffineFunction; 2]; 2],
 }
 
-impl Feature {
+impl LineFeature {
     pub(super) fn points(&self) -> impl Iterator<Item = DVec2> + Clone + use<> {
         let designs = self.in_designs.into_iter().flatten();
         self.in_frame.into_iter().chain(designs)
@@ -62,14 +62,14 @@ impl Feature {
 
 /// A segment by its middle, the vector from end to end, and its length.
 #[derive(Clone, Copy)]
-struct Middled {
+struct MidpointLine {
     middle: DVec2,
     vector: DVec2,
     length: f64,
 }
 
-impl Middled {
-    fn new([from, to]: Segment) -> Self {
+impl MidpointLine {
+    fn new([from, to]: LineEnds) -> Self {
         let vector = to - from;
         Self {
             middle: 0.5 * (from + to),
@@ -79,12 +79,12 @@ impl Middled {
     }
 }
 
-impl Line {
+impl FieldLine {
     /// The line of a scaled feature, its strength being its length still, at
     /// least so long as its fellows make it; `a` where none has any.
-    pub(super) fn new(feature: &Feature, a: f64) -> Self {
-        let frame = Middled::new(feature.in_frame);
-        let designs = feature.in_designs.map(Middled::new);
+    pub(super) fn new(feature: &LineFeature, a: f64) -> Self {
+        let frame = MidpointLine::new(feature.in_frame);
+        let designs = feature.in_designs.map(MidpointLine::new);
         let lengths = designs.iter().map(|design| design.length);
         let longest = lengths.fold(frame.length, f64::max);
         let own = if longest > 0.0 {
@@ -111,7 +111,7 @@ impl Line {
 
 /// D of a place as seen from a line and its fellow. All of it vanishes exactly
 /// if the two are the same.
-fn carry(frame: &Middled, design: &Middled) -> [Affine; 2] {
+fn carry(frame: &MidpointLine, design: &MidpointLine) -> [AffineFunction; 2] {
     let shift = design.middle - frame.middle;
     let [shorter, longer] = [
         frame.length.min(design.length),

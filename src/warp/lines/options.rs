@@ -5,7 +5,7 @@
 //! with p = 0 all lines are alike, with p = 1 long ones outweigh short ones.
 //! The paper's useful ranges are b in [0.5, 2] and p in [0, 1].
 
-use crate::names::named;
+use crate::settings::choice::named;
 use crate::warp::features::FeatureError;
 use serde::{Deserialize, Serialize};
 
@@ -16,7 +16,7 @@ const MAX_FALLOFF: f64 = 8.0;
 /// How a line at t lies between its two.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Between {
+pub enum LineInterpolation {
     /// Both ends move on straight lines. A line that turns by π shrinks to a
     /// point on the way.
     Ends,
@@ -26,7 +26,7 @@ pub enum Between {
     MiddleAndAngle,
 }
 
-named! { Between {
+named! { LineInterpolation {
     MiddleAndAngle: "middle-and-angle", "Turn",
         "Its middle moves straight, its direction turns the shorter way";
     Ends: "ends", "Ends", "Both ends move straight: a line that turns shrinks on the way";
@@ -50,7 +50,7 @@ pub struct LineOptions {
     /// p ≥ 0: how much more long lines weigh.
     pub length_exponent: f64,
     /// How lines lie between their two.
-    pub between: Between,
+    pub between: LineInterpolation,
 }
 
 impl Default for LineOptions {
@@ -59,7 +59,7 @@ impl Default for LineOptions {
             smoothness: 0.01,
             falloff: 2.0,
             length_exponent: 0.5,
-            between: Between::default(),
+            between: LineInterpolation::default(),
         }
     }
 }
@@ -84,7 +84,7 @@ pub enum LinesError {
 
 /// a, b and p, checked; a in units of the plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Constants {
+pub(super) struct BeierNeelyConstants {
     pub(super) a: f64,
     pub(super) b: f64,
     pub(super) p: f64,
@@ -92,7 +92,7 @@ pub(super) struct Constants {
 
 impl LineOptions {
     /// The constants in a frame of this diameter.
-    pub(super) fn constants(&self, diameter: f64) -> Result<Constants, LinesError> {
+    pub(super) fn constants(&self, diameter: f64) -> Result<BeierNeelyConstants, LinesError> {
         let (a, b, p) = (self.smoothness, self.falloff, self.length_exponent);
         if !(a > 0.0 && a.is_finite()) {
             return Err(LinesError::Smoothness(a));
@@ -104,6 +104,6 @@ impl LineOptions {
             return Err(LinesError::LengthExponent(p));
         }
         let a = (a * diameter).clamp(f64::MIN_POSITIVE, f64::MAX);
-        Ok(Constants { a, b, p })
+        Ok(BeierNeelyConstants { a, b, p })
     }
 }

@@ -1,19 +1,19 @@
 //! The identities of the warp, the formula as the paper has it as an oracle,
 //! and features that meet.
 
-use super::line::Segment;
+use super::line::LineEnds;
 use super::*;
 use proptest::prelude::*;
 use std::f64::consts::PI;
 
-type Result<T = ()> = std::result::Result<T, Box<dyn std::error::Error>>;
+type LinesTestResult<T = ()> = std::result::Result<T, Box<dyn std::error::Error>>;
 
 const FRAME: Bounds = Bounds {
     min: DVec2::new(-3.0, -4.0),
     max: DVec2::new(3.0, 4.0),
 };
 
-const BOTH: [Between; 2] = [Between::Ends, Between::MiddleAndAngle];
+const BOTH: [LineInterpolation; 2] = [LineInterpolation::Ends, LineInterpolation::MiddleAndAngle];
 
 fn line([a, b, c, d]: [DVec2; 4]) -> LinePair {
     LinePair {
@@ -42,7 +42,7 @@ fn places() -> Vec<DVec2> {
 }
 
 /// In the source and in the target.
-fn looked_up(lines: &Lines, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
+fn looked_up(lines: &LineWarp, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     let mut found = [places.to_vec(), places.to_vec()];
     let [source, target] = &mut found;
     lines.clone().look_up(t, places, source, target);
@@ -51,12 +51,12 @@ fn looked_up(lines: &Lines, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
 
 /// The map by one set of pairs, each in the frame and in a design, with a in
 /// units of the plane.
-struct Map(LinesAtT);
+struct OneWayMap(LinesAtTime);
 
-impl Map {
-    fn new(pairs: &[[Segment; 2]], a: f64, b: f64, p: f64) -> Self {
-        let mut bundle = LinesAtT::new(Constants { a, b, p });
-        bundle.fill(pairs.iter().map(|&[in_frame, in_design]| Feature {
+impl OneWayMap {
+    fn new(pairs: &[[LineEnds; 2]], a: f64, b: f64, p: f64) -> Self {
+        let mut bundle = LinesAtTime::new(BeierNeelyConstants { a, b, p });
+        bundle.fill(pairs.iter().map(|&[in_frame, in_design]| LineFeature {
             in_frame,
             in_designs: [in_design; 2],
             nominal: None,
@@ -82,7 +82,7 @@ impl Map {
 }
 
 /// The paper's formula, written as the paper has it.
-fn plain(pairs: &[[Segment; 2]], a: f64, b: f64, p: f64, x: DVec2) -> DVec2 {
+fn plain(pairs: &[[LineEnds; 2]], a: f64, b: f64, p: f64, x: DVec2) -> DVec2 {
     let (mut sum, mut total) = (DVec2::ZERO, 0.0);
     for &[[start, end], [other_start, other_end]] in pairs {
         let (along, other) = (end - start, other_end - other_start);
@@ -107,12 +107,12 @@ fn point() -> impl Strategy<Value = DVec2> {
     (-4.0..4.0, -4.0..4.0).prop_map(|(x, y): (f64, f64)| DVec2::new(x, y))
 }
 
-fn segment() -> impl Strategy<Value = Segment> {
-    let long = |[a, b]: &Segment| a.distance(*b) > 0.1;
+fn segment() -> impl Strategy<Value = LineEnds> {
+    let long = |[a, b]: &LineEnds| a.distance(*b) > 0.1;
     [point(), point()].prop_filter("a line", long)
 }
 
-fn pairs() -> impl Strategy<Value = Vec<[Segment; 2]>> {
+fn pairs() -> impl Strategy<Value = Vec<[LineEnds; 2]>> {
     prop::collection::vec([segment(), segment()], 1..20)
 }
 
@@ -143,8 +143,8 @@ fn options() -> impl Strategy<Value = LineOptions> {
 }
 
 #[test]
-fn without_features_nothing_moves() -> Result {
-    let lines = Lines::new(&FRAME, &[], &[], &LineOptions::default())?;
+fn without_features_nothing_moves() -> LinesTestResult {
+    let lines = LineWarp::new(&FRAME, &[], &[], &LineOptions::default())?;
     assert_eq!(looked_up(&lines, 0.3, &places()), [places(), places()]);
     Ok(())
 }
@@ -154,7 +154,7 @@ fn a_pair_of_one_length_is_a_rigid_motion() {
     let turn = DVec2::from_angle(2.3);
     let rigid = |p: DVec2| turn.rotate(p) + DVec2::new(5.0, -3.0);
     let segment = [DVec2::new(1.0, 2.0), DVec2::new(-0.5, 2.25)];
-    let map = Map::new(&[[segment, segment.map(rigid)]], 0.1, 2.0, 0.5);
+    let map = OneWayMap::new(&[[segment, segment.map(rigid)]], 0.1, 2.0, 0.5);
     for p in places() {
         assert!(map.map(p).distance(rigid(p)) < 1e-14 * 10.0);
     }
@@ -163,16 +163,16 @@ fn a_pair_of_one_length_is_a_rigid_motion() {
 #[test]
 fn a_longer_fellow_stretches_along_and_not_across() {
     let [from, to] = [[DVec2::ZERO, DVec2::X], [DVec2::ZERO, 3.0 * DVec2::X]];
-    let map = Map::new(&[[from, to]], 0.1, 2.0, 0.5);
+    let map = OneWayMap::new(&[[from, to]], 0.1, 2.0, 0.5);
     for p in places() {
         assert!(map.map(p).distance(DVec2::new(3.0 * p.x, p.y)) < 1e-13);
     }
 }
 
 #[test]
-fn a_pin_moves_everything_as_it_moves() -> Result {
+fn a_pin_moves_everything_as_it_moves() -> LinesTestResult {
     let pins = [pin(DVec2::ONE, DVec2::new(3.0, 2.0))];
-    let lines = Lines::new(&FRAME, &[], &pins, &LineOptions::default())?;
+    let lines = LineWarp::new(&FRAME, &[], &pins, &LineOptions::default())?;
     let [source, target] = looked_up(&lines, 0.25, &places());
     for (i, p) in places().into_iter().enumerate() {
         assert!(source[i].distance(p - 0.25 * DVec2::new(2.0, 1.0)) < 1e-14);
@@ -182,12 +182,12 @@ fn a_pin_moves_everything_as_it_moves() -> Result {
 }
 
 #[test]
-fn a_pin_weighs_as_a_tenth_of_the_diameter() -> Result {
+fn a_pin_weighs_as_a_tenth_of_the_diameter() -> LinesTestResult {
     // Both at a distance of 1: a mean by lengths, since b p = 1.
     let far = DVec2::X;
     let standing = line([-far, DVec2::new(-5.0, 0.0), -far, DVec2::new(-5.0, 0.0)]);
     let options = LineOptions::default();
-    let lines = Lines::new(&FRAME, &[standing], &[pin(far, far + DVec2::Y)], &options)?;
+    let lines = LineWarp::new(&FRAME, &[standing], &[pin(far, far + DVec2::Y)], &options)?;
     let [_, target] = looked_up(&lines, 0.0, &[DVec2::ZERO]);
     let share = 1.0 / (1.0 + 4.0);
     assert!(target[0].distance(share * DVec2::Y) < 1e-15);
@@ -200,9 +200,10 @@ fn a_half_turn_goes_one_way_and_keeps_its_length() {
         let half = DVec2::from_angle(angle);
         for noise in [0.0, 1e-13, -1e-13] {
             let back = DVec2::from_angle(noise).rotate(half);
-            let there = Moving::new([-half, half], [back, -back]);
-            let again = Moving::new([back, -back], [-half, half]);
-            let [middle, reversed] = [&there, &again].map(|m| m.at(0.5, Between::MiddleAndAngle));
+            let there = MovingLine::new([-half, half], [back, -back]);
+            let again = MovingLine::new([back, -back], [-half, half]);
+            let [middle, reversed] =
+                [&there, &again].map(|m| m.at(0.5, LineInterpolation::MiddleAndAngle));
             let [a, b] = middle;
             assert!((a.distance(b) - 2.0).abs() < 1e-12);
             assert!((b - a).dot(DVec2::new(0.123, 1.0)) > 0.0 || angle == 0.0 && b.y > a.y);
@@ -212,7 +213,7 @@ fn a_half_turn_goes_one_way_and_keeps_its_length() {
 }
 
 #[test]
-fn a_line_passes_through_a_point_without_a_jump() -> Result {
+fn a_line_passes_through_a_point_without_a_jump() -> LinesTestResult {
     // Turned by π, its ends meet halfway; two others hold the plane.
     let turning = line([-DVec2::X, DVec2::X, DVec2::X, -DVec2::X]);
     let other = |y: f64| {
@@ -220,11 +221,11 @@ fn a_line_passes_through_a_point_without_a_jump() -> Result {
         line([a, b, a + 0.3, b + 0.3])
     };
     let options = LineOptions {
-        between: Between::Ends,
+        between: LineInterpolation::Ends,
         length_exponent: 0.0,
         ..LineOptions::default()
     };
-    let lines = Lines::new(&FRAME, &[turning, other(2.0), other(-2.0)], &[], &options)?;
+    let lines = LineWarp::new(&FRAME, &[turning, other(2.0), other(-2.0)], &[], &options)?;
     let [before, after] = [-1e-9, 1e-9].map(|dt| looked_up(&lines, 0.5 + dt, &places()));
     for (before, after) in before.iter().flatten().zip(after.iter().flatten()) {
         assert!(before.distance(*after) < 1e-2, "{before} {after}");
@@ -240,7 +241,7 @@ fn what_is_wrong_is_told() {
     bad.target[1].y = f64::NAN;
     let usual = LineOptions::default();
     let error = |lines: &[LinePair], pins: &[PointPair], options: LineOptions| {
-        Lines::new(frame, lines, pins, &options).err()
+        LineWarp::new(frame, lines, pins, &options).err()
     };
     let found = error(&[good, bad], &[], usual);
     assert_eq!(found, Some(FeatureError::Line(2).into()));
@@ -269,9 +270,9 @@ fn what_is_wrong_is_told() {
 }
 
 #[test]
-fn options_are_written_and_read() -> Result {
+fn options_are_written_and_read() -> LinesTestResult {
     let options = LineOptions {
-        between: Between::Ends,
+        between: LineInterpolation::Ends,
         falloff: 1.25,
         ..LineOptions::default()
     };
@@ -289,11 +290,11 @@ fn exponents_of_coordinates_do_not_matter() {
         [[DVec2::ZERO, DVec2::X], [DVec2::Y, DVec2::ONE * 1.25]],
         [[DVec2::Y, DVec2::NEG_X], [DVec2::Y, DVec2::NEG_ONE]],
     ];
-    let usual = Map::new(&pairs, 0.125, 2.0, 0.5);
+    let usual = OneWayMap::new(&pairs, 0.125, 2.0, 0.5);
     for exponent in [-1000, -333, -40, 40, 333, 1000] {
         let scale = 2.0_f64.powi(exponent);
         let scaled = pairs.map(|pair| pair.map(|segment| segment.map(|p| p * scale)));
-        let map = Map::new(&scaled, 0.125 * scale, 2.0, 0.5);
+        let map = OneWayMap::new(&scaled, 0.125 * scale, 2.0, 0.5);
         for p in places() {
             let (found, expected) = (map.map(p * scale) / scale, usual.map(p));
             assert!(found.distance(expected) < 1e-13, "{exponent}");
@@ -302,7 +303,7 @@ fn exponents_of_coordinates_do_not_matter() {
 }
 
 #[test]
-fn extreme_numbers_do_no_harm() -> Result {
+fn extreme_numbers_do_no_harm() -> LinesTestResult {
     let numbers = [0.0, 1.0, 1e-300, 1e-100, 1e100, -1e100, 1e300, -f64::MAX];
     let points: Vec<_> = (0..64)
         .map(|i| DVec2::new(numbers[i % 8], numbers[i / 8]))
@@ -315,13 +316,13 @@ fn extreme_numbers_do_no_harm() -> Result {
                 between,
                 ..LineOptions::default()
             };
-            let lines = Lines::new(&FRAME, &[line(four)], &pins, &options)?;
+            let lines = LineWarp::new(&FRAME, &[line(four)], &pins, &options)?;
             for t in [0.0, 0.3, 1.0, 1e9] {
                 looked_up(&lines, t, &points);
             }
         }
         // Ordinary features, extreme places.
-        let lines = Lines::new(
+        let lines = LineWarp::new(
             &FRAME,
             &[],
             &[pin(DVec2::ZERO, DVec2::X)],
@@ -339,7 +340,7 @@ fn extreme_numbers_do_no_harm() -> Result {
 
 #[test]
 fn a_place_that_is_no_number_leaves_its_neighbours_alone() {
-    let map = Map::new(
+    let map = OneWayMap::new(
         &[[[DVec2::ZERO, DVec2::X], [DVec2::Y, DVec2::ONE]]],
         1.0,
         2.0,
@@ -356,7 +357,7 @@ fn a_place_that_is_no_number_leaves_its_neighbours_alone() {
 
 #[test]
 fn blocks_of_every_length_are_like_single_places() {
-    let map = Map::new(
+    let map = OneWayMap::new(
         &[[[DVec2::ZERO, DVec2::X], [DVec2::Y, DVec2::ONE]]],
         1.0,
         1.5,
@@ -372,7 +373,7 @@ fn blocks_of_every_length_are_like_single_places() {
 
 #[test]
 fn slices_of_several_lengths_are_filled_as_far_as_they_go() {
-    let map = Map::new(&[[[DVec2::ZERO; 2], [DVec2::ONE; 2]]], 1.0, 2.0, 0.5);
+    let map = OneWayMap::new(&[[[DVec2::ZERO; 2], [DVec2::ONE; 2]]], 1.0, 2.0, 0.5);
     let [mut source, mut target] = [[DVec2::ZERO; 3]; 2];
     map.0.map_into(&[DVec2::X], [&mut source, &mut target]);
     assert_eq!(source, [DVec2::X + DVec2::ONE, DVec2::ZERO, DVec2::ZERO]);
@@ -388,7 +389,7 @@ proptest! {
         pairs in pairs(), a in 1e-3..1.0, b in prop_oneof![Just(1.0), Just(2.0), 0.5..3.0],
         p in 0.0..1.0,
     ) {
-        let mut map = Map::new(&pairs, a, b, p);
+        let mut map = OneWayMap::new(&pairs, a, b, p);
         for arch in [map.0.arch, Arch::Scalar] {
             map.0.arch = arch;
             for (found, place) in map.map_all(&places()).into_iter().zip(places()) {
@@ -402,7 +403,7 @@ proptest! {
 
     #[test]
     fn designs_stand_still_at_their_ends((lines, pins) in corners(), options in options()) {
-        let lines = Lines::new(&FRAME, &lines, &pins, &options)?;
+        let lines = LineWarp::new(&FRAME, &lines, &pins, &options)?;
         prop_assert_eq!(&looked_up(&lines, 0.0, &places())[0], &places());
         prop_assert_eq!(&looked_up(&lines, 1.0, &places())[1], &places());
     }
@@ -415,8 +416,8 @@ proptest! {
         let lines: Vec<_> = pairs.iter().map(|&[source, target]| LinePair { source, target }).collect();
         let there: Vec<_> = pins.iter().map(|&(a, b)| pin(a, b)).collect();
         let back: Vec<_> = pins.iter().map(|&(a, b)| pin(b, a)).collect();
-        let forward = Lines::new(&FRAME, &lines, &there, &options)?;
-        let backward = Lines::new(&FRAME, &swapped(&lines), &back, &options)?;
+        let forward = LineWarp::new(&FRAME, &lines, &there, &options)?;
+        let backward = LineWarp::new(&FRAME, &swapped(&lines), &back, &options)?;
         let [source, target] = looked_up(&forward, t, &places());
         let [other_source, other_target] = looked_up(&backward, 1.0 - t, &places());
         for (a, b) in source.iter().zip(&other_target).chain(target.iter().zip(&other_source)) {
@@ -429,7 +430,7 @@ proptest! {
     fn features_that_meet_give_finite_places(
         (lines, pins) in corners(), options in options(), t in -2.0..3.0,
     ) {
-        let lines = Lines::new(&FRAME, &lines, &pins, &options)?;
+        let lines = LineWarp::new(&FRAME, &lines, &pins, &options)?;
         for t in [t, 0.0, 0.25, 0.5, 1.0, 2.0] {
             for place in looked_up(&lines, t, &places()).iter().flatten() {
                 prop_assert!(place.is_finite());

@@ -1,7 +1,7 @@
 //! What boundary paths are made of, and what may be wrong with it.
 
 use crate::geometry::DVec2;
-use crate::names::named;
+use crate::settings::choice::named;
 use serde::{Deserialize, Serialize};
 
 /// No coordinate is larger: products of a few of them are still numbers.
@@ -10,7 +10,7 @@ const FARTHEST: f64 = 1e75;
 /// On which paths the vertices move.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Course {
+pub enum VertexPath {
     /// Straight lines: what turns is shortened on the way.
     Straight,
     /// Those that lengths and directions of the edges leave.
@@ -18,7 +18,7 @@ pub enum Course {
     Intrinsic,
 }
 
-named! { Course {
+named! { VertexPath {
     Straight: "straight", "Straight", "On straight lines: what turns shrinks on the way";
     Intrinsic: "intrinsic", "Intrinsic",
         "Edges turn and change their lengths evenly: what turns keeps its form";
@@ -29,7 +29,7 @@ named! { Course {
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct PathOptions {
     /// On which paths the vertices move.
-    pub course: Course,
+    pub course: VertexPath,
 }
 
 /// A closed polygon in both designs, vertex by vertex. Vertices may coincide:

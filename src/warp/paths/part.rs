@@ -6,21 +6,21 @@
 //! hole in a limb goes where the limb goes.
 
 use super::options::RingPair;
-use super::ring::EdgeRing;
+use super::ring::IntrinsicRing;
 use super::turning::whole_turns;
 use crate::geometry::{Bounds, DVec2};
 
 /// A part in source and target, as edges.
 #[derive(Clone, Debug)]
-pub(super) struct EdgePart {
-    outer: EdgeRing,
-    holes: Vec<Hole>,
+pub(super) struct IntrinsicPart {
+    outer: IntrinsicRing,
+    holes: Vec<BridgedHole>,
 }
 
 /// A hole, and the bridge from a vertex of the outer ring to its centroid.
 #[derive(Clone, Debug)]
-struct Hole {
-    ring: EdgeRing,
+struct BridgedHole {
+    ring: IntrinsicRing,
     vertex: usize,
     /// In source and target.
     lengths: [f64; 2],
@@ -30,14 +30,14 @@ struct Hole {
     turn: f64,
 }
 
-impl EdgePart {
+impl IntrinsicPart {
     /// The outer ring first. The part turns the way that is nearest to
     /// `whole_angle`, in radians.
     pub(super) fn new(rings: &[RingPair], whole_angle: f64) -> Option<Self> {
         let (first, rest) = rings.split_first()?;
-        let mut outer = EdgeRing::new(&first.source, &first.target, whole_angle);
+        let mut outer = IntrinsicRing::new(&first.source, &first.target, whole_angle);
         outer.turn_near(whole_angle);
-        let hole = |pair: &RingPair| Hole::new(&outer, first, pair);
+        let hole = |pair: &RingPair| BridgedHole::new(&outer, first, pair);
         Some(Self {
             holes: rest.iter().map(hole).collect(),
             outer,
@@ -67,9 +67,9 @@ impl EdgePart {
     }
 }
 
-impl Hole {
-    fn new(outer: &EdgeRing, around: &RingPair, pair: &RingPair) -> Self {
-        let mut ring = EdgeRing::new(&pair.source, &pair.target, 0.0);
+impl BridgedHole {
+    fn new(outer: &IntrinsicRing, around: &RingPair, pair: &RingPair) -> Self {
+        let mut ring = IntrinsicRing::new(&pair.source, &pair.target, 0.0);
         let [a, b] = centres(pair, &ring);
         let vertex = nearest(around, [a, b]);
         let spans = [a - around.source[vertex], b - around.target[vertex]];
@@ -86,7 +86,7 @@ impl Hole {
         // A point has no directions of its own to turn from.
         let is_point = |ring: &[DVec2]| ring.iter().all(|p| *p == ring[0]);
         if is_point(&pair.source) || is_point(&pair.target) {
-            ring = EdgeRing::new(&pair.source, &pair.target, turn);
+            ring = IntrinsicRing::new(&pair.source, &pair.target, turn);
         }
         ring.turn_near(turn);
         Self {
@@ -106,7 +106,7 @@ impl Hole {
 
 /// The centroids of a ring by its fixed masses. (An area centroid is 0/0 where
 /// a ring collapses on its way.)
-pub(super) fn centres(pair: &RingPair, ring: &EdgeRing) -> [DVec2; 2] {
+pub(super) fn centres(pair: &RingPair, ring: &IntrinsicRing) -> [DVec2; 2] {
     [&pair.source, &pair.target].map(|points| {
         let origin = points[0];
         let offsets = points.iter().zip(ring.masses());

@@ -25,13 +25,13 @@ const RIDGE: f64 = 1e-12;
 
 /// A ring in source and target, as edges.
 #[derive(Clone, Debug)]
-pub(super) struct EdgeRing {
-    edges: Vec<Edge>,
+pub(super) struct IntrinsicRing {
+    edges: Vec<IntrinsicEdge>,
 }
 
 /// An edge and the vertex that it begins at.
 #[derive(Clone, Copy, Debug)]
-struct Edge {
+struct IntrinsicEdge {
     /// In source and target.
     lengths: [f64; 2],
     /// Direction in the source, in radians.
@@ -47,7 +47,7 @@ struct Edge {
     before: f64,
 }
 
-impl EdgeRing {
+impl IntrinsicRing {
     /// Takes the rings apart; `otherwise` is the turn of rings of which one is
     /// a point.
     pub(super) fn new(source: &[DVec2], target: &[DVec2], otherwise: f64) -> Self {
@@ -63,7 +63,7 @@ impl EdgeRing {
         let edge = |k: usize| {
             let begin = before;
             before += shares[k];
-            Edge {
+            IntrinsicEdge {
                 lengths: lengths[k],
                 angle: turns[k][0],
                 turn: turns[k][1],
@@ -143,7 +143,7 @@ impl EdgeRing {
     }
 }
 
-impl Edge {
+impl IntrinsicEdge {
     fn length(&self, t: f64) -> f64 {
         self.lengths[0] * (1.0 - t) + self.lengths[1] * t
     }

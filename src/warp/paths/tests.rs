@@ -27,11 +27,11 @@ fn ring(source: Vec<DVec2>, target: Vec<DVec2>) -> RingPair {
     RingPair { source, target }
 }
 
-fn intrinsic(parts: &[Vec<RingPair>]) -> Paths {
-    Paths::new(parts, PathOptions::default()).unwrap()
+fn intrinsic(parts: &[Vec<RingPair>]) -> BoundaryPaths {
+    BoundaryPaths::new(parts, PathOptions::default()).unwrap()
 }
 
-fn at(paths: &Paths, t: f64) -> Vec<DVec2> {
+fn at(paths: &BoundaryPaths, t: f64) -> Vec<DVec2> {
     let mut placer = paths.placer();
     placer.place(t);
     placer.placement().in_frame.clone()
@@ -93,8 +93,8 @@ fn worst_stretch(source: &[DVec2], now: &[DVec2], scale: f64) -> f64 {
 #[test]
 fn the_ends_are_the_designs_to_the_last_bit() {
     let parts = vec![vec![ring(arm(-0.0), arm(0.35))]];
-    for course in [Course::Straight, Course::Intrinsic] {
-        let paths = Paths::new(&parts, PathOptions { course }).unwrap();
+    for course in [VertexPath::Straight, VertexPath::Intrinsic] {
+        let paths = BoundaryPaths::new(&parts, PathOptions { course }).unwrap();
         let bits = |points: &[DVec2]| -> Vec<[u64; 2]> {
             points
                 .iter()
@@ -117,9 +117,9 @@ fn the_ends_are_the_designs_to_the_last_bit() {
 fn straight_paths_are_straight() {
     let parts = vec![vec![ring(arm(0.0), arm(0.35))]];
     let straight = PathOptions {
-        course: Course::Straight,
+        course: VertexPath::Straight,
     };
-    let middle = at(&Paths::new(&parts, straight).unwrap(), 0.5);
+    let middle = at(&BoundaryPaths::new(&parts, straight).unwrap(), 0.5);
     let pair = &parts[0][0];
     let expected: Vec<DVec2> = pair
         .source
@@ -231,7 +231,7 @@ fn a_hole_and_a_part_are_born_from_points() {
 fn what_does_not_correspond_is_refused() {
     let of = |source: usize, target: usize| {
         let pair = ring(vec![DVec2::ONE; source], vec![DVec2::ONE; target]);
-        Paths::new(&[vec![pair]], PathOptions::default()).map(|_| ())
+        BoundaryPaths::new(&[vec![pair]], PathOptions::default()).map(|_| ())
     };
     let counts = [3, 4];
     assert_eq!(
@@ -244,12 +244,12 @@ fn what_does_not_correspond_is_refused() {
     );
     assert_eq!(of(0, 0), Err(PathsError::Empty { part: 0, ring: 0 }));
     assert_eq!(of(1, 1), Ok(()));
-    let none = Paths::new(&[], PathOptions::default()).map(|_| ());
+    let none = BoundaryPaths::new(&[], PathOptions::default()).map(|_| ());
     assert_eq!(none, Err(PathsError::NoRings));
     let beyond = [f64::NAN, f64::NEG_INFINITY, 1e76];
     for bad in beyond.map(|x| DVec2::new(x, 1.0)) {
         let bad = ring(vec![DVec2::ONE, bad], vec![DVec2::ONE; 2]);
-        let bad = Paths::new(&[vec![bad]], PathOptions::default()).map(|_| ());
+        let bad = BoundaryPaths::new(&[vec![bad]], PathOptions::default()).map(|_| ());
         assert_eq!(bad, Err(PathsError::OutOfRange { part: 0, ring: 0 }));
     }
 }
@@ -285,8 +285,8 @@ proptest! {
             .iter()
             .map(|rings| rings.iter().map(|r| ring(scaled(&r.source), scaled(&r.target))).collect())
             .collect();
-        for course in [Course::Straight, Course::Intrinsic] {
-            let paths = Paths::new(&parts, PathOptions { course }).unwrap();
+        for course in [VertexPath::Straight, VertexPath::Intrinsic] {
+            let paths = BoundaryPaths::new(&parts, PathOptions { course }).unwrap();
             prop_assert!(at(&paths, t).iter().all(|p| p.is_finite()));
         }
     }

@@ -13,11 +13,11 @@ use pulp::{Simd, WithSimd};
 /// are made into vectors.
 const LANES: usize = 64;
 
-type Row = [f64; LANES];
+type SumLanes = [f64; LANES];
 
 /// A radial function φ of r² and of the centre's own radius squared.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Kernel {
+pub(super) enum RadialKernel {
     /// r² log r.
     ThinPlate,
     /// exp(−rate r²).
@@ -32,7 +32,7 @@ pub(super) enum Kernel {
     },
 }
 
-impl Kernel {
+impl RadialKernel {
     /// With this sign it is positive definite, if conditionally.
     pub(super) fn sign(self) -> f64 {
         match self {
@@ -43,7 +43,7 @@ impl Kernel {
 }
 
 /// One of the functions, to compile a loop for.
-trait Phi: Copy {
+trait RadialFunction: Copy {
     fn of(self, r2: f64, own: f64) -> f64;
 }
 
@@ -52,13 +52,13 @@ struct ThinPlate;
 #[derive(Clone, Copy)]
 struct Gaussian(f64);
 #[derive(Clone, Copy)]
-struct Root;
+struct RootKernel;
 #[derive(Clone, Copy)]
-struct Power(f64);
+struct PowerKernel(f64);
 
 // Methods that are inlined always, not closures: what stays a call is compiled
 // for no vectors.
-impl Phi for ThinPlate {
+impl RadialFunction for ThinPlate {
     /// 0 at 0, since the logarithm is finite there.
     #[inline(always)]
     fn of(self, r2: f64, _: f64) -> f64 {
@@ -66,21 +66,21 @@ impl Phi for ThinPlate {
     }
 }
 
-impl Phi for Gaussian {
+impl RadialFunction for Gaussian {
     #[inline(always)]
     fn of(self, r2: f64, _: f64) -> f64 {
         exp(-self.0 * r2)
     }
 }
 
-impl Phi for Root {
+impl RadialFunction for RootKernel {
     #[inline(always)]
     fn of(self, r2: f64, own: f64) -> f64 {
         (r2 + own).sqrt()
     }
 }
 
-impl Phi for Power {
+impl RadialFunction for PowerKernel {
     #[inline(always)]
     fn of(self, r2: f64, own: f64) -> f64 {
         exp(self.0 * ln(r2 + own))
@@ -88,31 +88,31 @@ impl Phi for Power {
 }
 
 /// What is done with a function once it is known.
-trait Work {
-    fn run<P: Phi>(self, phi: P);
+trait KernelWork {
+    fn run<P: RadialFunction>(self, phi: P);
 }
 
 /// A work and its function, to be compiled for several widths of vectors.
-pub(super) struct Dispatched<W>(pub(super) Kernel, pub(super) W);
+pub(super) struct KernelDispatch<W>(pub(super) RadialKernel, pub(super) W);
 
-impl<W: Work> WithSimd for Dispatched<W> {
+impl<W: KernelWork> WithSimd for KernelDispatch<W> {
     type Output = ();
 
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) {
         match self.0 {
-            Kernel::ThinPlate => self.1.run(ThinPlate),
-            Kernel::Gaussian { rate } => self.1.run(Gaussian(rate)),
+            RadialKernel::ThinPlate => self.1.run(ThinPlate),
+            RadialKernel::Gaussian { rate } => self.1.run(Gaussian(rate)),
             // The exponent of Ruprecht and Müller: a root is cheaper.
-            Kernel::Multiquadric { exponent: 0.5 } => self.1.run(Root),
-            Kernel::Multiquadric { exponent } => self.1.run(Power(exponent)),
+            RadialKernel::Multiquadric { exponent: 0.5 } => self.1.run(RootKernel),
+            RadialKernel::Multiquadric { exponent } => self.1.run(PowerKernel(exponent)),
         }
     }
 }
 
 /// Where the functions sit, in coordinates of their own.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Centres {
+pub(super) struct KernelCentres {
     pub(super) x: Vec<f64>,
     pub(super) y: Vec<f64>,
     /// Each centre's own radius squared.
@@ -120,17 +120,17 @@ pub(super) struct Centres {
 }
 
 /// φ of one centre at all centres, times `sign`.
-pub(super) struct Column<'a> {
-    pub(super) centres: &'a Centres,
+pub(super) struct KernelColumn<'a> {
+    pub(super) centres: &'a KernelCentres,
     pub(super) of: usize,
     pub(super) sign: f64,
     pub(super) out: &'a mut [f64],
 }
 
-impl Work for Column<'_> {
+impl KernelWork for KernelColumn<'_> {
     #[inline(always)]
-    fn run<P: Phi>(self, phi: P) {
-        let Centres { x, y, own } = self.centres;
+    fn run<P: RadialFunction>(self, phi: P) {
+        let KernelCentres { x, y, own } = self.centres;
         let (x0, y0, own) = (x[self.of], y[self.of], own[self.of]);
         for ((out, x), y) in self.out.iter_mut().zip(x).zip(y) {
             let (dx, dy) = (x - x0, y - y0);
@@ -141,27 +141,36 @@ impl Work for Column<'_> {
 
 /// A sum of functions and an affine map, into both designs at once.
 #[derive(Clone, Debug)]
-pub(super) struct Sum {
-    pub(super) kernel: Kernel,
+pub(super) struct RadialSum {
+    pub(super) kernel: RadialKernel,
     /// The centres' coordinates are (place − origin) / scale.
     pub(super) origin: DVec2,
     pub(super) scale: f64,
-    pub(super) centres: Centres,
+    pub(super) centres: KernelCentres,
     /// Of each centre, as [x, y] into each design.
     pub(super) coefficients: Vec<[[f64; 2]; 2]>,
     /// Constant, and factors of both coordinates, as [x, y] of each.
     pub(super) affine: [[[f64; 2]; 3]; 2],
 }
 
-impl Sum {
+impl RadialSum {
     /// Each place, moved by the sum there.
     pub(super) fn evaluate(&self, arch: pulp::Arch, places: &[DVec2], out: [&mut [DVec2]; 2]) {
-        arch.dispatch(Dispatched(self.kernel, Evaluation(self, places, out)));
+        arch.dispatch(KernelDispatch(
+            self.kernel,
+            SumEvaluation(self, places, out),
+        ));
     }
 
     /// The sums at a few places, in the centres' coordinates.
     #[inline(always)]
-    fn block<P: Phi>(&self, phi: P, x: &[f64], y: &[f64], sums: &mut [[Row; 2]; 2]) {
+    fn block<P: RadialFunction>(
+        &self,
+        phi: P,
+        x: &[f64],
+        y: &[f64],
+        sums: &mut [[SumLanes; 2]; 2],
+    ) {
         let n = x.len().min(LANES);
         let (x, y) = (&x[..n], &y[..n]);
         for (sums, [constant, by_x, by_y]) in sums.iter_mut().zip(&self.affine) {
@@ -171,7 +180,7 @@ impl Sum {
                 }
             }
         }
-        let Centres { x: xs, y: ys, own } = &self.centres;
+        let KernelCentres { x: xs, y: ys, own } = &self.centres;
         let centres = xs.iter().zip(ys).zip(own).zip(&self.coefficients);
         let mut values = [0.0; LANES];
         let values = &mut values[..n];
@@ -192,11 +201,11 @@ impl Sum {
 }
 
 /// A sum at places, to be written into both designs.
-struct Evaluation<'a>(&'a Sum, &'a [DVec2], [&'a mut [DVec2]; 2]);
+struct SumEvaluation<'a>(&'a RadialSum, &'a [DVec2], [&'a mut [DVec2]; 2]);
 
-impl Work for Evaluation<'_> {
+impl KernelWork for SumEvaluation<'_> {
     #[inline(always)]
-    fn run<P: Phi>(self, phi: P) {
+    fn run<P: RadialFunction>(self, phi: P) {
         let Self(sum, places, mut out) = self;
         let [mut x, mut y] = [[0.0; LANES]; 2];
         let mut sums = [[[0.0; LANES]; 2]; 2];

@@ -1,14 +1,14 @@
 //! The choice of the function and its numbers, and what may be wrong with
 //! them.
 
-use crate::names::named;
+use crate::settings::choice::named;
 use crate::warp::features::FeatureError;
 use serde::{Deserialize, Serialize};
 
 /// The radial function φ.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 #[non_exhaustive]
-pub enum Basis {
+pub enum RadialBasis {
     /// r² log r: bends least; moves the whole plane.
     #[default]
     ThinPlate,
@@ -19,7 +19,7 @@ pub enum Basis {
     Multiquadric,
 }
 
-named! { Basis {
+named! { RadialBasis {
     ThinPlate: "thin-plate", "Thin plate", "Bends least; moves the whole plane.";
     Gaussian: "gaussian", "Gaussian", "Moves what is near a pin.";
     Multiquadric: "multiquadric", "Multiquadric",
@@ -31,7 +31,7 @@ named! { Basis {
 #[serde(default, deny_unknown_fields, rename_all = "kebab-case")]
 pub struct ScatteredOptions {
     /// Which function.
-    pub basis: Basis,
+    pub basis: RadialBasis,
     /// The Gaussian's radius as a fraction of the frame's diameter, above 0
     /// and at most 10. Far wider than the features are apart, it costs
     /// digits.
@@ -49,7 +49,7 @@ impl Default for ScatteredOptions {
     /// Thin plates without smoothing.
     fn default() -> Self {
         Self {
-            basis: Basis::ThinPlate,
+            basis: RadialBasis::ThinPlate,
             width: 0.1,
             exponent: 0.5,
             smoothing: 0.0,

@@ -24,11 +24,11 @@
 //! values. Where the matrix is singular to the last digits, as it is for
 //! Gaussians far wider than their distances, a ridge is added.
 
-use super::kernel::{Centres, Column, Dispatched, Kernel, Sum};
-use super::options::{Basis, ScatteredOptions};
-use super::places::{Places, STEEPEST};
+use super::centres::{CentreData, STEEPEST};
+use super::kernel::{KernelCentres, KernelColumn, KernelDispatch, RadialKernel, RadialSum};
+use super::options::{RadialBasis, ScatteredOptions};
 use crate::geometry::DVec2;
-use crate::linalg::DenseLu;
+use crate::numerics::DenseLu;
 use pulp::Arch;
 
 /// The least of E: at 1e-13 an affine map is met to 1e-12 by places whose
@@ -48,37 +48,37 @@ const MISSED: f64 = 1e-9;
 
 /// Solves again and again in the same memory.
 #[derive(Debug)]
-pub(super) struct Solver {
+pub(super) struct RadialSolver {
     pub(super) arch: Arch,
     options: ScatteredOptions,
     /// What width, smoothing and merging are relative to.
     unit: f64,
-    places: Places,
-    system: Ridged,
+    places: CentreData,
+    system: RidgedSystem,
     /// The last solution.
-    pub(super) sum: Sum,
+    pub(super) sum: RadialSum,
 }
 
 /// Memory of its own, as empty as that of a new one.
-impl Clone for Solver {
+impl Clone for RadialSolver {
     fn clone(&self) -> Self {
         Self::new(self.options, self.unit)
     }
 }
 
-impl Solver {
+impl RadialSolver {
     pub(super) fn new(options: ScatteredOptions, unit: f64) -> Self {
         Self {
             arch: Arch::new(),
             options,
             unit,
-            places: Places::default(),
-            system: Ridged::default(),
-            sum: Sum {
-                kernel: Kernel::ThinPlate,
+            places: CentreData::default(),
+            system: RidgedSystem::default(),
+            sum: RadialSum {
+                kernel: RadialKernel::ThinPlate,
                 origin: DVec2::ZERO,
                 scale: 1.0,
-                centres: Centres::default(),
+                centres: KernelCentres::default(),
                 coefficients: Vec::new(),
                 affine: [[[0.0; 2]; 3]; 2],
             },
@@ -108,16 +108,16 @@ impl Solver {
     }
 
     /// The function in the coordinates that are scaled.
-    fn kernel(&self) -> Kernel {
+    fn kernel(&self) -> RadialKernel {
         match self.options.basis {
-            Basis::ThinPlate => Kernel::ThinPlate,
-            Basis::Gaussian => {
+            RadialBasis::ThinPlate => RadialKernel::ThinPlate,
+            RadialBasis::Gaussian => {
                 let radius = self.options.width * self.unit / self.sum.scale;
-                Kernel::Gaussian {
+                RadialKernel::Gaussian {
                     rate: 1.0 / (radius * radius),
                 }
             }
-            Basis::Multiquadric => Kernel::Multiquadric {
+            RadialBasis::Multiquadric => RadialKernel::Multiquadric {
                 exponent: self.options.exponent,
             },
         }
@@ -128,9 +128,9 @@ impl Solver {
     fn smoothing(&self) -> f64 {
         let shrunk = self.unit / self.sum.scale;
         let factor = match self.options.basis {
-            Basis::ThinPlate => shrunk * shrunk,
-            Basis::Gaussian => 1.0,
-            Basis::Multiquadric => shrunk.powf(2.0 * self.options.exponent),
+            RadialBasis::ThinPlate => shrunk * shrunk,
+            RadialBasis::Gaussian => 1.0,
+            RadialBasis::Multiquadric => shrunk.powf(2.0 * self.options.exponent),
         };
         (self.options.smoothing * factor).min(1e12)
     }
@@ -177,13 +177,13 @@ impl Solver {
         for (of, (entries, p)) in columns.zip(&self.places.at).enumerate() {
             let (out, affine) = entries.split_at_mut(n);
             let centres = &self.sum.centres;
-            let column = Column {
+            let column = KernelColumn {
                 centres,
                 of,
                 sign,
                 out,
             };
-            self.arch.dispatch(Dispatched(kernel, column));
+            self.arch.dispatch(KernelDispatch(kernel, column));
             affine.copy_from_slice(&[1.0, p.x, p.y]);
         }
         for (i, p) in self.places.at.iter().enumerate() {
@@ -241,7 +241,7 @@ impl Solver {
 
 /// A full system, solved with as small a ridge as does.
 #[derive(Debug, Default)]
-struct Ridged {
+struct RidgedSystem {
     /// Column by column.
     matrix: Vec<f64>,
     rhs: Vec<f64>,
@@ -251,7 +251,7 @@ struct Ridged {
     lu: DenseLu,
 }
 
-impl Ridged {
+impl RidgedSystem {
     /// Sets the right-hand sides: x and y into each design, and zeros where the
     /// affine part has none.
     fn ask(&mut self, values: &[[DVec2; 2]]) {

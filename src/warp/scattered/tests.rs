@@ -2,9 +2,13 @@ use super::*;
 use crate::warp::{FeatureError, MAX_FEATURES};
 use proptest::prelude::*;
 
-type Tested = Result<(), Box<dyn std::error::Error>>;
+type ScatteredTestResult = Result<(), Box<dyn std::error::Error>>;
 
-const BASES: [Basis; 3] = [Basis::ThinPlate, Basis::Gaussian, Basis::Multiquadric];
+const BASES: [RadialBasis; 3] = [
+    RadialBasis::ThinPlate,
+    RadialBasis::Gaussian,
+    RadialBasis::Multiquadric,
+];
 
 const FRAME: Bounds = Bounds {
     min: DVec2::new(-1.0, 2.0),
@@ -24,7 +28,7 @@ fn values(points: &[DVec2]) -> Vec<DVec2> {
     points.iter().map(value).collect()
 }
 
-fn with(basis: Basis) -> ScatteredOptions {
+fn with(basis: RadialBasis) -> ScatteredOptions {
     ScatteredOptions {
         basis,
         ..ScatteredOptions::default()
@@ -39,7 +43,7 @@ fn pair(source: impl Into<DVec2>, target: impl Into<DVec2>) -> PointPair {
 }
 
 /// Where a warp looks at t: in the source and in the target.
-fn looks(warp: &Scattered, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
+fn looks(warp: &ScatteredWarp, t: f64, places: &[DVec2]) -> [Vec<DVec2>; 2] {
     let [mut source, mut target] = [(); 2].map(|()| vec![DVec2::NAN; places.len()]);
     warp.clone().look_up(t, places, &mut source, &mut target);
     [source, target]
@@ -60,24 +64,28 @@ fn mapped(
     };
     let ends = centres.iter().zip(values);
     let pairs: Vec<_> = ends.map(|(&c, &v)| pair(c, v)).collect();
-    let [_, target] = looks(&Scattered::new(&frame, &pairs, &[], options)?, 0.0, places);
+    let [_, target] = looks(
+        &ScatteredWarp::new(&frame, &pairs, &[], options)?,
+        0.0,
+        places,
+    );
     Ok(target)
 }
 
 #[test]
-fn values_are_those_of_scipy() -> Tested {
+fn values_are_those_of_scipy() -> ScatteredTestResult {
     // python3 benches/scattered_scipy.py table, with SciPy 1.17.1
     let table = include_str!("scipy.csv");
     let kinds = [
-        (Basis::ThinPlate, 0.0),
-        (Basis::ThinPlate, 0.01),
-        (Basis::Gaussian, 0.0),
-        (Basis::Gaussian, 0.1),
+        (RadialBasis::ThinPlate, 0.0),
+        (RadialBasis::ThinPlate, 0.01),
+        (RadialBasis::Gaussian, 0.0),
+        (RadialBasis::Gaussian, 0.1),
     ];
     // The unit must make no difference but in what is relative to it.
     for unit in [1.0, 2.5] {
         for (column, (basis, smoothing)) in kinds.into_iter().enumerate() {
-            let plate = basis == Basis::ThinPlate;
+            let plate = basis == RadialBasis::ThinPlate;
             let options = ScatteredOptions {
                 width: 0.25 / unit,
                 smoothing: if plate {
@@ -103,7 +111,7 @@ fn values_are_those_of_scipy() -> Tested {
 }
 
 #[test]
-fn values_are_met_at_their_centres() -> Tested {
+fn values_are_met_at_their_centres() -> ScatteredTestResult {
     for basis in BASES {
         for exponent in [0.5, 0.3, -0.5] {
             let options = ScatteredOptions {
@@ -125,7 +133,7 @@ fn values_are_met_at_their_centres() -> Tested {
 }
 
 #[test]
-fn affine_maps_are_reproduced() -> Tested {
+fn affine_maps_are_reproduced() -> ScatteredTestResult {
     let affine = |p: DVec2| DVec2::new(3.0 * p.x - p.y + 7.0, 0.2 * p.x + 1.5 * p.y - 2.0);
     for basis in BASES {
         for smoothing in [0.0, 0.1] {
@@ -149,14 +157,14 @@ fn affine_maps_are_reproduced() -> Tested {
 }
 
 #[test]
-fn few_features_are_no_case_of_their_own() -> Tested {
+fn few_features_are_no_case_of_their_own() -> ScatteredTestResult {
     let places = spread(30, 0.0);
     for basis in BASES {
-        let none = Scattered::new(&FRAME, &[], &[], with(basis))?;
+        let none = ScatteredWarp::new(&FRAME, &[], &[], with(basis))?;
         assert_eq!(looks(&none, 0.3, &places), [places.clone(), places.clone()]);
 
         let one = [pair((0.0, 3.0), (2.0, 3.5))];
-        let one = Scattered::new(&FRAME, &one, &[], with(basis))?;
+        let one = ScatteredWarp::new(&FRAME, &one, &[], with(basis))?;
         let [source, _] = looks(&one, 0.3, &places);
         for (found, &place) in source.iter().zip(&places) {
             assert!(found.distance(place - 0.3 * DVec2::new(2.0, 0.5)) < 1e-12);
@@ -168,7 +176,7 @@ fn few_features_are_no_case_of_their_own() -> Tested {
         let on_line = [0.0, 1.0, 2.5].map(|x| DVec2::new(x, 3.0 + x));
         for points in [&on_line[..2], &on_line] {
             let pairs: Vec<_> = points.iter().map(|&p| pair(p, turned(p))).collect();
-            let warp = Scattered::new(&FRAME, &pairs, &[], with(basis))?;
+            let warp = ScatteredWarp::new(&FRAME, &pairs, &[], with(basis))?;
             let [_, target] = looks(&warp, 0.0, &places);
             for (found, &place) in target.iter().zip(&places) {
                 assert!(found.distance(turned(place)) < 1e-9, "{basis:?}");
@@ -179,12 +187,12 @@ fn few_features_are_no_case_of_their_own() -> Tested {
 }
 
 #[test]
-fn both_ends_are_met_to_the_last_bit() -> Tested {
+fn both_ends_are_met_to_the_last_bit() -> ScatteredTestResult {
     let places = spread(100, 0.0);
     let ends = spread(20, 7.0).into_iter().zip(spread(20, 1.5));
     let pairs: Vec<_> = ends.map(|(p, q)| pair(4.0 * p, 3.0 * q)).collect();
     for basis in BASES {
-        let warp = Scattered::new(&FRAME, &pairs, &[], with(basis))?;
+        let warp = ScatteredWarp::new(&FRAME, &pairs, &[], with(basis))?;
         assert_eq!(looks(&warp, 0.0, &places)[0], places);
         assert_eq!(looks(&warp, 1.0, &places)[1], places);
     }
@@ -192,14 +200,14 @@ fn both_ends_are_met_to_the_last_bit() -> Tested {
 }
 
 #[test]
-fn features_are_met_and_lines_count() -> Tested {
+fn features_are_met_and_lines_count() -> ScatteredTestResult {
     let line = LinePair {
         source: [DVec2::new(-0.5, 2.5), DVec2::new(1.0, 2.5)],
         target: [DVec2::new(0.0, 4.5), DVec2::new(1.0, 4.0)],
     };
     let point = pair((2.0, 4.0), (2.5, 3.0));
     for basis in BASES {
-        let warp = Scattered::new(&FRAME, &[point], &[line], with(basis))?;
+        let warp = ScatteredWarp::new(&FRAME, &[point], &[line], with(basis))?;
         let on = |[a, b]: [DVec2; 2]| a.lerp(b, 0.75);
         let features = [point, pair(on(line.source), on(line.target))];
         for t in [0.0, 0.4, 1.0, 1.3] {
@@ -215,7 +223,7 @@ fn features_are_met_and_lines_count() -> Tested {
 }
 
 #[test]
-fn smoothing_misses_features_for_a_straighter_map() -> Tested {
+fn smoothing_misses_features_for_a_straighter_map() -> ScatteredTestResult {
     let centres = spread(40, 0.0);
     for basis in BASES {
         let mut missed_less = 0.0;
@@ -236,7 +244,7 @@ fn smoothing_misses_features_for_a_straighter_map() -> Tested {
 }
 
 #[test]
-fn centres_at_one_place_are_their_mean() -> Tested {
+fn centres_at_one_place_are_their_mean() -> ScatteredTestResult {
     let mut centres = spread(6, 0.0);
     let mut values = values(&centres);
     centres.extend([centres[2], centres[2]]);
@@ -250,11 +258,11 @@ fn centres_at_one_place_are_their_mean() -> Tested {
 }
 
 #[test]
-fn gaussians_too_wide_for_the_last_digits_get_a_ridge() -> Tested {
+fn gaussians_too_wide_for_the_last_digits_get_a_ridge() -> ScatteredTestResult {
     let centres = spread(300, 0.0);
     let wide = ScatteredOptions {
         width: 2.0,
-        ..with(Basis::Gaussian)
+        ..with(RadialBasis::Gaussian)
     };
     let wanted = values(&centres);
     let found = mapped(&centres, &wanted, wide, 1.0, &centres)?;
@@ -266,7 +274,7 @@ fn gaussians_too_wide_for_the_last_digits_get_a_ridge() -> Tested {
 }
 
 /// The farthest that a look goes from step to step between two times.
-fn farthest_step(warp: &Scattered, [from, to]: [f64; 2], steps: u32) -> f64 {
+fn farthest_step(warp: &ScatteredWarp, [from, to]: [f64; 2], steps: u32) -> f64 {
     let places: Vec<DVec2> = spread(200, 0.0).iter().map(|&p| 4.0 * p).collect();
     let mut last = looks(warp, from, &places);
     let mut farthest = 0.0_f64;
@@ -282,9 +290,9 @@ fn farthest_step(warp: &Scattered, [from, to]: [f64; 2], steps: u32) -> f64 {
 }
 
 /// A jump would stay as it is where steps get shorter.
-fn assert_no_jump(pairs: &[PointPair]) -> Tested {
+fn assert_no_jump(pairs: &[PointPair]) -> ScatteredTestResult {
     for basis in BASES {
-        let warp = Scattered::new(&FRAME, pairs, &[], with(basis))?;
+        let warp = ScatteredWarp::new(&FRAME, pairs, &[], with(basis))?;
         let [long, short] = [1000, 8000].map(|n| farthest_step(&warp, [0.45, 0.55], n));
         assert!(short < 0.3 * long, "{basis:?}: {long} {short}");
         assert!(short < 1.0, "{basis:?}: {short}");
@@ -295,7 +303,7 @@ fn assert_no_jump(pairs: &[PointPair]) -> Tested {
 /// Three features of which one crosses the line of the others: an affine map
 /// alone would be infinitely steep there.
 #[test]
-fn a_triangle_turns_over_without_a_jump() -> Tested {
+fn a_triangle_turns_over_without_a_jump() -> ScatteredTestResult {
     assert_no_jump(&[
         pair((0.0, 3.0), (0.0, 3.0)),
         pair((2.0, 3.0), (2.0, 3.0)),
@@ -304,7 +312,7 @@ fn a_triangle_turns_over_without_a_jump() -> Tested {
 }
 
 #[test]
-fn features_that_exchange_places_do_so_without_a_jump() -> Tested {
+fn features_that_exchange_places_do_so_without_a_jump() -> ScatteredTestResult {
     let pairs = [
         pair((0.0, 3.0), (2.0, 3.5)),
         pair((2.0, 3.5), (0.0, 3.0)),
@@ -319,7 +327,7 @@ fn features_that_exchange_places_do_so_without_a_jump() -> Tested {
 #[test]
 fn what_is_no_number_is_refused() {
     let fine = pair((0.0, 0.0), (1.0, 1.0));
-    let new = |points: &[PointPair], options| Scattered::new(&FRAME, points, &[], options);
+    let new = |points: &[PointPair], options| ScatteredWarp::new(&FRAME, points, &[], options);
     let bad = pair((0.0, f64::NAN), (1.0, 1.0));
     assert_eq!(
         new(&[fine, bad], ScatteredOptions::default()).map(|_| ()),
@@ -330,7 +338,7 @@ fn what_is_no_number_is_refused() {
         target: [DVec2::INFINITY, DVec2::X],
     };
     assert_eq!(
-        Scattered::new(&FRAME, &[], &[line], ScatteredOptions::default()).map(|_| ()),
+        ScatteredWarp::new(&FRAME, &[], &[line], ScatteredOptions::default()).map(|_| ()),
         Err(FeatureError::Line(1).into())
     );
     assert_eq!(
@@ -369,7 +377,7 @@ fn what_is_no_number_is_refused() {
 }
 
 #[test]
-fn options_are_read_in_kebab_case() -> Tested {
+fn options_are_read_in_kebab_case() -> ScatteredTestResult {
     let read: ScatteredOptions = toml::from_str("basis = 'thin-plate'\nsmoothing = 0.1")?;
     assert_eq!(read.smoothing, 0.1);
     assert!(toml::from_str::<ScatteredOptions>("bases = 1").is_err());
@@ -404,7 +412,7 @@ proptest! {
         let pairs: Vec<_> = ends.iter().map(|&(p, q)| pair(p, q)).collect();
         let options = ScatteredOptions { basis, width, exponent, smoothing };
         let frame = if point_frame { Bounds::at(DVec2::ONE) } else { FRAME };
-        let warp = Scattered::new(&frame, &pairs, &[], options)?;
+        let warp = ScatteredWarp::new(&frame, &pairs, &[], options)?;
         let places: Vec<DVec2> = spread(20, 0.0).iter().map(|&p| 4.0 * p).collect();
         for place in looks(&warp, t, &places).into_iter().flatten() {
             prop_assert!(place.is_finite(), "{place}");
@@ -420,8 +428,8 @@ proptest! {
         let target = spread(ends.len(), 3.0);
         let pairs: Vec<_> = ends.iter().zip(&target).map(|(&p, &q)| pair(p, 3.0 * q)).collect();
         let swapped: Vec<_> = pairs.iter().map(|p| pair(p.target, p.source)).collect();
-        let warp = Scattered::new(&FRAME, &pairs, &[], with(basis))?;
-        let back = Scattered::new(&FRAME, &swapped, &[], with(basis))?;
+        let warp = ScatteredWarp::new(&FRAME, &pairs, &[], with(basis))?;
+        let back = ScatteredWarp::new(&FRAME, &swapped, &[], with(basis))?;
         let places: Vec<DVec2> = spread(20, 0.0).iter().map(|&p| 4.0 * p).collect();
         let [source, target] = looks(&warp, t, &places);
         let [back_source, back_target] = looks(&back, 1.0 - t, &places);

@@ -70,7 +70,7 @@ pub const MORE: Icon = lines(regular::CARET_DOWN);
 pub const NEXT_STOP: Icon = lines(regular::CARET_LINE_RIGHT);
 pub const OPEN: Icon = lines(regular::FOLDER_OPEN);
 pub const MAP: Icon = lines(regular::MAP_TRIFOLD);
-pub const NO_STAR: Icon = lines(regular::STAR);
+pub const STAR_OUTLINE: Icon = lines(regular::STAR);
 pub const PATH: Icon = lines(regular::PATH);
 pub const PLOT: Icon = lines(regular::CHART_LINE);
 pub const PRESENT: Icon = lines(regular::PRESENTATION);
@@ -80,7 +80,7 @@ pub const SAVE: Icon = lines(regular::FLOPPY_DISK);
 pub const SUN: Icon = lines(regular::SUN);
 pub const SWAP: Icon = lines(regular::ARROWS_LEFT_RIGHT);
 pub const TICK: Icon = lines(regular::CHECK);
-pub const TWIN: Icon = lines(regular::SQUARE_SPLIT_HORIZONTAL);
+pub const COMPARE: Icon = lines(regular::SQUARE_SPLIT_HORIZONTAL);
 pub const UNDO: Icon = lines(regular::ARROW_U_UP_LEFT);
 pub const UP: Icon = lines(regular::ARROW_UP);
 pub const WARNING: Icon = lines(regular::WARNING);
@@ -104,7 +104,7 @@ pub fn fonts() -> FontDefinitions {
 
 /// Draws an icon into the middle of a rectangle, 16 points wide; in this colour, where it has none
 /// of its own.
-pub fn paint(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
+pub fn paint_icon(painter: &Painter, icon: Icon, rect: Rect, colour: Color32) {
     let colour = icon.ink.unwrap_or(colour);
     let font = FontId::new(SIZE, FontFamily::Name(icon.family.into()));
     let sign = painter.layout_no_wrap(icon.sign.to_owned(), font, colour);

@@ -10,8 +10,8 @@ use image::RgbaImage;
 pub fn texture(ctx: &Context, id: Id, pixels: &Arc<RgbaImage>, longest_px: u32) -> TextureHandle {
     // Pictures are shared and never changed: another one lies elsewhere, and the one that is shown
     // is held, so that no other takes its place.
-    type Kept = (Arc<RgbaImage>, TextureHandle);
-    let kept = ctx.data(|data| data.get_temp::<Kept>(id));
+    type CachedTexture = (Arc<RgbaImage>, TextureHandle);
+    let kept = ctx.data(|data| data.get_temp::<CachedTexture>(id));
     if let Some((of, texture)) = kept
         && Arc::ptr_eq(&of, pixels)
     {

@@ -9,7 +9,7 @@ use bevy_egui::egui::{
     Visuals, style::HandleShape, style::ScrollStyle, style::WidgetVisuals,
 };
 
-use crate::app::asking::choices::ThemeChoice;
+use crate::app::input::preferences::ThemeChoice;
 use crate::app::ui::kit::icons;
 
 /// One step of the grid, in points.
@@ -26,7 +26,7 @@ pub const CONTROL_HEIGHT: f32 = 24.0;
 
 /// The colours of one theme.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Palette {
+pub struct ThemePalette {
     /// Ground of the panels.
     pub panel: Color32,
     /// Ground of windows above the panels.
@@ -53,7 +53,7 @@ pub struct Palette {
     pub good: Color32,
 }
 
-const DARK: Palette = Palette {
+const DARK: ThemePalette = ThemePalette {
     panel: Color32::from_rgb(0x17, 0x1b, 0x21),
     window: Color32::from_rgb(0x1e, 0x23, 0x2b),
     raised: Color32::from_rgb(0x24, 0x2a, 0x33),
@@ -68,7 +68,7 @@ const DARK: Palette = Palette {
     good: Color32::from_rgb(0x7c, 0xc4, 0x9a),
 };
 
-const LIGHT: Palette = Palette {
+const LIGHT: ThemePalette = ThemePalette {
     panel: Color32::from_rgb(0xe8, 0xe9, 0xeb),
     window: Color32::from_rgb(0xf3, 0xf4, 0xf5),
     raised: Color32::from_rgb(0xfa, 0xfa, 0xfb),
@@ -83,7 +83,7 @@ const LIGHT: Palette = Palette {
     good: Color32::from_rgb(0x1f, 0x6b, 0x44),
 };
 
-impl Palette {
+impl ThemePalette {
     /// The palette for a light or a dark ground.
     #[must_use]
     pub const fn on(is_light: bool) -> Self {
@@ -115,7 +115,7 @@ pub fn install(ctx: &egui::Context) {
 }
 
 /// Shows the panels in this theme.
-pub fn choose(ctx: &egui::Context, theme: ThemeChoice) {
+pub fn apply_theme(ctx: &egui::Context, theme: ThemeChoice) {
     ctx.set_theme(match theme {
         ThemeChoice::Dark => Theme::Dark,
         ThemeChoice::Light => Theme::Light,
@@ -123,7 +123,7 @@ pub fn choose(ctx: &egui::Context, theme: ThemeChoice) {
 }
 
 /// Draws with bright marks behind what is chosen, for what writes in their colour.
-pub fn marked<R>(ctx: &egui::Context, draw: impl FnOnce(&egui::Context) -> R) -> R {
+pub fn with_bright_selection<R>(ctx: &egui::Context, draw: impl FnOnce(&egui::Context) -> R) -> R {
     let theme = ctx.theme();
     let palette = match theme {
         Theme::Dark => DARK,
@@ -139,7 +139,7 @@ pub fn marked<R>(ctx: &egui::Context, draw: impl FnOnce(&egui::Context) -> R) ->
     drawn
 }
 
-fn style(palette: Palette, base: Visuals) -> Style {
+fn style(palette: ThemePalette, base: Visuals) -> Style {
     let mut style = Style {
         visuals: visuals(palette, base),
         ..Style::default()
@@ -182,7 +182,7 @@ fn spacing(spacing: &mut egui::style::Spacing) {
     spacing.scroll.fade.strength = 0.0;
 }
 
-fn visuals(palette: Palette, base: Visuals) -> Visuals {
+fn visuals(palette: ThemePalette, base: Visuals) -> Visuals {
     let mut visuals = base;
     visuals.panel_fill = palette.panel;
     visuals.window_fill = palette.window;

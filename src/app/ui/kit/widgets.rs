@@ -10,11 +10,11 @@ use bevy_egui::egui::{
     Tooltip, Ui, Vec2, WidgetInfo, WidgetType, vec2,
 };
 
-use crate::app::asking::intent::Intent;
+use crate::app::input::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::icons::Icon;
-use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, Palette, RADIUS, SMALL};
-use crate::names::Choice;
+use crate::app::ui::kit::theme::{CARD_RADIUS, CONTROL_HEIGHT, GRID, RADIUS, SMALL, ThemePalette};
+use crate::settings::choice::Choice;
 
 /// Width of the column of labels.
 const LABEL_WIDTH: f32 = 88.0;
@@ -22,11 +22,11 @@ const LABEL_WIDTH: f32 = 88.0;
 /// A heading and what stands under it.
 pub fn section<R>(ui: &mut Ui, title: &str, body: impl FnOnce(&mut Ui) -> R) -> R {
     ui.add_space(GRID);
-    ui.label(quiet(ui, title).strong());
+    ui.label(secondary_text(ui, title).strong());
     let body = ui.vertical(body).inner;
     ui.add_space(GRID);
     let line = ui.available_rect_before_wrap();
-    let stroke = (1.0, Palette::of(ui).line);
+    let stroke = (1.0, ThemePalette::of(ui).line);
     ui.painter().hline(line.x_range(), line.top(), stroke);
     body
 }
@@ -37,17 +37,17 @@ pub fn row(ui: &mut Ui, label: &str, tip: &str, control: impl FnOnce(&mut Ui) ->
         ui.set_min_height(CONTROL_HEIGHT);
         let (rect, response) =
             ui.allocate_exact_size(vec2(LABEL_WIDTH, CONTROL_HEIGHT), Sense::hover());
-        let colour = Palette::of(ui).weak;
+        let colour = ThemePalette::of(ui).weak;
         let font = egui::TextStyle::Body.resolve(ui.style());
         ui.painter()
             .text(rect.left_center(), Align2::LEFT_CENTER, label, font, colour);
-        beside(&response, rect.left(), tip);
-        beside(&control(ui), rect.left(), tip);
+        tooltip_left(&response, rect.left(), tip);
+        tooltip_left(&control(ui), rect.left(), tip);
     });
 }
 
 /// A tip to the left of a panel that begins there: below, it would cover the next control.
-pub fn beside(response: &Response, left: f32, tip: &str) {
+pub fn tooltip_left(response: &Response, left: f32, tip: &str) {
     let panel = Rect::from_x_y_ranges(left..=response.rect.right(), response.rect.y_range());
     shown(response, tip, |mut tooltip| {
         tooltip.popup = tooltip.popup.anchor(panel).align(RectAlign::LEFT_START);
@@ -57,7 +57,7 @@ pub fn beside(response: &Response, left: f32, tip: &str) {
 
 /// A tip towards the middle of the window, where no control lies: below what
 /// is at the top, above what is at the bottom.
-pub fn tipped(response: Response, tip: &str) -> Response {
+pub fn with_tooltip(response: Response, tip: &str) -> Response {
     let is_low = response.rect.center().y > response.ctx.content_rect().center().y;
     let align = if is_low {
         RectAlign::TOP_START
@@ -137,7 +137,7 @@ pub fn toggle(ui: &mut Ui, label: &str, tip: &str, on: &mut bool) {
 
 /// A row with a switch for whether the program finds a value itself; off, it starts from the usual
 /// one.
-pub fn automatic<T>(ui: &mut Ui, label: &str, tip: &str, value: &mut Option<T>, usual: T) {
+pub fn automatic_toggle<T>(ui: &mut Ui, label: &str, tip: &str, value: &mut Option<T>, usual: T) {
     let mut is_automatic = value.is_none();
     toggle(ui, label, tip, &mut is_automatic);
     if is_automatic {
@@ -149,7 +149,7 @@ pub fn automatic<T>(ui: &mut Ui, label: &str, tip: &str, value: &mut Option<T>, 
 
 /// A switch.
 pub fn switch(ui: &mut Ui, label: &str, on: &mut bool) -> Response {
-    let palette = Palette::of(ui);
+    let palette = ThemePalette::of(ui);
     let (rect, mut response) = ui.allocate_exact_size(vec2(32.0, CONTROL_HEIGHT), Sense::click());
     if response.clicked() {
         *on = !*on;
@@ -178,12 +178,12 @@ pub fn choices<T: PartialEq + Clone>(
     value: &mut T,
     options: &[(T, &str, &str)],
 ) -> Response {
-    choices_of(ui, value, options, |_| true)
+    choices_where(ui, value, options, |_| true)
 }
 
 /// The same, of which only some can be chosen. Each tells what it does: the response is of none of
 /// them, or what a row tells would be told beside.
-pub fn choices_of<T: PartialEq + Clone>(
+pub fn choices_where<T: PartialEq + Clone>(
     ui: &mut Ui,
     value: &mut T,
     options: &[(T, &str, &str)],
@@ -199,7 +199,7 @@ pub fn choices_of<T: PartialEq + Clone>(
         let chosen = *value == *option;
         let cell = ui.add_enabled_ui(can(option), |ui| choice(ui, chosen, label, each));
         let response = cell.inner;
-        beside(&response, left, tip);
+        tooltip_left(&response, left, tip);
         if response.clicked() {
             *value = option.clone();
         }
@@ -208,7 +208,7 @@ pub fn choices_of<T: PartialEq + Clone>(
 }
 
 /// A row of which one choice holds.
-pub fn choose<T: PartialEq + Clone>(
+pub fn choices_row<T: PartialEq + Clone>(
     ui: &mut Ui,
     label: &str,
     tip: &str,
@@ -220,7 +220,7 @@ pub fn choose<T: PartialEq + Clone>(
 
 /// One choice among several.
 pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
-    let palette = Palette::of(ui);
+    let palette = ThemePalette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     response.widget_info(|| WidgetInfo::selected(WidgetType::SelectableLabel, true, chosen, label));
     let (fill, text) = match (ui.is_enabled(), chosen, response.hovered()) {
@@ -236,16 +236,16 @@ pub fn choice(ui: &mut Ui, chosen: bool, label: &str, size: Vec2) -> Response {
 }
 
 /// One choice as wide as this, which tells what it does; whether it was taken.
-pub fn option(ui: &mut Ui, chosen: bool, label: &str, tip: &str, width: f32) -> bool {
+pub fn choice_button(ui: &mut Ui, chosen: bool, label: &str, tip: &str, width: f32) -> bool {
     let response = choice(ui, chosen, label, vec2(width, CONTROL_HEIGHT));
-    tipped(response, tip).clicked()
+    with_tooltip(response, tip).clicked()
 }
 
 /// A row of all values of an option.
-pub fn pick<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
+pub fn choice_row<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     let row = |choice: &T| (*choice, choice.name().title, choice.name().sentence);
     let options: Vec<_> = T::CHOICES.iter().map(row).collect();
-    choose(ui, label, tip, value, &options);
+    choices_row(ui, label, tip, value, &options);
 }
 
 /// A drop-down list of all values of an option.
@@ -256,14 +256,14 @@ pub fn menu<T: Choice>(ui: &mut Ui, salt: &str, value: &mut T, width: f32) -> Re
         .show_ui(ui, |ui| {
             for choice in T::CHOICES {
                 let response = ui.selectable_value(value, *choice, choice.name().title);
-                beside(&response, response.rect.left(), choice.name().sentence);
+                tooltip_left(&response, response.rect.left(), choice.name().sentence);
             }
         })
         .response
 }
 
 /// A row with such a list, and below it what the chosen value means.
-pub fn list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
+pub fn choice_list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
     row(ui, label, tip, |ui| {
         menu(ui, label, value, ui.available_width())
     });
@@ -272,7 +272,7 @@ pub fn list<T: Choice>(ui: &mut Ui, label: &str, tip: &str, value: &mut T) {
 
 /// A button with an icon, of that size.
 pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str, size: Vec2) -> Response {
-    let palette = Palette::of(ui);
+    let palette = ThemePalette::of(ui);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     // A picture has no words: those who hear the window hear the tip.
     response.widget_info(|| WidgetInfo::labeled(WidgetType::Button, ui.is_enabled(), tip));
@@ -284,19 +284,19 @@ pub fn icon_button(ui: &mut Ui, icon: Icon, tip: &str, size: Vec2) -> Response {
     } else {
         palette.weak
     };
-    icons::paint(ui.painter(), icon, rect, colour);
-    tipped(response, tip)
+    icons::paint_icon(ui.painter(), icon, rect, colour);
+    with_tooltip(response, tip)
 }
 
 /// A square button with an icon that asks for something.
-pub fn act_button(ui: &mut Ui, icon: Icon, tip: &str, intent: Intent, acts: &mut Vec<Intent>) {
+pub fn intent_button(ui: &mut Ui, icon: Icon, tip: &str, intent: Intent, acts: &mut Vec<Intent>) {
     if icon_button(ui, icon, tip, vec2(32.0, 32.0)).clicked() {
         acts.push(intent);
     }
 }
 
 /// The ground of a panel at the window's edge, with this much room around what stands on it.
-pub fn ground(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame {
+pub fn panel_frame(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame {
     let room = Margin {
         left,
         right,
@@ -304,7 +304,7 @@ pub fn ground(ui: &Ui, [left, right, top, bottom]: [i8; 4]) -> egui::Frame {
         bottom,
     };
     egui::Frame::new()
-        .fill(Palette::of(ui).panel)
+        .fill(ThemePalette::of(ui).panel)
         .inner_margin(room)
 }
 
@@ -318,12 +318,14 @@ pub fn card<R>(ui: &mut Ui, room: impl Into<Margin>, content: impl FnOnce(&mut U
 }
 
 /// Words that stand back.
-pub fn quiet(ui: &Ui, words: impl Into<String>) -> RichText {
-    RichText::new(words).small().color(Palette::of(ui).weak)
+pub fn secondary_text(ui: &Ui, words: impl Into<String>) -> RichText {
+    RichText::new(words)
+        .small()
+        .color(ThemePalette::of(ui).weak)
 }
 
 /// A layer above the panels and below what asks, held there at this corner or edge.
-pub fn pinned(name: &'static str, pivot: Align2, at: Pos2) -> Area {
+pub fn fixed_layer(name: &'static str, pivot: Align2, at: Pos2) -> Area {
     Area::new(name.into())
         .order(Order::Middle)
         .pivot(pivot)
@@ -331,7 +333,7 @@ pub fn pinned(name: &'static str, pivot: Align2, at: Pos2) -> Area {
 }
 
 /// Words in the middle of a card that is painted by hand.
-pub fn words_on_card(
+pub fn text_card(
     painter: &Painter,
     card: Rect,
     words: Arc<Galley>,
@@ -346,7 +348,7 @@ pub fn words_on_card(
 
 /// A line of text that explains, wrapped.
 pub fn hint(ui: &mut Ui, text: &str) {
-    ui.add(egui::Label::new(quiet(ui, text)).wrap());
+    ui.add(egui::Label::new(secondary_text(ui, text)).wrap());
 }
 
 /// Lays its content out from the right.
@@ -357,7 +359,7 @@ pub fn from_right<R>(ui: &mut Ui, content: impl FnOnce(&mut Ui) -> R) -> R {
 
 /// The button that is most likely meant.
 pub fn primary_button(ui: &mut Ui, text: &str) -> Response {
-    let palette = Palette::of(ui);
+    let palette = ThemePalette::of(ui);
     let text = RichText::new(text).color(palette.text);
     ui.add(egui::Button::new(text).fill(palette.accent_ground))
 }

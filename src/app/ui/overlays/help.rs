@@ -2,11 +2,11 @@
 
 use bevy_egui::egui::{self, Align2, Context, Id, Modal, Ui, vec2};
 
-use crate::app::asking::intent::Intent;
-use crate::app::asking::keymap::Row;
-use crate::app::ui::kit::theme::{GRID, Palette, SMALL};
-use crate::app::ui::kit::widgets::{from_right, hint, quiet, words_on_card};
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::input::intent::Intent;
+use crate::app::key_map::KeyTableRow;
+use crate::app::ui::kit::theme::{GRID, SMALL, ThemePalette};
+use crate::app::ui::kit::widgets::{from_right, hint, secondary_text, text_card};
+use crate::app::ui::ui_state::{Intents, UiState};
 
 const KEYS_WIDTH: f32 = 136.0;
 const COLUMN_WIDTH: f32 = 440.0;
@@ -15,7 +15,7 @@ const COLUMN_WIDTH: f32 = 440.0;
 const ROW_HEIGHT: f32 = 20.0;
 
 /// Draws the list above everything else.
-pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
+pub fn show(ctx: &Context, scene: &UiState, acts: &mut Intents) {
     let response = Modal::new(Id::new("help")).show(ctx, |ui| {
         ui.set_width(2.0 * COLUMN_WIDTH + 2.0 * GRID);
         ui.horizontal(|ui| {
@@ -51,23 +51,24 @@ pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
     }
 }
 
-fn groups(rows: &[Row]) -> Vec<&[Row]> {
+fn groups(rows: &[KeyTableRow]) -> Vec<&[KeyTableRow]> {
     rows.chunk_by(|a, b| a.group == b.group).collect()
 }
 
 /// How many groups go into the first of two columns, so that the higher is as low as can be.
-fn middle(groups: &[&[Row]]) -> usize {
+fn middle(groups: &[&[KeyTableRow]]) -> usize {
     // A heading and the gap behind a group are as high as two rows.
-    let height = |groups: &[&[Row]]| groups.iter().map(|rows| rows.len() + 2).sum::<usize>();
+    let height =
+        |groups: &[&[KeyTableRow]]| groups.iter().map(|rows| rows.len() + 2).sum::<usize>();
     let higher = |&k: &usize| height(&groups[..k]).max(height(&groups[k..]));
     (0..=groups.len()).min_by_key(higher).unwrap_or(0)
 }
 
-fn group(ui: &mut Ui, rows: &[Row]) {
+fn group(ui: &mut Ui, rows: &[KeyTableRow]) {
     ui.spacing_mut().item_spacing.y = 2.0;
     ui.spacing_mut().interact_size.y = ROW_HEIGHT;
     let name = rows.first().map_or("", |row| row.group);
-    ui.label(quiet(ui, name).strong());
+    ui.label(secondary_text(ui, name).strong());
     for row in rows {
         ui.horizontal(|ui| {
             let size = vec2(KEYS_WIDTH, ROW_HEIGHT);
@@ -80,9 +81,9 @@ fn group(ui: &mut Ui, rows: &[Row]) {
 }
 
 fn key_cap(ui: &Ui, rect: egui::Rect, keys: &str) {
-    let palette = Palette::of(ui);
+    let palette = ThemePalette::of(ui);
     let painter = ui.painter();
     let text = painter.layout_no_wrap(keys.to_owned(), SMALL, palette.text);
     let cap = Align2::LEFT_CENTER.anchor_size(rect.left_center(), text.size() + vec2(12.0, 2.0));
-    words_on_card(painter, cap, text, palette.raised, (1.0, palette.line));
+    text_card(painter, cap, text, palette.raised, (1.0, palette.line));
 }

@@ -4,19 +4,19 @@ use std::path::Path;
 
 use bevy_egui::egui::{self, Align2, Context, Label, Order, Rect, Ui, vec2};
 
-use crate::app::asking::intent::Intent;
-use crate::app::session::loading::Problem;
-use crate::app::telling::notices::{About, Kind, Notice};
+use crate::app::input::intent::Intent;
+use crate::app::notices::{Notice, NoticeKind, NoticeTopic};
+use crate::app::session::load::TransitionProblem;
 use crate::app::ui::kit::icons;
-use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{card, icon_button, pinned};
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::kit::theme::{GRID, ThemePalette};
+use crate::app::ui::kit::widgets::{card, fixed_layer, icon_button};
+use crate::app::ui::ui_state::{Intents, UiState};
 
 /// The most that are shown at once; older ones wait until a newer one is closed.
 const MOST: usize = 4;
 
 /// Draws the messages.
-pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
+pub fn show(ctx: &Context, scene: &UiState, stage: Rect, acts: &mut Intents) {
     let list = scene.notices.list();
     if list.is_empty() {
         return;
@@ -24,7 +24,7 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
     let width = (stage.width() - 4.0 * GRID).clamp(160.0, 480.0);
     let at = stage.center_bottom() - vec2(0.0, 2.0 * GRID);
     // Above the verdict and the work: a problem is read first.
-    let area = pinned("notices", Align2::CENTER_BOTTOM, at).order(Order::Foreground);
+    let area = fixed_layer("notices", Align2::CENTER_BOTTOM, at).order(Order::Foreground);
     area.show(ctx, |ui| {
         for notice in &list[list.len().saturating_sub(MOST)..] {
             let too_much = is_too_much(scene, notice);
@@ -34,23 +34,24 @@ pub fn show(ctx: &Context, scene: &Scene, stage: Rect, acts: &mut Intents) {
 }
 
 /// The problem is but that it takes long.
-fn is_too_much(scene: &Scene, notice: &Notice) -> bool {
+fn is_too_much(scene: &UiState, notice: &Notice) -> bool {
     let problem = scene.session.problem();
-    notice.kind == Kind::Problem(About::Transition) && problem.is_some_and(Problem::is_too_much)
+    notice.kind == NoticeKind::Problem(NoticeTopic::Transition)
+        && problem.is_some_and(TransitionProblem::is_too_much)
 }
 
 fn message(ui: &mut Ui, notice: &Notice, too_much: bool, width: f32, acts: &mut Intents) {
-    let palette = Palette::of(ui);
+    let palette = ThemePalette::of(ui);
     let (icon, colour) = match notice.kind {
-        Kind::Problem(_) => (icons::WARNING, palette.problem),
-        Kind::Done | Kind::Wrote => (icons::TICK, palette.accent),
-        Kind::Note => (icons::WARNING, palette.amber),
+        NoticeKind::Problem(_) => (icons::WARNING, palette.problem),
+        NoticeKind::Done | NoticeKind::Wrote => (icons::TICK, palette.accent),
+        NoticeKind::Note => (icons::WARNING, palette.amber),
     };
     card(ui, egui::Margin::symmetric(12, 8), |ui| {
         ui.set_width(width);
         ui.horizontal_top(|ui| {
             let (rect, _) = ui.allocate_exact_size(vec2(24.0, 24.0), egui::Sense::hover());
-            icons::paint(ui.painter(), icon, rect, colour);
+            icons::paint_icon(ui.painter(), icon, rect, colour);
             let text_width = width - 24.0 - 24.0 - 2.0 * GRID;
             ui.allocate_ui(vec2(text_width, 0.0), |ui| {
                 ui.set_width(text_width);

@@ -5,14 +5,14 @@ use std::time::Duration;
 
 use bevy_egui::egui::{Align, Context, Id, Label, Layout, Modal, Ui};
 
-use crate::app::asking::intent::{Answer, Intent, Rescue};
-use crate::app::opening::closing::Lost;
+use crate::app::input::intent::{Intent, RecoveryAnswer, UnsavedAnswer};
 use crate::app::ui::kit::theme::GRID;
 use crate::app::ui::kit::widgets::primary_button;
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::ui_state::{Intents, UiState};
+use crate::app::unsaved_question::UnsavedKind;
 
 /// Draws the question that is open, if any.
-pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
+pub fn show(ctx: &Context, scene: &UiState, acts: &mut Intents) {
     if let (Some(words), Some(lost)) = (scene.question.text(), scene.question.lost()) {
         ask_first(ctx, lost, words, acts);
     } else if let Some((title, age)) = scene.autosave.lost() {
@@ -23,14 +23,14 @@ pub fn show(ctx: &Context, scene: &Scene, acts: &mut Intents) {
 }
 
 /// The heading, and how to keep or give up what would be lost.
-fn words(lost: Lost) -> [&'static str; 3] {
+fn words(lost: UnsavedKind) -> [&'static str; 3] {
     match lost {
-        Lost::Changes => ["Unsaved changes", "Save", "Do not save"],
-        Lost::Film => ["A film is being written", "Wait for it", "Stop it"],
+        UnsavedKind::Changes => ["Unsaved changes", "Save", "Do not save"],
+        UnsavedKind::Film => ["A film is being written", "Wait for it", "Stop it"],
     }
 }
 
-fn ask_first(ctx: &Context, lost: Lost, question: &str, acts: &mut Intents) {
+fn ask_first(ctx: &Context, lost: UnsavedKind, question: &str, acts: &mut Intents) {
     let [heading, keep, give_up] = words(lost);
     Modal::new(Id::new("what would be lost")).show(ctx, |ui| {
         ui.set_width(400.0);
@@ -38,15 +38,15 @@ fn ask_first(ctx: &Context, lost: Lost, question: &str, acts: &mut Intents) {
         ui.add(Label::new(question).wrap());
         answers(ui, |ui| {
             if primary_button(ui, keep).clicked() {
-                acts.push(Intent::Answer(Answer::Save));
+                acts.push(Intent::Answer(UnsavedAnswer::Save));
             }
-            let mut answer = |ui: &mut Ui, text: &str, answer: Answer| {
+            let mut answer = |ui: &mut Ui, text: &str, answer: UnsavedAnswer| {
                 if ui.button(text).clicked() {
                     acts.push(Intent::Answer(answer));
                 }
             };
-            answer(ui, give_up, Answer::Discard);
-            answer(ui, "Cancel", Answer::Stay);
+            answer(ui, give_up, UnsavedAnswer::Discard);
+            answer(ui, "Cancel", UnsavedAnswer::Stay);
         });
     });
 }
@@ -64,17 +64,17 @@ fn ask_lost(ctx: &Context, title: &str, age: Option<Duration>, acts: &mut Intent
         ui.add(Label::new(words).wrap());
         answers(ui, |ui| {
             if primary_button(ui, "Restore").clicked() {
-                acts.push(Intent::Rescue(Rescue::Restore));
+                acts.push(Intent::Rescue(RecoveryAnswer::Restore));
             }
-            let mut answer = |ui: &mut Ui, text: &str, tip: &str, answer: Rescue| {
+            let mut answer = |ui: &mut Ui, text: &str, tip: &str, answer: RecoveryAnswer| {
                 if ui.button(text).on_hover_text(tip).clicked() {
                     acts.push(Intent::Rescue(answer));
                 }
             };
             let tip = "Throws the changes away.";
-            answer(ui, "Discard", tip, Rescue::Discard);
+            answer(ui, "Discard", tip, RecoveryAnswer::Discard);
             let tip = "Asks again at the next start (Esc).";
-            answer(ui, "Later", tip, Rescue::Later);
+            answer(ui, "Later", tip, RecoveryAnswer::Later);
         });
     });
 }
@@ -92,7 +92,7 @@ fn ago(age: Duration) -> String {
     }
 }
 
-fn ask_drop(ctx: &Context, scene: &Scene, path: &Path, acts: &mut Intents) {
+fn ask_drop(ctx: &Context, scene: &UiState, path: &Path, acts: &mut Intents) {
     let name = path.file_name().unwrap_or_default().to_string_lossy();
     let Some(whole) = scene.session.whole() else {
         return;

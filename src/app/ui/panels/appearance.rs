@@ -2,26 +2,26 @@
 
 use bevy_egui::egui::{Ui, vec2};
 
-use crate::app::asking::choices::Preferences;
-use crate::app::asking::intent::Intent;
+use crate::app::input::intent::Intent;
+use crate::app::input::preferences::Preferences;
 use crate::app::ui::kit::widgets::{
-    choice, drag, number, pick, row, section, slider, tipped, toggle,
+    choice, choice_row, drag, number, row, section, slider, toggle, with_tooltip,
 };
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
 use crate::content::ContentKind;
 use crate::project::Project;
-use crate::stage::Show;
-use crate::transition::{CoatOptions, PaintRule};
+use crate::stage::StageVisibility;
+use crate::transition::{PaintLayerOptions, PaintRule};
 use crate::warp::WarpKind;
 
 /// Draws the options.
-pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
+pub fn show(ui: &mut Ui, scene: &UiState, draft: &mut Project, acts: &mut Intents) {
     section(ui, "Appearance", |ui| {
         layers(ui, scene, draft, acts);
         if scene.session.has_paints() {
             let tip = "Whether drawings keep their own colours.";
-            pick(ui, "Colours", tip, &mut draft.options.paint);
+            choice_row(ui, "Colours", tip, &mut draft.options.paint);
             if draft.options.paint == PaintRule::Own && draft.content != Some(ContentKind::Colours)
             {
                 coats(ui, &mut draft.options.coats);
@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
 }
 
 /// How painted parts come and go.
-fn coats(ui: &mut Ui, coats: &mut CoatOptions) {
+fn coats(ui: &mut Ui, coats: &mut PaintLayerOptions) {
     let tip = "What only one drawing has fades in or out, besides growing or shrinking.";
     toggle(ui, "Fade parts", tip, &mut coats.fade);
     let tip =
@@ -58,13 +58,13 @@ fn coats(ui: &mut Ui, coats: &mut CoatOptions) {
 const EQUAL: &str = "Lines of equal blended distance.";
 
 /// One layer: whether it is on, its name, what it shows, and whether there is any.
-type Layer<'a> = (&'a mut bool, &'static str, &'static str, bool);
+type LayerToggle<'a> = (&'a mut bool, &'static str, &'static str, bool);
 
 fn table<'a>(
-    scene: &Scene,
+    scene: &UiState,
     project: &Project,
-    (show, onion): (&'a mut Show, &'a mut bool),
-) -> [Layer<'a>; 8] {
+    (show, onion): (&'a mut StageVisibility, &'a mut bool),
+) -> [LayerToggle<'a>; 8] {
     let is_field = project.content == Some(ContentKind::Field);
     // A field is of the area that the bars cover, and knows of no bars.
     let has_bars = scene.session.has_bars() && !is_field;
@@ -113,7 +113,7 @@ fn table<'a>(
 }
 
 /// Nothing of the project is shown.
-pub fn is_blank(scene: &Scene) -> bool {
+pub fn is_blank(scene: &UiState) -> bool {
     let (mut show, mut onion) = (scene.preferences.show, false);
     let project = scene.session.project();
     project.is_some_and(|project| {
@@ -122,7 +122,7 @@ pub fn is_blank(scene: &Scene) -> bool {
     })
 }
 
-fn layers(ui: &mut Ui, scene: &Scene, draft: &Project, acts: &mut Intents) {
+fn layers(ui: &mut Ui, scene: &UiState, draft: &Project, acts: &mut Intents) {
     let mut preferences = *scene.preferences;
     let Preferences { show, onion, .. } = &mut preferences;
     let layers = table(scene, draft, (show, onion));
@@ -147,7 +147,7 @@ fn layer(ui: &mut Ui, on: &mut bool, name: &str, tip: &str, applies: bool) {
         if response.clicked() {
             *on = !*on;
         }
-        tipped(response, tip);
+        with_tooltip(response, tip);
     });
 }
 

@@ -6,17 +6,18 @@ use bevy_egui::egui::{
     Align, CollapsingHeader, Color32, DragValue, Label, Layout, RichText, Sense, Ui, vec2,
 };
 
-use crate::app::asking::intent::Intent;
+use crate::app::input::intent::Intent;
 use crate::app::ui::kit::icons;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, ThemePalette};
 use crate::app::ui::kit::widgets::{
-    automatic, drag, from_right, icon_button, number, pick, quiet, row, section, slider, toggle,
+    automatic_toggle, choice_row, drag, from_right, icon_button, number, row, secondary_text,
+    section, slider, toggle,
 };
-use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::verdict::first_upper;
+use crate::app::ui::stage::checks::capitalised;
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
 use crate::design::{Format, ImportNote};
-use crate::project::{DesignEntry, Moved, Project};
+use crate::project::{DesignEntry, MovedDesigns, Project};
 
 /// The grey level that is started from when it is set by hand.
 const MIDDLE_GREY: u8 = 128;
@@ -26,7 +27,7 @@ const MIDDLE_GREY: u8 = 128;
 const SCALES: RangeInclusive<f64> = 0.25..=4.0;
 
 /// Draws all designs, and of the two that are looked at everything.
-pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
+pub fn show(ui: &mut Ui, scene: &UiState, draft: &mut Project, acts: &mut Intents) {
     let Some(whole) = scene.session.whole() else {
         return;
     };
@@ -42,7 +43,7 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
         }
         add(ui, whole, acts);
         let tip = "How unlike designs are laid over each other before anything else.";
-        pick(ui, "Frame", tip, &mut draft.fit);
+        choice_row(ui, "Frame", tip, &mut draft.fit);
         let style = scene.session.style_here();
         let seen = draft.designs.iter_mut().zip(&numbers).enumerate();
         for (index, (entry, &number)) in seen {
@@ -70,11 +71,11 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
 }
 
 /// The list of all designs, in which they change places.
-fn order(ui: &mut Ui, scene: &Scene, whole: &Project, acts: &mut Intents) {
+fn order(ui: &mut Ui, scene: &UiState, whole: &Project, acts: &mut Intents) {
     let here = whole.leg_designs(scene.session.leg());
     for (k, entry) in whole.designs.iter().enumerate() {
         ui.horizontal(|ui| {
-            let words = RichText::new(format!("{}", k + 1)).color(Palette::of(ui).weak);
+            let words = RichText::new(format!("{}", k + 1)).color(ThemePalette::of(ui).weak);
             ui.add_sized([16.0, CONTROL_HEIGHT], Label::new(words));
             from_right(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 2.0;
@@ -106,7 +107,7 @@ fn order(ui: &mut Ui, scene: &Scene, whole: &Project, acts: &mut Intents) {
 /// The buttons that move a design among the others, from right to left.
 fn moves(ui: &mut Ui, whole: &Project, k: usize, acts: &mut Intents) {
     let last = whole.designs.len() - 1;
-    let mut button = |icon, tip: &str, order: Option<Vec<Moved>>| {
+    let mut button = |icon, tip: &str, order: Option<Vec<MovedDesigns>>| {
         ui.add_enabled_ui(order.is_some(), |ui| {
             if icon_button(ui, icon, tip, vec2(24.0, 24.0)).clicked() {
                 acts.extend(order.map(Intent::Arrange));
@@ -150,7 +151,7 @@ fn design(
         let (dot, _) = ui.allocate_exact_size(vec2(12.0, CONTROL_HEIGHT), Sense::hover());
         let fill = Color32::from_rgb(colour.0[0], colour.0[1], colour.0[2]);
         ui.painter().circle_filled(dot.center(), 5.0, fill);
-        ui.label(quiet(ui, role));
+        ui.label(secondary_text(ui, role));
         from_right(ui, |ui| {
             let tip = "Another file in its place";
             if icon_button(ui, icons::OPEN, tip, vec2(24.0, 24.0)).clicked() {
@@ -178,12 +179,12 @@ fn notes(ui: &mut Ui, index: usize, notes: &[ImportNote]) {
         [_] => "1 note on how it was read".to_owned(),
         notes => format!("{} notes on how it was read", notes.len()),
     };
-    let title = RichText::new(title).color(Palette::of(ui).amber);
+    let title = RichText::new(title).color(ThemePalette::of(ui).amber);
     let id = ui.id().with(("notes", index));
     let header = CollapsingHeader::new(title).id_salt(id);
     header.show_unindented(ui, |ui| {
         for note in notes {
-            ui.label(RichText::new(first_upper(&note.to_string())).small());
+            ui.label(RichText::new(capitalised(&note.to_string())).small());
         }
         ui.add_space(GRID);
     });
@@ -230,7 +231,7 @@ fn reading(ui: &mut Ui, entry: &mut DesignEntry) {
     let tip = "Each flat colour of the picture is a part of its own, and keeps its colour.";
     toggle(ui, "By colour", tip, &mut import.colours);
     let tip = "Finds the grey level that parts shape from ground by itself.";
-    automatic(ui, "Automatic", tip, &mut import.threshold, MIDDLE_GREY);
+    automatic_toggle(ui, "Automatic", tip, &mut import.threshold, MIDDLE_GREY);
     if let Some(threshold) = &mut import.threshold {
         let level = drag(threshold, 1..=255, 0.5, 0);
         let tip = "Where shape ends and ground begins, 1 to 255: higher lets more in.";

@@ -5,33 +5,33 @@
 
 use bevy_egui::egui::{Panel, ScrollArea, Ui};
 
-use crate::app::asking::intent::Intent;
+use crate::app::input::intent::Intent;
 use crate::app::ui::kit::theme::GRID;
-use crate::app::ui::kit::widgets::ground;
+use crate::app::ui::kit::widgets::panel_frame;
 use crate::app::ui::panels::{
-    appearance, contents, designs, film, map, matching, method, parts, rigid, warps,
+    appearance, content, designs, export, map, matching, method, part_timing, rigid_motion, warps,
 };
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::content::ContentKind;
 use crate::warp::WarpKind;
 
 const WIDTH: f32 = 328.0;
 
 /// Draws the panel.
-pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let frame = ground(root, [16, 8, 0, 0]);
+pub fn show(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
+    let frame = panel_frame(root, [16, 8, 0, 0]);
     Panel::right("inspector")
         .exact_size(WIDTH)
         .resizable(false)
         .frame(frame)
         .show(root, |ui| {
             if scene.preferences.film_options {
-                film::foot(ui, scene, acts);
+                export::foot(ui, scene, acts);
             }
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 ui.set_width(WIDTH - 40.0);
                 match scene.preferences.film_options {
-                    true => film::show(ui, scene, acts),
+                    true => export::show(ui, scene, acts),
                     false => sections(ui, scene, acts),
                 }
                 ui.add_space(2.0 * GRID);
@@ -39,7 +39,7 @@ pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
         });
 }
 
-fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+fn sections(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
     let Some(project) = scene.session.project() else {
         return;
     };
@@ -55,11 +55,11 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
     // Of many designs the local maps have one way.
     let is_pair = !draft.follows_path();
     if draft.warp == Some(WarpKind::Arap) && is_pair {
-        rigid::show(ui, scene, &mut draft.options.arap);
+        rigid_motion::show(ui, scene, &mut draft.options.arap);
     }
     let is_solid = draft.content == Some(ContentKind::Solid);
     if draft.warp == Some(WarpKind::Arap) && is_solid && is_pair {
-        parts::show(ui, scene, &mut draft.options.parts);
+        part_timing::show(ui, scene, &mut draft.options.parts);
     }
     let carries_fields =
         draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Field);
@@ -74,8 +74,8 @@ fn sections(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         Some(WarpKind::None | WarpKind::Arap) | None => {}
     }
     match draft.content {
-        Some(ContentKind::Field) => contents::field(ui, &mut draft.options.field),
-        Some(ContentKind::Colours) => contents::colours(ui, &mut draft.options.colours),
+        Some(ContentKind::Field) => content::field(ui, &mut draft.options.field),
+        Some(ContentKind::Colours) => content::colours(ui, &mut draft.options.colours),
         Some(ContentKind::Solid) | None => {}
     }
     designs::show(ui, scene, &mut draft, acts);

@@ -2,14 +2,14 @@
 
 use bevy_egui::egui::{Color32, Id, Label, Rect, RichText, Sense, TextEdit, Ui, pos2, vec2};
 
-use crate::app::asking::intent::Intent;
+use crate::app::input::intent::Intent;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::texture::texture;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette, RADIUS};
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, RADIUS, ThemePalette};
 use crate::app::ui::kit::widgets::{from_right, hint, icon_button, section};
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
-use crate::project::{KeptPlace, MapSettings};
+use crate::project::{MapSettings, SavedPlace};
 use crate::space::MapPath;
 
 /// Width of a number before a row.
@@ -19,7 +19,7 @@ const NUMBER: f32 = 16.0;
 const STAR: f32 = 14.0;
 
 /// Draws both.
-pub fn show(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+pub fn show(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
     let Some(whole) = scene.session.whole() else {
         return;
     };
@@ -54,7 +54,7 @@ fn path(ui: &mut Ui, draft: &mut MapSettings) {
     let stops = stops.filter(|(k, place)| *k == 0 || *k == last || !place.passed);
     for (number, (_, stop)) in stops.enumerate() {
         ui.horizontal(|ui| {
-            let words = RichText::new(format!("{}", number + 1)).color(Palette::of(ui).weak);
+            let words = RichText::new(format!("{}", number + 1)).color(ThemePalette::of(ui).weak);
             ui.add_sized([NUMBER, CONTROL_HEIGHT], Label::new(words));
             let name = TextEdit::singleline(&mut stop.name).hint_text("Stop");
             ui.add_sized([ui.available_width(), CONTROL_HEIGHT], name);
@@ -65,7 +65,7 @@ fn path(ui: &mut Ui, draft: &mut MapSettings) {
     }
 }
 
-fn kept(ui: &mut Ui, scene: &Scene, draft: &mut MapSettings, acts: &mut Intents) {
+fn kept(ui: &mut Ui, scene: &UiState, draft: &mut MapSettings, acts: &mut Intents) {
     if draft.kept.is_empty() {
         hint(ui, "Press K to keep the blend under the puck.");
         return;
@@ -102,7 +102,7 @@ fn kept(ui: &mut Ui, scene: &Scene, draft: &mut MapSettings, acts: &mut Intents)
 }
 
 /// How it looks; a click goes there.
-fn picture(ui: &mut Ui, scene: &Scene, k: usize, place: &KeptPlace, acts: &mut Intents) {
+fn picture(ui: &mut Ui, scene: &UiState, k: usize, place: &SavedPlace, acts: &mut Intents) {
     let side = 2.0 * CONTROL_HEIGHT + ui.spacing().item_spacing.y;
     let (rect, response) = ui.allocate_exact_size(vec2(side, side), Sense::click());
     let Rgb([r, g, b]) = scene.session.style().ground;
@@ -121,7 +121,7 @@ fn picture(ui: &mut Ui, scene: &Scene, k: usize, place: &KeptPlace, acts: &mut I
 }
 
 /// Its name, its stars and its note; whether it is kept no more.
-fn entry(ui: &mut Ui, place: &mut KeptPlace) -> bool {
+fn entry(ui: &mut Ui, place: &mut SavedPlace) -> bool {
     let mut is_gone = false;
     ui.horizontal(|ui| {
         from_right(ui, |ui| {
@@ -139,17 +139,17 @@ fn entry(ui: &mut Ui, place: &mut KeptPlace) -> bool {
 }
 
 /// A click on a star gives as many; on the last one that is given none.
-fn stars(ui: &mut Ui, place: &mut KeptPlace) {
+fn stars(ui: &mut Ui, place: &mut SavedPlace) {
     ui.spacing_mut().item_spacing.x = 0.0;
     let given = place.stars;
-    for star in 1..=KeptPlace::MOST_STARS {
-        let palette = Palette::of(ui);
+    for star in 1..=SavedPlace::MOST_STARS {
+        let palette = ThemePalette::of(ui);
         let (icon, ink) = match star <= given {
             true => (icons::STAR, palette.amber),
-            false => (icons::NO_STAR, palette.weak),
+            false => (icons::STAR_OUTLINE, palette.weak),
         };
         let (rect, response) = ui.allocate_exact_size(vec2(STAR, CONTROL_HEIGHT), Sense::click());
-        icons::paint(ui.painter(), icon, rect, ink);
+        icons::paint_icon(ui.painter(), icon, rect, ink);
         if response.on_hover_text(format!("{star} of 5")).clicked() {
             place.stars = if star == given { 0 } else { star };
         }

@@ -2,12 +2,14 @@
 
 use bevy_egui::egui::Ui;
 
-use crate::app::asking::acts::EditorAct;
-use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::widgets::{automatic, choose, hint, pick, section, slider};
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::input::editor_action::EditorAction;
+use crate::app::input::intent::Intent;
+use crate::app::ui::kit::widgets::{
+    automatic_toggle, choice_row, choices_row, hint, section, slider,
+};
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::content::ContentKind;
-use crate::correspondence::Matching;
+use crate::correspondence::MatchSettings;
 use crate::project::Project;
 use crate::warp::WarpKind;
 
@@ -15,7 +17,7 @@ use crate::warp::WarpKind;
 const USUAL_EDGE: f64 = 0.05;
 
 /// Draws the options.
-pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents) {
+pub fn show(ui: &mut Ui, scene: &UiState, draft: &mut Project, acts: &mut Intents) {
     // Rigid parts are made of triangles, those that carry a field too.
     let has_mesh =
         draft.warp == Some(WarpKind::Arap) && draft.content != Some(ContentKind::Colours);
@@ -25,10 +27,10 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
         }
         if draft.warp == Some(WarpKind::Arap) && draft.content == Some(ContentKind::Solid) {
             let tip = "How much is tried for the film: the first match, or the best of several.";
-            pick(ui, "Film", tip, &mut draft.options.quality);
+            choice_row(ui, "Film", tip, &mut draft.options.quality);
             let tip = "What is done where the film would fold, or its outlines would meet. Only \
                        the best film is guarded: the first one is there at once.";
-            pick(ui, "Guard", tip, &mut draft.options.guard);
+            choice_row(ui, "Guard", tip, &mut draft.options.guard);
         }
         if has_mesh {
             density(ui, &mut draft.options.triangulation.edge_length);
@@ -46,19 +48,19 @@ pub fn show(ui: &mut Ui, scene: &Scene, draft: &mut Project, acts: &mut Intents)
                 )
             };
             if ui.button(name).on_hover_text(tip).clicked() {
-                acts.push(Intent::Editor(EditorAct::Toggle));
+                acts.push(Intent::Editor(EditorAction::Toggle));
             }
             let tip = "Deletes all pins, pairs and cuts that were set by hand; can be undone.";
             if has_places(&draft.options.matching)
                 && ui.button("Clear").on_hover_text(tip).clicked()
             {
-                acts.push(Intent::Editor(EditorAct::Clear));
+                acts.push(Intent::Editor(EditorAction::Clear));
             }
         });
     });
 }
 
-fn rules(ui: &mut Ui, matching: &mut Matching) {
+fn rules(ui: &mut Ui, matching: &mut MatchSettings) {
     let tip = "Whether a shape may be matched with one that is turned.";
     let turning = [
         (false, "Free", "A shape is found again however it is turned"),
@@ -68,16 +70,16 @@ fn rules(ui: &mut Ui, matching: &mut Matching) {
             "What points up stays what points up, as with letters",
         ),
     ];
-    choose(ui, "Turning", tip, &mut matching.keep_up, &turning);
+    choices_row(ui, "Turning", tip, &mut matching.keep_up, &turning);
     let tip = "What becomes of a hole that the other design does not have.";
-    pick(ui, "Holes", tip, &mut matching.holes);
+    choice_row(ui, "Holes", tip, &mut matching.holes);
     let tip = "What becomes of a part that the other design does not have.";
-    pick(ui, "Parts", tip, &mut matching.parts);
+    choice_row(ui, "Parts", tip, &mut matching.parts);
 }
 
 fn density(ui: &mut Ui, edge_length: &mut Option<f64>) {
     let tip = "Triangles as coarse as good angles allow. Off: a largest edge length of your own.";
-    automatic(ui, "Auto mesh", tip, edge_length, USUAL_EDGE);
+    automatic_toggle(ui, "Auto mesh", tip, edge_length, USUAL_EDGE);
     if let Some(length) = edge_length {
         let tip = "The longest edge wanted inside, as a share of the design's size: smaller makes more \
              triangles, softer bends and slower frames.";
@@ -85,8 +87,8 @@ fn density(ui: &mut Ui, edge_length: &mut Option<f64>) {
     }
 }
 
-fn has_places(matching: &Matching) -> bool {
-    let Matching {
+fn has_places(matching: &MatchSettings) -> bool {
+    let MatchSettings {
         pins,
         lines,
         links,
@@ -97,7 +99,7 @@ fn has_places(matching: &Matching) -> bool {
     !(pins.is_empty() && lines.is_empty() && links.is_empty() && lone.is_empty() && cuts.is_empty())
 }
 
-fn said(matching: &Matching) -> String {
+fn said(matching: &MatchSettings) -> String {
     if !has_places(matching) {
         return "Nothing was set by hand yet. Outlines match themselves; pictures need pins or \
                 lines."

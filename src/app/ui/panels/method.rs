@@ -4,21 +4,21 @@ use bevy_egui::egui::{
     Align2, Button, Rect, Response, Sense, StrokeKind, Ui, WidgetInfo, WidgetType, pos2, vec2,
 };
 
-use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::theme::{GRID, Palette, RADIUS, SMALL};
-use crate::app::ui::kit::widgets::{beside, hint, section};
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::input::intent::Intent;
+use crate::app::ui::kit::theme::{GRID, RADIUS, SMALL, ThemePalette};
+use crate::app::ui::kit::widgets::{hint, section, tooltip_left};
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::content::ContentKind;
-use crate::names::Choice;
 use crate::project::Project;
-use crate::transition::Cell;
+use crate::settings::choice::Choice;
+use crate::transition::TransitionMethod;
 use crate::warp::WarpKind;
 
 const ROW_LABEL_WIDTH: f32 = 52.0;
 const CELL_HEIGHT: f32 = 28.0;
 
 /// Draws the table and what the chosen cell does.
-pub fn show(ui: &mut Ui, scene: &Scene, project: &Project, acts: &mut Intents) {
+pub fn show(ui: &mut Ui, scene: &UiState, project: &Project, acts: &mut Intents) {
     section(ui, "Method", |ui| {
         let width = (ui.available_width() - ROW_LABEL_WIDTH - GRID) / ContentKind::ALL.len() as f32;
         heads(ui, width);
@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, scene: &Scene, project: &Project, acts: &mut Intents) {
 }
 
 /// A way to have the method chosen, where there are several.
-fn choose(ui: &mut Ui, scene: &Scene, content: ContentKind, acts: &mut Intents) {
+fn choose(ui: &mut Ui, scene: &UiState, content: ContentKind, acts: &mut Intents) {
     // Pictures stay pictures: there is one method that suits them.
     if content == ContentKind::Colours {
         return;
@@ -53,12 +53,12 @@ fn choose(ui: &mut Ui, scene: &Scene, content: ContentKind, acts: &mut Intents) 
     if button.clicked() {
         acts.push(Intent::ChooseMethod);
     }
-    beside(&button, ui.min_rect().left(), tip);
+    tooltip_left(&button, ui.min_rect().left(), tip);
 }
 
 fn heads(ui: &mut Ui, width: f32) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 18.0), Sense::hover());
-    let weak = Palette::of(ui).weak;
+    let weak = ThemePalette::of(ui).weak;
     let mut left = rect.left() + ROW_LABEL_WIDTH + 4.0;
     for content in ContentKind::ALL {
         let at = pos2(left, rect.center().y);
@@ -73,7 +73,7 @@ fn row_head(ui: &mut Ui, warp: WarpKind) {
     let (rect, response) =
         ui.allocate_exact_size(vec2(ROW_LABEL_WIDTH, CELL_HEIGHT), Sense::hover());
     let name = warp.name();
-    let weak = Palette::of(ui).weak;
+    let weak = ThemePalette::of(ui).weak;
     let at = rect.left_center();
     ui.painter()
         .text(at, Align2::LEFT_CENTER, name.title, SMALL, weak);
@@ -82,18 +82,18 @@ fn row_head(ui: &mut Ui, warp: WarpKind) {
 
 /// What stands on the button of a cell.
 pub fn cell_name(warp: WarpKind, content: ContentKind) -> &'static str {
-    Cell::new(warp, content).map_or("–", |cell| cell.words().button)
+    TransitionMethod::new(warp, content).map_or("–", |cell| cell.words().button)
 }
 
 pub fn description(warp: WarpKind, content: ContentKind) -> &'static str {
-    Cell::new(warp, content).map_or("Nothing moves and nothing blends.", |cell| {
+    TransitionMethod::new(warp, content).map_or("Nothing moves and nothing blends.", |cell| {
         cell.words().sentence
     })
 }
 
 fn cell(
     ui: &mut Ui,
-    scene: &Scene,
+    scene: &UiState,
     project: &Project,
     (warp, content): (WarpKind, ContentKind),
     width: f32,
@@ -120,11 +120,11 @@ fn cell(
         Ok(()) => description(warp, content).to_owned(),
         Err(reason) => format!("Not available: {reason}"),
     };
-    beside(&response, ui.min_rect().left(), &tip);
+    tooltip_left(&response, ui.min_rect().left(), &tip);
 }
 
 fn paint_cell(ui: &Ui, rect: Rect, name: &str, response: &Response, chosen: bool, can: bool) {
-    let palette = Palette::of(ui);
+    let palette = ThemePalette::of(ui);
     let (fill, line, text) = match (can, chosen, response.hovered()) {
         (_, true, _) => (palette.accent_ground, palette.accent, palette.text),
         (false, ..) => (palette.panel, palette.line, palette.faint()),

@@ -2,8 +2,10 @@
 
 use bevy_egui::egui::Ui;
 
-use crate::app::ui::kit::widgets::{drag, list, number, pick, section, toggle};
-use crate::warp::{Basis, LatticeOptions, LineOptions, PathOptions, ScatteredOptions, Travel};
+use crate::app::ui::kit::widgets::{choice_list, choice_row, drag, number, section, toggle};
+use crate::warp::{
+    FeatureTravel, LatticeOptions, LineOptions, PathOptions, RadialBasis, ScatteredOptions,
+};
 
 /// The coarsest lattice is offered up to so many cells, and levels up to so
 /// many: the finest then has 1,024 cells, the most there may be.
@@ -11,9 +13,9 @@ const MOST_CELLS: u32 = 16;
 const MOST_LEVELS: u32 = 7;
 
 /// How pins and lines travel from the source to the target.
-pub fn travel(ui: &mut Ui, travel: &mut Travel) {
+pub fn travel(ui: &mut Ui, travel: &mut FeatureTravel) {
     section(ui, "Features", |ui| {
-        list(
+        choice_list(
             ui,
             "On the way",
             "How pins and lines get there (their travel).",
@@ -26,7 +28,7 @@ pub fn travel(ui: &mut Ui, travel: &mut Travel) {
 pub fn paths(ui: &mut Ui, paths: &mut PathOptions) {
     section(ui, "Boundary paths", |ui| {
         let tip = "How each point of the outline moves.";
-        pick(ui, "Course", tip, &mut paths.course);
+        choice_row(ui, "Course", tip, &mut paths.course);
     });
 }
 
@@ -34,7 +36,7 @@ pub fn paths(ui: &mut Ui, paths: &mut PathOptions) {
 pub fn lines(ui: &mut Ui, lines: &mut LineOptions) {
     section(ui, "Lines", |ui| {
         let tip = "How a line lies between its two.";
-        pick(ui, "Between", tip, &mut lines.between);
+        choice_row(ui, "Between", tip, &mut lines.between);
         let smoothness = drag(&mut lines.smoothness, 1e-4..=1.0, 0.001, 3);
         let tip = "How near a line is followed, in diagonals of the frame. Small follows to the \
                    pixel, large is smooth.";
@@ -52,15 +54,15 @@ pub fn lines(ui: &mut Ui, lines: &mut LineOptions) {
 pub fn scattered(ui: &mut Ui, scattered: &mut ScatteredOptions) {
     section(ui, "Points", |ui| {
         let tip = "How the pull of a pin spreads (the basis function).";
-        list(ui, "Pull", tip, &mut scattered.basis);
+        choice_list(ui, "Pull", tip, &mut scattered.basis);
         match scattered.basis {
-            Basis::ThinPlate => {}
-            Basis::Gaussian => {
+            RadialBasis::ThinPlate => {}
+            RadialBasis::Gaussian => {
                 let width = drag(&mut scattered.width, 0.005..=1.0, 0.002, 3);
                 let tip = "How far a pin reaches, in diagonals of the frame.";
                 number(ui, "Width", tip, width);
             }
-            Basis::Multiquadric => {
+            RadialBasis::Multiquadric => {
                 let exponent = drag(&mut scattered.exponent, 0.1..=0.95, 0.01, 2);
                 number(
                     ui,

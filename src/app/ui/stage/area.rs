@@ -4,9 +4,9 @@
 use bevy::prelude::Vec2;
 use bevy_egui::egui::{Align2, Color32, FontId, Rect, Sense, Ui};
 
-use crate::app::asking::intent::Intent;
+use crate::app::input::intent::Intent;
 use crate::app::ui::panels::appearance;
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
 
 /// One line of the wheel zooms by this exponent; eight lines make a factor of about 2.7.
@@ -38,7 +38,7 @@ pub fn show(root: &mut Ui, rect: Rect, name: &str, acts: &mut Intents) {
 }
 
 /// Says what to do while there is nothing to see.
-pub fn empty(root: &Ui, scene: &Scene, rect: Rect) {
+pub fn empty_hint(root: &Ui, scene: &UiState, rect: Rect) {
     if let Some(words) = empty_words(scene) {
         let ink = ink_on(scene.session.style().ground);
         let font = FontId::proportional(16.0);
@@ -55,7 +55,7 @@ pub fn zoom_factor(ui: &Ui) -> Option<f32> {
     (factor != 1.0).then_some(factor)
 }
 
-fn empty_words(scene: &Scene) -> Option<&'static str> {
+fn empty_words(scene: &UiState) -> Option<&'static str> {
     let session = &scene.session;
     if session.work().is_some() {
         return None;

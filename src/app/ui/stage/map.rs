@@ -9,14 +9,14 @@ use bevy_egui::egui::{
 };
 use image::RgbaImage;
 
-use crate::app::asking::intent::Intent;
-use crate::app::looking::ground::REACH;
-use crate::app::looking::made::Made;
+use crate::app::input::intent::Intent;
+use crate::app::map::pictures::MapPictures;
+use crate::app::map::thumbnails::REACH;
 use crate::app::ui::kit::icons;
 use crate::app::ui::kit::texture::texture;
-use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::stage::area::ink_on;
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::colour::Rgb;
 use crate::geometry::DVec2;
 
@@ -32,7 +32,7 @@ const LONGEST_PX: u32 = 2048;
 
 /// What the hand is at.
 #[derive(Clone, Default)]
-struct Held {
+struct MapDrag {
     /// The design that is being moved.
     design: Option<usize>,
     /// What is being drawn.
@@ -40,7 +40,7 @@ struct Held {
 }
 
 /// Draws the map and the blend; returns the part that the blend takes.
-pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Rect {
+pub fn show(root: &mut Ui, scene: &UiState, stage: Rect, acts: &mut Intents) -> Rect {
     let half = vec2((stage.width() / 2.0).floor(), stage.height());
     let left = Rect::from_min_size(stage.min, half);
     let mut right = left.translate(vec2(half.x, 0.0));
@@ -56,7 +56,7 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Re
     let line = Stroke::new(1.0, ink.gamma_multiply(0.5));
     root.painter().vline(right.left(), right.y_range(), line);
     // Below the blend stands what it is made of.
-    let height = Shares::height(root, made, right.width());
+    let height = WeightLegend::height(root, made, right.width());
     let below = right.split_top_bottom_at_y(right.bottom() - height).1;
     right.max.y = below.top();
     let side = left.width().min(left.height());
@@ -70,7 +70,7 @@ pub fn show(root: &mut Ui, scene: &Scene, stage: Rect, acts: &mut Intents) -> Re
     right
 }
 
-fn missing(ui: &Ui, scene: &Scene, rect: Rect, ink: Color32) {
+fn missing(ui: &Ui, scene: &UiState, rect: Rect, ink: Color32) {
     let words = match scene.map.problem() {
         Some(problem) => problem.to_string(),
         None if scene.session.whole().is_none() => {
@@ -99,15 +99,15 @@ fn on_map(square: Rect, at: Pos2) -> DVec2 {
 }
 
 /// Dragging moves the puck, or draws the path, or with Shift moves the design under the pointer.
-fn hand(root: &Ui, scene: &Scene, made: &Made, square: Rect, acts: &mut Intents) {
+fn hand(root: &Ui, scene: &UiState, made: &MapPictures, square: Rect, acts: &mut Intents) {
     let id = root.id().with("map");
     let response = root.interact(square, id, Sense::click_and_drag());
-    let mut held: Held = root.data(|data| data.get_temp(id)).unwrap_or_default();
+    let mut held: MapDrag = root.data(|data| data.get_temp(id)).unwrap_or_default();
     let Some(at) = response.interact_pointer_pos() else {
         if !held.line.is_empty() {
             acts.push(Intent::ExtendPath(std::mem::take(&mut held.line)));
         }
-        root.data_mut(|data| data.insert_temp(id, Held::default()));
+        root.data_mut(|data| data.insert_temp(id, MapDrag::default()));
         return;
     };
     let place = on_map(square, at);
@@ -129,7 +129,13 @@ fn hand(root: &Ui, scene: &Scene, made: &Made, square: Rect, acts: &mut Intents)
     root.data_mut(|data| data.insert_temp(id, held));
 }
 
-fn draw(root: &Ui, scene: &Scene, made: &Made, (left, square): (Rect, Rect), ink: Color32) {
+fn draw(
+    root: &Ui,
+    scene: &UiState,
+    made: &MapPictures,
+    (left, square): (Rect, Rect),
+    ink: Color32,
+) {
     let painter = root.painter_at(left);
     if let Some(land) = made.land().picture() {
         image(root, "land", land, square, Color32::WHITE);
@@ -156,7 +162,7 @@ fn draw(root: &Ui, scene: &Scene, made: &Made, (left, square): (Rect, Rect), ink
 }
 
 /// The path with its stops, what is being drawn, and the places that are kept.
-fn way(root: &Ui, scene: &Scene, (left, square): (Rect, Rect), ink: Color32) {
+fn way(root: &Ui, scene: &UiState, (left, square): (Rect, Rect), ink: Color32) {
     /// Points of the curve from stop to stop.
     const POINTS: usize = 48;
     let painter = root.painter_at(left);
@@ -167,7 +173,7 @@ fn way(root: &Ui, scene: &Scene, (left, square): (Rect, Rect), ink: Color32) {
         let points = (0..=count).map(|k| on(curve.at(k as f64 / POINTS as f64)));
         painter.add(Shape::line(points.collect(), stroke));
     }
-    let held: Option<Held> = root.data(|data| data.get_temp(root.id().with("map")));
+    let held: Option<MapDrag> = root.data(|data| data.get_temp(root.id().with("map")));
     if let Some(held) = held.filter(|held| held.line.len() > 1) {
         let points = held.line.iter().map(|place| on(*place));
         painter.add(Shape::line(points.collect(), stroke));
@@ -177,7 +183,7 @@ fn way(root: &Ui, scene: &Scene, (left, square): (Rect, Rect), ink: Color32) {
     };
     for kept in &whole.map.kept {
         let place = Rect::from_center_size(on(kept.at), vec2(14.0, 14.0));
-        icons::paint(&painter, icons::STAR, place, Palette::of(root).amber);
+        icons::paint_icon(&painter, icons::STAR, place, ThemePalette::of(root).amber);
     }
     let path = &whole.map.path;
     let first = path.places.iter().take(1).map(|place| place.at);
@@ -200,7 +206,13 @@ fn contrast(ink: Color32) -> Color32 {
 }
 
 /// The puck with a ring of the designs' shares.
-fn puck(root: &Ui, scene: &Scene, made: &Made, (left, square): (Rect, Rect), ink: Color32) {
+fn puck(
+    root: &Ui,
+    scene: &UiState,
+    made: &MapPictures,
+    (left, square): (Rect, Rect),
+    ink: Color32,
+) {
     let painter = root.painter_at(left);
     let at = on_screen(square, scene.map.puck());
     painter.circle(at, PUCK, Color32::WHITE, Stroke::new(1.5, ink));
@@ -222,7 +234,7 @@ fn puck(root: &Ui, scene: &Scene, made: &Made, (left, square): (Rect, Rect), ink
 }
 
 /// The colour of a design on the map.
-fn colour_of(scene: &Scene, made: &Made, design: usize) -> Color32 {
+fn colour_of(scene: &UiState, made: &MapPictures, design: usize) -> Color32 {
     let mut weights = vec![0.0; made.weights().len()];
     weights[design] = 1.0;
     let Rgb([r, g, b]) = scene.session.style().fill_at(made.space().tint(&weights));
@@ -230,26 +242,28 @@ fn colour_of(scene: &Scene, made: &Made, design: usize) -> Color32 {
 }
 
 /// What the blend is made of, below it: in rows, the first uppermost.
-fn shares(root: &Ui, scene: &Scene, made: &Made, rect: Rect, ink: Color32) {
-    let mut all = Shares::new(rect.width());
-    for (design, words) in Shares::words(made, made.weights()) {
-        let galley = root.painter().layout_no_wrap(words, Shares::font(), ink);
+fn shares(root: &Ui, scene: &UiState, made: &MapPictures, rect: Rect, ink: Color32) {
+    let mut all = WeightLegend::new(rect.width());
+    for (design, words) in WeightLegend::words(made, made.weights()) {
+        let galley = root
+            .painter()
+            .layout_no_wrap(words, WeightLegend::font(), ink);
         let at = rect.min + all.place(galley.size().x);
         let colour = colour_of(scene, made, design);
         root.painter()
             .circle_filled(at + vec2(4.0, 7.0), 4.0, colour);
         root.painter()
-            .galley(at + vec2(Shares::DOT, 0.0), galley, ink);
+            .galley(at + vec2(WeightLegend::DOT, 0.0), galley, ink);
     }
 }
 
 /// Where the words about shares stand: one behind the other, in as many rows as they need.
-struct Shares {
+struct WeightLegend {
     room: f32,
     next: Vec2,
 }
 
-impl Shares {
+impl WeightLegend {
     const ROW: f32 = 18.0;
     /// What a dot and the gap behind it take.
     const DOT: f32 = 13.0;
@@ -266,7 +280,7 @@ impl Shares {
     }
 
     /// Each design that has a share, by its number, and what is said of it.
-    fn words(made: &Made, weights: &[f64]) -> Vec<(usize, String)> {
+    fn words(made: &MapPictures, weights: &[f64]) -> Vec<(usize, String)> {
         let all = made.space().designs().iter().zip(weights).enumerate();
         let seen = all.filter(|(_, (_, weight))| weight.abs() >= 0.005);
         seen.map(|(k, (form, weight))| (k, format!("{} {:.0} %", form.name, weight * 100.0)))
@@ -274,7 +288,7 @@ impl Shares {
     }
 
     /// What they take where every design has its largest share: it stays while the puck moves.
-    fn height(root: &Ui, made: &Made, width: f32) -> f32 {
+    fn height(root: &Ui, made: &MapPictures, width: f32) -> f32 {
         let mut all = Self::new(width);
         for (_, words) in Self::words(made, &vec![1.0; made.weights().len()]) {
             let ink = Color32::WHITE;

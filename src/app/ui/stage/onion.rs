@@ -2,15 +2,15 @@
 
 use bevy_egui::egui::{Color32, Pos2, Rect, Shape, Stroke, Ui, vec2};
 
-use crate::app::ui::scene::Scene;
+use crate::app::ui::ui_state::UiState;
 use crate::geometry::DVec2;
-use crate::transition::tint;
+use crate::transition::colour_fraction;
 
 /// How much of a skin is seen.
 const SEEN: f32 = 0.55;
 
 /// Draws the skins, each in the colour of its t.
-pub fn show(ui: &Ui, scene: &Scene, stage: Rect) {
+pub fn show(ui: &Ui, scene: &UiState, stage: Rect) {
     let painter = ui.painter().with_clip_rect(stage);
     let style = scene.session.style();
     let way = scene.session.way();
@@ -19,7 +19,7 @@ pub fn show(ui: &Ui, scene: &Scene, stage: Rect) {
         stage.min + vec2(px.x, px.y)
     };
     for skin in scene.onion.skins() {
-        let [r, g, b] = style.fill_at(tint(skin.t, way)).0;
+        let [r, g, b] = style.fill_at(colour_fraction(skin.t, way)).0;
         let ink = Color32::from_rgb(r, g, b).gamma_multiply(SEEN);
         let stroke = Stroke::new(1.0, ink);
         for ring in &skin.rings {

@@ -2,12 +2,13 @@
 
 use bevy_egui::egui::{Color32, Id, LayerId, Order, Rect, Stroke, StrokeKind, Ui, pos2, vec2};
 
-use crate::app::looking::filmstrip::{self, PICTURE_PX};
 use crate::app::ui::kit::texture::texture;
-use crate::app::ui::kit::theme::{Palette, RADIUS};
-use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::timeline::designs::Hand;
-use crate::app::ui::timeline::ruler::Ruler;
+use crate::app::ui::kit::theme::{RADIUS, ThemePalette};
+use crate::app::ui::timeline::design_thumbnails::ThumbnailDrag;
+use crate::app::ui::timeline::ruler::TimelineRuler;
+use crate::app::ui::ui_state::{Intents, UiState};
+use crate::app::view::filmstrip;
+use crate::app::view::filmstrip::PICTURE_PX;
 
 /// What the pictures add to the height of the timeline.
 pub const HEIGHT: f32 = 40.0;
@@ -22,7 +23,7 @@ const LEAST: f32 = 40.0;
 const GAP: f32 = 6.0;
 
 /// Draws them below `top`, and takes the user's hand on those of designs.
-pub fn show(ui: &Ui, scene: &Scene, ruler: Ruler, top: f32, acts: &mut Intents) {
+pub fn show(ui: &Ui, scene: &UiState, ruler: TimelineRuler, top: f32, acts: &mut Intents) {
     let Some(pictures) = scene.filmstrip.pictures() else {
         return;
     };
@@ -30,7 +31,7 @@ pub fn show(ui: &Ui, scene: &Scene, ruler: Ruler, top: f32, acts: &mut Intents) 
     let count = filmstrip::pictures(legs);
     let longest = PICTURE_PX.0 * count as u32;
     let texture = texture(ui.ctx(), Id::new("filmstrip"), pictures, longest);
-    let palette = Palette::of(ui);
+    let palette = ThemePalette::of(ui);
     let last = count - 1;
     let t = |index: usize| legs as f64 * index as f64 / last as f64;
     let apart = ruler.x(t(1)) - ruler.x(t(0));
@@ -45,7 +46,7 @@ pub fn show(ui: &Ui, scene: &Scene, ruler: Ruler, top: f32, acts: &mut Intents) 
     let size = vec2(width, width * LARGEST.1 / LARGEST.0);
     let [r, g, b] = scene.session.style().ground.0;
     let now = scene.playback.t() / legs as f64 * last as f64;
-    let mut hand = Hand::of(scene, ruler);
+    let mut hand = ThumbnailDrag::of(scene, ruler);
     for index in (0..count).step_by(step) {
         let middle = pos2(ruler.x(t(index)), top + LARGEST.1 / 2.0);
         let place = Rect::from_center_size(middle, size);

@@ -3,13 +3,13 @@
 use bevy_egui::egui::{Color32, Label, Panel, PointerButton, ScrollArea, Ui, vec2};
 use egui_plot::{AxisHints, GridMark, HLine, Line, LineStyle, Plot, PlotPoints, VLine};
 
-use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::kit::widgets::{ground, quiet};
-use crate::app::ui::scene::{Intents, Scene};
-use crate::app::ui::stage::verdict::unmeasured;
+use crate::app::input::intent::Intent;
+use crate::app::ui::kit::theme::{GRID, ThemePalette};
+use crate::app::ui::kit::widgets::{panel_frame, secondary_text};
+use crate::app::ui::stage::checks::unmeasured_reason;
+use crate::app::ui::ui_state::{Intents, UiState};
 use crate::measure::{FilmReport, Quantity};
-use crate::names::Choice;
+use crate::settings::choice::Choice;
 
 const HEIGHT: f32 = 168.0;
 
@@ -17,8 +17,8 @@ const HEIGHT: f32 = 168.0;
 const LEAST_WIDTH: f32 = 208.0;
 
 /// Draws the panel.
-pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let frame = ground(root, [16, 16, 8, 4]);
+pub fn show(root: &mut Ui, scene: &UiState, acts: &mut Intents) {
+    let frame = panel_frame(root, [16, 16, 8, 4]);
     Panel::bottom("plots")
         .exact_size(HEIGHT)
         .resizable(false)
@@ -29,12 +29,12 @@ pub fn show(root: &mut Ui, scene: &Scene, acts: &mut Intents) {
         });
 }
 
-fn waiting(ui: &mut Ui, scene: &Scene) {
-    let words = unmeasured(scene);
-    ui.centered_and_justified(|ui| ui.label(quiet(ui, words)));
+fn waiting(ui: &mut Ui, scene: &UiState) {
+    let words = unmeasured_reason(scene);
+    ui.centered_and_justified(|ui| ui.label(secondary_text(ui, words)));
 }
 
-fn row(ui: &mut Ui, scene: &Scene, film: &FilmReport, acts: &mut Intents) {
+fn row(ui: &mut Ui, scene: &UiState, film: &FilmReport, acts: &mut Intents) {
     let shown: Vec<(Quantity, Vec<[f64; 2]>)> = Quantity::ALL
         .into_iter()
         .map(|quantity| (quantity, film.series(quantity)))
@@ -61,14 +61,14 @@ fn row(ui: &mut Ui, scene: &Scene, film: &FilmReport, acts: &mut Intents) {
 const NOWHERE: &str = "Without bound at every t: some triangle has no area or is turned over, \
     and what shrinks to nothing is sheared and stretched without end.";
 
-fn one(ui: &mut Ui, scene: &Scene, quantity: Quantity, series: &[[f64; 2]], acts: &mut Intents) {
-    let palette = Palette::of(ui);
+fn one(ui: &mut Ui, scene: &UiState, quantity: Quantity, series: &[[f64; 2]], acts: &mut Intents) {
+    let palette = ThemePalette::of(ui);
     // Of the leg that is looked at, as the measures are.
     let t = scene.session.within(scene.playback.t());
     ui.spacing_mut().item_spacing.y = 2.0;
     heading(ui, quantity, series, t);
     if !series.iter().any(|[_, value]| value.is_finite()) {
-        ui.add(Label::new(quiet(ui, NOWHERE)).wrap());
+        ui.add(Label::new(secondary_text(ui, NOWHERE)).wrap());
         return;
     }
     let plot = axes(quantity, palette.weak).height(ui.available_height().min(HEIGHT - 52.0));
@@ -204,7 +204,7 @@ fn heading(ui: &mut Ui, quantity: Quantity, series: &[[f64; 2]], t: f64) {
         .iter()
         .min_by(|a, b| (a[0] - t).abs().total_cmp(&(b[0] - t).abs()));
     ui.horizontal(|ui| {
-        ui.label(quiet(ui, quantity.name().title));
+        ui.label(secondary_text(ui, quantity.name().title));
         if let Some([_, value]) = nearest.filter(|_| (0.0..=1.0).contains(&t)) {
             ui.small(short(*value));
         }

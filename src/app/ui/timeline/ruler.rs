@@ -3,15 +3,15 @@
 use bevy_egui::egui::{Rect, vec2};
 
 use crate::app::ui::kit::theme::GRID;
-use crate::app::ui::scene::Scene;
-use crate::transition::Stop;
+use crate::app::ui::ui_state::UiState;
+use crate::transition::TransitionStop;
 
 /// How far the track reaches beyond 0 and 1 when nothing asks for more.
 const BEYOND: f64 = 0.25;
 
 /// From t to the screen and back.
 #[derive(Clone, Copy)]
-pub struct Ruler {
+pub struct TimelineRuler {
     left: f32,
     width: f32,
     /// The height of its line on the screen.
@@ -24,9 +24,9 @@ pub struct Ruler {
     pub end: f64,
 }
 
-impl Ruler {
+impl TimelineRuler {
     /// Over all that the track has to show.
-    pub fn new(rect: Rect, scene: &Scene, stops: &[Stop]) -> Self {
+    pub fn new(rect: Rect, scene: &UiState, stops: &[TransitionStop]) -> Self {
         let timing = scene.session.timing();
         let places = stops
             .iter()

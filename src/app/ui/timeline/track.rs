@@ -6,15 +6,15 @@ use bevy_egui::egui::{
     Ui, pos2, vec2,
 };
 
-use crate::app::asking::intent::Intent;
-use crate::app::ui::kit::ease;
-use crate::app::ui::kit::theme::{GRID, Palette};
-use crate::app::ui::scene::{Intents, Scene};
+use crate::app::input::intent::Intent;
+use crate::app::ui::kit::easing_editor;
+use crate::app::ui::kit::theme::{GRID, ThemePalette};
 use crate::app::ui::timeline::filmstrip;
-use crate::app::ui::timeline::ruler::Ruler;
-use crate::one_line::OneLine;
+use crate::app::ui::timeline::ruler::TimelineRuler;
+use crate::app::ui::ui_state::{Intents, UiState};
+use crate::io::sanitize::SanitizedLine;
 use crate::project::Project;
-use crate::transition::{Stop, Style, tint};
+use crate::transition::{TransitionStop, TransitionStyle, colour_fraction};
 
 /// Scrubbing snaps to ends and stops within so many points: near enough to be meant. Two tenths
 /// are some sixty apart in the smallest window.
@@ -37,14 +37,14 @@ const LEAST_NAME: f32 = 48.0;
 /// hand.
 pub fn show(
     ui: &mut Ui,
-    scene: &Scene,
+    scene: &UiState,
     draft: &mut Project,
     has_pictures: bool,
     acts: &mut Intents,
 ) {
     let size = vec2(ui.available_width(), ui.available_height());
     let (rect, response) = ui.allocate_exact_size(size, Sense::click_and_drag());
-    let ruler = Ruler::new(rect, scene, &draft.stops);
+    let ruler = TimelineRuler::new(rect, scene, &draft.stops);
     let names = scene.session.names_on_the_way();
     scrub(&response, ruler, &draft.stops, acts);
     beyond(ui, ruler);
@@ -58,7 +58,7 @@ pub fn show(
     playhead(ui, ruler, scene.playback.t());
 }
 
-fn scrub(response: &Response, ruler: Ruler, stops: &[Stop], acts: &mut Intents) {
+fn scrub(response: &Response, ruler: TimelineRuler, stops: &[TransitionStop], acts: &mut Intents) {
     // A press moves t at once, and not only when it has become a drag.
     let is_held = response.dragged() || response.is_pointer_button_down_on();
     let Some(pointer) = response.interact_pointer_pos().filter(|_| is_held) else {
@@ -87,8 +87,8 @@ fn word(ui: &Ui, at: Pos2, word: &str, colour: Color32) {
         .text(at, Align2::CENTER_CENTER, word, FONT, colour);
 }
 
-fn beyond(ui: &Ui, ruler: Ruler) {
-    let palette = Palette::of(ui);
+fn beyond(ui: &Ui, ruler: TimelineRuler) {
+    let palette = ThemePalette::of(ui);
     for (from, to) in [(ruler.from, 0.0), (ruler.end, ruler.to)] {
         let (a, b) = (pos2(ruler.x(from), ruler.y), pos2(ruler.x(to), ruler.y));
         let stroke = (2.0, palette.amber.gamma_multiply(0.6));
@@ -99,12 +99,12 @@ fn beyond(ui: &Ui, ruler: Ruler) {
     }
 }
 
-fn bar(ui: &Ui, ruler: Ruler, style: &Style, way: (usize, bool)) {
+fn bar(ui: &Ui, ruler: TimelineRuler, style: &TransitionStyle, way: (usize, bool)) {
     const STEPS: u32 = 32;
     let mut mesh = Mesh::default();
     for i in 0..=STEPS {
         let share = f64::from(i) / f64::from(STEPS);
-        let [r, g, b] = style.fill_at(tint(share * ruler.end, way)).0;
+        let [r, g, b] = style.fill_at(colour_fraction(share * ruler.end, way)).0;
         let colour = Color32::from_rgb(r, g, b);
         let x = ruler.x(share * ruler.end);
         mesh.colored_vertex(pos2(x, ruler.y - BAR_HEIGHT / 2.0), colour);
@@ -119,11 +119,11 @@ fn bar(ui: &Ui, ruler: Ruler, style: &Style, way: (usize, bool)) {
 }
 
 /// A number at each tenth of a pair, and a name at each design of more.
-fn ticks(ui: &Ui, ruler: Ruler, names: &[String], is_path: bool) {
+fn ticks(ui: &Ui, ruler: TimelineRuler, names: &[String], is_path: bool) {
     if ruler.end > 1.0 || is_path {
         return designs(ui, ruler, names);
     }
-    let palette = Palette::of(ui);
+    let palette = ThemePalette::of(ui);
     for tenth in 0..=10u8 {
         let x = ruler.x(f64::from(tenth) / 10.0);
         let is_end = tenth % 10 == 0;
@@ -143,8 +143,8 @@ fn ticks(ui: &Ui, ruler: Ruler, names: &[String], is_path: bool) {
 }
 
 /// Its number and its name at each design, as far as there is room.
-fn designs(ui: &Ui, ruler: Ruler, names: &[String]) {
-    let palette = Palette::of(ui);
+fn designs(ui: &Ui, ruler: TimelineRuler, names: &[String]) {
+    let palette = ThemePalette::of(ui);
     let between = ruler.x(1.0) - ruler.x(0.0) - 2.0 * GRID;
     // Beside the words beyond, which are in the middle there.
     let outside = ruler.x(0.0) - ruler.x(ruler.from);
@@ -160,7 +160,7 @@ fn designs(ui: &Ui, ruler: Ruler, names: &[String]) {
             between
         };
         let words = match room >= LEAST_NAME {
-            true => format!("{k} {}", OneLine(name)),
+            true => format!("{k} {}", SanitizedLine(name)),
             false => k.to_string(),
         };
         let mut job = LayoutJob::simple_singleline(words, FONT, palette.text);
@@ -171,8 +171,8 @@ fn designs(ui: &Ui, ruler: Ruler, names: &[String]) {
     }
 }
 
-fn playhead(ui: &Ui, ruler: Ruler, t: f64) {
-    let palette = Palette::of(ui);
+fn playhead(ui: &Ui, ruler: TimelineRuler, t: f64) {
+    let palette = ThemePalette::of(ui);
     let x = ruler.x(t);
     let colour = if (0.0..=ruler.end).contains(&t) {
         palette.text
@@ -185,7 +185,7 @@ fn playhead(ui: &Ui, ruler: Ruler, t: f64) {
         .circle(pos2(x, ruler.y), 6.0, palette.panel, (2.0, colour));
 }
 
-fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
+fn stops(ui: &mut Ui, ruler: TimelineRuler, stops: &mut Vec<TransitionStop>, acts: &mut Intents) {
     // Taken out after the loop, which goes through the list that it would be taken out of.
     let mut deleted = None;
     let places: Vec<f64> = stops.iter().map(|stop| stop.t).collect();
@@ -222,16 +222,16 @@ fn stops(ui: &mut Ui, ruler: Ruler, stops: &mut Vec<Stop>, acts: &mut Intents) {
 }
 
 /// Its name, or its number from left to right.
-fn label(stop: &Stop, places: &[f64]) -> String {
+fn label(stop: &TransitionStop, places: &[f64]) -> String {
     if !stop.name.is_empty() {
-        return OneLine(&stop.name).to_string();
+        return SanitizedLine(&stop.name).to_string();
     }
     let before = places.iter().filter(|place| **place < stop.t).count();
     (before + 1).to_string()
 }
 
 fn marker(ui: &Ui, at: Pos2, id: Id, name: &str) -> Response {
-    let palette = Palette::of(ui);
+    let palette = ThemePalette::of(ui);
     let rect = Rect::from_center_size(at, vec2(16.0, 16.0));
     let response = ui.interact(rect, id, Sense::click_and_drag());
     let colour = if response.hovered() || response.dragged() {
@@ -253,7 +253,7 @@ fn marker(ui: &Ui, at: Pos2, id: Id, name: &str) -> Response {
 }
 
 /// Whether the stop is to be deleted.
-fn stop_menu(ui: &mut Ui, stop: &mut Stop) -> bool {
+fn stop_menu(ui: &mut Ui, stop: &mut TransitionStop) -> bool {
     ui.set_width(240.0);
     ui.add(
         egui::TextEdit::singleline(&mut stop.name)
@@ -274,7 +274,7 @@ fn stop_menu(ui: &mut Ui, stop: &mut Stop) -> bool {
         ui.add(number)
             .on_hover_text("Where the stop is; outside 0 to 1 it extrapolates.");
     });
-    ease::submenu(ui, &mut stop.easing, "as the pass")
+    easing_editor::submenu(ui, &mut stop.easing, "as the pass")
         .on_hover_text("How t runs from this stop up to the next one.");
     ui.horizontal(|ui| {
         ui.label("Rest");

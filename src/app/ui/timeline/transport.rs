@@ -2,14 +2,16 @@
 
 use bevy_egui::egui::{self, DragValue, Response, RichText, Ui, vec2};
 
-use crate::app::asking::intent::Intent;
-use crate::app::playing::playback::SPEEDS;
-use crate::app::ui::kit::ease;
+use crate::app::input::intent::Intent;
+use crate::app::playback::player::SPEEDS;
+use crate::app::ui::kit::easing_editor;
 use crate::app::ui::kit::icons;
-use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, Palette};
-use crate::app::ui::kit::widgets::{act_button, from_right, option, quiet, tipped};
-use crate::app::ui::scene::{Intents, Scene};
-use crate::names::Choice;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, GRID, ThemePalette};
+use crate::app::ui::kit::widgets::{
+    choice_button, from_right, intent_button, secondary_text, with_tooltip,
+};
+use crate::app::ui::ui_state::{Intents, UiState};
+use crate::settings::choice::Choice;
 use crate::transition::{PlayMode, Timing};
 
 const ROW_HEIGHT: f32 = 36.0;
@@ -18,7 +20,7 @@ const ROW_HEIGHT: f32 = 36.0;
 const LONGEST_SECS: f64 = 600.0;
 
 /// Draws the row above the track.
-pub fn show(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
+pub fn show(ui: &mut Ui, scene: &UiState, timing: &mut Timing, acts: &mut Intents) {
     ui.allocate_ui(vec2(ui.available_width(), ROW_HEIGHT), |ui| {
         ui.horizontal_centered(|ui| {
             ui.spacing_mut().item_spacing.x = 4.0;
@@ -30,25 +32,25 @@ pub fn show(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents)
     });
 }
 
-fn buttons(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+fn buttons(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
     let tip = "Start of the pass (Home)";
-    act_button(ui, icons::TO_START, tip, Intent::SeekStart, acts);
+    intent_button(ui, icons::TO_START, tip, Intent::SeekStart, acts);
     let tip = "Play back to the stop before and wait (Page Up)";
     let back = Intent::PlayToPreviousStop;
-    act_button(ui, icons::PREVIOUS_STOP, tip, back, acts);
+    intent_button(ui, icons::PREVIOUS_STOP, tip, back, acts);
     if play_button(ui, scene).clicked() {
         acts.push(Intent::TogglePlay);
     }
     let tip = "Play to the next stop and wait (Page Down)";
-    act_button(ui, icons::NEXT_STOP, tip, Intent::PlayToNextStop, acts);
+    intent_button(ui, icons::NEXT_STOP, tip, Intent::PlayToNextStop, acts);
     let tip = "End of the pass (End)";
-    act_button(ui, icons::TO_END, tip, Intent::SeekEnd, acts);
+    intent_button(ui, icons::TO_END, tip, Intent::SeekEnd, acts);
     let tip = "Set a stop here (M)";
-    act_button(ui, icons::ADD_STOP, tip, Intent::AddStop, acts);
+    intent_button(ui, icons::ADD_STOP, tip, Intent::AddStop, acts);
 }
 
-fn play_button(ui: &mut Ui, scene: &Scene) -> Response {
-    let palette = Palette::of(ui);
+fn play_button(ui: &mut Ui, scene: &UiState) -> Response {
+    let palette = ThemePalette::of(ui);
     let (rect, response) = ui.allocate_exact_size(vec2(36.0, 36.0), egui::Sense::click());
     let icon = match (scene.playback.is_playing(), scene.playback.is_backwards()) {
         (true, _) => icons::PAUSE,
@@ -61,12 +63,12 @@ fn play_button(ui: &mut Ui, scene: &Scene) -> Response {
         (palette.accent_ground, palette.text)
     };
     ui.painter().circle_filled(rect.center(), 17.0, fill);
-    icons::paint(ui.painter(), icon, rect, ink);
-    tipped(response, "Play or pause (Space); play the other way (R)")
+    icons::paint_icon(ui.painter(), icon, rect, ink);
+    with_tooltip(response, "Play or pause (Space); play the other way (R)")
 }
 
-fn place(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
-    let palette = Palette::of(ui);
+fn place(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
+    let palette = ThemePalette::of(ui);
     ui.label(RichText::new("t").color(palette.weak));
     let mut t = scene.playback.t();
     let number = DragValue::new(&mut t)
@@ -75,7 +77,7 @@ fn place(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         .update_while_editing(false);
     let tip = "Where the transition is: 0 is the source, 1 the target. Click to type, drag to \
                move; values below 0 and above 1 extrapolate.";
-    let response = tipped(ui.add_sized([72.0, CONTROL_HEIGHT], number), tip);
+    let response = with_tooltip(ui.add_sized([72.0, CONTROL_HEIGHT], number), tip);
     if response.changed() {
         acts.push(Intent::Seek(t));
     }
@@ -89,7 +91,7 @@ fn place(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
 }
 
 /// From right to left.
-fn pass(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
+fn pass(ui: &mut Ui, scene: &UiState, timing: &mut Timing, acts: &mut Intents) {
     ui.spacing_mut().item_spacing.x = 4.0;
     speed(ui, scene, acts);
     caption(ui, "Speed");
@@ -99,8 +101,8 @@ fn pass(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
     let tip = "How long one pass takes, without the holds.";
     seconds(ui, &mut timing.duration_secs, 0.1, tip);
     caption(ui, "Lasts");
-    let easing = ease::menu(ui, "easing", &mut timing.easing, 88.0);
-    tipped(
+    let easing = easing_editor::menu(ui, "easing", &mut timing.easing, 88.0);
+    with_tooltip(
         easing,
         "How t speeds up and slows down from stop to stop; a stop may say otherwise (right-click).",
     );
@@ -113,14 +115,14 @@ fn pass(ui: &mut Ui, scene: &Scene, timing: &mut Timing, acts: &mut Intents) {
         };
         let name = mode.name();
         let tip = format!("{} (L)", name.sentence);
-        if option(ui, timing.play == mode, name.title, &tip, width) {
+        if choice_button(ui, timing.play == mode, name.title, &tip, width) {
             timing.play = mode;
         }
     }
 }
 
 fn caption(ui: &mut Ui, text: &str) {
-    ui.label(quiet(ui, text));
+    ui.label(secondary_text(ui, text));
     ui.add_space(4.0);
 }
 
@@ -132,10 +134,10 @@ fn seconds(ui: &mut Ui, value: &mut f64, least: f64, tip: &str) {
         .max_decimals(2)
         .suffix(" s")
         .update_while_editing(false);
-    tipped(ui.add_sized([60.0, CONTROL_HEIGHT], number), tip);
+    with_tooltip(ui.add_sized([60.0, CONTROL_HEIGHT], number), tip);
 }
 
-fn speed(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
+fn speed(ui: &mut Ui, scene: &UiState, acts: &mut Intents) {
     let current = scene.playback.speed();
     let list = egui::ComboBox::from_id_salt("speed")
         .width(64.0)
@@ -151,5 +153,5 @@ fn speed(ui: &mut Ui, scene: &Scene, acts: &mut Intents) {
         }
     });
     let tip = "Speed of playing only ([ and ]); Backspace is 1. Recordings keep the duration.";
-    tipped(shown.response, tip);
+    with_tooltip(shown.response, tip);
 }

@@ -2,7 +2,7 @@
 
 use super::*;
 
-type Piece = Vec<Vec<DVec2>>;
+type TestPiece = Vec<Vec<DVec2>>;
 
 /// A star-shaped ring about a centre, clockwise for a hole.
 fn ring(centre: DVec2, radius: f64, n: usize, turn: f64, random: &mut Random) -> Vec<DVec2> {
@@ -23,15 +23,19 @@ fn circle(centre: DVec2, radius: f64, n: usize, turn: f64) -> Vec<DVec2> {
     (0..n).map(at).collect()
 }
 
-fn from_the_base(source: &Piece, target: &Piece) -> CompatibleMesh {
-    let base = from_base(&Rings::of(source), &Rings::of(target), &Silent);
+fn from_the_base(source: &TestPiece, target: &TestPiece) -> CompatibleMesh {
+    let base = from_base(
+        &BoundaryRings::of(source),
+        &BoundaryRings::of(target),
+        &Silent,
+    );
     let base = base.expect("a base");
     let (faces, [p, q]) = base.compacted();
     CompatibleMesh::new(faces, p, q, vec![]).expect("valid")
 }
 
 /// Both ways to a mesh, and the designs exchanged.
-fn all_ways(source: &Piece, target: &Piece) {
+fn all_ways(source: &TestPiece, target: &TestPiece) {
     let options = PolygonOptions::default();
     for (p, q) in [(source, target), (target, source)] {
         let mesh = CompatibleMesh::from_piece(p, q, &options, &Silent).expect("a piece");
@@ -40,7 +44,7 @@ fn all_ways(source: &Piece, target: &Piece) {
     }
 }
 
-fn annulus(turn: f64) -> Piece {
+fn annulus(turn: f64) -> TestPiece {
     let outer = circle(DVec2::ZERO, 2.0, 24, 0.0);
     vec![outer, hole(circle(DVec2::ZERO, 1.0, 16, turn))]
 }
@@ -66,7 +70,7 @@ fn a_hole_that_closes_to_a_point() {
 }
 
 /// A letter with two holes.
-fn b(waist: f64, lean: f64) -> Piece {
+fn b(waist: f64, lean: f64) -> TestPiece {
     let outer = [
         (0.0, 0.0),
         (3.0, 0.0),
@@ -99,7 +103,7 @@ fn a_letter_with_two_holes() {
 
 /// A thick letter D, cut open across its stem or its bowl, and as many
 /// points along a bent strip.
-fn d_cut_open(cut: usize) -> (Piece, Piece) {
+fn d_cut_open(cut: usize) -> (TestPiece, TestPiece) {
     let m = 16;
     let at = |k: usize, r: f64| polar(r, TAU * ((cut + k) % m) as f64 / m as f64);
     let slit: Vec<DVec2> = [1.75, 1.5, 1.25].map(|r| at(0, r)).to_vec();
@@ -159,7 +163,7 @@ fn a_hole_close_to_the_boundary() {
     }
 }
 
-fn random_piece(counts: &[usize], random: &mut Random) -> Piece {
+fn random_piece(counts: &[usize], random: &mut Random) -> TestPiece {
     let outer = ring(DVec2::ZERO, 4.0, counts[0], 0.0, random);
     // Rays from the centre stay clear of the outline within 0.6 · 4 cos(π/n).
     let places = [(0.0, 0.0), (1.2, 0.0), (0.0, 1.2), (-0.9, -0.9)];
@@ -199,10 +203,10 @@ fn holes_without_a_partner_are_named() {
         CompatibleMesh::from_piece(p, q, &options, &Silent).map(|_| ())
     };
     let ring = annulus(0.0);
-    assert_eq!(of(&ring, &ring[..1]), Err(PolygonsError::Rings([2, 1])));
-    assert_eq!(of(&[], &[]), Err(PolygonsError::NoOutline));
+    assert_eq!(of(&ring, &ring[..1]), Err(PieceMeshError::Rings([2, 1])));
+    assert_eq!(of(&[], &[]), Err(PieceMeshError::NoOutline));
     let fewer = vec![ring[0].clone(), ring[1][1..].to_vec()];
-    let counts = PolygonsError::Counts {
+    let counts = PieceMeshError::Counts {
         ring: 1,
         points: [16, 15],
     };

@@ -8,7 +8,7 @@ use proptest::prelude::*;
 /// Pixels nearer than this to a side of a face may be given either face.
 const BESIDE: f64 = 1e-5;
 
-const RASTER: Raster = Raster {
+const RASTER: PictureRaster = PictureRaster {
     size: [50, 40],
     corner: DVec2::new(-3.25, 36.5),
     pixel: 1.0,

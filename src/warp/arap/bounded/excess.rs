@@ -9,7 +9,7 @@
 //! bound are not touched, and the bound is gone beyond smoothly, by no more than
 //! [`SOFT`], so that the film has no kinks.
 
-use super::layout::Face;
+use super::layout::BoundedFace;
 use crate::geometry::DMat2;
 
 /// How far the bound may be gone beyond, as a share of it. A hundredth is not seen,
@@ -77,7 +77,7 @@ fn back(map: DMat2, most: f64) -> Option<DMat2> {
 }
 
 /// What has to be added to the map of a face, seen from both designs.
-pub(super) fn taken_back(face: &Face, map: DMat2, most: f64) -> Option<DMat2> {
+pub(super) fn taken_back(face: &BoundedFace, map: DMat2, most: f64) -> Option<DMat2> {
     let from_source = back(map, most);
     let from_target = back(map * face.back, most).map(|by| by * face.map.matrix());
     match (from_source, from_target) {

@@ -13,8 +13,8 @@
 //! Guaranteed: nothing is allocated, it ends, and depends on nothing but the sheet
 //! and t. Not guaranteed: that it gets there; it says whether it did.
 
-use super::sheet::{FIXED, Sheet};
-use crate::linalg::PatternMemory;
+use super::sheet::{FIXED, FaceSheet};
+use crate::numerics::PatternWorkspace;
 
 /// What the angles about a vertex may lack when a sheet is flat, in radians. The places
 /// then are off by as little, and Newton's method has long begun to converge.
@@ -30,7 +30,7 @@ const HALVED: u32 = 40;
 /// A corner of a face: of the two sides that meet there the dot product and the
 /// cross product, twice the area.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Corner {
+pub(super) struct CornerProducts {
     pub dot: f64,
     pub cross: f64,
 }
@@ -44,12 +44,12 @@ pub(super) struct Flattening {
     step: Vec<f64>,
     trial: Vec<f64>,
     scales: Vec<f64>,
-    corners: Vec<[Corner; 3]>,
-    matrix: Option<PatternMemory>,
+    corners: Vec<[CornerProducts; 3]>,
+    matrix: Option<PatternWorkspace>,
 }
 
 impl Flattening {
-    pub(super) fn of(sheet: &Sheet) -> Self {
+    pub(super) fn of(sheet: &FaceSheet) -> Self {
         let none = vec![0.0; sheet.sums.len()];
         Self {
             lack: none.clone(),
@@ -57,18 +57,18 @@ impl Flattening {
             trial: none.clone(),
             scales: none.clone(),
             u: none,
-            corners: vec![[Corner::default(); 3]; sheet.faces.len()],
+            corners: vec![[CornerProducts::default(); 3]; sheet.faces.len()],
             matrix: sheet.pattern.as_ref().map(|pattern| pattern.memory()),
         }
     }
 
     /// The corners of the faces as they were flattened last.
-    pub(super) fn corners(&self) -> &[[Corner; 3]] {
+    pub(super) fn corners(&self) -> &[[CornerProducts; 3]] {
         &self.corners
     }
 
     /// Flattens a sheet at t; whether it is flat.
-    pub(super) fn flatten(&mut self, sheet: &Sheet, t: f64) -> bool {
+    pub(super) fn flatten(&mut self, sheet: &FaceSheet, t: f64) -> bool {
         self.u.fill(0.0);
         self.trial.fill(0.0);
         let mut off = self.measure(sheet, t);
@@ -91,7 +91,7 @@ impl Flattening {
     }
 
     /// Newton's step from where it is; whether there is one.
-    fn set_step(&mut self, sheet: &Sheet) -> bool {
+    fn set_step(&mut self, sheet: &FaceSheet) -> bool {
         let (Some(pattern), Some(matrix)) = (&sheet.pattern, &mut self.matrix) else {
             return false;
         };
@@ -99,7 +99,7 @@ impl Flattening {
         entries.fill(0.0);
         for (corners, of_sides) in self.corners.iter().zip(&sheet.entries) {
             for (k, &[first, second, both]) in of_sides.iter().enumerate() {
-                let Corner { dot, cross } = corners[(k + 2) % 3];
+                let CornerProducts { dot, cross } = corners[(k + 2) % 3];
                 if cross <= 0.0 {
                     continue;
                 }
@@ -118,7 +118,7 @@ impl Flattening {
     }
 
     /// Goes along the step as far as is of use; how far off it is then.
-    fn go(&mut self, sheet: &Sheet, t: f64) -> Option<f64> {
+    fn go(&mut self, sheet: &FaceSheet, t: f64) -> Option<f64> {
         let slope = self.slope();
         let mut length = 1.0;
         for _ in 0..HALVED {
@@ -143,7 +143,7 @@ impl Flattening {
 
     /// Corners, and what angles lack, with the factors that are tried; the most that any
     /// lacks.
-    fn measure(&mut self, sheet: &Sheet, t: f64) -> f64 {
+    fn measure(&mut self, sheet: &FaceSheet, t: f64) -> f64 {
         for (scale, u) in self.scales.iter_mut().zip(&self.trial) {
             *scale = u.exp();
         }
@@ -174,9 +174,9 @@ impl Flattening {
 }
 
 /// The corners of a face with these squared lengths of its sides.
-fn corners_of(squared: [f64; 3]) -> [Corner; 3] {
+fn corners_of(squared: [f64; 3]) -> [CornerProducts; 3] {
     let cross = twice_area(squared.map(f64::sqrt));
-    [0, 1, 2].map(|k| Corner {
+    [0, 1, 2].map(|k| CornerProducts {
         dot: 0.5 * (squared[k] + squared[(k + 2) % 3] - squared[(k + 1) % 3]),
         cross,
     })

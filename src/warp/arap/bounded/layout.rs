@@ -1,17 +1,17 @@
 //! Flat faces side by side, and the maps that take the source there.
 
-use super::flat::Corner;
-use super::sheet::Sheet;
+use super::flat::CornerProducts;
+use super::sheet::FaceSheet;
 use crate::compatible::CompatibleMesh;
-use crate::geometry::{DMat2, DVec2, Polar, twice_signed_area};
+use crate::geometry::{DMat2, DVec2, PolarDecomposition, twice_signed_area};
 use crate::warp::arap::assembly::FaceMap;
 
 /// What is known of a face at every t.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::warp::arap) struct Face {
+pub(in crate::warp::arap) struct BoundedFace {
     pub(super) corners: [u32; 3],
     /// From source to target.
-    pub(super) map: Polar,
+    pub(super) map: PolarDecomposition,
     /// Gradients of the hat functions of the second and third corner.
     pub(super) gradients: DMat2,
     /// W times them.
@@ -22,7 +22,7 @@ pub(in crate::warp::arap) struct Face {
     mass: f64,
 }
 
-impl Face {
+impl BoundedFace {
     pub(super) fn new(mesh: &CompatibleMesh, face: usize, of: &FaceMap) -> Self {
         let corners = mesh.faces()[face];
         let area = |points: &[DVec2]| {
@@ -56,19 +56,24 @@ impl Face {
 }
 
 /// The sides of a face whose first runs along x.
-fn sides([first, ..]: &[Corner; 3], length: f64) -> [DVec2; 3] {
+fn sides([first, ..]: &[CornerProducts; 3], length: f64) -> [DVec2; 3] {
     let along = DVec2::new(length, 0.0);
     let to_third = DVec2::new(first.dot, first.cross) / length;
     [along, to_third - along, -to_third]
 }
 
 /// The squared length of the first side: its dot products at both ends add up to it.
-fn first_length([first, second, _]: &[Corner; 3]) -> f64 {
+fn first_length([first, second, _]: &[CornerProducts; 3]) -> f64 {
     (first.dot + second.dot).sqrt()
 }
 
 /// Writes the map of each face, the first with its first side along x.
-pub(super) fn laid_out(sheet: &Sheet, faces: &[Face], corners: &[[Corner; 3]], maps: &mut [DMat2]) {
+pub(super) fn laid_out(
+    sheet: &FaceSheet,
+    faces: &[BoundedFace],
+    corners: &[[CornerProducts; 3]],
+    maps: &mut [DMat2],
+) {
     // First each face as it lies: its second and third corner from the first.
     for k in 0..faces.len() {
         let own = sides(&corners[k], first_length(&corners[k]));
@@ -93,7 +98,7 @@ pub(super) fn laid_out(sheet: &Sheet, faces: &[Face], corners: &[[Corner; 3]], m
 }
 
 /// Turns all maps together so that they turn in the mean as by the polar homotopy.
-pub(super) fn turn_along(faces: &[Face], t: f64, maps: &mut [DMat2]) {
+pub(super) fn turn_along(faces: &[BoundedFace], t: f64, maps: &mut [DMat2]) {
     let mut sum = DVec2::ZERO;
     for (face, &map) in faces.iter().zip(maps.iter()) {
         let from_source = DVec2::from_angle(t * face.map.angle);

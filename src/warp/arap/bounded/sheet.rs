@@ -7,8 +7,8 @@
 
 use crate::compatible::CompatibleMesh;
 use crate::geometry::DVec2;
-use crate::linalg::Pattern;
 use crate::mesh::{Connectivity, components};
+use crate::numerics::PatternCholesky;
 use std::collections::VecDeque;
 use std::f64::consts::{PI, TAU};
 
@@ -17,11 +17,11 @@ pub(super) const FIXED: u32 = u32::MAX;
 
 /// A dual component of a mesh.
 #[derive(Debug)]
-pub(super) struct Sheet {
+pub(super) struct FaceSheet {
     /// Its faces, each but the first one beside one before it.
     pub faces: Vec<u32>,
     /// By which side each face was reached; nothing of the first.
-    pub reached: Vec<Reached>,
+    pub reached: Vec<SheetTreeLink>,
     /// Of each face the squared lengths of its sides in source and target; side k
     /// runs from corner k to the next.
     pub lengths: Vec<[[f64; 3]; 2]>,
@@ -30,14 +30,14 @@ pub(super) struct Sheet {
     /// What the angles of each unknown add up to when the sheet is flat.
     pub sums: Vec<f64>,
     /// None where there is nothing to scale, or no room.
-    pub pattern: Option<Pattern>,
+    pub pattern: Option<PatternCholesky>,
     /// Of each side of each face the entries of its first end, its second, and both.
     pub entries: Vec<[[u32; 3]; 3]>,
 }
 
 /// The side by which a face was reached.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Reached {
+pub(super) struct SheetTreeLink {
     /// The face before it, by its place in the sheet.
     pub from: u32,
     /// The side of that face.
@@ -46,7 +46,7 @@ pub(super) struct Reached {
     pub here: u8,
 }
 
-impl Sheet {
+impl FaceSheet {
     /// All of a mesh.
     pub(super) fn all(mesh: &CompatibleMesh) -> Vec<Self> {
         let connectivity = mesh.connectivity();
@@ -63,7 +63,12 @@ impl Sheet {
         sheets
     }
 
-    fn of(mesh: &CompatibleMesh, fans: &[u32], faces: Vec<u32>, reached: Vec<Reached>) -> Self {
+    fn of(
+        mesh: &CompatibleMesh,
+        fans: &[u32],
+        faces: Vec<u32>,
+        reached: Vec<SheetTreeLink>,
+    ) -> Self {
         let of_fan = Numbering::of(mesh, fans, &faces);
         let unknowns: Vec<[u32; 3]> = faces
             .iter()
@@ -95,8 +100,12 @@ fn fans(connectivity: &Connectivity, faces: usize) -> Vec<u32> {
 }
 
 /// Faces from one on, breadth first.
-fn walk(connectivity: &Connectivity, seed: usize, done: &mut [bool]) -> (Vec<u32>, Vec<Reached>) {
-    let (mut faces, mut reached) = (vec![seed as u32], vec![Reached::default()]);
+fn walk(
+    connectivity: &Connectivity,
+    seed: usize,
+    done: &mut [bool],
+) -> (Vec<u32>, Vec<SheetTreeLink>) {
+    let (mut faces, mut reached) = (vec![seed as u32], vec![SheetTreeLink::default()]);
     let mut queue = VecDeque::from([0_u32]);
     done[seed] = true;
     while let Some(from) = queue.pop_front() {
@@ -109,7 +118,7 @@ fn walk(connectivity: &Connectivity, seed: usize, done: &mut [bool]) -> (Vec<u32
             if !std::mem::replace(&mut done[other as usize], true) {
                 queue.push_back(faces.len() as u32);
                 faces.push(other);
-                reached.push(Reached {
+                reached.push(SheetTreeLink {
                     from,
                     there: k as u8,
                     here: (twin % 3) as u8,
@@ -210,7 +219,10 @@ fn lengths(mesh: &CompatibleMesh, face: usize) -> [[f64; 3]; 2] {
 }
 
 /// Where the matrix of a sheet has entries, and which are those of each side.
-fn pattern(unknowns: usize, of_corners: &[[u32; 3]]) -> (Option<Pattern>, Vec<[[u32; 3]; 3]>) {
+fn pattern(
+    unknowns: usize,
+    of_corners: &[[u32; 3]],
+) -> (Option<PatternCholesky>, Vec<[[u32; 3]; 3]>) {
     let mut places = Vec::new();
     let mut number = |i: u32, j: u32| {
         if i == FIXED || j == FIXED {
@@ -235,7 +247,7 @@ fn pattern(unknowns: usize, of_corners: &[[u32; 3]]) -> (Option<Pattern>, Vec<[[
     if unknowns == 0 {
         return (None, entries);
     }
-    let Ok((pattern, slots)) = Pattern::new(unknowns, &places) else {
+    let Ok((pattern, slots)) = PatternCholesky::new(unknowns, &places) else {
         return (None, entries);
     };
     let numbered = entries.iter_mut().flatten().flatten();

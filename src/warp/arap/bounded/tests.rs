@@ -1,13 +1,13 @@
 //! Films of bounded distortion, seen from outside.
 
 use super::super::assembly::LocalMaps;
-use super::super::times::Times;
+use super::super::evaluation_times::EvaluationTimes;
 use super::Bounded;
 use crate::compatible::CompatibleMesh;
-use crate::geometry::{DMat2, DVec2, Polar, SymmetricEigen, orient2d};
-use crate::homotopy::Homotopy;
-use crate::progress::Silent;
+use crate::geometry::{DMat2, DVec2, PolarDecomposition, SymmetricEigen, orient2d};
+use crate::warp::homotopy::Homotopy;
 use crate::warp::{Arap, ArapOptions, Warp};
+use crate::work::progress::Silent;
 use std::f64::consts::TAU;
 
 const N: u32 = 12;
@@ -73,7 +73,8 @@ fn sheared(mesh: &CompatibleMesh, places: &[DVec2]) -> f64 {
             let [a, b, c] = face.map(|v| points[v as usize]);
             DMat2::from_cols(b - a, c - a)
         });
-        let [large, small] = SymmetricEigen::of(Polar::of(q * p.inverse()).stretch).values;
+        let [large, small] =
+            SymmetricEigen::of(PolarDecomposition::of(q * p.inverse()).stretch).values;
         large / small
     });
     sheared.fold(0.0, f64::max)
@@ -205,7 +206,11 @@ fn a_sheet_that_is_not_flat_takes_each_metric_by_itself() {
     assert_eq!(bounded.unflattened(), 1);
     let mut found = vec![DVec2::ZERO; mesh.source().len()];
     let mut expected = found.clone();
-    bounded.add(Times::Even(0.3), &mut bounded.memory(), &mut found);
+    bounded.add(
+        EvaluationTimes::Even(0.3),
+        &mut bounded.memory(),
+        &mut found,
+    );
     for (face, of) in mesh.faces().iter().zip(&maps.faces) {
         let pulled = Homotopy::Bounded.at(&of.map, 0.3) * of.weighted;
         expected[face[1] as usize] += pulled.x_axis;

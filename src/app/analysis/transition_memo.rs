@@ -1,0 +1,68 @@
+//! What was found out about transitions that come again.
+
+use crate::transition::{Transition, TransitionId};
+
+/// What is known of transitions that somebody still has: of the legs of an open project, and
+/// of nothing that was closed.
+#[derive(Debug)]
+pub struct TransitionMemo<T>(Vec<(TransitionId, T)>);
+
+impl<T> Default for TransitionMemo<T> {
+    fn default() -> Self {
+        Self(Vec::new())
+    }
+}
+
+impl<T> TransitionMemo<T> {
+    /// Keeps it as long as that transition is about.
+    pub fn keep(&mut self, of: &Transition, known: T) {
+        self.0.retain(|(id, _)| !id.is_gone());
+        self.0.push((of.id(), known));
+    }
+
+    /// What was kept of it.
+    pub fn take(&mut self, of: &Transition) -> Option<T> {
+        let known = self.0.iter().position(|(id, _)| id.is_of(of))?;
+        Some(self.0.swap_remove(known).1)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::design::{ImportOptions, import};
+    use crate::transition::TransitionSpec;
+    use crate::work::progress::Silent;
+
+    fn transition() -> Transition {
+        let design = || {
+            let triangle = b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+            Arc::new(import("a", triangle, &ImportOptions::default()).expect("a triangle"))
+        };
+        let spec = TransitionSpec::new(design(), design());
+        Transition::build(&spec, &Silent).expect("two triangles")
+    }
+
+    #[test]
+    fn what_comes_again_is_known_once() {
+        let [one, other] = [transition(), transition()];
+        let mut known = TransitionMemo::default();
+        known.keep(&one, 1);
+        assert_eq!(known.take(&other), None);
+        assert_eq!(known.take(&one.clone()), Some(1));
+        assert_eq!(known.take(&one), None);
+    }
+
+    #[test]
+    fn nothing_is_kept_alive() {
+        let mut known = TransitionMemo::default();
+        for _ in 0..3 {
+            known.keep(&transition(), ());
+        }
+        // The last one went after it was kept, and goes with the next.
+        assert_eq!(known.0.len(), 1);
+        assert!(known.0[0].0.is_gone());
+    }
+}

@@ -1,0 +1,10 @@
+//! Pictures and films, and where they go.
+
+pub mod blend_image;
+pub mod clipboard;
+pub mod estimate;
+pub mod film_exporter;
+pub mod film_framing;
+pub mod film_request;
+pub mod image;
+pub mod saved_blends;

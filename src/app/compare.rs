@@ -1,0 +1,3 @@
+//! A second method next to the stage, at the same t.
+
+pub mod comparison;

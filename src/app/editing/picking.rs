@@ -1,0 +1,97 @@
+//! What is under the hand.
+
+use crate::app::editing::editor::{CutEnd, EditorGrab, EditorHandle};
+use crate::app::editing::sheet::{MatchSheet, SheetCut};
+use crate::app::input::editor_action::EditorPointer;
+use crate::correspondence::RingCut;
+use crate::geometry::{DVec2, Side, SourceTarget};
+
+impl MatchSheet {
+    /// Where a handle is on one side; none where it is on the other side only.
+    #[must_use]
+    pub fn place(&self, handle: EditorHandle, side: Side) -> Option<DVec2> {
+        match handle {
+            EditorHandle::Pin(k) => self.pins.get(k).map(|pin| pin[side]),
+            EditorHandle::Feature(k) => self.features.get(k).map(|pair| pair[side]),
+            EditorHandle::Line(k, end) => self.lines.get(k).map(|line| line[side][end]),
+            EditorHandle::Cut(k, end) => {
+                let cut = self.cuts.get(k)?.cut;
+                (cut.side == side).then_some(match end {
+                    CutEnd::Outer => cut.outer,
+                    CutEnd::Hole => cut.hole,
+                })
+            }
+        }
+    }
+
+    /// A cut as it is to be drawn: where the hand wants it while the hand holds it, and otherwise
+    /// where it was made.
+    #[must_use]
+    pub fn drawn(&self, cut: &SheetCut, grab: Option<EditorGrab>) -> RingCut {
+        let is_held = matches!(grab, Some(EditorGrab::Cut(k, _)) if cut.asked == Some(k));
+        cut.wanted.filter(|_| is_held).unwrap_or(cut.cut)
+    }
+
+    /// All handles; what lies above comes first.
+    pub fn handles(&self) -> impl Iterator<Item = EditorHandle> {
+        let cuts = (0..self.cuts.len()).flat_map(|k| {
+            [
+                EditorHandle::Cut(k, CutEnd::Outer),
+                EditorHandle::Cut(k, CutEnd::Hole),
+            ]
+        });
+        let features = (0..self.features.len()).map(EditorHandle::Feature);
+        let lines = (0..self.lines.len())
+            .flat_map(|k| [EditorHandle::Line(k, 0), EditorHandle::Line(k, 1)]);
+        (0..self.pins.len())
+            .map(EditorHandle::Pin)
+            .chain(lines.filter(|_| self.is_free()))
+            .chain(cuts)
+            .chain(features)
+    }
+
+    /// The handle that the hand points to.
+    #[must_use]
+    pub fn handle_at(&self, touch: EditorPointer) -> Option<EditorHandle> {
+        let within = self.handles().filter_map(|handle| {
+            let distance = self.place(handle, touch.side)?.distance(touch.at);
+            (distance <= touch.reach).then_some((distance, handle))
+        });
+        // The first of equals: `min_by` keeps it.
+        within
+            .min_by(|a, b| a.0.total_cmp(&b.0))
+            .map(|(_, handle)| handle)
+    }
+
+    /// Where a pin comes to lie: on the boundary, or anywhere where pins are
+    /// free.
+    #[must_use]
+    pub fn landing(&self, touch: EditorPointer, snaps: bool) -> Option<DVec2> {
+        if self.in_colours() {
+            return Some(touch.at);
+        }
+        // A corner wins over the boundary that it lies on.
+        let corner = (snaps && !touch.is_free)
+            .then(|| self.corner(touch.side, touch.at, touch.reach))
+            .flatten();
+        let on_boundary = || {
+            let foot = self.on_boundary(touch.side, touch.at)?;
+            let is_here =
+                !self.is_free() || foot.distance <= touch.reach && snaps && !touch.is_free;
+            Some(if is_here { foot.point } else { touch.at })
+        };
+        corner.or_else(on_boundary)
+    }
+
+    /// The boundary under the hand and what it is matched with: source and target.
+    #[must_use]
+    pub fn trace(&self, touch: EditorPointer) -> Option<[DVec2; 2]> {
+        if self.is_free() {
+            return None;
+        }
+        let foot = self.on_boundary(touch.side, touch.at)?;
+        let here = (foot.distance <= touch.reach).then_some(foot.point)?;
+        let there = self.partner(touch.side, here)?;
+        Some(SourceTarget::on(touch.side, here, there).to_array())
+    }
+}

@@ -1,0 +1,9 @@
+//! Opening, changing, saving and closing projects; the bundled ones and their film strips.
+
+pub mod drop;
+pub mod file_dialog;
+pub mod file_preview;
+pub mod file_watcher;
+pub mod gallery_thumbnails;
+pub mod path_completion;
+pub mod project_actions;

@@ -1,0 +1,113 @@
+//! Files that are dropped on the window.
+
+use std::path::{Path, PathBuf};
+
+use bevy::prelude::{MessageReader, MessageWriter, Res, ResMut, Resource};
+use bevy::window::FileDragAndDrop;
+
+use crate::app::input::intent::Intent;
+use crate::app::persistence::autosave::Autosave;
+use crate::app::presentation::presenter::Presentation;
+use crate::app::unsaved_question::UnsavedQuestion;
+
+/// A file that was dropped, of which nobody knows what it is for.
+#[derive(Resource, Clone, Debug, Default, PartialEq)]
+pub struct DroppedDesign {
+    undecided: Option<PathBuf>,
+}
+
+impl DroppedDesign {
+    /// A single design that may become source or target.
+    #[must_use]
+    pub fn undecided(&self) -> Option<&Path> {
+        self.undecided.as_deref()
+    }
+
+    /// Something is to be decided.
+    #[must_use]
+    pub fn asks(&self) -> bool {
+        self.undecided.is_some()
+    }
+
+    /// Asks what a single design is for.
+    pub fn ask(&mut self, path: PathBuf) {
+        self.undecided = Some(path);
+    }
+}
+
+/// A name in which numbers are in the order of what they count: 2 before 10.
+fn in_numbers(name: &str) -> Vec<(String, u64)> {
+    let digits = |c: &char| c.is_ascii_digit();
+    let mut rest = name.chars().peekable();
+    let mut parts = Vec::new();
+    while rest.peek().is_some() {
+        let mut word = String::new();
+        while let Some(c) = rest.next_if(|c| !digits(c)) {
+            word.extend(c.to_lowercase());
+        }
+        let mut number: u64 = 0;
+        while let Some(digit) = rest.next_if(digits).and_then(|c| c.to_digit(10)) {
+            number = number.saturating_mul(10).saturating_add(digit.into());
+        }
+        parts.push((word, number));
+    }
+    parts
+}
+
+/// Opens what is dropped together, of which the system tells file by file, but of all before the
+/// next frame (`winit` on X11, Windows and macOS).
+pub fn read_drops(
+    mut drops: MessageReader<FileDragAndDrop>,
+    presenting: Res<Presentation>,
+    mut intents: MessageWriter<Intent>,
+) {
+    if presenting.is_on() {
+        // Nothing is opened before an audience, and nothing asked.
+        drops.clear();
+    }
+    let files = drops.read().filter_map(|drop| match drop {
+        FileDragAndDrop::DroppedFile { path_buf, .. } => Some(path_buf.clone()),
+        _ => None,
+    });
+    let mut files: Vec<PathBuf> = files.collect();
+    if files.is_empty() {
+        return;
+    }
+    // Many arrive in any order; that of their names is seen in every folder.
+    if files.len() > 2 {
+        files.sort_by_cached_key(|path| in_numbers(&path.to_string_lossy()));
+    }
+    intents.write(Intent::Open(files));
+}
+
+/// Forgets the undecided file once it is decided.
+pub fn decide(
+    mut intents: MessageReader<Intent>,
+    mut state: ResMut<DroppedDesign>,
+    (question, autosave): (Res<UnsavedQuestion>, Res<Autosave>),
+) {
+    // Esc is meant for the question that is seen.
+    let is_seen = question.text().is_none() && autosave.lost().is_none();
+    let is_decided = |intent: &Intent| match intent {
+        Intent::Back => is_seen,
+        intent => matches!(
+            intent,
+            Intent::Open(..) | Intent::ReplaceDesign(..) | Intent::InsertDesigns(..)
+        ),
+    };
+    if intents.read().filter(|intent| is_decided(intent)).count() > 0 && state.asks() {
+        state.undecided = None;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_in_the_order_that_folders_show() {
+        let mut names = ["b10.svg", "B2.svg", "a.svg", "b2x.svg", "3.svg"];
+        names.sort_by_cached_key(|name| in_numbers(name));
+        assert_eq!(names, ["3.svg", "a.svg", "B2.svg", "b2x.svg", "b10.svg"]);
+    }
+}

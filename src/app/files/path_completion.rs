@@ -1,0 +1,94 @@
+//! A path that is typed into the dialog, and how it may go on.
+
+use std::path::{Path, PathBuf};
+
+/// The most that are offered at once: what fits beside the list of files.
+const MOST: usize = 6;
+
+/// The path that was typed, from `folder`; `~` is the user's own.
+#[must_use]
+pub fn expand_path(typed: &str, folder: &Path) -> PathBuf {
+    let typed = typed.trim();
+    let own = typed
+        .strip_prefix("~/")
+        .or_else(|| (typed == "~").then_some(""));
+    match own.and_then(|rest| Some(dirs::home_dir()?.join(rest))) {
+        Some(path) => path,
+        None => folder.join(typed),
+    }
+}
+
+/// Folders, and files that end as `extensions` say, whose names begin with what was typed last;
+/// folders first, by name. Hidden ones only where a dot was typed.
+#[must_use]
+pub fn completions(typed: &str, folder: &Path, extensions: &[&str]) -> Vec<PathBuf> {
+    let path = expand_path(typed, folder);
+    let is_folder = typed.is_empty() || typed.ends_with(['/', std::path::MAIN_SEPARATOR]);
+    let (inside, begins) = if is_folder {
+        (path.as_path(), String::new())
+    } else {
+        let name = path.file_name().unwrap_or_default();
+        let begins = name.to_string_lossy().to_lowercase();
+        (path.parent().unwrap_or(folder), begins)
+    };
+    let Ok(entries) = std::fs::read_dir(inside) else {
+        return Vec::new();
+    };
+    let mut found: Vec<(bool, String, PathBuf)> = entries
+        .filter_map(|entry| {
+            let path = entry.ok()?.path();
+            let name = path.file_name()?.to_string_lossy().to_lowercase();
+            let is_wanted =
+                name.starts_with(&begins) && (begins.starts_with('.') || !name.starts_with('.'));
+            let is_file = !path.is_dir();
+            let ends = path
+                .extension()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .to_lowercase();
+            let is_readable = !is_file || extensions.contains(&ends.as_str());
+            (is_wanted && is_readable).then_some((is_file, name, path))
+        })
+        .collect();
+    found.sort();
+    found.truncate(MOST);
+    found.into_iter().map(|(_, _, path)| path).collect()
+}
+
+/// A path as it is typed on: folders with what separates them from what follows.
+#[must_use]
+pub fn text(path: &Path) -> String {
+    let separator = if path.is_dir() {
+        std::path::MAIN_SEPARATOR_STR
+    } else {
+        ""
+    };
+    format!("{}{separator}", path.display())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_go_on_as_the_folder_has_them() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let here = folder.path();
+        std::fs::create_dir(here.join("Drawings")).expect("a folder");
+        for name in ["drum.svg", "Drum.txt", ".dress.svg", "cat.png"] {
+            std::fs::write(here.join(name), "").expect("a file");
+        }
+        let names = |typed: &str| -> Vec<String> {
+            let found = completions(typed, here, &["svg", "png"]);
+            let relative = found.iter().filter_map(|path| path.strip_prefix(here).ok());
+            relative.map(|path| path.display().to_string()).collect()
+        };
+        assert_eq!(names("dr"), ["Drawings", "drum.svg"]);
+        assert_eq!(names(""), ["Drawings", "cat.png", "drum.svg"]);
+        assert_eq!(names(".d"), [".dress.svg"]);
+        assert_eq!(names("nowhere/x"), Vec::<String>::new());
+        let inside = text(&here.join("Drawings"));
+        assert!(completions(&inside, here, &["svg"]).is_empty());
+        assert_eq!(expand_path("cat.png", here), here.join("cat.png"));
+    }
+}

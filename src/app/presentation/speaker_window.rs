@@ -1,0 +1,172 @@
+//! The window that only the speaker sees: how long the talk has run, what to say here, and the next
+//! stop.
+//!
+//! It comes of its own accord where there is a second screen, and then the audience gets that
+//! screen; with one screen it comes when it is asked for, to be dragged to where nobody sees it.
+
+use std::sync::Arc;
+
+use bevy::camera::RenderTarget;
+use bevy::camera::visibility::RenderLayers;
+use bevy::prelude::*;
+use bevy::window::{
+    Monitor, MonitorSelection, OnMonitor, PrimaryWindow, WindowCloseRequested, WindowMode,
+    WindowPosition, WindowRef, WindowResolution,
+};
+use image::RgbaImage;
+
+use crate::app::input::intent::Intent;
+use crate::app::jobs::job::BackgroundJob;
+use crate::app::playback::player::Playback;
+use crate::app::presentation::presenter::Presentation;
+use crate::app::session::state::Session;
+use crate::colour::Rgb;
+use crate::export::{Camera as FilmCamera, PixelSize, PixelSizeError, PlaneView};
+use crate::transition::{Sequence, TransitionStyle};
+
+/// The picture of the next stop, in pixels.
+const PICTURE_PX: (u32, u32) = (640, 360);
+
+/// The camera of the speaker's window.
+#[derive(Component, Debug)]
+pub struct SpeakerCamera;
+
+/// The speaker's window and what it shows.
+#[derive(Resource, Debug, Default)]
+pub struct SpeakerWindow {
+    /// The window and its camera.
+    window: Option<(Entity, Entity)>,
+    /// What the picture shows: that film at that t.
+    shown: Option<(Sequence, f64)>,
+    picture: Option<Arc<RgbaImage>>,
+    job: Option<BackgroundJob<RgbaImage, PixelSizeError>>,
+}
+
+impl SpeakerWindow {
+    /// It is open.
+    #[must_use]
+    pub fn is_open(&self) -> bool {
+        self.window.is_some()
+    }
+
+    /// This is its window.
+    #[must_use]
+    pub fn is_its(&self, window: Entity) -> bool {
+        self.window.is_some_and(|(own, _)| own == window)
+    }
+
+    /// What the next stop looks like.
+    #[must_use]
+    pub fn picture(&self) -> Option<Arc<RgbaImage>> {
+        self.picture.clone()
+    }
+}
+
+/// Opens and closes the window.
+pub fn apply(
+    mut intents: MessageReader<Intent>,
+    mut closing: MessageReader<WindowCloseRequested>,
+    mut speaker: ResMut<SpeakerWindow>,
+    presenting: Res<Presentation>,
+    monitors: Query<Entity, With<Monitor>>,
+    mut audience: Query<(&mut Window, Option<&OnMonitor>), With<PrimaryWindow>>,
+    mut commands: Commands,
+) {
+    // That which the window is not on; some systems do not tell, and then nothing opens unasked.
+    let own = audience.single().ok().and_then(|(_, on)| Some(on?.0));
+    let second = own.and_then(|own| monitors.iter().find(|screen| *screen != own));
+    for intent in intents.read() {
+        match intent {
+            Intent::Present { .. } if presenting.is_on() && speaker.window.is_none() => {
+                if let (Some(screen), Ok((mut window, _))) = (second, audience.single_mut()) {
+                    let screen = MonitorSelection::Entity(screen);
+                    window.mode = WindowMode::BorderlessFullscreen(screen);
+                    speaker.window = Some(open(&mut commands, own));
+                }
+            }
+            Intent::ToggleSpeaker if presenting.is_on() && speaker.window.is_none() => {
+                speaker.window = Some(open(&mut commands, own));
+            }
+            Intent::ToggleSpeaker => close(&mut speaker, &mut commands),
+            _ => {}
+        }
+    }
+    let is_own = |request: &WindowCloseRequested| {
+        speaker
+            .window
+            .is_some_and(|(window, _)| window == request.window)
+    };
+    let is_closed = closing.read().filter(|request| is_own(request)).count() > 0;
+    if speaker.window.is_some() && (is_closed || !presenting.is_on()) {
+        close(&mut speaker, &mut commands);
+    }
+}
+
+fn open(commands: &mut Commands, screen: Option<Entity>) -> (Entity, Entity) {
+    let screen = screen.map_or(MonitorSelection::Primary, MonitorSelection::Entity);
+    let window = Window {
+        title: "Morphospace: for the speaker".to_owned(),
+        name: Some("morphospace".to_owned()),
+        resolution: WindowResolution::new(960, 540),
+        position: WindowPosition::Centered(screen),
+        ..default()
+    };
+    let window = commands.spawn(window).id();
+    let camera = commands.spawn((
+        Camera2d,
+        RenderTarget::Window(WindowRef::Entity(window)),
+        RenderLayers::none(),
+        SpeakerCamera,
+    ));
+    (window, camera.id())
+}
+
+fn close(speaker: &mut SpeakerWindow, commands: &mut Commands) {
+    if let Some((window, camera)) = speaker.window.take() {
+        commands.entity(camera).despawn();
+        commands.entity(window).despawn();
+    }
+    *speaker = SpeakerWindow::default();
+}
+
+/// Draws the next stop, beside the window, wherever it is another.
+pub fn follow(mut speaker: ResMut<SpeakerWindow>, session: Res<Session>, playback: Res<Playback>) {
+    if !speaker.is_open() {
+        return;
+    }
+    // Looked at in each frame; nobody asks whether it has changed.
+    let speaker = speaker.bypass_change_detection();
+    if let Some(picture) = BackgroundJob::take(&mut speaker.job) {
+        speaker.picture = picture.ok().map(Arc::new);
+    }
+    let next = playback.next_stop(session.timing(), session.stops());
+    let wanted = session.sequence().zip(next);
+    let is_same = match (&wanted, &speaker.shown) {
+        (Some((new, t)), Some((old, shown))) => t == shown && new.is(old),
+        (wanted, shown) => wanted.is_none() && shown.is_none(),
+    };
+    if is_same {
+        return;
+    }
+    speaker.shown.clone_from(&wanted);
+    speaker.picture = None;
+    let style = session.style();
+    speaker.job = wanted.map(|(sequence, t)| {
+        BackgroundJob::start("the next stop", move |_| drawn(sequence, style, t))
+    });
+}
+
+fn drawn(sequence: Sequence, style: TransitionStyle, t: f64) -> Result<RgbaImage, PixelSizeError> {
+    let bounds = sequence.bounds();
+    let room = bounds.padded(0.04 * bounds.diameter());
+    let view = PlaneView::fit(room, PixelSize::new(PICTURE_PX.0, PICTURE_PX.1)?);
+    let ground: Option<Rgb> = Some(style.ground);
+    let camera = FilmCamera {
+        sequence,
+        style,
+        view,
+        ground,
+        captions: None,
+    };
+    Ok(camera.pixels(t))
+}

@@ -1,0 +1,64 @@
+//! The film beside the designs: the stage itself, in a pane of the editor.
+
+use bevy::prelude::Vec2;
+use bevy_egui::egui::{Align2, PointerButton, Rect, Sense, Ui, vec2};
+
+use crate::app::editing::panes::EditorPane;
+use crate::app::input::editor_action::EditorAction;
+use crate::app::input::intent::Intent;
+use crate::app::ui::kit::theme::{GRID, SMALL};
+use crate::app::ui::match_editor::colours::EditorColours;
+use crate::app::ui::match_editor::toolbar::{ADVICE_HEIGHT, BAR_HEIGHT};
+use crate::app::ui::stage::area::{self, zoom_factor};
+use crate::app::ui::stage::{checks, onion};
+use crate::app::ui::ui_state::{Intents, UiState};
+
+/// Draws what lies around and on the film, and takes the user's hand; returns the part of the
+/// column that the stage shows through.
+pub fn show(
+    root: &Ui,
+    scene: &UiState,
+    column: Rect,
+    inks: &EditorColours,
+    acts: &mut Intents,
+) -> Rect {
+    let room = Rect::from_min_max(
+        column.min + vec2(0.0, BAR_HEIGHT + 4.0 * GRID),
+        column.max - vec2(0.0, ADVICE_HEIGHT),
+    );
+    let painter = root.painter().with_clip_rect(column);
+    let (above, rest) = column.split_top_bottom_at_y(room.top());
+    let (_, below) = rest.split_top_bottom_at_y(room.bottom());
+    for around in [above, below] {
+        painter.rect_filled(around, 0.0, inks.ground);
+    }
+    let at = column.left_top() + vec2(2.0 * GRID, BAR_HEIGHT + 2.0 * GRID);
+    painter.text(at, Align2::LEFT_TOP, "Film", SMALL, inks.ink);
+    area::empty_hint(root, scene, room);
+    onion::show(root, scene, room);
+    checks::mark(root, scene, room);
+    hand(root, room, acts);
+    room
+}
+
+fn hand(root: &Ui, room: Rect, acts: &mut Intents) {
+    let response = root.interact(room, root.id().with("film"), Sense::click_and_drag());
+    let delta = response.drag_delta();
+    if response.dragged() && delta != vec2(0.0, 0.0) {
+        let delta = Vec2::new(delta.x, delta.y);
+        acts.push(Intent::Editor(EditorAction::Pan(EditorPane::Film, delta)));
+    }
+    if response.double_clicked_by(PointerButton::Primary) {
+        acts.push(Intent::FitView);
+    }
+    if let Some(pointer) = response.hover_pos()
+        && let Some(factor) = zoom_factor(root)
+    {
+        let at = pointer - room.center();
+        acts.push(Intent::Editor(EditorAction::Zoom {
+            pane: EditorPane::Film,
+            at: Vec2::new(at.x, at.y),
+            factor,
+        }));
+    }
+}

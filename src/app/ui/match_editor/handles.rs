@@ -1,0 +1,228 @@
+//! Points, cuts and what links the two halves.
+
+use bevy_egui::egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, StrokeKind, vec2};
+
+use crate::app::editing::editor::{CutEnd, EditorGrab, EditorHandle, MatchEditor};
+use crate::app::editing::labels;
+use crate::app::editing::sheet::MatchSheet;
+use crate::app::ui::kit::theme::{GRID, SMALL};
+use crate::app::ui::kit::widgets::text_card;
+use crate::app::ui::match_editor::colours::EditorColours;
+use crate::app::ui::match_editor::design_pane::DesignPane;
+use crate::app::ui::match_editor::toolbar::{ADVICE_HEIGHT, BAR_HEIGHT};
+use crate::app::ui::stage::checks::capitalised;
+use crate::app::ui::ui_state::UiState;
+use crate::geometry::{DVec2, Side};
+
+const PIN_RADIUS: f32 = 8.5;
+const FEATURE_RADIUS: f32 = 7.0;
+
+/// Draws all handles, and the links of those under the hand.
+pub fn draw(painter: &Painter, scene: &UiState, halves: &[DesignPane; 2], inks: &EditorColours) {
+    let (sheet, editor) = (&scene.sheet, &scene.editor);
+    for half in halves {
+        let clipped = half.clip(painter);
+        features(&clipped, sheet, editor, half, inks);
+        cuts(&clipped, sheet, editor, half, inks);
+        if sheet.is_free() {
+            lines(&clipped, sheet, editor, half, inks);
+        }
+    }
+    // Across both halves, so not clipped to one; and below the pins, which can be taken hold of.
+    link(painter, sheet, editor, halves, inks);
+    for half in halves {
+        let clipped = half.clip(painter);
+        pins(&clipped, scene, half, inks);
+    }
+    if let Some(problem) = scene.session.problem() {
+        problem_card(painter, scene, halves, &problem.to_string(), inks);
+    }
+}
+
+fn features(
+    painter: &Painter,
+    sheet: &MatchSheet,
+    editor: &MatchEditor,
+    half: &DesignPane,
+    inks: &EditorColours,
+) {
+    for (k, pair) in sheet.features.iter().enumerate() {
+        let handle = EditorHandle::Feature(k);
+        let colour = if editor.is_lit(handle) {
+            inks.ink
+        } else {
+            inks.ground.lerp_to_gamma(inks.ink, 0.65)
+        };
+        let at = half.px(pair[half.side]);
+        painter.circle(at, FEATURE_RADIUS, inks.ground, (1.0, colour));
+        let letter = sheet.letters.get(k).copied().unwrap_or(k);
+        sign(painter, at, labels::of_point(letter), colour);
+    }
+}
+
+fn pins(painter: &Painter, scene: &UiState, half: &DesignPane, inks: &EditorColours) {
+    let (sheet, editor) = (&scene.sheet, &scene.editor);
+    for (k, pin) in sheet.pins.iter().enumerate() {
+        let handle = EditorHandle::Pin(k);
+        let is_selected = editor.selected == Some(handle);
+        let is_held = matches!(editor.grabbed, Some((_, EditorGrab::Pin(held))) if held == k);
+        let radius = if is_held || editor.hovered == Some(handle) {
+            PIN_RADIUS + 1.5
+        } else {
+            PIN_RADIUS
+        };
+        let at = half.px(pin[half.side]);
+        let is_wrong = sheet.faulty.contains(&k);
+        let fill = match (is_wrong, is_selected) {
+            (true, _) => inks.problem,
+            (false, true) => inks.accent,
+            (false, false) => inks.ink,
+        };
+        painter.circle(at, radius, fill, (1.5, inks.ground));
+        sign(painter, at, (k + 1).to_string(), inks.ground);
+    }
+}
+
+/// Each line with a number at its middle; its first end is a disc, its second an open ring.
+fn lines(
+    painter: &Painter,
+    sheet: &MatchSheet,
+    editor: &MatchEditor,
+    half: &DesignPane,
+    inks: &EditorColours,
+) {
+    for (k, line) in sheet.lines.iter().enumerate() {
+        let ends = line[half.side].map(|p| half.px(p));
+        let is_selected = matches!(editor.selected, Some(EditorHandle::Line(of, _)) if of == k);
+        let colour = if is_selected { inks.accent } else { inks.ink };
+        // A wider one in the colour of the ground, so that it can be seen on any fill.
+        painter.line_segment(ends, (5.0, inks.ground));
+        painter.line_segment(ends, (2.0, colour));
+        for (end, at) in ends.into_iter().enumerate() {
+            let is_lit = editor.hovered == Some(EditorHandle::Line(k, end));
+            let radius = if is_lit { 6.0 } else { 4.5 };
+            let fill = if end == 0 { colour } else { inks.ground };
+            painter.circle(at, radius, fill, (2.0, colour));
+        }
+        let middle = ends[0].lerp(ends[1], 0.5);
+        painter.circle(middle, FEATURE_RADIUS, inks.ground, (1.5, colour));
+        sign(painter, middle, (k + 1).to_string(), inks.ink);
+    }
+}
+
+fn sign(painter: &Painter, at: Pos2, sign: String, colour: Color32) {
+    // Three digits have to fit into the disc too.
+    let size = if sign.len() < 3 { 10.5 } else { 8.5 };
+    let font = FontId::proportional(size);
+    painter.text(at, Align2::CENTER_CENTER, sign, font, colour);
+}
+
+fn cuts(
+    painter: &Painter,
+    sheet: &MatchSheet,
+    editor: &MatchEditor,
+    half: &DesignPane,
+    inks: &EditorColours,
+) {
+    for (k, shown) in sheet.cuts.iter().enumerate() {
+        let cut = sheet.drawn(shown, editor.grabbed.map(|(_, grab)| grab));
+        if cut.side != half.side {
+            continue;
+        }
+        let ends = [half.px(cut.outer), half.px(cut.hole)];
+        painter.line_segment(ends, (4.0, inks.ground));
+        let stroke = (2.0, inks.accent);
+        painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 3.0));
+        for (at, end) in ends.into_iter().zip([CutEnd::Outer, CutEnd::Hole]) {
+            let is_lit = editor.is_lit(EditorHandle::Cut(k, end));
+            let size = if is_lit { 13.0 } else { 10.0 };
+            let fill = if shown.asked.is_some() {
+                inks.accent
+            } else {
+                inks.ground
+            };
+            let square = Rect::from_center_size(at, vec2(size, size));
+            let line = (2.0, inks.accent);
+            painter.rect(square, 2, fill, line, StrokeKind::Inside);
+        }
+    }
+}
+
+/// A line from one end to the other of what the hand is at, and the other end.
+fn link(
+    painter: &Painter,
+    sheet: &MatchSheet,
+    editor: &MatchEditor,
+    halves: &[DesignPane; 2],
+    inks: &EditorColours,
+) {
+    let lit = match editor.grabbed {
+        Some((_, EditorGrab::Pin(k))) => Some(EditorHandle::Pin(k)),
+        Some((_, EditorGrab::Feature(k))) => Some(EditorHandle::Feature(k)),
+        Some((_, EditorGrab::Line(k, end))) => Some(EditorHandle::Line(k, end)),
+        Some((_, EditorGrab::Stretch(k))) => Some(EditorHandle::Line(k, 1)),
+        _ => editor.hovered,
+    };
+    let of_handle = |handle: EditorHandle| -> Option<[DVec2; 2]> {
+        let [source, target] = Side::BOTH.map(|side| sheet.place(handle, side));
+        Some([source?, target?])
+    };
+    let ends = lit.and_then(of_handle);
+    let is_trace = ends.is_none();
+    let Some(ends) = ends.or(editor.trace) else {
+        return;
+    };
+    let [a, b] = [halves[0].px(ends[0]), halves[1].px(ends[1])];
+    let stroke = (1.25, inks.ground.lerp_to_gamma(inks.ink, 0.7));
+    painter.extend(Shape::dashed_line(&[a, b], stroke, 5.0, 4.0));
+    if is_trace {
+        for at in [a, b] {
+            painter.circle(at, 5.0, inks.ground, (2.0, inks.ink));
+        }
+    }
+}
+
+/// Says what is wrong, at the pin that the hand was at, or in the middle.
+fn problem_card(
+    painter: &Painter,
+    scene: &UiState,
+    halves: &[DesignPane; 2],
+    problem: &str,
+    inks: &EditorColours,
+) {
+    const WIDTH: f32 = 240.0;
+    let editor = &scene.editor;
+    // On the side of the hand, which is what caused it.
+    let side = editor.grabbed.map_or(Side::Source, |(side, _)| side);
+    let half = &halves[side];
+    let faulty = scene.sheet.faulty.last().map(|k| EditorHandle::Pin(*k));
+    let held = editor
+        .selected
+        .filter(|handle| matches!(handle, EditorHandle::Pin(k) if scene.sheet.faulty.contains(k)));
+    let at = held
+        .or(faulty)
+        .or(editor.selected)
+        .and_then(|handle| scene.sheet.place(handle, side))
+        .map(|p| half.px(p) + vec2(2.0 * GRID, GRID));
+    let stays = if scene.session.transition().is_some() {
+        " The transition stays as it was."
+    } else {
+        ""
+    };
+    let text = format!("{}.{stays}", capitalised(problem));
+    let width = WIDTH.min(half.rect.width() - 4.0 * GRID);
+    let galley = painter.layout(text, SMALL, inks.ink, width);
+    let size = galley.size() + vec2(2.0 * GRID, 1.5 * GRID);
+    let room = half.rect.shrink(GRID);
+    let room = Rect::from_min_max(
+        room.min + vec2(0.0, BAR_HEIGHT + GRID),
+        room.max - vec2(0.0, ADVICE_HEIGHT),
+    );
+    // Without a pin to blame, in a corner where it covers least.
+    let corner = at.unwrap_or_else(|| room.left_bottom() - vec2(0.0, size.y));
+    // A card larger than the room would make a range whose end lies before its start.
+    let most = (room.max - size).max(room.min);
+    let corner = corner.clamp(room.min, most);
+    let card = Rect::from_min_size(corner, size);
+    text_card(painter, card, galley, inks.ground, (1.5, inks.problem));
+}

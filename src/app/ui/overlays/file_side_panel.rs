@@ -1,0 +1,141 @@
+//! Beside the list of files: a path that is typed, and what the chosen file holds.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use bevy_egui::egui::{Button, Color32, Id, Key, Modifiers, Rect, TextEdit, Ui, pos2, vec2};
+use image::RgbaImage;
+
+use crate::app::files::file_preview::PREVIEW_PX;
+use crate::app::files::path_completion::{completions, expand_path, text};
+use crate::app::input::intent::Intent;
+use crate::app::ui::kit::texture::texture;
+use crate::app::ui::kit::theme::{GRID, RADIUS, ThemePalette};
+use crate::app::ui::kit::widgets::secondary_text;
+use crate::app::ui::ui_state::{Intents, UiState};
+
+/// Width of the panel.
+pub const WIDTH: f32 = 192.0;
+
+/// What was typed, and how it may go on: looked up when it changes and not in each frame.
+#[derive(Debug, Default)]
+pub struct TypedPath {
+    text: String,
+    of: Option<(String, PathBuf)>,
+    offers: Vec<PathBuf>,
+}
+
+impl TypedPath {
+    /// Ways to go on are shown, which take the place of the picture.
+    pub fn has_offers(&self) -> bool {
+        !self.offers.is_empty()
+    }
+
+    fn look_up(&mut self, folder: &Path, extensions: &[&str]) {
+        let now = (self.text.clone(), folder.to_owned());
+        if self.of.as_ref() != Some(&now) {
+            self.offers = if self.text.is_empty() {
+                Vec::new()
+            } else {
+                completions(&self.text, folder, extensions)
+            };
+            self.of = Some(now);
+        }
+    }
+}
+
+/// Draws the field; returns the file that was asked for by it.
+pub fn field(
+    ui: &mut Ui,
+    typed: &mut TypedPath,
+    folder: &Path,
+    extensions: &[&str],
+) -> Option<PathBuf> {
+    typed.look_up(folder, extensions);
+    let id = ui.id().with("typed");
+    let has_focus = ui.memory(|memory| memory.has_focus(id));
+    // Taken before the field sees it, which would give the focus away.
+    let is_taken = has_focus && ui.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Tab));
+    let mut chosen = is_taken.then(|| typed.offers.first().cloned()).flatten();
+    let hint = "Type a path …";
+    let edit = TextEdit::singleline(&mut typed.text)
+        .id(id)
+        .hint_text(hint)
+        .lock_focus(true)
+        .desired_width(f32::INFINITY);
+    let response = ui.add(edit);
+    let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+    for offer in &typed.offers {
+        let name = offer.file_name().unwrap_or(offer.as_os_str());
+        let slash = if offer.is_dir() { "/" } else { "" };
+        let line = Button::new(format!("{}{slash}", name.to_string_lossy()))
+            .frame_when_inactive(false)
+            .truncate();
+        if ui
+            .add(line)
+            .on_hover_text(offer.display().to_string())
+            .clicked()
+        {
+            chosen = Some(offer.clone());
+        }
+    }
+    if let Some(path) = chosen {
+        typed.text = text(&path);
+        ui.memory_mut(|memory| memory.request_focus(id));
+        let end = typed.text.chars().count();
+        set_cursor(ui, id, end);
+    }
+    let path = expand_path(&typed.text, folder);
+    (is_entered && path.is_file()).then_some(path)
+}
+
+/// Behind what was completed, where typing goes on.
+fn set_cursor(ui: &Ui, id: Id, place: usize) {
+    use bevy_egui::egui::text::{CCursor, CCursorRange};
+    let mut state = TextEdit::load_state(ui.ctx(), id).unwrap_or_default();
+    let end = CCursorRange::one(CCursor::new(place));
+    state.cursor.set_char_range(Some(end));
+    state.store(ui.ctx(), id);
+}
+
+/// Draws what a file holds.
+pub fn preview(ui: &mut Ui, scene: &UiState, file: Option<&Path>, acts: &mut Intents) {
+    let Some(file) = file else {
+        return;
+    };
+    ui.add_space(GRID);
+    match scene.preview.of(file) {
+        Some(Ok(picture)) => shown(ui, scene, picture),
+        Some(Err(why)) => {
+            ui.label(secondary_text(ui, why));
+        }
+        None => {
+            ui.label(secondary_text(ui, "Looking at it …"));
+            if !scene.preview.is_for(file) {
+                acts.push(Intent::LookAt(file.to_owned()));
+            }
+        }
+    }
+}
+
+fn shown(ui: &mut Ui, scene: &UiState, picture: &Arc<RgbaImage>) {
+    let longest = PREVIEW_PX.0.max(PREVIEW_PX.1);
+    let texture = texture(ui.ctx(), Id::new("preview"), picture, longest);
+    let side = ui.available_width();
+    let (room, _) = ui.allocate_exact_size(vec2(side, side), bevy_egui::egui::Sense::hover());
+    let [r, g, b] = scene.session.style().ground.0;
+    let painter = ui.painter();
+    painter.rect_filled(room, RADIUS, Color32::from_rgb(r, g, b));
+    painter.rect_stroke(
+        room,
+        RADIUS,
+        (1.0, ThemePalette::of(ui).line),
+        bevy_egui::egui::StrokeKind::Inside,
+    );
+    let size = vec2(picture.width() as f32, picture.height() as f32);
+    let inner = room.shrink(4.0);
+    let fitted = size * (inner.size() / size).min_elem();
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    let at = Rect::from_center_size(inner.center(), fitted);
+    painter.image(texture.id(), at, whole, Color32::WHITE);
+}

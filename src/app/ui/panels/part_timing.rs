@@ -1,0 +1,168 @@
+//! When each part makes its way: a row for each, with a span of the film and how it runs.
+
+use bevy_egui::egui::{Align2, Color32, FontId, Painter, Rect, ScrollArea, Sense, Shape, Ui, vec2};
+
+use crate::app::editing::part_times;
+use crate::app::editing::part_times::StaggerOrder;
+use crate::app::editing::sheet::{MatchSheet, PieceFate};
+use crate::app::ui::kit::easing_editor;
+use crate::app::ui::kit::theme::{CONTROL_HEIGHT, ThemePalette};
+use crate::app::ui::kit::time_bar;
+use crate::app::ui::kit::widgets::{hint, section, tooltip_left};
+use crate::app::ui::ui_state::UiState;
+use crate::geometry::{Bounds, DVec2, Side};
+use crate::settings::choice::Choice;
+use crate::time::easing::EasingFunction;
+use crate::transition::PartTime;
+use crate::warp::PartClock;
+
+/// Height of the rows that are seen at once.
+const MOST: f32 = 8.0 * (CONTROL_HEIGHT + 4.0);
+
+/// Width of the part in small, and of the list of ways.
+const PICTURE: f32 = 30.0;
+const EASING: f32 = 84.0;
+
+/// The most rings that are all drawn in small.
+const MOST_RINGS: usize = 60;
+
+/// Draws the rows, where there are parts enough to tell apart.
+pub fn show(ui: &mut Ui, scene: &UiState, times: &mut Vec<PartTime>) {
+    let sheet = &scene.sheet;
+    if sheet.pieces.len() < 2 {
+        return;
+    }
+    section(ui, "Parts in time", |ui| {
+        stagger(ui, sheet, times);
+        ui.add_space(4.0);
+        let said = part_times::time_of_pieces(sheet, times);
+        ScrollArea::vertical()
+            .id_salt("parts in time")
+            .max_height(MOST)
+            .min_scrolled_height(MOST)
+            .show_rows(ui, CONTROL_HEIGHT, sheet.pieces.len(), |ui, rows| {
+                for piece in rows {
+                    let before = said[piece].map_or(PartClock::WHOLE, |k| times[k].clock());
+                    if let Some(clock) = row(ui, sheet, before, piece) {
+                        part_times::set(sheet, times, piece, clock);
+                        break; // the rows below would be told by numbers of before
+                    }
+                }
+            });
+        hint(
+            ui,
+            "Drag an end of a bar: the part sets out later, or is there sooner.",
+        );
+    });
+}
+
+fn stagger(ui: &mut Ui, sheet: &MatchSheet, times: &mut Vec<PartTime>) {
+    ui.horizontal(|ui| {
+        let button = ui.menu_button("One after the other", |ui| {
+            for order in StaggerOrder::ALL {
+                let name = order.name();
+                let item = ui.button(name.title);
+                tooltip_left(&item, item.rect.left(), name.sentence);
+                if item.clicked() {
+                    *times = part_times::staggered(sheet, order);
+                }
+            }
+        });
+        let tip = "Lets the parts set out in an order; each row can be changed then.";
+        tooltip_left(&button.response, button.response.rect.left(), tip);
+        let tip = "All parts set out and arrive together again.";
+        if !times.is_empty() && ui.button("All at once").on_hover_text(tip).clicked() {
+            times.clear();
+        }
+    });
+}
+
+/// The row of a piece, and its clock where the hand gives it another.
+fn row(ui: &mut Ui, sheet: &MatchSheet, before: PartClock, piece: usize) -> Option<PartClock> {
+    let mut clock = before;
+    ui.horizontal(|ui| {
+        ui.spacing_mut().item_spacing.x = 6.0;
+        picture(ui, sheet, piece);
+        let wide = ui.available_width() - EASING - 22.0;
+        time_bar::bar(ui, piece, wide, &mut clock);
+        easing_editor::menu(
+            ui,
+            &format!("way of part {piece}"),
+            &mut clock.easing,
+            EASING,
+        );
+    });
+    if before == PartClock::WHOLE && (clock.from, clock.to) != (0.0, 1.0) {
+        // It rests at both ends of its way, as the whole does.
+        clock.easing = EasingFunction::default();
+    }
+    (clock != before).then_some(clock)
+}
+
+/// The part in small, in the design that has it, and its letter.
+fn picture(ui: &mut Ui, sheet: &MatchSheet, piece: usize) {
+    let part = &sheet.pieces[piece];
+    let (rect, response) =
+        ui.allocate_exact_size(vec2(PICTURE + 18.0, CONTROL_HEIGHT), Sense::hover());
+    let palette = ThemePalette::of(ui);
+    let (side, words) = match part.fate {
+        PieceFate::Paired => (Side::Source, "is in both designs"),
+        PieceFate::Dies => (Side::Source, "is in the source alone, and vanishes"),
+        PieceFate::Born => (Side::Target, "is in the target alone, and appears"),
+    };
+    tooltip_left(
+        &response,
+        rect.left(),
+        &format!("Part {} {words}.", part.name),
+    );
+    let font = FontId::proportional(12.5);
+    let middle = rect.left_center() + vec2(8.0, 0.0);
+    ui.painter().text(
+        middle,
+        Align2::CENTER_CENTER,
+        &part.name,
+        font,
+        palette.text,
+    );
+    let Some(sides) = &sheet.sides else { return };
+    let frame = Rect::from_min_max(rect.left_top() + vec2(18.0, 1.0), rect.right_bottom());
+    let view = PartThumbnail::of(sides[side].bounds, frame.shrink(1.0));
+    // Of very many a picture of this size shows nothing but ink.
+    let shows_others = sheet.rings.len() <= MOST_RINGS;
+    let rings = sheet.rings.iter();
+    for ring in rings.filter(|ring| shows_others || ring.piece == piece) {
+        let is_own = ring.piece == piece;
+        let ink = if is_own { palette.text } else { palette.line };
+        view.draw(
+            ui.painter(),
+            &ring.sides[side],
+            (1.0 + f32::from(is_own), ink),
+        );
+    }
+}
+
+/// How a design is seen in small.
+struct PartThumbnail {
+    bounds: Bounds,
+    to: Rect,
+    scale: f32,
+}
+
+impl PartThumbnail {
+    fn of(bounds: Bounds, to: Rect) -> Self {
+        let size = bounds.max - bounds.min;
+        let scale = (to.width() / size.x as f32).min(to.height() / size.y as f32);
+        Self { bounds, to, scale }
+    }
+
+    fn draw(&self, painter: &Painter, ring: &[DVec2], (width, ink): (f32, Color32)) {
+        let middle = 0.5 * (self.bounds.min + self.bounds.max);
+        // So many points are as fine as a picture of thirty points is.
+        let step = ring.len().div_ceil(48).max(1);
+        let points = ring.iter().step_by(step).map(|p| {
+            let from_middle = (*p - middle).as_vec2() * self.scale;
+            self.to.center() + vec2(from_middle.x, -from_middle.y)
+        });
+        painter.add(Shape::closed_line(points.collect(), (width, ink)));
+    }
+}

@@ -1,0 +1,36 @@
+//! The frame of a film over the stage, while its options are open.
+
+use bevy_egui::egui::{Color32, Rect, Stroke, StrokeKind, Ui, vec2};
+
+use crate::app::ui::kit::theme::ThemePalette;
+use crate::app::ui::stage::area::is_light;
+use crate::app::ui::ui_state::UiState;
+
+/// How dark what the film leaves out becomes.
+const SHADE: u8 = 40;
+
+/// Draws the frame, and shades what lies around it.
+pub fn frame(ui: &Ui, scene: &UiState, stage: Rect) {
+    let Some(framed) = &scene.film.0 else {
+        return;
+    };
+    let bounds = framed.bounds();
+    let at = |p| {
+        let px = scene.view.px_from_world(p);
+        stage.min + vec2(px.x, px.y)
+    };
+    let inside = Rect::from_two_pos(at(bounds.min), at(bounds.max));
+    let painter = ui.painter().with_clip_rect(stage);
+    let shade = Color32::from_black_alpha(SHADE);
+    let (above, below) = stage.split_top_bottom_at_y(inside.top());
+    let (beside, under) = below.split_top_bottom_at_y(inside.bottom());
+    let (left, rest) = beside.split_left_right_at_x(inside.left());
+    let (_, right) = rest.split_left_right_at_x(inside.right());
+    for around in [above, under, left, right] {
+        if around.is_positive() {
+            painter.rect_filled(around, 0.0, shade);
+        }
+    }
+    let ink = ThemePalette::on(is_light(scene.session.style().ground)).accent;
+    painter.rect_stroke(inside, 0.0, Stroke::new(1.0, ink), StrokeKind::Inside);
+}

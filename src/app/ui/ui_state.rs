@@ -1,0 +1,75 @@
+//! What the panels show, and what the user does to it.
+
+use bevy::ecs::system::SystemParam;
+use bevy::prelude::Res;
+
+use crate::app::analysis::film_measures::StageMeasures;
+use crate::app::analysis::method_search::MethodSearch;
+use crate::app::analysis::stage_recording::StageRecording;
+use crate::app::analysis::suggestions::Suggestions;
+use crate::app::capture::estimate::ExportEstimate;
+use crate::app::capture::film_exporter::FilmExporter;
+use crate::app::capture::film_framing::FilmFraming;
+use crate::app::compare::comparison::Comparison;
+use crate::app::editing::editor::MatchEditor;
+use crate::app::editing::sheet::MatchSheet;
+use crate::app::files::drop::DroppedDesign;
+use crate::app::files::file_dialog::FileDialogRequest;
+use crate::app::files::file_preview::FilePreview;
+use crate::app::files::gallery_thumbnails::GalleryThumbnails;
+use crate::app::files::project_actions::GalleryEntries;
+use crate::app::input::intent::Intent;
+use crate::app::input::preferences::Preferences;
+use crate::app::key_map::KeyMap;
+use crate::app::map::map_view::MapView;
+use crate::app::notices::Notices;
+use crate::app::persistence::autosave::Autosave;
+use crate::app::persistence::film_presets::StoredPresets;
+use crate::app::persistence::recent_files::StoredRecentFiles;
+use crate::app::playback::player::Playback;
+use crate::app::presentation::presenter::Presentation;
+use crate::app::session::state::Session;
+use crate::app::unsaved_question::UnsavedQuestion;
+use crate::app::view::filmstrip::Filmstrip;
+use crate::app::view::frame_intervals::FrameIntervals;
+use crate::app::view::onion_skins::OnionSkins;
+use crate::stage::{FrameTimes, StageView};
+
+/// Everything that the panels show.
+#[derive(SystemParam)]
+pub struct UiState<'w> {
+    pub session: Res<'w, Session>,
+    pub editor: Res<'w, MatchEditor>,
+    pub sheet: Res<'w, MatchSheet>,
+    pub choosing: Res<'w, MethodSearch>,
+    pub helping: Res<'w, Suggestions>,
+    pub filmstrip: Res<'w, Filmstrip>,
+    pub measured: Res<'w, StageMeasures>,
+    pub recording: Res<'w, StageRecording>,
+    pub onion: Res<'w, OnionSkins>,
+    pub twin: Res<'w, Comparison>,
+    pub map: Res<'w, MapView>,
+    pub view: Res<'w, StageView>,
+    pub gallery: Res<'w, GalleryEntries>,
+    pub playback: Res<'w, Playback>,
+    pub presenting: Res<'w, Presentation>,
+    pub preferences: Res<'w, Preferences>,
+    pub notices: Res<'w, Notices>,
+    pub thumbnails: Res<'w, GalleryThumbnails>,
+    pub recorder: Res<'w, FilmExporter>,
+    pub film: Res<'w, FilmFraming>,
+    pub estimate: Res<'w, ExportEstimate>,
+    pub autosave: Res<'w, Autosave>,
+    pub presets: Res<'w, StoredPresets>,
+    pub recent: Res<'w, StoredRecentFiles>,
+    pub question: Res<'w, UnsavedQuestion>,
+    pub dialog: Res<'w, FileDialogRequest>,
+    pub drop: Res<'w, DroppedDesign>,
+    pub preview: Res<'w, FilePreview>,
+    pub keys: Res<'w, KeyMap>,
+    pub times: Res<'w, FrameTimes>,
+    pub whole: Res<'w, FrameIntervals>,
+}
+
+/// What the user does this frame.
+pub type Intents = Vec<Intent>;

@@ -1,0 +1,22 @@
+//! Takes in what the person at the screen chooses.
+
+use bevy::prelude::{MessageReader, ResMut};
+
+use crate::app::input::intent::Intent;
+use crate::app::input::preferences::Preferences;
+
+/// Acts on the intents that concern [`Preferences`].
+pub fn apply(mut intents: MessageReader<Intent>, mut preferences: ResMut<Preferences>) {
+    for intent in intents.read() {
+        match intent {
+            Intent::Prefer(chosen) => *preferences = *chosen,
+            Intent::ToggleGrid => preferences.show.grid = !preferences.show.grid,
+            Intent::ToggleOnion => preferences.onion = !preferences.onion,
+            Intent::TogglePanels => preferences.panels = !preferences.panels,
+            Intent::ToggleHelp => preferences.help = !preferences.help,
+            Intent::TogglePlots => preferences.plots = !preferences.plots,
+            Intent::ToggleTimes => preferences.times = !preferences.times,
+            _ => {}
+        }
+    }
+}

@@ -1,0 +1,163 @@
+//! Words and numbers on sheets: how they are set, broken into lines and
+//! coloured.
+
+use std::fmt;
+
+use crate::colour::Rgb;
+use crate::geometry::DVec2;
+
+use super::drawing::Drawing;
+use super::glyph_outlines;
+
+/// What is said of something that went wrong.
+pub(super) const ERROR_COLOUR: Rgb = Rgb([0xc0, 0x3a, 0x20]);
+
+/// How words are set.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LabelStyle {
+    /// Size of the letters.
+    pub letters_px: f64,
+    /// Height of a line.
+    pub line_px: f64,
+}
+
+impl LabelStyle {
+    /// Adds words from an upper left corner on, where there is room for lines
+    /// of a width and for so many of them. Returns how many it took.
+    pub fn push(
+        self,
+        drawing: &mut Drawing,
+        words: &str,
+        (width_px, most): (f64, usize),
+        corner: DVec2,
+        colour: Rgb,
+    ) -> usize {
+        let lines = self.wrapped(words, width_px, most);
+        for (i, line) in lines.iter().enumerate() {
+            let middle = 0.5 * glyph_outlines::width(line, self.letters_px);
+            // What hangs below the base line has the last fifth.
+            let base = corner + DVec2::new(middle, (i as f64 + 0.8) * self.line_px);
+            drawing.push_label(line, base, self.letters_px, colour);
+        }
+        lines.len()
+    }
+
+    /// Words in at most so many lines of a width; what is left over becomes an
+    /// ellipsis. Words that are longer than a line are broken.
+    fn wrapped(self, words: &str, width_px: f64, most: usize) -> Vec<String> {
+        let fits = |line: &str| glyph_outlines::width(line, self.letters_px) <= width_px;
+        let mut lines: Vec<String> = Vec::new();
+        let mut line = String::new();
+        for word in words.split_whitespace() {
+            if !line.is_empty() && !fits(&format!("{line} {word}")) {
+                lines.push(std::mem::take(&mut line));
+            }
+            if !line.is_empty() {
+                line.push(' ');
+            }
+            for c in word.chars() {
+                line.push(c);
+                // Letter by letter: a path without a space may be longer than a
+                // line.
+                if !fits(&line) {
+                    line.pop();
+                    lines.push(std::mem::replace(&mut line, c.to_string()));
+                }
+            }
+        }
+        lines.push(line);
+        lines.retain(|line| !line.is_empty());
+        if lines.len() > most {
+            lines.truncate(most);
+            if let Some(last) = lines.last_mut() {
+                while !last.is_empty() && !fits(&format!("{last}\u{2026}")) {
+                    last.pop();
+                }
+                last.push('\u{2026}');
+            }
+        }
+        lines
+    }
+}
+
+/// A colour for words that can be read on the ground; on a transparent one a
+/// middle grey, which shows on light and on dark.
+#[must_use]
+pub fn text_colour_on(ground: Option<Rgb>) -> Rgb {
+    let grey = |c: u8| Rgb([c; 3]);
+    match ground {
+        None => grey(0x80),
+        Some(Rgb([r, g, b])) => {
+            // The weights of Rec. 601: enough to tell light from dark.
+            let luma = 0.299 * f64::from(r) + 0.587 * f64::from(g) + 0.114 * f64::from(b);
+            if luma > 128.0 { grey(0x20) } else { grey(0xe8) }
+        }
+    }
+}
+
+/// What stands below a frame: `t = 0.25`.
+pub(super) fn time_label(t: f64) -> String {
+    format!(
+        "t = {}",
+        ShortNumber(t).to_string().replace('-', "\u{2212}")
+    )
+}
+
+/// At most three decimals, no trailing zeros, no negative zero.
+pub(super) struct ShortNumber(pub f64);
+
+impl fmt::Display for ShortNumber {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let fixed = format!("{:.3}", self.0);
+        let short = fixed.trim_end_matches('0').trim_end_matches('.');
+        f.write_str(if short == "-0" { "0" } else { short })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TYPE: LabelStyle = LabelStyle {
+        letters_px: 13.0,
+        line_px: 16.0,
+    };
+
+    #[test]
+    fn words_are_wrapped_broken_and_cut() {
+        assert_eq!(TYPE.wrapped("", 100.0, 3), Vec::<String>::new());
+        assert_eq!(TYPE.wrapped("a  b\nc", 100.0, 3), ["a b c"]);
+        let long = "x".repeat(200);
+        let lines = TYPE.wrapped(&long, 100.0, 3);
+        assert_eq!(lines.len(), 3);
+        assert!(lines[2].ends_with('\u{2026}'));
+        for line in TYPE.wrapped("several words that do not fit", 60.0, 9) {
+            assert!(
+                glyph_outlines::width(&line, TYPE.letters_px) <= 60.0,
+                "{line}"
+            );
+        }
+        assert_eq!(TYPE.wrapped("narrow", 0.0, 2).len(), 2);
+    }
+
+    #[test]
+    fn labels_are_short() {
+        assert_eq!(time_label(0.0), "t = 0");
+        assert_eq!(time_label(-0.0001), "t = 0");
+        assert_eq!(time_label(0.25), "t = 0.25");
+        assert_eq!(time_label(1.0 / 3.0), "t = 0.333");
+        assert_eq!(time_label(-0.5), "t = \u{2212}0.5");
+        assert_eq!(time_label(100.0), "t = 100");
+    }
+
+    #[test]
+    fn numbers_are_short_and_never_negative_zero() {
+        let text = |x: f64| ShortNumber(x).to_string();
+        assert_eq!(text(0.0), "0");
+        assert_eq!(text(-0.0001), "0");
+        assert_eq!(text(1.5), "1.5");
+        assert_eq!(text(-2.0), "-2");
+        assert_eq!(text(100.0), "100");
+        assert_eq!(text(0.12349), "0.123");
+    }
+}

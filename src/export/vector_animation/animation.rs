@@ -1,0 +1,85 @@
+//! What a camera draws, recorded.
+
+use crate::colour::Rgb;
+use crate::work::progress::Progress;
+
+use super::super::camera::Camera;
+use super::super::drawing::Drawing;
+use super::super::error::ExportError;
+use super::super::film_spec::FilmSpec;
+use super::super::size::PixelSize;
+use super::piece::AnimationPiece;
+use super::shape::PosedShape;
+use super::timeline::FilmTimeline;
+use super::{record, simplify};
+
+/// What a camera draws, as polynomials in t.
+///
+/// ```
+/// use morphospace::export::{Camera, Film, Motion};
+/// use morphospace::work::progress::Silent;
+/// use morphospace::{Design, Transition};
+///
+/// let kite = Design::of_rings("kite", [[[2.0, 0.0], [4.0, 3.0], [2.0, 4.0], [0.0, 3.0]]])?;
+/// let box_ = Design::of_rings("box", [[[0.0, 0.0], [3.0, 0.0], [3.0, 3.0], [0.0, 3.0]]])?;
+/// let camera = Camera::around(Transition::between(kite, box_)?, 480);
+/// let film = Film::evenly(0.0, 1.0, 25, 25.0)?;
+/// let motion = Motion::record(&camera, &film, &Silent)?;
+/// assert!(motion.lottie("kite").starts_with('{'));
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Clone, Debug)]
+pub struct VectorAnimation {
+    pub(super) size: PixelSize,
+    pub(super) ground: Option<Rgb>,
+    /// By ascending t, each up to where the next begins.
+    pub(super) pieces: Vec<AnimationPiece>,
+    pub(super) course: FilmTimeline,
+    pub(super) stops: Vec<(f64, String)>,
+}
+
+impl VectorAnimation {
+    /// How far a point may be from where the camera draws it, in pixels.
+    pub const TOLERANCE_PX: f64 = 0.2;
+
+    /// Records what a camera draws over a film's times.
+    ///
+    /// # Errors
+    /// [`ExportError::NoOutlines`] where pictures are what is seen, and
+    /// [`ExportError::Cancelled`].
+    pub fn record(
+        camera: &Camera,
+        film: &FilmSpec,
+        progress: &dyn Progress,
+    ) -> Result<Self, ExportError> {
+        let mut pieces = record::record(camera, film, progress)?;
+        simplify::simplify(&mut pieces, simplify::STATIC_TOLERANCE_PX);
+        Ok(Self {
+            size: camera.view.size(),
+            ground: camera.ground,
+            pieces,
+            course: FilmTimeline::of(film),
+            stops: film.stops().to_vec(),
+        })
+    }
+
+    /// The drawing at `t`, as the motion has it.
+    #[must_use]
+    pub fn at(&self, t: f64) -> Drawing {
+        let mut drawing = Drawing::new(self.size, self.ground);
+        let posed = self.pieces[self.piece_at(t)].at(t);
+        drawing.items = posed.iter().map(PosedShape::item).collect();
+        drawing
+    }
+
+    pub(super) fn piece_at(&self, t: f64) -> usize {
+        let after = self.pieces.partition_point(|piece| piece.from <= t);
+        after.saturating_sub(1)
+    }
+
+    /// The first and the last t.
+    pub(super) fn ends(&self) -> [f64; 2] {
+        let first = self.pieces.first().map_or(0.0, |piece| piece.from);
+        [first, self.pieces.last().map_or(first, |piece| piece.to)]
+    }
+}

@@ -1,0 +1,103 @@
+//! Chebyshev series of points: where they are between two times.
+//!
+//! A function that is smooth there is met by few terms, each smaller than the one
+//! before (Trefethen 2013, chapters 3 and 8). The nodes are those of Lobatto, both
+//! ends among them: twice as many hold all of the first.
+
+use crate::geometry::DVec2;
+use std::f64::consts::PI;
+
+/// The nodes of a series with `n` intervals, from 0 to 1 in this order.
+pub(super) fn chebyshev_nodes(n: usize) -> impl Iterator<Item = f64> {
+    (0..=n).map(move |k| match k {
+        // To the last bit, which a cosine does not give.
+        0 => 0.0,
+        k if k == n => 1.0,
+        k => 0.5 - 0.5 * (PI * k as f64 / n as f64).cos(),
+    })
+}
+
+/// The terms of the series through points at the [`chebyshev_nodes`], term by term.
+pub(super) fn interpolate(at_nodes: &[&[DVec2]]) -> Vec<Vec<DVec2>> {
+    let n = at_nodes.len() - 1;
+    if n == 0 {
+        return vec![at_nodes[0].to_vec()];
+    }
+    let half = |k: usize| if k == 0 || k == n { 0.5 } else { 1.0 };
+    let term = |j: usize| {
+        let mut term = vec![DVec2::ZERO; at_nodes[0].len()];
+        for (k, points) in at_nodes.iter().enumerate() {
+            // The nodes run the other way round than cosines do.
+            let angle = PI * (j * (n - k)) as f64 / n as f64;
+            let weight = 2.0 / n as f64 * half(j) * half(k) * angle.cos();
+            for (sum, &p) in term.iter_mut().zip(*points) {
+                *sum += weight * p;
+            }
+        }
+        term
+    };
+    (0..=n).map(term).collect()
+}
+
+/// Leaves terms out from the end on, as long as no point moves farther than that.
+pub(super) fn truncate_series(terms: &mut Vec<Vec<DVec2>>, tolerance: f64) {
+    let mut left_out = vec![0.0; terms.first().map_or(0, Vec::len)];
+    while terms.len() > 1 {
+        let Some(last) = terms.last() else { break };
+        for (sum, p) in left_out.iter_mut().zip(last) {
+            *sum += p.length();
+        }
+        if left_out.iter().any(|sum| *sum > tolerance) {
+            break;
+        }
+        terms.pop();
+    }
+}
+
+/// The sum of a series at `s` in [0, 1].
+pub(super) fn evaluate(terms: &[Vec<DVec2>], s: f64) -> Vec<DVec2> {
+    let x = 2.0 * s - 1.0;
+    let mut sum = terms.first().cloned().unwrap_or_default();
+    let (mut before, mut polynomial) = (1.0, x);
+    for term in terms.iter().skip(1) {
+        for (sum, &c) in sum.iter_mut().zip(term) {
+            *sum += polynomial * c;
+        }
+        (before, polynomial) = (polynomial, 2.0 * x * polynomial - before);
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_turn_is_met_by_few_terms() {
+        let at = |s: f64| vec![DVec2::from_angle(2.0 * s), DVec2::new(s, s * s)];
+        let seen: Vec<_> = chebyshev_nodes(8).map(at).collect();
+        let seen: Vec<&[DVec2]> = seen.iter().map(Vec::as_slice).collect();
+        let mut terms = interpolate(&seen);
+        for k in 0..=100 {
+            let s = f64::from(k) / 100.0;
+            for (found, wanted) in evaluate(&terms, s).into_iter().zip(at(s)) {
+                assert!(found.distance(wanted) < 1e-7, "{s}: {found} {wanted}");
+            }
+        }
+        truncate_series(&mut terms, 1e-3);
+        assert!((3..=6).contains(&terms.len()), "{}", terms.len());
+        let off = evaluate(&terms, 0.3)[0].distance(at(0.3)[0]);
+        assert!(off < 1e-3, "{off}");
+    }
+
+    #[test]
+    fn nodes_lie_within_those_of_twice_as_many() {
+        let [few, many]: [Vec<f64>; 2] = [8, 16].map(|n| chebyshev_nodes(n).collect());
+        assert!(
+            few.iter()
+                .zip(many.iter().step_by(2))
+                .all(|(a, b)| (a - b).abs() < 1e-15)
+        );
+        assert_eq!((few[0], few[8]), (0.0, 1.0));
+    }
+}

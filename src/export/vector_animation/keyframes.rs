@@ -1,0 +1,117 @@
+//! The fewest keys between which straight lines do.
+//!
+//! Keys lie on the curves that they stand for, at some of the moments at which those
+//! were looked at. From a key on, each moment narrows the directions in which a line
+//! passes near enough by it; a later moment in such a direction can be the next key
+//! (Imai, Iri 1988: the way with the fewest keys is then a shortest path).
+
+/// The indices of the fewest rows, the first and the last among them, between which
+/// straight lines pass all others within the tolerance, number by number. `places`
+/// are those of the rows, ascending.
+///
+/// Costs rows × rows that a line can reach × numbers.
+pub(super) fn fewest_keys(places: &[f64], rows: &[Vec<f64>], tolerance: f64) -> Vec<usize> {
+    let count = rows.len();
+    // From the last row backwards: how many keys follow, and the next of them.
+    let mut follow = vec![(0, 0); count];
+    for from in (0..count.saturating_sub(1)).rev() {
+        let mut best = (usize::MAX, from + 1);
+        reach(places, rows, tolerance, from, |to| {
+            let keys: usize = follow[to].0 + 1;
+            // Of equals the farthest: lines are long where they can be.
+            if keys <= best.0 {
+                best = (keys, to);
+            }
+        });
+        follow[from] = best;
+    }
+    let mut keys = vec![0];
+    let mut at = 0;
+    while at + 1 < count {
+        at = follow[at].1;
+        keys.push(at);
+    }
+    keys
+}
+
+/// Tells each row that a line from one passes all between within the tolerance.
+fn reach(
+    places: &[f64],
+    rows: &[Vec<f64>],
+    tolerance: f64,
+    from: usize,
+    mut tell: impl FnMut(usize),
+) {
+    let mut slopes = vec![[f64::NEG_INFINITY, f64::INFINITY]; rows[from].len()];
+    for to in from + 1..rows.len() {
+        let run = places[to] - places[from];
+        let mut can_be_key = true;
+        let walk = slopes.iter_mut().zip(&rows[from]).zip(&rows[to]);
+        let walked = walk.map(|((slope, a), b)| {
+            let rise = b - a;
+            can_be_key &= slope[0] * run <= rise && rise <= slope[1] * run;
+            slope[0] = slope[0].max((rise - tolerance) / run);
+            slope[1] = slope[1].min((rise + tolerance) / run);
+            slope[0] <= slope[1]
+        });
+        // To the end, where `all` would stop: each narrows its own.
+        let is_open = walked.filter(|is_open| !is_open).count() == 0;
+        if can_be_key || to == from + 1 {
+            tell(to);
+        }
+        if !is_open {
+            return;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sampled(count: usize, f: impl Fn(f64) -> Vec<f64>) -> (Vec<f64>, Vec<Vec<f64>>) {
+        let places: Vec<f64> = (0..count).map(|k| k as f64).collect();
+        let rows = places.iter().map(|&x| f(x)).collect();
+        (places, rows)
+    }
+
+    #[test]
+    fn straight_lines_need_two_keys_and_corners_one_more() {
+        let (places, rows) = sampled(50, |x| vec![3.0 * x, 1.0 - x, 4.0]);
+        assert_eq!(fewest_keys(&places, &rows, 1e-9), [0, 49]);
+        let (places, rows) = sampled(50, |x| vec![(x - 20.0).abs(), x]);
+        assert_eq!(fewest_keys(&places, &rows, 1e-9), [0, 20, 49]);
+        assert_eq!(fewest_keys(&places[..1], &rows[..1], 1.0), [0]);
+    }
+
+    /// Every way through the rows, tried.
+    fn brute(places: &[f64], rows: &[Vec<f64>], tolerance: f64) -> usize {
+        let fits = |i: usize, j: usize| {
+            (i + 1..j).all(|k| {
+                let s = (places[k] - places[i]) / (places[j] - places[i]);
+                let off = |c: usize| rows[i][c] * (1.0 - s) + rows[j][c] * s - rows[k][c];
+                (0..rows[k].len()).all(|c| off(c).abs() <= tolerance)
+            })
+        };
+        let mut best = vec![usize::MAX; rows.len()];
+        best[0] = 1;
+        for j in 1..rows.len() {
+            let ways = (0..j).filter(|&i| fits(i, j)).map(|i| best[i] + 1);
+            best[j] = ways.min().expect("the row before");
+        }
+        best[rows.len() - 1]
+    }
+
+    #[test]
+    fn no_way_has_fewer_keys() {
+        for wave in [0.05, 0.2, 0.7, 1.9] {
+            let f = |x: f64| vec![(wave * x).sin(), (0.3 * wave * x).cos() * 2.0];
+            let (places, rows) = sampled(60, f);
+            for tolerance in [0.01, 0.1, 0.5] {
+                let keys = fewest_keys(&places, &rows, tolerance);
+                let wanted = brute(&places, &rows, tolerance);
+                assert_eq!(keys.len(), wanted, "wave {wave}, within {tolerance}");
+            }
+        }
+    }
+}

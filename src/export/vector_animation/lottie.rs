@@ -1,0 +1,343 @@
+//! A motion as a Lottie animation: JSON of the Lottie Animation Community's format,
+//! version 1.0, as Bodymovin 5.7 writes it.
+//!
+//! The shapes move within a composition of their own, evenly in t; outside it the
+//! time of that composition is remapped to the film's: easing, rests, stops and the
+//! way back need no keys of shapes. What formats of that kind cannot say: a gradient
+//! that repeats is drawn once, one that is round and squashed is drawn round.
+
+use serde_json::{Value, json};
+
+use crate::colour::{Gradient, Paint, StrokeJoin};
+use crate::geometry::DVec2;
+
+use super::animation::VectorAnimation;
+use super::shape::{PathVerb, PosedShape, ShapeForm};
+use super::timeline::{FilmTimeline, TimelineCurve};
+use super::tracks::{KeyedProperty, SceneLayer, layers};
+use super::two_point_gradient::TwoPointGradient;
+
+/// Moments of the way at which keys may be.
+const MOMENTS: usize = 240;
+
+pub(super) fn lottie_json(motion: &VectorAnimation, title: &str) -> Value {
+    let course = &motion.course;
+    let frames = course.frames();
+    let (width, height) = (motion.size.width(), motion.size.height());
+    // A player takes a remapped time that equals the number of frames for its end.
+    let length = if course.pass == frames {
+        frames + 1
+    } else {
+        course.pass
+    } as f64;
+    let [from, to] = motion.ends();
+    let at = |t: f64| length * (t - from) / (to - from).max(f64::MIN_POSITIVE);
+    let mut times: Vec<f64> = (0..=MOMENTS)
+        .map(|k| k as f64 / MOMENTS as f64)
+        .map(|s| from * (1.0 - s) + to * s)
+        .chain(motion.pieces.iter().map(|piece| piece.from))
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times.dedup();
+    let stations: Vec<(f64, f64)> = times.into_iter().map(|t| (at(t), t)).collect();
+    let layers = layers(motion, &stations);
+    let last = layers.len().saturating_sub(1);
+    let scenes = layers.iter().enumerate().map(|(k, layer)| {
+        // The first and the last are there however a player rounds.
+        let from = if k == 0 { 0.0 } else { layer.from };
+        let to = if k == last { length + 1.0 } else { layer.to };
+        scene(layer, k, [from, to])
+    });
+    let film = json!({
+        "ty": 0, "nm": title, "ind": 1, "refId": "film", "sr": 1, "ks": placed(),
+        "w": width, "h": height, "ip": 0, "op": frames, "st": 0, "bm": 0,
+        "tm": remapped(course, |t| at(t) / course.fps),
+    });
+    let ground = motion.ground.map(|ground| {
+        json!({
+            "ty": 1, "nm": "ground", "ind": 2, "sr": 1, "ks": placed(), "sc": ground.to_string(),
+            "sw": width, "sh": height, "ip": 0, "op": frames, "st": 0, "bm": 0,
+        })
+    });
+    let film_on_ground: Vec<Value> = [Some(film), ground].into_iter().flatten().collect();
+    json!({
+        "v": "5.7.4", "nm": title, "fr": course.fps, "ip": 0, "op": frames,
+        "w": width, "h": height, "ddd": 0,
+        "assets": [{"id": "film", "nm": title, "fr": course.fps, "layers": scenes.collect::<Vec<_>>()}],
+        "layers": film_on_ground,
+    })
+}
+
+/// Which second of the shapes' composition is shown when.
+fn remapped(course: &FilmTimeline, secs_at: impl Fn(f64) -> f64) -> Value {
+    let secs = |frame: usize| rounded(secs_at(course.times[frame]), 6);
+    let key = |curve: TimelineCurve| {
+        let [out, into] = curve.handles.map(|handle| rounded(handle, 5));
+        json!({
+            "t": curve.from, "s": [secs(curve.from)],
+            "o": {"x": [0.33333], "y": [out]}, "i": {"x": [0.66667], "y": [into]},
+        })
+    };
+    let mut keys: Vec<Value> = course.curves().into_iter().map(key).collect();
+    let last = course.frames();
+    keys.push(json!({"t": last, "s": [secs(last)]}));
+    json!({"a": 1, "k": keys})
+}
+
+/// A transform that does nothing.
+fn placed() -> Value {
+    let still = |value: Value| json!({"a": 0, "k": value});
+    json!({
+        "o": still(json!(100)), "r": still(json!(0)), "p": still(json!([0, 0, 0])),
+        "a": still(json!([0, 0, 0])), "s": still(json!([100, 100, 100])),
+    })
+}
+
+fn scene(layer: &SceneLayer, number: usize, [from, to]: [f64; 2]) -> Value {
+    // The uppermost comes first.
+    let shapes = layer.shapes.iter().rev();
+    let shapes: Vec<Value> = shapes.map(|poses| shape(layer, poses)).collect();
+    json!({
+        "ty": 4, "nm": format!("scene {}", number + 1), "ind": number + 1, "sr": 1,
+        "ks": placed(), "ip": rounded(from, 3), "op": rounded(to, 3), "st": 0, "bm": 0,
+        "shapes": shapes,
+    })
+}
+
+fn shape(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
+    let Some(first) = poses.first() else {
+        return json!({"ty": "gr", "it": []});
+    };
+    let mut items = match &*first.form {
+        ShapeForm::Fill { verbs, .. } | ShapeForm::Line { verbs, .. } => {
+            outlines(layer, poses, verbs)
+        }
+        ShapeForm::Bars => (0..first.points.len() / 2)
+            .map(|k| {
+                outline(
+                    layer,
+                    poses,
+                    2 * k,
+                    &[PathVerb::Move, PathVerb::Line],
+                    false,
+                )
+            })
+            .collect(),
+        ShapeForm::Discs => discs(layer, poses),
+    };
+    items.push(match &*first.form {
+        ShapeForm::Fill { ramp: Some(_), .. } => shaded(layer, poses),
+        ShapeForm::Fill { .. } | ShapeForm::Discs => {
+            let mut fill = painted(layer, poses);
+            fill["ty"] = json!("fl");
+            fill["r"] = json!(1);
+            fill
+        }
+        form => {
+            let mut stroke = painted(layer, poses);
+            stroke["ty"] = json!("st");
+            let width = layer.width(poses, PosedShape::width);
+            stroke["w"] = animated(&width, |w| vec![rounded(*w, 3)]);
+            let (join, cap) = match form {
+                ShapeForm::Line { join, .. } => (*join, 1),
+                _ => (StrokeJoin::Round, 2),
+            };
+            stroke["lc"] = json!(cap);
+            stroke["lj"] = json!(match join {
+                StrokeJoin::Mitre(limit) => {
+                    stroke["ml"] = json!(limit);
+                    1
+                }
+                StrokeJoin::Round => 2,
+                StrokeJoin::Bevel => 3,
+            });
+            stroke
+        }
+    });
+    let mut still = placed();
+    still["ty"] = json!("tr");
+    items.push(still);
+    let mut group = json!({"ty": "gr", "it": items});
+    if let ShapeForm::Fill {
+        label: Some(words), ..
+    } = &*first.form
+    {
+        group["nm"] = json!(words);
+    }
+    group
+}
+
+/// A path for each contour.
+fn outlines(layer: &SceneLayer, poses: &[PosedShape], verbs: &[PathVerb]) -> Vec<Value> {
+    let mut first = 0;
+    let rings = verbs.split_inclusive(|verb| *verb == PathVerb::Close);
+    rings
+        .map(|ring| {
+            let path = outline(layer, poses, first, ring, true);
+            first += ring.iter().map(|verb| verb.points()).sum::<usize>();
+            path
+        })
+        .collect()
+}
+
+/// A path of the points from the first on.
+fn outline(
+    layer: &SceneLayer,
+    poses: &[PosedShape],
+    first: usize,
+    verbs: &[PathVerb],
+    closed: bool,
+) -> Value {
+    let count = verbs.iter().map(|verb| verb.points()).sum::<usize>();
+    let range = first..first + count;
+    let bezier = |posed: &PosedShape| bezier(verbs, &posed.points[range.clone()], closed);
+    let keyed = layer.points(poses, range.clone(), bezier);
+    let is_still = keyed.keys.len() == 1;
+    let path = animated(&keyed, |bezier| vec![bezier.clone()]);
+    let path = match path {
+        Value::Object(mut path) if is_still => {
+            // A path alone is no list.
+            let still = path["k"][0].take();
+            path.insert("k".to_owned(), still);
+            Value::Object(path)
+        }
+        path => path,
+    };
+    json!({"ty": "sh", "ks": path})
+}
+
+/// Points with handles before and after them, as differences.
+fn bezier(verbs: &[PathVerb], points: &[DVec2], closed: bool) -> Value {
+    let mut corners: Vec<[DVec2; 3]> = Vec::new();
+    let mut rest = points;
+    for verb in verbs {
+        let (own, after) = rest.split_at(verb.points());
+        rest = after;
+        let Some(&end) = own.last() else { continue };
+        let start = corners.last().map_or(end, |corner| corner[0]);
+        let (out, into) = match *own {
+            [c, _] => ((c - start) * 2.0 / 3.0, (c - end) * 2.0 / 3.0),
+            [c, d, _] => (c - start, d - end),
+            _ => (DVec2::ZERO, DVec2::ZERO),
+        };
+        if let Some(corner) = corners.last_mut() {
+            corner[2] = out;
+        }
+        corners.push([end, into, DVec2::ZERO]);
+    }
+    let part = |k: usize| -> Vec<Value> {
+        let points = corners.iter().map(|corner| corner[k]);
+        points
+            .map(|p| json!([rounded(p.x, 2), rounded(p.y, 2)]))
+            .collect()
+    };
+    json!({"v": part(0), "i": part(1), "o": part(2), "c": closed})
+}
+
+fn discs(layer: &SceneLayer, poses: &[PosedShape]) -> Vec<Value> {
+    let size = layer.width(poses, |posed| 2.0 * posed.width());
+    let size = animated(&size, |d| vec![rounded(*d, 3), rounded(*d, 3)]);
+    let disc = |k: usize| {
+        let centre = layer.points(poses, k..k + 1, |posed| posed.points[k]);
+        let centre = animated(&centre, |p| vec![rounded(p.x, 2), rounded(p.y, 2)]);
+        json!({"ty": "el", "d": 1, "p": centre, "s": size})
+    };
+    (0..poses[0].points.len()).map(disc).collect()
+}
+
+/// Colour and opacity.
+fn painted(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
+    let colour = layer.colour(poses, |posed| posed.paint());
+    let opacity = layer.opacity(poses, |posed| posed.paint().opacity);
+    json!({
+        "c": animated(&colour, colour_of),
+        "o": animated(&opacity, |share| vec![rounded(100.0 * share, 2)]),
+    })
+}
+
+fn colour_of(paint: &Paint) -> Vec<Value> {
+    let channels = paint.colour.0.map(|c| rounded(f64::from(c) / 255.0, 4));
+    channels.into_iter().chain([json!(1)]).collect()
+}
+
+/// A fill with a gradient.
+fn shaded(layer: &SceneLayer, poses: &[PosedShape]) -> Value {
+    let gradient = |posed: &PosedShape| posed.gradient();
+    let Some(first) = poses.first().and_then(gradient) else {
+        return json!({});
+    };
+    let ends = |posed: &PosedShape| {
+        posed
+            .gradient()
+            .map(|gradient| TwoPointGradient::of(&gradient))
+    };
+    let point = |which: fn(&TwoPointGradient) -> DVec2| {
+        let of = move |posed: &PosedShape| ends(posed).map_or(DVec2::ZERO, |plain| which(&plain));
+        let numbers = |posed: &PosedShape| of(posed).to_array().to_vec();
+        let keyed = layer.keyed(poses, 0.2, numbers, of);
+        animated(&keyed, |p| vec![rounded(p.x, 2), rounded(p.y, 2)])
+    };
+    let start = point(|plain| match *plain {
+        TwoPointGradient::Straight { from, .. } => from,
+        TwoPointGradient::Round { middle, .. } => middle,
+    });
+    let end = point(|plain| match *plain {
+        TwoPointGradient::Straight { to, .. } => to,
+        TwoPointGradient::Round { middle, radius, .. } => middle + DVec2::X * radius,
+    });
+    let stops = |posed: &PosedShape| posed.gradient().map(|g| stops(&g)).unwrap_or_default();
+    let keyed = layer.keyed(poses, 0.004, stops, stops);
+    let values = animated(&keyed, |stops| {
+        stops.iter().map(|x| rounded(*x, 4)).collect()
+    });
+    let is_round = matches!(TwoPointGradient::of(&first), TwoPointGradient::Round { .. });
+    json!({
+        "ty": "gf", "t": if is_round { 2 } else { 1 }, "s": start, "e": end, "r": 1,
+        "o": {"a": 0, "k": 100}, "g": {"p": first.stops.len(), "k": values},
+        "h": {"a": 0, "k": 0}, "a": {"a": 0, "k": 0},
+    })
+}
+
+/// Places and colours, then places and opacities.
+fn stops(gradient: &Gradient) -> Vec<f64> {
+    let colours = gradient.stops.iter().flat_map(|stop| {
+        let [r, g, b] = stop.paint.colour.0.map(|c| f64::from(c) / 255.0);
+        [stop.at, r, g, b]
+    });
+    let opacities = gradient.stops.iter();
+    let opacities = opacities.flat_map(|stop| [stop.at, stop.paint.opacity]);
+    colours.chain(opacities).collect()
+}
+
+/// A property: one value, or keys with straight ways between them.
+fn animated<T>(keyed: &KeyedProperty<T>, value: impl Fn(&T) -> Vec<Value>) -> Value {
+    if let [(_, only)] = keyed.keys.as_slice() {
+        let mut numbers = value(only);
+        let still = match numbers.len() {
+            1 if !numbers[0].is_object() => numbers.remove(0),
+            _ => Value::Array(numbers),
+        };
+        return json!({"a": 0, "k": still});
+    }
+    let last = keyed.keys.len().saturating_sub(1);
+    let key = |(k, (x, at)): (usize, &(f64, T))| {
+        let mut key = json!({"t": rounded(*x, 3), "s": value(at)});
+        if k < last {
+            key["o"] = json!({"x": [0], "y": [0]});
+            key["i"] = json!({"x": [1], "y": [1]});
+        }
+        key
+    };
+    let keys: Vec<Value> = keyed.keys.iter().enumerate().map(key).collect();
+    json!({"a": 1, "k": keys})
+}
+
+/// With so many decimals; whole numbers without.
+fn rounded(x: f64, decimals: i32) -> Value {
+    let scale = 10f64.powi(decimals);
+    let x = (x * scale).round() / scale;
+    if x.fract() == 0.0 && x.abs() < 1e15 {
+        return json!(x as i64);
+    }
+    json!(x)
+}

@@ -1,0 +1,354 @@
+//! A shape of a drawing, taken apart: what stays the same while it moves, where its
+//! points are, and numbers for its looks.
+
+use crate::colour::{
+    Gradient, GradientGeometry, GradientSpread, GradientStop, Paint, Rgb, StrokeJoin, StrokeStyle,
+};
+use crate::export::drawing::DrawingItem;
+use crate::export::outline::{OutlinePath, PathCommand};
+use crate::geometry::{DAffine2, DVec2};
+use std::sync::Arc;
+
+/// What of a shape stays the same while it moves.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum ShapeForm {
+    /// A filled outline.
+    Fill {
+        verbs: Vec<PathVerb>,
+        label: Option<String>,
+        ramp: Option<GradientForm>,
+    },
+    /// A line along closed outlines.
+    Line {
+        verbs: Vec<PathVerb>,
+        join: StrokeJoin,
+    },
+    /// Bars, of which each has two points.
+    Bars,
+    /// Discs, of which each has one.
+    Discs,
+}
+
+/// A step of an outline without its points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PathVerb {
+    Move,
+    Line,
+    Quad,
+    Cubic,
+    Close,
+}
+
+impl PathVerb {
+    /// How many points it takes.
+    pub(super) fn points(self) -> usize {
+        match self {
+            Self::Move | Self::Line => 1,
+            Self::Quad => 2,
+            Self::Cubic => 3,
+            Self::Close => 0,
+        }
+    }
+}
+
+/// What of a gradient stays the same.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct GradientForm {
+    pub is_round: bool,
+    pub stops: usize,
+    pub spread: GradientSpread,
+}
+
+/// Numbers of a look before those of its gradient: red, green and blue up to 255,
+/// opacity, and the width or the radius.
+const PLAIN: usize = 5;
+
+/// A shape at one moment.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct PosedShape {
+    pub form: Arc<ShapeForm>,
+    pub points: Vec<DVec2>,
+    /// Colour, opacity, width, and what a gradient has: its frame, its focus if it is
+    /// round, and its stops.
+    pub look: Vec<f64>,
+}
+
+impl PosedShape {
+    /// Takes a shape apart; pictures have no points to move.
+    pub(super) fn of(item: &DrawingItem) -> Option<Self> {
+        Some(match item {
+            DrawingItem::Fill {
+                outline,
+                paint,
+                gradient,
+                label,
+            } => {
+                let (verbs, points) = taken(outline);
+                let mut look = plain(*paint, 0.0);
+                look.extend(gradient.iter().flat_map(shading));
+                let (label, ramp) = (label.clone(), gradient.as_ref().map(ramp));
+                let form = Arc::new(ShapeForm::Fill { verbs, label, ramp });
+                Self { form, points, look }
+            }
+            DrawingItem::Line { outline, line } => {
+                let (verbs, points) = taken(outline);
+                let look = plain(line.paint, line.width);
+                let join = line.join;
+                let form = Arc::new(ShapeForm::Line { verbs, join });
+                Self { form, points, look }
+            }
+            DrawingItem::Bars {
+                segments,
+                width_px,
+                colour,
+            } => Self {
+                form: Arc::new(ShapeForm::Bars),
+                points: segments.concat(),
+                look: plain((*colour).into(), *width_px),
+            },
+            DrawingItem::Discs {
+                centres,
+                radius_px,
+                colour,
+            } => Self {
+                form: Arc::new(ShapeForm::Discs),
+                points: centres.clone(),
+                look: plain((*colour).into(), *radius_px),
+            },
+            DrawingItem::Picture { .. } => return None,
+        })
+    }
+
+    /// How many outlines it has.
+    pub(super) fn outlines(&self) -> usize {
+        match &*self.form {
+            ShapeForm::Fill { verbs, .. } | ShapeForm::Line { verbs, .. } => {
+                let starts = verbs.iter().filter(|&&verb| verb == PathVerb::Move);
+                starts.count()
+            }
+            ShapeForm::Bars | ShapeForm::Discs => self.points.len(),
+        }
+    }
+
+    /// Whether the other is the same at another moment.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        self.form == other.form && self.points.len() == other.points.len()
+    }
+
+    /// Puts it together again.
+    pub(super) fn item(&self) -> DrawingItem {
+        let (paint, width) = (self.paint(), self.width());
+        match &*self.form {
+            ShapeForm::Fill { verbs, label, .. } => DrawingItem::Fill {
+                outline: put_together(verbs, &self.points),
+                paint,
+                gradient: self.gradient(),
+                label: label.clone(),
+            },
+            ShapeForm::Line { verbs, join } => DrawingItem::Line {
+                outline: put_together(verbs, &self.points),
+                line: StrokeStyle {
+                    paint,
+                    width,
+                    join: *join,
+                },
+            },
+            ShapeForm::Bars => DrawingItem::Bars {
+                segments: self.points.chunks_exact(2).map(|b| [b[0], b[1]]).collect(),
+                width_px: width,
+                colour: paint.colour,
+            },
+            ShapeForm::Discs => DrawingItem::Discs {
+                centres: self.points.clone(),
+                radius_px: width,
+                colour: paint.colour,
+            },
+        }
+    }
+
+    pub(super) fn paint(&self) -> Paint {
+        paint(&self.look)
+    }
+
+    /// The width of a line or of bars, or the radius of discs.
+    pub(super) fn width(&self) -> f64 {
+        self.look[PLAIN - 1]
+    }
+
+    /// The gradient that it is filled with.
+    pub(super) fn gradient(&self) -> Option<Gradient> {
+        let ShapeForm::Fill {
+            ramp: Some(ramp), ..
+        } = *self.form
+        else {
+            return None;
+        };
+        let (frame, rest) = self.look[PLAIN..].split_at(6);
+        let (focus, stops) = rest.split_at(if ramp.is_round { 3 } else { 0 });
+        let stop = |stop: &[f64]| GradientStop {
+            at: stop[0],
+            paint: paint(&stop[1..]),
+        };
+        Some(Gradient {
+            course: match focus {
+                [x, y, inner] => GradientGeometry::Round {
+                    focus: DVec2::new(*x, *y),
+                    inner: *inner,
+                },
+                _ => GradientGeometry::Straight,
+            },
+            frame: DAffine2::from_cols_slice(frame),
+            stops: stops.chunks_exact(PLAIN).map(stop).collect(),
+            spread: ramp.spread,
+        })
+    }
+}
+
+fn plain(paint: Paint, width: f64) -> Vec<f64> {
+    let [r, g, b] = paint.colour.0.map(f64::from);
+    vec![r, g, b, paint.opacity, width]
+}
+
+fn paint(numbers: &[f64]) -> Paint {
+    let channel = |k: usize| numbers[k].round().clamp(0.0, 255.0) as u8;
+    Paint {
+        colour: Rgb([channel(0), channel(1), channel(2)]),
+        opacity: numbers[3],
+    }
+}
+
+fn ramp(gradient: &Gradient) -> GradientForm {
+    GradientForm {
+        is_round: gradient.course != GradientGeometry::Straight,
+        stops: gradient.stops.len(),
+        spread: gradient.spread,
+    }
+}
+
+fn shading(gradient: &Gradient) -> Vec<f64> {
+    let mut numbers = gradient.frame.to_cols_array().to_vec();
+    if let GradientGeometry::Round { focus, inner } = gradient.course {
+        numbers.extend([focus.x, focus.y, inner]);
+    }
+    for stop in &gradient.stops {
+        let [r, g, b] = stop.paint.colour.0.map(f64::from);
+        numbers.extend([stop.at, r, g, b, stop.paint.opacity]);
+    }
+    numbers
+}
+
+fn taken(outline: &OutlinePath) -> (Vec<PathVerb>, Vec<DVec2>) {
+    let mut points = Vec::new();
+    let verb = |step: &PathCommand| match *step {
+        PathCommand::Move(p) => {
+            points.push(p);
+            PathVerb::Move
+        }
+        PathCommand::Line(p) => {
+            points.push(p);
+            PathVerb::Line
+        }
+        PathCommand::Quad(c, p) => {
+            points.extend([c, p]);
+            PathVerb::Quad
+        }
+        PathCommand::Cubic(c, d, p) => {
+            points.extend([c, d, p]);
+            PathVerb::Cubic
+        }
+        PathCommand::Close => PathVerb::Close,
+    };
+    let verbs = outline.steps.iter().map(verb).collect();
+    (verbs, points)
+}
+
+/// The steps of an outline with their points.
+fn put_together(verbs: &[PathVerb], points: &[DVec2]) -> OutlinePath {
+    let mut rest = points;
+    let step = |verb: &PathVerb| {
+        let (own, after) = rest.split_at(verb.points());
+        rest = after;
+        match (verb, own) {
+            (PathVerb::Move, &[p]) => PathCommand::Move(p),
+            (PathVerb::Line, &[p]) => PathCommand::Line(p),
+            (PathVerb::Quad, &[c, p]) => PathCommand::Quad(c, p),
+            (PathVerb::Cubic, &[c, d, p]) => PathCommand::Cubic(c, d, p),
+            _ => PathCommand::Close,
+        }
+    };
+    OutlinePath {
+        steps: verbs.iter().map(step).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn p(x: f64) -> DVec2 {
+        DVec2::new(x, 2.0 * x)
+    }
+
+    fn outline() -> OutlinePath {
+        let steps = vec![
+            PathCommand::Move(p(0.0)),
+            PathCommand::Line(p(1.0)),
+            PathCommand::Quad(p(2.0), p(3.0)),
+            PathCommand::Cubic(p(4.0), p(5.0), p(6.0)),
+            PathCommand::Close,
+        ];
+        OutlinePath { steps }
+    }
+
+    fn gradient(paint: Paint) -> Gradient {
+        let stop = |at| GradientStop { at, paint };
+        Gradient {
+            course: GradientGeometry::Round {
+                focus: p(0.25),
+                inner: 0.125,
+            },
+            frame: DAffine2::from_scale_angle_translation(p(1.0), 0.5, p(3.0)),
+            stops: vec![stop(0.0), stop(0.5), stop(1.0)],
+            spread: GradientSpread::Reflect,
+        }
+    }
+
+    #[test]
+    fn shapes_are_put_together_as_they_were() {
+        let paint = Paint {
+            colour: Rgb([1, 2, 3]),
+            opacity: 0.5,
+        };
+        let line = StrokeStyle {
+            paint,
+            width: 3.5,
+            join: StrokeJoin::Mitre(4.0),
+        };
+        let colour = paint.colour;
+        for item in [
+            DrawingItem::Fill {
+                outline: outline(),
+                paint,
+                gradient: Some(gradient(paint)),
+                label: Some("words".to_owned()),
+            },
+            DrawingItem::Line {
+                outline: outline(),
+                line,
+            },
+            DrawingItem::Bars {
+                segments: vec![[p(1.0), p(2.0)], [p(2.0), p(4.0)]],
+                width_px: 2.0,
+                colour,
+            },
+            DrawingItem::Discs {
+                centres: vec![p(1.0), p(2.0)],
+                radius_px: 2.0,
+                colour,
+            },
+        ] {
+            let posed = PosedShape::of(&item).expect("a shape");
+            assert_eq!(posed.item(), item);
+        }
+    }
+}

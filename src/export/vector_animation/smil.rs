@@ -1,0 +1,330 @@
+//! A motion as SVG that moves by itself: `<animate>` of SVG 1.1, section 19.
+//!
+//! Guarantees: self-contained and well-formed; straight ways between the fewest keys
+//! that meet [`VectorAnimation::TOLERANCE_PX`]; a reader that does not animate shows the first
+//! frame. Gradients that are round and squashed are drawn round.
+
+use crate::colour::{Gradient, GradientSpread, Rgb, StrokeJoin};
+use crate::geometry::DVec2;
+
+use super::super::labels::ShortNumber;
+use super::super::svg::XmlEscaped;
+use super::animation::VectorAnimation;
+use super::shape::{PathVerb, PosedShape, ShapeForm};
+use super::tracks::{KeyedProperty, SceneLayer, layers};
+use super::two_point_gradient::TwoPointGradient;
+
+/// Steps of time that are told apart, as a share of the film.
+const TIMES: f64 = 1e5;
+
+/// Steps in which places are told, in pixels.
+const STEP_PX: f64 = 0.01;
+
+pub(super) fn animated_svg(motion: &VectorAnimation) -> String {
+    let (width, height) = (motion.size.width(), motion.size.height());
+    let mut svg = format!(
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" height=\"{height}\" viewBox=\"0 0 {width} {height}\">\n"
+    );
+    if let Some(ground) = motion.ground {
+        svg += &format!("<rect width=\"{width}\" height=\"{height}\" fill=\"{ground}\"/>\n");
+    }
+    let course = &motion.course;
+    let stations = course.times.iter().enumerate();
+    let stations: Vec<(f64, f64)> = stations.map(|(k, &t)| (k as f64, t)).collect();
+    let clock = SmilClock {
+        frames: course.frames() as f64,
+        secs: course.secs(),
+        repeats: course.repeats,
+    };
+    let layers = layers(motion, &stations);
+    for (k, layer) in layers.iter().enumerate() {
+        let shapes = layer.shapes.iter().enumerate();
+        let ids = |j: usize| format!("g{k}-{j}");
+        let body: String = shapes
+            .map(|(j, poses)| clock.shape(layer, poses, &ids(j)))
+            .collect();
+        if layers.len() == 1 {
+            svg += &body;
+        } else {
+            let is_last = k + 1 == layers.len();
+            svg += &clock.seen_between(layer, is_last, &body);
+        }
+    }
+    svg + "</svg>\n"
+}
+
+/// When the film's frames are.
+struct SmilClock {
+    frames: f64,
+    secs: f64,
+    repeats: bool,
+}
+
+impl SmilClock {
+    /// An element that moves one attribute; `discrete` without ways between.
+    fn animate(&self, attribute: &str, keys: &[(f64, String)], discrete: bool) -> String {
+        let mut times = String::new();
+        let mut values = String::new();
+        // The first and the last value stay before and after.
+        let ends = [(0.0, keys.first()), (self.frames, keys.last())];
+        let before = ends[0].1.filter(|key| key.0 > 0.0).map(|key| (0.0, &key.1));
+        let after = ends[1].1.filter(|key| key.0 < self.frames && !discrete);
+        let after = after.map(|key| (self.frames, &key.1));
+        let own = keys.iter().map(|(x, value)| (*x, value));
+        for (k, (x, value)) in before.into_iter().chain(own).chain(after).enumerate() {
+            let between = if k > 0 { ";" } else { "" };
+            let share = (x / self.frames * TIMES).round() / TIMES;
+            times += &format!("{between}{share}");
+            values += between;
+            values += value;
+        }
+        let mode = if discrete {
+            " calcMode=\"discrete\""
+        } else {
+            ""
+        };
+        let ending = if self.repeats {
+            "repeatCount=\"indefinite\""
+        } else {
+            "fill=\"freeze\""
+        };
+        let secs = ShortNumber(self.secs);
+        format!(
+            "<animate attributeName=\"{attribute}\"{mode} dur=\"{secs}s\" {ending} keyTimes=\"{times}\" values=\"{values}\"/>"
+        )
+    }
+
+    /// An attribute, and what moves it where it moves.
+    fn attribute<T>(
+        &self,
+        name: &str,
+        keyed: &KeyedProperty<T>,
+        text: impl Fn(&T) -> String,
+    ) -> (String, String) {
+        let keys: Vec<(f64, String)> = (keyed.keys.iter())
+            .map(|(x, value)| (*x, text(value)))
+            .collect();
+        let still = keys.first().map_or("", |key| key.1.as_str());
+        let moving = match keys.len() {
+            0 | 1 => String::new(),
+            _ => self.animate(name, &keys, false),
+        };
+        (format!(" {name}=\"{still}\""), moving)
+    }
+
+    /// Shapes that are there for a part of the film alone.
+    fn seen_between(&self, layer: &SceneLayer, is_last: bool, body: &str) -> String {
+        let shown = |yes: bool| if yes { "inline" } else { "none" }.to_owned();
+        let is_first = layer.from <= 0.0;
+        let mut keys = vec![(0.0, shown(is_first))];
+        if !is_first {
+            keys.push((layer.from, shown(true)));
+        }
+        if !is_last {
+            keys.push((layer.to, shown(false)));
+        }
+        let still = shown(is_first);
+        let moving = self.animate("display", &keys, true);
+        format!("<g display=\"{still}\">{moving}\n{body}</g>\n")
+    }
+
+    fn shape(&self, layer: &SceneLayer, poses: &[PosedShape], id: &str) -> String {
+        let Some(first) = poses.first() else {
+            return String::new();
+        };
+        let all = 0..first.points.len();
+        let path = layer.points(poses, all, path);
+        let mut parts = vec![self.attribute("d", &path, Clone::clone)];
+        let ink = if matches!(*first.form, ShapeForm::Fill { .. }) {
+            "fill"
+        } else {
+            "stroke"
+        };
+        let mut before = String::new();
+        if first.gradient().is_some() {
+            before = self.gradient(layer, poses, id);
+            parts.push((format!(" fill=\"url(#{id})\""), String::new()));
+        } else {
+            let colour = layer.colour(poses, |posed| posed.paint().colour);
+            parts.push(self.attribute(ink, &colour, Rgb::to_string));
+            let opacity = layer.opacity(poses, |posed| posed.paint().opacity);
+            let is_opaque = opacity.keys.iter().all(|key| key.1 >= 1.0);
+            if !is_opaque {
+                let name = format!("{ink}-opacity");
+                parts.push(self.attribute(&name, &opacity, number));
+            }
+        }
+        if ink == "stroke" {
+            let is_disc = *first.form == ShapeForm::Discs;
+            let times = if is_disc { 2.0 } else { 1.0 };
+            let width = layer.width(poses, |posed| times * posed.width());
+            parts.push(self.attribute("stroke-width", &width, number));
+            parts.push((outlined(&first.form), String::new()));
+        }
+        let (attributes, moving): (String, String) = parts.into_iter().unzip();
+        let label = match &*first.form {
+            ShapeForm::Fill {
+                label: Some(words), ..
+            } => format!(" role=\"img\" aria-label=\"{}\"", XmlEscaped(words)),
+            _ => String::new(),
+        };
+        if moving.is_empty() {
+            return format!("{before}<path{label}{attributes}/>\n");
+        }
+        format!("{before}<path{label}{attributes}>{moving}</path>\n")
+    }
+
+    fn gradient(&self, layer: &SceneLayer, poses: &[PosedShape], id: &str) -> String {
+        let Some(first) = poses.first().and_then(PosedShape::gradient) else {
+            return String::new();
+        };
+        let part = |name: &str, value: &dyn Fn(&Gradient) -> f64, tolerance: f64| {
+            let of = |posed: &PosedShape| posed.gradient().as_ref().map_or(0.0, value);
+            let keyed = layer.keyed(poses, tolerance, |posed| vec![of(posed)], of);
+            self.attribute(name, &keyed, number)
+        };
+        let ways: &[(&str, GradientCoordinate)] = match TwoPointGradient::of(&first) {
+            TwoPointGradient::Straight { .. } => &STRAIGHT,
+            TwoPointGradient::Round { .. } => &ROUND,
+        };
+        let ways = ways.iter().map(|(name, value)| {
+            let value = |gradient: &Gradient| value(&TwoPointGradient::of(gradient));
+            part(name, &value, 0.2)
+        });
+        let (ways, mut moving): (String, String) = ways.unzip();
+        for k in 0..first.stops.len() {
+            let at = part("offset", &|g| g.stops[k].at, 0.002);
+            let colour = |posed: &PosedShape| {
+                let gradient = posed.gradient();
+                gradient.map_or(Rgb([0; 3]), |g| g.stops[k].paint.colour)
+            };
+            let numbers = |posed: &PosedShape| colour(posed).0.map(f64::from).to_vec();
+            let keyed = layer.keyed(poses, 1.0, numbers, colour);
+            let colour = self.attribute("stop-color", &keyed, Rgb::to_string);
+            let opacity = part("stop-opacity", &|g| g.stops[k].paint.opacity, 0.004);
+            moving += &format!(
+                "<stop{}{}{}>{}{}{}</stop>",
+                at.0, colour.0, opacity.0, at.1, colour.1, opacity.1
+            );
+        }
+        let kind = match TwoPointGradient::of(&first) {
+            TwoPointGradient::Straight { .. } => "linear",
+            TwoPointGradient::Round { .. } => "radial",
+        };
+        let spread = match first.spread {
+            GradientSpread::Pad => "",
+            GradientSpread::Reflect => " spreadMethod=\"reflect\"",
+            GradientSpread::Repeat => " spreadMethod=\"repeat\"",
+        };
+        format!(
+            "<{kind}Gradient id=\"{id}\" gradientUnits=\"userSpaceOnUse\"{spread}{ways}>{moving}</{kind}Gradient>"
+        )
+    }
+}
+
+/// A number of a gradient.
+type GradientCoordinate = fn(&TwoPointGradient) -> f64;
+
+const STRAIGHT: [(&str, GradientCoordinate); 4] = [
+    ("x1", |plain| straight(plain)[0]),
+    ("y1", |plain| straight(plain)[1]),
+    ("x2", |plain| straight(plain)[2]),
+    ("y2", |plain| straight(plain)[3]),
+];
+
+const ROUND: [(&str, GradientCoordinate); 6] = [
+    ("cx", |plain| round(plain)[0]),
+    ("cy", |plain| round(plain)[1]),
+    ("r", |plain| round(plain)[2]),
+    ("fx", |plain| round(plain)[3]),
+    ("fy", |plain| round(plain)[4]),
+    ("fr", |plain| round(plain)[5]),
+];
+
+fn straight(plain: &TwoPointGradient) -> [f64; 4] {
+    match *plain {
+        TwoPointGradient::Straight { from, to } => [from.x, from.y, to.x, to.y],
+        TwoPointGradient::Round { .. } => [0.0; 4],
+    }
+}
+
+fn round(plain: &TwoPointGradient) -> [f64; 6] {
+    match *plain {
+        TwoPointGradient::Straight { .. } => [0.0; 6],
+        TwoPointGradient::Round {
+            middle,
+            radius,
+            focus,
+            inner,
+        } => [middle.x, middle.y, radius, focus.x, focus.y, inner],
+    }
+}
+
+fn number(x: &f64) -> String {
+    ShortNumber(*x).to_string()
+}
+
+/// The path of a shape.
+fn path(posed: &PosedShape) -> String {
+    let verbs = match &*posed.form {
+        ShapeForm::Fill { verbs, .. } | ShapeForm::Line { verbs, .. } => verbs.clone(),
+        ShapeForm::Bars => [PathVerb::Move, PathVerb::Line].repeat(posed.points.len() / 2),
+        // A line to where it begins, of which the round ends are all.
+        ShapeForm::Discs => [PathVerb::Move, PathVerb::Close].repeat(posed.points.len()),
+    };
+    let mut rest = posed.points.as_slice();
+    let mut text = String::new();
+    // Differences of what was rounded: shorter, and nothing adds up.
+    let mut at = DVec2::ZERO;
+    let mut start = at;
+    for verb in verbs {
+        let (own, after) = rest.split_at(verb.points());
+        rest = after;
+        text.push(match verb {
+            PathVerb::Move => 'm',
+            PathVerb::Line => 'l',
+            PathVerb::Quad => 'q',
+            PathVerb::Cubic => 'c',
+            PathVerb::Close => 'z',
+        });
+        let mut end = at;
+        for (k, p) in own.iter().enumerate() {
+            end = (p / STEP_PX).round() * STEP_PX;
+            text += &pair(end - at, k > 0);
+        }
+        at = end;
+        match verb {
+            PathVerb::Move => start = at,
+            // A relative step goes on from where the contour began.
+            PathVerb::Close => at = start,
+            _ => {}
+        }
+    }
+    text
+}
+
+/// Two numbers, after a sign or a space where one is needed.
+fn pair(p: DVec2, is_next: bool) -> String {
+    let [x, y] = [p.x, p.y].map(|x| ShortNumber(x).to_string());
+    let between = |text: &str| if text.starts_with('-') { "" } else { " " };
+    let before = if is_next { between(&x) } else { "" };
+    format!("{before}{x}{}{y}", between(&y))
+}
+
+/// The attributes of a line that do not move.
+fn outlined(form: &ShapeForm) -> String {
+    let join = match form {
+        ShapeForm::Line { join, .. } => match join {
+            StrokeJoin::Mitre(limit) => {
+                format!(
+                    " stroke-linejoin=\"miter\" stroke-miterlimit=\"{}\"",
+                    ShortNumber(*limit)
+                )
+            }
+            StrokeJoin::Round => " stroke-linejoin=\"round\"".to_owned(),
+            StrokeJoin::Bevel => " stroke-linejoin=\"bevel\"".to_owned(),
+        },
+        _ => " stroke-linecap=\"round\"".to_owned(),
+    };
+    format!(" fill=\"none\"{join}")
+}

@@ -1,0 +1,28 @@
+//! Signed distance fields: grids, masks, distance transforms, contours.
+//!
+//! A field is positive inside a design and negative outside, **in cells of its
+//! grid**: ε and the threshold of a blend mean nothing without the grid. Two
+//! ways lead to one: the exact distance to the edges of polygons
+//! ([`DistanceField::from_regions`]), and the distance transform of a binary
+//! image in one of four metrics ([`distance_transform`]).
+//!
+//! Row 0 is the lowest row throughout.
+
+mod chamfer;
+pub mod contour;
+mod distance_field;
+mod euclidean;
+mod grid;
+mod inside;
+mod mask;
+mod polygon_distance;
+mod sampled_field;
+#[cfg(test)]
+mod testing;
+mod transform;
+
+pub use distance_field::{DistanceField, FieldError};
+pub use grid::{Grid, GridError};
+pub use mask::{Mask, MaskError};
+pub use sampled_field::{SampledField, SampledFieldError};
+pub use transform::{Metric, distance_transform};

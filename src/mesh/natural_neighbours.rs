@@ -1,0 +1,233 @@
+//! Natural neighbours: how much of each of some sites there is at a place.
+//!
+//! Sibson, "A vector identity for the Dirichlet tessellation" (1980): a site's share is
+//! that of its cell that the place would take over as a site of its own.
+//!
+//! Guaranteed: shares are at least 0 and sum to one; a site has all of itself; they go
+//! along with the place without a jump. Beyond the hull of the sites they are those of
+//! the nearest place on it. Sites on one line share it in pairs.
+
+use crate::geometry::{DVec2, nearest_segment_parameter};
+use spade::{DelaunayTriangulation, Point2, Triangulation as _};
+
+/// Sites in the plane, at least one.
+#[derive(Clone, Debug)]
+pub struct NaturalNeighbours {
+    sites: Vec<DVec2>,
+    /// None where all sites are on one line.
+    triangulation: Option<DelaunayTriangulation<Point2<f64>>>,
+    /// The sites around the hull, or along the line, each to the next.
+    hull: Vec<[usize; 2]>,
+}
+
+/// Why sites are none.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SitesError {
+    /// There is no site.
+    #[error("there is no site; give at least one")]
+    None,
+    /// A site is nowhere.
+    #[error("site {} is not a finite point", .0 + 1)]
+    NotFinite(usize),
+    /// Two sites are in one place.
+    #[error("sites {} and {} are in one place; move them apart", .0[0] + 1, .0[1] + 1)]
+    Coincide([usize; 2]),
+}
+
+impl NaturalNeighbours {
+    /// # Errors
+    /// [`SitesError`] names the sites that are nowhere or in one place.
+    ///
+    /// ```
+    /// use morphospace::{geometry::DVec2, mesh::NaturalNeighbours};
+    /// let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 2.0), (0.0, 2.0)].map(DVec2::from);
+    /// let neighbours = NaturalNeighbours::new(&corners)?;
+    /// let mut shares = [0.0; 4];
+    /// neighbours.shares(DVec2::ONE, &mut shares);
+    /// assert!(shares.iter().all(|share| (share - 0.25).abs() < 1e-12));
+    /// # Ok::<(), morphospace::mesh::SitesError>(())
+    /// ```
+    pub fn new(sites: &[DVec2]) -> Result<Self, SitesError> {
+        if sites.is_empty() {
+            return Err(SitesError::None);
+        }
+        if let Some(site) = sites.iter().position(|site| !site.is_finite()) {
+            return Err(SitesError::NotFinite(site));
+        }
+        for (k, site) in sites.iter().enumerate() {
+            if let Some(other) = sites[..k].iter().position(|other| other == site) {
+                return Err(SitesError::Coincide([other, k]));
+            }
+        }
+        let mut triangulation = DelaunayTriangulation::new();
+        for site in sites {
+            // What cannot be inserted is far out: then the sites are as on a line.
+            if triangulation.insert(Point2::new(site.x, site.y)).is_err() {
+                break;
+            }
+        }
+        let is_flat =
+            triangulation.num_vertices() < sites.len() || triangulation.all_vertices_on_line();
+        let hull = match is_flat {
+            true => along_line(sites),
+            false => {
+                let edges = triangulation.convex_hull();
+                edges
+                    .map(|edge| edge.vertices().map(|v| v.index()))
+                    .collect()
+            }
+        };
+        Ok(Self {
+            sites: sites.to_vec(),
+            triangulation: (!is_flat).then_some(triangulation),
+            hull,
+        })
+    }
+
+    /// The sites.
+    #[must_use]
+    pub fn sites(&self) -> &[DVec2] {
+        &self.sites
+    }
+
+    /// The shares of all sites at a place.
+    ///
+    /// # Panics
+    /// If there are not as many shares as sites.
+    pub fn shares(&self, place: DVec2, shares: &mut [f64]) {
+        assert_eq!(shares.len(), self.sites.len(), "a share for each site");
+        shares.fill(0.0);
+        if let Some(triangulation) = &self.triangulation {
+            let mut found = Vec::new();
+            let place = Point2::new(place.x, place.y);
+            triangulation
+                .natural_neighbor()
+                .get_weights(place, &mut found);
+            let sum: f64 = found.iter().map(|(_, share)| share).sum();
+            if sum > 0.0 {
+                for (site, share) in found {
+                    // Rounding may leave a little less than nothing.
+                    shares[site.index()] = (share / sum).max(0.0);
+                }
+                return;
+            }
+        }
+        let near = |&[a, b]: &[usize; 2]| {
+            let [p, q] = [a, b].map(|k| self.sites[k]);
+            let share = nearest_segment_parameter(place, p, q);
+            (p.lerp(q, share).distance_squared(place), [a, b], share)
+        };
+        let nearest = self
+            .hull
+            .iter()
+            .map(near)
+            .min_by(|a, b| a.0.total_cmp(&b.0));
+        match nearest {
+            Some((_, [a, b], share)) => {
+                shares[a] = 1.0 - share;
+                shares[b] = share;
+            }
+            None => shares[0] = 1.0,
+        }
+    }
+
+    /// Whether a place is within the hull of the sites, or nearer to it than `reach`.
+    #[must_use]
+    pub fn holds(&self, place: DVec2, reach: f64) -> bool {
+        let mut found = Vec::new();
+        if let Some(triangulation) = &self.triangulation {
+            let place = Point2::new(place.x, place.y);
+            triangulation
+                .natural_neighbor()
+                .get_weights(place, &mut found);
+        }
+        let near = |&[a, b]: &[usize; 2]| {
+            let [p, q] = [a, b].map(|k| self.sites[k]);
+            p.lerp(q, nearest_segment_parameter(place, p, q))
+                .distance(place)
+                <= reach
+        };
+        !found.is_empty()
+            || self.hull.iter().any(near)
+            || self.sites.iter().any(|site| site.distance(place) <= reach)
+    }
+}
+
+/// Sites on a line, each to the next along it.
+fn along_line(sites: &[DVec2]) -> Vec<[usize; 2]> {
+    let farthest = |from: DVec2| {
+        let far = |p: &&DVec2| p.distance_squared(from);
+        sites
+            .iter()
+            .max_by(|a, b| far(a).total_cmp(&far(b)))
+            .copied()
+    };
+    let Some(end) = farthest(sites[0]) else {
+        return Vec::new();
+    };
+    let way = end - farthest(end).unwrap_or(end);
+    let mut order: Vec<usize> = (0..sites.len()).collect();
+    order.sort_by(|&a, &b| sites[a].dot(way).total_cmp(&sites[b].dot(way)));
+    order.windows(2).map(|two| [two[0], two[1]]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+
+    fn shares(sites: &[DVec2], place: DVec2) -> Vec<f64> {
+        let mut shares = vec![0.0; sites.len()];
+        let neighbours = NaturalNeighbours::new(sites).expect("sites");
+        neighbours.shares(place, &mut shares);
+        shares
+    }
+
+    #[test]
+    fn sites_on_a_line_share_it_in_pairs() {
+        let sites = [0.0, 4.0, 1.0].map(|x| DVec2::new(x, x));
+        assert_eq!(shares(&sites, DVec2::splat(2.5)), [0.0, 0.5, 0.5]);
+        assert_eq!(shares(&sites, DVec2::new(-9.0, 1.0)), [1.0, 0.0, 0.0]);
+        assert_eq!(shares(&sites[..1], DVec2::ONE), [1.0]);
+    }
+
+    #[test]
+    fn beyond_the_hull_the_nearest_place_on_it_counts() {
+        let sites = [(0.0, 0.0), (2.0, 0.0), (1.0, 2.0)].map(DVec2::from);
+        let below = shares(&sites, DVec2::new(0.5, -3.0));
+        assert_eq!(below, [0.75, 0.25, 0.0]);
+        assert_eq!(shares(&sites, DVec2::new(9.0, -9.0)), [0.0, 1.0, 0.0]);
+    }
+
+    #[test]
+    fn bad_sites_are_named() {
+        let new = |sites: &[DVec2]| NaturalNeighbours::new(sites).err();
+        assert_eq!(new(&[]), Some(SitesError::None));
+        assert_eq!(
+            new(&[DVec2::ONE, DVec2::NAN]),
+            Some(SitesError::NotFinite(1))
+        );
+        let twice = [DVec2::ONE, DVec2::ZERO, DVec2::ONE];
+        assert_eq!(new(&twice), Some(SitesError::Coincide([0, 2])));
+    }
+
+    proptest! {
+        #[test]
+        fn shares_give_the_place_back(
+            sites in prop::collection::vec((-9.0..9.0_f64, -9.0..9.0_f64), 3..9),
+            place in (-9.0..9.0_f64, -9.0..9.0_f64),
+        ) {
+            let sites: Vec<DVec2> = sites.into_iter().map(DVec2::from).collect();
+            let (place, shares) = (DVec2::from(place), shares(&sites, place.into()));
+            prop_assert!((shares.iter().sum::<f64>() - 1.0).abs() < 1e-12);
+            prop_assert!(shares.iter().all(|&share| share >= 0.0));
+            let neighbours = NaturalNeighbours::new(&sites).expect("sites");
+            if neighbours.holds(place, 0.0) {
+                // The identity of Sibson's title.
+                let again: DVec2 = sites.iter().zip(&shares).map(|(&p, &w)| p * w).sum();
+                prop_assert!(again.distance(place) < 1e-6, "{again} {place}");
+            }
+        }
+    }
+}

@@ -1,0 +1,172 @@
+//! Matrices that have their nonzero entries at the same places, and other
+//! values each time: ordered once, factored and solved as often as it takes.
+//!
+//! Guaranteed: nothing is allocated by a solve, and the same entries give the
+//! same solution, whatever was solved before.
+
+use super::{FactorError, in_blocks};
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::LltRegularization;
+use faer::sparse::linalg::cholesky::{
+    CholeskySymbolicParams, LltRef, SymbolicCholesky, SymmetricOrdering,
+    factorize_symbolic_cholesky,
+};
+use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
+use faer::{Conj, MatMut, Par, Side};
+
+/// Where a symmetric matrix has entries.
+///
+/// ```
+/// use morphospace::numerics::Pattern;
+/// let (pattern, slots) = Pattern::new(2, &[[0, 0], [1, 1], [1, 0]])?;
+/// let mut memory = pattern.memory();
+/// for (slot, value) in slots.iter().zip([4.0, 2.0, 1.0]) {
+///     memory.entries()[*slot as usize] += value;
+/// }
+/// let mut x = [5.0, 3.0];
+/// assert!(pattern.solve(&mut memory, &mut x));
+/// assert!((x[0] - 1.0).abs() < 1e-15 && (x[1] - 1.0).abs() < 1e-15);
+/// # Ok::<(), morphospace::numerics::FactorError>(())
+/// ```
+#[derive(Debug)]
+pub struct PatternCholesky {
+    lower: SymbolicSparseColMat<u32>,
+    symbolic: SymbolicCholesky<u32>,
+}
+
+/// The entries of a matrix of a pattern, and the memory to factor it in.
+pub struct PatternWorkspace {
+    entries: Vec<f64>,
+    factor: Vec<f64>,
+    work: MemBuffer,
+}
+
+impl std::fmt::Debug for PatternWorkspace {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("PatternMemory")
+            .field("entries", &self.entries)
+            .finish_non_exhaustive()
+    }
+}
+
+impl PatternWorkspace {
+    /// The entries, to be filled before each solve.
+    pub fn entries(&mut self) -> &mut [f64] {
+        &mut self.entries
+    }
+}
+
+impl PatternCholesky {
+    /// Orders a matrix of `n` unknowns with entries at these places, rows and
+    /// columns either way round; with it, for each place, which of the
+    /// [`PatternWorkspace::entries`] it is.
+    ///
+    /// # Errors
+    /// [`FactorError::OutOfMemory`] if it is too large.
+    pub fn new(n: usize, places: &[[u32; 2]]) -> Result<(Self, Vec<u32>), FactorError> {
+        // Column first, so that they sort as they are stored.
+        let stored = |&[i, j]: &[u32; 2]| [i.min(j), i.max(j)];
+        let mut all: Vec<[u32; 2]> = places.iter().map(stored).collect();
+        all.sort_unstable();
+        all.dedup();
+        let before = |column: u32| all.partition_point(|&[c, _]| c < column) as u32;
+        let columns: Vec<u32> = (0..=n as u32).map(before).collect();
+        let rows: Vec<u32> = all.iter().map(|&[_, row]| row).collect();
+        let slot = |place: &[u32; 2]| all.partition_point(|other| *other < stored(place)) as u32;
+        let slots = places.iter().map(slot).collect();
+        let lower = SymbolicSparseColMat::new_checked(n, n, columns, None, rows);
+        let params = CholeskySymbolicParams {
+            supernodal_flop_ratio_threshold: in_blocks(n),
+            ..CholeskySymbolicParams::default()
+        };
+        let amd = SymmetricOrdering::Amd;
+        let symbolic = factorize_symbolic_cholesky(lower.as_ref(), Side::Lower, amd, params)
+            .map_err(|_| FactorError::OutOfMemory)?;
+        Ok((Self { lower, symbolic }, slots))
+    }
+
+    /// Memory for [`Self::solve`], its entries all zero.
+    #[must_use]
+    pub fn memory(&self) -> PatternWorkspace {
+        let factoring = self
+            .symbolic
+            .factorize_numeric_llt_scratch::<f64>(Par::Seq, Default::default());
+        let solving = self.symbolic.solve_in_place_scratch::<f64>(1, Par::Seq);
+        PatternWorkspace {
+            entries: vec![0.0; self.lower.row_idx().len()],
+            factor: vec![0.0; self.symbolic.len_val()],
+            work: MemBuffer::new(factoring.or(solving)),
+        }
+    }
+
+    /// Factors the matrix of the entries and solves in place; whether it is
+    /// positive definite. If not, `rhs` is as it was.
+    ///
+    /// # Panics
+    /// If the memory is that of another pattern, or `rhs` has not one number for each
+    /// unknown.
+    pub fn solve(&self, memory: &mut PatternWorkspace, rhs: &mut [f64]) -> bool {
+        let PatternWorkspace {
+            entries,
+            factor,
+            work,
+        } = memory;
+        let factored = self.symbolic.factorize_numeric_llt(
+            factor,
+            SparseColMatRef::new(self.lower.as_ref(), entries),
+            Side::Lower,
+            LltRegularization::default(),
+            Par::Seq,
+            MemStack::new(work),
+            Default::default(),
+        );
+        if factored.is_err() {
+            return false;
+        }
+        let rows = rhs.len();
+        LltRef::new(&self.symbolic, factor).solve_in_place_with_conj(
+            Conj::No,
+            MatMut::from_column_major_slice_mut(rhs, rows, 1),
+            Par::Seq,
+            MemStack::new(work),
+        );
+        true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::numerics::{Cholesky, SymmetricMatrix};
+
+    #[test]
+    fn it_solves_as_a_matrix_factored_anew() {
+        let n = 12_u32;
+        // Twice at the same place, and either way round.
+        let chain = (0..n).flat_map(|i| [[i, i], [i, (i + 1) % n], [(i + 5) % n, i], [i, i]]);
+        let places: Vec<[u32; 2]> = chain.collect();
+        let (pattern, slots) = PatternCholesky::new(n as usize, &places).expect("a pattern");
+        let mut memory = pattern.memory();
+        for round in 1..4 {
+            let value = |k: usize| match places[k] {
+                [i, j] if i == j => 3.0 + f64::from(i),
+                [i, j] => 0.1 * f64::from(round * (i + 2 * j) % 7),
+            };
+            let mut matrix = SymmetricMatrix::zero(n as usize, places.len());
+            memory.entries().fill(0.0);
+            for (k, &[i, j]) in places.iter().enumerate() {
+                matrix.add(i, j, value(k));
+                memory.entries()[slots[k] as usize] += value(k);
+            }
+            let rhs: Vec<f64> = (0..n).map(|i| f64::from(i) - 3.5).collect();
+            let expected = Cholesky::factor(&matrix).expect("definite").solve(&rhs);
+            let mut found = rhs.clone();
+            assert!(pattern.solve(&mut memory, &mut found));
+            for (a, b) in found.iter().zip(&expected) {
+                assert!((a - b).abs() < 1e-14, "{a} {b}");
+            }
+        }
+        memory.entries().fill(-1.0);
+        assert!(!pattern.solve(&mut memory, &mut [1.0; 12]));
+    }
+}

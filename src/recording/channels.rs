@@ -1,0 +1,60 @@
+//! What of a placement a warp moves.
+
+use crate::geometry::DVec2;
+use crate::warp::Placement;
+
+/// Which places of a placement a warp moves; all others are the same at every t.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct MovingChannels {
+    pub in_frame: bool,
+    in_source: bool,
+    in_target: bool,
+}
+
+/// One of the three places of each vertex.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum PlacementChannel {
+    Frame,
+    Source,
+    Target,
+}
+
+impl PlacementChannel {
+    pub(super) fn of(self, placement: &Placement) -> &[DVec2] {
+        match self {
+            Self::Frame => &placement.in_frame,
+            Self::Source => &placement.in_source,
+            Self::Target => &placement.in_target,
+        }
+    }
+
+    pub(super) fn of_mut(self, placement: &mut Placement) -> &mut [DVec2] {
+        match self {
+            Self::Frame => &mut placement.in_frame,
+            Self::Source => &mut placement.in_source,
+            Self::Target => &mut placement.in_target,
+        }
+    }
+}
+
+impl MovingChannels {
+    /// With what differs between two placements.
+    pub(super) fn with_changes(self, first: &Placement, other: &Placement) -> Self {
+        let differs = |channel: PlacementChannel| channel.of(other) != channel.of(first);
+        Self {
+            in_frame: self.in_frame || differs(PlacementChannel::Frame),
+            in_source: self.in_source || differs(PlacementChannel::Source),
+            in_target: self.in_target || differs(PlacementChannel::Target),
+        }
+    }
+
+    pub(super) fn channels(self) -> impl Iterator<Item = PlacementChannel> {
+        let all = [
+            (self.in_frame, PlacementChannel::Frame),
+            (self.in_source, PlacementChannel::Source),
+            (self.in_target, PlacementChannel::Target),
+        ];
+        all.into_iter()
+            .filter_map(|(moves, channel)| moves.then_some(channel))
+    }
+}

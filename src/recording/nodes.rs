@@ -1,0 +1,139 @@
+//! Where in an interval a function is looked at, and the polynomials through it.
+//!
+//! Within an interval, s runs from 0 to 1. The functions are zero at both ends, so
+//! that these are nodes which cost nothing. The others come in an order in which
+//! each new one lies where the polynomial through those before says least: Leja's
+//! points, here in pairs s and 1 − s, so that a film that is run backwards is looked
+//! at at the same times. What is found at a new node is therefore a test of the
+//! polynomial so far, and nothing that was placed is ever thrown away.
+//!
+//! A function is written as b(s) Σ c_k T_k(2s − 1) with b(s) = 4s(1 − s) and T_k
+//! Chebyshev's polynomials: its coefficients shrink as fast as the function is
+//! smooth, and what is left out of the sum is never larger than they are.
+
+use crate::numerics::DenseLu;
+use std::sync::LazyLock;
+
+/// Nodes of an interval at most, without its ends.
+pub(crate) const MAX_NODES: usize = 23;
+
+/// Places among which the next node is looked for, on one half of the interval.
+const GRID: usize = 1 << 14;
+
+/// The middle, then pairs.
+static NODES: LazyLock<[f64; MAX_NODES]> = LazyLock::new(|| {
+    let mut nodes = [0.5; MAX_NODES];
+    for first in (1..MAX_NODES).step_by(2) {
+        let says = |s: f64| -> f64 {
+            let product = |from: &[f64]| from.iter().map(|x| (s - x).abs().ln()).sum::<f64>();
+            (s * (1.0 - s)).ln() + product(&nodes[..first])
+        };
+        let places = (1..GRID).map(|k| 0.5 * k as f64 / GRID as f64);
+        let least = places.max_by(|a, b| says(*a).total_cmp(&says(*b)));
+        let next = least.unwrap_or(0.5);
+        nodes[first] = next;
+        nodes[first + 1] = 1.0 - next;
+    }
+    nodes
+});
+
+/// The nodes in the order in which they are looked at.
+pub(super) fn nodes() -> &'static [f64; MAX_NODES] {
+    &NODES
+}
+
+/// b(s): one in the middle, zero at the ends.
+fn bubble(s: f64) -> f64 {
+    4.0 * s * (1.0 - s)
+}
+
+/// For each of the first `n` nodes what the polynomial through them has of it at
+/// `s`.
+pub(super) fn weights(n: usize, s: f64) -> [f64; MAX_NODES] {
+    let nodes = nodes();
+    let mut weights = [0.0; MAX_NODES];
+    for j in 0..n {
+        let others = (0..n).filter(|&k| k != j);
+        let ratio = |k: usize| (s - nodes[k]) / (nodes[j] - nodes[k]);
+        weights[j] = bubble(s) / bubble(nodes[j]) * others.map(ratio).product::<f64>();
+    }
+    weights
+}
+
+/// b(s) T_k(2s − 1) for each k below `n`: exactly 0 at both ends.
+pub(super) fn basis(n: usize, s: f64) -> [f64; MAX_NODES] {
+    let x = 2.0 * s - 1.0;
+    let mut values = [0.0; MAX_NODES];
+    let [mut before, mut now] = [x, 1.0]; // T_{-1} = T_1
+    for value in values.iter_mut().take(n) {
+        *value = bubble(s) * now;
+        [before, now] = [now, 2.0 * x * now - before];
+    }
+    values
+}
+
+/// The matrix that takes values at the first `n` nodes to coefficients, row by
+/// row.
+pub(super) fn coefficients_from_values(n: usize) -> Vec<Vec<f64>> {
+    // Column k holds basis function k at all nodes.
+    let at_nodes: Vec<[f64; MAX_NODES]> = nodes()[..n].iter().map(|&s| basis(n, s)).collect();
+    let columns: Vec<f64> = (0..n)
+        .flat_map(|k| at_nodes.iter().map(move |values| values[k]))
+        .collect();
+    let mut lu = DenseLu::new();
+    lu.factor(n, &columns);
+    let mut rows = vec![vec![0.0; n]; n];
+    for j in 0..n {
+        let mut unit = vec![0.0; n];
+        unit[j] = 1.0;
+        lu.solve(&mut unit);
+        rows.iter_mut().zip(unit).for_each(|(row, c)| row[j] = c);
+    }
+    rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A function that is zero at both ends, as a part that turns by 2 radians.
+    fn turning(s: f64) -> f64 {
+        (2.0 * s).sin() - s * 2.0_f64.sin()
+    }
+
+    #[test]
+    fn nodes_are_pairs_and_each_once() {
+        let nodes = nodes();
+        for pair in nodes[1..].chunks(2) {
+            assert!((pair[0] + pair[1] - 1.0).abs() < 1e-15);
+        }
+        let mut sorted = nodes.to_vec();
+        sorted.sort_by(f64::total_cmp);
+        assert!(sorted.windows(2).all(|two| two[1] - two[0] > 1e-3));
+        assert!(sorted[0] > 0.0 && sorted[MAX_NODES - 1] < 1.0);
+    }
+
+    #[test]
+    fn both_forms_are_the_polynomial_through_the_nodes() {
+        for n in [1, 5, 9, 15, MAX_NODES] {
+            let values: Vec<f64> = nodes()[..n].iter().map(|&s| turning(s)).collect();
+            let rows = coefficients_from_values(n);
+            let coefficients: Vec<f64> = rows
+                .iter()
+                .map(|row| row.iter().zip(&values).map(|(a, v)| a * v).sum())
+                .collect();
+            for k in 0..=64 {
+                let s = f64::from(k) / 64.0;
+                let sum = |weights: [f64; MAX_NODES], of: &[f64]| -> f64 {
+                    weights.iter().zip(of).map(|(w, c)| w * c).sum()
+                };
+                let through = sum(weights(n, s), &values);
+                let summed = sum(basis(n, s), &coefficients);
+                assert!((through - summed).abs() < 1e-12, "{n} {s}");
+                if n >= 9 {
+                    assert!((summed - turning(s)).abs() < 1e-8, "{n} {s}");
+                }
+            }
+        }
+    }
+}

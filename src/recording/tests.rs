@@ -1,0 +1,296 @@
+//! Films are the warps that they were recorded from.
+
+use super::*;
+use crate::compatible::CompatibleMesh;
+use crate::geometry::{DVec2, Side};
+use crate::time::easing::NamedEasing;
+use crate::warp::homotopy::Homotopy;
+use crate::warp::{Arap, ArapOptions, PartClock, StaggeredArap, TimeWindow};
+use crate::work::progress::Silent;
+
+/// A strip of `2 n` faces, bent by `turn` radians over its length; more than once
+/// around it becomes a spiral.
+fn strip(n: u32, turn: f64) -> CompatibleMesh {
+    let points = (0..=n).flat_map(|i| [[i, 0], [i, 1]]);
+    let source: Vec<DVec2> = points
+        .map(|[i, side]| DVec2::new(10.0 * f64::from(i) / f64::from(n), f64::from(side)))
+        .collect();
+    let bent = |p: &DVec2| {
+        let angle = turn * p.x / 10.0;
+        DVec2::from_angle(angle) * (20.0 + 2.0 * turn - angle - 0.9 * p.y)
+    };
+    let target = source.iter().map(bent).collect();
+    let faces = (0..n).flat_map(|i| {
+        let v = 2 * i;
+        [[v, v + 2, v + 3], [v, v + 3, v + 1]]
+    });
+    CompatibleMesh::new(faces.collect(), source, target, vec![]).expect("a mesh")
+}
+
+fn arap(mesh: &CompatibleMesh, homotopy: Homotopy, lives: &[Option<TimeWindow>]) -> Arap {
+    let options = ArapOptions {
+        homotopy,
+        ..ArapOptions::default()
+    };
+    Arap::of_outlines(mesh, &options, lives, &Silent).expect("a film")
+}
+
+fn recorded(warp: impl Warp + 'static) -> (Recording, Arc<dyn Warp>) {
+    let warp: Arc<dyn Warp> = Arc::new(warp);
+    let film = Recording::record(Arc::clone(&warp), &RecordingOptions::default(), &Silent);
+    (film.expect("a film"), warp)
+}
+
+/// How far the film is from the warp at most, as a share of the diameter of the ends.
+fn off(film: &dyn Warp, warp: &dyn Warp) -> f64 {
+    let [mut film, mut warp] = [film.placer(), warp.placer()];
+    let ends = film
+        .placement()
+        .in_source
+        .iter()
+        .chain(&film.placement().in_target);
+    let diameter = crate::geometry::Bounds::of(ends.copied())
+        .expect("points")
+        .diameter();
+    let mut most: f64 = 0.0;
+    for k in 0..=200 {
+        let t = f64::from(k) / 200.0;
+        film.place(t);
+        warp.place(t);
+        let places = [&film, &warp].map(|placer| &placer.placement().in_frame);
+        for (p, q) in places[0].iter().zip(places[1]) {
+            most = most.max(p.distance(*q));
+        }
+    }
+    most / diameter
+}
+
+#[test]
+fn a_film_is_its_warp_to_what_it_states() {
+    for (turn, solves) in [(0.1, 12), (2.0, 14), (6.0, 22), (19.0, 80)] {
+        // What is put back where it is sheared too much is not smooth, and is solved.
+        let smooth = |homotopy: &Homotopy| *homotopy != Homotopy::Bounded;
+        for homotopy in Homotopy::ALL.into_iter().filter(smooth) {
+            let (film, warp) = recorded(arap(&strip(40, turn), homotopy, &[]));
+            let off = off(&film, warp.as_ref());
+            assert!(
+                off <= film.error() + 1e-14,
+                "{turn} {homotopy:?}: {off} {}",
+                film.error()
+            );
+            assert!(film.error() <= 1.3e-9, "{}", film.error());
+            assert!(
+                film.solves() <= solves,
+                "{turn} {homotopy:?}: {}",
+                film.solves()
+            );
+        }
+    }
+}
+
+#[test]
+fn ends_are_met_to_the_last_bit_and_beyond_them_it_is_the_warp() {
+    let mesh = strip(30, 2.5);
+    let (film, warp) = recorded(arap(&mesh, Homotopy::Polar, &[]));
+    let [mut film, mut warp] = [film.placer(), warp.placer()];
+    for t in [0.7, 0.0, 1.0, -0.5, 1.25] {
+        film.place(t);
+        warp.place(t);
+        if !(t > 0.0 && t < 1.0) {
+            assert_eq!(film.placement().in_frame, warp.placement().in_frame, "{t}");
+        }
+    }
+    film.place(0.0);
+    assert_eq!(film.placement().in_frame, mesh.source());
+    film.place(1.0);
+    assert_eq!(film.placement().in_frame, mesh.target());
+}
+
+#[test]
+fn a_rigid_target_moves_rigidly_and_what_stands_still_stands_still() {
+    let mesh = strip(10, 1.0);
+    let turned = mesh
+        .source()
+        .iter()
+        .map(|p| DVec2::from_angle(2.0).rotate(*p));
+    let of = |target: Vec<DVec2>| {
+        CompatibleMesh::new(
+            mesh.faces().to_vec(),
+            mesh.source().to_vec(),
+            target,
+            vec![],
+        )
+        .expect("a mesh")
+    };
+    let rigid = of(turned.collect());
+    let (film, _) = recorded(arap(&rigid, Homotopy::Polar, &[]));
+    let mut placer = film.placer();
+    for t in [0.2, 0.5, 0.9] {
+        placer.place(t);
+        let at = &placer.placement().in_frame;
+        for k in 1..at.len() {
+            let lengths = [
+                at[k].distance(at[0]),
+                mesh.source()[k].distance(mesh.source()[0]),
+            ];
+            assert!((lengths[0] - lengths[1]).abs() < 1e-8, "{lengths:?} at {t}");
+        }
+    }
+    let still = of(mesh.source().to_vec());
+    let (film, _) = recorded(arap(&still, Homotopy::Polar, &[]));
+    let mut placer = film.placer();
+    placer.place(0.6);
+    assert_eq!(placer.placement().in_frame, mesh.source());
+    assert_eq!(film.bytes(), 0);
+}
+
+#[test]
+fn the_film_of_the_exchanged_designs_is_the_film_backwards() {
+    let there = arap(&strip(30, 3.0), Homotopy::Polar, &[]);
+    let back = there.swapped(&Silent).expect("a film");
+    let [(there, _), (back, _)] = [there, back].map(recorded);
+    let [mut there, mut back] = [there.placer(), back.placer()];
+    for k in 0..=20 {
+        let t = f64::from(k) / 20.0;
+        there.place(t);
+        back.place(1.0 - t);
+        let places = [&there, &back].map(|placer| &placer.placement().in_frame);
+        for (p, q) in places[0].iter().zip(places[1]) {
+            assert!(p.distance(*q) < 1e-9 * 30.0, "{p} {q} at {t}");
+        }
+    }
+}
+
+/// Two strips, the second of which is a speck in the source.
+fn with_a_birth() -> (CompatibleMesh, [Option<TimeWindow>; 2]) {
+    let [a, b] = [strip(6, 2.0), strip(4, 1.0)];
+    let n = a.source().len() as u32;
+    let faces = (a.faces().iter().copied()).chain(b.faces().iter().map(|f| f.map(|v| v + n)));
+    let away = DVec2::new(40.0, 3.0);
+    let speck = b.target().iter().map(|p| *p * 1e-3 + away);
+    let source = a.source().iter().copied().chain(speck);
+    let target = a
+        .target()
+        .iter()
+        .copied()
+        .chain(b.target().iter().map(|p| *p + away));
+    let mesh = CompatibleMesh::new(faces.collect(), source.collect(), target.collect(), vec![]);
+    let life = TimeWindow {
+        side: Side::Target,
+        from: 0.4,
+        to: 0.8,
+    };
+    (mesh.expect("a mesh"), [None, Some(life)])
+}
+
+#[test]
+fn what_sets_out_late_is_recorded_from_then_on() {
+    let (mesh, lives) = with_a_birth();
+    let (film, warp) = recorded(arap(&mesh, Homotopy::Polar, &lives));
+    assert_eq!(film.reel_count(), 3);
+    assert!(off(&film, warp.as_ref()) <= film.error() + 1e-14);
+    let clock = PartClock {
+        from: 0.25,
+        to: 0.75,
+        easing: NamedEasing::Smooth.into(),
+    };
+    let arap = arap(&mesh, Homotopy::Polar, &lives);
+    let (film, warp) = recorded(StaggeredArap::new(arap, &[clock], &[Some(0), Some(0)]));
+    assert!(off(&film, warp.as_ref()) <= film.error() + 1e-14);
+}
+
+#[test]
+fn the_same_film_comes_of_any_number_of_threads() {
+    let of = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+        pool.expect("threads").install(|| {
+            let (film, _) = recorded(arap(&strip(30_000, 2.0), Homotopy::Polar, &[]));
+            let mut placer = film.placer();
+            placer.place(0.3);
+            placer.placement().in_frame.clone()
+        })
+    };
+    assert!(of(1) == of(3));
+}
+
+#[test]
+fn too_large_a_film_and_one_that_nobody_wants_are_refused() {
+    let warp: Arc<dyn Warp> = Arc::new(arap(&strip(100, 2.0), Homotopy::Polar, &[]));
+    let options = RecordingOptions {
+        most_bytes: 10_000,
+        ..RecordingOptions::default()
+    };
+    let error = Recording::record(Arc::clone(&warp), &options, &Silent).expect_err("too large");
+    assert!(
+        matches!(error, RecordingError::TooLarge { most: 10_000, .. }),
+        "{error}"
+    );
+    struct CancelledProgress;
+    impl Progress for CancelledProgress {
+        fn report(&self, _: &'static str, _: f64) {}
+        fn is_cancelled(&self) -> bool {
+            true
+        }
+    }
+    let error = Recording::record(warp, &RecordingOptions::default(), &CancelledProgress)
+        .expect_err("cancelled");
+    assert!(matches!(error, RecordingError::Cancelled(_)));
+}
+
+/// A point that is elsewhere from t = 0.3 on, and says nothing of it.
+#[derive(Debug)]
+struct JumpingWarp;
+
+impl Warp for JumpingWarp {
+    fn placer(&self) -> Placer {
+        let none: Arc<[[u32; 3]]> = Arc::new([]);
+        let placement = Placement::of_source(none, &[DVec2::ZERO], &[DVec2::ONE]);
+        Placer::new(placement, |t, placement| {
+            placement.in_frame[0] = if t < 0.3 { DVec2::ZERO } else { DVec2::ONE };
+        })
+    }
+}
+
+#[test]
+fn a_jump_is_said_and_not_smoothed_over() {
+    let error = Recording::record(Arc::new(JumpingWarp), &RecordingOptions::default(), &Silent);
+    let error = error.expect_err("a jump");
+    assert!(
+        matches!(error, RecordingError::Unsettled { t } if (t - 0.3).abs() < 2e-3),
+        "{error}"
+    );
+}
+
+/// A point that sets out at some times and is back at the end.
+#[derive(Debug)]
+struct ReturningWarp([f64; 2]);
+
+impl Warp for ReturningWarp {
+    fn placer(&self) -> Placer {
+        let none: Arc<[[u32; 3]]> = Arc::new([]);
+        let placement = Placement::of_source(none, &[DVec2::ZERO, DVec2::ONE], &[DVec2::ZERO; 2]);
+        let [from, then] = self.0;
+        Placer::new(placement, move |t, placement| {
+            let late = (t - from).max(0.0) * (1.0 - t) + (t - then).max(0.0) * (1.0 - t);
+            placement.in_frame[0] = DVec2::X * late;
+        })
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.0.to_vec()
+    }
+}
+
+#[test]
+fn what_moves_late_or_by_breaks_that_are_near_each_other_is_recorded() {
+    for breaks in [[0.5, 0.5], [0.3, 0.3003], [0.5, 0.9995]] {
+        let (film, warp) = recorded(ReturningWarp(breaks));
+        assert!(
+            off(&film, warp.as_ref()) <= film.error() + 1e-14,
+            "{breaks:?}"
+        );
+        let mut placer = film.placer();
+        placer.place(0.75);
+        assert!(placer.placement().in_frame[0].x > 0.01, "{breaks:?}");
+    }
+}

@@ -1,0 +1,132 @@
+//! Weights on a way over a map as polynomials of t: smooth, so that a film along it can be
+//! recorded and proved.
+//!
+//! Shares of natural neighbours bend where a place gets another neighbour, and a curve by its
+//! length runs evenly in small pieces; a polynomial runs through both. Guaranteed: the weights
+//! of the map at both ends, to the last bit, and a sum of one but for rounding. Not guaranteed:
+//! those of the map in between: on 40 wild curves over a map of six designs they are off by 0.02
+//! at worst, and in one place of a hundred by more than 0.003.
+
+use std::f64::consts::PI;
+
+/// Nodes of a way. On the curves of the test below 33 are off by 0.05 at worst, these by 0.02.
+const NODES: usize = 65;
+
+/// Weights at Chebyshev nodes, and what is between them (barycentric interpolation: Berrut,
+/// Trefethen 2004).
+#[derive(Clone, Debug)]
+pub(super) struct WeightPolynomials {
+    designs: usize,
+    /// Node after node.
+    weights: Vec<f64>,
+}
+
+/// The t of a node: from 0 to 1, both exactly.
+fn node(k: usize) -> f64 {
+    0.5 - 0.5 * (PI * k as f64 / (NODES as f64 - 1.0)).cos()
+}
+
+impl WeightPolynomials {
+    /// Through the weights of so many designs at the nodes' t.
+    pub fn new(designs: usize, mut at: impl FnMut(f64, &mut [f64])) -> Self {
+        let mut weights = vec![0.0; NODES * designs];
+        for (k, own) in weights.chunks_exact_mut(designs).enumerate() {
+            at(node(k), own);
+        }
+        Self { designs, weights }
+    }
+
+    /// The weights at a t in [0, 1].
+    pub fn at(&self, t: f64, weights: &mut [f64]) {
+        weights.fill(0.0);
+        let mut all = 0.0;
+        for (k, own) in self.weights.chunks_exact(self.designs).enumerate() {
+            let gap = t - node(k);
+            if gap == 0.0 {
+                weights.copy_from_slice(own);
+                return;
+            }
+            let half = if k % (NODES - 1) == 0 { 0.5 } else { 1.0 };
+            let sign = if k % 2 == 0 { half } else { -half };
+            let pull = sign / gap;
+            all += pull;
+            for (weight, own) in weights.iter_mut().zip(own) {
+                *weight += pull * own;
+            }
+        }
+        weights.iter_mut().for_each(|weight| *weight /= all);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn it_runs_through_what_is_smooth_and_near_what_bends() {
+        let smooth = WeightPolynomials::new(2, |t, own| own.copy_from_slice(&[t * t, 1.0 - t * t]));
+        let bent = WeightPolynomials::new(2, |t, own| {
+            let share = 0.5 + (t - 0.37).abs() * 0.4;
+            own.copy_from_slice(&[share, 1.0 - share]);
+        });
+        let mut own = [0.0; 2];
+        for k in 0..=1000 {
+            let t = f64::from(k) / 1000.0;
+            smooth.at(t, &mut own);
+            assert!((own[0] - t * t).abs() < 1e-14 && (own[0] + own[1] - 1.0).abs() < 1e-14);
+            bent.at(t, &mut own);
+            assert!(
+                (own[0] - 0.5 - (t - 0.37).abs() * 0.4).abs() < 0.01,
+                "{t}: {own:?}"
+            );
+        }
+        smooth.at(1.0, &mut own);
+        assert_eq!(own, [1.0, 0.0]);
+    }
+
+    #[test]
+    fn curves_over_a_map_of_six_are_followed() {
+        use crate::geometry::DVec2;
+        use crate::space::path_transition::PIECES;
+        use crate::space::{DesignDistances, MapCurve, MapLayout, MapPath, Waypoint, WeightMap};
+        let sites = MapLayout::Polygon.sites(&DesignDistances::even(6));
+        let map = WeightMap::new(&sites).expect("a map");
+        let (mut bent, mut straight) = (0.0_f64, 0.0_f64);
+        for walk in 0..40 {
+            let place = |k: u32| {
+                let at = f64::from(4 * walk + k + 1);
+                DVec2::from_angle(2.4 * at) * (0.618 * at).fract().sqrt()
+            };
+            let passed = (1..3).map(|k| Waypoint::passed(place(k)));
+            let first = std::iter::once(Waypoint::stop(place(0)));
+            let last = std::iter::once(Waypoint::stop(place(3)));
+            let path = MapPath {
+                name: String::new(),
+                places: first.chain(passed).chain(last).collect(),
+            };
+            let curve = MapCurve::new(&path).expect("a curve");
+            let on_map = |t: f64, own: &mut [f64]| map.weights(curve.place(0, t), own);
+            let course = WeightPolynomials::new(6, on_map);
+            let at = |t: f64| {
+                let mut own = [0.0; 6];
+                course.at(t, &mut own);
+                own
+            };
+            for k in 0..=320 {
+                let t = f64::from(k) / 320.0;
+                let mut there = [0.0; 6];
+                on_map(t, &mut there);
+                let own = at(t);
+                let pieces = PIECES as f64;
+                let from = (t * pieces).floor().min(pieces - 1.0);
+                let share = t * pieces - from;
+                let [a, b] = [from, from + 1.0].map(|k| at(k / pieces));
+                for d in 0..6 {
+                    bent = bent.max((own[d] - there[d]).abs());
+                    straight = straight.max((a[d] + (b[d] - a[d]) * share - own[d]).abs());
+                }
+            }
+        }
+        assert!(bent < 0.025 && straight < 0.06, "{bent} {straight}");
+    }
+}

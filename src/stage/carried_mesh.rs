@@ -1,0 +1,69 @@
+//! The render mesh of what a warp carries: fields and pictures.
+//!
+//! Its vertices are those of the placement. Each brings along where it is in
+//! the plane (as texture coordinates) and where to look in the source and in
+//! the target (as a colour of four floats: Bevy interpolates those as they
+//! are), so that the fragment shader knows all three.
+
+use bevy::mesh::VertexAttributeValues;
+use bevy::prelude::*;
+use glam::DVec2;
+
+use crate::content::{Content, PictureLayer};
+use crate::transition::Frame;
+
+use super::vertices::{positions, write_points};
+
+/// Writes a mesh that has as many vertices as the placement. Where to look is
+/// told in samples of the fields of `content` or in shares of its pictures'
+/// sides; without one in units of the plane, relative to `origin`.
+pub(super) fn write(frame: &Frame, origin: DVec2, content: Option<&Content>, mesh: &mut Mesh) {
+    let places = &frame.placement().in_frame;
+    write_points(places, origin, positions(mesh));
+    if let Some(VertexAttributeValues::Float32x2(coordinates)) =
+        mesh.attribute_mut(Mesh::ATTRIBUTE_UV_0)
+    {
+        for (out, &p) in coordinates.iter_mut().zip(places) {
+            // Subtracted in double precision, as positions are.
+            *out = (p - origin).as_vec2().to_array();
+        }
+    }
+    let Some(VertexAttributeValues::Float32x4(out)) = mesh.attribute_mut(Mesh::ATTRIBUTE_COLOR)
+    else {
+        return;
+    };
+    match content {
+        None => write_lookups(frame, out, |p| p - origin, |p| p - origin),
+        Some(Content::Field(fields)) => {
+            let grid = fields.first().grid();
+            let in_samples = |p: DVec2| grid.lattice_from_plane(p);
+            write_lookups(frame, out, in_samples, in_samples);
+        }
+        Some(Content::Colours(pair)) => {
+            let [source, target] = pair.layers().each_ref().map(share_of);
+            write_lookups(frame, out, source, target);
+        }
+        Some(Content::Solid(_)) => {} // has nothing to be looked up
+    }
+}
+
+/// Where in a picture a point of the plane is, as shares of its sides.
+fn share_of(layer: &PictureLayer) -> impl Fn(DVec2) -> DVec2 {
+    let (width, height) = layer.picture().pixels().dimensions();
+    let size = DVec2::new(f64::from(width), f64::from(height));
+    move |p| layer.pixel_from_plane(p) / size
+}
+
+fn write_lookups(
+    frame: &Frame,
+    out: &mut [[f32; 4]],
+    source: impl Fn(DVec2) -> DVec2,
+    target: impl Fn(DVec2) -> DVec2,
+) {
+    let placement = frame.placement();
+    let pairs = placement.in_source.iter().zip(&placement.in_target);
+    for (out, (&a, &b)) in out.iter_mut().zip(pairs) {
+        let (a, b) = (source(a).as_vec2(), target(b).as_vec2());
+        *out = [a.x, a.y, b.x, b.y];
+    }
+}

@@ -1,0 +1,208 @@
+//! Field mode on the GPU: both distance fields as textures, blended and cut by
+//! the fragment shader.
+//!
+//! Guarantees: the shader evaluates the core's blend (bilinear between
+//! samples, L afterwards) in single precision; the contour is anti-aliased at
+//! any zoom, whatever a warp does; outside its mesh nothing is drawn. Does not guarantee the core's
+//! last digits: contours agree to a fraction of a pixel.
+
+use bevy::asset::RenderAssetUsages;
+use bevy::image::ToExtents;
+use bevy::mesh::MeshVertexBufferLayoutRef;
+use bevy::prelude::*;
+use bevy::render::render_resource::{
+    AsBindGroup, RenderPipelineDescriptor, ShaderType, SpecializedMeshPipelineError,
+    TextureDimension, TextureFormat,
+};
+use bevy::shader::{ShaderDefVal, ShaderRef};
+use bevy::sprite_render::{AlphaMode2d, Material2d, Material2dKey};
+
+use crate::content::{BlendSpace, FieldContent, FieldPair};
+use crate::field::DistanceField;
+
+use super::components::StageStyle;
+use super::ink_material::{contrasting, embedded, linear};
+
+/// Hue of positive and of negative blended distance: orange and violet are told
+/// apart by every common kind of colour vision, on dark and on light grounds.
+const INSIDE: Srgba = Srgba::rgb(0.878, 0.51, 0.078);
+const OUTSIDE: Srgba = Srgba::rgb(0.502, 0.451, 0.675);
+
+/// Lines of equal distance over the longer side of the grid: a matter of looks.
+const ISO_LINES: f32 = 40.0;
+
+/// Two fields and how they are blended and drawn.
+#[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
+#[bind_group_data(FieldKind)]
+pub(super) struct FieldMaterial {
+    #[uniform(0)]
+    pub(super) look: FieldLook,
+    // To filter 32-bit floats is an optional feature of graphics cards, and
+    // half the digits are too few: the shader filters by hand.
+    #[texture(1, sample_type = "float", filterable = false)]
+    source: Handle<Image>,
+    #[texture(2, sample_type = "float", filterable = false)]
+    target: Handle<Image>,
+    pub(super) kind: FieldKind,
+    /// All that are blended, each with the next.
+    nodes: Vec<Handle<Image>>,
+}
+
+/// What the pipeline of a field depends on: each is a shader of its own.
+///
+/// Not branches on numbers of the uniform, which changes with every t: some drivers make a shader
+/// anew for each (Mesa's lavapipe 22.3 kept all of them, 26 MB in a second of playing).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub(super) struct FieldKind {
+    is_log: bool,
+    shows_fill: bool,
+    shows_lines: bool,
+    shows_signs: bool,
+}
+
+impl FieldKind {
+    pub(super) fn new(fields: &FieldContent, style: &StageStyle) -> Self {
+        let show = style.show;
+        Self {
+            is_log: matches!(fields.first().blend().space, BlendSpace::Log),
+            // What has paints of its own lies below, in them.
+            shows_fill: show.fill && fields.painted().is_none(),
+            shows_lines: show.iso_lines,
+            shows_signs: show.signed_colours,
+        }
+    }
+
+    fn definitions(self) -> impl Iterator<Item = ShaderDefVal> {
+        let all = [
+            (self.is_log, "LOG_SPACE"),
+            (self.shows_fill, "FILL"),
+            (self.shows_lines, "LINES"),
+            (self.shows_signs, "SIGNS"),
+        ];
+        let set = all.into_iter().filter(|(is_set, _)| *is_set);
+        set.map(|(_, name)| name.into())
+    }
+}
+
+impl From<&FieldMaterial> for FieldKind {
+    fn from(material: &FieldMaterial) -> Self {
+        material.kind
+    }
+}
+
+/// The uniform of [`FieldMaterial`]; the same fields as in `field.wgsl`.
+#[derive(ShaderType, Clone, Debug, Default, PartialEq)]
+pub(super) struct FieldLook {
+    fill: Vec4,
+    inside: Vec4,
+    outside: Vec4,
+    line: Vec4,
+    t: f32,
+    epsilon: f32,
+    level: f32,
+    spacing: f32,
+}
+
+impl Material2d for FieldMaterial {
+    fn fragment_shader() -> ShaderRef {
+        ShaderRef::Path(embedded("field.wgsl"))
+    }
+
+    fn alpha_mode(&self) -> AlphaMode2d {
+        AlphaMode2d::Blend
+    }
+
+    fn specialize(
+        descriptor: &mut RenderPipelineDescriptor,
+        _layout: &MeshVertexBufferLayoutRef,
+        key: Material2dKey<Self>,
+    ) -> Result<(), SpecializedMeshPipelineError> {
+        if let Some(fragment) = &mut descriptor.fragment {
+            fragment
+                .shader_defs
+                .extend(key.bind_group_data.definitions());
+        }
+        Ok(())
+    }
+}
+
+impl FieldMaterial {
+    pub(super) fn new(pairs: &[FieldPair], images: &mut Assets<Image>) -> Self {
+        let first = pairs.iter().take(1).map(FieldPair::source);
+        let nodes = first.chain(pairs.iter().map(FieldPair::target));
+        let nodes: Vec<_> = nodes.map(|field| images.add(texture_of(field))).collect();
+        Self {
+            look: FieldLook::default(), // until it is drawn
+            kind: FieldKind::default(),
+            source: nodes[0].clone(),
+            target: nodes[1].clone(),
+            nodes,
+        }
+    }
+
+    /// One that shows nothing, as most are asked for: logarithms, and the fill alone.
+    pub(super) fn nothing(images: &mut Assets<Image>) -> Self {
+        let one = texture(UVec2::ONE, &[1.0]);
+        let node = images.add(one);
+        Self {
+            look: FieldLook::default(),
+            kind: FieldKind {
+                is_log: true,
+                shows_fill: true,
+                ..default()
+            },
+            source: node.clone(),
+            target: node,
+            nodes: Vec::new(),
+        }
+    }
+
+    /// Whether these are the fields of a pair, by its number.
+    pub(super) fn shows(&self, pair: usize) -> bool {
+        self.source == self.nodes[pair]
+    }
+
+    /// Takes the fields of a pair.
+    pub(super) fn show(&mut self, pair: usize) {
+        self.source.clone_from(&self.nodes[pair]);
+        self.target.clone_from(&self.nodes[pair + 1]);
+    }
+}
+
+impl FieldLook {
+    /// Of a pair where it is at `within`; painted as the whole is at `t`.
+    pub(super) fn new(pair: &FieldPair, within: f64, t: f64, style: &StageStyle) -> Self {
+        let blend = pair.blend();
+        let grid = pair.grid();
+        let style = &style.style;
+        Self {
+            fill: linear(style.fill_at(t)).to_vec4(),
+            inside: LinearRgba::from(INSIDE).to_vec4(),
+            outside: LinearRgba::from(OUTSIDE).to_vec4(),
+            line: contrasting(style.ground).to_vec4(),
+            t: within as f32,
+            epsilon: blend.epsilon as f32,
+            level: blend.level() as f32,
+            // Distances are in cells of the grid, whatever units the design
+            // has.
+            spacing: grid.width.max(grid.height) as f32 / ISO_LINES,
+        }
+    }
+}
+
+/// A field as a texture, row 0 the lowest.
+fn texture_of(field: &DistanceField) -> Image {
+    let grid = field.grid();
+    texture(UVec2::new(grid.width, grid.height), field.values())
+}
+
+/// A texture of 32-bit floats.
+fn texture(size: UVec2, values: &[f32]) -> Image {
+    Image::new(
+        size.to_extents(),
+        TextureDimension::D2,
+        bytemuck::cast_slice(values).to_vec(),
+        TextureFormat::R32Float,
+        RenderAssetUsages::RENDER_WORLD,
+    )
+}

@@ -1,0 +1,91 @@
+//! Colours on the GPU: both pictures as textures, cross-dissolved by the
+//! fragment shader.
+//!
+//! Guarantees: light is mixed linear and premultiplied, as the core does it; a
+//! pixel of an opaque picture seen at its own size is that pixel. Does not
+//! guarantee the core's last digits: pictures agree to about a step of 255.
+
+use bevy::asset::RenderAssetUsages;
+use bevy::image::{ImageAddressMode, ImageSampler, ImageSamplerDescriptor, ToExtents};
+use bevy::prelude::*;
+use bevy::render::render_resource::{AsBindGroup, ShaderType, TextureDimension, TextureFormat};
+use bevy::shader::ShaderRef;
+use bevy::sprite_render::{AlphaMode2d, Material2d};
+use glam::DVec2;
+
+use crate::content::{PictureLayer, PicturePair};
+
+use super::ink_material::{embedded, relative};
+
+/// Two pictures and how they are mixed.
+#[derive(Asset, TypePath, AsBindGroup, Clone, Debug)]
+pub(super) struct ColourMaterial {
+    #[uniform(0)]
+    pub(super) look: ColourLook,
+    #[texture(1)]
+    #[sampler(2)]
+    source: Handle<Image>,
+    #[texture(3)]
+    #[sampler(4)]
+    target: Handle<Image>,
+}
+
+/// The uniform of [`ColourMaterial`]; the same fields as in `colours.wgsl`.
+#[derive(ShaderType, Clone, Debug, Default, PartialEq)]
+pub(super) struct ColourLook {
+    /// Least and most x and y of what is shown, relative to the part's origin.
+    window: Vec4,
+    share: f32,
+}
+
+impl Material2d for ColourMaterial {
+    fn fragment_shader() -> ShaderRef {
+        ShaderRef::Path(embedded("colours.wgsl"))
+    }
+
+    fn alpha_mode(&self) -> AlphaMode2d {
+        AlphaMode2d::Blend
+    }
+}
+
+impl ColourMaterial {
+    pub(super) fn new(pair: &PicturePair, images: &mut Assets<Image>) -> Self {
+        let [source, target] = pair.layers();
+        Self {
+            look: ColourLook::default(), // until it is drawn
+            source: images.add(texture(source)),
+            target: images.add(texture(target)),
+        }
+    }
+}
+
+impl ColourLook {
+    pub(super) fn new(pair: &PicturePair, t: f64, origin: DVec2) -> Self {
+        Self {
+            window: relative(pair.window(t), origin),
+            share: pair.mix().share(t) as f32,
+        }
+    }
+}
+
+/// A picture with its smaller sizes, premultiplied, coded as sRGB: the card
+/// decodes before it interpolates.
+fn texture(layer: &PictureLayer) -> Image {
+    let (width, height) = layer.picture().pixels().dimensions();
+    let (bytes, levels) = layer.texture();
+    // Not `Image::new`: that wants the bytes of the largest size alone.
+    let mut image = Image::new_uninit(
+        UVec2::new(width, height).to_extents(),
+        TextureDimension::D2,
+        TextureFormat::Rgba8UnormSrgb,
+        RenderAssetUsages::RENDER_WORLD,
+    );
+    image.texture_descriptor.mip_level_count = levels;
+    image.data = Some(bytes);
+    image.sampler = ImageSampler::Descriptor(ImageSamplerDescriptor {
+        address_mode_u: ImageAddressMode::MirrorRepeat,
+        address_mode_v: ImageAddressMode::MirrorRepeat,
+        ..ImageSamplerDescriptor::linear()
+    });
+    image
+}

@@ -1,0 +1,59 @@
+//! The way from one blend of many designs to another, as a transition.
+//!
+//! What a space of designs is made of is built above; here it is played, measured and
+//! exported as two designs are.
+
+use super::any_warp::AnyWarp;
+use super::method::TransitionMethod;
+use super::transition::{RecordingSlot, Transition, TransitionData};
+use crate::content::{Content, ContentKind, FieldContent, SolidContent};
+use crate::design::Design;
+use crate::geometry::Bounds;
+use crate::warp::{AlongBlend, IdentityWarp, WarpKind};
+use std::sync::Arc;
+
+/// Two blends, and the box that holds all that is seen from the one to the other.
+#[derive(Clone, Debug)]
+pub(crate) struct BlendEnds {
+    pub designs: [Arc<Design>; 2],
+    pub bounds: Bounds,
+    /// Width of the bars of trusses, in units of the designs.
+    pub bar_width: f64,
+}
+
+impl Transition {
+    /// Rigid parts on their way from one blend to the other.
+    pub(crate) fn along_blend(ends: BlendEnds, warp: AlongBlend, solid: SolidContent) -> Self {
+        Self::blended(
+            ends,
+            TransitionMethod::RIGID_PARTS,
+            AnyWarp::Along(warp),
+            Content::Solid(solid),
+        )
+    }
+
+    /// Distance fields at rest, on the way from one blend to the other.
+    pub(crate) fn through_fields(ends: BlendEnds, fields: FieldContent) -> Self {
+        let still = IdentityWarp::new(fields.first().grid().bounds());
+        let cell = TransitionMethod::new(WarpKind::None, ContentKind::Field)
+            .unwrap_or_else(|_| unreachable!("it is in the table"));
+        Self::blended(ends, cell, AnyWarp::Still(still), Content::Field(fields))
+    }
+
+    fn blended(ends: BlendEnds, cell: TransitionMethod, warp: AnyWarp, content: Content) -> Self {
+        let BlendEnds {
+            designs,
+            bounds,
+            bar_width,
+        } = ends;
+        Self::from(TransitionData {
+            cell,
+            designs,
+            moved: warp.into(),
+            content,
+            bounds,
+            bar_width,
+            film: RecordingSlot::default(),
+        })
+    }
+}

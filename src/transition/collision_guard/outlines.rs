@@ -1,0 +1,211 @@
+//! What may meet what, and which of it is near.
+
+use crate::geometry::{DVec2, nearest_segment_parameter};
+use crate::recording::proof::DrawnLoop;
+use crate::warp::{Arap, Warp};
+use std::collections::BTreeMap;
+
+/// How far outlines are kept apart, as a share of the diameter: a pixel of a thousand.
+const APART: f64 = 1e-3;
+
+/// What is nearer in a design touches there, as a share of the diameter: the sides of a
+/// cut.
+const TOUCHES: f64 = 1e-7;
+
+/// What touches at an end is as far apart as other things after so much of the film.
+const OPENS: f64 = 0.05;
+
+/// A vertex and an edge that must not meet, by their numbers.
+pub(super) type GuardedPair = (usize, usize);
+
+/// An edge of an outline; what is filled is on its left.
+#[derive(Clone, Copy)]
+pub(super) struct GuardedEdge {
+    pub ends: [u32; 2],
+    walk: usize,
+}
+
+/// The vertices and edges of all outlines.
+pub(super) struct GuardedOutlines {
+    points: Vec<(u32, usize)>,
+    edges: Vec<GuardedEdge>,
+    walks: Vec<DrawnLoop>,
+    /// Of each walk the part that comes or goes, if it is of one.
+    living: Vec<Option<u32>>,
+    /// Where the plain film has all vertices when an outline begins or ceases to be
+    /// drawn, by the bits of that time.
+    ends: BTreeMap<u64, Vec<DVec2>>,
+    diameter: f64,
+}
+
+impl GuardedOutlines {
+    /// None without outlines.
+    pub(super) fn of(film: &Arap, drawn: &[DrawnLoop]) -> Option<Self> {
+        let mut placer = film.placer();
+        let mut ends = BTreeMap::new();
+        for t in drawn.iter().flat_map(|walk| walk.drawn) {
+            ends.entry(t.to_bits()).or_insert_with(|| {
+                placer.place(t);
+                placer.placement().in_frame.clone()
+            });
+        }
+        let (mut points, mut edges) = (Vec::new(), Vec::new());
+        for (walk, DrawnLoop { vertices, .. }) in drawn.iter().enumerate() {
+            let next = vertices.iter().cycle().skip(1);
+            for (&from, &to) in vertices.iter().zip(next) {
+                points.push((from, walk));
+                let ends = [from, to];
+                edges.push(GuardedEdge { ends, walk });
+            }
+        }
+        let parts = film.mesh().components();
+        let living = |walk: &DrawnLoop| {
+            let part = *parts.get(*walk.vertices.first()? as usize)?;
+            let life = film.lives().get(part as usize).copied().flatten();
+            life.map(|_| part)
+        };
+        (!drawn.is_empty()).then(|| Self {
+            living: drawn.iter().map(living).collect(),
+            points,
+            edges,
+            walks: drawn.to_vec(),
+            ends,
+            diameter: film.mesh().diameter(),
+        })
+    }
+
+    /// How far outlines are kept apart, in units of the plane.
+    pub(super) fn apart(&self) -> f64 {
+        APART * self.diameter
+    }
+
+    /// What is nearer than this touches.
+    pub(super) fn touches(&self) -> f64 {
+        TOUCHES * self.diameter
+    }
+
+    pub(super) fn vertex(&self, pair: GuardedPair) -> u32 {
+        self.points[pair.0].0
+    }
+
+    pub(super) fn edge(&self, pair: GuardedPair) -> [u32; 2] {
+        self.edges[pair.1].ends
+    }
+
+    /// When both are drawn, if they ever are together.
+    fn drawn(&self, pair: GuardedPair) -> [f64; 2] {
+        let [a, b] = [self.points[pair.0].1, self.edges[pair.1].walk];
+        let [a, b] = [&self.walks[a], &self.walks[b]];
+        [a.drawn[0].max(b.drawn[0]), a.drawn[1].min(b.drawn[1])]
+    }
+
+    fn may_meet(&self, pair: GuardedPair, t: f64) -> bool {
+        let ((vertex, a), edge) = (self.points[pair.0], &self.edges[pair.1]);
+        let [from, to] = self.drawn(pair);
+        let both = [a, edge.walk].map(|walk| &self.walks[walk]);
+        let living = self.living[a];
+        both[0].level == both[1].level
+            // What comes or goes keeps its form.
+            && (living.is_none() || living != self.living[edge.walk])
+            && from < t
+            && t < to
+            && !edge.ends.contains(&vertex)
+    }
+
+    /// How far a pair is to be kept apart at `t`: as far as all, but no further than
+    /// a quarter of what it is apart where it begins and ends to be drawn.
+    pub(super) fn gap(&self, pair: GuardedPair, t: f64) -> f64 {
+        let [from, to] = self.drawn(pair);
+        let apart = self.apart();
+        let reach = |end: f64, since: f64| {
+            let Some(places) = self.ends.get(&end.to_bits()) else {
+                return apart;
+            };
+            let distance = self.towards(pair, places).length();
+            if distance > self.touches() {
+                0.25 * distance
+            } else {
+                apart * since / OPENS
+            }
+        };
+        apart.min(reach(from, t - from)).min(reach(to, to - t))
+    }
+
+    /// From the nearest point of the edge to the vertex.
+    pub(super) fn towards(&self, pair: GuardedPair, places: &[DVec2]) -> DVec2 {
+        let p = places[self.vertex(pair) as usize];
+        let [a, b] = self.edge(pair).map(|v| places[v as usize]);
+        p - a.lerp(b, nearest_segment_parameter(p, a, b))
+    }
+
+    /// All pairs that come within `reach` of each other at `t` on the way from one
+    /// place to another, or may.
+    pub(super) fn near(&self, ways: [&[DVec2]; 2], reach: f64, t: f64) -> Vec<GuardedPair> {
+        let mut spans: Vec<SweepBox> = Vec::with_capacity(2 * self.points.len());
+        for (number, &(vertex, _)) in self.points.iter().enumerate() {
+            spans.push(SweepBox::of(
+                ways,
+                &[vertex],
+                0.0,
+                SweepMember::Point(number),
+            ));
+        }
+        for (number, edge) in self.edges.iter().enumerate() {
+            spans.push(SweepBox::of(
+                ways,
+                &edge.ends,
+                reach,
+                SweepMember::Edge(number),
+            ));
+        }
+        spans.sort_unstable_by(|a, b| a.low.x.total_cmp(&b.low.x));
+        let mut near = Vec::new();
+        for (i, span) in spans.iter().enumerate() {
+            let later = spans[i + 1..].iter();
+            for other in later.take_while(|other| other.low.x <= span.high.x) {
+                let pair = match (span.member, other.member) {
+                    (SweepMember::Point(point), SweepMember::Edge(edge))
+                    | (SweepMember::Edge(edge), SweepMember::Point(point)) => (point, edge),
+                    _ => continue,
+                };
+                let overlap = other.low.y <= span.high.y && span.low.y <= other.high.y;
+                if overlap && self.may_meet(pair, t) {
+                    near.push(pair);
+                }
+            }
+        }
+        near.sort_unstable();
+        near
+    }
+}
+
+#[derive(Clone, Copy)]
+enum SweepMember {
+    Point(usize),
+    Edge(usize),
+}
+
+/// The box around a way.
+struct SweepBox {
+    low: DVec2,
+    high: DVec2,
+    member: SweepMember,
+}
+
+impl SweepBox {
+    fn of(ways: [&[DVec2]; 2], vertices: &[u32], reach: f64, member: SweepMember) -> Self {
+        let first = ways[0][vertices[0] as usize];
+        let (mut low, mut high) = (first, first);
+        for places in ways {
+            for &v in vertices {
+                low = low.min(places[v as usize]);
+                high = high.max(places[v as usize]);
+            }
+        }
+        Self {
+            low: low - reach,
+            high: high + reach,
+            member,
+        }
+    }
+}

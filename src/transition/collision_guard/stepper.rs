@@ -1,0 +1,260 @@
+//! Through the film from t = 0, pushing aside what is in the way.
+//!
+//! Each step begins where the one before has left all apart. Of a vertex and an edge
+//! that come near each other a line between them is known from there; it turns with the
+//! edge, and both stay on their sides of it. So nothing slips through between steps,
+//! and what was never in the way is never touched.
+
+use super::compliance::MeshCompliance;
+use super::outlines::{GuardedOutlines, GuardedPair};
+use super::push::{ContactConstraint, smallest};
+use crate::geometry::{DVec2, twice_signed_area};
+use crate::warp::{Arap, Placer, Warp};
+use crate::work::progress::{Cancelled, Progress, still_wanted};
+use std::collections::BTreeMap;
+
+/// How often a step is corrected: faces are straight only to first order, and a
+/// vertex that slides about a corner turns its line.
+const CORRECTIONS: u32 = 6;
+
+/// What a step may be off by, as a share of what is kept apart.
+const EXACT: f64 = 0.01;
+
+/// A face stays larger than this share of what it is in the design where it is smaller.
+const FACE: f64 = 0.125;
+
+/// A push beyond this share of the diameter helps nobody.
+const FARTHEST: f64 = 0.25;
+
+/// Times from 0 to 1, and what all vertices are moved by then.
+pub(super) type GuardDisplacements = Vec<(f64, Vec<DVec2>)>;
+
+/// What vertices are moved by at these times, which run from 0 to 1; none where they
+/// cannot be kept apart by pushing.
+pub(super) fn through(
+    film: &Arap,
+    outlines: &GuardedOutlines,
+    times: &[f64],
+    progress: &dyn Progress,
+) -> Result<Option<GuardDisplacements>, Cancelled> {
+    let still = vec![DVec2::ZERO; film.mesh().source().len()];
+    let Ok(yielding) = MeshCompliance::of(film) else {
+        return Ok(None);
+    };
+    // The last is a design, as is the first.
+    let [first, steps @ .., last] = times else {
+        return Ok(None);
+    };
+    let mut stepper = GuardStepper {
+        film,
+        placer: film.placer(),
+        outlines,
+        yielding,
+        parts: film.mesh().components(),
+    };
+    let plain = stepper.plain(*first);
+    let mut moments = vec![GuardMoment::of(*first, plain)];
+    for &t in steps {
+        still_wanted(progress)?;
+        let plain = stepper.plain(t);
+        let Some(next) = moments
+            .last()
+            .and_then(|before| stepper.step(before, plain, t))
+        else {
+            return Ok(None);
+        };
+        moments.push(next);
+    }
+    let moved = moments.into_iter().map(|moment| (moment.t, moment.moved));
+    Ok(Some(moved.chain([(*last, still)]).collect()))
+}
+
+/// Where vertices are when all that is near is apart.
+struct GuardMoment {
+    t: f64,
+    plain: Vec<DVec2>,
+    moved: Vec<DVec2>,
+    places: Vec<DVec2>,
+}
+
+impl GuardMoment {
+    fn of(t: f64, plain: Vec<DVec2>) -> Self {
+        Self {
+            t,
+            moved: vec![DVec2::ZERO; plain.len()],
+            places: plain.clone(),
+            plain,
+        }
+    }
+}
+
+struct GuardStepper<'a> {
+    film: &'a Arap,
+    placer: Placer,
+    outlines: &'a GuardedOutlines,
+    yielding: MeshCompliance,
+    parts: Vec<u32>,
+}
+
+impl GuardStepper<'_> {
+    fn plain(&mut self, t: f64) -> Vec<DVec2> {
+        self.placer.place(t);
+        self.placer.placement().in_frame.clone()
+    }
+
+    fn step(&mut self, before: &GuardMoment, plain: Vec<DVec2>, t: f64) -> Option<GuardMoment> {
+        let apart = self.outlines.apart();
+        let mut moved = before.moved.clone();
+        let mut places = sum(&plain, &moved);
+        let mut lines: BTreeMap<GuardedPair, DVec2> = BTreeMap::new();
+        for correction in 0..CORRECTIONS {
+            if correction > 0 {
+                self.turned(&mut lines, &places);
+            }
+            let near = self
+                .outlines
+                .near([&before.places, &places], 2.0 * apart, t);
+            for pair in near {
+                let line = || self.line(pair, before, &plain);
+                lines.entry(pair).or_insert_with(line);
+            }
+            let mut rows = self.contacts(&lines, &plain, &places, t);
+            self.faces(&plain, &places, &moved, &mut rows);
+            let next = smallest(&rows, &mut self.yielding, EXACT * apart)?;
+            let farthest = next.iter().fold(0.0, |far: f64, by| far.max(by.length()));
+            if farthest > FARTHEST * self.film.mesh().diameter() {
+                return None;
+            }
+            let changes = next.iter().zip(&moved).map(|(a, b)| a.distance(*b));
+            let change = changes.fold(0.0, f64::max);
+            moved = next;
+            places = sum(&plain, &moved);
+            if change < EXACT * apart {
+                break;
+            }
+        }
+        Some(GuardMoment {
+            t,
+            plain,
+            moved,
+            places,
+        })
+    }
+
+    /// The direction in which a vertex is from an edge, turned with the edge.
+    fn line(&self, pair: GuardedPair, before: &GuardMoment, plain: &[DVec2]) -> DVec2 {
+        let towards = self.outlines.towards(pair, &before.places);
+        let along = |places: &[DVec2]| {
+            let [a, b] = self.outlines.edge(pair).map(|v| places[v as usize]);
+            (b - a).normalize_or_zero()
+        };
+        let (was, is) = (along(&before.plain), along(plain));
+        if towards.length() <= self.outlines.touches() {
+            // Sides of a cut: each is outside of what the other bounds.
+            return -is.perp();
+        }
+        let turn = DVec2::new(was.dot(is), was.perp_dot(is));
+        let turn = turn.try_normalize().unwrap_or(DVec2::X);
+        turn.rotate(towards.normalize_or_zero())
+    }
+
+    /// Turns the lines of what is apart, so that it may slide along.
+    fn turned(&self, lines: &mut BTreeMap<GuardedPair, DVec2>, places: &[DVec2]) {
+        for (&pair, line) in lines.iter_mut() {
+            let towards = self.outlines.towards(pair, places);
+            if self.between(pair, *line, places) > 0.0 && towards.length() > self.outlines.touches()
+            {
+                *line = towards.normalize_or_zero();
+            }
+        }
+    }
+
+    /// How far a vertex is on its side of an edge, by the nearer of its ends.
+    fn between(&self, pair: GuardedPair, line: DVec2, places: &[DVec2]) -> f64 {
+        let p = places[self.outlines.vertex(pair) as usize];
+        let [a, b] = self.outlines.edge(pair).map(|v| places[v as usize]);
+        line.dot(p - a).min(line.dot(p - b))
+    }
+
+    fn contacts(
+        &self,
+        lines: &BTreeMap<GuardedPair, DVec2>,
+        plain: &[DVec2],
+        places: &[DVec2],
+        t: f64,
+    ) -> Vec<ContactConstraint> {
+        let apart = self.outlines.apart();
+        let mut rows = Vec::new();
+        for (&pair, &line) in lines {
+            if self.between(pair, line, places) > 2.0 * apart {
+                continue;
+            }
+            let gap = asked(self.outlines.gap(pair, t), self.between(pair, line, plain));
+            let vertex = self.outlines.vertex(pair);
+            for end in self.outlines.edge(pair) {
+                let now = line.dot(plain[vertex as usize] - plain[end as usize]);
+                rows.push(ContactConstraint {
+                    terms: vec![(vertex, line), (end, -line)],
+                    least: gap - now,
+                });
+            }
+        }
+        rows
+    }
+
+    /// Faces that are about to turn over.
+    fn faces(
+        &self,
+        plain: &[DVec2],
+        places: &[DVec2],
+        moved: &[DVec2],
+        rows: &mut Vec<ContactConstraint>,
+    ) {
+        let mesh = self.film.mesh();
+        for face in mesh.faces().iter() {
+            // What comes or goes keeps its form.
+            let part = self.parts[face[0] as usize] as usize;
+            if self.film.lives().get(part).is_some_and(Option::is_some) {
+                continue;
+            }
+            let at = |points: &[DVec2]| face.map(|v| points[v as usize]);
+            let area = |points: &[DVec2]| {
+                let [a, b, c] = at(points);
+                twice_signed_area(a, b, c)
+            };
+            let least = FACE * area(mesh.source()).min(area(mesh.target()));
+            let (least, now) = (asked(least, area(plain)), area(places));
+            if now > 2.0 * least {
+                continue;
+            }
+            let [a, b, c] = at(places);
+            let (second, third) = (-(c - a).perp(), (b - a).perp());
+            let gradients = [-(second + third), second, third];
+            let longest = gradients.iter().fold(0.0, |m: f64, g| m.max(g.length()));
+            if longest == 0.0 {
+                continue;
+            }
+            let terms: Vec<(u32, DVec2)> =
+                (0..3).map(|k| (face[k], gradients[k] / longest)).collect();
+            let so_far: f64 = terms.iter().map(|&(v, g)| g.dot(moved[v as usize])).sum();
+            rows.push(ContactConstraint {
+                terms,
+                least: (least - now) / longest + so_far,
+            });
+        }
+    }
+}
+
+/// What is asked of a pair or a face that has so much by itself: where that is enough,
+/// no more than it has.
+fn asked(wanted: f64, by_itself: f64) -> f64 {
+    if by_itself > 0.0 {
+        wanted.min(by_itself.max(0.25 * wanted))
+    } else {
+        wanted
+    }
+}
+
+fn sum(plain: &[DVec2], moved: &[DVec2]) -> Vec<DVec2> {
+    plain.iter().zip(moved).map(|(p, by)| *p + *by).collect()
+}

@@ -1,0 +1,305 @@
+//! Films of drawings in their own colours.
+
+use super::*;
+use crate::colour::{Paint, Rgb};
+use crate::content::Content;
+
+const RED: Rgb = Rgb([255, 0, 0]);
+const BLUE: Rgb = Rgb([0, 0, 255]);
+
+fn drawing(body: &str) -> Arc<Design> {
+    design(&format!(
+        "<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 100 100'>{body}</svg>"
+    ))
+}
+
+fn square(x: f64, y: f64, size: f64, fill: Rgb) -> String {
+    format!("<rect x='{x}' y='{y}' width='{size}' height='{size}' fill='{fill}'/>")
+}
+
+fn film(source: &Arc<Design>, target: &Arc<Design>) -> Transition {
+    let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+    Transition::build(&spec, &Silent).unwrap()
+}
+
+fn film_of(source: &str, target: &str) -> Transition {
+    film(&drawing(source), &drawing(target))
+}
+
+/// What is seen at `t`, the lowest first: paint and area.
+fn seen(film: &Transition, t: f64) -> Vec<(Paint, f64)> {
+    let figure = film.frame(t).figure();
+    let style = TransitionStyle::default();
+    let coats = figure.coats.iter().map(|coat| {
+        let rings = &figure.rings[coat.rings.clone()];
+        (style.paint_at(coat.paints, t), area(rings))
+    });
+    coats.filter(|(_, area)| *area > 1e-3).collect()
+}
+
+fn assert_same(found: &[(Paint, f64)], wanted: &[(Paint, f64)]) {
+    let paints = |seen: &[(Paint, f64)]| seen.iter().map(|s| s.0).collect::<Vec<_>>();
+    assert_eq!(paints(found), paints(wanted));
+    for (found, wanted) in found.iter().zip(wanted) {
+        assert!((found.1 - wanted.1).abs() < 1e-3, "{found:?} {wanted:?}");
+    }
+}
+
+#[test]
+fn the_ends_are_the_drawings_and_the_way_back_is_the_same_film() {
+    let a = drawing(&format!(
+        "{}{}<circle cx='50' cy='50' r='9' fill='#abcdef' fill-opacity='0.5'/>",
+        square(10.0, 10.0, 80.0, BLUE),
+        square(20.0, 20.0, 30.0, RED)
+    ));
+    let b = drawing(&format!(
+        "<circle cx='50' cy='50' r='45' fill='teal'/>{}",
+        square(60.0, 60.0, 20.0, RED)
+    ));
+    let (there, back) = (film(&a, &b), film(&b, &a));
+    for (design, t) in [(&a, 0.0), (&b, 1.0)] {
+        let coats = design.coats.iter();
+        let wanted = coats.map(|coat| (coat.paint.unwrap(), coat.regions.area()));
+        assert_same(&seen(&there, t), &wanted.collect::<Vec<_>>());
+    }
+    for k in 0..=8 {
+        let t = f64::from(k) / 8.0;
+        // At the middle the order is that of the target, either way.
+        if k != 4 {
+            assert_same(&seen(&there, t), &seen(&back, 1.0 - t));
+        }
+    }
+}
+
+#[test]
+fn parts_are_paired_by_their_paint_where_they_could_be_by_their_place() {
+    let frame = "<path d='M0 0h2v2h-2zM98 98h2v2h-2z' fill='black'/>";
+    let pair = |left: Rgb, right: Rgb| {
+        let [left, right] = [(40.0, left), (52.0, right)].map(|(x, c)| square(x, 45.0, 8.0, c));
+        drawing(&format!("{frame}{left}{right}"))
+    };
+    let crossed = film(&pair(RED, BLUE), &pair(BLUE, RED));
+    let Content::Solid(solid) = crossed.content() else {
+        panic!("a film of solids");
+    };
+    for coat in &solid.coating.as_ref().unwrap().coats {
+        assert_eq!(coat.paints[0], coat.paints[1]);
+    }
+    // What passes over another part is in nobody's way.
+    let frame = crossed.frame(0.4);
+    let places = &frame.placement().in_frame;
+    assert!(count_crossings(&frame.figure().rings) > 0);
+    assert_eq!(solid.count_crossings(places, 0.4), 0);
+    assert!(solid.crossings_at(places, 0.4).is_empty());
+}
+
+#[test]
+fn a_name_pairs_what_nothing_else_would() {
+    let named = |x: f64, y: f64, fill: Rgb, id: &str| {
+        square(x, y, 10.0, fill).replace("<rect", &format!("<rect id='{id}'"))
+    };
+    let a = named(0.0, 0.0, RED, "cat") + &named(90.0, 90.0, BLUE, "dog");
+    let b = named(0.0, 0.0, RED, "dog") + &named(90.0, 90.0, BLUE, "cat");
+    let film = film_of(&a, &b);
+    let pieces = &film.matched().unwrap().pieces;
+    let moved = |k: usize| pieces[k].rings[0].source[0].distance(pieces[k].rings[0].target[0]);
+    assert!((0..2).all(|k| moved(k) > 50.0));
+    // But not what a program counted.
+    let counted = |body: &str| body.replace("cat", "path7").replace("dog", "rect3");
+    let film = film_of(&counted(&a), &counted(&b));
+    let pieces = &film.matched().unwrap().pieces;
+    assert_eq!(pieces[0].rings[0].source, pieces[0].rings[0].target);
+}
+
+#[test]
+fn what_lies_over_each_other_otherwise_changes_places_in_the_middle() {
+    let over = |below: Rgb, above: Rgb| {
+        let sizes = [(RED, 40.0), (BLUE, 30.0)];
+        let size = |fill: Rgb| sizes.iter().find(|s| s.0 == fill).unwrap().1;
+        let one = |fill: Rgb| square(50.0 - size(fill) / 2.0, 20.0, size(fill), fill);
+        drawing(&(one(below) + &one(above)))
+    };
+    let film = film(&over(RED, BLUE), &over(BLUE, RED));
+    let order = |t: f64| {
+        let seen = seen(&film, t).into_iter();
+        seen.map(|(paint, _)| paint.colour).collect::<Vec<_>>()
+    };
+    assert_eq!(
+        (order(0.0), order(0.49)),
+        (vec![RED, BLUE], vec![RED, BLUE])
+    );
+    assert_eq!((order(0.5), order(1.0)), (vec![BLUE, RED], vec![BLUE, RED]));
+}
+
+#[test]
+fn boundary_paths_show_drawings_in_their_own_colours() {
+    let (red, blue) = (
+        square(10.0, 10.0, 40.0, RED),
+        square(20.0, 20.0, 15.0, BLUE),
+    );
+    let moved = square(50.0, 50.0, 15.0, BLUE);
+    let (a, b) = (
+        drawing(&format!("{red}{blue}")),
+        drawing(&format!("{red}{moved}")),
+    );
+    let mut spec = TransitionSpec::new(a, b);
+    spec.cell = TransitionMethod::new(WarpKind::Paths, ContentKind::Solid).unwrap();
+    let film = Transition::build(&spec, &Silent).unwrap();
+    for t in [0.0, 0.5, 1.0] {
+        assert_same(
+            &seen(&film, t),
+            &[(RED.into(), 1600.0), (BLUE.into(), 225.0)],
+        );
+    }
+    spec.options.paint = PaintRule::One;
+    let plain = Transition::build(&spec, &Silent).unwrap();
+    assert!(plain.frame(0.5).figure().coats.is_empty());
+}
+
+#[test]
+fn bars_keep_the_colours_that_they_are_given() {
+    let truss = |colours: &str, bars: &str| {
+        let nodes = "[[0, 0], [4, 0], [0, 3]]";
+        let text = format!("{{\"nodes\": {nodes}, \"bars\": {bars}, \"colours\": {colours}}}");
+        design(&text)
+    };
+    let source = truss(
+        "[\"#ff0000\", \"#ff0000\", \"#0000ff\"]",
+        "[[0, 1], [1, 2], [2, 0]]",
+    );
+    // In another order, and the other way round.
+    let target = truss(
+        "[\"#0000ff\", \"#0000ff\", \"#ff0000\"]",
+        "[[0, 2], [2, 1], [1, 0]]",
+    );
+    let mut spec = TransitionSpec::new(source, target);
+    let film = Transition::build(&spec, &Silent).unwrap();
+    let (red, blue) = (Some(RED.into()), Some(BLUE.into()));
+    let expected = [[red, red], [red, blue], [blue, blue]];
+    assert_eq!(film.frame(0.3).figure().bar_paints, expected);
+    spec.options.paint = PaintRule::One;
+    let plain = Transition::build(&spec, &Silent).unwrap();
+    assert!(plain.frame(0.3).figure().bar_paints.is_empty());
+}
+
+#[test]
+fn what_is_alone_fades_where_that_is_asked_for() {
+    let both = square(10.0, 10.0, 30.0, BLUE);
+    let film = film_of(&both, &format!("{both}{}", square(60.0, 60.0, 20.0, RED)));
+    let fading = PaintLayerOptions {
+        fade: true,
+        ..PaintLayerOptions::default()
+    };
+    let faded = film.with_coats(&fading);
+    let opacity = |film: &Transition, t: f64| {
+        let seen = seen(film, t);
+        let red = seen.iter().find(|(paint, _)| paint.colour == RED);
+        red.map(|(paint, _)| paint.opacity)
+    };
+    for t in [0.8, 0.9, 1.0] {
+        assert_eq!(opacity(&film, t), Some(1.0));
+        assert!((opacity(&faded, t).unwrap() - t).abs() < 1e-9, "{t}");
+    }
+    let back = faded.with_coats(&PaintLayerOptions::default());
+    assert_eq!(back.frame(0.9).figure(), film.frame(0.9).figure());
+}
+
+#[test]
+fn places_are_changed_when_that_is_asked_for() {
+    let (red, blue) = (
+        square(10.0, 10.0, 40.0, RED),
+        square(30.0, 30.0, 40.0, BLUE),
+    );
+    let film = film_of(&format!("{red}{blue}"), &format!("{blue}{red}"));
+    let late = PaintLayerOptions {
+        reorder_at: 0.8,
+        ..PaintLayerOptions::default()
+    };
+    let late = film.with_coats(&late);
+    let lowest = |film: &Transition, t: f64| seen(film, t)[0].0.colour;
+    assert_eq!([0.4, 0.6].map(|t| lowest(&film, t)), [RED, BLUE]);
+    assert_eq!([0.6, 0.9].map(|t| lowest(&late, t)), [RED, BLUE]);
+    let never = PaintLayerOptions {
+        reorder_at: f64::NAN,
+        ..PaintLayerOptions::default()
+    };
+    assert!(never.check().is_err());
+}
+
+#[test]
+fn what_one_drawing_has_alone_keeps_its_place_in_the_order() {
+    let face = square(10.0, 10.0, 80.0, BLUE);
+    let eye = "<circle id='eye' cx='30' cy='30' r='8' fill='white'/>";
+    let hat = square(20.0, 0.0, 50.0, RED);
+    let a = drawing(&face);
+    let b = drawing(&format!("{face}{eye}{hat}"));
+    let film = film(&a, &b);
+    let colours = |t: f64| {
+        let seen = seen(&film, t).into_iter();
+        seen.map(|(paint, _)| paint.colour).collect::<Vec<_>>()
+    };
+    assert_eq!(colours(0.0), [BLUE]);
+    assert_eq!(colours(0.99), [BLUE, Rgb([255; 3]), RED]);
+    // Over what is there, and not beside it.
+    let eye = film.frame(0.99).figure().rings[1].clone();
+    assert!(eye.iter().all(|p| p.distance(DVec2::new(30.0, 70.0)) < 9.0));
+}
+
+#[test]
+fn a_figure_without_colours_takes_those_of_the_style() {
+    let (plain, painted) = (
+        svg("M10 10h80v80h-80z"),
+        drawing(&square(20.0, 20.0, 40.0, RED)),
+    );
+    let mixed = film(&plain, &painted);
+    let style = TransitionStyle::default();
+    assert_eq!(seen(&mixed, 0.0)[0].0, style.source.into());
+    assert_eq!(seen(&mixed, 1.0)[0].0, RED.into());
+    let of = |rule: PaintRule| {
+        let mut spec = TransitionSpec::new(Arc::clone(&plain), Arc::clone(&painted));
+        spec.options.paint = rule;
+        Transition::build(&spec, &Silent).unwrap()
+    };
+    assert!(of(PaintRule::One).frame(0.5).figure().coats.is_empty());
+    assert_eq!(film(&plain, &plain).frame(0.5).figure().coats, []);
+}
+
+#[test]
+fn fields_have_one_for_each_paint() {
+    let a = drawing(&format!(
+        "{}{}",
+        square(10.0, 10.0, 80.0, BLUE),
+        square(20.0, 20.0, 30.0, RED)
+    ));
+    let b = drawing(&format!(
+        "{}<circle cx='70' cy='70' r='10' fill='lime'/>",
+        square(20.0, 20.0, 70.0, BLUE)
+    ));
+    let film = |warp: WarpKind, rule: PaintRule| {
+        let mut spec = TransitionSpec::new(Arc::clone(&a), Arc::clone(&b));
+        spec.cell = TransitionMethod::new(warp, ContentKind::Field).unwrap();
+        spec.options.paint = rule;
+        Transition::build(&spec, &Silent).unwrap()
+    };
+    for warp in [WarpKind::None, WarpKind::Arap] {
+        let own = film(warp, PaintRule::Own);
+        for (design, t) in [(&a, 0.0), (&b, 1.0)] {
+            let coats = design.coats.iter();
+            let wanted = coats.map(|coat| (coat.paint.unwrap(), coat.regions.area()));
+            let wanted: Vec<(Paint, f64)> = wanted.collect();
+            let found = seen(&own, t);
+            assert_eq!(found.len(), wanted.len(), "{warp:?} {t}");
+            for (found, wanted) in found.iter().zip(&wanted) {
+                assert_eq!(found.0, wanted.0);
+                assert!(
+                    (found.1 / wanted.1 - 1.0).abs() < 0.01,
+                    "{found:?} {wanted:?}"
+                );
+            }
+        }
+        // Red and lime become each other, and do not lie over each other in between.
+        assert_eq!(seen(&own, 0.1).len(), 2);
+        let one = film(warp, PaintRule::One);
+        assert!(one.frame(0.5).figure().coats.is_empty());
+    }
+}

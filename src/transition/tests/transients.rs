@@ -1,0 +1,249 @@
+//! Films with holes that one design has alone, drafts of films, and what is said of
+//! mirrored designs.
+
+use super::*;
+use crate::content::Content;
+use crate::correspondence::UnmatchedPart;
+use crate::geometry::{RingEdge, Side, winding};
+
+/// A plate with a row of holes.
+fn perforated(holes: u32) -> Arc<Design> {
+    let hole = |k: u32| format!("M{} 40v20h10v-20z", 15 + 15 * k);
+    let holes: String = (0..holes).map(hole).collect();
+    svg(&format!("M5 20h90v60h-90z {holes}"))
+}
+
+fn sorted(rings: &[Vec<DVec2>]) -> Vec<f64> {
+    let mut areas: Vec<f64> = rings
+        .iter()
+        .map(|r| area(std::slice::from_ref(r)))
+        .collect();
+    areas.sort_by(f64::total_cmp);
+    areas
+}
+
+#[test]
+fn holes_of_one_design_shrink_where_they_are() {
+    let mut spec = TransitionSpec::new(perforated(5), perforated(0));
+    spec.options.matching.holes = HoleRule::Alone;
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    let mut frame = transition.frame(0.0);
+    for (t, wanted) in [(0.0, -200.0), (2.0 / 3.0, -50.0)] {
+        frame.seek(t);
+        let areas = sorted(&frame.figure().rings);
+        assert_eq!(areas.len(), 6);
+        assert!((areas[0] - wanted).abs() < 1e-9, "{t}: {areas:?}");
+        assert!((areas[5] - 5400.0).abs() < 1e-9);
+    }
+    frame.seek(1.0);
+    let last = sorted(&frame.figure().rings);
+    assert!(
+        last.len() == 1 && (last[0] - 5400.0).abs() < 1e-9,
+        "{last:?}"
+    );
+    // Beyond the ends they are as at them.
+    frame.seek(1.5);
+    assert_eq!(frame.figure().rings.len(), 1);
+}
+
+#[test]
+fn films_of_exchanged_designs_have_their_holes_at_the_same_times() {
+    let (a, b) = (
+        perforated(4),
+        svg("M10 10L90 30L70 95L20 80z M40 40v20h20v-20z"),
+    );
+    let rings = |source: &Arc<Design>, target: &Arc<Design>| -> Vec<Vec<f64>> {
+        let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        let at = |k: u32| sorted(&transition.frame(f64::from(k) / 8.0).figure().rings);
+        (0..=8).map(at).collect()
+    };
+    let (there, mut back) = (rings(&a, &b), rings(&b, &a));
+    back.reverse();
+    for (there, back) in there.iter().zip(&back) {
+        assert_eq!(there.len(), back.len());
+        for (p, q) in there.iter().zip(back) {
+            assert!((p - q).abs() < 1e-6 * (1.0 + p.abs()), "{p} {q}");
+        }
+    }
+}
+
+#[test]
+fn a_hole_that_is_alone_crosses_nothing_on_its_way() {
+    let frame = svg("M10 10h80v80h-80z M20 20v60h60v-60z");
+    let bend = svg("M10 10h80v20h-60v60h-20z");
+    assert_eq!(
+        [most_crossings(&frame, &bend), most_crossings(&bend, &frame)],
+        [0, 0]
+    );
+}
+
+#[test]
+fn a_hole_makes_way_for_one_in_its_midst() {
+    // As long as it is there, the small one crosses it, whenever it comes.
+    let window = svg("M5 20h90v60h-90z M20 30v40h60v-40z");
+    let dot = svg("M5 20h90v60h-90z M45 45v10h10v-10z");
+    for (a, b) in [(&window, &dot), (&dot, &window)] {
+        let mut spec = TransitionSpec::new(Arc::clone(a), Arc::clone(b));
+        spec.options.matching.holes = HoleRule::Alone;
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        let mut frame = transition.frame(0.0);
+        let (mut crossings, mut most) = (0, 0);
+        for step in 0..=512 {
+            frame.seek(f64::from(step) / 512.0);
+            let rings = &frame.figure().rings;
+            crossings += count_crossings(rings);
+            most = most.max(rings.len());
+        }
+        assert_eq!((crossings, most), (0, 2), "one after the other");
+    }
+}
+
+#[test]
+fn a_draft_is_one_film_of_several_with_the_same_ends() {
+    let (a, b) = (svg("M10 10h80v80h-80z"), svg("M50 20L80 80H20z"));
+    let spec = TransitionSpec::new(a, b);
+    let draft = spec.draft(&Silent).unwrap();
+    assert!(draft.draft(&Silent).is_none(), "a draft of a draft");
+    let [best, draft] = [&spec, &draft].map(|spec| Transition::build(spec, &Silent).unwrap());
+    for t in [0.0, 1.0] {
+        let [best, draft] = [&best, &draft].map(|made| area(&made.frame(t).figure().rings));
+        assert!((best - draft).abs() < 1e-9 * best, "{best} {draft}");
+    }
+    let given = TransitionSpec::new(design(SQUARE), design(SQUARE));
+    assert!(given.draft(&Silent).is_none());
+    let mut field = spec;
+    field.cell = TransitionMethod::FIELD_BLEND;
+    assert!(field.draft(&Silent).is_none());
+}
+
+#[test]
+fn what_would_match_far_better_mirrored_is_told() {
+    // A spring, wound either way.
+    let spring = "M10 10H90V90H20V40H60V70H40V60H50V50H30V80H80V20H10Z";
+    let over = "M90 10H10V90H80V40H40V70H60V60H50V50H70V80H20V20H90Z";
+    let notes = |source: &str, target: &str| {
+        let spec = TransitionSpec::new(svg(source), svg(target));
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        transition.notes().to_vec()
+    };
+    let said = notes(spring, over);
+    assert!(
+        matches!(said[..], [TransitionNote::Mirrored { .. }]),
+        "{said:?}"
+    );
+    let star = "M50 5L60 40H95L67 60 78 95 50 73 22 95 33 60 5 40H40z";
+    for (source, target) in [(spring, spring), (spring, star)] {
+        assert_eq!(notes(source, target), []);
+    }
+}
+
+/// How many parts swell in the film from one design to another.
+fn swelling(transition: &Transition) -> usize {
+    match transition.content() {
+        Content::Solid(solid) => solid.swells.len(),
+        _ => 0,
+    }
+}
+
+#[test]
+fn a_ring_around_what_is_there_comes_as_a_line_that_swells() {
+    let bars = svg("M32 30h12v40h-12z M56 30h12v40h-12z");
+    let badge = svg(
+        "M32 30h12v40h-12z M56 30h12v40h-12z M50 2a48 48 0 0 1 0 96a48 48 0 0 1 0-96 M50 12a38 38 0 0 0 0 76a38 38 0 0 0 0-76",
+    );
+    let film = |source: &Arc<Design>, target: &Arc<Design>| {
+        let spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+        Transition::build(&spec, &Silent).unwrap()
+    };
+    let (there, back) = (film(&bars, &badge), film(&badge, &bars));
+    assert_eq!([swelling(&there), swelling(&back)], [1, 1]);
+    let mut before = 0.0;
+    for k in 0..=64 {
+        let t = f64::from(k) / 64.0;
+        let frame = there.frame(t);
+        let rings = frame.figure().rings;
+        assert_eq!(count_crossings(&rings), 0, "{t}");
+        // Whatever it would cross could be told of.
+        if let Content::Solid(solid) = there.content() {
+            let places = &frame.placement().in_frame;
+            for ring in 0..solid.rings_at(places, t).len() {
+                let edge = RingEdge { ring, point: 0 };
+                assert!(solid.corners_at(edge, places, t).is_some(), "{t}: {ring}");
+            }
+        }
+        let now = area(&rings);
+        // Nothing is done in vain: the ring only grows.
+        assert!(now >= before - 1e-6, "{t}: {now} after {before}");
+        assert!((area(&back.frame(1.0 - t).figure().rings) - now).abs() < 1e-6);
+        before = now;
+    }
+    let drawn = badge.outline(0.0).unwrap();
+    let wanted: f64 = drawn.rings().map(|ring| ring.signed_area()).sum();
+    assert!((before - wanted).abs() < 1e-6 * wanted);
+}
+
+#[test]
+fn a_film_in_which_nothing_has_a_partner_goes_from_one_design_to_the_other() {
+    let (a, b) = (svg("M10 10h30v30h-30z"), svg("M50 40h40v40h-40z"));
+    let mut spec = TransitionSpec::new(a, b);
+    let matching = &mut spec.options.matching;
+    for side in Side::BOTH {
+        let at = DVec2::new(60.0, 50.0);
+        matching.lone.push(UnmatchedPart { side, at });
+    }
+    let transition = Transition::build(&spec, &Silent).unwrap();
+    let mut frame = transition.frame(0.0);
+    // What is not there yet is a speck.
+    for (t, wanted) in [(0.0, 900.0), (1.0, 1600.0)] {
+        frame.seek(t);
+        let found = area(&frame.figure().rings);
+        assert!((found - wanted).abs() < 1e-3, "{t}: {found}");
+    }
+    frame.seek(0.5);
+    assert!(area(&frame.figure().rings).is_finite());
+}
+
+#[test]
+fn nothing_is_born_in_what_has_just_begun_to_die() {
+    // Either would be free to come and go in its own place, were the other not there.
+    let one = svg("M10 10h30v80h-30z M62 42h16v16h-16z");
+    let two = svg("M10 10h30v80h-30z M55 35h30v30h-30z");
+    for (source, target) in [(&one, &two), (&two, &one)] {
+        let mut spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+        for side in Side::BOTH {
+            let at = DVec2::new(70.0, 50.0);
+            spec.options.matching.lone.push(UnmatchedPart { side, at });
+        }
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        let mut frame = transition.frame(0.0);
+        for step in 1..1024 {
+            frame.seek(f64::from(step) / 1024.0);
+            let rings = &frame.figure().rings;
+            assert_eq!(count_crossings(rings), 0, "{step}");
+            let lie_in_another = rings.iter().filter(|ring| {
+                let others = rings.iter().filter(|other| *other != *ring);
+                others.map(|other| winding(other, ring[0])).sum::<i32>() != 0
+            });
+            assert_eq!(lie_in_another.count(), 0, "{step}");
+        }
+    }
+}
+
+#[test]
+fn what_is_born_is_not_drawn_before_it_is() {
+    let (one, two) = (
+        svg("M10 10h40v40h-40z"),
+        svg("M10 10h40v40h-40z M60 60h20v20h-20z"),
+    );
+    for (source, target, wanted) in [(&one, &two, [1, 2]), (&two, &one, [2, 1])] {
+        let mut spec = TransitionSpec::new(Arc::clone(source), Arc::clone(target));
+        spec.options.matching.parts = PartRule::Alone;
+        let transition = Transition::build(&spec, &Silent).unwrap();
+        let rings = |t: f64| transition.frame(t).figure().rings.len();
+        assert_eq!([rings(0.0), rings(1.0)], wanted);
+        // Beyond the film nothing comes to be.
+        assert_eq!([rings(-0.2), rings(1.2)], wanted);
+        assert_eq!(rings(0.5), 2);
+    }
+}

@@ -1,0 +1,12 @@
+//! Parts and holes that exist in only one design: where and when they enter or exit,
+//! and the shapes they have on the way.
+
+pub(crate) mod boundary_loops;
+pub(crate) mod growth_profile;
+pub(crate) mod holes;
+pub(crate) mod layered_outline;
+pub(crate) mod layers;
+pub(crate) mod placement;
+pub(crate) mod sample_times;
+pub(crate) mod schedule;
+pub(crate) mod shapes;

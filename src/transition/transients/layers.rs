@@ -1,0 +1,71 @@
+//! Which pieces of a film are in each other's way: those that are painted alike.
+
+use crate::correspondence::{PartLooks, PieceMatch, RegionMatch};
+use crate::geometry::Side;
+use std::collections::BTreeMap;
+
+/// For each piece of a match its level: what is on one goes from one coat to one
+/// coat, and is in each other's way; what is not passes over or under.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(in crate::transition) struct PieceLayers {
+    of_pieces: Vec<usize>,
+    /// For each level its coats in source and target.
+    pub(in crate::transition) coats: Vec<[Option<usize>; 2]>,
+}
+
+impl PieceLayers {
+    pub(in crate::transition) fn of(matched: &RegionMatch, looks: &PartLooks) -> Self {
+        let parts = |piece: &PieceMatch| [piece.source_part, piece.target_part];
+        Self::of_parts(matched.pieces.iter().map(parts), looks)
+    }
+
+    /// Of pieces that go from one part to one part.
+    pub(in crate::transition) fn of_parts(
+        pieces: impl Iterator<Item = [Option<usize>; 2]>,
+        looks: &PartLooks,
+    ) -> Self {
+        let coats = |parts: [Option<usize>; 2]| -> [Option<usize>; 2] {
+            Side::BOTH.map(|side| parts[side].map(|part| looks.coat(side, part)))
+        };
+        let mut of_pieces: Vec<[Option<usize>; 2]> = pieces.map(coats).collect();
+        // What is born or dies goes with most of its coat.
+        let both: Vec<[Option<usize>; 2]> = of_pieces.clone();
+        for own in &mut of_pieces {
+            for side in Side::BOTH {
+                if own[side].is_none() {
+                    own[side] = partner(&both, side.other(), own[side.other()]);
+                }
+            }
+        }
+        let mut levels = BTreeMap::new();
+        for own in &of_pieces {
+            let next = levels.len();
+            levels.entry(*own).or_insert(next);
+        }
+        let mut coats = vec![[None; 2]; levels.len()];
+        levels.iter().for_each(|(own, &level)| coats[level] = *own);
+        Self {
+            of_pieces: of_pieces.iter().map(|own| levels[own]).collect(),
+            coats,
+        }
+    }
+
+    /// The level of a piece.
+    pub(in crate::transition) fn of_piece(&self, piece: usize) -> usize {
+        self.of_pieces.get(piece).copied().unwrap_or(0)
+    }
+}
+
+/// The coat that most pieces of a coat of one design go to in the other.
+fn partner(pieces: &[[Option<usize>; 2]], side: Side, coat: Option<usize>) -> Option<usize> {
+    let mut counts = BTreeMap::new();
+    for piece in pieces.iter().filter(|piece| piece[side] == coat) {
+        if let Some(other) = piece[side.other()] {
+            *counts.entry(other).or_insert(0) += 1;
+        }
+    }
+    let most = counts
+        .iter()
+        .max_by_key(|(other, count)| (**count, usize::MAX - **other));
+    most.map(|(other, _)| *other)
+}

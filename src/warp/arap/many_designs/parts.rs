@@ -1,0 +1,171 @@
+//! Where the connected parts of many designs are as wholes, which the energy leaves open:
+//! they are carried about the whole as it turns, as parts of two designs are.
+
+use crate::compatible::{BarElement, CompatibleFamily};
+use crate::geometry::{DMat2, DVec2, twice_signed_area};
+
+/// The connected parts and where they are as wholes.
+#[derive(Debug)]
+pub(super) struct BlendParts {
+    /// For each vertex its part.
+    pub of_vertex: Vec<u32>,
+    /// For each vertex its share of its part's mass.
+    shares: Vec<f64>,
+    /// For each design its rotation against what all have in common, in radians.
+    angles: Vec<f64>,
+    /// For each part and each design its offset from the whole's centroid, turned back;
+    /// parts first.
+    turned: Vec<DVec2>,
+}
+
+/// Σ w_j p_j.
+pub(super) fn blended(weights: &[f64], places: &[DVec2]) -> DVec2 {
+    weights.iter().zip(places).map(|(&w, &p)| p * w).sum()
+}
+
+/// Fixed masses of the vertices: the mean of the designs' normalised lumped areas.
+fn masses(family: &CompatibleFamily) -> Vec<f64> {
+    let mut masses = vec![0.0; family.places()[0].len()];
+    for places in family.places() {
+        let area = |face: &[u32; 3]| {
+            let [a, b, c] = face.map(|v| places[v as usize]);
+            0.5 * twice_signed_area(a, b, c)
+        };
+        let square =
+            |&[a, b]: &BarElement| 0.5 * places[a as usize].distance_squared(places[b as usize]);
+        let faces = family.faces().iter();
+        let total = faces.clone().map(area).sum::<f64>()
+            + family.elements().iter().map(square).sum::<f64>();
+        let share = 1.0 / (total * family.count() as f64);
+        for face in faces {
+            let mass = area(face) * share / 3.0;
+            face.iter().for_each(|&v| masses[v as usize] += mass);
+        }
+        for bar in family.elements() {
+            let mass = square(bar) * share / 2.0;
+            bar.iter().for_each(|&v| masses[v as usize] += mass);
+        }
+    }
+    masses
+}
+
+impl BlendParts {
+    pub fn of(family: &CompatibleFamily) -> Self {
+        let masses = &masses(family)[..];
+        let of_vertex = family.pair(0, 0).components();
+        let count = of_vertex.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut mass = vec![0.0; count];
+        for (&part, &m) in of_vertex.iter().zip(masses) {
+            mass[part as usize] += m;
+        }
+        let shares = of_vertex.iter().zip(masses);
+        let shares: Vec<f64> = shares.map(|(&part, &m)| m / mass[part as usize]).collect();
+        let designs = family.count();
+        let angles = common_angles(family, masses);
+        let mut turned = vec![DVec2::ZERO; count * designs];
+        // The only part is the whole.
+        if count > 1 {
+            for (design, places) in family.places().iter().enumerate() {
+                let mut centres = vec![DVec2::ZERO; count];
+                for ((&part, &share), &p) in of_vertex.iter().zip(&shares).zip(places) {
+                    centres[part as usize] += p * share;
+                }
+                let total: f64 = mass.iter().sum();
+                let whole: DVec2 = centres
+                    .iter()
+                    .zip(&mass)
+                    .map(|(&c, &m)| c * (m / total))
+                    .sum();
+                let back = DMat2::from_angle(-angles[design]);
+                for (part, &centre) in centres.iter().enumerate() {
+                    turned[part * designs + design] = back * (centre - whole);
+                }
+            }
+        }
+        Self {
+            of_vertex,
+            shares,
+            angles,
+            turned,
+        }
+    }
+
+    /// How many parts there are.
+    pub fn count(&self) -> usize {
+        self.turned.len() / self.angles.len()
+    }
+
+    /// What has to be added to the deviation of each part: its mean is taken out, and
+    /// parts are carried about the whole as it turns.
+    pub fn shifts(
+        &self,
+        weights: &[f64],
+        deviation: impl Fn(usize) -> DVec2,
+        shifts: &mut [DVec2],
+    ) {
+        let angle: f64 = self.angles.iter().zip(weights).map(|(a, w)| a * w).sum();
+        let turn = DMat2::from_angle(angle);
+        for (shift, turned) in shifts
+            .iter_mut()
+            .zip(self.turned.chunks_exact(weights.len()))
+        {
+            // By the operations of the other side, so that both are equal at a design.
+            let ends = turned.iter().zip(&self.angles).zip(weights);
+            let straight: DVec2 = ends
+                .map(|((&end, &angle), &w)| DMat2::from_angle(angle) * end * w)
+                .sum();
+            *shift = turn * blended(weights, turned) - straight;
+        }
+        for (v, (&part, &share)) in self.of_vertex.iter().zip(&self.shares).enumerate() {
+            shifts[part as usize] -= deviation(v) * share;
+        }
+    }
+}
+
+/// For each design the rotation about its centroid that lays it on all others best, least
+/// squares over all pairs of designs (generalised Procrustes analysis, Gower 1975, of
+/// rotations alone).
+fn common_angles(family: &CompatibleFamily, masses: &[f64]) -> Vec<f64> {
+    /// A power iteration, whose error falls by some digits a round unless designs agree on
+    /// no rotation.
+    const ROUNDS: usize = 200;
+    let count = family.count();
+    let total: f64 = masses.iter().sum();
+    let centred: Vec<Vec<DVec2>> = family
+        .places()
+        .iter()
+        .map(|places| {
+            let centre: DVec2 = places
+                .iter()
+                .zip(masses)
+                .map(|(&p, &m)| p * (m / total))
+                .sum();
+            places.iter().map(|&p| p - centre).collect()
+        })
+        .collect();
+    // As complex numbers: the argument turns design k onto design j.
+    let onto = |j: usize, k: usize| -> DVec2 {
+        let places = centred[j].iter().zip(&centred[k]).zip(masses);
+        places
+            .map(|((&p, &q), &m)| DVec2::new(q.dot(p), q.perp_dot(p)) * m)
+            .sum()
+    };
+    let products: Vec<Vec<DVec2>> = (0..count)
+        .map(|j| (0..count).map(|k| onto(j, k)).collect())
+        .collect();
+    let mut turns = vec![DVec2::X; count];
+    for _ in 0..ROUNDS {
+        let before = turns.clone();
+        for (j, turn) in turns.iter_mut().enumerate() {
+            let others = (0..count).filter(|&k| k != j);
+            let sum: DVec2 = others.map(|k| before[k].rotate(products[j][k])).sum();
+            // Half of the way, or two designs would change places for ever.
+            *turn = (before[j] + sum.normalize_or(before[j])).normalize_or(before[j]);
+        }
+        let moved = turns.iter().zip(&before).map(|(a, b)| a.distance(*b));
+        if moved.fold(0.0, f64::max) < 1e-15 {
+            break;
+        }
+    }
+    turns.iter().map(|turn| turn.to_angle()).collect()
+}

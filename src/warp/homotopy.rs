@@ -1,0 +1,167 @@
+//! Paths of 2×2 matrices from the identity to a local map M = R(θ) S.
+//!
+//! The paper's eqs. 3 to 5. All of them start at I, end at M, and run
+//! backwards for the inverse map: M_BA(1−t) · M = M_AB(t). Angles are given,
+//! not recomputed, so that θ may exceed π where a shape turns further.
+//!
+//! [`Homotopy::at`] is the plain form, one matrix at a time; the solver
+//! evaluates the same formulas for several faces at once.
+
+use crate::geometry::{DMat2, PolarDecomposition, SymmetricEigen};
+use crate::settings::choice::named;
+
+/// How the local map of a face moves from the identity to its end.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Homotopy {
+    /// (1−t) I + t M (paper, eq. 3): straight vertex paths; collapses on
+    /// half turns.
+    Linear,
+    /// R(tθ) ((1−t) I + t S) (paper, eq. 4; Alexa, Cohen-Or, Levin 2000):
+    /// turns steadily, no reflection on [0, 1].
+    #[default]
+    Polar,
+    /// R(tθ) exp(t log S) (paper, eq. 5): det M(t) = (det M)^t is positive
+    /// for every t, the one for extrapolation.
+    Exponential,
+    /// ((1−t) I + t R(θ)) ((1−t) I + t S): the linear path after polar
+    /// decomposition, for the paper's figure 7b only.
+    LinearAfterPolar,
+    /// R(tθ) √((1−t) I + t S²), the exponential one beyond the designs: squared
+    /// lengths change evenly, and no angle is distorted more than at the worse end. Rigid parts go on to flatten these
+    /// metrics all together (Chen, Weber, Keren, Ben-Chen 2013).
+    Bounded,
+}
+
+named! { Homotopy {
+    Linear: "linear", "Linear",
+        "Points go straight. Cheap and even, but parts shrink while they turn and collapse on \
+         half turns.";
+    LinearAfterPolar: "linear-after-polar", "Linear, turn apart",
+        "Turn and stretch apart, the turn on a straight line: shows why the turn must be on a \
+         circle.";
+    Polar: "polar", "Polar",
+        "Parts turn steadily while they stretch evenly. Right for most designs.";
+    Exponential: "exponential", "Exponential",
+        "Turns steadily and stretches by equal factors: never turns inside out, even far beyond \
+         the designs.";
+    Bounded: "bounded", "Bounded",
+        "Nothing is sheared more on the way than in the worse of the two designs. Sizes may \
+         change and straight sides bend; slow, unless it plays from a recording.";
+} }
+
+impl Homotopy {
+    /// Whether no face can turn over for t in [0, 1].
+    #[must_use]
+    pub const fn keeps_orientation(self) -> bool {
+        matches!(self, Self::Polar | Self::Exponential | Self::Bounded)
+    }
+
+    /// M(t).
+    ///
+    /// ```
+    /// use morphospace::{geometry::{DMat2, Polar}, homotopy::Homotopy};
+    /// let half_turn = Polar { angle: std::f64::consts::PI, stretch: DMat2::IDENTITY };
+    /// assert!(Homotopy::Linear.at(&half_turn, 0.5).determinant().abs() < 1e-15);
+    /// assert!((Homotopy::Polar.at(&half_turn, 0.5).determinant() - 1.0).abs() < 1e-15);
+    /// ```
+    #[must_use]
+    pub fn at(self, map: &PolarDecomposition, t: f64) -> DMat2 {
+        let from_identity = |m: DMat2| DMat2::IDENTITY * (1.0 - t) + m * t;
+        let turned = DMat2::from_angle(t * map.angle);
+        match self {
+            Self::Linear => from_identity(map.matrix()),
+            Self::Polar => turned * from_identity(map.stretch),
+            Self::Exponential => {
+                // exp(t log S): the eigenvalues are positive, as faces are in
+                // both designs.
+                turned * SymmetricEigen::of(map.stretch).map(|lambda| lambda.powf(t))
+            }
+            Self::LinearAfterPolar => {
+                from_identity(DMat2::from_angle(map.angle)) * from_identity(map.stretch)
+            }
+            Self::Bounded => {
+                if !(0.0..=1.0).contains(&t) {
+                    // Squared lengths may run out there.
+                    return Self::Exponential.at(map, t);
+                }
+                let stretched = |lambda: f64| ((1.0 - t) + t * lambda * lambda).sqrt();
+                turned * SymmetricEigen::of(map.stretch).map(stretched)
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::DVec2;
+    use proptest::prelude::*;
+
+    fn any_map() -> impl Strategy<Value = PolarDecomposition> {
+        (-10.0f64..10.0, -2.0f64..2.0, 0.1f64..5.0, 0.1f64..5.0).prop_map(|(angle, phi, a, b)| {
+            let v = DMat2::from_angle(phi);
+            let stretch = v * DMat2::from_diagonal(DVec2::new(a, b)) * v.transpose();
+            PolarDecomposition { angle, stretch }
+        })
+    }
+
+    /// The inverse map with the angle −θ: M⁻¹ = S⁻¹ R(−θ) = R(−θ) (R(θ) S⁻¹ R(−θ)).
+    fn inverse(map: &PolarDecomposition) -> PolarDecomposition {
+        let turn = DMat2::from_angle(map.angle);
+        PolarDecomposition {
+            angle: -map.angle,
+            stretch: turn * map.stretch.inverse() * turn.transpose(),
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn the_bounded_one_is_never_sheared_more_than_at_its_end(
+            map in any_map(),
+            t in 0.0f64..1.0,
+        ) {
+            let sheared = |m: DMat2| {
+                let [a, b] = SymmetricEigen::of(PolarDecomposition::of(m).stretch).values;
+                a / b
+            };
+            let now = sheared(Homotopy::Bounded.at(&map, t));
+            prop_assert!(now <= sheared(map.matrix()) * (1.0 + 1e-12));
+        }
+
+        #[test]
+        fn every_path_joins_identity_and_map(map in any_map()) {
+            for homotopy in Homotopy::ALL {
+                prop_assert!(homotopy.at(&map, 0.0).abs_diff_eq(DMat2::IDENTITY, 1e-12));
+                prop_assert!(homotopy.at(&map, 1.0).abs_diff_eq(map.matrix(), 1e-12));
+            }
+        }
+
+        #[test]
+        fn the_way_back_is_the_way(map in any_map(), t in -0.5f64..1.5) {
+            for homotopy in Homotopy::ALL {
+                if homotopy == Homotopy::LinearAfterPolar {
+                    continue;
+                }
+                let back = homotopy.at(&inverse(&map), 1.0 - t) * map.matrix();
+                prop_assert!(back.abs_diff_eq(homotopy.at(&map, t), 1e-10), "{homotopy:?}");
+            }
+        }
+
+        #[test]
+        fn exponential_never_reflects(map in any_map(), t in -3.0f64..4.0) {
+            let det = Homotopy::Exponential.at(&map, t).determinant();
+            let expected = map.stretch.determinant().powf(t);
+            prop_assert!((det / expected - 1.0).abs() < 1e-9);
+        }
+
+        #[test]
+        fn angles_are_linear_in_time(map in any_map(), t in 0.0f64..1.0) {
+            for homotopy in [Homotopy::Polar, Homotopy::Exponential, Homotopy::Bounded] {
+                let found = PolarDecomposition::of(homotopy.at(&map, t)).angle - t * map.angle;
+                let turns = found / std::f64::consts::TAU;
+                prop_assert!((turns - turns.round()).abs() < 1e-10);
+            }
+        }
+    }
+}

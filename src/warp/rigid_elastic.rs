@@ -1,0 +1,263 @@
+//! A warp of the plane split into a rigid motion and an elastic rest.
+//!
+//! Cohen-Or, Levin, Solomovici, "Three-dimensional distance field
+//! metamorphosis" (1998), §4: the rotation that lays the source's features
+//! onto the target's is played as a rotation, and only what it leaves over is
+//! a warp. A thing that turns does not shrink on the way, as it does where its
+//! features go straight.
+//!
+//! Guaranteed: whatever the features, at t = 0 the source and at t = 1 the
+//! target is looked up at the very same place, to the last bit; swapping the
+//! designs plays the film backwards, to rounding, unless the turn is by π, which
+//! goes counter-clockwise either way; features that only moved and turned move
+//! rigidly.
+
+use super::rigid_motion::{CommonRigidMotion, conjugate};
+use super::{MissedFeatures, Placement, Placer, PlaneWarp, Warp};
+use crate::correspondence::{LinePair, PointPair};
+use crate::geometry::{Bounds, DVec2};
+use std::sync::Arc;
+
+/// A warp of the plane behind a rigid motion.
+#[derive(Clone, Debug)]
+pub struct RigidElasticPlaneWarp<W> {
+    rigid: CommonRigidMotion,
+    elastic: W,
+    /// The places as the elastic warp sees them.
+    rest: Vec<DVec2>,
+}
+
+impl<W> RigidElasticPlaneWarp<W> {
+    /// Splits off `rigid`; `elastic` makes the warp of what is left, over a
+    /// frame at rest and from the features at rest.
+    ///
+    /// # Errors
+    /// Whatever `elastic` fails with.
+    pub fn new<E>(
+        rigid: CommonRigidMotion,
+        frame: &Bounds,
+        points: &[PointPair],
+        lines: &[LinePair],
+        elastic: impl FnOnce(&Bounds, &[PointPair], &[LinePair]) -> Result<W, E>,
+    ) -> Result<Self, E> {
+        let points: Vec<PointPair> = points
+            .iter()
+            .map(|pair| {
+                let [source, target] = rigid.at_rest(pair.source, pair.target);
+                PointPair { source, target }
+            })
+            .collect();
+        let lines: Vec<LinePair> = lines
+            .iter()
+            .map(|line| {
+                let [a, b] = [0, 1].map(|k| rigid.at_rest(line.source[k], line.target[k]));
+                LinePair {
+                    source: [a[0], b[0]],
+                    target: [a[1], b[1]],
+                }
+            })
+            .collect();
+        Ok(Self {
+            rigid,
+            elastic: elastic(&rigid.frame_at_rest(frame), &points, &lines)?,
+            rest: Vec::new(),
+        })
+    }
+}
+
+impl<W: PlaneWarp> PlaneWarp for RigidElasticPlaneWarp<W> {
+    fn look_up(
+        &mut self,
+        t: f64,
+        frame: &[DVec2],
+        in_source: &mut [DVec2],
+        in_target: &mut [DVec2],
+    ) {
+        let t = if t.is_finite() { t } else { 0.0 };
+        let (back, centre) = self.rigid.at(t);
+        self.rest.clear();
+        let rest = frame.iter().map(|p| back.rotate(*p - centre));
+        self.rest.extend(rest);
+        self.elastic.look_up(t, &self.rest, in_source, in_target);
+        let looks = [&mut *in_source, &mut *in_target];
+        for (places, from_rest) in looks.into_iter().zip(self.rigid.maps_from_rest()) {
+            places.iter_mut().for_each(|p| *p = from_rest(*p));
+        }
+        // The ends are the designs themselves, not the designs to rounding.
+        if t == 0.0 {
+            in_source.copy_from_slice(frame);
+        }
+        if t == 1.0 {
+            in_target.copy_from_slice(frame);
+        }
+    }
+
+    fn missed(&self, t: f64) -> Option<MissedFeatures> {
+        let missed = self.elastic.missed(t)?;
+        let (back, centre) = self.rigid.at(t);
+        let place = conjugate(back).rotate(missed.place) + centre;
+        Some(MissedFeatures { place, ..missed })
+    }
+}
+
+/// A warp whose vertices keep the points that they show, such as
+/// [`super::Arap`], built at rest and played behind a rigid motion.
+#[derive(Clone, Debug)]
+pub struct RigidElasticWarp<W> {
+    rigid: CommonRigidMotion,
+    at_rest: W,
+}
+
+impl<W: Warp> RigidElasticWarp<W> {
+    /// Plays `at_rest` behind `rigid`.
+    pub const fn new(rigid: CommonRigidMotion, at_rest: W) -> Self {
+        Self { rigid, at_rest }
+    }
+
+    /// The warp behind the motion.
+    pub const fn at_rest(&self) -> &W {
+        &self.at_rest
+    }
+}
+
+impl<W: Warp> Warp for RigidElasticWarp<W> {
+    fn placer(&self) -> Placer {
+        let mut at_rest = self.at_rest.placer();
+        let rest = at_rest.placement();
+        let [source, target] = self.rigid.maps_from_rest();
+        let placement = Placement {
+            faces: Arc::clone(&rest.faces),
+            in_frame: rest.in_frame.clone(),
+            in_source: rest.in_source.iter().copied().map(source).collect(),
+            in_target: rest.in_target.iter().copied().map(target).collect(),
+        };
+        let rigid = self.rigid;
+        let mut placer = Placer::new(placement, move |t, placement| {
+            at_rest.place(t);
+            let (back, centre) = rigid.at(if t.is_finite() { t } else { 0.0 });
+            let rest = &at_rest.placement().in_frame;
+            for (p, rest) in placement.in_frame.iter_mut().zip(rest) {
+                *p = conjugate(back).rotate(*rest) + centre;
+            }
+        });
+        placer.place(0.0);
+        placer
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::warp::{Lattice, LatticeOptions, ScatteredOptions, ScatteredWarp};
+    use proptest::prelude::*;
+    use std::f64::consts::PI;
+
+    const FRAME: Bounds = Bounds {
+        min: DVec2::new(-2.0, -2.0),
+        max: DVec2::new(2.0, 2.0),
+    };
+
+    fn places() -> Vec<DVec2> {
+        let at = |k: u32| DVec2::new(f64::from(k % 5) - 2.0, f64::from(k / 5) - 2.0);
+        (0..25).map(at).collect()
+    }
+
+    fn looked<W: PlaneWarp>(warp: &W, t: f64, frame: &[DVec2]) -> [Vec<DVec2>; 2] {
+        let [mut source, mut target] = [frame.to_vec(), frame.to_vec()];
+        warp.clone().look_up(t, frame, &mut source, &mut target);
+        [source, target]
+    }
+
+    fn moved(points: &[DVec2], turn: f64, by: DVec2) -> Vec<PointPair> {
+        let to = |p: &DVec2| DVec2::from_angle(turn).rotate(*p) + by;
+        points
+            .iter()
+            .map(|p| PointPair {
+                source: *p,
+                target: to(p),
+            })
+            .collect()
+    }
+
+    fn thin_plate(pairs: &[PointPair]) -> RigidElasticPlaneWarp<ScatteredWarp> {
+        let rigid = CommonRigidMotion::of(pairs, &[]).expect("two places");
+        RigidElasticPlaneWarp::new(rigid, &FRAME, pairs, &[], |frame, points, lines| {
+            ScatteredWarp::new(frame, points, lines, ScatteredOptions::default())
+        })
+        .expect("a warp")
+    }
+
+    const CORNERS: [DVec2; 4] = [
+        DVec2::new(-1.0, -1.0),
+        DVec2::new(1.0, -0.5),
+        DVec2::new(0.5, 1.0),
+        DVec2::new(-0.7, 0.4),
+    ];
+
+    #[test]
+    fn what_only_turned_moves_rigidly() {
+        for turn in [0.3, 2.0, -3.0, PI] {
+            let pairs = moved(&CORNERS, turn, DVec2::new(0.4, -0.2));
+            let lattice = {
+                let rigid = CommonRigidMotion::of(&pairs, &[]).expect("two places");
+                RigidElasticPlaneWarp::new(rigid, &FRAME, &pairs, &[], |frame, points, lines| {
+                    Lattice::new(frame, points, lines, LatticeOptions::default())
+                })
+                .expect("a warp")
+            };
+            let frame = places();
+            for t in [0.0, 0.3, 0.5, 0.8, 1.0, 1.4] {
+                for seen in [
+                    looked(&thin_plate(&pairs), t, &frame),
+                    looked(&lattice, t, &frame),
+                ] {
+                    for side in &seen {
+                        for (k, p) in side.iter().enumerate() {
+                            for (l, q) in side.iter().enumerate() {
+                                let (apart, wanted) = (p.distance(*q), frame[k].distance(frame[l]));
+                                assert!((apart - wanted).abs() < 1e-9, "turn {turn} at {t}");
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_ends_are_exact() {
+        let mut pairs = moved(&CORNERS, 1.3, DVec2::new(0.3, 0.1));
+        pairs[2].target += DVec2::new(0.2, -0.4);
+        let (warp, frame) = (thin_plate(&pairs), places());
+        assert_eq!(looked(&warp, 0.0, &frame)[0], frame);
+        assert_eq!(looked(&warp, 1.0, &frame)[1], frame);
+    }
+
+    fn pairs() -> impl Strategy<Value = Vec<PointPair>> {
+        let place = || (-2.0..2.0, -2.0..2.0).prop_map(DVec2::from);
+        let pair = (place(), place()).prop_map(|(source, target)| PointPair { source, target });
+        prop::collection::vec(pair, 2..7)
+    }
+
+    proptest! {
+        #[test]
+        fn swapped_is_backwards_and_finite(pairs in pairs(), t in 0.0..1.0) {
+            let back: Vec<PointPair> = pairs
+                .iter()
+                .map(|p| PointPair { source: p.target, target: p.source })
+                .collect();
+            let frame = places();
+            let there = looked(&thin_plate(&pairs), t, &frame);
+            let returned = looked(&thin_plate(&back), 1.0 - t, &frame);
+            // Near half a turn the way around is a matter of rounding.
+            let turn = CommonRigidMotion::of(&pairs, &[]).expect("two places").turn();
+            prop_assume!(turn.abs() < 3.1);
+            for k in 0..frame.len() {
+                prop_assert!(there[0][k].is_finite() && there[1][k].is_finite());
+                let scale = 1.0 + there[0][k].length() + there[1][k].length();
+                prop_assert!(there[0][k].distance(returned[1][k]) < 1e-5 * scale);
+                prop_assert!(there[1][k].distance(returned[0][k]) < 1e-5 * scale);
+            }
+        }
+    }
+}
