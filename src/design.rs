@@ -1,14 +1,14 @@
-//! Designs, the given forms, and how they are read from files.
+//! Designs (the shapes to blend) and their importers, one per file format.
 //!
-//! A [`Design`] is one of three forms: an outline with holes (from a picture
-//! or a drawing), a triangle mesh, or a truss. Files are known by their
-//! content, not by their name. Nothing outside the given bytes is opened.
+//! A [`Design`] holds an outline with holes (from a picture or a drawing), a
+//! triangle mesh, or a truss. The format of a file is recognised by its
+//! content, not by its name, and an importer opens nothing but the given bytes.
 //!
-//! Guaranteed: whatever the bytes are, [`import`] returns a design that can
-//! be drawn or an [`ImportError`] in words; it does not panic, and it refuses
-//! files that would need absurd amounts of memory or time before it spends
-//! them. Not guaranteed: that two designs go together; that is checked where
-//! they meet.
+//! Guarantees that for any bytes [`import`] returns either a drawable design or
+//! an [`ImportError`] whose message says what to do. It never panics, and it
+//! refuses files that would need excessive memory or time before spending it.
+//! Does not check that two designs can be blended; that happens when they are
+//! paired.
 
 mod dxf;
 mod error;

@@ -1,24 +1,20 @@
-//! DXF drawings, text and binary, of any release, as regions.
+//! Importer of DXF drawings, text and binary, of any release.
 //!
-//! LINE, LWPOLYLINE and POLYLINE with bulges, ARC, CIRCLE, ELLIPSE, SPLINE
-//! and INSERT of blocks are read. Curves are joined end to end into rings:
-//! ends count as one where they are nearer than [`JOIN_TOLERANCE`] of the
-//! drawing's longer side. The even-odd rule says what is inside. Where layers or
-//! objects have colours, what each layer has in each colour is a coat of paint.
-//! Units are
-//! not looked at, nor is what lies on hidden layers or in the paper space.
-//! One unit of the drawing is one unit.
+//! Supports LINE, LWPOLYLINE and POLYLINE with bulges, ARC, CIRCLE, ELLIPSE, SPLINE and
+//! INSERT. Curves are joined end to end into rings; end points closer than
+//! [`JOIN_TOLERANCE`] count as one. The even-odd rule decides what is inside. If layers or
+//! entities have colours, each combination of layer and colour becomes a paint layer. One
+//! drawing unit is one design unit; the declared units, hidden layers and paper space are
+//! ignored.
 //!
-//! Read by hand, as the pairs of a DXF file are simple: the `dxf` crate keeps
-//! every object with all its attributes, hundreds of bytes for each byte of a
-//! hostile file, and does not say on which line an error is.
+//! Does not use the `dxf` crate, which stores every entity with all attributes (hundreds of
+//! bytes per byte of a hostile file) and does not report the line of an error.
 //!
-//! Guaranteed: no bytes make it panic or run without end; memory is bounded by
-//! some hundred bytes for each object of at most [`MAX_OBJECTS`]. Curves that
-//! do not close are left out, which is told; where more than two meet and
-//! their number is odd, which of them belong to a ring is arbitrary. Splines
-//! that are given only by the points they pass through, hatches, text and
-//! solids are left out, which is told.
+//! Guarantees that no bytes cause a panic or an endless run, and that memory stays within a
+//! few hundred bytes per entity, of which there are at most [`MAX_OBJECTS`]. Open curves,
+//! splines with fit points only, hatches, text and solids are ignored and reported as
+//! notes. If an odd number of curves, three or more, meets at a point, it is arbitrary which
+//! of them form a ring.
 //!
 //! [`MAX_OBJECTS`]: error::MAX_OBJECTS
 
@@ -43,21 +39,24 @@ use curve::DxfCurve;
 use drawing::DxfPath;
 use std::collections::{BTreeMap, BTreeSet};
 
-/// How far ends that belong together may be apart, as a fraction of the
-/// drawing's longer side: what rounding to four digits leaves.
+/// Maximum distance of end points that are joined, as a fraction of the drawing's longer side
+/// (tolerance: coordinates rounded to four digits).
 pub(super) const JOIN_TOLERANCE: f64 = 1e-4;
 
-/// Points of one polyline nearer than this fraction of the longer side differ
-/// by rounding: a bulge of 1e-7 makes an arc whose ends are good to 3e-10.
+/// Maximum distance of equal points within one path, as a fraction of the longer side
+/// (tolerance: the end points of an arc with bulge 1e-7 are accurate to 3e-10).
 const ROUNDING: f64 = 1e-9;
 
-/// Reads a DXF file. The tolerance is a fraction of the drawing's longer side.
+/// Imports a DXF file. `tolerance` is a fraction of the drawing's longer side.
+///
+/// # Errors
+/// [`DxfError`] names the position in the file or the open end that prevents the import.
 pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<ImportedOutlines, DxfError> {
     let drawing = drawing::read(bytes)?;
     let curves = || drawing.paths.iter().flat_map(|path| &path.curves);
     let hull = Bounds::of(curves().flat_map(DxfCurve::hull));
     let side = hull.map_or(0.0, |hull| hull.size().max_element());
-    // Not a curve, or points alone.
+    // No curves, or only points.
     if side <= 0.0 {
         return Err(DxfError::Nothing(OtherKinds(drawing.skipped)));
     }
@@ -71,7 +70,7 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<ImportedOutlines, Dxf
         return Err(DxfError::Open { count, at });
     }
     let (regions, mut repairs) = Regions::from_rings_reporting(&rings, FillRule::EvenOdd)?;
-    // Rings that are there twice were counted by the cleaning, curves before it.
+    // `from_rings_reporting` counts duplicate rings, joining counts duplicate curves.
     repairs.duplicates += joined.duplicates;
     let mut notes = ImportNote::of_repairs(&repairs, FillRule::EvenOdd);
     notes.extend(joined.loose.first().map(|&at| ImportNote::Open {
@@ -80,54 +79,63 @@ pub(super) fn read(bytes: &[u8], tolerance: f64) -> Result<ImportedOutlines, Dxf
     }));
     notes.extend(ImportNote::of_skipped(drawing.skipped));
     Ok(ImportedOutlines {
-        coats: coats(&drawing.paths, tolerance, side)?,
+        coats: layers_by_style(&drawing.paths, tolerance, side)?,
         extent: regions.bounds(),
         regions,
         notes,
     })
 }
 
-/// What each layer has in each colour, where any colour is given. Of what closes only
-/// together the longest share decides.
-fn coats(paths: &[DxfPath], tolerance: f64, side: f64) -> Result<Vec<PaintLayer>, DxfError> {
+/// Returns one or more paint layers for each combination of DXF layer and colour; none if no
+/// colour is given.
+///
+/// A ring whose curves have different styles gets the style with the largest total length.
+fn layers_by_style(
+    paths: &[DxfPath],
+    tolerance: f64,
+    side: f64,
+) -> Result<Vec<PaintLayer>, DxfError> {
     if paths.iter().all(|path| path.drawn.1.is_none()) {
         return Ok(Vec::new());
     }
-    let mut of_ink: BTreeMap<_, Vec<&DxfPath>> = BTreeMap::new();
+    let mut paths_by_style: BTreeMap<_, Vec<&DxfPath>> = BTreeMap::new();
     for path in paths {
         let (layer, rgb) = &path.drawn;
         let key = (layer, rgb.map(|Rgb(rgb)| rgb));
-        of_ink.entry(key).or_default().push(path);
+        paths_by_style.entry(key).or_default().push(path);
     }
-    let mut rings_of = Vec::with_capacity(of_ink.len());
-    // What does not close in one ink, and the number of its ink.
-    let (mut left, mut inks_left) = (Vec::new(), Vec::new());
-    for (ink, paths) in of_ink.values().enumerate() {
+    let mut rings_by_style = Vec::with_capacity(paths_by_style.len());
+    // Curves that do not close within their own style, and the index of that style.
+    let (mut remaining, mut remaining_styles) = (Vec::new(), Vec::new());
+    for (style, paths) in paths_by_style.values().enumerate() {
         let (mut rings, open) = flattened(paths, tolerance, ROUNDING * side)?;
         let joined = join::join_curves(open.clone(), JOIN_TOLERANCE * side);
         let closed: BTreeSet<usize> = joined.of_rings.into_iter().flatten().collect();
         rings.extend(joined.rings);
-        rings_of.push(rings);
+        rings_by_style.push(rings);
         let open = open.into_iter().enumerate();
         let open = open.filter_map(|(k, curve)| (!closed.contains(&k)).then_some(curve));
-        left.extend(open);
-        inks_left.resize(left.len(), ink);
+        remaining.extend(open);
+        remaining_styles.resize(remaining.len(), style);
     }
-    let joined = join::join_curves(left.clone(), JOIN_TOLERANCE * side);
+    let joined = join::join_curves(remaining.clone(), JOIN_TOLERANCE * side);
     for (ring, curves) in joined.rings.into_iter().zip(&joined.of_rings) {
-        let mut shares = vec![0.0; rings_of.len()];
+        let mut lengths = vec![0.0; rings_by_style.len()];
         for &curve in curves {
-            let steps = left[curve].windows(2).map(|step| step[0].distance(step[1]));
-            shares[inks_left[curve]] += steps.sum::<f64>();
+            let steps = remaining[curve]
+                .windows(2)
+                .map(|step| step[0].distance(step[1]));
+            lengths[remaining_styles[curve]] += steps.sum::<f64>();
         }
-        let most = (0..shares.len())
+        // `max_by` returns the last maximum; reversed, the first style wins a tie.
+        let longest = (0..lengths.len())
             .rev()
-            .max_by(|&a, &b| shares[a].total_cmp(&shares[b]));
-        rings_of[most.unwrap_or(0)].push(ring);
+            .max_by(|&a, &b| lengths[a].total_cmp(&lengths[b]));
+        rings_by_style[longest.unwrap_or(0)].push(ring);
     }
-    let mut sheets = Vec::with_capacity(rings_of.len());
-    for ((layer, rgb), rings) in of_ink.keys().zip(rings_of) {
-        // Nothing of it closes, which is told of the whole.
+    let mut sheets = Vec::with_capacity(rings_by_style.len());
+    for ((layer, rgb), rings) in paths_by_style.keys().zip(rings_by_style) {
+        // Skips styles without a ring; the notes already report their open curves.
         let regions = Regions::from_rings(&rings, FillRule::EvenOdd);
         sheets.extend(regions.ok().map(|regions| PaintGroup {
             regions,
@@ -138,9 +146,11 @@ fn coats(paths: &[DxfPath], tolerance: f64, side: f64) -> Result<Vec<PaintLayer>
     Ok(stack_by_containment(&sheets))
 }
 
+/// Lists of points, closed or open depending on the context.
 type Polylines = Vec<Vec<DVec2>>;
 
-/// The paths as polygons: those that close, and those that do not.
+/// Flattens paths; returns closed polygons and open polylines. Both lengths are in drawing
+/// units.
 fn flattened(
     paths: &[&DxfPath],
     tolerance: f64,
@@ -156,7 +166,7 @@ fn flattened(
         for curve in curves {
             let start = points.len();
             curve.flatten(tolerance, &mut points);
-            // The end of an arc is computed and need not be where the next begins.
+            // The computed end of an arc may differ from the next start by rounding.
             if start > 0 && points[start].distance(points[start - 1]) <= rounding {
                 points.remove(start);
             }
@@ -164,8 +174,8 @@ fn flattened(
                 return Err(TooManyPoints.into());
             }
         }
-        let is_back = |p: &DVec2| points[0].distance(*p) <= rounding;
-        if *is_closed && points.len() > 1 && points.last().is_some_and(is_back) {
+        let is_at_start = |p: &DVec2| points[0].distance(*p) <= rounding;
+        if *is_closed && points.len() > 1 && points.last().is_some_and(is_at_start) {
             points.pop();
         }
         count += points.len();

@@ -1,4 +1,4 @@
-//! Why a file did not become a design, in one sentence for its owner.
+//! The error of importing a design: which source failed and why, in one line.
 
 use super::{
     DxfError, ImportOptionsError, ObjError, PolygonsImportError, SilhouetteError, SvgError,
@@ -7,64 +7,65 @@ use super::{
 use crate::io::read::ReadError;
 use crate::io::sanitize::SanitizedLine;
 
-/// A file that could not be read as a design. Its message names the file,
-/// the place and the way out.
+/// Error returned when a source cannot be imported as a design.
+///
+/// The message names the file, the position in it where known, and a remedy.
 #[derive(Debug, thiserror::Error)]
 #[error("{}", SanitizedLine(format_args!("{file}: {problem}")))]
 pub struct ImportError {
-    /// The file, as it was given.
+    /// The file or source, as the caller wrote it.
     pub file: String,
-    /// What is wrong with it.
+    /// The reason why the import failed.
     pub problem: ImportProblem,
 }
 
-/// What is wrong with a file.
+/// Reason why an import failed.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ImportProblem {
-    /// The file is not there, is no file, or is too large.
+    /// The file is missing, is not a regular file, or is too large.
     #[error(transparent)]
     Read(#[from] ReadError),
-    /// It holds nothing.
-    #[error("the file is empty; save it again from where it was made")]
+    /// The file has no bytes.
+    #[error("the file is empty; export it again")]
     Empty,
-    /// Text that is not text.
-    #[error("line {line} is not UTF-8 text; save the file with the encoding UTF-8")]
+    /// A text format whose bytes are not valid UTF-8.
+    #[error("line {line} is not valid UTF-8; save the file as UTF-8 text")]
     NotUtf8 {
-        /// The first such line, from 1.
+        /// First invalid line, counted from 1.
         line: usize,
     },
-    /// An element is asked for of what is no drawing.
-    #[error("only an SVG drawing has elements to choose by an id; leave out #{id}")]
+    /// An element id was given for a file that is not an SVG drawing.
+    #[error("elements can be selected by id only in SVG files; remove #{id}")]
     NoElements {
-        /// The id.
+        /// The requested element id.
         id: String,
     },
-    /// No reader knows it.
+    /// No importer recognises the content.
     #[error(transparent)]
     Unknown(#[from] UnknownFormat),
-    /// An option is out of range.
+    /// An import option is out of range.
     #[error(transparent)]
     Options(#[from] ImportOptionsError),
-    /// A picture without a usable silhouette.
+    /// A picture has no usable silhouette.
     #[error(transparent)]
     Picture(#[from] SilhouetteError),
-    /// A drawing without a usable outline.
+    /// An SVG drawing has no usable outline.
     #[error(transparent)]
     Svg(#[from] SvgError),
-    /// A DXF drawing without a usable outline.
+    /// A DXF drawing has no usable outline.
     #[error(transparent)]
     Dxf(#[from] DxfError),
-    /// Text without an outline.
+    /// Text could not be converted to outlines.
     #[error(transparent)]
     Text(#[from] TextError),
-    /// JSON without usable polygons.
+    /// A JSON file has no usable polygons.
     #[error(transparent)]
     Polygons(#[from] PolygonsImportError),
-    /// A mesh that is none.
+    /// An OBJ file is not a valid plane mesh.
     #[error(transparent)]
     Obj(#[from] ObjError),
-    /// A truss that is none.
+    /// A truss file is not a valid truss.
     #[error(transparent)]
     Truss(#[from] TrussInputError),
 }

@@ -1,33 +1,33 @@
-//! Paths as closed polygons.
+//! Flattening of Bézier paths into closed polygons.
 //!
-//! A Bézier curve cut into n pieces at equal parameters stays within
-//! d (d − 1) / (8 n²) times its largest second difference of its chords (Wang
-//! 1984), d its degree. So the number of pieces is known before the first is
-//! made, and the error is bounded, not estimated. Up to [`MAX_PIECES`]: a
-//! curve thousands of pages long is coarser.
+//! A Bézier curve of degree d cut into n pieces at equal parameters stays within
+//! d (d − 1) / (8 n²) times the largest second difference of its control points from
+//! its chords (Wang 1984). The number of pieces is therefore known in advance, and the
+//! error is bounded, not estimated. The bound does not hold for curves that would need
+//! more than [`MAX_PIECES`] pieces, such as curves thousands of pages long.
 
 use crate::geometry::DVec2;
 use usvg::tiny_skia_path::{Path, PathSegment, Point};
 
-/// Most points of a design after flattening: 32 MB of them.
+/// Maximum number of points of a flattened design (resource limit: 32 MB).
 pub(super) const MAX_POINTS: usize = 2_000_000;
 
-/// Smallest tolerance that is worked with, as a fraction of the page: that of
-/// the `f32` coordinates of drawings.
+/// Minimum flattening tolerance, as a fraction of the page (tolerance: precision of the
+/// `f32` coordinates of drawings).
 pub(super) const MIN_TOLERANCE: f64 = 1e-7;
 
-/// Most pieces of one curve: reached at a tolerance of 1e-7 of the page by a
-/// curve that is ten pages long.
+/// Maximum number of pieces per curve (resource limit: a curve ten pages long reaches it
+/// at a tolerance of 1e-7 of the page).
 const MAX_PIECES: f64 = 4096.0;
 
-/// Curves into absurdly many points.
+/// Error for outlines that flatten into too many points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "the outlines need more than {MAX_POINTS} points; simplify their curves or raise the tolerance"
 )]
 pub struct TooManyPoints;
 
-/// Flattens paths, counting their points.
+/// Flattens paths and limits the total number of points.
 #[derive(Clone)]
 pub(super) struct Flattener {
     tolerance: f64,
@@ -35,6 +35,7 @@ pub(super) struct Flattener {
 }
 
 impl Flattener {
+    /// Creates a flattener; `tolerance` is in units of the page.
     pub(super) fn new(tolerance: f64) -> Self {
         Self {
             tolerance,
@@ -42,8 +43,8 @@ impl Flattener {
         }
     }
 
-    /// The closed polygons of a path whose points `place` lays down. Open
-    /// pieces are closed, as filling does.
+    /// Flattens a path into closed polygons. `place` maps the path's points to the page.
+    /// Open subpaths are closed, as they are when filled.
     pub(super) fn rings(
         &mut self,
         path: &Path,
@@ -52,7 +53,7 @@ impl Flattener {
         let mut rings: Vec<Vec<DVec2>> = Vec::new();
         let mut ring: Vec<DVec2> = Vec::new();
         for segment in path.segments() {
-            // A path begins with a move, so that a curve has a point to begin at.
+            // A path begins with a move, so every curve has a start point.
             let last = ring.last().copied().unwrap_or_default();
             match segment {
                 PathSegment::MoveTo(p) => {
@@ -62,10 +63,11 @@ impl Flattener {
                 PathSegment::LineTo(p) => ring.push(place(p)),
                 PathSegment::QuadTo(b, c) => {
                     let (b, c) = (place(b), place(c));
-                    // The same curve as a cubic one, two thirds of the way to its middle.
-                    let third = |q: DVec2| q + (b - q) * (2.0 / 3.0);
+                    // Degree elevation: the cubic control points lie two thirds of the
+                    // way to the quadratic one.
+                    let elevated = |q: DVec2| q + (b - q) * (2.0 / 3.0);
                     let bend = 2.0 * (last - 2.0 * b + c).length();
-                    self.curve(&mut ring, [third(last), third(c), c], bend);
+                    self.curve(&mut ring, [elevated(last), elevated(c), c], bend);
                 }
                 PathSegment::CubicTo(b, c, d) => {
                     let [b, c, d] = [b, c, d].map(&place);
@@ -74,7 +76,7 @@ impl Flattener {
                         .max((b - 2.0 * c + d).length());
                     self.curve(&mut ring, [b, c, d], 6.0 * bend);
                 }
-                // All rings are closed in the end, and what follows begins with a move.
+                // Rings are closed implicitly, and the next subpath begins with a move.
                 PathSegment::Close => {}
             }
             if self.points + ring.len() > MAX_POINTS {
@@ -83,16 +85,16 @@ impl Flattener {
         }
         self.points += ring.len();
         rings.push(ring);
-        // Points and lines fill nothing.
+        // Points and single lines enclose no area.
         rings.retain(|ring| ring.len() >= 3);
         Ok(rings)
     }
 
-    /// Appends a cubic curve from the ring's last point. `bend` bounds the
-    /// length of its second derivative.
+    /// Appends a cubic curve that starts at the ring's last point. `bend` is an upper
+    /// bound of the length of its second derivative.
     fn curve(&self, ring: &mut Vec<DVec2>, [b, c, d]: [DVec2; 3], bend: f64) {
         let a = ring.last().copied().unwrap_or(b);
-        // Wang's n for this error; the factor d (d - 1) is in the bend.
+        // Wang's n for this tolerance; `bend` includes the factor d (d − 1).
         let pieces = (bend / (8.0 * self.tolerance)).sqrt().ceil();
         let pieces = pieces.clamp(1.0, MAX_PIECES) as u32;
         ring.extend((1..pieces).map(|k| {
@@ -100,7 +102,7 @@ impl Flattener {
             let s = 1.0 - t;
             s * s * s * a + 3.0 * s * s * t * b + 3.0 * s * t * t * c + t * t * t * d
         }));
-        // As it is given: the next curve begins there to the last bit.
+        // The exact end point: the next curve starts at the same bits.
         ring.push(d);
     }
 }
@@ -114,7 +116,7 @@ mod tests {
         DVec2::new(p.x.into(), p.y.into())
     }
 
-    /// Largest distance of points of the quadratic curve from the polygon.
+    /// Returns the largest distance of sampled curve points from the polygon.
     fn error(ring: &[DVec2], [a, b, c]: [DVec2; 3]) -> f64 {
         let near = |p: DVec2| {
             ring.windows(2)
@@ -149,7 +151,7 @@ mod tests {
     }
 
     #[test]
-    fn open_pieces_count_and_lines_do_not() {
+    fn open_subpaths_are_closed_and_lines_are_dropped() {
         let mut builder = PathBuilder::new();
         builder.move_to(0.0, 0.0);
         builder.line_to(1.0, 0.0);

@@ -1,5 +1,5 @@
-//! A design: what it consists of, what area that fills, and how it is made
-//! without a file.
+//! The [`Design`] type: its form (outline, mesh or truss), paint layers and import
+//! notes, with constructors from rings and pictures and the outline of the filled area.
 
 use super::note::ImportNote;
 use super::options::ImportOptions;
@@ -13,42 +13,42 @@ use crate::mesh::TriangleMesh;
 use image::RgbaImage;
 use std::f64::consts::PI;
 
-/// Sides of the half circle at either end of a bar. A chord of 1/16 of a half
-/// circle stays within 0.5 % of the radius.
+/// Number of chords for the half circle at either end of a bar (tolerance: each chord
+/// stays within 0.5 % of the radius).
 const CAP_SIDES: u32 = 16;
 
-/// One of the given forms.
+/// One of the shapes to blend.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Design {
-    /// What people call it: the file's name without its ending.
+    /// Display name: by default the file's name without its extension.
     pub name: String,
-    /// The form itself, y up.
+    /// Geometry, y up.
     pub form: DesignForm,
-    /// The rectangle of the picture or the page, its lower left corner at the
-    /// origin, or the box around a mesh, a truss or an element of a drawing.
+    /// Rectangle of the picture or page with its lower left corner at the origin, or
+    /// the bounding box of a mesh, a truss or a single element of a drawing.
     pub extent: Bounds,
-    /// The picture that it came as, if it did.
+    /// Original pixels, if the design was imported from a picture.
     pub picture: Option<Picture>,
-    /// What it shows in its own paint, the lowest first; none where it has none.
+    /// Regions with their own colours, lowest first; empty if the file names no colours.
     pub coats: Vec<PaintLayer>,
-    /// What was repaired or left out while it was read.
+    /// Repairs and omissions made during the import.
     pub notes: Vec<ImportNote>,
 }
 
-/// What a design consists of.
+/// Geometry of a design.
 #[derive(Clone, Debug, PartialEq)]
 pub enum DesignForm {
     /// Filled regions with holes.
     Outline(Regions),
-    /// Triangles that carry a correspondence.
+    /// Triangle mesh whose vertex numbers give the correspondence to other meshes.
     Mesh(TriangleMesh),
     /// Nodes joined by bars.
     Truss(Truss),
 }
 
 impl Design {
-    /// A design of a form; the extent is the box around it.
+    /// Creates a design from its geometry; the extent is the bounding box.
     ///
     /// ```
     /// use morphospace::{design::Design, geometry::DVec2, mesh::TriangleMesh};
@@ -70,9 +70,10 @@ impl Design {
         }
     }
 
-    /// What lies within rings of points by the even-odd rule, so that rings in
-    /// rings are holes whichever way they run. What had to be repaired stands
-    /// in the notes.
+    /// Creates a design from closed rings of points.
+    ///
+    /// The even-odd rule decides what is inside, so nested rings are holes regardless
+    /// of their orientation. Repairs are reported in the notes.
     ///
     /// # Errors
     /// [`RegionsError`] if a coordinate is not finite or nothing is enclosed.
@@ -101,32 +102,35 @@ impl Design {
         })
     }
 
-    /// The silhouette in a picture, and the picture with it. Pixels are sRGB
-    /// with straight alpha, row 0 the uppermost; one is a unit of the design.
-    /// The outline is that of all pixels; of the colours of more than 16
-    /// million every fourth is kept, or fewer, and that is told.
+    /// Creates a design from the silhouette in a picture and keeps the picture.
+    ///
+    /// Pixels are sRGB with straight alpha, row 0 at the top; one pixel is one unit.
+    /// The outline is traced at full resolution. Colours of a picture with more than 16
+    /// million pixels are stored at half the resolution or less, and a note reports it.
     ///
     /// # Errors
-    /// [`SilhouetteError`] if an option is out of range or no figure stands out.
+    /// [`SilhouetteError`] if an option is out of range or no figure can be separated from
+    /// the background.
     pub fn of_picture(
         name: impl Into<String>,
         pixels: RgbaImage,
         options: &ImportOptions,
     ) -> Result<Self, SilhouetteError> {
         options.check()?;
-        let coats = match options.colours {
+        let layers = match options.colours {
             true => silhouette::flat_colours::flat_colour_layers(&pixels, options)?,
             false => Vec::new(),
         };
-        let is_shaded = options.colours && coats.is_empty();
-        // The colours make room before the boundary is looked for.
-        let seen = match covered(&coats) {
+        let is_shaded = options.colours && layers.is_empty();
+        // Reduce the colours to grey levels now, so that the full-size pixels are freed
+        // before tracing allocates its own memory.
+        let outline_or_tones = match covered_area(&layers) {
             Some(regions) => Ok(regions),
             None => Err(PictureTones::of(&pixels, options)?),
         };
         let given = pixels.dimensions();
         let picture = Picture::bounded(pixels);
-        let regions = seen.or_else(|tones| tones.regions(options))?;
+        let regions = outline_or_tones.or_else(|tones| tones.regions(options))?;
         let kept = picture.pixels().dimensions();
         let smaller = (kept != given).then_some(ImportNote::Smaller { given, kept });
         Ok(Self {
@@ -135,13 +139,13 @@ impl Design {
             notes: (smaller.into_iter())
                 .chain(is_shaded.then_some(ImportNote::Shaded))
                 .collect(),
-            coats,
+            coats: layers,
             ..Self::new(name, regions)
         })
     }
 
-    /// The design laid down by a similarity; the extent becomes the box
-    /// around its moved corners.
+    /// Returns the design transformed by a similarity. The extent becomes the bounding
+    /// box of its transformed corners.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
         let corners = self.extent.corners().map(|p| by.apply(p));
@@ -154,36 +158,41 @@ impl Design {
             },
             extent: Bounds::of(corners).unwrap_or(self.extent),
             picture: self.picture.as_ref().map(|picture| picture.transformed(by)),
-            coats: self.coats.iter().map(|coat| coat.transformed(by)).collect(),
+            coats: self
+                .coats
+                .iter()
+                .map(|layer| layer.transformed(by))
+                .collect(),
             notes: self.notes.clone(),
         }
     }
 
-    /// All pieces of its coats, the lowest first: what is matched where it is shown in its own
-    /// paint. None where it has none.
+    /// Returns all pieces of the paint layers, lowest first, or `None` without layers.
+    ///
+    /// These pieces are matched when designs are shown in their own colours.
     #[must_use]
     pub fn painted_pieces(&self) -> Option<Regions> {
-        Regions::stacked(self.coats.iter().map(|coat| coat.regions.clone()))
+        Regions::stacked(self.coats.iter().map(|layer| layer.regions.clone()))
     }
 
-    /// The filled area of the form: an outline itself, a mesh without its
-    /// inner edges, a truss with its bars drawn `bar_width` wide and round at
-    /// the nodes. `bar_width` is in the design's units and matters to trusses
-    /// only.
+    /// Returns the filled area: an outline itself, the union of a mesh's triangles, or a
+    /// truss with its bars drawn `bar_width` wide and rounded at the nodes.
+    ///
+    /// `bar_width` is in the design's units and is ignored except for trusses.
     ///
     /// # Errors
-    /// [`RegionsError`] if no area is left, such as bars of no width.
+    /// [`RegionsError`] if the area is empty, for example with bars of zero width.
     pub fn outline(&self, bar_width: f64) -> Result<Regions, RegionsError> {
         match &self.form {
             DesignForm::Outline(regions) => Ok(regions.clone()),
-            DesignForm::Mesh(mesh) => of_mesh(mesh),
-            DesignForm::Truss(truss) => of_truss(truss, bar_width),
+            DesignForm::Mesh(mesh) => mesh_outline(mesh),
+            DesignForm::Truss(truss) => truss_outline(truss, bar_width),
         }
     }
 }
 
 impl DesignForm {
-    /// The smallest box around it.
+    /// Returns the bounding box.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         match self {
@@ -212,19 +221,19 @@ impl From<Truss> for DesignForm {
     }
 }
 
-/// The boundary loops of the mesh, overlaps united.
-fn of_mesh(mesh: &TriangleMesh) -> Result<Regions, RegionsError> {
-    let at = |&v: &u32| mesh.positions()[v as usize];
+/// Returns the area inside the boundary loops of a mesh; overlaps are united.
+fn mesh_outline(mesh: &TriangleMesh) -> Result<Regions, RegionsError> {
+    let position = |&v: &u32| mesh.positions()[v as usize];
     let rings: Vec<Vec<DVec2>> = mesh
         .boundary_loops()
         .iter()
-        .map(|walk| walk.iter().map(at).collect())
+        .map(|boundary| boundary.iter().map(position).collect())
         .collect();
     Regions::from_rings(&rings, FillRule::NonZero)
 }
 
-/// The bars as strokes with round ends, united.
-fn of_truss(truss: &Truss, bar_width: f64) -> Result<Regions, RegionsError> {
+/// Returns the union of the bars, drawn as strokes with round ends.
+fn truss_outline(truss: &Truss, bar_width: f64) -> Result<Regions, RegionsError> {
     if !(bar_width.is_finite() && bar_width > 0.0) {
         return Err(RegionsError::Empty);
     }
@@ -232,52 +241,56 @@ fn of_truss(truss: &Truss, bar_width: f64) -> Result<Regions, RegionsError> {
         .segments()
         .map(|[a, b]| capsule(a, b, 0.5 * bar_width))
         .collect();
-    united(&capsules)
+    union_of(&capsules)
 }
 
-/// Shapes that are united at once. The 780 bars between 40 nodes of a circle,
-/// which meet in the same points again and again, took 2 GB and more than 35 s
-/// by 128, and 0.4 s by 16.
-const AT_ONCE: usize = 16;
+/// Maximum number of shapes united in one operation (resource limit: uniting hundreds of
+/// bars that cross in the same points at once takes gigabytes).
+const UNION_BATCH: usize = 16;
 
-/// What lies in any of the rings. Many are united in halves: what is inside a
-/// half is gone before it meets the other one.
-fn united(rings: &[Vec<DVec2>]) -> Result<Regions, RegionsError> {
-    if rings.len() <= AT_ONCE {
+/// Returns the union of the rings. Large sets are united recursively in halves, so that
+/// edges inside one half are removed before they meet the other.
+fn union_of(rings: &[Vec<DVec2>]) -> Result<Regions, RegionsError> {
+    if rings.len() <= UNION_BATCH {
         return Regions::from_rings(rings, FillRule::NonZero);
     }
-    let (near, far) = rings.split_at(rings.len() / 2);
-    let (near, far) = rayon::join(|| united(near), || united(far));
-    let (near, far) = (near?, far?);
-    let both = near.rings().chain(far.rings());
+    let (first, second) = rings.split_at(rings.len() / 2);
+    let (first, second) = rayon::join(|| union_of(first), || union_of(second));
+    let (first, second) = (first?, second?);
+    let both = first.rings().chain(second.rings());
     let both: Vec<Vec<DVec2>> = both.map(|ring| ring.points().to_vec()).collect();
     Regions::from_rings(&both, FillRule::NonZero)
 }
 
-/// All points within `radius` of the segment, counter-clockwise.
+/// Returns the outline of all points within `radius` of a segment, counter-clockwise.
 fn capsule(a: DVec2, b: DVec2, radius: f64) -> Vec<DVec2> {
-    // Bars have a length: a truss is checked for it.
+    // The direction is defined: a truss rejects bars of zero length.
     let along = (b - a).to_angle();
     let cap = move |centre: DVec2, from: f64| {
         (0..=CAP_SIDES).map(move |k| {
             centre + radius * DVec2::from_angle(from + PI * f64::from(k) / f64::from(CAP_SIDES))
         })
     };
-    // Two half circles; the straight sides are what lies between them.
+    // Two half circles; the edges that join them are the straight sides.
     cap(b, along - 0.5 * PI)
         .chain(cap(a, along + 0.5 * PI))
         .collect()
 }
 
-/// Outlines as a reader gives them: a design without a name.
+/// Result of an importer of outlines: a design that has no name yet.
 pub(super) struct ImportedOutlines {
+    /// Union of all shapes.
     pub(super) regions: Regions,
+    /// Page, or the bounding box.
     pub(super) extent: Bounds,
+    /// Coloured regions, lowest first.
     pub(super) coats: Vec<PaintLayer>,
+    /// Repairs and omissions.
     pub(super) notes: Vec<ImportNote>,
 }
 
 impl ImportedOutlines {
+    /// Turns the import result into a design.
     pub(super) fn named(self, name: String) -> Design {
         Design {
             extent: self.extent,
@@ -288,9 +301,9 @@ impl ImportedOutlines {
     }
 }
 
-/// What all coats cover together; none where there are none.
-fn covered(coats: &[PaintLayer]) -> Option<Regions> {
-    let rings = coats.iter().flat_map(|coat| coat.regions.rings());
+/// Returns the union of all paint layers, or `None` without layers.
+fn covered_area(layers: &[PaintLayer]) -> Option<Regions> {
+    let rings = layers.iter().flat_map(|layer| layer.regions.rings());
     let rings: Vec<Vec<DVec2>> = rings.map(|ring| ring.points().to_vec()).collect();
     Regions::from_rings(&rings, FillRule::NonZero).ok()
 }
@@ -303,10 +316,11 @@ mod tests {
     fn a_thick_triangle_has_a_hole() {
         let nodes = vec![DVec2::ZERO, DVec2::new(4.0, 0.0), DVec2::new(0.0, 3.0)];
         let truss = Truss::new(nodes, vec![[0, 1], [1, 2], [2, 0]]).expect("valid");
-        let regions = of_truss(&truss, 0.2).expect("area");
+        let regions = truss_outline(&truss, 0.2).expect("area");
         assert_eq!(regions.len(), 1);
         assert_eq!(regions.rings().count(), 2);
-        // Outer offset: area + perimeter r + π r²; inner: similar, inradius 1 less r.
+        // Outer offset: area + perimeter · r + π r². Inner offset: a similar triangle whose
+        // inradius is 1 − r.
         let expected = 6.0 + 12.0 * 0.1 + PI * 0.01 - 6.0 * 0.9 * 0.9;
         assert!(
             (regions.area() - expected).abs() < 1e-3,
@@ -316,14 +330,13 @@ mod tests {
     }
 
     #[test]
-    fn bars_that_meet_in_the_same_points_again_and_again_are_united() {
-        // Each node of a regular polygon joined to each other: what is left are
-        // the gaps between the bars. By 128 it took two gigabytes.
+    fn bars_that_cross_in_the_same_points_are_united() {
+        // The complete graph on a regular polygon: only small gaps between bars remain.
         let count = 40_u32;
         let node = |k: u32| DVec2::from_angle(2.0 * PI * f64::from(k) / f64::from(count));
         let bars = (0..count).flat_map(|a| (a + 1..count).map(move |b| [a, b]));
         let truss = Truss::new((0..count).map(node).collect(), bars.collect()).expect("valid");
-        let regions = of_truss(&truss, 0.01).expect("area");
+        let regions = truss_outline(&truss, 0.01).expect("area");
         assert_eq!(regions.len(), 1);
         let disc = PI * 1.005_f64.powi(2);
         assert!(
@@ -334,8 +347,8 @@ mod tests {
     }
 
     #[test]
-    fn many_bars_are_united_as_few_are() {
-        // A grid whose bars come row by row, in more than two batches.
+    fn batched_union_of_many_bars_is_exact() {
+        // A square grid whose bars are listed row by row, in more than two batches.
         let count = 12_u32;
         let node = |i: u32, j: u32| i * count + j;
         let places =
@@ -346,11 +359,11 @@ mod tests {
                 bars.extend([[node(i, j), node(i, j + 1)], [node(j, i), node(j + 1, i)]]);
             }
         }
-        assert!(bars.len() > 2 * AT_ONCE);
+        assert!(bars.len() > 2 * UNION_BATCH);
         let truss = Truss::new(places.collect(), bars).expect("valid");
-        let regions = of_truss(&truss, 0.2).expect("area");
+        let regions = truss_outline(&truss, 0.2).expect("area");
         assert_eq!((regions.len(), regions.rings().count()), (1, 1 + 11 * 11));
-        // All within 0.1 of a bar, less the squares between.
+        // Rounded outer square minus the 121 square holes.
         let whole = 11.0 * 11.0 + 4.0 * 11.0 * 0.1 + PI * 0.01;
         let area = regions.area();
         assert!((area - (whole - 121.0 * 0.64)).abs() < 1e-3, "{area}");
@@ -360,16 +373,16 @@ mod tests {
     fn bars_without_width_enclose_nothing() {
         let truss = Truss::new(vec![DVec2::ZERO, DVec2::X], vec![[0, 1]]).expect("valid");
         for width in [0.0, -1.0, f64::NAN, f64::INFINITY] {
-            assert_eq!(of_truss(&truss, width), Err(RegionsError::Empty));
+            assert_eq!(truss_outline(&truss, width), Err(RegionsError::Empty));
         }
     }
 
     #[test]
-    fn a_mesh_outline_leaves_inner_edges_and_mirrored_faces_out() {
+    fn a_mesh_outline_ignores_inner_edges_and_face_orientation() {
         let square = vec![DVec2::ZERO, DVec2::X, DVec2::ONE, DVec2::Y];
         for faces in [[[0, 1, 2], [0, 2, 3]], [[0, 2, 1], [0, 3, 2]]] {
             let mesh = TriangleMesh::new(square.clone(), faces.to_vec()).expect("valid");
-            let regions = of_mesh(&mesh).expect("area");
+            let regions = mesh_outline(&mesh).expect("area");
             assert_eq!(regions.rings().count(), 1);
             assert!((regions.area() - 1.0).abs() < 1e-9);
         }

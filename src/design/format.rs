@@ -1,13 +1,12 @@
-//! The formats that designs are read from: one table of what people call them
-//! and how their files' names end.
+//! The table of importable file formats: display names and file extensions.
 //!
-//! Dialogs, the command line and messages read it. Guarantees nothing about a
-//! file's content: that is for [`sniff`](super::sniff()) to tell.
+//! File dialogs, the command line and messages use it. It says nothing about a file's
+//! content; [`sniff`](super::sniff()) recognises that.
 
 use image::ImageFormat;
 use std::path::Path;
 
-/// A format that can be read.
+/// File format that can be imported.
 ///
 /// ```
 /// use morphospace::design::Format;
@@ -33,10 +32,10 @@ pub enum Format {
 }
 
 impl Format {
-    /// Pictures.
+    /// Picture formats.
     pub const PICTURES: &'static [Self] = Self::ALL.split_at(4).0;
 
-    /// All of them, pictures first.
+    /// All formats, pictures first.
     pub const ALL: [Self; 9] = [
         Self::Picture(ImageFormat::Png),
         Self::Picture(ImageFormat::Jpeg),
@@ -49,8 +48,8 @@ impl Format {
         Self::Truss,
     ];
 
-    /// The name for people, and how its files' names end.
-    const fn row(self) -> (&'static str, &'static [&'static str]) {
+    /// Returns the display name and the file extensions.
+    const fn name_and_extensions(self) -> (&'static str, &'static [&'static str]) {
         match self {
             Self::Picture(ImageFormat::Jpeg) => ("JPEG", &["jpg", "jpeg"]),
             Self::Picture(ImageFormat::Bmp) => ("BMP", &["bmp"]),
@@ -64,34 +63,34 @@ impl Format {
         }
     }
 
-    /// What people call it.
+    /// Returns the display name.
     #[must_use]
     pub const fn name(self) -> &'static str {
-        self.row().0
+        self.name_and_extensions().0
     }
 
-    /// How its files' names end, in lower case and without a dot, the usual
-    /// way first. Two formats may share one.
+    /// Returns the file extensions in lower case without a dot, the usual one first.
+    /// Two formats may share an extension.
     #[must_use]
     pub const fn extensions(self) -> &'static [&'static str] {
-        self.row().1
+        self.name_and_extensions().1
     }
 
-    /// Whether a file's name ends as those of this format do, in whatever case.
+    /// Returns whether a path has an extension of this format, ignoring case.
     #[must_use]
     pub fn ends(self, path: &Path) -> bool {
-        let ending = path.extension().unwrap_or_default();
-        (self.extensions().iter()).any(|extension| ending.eq_ignore_ascii_case(extension))
+        let of_path = path.extension().unwrap_or_default();
+        (self.extensions().iter()).any(|extension| of_path.eq_ignore_ascii_case(extension))
     }
 
-    /// Names in a row for a sentence: `PNG, JPEG, BMP or WebP`.
+    /// Joins the display names of formats for a sentence: `PNG, JPEG, BMP or WebP`.
     #[must_use]
     pub fn listed(formats: &[Self]) -> String {
         or_list(formats.iter().map(|format| format.name()))
     }
 }
 
-/// Words in a row for a sentence: `a, b or c`.
+/// Joins words for a sentence: `a, b or c`.
 pub(crate) fn or_list<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> String {
     let words: Vec<W> = words.into_iter().collect();
     let words: Vec<&str> = words.iter().map(AsRef::as_ref).collect();
@@ -101,7 +100,7 @@ pub(crate) fn or_list<W: AsRef<str>>(words: impl IntoIterator<Item = W>) -> Stri
     }
 }
 
-/// How the names of designs' files end, each ending once.
+/// Returns the file extensions of all formats, each once.
 ///
 /// ```
 /// let all = morphospace::design::extensions();
@@ -123,14 +122,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn formats_are_told_in_a_sentence() {
+    fn format_names_are_joined_for_a_sentence() {
         assert_eq!(Format::listed(Format::PICTURES), "PNG, JPEG, BMP or WebP");
         assert_eq!(Format::listed(&[Format::Svg]), "SVG");
         assert_eq!(Format::listed(&[]), "");
     }
 
     #[test]
-    fn endings_are_known_in_any_case_and_listed_once() {
+    fn extensions_match_in_any_case_and_are_listed_once() {
         assert!(Format::Svg.ends("a.b.SVG".as_ref()));
         assert!(!Format::Svg.ends("svg".as_ref()));
         assert_eq!(

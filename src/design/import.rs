@@ -1,4 +1,5 @@
-//! From the bytes of a file, or text in a font, to a design.
+//! The import entry points: turn the bytes of a file, or text in a font, into a design
+//! by recognising the format and calling its importer.
 
 use super::error::{ImportError, ImportProblem};
 use super::form::Design;
@@ -12,11 +13,12 @@ use crate::io::read;
 use crate::io::read::check_size;
 use std::path::Path;
 
-/// Reads a design from the bytes of a file, whatever its format. `name`
-/// becomes the design's name and stands in errors.
+/// Imports a design from the bytes of a file in any supported format.
+///
+/// `name` becomes the design's name and identifies the file in errors.
 ///
 /// # Errors
-/// [`ImportError`] names the file, the place in it and the way out.
+/// [`ImportError`] names the file, the position in it and a remedy.
 ///
 /// ```
 /// use morphospace::design::{ImportOptions, import};
@@ -30,20 +32,20 @@ pub fn import(name: &str, bytes: &[u8], options: &ImportOptions) -> Result<Desig
     read(file.clone(), bytes, None, options).map_err(|problem| ImportError { file, problem })
 }
 
-/// Reads a design from a file, or from whatever else a path may mean: see
-/// [`DesignSource`]. The design is named after the file, without its ending.
+/// Imports a design from a path: a file, an element of a drawing, or text in a font
+/// (see [`DesignSource`]). The design is named after the file, without its extension.
 ///
 /// # Errors
-/// [`ImportError`] names the file, the place in it and the way out.
+/// [`ImportError`] names the file, the position in it and a remedy.
 pub fn import_file(path: &Path, options: &ImportOptions) -> Result<Design, ImportError> {
     DesignSource::of(path).import(options)
 }
 
 impl DesignSource {
-    /// Reads the design.
+    /// Reads the file, if the source needs one, and imports the design.
     ///
     /// # Errors
-    /// [`ImportError`] names the source, the place in it and the way out.
+    /// [`ImportError`] names the source, the position in it and a remedy.
     pub fn import(&self, options: &ImportOptions) -> Result<Design, ImportError> {
         let bytes = match self.file() {
             Some(path) => read::read(path).map_err(|error| self.error(error.into()))?,
@@ -52,11 +54,11 @@ impl DesignSource {
         self.import_bytes(&bytes, options)
     }
 
-    /// Reads the design from the bytes of [`DesignSource::file`]; they are not
-    /// looked at where there is none.
+    /// Imports the design from the bytes of [`DesignSource::file`]. The bytes are ignored if
+    /// the source has no file.
     ///
     /// # Errors
-    /// [`ImportError`] names the source, the place in it and the way out.
+    /// [`ImportError`] names the source, the position in it and a remedy.
     pub fn import_bytes(
         &self,
         bytes: &[u8],
@@ -83,7 +85,7 @@ impl DesignSource {
     }
 }
 
-/// Reads a file, or the element of it with an id.
+/// Imports a file, or only the element with the given id.
 fn read(
     name: String,
     bytes: &[u8],
@@ -94,7 +96,7 @@ fn read(
     if bytes.is_empty() {
         return Err(ImportProblem::Empty);
     }
-    // Again, for bytes may come from elsewhere than a file.
+    // The caller may pass bytes that did not pass the size check of the file reader.
     check_size(bytes)?;
     let format = sniff(bytes)?;
     if let (Some(id), true) = (element, format != Format::Svg) {
@@ -112,10 +114,10 @@ fn read(
     })
 }
 
-/// The bytes as text, without a byte order mark.
+/// Returns the bytes as text without a byte order mark.
 fn text(bytes: &[u8]) -> Result<&str, ImportProblem> {
     std::str::from_utf8(bytes)
-        // JSON with the mark in front is none for its parser.
+        // The JSON parser rejects a leading byte order mark.
         .map(|text| text.trim_start_matches('\u{feff}'))
         .map_err(|e| ImportProblem::NotUtf8 {
             line: 1 + bytes[..e.valid_up_to()]

@@ -1,14 +1,14 @@
-//! Where JSON is wrong, and how: what its two readers tell of it.
+//! The JSON syntax or schema error shared by the polygon and truss importers.
 
-/// Text that is not JSON, or not of the form that is read.
+/// Error for text that is not JSON or does not have the expected structure.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("line {line}, column {column}: {message}; correct the file")]
 pub struct JsonError {
-    /// The line, from 1.
+    /// Line of the error, counted from 1.
     pub line: usize,
-    /// The column, from 1.
+    /// Column of the error, counted from 1.
     pub column: usize,
-    /// What was found, in the parser's words.
+    /// Description from the JSON parser, without the position.
     pub message: String,
 }
 
@@ -16,11 +16,12 @@ impl From<serde_json::Error> for JsonError {
     fn from(error: serde_json::Error) -> Self {
         let (line, column) = (error.line(), error.column());
         let words = error.to_string();
-        let place = format!(" at line {line} column {column}");
+        // The parser appends the position, which the message above shows already.
+        let position = format!(" at line {line} column {column}");
         Self {
             line,
             column,
-            message: words.strip_suffix(&place).unwrap_or(&words).to_owned(),
+            message: words.strip_suffix(&position).unwrap_or(&words).to_owned(),
         }
     }
 }

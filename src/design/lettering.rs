@@ -1,16 +1,16 @@
-//! Letters as outlines: a glyph or a word in a font file or the bundled font.
+//! Converts text to outlines: one line in a font file or the bundled font.
 //!
-//! Shaped by `harfrust` (HarfBuzz's algorithm: advances, GPOS and `kern`
-//! kerning, ligatures, right-to-left scripts), outlines from `skrifa`. One em
-//! is 1000 units. The page is as wide as the text's advances and as high as
-//! the font's ascent and descent, or more where glyphs reach beyond; without
-//! that its lower left corner is the origin, and words in one font share their
-//! base line in any case. Overlapping contours are
-//! united by winding (non-zero). A variable font is drawn at its default.
+//! `harfrust` shapes the text with HarfBuzz's algorithm (advances, GPOS and `kern`
+//! kerning, ligatures, right-to-left scripts); `skrifa` supplies the glyph outlines. One
+//! em is 1000 units. The page is as wide as the sum of the advances and as high as the
+//! font's ascent plus descent, extended to glyphs that reach beyond. The origin is the
+//! lower left corner of the page before that extension, so words in one font share a
+//! baseline. Overlapping contours are united by the non-zero winding rule. Variable fonts
+//! use their default instance.
 //!
-//! Guaranteed: no bytes, however broken, make it panic or run long; a
-//! character that the font lacks is an error, never a box. Not read: bitmap
-//! and colour glyphs, more than one line.
+//! Guarantees that damaged fonts cause neither panics nor long run times, and that a
+//! missing character is an error instead of a box. Does not support bitmap or colour
+//! glyphs or several lines.
 
 use super::flatten::{Flattener, MIN_TOLERANCE, TooManyPoints};
 use super::form::ImportedOutlines;
@@ -22,66 +22,68 @@ use skrifa::raw::{FileRef, FontRef};
 use skrifa::{GlyphId, MetadataProvider};
 use usvg::tiny_skia_path::PathBuilder;
 
-/// Why text gives no outline.
+/// Error of converting text to outlines.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TextError {
-    /// There is no text.
-    #[error("there is no text; write one letter or more, as in glyph:D")]
+    /// The text is empty.
+    #[error("the text is empty; enter at least one letter, as in glyph:D")]
     Empty,
-    /// There are only spaces.
-    #[error("the text is only spaces, which have no outline; write one letter or more")]
+    /// The text consists of white space.
+    #[error("the text has only spaces, which have no outline; enter at least one letter")]
     OnlySpace,
-    /// More text than a design should have.
-    #[error("the text has {0} characters, more than the {MAX_CHARS} that are drawn; shorten it")]
+    /// The text is too long; gives its number of characters.
+    #[error("the text has {0} characters, but at most {MAX_CHARS} are supported; shorten it")]
     TooLong(usize),
-    /// More marks on a letter than any text has.
-    #[error("more than {MAX_MARKS} marks stand on one letter; leave some out")]
+    /// One letter carries too many combining marks.
+    #[error("one letter has more than {MAX_MARKS} combining marks; remove some")]
     TooManyMarks,
-    /// The font's bytes are no font.
+    /// The bytes are not a usable font; gives the reason.
     #[error("the font cannot be read: {0}; choose a TrueType or OpenType font (.ttf, .otf)")]
     Font(&'static str),
     /// The font has no glyph for a character.
     #[error(
-        "the font has no glyph for {character:?} (U+{:04X}); choose another character, or a font that has it as in glyph:TEXT@FONT.ttf",
+        "the font has no glyph for {character:?} (U+{:04X}); use another character, or name a font that has it, as in glyph:TEXT@FONT.ttf",
         u32::from(*character)
     )]
     NoGlyph {
-        /// The first such character.
+        /// First missing character.
         character: char,
     },
-    /// A glyph that is a picture, or damaged.
+    /// A glyph is a bitmap or is damaged.
     #[error(
-        "the font has no outline for glyph {glyph} of the text; choose a font with outlines that is not damaged"
+        "the font has no outline for glyph {glyph}; choose an intact font with vector outlines"
     )]
     NoOutline {
-        /// The number of the glyph in the font.
+        /// Glyph index in the font.
         glyph: u32,
     },
-    /// Curves into absurdly many points.
+    /// The outlines need too many points.
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
-    /// Nothing is enclosed.
+    /// The outlines enclose no area.
     #[error(transparent)]
     Regions(#[from] RegionsError),
 }
 
-/// The font for text that names none.
+/// Font for text that names no font.
 pub(super) const BUNDLED_FONT: &[u8] = include_bytes!("../../assets/fonts/Roboto-Bold.ttf");
 
-/// Most characters: a page of text, far beyond what anyone blends.
+/// Maximum number of characters of a text (resource limit: about a page).
 const MAX_CHARS: usize = 2000;
 
-/// Most accents and other marks on one letter, as of text that may be streamed
-/// (Unicode, UAX #15). A thousand on an A are a thousand parts.
+/// Maximum number of combining marks on one letter: the bound of the Stream-Safe Text
+/// Format (Unicode, UAX #15).
 const MAX_MARKS: usize = 30;
 
-/// Units of the design for one em, as most fonts have it: letters are then as
-/// large as drawings are.
+/// Design units per em: the usual resolution of fonts, which gives letters about the size
+/// of drawings.
 const EM: f64 = 1000.0;
 
-/// Draws `text`. `font` is a font's bytes or `None` for the bundled font,
-/// `tolerance` a fraction of the page's longer side.
+/// Converts `text` to outlines.
+///
+/// `font` holds the bytes of a font file; `None` selects the bundled font. `tolerance` is
+/// a fraction of the page's longer side.
 pub(super) fn read(
     text: &str,
     font: Option<&[u8]>,
@@ -96,26 +98,27 @@ pub(super) fn read(
     if text.chars().all(char::is_whitespace) {
         return Err(TextError::OnlySpace);
     }
-    let font = font_of(font.unwrap_or(BUNDLED_FONT))?;
-    // Shaping would draw a box for what the font lacks.
+    let font = parsed_font(font.unwrap_or(BUNDLED_FONT))?;
+    // Shaping would silently substitute a box for a missing character.
     check_characters(&font, text)?;
     TextLine::shaped(&font, text)?.outlined(&font, tolerance)
 }
 
-/// The font in a file, or the first of a collection.
-fn font_of(bytes: &[u8]) -> Result<FontRef<'_>, TextError> {
-    // Named, for it is a font to whoever has it, only packed.
+/// Parses a font file; of a collection, returns the first font.
+fn parsed_font(bytes: &[u8]) -> Result<FontRef<'_>, TextError> {
+    // A specific message, because users regard WOFF files as valid fonts.
     if bytes.starts_with(b"wOF") {
-        return Err(TextError::Font("it is a web font"));
+        return Err(TextError::Font("it is a packed web font"));
     }
     let font = match FileRef::new(bytes) {
         Ok(FileRef::Font(font)) => Ok(font),
         Ok(FileRef::Collection(fonts)) => fonts.get(0),
         Err(error) => Err(error),
     };
-    font.map_err(|_| TextError::Font("it is damaged, or no font"))
+    font.map_err(|_| TextError::Font("it is damaged or not a font"))
 }
 
+/// Checks that the font has a glyph for every character.
 fn check_characters(font: &FontRef, text: &str) -> Result<(), TextError> {
     let charmap = font.charmap();
     let is_missing = |c: &char| charmap.map(*c).is_none_or(|glyph| glyph == GlyphId::NOTDEF);
@@ -125,25 +128,28 @@ fn check_characters(font: &FontRef, text: &str) -> Result<(), TextError> {
     }
 }
 
-/// Glyphs at their places, in units of the design.
+/// Shaped line of text in design units.
 struct TextLine {
+    /// Glyphs with their origins.
     glyphs: Vec<(GlyphId, DVec2)>,
-    /// Units of the design for one of the font.
+    /// Design units per font unit.
     scale: f64,
+    /// Page rectangle from advances, ascent and descent.
     page: Bounds,
 }
 
 impl TextLine {
+    /// Shapes the text and positions its glyphs.
     fn shaped(font: &FontRef, text: &str) -> Result<Self, TextError> {
         let metrics = font.metrics(Size::unscaled(), LocationRef::default());
         if metrics.units_per_em == 0 {
-            return Err(TextError::Font("it has no size of its em"));
+            return Err(TextError::Font("it does not define its em size"));
         }
         let scale = EM / f64::from(metrics.units_per_em);
         let data = ShaperData::new(font);
         let mut buffer = UnicodeBuffer::new();
         buffer.push_str(text);
-        // Script and direction, without which Arabic would run left to right.
+        // Detects script and direction; without it, Arabic would run left to right.
         buffer.guess_segment_properties();
         let shaper = data.shaper(font).build();
         let shaped = shaper.shape(buffer, ShapeOptions::new());
@@ -151,17 +157,21 @@ impl TextLine {
         if letters.any(|letter| letter.len() > 1 + MAX_MARKS) {
             return Err(TextError::TooManyMarks);
         }
-        // Where the page begins; a font may claim to end above its base line.
+        // Bottom of the page. Some fonts claim a descent above the baseline.
         let below = f64::from(metrics.descent).min(0.0);
         let mut pen = DVec2::new(0.0, -below);
-        let places = shaped.glyph_positions().iter();
-        let glyphs = shaped.glyph_infos().iter().zip(places).map(|(info, by)| {
-            // Where the glyph is drawn; the pen moves on by its advance alone.
-            let offset = DVec2::new(by.x_offset.into(), by.y_offset.into());
-            let at = pen + offset;
-            pen += DVec2::new(by.x_advance.into(), by.y_advance.into());
-            (GlyphId::new(info.glyph_id), at * scale)
-        });
+        let positions = shaped.glyph_positions().iter();
+        let glyphs = shaped
+            .glyph_infos()
+            .iter()
+            .zip(positions)
+            .map(|(info, position)| {
+                // The offset moves only the glyph; the pen moves by the advance.
+                let offset = DVec2::new(position.x_offset.into(), position.y_offset.into());
+                let origin = pen + offset;
+                pen += DVec2::new(position.x_advance.into(), position.y_advance.into());
+                (GlyphId::new(info.glyph_id), origin * scale)
+            });
         let glyphs = glyphs.collect();
         let size = DVec2::new(pen.x, f64::from(metrics.ascent) - below);
         let page = Bounds {
@@ -175,18 +185,19 @@ impl TextLine {
         })
     }
 
+    /// Converts the glyphs to united outlines.
     fn outlined(&self, font: &FontRef, tolerance: f64) -> Result<ImportedOutlines, TextError> {
-        // One em at least: a single narrow letter is no reason to be finer.
+        // At least one em, so that a single narrow letter is not flattened more finely.
         let longer = self.page.size().max_element().max(EM);
         let mut flattener = Flattener::new(tolerance.max(MIN_TOLERANCE) * longer);
         let glyphs = font.outline_glyphs();
         let mut rings = Vec::new();
-        for &(glyph, at) in &self.glyphs {
-            let Some(path) = drawn(&glyphs, glyph)?.finish() else {
+        for &(glyph, origin) in &self.glyphs {
+            let Some(path) = glyph_path(&glyphs, glyph)?.finish() else {
                 continue; // a space
             };
             rings.extend(flattener.rings(&path, |p| {
-                at + self.scale * DVec2::new(p.x.into(), p.y.into())
+                origin + self.scale * DVec2::new(p.x.into(), p.y.into())
             })?);
         }
         let regions = Regions::from_rings(&rings, FillRule::NonZero)?;
@@ -199,19 +210,20 @@ impl TextLine {
     }
 }
 
-fn drawn(glyphs: &OutlineGlyphCollection, glyph: GlyphId) -> Result<PathBuilder, TextError> {
+/// Returns the outline of a glyph in font units.
+fn glyph_path(glyphs: &OutlineGlyphCollection, glyph: GlyphId) -> Result<PathBuilder, TextError> {
     let missing = || TextError::NoOutline {
         glyph: glyph.to_u32(),
     };
     let mut pen = GlyphPen(PathBuilder::new());
-    // Hints fit an outline to the pixels of a size, and here are none.
+    // Hinting adjusts outlines to a pixel grid, and there is none here.
     let settings = DrawSettings::unhinted(Size::unscaled(), LocationRef::default());
     let outline = glyphs.get(glyph).ok_or_else(missing)?;
     outline.draw(settings, &mut pen).map_err(|_| missing())?;
     Ok(pen.0)
 }
 
-/// Collects one glyph in the font's units.
+/// Path builder that receives one glyph outline in font units.
 struct GlyphPen(PathBuilder);
 
 impl OutlinePen for GlyphPen {
@@ -245,7 +257,7 @@ mod tests {
     }
 
     #[test]
-    fn letters_have_their_holes_and_pieces() {
+    fn letters_have_the_expected_pieces_and_holes() {
         for (text, pieces, rings) in [
             ("D", 1, 2),
             ("S", 1, 1),
@@ -260,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn every_capital_of_the_bundled_font_is_one_piece_on_the_base_line() {
+    fn every_capital_of_the_bundled_font_is_one_piece_on_the_baseline() {
         for letter in 'A'..='Z' {
             let found = outline(&letter.to_string());
             assert_eq!(found.len(), 1, "{letter}");
@@ -276,17 +288,17 @@ mod tests {
             found.extent.size().x
         };
         assert!(width("AV") < width("A").min(width("V")) * 2.0);
-        let apart = |text: &str| {
+        let left_edge_distance = |text: &str| {
             let found = outline(text);
             let mut lefts: Vec<f64> = found.iter().map(|r| r.outer.bounds().min.x).collect();
             lefts.sort_by(f64::total_cmp);
             lefts[1] - lefts[0]
         };
-        assert!(apart("AV") < apart("AH") - 20.0);
+        assert!(left_edge_distance("AV") < left_edge_distance("AH") - 20.0);
     }
 
     #[test]
-    fn what_cannot_be_drawn_is_named() {
+    fn unusable_text_and_fonts_are_reported() {
         let error = |text: &str| read(text, None, 1e-4).err().expect("no outline");
         assert_eq!(error(""), TextError::Empty);
         assert_eq!(error(" \t"), TextError::OnlySpace);
@@ -310,7 +322,7 @@ mod tests {
     }
 
     #[test]
-    fn any_font_file_will_do() {
+    fn text_is_drawn_in_a_given_font() {
         let found = read("D", Some(epaint_default_fonts::HACK_REGULAR), 1e-4).expect("D");
         assert_eq!(found.regions.rings().count(), 2);
     }

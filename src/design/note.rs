@@ -1,90 +1,93 @@
-//! What was repaired or left out while a design was read, in words.
+//! Import notes: repairs, omissions and approximations made while a design was read,
+//! with one sentence of plain text for each.
 
 use crate::geometry::{DVec2, FillRule, Repairs};
 use crate::io::sanitize::SanitizedLine;
 use std::collections::BTreeMap;
 use std::fmt;
 
-/// Something about a file that its owner may want to know. It is no error:
-/// the design can be used as it is. A clean file has none.
+/// Repair, omission or approximation that the user should know about.
+///
+/// A note is not an error: the design is usable. A clean file has no notes.
 ///
 /// ```
 /// use morphospace::design::ImportNote;
 /// let note = ImportNote::Strokes(2);
-/// assert!(note.to_string().starts_with("2 strokes were left out"));
+/// assert!(note.to_string().starts_with("2 strokes were ignored"));
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum ImportNote {
-    /// Edges that cross.
+    /// Edges crossed each other.
     Crossings {
-        /// How many pairs.
+        /// Number of pairs of edges.
         count: usize,
-        /// Whether there may be more.
+        /// Whether `count` is only a lower bound.
         at_least: bool,
-        /// What decides what lies inside.
+        /// Fill rule that decided what is inside.
         rule: FillRule,
     },
-    /// Corners that lie on another edge.
+    /// Corners lay on another edge.
     Touches {
-        /// How many.
+        /// Number of corners.
         count: usize,
-        /// Whether there may be more.
+        /// Whether `count` is only a lower bound.
         at_least: bool,
     },
-    /// Outlines that are there more than once.
+    /// Number of ignored duplicates of outlines.
     Duplicates(usize),
-    /// Outlines that enclose nothing.
+    /// Number of ignored outlines that enclose no area.
     Flat(usize),
-    /// Pieces too small to count, left over from touching edges.
+    /// Number of ignored tiny pieces between touching edges.
     Slivers(usize),
-    /// Points that repeat the one before or lie straight between neighbours.
+    /// Number of removed points that repeat the previous point or lie on a straight line
+    /// between their neighbours.
     IdlePoints(usize),
-    /// Strokes of a drawing.
+    /// Number of ignored strokes of a drawing.
     Strokes(usize),
-    /// Texts of a drawing.
+    /// Number of ignored text elements of a drawing.
     Texts(usize),
-    /// A font that the machine does not have.
+    /// Name of a font that is not installed; another font was used.
     Font(String),
-    /// Characters of a drawing that no font has, or that are pictures.
+    /// Number of ignored characters that have no outline in any font.
     Characters(usize),
-    /// Pictures in a drawing.
+    /// Number of ignored pictures embedded in a drawing.
     Pictures(usize),
-    /// Patterns, and gradients of strokes, of which the mean colour is shown.
+    /// Number of patterns and stroke gradients that were replaced by their mean colour.
     Shades(usize),
-    /// Masks of a drawing.
+    /// Number of ignored masks of a drawing.
     Masks(usize),
-    /// Filters of a drawing.
+    /// Number of elements whose filter was ignored.
     Filters(usize),
-    /// Groups that are mixed with what is below otherwise than as drawn.
+    /// Number of groups whose opacity or blend mode is only approximated.
     Blends(usize),
-    /// A large picture's colours, kept at a smaller size.
+    /// The colours of a large picture were stored at a lower resolution.
     Smaller {
-        /// Its width and height.
+        /// Original width and height in pixels.
         given: (u32, u32),
-        /// Those that are kept.
+        /// Stored width and height in pixels.
         kept: (u32, u32),
     },
-    /// Each flat colour was to be a part, and the picture is of shades.
+    /// Flat colours were requested as parts, but the picture has no flat colours.
     Shaded,
-    /// Curves that do not close.
+    /// Curves that do not close were ignored.
     Open {
-        /// How many.
+        /// Number of curves.
         count: usize,
-        /// An end of one of them, where nothing goes on.
+        /// Free end of one of the curves.
         at: DVec2,
     },
-    /// Objects of a drawing that have no outline here.
+    /// Objects of a type that is not imported.
     Skipped {
-        /// Their kind, as the file calls it.
+        /// Type name as written in the file.
         kind: String,
-        /// How many.
+        /// Number of objects.
         count: usize,
     },
 }
 
 impl ImportNote {
-    /// What the cleaning of outlines by a fill rule has to tell.
+    /// Returns the notes for the repairs of outlines under a fill rule.
     pub(super) fn of_repairs(found: &Repairs, rule: FillRule) -> Vec<Self> {
         let at_least = found.at_least;
         let crossings = Self::Crossings {
@@ -96,7 +99,7 @@ impl ImportNote {
             count: found.touches,
             at_least,
         };
-        // Told in this order: what changed the form before what did not.
+        // Repairs that changed the shape come before those that did not.
         let counted = [
             (found.crossings, crossings),
             (found.touches, touches),
@@ -105,19 +108,21 @@ impl ImportNote {
             (found.slivers, Self::Slivers(found.slivers)),
             (found.idle_points, Self::IdlePoints(found.idle_points)),
         ];
-        let told = counted.into_iter().filter(|&(count, _)| count > 0);
-        told.map(|(_, note)| note).collect()
+        let nonzero = counted.into_iter().filter(|&(count, _)| count > 0);
+        nonzero.map(|(_, note)| note).collect()
     }
 
-    /// Of the kinds that were left out, and how many of each.
+    /// Returns one note for each type of ignored objects, given the counts.
     pub(super) fn of_skipped(kinds: BTreeMap<String, usize>) -> impl Iterator<Item = Self> {
         let kinds = kinds.into_iter();
         kinds.map(|(kind, count)| Self::Skipped { kind, count })
     }
 }
 
-/// What there is in a file besides what is asked for, as the end of a clause:
-/// `, only 2 TEXT`; how many of which kind.
+/// Counts of the unusable objects in a file, displayed as the end of a clause:
+/// `, only 2 TEXT`.
+///
+/// Maps each type name to its number of objects.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct OtherKinds(pub BTreeMap<String, usize>);
 
@@ -138,39 +143,42 @@ impl fmt::Display for ImportNote {
                 count,
                 at_least,
                 rule,
-            } => resolved(f, *count, *at_least, *rule),
+            } => write_crossings(f, *count, *at_least, *rule),
             Self::Touches { count, at_least } => {
-                let least = floor(*at_least);
-                let what = number(["corner that lies", "corners that lie"], *count);
-                write!(f, "{least}{count} {what} on another edge divided it")
+                let least = lower_bound(*at_least);
+                let one = "corner lies on another edge, which was split";
+                let many = "corners lie on other edges, which were split";
+                let what = number([one, many], *count);
+                write!(f, "{least}{count} {what}")
             }
-            Self::Duplicates(n) => left_out(f, *n, ["outline drawn again", "outlines drawn again"]),
+            Self::Duplicates(n) => {
+                write_ignored(f, *n, ["duplicate outline", "duplicate outlines"])
+            }
             Self::Flat(n) => {
-                let one = "outline that encloses nothing";
-                left_out(f, *n, [one, "outlines that enclose nothing"])
+                let one = "outline that encloses no area";
+                write_ignored(f, *n, [one, "outlines that enclose no area"])
             }
             Self::Slivers(n) => {
                 let one = "sliver between touching edges";
-                left_out(f, *n, [one, "slivers between touching edges"])
+                write_ignored(f, *n, [one, "slivers between touching edges"])
             }
             Self::IdlePoints(n) => {
-                let one = "point that repeats another or lies on a straight edge";
-                let many = "points that repeat another or lie on a straight edge";
-                left_out(f, *n, [one, many])
+                let one = "redundant point (repeated or on a straight edge)";
+                let many = "redundant points (repeated or on a straight edge)";
+                write_ignored(f, *n, [one, many])
             }
-            Self::Smaller { given, kept } => smaller(f, *given, *kept),
+            Self::Smaller { given, kept } => write_reduced(f, *given, *kept),
             Self::Shaded => f.write_str(
-                "the picture is of shades, not of a few flat colours; its figure is one part",
+                "the picture has no flat colours; its silhouette was imported as one part",
             ),
             Self::Open { count, at } => {
-                let one = "curve that does not close";
-                left_out(f, *count, [one, "curves that do not close"])?;
+                write_ignored(f, *count, ["open curve", "open curves"])?;
                 write!(f, "; close the gap at ({}, {})", at.x, at.y)
             }
             Self::Skipped { kind, count } => {
                 let kinds = ["object", "objects"]
-                    .map(|what| format!("{what} of the kind {}", SanitizedLine(kind)));
-                left_out(f, *count, kinds)
+                    .map(|what| format!("{what} of type {}", SanitizedLine(kind)));
+                write_ignored(f, *count, kinds)
             }
             Self::Strokes(_)
             | Self::Texts(_)
@@ -180,51 +188,48 @@ impl fmt::Display for ImportNote {
             | Self::Shades(_)
             | Self::Masks(_)
             | Self::Filters(_)
-            | Self::Blends(_) => self.of_drawing(f),
+            | Self::Blends(_) => self.write_drawing_note(f),
         }
     }
 }
 
 impl ImportNote {
-    /// Writes what is not shown as it was drawn.
-    fn of_drawing(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+    /// Writes the notes that only SVG drawings have.
+    fn write_drawing_note(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Strokes(n) => {
-                left_out(f, *n, ["stroke", "strokes"])?;
-                f.write_str(", as strokes = false asks for")
+                write_ignored(f, *n, ["stroke", "strokes"])?;
+                f.write_str(" because strokes = false")
             }
             Self::Texts(n) => {
-                left_out(f, *n, ["text", "texts"])?;
-                f.write_str(", too long to be laid out; convert text to paths")
+                write_ignored(f, *n, ["text", "texts"])?;
+                f.write_str(" because the text is too long to lay out; convert text to paths")
             }
             Self::Font(name) => write!(
                 f,
-                "the font {} is not on this machine, another one is shown; install it, or convert text to paths",
+                "the font {} is not installed, so another was used; install it or convert text to paths",
                 SanitizedLine(name)
             ),
             Self::Characters(n) => {
-                left_out(f, *n, ["character", "characters"])?;
-                f.write_str(", of which no font has an outline; convert text to paths")
+                write_ignored(f, *n, ["character", "characters"])?;
+                f.write_str(" because no installed font provides outlines; convert text to paths")
             }
-            Self::Pictures(n) => left_out(f, *n, ["embedded picture", "embedded pictures"]),
+            Self::Pictures(n) => write_ignored(f, *n, ["embedded picture", "embedded pictures"]),
             Self::Shades(n) => {
-                let what = [
-                    "pattern or stroke with a gradient",
-                    "patterns and strokes with gradients",
-                ];
-                let (what, were) = (number(what, *n), number(["is", "are"], *n));
-                write!(f, "{n} {what} {were} shown in the mean colour")
+                let what = ["pattern or stroke gradient", "patterns or stroke gradients"];
+                let (what, were) = (number(what, *n), number(["was", "were"], *n));
+                write!(f, "{n} {what} {were} replaced by the mean colour")
             }
             Self::Masks(n) => {
-                left_out(f, *n, ["mask", "masks"])?;
-                f.write_str("; apply masks as clip paths")
+                write_ignored(f, *n, ["mask", "masks"])?;
+                f.write_str("; use clip paths instead")
             }
-            Self::Filters(n) => left_out(f, *n, ["filter", "filters"]),
+            Self::Filters(n) => write_ignored(f, *n, ["filter", "filters"]),
             Self::Blends(n) => {
                 let (what, were) = (number(["group", "groups"], *n), number(["is", "are"], *n));
                 write!(
                     f,
-                    "{n} {what} {were} not mixed with what lies below as drawn"
+                    "{n} {what} with opacity or a blend mode {were} shown approximately"
                 )
             }
             _ => Ok(()),
@@ -232,47 +237,51 @@ impl ImportNote {
     }
 }
 
-/// Writes how many crossings there were.
-fn resolved(
+/// Writes the note on edge crossings.
+fn write_crossings(
     f: &mut fmt::Formatter<'_>,
     count: usize,
     at_least: bool,
     rule: FillRule,
 ) -> fmt::Result {
-    let (least, were) = (floor(at_least), number(["was", "were"], count));
-    let what = number(["crossing", "crossings"], count);
-    let by = named(rule);
-    write!(f, "{least}{count} {what} of edges {were} resolved by {by}")
+    let (least, were) = (lower_bound(at_least), number(["was", "were"], count));
+    let what = number(["edge crossing", "edge crossings"], count);
+    let by = rule_name(rule);
+    write!(f, "{least}{count} {what} {were} resolved by {by}")
 }
 
-/// Writes that a picture of one size is kept at another.
-fn smaller(f: &mut fmt::Formatter<'_>, given: (u32, u32), kept: (u32, u32)) -> fmt::Result {
+/// Writes the note on a picture whose colours were stored at a lower resolution.
+fn write_reduced(f: &mut fmt::Formatter<'_>, given: (u32, u32), kept: (u32, u32)) -> fmt::Result {
     let ((w, h), (x, y)) = (given, kept);
     write!(
         f,
-        "the colours of its {w} × {h} pixels are kept as {x} × {y}"
+        "the colours of the picture were reduced from {w} × {h} to {x} × {y} pixels"
     )
 }
 
-fn named(rule: FillRule) -> &'static str {
+fn rule_name(rule: FillRule) -> &'static str {
     match rule {
         FillRule::NonZero => "the non-zero winding rule",
         FillRule::EvenOdd => "the even-odd rule",
     }
 }
 
-/// Writes how many of what are not there.
-fn left_out<W: fmt::Display>(f: &mut fmt::Formatter<'_>, n: usize, what: [W; 2]) -> fmt::Result {
+/// Writes that `n` things of a kind, named in singular and plural, were ignored.
+fn write_ignored<W: fmt::Display>(
+    f: &mut fmt::Formatter<'_>,
+    n: usize,
+    what: [W; 2],
+) -> fmt::Result {
     let (what, were) = (number(what, n), number(["was", "were"], n));
-    write!(f, "{n} {what} {were} left out")
+    write!(f, "{n} {what} {were} ignored")
 }
 
-/// The word for one, or for many.
+/// Returns the singular or the plural word.
 fn number<W>([one, many]: [W; 2], n: usize) -> W {
     if n == 1 { one } else { many }
 }
 
-fn floor(at_least: bool) -> &'static str {
+fn lower_bound(at_least: bool) -> &'static str {
     if at_least { "at least " } else { "" }
 }
 
@@ -281,7 +290,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn notes_are_sentences_about_one_and_many() {
+    fn notes_use_singular_and_plural() {
         let found = Repairs {
             crossings: 1,
             duplicates: 2,
@@ -295,9 +304,9 @@ mod tests {
         assert_eq!(
             words,
             [
-                "1 crossing of edges was resolved by the even-odd rule",
-                "2 outlines drawn again were left out",
-                "1 point that repeats another or lies on a straight edge was left out",
+                "1 edge crossing was resolved by the even-odd rule",
+                "2 duplicate outlines were ignored",
+                "1 redundant point (repeated or on a straight edge) was ignored",
             ]
         );
         let open = ImportNote::Open {
@@ -306,7 +315,7 @@ mod tests {
         };
         assert_eq!(
             open.to_string(),
-            "2 curves that do not close were left out; close the gap at (1.5, -2)"
+            "2 open curves were ignored; close the gap at (1.5, -2)"
         );
     }
 }

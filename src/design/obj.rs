@@ -1,113 +1,120 @@
-//! Wavefront OBJ as a plane triangle mesh.
+//! Importer of Wavefront OBJ files as plane triangle meshes.
 //!
-//! Read are `v` and `f`; names, groups, materials, normals and texture
-//! coordinates are passed over. Vertices keep their number and order, so that
-//! two files with the same `f` lines give the same mesh: loaders that number
-//! vertices by their first use in a face, or once for each texture
-//! coordinate, do not promise that, and lose the numbers that errors need.
+//! Reads `v` and `f`; ignores names, groups, materials, normals and texture coordinates.
+//! Vertices keep their number and order, so two files with the same `f` lines give the
+//! same connectivity. OBJ crates that renumber vertices by first use or per texture
+//! coordinate do not guarantee this, and lose the numbers that error messages need.
 //!
-//! Faces of more than three vertices must be convex enough to be cut into a
-//! fan about their first vertex; a fan is the same in any two files, a better
-//! triangulation would not be. Whether faces are oriented alike, and
-//! positively, is checked where two meshes meet.
+//! Faces with more than three vertices are cut into a fan about their first vertex: unlike
+//! a better triangulation, a fan does not depend on the positions, so it is the same in
+//! both files. It requires nearly convex faces. Orientation is not checked here, but when
+//! two meshes are paired.
 
 use crate::geometry::{DVec2, RANGE_MESSAGE, is_in_range};
 use crate::mesh::{MeshError, TriangleMesh};
 use std::borrow::Cow;
 
-/// Why an OBJ file is no plane mesh. Lines, vertices and faces count from 1.
+/// Error of importing an OBJ file. Lines, vertices and faces count from 1.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjError {
-    /// A line that cannot be used.
+    /// A line cannot be used.
     #[error("line {line}: {fault}")]
     Line {
-        /// The line.
+        /// Number of the line.
         line: usize,
-        /// What is wrong with it.
+        /// Fault of the line.
         fault: ObjFault,
     },
-    /// A vertex that nothing holds.
-    #[error("vertex {0} belongs to no face; remove it, or add the face that is missing")]
+    /// A vertex belongs to no face.
+    #[error("vertex {0} belongs to no face; remove it or add the missing face")]
     Unused(usize),
-    /// No vertices or no faces.
-    #[error("the mesh has {vertices} vertices and {faces} faces; give at least one triangle")]
+    /// The file has no vertices or no faces.
+    #[error("the mesh has {vertices} vertices and {faces} faces; it needs at least one triangle")]
     NoMesh {
-        /// How many vertices.
+        /// Number of vertices.
         vertices: usize,
-        /// How many faces.
+        /// Number of faces.
         faces: usize,
     },
-    /// More vertices than can be numbered.
-    #[error("the mesh has more than {} vertices; give a coarser one", u32::MAX)]
+    /// The file has more vertices than 32-bit indices can address.
+    #[error("the mesh has more than {} vertices; use a coarser mesh", u32::MAX)]
     TooMany,
-    /// Faces that do not fit together.
+    /// The faces do not form a valid mesh.
     #[error(transparent)]
     Mesh(#[from] MeshError),
 }
 
-/// What is wrong with a vertex or a face, which is named by its number.
+/// Fault of a vertex or face, identified by its number.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum ObjFault {
-    /// A `v` line without two or three numbers.
+    /// A `v` line does not begin with two or three numbers.
     #[error("vertex {0} needs the numbers x y z; correct the line")]
     Vertex(usize),
-    /// A coordinate is no number, or beyond [`MAX_COORDINATE`].
+    /// A coordinate is not finite or exceeds [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("vertex {0} {RANGE_MESSAGE}")]
     Place(usize),
-    /// The vertices do not lie in one plane of constant z.
+    /// The vertices do not all have the same z.
     #[error(
-        "vertex {vertex} has z = {z}, but vertex 1 has z = {first}; lay the mesh flat, only x and y are used"
+        "vertex {vertex} has z = {z}, but vertex 1 has z = {first}; flatten the mesh to constant z"
     )]
     NotFlat {
-        /// The vertex.
+        /// Number of the vertex.
         vertex: usize,
         /// Its z.
         z: f64,
-        /// The z of the first vertex.
+        /// z of the first vertex.
         first: f64,
     },
-    /// A face with a word, cut short, that is no vertex.
-    #[error("face {0} has \"{1}\" where a vertex number should be; correct the line")]
+    /// A face has a word (given shortened) that is not a vertex number.
+    #[error("face {0} has \"{1}\" in place of a vertex number; correct the line")]
     Face(usize, String),
-    /// A face of one or two vertices.
+    /// A face has fewer than three vertices.
     #[error("face {0} has fewer than three vertices; remove it or complete it")]
     TooFewCorners(usize),
-    /// A face that names a vertex that is not there.
-    #[error("face {face} names vertex {named}, but there are {vertices}; correct the face")]
+    /// A face refers to a vertex that does not exist.
+    #[error(
+        "face {face} refers to vertex {named}, but there are {vertices} vertices; correct the face"
+    )]
     OutOfRange {
-        /// The face.
+        /// Number of the face.
         face: usize,
-        /// The number as it stands in the file.
+        /// Vertex number as written in the file.
         named: i64,
-        /// How many vertices there are.
+        /// Number of vertices.
         vertices: usize,
     },
-    /// A face that passes a vertex twice.
-    #[error("face {face} names vertex {vertex} twice; correct the face")]
+    /// A face uses a vertex twice.
+    #[error("face {face} uses vertex {vertex} twice; correct the face")]
     Repeated {
-        /// The face.
+        /// Number of the face.
         face: usize,
-        /// The vertex.
+        /// Number of the vertex.
         vertex: usize,
     },
 }
 
+/// State of the parser between lines.
 #[derive(Default)]
 struct ObjParser {
+    /// Vertex positions in file order.
     positions: Vec<DVec2>,
+    /// z of the first vertex, which all others must have.
     first_z: f64,
-    /// The line of each face, and how many of `corners` come before its own.
+    /// Line number and index of the first corner in `corners` for each face.
     polygons: Vec<(usize, usize)>,
-    /// The vertices of faces from 0, not yet triangles: one after the other, since a
-    /// list for each would be most of the time that a million takes.
+    /// Vertex indices (from 0) of all faces in one list, because allocating a list per face
+    /// would dominate the import time of large meshes.
     corners: Vec<i64>,
 }
 
-/// Reads the text of an OBJ file.
+/// Imports the text of an OBJ file.
+///
+/// # Errors
+/// [`ObjError`] names the line, vertex or face that cannot be used.
 pub(super) fn read(text: &str) -> Result<TriangleMesh, ObjError> {
     let mut parser = ObjParser::default();
     for (line, words) in logical_lines(text) {
@@ -122,7 +129,8 @@ pub(super) fn read(text: &str) -> Result<TriangleMesh, ObjError> {
     parser.finish()
 }
 
-/// Lines from 1, without comments, with those joined that end in a backslash.
+/// Returns the numbered lines (from 1) without comments. A line that ends in a backslash is
+/// joined with the next.
 fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     let mut lines = text.lines().zip(1..);
     std::iter::from_fn(move || {
@@ -139,12 +147,13 @@ fn logical_lines(text: &str) -> impl Iterator<Item = (usize, Cow<'_, str>)> {
     })
 }
 
+/// Removes a comment and trailing white space.
 fn without_comment(line: &str) -> &str {
     line.split('#').next().unwrap_or_default().trim_end()
 }
 
 impl ObjParser {
-    /// Takes `x y` or `x y z`; a weight or a colour behind them is passed over.
+    /// Reads `x y` or `x y z` of a `v` line; ignores a weight or colour after them.
     fn vertex<'a>(&mut self, mut words: impl Iterator<Item = &'a str>) -> Result<(), ObjFault> {
         let vertex = self.positions.len() + 1;
         let mut number = || words.next().map(str::parse::<f64>);
@@ -160,7 +169,7 @@ impl ObjParser {
             self.first_z = z;
         }
         let first = self.first_z;
-        // Exact: "ignored if constant" has no scale to measure a difference by.
+        // Exact comparison: there is no length scale yet for a tolerance.
         if z != first {
             return Err(ObjFault::NotFlat { vertex, z, first });
         }
@@ -168,14 +177,14 @@ impl ObjParser {
         Ok(())
     }
 
-    /// Takes the vertices of a face.
+    /// Reads the vertex numbers of an `f` line; only lower bounds can be checked yet.
     fn face<'a>(
         &mut self,
         line: usize,
         words: impl Iterator<Item = &'a str>,
     ) -> Result<(), ObjFault> {
         let face = self.polygons.len() + 1;
-        let so_far = self.positions.len() as i64;
+        let vertex_count = self.positions.len() as i64;
         let first = self.corners.len();
         for word in words {
             let number = word.split('/').next().unwrap_or_default();
@@ -184,7 +193,7 @@ impl ObjParser {
                 .map_err(|_| ObjFault::Face(face, word.chars().take(24).collect()))?;
             // Negative numbers count back from the latest vertex.
             let corner = match named < 0 {
-                true => so_far.saturating_add(named),
+                true => vertex_count.saturating_add(named),
                 false => named - 1,
             };
             if corner < 0 {
@@ -199,6 +208,7 @@ impl ObjParser {
         }
     }
 
+    /// Returns the fault for a vertex number that does not exist.
     fn out_of_range(&self, face: usize, named: i64) -> ObjFault {
         ObjFault::OutOfRange {
             face,
@@ -207,6 +217,7 @@ impl ObjParser {
         }
     }
 
+    /// Checks the faces against all vertices and builds the mesh.
     fn finish(self) -> Result<TriangleMesh, ObjError> {
         if self.positions.is_empty() || self.polygons.is_empty() {
             return Err(ObjError::NoMesh {
@@ -225,7 +236,7 @@ impl ObjParser {
             let corners = &self.corners[first..end];
             let checked = self.check_corners(face, corners, &mut used);
             checked.map_err(|fault| ObjError::Line { line, fault })?;
-            // Three at least, so that there is a first and a fan about it.
+            // A fan about the first corner; `face` made sure that there are three.
             let fan = corners[1..].windows(2).map(|w| [corners[0], w[0], w[1]]);
             faces.extend(fan.map(|corners| corners.map(|c| c as u32)));
         }
@@ -235,8 +246,8 @@ impl ObjParser {
         Ok(TriangleMesh::new(self.positions, faces)?)
     }
 
-    /// Corners exist and differ; marks them as used. Faces may stand before
-    /// their vertices, so that this waits for the last line.
+    /// Checks that the corners exist and differ, and marks them as used. Runs after the
+    /// last line because faces may precede their vertices.
     fn check_corners(
         &self,
         face: usize,
@@ -253,7 +264,7 @@ impl ObjParser {
             face,
             vertex: vertex as usize + 1,
         };
-        // Nearly all are triangles.
+        // Fast path: nearly all faces are triangles.
         if let [a, b, c] = *corners {
             return match a == b || a == c || b == c {
                 true => Err(repeated(if b == c { b } else { a })),

@@ -1,28 +1,31 @@
-//! A coat of paint: what a drawing shows is several, one over the other.
+//! Paint layers: the coloured regions of a drawing, stacked from bottom to top, and the
+//! stacking of regions whose file gives no order.
 
 use crate::colour::{Gradient, Paint, StrokeStyle};
 use crate::geometry::{Bounds, Region, Regions, Similarity};
 use std::collections::BTreeMap;
 
-/// Regions in one paint. What is in one coat neither overlaps nor hides the
-/// rest of it; what is in a later coat hides what lies under it.
+/// Regions filled with one paint.
+///
+/// Regions of one layer do not overlap each other. Each layer covers the layers before it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PaintLayer {
-    /// What it covers.
+    /// Filled area.
     pub regions: Regions,
-    /// Its paint; none where the design has no colour of its own.
+    /// Colour and opacity, or `None` if the file gives these regions no colour.
     pub paint: Option<Paint>,
-    /// The gradient that the paint is the mean of, if it is of one.
+    /// Gradient fill, if any; `paint` is then its mean.
     pub gradient: Option<Gradient>,
-    /// The line along all its outlines, if there is one; it covers the paint.
+    /// Stroke along all outlines, if any; drawn over the fill.
     pub line: Option<StrokeStyle>,
-    /// What the file calls it, if it is one shape; or empty.
+    /// Name of the shape in the file; empty if unnamed or merged from several shapes.
     pub name: String,
-    /// Whether it is text.
+    /// Whether the regions are letters of a text element.
     pub is_text: bool,
 }
 
 impl PaintLayer {
+    /// Returns the layer transformed by a similarity, including gradient and line width.
     pub(super) fn transformed(&self, by: &Similarity) -> Self {
         Self {
             regions: self.regions.transformed(by),
@@ -41,98 +44,109 @@ impl PaintLayer {
     }
 }
 
-/// What a file has in one paint.
+/// All regions that a file fills with one paint, without a stacking order.
 pub(super) struct PaintGroup {
+    /// Filled area.
     pub regions: Regions,
+    /// Colour, or `None` if the file gives none.
     pub paint: Option<Paint>,
+    /// Name of the layers that result.
     pub name: String,
 }
 
-/// Sheets without an order of their own as coats, so that nothing hides what lies within
-/// it: as high as it is deep in pieces of other sheets, and what is smaller over what is
-/// larger. None where none has a colour of its own.
-pub(super) fn stack_by_containment(sheets: &[PaintGroup]) -> Vec<PaintLayer> {
-    if sheets.iter().all(|sheet| sheet.paint.is_none()) {
+/// Stacks regions without an order into paint layers so that no region hides one inside it.
+///
+/// A piece's height is its nesting depth in pieces of other groups. At equal height, the
+/// layer with the smaller area is on top. Returns no layers if no group has a colour.
+pub(super) fn stack_by_containment(groups: &[PaintGroup]) -> Vec<PaintLayer> {
+    if groups.iter().all(|group| group.paint.is_none()) {
         return Vec::new();
     }
-    let mut of_heights: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
+    let mut pieces_by_layer: BTreeMap<(usize, usize), Vec<usize>> = BTreeMap::new();
     for StackedPiece {
-        sheet,
+        group,
         number,
         height,
-    } in placed(sheets)
+    } in pieces_with_heights(groups)
     {
-        let numbers = of_heights.entry((height, sheet)).or_default();
+        let numbers = pieces_by_layer.entry((height, group)).or_default();
         numbers.push(number);
     }
-    let coat = |((height, sheet), numbers): ((usize, usize), Vec<usize>)| {
-        let sheet = &sheets[sheet];
-        let coat = PaintLayer {
-            regions: sheet.regions.only(&numbers)?,
-            paint: sheet.paint,
+    let layer = |((height, group), numbers): ((usize, usize), Vec<usize>)| {
+        let group = &groups[group];
+        let layer = PaintLayer {
+            regions: group.regions.only(&numbers)?,
+            paint: group.paint,
             gradient: None,
             line: None,
-            name: sheet.name.clone(),
+            name: group.name.clone(),
             is_text: false,
         };
-        Some((height, coat))
+        Some((height, layer))
     };
-    let mut coats: Vec<(usize, PaintLayer)> = of_heights.into_iter().filter_map(coat).collect();
-    coats.sort_by(|(a, first), (b, second)| {
+    let mut layers: Vec<(usize, PaintLayer)> =
+        pieces_by_layer.into_iter().filter_map(layer).collect();
+    layers.sort_by(|(a, first), (b, second)| {
         let by_area = || second.regions.area().total_cmp(&first.regions.area());
         a.cmp(b).then_with(by_area)
     });
-    coats.into_iter().map(|(_, coat)| coat).collect()
+    layers.into_iter().map(|(_, layer)| layer).collect()
 }
 
-/// A piece of a sheet, and how deep it lies in pieces of others.
+/// Piece of a group with its height in the stack.
 struct StackedPiece {
-    sheet: usize,
+    /// Index of the group.
+    group: usize,
+    /// Index of the piece within the group.
     number: usize,
+    /// Nesting depth in pieces of other groups.
     height: usize,
 }
 
-/// More pieces are not compared with each other: all lie as high.
-const MOST: usize = 20_000;
+/// Maximum number of pieces that are tested for nesting in pairs; with more, all have
+/// height 0 (resource limit).
+const MAX_COMPARED: usize = 20_000;
 
-/// All pieces, the largest first.
-fn placed(sheets: &[PaintGroup]) -> Vec<StackedPiece> {
-    let of_sheet = |(sheet, of): (usize, &'_ PaintGroup)| -> Vec<(usize, usize)> {
+/// Returns all pieces with their heights, largest area first.
+fn pieces_with_heights(groups: &[PaintGroup]) -> Vec<StackedPiece> {
+    let pieces_of = |(group, of): (usize, &'_ PaintGroup)| -> Vec<(usize, usize)> {
         (0..of.regions.len())
-            .map(|number| (sheet, number))
+            .map(|number| (group, number))
             .collect()
     };
-    let numbers: Vec<(usize, usize)> = sheets.iter().enumerate().flat_map(of_sheet).collect();
-    let regions = sheets.iter().flat_map(|sheet| sheet.regions.iter());
+    let numbers: Vec<(usize, usize)> = groups.iter().enumerate().flat_map(pieces_of).collect();
+    let regions = groups.iter().flat_map(|group| group.regions.iter());
     let mut pieces: Vec<(Bounds, f64, &Region, (usize, usize))> = regions
         .zip(numbers)
         .map(|(region, number)| (region.outer.bounds(), region.area(), region, number))
         .collect();
     pieces.sort_by(|a, b| b.1.total_cmp(&a.1));
     let mut heights = vec![0; pieces.len()];
-    if pieces.len() <= MOST {
+    if pieces.len() <= MAX_COMPARED {
+        // Only larger pieces, which come earlier, can contain a piece.
         for inner in 0..pieces.len() {
-            let (bounds, _, region, (sheet, _)) = pieces[inner];
+            let (bounds, _, region, (group, _)) = pieces[inner];
             let hosts = pieces[..inner].iter().zip(&heights).filter(|(host, _)| {
-                host.3.0 != sheet && host.0.union(&bounds) == host.0 && is_within(region, host.2)
+                host.3.0 != group && host.0.union(&bounds) == host.0 && is_within(region, host.2)
             });
             heights[inner] = hosts.map(|(_, height)| height + 1).max().unwrap_or(0);
         }
     }
     let numbered = pieces.iter().zip(heights);
-    let placed = numbered.map(|(&(.., (sheet, number)), height)| StackedPiece {
-        sheet,
+    let placed = numbered.map(|(&(.., (group, number)), height)| StackedPiece {
+        group,
         number,
         height,
     });
     placed.collect()
 }
 
-/// Whether most of a piece's outline lies in another.
+/// Returns whether most of the outline of `inner` lies in `outer`, judged from about 16 of
+/// its points.
 fn is_within(inner: &Region, outer: &Region) -> bool {
     let points = inner.outer.points();
-    let some = points.iter().step_by(points.len().div_ceil(16).max(1));
-    let (count, inside) = some.fold((0, 0), |(count, inside), &p| {
+    let sample = points.iter().step_by(points.len().div_ceil(16).max(1));
+    let (count, inside) = sample.fold((0, 0), |(count, inside), &p| {
         (count + 1, inside + usize::from(outer.contains(p)))
     });
     2 * inside > count
@@ -144,7 +158,7 @@ mod tests {
     use crate::colour::Rgb;
     use crate::geometry::{DVec2, FillRule};
 
-    fn sheet(name: &str, squares: &[[f64; 3]]) -> PaintGroup {
+    fn group(name: &str, squares: &[[f64; 3]]) -> PaintGroup {
         let square = |&[x, y, side]: &[f64; 3]| {
             let corners = [(0.0, 0.0), (side, 0.0), (side, side), (0.0, side)];
             corners.map(|(a, b)| DVec2::new(x + a, y + b)).to_vec()
@@ -158,16 +172,16 @@ mod tests {
     }
 
     #[test]
-    fn a_dot_is_not_hidden_for_what_its_colour_has_elsewhere() {
-        // A pupil with a highlight, beside a large white wall; and a point in the wall.
-        let sheets = [
-            sheet("black", &[[0.0, 0.0, 10.0], [60.0, 0.0, 2.0]]),
-            sheet("white", &[[4.0, 4.0, 1.0], [50.0, -20.0, 40.0]]),
+    fn a_nested_dot_stays_visible_when_its_colour_is_large_elsewhere() {
+        // A black pupil with a white highlight, and a large white wall with a black dot.
+        let groups = [
+            group("black", &[[0.0, 0.0, 10.0], [60.0, 0.0, 2.0]]),
+            group("white", &[[4.0, 4.0, 1.0], [50.0, -20.0, 40.0]]),
         ];
-        let coats = stack_by_containment(&sheets);
-        let found: Vec<(&str, usize)> = coats
+        let layers = stack_by_containment(&groups);
+        let found: Vec<(&str, usize)> = layers
             .iter()
-            .map(|coat| (coat.name.as_str(), coat.regions.len()))
+            .map(|layer| (layer.name.as_str(), layer.regions.len()))
             .collect();
         assert_eq!(
             found,

@@ -1,6 +1,6 @@
-//! Polygons as JSON, and GeoJSON (Butler and others, RFC 7946, 2016).
+//! Importer of polygons in plain JSON and in GeoJSON (Butler et al., RFC 7946, 2016).
 //!
-//! Plain JSON is one of
+//! Plain JSON has one of these structures:
 //!
 //! ```json
 //! [[0, 0], [4, 0], [0, 3]]
@@ -10,19 +10,17 @@
 //! {"polygons": [[[[0, 0], [4, 0], [0, 3]]]]}
 //! ```
 //!
-//! a ring of points; a list of rings; a list of polygons, each a list of
-//! rings; or the same under a name. A ring may repeat its first point at the
-//! end. Of GeoJSON polygons are read wherever they lie in features and
-//! collections, in the fill that a feature's properties may name; points and lines
-//! are left out, which is told. Coordinates
-//! are taken as they are, x to the right and y up, longitude and latitude
-//! included; more than two numbers of a point are not looked at.
+//! They are a ring of points, a list of rings, a list of polygons (each a list of rings),
+//! and the last two under a name. A ring may repeat its first point at the end.
 //!
-//! Within a polygon (or a list of rings) the even-odd rule says what is
-//! inside, so that rings in rings are holes whichever way they run; an
-//! outline drawn twice counts once. Polygons are united.
+//! GeoJSON polygons are imported at any depth of features and collections, with the fill
+//! colour in a feature's properties. Points and lines are ignored and reported as notes.
+//! Coordinates are used unchanged, x to the right and y up, even longitude and latitude;
+//! numbers after the first two of a point are ignored.
 //!
-//! Errors name the place as a path into the document.
+//! Within a polygon or list of rings the even-odd rule decides what is inside, so nested
+//! rings are holes regardless of orientation, and duplicate outlines count once. Polygons
+//! are united. Errors name the position as a path into the document.
 
 mod value;
 
@@ -41,25 +39,28 @@ use value::{
     type_mismatch,
 };
 
-/// Reads plain polygons or GeoJSON.
+/// Imports plain polygons or GeoJSON.
+///
+/// # Errors
+/// [`PolygonsImportError`] names the value that cannot be used.
 pub(super) fn read(text: &str) -> Result<ImportedOutlines, PolygonsImportError> {
     if text.matches('{').count() > MAX_OBJECTS {
         return Err(PolygonsImportError::TooManyObjects);
     }
     let value: Value = serde_json::from_str(text).map_err(JsonError::from)?;
-    let mut found = PolygonCollector::default();
+    let mut collector = PolygonCollector::default();
     match &value {
-        Value::Object(object) if object.contains_key("type") => found.geojson(&value)?,
-        Value::Object(_) => found.named(&value)?,
-        _ => found.list(&value)?,
+        Value::Object(object) if object.contains_key("type") => collector.geojson(&value)?,
+        Value::Object(_) => collector.named(&value)?,
+        _ => collector.list(&value)?,
     }
-    // What was found is a copy, and uniting takes room of its own.
+    // The collector holds copies; free the document before the union needs memory.
     drop(value);
-    found.united()
+    collector.into_outlines()
 }
 
-/// What a feature is painted with: `fill` and `fill-opacity` of its properties, as
-/// simplestyle has them (Mapbox, version 1.1), and the `layer` or `name` it has.
+/// Style of a feature: the properties `fill` and `fill-opacity` of the simplestyle
+/// specification (Mapbox, version 1.1), and `layer` or `name`.
 #[derive(Clone, Default, PartialEq)]
 struct FeatureStyle {
     paint: Option<Paint>,
@@ -67,12 +68,13 @@ struct FeatureStyle {
 }
 
 impl FeatureStyle {
+    /// Reads the style from the properties of a feature.
     fn of(properties: &Value) -> Self {
         let text = |key: &str| properties[key].as_str();
         let fill = text("fill").and_then(colour);
         let opacity = properties["fill-opacity"].as_f64().unwrap_or(1.0);
         let name = text("layer").or_else(|| text("name"));
-        // What is only to be outlined has no paint to be seen in.
+        // A fully transparent fill marks an outline-only feature.
         let fill = fill.filter(|_| opacity > 0.0);
         Self {
             paint: fill.map(|colour| Paint {
@@ -84,29 +86,30 @@ impl FeatureStyle {
     }
 }
 
-/// Of three or six digits, with or without the sign of a number.
+/// Parses a colour of three or six hexadecimal digits, with or without `#`.
 fn colour(text: &str) -> Option<Rgb> {
     let digits = text.trim_start_matches('#');
     let doubled = |digits: &str| digits.chars().flat_map(|digit| [digit; 2]).collect();
-    let six = match digits.len() {
+    let six_digits = match digits.len() {
         3 => doubled(digits),
         _ => digits.to_owned(),
     };
-    format!("#{six}").parse().ok()
+    format!("#{six_digits}").parse().ok()
 }
 
-/// What has been found so far.
+/// Collects polygons while the document is traversed.
 #[derive(Default)]
 struct PolygonCollector {
-    /// Each a list of rings.
+    /// Polygons, each a list of rings.
     polygons: Vec<Vec<JsonRing>>,
-    /// For each polygon what it is painted with.
+    /// Style of each polygon. May be shorter than `polygons`; missing entries have no style.
     inks: Vec<FeatureStyle>,
-    /// What else there was, by its type.
+    /// Number of ignored objects by type.
     skipped: BTreeMap<String, usize>,
 }
 
 impl PolygonCollector {
+    /// Reads plain JSON with the lists in named members.
     fn named(&mut self, object: &Value) -> Result<(), PolygonsImportError> {
         self.polygons.extend(read_member(object, "rings", rings)?);
         let all = read_member(object, "polygons", polygons)?;
@@ -114,7 +117,7 @@ impl PolygonCollector {
         Ok(())
     }
 
-    /// Lists without a name: how deep they are says what they are.
+    /// Reads an unnamed list. The nesting depth of the list decides its structure.
     fn list(&mut self, list: &Value) -> Result<(), PolygonsImportError> {
         match depth(list) {
             0 | 1 => return Err(type_mismatch(RING, list)),
@@ -125,10 +128,10 @@ impl PolygonCollector {
         Ok(())
     }
 
-    /// Any object of GeoJSON. The parser has limited how deep they nest.
+    /// Reads any GeoJSON object recursively. The JSON parser limits the nesting depth.
     fn geojson(&mut self, object: &Value) -> Result<(), PolygonsImportError> {
         if !object.is_object() {
-            return Err(type_mismatch("an object of GeoJSON", object));
+            return Err(type_mismatch("a GeoJSON object", object));
         }
         let coordinates = PolygonsFault::Missing {
             key: "coordinates",
@@ -145,24 +148,25 @@ impl PolygonCollector {
                 self.polygons.extend(all.ok_or(coordinates)?);
             }
             "Feature" => {
-                // What stood outside of features has no paint.
+                // Polygons outside of features get no style.
                 self.inks
                     .resize(self.polygons.len(), FeatureStyle::default());
-                let ink = FeatureStyle::of(&object["properties"]);
+                let style = FeatureStyle::of(&object["properties"]);
                 self.feature(&object["geometry"])?;
-                self.inks.resize(self.polygons.len(), ink);
+                self.inks.resize(self.polygons.len(), style);
             }
             "FeatureCollection" => self.members(object, "features")?,
             "GeometryCollection" => self.members(object, "geometries")?,
             "Point" | "MultiPoint" | "LineString" | "MultiLineString" => self.skip(kind),
             other => {
-                let found = other.chars().take(40).collect();
-                return Err(PolygonsFault::Type(found).into());
+                let shortened = other.chars().take(40).collect();
+                return Err(PolygonsFault::Type(shortened).into());
             }
         }
         Ok(())
     }
 
+    /// Reads the geometry of a feature.
     fn feature(&mut self, geometry: &Value) -> Result<(), PolygonsImportError> {
         if geometry.is_null() {
             self.skip("Feature without a geometry");
@@ -172,6 +176,7 @@ impl PolygonCollector {
         read.map_err(|error| error.within(".geometry"))
     }
 
+    /// Reads the objects in a member that must be a list.
     fn members(&mut self, object: &Value, key: &'static str) -> Result<(), PolygonsImportError> {
         let read = |list: &Value| read_list(list, "a list", |value| self.geojson(value));
         let expected = "a list, even if it is empty";
@@ -180,49 +185,50 @@ impl PolygonCollector {
         Ok(())
     }
 
+    /// Counts an ignored object.
     fn skip(&mut self, kind: &str) {
         *self.skipped.entry(kind.to_owned()).or_default() += 1;
     }
 
-    /// Each polygon cleaned, then all united.
-    fn united(self) -> Result<ImportedOutlines, PolygonsImportError> {
+    /// Cleans each polygon, unites all and groups them by style into paint layers.
+    fn into_outlines(self) -> Result<ImportedOutlines, PolygonsImportError> {
         if self.polygons.is_empty() {
             return Err(PolygonsImportError::NoPolygon(OtherKinds(self.skipped)));
         }
         let mut repairs = Repairs::default();
         let mut united: Vec<JsonRing> = Vec::new();
-        let mut nothing = RegionsError::Empty;
-        let mut inked: Vec<(FeatureStyle, Vec<JsonRing>)> = Vec::new();
+        let mut empty_error = RegionsError::Empty;
+        let mut styled: Vec<(FeatureStyle, Vec<JsonRing>)> = Vec::new();
         for (k, rings) in self.polygons.iter().enumerate() {
-            // Each by itself, for under this rule two that overlap would leave a hole.
+            // One at a time: under the even-odd rule, overlapping polygons would leave a hole.
             match Regions::from_rings_reporting(rings, FillRule::EvenOdd) {
-                Ok((regions, found)) => {
-                    repairs = repairs.and(found);
+                Ok((regions, own_repairs)) => {
+                    repairs = repairs.and(own_repairs);
                     let rings = regions.rings().map(|r| r.points().to_vec());
                     let rings: Vec<JsonRing> = rings.collect();
-                    let ink = self.inks.get(k).cloned().unwrap_or_default();
-                    match inked.last_mut().filter(|(last, _)| *last == ink) {
+                    let style = self.inks.get(k).cloned().unwrap_or_default();
+                    match styled.last_mut().filter(|(last, _)| *last == style) {
                         Some((_, own)) => own.extend(rings.clone()),
-                        None => inked.push((ink, rings.clone())),
+                        None => styled.push((style, rings.clone())),
                     }
                     united.extend(rings);
                 }
-                // A polygon without a ring is one thing that encloses nothing.
+                // A polygon without any ring counts as one empty outline.
                 Err(error @ (RegionsError::Empty | RegionsError::Size(_))) => {
                     repairs.flat += rings.len().max(1);
-                    nothing = error;
+                    empty_error = error;
                 }
                 Err(error) => return Err(error.into()),
             }
         }
         if united.is_empty() {
-            return Err(nothing.into());
+            return Err(empty_error.into());
         }
         let regions = Regions::from_rings(&united, FillRule::NonZero)?;
         let mut notes = ImportNote::of_repairs(&repairs, FillRule::EvenOdd);
         notes.extend(ImportNote::of_skipped(self.skipped));
         Ok(ImportedOutlines {
-            coats: coats(inked),
+            coats: layers_by_style(styled),
             extent: regions.bounds(),
             regions,
             notes,
@@ -230,24 +236,24 @@ impl PolygonCollector {
     }
 }
 
-/// Features that follow each other in one paint, as a map draws them: the first
-/// at the bottom. None where none has a colour of its own.
-fn coats(inked: Vec<(FeatureStyle, Vec<JsonRing>)>) -> Vec<PaintLayer> {
-    if inked.iter().all(|(ink, _)| ink.paint.is_none()) {
+/// Returns one paint layer per run of consecutive features with the same style, the first
+/// at the bottom as on a map. Returns no layers if no feature has a colour.
+fn layers_by_style(styled: Vec<(FeatureStyle, Vec<JsonRing>)>) -> Vec<PaintLayer> {
+    if styled.iter().all(|(style, _)| style.paint.is_none()) {
         return Vec::new();
     }
-    let coat = |(ink, rings): (FeatureStyle, Vec<JsonRing>)| {
+    let layer = |(style, rings): (FeatureStyle, Vec<JsonRing>)| {
         let regions = Regions::from_rings(&rings, FillRule::NonZero).ok()?;
         Some(PaintLayer {
             regions,
-            paint: ink.paint,
+            paint: style.paint,
             gradient: None,
             line: None,
-            name: ink.name,
+            name: style.name,
             is_text: false,
         })
     };
-    inked.into_iter().filter_map(coat).collect()
+    styled.into_iter().filter_map(layer).collect()
 }
 
 #[cfg(test)]

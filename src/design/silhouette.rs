@@ -1,18 +1,15 @@
-//! Silhouettes out of pictures.
+//! Importer of pictures: decodes them and traces the outline of the silhouette.
 //!
-//! Where a picture has pixels that are not opaque, opacity tells figure from
-//! ground. Otherwise tones are parted by Otsu's threshold (Otsu 1979, "A
-//! threshold selection method from gray-level histograms") and the side that
-//! most of the border belongs to is the ground. The boundary runs where the
-//! tone crosses the threshold between pixel centres, not along the pixels'
-//! edges, so that anti-aliasing gives sub-pixel accuracy.
+//! In a picture with transparent pixels, opacity separates the figure from the background.
+//! Otherwise grey levels are separated by Otsu's threshold (Otsu 1979, "A threshold
+//! selection method from gray-level histograms"), and the class of most border pixels is
+//! the background. The boundary runs where the interpolated level crosses the threshold
+//! between pixel centres, so anti-aliased edges give sub-pixel accuracy.
 //!
-//! A pixel is one unit; the picture's lower left corner is the origin and y
-//! points up. A figure that reaches the border is closed along it.
-//!
-//! Not guaranteed: colours of equal luminance are not told apart, and the
-//! threshold is one for the whole picture; but where a picture is of flat
-//! colours, `flat` can take each for itself.
+//! A pixel is one unit, the origin is the picture's lower left corner and y points up. A
+//! figure that reaches the border is closed along it. One threshold applies to the whole
+//! picture, and colours of equal luminance are not distinguished; the submodule for flat
+//! colours can separate those.
 
 pub(super) mod flat_colours;
 mod polygon_fit;
@@ -26,102 +23,101 @@ use image::{DynamicImage, ImageDecoder, ImageError, ImageFormat, ImageReader, Li
 use rayon::prelude::*;
 use std::io::Cursor;
 
-/// Why a picture gives no silhouette.
+/// Error of decoding a picture or tracing its silhouette.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SilhouetteError {
-    /// The file says that it is larger than is read.
+    /// The header declares more pixels than are supported.
     #[error(
-        "the picture claims {width} × {height} pixels, more than the {} million that are read; save a smaller one",
+        "the picture has {width} × {height} pixels, but at most {} million are supported; save a smaller one",
         MAX_PIXELS / 1_000_000
     )]
     TooManyPixels {
-        /// Pixels across.
+        /// Width in pixels.
         width: u32,
-        /// Pixels down.
+        /// Height in pixels.
         height: u32,
     },
-    /// A side of the picture is 0.
-    #[error("the picture has no pixels; save it again from where it was made")]
+    /// The picture has no pixels.
+    #[error("the picture has no pixels; export it again")]
     NoPixels,
-    /// The file ends before the picture does.
-    #[error("the picture is cut off before its end; copy or save the file again")]
+    /// The file ends before the picture is complete.
+    #[error("the picture file is incomplete; copy or export it again")]
     Truncated,
-    /// The decoder gives up.
-    #[error("the picture is damaged ({0}); save it again from where it was made")]
+    /// The decoder reports an error.
+    #[error("the picture is damaged ({0}); export it again")]
     Damaged(#[source] ImageError),
-    /// All pixels are alike.
-    #[error(
-        "the picture has one tone only, so no figure stands out; use one with a figure on a ground"
-    )]
+    /// All pixels have the same grey level.
+    #[error("the picture has a single grey level; use one with a figure in front of a background")]
     OneTone,
-    /// No pixel belongs to the figure.
+    /// No pixel belongs to the figure, or all specks were removed.
     #[error(
-        "nothing is left of the picture at threshold {threshold}; change the threshold, keep smaller specks, or invert it"
+        "the silhouette is empty at threshold {threshold}; change the threshold, lower the speck size or invert the picture"
     )]
     Empty {
-        /// Opacity or tone at which figure and ground were parted.
+        /// Opacity or grey level that separated figure and background.
         threshold: u8,
     },
-    /// A boundary of absurdly many points.
+    /// The boundary has too many points.
     #[error(
-        "the silhouette has more than {MAX_POINTS} boundary points; leave specks out, change the threshold, or use a smaller picture"
+        "the silhouette has more than {MAX_POINTS} boundary points; raise the speck size, change the threshold or use a smaller picture"
     )]
     TooRagged,
     /// An option is out of range.
     #[error(transparent)]
     Options(#[from] ImportOptionsError),
-    /// The samples do not fill the picture.
+    /// The samples cannot form a grid.
     #[error(transparent)]
     Samples(#[from] SampledFieldError),
-    /// Nothing could be made of the boundary.
+    /// The boundary does not form valid regions.
     #[error(transparent)]
     Regions(#[from] RegionsError),
 }
 
-/// Most pixels that are read: 8192 × 6144, more than all but the largest
-/// cameras have. At up to 20 bytes a pixel, while specks are looked for in the
-/// silhouette, this is 1 GB; by flat colours it is half as much again.
+/// Maximum number of pixels of a picture (resource limit: removing specks needs up to 20
+/// bytes per pixel, 1 GB in total, and flat colours half as much again).
 const MAX_PIXELS: u64 = 8192 * 6144;
 
-/// Most boundary points before simplification; a photograph of gravel, parted
-/// at its median, has about this many at 2048 × 2048.
+/// Maximum number of boundary points before simplification (resource limit: a 2048 × 2048
+/// photograph of gravel has about this many).
 const MAX_POINTS: usize = 2_000_000;
 
-/// What counts as full ink or bare ground, as a share of the most there is: less
-/// than all, since JPEG leaves noise.
-const FULL: f32 = 0.9;
+/// Fraction of the extreme sample value from which a pixel counts as entirely figure or
+/// background (tolerance: JPEG noise).
+const SATURATED: f32 = 0.9;
 
-/// How far a boundary may run from where it crosses, in pixels: between full ink
-/// and bare ground wherever no other pixel's middle is reached.
-const STAIR: f64 = 0.5;
+/// Uncertainty of a boundary point between two saturated pixels, in pixels: anywhere
+/// between the two pixel centres.
+const SATURATED_SLACK: f64 = 0.5;
 
-/// A picture of fewer pixels along its longer side was drawn pixel by pixel, and
-/// keeps its stairs.
-const SMALL: u32 = 64;
+/// Length of the longer side, in pixels, below which a picture counts as pixel art and keeps
+/// its stair steps (heuristic).
+const PIXEL_ART_SIDE: u32 = 64;
 
-/// How far next to a grey pixel: as well as a straight edge is found in exact
-/// coverage.
-const GREY: f64 = 0.05;
+/// Uncertainty of a boundary point next to an anti-aliased pixel, in pixels (tolerance:
+/// accuracy of a straight edge from exact pixel coverage).
+const ANTIALIASED_SLACK: f64 = 0.05;
 
-/// What tells a picture's figure from its ground: a byte a pixel, lowest row
-/// first, so that the colours need not be kept while the boundary is found.
+/// Opacity or grey level of each pixel, one byte each, with the threshold that separates
+/// figure and background. The colours can be freed before tracing.
 pub(super) struct PictureTones {
     width: u32,
     height: u32,
+    /// Lowest row first.
     bytes: Vec<u8>,
     threshold: u8,
     above_is_figure: bool,
 }
 
 impl PictureTones {
+    /// Extracts opacity or grey levels and chooses threshold and background.
     pub(super) fn of(
         picture: &RgbaImage,
         options: &ImportOptions,
     ) -> Result<Self, SilhouetteError> {
         let (width, height) = picture.dimensions();
         let by_opacity = picture.pixels().any(|p| p.0[3] != u8::MAX);
-        // Rows from below, as y points up.
+        // Lowest row first, because y points up.
         let bytes: Vec<u8> = picture
             .rows()
             .rev()
@@ -143,8 +139,7 @@ impl PictureTones {
         })
     }
 
-    /// The silhouette that the picture shows, in pixels from its lower left
-    /// corner.
+    /// Traces the silhouette, in pixels from the picture's lower left corner.
     pub(super) fn regions(self, options: &ImportOptions) -> Result<Regions, SilhouetteError> {
         let tolerance = options.tolerance * f64::from(self.width.max(self.height));
         let mut figure = self.figure();
@@ -152,9 +147,11 @@ impl PictureTones {
         figure.trace(tolerance)
     }
 
+    /// Converts the bytes to signed samples.
     fn figure(self) -> FigureSamples {
         let sign = if self.above_is_figure { 1.0 } else { -1.0 };
-        let level = f32::from(self.threshold) - 0.5; // no tone is on it
+        // Half a step below the threshold, so that no sample is zero.
+        let level = f32::from(self.threshold) - 0.5;
         let sample = |&tone: &u8| sign * (f32::from(tone) - level);
         FigureSamples {
             width: self.width,
@@ -165,23 +162,28 @@ impl PictureTones {
     }
 }
 
-/// Whether the last scan of a JPEG is followed by an end marker. Inside a scan
-/// neither marker can occur, for there 0xff is escaped.
-fn jpeg_ends(bytes: &[u8]) -> bool {
-    let last = |marker: u8| bytes.windows(2).rposition(|pair| pair == [0xff, marker]);
-    last(0xd9) > last(0xda)
+/// Returns whether an end marker follows the last scan of a JPEG. Scan data contains
+/// neither marker because 0xff is escaped there.
+fn is_jpeg_complete(bytes: &[u8]) -> bool {
+    let last_marker = |marker: u8| bytes.windows(2).rposition(|pair| pair == [0xff, marker]);
+    last_marker(0xd9) > last_marker(0xda)
 }
 
-/// The pixels of a picture of a known format, turned as it says.
+/// Decodes a picture and applies the orientation in its metadata.
+///
+/// # Errors
+/// [`SilhouetteError`] if the picture is empty, too large, incomplete or damaged.
 pub(super) fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, SilhouetteError> {
-    if format == ImageFormat::Jpeg && !jpeg_ends(bytes) {
-        return Err(SilhouetteError::Truncated); // the decoder would fill up with grey
+    if format == ImageFormat::Jpeg && !is_jpeg_complete(bytes) {
+        // The decoder would silently fill the missing part with grey.
+        return Err(SilhouetteError::Truncated);
     }
-    if let Some(size) = claimed_by_png(bytes, format) {
-        check_size(size)?; // the decoder looks for pixels first
+    // The PNG decoder searches for pixel data before it reports the size.
+    if let Some(size) = png_header_size(bytes, format) {
+        check_size(size)?;
     }
     let mut limits = Limits::default();
-    limits.max_alloc = Some(MAX_PIXELS * 8); // 16 bits in each of four channels
+    limits.max_alloc = Some(MAX_PIXELS * 8); // four channels of 16 bits
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
     let mut decoder = reader.into_decoder().map_err(damaged)?;
@@ -192,14 +194,15 @@ pub(super) fn decode(bytes: &[u8], format: ImageFormat) -> Result<RgbaImage, Sil
     Ok(picture.into_rgba8())
 }
 
-/// Width and height from the header of a PNG, which is always in one place.
-fn claimed_by_png(bytes: &[u8], format: ImageFormat) -> Option<(u32, u32)> {
+/// Returns width and height from the header of a PNG, which is at a fixed position.
+fn png_header_size(bytes: &[u8], format: ImageFormat) -> Option<(u32, u32)> {
     let number = |at: usize| Some(u32::from_be_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
     (format == ImageFormat::Png && bytes.get(12..16) == Some(b"IHDR"))
         .then(|| Some((number(16)?, number(20)?)))
         .flatten()
 }
 
+/// Checks that a picture is neither empty nor too large.
 fn check_size((width, height): (u32, u32)) -> Result<(), SilhouetteError> {
     match u64::from(width) * u64::from(height) {
         0 => Err(SilhouetteError::NoPixels),
@@ -208,6 +211,7 @@ fn check_size((width, height): (u32, u32)) -> Result<(), SilhouetteError> {
     }
 }
 
+/// Classifies a decoder error as an incomplete or a damaged file.
 fn damaged(error: ImageError) -> SilhouetteError {
     match &error {
         ImageError::IoError(e) if e.kind() == std::io::ErrorKind::UnexpectedEof => {
@@ -217,8 +221,8 @@ fn damaged(error: ImageError) -> SilhouetteError {
     }
 }
 
-/// Samples at the pixel centres, lowest row first: positive in the figure,
-/// negative on the ground, never zero.
+/// Signed samples at the pixel centres, lowest row first: positive in the figure, negative
+/// in the background, never zero.
 struct FigureSamples {
     width: u32,
     height: u32,
@@ -227,56 +231,56 @@ struct FigureSamples {
 }
 
 impl FigureSamples {
-    /// Islands of fewer pixels than `least` go over to the ground, then holes
-    /// to the figure. Ground that reaches the border is no hole.
-    fn remove_specks(&mut self, least: u32) {
-        if least > 1 {
-            self.remove_specks_of(1.0, least);
-            self.remove_specks_of(-1.0, least);
+    /// Removes islands with fewer than `min_pixels` pixels, then fills holes that small.
+    /// Background that reaches the border is not a hole.
+    fn remove_specks(&mut self, min_pixels: u32) {
+        if min_pixels > 1 {
+            self.remove_specks_of(1.0, min_pixels);
+            self.remove_specks_of(-1.0, min_pixels);
         }
     }
 
-    /// Pixels hang together along their sides. A removed pixel's sample
-    /// changes sign and keeps its size.
-    fn remove_specks_of(&mut self, sign: f32, least: u32) {
+    /// Flips the samples of all 4-connected components of the given sign that have fewer
+    /// than `min_pixels` pixels. Magnitudes stay.
+    fn remove_specks_of(&mut self, sign: f32, min_pixels: u32) {
         let (count, width) = (self.samples.len(), self.width as usize);
         let across = (1..count).filter(|i| !i.is_multiple_of(width));
         let across = across.map(|i| [i - 1, i]);
         let upwards = (width..count).map(|i| [i - width, i]);
-        let alike = |&[a, b]: &[usize; 2]| self.samples[a] * self.samples[b] > 0.0;
-        let links = across.chain(upwards).filter(alike);
-        // The number of a pixel fits: 2^32 of them would take 16 GiB before this.
+        let has_same_sign = |&[a, b]: &[usize; 2]| self.samples[a] * self.samples[b] > 0.0;
+        let links = across.chain(upwards).filter(has_same_sign);
+        // The cast cannot overflow: MAX_PIXELS is far below 2^32.
         let pieces = components(count, links.map(|ends| ends.map(|i| i as u32)));
-        let mut sizes = vec![0u32; count]; // there are no more pieces than pixels
+        let mut sizes = vec![0u32; count]; // at most one component per pixel
         for (i, &piece) in pieces.iter().enumerate() {
-            // A hole that reaches the border is as large as can be.
+            // Background that reaches the border counts as infinitely large.
             let is_open = sign < 0.0 && is_on_border(i, width, count);
             let size = &mut sizes[piece as usize];
             *size = size.saturating_add(if is_open { u32::MAX } else { 1 });
         }
         for (sample, piece) in self.samples.iter_mut().zip(pieces) {
-            if *sample * sign > 0.0 && sizes[piece as usize] < least {
+            if *sample * sign > 0.0 && sizes[piece as usize] < min_pixels {
                 *sample = -*sample;
             }
         }
     }
 
-    /// The boundary at level zero, to within `tolerance` pixels in the mean, or
-    /// within what the pixels leave open where that is more.
+    /// Traces the zero contour. It deviates from the exact boundary by about `tolerance`
+    /// pixels on average, or by the uncertainty that the pixels leave if that is larger.
     fn trace(&self, tolerance: f64) -> Result<Regions, SilhouetteError> {
         let threshold = self.threshold;
-        // Chords of a curve are off by two thirds of this, in the mean.
-        let flatness = (2.0 * tolerance).max(GREY);
-        // Before tracing, whose rings would take the room.
+        // `tolerance` bounds the mean deviation, the flatness the maximum.
+        let flatness = (2.0 * tolerance).max(ANTIALIASED_SLACK);
+        // Checked before tracing, which allocates the rings.
         self.check_raggedness()?;
         let samples = SampledField::new(self.width, self.height, &self.samples)?;
-        // Samples lie at the middles of pixels, the origin at a corner.
+        // Samples lie at pixel centres; the origin is a pixel corner.
         let corner_from_centre = DVec2::splat(0.5);
-        let known = BoundarySlack::of(self);
+        let uncertainty = BoundarySlack::of(self);
         let outline = |ring: &Vec<DVec2>| {
             let traced = |&p: &DVec2| TracedPoint {
                 point: p + corner_from_centre,
-                slack: known.slack(p).max(flatness),
+                slack: uncertainty.slack(p).max(flatness),
             };
             let boundary: Vec<TracedPoint> = ring.iter().map(traced).collect();
             polygon_fit::fit_outline(&polygon_fit::resampled(&boundary), flatness)
@@ -286,14 +290,15 @@ impl FigureSamples {
         if rings.is_empty() {
             return Err(SilhouetteError::Empty { threshold });
         }
-        // Rings do not cross, and each lies within those of the other kind.
+        // Rings do not cross, and outer rings and holes alternate with depth.
         Regions::from_rings(&rings, FillRule::EvenOdd).map_err(|error| match error {
             RegionsError::Empty => SilhouetteError::Empty { threshold },
             error => error.into(),
         })
     }
 
-    /// Counts sign changes along rows and columns: as many as boundary points.
+    /// Limits the number of boundary points, which equals the number of sign changes along
+    /// rows and columns.
     fn check_raggedness(&self) -> Result<(), SilhouetteError> {
         let width = self.width as usize;
         let changes = |pair: (&f32, &f32)| (pair.0 * pair.1) < 0.0;
@@ -310,16 +315,16 @@ impl FigureSamples {
     }
 }
 
-/// How well a picture knows where its boundary runs.
+/// Estimates the uncertainty of boundary points from the pixels around them.
 struct BoundarySlack<'a> {
     figure: &'a FigureSamples,
-    /// What a sample of full ink and of bare ground has at least.
-    full: [f32; 2],
+    /// Minimum magnitude of a saturated figure sample and of a background sample.
+    saturated: [f32; 2],
 }
 
 impl<'a> BoundarySlack<'a> {
     fn of(figure: &'a FigureSamples) -> Self {
-        let most = |sign: f32| {
+        let extreme = |sign: f32| {
             figure
                 .samples
                 .iter()
@@ -327,42 +332,43 @@ impl<'a> BoundarySlack<'a> {
         };
         Self {
             figure,
-            full: [1.0, -1.0].map(|sign| FULL * most(sign)),
+            saturated: [1.0, -1.0].map(|sign| SATURATED * extreme(sign)),
         }
     }
 
-    /// How far from a point at which it crosses from one sample to the next, in
-    /// pixels from the first sample, the boundary may run.
+    /// Returns the maximum distance, in pixels, of the true boundary from a traced point.
+    /// The point lies between two neighbouring samples; the origin is the first sample.
     fn slack(&self, p: DVec2) -> f64 {
         let sample = |p: DVec2| {
             let (width, height) = (f64::from(self.figure.width), f64::from(self.figure.height));
-            let is_there = p.x >= 0.0 && p.y >= 0.0 && p.x < width && p.y < height;
-            is_there.then(|| self.figure.samples[(p.y * width + p.x) as usize])
+            let is_inside = p.x >= 0.0 && p.y >= 0.0 && p.x < width && p.y < height;
+            is_inside.then(|| self.figure.samples[(p.y * width + p.x) as usize])
         };
-        let is_full = |sample: Option<f32>| match sample {
-            Some(sample) => sample > self.full[0] || sample < -self.full[1],
-            // At the picture's border it is closed.
+        let is_saturated = |sample: Option<f32>| match sample {
+            Some(sample) => sample > self.saturated[0] || sample < -self.saturated[1],
+            // Along the border of the picture the boundary is exact.
             None => false,
         };
-        let is_small = self.figure.width.max(self.figure.height) < SMALL;
-        if !is_small && is_full(sample(p.floor())) && is_full(sample(p.ceil())) {
-            STAIR
+        let is_pixel_art = self.figure.width.max(self.figure.height) < PIXEL_ART_SIDE;
+        if !is_pixel_art && is_saturated(sample(p.floor())) && is_saturated(sample(p.ceil())) {
+            SATURATED_SLACK
         } else {
-            GREY
+            ANTIALIASED_SLACK
         }
     }
 }
 
-/// Luma of Rec. 709 on the coded values, which are what looks evenly spaced.
+/// Returns the Rec. 709 luma. It uses the gamma-coded values, whose steps look about equal.
 fn luminance([r, g, b, _]: [u8; 4]) -> u8 {
     let luma = 0.2126 * f32::from(r) + 0.7152 * f32::from(g) + 0.0722 * f32::from(b);
     luma.round() as u8
 }
 
-/// The threshold that parts the tones with the largest variance between the
-/// two classes: tones below it are one class. Where a whole run of thresholds
-/// is as good, its middle, so that a black and white picture is parted at
-/// half. `None` for a single tone.
+/// Returns Otsu's threshold, which maximises the variance between the levels below it and
+/// the others; `None` if all levels are equal.
+///
+/// Of a run of equally good thresholds it returns the middle, so a black and white picture
+/// gets 128.
 fn otsu(tones: &[u8]) -> Option<u8> {
     let mut histogram = [0u64; 256];
     for &tone in tones {
@@ -372,22 +378,21 @@ fn otsu(tones: &[u8]) -> Option<u8> {
     let weighted = |(tone, &n): (usize, &u64)| tone as f64 * n as f64;
     let sum: f64 = histogram.iter().enumerate().map(weighted).sum();
     let (mut below, mut sum_below) = (0.0, 0.0);
-    let mut best = (0.0, 0, 0); // variance, first and last threshold that have it
+    let mut best = (0.0, 0, 0); // variance, first and last threshold of the best run
     for threshold in 1..256 {
         below += histogram[threshold - 1] as f64;
         sum_below += weighted((threshold - 1, &histogram[threshold - 1]));
-        // The variance between the classes, but for a factor that is the same for
-        // all thresholds.
-        let apart = sum_below * total - sum * below;
+        // Between-class variance up to a constant factor.
+        let separation = sum_below * total - sum * below;
         let classes = below * (total - below);
         let variance = if classes > 0.0 {
-            apart * apart / classes
+            separation * separation / classes
         } else {
             0.0
         };
         if variance > best.0 {
             best = (variance, threshold, threshold);
-        // The run goes on only where it has no gap.
+        // A run must have no gap.
         } else if variance == best.0 && best.0 > 0.0 && best.2 + 1 == threshold {
             best.2 = threshold;
         }
@@ -395,8 +400,8 @@ fn otsu(tones: &[u8]) -> Option<u8> {
     (best.0 > 0.0).then(|| (best.1 + best.2).div_ceil(2) as u8)
 }
 
-/// Whether most of the border is at or above the threshold. On a tie it is:
-/// paper is lighter than ink.
+/// Returns whether at least half of the border pixels are at or above the threshold. A tie
+/// counts, because paper is lighter than ink.
 fn border_is_above(tones: &[u8], width: usize, threshold: u8) -> bool {
     let border = (tones.iter().enumerate()).filter(|(i, _)| is_on_border(*i, width, tones.len()));
     let (mut above, mut all) = (0usize, 0usize);
@@ -407,7 +412,7 @@ fn border_is_above(tones: &[u8], width: usize, threshold: u8) -> bool {
     2 * above >= all
 }
 
-/// Whether a pixel of so many lies on the border of a picture of a width.
+/// Returns whether a pixel index lies on the border of a picture with `count` pixels.
 fn is_on_border(pixel: usize, width: usize, count: usize) -> bool {
     let column = pixel % width;
     pixel < width || pixel >= count - width || column == 0 || column + 1 == width

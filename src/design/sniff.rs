@@ -1,37 +1,37 @@
-//! Which format a file has, by what is in it. The ending of its name is never
-//! looked at: a mislabelled file works where its content is good.
+//! Recognises the format of a file by its content. The file name is ignored, so a file
+//! with the wrong extension is still imported.
 
 use super::format::Format;
 use image::ImageFormat;
 use serde::de::IgnoredAny;
 use std::collections::HashMap;
 
-/// Content that no reader takes.
+/// Error for content that no importer supports.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum UnknownFormat {
-    /// A known format of another kind.
+    /// A well-known format that is not supported.
     #[error("this is {found}; {way_out}")]
     Other {
-        /// What it is.
+        /// Name of the format.
         found: &'static str,
-        /// What to do.
+        /// What the user should do.
         way_out: &'static str,
     },
-    /// XML with some other root.
+    /// XML without an `<svg>` element.
     #[error("this is XML without an <svg> element; save the drawing as SVG")]
     XmlWithoutSvg,
-    /// JSON of another kind.
+    /// A JSON object that is neither polygons nor a truss.
     #[error(
-        "this JSON is no design; give \"nodes\" and \"bars\" for a truss, \"rings\" or \"polygons\" for outlines, or GeoJSON with a \"type\""
+        "this JSON is not a design; it needs \"nodes\" and \"bars\" for a truss, \"rings\" or \"polygons\" for outlines, or a GeoJSON \"type\""
     )]
     Json,
-    /// Nothing that is known.
-    #[error("the content is of no known format; use {}", Format::listed(&Format::ALL))]
+    /// Content that was not recognised.
+    #[error("the file format is not supported; use {}", Format::listed(&Format::ALL))]
     Unknown,
 }
 
-/// First bytes of formats that people will try, and what to tell them.
+/// Common unsupported formats: first bytes, name and advice for the user.
 const OTHERS: [(&[u8], &str, &str); 11] = [
     (b"\x1f\x8b", "a compressed file, perhaps an SVGZ", UNPACK),
     (b"GIF8", "a GIF", PICTURE),
@@ -47,14 +47,14 @@ const OTHERS: [(&[u8], &str, &str); 11] = [
 ];
 const PICTURE: &str = "save it as PNG";
 const DRAWING: &str = "save the drawing as plain SVG";
-const UNPACK: &str = "unpack it and open what is in it";
-const UTF8: &str = "save it with the encoding UTF-8";
+const UNPACK: &str = "unpack it and open the file inside";
+const UTF8: &str = "save it as UTF-8";
 
-/// Tells the format of a file from its bytes.
+/// Recognises the format of a file from its bytes.
 ///
 /// # Errors
-/// [`UnknownFormat`] says what the content is, where that is known, and what
-/// to save it as.
+/// [`UnknownFormat`] names the format, if it is well known, and the formats to use
+/// instead.
 ///
 /// ```
 /// use morphospace::design::{Format, sniff};
@@ -74,15 +74,16 @@ pub fn sniff(bytes: &[u8]) -> Result<Format, UnknownFormat> {
     text_format(bytes)
 }
 
+/// Returns the picture format, if it is one that is imported.
 fn picture(bytes: &[u8]) -> Option<ImageFormat> {
     let guessed = image::guess_format(bytes).ok()?;
-    let is_read = Format::PICTURES.contains(&Format::Picture(guessed));
-    let is_picture = is_read && (guessed != ImageFormat::Bmp || is_bmp(bytes));
+    let is_supported = Format::PICTURES.contains(&Format::Picture(guessed));
+    let is_picture = is_supported && (guessed != ImageFormat::Bmp || is_bmp(bytes));
     is_picture.then_some(guessed)
 }
 
-/// `BM` alone also begins words: the size of the second header must be one of
-/// those that exist, too.
+/// Returns whether bytes that begin with `BM` are a BMP file and not text: the size of the
+/// second header must be one of the sizes that exist.
 fn is_bmp(bytes: &[u8]) -> bool {
     let header_size = bytes.get(14..18).and_then(|b| b.try_into().ok());
     header_size
@@ -90,6 +91,7 @@ fn is_bmp(bytes: &[u8]) -> bool {
         .is_some_and(|size| matches!(size, 12 | 16 | 40 | 52 | 56 | 64 | 108 | 124))
 }
 
+/// Recognises the formats that are text.
 fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     match bytes.trim_ascii_start().first() {
@@ -98,21 +100,21 @@ fn text_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
         Some(b'[') => Ok(Format::Polygons),
         Some(b'{') => json_format(bytes),
         Some(_) if is_dxf(bytes) => Ok(Format::Dxf),
-        // Last, for a line that begins with a v stands in many a text.
+        // Last, because many other texts have a line that begins with "v".
         Some(_) if is_obj(bytes) => Ok(Format::Obj),
         _ => Err(UnknownFormat::Unknown),
     }
 }
 
-/// What an object of JSON is, by its members.
+/// Recognises the format of a JSON object by its members.
 fn json_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
-    // Values are passed over without recursion, however deep they are.
+    // Skipping values does not recurse, so deep nesting cannot overflow the stack.
     let Ok(members) = serde_json::from_slice::<HashMap<String, IgnoredAny>>(bytes) else {
-        // The reader of polygons parses everything first, and says where it breaks.
+        // Invalid JSON goes to the polygon importer, which reports the position.
         return Ok(Format::Polygons);
     };
     let has = |names: &[&str]| names.iter().any(|name| members.contains_key(*name));
-    // GeoJSON may have members of any name, a truss has its own alone.
+    // GeoJSON may have additional members, even "nodes"; a truss may not.
     if has(&["type", "rings", "polygons"]) {
         Ok(Format::Polygons)
     } else if has(&["nodes", "bars"]) {
@@ -122,7 +124,7 @@ fn json_format(bytes: &[u8]) -> Result<Format, UnknownFormat> {
     }
 }
 
-/// Whether some tag is called `svg`, with or without a namespace prefix.
+/// Returns whether any tag is named `svg`, with or without a namespace prefix.
 fn has_svg_element(bytes: &[u8]) -> bool {
     let is_svg = |tag: &[u8]| {
         let end = tag
@@ -131,12 +133,13 @@ fn has_svg_element(bytes: &[u8]) -> bool {
             .unwrap_or(tag.len());
         tag[..end].rsplit(|&b| b == b':').next() == Some(b"svg")
     };
-    // Looked for and not parsed: comments and a DOCTYPE may stand before it, and
-    // a broken drawing is to be told as a drawing.
+    // A text search instead of parsing: comments and a DOCTYPE may come first, and a
+    // malformed drawing should be reported by the SVG importer.
     bytes.split(|&b| b == b'<').skip(1).any(is_svg)
 }
 
-/// Whether the first pair of lines, comments aside, begins a section.
+/// Returns whether the first pair of lines after comments (group code 999) begins a DXF
+/// section.
 fn is_dxf(bytes: &[u8]) -> bool {
     let mut lines = bytes.split(|&b| b == b'\n').map(<[u8]>::trim_ascii);
     loop {
@@ -147,7 +150,7 @@ fn is_dxf(bytes: &[u8]) -> bool {
     }
 }
 
-/// Whether some line holds a vertex.
+/// Returns whether any line defines an OBJ vertex.
 fn is_obj(bytes: &[u8]) -> bool {
     bytes.split(|&b| b == b'\n' || b == b'\r').any(|line| {
         let mut words = line
@@ -162,7 +165,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_format_is_known_by_its_content() {
+    fn each_format_is_recognised_by_its_content() {
         let cases: [(&[u8], Format); 16] = [
             (b"\x89PNG\r\n\x1a\nrest", Format::Picture(ImageFormat::Png)),
             (b"\xff\xd8\xff\xe0", Format::Picture(ImageFormat::Jpeg)),
@@ -196,14 +199,14 @@ mod tests {
     }
 
     #[test]
-    fn other_content_is_refused_in_words() {
+    fn unsupported_content_is_refused_with_advice() {
         let words = |bytes: &[u8]| sniff(bytes).expect_err("not readable").to_string();
         assert!(words(b"\x1f\x8b\x08rest").contains("SVGZ"));
         assert!(words(b"GIF89a").contains("save it as PNG"));
         assert!(words(b"\xff\xfe<\0s\0v\0g\0").contains("UTF-8"));
         assert!(words(b"<html><body/></html>").contains("<svg>"));
-        assert!(words(b"BM, a word that is no picture").contains("no known format"));
+        assert!(words(b"BM, a word that is no picture").contains("not supported"));
         assert!(words(b"{\"a\": 1}").contains("GeoJSON"));
-        assert!(words(b"   ").contains("no known format"));
+        assert!(words(b"   ").contains("not supported"));
     }
 }

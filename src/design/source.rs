@@ -1,81 +1,81 @@
-//! Where a design comes from, as people write it down: a file, an element of
-//! a drawing, or text in some font.
+//! Parses and formats the notation for the source of a design: a file, an element of a
+//! drawing, or text in a font.
 //!
-//! | written | is |
+//! | notation | meaning |
 //! |---|---|
 //! | `leaf.svg` | the file |
 //! | `leaf.svg#stalk` | the element of the drawing with that id |
 //! | `glyph:FORM` | the word FORM in the bundled font |
-//! | `glyph:FORM@fonts/serif.ttf` | the same in that font |
+//! | `glyph:FORM@fonts/serif.ttf` | the word FORM in that font |
 //!
-//! A file that is really called `leaf.svg#stalk` is the file; one that is
-//! called `glyph:FORM` is meant by `./glyph:FORM`. In the text of a glyph
-//! `%40` is `@` and `%25` is `%`: any byte of UTF-8 may be written so.
+//! An existing file named `leaf.svg#stalk` takes precedence over the element. A file named
+//! `glyph:FORM` is written `./glyph:FORM`. The text after `glyph:` is percent-decoded, so
+//! `%40` stands for `@` and `%25` for `%`.
 
 use crate::io::sanitize::SanitizedLine;
 use std::borrow::Cow;
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
-/// What a design is made from.
+/// Source of a design: a file or text.
 ///
 /// ```
-/// use morphospace::design::{ImportOptions, Source};
-/// let source = Source::of("glyph:D".as_ref());
+/// use morphospace::design::{DesignSource, ImportOptions};
+/// let source = DesignSource::of("glyph:D".as_ref());
 /// let design = source.import(&ImportOptions::default())?;
 /// assert_eq!(design.name, "D");
 /// # Ok::<(), morphospace::design::ImportError>(())
 /// ```
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DesignSource {
-    /// A file, or an element of a drawing.
+    /// A file or one element of a drawing.
     File {
-        /// The file.
+        /// Path of the file.
         path: PathBuf,
-        /// The id of the element that is meant, if not all of the file.
+        /// Id of the element; `None` for the whole file.
         element: Option<String>,
     },
-    /// Letters as outlines.
+    /// Text that is converted to outlines.
     Text {
-        /// The letters.
+        /// The text, decoded.
         text: String,
-        /// The font's file; the bundled font where there is none.
+        /// Path of the font file; `None` for the bundled font.
         font: Option<PathBuf>,
     },
 }
 
-/// What text begins with.
+/// Prefix of a text source.
 const GLYPH: &str = "glyph:";
 
-/// Endings by which the part after the last `@` is known for a font. Web
-/// fonts are among them, so that they are refused and not drawn.
+/// File extensions that mark the part after the last `@` as a font file. Web fonts are
+/// included so that they produce an error instead of being drawn as text.
 const FONTS: [&str; 6] = ["ttf", "otf", "ttc", "otc", "woff", "woff2"];
 
 impl DesignSource {
-    /// What a path means. Files are looked up to tell a name with `#` in it
-    /// from an element; nothing is read.
+    /// Parses a path. Looks up whether a file exists to distinguish a file name with `#`
+    /// from an element id; reads no file.
     #[must_use]
     pub fn of(path: &Path) -> Self {
         Self::parse(path, Path::is_file)
     }
 
-    /// What a path means that is relative to a folder.
+    /// Parses a path relative to a folder; file paths in the result include the folder.
     #[must_use]
     pub fn in_folder(folder: &Path, path: &Path) -> Self {
         Self::parse(path, |file| folder.join(file).is_file()).at(|file| folder.join(file))
     }
 
-    /// What a path means where `is_file` knows the files.
+    /// Parses a path. `is_file` reports which files exist.
     #[must_use]
     pub fn parse(path: &Path, is_file: impl Fn(&Path) -> bool) -> Self {
-        let Some(written) = path.to_str() else {
+        let Some(notation) = path.to_str() else {
             return Self::file_of(path);
         };
-        if let Some(glyphs) = written.strip_prefix(GLYPH) {
+        if let Some(glyphs) = notation.strip_prefix(GLYPH) {
             return text_of(glyphs);
         }
-        // The last one, as folders may have it in their names.
-        match written.rsplit_once('#') {
+        // The last `#`, because folder names may contain one.
+        match notation.rsplit_once('#') {
             Some((file, id)) if !file.is_empty() && !id.is_empty() && !is_file(path) => {
                 Self::File {
                     path: file.into(),
@@ -93,7 +93,7 @@ impl DesignSource {
         }
     }
 
-    /// The file that is read, if any: text in the bundled font needs none.
+    /// Returns the path of the drawing or font file, or `None` for text in the bundled font.
     #[must_use]
     pub fn file(&self) -> Option<&Path> {
         match self {
@@ -102,8 +102,7 @@ impl DesignSource {
         }
     }
 
-    /// The same with its file elsewhere: `to` is asked only where there is
-    /// one.
+    /// Replaces the path of the file, if there is one, by the result of `to`.
     #[must_use]
     pub fn at(self, to: impl FnOnce(&Path) -> PathBuf) -> Self {
         match self {
@@ -118,8 +117,8 @@ impl DesignSource {
         }
     }
 
-    /// What the design is called where nobody names it: the text, the
-    /// element's id, or the file's name without its ending; in one line.
+    /// Returns the default name of the design: the text, the element's id, or the file
+    /// name without its extension, on one line.
     #[must_use]
     pub fn name(&self) -> String {
         let name = match self {
@@ -134,8 +133,8 @@ impl DesignSource {
         SanitizedLine(name).to_string()
     }
 
-    /// As it is written down: [`DesignSource::parse`] gives the same source again,
-    /// unless a file of that very name is there.
+    /// Returns the notation of the source. [`DesignSource::parse`] restores the same source,
+    /// unless a file with exactly that name exists.
     #[must_use]
     pub fn to_path(&self) -> PathBuf {
         match self {
@@ -159,28 +158,29 @@ impl DesignSource {
     }
 }
 
-/// The text and the font after `glyph:`.
+/// Parses the text and font after `glyph:`.
 fn text_of(written: &str) -> DesignSource {
     let is_font = |path: &str| {
-        let ending = Path::new(path).extension().and_then(|e| e.to_str());
-        ending.is_some_and(|e| FONTS.iter().any(|font| e.eq_ignore_ascii_case(font)))
+        let extension = Path::new(path).extension().and_then(|e| e.to_str());
+        extension.is_some_and(|e| FONTS.iter().any(|font| e.eq_ignore_ascii_case(font)))
     };
     let (text, font) = match written.rsplit_once('@') {
         Some((text, font)) if is_font(font) => (text, Some(font.into())),
         _ => (written, None),
     };
     DesignSource::Text {
-        text: unescaped(text),
+        text: percent_decoded(text),
         font,
     }
 }
 
-/// `%40` is `@`; what is no such code, or gives no text, stays as it is.
-fn unescaped(text: &str) -> String {
+/// Decodes percent-encoding. Invalid codes stay as they are, and so does the whole text if
+/// the decoded bytes are not UTF-8.
+fn percent_decoded(text: &str) -> String {
     let mut parts = text.split('%');
     let mut bytes = parts.next().unwrap_or_default().as_bytes().to_vec();
     for part in parts {
-        // Digits alone, for the parser would take a sign, too.
+        // `from_str_radix` alone would also accept a sign.
         let code = part
             .get(..2)
             .filter(|c| c.bytes().all(|b| b.is_ascii_hexdigit()));
@@ -188,7 +188,7 @@ fn unescaped(text: &str) -> String {
         bytes.push(byte.unwrap_or(b'%'));
         bytes.extend(&part.as_bytes()[if byte.is_some() { 2 } else { 0 }..]);
     }
-    // Codes that give no text were not meant as codes.
+    // Bytes that are not UTF-8 show that the text was not meant as percent-encoded.
     String::from_utf8(bytes).unwrap_or_else(|_| text.to_owned())
 }
 
@@ -215,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_written_is_understood_and_written_again() {
+    fn notation_round_trips() {
         for (written, source) in [
             ("a.svg", file("a.svg", None)),
             ("a.svg#b", file("a.svg", Some("b"))),
@@ -241,7 +241,7 @@ mod tests {
     }
 
     #[test]
-    fn the_file_moves_and_the_rest_stays() {
+    fn only_the_file_path_is_replaced() {
         let moved = |written: &str| parsed(written).at(|file| Path::new("up").join(file));
         assert_eq!(moved("a.svg#b"), file("up/a.svg", Some("b")));
         assert_eq!(moved("glyph:D@y.ttf"), text("D", Some("up/y.ttf")));
@@ -249,7 +249,7 @@ mod tests {
     }
 
     #[test]
-    fn a_design_is_named_by_what_tells_it_apart() {
+    fn a_design_is_named_after_its_most_specific_part() {
         for (written, name) in [
             ("d/leaf.svg", "leaf"),
             ("d/leaf.svg#stalk", "stalk"),

@@ -1,29 +1,21 @@
-//! SVG drawings as regions, through `usvg`.
+//! Importer of SVG drawings, based on `usvg`.
 //!
-//! All that is filled and visible counts, with its transforms, fill rules and
-//! clip paths; curves become polygons within a stated tolerance. Shapes of
-//! pure white are paper where anything else is filled: they take away what
-//! lies under them, as they do for the eye. If all shapes are white they are
-//! the figure.
+//! Produces two views of a drawing. The silhouette is the union of all visible shapes, with
+//! strokes if requested; pure white shapes count as paper and erase the shapes below, unless
+//! the whole drawing is white. The paint layers keep colours, order and all strokes; a
+//! drawing that names no colour has none. Transforms, fill rules, clip paths, dashes, joins
+//! and caps are applied. A single element can be selected by its id; clip paths around it
+//! still apply.
 //!
-//! One user unit after the view box is applied is one unit; the page's lower
-//! left corner is the origin and y points up. Shapes that leave the page are
-//! kept.
+//! One user unit (after the view box) is one unit, the origin is the lower left corner of the
+//! page and y points up. Shapes outside the page are kept. Coordinates pass through `f32`, so
+//! outlines are accurate to about 1e-7 of the page.
 //!
-//! Guaranteed: nothing is loaded from outside the file, and a file that would
-//! unfold into too much text or too many elements is refused before it is
-//! unfolded.
-//!
-//! It is read twice: as the figure that it makes, in which strokes count unless
-//! they are not wanted, and as coats of paint, with all strokes; both with their
-//! dashes, joins and ends. A drawing that names no colour has no coats.
-//! Of a drawing one element may be asked for by its id: what lies in it, cut by
-//! the clip paths around it, where it stands on the page.
-//!
-//! Text is drawn with the fonts of the machine, or the bundled one where it has none.
-//! Not read: markers, embedded pictures, filters, masks, letters that are pictures; of
-//! patterns and strokes with gradients the mean colour is. What was left out is told.
-//! Coordinates pass through `f32`, so that outlines are good to about 1e-7 of the page.
+//! Guarantees that nothing outside the file is loaded, and that a file that would expand into
+//! too much text or too many elements is refused before the expansion. Markers, embedded
+//! pictures, filters, masks and bitmap glyphs are ignored; patterns and stroke gradients are
+//! replaced by their mean colour. Missing fonts are substituted. All of this except markers is
+//! reported as notes.
 
 mod error;
 mod expansion_limits;
@@ -52,11 +44,15 @@ use notes::SvgReport;
 use painter::SvgReadOptions;
 use usvg::roxmltree::{self, Document, Node as Xml};
 
-/// Ids that an error names: about a line of them.
+/// Maximum number of element ids listed in an error (resource limit: about one line).
 const NAMED_IDS: usize = 8;
 
-/// Reads the text of an SVG file: all of it, or the element with an id. The
-/// tolerance is a fraction of the page's longer side.
+/// Imports the text of an SVG file, or only the element with the given id.
+///
+/// `options.tolerance` is a fraction of the page's longer side.
+///
+/// # Errors
+/// [`SvgError`] describes a malformed, excessive or empty drawing.
 pub(super) fn read(
     text: &str,
     element: Option<&str>,
@@ -64,51 +60,52 @@ pub(super) fn read(
 ) -> Result<ImportedOutlines, SvgError> {
     xml_limits::check_xml_text(text)?;
     let xml = roxmltree::ParsingOptions {
-        allow_dtd: true, // drawing programs write a DOCTYPE; entities were counted
+        allow_dtd: true, // drawing programs write a DOCTYPE; `check_xml_text` limits entities
         nodes_limit: error::MAX_NODES,
         ..Default::default()
     };
     let document = roxmltree::Document::parse_with_options(text, xml).map_err(SvgError::Xml)?;
-    let is_lettered = expansion_limits::check_expansion(&document)?;
+    let has_short_text = expansion_limits::check_expansion(&document)?;
     let top = match element {
         Some(id) => element_of(&document, id)?,
         None => document.root_element(),
     };
-    let letters = FontLookup::default();
-    let tree = tree_of(&document, is_lettered.then_some(&letters))?;
+    let font_lookup = FontLookup::default();
+    let tree = tree_of(&document, has_short_text.then_some(&font_lookup))?;
     let size = painter::page_of(&tree);
-    let brush = SvgReadOptions {
+    let read_options = SvgReadOptions {
         tolerance: options.tolerance.max(MIN_TOLERANCE) * size.max_element(),
-        // The root asked for by its id is all of the drawing.
+        // Selecting the root by its id means the whole drawing.
         element: element.filter(|_| top != document.root_element()),
     };
-    let painted = painter::painted(&tree, &brush)?;
+    let painted = painter::painted(&tree, &read_options)?;
     let regions = silhouette::silhouette(&painted, size, options.strokes)?;
-    let told = SvgReport {
+    let report = SvgReport {
         painted: &painted,
         strokes: options.strokes,
-        absent: is_lettered.then(|| letters.into_absent()),
+        absent: has_short_text.then(|| font_lookup.into_absent()),
     };
-    let notes = told.notes(top);
+    let notes = report.notes(top);
     let page = Bounds {
         min: DVec2::ZERO,
         max: size,
     };
-    let mut coats = paint_layers::paint_layers(painted.shapes, size);
+    let mut layers = paint_layers::paint_layers(painted.shapes, size);
     if !has_colours::names_a_colour(&document) {
-        coats.clear();
+        layers.clear();
     }
     Ok(ImportedOutlines {
         notes,
-        extent: match brush.element {
+        extent: match read_options.element {
             Some(_) => regions.bounds(),
             None => page,
         },
         regions,
-        coats,
+        coats: layers,
     })
 }
 
+/// Finds the element with an id.
 fn element_of<'d, 'a>(document: &'d Document<'a>, id: &str) -> Result<Xml<'d, 'a>, SvgError> {
     let ids = || {
         document
@@ -124,24 +121,25 @@ fn element_of<'d, 'a>(document: &'d Document<'a>, id: &str) -> Result<Xml<'d, 'a
         })
 }
 
-/// Unfolds a drawing; text only with letters.
-fn tree_of(document: &Document, letters: Option<&FontLookup>) -> Result<usvg::Tree, SvgError> {
+/// Converts a document to a `usvg` tree, in which references and styles are expanded. Text is
+/// laid out only if `font_lookup` is given.
+fn tree_of(document: &Document, font_lookup: Option<&FontLookup>) -> Result<usvg::Tree, SvgError> {
     let has_text = || {
         document
             .descendants()
             .any(|node| node.tag_name().name() == "text")
     };
-    let letters = letters.filter(|_| has_text());
+    let font_lookup = font_lookup.filter(|_| has_text());
     let options = usvg::Options {
-        // Nothing outside the file is opened, and what is embedded fills nothing.
+        // Pictures are never loaded, neither linked nor embedded ones.
         image_href_resolver: usvg::ImageHrefResolver {
             resolve_data: Box::new(|_, _, _| None),
             resolve_string: Box::new(|_, _| None),
         },
         style_sheet: Some(expansion_limits::STYLE.to_owned()),
         font_family: fonts::UNNAMED.to_owned(),
-        font_resolver: letters.map(FontLookup::resolver).unwrap_or_default(),
-        fontdb: letters.map(|_| fonts::fonts()).unwrap_or_default(),
+        font_resolver: font_lookup.map(FontLookup::resolver).unwrap_or_default(),
+        fontdb: font_lookup.map(|_| fonts::fonts()).unwrap_or_default(),
         ..Default::default()
     };
     usvg::Tree::from_xmltree(document, &options).map_err(SvgError::Svg)

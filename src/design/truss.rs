@@ -1,7 +1,6 @@
-//! Trusses: nodes joined by bars, and their file format.
+//! The [`Truss`] type (nodes joined by bars) and its JSON file format.
 //!
-//! The file is one JSON object. Nodes and bars are numbered from 0; unknown
-//! keys are errors.
+//! The file is one JSON object. Nodes and bars are numbered from 0. Unknown keys are errors.
 //!
 //! ```json
 //! {
@@ -16,14 +15,13 @@
 //! }
 //! ```
 //!
-//! `nodes` (x, y, y up) and `bars` are needed. Bars are seen in their `colours` (one
-//! for each bar, or none). Supports (whether x and y are
-//! held), loads, section areas (one for each bar, or none), materials and
-//! `bar_materials` (an index for each bar, or none) are checked and kept for
-//! analyses to come; nothing here computes with them.
+//! `nodes` (x and y, y up) and `bars` are required. `colours`, `areas` (cross sections) and
+//! `bar_materials` (indices into `materials`) have one entry per bar or are absent.
+//! Supports (whether x and y are fixed), loads, areas and materials are validated and
+//! stored, but nothing computes with them yet.
 //!
-//! Guaranteed: coordinates are in range, bars join two different nodes at
-//! different places, no bar is given twice, every node is held by a bar.
+//! A [`Truss`] guarantees that coordinates are in range, that every bar joins two nodes at
+//! different positions, that no bar occurs twice and that every node belongs to a bar.
 
 mod parts;
 
@@ -32,15 +30,15 @@ pub use parts::{TrussInputError, TrussLoad, TrussMaterial, TrussParts, TrussSupp
 use super::json_error::JsonError;
 use crate::geometry::{Bounds, DVec2, Similarity};
 
-/// Nodes and bars, checked.
+/// Validated truss: nodes joined by bars.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Truss(TrussParts);
 
 impl Truss {
-    /// A truss of nodes and bars alone.
+    /// Creates a truss from nodes and bars only.
     ///
     /// # Errors
-    /// [`TrussInputError`] names the first node or bar that cannot be used.
+    /// [`TrussInputError`] names the first invalid node or bar.
     ///
     /// ```
     /// use morphospace::{design::Truss, geometry::DVec2};
@@ -56,42 +54,42 @@ impl Truss {
         })
     }
 
-    /// A truss with all that is known of it.
+    /// Creates a truss with supports, loads, areas and materials.
     ///
     /// # Errors
-    /// [`TrussInputError`] names the first thing that cannot be used.
+    /// [`TrussInputError`] names the first invalid entry.
     pub fn from_parts(parts: TrussParts) -> Result<Self, TrussInputError> {
         parts.check()?;
         Ok(Self(parts))
     }
 
-    /// A truss from the text of its file.
+    /// Parses a truss from the text of its file.
     ///
     /// # Errors
-    /// [`TrussInputError`] names the line, or the first thing that cannot be used.
+    /// [`TrussInputError`] names the line of a syntax error or the first invalid entry.
     pub fn from_json(text: &str) -> Result<Self, TrussInputError> {
         Self::from_parts(serde_json::from_str(text).map_err(JsonError::from)?)
     }
 
-    /// Places of the nodes, y up.
+    /// Returns the node positions, y up.
     #[must_use]
     pub fn nodes(&self) -> &[DVec2] {
         &self.0.nodes
     }
 
-    /// The two nodes of each bar.
+    /// Returns the two node indices of each bar.
     #[must_use]
     pub fn bars(&self) -> &[[u32; 2]] {
         &self.0.bars
     }
 
-    /// Everything that is known of the truss.
+    /// Returns all data of the truss.
     #[must_use]
     pub fn parts(&self) -> &TrussParts {
         &self.0
     }
 
-    /// The two ends of each bar.
+    /// Returns the two end points of each bar.
     pub fn segments(&self) -> impl Iterator<Item = [DVec2; 2]> + '_ {
         self.0
             .bars
@@ -99,19 +97,20 @@ impl Truss {
             .map(|bar| bar.map(|node| self.0.nodes[node as usize]))
     }
 
-    /// The smallest box around all nodes; flat when they lie on one line.
+    /// Returns the bounding box of the nodes; it is flat if they lie on a horizontal or
+    /// vertical line.
     #[must_use]
     pub fn bounds(&self) -> Bounds {
         Bounds::of(self.0.nodes.iter().copied())
             .unwrap_or_else(|| unreachable!("a truss has a bar and so nodes"))
     }
 
-    /// The truss laid down by a similarity. Forces turn with it and keep
-    /// their size; supports keep holding along x and y.
+    /// Returns the truss transformed by a similarity. Forces are rotated but keep their
+    /// magnitude; supports still fix x and y of the plane.
     #[must_use]
     pub fn transformed(&self, by: &Similarity) -> Self {
-        // A force is no place: it does not move along, and is not scaled.
-        let turn = Similarity {
+        // Forces are vectors, not positions: no translation, and no scaling.
+        let rotation = Similarity {
             scale: 1.0,
             offset: DVec2::ZERO,
             ..*by
@@ -121,7 +120,7 @@ impl Truss {
             *node = by.apply(*node);
         }
         for load in &mut parts.loads {
-            load.force = turn.apply(load.force);
+            load.force = rotation.apply(load.force);
         }
         Self(parts)
     }

@@ -1,40 +1,43 @@
-//! The colours of objects: their own, their layer's or their block's.
+//! Resolves the colours of entities: their own, their layer's or their block's.
 //!
-//! Colours have numbers (the "AutoCAD colour index" of the DXF Reference). 1 to
-//! 6 are pure; 10 to 249 go once around the hues in steps of 15°, ten for each:
-//! five of falling brightness, each full and then half as pure; 250 to 255 are
-//! greys. 7 is black on white and white on black: no colour of its own.
+//! Colours are numbered by the AutoCAD colour index (DXF Reference): 1 to 6 are pure colours;
+//! 10 to 249 are hues in steps of 15°, with ten colours per hue (five brightnesses, each at
+//! full and at half saturation); 250 to 255 are greys. Index 7 is black or white, whichever
+//! contrasts with the background, and is imported as no colour.
 
 use crate::colour::Rgb;
 use std::collections::HashMap;
 use std::rc::Rc;
 
-/// What an object is drawn with.
+/// Layer and colour of an entity.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct EntityStyle {
-    /// The name of its layer.
+    /// Name of the layer.
     pub layer: Rc<[u8]>,
+    /// Source of the colour.
     pub colour: ColourSource,
 }
 
-/// Where a colour comes from.
+/// Source of the colour of an entity.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) enum ColourSource {
+    /// The colour of the layer ("BYLAYER").
     #[default]
     OfLayer,
+    /// The colour of the enclosing block reference ("BYBLOCK").
     OfBlock,
-    /// Its own; none where it has none.
+    /// An explicit colour; `None` for index 7 or an invalid index.
     Own(Option<Rgb>),
 }
 
-/// The colours of layers, by their names.
+/// Colours of layers by name; `None` for index 7 or an invalid index.
 pub(super) type LayerColours = HashMap<Vec<u8>, Option<Rgb>>;
 
-/// The layer that takes the place of the one that its block is put on.
+/// Name of the layer whose entities in a block take the layer of the block reference.
 const OF_BLOCK: &[u8] = b"0";
 
 impl ColourSource {
-    /// Of an object with this number, and maybe 24 bits that say more.
+    /// Interprets a colour index and an optional 24-bit colour, which takes precedence.
     pub fn of(number: i64, exact: Option<i64>) -> Self {
         match (exact, number) {
             (Some(bits), _) => Self::Own(Some(from_rgb_bits(bits))),
@@ -46,7 +49,7 @@ impl ColourSource {
 }
 
 impl EntityStyle {
-    /// What it is in a block that is drawn with `outer`.
+    /// Resolves layer and colour in a block reference with the style `outer`.
     pub fn within(&self, outer: Option<&Self>) -> Self {
         let Some(outer) = outer else {
             return self.clone();
@@ -62,7 +65,7 @@ impl EntityStyle {
         Self { layer, colour }
     }
 
-    /// Its colour, if it is one.
+    /// Returns the colour, if there is one.
     pub fn rgb(&self, layers: &LayerColours) -> Option<Rgb> {
         match self.colour {
             ColourSource::OfLayer => layers.get(&*self.layer).copied().flatten(),
@@ -72,7 +75,7 @@ impl EntityStyle {
     }
 }
 
-/// The colour of a number, or of one that is negative since its layer is off.
+/// Converts a colour index; a negative index (layer off) has the same colour.
 pub(super) fn from_index(number: i64) -> Option<Rgb> {
     let number = u8::try_from(number.unsigned_abs()).ok()?;
     Some(Rgb(match number {
@@ -84,7 +87,7 @@ pub(super) fn from_index(number: i64) -> Option<Rgb> {
         6 => [255, 0, 255],
         8 => [128; 3],
         9 => [192; 3],
-        10..=249 => of_wheel(number),
+        10..=249 => hue_colour(number),
         250 => [51; 3],
         251 => [91; 3],
         252 => [132; 3],
@@ -95,23 +98,25 @@ pub(super) fn from_index(number: i64) -> Option<Rgb> {
     }))
 }
 
-/// Red, green and blue from the lowest bits up are blue, green and red.
+/// Converts a 24-bit colour with blue in the lowest byte.
 pub(super) fn from_rgb_bits(bits: i64) -> Rgb {
     let [.., red, green, blue] = bits.to_be_bytes();
     Rgb([red, green, blue])
 }
 
-fn of_wheel(number: u8) -> [u8; 3] {
+/// Converts a colour index from 10 to 249.
+fn hue_colour(number: u8) -> [u8; 3] {
+    /// Maximum channel value of the five brightnesses (DXF Reference).
     const BRIGHTNESS: [f64; 5] = [255.0, 165.0, 127.0, 76.0, 38.0];
     let hue = f64::from(number / 10 - 1) * 15.0 / 60.0;
     let brightness = BRIGHTNESS[usize::from(number % 10 / 2)];
-    let least = if number.is_multiple_of(2) { 0.0 } else { 0.5 };
-    // Each channel is full for a third of the way around, and rises and falls
-    // within a sixth.
-    let channel = |full_at: f64| {
-        let away = (hue - full_at).rem_euclid(6.0);
-        let share = (2.0 - away.min(6.0 - away)).clamp(0.0, 1.0);
-        (brightness * (least + (1.0 - least) * share)).floor() as u8
+    let min_share = if number.is_multiple_of(2) { 0.0 } else { 0.5 };
+    // HSV to RGB: each channel is at its maximum for a third of the hue circle and rises and
+    // falls within a sixth.
+    let channel = |peak: f64| {
+        let distance = (hue - peak).rem_euclid(6.0);
+        let share = (2.0 - distance.min(6.0 - distance)).clamp(0.0, 1.0);
+        (brightness * (min_share + (1.0 - min_share) * share)).floor() as u8
     };
     [channel(0.0), channel(2.0), channel(4.0)]
 }
@@ -121,7 +126,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn numbers_are_the_colours_of_the_index() {
+    fn colours_follow_the_autocad_colour_index() {
         let known = [
             (1, [255, 0, 0]),
             (10, [255, 0, 0]),

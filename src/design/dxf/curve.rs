@@ -1,26 +1,27 @@
-//! The curves of a drawing: straight lines, arcs of ellipses and NURBS, and
-//! how they become polygons.
+//! Curves of a DXF drawing (lines, arcs of ellipses and NURBS) and their flattening.
 //!
-//! A chord of an arc lies within 1 − cos(h/2) times the arc's larger radius
-//! for an angle of h: that many are taken. A NURBS curve (Piegl and Tiller,
-//! The NURBS Book, 1997; evaluated by de Boor's algorithm, 1972) is halved in
-//! each knot span until three points between two neighbours are within the
-//! tolerance: its error is estimated, not bounded.
+//! Arcs are divided evenly: a chord over the angle h deviates by at most 1 − cos(h/2) times
+//! the larger radius. NURBS curves (Piegl and Tiller, The NURBS Book, 1997) are evaluated by
+//! de Boor's algorithm (1972) and bisected within each knot span until three points between
+//! neighbours lie within the tolerance; their error is estimated, not bounded.
 
 use crate::design::flatten::MAX_POINTS;
 use crate::geometry::{DVec2, distance_squared_to_segment};
 use glam::{DAffine2, DVec3};
 use std::f64::consts::{PI, TAU};
 
-/// Most pieces of an arc, as of any curve of a drawing, and most halvings of a
-/// knot span, which give it half as many.
+/// Maximum number of chords of an arc (resource limit).
 const MAX_ARC_PIECES: f64 = 4096.0;
-const MAX_HALVINGS: u32 = 10;
 
-/// Smallest bulge that is not straight: it rises by 5e-8 of its chord.
+/// Maximum number of bisections of half a knot span, which gives up to 2048 chords per span
+/// (resource limit).
+const MAX_BISECTIONS: u32 = 10;
+
+/// Minimum bulge of an arc; smaller ones count as straight (tolerance: the arc rises by 5e-8
+/// of its chord).
 const MIN_BULGE: f64 = 1e-7;
 
-/// A piece of an outline.
+/// Segment of an outline.
 #[derive(Clone, Debug)]
 pub(super) enum DxfCurve {
     Line([DVec2; 2]),
@@ -28,7 +29,8 @@ pub(super) enum DxfCurve {
     Spline(NurbsCurve),
 }
 
-/// centre + cos φ · u + sin φ · v for φ from `from` to `from + sweep`.
+/// Elliptical arc: centre + cos φ · u + sin φ · v for φ from `from` to `from + sweep`, in
+/// radians.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EllipseArc {
     pub centre: DVec2,
@@ -38,21 +40,22 @@ pub(super) struct EllipseArc {
     pub sweep: f64,
 }
 
-/// A NURBS curve whose numbers have been checked.
+/// Validated NURBS curve.
 #[derive(Clone, Debug)]
 pub(super) struct NurbsCurve {
     degree: usize,
+    /// Knots in non-decreasing order.
     knots: Vec<f64>,
-    /// x w, y w, w.
+    /// Homogeneous control points (x w, y w, w).
     control: Vec<DVec3>,
 }
 
 impl DxfCurve {
-    /// From p to q with the tangent of a quarter of the arc's angle, counter-
-    /// clockwise positive.
+    /// Creates the circular arc from `p` to `q` with a DXF bulge: the tangent of a quarter of
+    /// the arc's angle, positive for counter-clockwise arcs.
     pub fn bulging(p: DVec2, q: DVec2, bulge: f64) -> Self {
         let chord = q - p;
-        // The bulge is tan(angle / 4): so many chords the centre lies aside.
+        // Distance of the centre from the chord, in units of the chord.
         let to_centre = (1.0 - bulge * bulge) / (4.0 * bulge);
         let centre = p + 0.5 * chord + to_centre * chord.perp();
         let u = p - centre;
@@ -71,6 +74,7 @@ impl DxfCurve {
         })
     }
 
+    /// Returns the curve transformed by an affine map.
     pub fn moved(&self, by: &DAffine2) -> Self {
         match self {
             Self::Line(ends) => Self::Line(ends.map(|p| by.transform_point2(p))),
@@ -83,12 +87,16 @@ impl DxfCurve {
             Self::Spline(spline) => Self::Spline(NurbsCurve {
                 degree: spline.degree,
                 knots: spline.knots.clone(),
-                control: spline.control.iter().map(|c| moved(*c, by)).collect(),
+                control: spline
+                    .control
+                    .iter()
+                    .map(|c| transformed_control(*c, by))
+                    .collect(),
             }),
         }
     }
 
-    /// How many points it is made from.
+    /// Returns the number of control points; lines and arcs count as one.
     pub fn size(&self) -> usize {
         match self {
             Self::Line(_) | Self::Arc(_) => 1,
@@ -96,7 +104,7 @@ impl DxfCurve {
         }
     }
 
-    /// Points between which the curve lies.
+    /// Returns points whose bounding box contains the curve.
     pub fn hull(&self) -> Vec<DVec2> {
         match self {
             Self::Line(ends) => ends.to_vec(),
@@ -108,7 +116,7 @@ impl DxfCurve {
         }
     }
 
-    /// Appends the curve's points, its first one too.
+    /// Appends the points of the flattened curve, including the first.
     pub fn flatten(&self, tolerance: f64, points: &mut Vec<DVec2>) {
         match self {
             Self::Line(ends) => points.extend(ends),
@@ -119,56 +127,59 @@ impl DxfCurve {
 }
 
 impl EllipseArc {
+    /// Returns the point at a fraction of the sweep.
     fn at(&self, share: f64) -> DVec2 {
         let (sin, cos) = (self.from + share * self.sweep).sin_cos();
         self.centre + cos * self.u + sin * self.v
     }
 
+    /// Returns whether the arc is a full ellipse.
     pub fn is_whole(&self) -> bool {
         self.sweep.abs() >= TAU - 1e-9
     }
 
     fn flatten(&self, tolerance: f64, points: &mut Vec<DVec2>) {
-        // At least the larger half axis, however u and v lie to each other.
+        // An upper bound of the larger semi-axis, even if u and v are not orthogonal.
         let radius = self.u.length().hypot(self.v.length());
-        // Beyond the diameter a tolerance would have no cosine.
+        // Clamped for tolerances larger than the diameter.
         let step = 2.0 * (1.0 - tolerance / radius).clamp(-1.0, 1.0).acos();
-        // Quarters at most, so that a small circle is still a square.
+        // At least one chord per quarter turn, so that a tiny circle is still a square.
         let pieces = (self.sweep.abs() / step.min(0.5 * PI)).ceil();
-        // No radius and no angle would give NaN, which is 0 as a whole number.
+        // A zero radius and sweep give NaN, which converts to 0.
         let pieces = (pieces.clamp(1.0, MAX_ARC_PIECES) as u32).max(1);
         let share = |k: u32| f64::from(k) / f64::from(pieces);
-        // A whole one ends where it began, and that point is there already.
+        // A full ellipse does not repeat its first point.
         let last = if self.is_whole() { pieces - 1 } else { pieces };
         points.extend((0..=last).map(|k| self.at(share(k))));
     }
 }
 
-/// A control point sent through a map: the weight stays.
-fn moved(control: DVec3, by: &DAffine2) -> DVec3 {
+/// Applies an affine map to a homogeneous control point; the weight is unchanged.
+fn transformed_control(control: DVec3, by: &DAffine2) -> DVec3 {
     let weight = control.z;
     (by.matrix2 * control.truncate() + weight * by.translation).extend(weight)
 }
 
+/// Converts a homogeneous control point to the plane.
 fn projected(control: DVec3) -> DVec2 {
     control.truncate() / control.z
 }
 
 impl NurbsCurve {
-    /// Most that is read: CAD programs stop at 25.
+    /// Maximum degree (resource limit: CAD programs support up to 25).
     pub const MAX_DEGREE: usize = 25;
 
-    /// `None` unless there are as many knots as degree and points need, in
-    /// order, and all weights are positive.
+    /// Creates a curve; returns `None` if the number or order of the knots does not match the
+    /// degree and points, or if a weight is not positive. No weights means that all are 1.
     pub fn new(degree: usize, knots: Vec<f64>, points: &[DVec2], weights: &[f64]) -> Option<Self> {
-        let is_known = (1..=Self::MAX_DEGREE).contains(&degree) && points.len() > degree;
+        let degree_fits = (1..=Self::MAX_DEGREE).contains(&degree) && points.len() > degree;
         let knots_fit = knots.len() == points.len() + degree + 1
             && knots.is_sorted()
             && knots.get(degree) < knots.get(points.len());
         let weights_fit = weights.is_empty() || weights.len() == points.len();
-        // Weights further apart than this lose all digits of the lighter one.
+        // A larger range would cancel all digits of the smaller weight.
         let is_weight = |w: &f64| (1e-9..=1e9).contains(w);
-        if !(is_known && knots_fit && weights_fit && weights.iter().all(is_weight)) {
+        if !(degree_fits && knots_fit && weights_fit && weights.iter().all(is_weight)) {
             return None;
         }
         let weight = |i: usize| weights.get(i).copied().unwrap_or(1.0);
@@ -181,11 +192,11 @@ impl NurbsCurve {
         })
     }
 
-    /// The curve at a parameter of a span: the span's first knot has the index
-    /// `span`.
+    /// Evaluates the curve by de Boor's algorithm at a parameter between the knots `span` and
+    /// `span + 1`.
     fn at(&self, span: usize, parameter: f64) -> DVec2 {
         let first = span - self.degree;
-        // On the stack, for this is called for every point of every curve.
+        // On the stack, because this runs for every point of every curve.
         let mut points = [DVec3::ZERO; Self::MAX_DEGREE + 1];
         let points = &mut points[..=self.degree];
         points.copy_from_slice(&self.control[first..=span]);
@@ -195,7 +206,7 @@ impl NurbsCurve {
                     self.knots[first + j],
                     self.knots[first + j + 1 + self.degree - level],
                 );
-                // The span has a length and lies between these two knots.
+                // The divisor is positive: the span has a length and lies between these knots.
                 let share = (parameter - low) / (high - low);
                 points[j] = points[j - 1].lerp(points[j], share);
             }
@@ -207,41 +218,42 @@ impl NurbsCurve {
         let start = points.len();
         for span in self.degree..self.control.len() {
             if points.len() > MAX_POINTS {
-                return; // the reader refuses as many
+                return; // the caller refuses so many points
             }
             let (from, to) = (self.knots[span], self.knots[span + 1]);
             if from < to {
-                let at = |t: f64| self.at(span, t);
+                let point = |t: f64| self.at(span, t);
                 if points.len() == start {
-                    points.push(at(from));
+                    points.push(point(from));
                 }
-                // Two halves at least: the middle of an S lies on its chord.
+                // At least two pieces: the midpoint of an S-shaped span lies on its chord.
                 let middle = 0.5 * (from + to);
-                halve(&at, [from, middle], tolerance, MAX_HALVINGS, points);
-                halve(&at, [middle, to], tolerance, MAX_HALVINGS, points);
+                bisect(&point, [from, middle], tolerance, MAX_BISECTIONS, points);
+                bisect(&point, [middle, to], tolerance, MAX_BISECTIONS, points);
             }
         }
     }
 }
 
-/// Appends the points after `from` up to `to`.
-fn halve(
-    at: &impl Fn(f64) -> DVec2,
+/// Appends the flattened points after `from` up to `to`, recursively bisecting the interval at
+/// most `depth` times.
+fn bisect(
+    point: &impl Fn(f64) -> DVec2,
     [from, to]: [f64; 2],
     tolerance: f64,
-    halvings: u32,
+    depth: u32,
     points: &mut Vec<DVec2>,
 ) {
-    let (a, b) = (at(from), at(to));
+    let (a, b) = (point(from), point(to));
     let is_near = |share: f64| {
-        let p = at(from + share * (to - from));
+        let p = point(from + share * (to - from));
         distance_squared_to_segment(p, a, b).sqrt() <= tolerance
     };
-    if halvings == 0 || [0.25, 0.5, 0.75].into_iter().all(is_near) {
+    if depth == 0 || [0.25, 0.5, 0.75].into_iter().all(is_near) {
         points.push(b);
         return;
     }
     let middle = 0.5 * (from + to);
-    halve(at, [from, middle], tolerance, halvings - 1, points);
-    halve(at, [middle, to], tolerance, halvings - 1, points);
+    bisect(point, [from, middle], tolerance, depth - 1, points);
+    bisect(point, [middle, to], tolerance, depth - 1, points);
 }

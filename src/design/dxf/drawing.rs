@@ -1,5 +1,5 @@
-//! A file's sections: the layers that are seen, the blocks, the objects, and
-//! blocks put in their places.
+//! Reads the sections of a DXF file (layers, blocks and entities) and expands block
+//! references into curves of the drawing.
 
 use super::colours::{EntityStyle, LayerColours, from_index, from_rgb_bits};
 use super::curve::DxfCurve;
@@ -11,81 +11,89 @@ use glam::{DAffine2, DVec2};
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
 
-/// Most pairs of one object that are kept, each of some 40 bytes: a spline of a
-/// million points has x, y, z and a knot for each.
+/// Maximum number of pairs stored for one entity (resource limit: about 40 bytes each; a
+/// spline with a million control points has four pairs for each).
 const MAX_PAIRS: usize = 4_000_000;
-/// Most kinds of objects that are told apart as left out: a file can make up a
-/// new one for each object.
+/// Maximum number of distinct entity types in the counts of ignored entities (resource limit:
+/// a hostile file could give every entity a new type).
 const MAX_KINDS: usize = 50;
 
-/// A drawing's curves.
+/// Content of a drawing.
 #[derive(Default)]
 pub(super) struct DxfDrawing {
-    /// Each curves one after the other.
+    /// Paths with all blocks expanded.
     pub paths: Vec<DxfPath>,
-    /// How many objects of which kind were left out.
+    /// Number of ignored entities by type.
     pub skipped: BTreeMap<String, usize>,
 }
 
-/// Curves one after the other.
+/// Connected curves with layer and colour.
 pub(super) struct DxfPath {
     pub curves: Vec<DxfCurve>,
-    /// Whether they close.
+    /// Whether the last curve ends at the start of the first.
     pub is_closed: bool,
-    /// The name of its layer, and its colour.
+    /// Name of the layer, and the colour if any.
     pub drawn: (Rc<[u8]>, Option<Rgb>),
 }
 
+/// Block definition.
 #[derive(Default)]
 struct DxfBlock {
+    /// Point that is placed at the insertion point.
     base: DVec2,
     entities: Vec<DxfEntity>,
 }
 
+/// State of the reader between records.
 #[derive(Default)]
 struct DxfReader {
+    /// Names of layers that are frozen or off.
     hidden_layers: HashSet<Vec<u8>>,
     layers: LayerColours,
+    /// Blocks by name.
     blocks: HashMap<Vec<u8>, DxfBlock>,
-    /// The block that is open, and its name.
+    /// Name and content of the block being read.
     open: Option<(Vec<u8>, DxfBlock)>,
+    /// Entities outside of blocks.
     entities: Vec<DxfEntity>,
+    /// Number of entities read, including those in blocks.
     objects: usize,
     drawing: DxfDrawing,
 }
 
-/// Reads a whole file.
+/// Reads a file and expands its blocks.
 pub(super) fn read(bytes: &[u8]) -> Result<DxfDrawing, DxfError> {
     let mut records = RecordReader::of(bytes)?;
     let mut reader = DxfReader::default();
-    // Of the section that is open: whether it is read.
-    let mut section = None;
+    // `None` between sections, otherwise whether the section is read or skipped.
+    let mut is_section_read = None;
     loop {
         let record = records.next()?;
-        match (record.kind, section) {
+        match (record.kind, is_section_read) {
             (b"SECTION", _) => {
-                let read: [&[u8]; 3] = [b"TABLES", b"BLOCKS", b"ENTITIES"];
-                section = Some(read.contains(&record.text(2)));
-                // A block that was never ended must not swallow what follows.
+                let sections: [&[u8]; 3] = [b"TABLES", b"BLOCKS", b"ENTITIES"];
+                is_section_read = Some(sections.contains(&record.text(2)));
+                // A block without an end must not absorb the entities of later sections.
                 reader.open = None;
             }
-            (b"ENDSEC", _) => section = None,
+            (b"ENDSEC", _) => is_section_read = None,
             (b"EOF", Some(_)) => return Err(DxfError::Truncated(record.at)),
-            (b"EOF", None) => return reader.placed(),
+            (b"EOF", None) => return reader.expanded(),
             (_, Some(true)) => reader.take(&record, &mut records)?,
             _ => {}
         }
     }
 }
 
-/// Reads one record after the other, with a look at the next.
+/// Groups pairs into records, with one pair of lookahead.
 struct RecordReader<'a> {
     pairs: PairReader<'a>,
-    /// The pair that the next record begins with; `None` at the file's end.
+    /// First pair of the next record; `None` at the end of the file.
     head: Option<GroupPair<'a>>,
 }
 
 impl<'a> RecordReader<'a> {
+    /// Skips to the first record.
     fn of(bytes: &'a [u8]) -> Result<Self, DxfError> {
         let mut pairs = PairReader::of(bytes);
         let mut head = pairs.next()?;
@@ -95,7 +103,7 @@ impl<'a> RecordReader<'a> {
         Ok(Self { pairs, head })
     }
 
-    /// The next record; at the file's end one of the kind EOF.
+    /// Returns the next record; at the end of the file, a record of kind EOF.
     fn next(&mut self) -> Result<DxfRecord<'a>, DxfError> {
         let mut record = DxfRecord {
             kind: self.head.map_or(b"EOF", |head| head.text()),
@@ -103,13 +111,13 @@ impl<'a> RecordReader<'a> {
             pairs: Vec::new(),
         };
         if record.kind == b"EOF" {
-            return Ok(record); // what follows need not be DXF
+            return Ok(record); // data after EOF need not be DXF
         }
         loop {
             let at = self.pairs.place();
             self.head = self.pairs.next()?;
             match self.head {
-                // Some programs write no EOF behind the last section.
+                // Some programs write no EOF record after the last section.
                 None if record.kind != b"ENDSEC" => return Err(DxfError::Truncated(at)),
                 None | Some(GroupPair { code: 0, .. }) => return Ok(record),
                 Some(
@@ -119,7 +127,7 @@ impl<'a> RecordReader<'a> {
                     },
                 ) => {
                     record.pairs.push(pair);
-                    at_most(record.pairs.len(), MAX_PAIRS)?;
+                    check_count(record.pairs.len(), MAX_PAIRS)?;
                 }
                 Some(_) => {}
             }
@@ -127,14 +135,16 @@ impl<'a> RecordReader<'a> {
     }
 }
 
-fn at_most(count: usize, most: usize) -> Result<(), DxfError> {
-    match count > most {
+/// Returns an error if a count exceeds its maximum.
+fn check_count(count: usize, max: usize) -> Result<(), DxfError> {
+    match count > max {
         true => Err(DxfError::TooMany),
         false => Ok(()),
     }
 }
 
 impl DxfReader {
+    /// Processes a record of a section that is read.
     fn take(&mut self, record: &DxfRecord, records: &mut RecordReader) -> Result<(), DxfError> {
         match record.kind {
             b"SEQEND" | b"TABLE" | b"ENDTAB" => {}
@@ -147,16 +157,17 @@ impl DxfReader {
                     self.count()?;
                     vertices.push(records.next()?);
                 }
-                self.keep(record, record.polyline(&vertices)?)?;
+                self.store(record, record.polyline(&vertices)?)?;
             }
-            _ => self.keep(record, record.shape()?)?,
+            _ => self.store(record, record.shape()?)?,
         }
         Ok(())
     }
 
+    /// Reads a layer: its colour and whether it is hidden.
     fn layer(&mut self, record: &DxfRecord) -> Result<(), DxfError> {
         let is_frozen = record.whole(70)? & 1 != 0;
-        // The colour, which is negative while the layer is off.
+        // A negative colour number means that the layer is off.
         let number = record.whole(62)?;
         let is_off = number < 0;
         let exact = record.bits()?.map(from_rgb_bits);
@@ -169,8 +180,8 @@ impl DxfReader {
         Ok(())
     }
 
-    /// Takes an object into the block that is open, or into the drawing.
-    fn keep(&mut self, record: &DxfRecord, shape: Option<EntityShape>) -> Result<(), DxfError> {
+    /// Adds a visible entity to the open block or to the drawing.
+    fn store(&mut self, record: &DxfRecord, shape: Option<EntityShape>) -> Result<(), DxfError> {
         let is_hidden = record.whole(60)? != 0 || self.hidden_layers.contains(record.text(8));
         let is_on_paper = record.whole(67)? != 0;
         if is_hidden || is_on_paper {
@@ -182,31 +193,33 @@ impl DxfReader {
         match (entity, &mut self.open) {
             (Some(entity), Some((_, block))) => block.entities.push(entity),
             (Some(entity), None) => self.entities.push(entity),
-            // Layouts, styles and other records without a shape.
+            // Layouts, styles and other records that are not entities have no layer.
             (None, _) if record.text(8).is_empty() => {}
             (None, _) => skip(&mut self.drawing.skipped, record.kind),
         }
         Ok(())
     }
 
+    /// Counts an entity against the limit.
     fn count(&mut self) -> Result<(), DxfError> {
         self.objects += 1;
-        at_most(self.objects, MAX_OBJECTS)
+        check_count(self.objects, MAX_OBJECTS)
     }
 
-    /// All curves, with blocks copied to their places.
-    fn placed(self) -> Result<DxfDrawing, DxfError> {
-        let mut placing = BlockExpansion {
+    /// Expands all block references.
+    fn expanded(self) -> Result<DxfDrawing, DxfError> {
+        let mut expansion = BlockExpansion {
             blocks: &self.blocks,
             layers: &self.layers,
             steps: 0,
             drawing: self.drawing,
         };
-        placing.place(&self.entities, &DAffine2::IDENTITY, None, 0)?;
-        Ok(placing.drawing)
+        expansion.place(&self.entities, &DAffine2::IDENTITY, None, 0)?;
+        Ok(expansion.drawing)
     }
 }
 
+/// Reads the name and base point of a block.
 fn named_block(record: &DxfRecord) -> Result<(Vec<u8>, DxfBlock), DxfError> {
     let base = DVec2::new(record.real(10, 0.0)?, record.real(20, 0.0)?);
     let block = DxfBlock {
@@ -216,6 +229,7 @@ fn named_block(record: &DxfRecord) -> Result<(Vec<u8>, DxfBlock), DxfError> {
     Ok((record.text(2).to_owned(), block))
 }
 
+/// Counts an ignored entity by type.
 fn skip(skipped: &mut BTreeMap<String, usize>, kind: &[u8]) {
     let kind: String = String::from_utf8_lossy(kind).chars().take(32).collect();
     if skipped.len() < MAX_KINDS || skipped.contains_key(&kind) {
@@ -223,16 +237,18 @@ fn skip(skipped: &mut BTreeMap<String, usize>, kind: &[u8]) {
     }
 }
 
+/// Recursive expansion of block references.
 struct BlockExpansion<'b> {
     blocks: &'b HashMap<Vec<u8>, DxfBlock>,
     layers: &'b LayerColours,
+    /// Number of curve points and block copies so far.
     steps: usize,
     drawing: DxfDrawing,
 }
 
 impl BlockExpansion<'_> {
-    /// Puts objects where `by` says; recurses [`MAX_DEPTH`] levels at most.
-    /// `outer` is what the block is drawn with that they are in.
+    /// Adds entities, transformed by `by`, to the drawing. Recurses at most [`MAX_DEPTH`]
+    /// levels. `outer` is the style of the enclosing block reference.
     fn place(
         &mut self,
         entities: &[DxfEntity],
@@ -260,8 +276,7 @@ impl BlockExpansion<'_> {
                         let to_base = DAffine2::from_translation(-block.base);
                         for place in places {
                             self.count(1)?;
-                            // From the right: its base to the origin, to its place, and along with
-                            // the block that it is in.
+                            // Right to left: base point to the origin, insertion, outer block.
                             let inner = *by * *place * to_base;
                             self.place(&block.entities, &inner, Some(&ink), depth + 1)?;
                         }
@@ -272,9 +287,10 @@ impl BlockExpansion<'_> {
         Ok(())
     }
 
+    /// Counts curve points or a block copy against the limit.
     fn count(&mut self, steps: usize) -> Result<(), DxfError> {
-        // One even for nothing, so that copies of empty blocks come to an end.
+        // At least one, so that copies of empty blocks also reach the limit.
         self.steps += 1 + steps;
-        at_most(self.steps, 2 * MAX_OBJECTS)
+        check_count(self.steps, 2 * MAX_OBJECTS)
     }
 }

@@ -1,8 +1,7 @@
-//! The objects of a drawing as curves in the plane.
+//! Converts DXF entities to curves in the plane and to block references.
 //!
-//! Objects with an extrusion direction lie in a coordinate system of their
-//! own (the "arbitrary axis algorithm" of the DXF Reference); they are seen
-//! from above, as a plan.
+//! An entity with an extrusion direction has its own coordinate system (the "arbitrary axis
+//! algorithm" of the DXF Reference) and is projected onto the xy plane.
 
 use super::colours::{ColourSource, EntityStyle};
 use super::curve::{DxfCurve, EllipseArc, NurbsCurve};
@@ -12,57 +11,65 @@ use crate::geometry::DVec2;
 use glam::{DAffine2, DMat2, DVec3};
 use std::f64::consts::TAU;
 
-/// An object, and what it is drawn with.
+/// Entity with its layer and colour.
 #[derive(Debug)]
 pub(super) struct DxfEntity {
     pub shape: EntityShape,
     pub ink: EntityStyle,
 }
 
-/// What an object gives.
+/// Geometry of an entity.
 #[derive(Debug)]
 pub(super) enum EntityShape {
-    /// Curves one after the other.
+    /// Connected curves.
     Path {
         curves: Vec<DxfCurve>,
         is_closed: bool,
     },
-    /// A copy of a block, for each of the places.
+    /// Copies of a block.
     Insert {
+        /// Name of the block.
         block: Vec<u8>,
+        /// Placement of each copy, relative to the base point of the block.
         places: Vec<DAffine2>,
     },
 }
 
-/// Most copies of one INSERT, refused before their places are listed: a field
-/// of a hundred by a hundred is large for a drawing.
+/// Maximum number of copies of one INSERT (resource limit: a grid of 100 by 100; checked
+/// before the placements are allocated).
 const MAX_COPIES: i64 = 10_000;
 
-/// An object's kind and its pairs.
+/// Record of the file: an entity or table entry with its pairs.
 pub(super) struct DxfRecord<'a> {
+    /// Type name, such as `LINE`.
     pub kind: &'a [u8],
+    /// Position of the record in the file.
     pub at: DxfPlace,
     pub pairs: Vec<GroupPair<'a>>,
 }
 
 impl<'a> DxfRecord<'a> {
+    /// Returns the first pair with a group code.
     fn first(&self, code: i32) -> Option<&GroupPair<'a>> {
         self.pairs.iter().find(|pair| pair.code == code)
     }
 
+    /// Returns the first real number with a group code, or the default.
     pub fn real(&self, code: i32, default: f64) -> Result<f64, DxfError> {
         self.first(code).map_or(Ok(default), GroupPair::real)
     }
 
+    /// Returns the first integer with a group code, or 0.
     pub fn whole(&self, code: i32) -> Result<i64, DxfError> {
         self.first(code).map_or(Ok(0), GroupPair::whole)
     }
 
+    /// Returns the first text with a group code, or an empty text.
     pub fn text(&self, code: i32) -> &'a [u8] {
         self.first(code).map_or(b"", GroupPair::text)
     }
 
-    /// What the object is drawn with.
+    /// Returns layer and colour of the entity.
     pub fn ink(&self) -> Result<EntityStyle, DxfError> {
         let number = self.first(62).map_or(Ok(256), GroupPair::whole)?;
         Ok(EntityStyle {
@@ -71,11 +78,12 @@ impl<'a> DxfRecord<'a> {
         })
     }
 
-    /// The 24 bits of its colour, where it has any.
+    /// Returns the 24-bit RGB colour, if given.
     pub fn bits(&self) -> Result<Option<i64>, DxfError> {
         self.first(420).map(GroupPair::whole).transpose()
     }
 
+    /// Returns the point whose x, y and z have the codes `code`, `code + 10`, `code + 20`.
     fn point(&self, code: i32) -> Result<DVec3, DxfError> {
         Ok(DVec3::new(
             self.real(code, 0.0)?,
@@ -84,36 +92,39 @@ impl<'a> DxfRecord<'a> {
         ))
     }
 
-    /// The numbers that stand under a code, in order.
+    /// Returns all real numbers with a group code, in order.
     fn reals(&self, code: i32) -> Result<Vec<f64>, DxfError> {
         let pairs = self.pairs.iter().filter(|pair| pair.code == code);
         pairs.map(GroupPair::real).collect()
     }
 
-    /// The points whose x stands under a code and whose y under ten more.
+    /// Returns all points whose x has the code `code` and y the code `code + 10`.
     fn points(&self, code: i32) -> Result<Vec<DVec2>, DxfError> {
         let (xs, ys) = (self.reals(code)?, self.reals(code + 10)?);
         if xs.len() != ys.len() {
-            return Err(self.broken("a point has x and no y, or y and no x"));
+            return Err(self.broken("a point lacks its x or y coordinate"));
         }
         Ok(xs.into_iter().zip(ys).map(DVec2::from).collect())
     }
 
-    /// The extrusion direction; upwards where it has no length.
+    /// Returns the extrusion direction; +z if it has no length.
     fn normal(&self) -> Result<DVec3, DxfError> {
-        // Left out it is upwards, where every other number is 0.
+        // Its z component defaults to 1, unlike other numbers.
         let z = self.real(230, 1.0)?;
         let given = self.point(210)?.with_z(z);
         Ok(given.try_normalize().unwrap_or(DVec3::Z))
     }
 
-    /// From the object's own plane at a height to the plan.
+    /// Returns the map from the entity's own plane at an elevation to the xy plane.
     fn plan(&self, elevation: f64) -> Result<DAffine2, DxfError> {
         let normal = self.normal()?;
-        // The bound is the reference's, to the last digit: all programs must agree.
+        // The DXF Reference prescribes exactly this bound.
         let near_z = normal.x.abs() < 1.0 / 64.0 && normal.y.abs() < 1.0 / 64.0;
-        let aside = if near_z { DVec3::Y } else { DVec3::Z };
-        let x_axis = aside.cross(normal).try_normalize().unwrap_or(DVec3::X);
+        let reference_axis = if near_z { DVec3::Y } else { DVec3::Z };
+        let x_axis = reference_axis
+            .cross(normal)
+            .try_normalize()
+            .unwrap_or(DVec3::X);
         let y_axis = normal.cross(x_axis);
         Ok(DAffine2 {
             matrix2: DMat2::from_cols(x_axis.truncate(), y_axis.truncate()),
@@ -121,6 +132,7 @@ impl<'a> DxfRecord<'a> {
         })
     }
 
+    /// Returns the error for an entity with inconsistent data.
     fn broken(&self, what: &'static str) -> DxfError {
         DxfError::Broken {
             at: self.at,
@@ -129,8 +141,9 @@ impl<'a> DxfRecord<'a> {
         }
     }
 
-    /// The object as curves; `None` where it is of a kind without an outline.
-    /// POLYLINE needs its vertices and goes another way.
+    /// Converts the entity to geometry; returns `None` for unsupported types.
+    ///
+    /// POLYLINE is converted by [`Self::polyline`] because its vertices are separate records.
     pub fn shape(&self) -> Result<Option<EntityShape>, DxfError> {
         Ok(Some(match self.kind {
             b"LINE" => open(DxfCurve::Line([
@@ -150,6 +163,7 @@ impl<'a> DxfRecord<'a> {
         }))
     }
 
+    /// Converts an LWPOLYLINE.
     fn light_polyline(&self) -> Result<EntityShape, DxfError> {
         let mut corners: Vec<PolylineVertex> = Vec::new();
         for pair in &self.pairs {
@@ -167,7 +181,7 @@ impl<'a> DxfRecord<'a> {
         Ok(polyline(&corners, self.whole(70)? & 1 != 0, &plan))
     }
 
-    /// A POLYLINE with its vertices; `None` for a mesh.
+    /// Converts a POLYLINE with its VERTEX records; returns `None` for a mesh.
     pub fn polyline(&self, vertices: &[DxfRecord]) -> Result<Option<EntityShape>, DxfError> {
         let flags = self.whole(70)?;
         if flags & (16 | 64) != 0 {
@@ -177,7 +191,7 @@ impl<'a> DxfRecord<'a> {
         let mut corners = Vec::with_capacity(vertices.len());
         for vertex in vertices {
             if vertex.whole(70)? & 16 != 0 {
-                continue; // the frame of a curve that stands there fitted
+                continue; // control point of a curve whose fitted vertices follow
             }
             let bulge = match is_in_space {
                 true => 0.0,
@@ -193,6 +207,7 @@ impl<'a> DxfRecord<'a> {
         Ok(Some(polyline(&corners, flags & 1 != 0, &plan)))
     }
 
+    /// Converts a CIRCLE or ARC.
     fn arc(&self, from: f64, sweep: f64) -> Result<EntityShape, DxfError> {
         let centre = self.point(10)?;
         let radius = self.real(40, 0.0)?;
@@ -203,12 +218,13 @@ impl<'a> DxfRecord<'a> {
             from,
             sweep,
         };
-        Ok(of_arc(arc, &self.plan(centre.z)?))
+        Ok(arc_shape(arc, &self.plan(centre.z)?))
     }
 
+    /// Converts an ELLIPSE.
     fn ellipse(&self) -> Result<EntityShape, DxfError> {
         let (centre, major) = (self.point(10)?, self.point(11)?);
-        // Given in the plan already, unlike a circle's: no plane of its own.
+        // World coordinates, unlike those of a circle, so no plane is applied.
         let minor = self.real(40, 1.0)? * self.normal()?.cross(major);
         let (from, to) = (self.real(41, 0.0)?, self.real(42, TAU)?);
         let arc = EllipseArc {
@@ -218,10 +234,10 @@ impl<'a> DxfRecord<'a> {
             from,
             sweep: turn(from, to),
         };
-        Ok(of_arc(arc, &DAffine2::IDENTITY))
+        Ok(arc_shape(arc, &DAffine2::IDENTITY))
     }
 
-    /// `None` for one that is given by the points it goes through only.
+    /// Converts a SPLINE; returns `None` if it has only fit points.
     fn spline(&self) -> Result<Option<EntityShape>, DxfError> {
         let points = self.points(10)?;
         if points.is_empty() {
@@ -230,29 +246,30 @@ impl<'a> DxfRecord<'a> {
         let degree = usize::try_from(self.whole(71)?).unwrap_or(0);
         let (knots, weights) = (self.reals(40)?, self.reals(41)?);
         let spline = NurbsCurve::new(degree, knots, &points, &weights).ok_or_else(|| {
-            self.broken("its degree, knots, control points and weights do not go together")
+            self.broken("its degree, knots, control points and weights are inconsistent")
         })?;
         Ok(Some(open(DxfCurve::Spline(spline))))
     }
 
+    /// Converts an INSERT, a grid of block copies.
     fn insert(&self) -> Result<EntityShape, DxfError> {
         let at = self.point(10)?;
         let plan = self.plan(at.z)?;
         let scale = DVec2::new(self.real(41, 1.0)?, self.real(42, 1.0)?);
-        let turned = DMat2::from_angle(self.real(50, 0.0)?.to_radians());
-        // None is written for one.
+        let rotation = DMat2::from_angle(self.real(50, 0.0)?.to_radians());
+        // A count of 0 means 1.
         let counts = [self.whole(70)?, self.whole(71)?].map(|n| n.max(1));
         if counts[0].saturating_mul(counts[1]) > MAX_COPIES {
-            return Err(self.broken("it stands for too many copies"));
+            return Err(self.broken("it makes too many copies"));
         }
-        let apart = DVec2::new(self.real(44, 0.0)?, self.real(45, 0.0)?);
+        let spacing = DVec2::new(self.real(44, 0.0)?, self.real(45, 0.0)?);
         let mut places = Vec::new();
         for row in 0..counts[1] {
             for column in 0..counts[0] {
-                let offset = turned * (apart * DVec2::new(column as f64, row as f64));
+                let offset = rotation * (spacing * DVec2::new(column as f64, row as f64));
                 places.push(
                     plan * DAffine2 {
-                        matrix2: turned * DMat2::from_diagonal(scale),
+                        matrix2: rotation * DMat2::from_diagonal(scale),
                         translation: at.truncate() + offset,
                     },
                 );
@@ -265,13 +282,14 @@ impl<'a> DxfRecord<'a> {
     }
 }
 
-/// The angle counter-clockwise from one direction to another, in (0, 2π].
+/// Returns the counter-clockwise angle from one direction to another, in (0, 2π].
 fn turn(from: f64, to: f64) -> f64 {
     let sweep = (to - from).rem_euclid(TAU);
-    // From a direction to itself is once around, or as near as radians come to it.
+    // Equal directions, up to rounding, mean a full turn.
     if sweep <= 1e-12 { TAU } else { sweep }
 }
 
+/// Returns an open path of one curve.
 fn open(curve: DxfCurve) -> EntityShape {
     EntityShape::Path {
         curves: vec![curve],
@@ -279,21 +297,24 @@ fn open(curve: DxfCurve) -> EntityShape {
     }
 }
 
-fn of_arc(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
+/// Returns a path of one arc.
+fn arc_shape(arc: EllipseArc, plan: &DAffine2) -> EntityShape {
     EntityShape::Path {
         is_closed: arc.is_whole(),
         curves: vec![DxfCurve::Arc(arc).moved(plan)],
     }
 }
 
+/// Vertex of a polyline.
 struct PolylineVertex {
     point: DVec2,
-    /// Of the side that begins here: the tangent of a quarter of its angle.
+    /// Bulge of the segment that starts here: the tangent of a quarter of its angle.
     bulge: f64,
 }
 
+/// Returns the path through the vertices of a polyline.
 fn polyline(corners: &[PolylineVertex], is_closed: bool, plan: &DAffine2) -> EntityShape {
-    // No corner has no side, and open ones have a side less.
+    // An open polyline has one segment less than vertices.
     let last = corners.len().saturating_sub(1);
     let sides = if is_closed { corners.len() } else { last };
     let side = |i: usize| {

@@ -1,81 +1,81 @@
-//! Why a drawing gives no outline, the limits that errors name, and places in
-//! a file.
+//! Errors of the DXF importer, the limits they mention, and positions in a file.
 
 use crate::design::flatten::TooManyPoints;
 use crate::design::note::OtherKinds;
 use crate::geometry::{DVec2, RegionsError};
 use std::fmt;
 
-/// Most objects, and most curves after blocks are copied. Some hundred bytes
-/// each: more would fill a small machine's memory.
+/// Maximum number of entities in the file, and half the maximum of curve points and block
+/// copies after expansion (resource limit: a few hundred bytes each).
 pub(super) const MAX_OBJECTS: usize = 1_000_000;
-/// Most blocks in blocks. Placing them recurses, and a block in itself
-/// must end somewhere.
+
+/// Maximum nesting depth of blocks (resource limit: expansion recurses, and a block may contain
+/// itself).
 pub(super) const MAX_DEPTH: usize = 16;
 
-/// Why a drawing gives no outline.
+/// Error of importing a DXF drawing.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum DxfError {
-    /// A group code that is none.
-    #[error("{0}: there is no group code where one should be; save the drawing again as DXF")]
+    /// A group code is missing or invalid.
+    #[error("{0}: a group code is missing or invalid; save the drawing as DXF again")]
     Code(DxfPlace),
-    /// The file breaks off.
-    #[error("{0}: the file ends in the middle; save or copy it again")]
+    /// The file is incomplete.
+    #[error("{0}: the file is incomplete; save or copy it again")]
     Truncated(DxfPlace),
-    /// A number that is none, or beyond [`MAX_COORDINATE`].
+    /// A value is not a number or exceeds [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
-    #[error("{0}: there is no number from -1e18 to 1e18 here; correct it, or scale the drawing")]
+    #[error("{0}: expected a number from -1e18 to 1e18; correct it or scale the drawing")]
     Number(DxfPlace),
-    /// An object whose parts do not fit.
+    /// An entity has inconsistent data.
     #[error("{at}: {kind} cannot be used: {what}; correct or remove it")]
     Broken {
-        /// Where the object begins.
+        /// Position of the entity.
         at: DxfPlace,
-        /// Its kind, as the file calls it.
+        /// Type name as written in the file.
         kind: String,
-        /// What is wrong.
+        /// Description of the fault.
         what: &'static str,
     },
-    /// Objects, copies included, without end.
+    /// The drawing has too many objects, including copies of blocks.
     #[error(
-        "the drawing has more than {MAX_OBJECTS} objects, copies of blocks included; save only its outlines"
+        "the drawing has more than {MAX_OBJECTS} objects, including copies of blocks; save only its outlines"
     )]
     TooMany,
-    /// Blocks in blocks without end.
+    /// Blocks are nested too deeply or contain themselves.
     #[error(
-        "blocks lie in blocks more than {MAX_DEPTH} levels deep, or a block in itself; explode them"
+        "blocks are nested more than {MAX_DEPTH} levels deep, or a block contains itself; explode them"
     )]
     TooDeep,
-    /// Curves into absurdly many points.
+    /// The curves need too many points.
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
-    /// There is nothing to read.
-    #[error("there is no line, arc or curve in the drawing{0}; draw or explode the outlines")]
+    /// The drawing has no supported curves; lists the other entities.
+    #[error("the drawing has no lines, arcs or curves{0}; draw or explode the outlines")]
     Nothing(OtherKinds),
-    /// Curves, but no ring.
+    /// The curves form no closed ring.
     #[error(
-        "none of the curves close: one of {count} ends at ({}, {}) and nothing goes on there; join the curves end to end",
+        "no curves form a closed outline: one of {count} has a free end at ({}, {}); join the curves end to end",
         at.x, at.y
     )]
     Open {
-        /// How many curves there are.
+        /// Number of curves.
         count: usize,
-        /// A loose end.
+        /// Free end of one of the curves.
         at: DVec2,
     },
-    /// Nothing is enclosed.
+    /// The outlines enclose no area.
     #[error(transparent)]
     Regions(#[from] RegionsError),
 }
 
-/// Where something stands in the file.
+/// Position in the file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DxfPlace {
-    /// A line of text, from 1.
+    /// Line of a text file, counted from 1.
     Line(usize),
-    /// A byte of a binary file, from 0.
+    /// Byte offset in a binary file, counted from 0.
     Byte(usize),
 }
 

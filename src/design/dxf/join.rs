@@ -1,69 +1,71 @@
-//! Curves joined end to end into rings.
+//! Joins open curves end to end into closed rings.
 //!
-//! Ends closer than the given distance count as one place. Curves that hang
-//! loose are taken away, one after the other, until every place joins two
-//! curves or more; what is left is walked, and each time the walk comes back
-//! to a place where it was, a ring is closed. Where more than two curves meet
-//! the walk takes any: under the even-odd rule the area is the same whenever
-//! an even number meets.
+//! End points closer than a given distance form one node of a graph. Curves with a free end
+//! are removed repeatedly until every node joins at least two curves. The rest is traversed,
+//! and whenever the traversal returns to a node, a ring is closed. Where more than two curves
+//! meet, the choice is arbitrary: under the even-odd rule the area does not depend on it if
+//! the number of curves is even.
 
 use crate::geometry::DVec2;
 use std::collections::{HashMap, HashSet};
 
-/// What joining gives.
+/// Result of joining curves.
 #[derive(Debug, Default)]
 pub(super) struct JoinedCurves {
+    /// Closed rings.
     pub rings: Vec<Vec<DVec2>>,
-    /// For each ring the numbers of its curves.
+    /// Indices of the joined curves for each ring.
     pub of_rings: Vec<Vec<usize>>,
-    /// A loose end of each curve that belongs to no ring.
+    /// One free end of each curve that belongs to no ring.
     pub loose: Vec<DVec2>,
-    /// Curves that are there more than once.
+    /// Number of duplicate curves that were ignored.
     pub duplicates: usize,
 }
 
-/// Joins open curves, each of two points at least.
+/// Joins open curves of at least two points each. End points within the distance `within` are
+/// identified.
 pub(super) fn join_curves(curves: Vec<Vec<DVec2>>, within: f64) -> JoinedCurves {
     let mut result = JoinedCurves::default();
-    let (curves, numbers) = result.without_duplicates(curves);
+    let (curves, indices) = result.without_duplicates(curves);
     let mut graph = EndpointGraph::of(&curves, within);
-    result.loose = graph.without_loose(&curves);
+    result.loose = graph.remove_loose(&curves);
     for start in 0..curves.len() {
-        graph.walk(start, &curves, &mut result);
+        graph.trace(start, &curves, &mut result);
     }
     for curve in result.of_rings.iter_mut().flatten() {
-        *curve = numbers[*curve];
+        *curve = indices[*curve];
     }
     result
 }
 
 impl JoinedCurves {
-    /// The others, and their numbers.
+    /// Removes and counts duplicates; returns the other curves with their original indices.
     fn without_duplicates(&mut self, curves: Vec<Vec<DVec2>>) -> (Vec<Vec<DVec2>>, Vec<usize>) {
-        let bits = |p: &DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits); // -0 is 0
+        let bits = |p: &DVec2| [p.x + 0.0, p.y + 0.0].map(f64::to_bits); // turns -0 into 0
         let mut seen = HashSet::new();
-        let (mut kept, mut numbers) = (Vec::with_capacity(curves.len()), Vec::new());
-        for (number, curve) in curves.into_iter().enumerate() {
-            // The same curve drawn the other way is the same.
+        let (mut unique, mut indices) = (Vec::with_capacity(curves.len()), Vec::new());
+        for (index, curve) in curves.into_iter().enumerate() {
+            // A reversed copy is also a duplicate.
             let forward: Vec<_> = curve.iter().map(bits).collect();
             let backward = forward.iter().rev().copied().collect();
             if seen.insert(forward.min(backward)) {
-                kept.push(curve);
-                numbers.push(number);
+                unique.push(curve);
+                indices.push(index);
             } else {
                 self.duplicates += 1;
             }
         }
-        (kept, numbers)
+        (unique, indices)
     }
 }
 
-/// Which curves meet where.
+/// Graph whose nodes are identified end points and whose edges are curves.
 struct EndpointGraph {
-    /// The places of each curve's first and last point.
+    /// Nodes of the first and last point of each curve.
     ends: Vec<[usize; 2]>,
-    /// The curves at each place; one that begins and ends there twice.
-    at: Vec<Vec<usize>>,
+    /// Curves at each node. A curve that starts and ends there is listed twice.
+    curves_at: Vec<Vec<usize>>,
+    /// Whether each curve has been removed or traversed.
     is_used: Vec<bool>,
 }
 
@@ -72,58 +74,60 @@ impl EndpointGraph {
         let mut places = EndpointIndex::new(curves, within);
         let both = |curve: &Vec<DVec2>| [curve[0], curve[curve.len() - 1]].map(|p| places.of(p));
         let ends: Vec<_> = curves.iter().map(both).collect();
-        let mut at = vec![Vec::new(); places.points.len()];
+        let mut curves_at = vec![Vec::new(); places.points.len()];
         for (curve, both) in ends.iter().enumerate() {
             for &place in both {
-                at[place].push(curve);
+                curves_at[place].push(curve);
             }
         }
         Self {
             is_used: vec![false; ends.len()],
             ends,
-            at,
+            curves_at,
         }
     }
 
-    /// Takes curves that hang loose, and returns a loose end of each.
-    fn without_loose(&mut self, curves: &[Vec<DVec2>]) -> Vec<DVec2> {
-        let mut degree: Vec<usize> = self.at.iter().map(Vec::len).collect();
-        let mut ripe: Vec<usize> = (0..degree.len()).filter(|&p| degree[p] == 1).collect();
+    /// Removes curves with a free end until none is left; returns a free end of each.
+    fn remove_loose(&mut self, curves: &[Vec<DVec2>]) -> Vec<DVec2> {
+        let mut degree: Vec<usize> = self.curves_at.iter().map(Vec::len).collect();
+        let mut free_nodes: Vec<usize> = (0..degree.len()).filter(|&p| degree[p] == 1).collect();
         let mut loose = Vec::new();
-        while let Some(place) = ripe.pop() {
+        while let Some(place) = free_nodes.pop() {
             let Some(curve) = self.unused_at(place) else {
-                continue; // taken from its other end
+                continue; // already removed from its other end
             };
             self.is_used[curve] = true;
             let [first, last] = self.ends[curve];
             let points = &curves[curve];
             loose.push(points[if first == place { 0 } else { points.len() - 1 }]);
             let other = if first == place { last } else { first };
-            // What hung on it alone now hangs loose in turn. A curve that comes back to
-            // its own place counts twice there and is never loose.
+            // The removal may free the end of one more curve. A closed curve counts twice
+            // at its node and is never removed.
             degree[other] -= 1;
             if degree[other] == 1 {
-                ripe.push(other);
+                free_nodes.push(other);
             }
         }
         loose
     }
 
+    /// Returns a curve at a node that has not been used.
     fn unused_at(&mut self, place: usize) -> Option<usize> {
-        let here = &mut self.at[place];
+        let here = &mut self.curves_at[place];
         while here.last().is_some_and(|&curve| self.is_used[curve]) {
             here.pop();
         }
         here.last().copied()
     }
 
-    /// Walks from a curve as far as there are curves.
-    fn walk(&mut self, start: usize, curves: &[Vec<DVec2>], result: &mut JoinedCurves) {
+    /// Traverses unused curves from a start curve and collects the rings that close.
+    fn trace(&mut self, start: usize, curves: &[Vec<DVec2>], result: &mut JoinedCurves) {
         if self.is_used[start] {
             return;
         }
         let mut here = self.ends[start][0];
         let mut trail: Vec<TrailStep> = Vec::new();
+        // Position in the trail at which each node was left.
         let mut steps_from: HashMap<usize, usize> = HashMap::from([(here, 0)]);
         let mut next = Some(start);
         while let Some(curve) = next {
@@ -138,7 +142,7 @@ impl EndpointGraph {
             here = if is_forward { last } else { first };
             match steps_from.get(&here).copied() {
                 Some(closed) => {
-                    // What the ring took with it may be passed again.
+                    // Nodes of the closed ring may be visited again.
                     for step in &trail[closed + 1..] {
                         steps_from.remove(&step.from);
                     }
@@ -154,20 +158,22 @@ impl EndpointGraph {
             }
             next = self.unused_at(here);
         }
-        let left = trail.iter().flat_map(|step| step.points(curves).next());
-        result.loose.extend(left);
+        let open_ends = trail.iter().flat_map(|step| step.points(curves).next());
+        result.loose.extend(open_ends);
     }
 }
 
+/// Traversal of one curve.
 struct TrailStep {
+    /// Node at which the traversal of the curve starts.
     from: usize,
     curve: usize,
     is_forward: bool,
 }
 
 impl TrailStep {
-    /// The curve's points in the order of the walk, without the last, which is
-    /// the first of the next.
+    /// Returns the points of the curve in the order of traversal, without the last, which is
+    /// the first point of the next curve.
     fn points<'c>(&self, curves: &'c [Vec<DVec2>]) -> impl Iterator<Item = DVec2> + use<'c> {
         let points = &curves[self.curve];
         let (is_forward, last) = (self.is_forward, points.len() - 1);
@@ -175,12 +181,15 @@ impl TrailStep {
     }
 }
 
-/// Points further apart than a distance, with what is nearer to one of them
-/// counted as it.
+/// Spatial hash that identifies points within a distance of each other.
 struct EndpointIndex {
+    /// Origin of the grid.
     origin: DVec2,
+    /// Maximum distance of identified points, also the width of a grid cell.
     within: f64,
+    /// First point of each node.
     points: Vec<DVec2>,
+    /// Nodes in each grid cell.
     cells: HashMap<[i64; 2], Vec<usize>>,
 }
 
@@ -194,17 +203,18 @@ impl EndpointIndex {
         }
     }
 
+    /// Returns the node of a point, creating it if no node is near.
     fn of(&mut self, p: DVec2) -> usize {
         let cell = ((p - self.origin) / self.within).floor();
         let [x, y] = [cell.x as i64, cell.y as i64];
-        // Cells are as wide as the distance, so that nothing nearer lies further out.
-        let near = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [i, j]));
-        let known = near
-            // Cells too far away for whole numbers keep the last one, and so does this.
+        // Cells are as wide as the distance, so the 3 × 3 block contains all near nodes.
+        let block = (-1..=1).flat_map(|i| (-1..=1).map(move |j| [i, j]));
+        let existing = block
+            // Saturates, as the conversion of far cells to integers does.
             .filter_map(|[i, j]| self.cells.get(&[x.saturating_add(i), y.saturating_add(j)]))
             .flatten()
             .find(|&&place| self.points[place].distance(p) <= self.within);
-        if let Some(&place) = known {
+        if let Some(&place) = existing {
             return place;
         }
         self.points.push(p);
@@ -228,7 +238,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_in_any_order_and_direction_make_a_ring() {
+    fn lines_in_any_order_and_direction_form_a_ring() {
         let lines = [
             [(0, 0), (4, 0)],
             [(0, 4), (4, 4)],
@@ -243,7 +253,7 @@ mod tests {
     }
 
     #[test]
-    fn what_hangs_loose_does_not_break_the_ring() {
+    fn loose_curves_do_not_break_a_ring() {
         let lines = [
             curve(&[(0, 0), (4, 0), (4, 4)]),
             curve(&[(4, 4), (9, 9)]),

@@ -1,30 +1,35 @@
-//! The pairs that a DXF file consists of: a group code and a value, as two
-//! lines of text or in the binary form (Autodesk, DXF Reference).
+//! Reads the pairs of group code and value that make up a DXF file, from its text or binary
+//! encoding (Autodesk, DXF Reference).
 //!
-//! Nothing is copied: values are slices of the file.
+//! Values are slices of the file, so nothing is copied.
 
 use super::error::{DxfError, DxfPlace};
 use crate::geometry::MAX_COORDINATE;
 
-/// What a binary file begins with.
+/// First bytes of a binary DXF file.
 pub(in crate::design) const BINARY: &[u8] = b"AutoCAD Binary DXF\r\n\x1a\0";
 
+/// Value of a pair.
 #[derive(Clone, Copy, Debug)]
 enum GroupValue<'a> {
+    /// Text, or a number in text form.
     Text(&'a [u8]),
+    /// Number of a binary file.
     Number(f64),
 }
 
-/// A group code and its value.
+/// Group code with its value.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct GroupPair<'a> {
+    /// Group code, which says what the value means.
     pub code: i32,
+    /// Position of the pair in the file.
     pub at: DxfPlace,
     value: GroupValue<'a>,
 }
 
 impl<'a> GroupPair<'a> {
-    /// The value as text; a binary number has none.
+    /// Returns the value as text; empty for a binary number.
     pub fn text(&self) -> &'a [u8] {
         match self.value {
             GroupValue::Text(text) => text,
@@ -32,49 +37,55 @@ impl<'a> GroupPair<'a> {
         }
     }
 
+    /// Returns the value as a real number.
     pub fn real(&self) -> Result<f64, DxfError> {
         let number = match self.value {
             GroupValue::Number(number) => Some(number),
             GroupValue::Text(text) => std::str::from_utf8(text).ok().and_then(|t| t.parse().ok()),
         };
-        // Of angles and knots too, which are reckoned with. NaN is in no range.
+        // Applies to angles and knots too, to keep arithmetic finite. Also rejects NaN.
         let number = number.filter(|n: &f64| n.abs() <= MAX_COORDINATE);
         number.ok_or(DxfError::Number(self.at))
     }
 
-    /// The value as a whole number.
+    /// Returns the value as an integer; a fraction is truncated.
     pub fn whole(&self) -> Result<i64, DxfError> {
         Ok(self.real()? as i64)
     }
 }
 
-/// Reads one pair after the other.
+/// Reader of the pairs of a file.
 pub(super) struct PairReader<'a> {
     bytes: &'a [u8],
+    /// Byte offset of the next pair.
     position: usize,
+    /// Number of lines read of a text file.
     line: usize,
     form: DxfEncoding,
 }
 
+/// Encoding of a file.
 #[derive(Clone, Copy, PartialEq)]
 enum DxfEncoding {
+    /// Two lines of text per pair.
     Text,
-    /// Group codes of one byte, or three from 255 on: up to release 12.
+    /// Binary with group codes of one byte, or of three bytes from 255 on (up to release 12).
     Narrow,
-    /// Group codes of two bytes.
+    /// Binary with group codes of two bytes.
     Wide,
 }
 
 impl<'a> PairReader<'a> {
+    /// Detects the encoding and skips the header.
     pub fn of(bytes: &'a [u8]) -> Self {
-        let bare = bytes.strip_prefix(BINARY);
-        let form = match bare {
+        let content = bytes.strip_prefix(BINARY);
+        let form = match content {
             None => DxfEncoding::Text,
-            // The first code is 0, in two bytes or in one before the S of SECTION.
+            // The first code is 0: two zero bytes, or one followed by "SECTION".
             Some([0, 0, ..]) => DxfEncoding::Wide,
             Some(_) => DxfEncoding::Narrow,
         };
-        let start = bytes.len() - bare.map_or(bytes.len(), <[u8]>::len);
+        let start = bytes.len() - content.map_or(bytes.len(), <[u8]>::len);
         Self {
             bytes,
             position: start,
@@ -83,7 +94,7 @@ impl<'a> PairReader<'a> {
         }
     }
 
-    /// The next pair; `None` where the file ends.
+    /// Returns the next pair, or `None` at the end of the file.
     pub fn next(&mut self) -> Result<Option<GroupPair<'a>>, DxfError> {
         if self.form == DxfEncoding::Text {
             return self.next_text();
@@ -97,7 +108,7 @@ impl<'a> PairReader<'a> {
         Ok(Some(GroupPair { code, at, value }))
     }
 
-    /// Where reading goes on.
+    /// Returns the position of the next pair.
     pub fn place(&self) -> DxfPlace {
         match self.form {
             DxfEncoding::Text => DxfPlace::Line(self.line + 1),
@@ -105,12 +116,13 @@ impl<'a> PairReader<'a> {
         }
     }
 
+    /// Reads a pair of a text file.
     fn next_text(&mut self) -> Result<Option<GroupPair<'a>>, DxfError> {
         let at = self.place();
         let Some(code) = self.line() else {
             return Ok(None);
         };
-        // Empty lines at the end are no pair that broke off.
+        // Empty lines at the end are not a truncated pair.
         if code.is_empty() && self.bytes[self.position..].trim_ascii().is_empty() {
             return Ok(None);
         }
@@ -122,6 +134,7 @@ impl<'a> PairReader<'a> {
         Ok(Some(GroupPair { code, at, value }))
     }
 
+    /// Returns the next line without surrounding white space.
     fn line(&mut self) -> Option<&'a [u8]> {
         let rest = &self.bytes[self.position..];
         if rest.is_empty() {
@@ -133,8 +146,9 @@ impl<'a> PairReader<'a> {
         Some(rest[..end].trim_ascii())
     }
 
+    /// Reads a group code of a binary file.
     fn binary_code(&mut self) -> Result<i32, DxfError> {
-        // Codes from 255 on follow in two bytes of their own.
+        // The byte 255 announces a code in the next two bytes.
         if self.form == DxfEncoding::Narrow {
             let [code] = self.take()?;
             if code != 255 {
@@ -144,6 +158,7 @@ impl<'a> PairReader<'a> {
         Ok(i16::from_le_bytes(self.take()?).into())
     }
 
+    /// Reads a value of a binary file; its type depends on the group code.
     fn binary_value(&mut self, code: i32) -> Result<GroupValue<'a>, DxfError> {
         Ok(match code {
             10..=59 | 110..=149 | 210..=239 | 460..=469 | 1010..=1059 => {
@@ -174,7 +189,7 @@ impl<'a> PairReader<'a> {
         })
     }
 
-    /// Text up to the next zero.
+    /// Reads text up to the next zero byte.
     fn string(&mut self) -> Result<&'a [u8], DxfError> {
         let at = self.place();
         let rest = &self.bytes[self.position..];
@@ -184,12 +199,14 @@ impl<'a> PairReader<'a> {
         Ok(text.trim_ascii())
     }
 
+    /// Reads a fixed number of bytes.
     fn take<const N: usize>(&mut self) -> Result<[u8; N], DxfError> {
         let at = self.place();
         let bytes = self.slice(N)?;
         bytes.try_into().map_err(|_| DxfError::Truncated(at))
     }
 
+    /// Reads a slice of the given length.
     fn slice(&mut self, length: usize) -> Result<&'a [u8], DxfError> {
         let at = self.place();
         let slice = self.bytes.get(self.position..self.position + length);

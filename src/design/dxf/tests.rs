@@ -1,8 +1,10 @@
+//! Tests of the DXF importer.
+
 use super::*;
 use crate::geometry::Regions;
 use std::f64::consts::PI;
 
-/// The file of pairs as text, with everything around the objects.
+/// Builds a text file from sections whose pairs are separated by white space.
 fn text(sections: &[(&str, &str)]) -> String {
     let section = |(name, pairs): &(&str, &str)| {
         let pairs: String = pairs
@@ -14,7 +16,7 @@ fn text(sections: &[(&str, &str)]) -> String {
     sections.iter().map(section).collect::<String>() + "0\nEOF\n"
 }
 
-/// The same as a binary file.
+/// Converts a text file to a binary file.
 fn binary(text: &str, wide: bool) -> Vec<u8> {
     let mut bytes = BINARY.to_vec();
     let mut lines = text.lines();
@@ -52,7 +54,7 @@ fn error(entities: &str) -> String {
     found(entities).err().expect("no outline").to_string()
 }
 
-fn near(found: f64, expected: f64) {
+fn assert_near(found: f64, expected: f64) {
     assert!(
         (found - expected).abs() < 1e-3 * expected,
         "{found} for {expected}"
@@ -65,13 +67,13 @@ const SQUARE: &str = "0 LINE 8 0 10 0 20 0 11 4 21 0 0 LINE 8 0 10 4 20 4 11 4 2
 #[test]
 fn lines_are_joined_into_rings() {
     let square = found(SQUARE).expect("a square");
-    near(square.regions.area(), 16.0);
+    assert_near(square.regions.area(), 16.0);
     assert_eq!(square.notes, []);
     assert_eq!(square.extent.size(), DVec2::splat(4.0));
 }
 
 #[test]
-fn every_curve_is_read() {
+fn every_curve_type_is_imported() {
     let pi = PI;
     for (entities, area) in [
         ("0 CIRCLE 8 0 10 3 20 4 40 2", 4.0 * pi),
@@ -92,14 +94,14 @@ fn every_curve_is_read() {
              0 VERTEX 8 0 10 4 20 3 0 SEQEND 8 0",
             6.0,
         ),
-        // A quarter of a circle as a rational spline, and two lines.
+        // A quarter circle as a rational spline, closed by two lines.
         (
             "0 SPLINE 8 0 70 8 71 2 72 6 73 3 40 0 40 0 40 0 40 1 40 1 40 1
              41 1 41 0.7071067811865476 41 1 10 2 20 0 10 2 20 2 10 0 20 2
              0 LINE 8 0 10 0 20 0 11 2 21 0 0 LINE 8 0 10 0 20 2 11 0 21 0",
             pi,
         ),
-        // Mirrored by its extrusion: seen from below.
+        // An extrusion direction of −z mirrors the arc.
         (
             "0 ARC 8 0 10 0 20 0 40 2 50 0 51 90 210 0 220 0 230 -1
              0 LINE 8 0 10 0 20 0 11 -2 21 0 0 LINE 8 0 10 0 20 0 11 0 21 2",
@@ -107,7 +109,7 @@ fn every_curve_is_read() {
         ),
     ] {
         let found = found(entities).expect(entities);
-        near(found.regions.area(), area);
+        assert_near(found.regions.area(), area);
         assert_eq!(found.notes, [], "{entities}");
     }
 }
@@ -117,14 +119,14 @@ fn rings_in_rings_are_holes() {
     let circle = "0 CIRCLE 8 0 10 2 20 2 40 1";
     let washer = regions(&format!("{SQUARE} {circle}"));
     assert_eq!(washer.rings().count(), 2);
-    near(washer.area(), 16.0 - PI);
+    assert_near(washer.area(), 16.0 - PI);
     let twice = found(&format!("{SQUARE} {circle} {SQUARE} {circle}")).expect("an outline");
-    near(twice.regions.area(), 16.0 - PI);
+    assert_near(twice.regions.area(), 16.0 - PI);
     assert_eq!(twice.notes, [ImportNote::Duplicates(5)]);
 }
 
 #[test]
-fn blocks_are_put_where_they_are_inserted() {
+fn blocks_are_expanded_at_their_insertions() {
     let blocks = format!(
         "0 BLOCK 8 0 2 PART 10 2 20 2 {SQUARE} 0 ENDBLK
          0 BLOCK 8 0 2 PAIR 10 0 20 0 0 INSERT 8 0 2 PART 10 0 20 0
@@ -135,19 +137,19 @@ fn blocks_are_put_where_they_are_inserted() {
     let file = text(&[("BLOCKS", &blocks), ("ENTITIES", entities)]);
     let found = read(file.as_bytes(), 1e-5).expect("copies");
     assert_eq!(found.regions.len(), 6);
-    near(found.regions.area(), 3.0 * (16.0 + 32.0) + 4.0 * 16.0);
+    assert_near(found.regions.area(), 3.0 * (16.0 + 32.0) + 4.0 * 16.0);
     assert_eq!(found.notes.len(), 1);
 }
 
 #[test]
-fn what_is_hidden_is_not_there() {
+fn hidden_entities_are_ignored() {
     let tables = "0 TABLE 2 LAYER 0 LAYER 2 off 70 0 62 -7 0 LAYER 2 ice 70 1 62 7 0 ENDTAB";
     let entities = format!(
         "{SQUARE} 0 CIRCLE 8 off 40 9 0 CIRCLE 8 ice 40 9 0 CIRCLE 8 0 60 1 40 9
          0 CIRCLE 8 0 67 1 40 9"
     );
     let file = text(&[("TABLES", tables), ("ENTITIES", &entities)]);
-    near(
+    assert_near(
         read(file.as_bytes(), 1e-5)
             .expect("a square")
             .regions
@@ -157,11 +159,11 @@ fn what_is_hidden_is_not_there() {
 }
 
 #[test]
-fn binary_files_of_both_kinds_are_read() {
+fn both_binary_encodings_are_imported() {
     let file = text(&[("HEADER", "9 $X 70 4"), ("ENTITIES", SQUARE)]);
     for wide in [true, false] {
         let found = read(&binary(&file, wide), 1e-5).expect("a square");
-        near(found.regions.area(), 16.0);
+        assert_near(found.regions.area(), 16.0);
     }
     let whole = binary(&file, true);
     for length in BINARY.len() + 20..whole.len() - 20 {
@@ -170,40 +172,39 @@ fn binary_files_of_both_kinds_are_read() {
 }
 
 #[test]
-fn open_curves_and_other_objects_are_told() {
+fn ignored_curves_and_entities_are_reported() {
     let found = found(&format!(
         "{SQUARE} 0 LINE 8 0 10 4 20 4 11 9 21 9 0 MTEXT 8 0 10 0 20 0 1 words 0 HATCH 8 0"
     ))
     .expect("a square");
-    near(found.regions.area(), 16.0);
+    assert_near(found.regions.area(), 16.0);
     let words: Vec<_> = found.notes.iter().map(ToString::to_string).collect();
     assert_eq!(
         words,
         [
-            "1 curve that does not close was left out; close the gap at (9, 9)",
-            "1 object of the kind HATCH was left out",
-            "1 object of the kind MTEXT was left out",
+            "1 open curve was ignored; close the gap at (9, 9)",
+            "1 object of type HATCH was ignored",
+            "1 object of type MTEXT was ignored",
         ]
     );
 }
 
 #[test]
-fn what_cannot_be_used_is_named_with_its_place() {
-    let lines = |text: &str| error(text);
-    assert!(lines("0 LINE 8 0 10 x 20 0").contains("line 10: there is no number"));
-    assert!(lines("0 LINE 8 0 10 nan 20 0").contains("line 10: there is no number"));
-    assert!(lines("0 LINE 8 0 10 1e300 20 0").contains("line 10: there is no number"));
-    assert!(lines("0 LINE 8 0 ten 1").contains("line 9: there is no group code"));
-    assert!(lines("0 SPLINE 8 0 71 3 10 0 20 0").contains("line 6: SPLINE cannot be used"));
-    assert!(lines("0 TEXT 8 0 1 words").contains("only 1 TEXT"));
-    assert!(lines("0 LINE 8 0 10 0 20 0 11 4 21 0").contains("none of the curves close"));
+fn faults_are_reported_with_their_position() {
+    assert!(error("0 LINE 8 0 10 x 20 0").contains("line 10: expected a number"));
+    assert!(error("0 LINE 8 0 10 nan 20 0").contains("line 10: expected a number"));
+    assert!(error("0 LINE 8 0 10 1e300 20 0").contains("line 10: expected a number"));
+    assert!(error("0 LINE 8 0 ten 1").contains("line 9: a group code is missing"));
+    assert!(error("0 SPLINE 8 0 71 3 10 0 20 0").contains("line 6: SPLINE cannot be used"));
+    assert!(error("0 TEXT 8 0 1 words").contains("only 1 TEXT"));
+    assert!(error("0 LINE 8 0 10 0 20 0 11 4 21 0").contains("no curves form a closed outline"));
     let whole = text(&[("ENTITIES", SQUARE)]);
     let cut = read(&whole.as_bytes()[..100], 1e-5).err().expect("cut");
-    assert!(cut.to_string().contains("ends in the middle"), "{cut}");
+    assert!(cut.to_string().contains("is incomplete"), "{cut}");
 }
 
 #[test]
-fn blocks_in_themselves_and_bombs_are_refused() {
+fn recursive_and_exponential_blocks_are_refused() {
     let own = text(&[
         ("BLOCKS", "0 BLOCK 2 A 0 INSERT 8 0 2 A 0 ENDBLK"),
         ("ENTITIES", "0 INSERT 8 0 2 A"),
@@ -221,7 +222,7 @@ fn blocks_in_themselves_and_bombs_are_refused() {
 }
 
 #[test]
-fn a_curve_keeps_within_the_tolerance() {
+fn a_flattened_circle_uses_its_tolerance() {
     for tolerance in [1e-2, 1e-3, 1e-4] {
         let file = text(&[("ENTITIES", "0 CIRCLE 8 0 10 0 20 0 40 1")]);
         let found = read(file.as_bytes(), tolerance).expect("a disc");
@@ -239,7 +240,7 @@ fn a_curve_keeps_within_the_tolerance() {
     }
 }
 
-/// Squares of this side at x on a layer, with more pairs.
+/// Returns a square with its left edge at `x` on a layer, with additional pairs.
 fn square_on(layer: &str, x: f64, side: f64, more: &str) -> String {
     let (right, top) = (x + side, side);
     format!(
@@ -248,22 +249,22 @@ fn square_on(layer: &str, x: f64, side: f64, more: &str) -> String {
     )
 }
 
-/// What is painted: colour, name and area, the lowest first.
+/// Returns colour, name and area of each paint layer, lowest first.
 fn painted(sections: &[(&str, &str)]) -> Vec<(Option<Rgb>, String, f64)> {
     let file = text(sections);
     let outlines = read(file.as_bytes(), 1e-5).expect("an outline");
-    let coat = |coat: &PaintLayer| {
+    let summary = |coat: &PaintLayer| {
         let colour = coat.paint.map(|paint| paint.colour);
         (colour, coat.name.clone(), coat.regions.area().round())
     };
-    outlines.coats.iter().map(coat).collect()
+    outlines.coats.iter().map(summary).collect()
 }
 
 const LAYERS: &str = "0 TABLE 2 LAYER 0 LAYER 2 walls 70 0 62 1 0 LAYER 2 sea 70 0 62 5 420 255
     0 LAYER 2 plain 70 0 62 7 0 ENDTAB";
 
 #[test]
-fn layers_and_objects_give_their_colours_to_coats() {
+fn layers_and_entities_colour_the_paint_layers() {
     let red = Some(Rgb([255, 0, 0]));
     let entities = [
         square_on("walls", 0.0, 2.0, ""),
@@ -283,7 +284,7 @@ fn layers_and_objects_give_their_colours_to_coats() {
 }
 
 #[test]
-fn blocks_take_colours_from_where_they_are_put() {
+fn blocks_inherit_colours_from_their_reference() {
     let block = format!(
         "0 BLOCK 8 0 2 tile 10 0 20 0 {} {} 0 ENDBLK",
         square_on("0", 0.0, 4.0, ""),
@@ -291,7 +292,7 @@ fn blocks_take_colours_from_where_they_are_put() {
     );
     let insert = "0 INSERT 8 walls 62 3 2 tile 10 0 20 0";
     let found = painted(&[("TABLES", LAYERS), ("BLOCKS", &block), ("ENTITIES", insert)]);
-    // Of the layer that the block is put on, and of the block.
+    // The colour of the reference's layer, then the colour of the reference.
     let expected = [
         (Some(Rgb([255, 0, 0])), "walls".to_owned(), 16.0),
         (Some(Rgb([0, 255, 0])), "other".to_owned(), 4.0),
@@ -300,7 +301,7 @@ fn blocks_take_colours_from_where_they_are_put() {
 }
 
 #[test]
-fn what_closes_only_across_layers_has_the_colour_of_most_of_it() {
+fn a_ring_across_layers_takes_the_colour_of_the_longest_part() {
     let corners = [(0, 0), (6, 0), (6, 4), (0, 4)];
     let line = |k: usize| {
         let ((x, y), (u, v)) = (corners[k], corners[(k + 1) % 4]);
@@ -318,7 +319,7 @@ fn what_closes_only_across_layers_has_the_colour_of_most_of_it() {
 }
 
 #[test]
-fn black_on_white_is_no_colour() {
+fn colour_index_7_is_no_colour() {
     let entities = square_on("plain", 0.0, 2.0, "");
     assert_eq!(painted(&[("TABLES", LAYERS), ("ENTITIES", &entities)]), []);
     assert_eq!(painted(&[("ENTITIES", SQUARE)]), []);

@@ -1,7 +1,9 @@
+//! Tests of the OBJ importer.
+
 use super::*;
 
 #[test]
-fn numbers_and_order_are_kept_and_quads_become_fans() {
+fn vertex_order_is_preserved_and_quads_become_fans() {
     let text = "# c\nmtllib x.mtl\no a\nv 0 0 5\nv 1 0 5 # right\nv 1 1 5\nv 0 1 5\n\
                 vt 0 0\nvn 0 0 1\ng b\nusemtl m\nf 2/1/1 3//1 \\\n 4 1/1\n";
     let mesh = read(text).expect("valid");
@@ -15,15 +17,15 @@ fn error(text: &str) -> ObjError {
     read(text).expect_err("bad")
 }
 
-fn fault(text: &str, at: usize) -> ObjFault {
+fn fault(text: &str, expected_line: usize) -> ObjFault {
     match error(text) {
-        ObjError::Line { line, fault } if line == at => fault,
+        ObjError::Line { line, fault } if line == expected_line => fault,
         other => panic!("{other}"),
     }
 }
 
 #[test]
-fn a_bad_line_is_named() {
+fn a_bad_vertex_line_is_reported() {
     assert_eq!(fault("v 1\n", 1), ObjFault::Vertex(1));
     for bad in ["NaN", "inf", "-inf", "1e999", "1.1e18"] {
         let text = format!("v 0 0 0\nv {bad} 0 0\n");
@@ -40,7 +42,7 @@ fn a_bad_line_is_named() {
 }
 
 #[test]
-fn a_bad_face_is_named() {
+fn a_bad_face_is_reported() {
     let triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let face = |face: &str| fault(&format!("{triangle}f {face}\n"), 4);
     for (words, named) in [("1 2 4", 4), ("1 2 0", 0), ("1 2 -4", -4)] {

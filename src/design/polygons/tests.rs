@@ -1,3 +1,5 @@
+//! Tests of the polygon importer.
+
 use super::*;
 
 const SQUARE: &str = "[[0,0],[4,0],[4,4],[0,4],[0,0]]";
@@ -12,7 +14,7 @@ fn error(text: &str) -> String {
 }
 
 #[test]
-fn every_plain_form_is_read() {
+fn every_plain_structure_is_imported() {
     for (text, expected) in [
         (SQUARE.to_owned(), 16.0),
         (format!("[{SQUARE}, {HOLE}]"), 12.0),
@@ -29,7 +31,7 @@ fn every_plain_form_is_read() {
 }
 
 #[test]
-fn geojson_polygons_are_found_wherever_they_lie() {
+fn geojson_polygons_are_imported_at_any_depth() {
     let polygon = format!("{{\"type\": \"Polygon\", \"coordinates\": [{SQUARE}, {HOLE}]}}");
     let multi = format!("{{\"type\": \"MultiPolygon\", \"coordinates\": [[{SQUARE}],[{HOLE}]]}}");
     let point = "{\"type\": \"Point\", \"coordinates\": [1, 2, 3]}";
@@ -49,46 +51,44 @@ fn geojson_polygons_are_found_wherever_they_lie() {
     assert_eq!(
         words,
         [
-            "1 object of the kind Feature without a geometry was left out",
-            "2 objects of the kind Point were left out",
+            "1 object of type Feature without a geometry was ignored",
+            "2 objects of type Point were ignored",
         ]
     );
 }
 
 #[test]
-fn repairs_are_told() {
+fn repairs_are_reported() {
     let bow = "[[0,0],[2,2],[2,0],[0,2]]";
     let found = read(&format!("[{bow}, {SQUARE}, {SQUARE}, [[1,1],[2,2]]]")).expect("read");
     let words: Vec<_> = found.notes.iter().map(ToString::to_string).collect();
     assert_eq!(
         words[0],
-        "1 crossing of edges was resolved by the even-odd rule"
+        "1 edge crossing was resolved by the even-odd rule"
     );
     assert!(
-        words
-            .iter()
-            .any(|w| w == "1 outline drawn again was left out"),
+        words.iter().any(|w| w == "1 duplicate outline was ignored"),
         "{words:?}"
     );
     assert!(
-        words.iter().any(|w| w.contains("encloses nothing")),
+        words.iter().any(|w| w.contains("encloses no area")),
         "{words:?}"
     );
 }
 
 #[test]
-fn each_fault_is_named_with_its_path() {
+fn each_fault_is_reported_with_its_path() {
     for (text, words) in [
         ("[]", "$ is an empty list; give a ring"),
         ("[1, 2]", "$ is a list; give a ring"),
         ("[[0,0],[1,0],[1]]", "$[2] is a list; give a point"),
         (
             "[[0,0],[1,\"a\"],[1,1]]",
-            "$[1] is a text; give two numbers",
+            "$[1] is a string; give two numbers",
         ),
         (
             "[[0,0],[1,1e70],[1,1]]",
-            "$[1] has a coordinate that is no number from -1e18 to 1e18",
+            "$[1] has a coordinate that is not a number between -1e18 and 1e18",
         ),
         ("[[0,0],[1,1e999],[1,1]]", "line 1, column"),
         (
@@ -96,14 +96,14 @@ fn each_fault_is_named_with_its_path() {
             "$.rings is a number; give a list of rings",
         ),
         ("{\"type\": \"Polygon\"}", "$ has no \"coordinates\""),
-        ("{\"type\": 7}", "$ is of the type \"\""),
+        ("{\"type\": 7}", "$ has the type \"\""),
         (
             "{\"type\": \"FeatureCollection\", \"features\": [{\"type\": \"Feature\", \"geometry\": {\"type\": \"Polygon\", \"coordinates\": [[[0,0],[1,0],7]]}}]}",
             "$.features[0].geometry.coordinates[0][2] is a number; give a point",
         ),
         (
             "{\"type\": \"LineString\", \"coordinates\": []}",
-            "there is no polygon in the file, only 1 LineString",
+            "the file has no polygons, only 1 LineString",
         ),
         ("[[0,0],[1,1],[2,2]]", "enclose no area"),
         (
@@ -116,7 +116,7 @@ fn each_fault_is_named_with_its_path() {
 }
 
 #[test]
-fn features_keep_the_fill_that_they_name() {
+fn features_keep_their_fill_colour() {
     let feature = |ring: &str, properties: &str| {
         let polygon = format!("{{\"type\": \"Polygon\", \"coordinates\": [{ring}]}}");
         format!("{{\"type\": \"Feature\", \"properties\": {properties}, \"geometry\": {polygon}}}")
@@ -143,7 +143,7 @@ fn features_keep_the_fill_that_they_name() {
     });
     let expected = [([0, 0, 255], 1.0, "sea", 16.0), ([255, 0, 0], 0.5, "", 4.0)];
     assert!(coats.eq(expected));
-    let unseen = "{\"fill\": \"#00f\", \"fill-opacity\": 0}";
-    let plain = map(&[feature(SQUARE, unseen), feature(HOLE, "{\"fill\": 7}")]);
+    let transparent = "{\"fill\": \"#00f\", \"fill-opacity\": 0}";
+    let plain = map(&[feature(SQUARE, transparent), feature(HOLE, "{\"fill\": 7}")]);
     assert_eq!(plain.expect("a map").coats, []);
 }

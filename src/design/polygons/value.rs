@@ -1,68 +1,66 @@
-//! Points, rings and lists of rings in JSON, and why they give no polygons.
+//! Readers of points, rings and polygons in JSON values, and their errors.
 //!
-//! What is wrong is told at once, and where it is on the way out: each value
-//! adds its step to the path of an error from within it.
+//! An error is created without its position. Each enclosing value then prepends its step
+//! to the error's path (see [`PolygonsImportError::within`]).
 
 use crate::design::json_error::JsonError;
 use crate::design::note::OtherKinds;
 use crate::geometry::{DVec2, RANGE_MESSAGE, RegionsError, is_in_range};
 use serde_json::Value;
 
-/// Why JSON gives no polygons.
+/// Error of importing polygons from JSON.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PolygonsImportError {
-    /// Not JSON.
+    /// The text is not valid JSON.
     #[error(transparent)]
     Json(#[from] JsonError),
-    /// A value that cannot be used.
+    /// A value cannot be used.
     #[error("${path} {fault}")]
     Value {
-        /// The way to it from the document, such as `.features[2].geometry`.
+        /// Path of the value in the document, such as `.features[2].geometry`.
         path: String,
-        /// What is wrong with it.
+        /// Fault of the value.
         fault: PolygonsFault,
     },
-    /// More objects than are read.
-    #[error(
-        "there are more than {MAX_OBJECTS} objects in the file; save its polygons as one multi-polygon"
-    )]
+    /// The file has too many JSON objects.
+    #[error("the file has more than {MAX_OBJECTS} objects; save its polygons as one MultiPolygon")]
     TooManyObjects,
-    /// There is not one polygon.
-    #[error("there is no polygon in the file{0}; save filled outlines")]
+    /// The file has no polygons; lists the other objects.
+    #[error("the file has no polygons{0}; save filled outlines")]
     NoPolygon(OtherKinds),
-    /// Nothing is enclosed.
+    /// The polygons enclose no area.
     #[error(transparent)]
     Regions(#[from] RegionsError),
 }
 
-/// What is wrong with a value.
+/// Fault of a JSON value, worded to follow its path.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum PolygonsFault {
-    /// Something else stands where something should.
+    /// The value has the wrong type.
     #[error("is {found}; give {expected}")]
     Expected {
-        /// What should be there.
+        /// Expected type.
         expected: &'static str,
-        /// What is there.
+        /// Actual type.
         found: &'static str,
     },
-    /// A member that must be there is not.
+    /// A required member is missing.
     #[error("has no \"{key}\"; give {expected}")]
     Missing {
-        /// The member.
+        /// Name of the member.
         key: &'static str,
-        /// What should be there.
+        /// Expected type of the member.
         expected: &'static str,
     },
-    /// A point with a coordinate beyond [`MAX_COORDINATE`].
+    /// A coordinate exceeds [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("{RANGE_MESSAGE}")]
     Place,
-    /// A type that GeoJSON does not have.
-    #[error("is of the type \"{0}\", which GeoJSON does not have; correct the type")]
+    /// The object has a type that GeoJSON does not define.
+    #[error("has the type \"{0}\", which GeoJSON does not define; correct it")]
     Type(String),
 }
 
@@ -74,7 +72,7 @@ impl From<PolygonsFault> for PolygonsImportError {
 }
 
 impl PolygonsImportError {
-    /// The same, seen from a step further out.
+    /// Prepends a step, such as `.geometry` or `[2]`, to the path of the error.
     pub(super) fn within(self, step: &str) -> Self {
         match self {
             Self::Value { path, fault } => Self::Value {
@@ -86,10 +84,11 @@ impl PolygonsImportError {
     }
 }
 
-/// Most objects in a file: each takes some 600 bytes while it is read, however
-/// few it has there.
+/// Maximum number of objects in a file (resource limit: each takes about 600 bytes of
+/// memory during the import).
 pub(super) const MAX_OBJECTS: usize = 1_000_000;
 
+/// Closed polygon; the last point connects to the first.
 pub(super) type JsonRing = Vec<DVec2>;
 
 type PolygonsResult<T> = std::result::Result<T, PolygonsImportError>;
@@ -98,13 +97,13 @@ const POINT: &str = "a point, as in [1.5, 2]";
 pub(super) const RING: &str = "a ring, as in [[0, 0], [4, 0], [0, 3]]";
 pub(super) const RINGS: &str = "a list of rings";
 
-/// That something else should be here.
+/// Returns the error for a value of the wrong type.
 pub(super) fn type_mismatch(expected: &'static str, value: &Value) -> PolygonsImportError {
     let found = match value {
         Value::Null => "null",
         Value::Bool(_) => "true or false",
         Value::Number(_) => "a number",
-        Value::String(_) => "a text",
+        Value::String(_) => "a string",
         Value::Array(list) if list.is_empty() => "an empty list",
         Value::Array(_) => "a list",
         Value::Object(_) => "an object",
@@ -112,7 +111,7 @@ pub(super) fn type_mismatch(expected: &'static str, value: &Value) -> PolygonsIm
     PolygonsFault::Expected { expected, found }.into()
 }
 
-/// Reads each value of what should be a list.
+/// Reads every element of a list with `read`. `what` names the expected list in errors.
 pub(super) fn read_list<T>(
     value: &Value,
     what: &'static str,
@@ -123,7 +122,7 @@ pub(super) fn read_list<T>(
     list.iter().enumerate().map(read).collect()
 }
 
-/// Reads a member of an object, if it is there.
+/// Reads a member of an object with `read`; returns `None` if it is missing.
 pub(super) fn read_member<T>(
     object: &Value,
     key: &'static str,
@@ -133,6 +132,7 @@ pub(super) fn read_member<T>(
     read.map_err(|error| error.within(&format!(".{key}")))
 }
 
+/// Reads a point; numbers after the first two are ignored.
 fn point(value: &Value) -> PolygonsResult<DVec2> {
     let number = |value: &Value| {
         let number = value.as_f64();
@@ -141,26 +141,29 @@ fn point(value: &Value) -> PolygonsResult<DVec2> {
     match value.as_array().map(Vec::as_slice) {
         Some([x, y, ..]) => {
             let point = DVec2::new(number(x)?, number(y)?);
-            let found = is_in_range(point).then_some(point);
-            found.ok_or_else(|| PolygonsFault::Place.into())
+            let valid = is_in_range(point).then_some(point);
+            valid.ok_or_else(|| PolygonsFault::Place.into())
         }
         _ => Err(type_mismatch(POINT, value)),
     }
 }
 
+/// Reads a ring: a list of points.
 pub(super) fn ring(value: &Value) -> PolygonsResult<JsonRing> {
     read_list(value, RING, point)
 }
 
+/// Reads a polygon: a list of rings.
 pub(super) fn rings(value: &Value) -> PolygonsResult<Vec<JsonRing>> {
     read_list(value, RINGS, ring)
 }
 
+/// Reads a list of polygons.
 pub(super) fn polygons(value: &Value) -> PolygonsResult<Vec<Vec<JsonRing>>> {
     read_list(value, "a list of polygons, each a list of rings", rings)
 }
 
-/// Lists in lists down to the first number.
+/// Returns the nesting depth of a list, following first elements.
 pub(super) fn depth(value: &Value) -> usize {
     match value {
         Value::Array(list) => 1 + list.first().map_or(0, depth),

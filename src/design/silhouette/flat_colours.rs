@@ -1,10 +1,11 @@
-//! A picture of flat colours as coats of paint, one for each colour.
+//! Separates a picture of flat colours into one paint layer per colour.
 //!
-//! Flat are the colours of pixels that have their like all around. The ground is
-//! what is transparent, or the flat colour along most of the border. A boundary
-//! runs where a pixel is as near to a colour as to the nearest other one that is
-//! flat close by, so that smooth edges give sub-pixel accuracy and no third
-//! colour between two. What lies within a colour lies on it: it has no hole there.
+//! A colour is flat if it has pixels whose eight neighbours have almost the same colour. The
+//! background is the transparent area, or the flat colour of most pixels along the border.
+//! The boundary of a colour runs where a pixel is equally close to it and to another flat
+//! colour of the neighbourhood, so anti-aliased edges give sub-pixel accuracy and produce
+//! no third colour between two. Enclosed colours are stacked on top, so they leave no hole
+//! in the colour below.
 
 use super::{FigureSamples, SilhouetteError, is_on_border};
 use crate::colour::Rgb;
@@ -15,32 +16,32 @@ use image::{Rgba, RgbaImage};
 use rayon::prelude::*;
 use std::collections::HashMap;
 
-/// Most colours that are told apart: more are shades of a photograph.
-const MOST: usize = 16;
+/// Maximum number of flat colours; a picture with more counts as shaded (heuristic).
+const MAX_COLOURS: usize = 16;
 
-/// Colours nearer to each other than this, of 255, are one: a JPEG leaves that.
-const ALIKE: u8 = 24;
+/// Colours whose channels differ by less than this, of 255, count as equal (tolerance: JPEG
+/// noise).
+const SAME_COLOUR: u8 = 24;
 
-/// The least share of the picture that a colour covers.
-const LEAST: f64 = 0.0005;
+/// Minimum fraction of the picture that a flat colour covers (heuristic).
+const MIN_COLOUR_AREA: f64 = 0.0005;
 
-/// The least share of the picture that is flat: of photographs of people before a
-/// plain wall less than half is.
-const FLAT: f64 = 0.6;
+/// Minimum fraction of the picture that is flat; portraits in front of a plain wall stay below
+/// one half (heuristic).
+const MIN_FLAT_AREA: f64 = 0.6;
 
-/// How many pixels from the border the ground is looked for, and all that is not
-/// flat is ground.
-const EDGE: usize = 4;
+/// Width of the border zone in pixels. The background colour is determined there, and
+/// pixels in it that are not flat belong to the background (heuristic).
+const BORDER_WIDTH: usize = 4;
 
-/// How far around a pixel flat colours are looked for: a smooth edge is two or
-/// three pixels wide.
-const AROUND: usize = 2;
+/// Radius in pixels in which the candidate colours of a pixel are collected: an anti-aliased
+/// edge is two or three pixels wide.
+const NEIGHBOURHOOD: usize = 2;
 
-/// The coats of a picture, the lowest first; none where its colours are not
-/// flat.
+/// Returns the paint layers of a picture, lowest first; none if its colours are not flat.
 ///
 /// # Errors
-/// [`SilhouetteError`] where a boundary has absurdly many points.
+/// [`SilhouetteError`] if a boundary has too many points.
 pub(in crate::design) fn flat_colour_layers(
     picture: &RgbaImage,
     options: &ImportOptions,
@@ -59,7 +60,7 @@ pub(in crate::design) fn flat_colour_layers(
                 paint: Some(Rgb(colours.flat[colour].0).into()),
                 name: String::new(),
             }),
-            // Its specks were all there was of it.
+            // The colour consisted of removed specks only.
             Err(SilhouetteError::Empty { .. }) => {}
             Err(error) => return Err(error),
         }
@@ -67,23 +68,23 @@ pub(in crate::design) fn flat_colour_layers(
     Ok(stack_by_containment(&sheets))
 }
 
-/// Red, green and blue, and whether there is anything.
+/// Colour of a pixel as red, green and blue, and whether the pixel is opaque.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 struct PixelColour([u8; 3], bool);
 
-/// Nothing.
-const GROUND: PixelColour = PixelColour([0; 3], false);
+/// Colour of a transparent pixel.
+const TRANSPARENT: PixelColour = PixelColour([0; 3], false);
 
 impl PixelColour {
     fn of(&Rgba([r, g, b, a]): &Rgba<u8>) -> Self {
         match a < 128 {
-            true => GROUND,
+            true => TRANSPARENT,
             false => Self([r, g, b], true),
         }
     }
 
-    /// How far two are apart.
-    fn far(self, other: Self) -> u8 {
+    /// Returns the largest difference of a channel, 0 to 255; 255 if only one is opaque.
+    fn distance(self, other: Self) -> u8 {
         if self.1 != other.1 {
             return u8::MAX;
         }
@@ -92,76 +93,85 @@ impl PixelColour {
     }
 }
 
-/// What is known of a pixel.
+/// Best matching flat colours of a pixel.
 #[derive(Clone, Copy)]
 struct ColourMatch {
-    /// The flat colours that are close by, as bits.
-    near: u32,
-    /// The nearest of them, and how far it is.
-    label: u8,
-    far: u8,
-    /// How far the second is; none where there is no other.
-    second: Option<u8>,
+    /// Bit mask of the flat colours in the neighbourhood.
+    candidates: u32,
+    /// Index of the closest candidate.
+    closest: u8,
+    /// Distance to the closest candidate.
+    distance: u8,
+    /// Distance to the second closest candidate, if there are two.
+    second_distance: Option<u8>,
 }
 
 impl ColourMatch {
-    fn of(ink: PixelColour, near: u32, flat: &[PixelColour]) -> Self {
+    /// Finds the closest and second closest of the candidate colours.
+    fn of(ink: PixelColour, candidates: u32, flat: &[PixelColour]) -> Self {
         let mut pixel = Self {
-            near,
-            label: 0,
-            far: u8::MAX,
-            second: None,
+            candidates,
+            closest: 0,
+            distance: u8::MAX,
+            second_distance: None,
         };
-        let allowed = (0_u8..).zip(flat).filter(|(k, _)| near & (1 << k) != 0);
-        for (count, (label, &other)) in allowed.enumerate() {
-            let far = ink.far(other);
+        let allowed = (0_u8..)
+            .zip(flat)
+            .filter(|(k, _)| candidates & (1 << k) != 0);
+        for (count, (index, &other)) in allowed.enumerate() {
+            let distance = ink.distance(other);
             if count == 0 {
-                (pixel.label, pixel.far) = (label, far);
-            } else if far < pixel.far {
-                pixel.second = Some(pixel.far);
-                (pixel.label, pixel.far) = (label, far);
-            } else if pixel.second.is_none_or(|second| far < second) {
-                pixel.second = Some(far);
+                (pixel.closest, pixel.distance) = (index, distance);
+            } else if distance < pixel.distance {
+                pixel.second_distance = Some(pixel.distance);
+                (pixel.closest, pixel.distance) = (index, distance);
+            } else if pixel.second_distance.is_none_or(|second| distance < second) {
+                pixel.second_distance = Some(distance);
             }
         }
         pixel
     }
 }
 
-/// A picture's flat colours, and which of them each pixel may be of.
+/// Flat colours of a picture and the matching colours of each pixel.
 struct FlatColours {
+    /// Width and height in pixels.
     size: (u32, u32),
+    /// Flat colours, largest area first.
     flat: Vec<PixelColour>,
-    /// The number of the ground's.
+    /// Index of the background colour in `flat`.
     ground: usize,
+    /// Colours of the pixels, lowest row first.
     inks: Vec<PixelColour>,
-    /// The lowest row first, as the inks.
+    /// Matches of the pixels, lowest row first.
     pixels: Vec<ColourMatch>,
 }
 
 impl FlatColours {
-    /// None where there are too many, or too little is flat.
+    /// Analyses a picture; returns `None` if it has too many colours or too little flat area.
     fn of(picture: &RgbaImage) -> Option<Self> {
         let rows = picture.rows().rev();
         let inks: Vec<PixelColour> = rows.flatten().map(PixelColour::of).collect();
         let (width, count) = (picture.width() as usize, inks.len());
-        let is_flat = |i: usize| around(i, width, count, 1).all(|j| inks[i].far(inks[j]) < ALIKE);
+        let is_flat =
+            |i: usize| around(i, width, count, 1).all(|j| inks[i].distance(inks[j]) < SAME_COLOUR);
         let is_flat: Vec<bool> = (0..count).into_par_iter().map(is_flat).collect();
         let flat = flat_colours(&inks, &is_flat)?;
-        let ground = ground(&flat, &inks, &is_flat, width)?;
-        let own = |i: usize| match is_flat[i] {
-            true => 1 << ColourMatch::of(inks[i], u32::MAX, &flat).label,
+        let ground = background(&flat, &inks, &is_flat, width)?;
+        let own_bit = |i: usize| match is_flat[i] {
+            true => 1 << ColourMatch::of(inks[i], u32::MAX, &flat).closest,
             false => 0_u32,
         };
-        let own: Vec<u32> = (0..count).into_par_iter().map(own).collect();
+        let own_bits: Vec<u32> = (0..count).into_par_iter().map(own_bit).collect();
         let pixel = |i: usize| {
-            let near = match around(i, width, count, AROUND).fold(0, |m, j| m | own[j]) {
-                0 if is_at_edge(i, width, count) => 1 << ground,
-                // A line too thin to be flat anywhere.
+            let neighbours = around(i, width, count, NEIGHBOURHOOD);
+            let candidates = match neighbours.fold(0, |bits, j| bits | own_bits[j]) {
+                0 if is_near_border(i, width, count) => 1 << ground,
+                // A line too thin to contain a flat pixel may have any colour.
                 0 => u32::MAX,
                 some => some,
             };
-            ColourMatch::of(inks[i], near, &flat)
+            ColourMatch::of(inks[i], candidates, &flat)
         };
         Some(Self {
             size: picture.dimensions(),
@@ -172,25 +182,25 @@ impl FlatColours {
         })
     }
 
-    /// The figure of one colour.
+    /// Returns signed samples whose zero contour is the boundary of one colour.
     fn figure(&self, colour: usize) -> FigureSamples {
         let sample = |(pixel, ink): (&ColourMatch, &PixelColour)| {
-            if pixel.near & (1 << colour) == 0 {
+            if pixel.candidates & (1 << colour) == 0 {
                 return -1.0;
             }
-            let is_own = usize::from(pixel.label) == colour;
-            let own = ink.far(self.flat[colour]);
+            let is_own = usize::from(pixel.closest) == colour;
+            let own = ink.distance(self.flat[colour]);
             let other = if is_own {
-                pixel.second
+                pixel.second_distance
             } else {
-                Some(pixel.far)
+                Some(pixel.distance)
             };
             let Some(other) = other.filter(|&other| own > 0 || other > 0) else {
                 return 1.0;
             };
             let [own, other] = [own, other].map(f32::from);
             let share = (other - own) / (own + other);
-            // Never on the boundary itself.
+            // Samples must not be zero.
             if share == 0.0 { f32::EPSILON } else { share }
         };
         let (width, height) = self.size;
@@ -201,23 +211,24 @@ impl FlatColours {
             samples: pixels.map(sample).collect(),
             threshold: 128,
         };
-        self.fill_up(&mut figure);
+        self.fill_enclosed(&mut figure);
         figure
     }
 
-    /// What is enclosed and shows no ground is laid on the colour, not into it.
-    fn fill_up(&self, figure: &mut FigureSamples) {
+    /// Fills enclosed areas that contain no background, since the colours in them are stacked
+    /// on top.
+    fn fill_enclosed(&self, figure: &mut FigureSamples) {
         let (count, width) = (figure.samples.len(), figure.width as usize);
         let across = (1..count).filter(|i| !i.is_multiple_of(width));
         let across = across.map(|i| [i - 1, i]);
         let upwards = (width..count).map(|i| [i - width, i]);
-        let is_out = |i: usize| figure.samples[i] < 0.0;
-        let alike = |&[a, b]: &[usize; 2]| is_out(a) && is_out(b);
-        let links = across.chain(upwards).filter(alike);
+        let is_outside = |i: usize| figure.samples[i] < 0.0;
+        let both_outside = |&[a, b]: &[usize; 2]| is_outside(a) && is_outside(b);
+        let links = across.chain(upwards).filter(both_outside);
         let pieces = components(count, links.map(|ends| ends.map(|i| i as u32)));
         let mut is_open = vec![false; count];
         for (i, (pixel, &piece)) in self.pixels.iter().zip(&pieces).enumerate() {
-            if usize::from(pixel.label) == self.ground || is_on_border(i, width, count) {
+            if usize::from(pixel.closest) == self.ground || is_on_border(i, width, count) {
                 is_open[piece as usize] = true;
             }
         }
@@ -229,26 +240,27 @@ impl FlatColours {
     }
 }
 
-/// The number of the ground's colour.
-fn ground(
+/// Returns the index of the background colour.
+fn background(
     flat: &[PixelColour],
     inks: &[PixelColour],
     is_flat: &[bool],
     width: usize,
 ) -> Option<usize> {
-    if let Some(ground) = flat.iter().position(|&ink| ink == GROUND) {
+    if let Some(ground) = flat.iter().position(|&ink| ink == TRANSPARENT) {
         return Some(ground);
     }
     let mut counts = vec![0; flat.len()];
-    // A frame of a pixel or two, as converters leave it, is no ground.
-    let is_edge = |&i: &usize| is_flat[i] && is_at_edge(i, width, inks.len());
-    for i in (0..inks.len()).filter(is_edge) {
-        counts[usize::from(ColourMatch::of(inks[i], u32::MAX, flat).label)] += 1;
+    // A zone wider than the thin frame that some converters add around a picture.
+    let is_border = |&i: &usize| is_flat[i] && is_near_border(i, width, inks.len());
+    for i in (0..inks.len()).filter(is_border) {
+        counts[usize::from(ColourMatch::of(inks[i], u32::MAX, flat).closest)] += 1;
     }
     (0..counts.len()).max_by_key(|&k| counts[k])
 }
 
-/// The colours that are flat, those that cover most first.
+/// Returns the flat colours, largest area first, or `None` if the picture is shaded. Similar
+/// colours are merged into the most frequent one.
 fn flat_colours(inks: &[PixelColour], is_flat: &[bool]) -> Option<Vec<PixelColour>> {
     let mut counts: HashMap<PixelColour, usize> = HashMap::new();
     for (&ink, _) in inks.iter().zip(is_flat).filter(|(_, is_flat)| **is_flat) {
@@ -258,26 +270,30 @@ fn flat_colours(inks: &[PixelColour], is_flat: &[bool]) -> Option<Vec<PixelColou
     counts.sort_unstable_by_key(|&(ink, count)| (std::cmp::Reverse(count), ink));
     let mut flat: Vec<(PixelColour, usize)> = Vec::new();
     for (ink, count) in counts {
-        match flat.iter().position(|(other, _)| other.far(ink) < ALIKE) {
+        match flat
+            .iter()
+            .position(|(other, _)| other.distance(ink) < SAME_COLOUR)
+        {
             Some(k) => flat[k].1 += count,
-            None if flat.len() <= 4 * MOST => flat.push((ink, count)),
+            None if flat.len() <= 4 * MAX_COLOURS => flat.push((ink, count)),
             None => return None,
         }
     }
     let total = inks.len() as f64;
-    flat.retain(|(_, count)| *count as f64 >= LEAST * total);
+    flat.retain(|(_, count)| *count as f64 >= MIN_COLOUR_AREA * total);
     let covered: usize = flat.iter().map(|(_, count)| count).sum();
-    let is_flat = (2..=MOST).contains(&flat.len()) && covered as f64 >= FLAT * total;
+    let is_flat =
+        (2..=MAX_COLOURS).contains(&flat.len()) && covered as f64 >= MIN_FLAT_AREA * total;
     is_flat.then(|| flat.into_iter().map(|(ink, _)| ink).collect())
 }
 
-/// Whether a pixel is next to the border.
-fn is_at_edge(i: usize, width: usize, count: usize) -> bool {
+/// Returns whether a pixel lies in the border zone.
+fn is_near_border(i: usize, width: usize, count: usize) -> bool {
     let (x, y) = (i % width, i / width);
-    x.min(y).min(width - 1 - x).min(count / width - 1 - y) < EDGE
+    x.min(y).min(width - 1 - x).min(count / width - 1 - y) < BORDER_WIDTH
 }
 
-/// The pixels of a square around one that are there.
+/// Returns the pixels within `reach` rows and columns of a pixel, itself included.
 fn around(i: usize, width: usize, count: usize, reach: usize) -> impl Iterator<Item = usize> {
     let (x, y) = (i % width, i / width);
     let rows = y.saturating_sub(reach)..(y + reach + 1).min(count / width);
@@ -293,52 +309,53 @@ mod tests {
     const BLUE: [f64; 3] = [20.0, 60.0, 180.0];
     const WHITE: [f64; 3] = [255.0; 3];
 
-    /// Discs over each other, with smooth edges, on white or on nothing.
+    /// Draws overlapping anti-aliased discs (centre, radius, colour) on white or transparent.
     fn discs(discs: &[([f64; 2], f64, [f64; 3])], is_clear: bool) -> RgbaImage {
         RgbaImage::from_fn(120, 100, |x, y| {
-            let (mut ink, mut there) = (WHITE, if is_clear { 0.0 } else { 1.0 });
+            let (mut ink, mut alpha) = (WHITE, if is_clear { 0.0 } else { 1.0 });
             for &([cx, cy], r, colour) in discs {
                 let (dx, dy) = (f64::from(x) + 0.5 - cx, f64::from(y) + 0.5 - cy);
                 let share = (r + 0.5 - dx.hypot(dy)).clamp(0.0, 1.0);
-                let over = if there == 0.0 { 1.0 } else { share };
+                let over = if alpha == 0.0 { 1.0 } else { share };
                 ink = [0, 1, 2].map(|k| ink[k] * (1.0 - over) + colour[k] * over);
-                there = share + there * (1.0 - share);
+                alpha = share + alpha * (1.0 - share);
             }
             let [r, g, b] = ink.map(|c| c.round() as u8);
-            Rgba([r, g, b, (255.0 * there) as u8])
+            Rgba([r, g, b, (255.0 * alpha) as u8])
         })
     }
 
+    /// Returns colour, area and number of rings of each layer.
     fn found(picture: &RgbaImage) -> Vec<(Rgb, f64, usize)> {
         let coats = flat_colour_layers(picture, &ImportOptions::default()).expect("traced");
-        let of = |coat: &PaintLayer| {
+        let summary = |coat: &PaintLayer| {
             let colour = coat.paint.expect("a paint").colour;
             (colour, coat.regions.area(), coat.regions.rings().count())
         };
-        coats.iter().map(of).collect()
+        coats.iter().map(summary).collect()
     }
 
-    fn near(found: f64, radius: f64) {
+    fn assert_disc_area(found: f64, radius: f64) {
         let area = std::f64::consts::PI * radius * radius;
         assert!((found - area).abs() < 0.02 * area, "{found} for {area}");
     }
 
     #[test]
-    fn each_colour_is_a_coat_and_what_lies_within_lies_on_it() {
+    fn each_colour_is_a_layer_and_enclosed_colours_are_stacked() {
         let eye = [([60.0, 50.0], 40.0, RED), ([60.0, 50.0], 15.0, BLUE)];
         for is_clear in [false, true] {
             let found = found(&discs(&eye, is_clear));
             assert_eq!(found.len(), 2, "{found:?}");
             assert_eq!(found[0].0, Rgb(RED.map(|c| c as u8)));
             assert_eq!([found[0].2, found[1].2], [1, 1]);
-            near(found[0].1, 40.0);
-            near(found[1].1, 15.0);
+            assert_disc_area(found[0].1, 40.0);
+            assert_disc_area(found[1].1, 15.0);
         }
     }
 
     #[test]
-    fn a_hole_that_shows_the_ground_stays_one_and_no_third_colour_comes_between() {
-        // Half way from white to red there is nothing, though pink is flat elsewhere.
+    fn background_holes_stay_and_blended_edges_add_no_colour() {
+        // Edge pixels between white and red are pink, which is a flat colour elsewhere.
         let pink = [228.0, 142.0, 148.0];
         let all = [
             ([40.0, 50.0], 30.0, RED),
@@ -348,11 +365,11 @@ mod tests {
         let found = found(&discs(&all, false));
         assert_eq!(found.len(), 2, "{found:?}");
         assert_eq!([found[0].2, found[1].2], [2, 1]);
-        near(found[1].1, 12.0);
+        assert_disc_area(found[1].1, 12.0);
     }
 
     #[test]
-    fn a_thin_frame_is_no_ground() {
+    fn a_thin_frame_is_not_the_background() {
         let mut picture = discs(&[([60.0, 50.0], 30.0, BLUE)], false);
         for x in 0..120 {
             for (y, grey) in [(0, 0), (1, 90), (2, 190)] {
@@ -362,11 +379,11 @@ mod tests {
         }
         let found = found(&picture);
         assert_eq!(found.len(), 1, "{found:?}");
-        near(found[0].1, 30.0);
+        assert_disc_area(found[0].1, 30.0);
     }
 
     #[test]
-    fn what_has_no_flat_colours_has_no_coats() {
+    fn pictures_without_flat_colours_have_no_layers() {
         let shades =
             RgbaImage::from_fn(80, 80, |x, y| Rgba([(3 * x) as u8, (3 * y) as u8, 90, 255]));
         assert_eq!(found(&shades), []);

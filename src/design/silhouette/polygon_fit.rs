@@ -1,42 +1,43 @@
-//! The plainest outline that the pixels of a picture leave open.
+//! Fits the simplest outline that is consistent with a boundary traced in a picture.
 //!
-//! A traced boundary has a point on each lattice edge that it crosses, known
-//! only so well: [`TracedPoint::slack`]. What is between, stairs and noise, is
-//! nobody's drawing. First the fewest chords from point to point that leave no
-//! point farther than its slack (Imai and Iri 1988, "Polygonal approximations of
-//! a curve", with wedges as Chan and Chin 1996), of these the ones whose points
-//! lie best on lines. Then corners where those lines meet, and what no pixel shows
-//! of them rounded, both as Selinger 2003 ("Potrace: a polygon-based tracing
-//! algorithm") does, here with parabolas and as far as the slack goes.
+//! A traced boundary has a point on each grid edge that it crosses, with an uncertainty
+//! ([`TracedPoint::slack`]); stair steps and noise within it should not appear in the outline.
+//! 1. Find the fewest chords that pass all points within their slack (Imai and Iri 1988,
+//!    "Polygonal approximations of a curve", with wedges as in Chan and Chin 1996); among
+//!    these, minimise the squared distances of the points from fitted lines.
+//! 2. Move corners to the intersections of these lines and round them within the slack,
+//!    both as in Selinger 2003 ("Potrace: a polygon-based tracing algorithm"), but with
+//!    parabolas.
 
 use crate::geometry::{DMat2, DVec2};
 
-/// A point of a traced boundary.
+/// Point of a traced boundary with its uncertainty.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TracedPoint {
+    /// Position in pixels.
     pub(super) point: DVec2,
-    /// How far from it the boundary may run, in pixels.
+    /// Maximum distance of the true boundary from the point, in pixels.
     pub(super) slack: f64,
 }
 
-/// A chord spans so many points at most: what bounds the work. Two chords
-/// along one line are as good as one.
-const LONGEST: usize = 1024;
+/// Maximum number of points that a chord spans (resource limit: bounds the quadratic work;
+/// a longer line is split into several chords).
+const MAX_CHORD_POINTS: usize = 1024;
 
-/// A corner may be so many times the slack from the point that was traced there:
-/// between pixels that of a square lies one pixel from each.
-const FARTHEST: f64 = 2.0;
+/// Maximum distance of a corner from its traced point, in multiples of the slack
+/// (heuristic).
+const MAX_CORNER_SHIFT: f64 = 2.0;
 
-/// The sine of the angle from which on lines meet in a corner, a twelfth of a
-/// turn: where it is less, where they meet is noise.
-const CORNER: f64 = 0.5;
+/// Sine of the minimum angle, 30°, at which two lines are intersected (tolerance: the
+/// intersection of flatter lines is dominated by noise).
+const MIN_CORNER_SINE: f64 = 0.5;
 
-/// Where rounding reaches less than this share of half of the shorter chord, a
-/// corner was drawn.
-const ROUND: f64 = 0.5;
+/// Minimum reach of a rounding, as a fraction of half the shorter chord; below it the corner
+/// counts as intentional and stays sharp (heuristic).
+const MIN_ROUNDING: f64 = 0.5;
 
-/// A boundary of which no two neighbours are much farther apart than a pixel, as
-/// it was before points on straight runs were left out.
+/// Inserts points so that neighbours are about one pixel apart, which restores the points
+/// that contour tracing removes from straight runs.
 pub(super) fn resampled(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
     let next = boundary.iter().cycle().skip(1);
     let between = |(a, b): (&TracedPoint, &TracedPoint)| {
@@ -53,96 +54,111 @@ pub(super) fn resampled(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
     boundary.iter().zip(next).flat_map(between).collect()
 }
 
-/// The outline of a closed boundary; `flatness` is how far off nobody sees, in
-/// pixels.
+/// Fits an outline to a closed boundary. `flatness` is the invisible deviation in pixels.
 pub(super) fn fit_outline(boundary: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
     if boundary.len() < 4 {
         return boundary.iter().map(|traced| traced.point).collect();
     }
-    rounded(&corners(boundary), flatness)
+    round_corners(&corners(boundary), flatness)
 }
 
-/// Where the lines along the fewest chords meet.
+/// Returns the corners of the polygon with the fewest chords, moved to the intersections of
+/// the lines fitted along the chords.
 fn corners(boundary: &[TracedPoint]) -> Vec<TracedPoint> {
     let count = boundary.len();
-    let first = sharpest(boundary);
-    let at = |k: usize| boundary[(first + k) % count];
-    let sums = PrefixSums::of((0..=count).map(|k| at(k).point));
-    let kept = fewest_chords(count, &at, &sums);
+    let first = sharpest_point(boundary);
+    let traced_at = |k: usize| boundary[(first + k) % count];
+    let sums = PrefixSums::of((0..=count).map(|k| traced_at(k).point));
+    let vertices = fewest_chords(count, &traced_at, &sums);
     let line = |k: usize| {
-        let to = kept.get(k + 1).copied().unwrap_or(count);
-        // Of fewer points within a line says nothing.
-        (to - kept[k] > 2).then(|| sums.line(kept[k], to))
+        let to = vertices.get(k + 1).copied().unwrap_or(count);
+        // A chord with fewer inner points does not determine a line.
+        (to - vertices[k] > 2).then(|| sums.line(vertices[k], to))
     };
-    let lines: Vec<Option<FittedLine>> = (0..kept.len()).map(line).collect();
+    let lines: Vec<Option<FittedLine>> = (0..vertices.len()).map(line).collect();
     let corner = |k: usize| {
-        let traced = at(kept[k]);
-        let before = &lines[(k + kept.len() - 1) % kept.len()];
-        let met = match (before, &lines[k]) {
-            (Some(before), Some(after)) => met(before, after),
+        let traced = traced_at(vertices[k]);
+        let before = &lines[(k + vertices.len() - 1) % vertices.len()];
+        let meeting_point = match (before, &lines[k]) {
+            (Some(before), Some(after)) => intersection(before, after),
             _ => None,
         };
-        // Where lines hardly cross they meet far away.
-        let by = met.map_or(DVec2::ZERO, |met| met - traced.point);
+        // Clamped because nearly parallel lines meet far away.
+        let shift = meeting_point.map_or(DVec2::ZERO, |met| met - traced.point);
         TracedPoint {
-            point: traced.point + by.clamp_length_max(FARTHEST * traced.slack),
+            point: traced.point + shift.clamp_length_max(MAX_CORNER_SHIFT * traced.slack),
             ..traced
         }
     };
-    (0..kept.len()).map(corner).collect()
+    (0..vertices.len()).map(corner).collect()
 }
 
-/// The numbers of the points between which the fewest chords run.
-fn fewest_chords(count: usize, at: &dyn Fn(usize) -> TracedPoint, sums: &PrefixSums) -> Vec<usize> {
-    // The fewest chords from the first point to each, how far off they are, and
-    // where the last of them begins.
+/// Returns the indices of the vertices of the polygon with the fewest chords, by dynamic
+/// programming from the first point around to itself.
+fn fewest_chords(
+    count: usize,
+    traced_at: &dyn Fn(usize) -> TracedPoint,
+    sums: &PrefixSums,
+) -> Vec<usize> {
+    // Per point: number of chords up to it, their squared deviation, and the start of the
+    // last chord.
     let mut best = vec![(usize::MAX, f64::INFINITY, 0); count + 1];
     best[0] = (0, 0.0, 0);
     for from in 0..count {
-        let (chords, off, _) = best[from];
-        let mut wedge = DirectionWedge::at(at(from).point);
-        let ahead = best.iter_mut().enumerate().skip(from + 1).take(LONGEST);
+        let (chords, deviation, _) = best[from];
+        let mut wedge = DirectionWedge::at(traced_at(from).point);
+        let ahead = best
+            .iter_mut()
+            .enumerate()
+            .skip(from + 1)
+            .take(MAX_CHORD_POINTS);
         for (to, best) in ahead {
-            if wedge.reaches(at(to).point) {
-                let off = off + sums.line(from, to).off;
-                if (chords + 1, off) < (best.0, best.1) {
-                    *best = (chords + 1, off, from);
+            if wedge.contains(traced_at(to).point) {
+                let deviation = deviation + sums.line(from, to).deviation;
+                if (chords + 1, deviation) < (best.0, best.1) {
+                    *best = (chords + 1, deviation, from);
                 }
             }
-            if !wedge.narrow(&at(to)) {
+            if !wedge.narrow(&traced_at(to)) {
                 break;
             }
         }
     }
-    let mut kept = Vec::new();
+    let mut vertices = Vec::new();
     let mut k = count;
     while k > 0 {
         k = best[k].2;
-        kept.push(k);
+        vertices.push(k);
     }
-    kept.reverse();
-    kept
+    vertices.reverse();
+    vertices
 }
 
-/// The point at which the boundary turns most, seen over a few points: a
-/// vertex of any outline.
-fn sharpest(boundary: &[TracedPoint]) -> usize {
+/// Returns the index of the point with the largest turning angle, measured over a few
+/// points. It is the first vertex, as it would be a vertex of any good polygon.
+fn sharpest_point(boundary: &[TracedPoint]) -> usize {
     let count = boundary.len();
     let reach = (count / 4).min(4);
     let turn = |k: &usize| {
-        let at = |k: usize| boundary[k % count].point;
-        let (come, go) = (at(*k + reach) - at(*k), at(*k + 2 * reach) - at(*k + reach));
-        come.perp_dot(go).atan2(come.dot(go)).abs()
+        let point = |k: usize| boundary[k % count].point;
+        let (incoming, outgoing) = (
+            point(*k + reach) - point(*k),
+            point(*k + 2 * reach) - point(*k + reach),
+        );
+        incoming
+            .perp_dot(outgoing)
+            .atan2(incoming.dot(outgoing))
+            .abs()
     };
     let best = (0..count).max_by(|a, b| turn(a).total_cmp(&turn(b)));
     (best.unwrap_or(0) + reach) % count
 }
 
-/// The directions from a point in which a chord passes all points so far
-/// within their slack.
+/// Range of directions from an apex in which a chord passes all points seen so far within
+/// their slack.
 struct DirectionWedge {
     apex: DVec2,
-    /// Its right and its left side, where anything has narrowed it.
+    /// Right and left limiting directions; `None` if all directions are allowed.
     sides: Option<[DVec2; 2]>,
 }
 
@@ -151,21 +167,22 @@ impl DirectionWedge {
         Self { apex, sides: None }
     }
 
-    fn reaches(&self, p: DVec2) -> bool {
+    /// Returns whether the direction to a point is in the range.
+    fn contains(&self, p: DVec2) -> bool {
         let to = p - self.apex;
         self.sides
             .is_none_or(|[right, left]| right.perp_dot(to) >= 0.0 && to.perp_dot(left) >= 0.0)
     }
 
-    /// Only the directions in which this one is passed within its slack are
-    /// left; whether any is.
+    /// Restricts the range to directions that pass a point within its slack; returns whether
+    /// any direction remains.
     fn narrow(&mut self, by: &TracedPoint) -> bool {
         let to = by.point - self.apex;
-        let far = to.length();
-        if far <= by.slack {
-            return true; // in all directions
+        let distance = to.length();
+        if distance <= by.slack {
+            return true; // every direction passes the point
         }
-        let sine = by.slack / far;
+        let sine = by.slack / distance;
         let cosine = (1.0 - sine * sine).sqrt();
         let right = DVec2::new(cosine, -sine).rotate(to);
         let left = DVec2::new(cosine, sine).rotate(to);
@@ -178,7 +195,7 @@ impl DirectionWedge {
                 if left.perp_dot(sides[1]) > 0.0 {
                     sides[1] = left;
                 }
-                // A wedge is less than half a turn wide.
+                // The range is narrower than half a turn, so the signs are meaningful.
                 return sides[0].perp_dot(sides[1]) >= 0.0 && sides[0].dot(to) > 0.0;
             }
         }
@@ -186,35 +203,39 @@ impl DirectionWedge {
     }
 }
 
-/// A line through the middle of some points.
+/// Total-least-squares line through points.
 struct FittedLine {
-    through: DVec2,
+    /// Centroid of the points.
+    centroid: DVec2,
+    /// Unit normal.
     normal: DVec2,
-    /// Σ of the squared distances of the points from it.
-    off: f64,
+    /// Sum of the squared distances of the points from the line.
+    deviation: f64,
 }
 
-/// The place where two lines meet, if in a corner.
-fn met(a: &FittedLine, b: &FittedLine) -> Option<DVec2> {
+/// Returns the intersection of two lines, or `None` if they are nearly parallel.
+fn intersection(a: &FittedLine, b: &FittedLine) -> Option<DVec2> {
     let matrix = DMat2::from_cols(a.normal, b.normal).transpose();
-    let away = b.normal.dot(b.through - a.through);
-    let is_corner = matrix.determinant().abs() > CORNER;
-    is_corner.then(|| a.through + matrix.inverse() * DVec2::new(0.0, away))
+    let offset = b.normal.dot(b.centroid - a.centroid);
+    let is_corner = matrix.determinant().abs() > MIN_CORNER_SINE;
+    is_corner.then(|| a.centroid + matrix.inverse() * DVec2::new(0.0, offset))
 }
 
-/// Sums of coordinates and of their products, from which the line through points
-/// follows.
+/// Prefix sums of coordinates and their products, which give the line through any run of
+/// points in constant time.
 struct PrefixSums {
+    /// Origin of the sums.
     base: DVec2,
+    /// Prefix sums of the coordinates.
     linear: Vec<DVec2>,
-    /// Of x², xy and y².
+    /// Prefix sums of x², xy and y².
     products: Vec<[f64; 3]>,
 }
 
 impl PrefixSums {
     fn of(points: impl Iterator<Item = DVec2>) -> Self {
         let points: Vec<DVec2> = points.collect();
-        // About the first: large coordinates lose their digits.
+        // Relative to the first point, to avoid cancellation with large coordinates.
         let base = points[0];
         let (mut linear, mut products) = (vec![DVec2::ZERO], vec![[0.0; 3]]);
         let (mut sum, mut product) = (DVec2::ZERO, [0.0; 3]);
@@ -233,8 +254,8 @@ impl PrefixSums {
         }
     }
 
-    /// The line from which the points of a chord are least off, its ends left
-    /// out: they belong to the next chord as well.
+    /// Fits a line to the points of a chord. If others remain, excludes the end points, which
+    /// also belong to the neighbouring chords.
     fn line(&self, from: usize, to: usize) -> FittedLine {
         let (from, to) = if to - from > 2 {
             (from + 1, to - 1)
@@ -242,56 +263,57 @@ impl PrefixSums {
             (from, to)
         };
         let count = (to + 1 - from) as f64;
-        let middle = (self.linear[to + 1] - self.linear[from]) / count;
+        let mean = (self.linear[to + 1] - self.linear[from]) / count;
         let product = |k: usize| self.products[to + 1][k] - self.products[from][k];
-        let xx = product(0) - count * middle.x * middle.x;
-        let xy = product(1) - count * middle.x * middle.y;
-        let yy = product(2) - count * middle.y * middle.y;
-        // The eigenvector of the larger eigenvalue runs along.
+        let xx = product(0) - count * mean.x * mean.x;
+        let xy = product(1) - count * mean.x * mean.y;
+        let yy = product(2) - count * mean.y * mean.y;
+        // The line follows the eigenvector of the larger eigenvalue of the covariance.
         let (half, spread) = (0.5 * (xx - yy), 0.5 * (xx + yy));
         let along = DVec2::from_angle(0.5 * xy.atan2(half));
         FittedLine {
-            through: self.base + middle,
+            centroid: self.base + mean,
             normal: along.perp(),
-            off: (spread - half.hypot(xy)).max(0.0),
+            deviation: (spread - half.hypot(xy)).max(0.0),
         }
     }
 }
 
-/// The polygon with those of its corners rounded that no pixel shows.
-fn rounded(corners: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
+/// Rounds every corner that cannot be distinguished from a curve within its slack.
+fn round_corners(corners: &[TracedPoint], flatness: f64) -> Vec<DVec2> {
     let count = corners.len();
     if count < 4 {
         return corners.iter().map(|corner| corner.point).collect();
     }
     let mut outline = Vec::new();
     for (k, corner) in corners.iter().enumerate() {
-        let at = corner.point;
-        let [before, after] = [k + count - 1, k + 1].map(|k| corners[k % count].point - at);
-        let [come, go] = [before.normalize_or_zero(), after.normalize_or_zero()];
+        let p = corner.point;
+        let [before, after] = [k + count - 1, k + 1].map(|k| corners[k % count].point - p);
+        let [to_before, to_after] = [before.normalize_or_zero(), after.normalize_or_zero()];
         let half = 0.5 * before.length().min(after.length());
-        // A parabola from as far on both sides cuts a quarter of this off.
-        let cut = (come + go).length();
+        // A parabola that starts and ends at distance `reach` from the corner stays
+        // 0.25 · cut · reach away from it.
+        let cut = (to_before + to_after).length();
         let reach = if cut * half > 4.0 * corner.slack {
             4.0 * corner.slack / cut
         } else {
             half
         };
-        if reach < ROUND * half || 0.25 * cut * reach <= flatness {
-            outline.push(at);
+        if reach < MIN_ROUNDING * half || 0.25 * cut * reach <= flatness {
+            outline.push(p);
             continue;
         }
-        let [a, b] = [at + come * reach, at + go * reach];
-        // Of a parabola in n pieces a chord is off by a quarter of that by n².
+        let [a, b] = [p + to_before * reach, p + to_after * reach];
+        // The chords of a parabola in n pieces deviate by 1/n² of that distance.
         let pieces = (0.25 * cut * reach / flatness.max(1e-9))
             .sqrt()
             .ceil()
             .clamp(1.0, 16.0);
         for k in 0..=pieces as u32 {
             let t = f64::from(k) / pieces;
-            let p = a.lerp(at, t).lerp(at.lerp(b, t), t);
-            if outline.last() != Some(&p) {
-                outline.push(p);
+            let on_curve = a.lerp(p, t).lerp(p.lerp(b, t), t);
+            if outline.last() != Some(&on_curve) {
+                outline.push(on_curve);
             }
         }
     }
@@ -310,8 +332,8 @@ mod tests {
     }
 
     #[test]
-    fn a_rectangle_has_its_corners_though_none_was_traced() {
-        // As it is crossed between pixels: halfway between their middles.
+    fn corners_between_traced_points_are_reconstructed() {
+        // Points as traced between pixels: halfway between pixel centres, never at a corner.
         let side =
             |from: DVec2, along: DVec2| (0..20).map(move |k| from + along * (f64::from(k) + 0.5));
         let corners = [(0.0, 0.0), (20.0, 0.0), (20.0, 20.0), (0.0, 20.0)].map(DVec2::from);
@@ -326,7 +348,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_room_stays() {
+    fn boundaries_without_slack_are_unchanged() {
         let square = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(DVec2::from);
         let found = fit_outline(&traced(square.into_iter(), 0.0), 0.1);
         assert_eq!(found.len(), 4);

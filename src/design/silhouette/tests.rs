@@ -1,3 +1,5 @@
+//! Tests of decoding pictures and tracing silhouettes.
+
 use super::*;
 use crate::design::{Design, DesignForm, ImportProblem, import};
 use image::{GrayImage, Luma, Rgba};
@@ -22,7 +24,7 @@ fn regions(bytes: &[u8], options: &ImportOptions) -> Regions {
     }
 }
 
-/// `#` is black, `.` white, the first line on top.
+/// Draws a picture from ASCII art: `#` is black, `.` white, first line on top.
 fn ascii(art: &[&str]) -> GrayImage {
     let (width, height) = (art[0].len() as u32, art.len() as u32);
     GrayImage::from_fn(width, height, |x, y| {
@@ -35,7 +37,7 @@ fn png(art: &[&str]) -> Vec<u8> {
     encoded(ascii(art), ImageFormat::Png)
 }
 
-/// A disc with the exact coverage of each pixel, to 1/256, by sampling.
+/// Draws a disc anti-aliased by 256 samples per pixel.
 fn disc(size: u32, centre: DVec2, radius: f64) -> GrayImage {
     GrayImage::from_fn(size, size, |x, y| {
         let inside = (0..256)
@@ -52,7 +54,7 @@ fn disc(size: u32, centre: DVec2, radius: f64) -> GrayImage {
 }
 
 #[test]
-fn an_antialiased_disc_is_found_to_a_tenth_of_a_pixel() {
+fn an_antialiased_disc_is_accurate_to_a_tenth_of_a_pixel() {
     let centre = DVec2::new(30.3, 28.6);
     let bytes = encoded(disc(64, centre, 20.0), ImageFormat::Png);
     let regions = regions(&bytes, &ImportOptions::default());
@@ -79,7 +81,7 @@ fn y_points_up_and_a_pixel_is_a_unit() {
     let design = read_with(&bytes, &ImportOptions::default()).expect("silhouette");
     assert_eq!(design.extent.size(), DVec2::splat(6.0));
     let bounds = design.outline(0.0).expect("area").bounds();
-    // A single pixel's corner may be anywhere between pixels.
+    // The corner of a pixel-art shape is uncertain by half a pixel.
     assert!(bounds.min.distance(DVec2::new(1.0, 2.0)) < 0.5);
     assert!(bounds.max.distance(DVec2::new(5.0, 5.0)) < 0.5);
 }
@@ -103,9 +105,9 @@ fn every_format_gives_the_same_outline() {
 }
 
 #[test]
-fn opacity_comes_before_tone() {
+fn opacity_takes_precedence_over_grey_level() {
     let picture = RgbaImage::from_fn(8, 8, |x, _| {
-        // All of one tone; the right half is opaque.
+        // One grey level everywhere; only the right half is opaque.
         Rgba([200, 200, 200, if x < 4 { 0 } else { 255 }])
     });
     let bytes = encoded(picture, ImageFormat::Png);
@@ -123,7 +125,7 @@ fn opacity_comes_before_tone() {
 }
 
 #[test]
-fn the_side_of_the_border_is_ground() {
+fn the_class_of_the_border_is_background() {
     let dark_on_light = ascii(&["....", ".##.", ".##.", "...."]);
     let mut light_on_dark = dark_on_light.clone();
     image::imageops::invert(&mut light_on_dark);
@@ -135,7 +137,7 @@ fn the_side_of_the_border_is_ground() {
 }
 
 #[test]
-fn specks_and_pinholes_go_and_the_rest_stays() {
+fn specks_and_pinholes_are_removed() {
     let bytes = png(&[
         "#.........", //
         "..........", //
@@ -173,20 +175,24 @@ fn specks_and_pinholes_go_and_the_rest_stays() {
 fn a_threshold_moves_the_boundary() {
     let ramp = GrayImage::from_fn(64, 16, |x, _| Luma([(x * 4) as u8]));
     let bytes = encoded(ramp, ImageFormat::Png);
-    let at = |threshold| {
+    let bounds_at = |threshold| {
         let options = ImportOptions {
             threshold: Some(threshold),
             ..ImportOptions::default()
         };
         regions(&bytes, &options).bounds()
     };
-    // Tones 4 x at centres x + ½; 50 − ½ is crossed at x = 49.5 / 4 + ½.
-    assert!((at(50).max.x - 12.875).abs() < 1e-6, "{:?}", at(50));
-    assert!((at(200).min.x - (199.5 / 4.0 + 0.5)).abs() < 1e-6);
+    // The level is 4x at centre x + ½, so 50 − ½ is crossed at 49.5 / 4 + ½.
+    assert!(
+        (bounds_at(50).max.x - 12.875).abs() < 1e-6,
+        "{:?}",
+        bounds_at(50)
+    );
+    assert!((bounds_at(200).min.x - (199.5 / 4.0 + 0.5)).abs() < 1e-6);
 }
 
 #[test]
-fn a_picture_full_of_ink_is_its_rectangle_and_one_of_none_is_an_error() {
+fn a_full_picture_is_a_rectangle_and_an_empty_one_an_error() {
     let one_tone = encoded(GrayImage::from_pixel(5, 3, Luma([9])), ImageFormat::Png);
     let options = ImportOptions::default();
     assert!(matches!(
@@ -209,7 +215,7 @@ fn a_picture_full_of_ink_is_its_rectangle_and_one_of_none_is_an_error() {
 }
 
 #[test]
-fn otsu_parts_two_tones_in_the_middle() {
+fn otsu_separates_two_levels_in_the_middle() {
     assert_eq!(otsu(&[0, 0, 0, 255]), Some(128));
     assert_eq!(otsu(&[10, 20]), Some(16));
     assert_eq!(otsu(&[7; 9]), None);
@@ -219,7 +225,7 @@ fn otsu_parts_two_tones_in_the_middle() {
     assert_eq!(otsu(&tones), otsu_slow(&tones));
 }
 
-/// Every threshold tried with the definition.
+/// Brute-force Otsu: evaluates the definition for every threshold.
 fn otsu_slow(tones: &[u8]) -> Option<u8> {
     let mean = |v: &[f64]| v.iter().sum::<f64>() / v.len() as f64;
     let variance = |t: u8| {
@@ -254,18 +260,18 @@ fn noise_is_refused_before_it_is_traced() {
     ));
 }
 
-/// What a picture shows where each pixel's middle lies in the outline or not.
+/// Rasterises an outline by testing pixel centres.
 fn redrawn(regions: &Regions, size: u32) -> Vec<bool> {
-    let middle = |x: u32, y: u32| DVec2::new(f64::from(x) + 0.5, f64::from(size - y) - 0.5);
+    let centre = |x: u32, y: u32| DVec2::new(f64::from(x) + 0.5, f64::from(size - y) - 0.5);
     let pixels = (0..size).flat_map(|y| (0..size).map(move |x| (x, y)));
     pixels
-        .map(|(x, y)| regions.contains(middle(x, y)))
+        .map(|(x, y)| regions.contains(centre(x, y)))
         .collect()
 }
 
 #[test]
-fn stairs_are_smoothed_and_the_pixels_stay() {
-    // A leaf: two arcs that meet in sharp tips, without a grey pixel.
+fn stair_steps_are_smoothed_but_pixels_are_preserved() {
+    // A leaf without anti-aliasing: two arcs that meet in sharp tips.
     let size = 200;
     let is_ink = |x: u32, y: u32| {
         let p = DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5);
@@ -282,12 +288,12 @@ fn stairs_are_smoothed_and_the_pixels_stay() {
     );
     let ring = found.rings().next().expect("one ring").points();
     assert!(ring.len() < 80, "{}", ring.len());
-    // But for some on its very edge all pixels are what they were.
+    // All pixels are preserved except some on the edge.
     let drawn: Vec<bool> = leaf.pixels().map(|p| p.0[0] == 0).collect();
     let again = redrawn(&found, size);
-    let other = drawn.iter().zip(&again).filter(|(a, b)| a != b).count();
-    assert!(other <= 34, "{other} of {} around it", 2 * 170);
-    // No stairs: those would turn back some 80 times by an eighth of a turn.
+    let changed = drawn.iter().zip(&again).filter(|(a, b)| a != b).count();
+    assert!(changed <= 34, "{changed} of {} around it", 2 * 170);
+    // Stair steps would turn back about 80 times by 45°.
     let turn = |k: usize| {
         let [a, b, c] = [k, k + 1, k + 2].map(|k| ring[k % ring.len()]);
         (b - a).angle_to(c - b)

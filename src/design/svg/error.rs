@@ -1,76 +1,78 @@
-//! Why a drawing gives no outline, and the limits that errors name.
+//! Errors of the SVG importer and the limits they mention.
 
 use crate::design::flatten::TooManyPoints;
 use crate::geometry::RegionsError;
 use usvg::roxmltree;
 
-/// Most elements with all copies; 200,000 paths take about a second.
+/// Maximum number of elements after expanding all copies (resource limit: about one second).
 pub(super) const MAX_ELEMENTS: u64 = 200_000;
-/// Most XML nodes in the file, text between elements included: what is never
-/// drawn may be ten times what is.
+
+/// Maximum number of XML nodes, including text between elements (resource limit: ten times
+/// [`MAX_ELEMENTS`], because files contain many nodes that are not drawn).
 pub(super) const MAX_NODES: u32 = 2_000_000;
-/// Most levels, copies included. Reading recurses: a stack of 2 MiB, as
-/// threads have, holds more than twice as many, even unoptimised.
+
+/// Maximum nesting depth including copies (resource limit: reading recurses, and the 2 MiB stack
+/// of a thread suffices for twice as many levels even in debug builds).
 pub(super) const MAX_DEPTH: u32 = 96;
 
-/// Why a drawing gives no outline.
+/// Error of importing an SVG drawing.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SvgError {
-    /// More elements or attributes than anything that is drawn has.
-    #[error(
-        "the drawing has more than {MAX_NODES} elements or attributes; save only what is to be seen"
-    )]
+    /// The file has too many XML nodes or attributes.
+    #[error("the drawing has more than {MAX_NODES} elements or attributes; remove hidden content")]
     TooManyNodes,
-    /// An element with attributes without end: its line, from 1.
+    /// An element has too many attributes.
     #[error("line {line}: an element has {attributes} attributes; save the drawing as plain SVG")]
     TooManyAttributes {
-        /// The line at which it begins.
+        /// Line of the element, counted from 1.
         line: usize,
-        /// How many there are.
+        /// Number of attributes.
         attributes: u64,
     },
-    /// Namespaces without end.
-    #[error("the drawing declares {0} namespaces over and over; save it as plain SVG")]
+    /// Too many namespace declarations; gives the number of prefixes.
+    #[error("the drawing declares {0} namespaces too often; save it as plain SVG")]
     TooManyNamespaces(usize),
-    /// Entities that stand for text without end.
-    #[error("the drawing's entities stand for too much text; save it without entities")]
+    /// Entities expand into too much text.
+    #[error("the entities of the drawing expand into too much text; save it without entities")]
     TooMuchText,
-    /// An entity that stands for elements: its line, from 1.
-    #[error("line {0}: an entity stands for elements; save the drawing without entities")]
+    /// An entity contains elements; gives its line, counted from 1.
+    #[error("line {0}: an entity contains elements; save the drawing without entities")]
     EntityOfElements(usize),
-    /// Not well-formed XML.
-    #[error("the drawing is not well-formed ({0}); save it again as plain SVG")]
+    /// The file is not well-formed XML.
+    #[error("the drawing is not well-formed XML ({0}); save it as plain SVG")]
     Xml(#[source] roxmltree::Error),
-    /// Not SVG, or without a size.
-    #[error("the drawing cannot be read ({0}); save it again as plain SVG")]
+    /// The file is not valid SVG or has no size.
+    #[error("the drawing cannot be read ({0}); save it as plain SVG")]
     Svg(#[source] usvg::Error),
-    /// Elements, copies included, without end: the line, from 1, of that with
-    /// which the count went over.
+    /// The expanded drawing has too many elements; gives the line, counted from 1, of the
+    /// element that exceeded the limit.
     #[error(
-        "line {0}: with all copies (use, patterns, clip paths) the drawing unfolds into more than {MAX_ELEMENTS} elements; expand fewer copies or remove them"
+        "line {0}: the drawing expands into more than {MAX_ELEMENTS} elements because of copies (use, patterns, clip paths); remove some copies"
     )]
     TooManyElements(u32),
-    /// Elements in elements without end: the line of the deepest, from 1.
+    /// Elements are nested too deeply; gives the line of the deepest, counted from 1.
     #[error(
-        "line {0}: the drawing is nested more than {MAX_DEPTH} levels deep, copies included; ungroup it"
+        "line {0}: the drawing is nested more than {MAX_DEPTH} levels deep, including copies; ungroup it"
     )]
     TooDeep(u32),
-    /// An element that is a copy of itself: its line, from 1.
-    #[error("line {0}: an element refers to itself, over others or directly; remove the reference")]
-    Circular(u32),
-    /// A style sheet that would be matched too often, on so many elements.
+    /// An element refers to itself; gives its line, counted from 1.
     #[error(
-        "the drawing's style sheet is too long for its {0} elements; save it with plain attributes"
+        "line {0}: an element refers to itself, directly or through others; remove the reference"
+    )]
+    Circular(u32),
+    /// Matching the style sheet would take too long; gives the number of elements.
+    #[error(
+        "the style sheet is too long for a drawing of {0} elements; save it with plain attributes"
     )]
     TooMuchStyle(usize),
-    /// Nothing visible is filled.
+    /// The drawing has no visible shapes.
     #[error(
-        "nothing in the drawing is filled{}; fill shapes",
-        if *strokes { ", there are only strokes, and strokes = false" } else { "" }
+        "the drawing has no filled shapes{}; fill shapes",
+        if *strokes { ", only strokes, and strokes = false" } else { "" }
     )]
     NothingFilled {
-        /// Whether there are strokes.
+        /// Whether there are strokes, which the options exclude.
         strokes: bool,
     },
     /// No element has the id.
@@ -79,27 +81,28 @@ pub enum SvgError {
         known_ids(known)
     )]
     NoElement {
-        /// The id that was asked for.
+        /// Requested id.
         id: String,
-        /// The first ids that there are.
+        /// First ids of the drawing.
         known: Vec<String>,
     },
-    /// The element is there and draws nothing.
+    /// The selected element draws nothing; gives its id.
     #[error(
-        "the element \"{0}\" draws nothing by itself; choose a shape, a group or a <use>, not what lies in <defs>"
+        "the element \"{0}\" draws nothing by itself; choose a shape, a group or a <use> outside of <defs>"
     )]
     NotDrawn(String),
-    /// Curves into absurdly many points.
+    /// The outlines need too many points.
     #[error(transparent)]
     TooManyPoints(#[from] TooManyPoints),
-    /// Nothing is enclosed.
+    /// The shapes enclose no area.
     #[error(transparent)]
     Regions(#[from] RegionsError),
 }
 
+/// Returns the part of a message that lists the known ids.
 fn known_ids(known: &[String]) -> String {
     match known {
-        [] => "it has none; give the element one, or take all of the drawing".to_owned(),
+        [] => "it has no ids; give the element one or import the whole drawing".to_owned(),
         known => format!("it has {}", known.join(", ")),
     }
 }

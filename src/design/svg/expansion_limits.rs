@@ -1,31 +1,29 @@
-//! Drawings that would unfold without end, refused before they are unfolded.
+//! Refuses drawings that would expand into too many elements, before they are expanded.
 //!
-//! `usvg` copies what `use`, patterns, clip paths and masks refer to, and so a
-//! file of a few hundred bytes can stand for 10^10 elements. Here the elements
-//! are counted with all their copies, by one pass over the graph of references
-//! that visits every element once; nothing is copied.
+//! `usvg` copies the targets of `use`, patterns, clip paths and masks, so a file of a few
+//! hundred bytes can expand into 10^10 elements. This module counts the elements including
+//! all copies in one pass over the graph of references, which visits every element once and
+//! copies nothing.
 //!
-//! The count is an upper bound: what `usvg` keeps in a cache is counted as
-//! often as it is referred to. Markers and filters are not counted, for they
-//! are switched off by [`STYLE`].
+//! The count is an upper bound: targets that `usvg` caches are counted once per reference.
+//! Markers and filters are not counted, because [`STYLE`] disables them.
 
 use super::error::{MAX_DEPTH, MAX_ELEMENTS, SvgError};
 use std::collections::HashMap;
 use usvg::roxmltree::{Document, Node};
 
-/// Goes before the drawing's own style and, being important, over it. Markers
-/// and filters do not change what is filled, but could unfold without end.
+/// Style sheet that disables markers and filters in every drawing. They do not change the
+/// filled area, but could expand exponentially.
 pub(super) const STYLE: &str = "* { marker: none !important; filter: none !important }";
 
-/// Most tests of a style rule on an element. The 20,000 rules
-/// on as many elements of a test would be eight times as many.
+/// Maximum number of tests of a style rule against an element (resource limit).
 const MAX_STYLE_TESTS: usize = 50_000_000;
 
-/// Most that laying out all text may take, in steps of a microsecond.
+/// Maximum estimated cost of laying out all text, in microseconds (resource limit: 2 s).
 const MAX_TEXT: u64 = 2_000_000;
 
-/// Checks the unfolded size and depth, references in a circle, and the cost
-/// of the style sheet; says whether the text is short enough to be laid out.
+/// Checks the expanded size and depth, circular references and the cost of the style sheet;
+/// returns whether the text is short enough to be laid out.
 pub(super) fn check_expansion(document: &Document) -> Result<bool, SvgError> {
     let sheet = StyleReferences::of(document);
     let elements = document.descendants().filter(Node::is_element).count();
@@ -43,14 +41,14 @@ pub(super) fn check_expansion(document: &Document) -> Result<bool, SvgError> {
         ids,
         sheet,
         sizes: HashMap::new(),
-        font: longest_font(document),
+        longest_font_list: longest_font_list(document),
     };
-    let size = counter.unfold(document.root_element(), 0)?;
+    let size = counter.expanded_size(document.root_element(), 0)?;
     Ok(size.text <= MAX_TEXT)
 }
 
-/// How long the longest text is that names fonts: it is read for every span.
-fn longest_font(document: &Document) -> u64 {
+/// Returns the length in bytes of the longest list of fonts, which is parsed for every span.
+fn longest_font_list(document: &Document) -> u64 {
     let elements = document.descendants();
     let attributes = elements.clone().flat_map(|node| node.attributes());
     let sheets = elements.filter(|node| node.tag_name().name() == "style");
@@ -69,30 +67,33 @@ fn longest_font(document: &Document) -> u64 {
     named.chain(declared).map(str::len).max().unwrap_or(0) as u64
 }
 
-/// Which ids the style sheet makes elements refer to.
+/// References that style sheets add to elements.
 struct StyleReferences<'d> {
+    /// Upper bound of the number of rules.
     rules: usize,
-    /// The selector's last name (a class, an element, an id) and the id.
+    /// Referenced ids by the last name of the selector (a class, element or id).
     references: HashMap<&'d str, Vec<&'d str>>,
 }
 
 impl<'d> StyleReferences<'d> {
+    /// Collects all style sheets of a document.
     fn of(document: &'d Document) -> Self {
         let mut sheet = Self {
-            rules: 1, // STYLE
+            rules: 1, // the one in STYLE
             references: HashMap::new(),
         };
         let styles = document
             .descendants()
             .filter(|n| n.tag_name().name() == "style");
         for text in styles.flat_map(|n| n.children()).filter_map(|n| n.text()) {
-            // One for each brace and each comma: a bound, as declarations have commas, too.
+            // An upper bound, because declarations also contain commas.
             sheet.rules += text.matches(['{', ',']).count();
             sheet.read(text);
         }
         sheet
     }
 
+    /// Adds the references of one style sheet.
     fn read(&mut self, text: &'d str) {
         for rule in text.split('}') {
             let Some((selectors, body)) = rule.rsplit_once('{') else {
@@ -109,7 +110,7 @@ impl<'d> StyleReferences<'d> {
         }
     }
 
-    /// Ids that the sheet makes `node` refer to.
+    /// Returns the ids that style sheets make an element refer to.
     fn of_node<'s>(&'s self, node: Node<'s, '_>) -> impl Iterator<Item = &'d str> + 's {
         let classes = node.attribute("class").unwrap_or_default();
         classes
@@ -122,22 +123,22 @@ impl<'d> StyleReferences<'d> {
     }
 }
 
-/// The name at the end of a selector such as `g > path.thin`; `*` where there
-/// is none that could be looked up.
+/// Returns the last name of a selector such as `g > path.thin`, or `*` if the selector is too
+/// complex to look up.
 fn last_name(selector: &str) -> &str {
     let selector = selector.trim();
     if selector.contains([':', '\\']) {
-        return "*"; // a pseudo-class or an escape: taken to hit everything
+        return "*"; // pseudo-classes and escapes are assumed to match every element
     }
-    let is_part = |c: char| c.is_alphanumeric() || c == '_' || c == '-' || !c.is_ascii();
-    let start = selector.rfind(|c| !is_part(c)).map_or(0, |i| i + 1);
+    let is_name_char = |c: char| c.is_alphanumeric() || c == '_' || c == '-' || !c.is_ascii();
+    let start = selector.rfind(|c| !is_name_char(c)).map_or(0, |i| i + 1);
     match &selector[start..] {
         "" => "*",
         name => name,
     }
 }
 
-/// The ids in `url(#id)`.
+/// Returns the ids in all `url(#id)` of a text.
 fn urls(text: &str) -> impl Iterator<Item = &str> {
     text.split("url(").skip(1).filter_map(|rest| {
         let id = rest.split(')').next()?;
@@ -146,41 +147,45 @@ fn urls(text: &str) -> impl Iterator<Item = &str> {
     })
 }
 
+/// Size of an element after expansion.
 #[derive(Clone, Copy)]
 struct ExpandedSize {
+    /// Number of elements including copies.
     elements: u64,
-    /// Levels below and including this one.
+    /// Nesting depth, the element itself included.
     levels: u32,
-    /// What its text costs, in steps of about a microsecond.
+    /// Estimated cost of laying out its text, in microseconds.
     text: u64,
 }
 
+/// Computes expanded sizes with memoisation.
 struct ExpansionCounter<'d, 'a> {
     document: &'d Document<'a>,
+    /// First element with each id.
     ids: HashMap<&'d str, Node<'d, 'a>>,
     sheet: StyleReferences<'d>,
-    /// `None` for elements that are being counted.
+    /// Sizes computed so far; `None` for elements in progress.
     sizes: HashMap<usvg::roxmltree::NodeId, Option<ExpandedSize>>,
-    /// How long the longest text is that names fonts, in bytes.
-    font: u64,
+    /// Length of the longest list of fonts in bytes.
+    longest_font_list: u64,
 }
 
 impl<'d, 'a> ExpansionCounter<'d, 'a> {
-    /// Size of an element with all that it holds and refers to. Recurses at
-    /// most [`MAX_DEPTH`] levels.
-    fn unfold(&mut self, node: Node<'d, 'a>, depth: u32) -> Result<ExpandedSize, SvgError> {
+    /// Returns the size of an element with its children and references. Recurses at most
+    /// [`MAX_DEPTH`] levels.
+    fn expanded_size(&mut self, node: Node<'d, 'a>, depth: u32) -> Result<ExpandedSize, SvgError> {
         let document = self.document;
-        let at = || document.text_pos_at(node.range().start).row;
+        let line = || document.text_pos_at(node.range().start).row;
         match self.sizes.get(&node.id()) {
-            Some(None) => return Err(SvgError::Circular(at())),
+            Some(None) => return Err(SvgError::Circular(line())),
             Some(Some(size)) if depth + size.levels > MAX_DEPTH => {
-                return Err(SvgError::TooDeep(at()));
+                return Err(SvgError::TooDeep(line()));
             }
             Some(&Some(size)) => return Ok(size),
-            None if depth > MAX_DEPTH => return Err(SvgError::TooDeep(at())),
+            None if depth > MAX_DEPTH => return Err(SvgError::TooDeep(line())),
             None => {}
         }
-        // Whoever comes here again before it is counted comes from within it.
+        // Reaching an element again while it is in progress means a circular reference.
         self.sizes.insert(node.id(), None);
         let mut size = ExpandedSize {
             elements: 1,
@@ -191,39 +196,39 @@ impl<'d, 'a> ExpansionCounter<'d, 'a> {
             },
         };
         for part in self.parts(node) {
-            let inner = self.unfold(part, depth + 1)?;
+            let inner = self.expanded_size(part, depth + 1)?;
             size.elements = size.elements.saturating_add(inner.elements);
             size.levels = size.levels.max(inner.levels + 1);
             size.text = size.text.saturating_add(inner.text);
         }
         if size.elements > MAX_ELEMENTS {
-            return Err(SvgError::TooManyElements(at()));
+            return Err(SvgError::TooManyElements(line()));
         }
         self.sizes.insert(node.id(), Some(size));
         Ok(size)
     }
 
-    /// What laying out a text takes: every span is the whole text shaped anew, and
-    /// each of its letters is looked for among all.
+    /// Estimates the cost of laying out a text: `usvg` shapes the whole text once per span and
+    /// searches all letters for each letter.
     fn cost_of_text(&self, text: Node) -> u64 {
         let nodes = || text.descendants();
         let letters: usize = nodes().filter_map(|node| node.text()).map(str::len).sum();
         let (letters, spans) = (letters as u64, nodes().count() as u64);
         let shaped = letters.saturating_mul(spans + letters / 1000);
-        shaped.saturating_add(spans.saturating_mul(self.font) / 10)
+        shaped.saturating_add(spans.saturating_mul(self.longest_font_list) / 10)
     }
 
-    /// The elements that an element holds and refers to.
+    /// Returns the child elements and the targets of all references of an element.
     fn parts(&self, node: Node<'d, 'a>) -> Vec<Node<'d, 'a>> {
         let mut parts: Vec<_> = node.children().filter(Node::is_element).collect();
-        // A link, or an image, refers to something and copies nothing.
-        let unfolds_href = matches!(
+        // The href of a link or image copies nothing.
+        let copies_href = matches!(
             node.tag_name().name(),
             "use" | "pattern" | "mask" | "clipPath"
         );
         for attribute in node.attributes() {
             let value = attribute.value();
-            let is_href = unfolds_href && attribute.name() == "href";
+            let is_href = copies_href && attribute.name() == "href";
             let direct = is_href.then(|| value.trim().strip_prefix('#')).flatten();
             let named = direct.into_iter().chain(urls(value));
             parts.extend(named.filter_map(|id| self.reference(id)));
@@ -233,11 +238,11 @@ impl<'d, 'a> ExpansionCounter<'d, 'a> {
         parts
     }
 
-    /// What `id` stands for, unless it is never unfolded.
+    /// Returns the element with an id, unless it is of a type that is never expanded.
     fn reference(&self, id: &str) -> Option<Node<'d, 'a>> {
         let to = *self.ids.get(id)?;
-        // Without elements that are drawn, or switched off by the style.
-        let flat = ["linearGradient", "radialGradient", "marker", "filter"];
-        (!flat.contains(&to.tag_name().name())).then_some(to)
+        // Gradients contain no drawn elements; markers and filters are disabled by STYLE.
+        let unexpanded = ["linearGradient", "radialGradient", "marker", "filter"];
+        (!unexpanded.contains(&to.tag_name().name())).then_some(to)
     }
 }

@@ -1,5 +1,5 @@
-//! The letters of a drawing: in the fonts of the machine, and in the bundled one
-//! where the machine has none.
+//! Selects fonts for the text of a drawing from the installed fonts and the bundled one, and
+//! records missing fonts and characters.
 
 use crate::design::lettering::BUNDLED_FONT;
 use std::collections::BTreeSet;
@@ -8,31 +8,32 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use usvg::fontdb::{Database, Family, ID, Query, Source};
 use usvg::{FontFamily, FontResolver};
 
-/// Most searches of all fonts for one that has a character: each looks into every
-/// file.
+/// Maximum number of searches for a font with a missing character (resource limit: each search
+/// opens every font file).
 const MAX_SEARCHES: usize = 64;
 
-/// The font of text that names none: of the kind that goes by this name.
+/// Font family of text that names none.
 pub(super) const UNNAMED: &str = "serif";
 
-/// What of a drawing's text could not be shown as it was meant.
+/// Font selection for one drawing with a record of what is missing.
 #[derive(Default)]
 pub(super) struct FontLookup {
+    /// Number of searches for missing characters so far.
     searches: AtomicUsize,
     absent: Mutex<MissingFonts>,
 }
 
-/// What the machine does not have.
+/// Fonts and characters that are not installed.
 #[derive(Clone, Default)]
 pub(super) struct MissingFonts {
-    /// Families of fonts.
+    /// Names of missing font families.
     pub fonts: BTreeSet<String>,
-    /// Characters that no font has.
+    /// Characters that no installed font has.
     pub characters: BTreeSet<char>,
 }
 
 impl FontLookup {
-    /// Chooses fonts, and keeps what is absent.
+    /// Returns the font resolver for `usvg`, which also records missing fonts and characters.
     pub(super) fn resolver(&self) -> FontResolver<'_> {
         let select = FontResolver::default_font_selector();
         let find = FontResolver::default_fallback_selector();
@@ -53,32 +54,33 @@ impl FontLookup {
         }
     }
 
-    /// What was found to be absent.
+    /// Returns the missing fonts and characters.
     pub(super) fn into_absent(self) -> MissingFonts {
         let absent = self.absent.into_inner();
         absent.unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// A list of families of which the first that is there is taken; one is told if
-    /// none is.
+    /// Records the first family of a list if none of the list is installed.
     fn note_fonts(&self, families: &[FontFamily], fonts: &Database) {
-        let is_there = |family: &FontFamily| match family {
-            FontFamily::Named(name) => name == UNNAMED || is_there(fonts, Family::Name(name)),
+        let is_available = |family: &FontFamily| match family {
+            FontFamily::Named(name) => name == UNNAMED || is_installed(fonts, Family::Name(name)),
             _ => true,
         };
         if let Some(FontFamily::Named(name)) = families.first()
-            && !families.iter().any(is_there)
+            && !families.iter().any(is_available)
         {
             self.absent().fonts.insert(name.clone());
         }
     }
 
+    /// Locks the record. A poisoned lock is safe to use because the sets are always valid.
     fn absent(&self) -> std::sync::MutexGuard<'_, MissingFonts> {
         self.absent.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-fn is_there(fonts: &Database, family: Family) -> bool {
+/// Returns whether a font family is installed.
+fn is_installed(fonts: &Database, family: Family) -> bool {
     let query = Query {
         families: &[family],
         ..Query::default()
@@ -86,7 +88,7 @@ fn is_there(fonts: &Database, family: Family) -> bool {
     fonts.query(&query).is_some()
 }
 
-/// The font that is always there.
+/// Returns the bundled font, the only one in memory.
 fn bundled(fonts: &Database) -> Option<ID> {
     let mut faces = fonts.faces();
     faces
@@ -94,20 +96,20 @@ fn bundled(fonts: &Database) -> Option<ID> {
         .map(|face| face.id)
 }
 
-/// The fonts of the machine and the bundled one, looked for once.
+/// Returns the installed fonts and the bundled one; loads them on the first call.
 pub(super) fn fonts() -> Arc<Database> {
     static FONTS: OnceLock<Arc<Database>> = OnceLock::new();
     let found = FONTS.get_or_init(|| {
         let mut fonts = Database::new();
         fonts.load_system_fonts();
         fonts.load_font_source(Source::Binary(Arc::new(BUNDLED_FONT)));
-        name_kinds(&mut fonts);
+        set_generic_families(&mut fonts);
         Arc::new(fonts)
     });
     Arc::clone(found)
 }
 
-/// Fonts of each kind as systems ship them, the first that is there is taken.
+/// Common serif fonts of operating systems in order of preference.
 const SERIF: [&str; 5] = [
     "Times New Roman",
     "Liberation Serif",
@@ -115,6 +117,7 @@ const SERIF: [&str; 5] = [
     "DejaVu Serif",
     "Noto Serif",
 ];
+/// Common sans-serif fonts of operating systems in order of preference.
 const SANS_SERIF: [&str; 6] = [
     "Arial",
     "Helvetica",
@@ -123,6 +126,7 @@ const SANS_SERIF: [&str; 6] = [
     "DejaVu Sans",
     "Noto Sans",
 ];
+/// Common monospaced fonts of operating systems in order of preference.
 const MONOSPACE: [&str; 6] = [
     "Courier New",
     "Liberation Mono",
@@ -132,24 +136,23 @@ const MONOSPACE: [&str; 6] = [
     "Menlo",
 ];
 
-/// Says which fonts the kinds of fonts stand for, where the system's settings name
-/// one that is not there.
-fn name_kinds(fonts: &mut Database) {
-    let first = |fonts: &Database, kind: Family, names: &[&str]| {
+/// Assigns installed fonts to the generic families whose configured font is not installed.
+fn set_generic_families(fonts: &mut Database) {
+    let replacement = |fonts: &Database, kind: Family, names: &[&str]| {
         let found = names
             .iter()
-            .find(|name| is_there(fonts, Family::Name(name)));
+            .find(|name| is_installed(fonts, Family::Name(name)));
         found
-            .filter(|_| !is_there(fonts, kind))
+            .filter(|_| !is_installed(fonts, kind))
             .map(|name| (*name).to_owned())
     };
-    if let Some(name) = first(fonts, Family::Serif, &SERIF) {
+    if let Some(name) = replacement(fonts, Family::Serif, &SERIF) {
         fonts.set_serif_family(name);
     }
-    if let Some(name) = first(fonts, Family::SansSerif, &SANS_SERIF) {
+    if let Some(name) = replacement(fonts, Family::SansSerif, &SANS_SERIF) {
         fonts.set_sans_serif_family(name);
     }
-    if let Some(name) = first(fonts, Family::Monospace, &MONOSPACE) {
+    if let Some(name) = replacement(fonts, Family::Monospace, &MONOSPACE) {
         fonts.set_monospace_family(name);
     }
 }

@@ -1,39 +1,42 @@
-//! Whether a drawing has colours of its own.
+//! Detects whether a drawing specifies any colour.
 //!
-//! What names none is black by default, which says nothing: such a drawing is a
-//! figure, in whatever colour it is wanted.
+//! A drawing without colours is black by SVG's default, so black is not a choice of its author.
+//! Such a drawing is imported as a silhouette that takes any colour.
 
 use usvg::roxmltree::{Document, Node};
 
+/// Names of the attributes and properties that specify a colour.
 const PAINTS: [&str; 3] = ["fill", "stroke", "stop-color"];
 
-/// Values that name no colour.
+/// Values that specify no colour.
 const NOTHING: [&str; 6] = ["", "none", "currentColor", "inherit", "initial", "unset"];
 
-/// Whether any fill or stroke of a drawing is given a colour.
+/// Returns whether any fill, stroke or gradient stop of a drawing has a colour.
 pub(super) fn names_a_colour(document: &Document) -> bool {
     document.descendants().any(|node| {
-        let own = PAINTS.iter().filter_map(|name| node.attribute(*name));
+        let attributes = PAINTS.iter().filter_map(|name| node.attribute(*name));
         let styles = node.attribute("style").into_iter().chain(sheet(&node));
-        own.into_iter().any(is_colour) || styles.into_iter().any(declares)
+        attributes.into_iter().any(is_colour) || styles.into_iter().any(declares_colour)
     })
 }
 
+/// Returns whether a value specifies a colour.
 fn is_colour(value: &str) -> bool {
     !NOTHING.contains(&value.trim())
 }
 
-/// The text of a style sheet.
+/// Returns the text of a `style` element.
 fn sheet<'d>(node: &Node<'d, '_>) -> Option<&'d str> {
     let is_sheet = node.tag_name().name() == "style";
     is_sheet.then(|| node.text()).flatten()
 }
 
-/// Whether declarations, between braces or not, give a paint.
-fn declares(style: &str) -> bool {
+/// Returns whether any declaration of a style attribute or style sheet specifies a colour.
+fn declares_colour(style: &str) -> bool {
     let declarations = style.split(['{', '}', ';']);
     declarations.into_iter().any(|declaration| {
-        let named = declaration.split_once(':');
-        named.is_some_and(|(name, value)| PAINTS.contains(&name.trim()) && is_colour(value))
+        let name_and_value = declaration.split_once(':');
+        name_and_value
+            .is_some_and(|(name, value)| PAINTS.contains(&name.trim()) && is_colour(value))
     })
 }

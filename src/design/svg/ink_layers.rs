@@ -1,10 +1,10 @@
-//! Ink and paper in as few layers as their order asks for.
+//! Composes ink and paper shapes into one area with few Boolean operations, and wraps the
+//! polygon library for unions, differences and intersections.
 //!
-//! What is painted later hides what lies under it, and each change of colour
-//! costs a Boolean operation on all that is there so far. Shapes that do not
-//! overlap may change places: each goes into the lowest layer that is above
-//! all it might hide, so that a page of ten thousand dots, black and white in
-//! turns, is two layers and not ten thousand.
+//! Later shapes cover earlier ones, so each alternation between ink and paper costs a Boolean
+//! operation on everything below. Shapes that do not overlap may be reordered: each goes into
+//! the lowest layer above everything it might cover. Ten thousand dots, alternately black and
+//! white, then form two layers instead of ten thousand.
 
 use super::z_order::ZOrderGrid;
 use crate::geometry::{Bounds, DVec2};
@@ -12,17 +12,18 @@ use i_overlay::core::fill_rule::FillRule as OverlayFill;
 use i_overlay::core::overlay_rule::OverlayRule;
 use i_overlay::float::single::SingleFloatOverlay;
 
-/// Polygons to be filled by winding.
+/// Closed polygons, filled by the non-zero winding rule.
 pub(super) type WindingRings = Vec<Vec<DVec2>>;
 
-/// Shapes by the layer they are in: ink in the even ones, paper in the odd.
+/// Shapes sorted into alternating layers: even layers are ink, odd layers are paper.
 pub(super) struct InkLayers {
     layers: Vec<Vec<WindingRings>>,
-    /// One more than the highest layer.
+    /// One plus the index of the top layer in each cell of the page.
     heights: ZOrderGrid,
 }
 
 impl InkLayers {
+    /// Creates an empty stack for a page of the given size.
     pub(super) fn of_page(size: DVec2) -> Self {
         Self {
             layers: Vec::new(),
@@ -30,83 +31,85 @@ impl InkLayers {
         }
     }
 
+    /// Returns whether no shape has been added.
     pub(super) fn is_empty(&self) -> bool {
         self.layers.is_empty()
     }
 
-    /// Lays a shape over all that is there.
+    /// Adds a shape on top of all earlier shapes.
     pub(super) fn lay(&mut self, rings: WindingRings, is_paper: bool) {
         let Some(bounds) = Bounds::of(rings.iter().flatten().copied()) else {
-            // A filled line: there is a layer, and nothing is in it.
-            return self.reach(0);
+            // A shape without area creates the layer, so that the drawing is not empty.
+            return self.grow_to(0);
         };
-        // Beside what is of its colour, or above what is not.
+        // In the top layer below the shape if it has the same colour, otherwise one above.
         let top = self.heights.highest(&bounds).saturating_sub(1);
         let layer = top + usize::from((top % 2 == 1) != is_paper);
         self.heights.raise(&bounds, layer + 1);
-        self.reach(layer);
+        self.grow_to(layer);
         self.layers[layer].push(rings);
     }
 
-    fn reach(&mut self, layer: usize) {
+    /// Makes sure that a layer exists.
+    fn grow_to(&mut self, layer: usize) {
         let count = self.layers.len().max(layer + 1);
         self.layers.resize_with(count, Vec::new);
     }
 
-    /// Ink is added, paper taken away, from the lowest layer up.
+    /// Adds ink layers and subtracts paper layers, from bottom to top.
     pub(super) fn composed(self) -> WindingRings {
         let layers = self.layers.into_iter().map(union).enumerate();
         layers.fold(Vec::new(), |ink, (layer, rings)| match layer % 2 {
-            1 => overlaid(&ink, &rings, OverlayRule::Difference),
+            1 => boolean(&ink, &rings, OverlayRule::Difference),
             _ if ink.is_empty() => rings,
-            _ => overlaid(&ink, &rings, OverlayRule::Union),
+            _ => boolean(&ink, &rings, OverlayRule::Union),
         })
     }
 }
 
-/// What a clip path lets through, if there is one.
+/// Intersects rings with a clip path, if there is one.
 pub(super) fn clipped(rings: WindingRings, clip: Option<&WindingRings>) -> WindingRings {
     match clip {
-        Some(clip) => overlaid(&rings, clip, OverlayRule::Intersect),
+        Some(clip) => boolean(&rings, clip, OverlayRule::Intersect),
         None => rings,
     }
 }
 
-/// How many shapes are united at once. Of 30,000 squares that overlap all over a
-/// page each crosses a thousand others: all at once that took 28 s and gigabytes.
-const UNITED: usize = 8;
+/// Number of shapes united in one operation (resource limit: uniting 30,000 overlapping squares
+/// at once takes half a minute and gigabytes).
+const UNION_BATCH: usize = 8;
 
-/// What lies in any of the shapes: few are united at once, so that what lies within
-/// others is gone before it meets the rest.
+/// Returns the union of shapes. Works in small batches, so that edges inside a batch are removed
+/// before they meet the others.
 pub(super) fn union(mut shapes: Vec<WindingRings>) -> WindingRings {
     while shapes.len() > 1 {
-        let united = |few: &[WindingRings]| match few {
+        let unite = |batch: &[WindingRings]| match batch {
             [one] => one.clone(),
-            few => overlaid(&few.concat(), &Vec::new(), OverlayRule::Subject),
+            batch => boolean(&batch.concat(), &Vec::new(), OverlayRule::Subject),
         };
-        shapes = shapes.chunks(UNITED).map(united).collect();
+        shapes = shapes.chunks(UNION_BATCH).map(unite).collect();
     }
     shapes.pop().unwrap_or_default()
 }
 
-/// What is left of rings where others are taken away.
+/// Subtracts other rings from rings.
 pub(super) fn difference(rings: &WindingRings, others: &WindingRings) -> WindingRings {
-    overlaid(rings, others, OverlayRule::Difference)
+    boolean(rings, others, OverlayRule::Difference)
 }
 
-/// A Boolean operation on areas filled by winding.
-fn overlaid(subject: &WindingRings, clip: &WindingRings, rule: OverlayRule) -> WindingRings {
+/// Performs a Boolean operation on areas filled by the non-zero rule.
+fn boolean(subject: &WindingRings, clip: &WindingRings, rule: OverlayRule) -> WindingRings {
     if subject.is_empty() {
         return Vec::new();
     }
-    let plain = |rings: &WindingRings| -> Vec<Vec<[f64; 2]>> {
+    let to_arrays = |rings: &WindingRings| -> Vec<Vec<[f64; 2]>> {
         rings
             .iter()
             .map(|ring| ring.iter().map(|p| p.to_array()).collect())
             .collect()
     };
-    plain(subject)
-        .overlay_as::<i64>(&plain(clip), rule, OverlayFill::NonZero)
+    to_arrays(subject)
+        .overlay_as::<i64>(&to_arrays(clip), rule, OverlayFill::NonZero)
         .into_iter()
         .flatten()
         .map(|ring| ring.into_iter().map(DVec2::from).collect())
@@ -135,9 +138,9 @@ mod tests {
     }
 
     #[test]
-    fn what_is_later_hides_what_it_overlaps() {
+    fn later_shapes_cover_earlier_ones() {
         let mut layers = InkLayers::of_page(DVec2::splat(100.0));
-        layers.lay(square(50.0, 50.0, 10.0), true); // on nothing
+        layers.lay(square(50.0, 50.0, 10.0), true); // paper on an empty page
         layers.lay(square(0.0, 0.0, 100.0), false);
         layers.lay(square(10.0, 10.0, 40.0), true);
         layers.lay(square(20.0, 20.0, 20.0), false);
@@ -149,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn shapes_apart_share_their_layers_whatever_their_order() {
+    fn disjoint_shapes_share_layers_in_any_order() {
         let mut layers = InkLayers::of_page(DVec2::splat(100.0));
         for k in 0..800 {
             let at = |step: i32| f64::from(step % 20) * 5.0;

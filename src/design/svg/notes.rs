@@ -1,30 +1,29 @@
-//! What is told of a drawing: what was repaired, and what is not shown as it was
-//! drawn.
+//! Collects the import notes of a drawing: repairs, ignored content and approximations.
 
 use super::fonts::MissingFonts;
 use super::painter::PaintedDrawing;
 use crate::design::note::ImportNote;
 use usvg::roxmltree::Node as Xml;
 
-/// Elements in which nothing is drawn.
+/// Elements whose content is not drawn in place.
 const HIDDEN: [&str; 6] = ["defs", "symbol", "clipPath", "mask", "pattern", "marker"];
 
-/// What there is to tell of a drawing.
+/// Data for the notes of a drawing.
 pub(super) struct SvgReport<'p> {
+    /// Result of reading the shapes.
     pub painted: &'p PaintedDrawing,
-    /// Whether strokes are in the figure.
+    /// Whether strokes are part of the silhouette.
     pub strokes: bool,
-    /// What the machine does not have of what the text asks for; none if the text is
-    /// left out.
+    /// Missing fonts and characters; `None` if the text was not laid out.
     pub absent: Option<MissingFonts>,
 }
 
 impl SvgReport<'_> {
-    /// The notes of what was painted from an element and all in it.
+    /// Returns the notes on an element and its descendants.
     pub(super) fn notes(self, top: Xml) -> Vec<ImportNote> {
         let repairs = self.painted.repairs.iter();
         let repairs = repairs.flat_map(|(rule, found)| ImportNote::of_repairs(found, *rule));
-        let bare = if self.strokes {
+        let ignored_strokes = if self.strokes {
             0
         } else {
             self.painted.bare_strokes
@@ -37,40 +36,43 @@ impl SvgReport<'_> {
         let absent = self.absent.unwrap_or_default();
         let characters = left_out.glyphs + absent.characters.len();
         let counted = [
-            noted(bare, ImportNote::Strokes),
-            noted(texts, ImportNote::Texts),
-            noted(characters, ImportNote::Characters),
-            noted(elements(top, "image"), ImportNote::Pictures),
-            noted(left_out.shades, ImportNote::Shades),
-            noted(left_out.masks, ImportNote::Masks),
-            noted(filtered(top), ImportNote::Filters),
-            noted(left_out.blends, ImportNote::Blends),
+            counted_note(ignored_strokes, ImportNote::Strokes),
+            counted_note(texts, ImportNote::Texts),
+            counted_note(characters, ImportNote::Characters),
+            counted_note(elements(top, "image"), ImportNote::Pictures),
+            counted_note(left_out.shades, ImportNote::Shades),
+            counted_note(left_out.masks, ImportNote::Masks),
+            counted_note(filtered(top), ImportNote::Filters),
+            counted_note(left_out.blends, ImportNote::Blends),
         ];
-        let told = counted.into_iter().filter(|&(count, _)| count > 0);
+        let nonzero = counted.into_iter().filter(|&(count, _)| count > 0);
         let fonts = absent.fonts.into_iter().map(ImportNote::Font);
         repairs
             .chain(fonts)
-            .chain(told.map(|(_, note)| note))
+            .chain(nonzero.map(|(_, note)| note))
             .collect()
     }
 }
 
-fn noted(count: usize, note: fn(usize) -> ImportNote) -> (usize, ImportNote) {
+/// Pairs a count with its note.
+fn counted_note(count: usize, note: fn(usize) -> ImportNote) -> (usize, ImportNote) {
     (count, note(count))
 }
 
+/// Returns the number of drawn elements with a tag name.
 fn elements(top: Xml, name: &str) -> usize {
     let nodes = drawn(top);
     nodes.filter(|node| node.tag_name().name() == name).count()
 }
 
+/// Returns the number of drawn elements with a filter.
 fn filtered(top: Xml) -> usize {
     drawn(top)
         .filter(|node| node.has_attribute("filter"))
         .count()
 }
 
-/// What is drawn where it stands.
+/// Returns all descendants that are drawn in place.
 fn drawn<'d, 'a: 'd>(top: Xml<'d, 'a>) -> impl Iterator<Item = Xml<'d, 'a>> {
     let is_hidden = |node: Xml| HIDDEN.contains(&node.tag_name().name());
     let nodes = top.descendants();

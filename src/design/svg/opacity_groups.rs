@@ -1,4 +1,4 @@
-//! Groups that cover only a share of what is below.
+//! Applies the opacity of a group to its shapes.
 
 use super::ink_layers::difference;
 use super::paint_layers::merge_shapes;
@@ -6,36 +6,39 @@ use super::shape::SvgShape;
 use crate::colour::Paint;
 use crate::geometry::{Bounds, DVec2};
 
-/// Most shapes of a group that are taken from each other.
+/// Maximum number of shapes in a group whose overlaps are subtracted (resource limit).
 const MAX_SHAPES: usize = 4096;
 
-/// Most points of them, each as often as it is in an operation: about a second.
+/// Maximum total number of points in the Boolean operations on a group (resource limit: about
+/// one second).
 const MAX_POINTS: usize = 1_000_000;
 
-/// The shapes of a group of so much opacity, and whether they look as drawn: what
-/// lies under another shape of the group is not seen through it. They do not where
-/// that would take too long, or where a shape lets others of the group through.
+/// Applies a group's opacity to its shapes; returns them and whether the result is exact.
+///
+/// SVG fades the group as a whole, so a shape must not show through another one of the group.
+/// Covered parts are therefore subtracted before the shapes are faded one by one. The result
+/// is inexact if that exceeds the limits or if a covering shape is itself translucent.
 pub(super) fn apply_group_opacity(
     shapes: Vec<SvgShape>,
     opacity: f64,
     page: DVec2,
 ) -> (Vec<SvgShape>, bool) {
     let shapes = shapes.into_iter().flat_map(SvgShape::apart).collect();
-    // Those of one paint are one, or their seams would be seen.
+    // Shapes of equal paint are united, because overlaps and seams would become visible.
     let mut shapes = merge_shapes(shapes, page);
     let boxes: Vec<Option<Bounds>> = shapes.iter().map(SvgShape::bounds).collect();
-    let over =
+    let may_overlap =
         |k: usize, above: usize| boxes[k].zip(boxes[above]).is_some_and(|(a, b)| a.meets(&b));
     let mut points_left = MAX_POINTS;
-    let mut is_as_drawn = shapes.len() <= MAX_SHAPES;
-    let parted = if is_as_drawn { shapes.len() } else { 0 };
-    for k in 0..parted {
-        for above in (k + 1..parted).filter(|&above| over(k, above)) {
+    let mut is_exact = shapes.len() <= MAX_SHAPES;
+    let subtracted = if is_exact { shapes.len() } else { 0 };
+    for k in 0..subtracted {
+        for above in (k + 1..subtracted).filter(|&above| may_overlap(k, above)) {
             let (lower, upper) = shapes.split_at_mut(above);
             let (shape, above) = (&mut lower[k], &upper[0]);
             let points = shape.points() + above.points();
             if points > points_left || !above.paint.is_opaque() {
-                is_as_drawn = false;
+                is_exact = false;
                 continue;
             }
             points_left -= points;
@@ -53,5 +56,5 @@ pub(super) fn apply_group_opacity(
             .take()
             .map(|gradient| gradient.repainted(fade));
     }
-    (shapes, is_as_drawn)
+    (shapes, is_exact)
 }

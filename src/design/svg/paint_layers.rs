@@ -1,8 +1,7 @@
-//! A drawing as coats of paint, as few as its order asks for.
+//! Merges the shapes of a drawing into as few paint layers as the painting order allows.
 //!
-//! Shapes of one paint that lie on or beside each other are one coat: a word is
-//! one, however many letters it has. A shape goes into the lowest coat of its
-//! paint that is above all that it might hide.
+//! Each shape goes into the lowest layer of its paint that is above everything the shape might
+//! cover. All letters of a word thus share one layer.
 
 use super::ink_layers::{WindingRings, union};
 use super::shape::SvgShape;
@@ -12,10 +11,10 @@ use crate::design::paint_layer::PaintLayer;
 use crate::geometry::{DVec2, FillRule, Regions};
 use std::collections::BTreeMap;
 
-/// The coats of these shapes, the lowest first; of a drawing of this size.
+/// Merges shapes into paint layers, lowest first. `page` is the size of the drawing.
 pub(super) fn paint_layers(shapes: Vec<SvgShape>, page: DVec2) -> Vec<PaintLayer> {
-    let coat = |shape: SvgShape| {
-        // What encloses nothing is not seen.
+    let layer = |shape: SvgShape| {
+        // Shapes without area are invisible.
         let regions = Regions::from_rings(&shape.rings, FillRule::NonZero).ok()?;
         Some(PaintLayer {
             regions,
@@ -28,20 +27,19 @@ pub(super) fn paint_layers(shapes: Vec<SvgShape>, page: DVec2) -> Vec<PaintLayer
     };
     merge_shapes(shapes, page)
         .into_iter()
-        .filter_map(coat)
+        .filter_map(layer)
         .collect()
 }
 
-/// As few shapes as the order of these allows; what is one of several has no
-/// name.
+/// Merges shapes into as few shapes as their order allows. A merged shape has no name.
 pub(super) fn merge_shapes(shapes: Vec<SvgShape>, page: DVec2) -> Vec<SvgShape> {
     let mut stack = PaintStack {
-        coats: Vec::new(),
-        of_paint: BTreeMap::new(),
+        layers: Vec::new(),
+        layers_by_key: BTreeMap::new(),
         heights: ZOrderGrid::of_page(page),
     };
     shapes.into_iter().for_each(|shape| stack.lay(shape));
-    let united = |(shape, more): (SvgShape, Vec<WindingRings>)| match more.is_empty() {
+    let unite = |(shape, more): (SvgShape, Vec<WindingRings>)| match more.is_empty() {
         true => shape,
         false => SvgShape {
             rings: union([vec![shape.rings], more].concat()),
@@ -49,22 +47,24 @@ pub(super) fn merge_shapes(shapes: Vec<SvgShape>, page: DVec2) -> Vec<SvgShape> 
             ..shape
         },
     };
-    stack.coats.into_iter().map(united).collect()
+    stack.layers.into_iter().map(unite).collect()
 }
 
-/// What shapes of one coat have in common.
+/// Attributes that all shapes of a layer share.
 #[derive(PartialEq, Eq, PartialOrd, Ord)]
 struct LayerKey {
     is_text: bool,
     paint: PaintKey,
     gradient: Option<Vec<u64>>,
-    /// Paint, width and join of the line.
+    /// Paint, width and join of the stroke along the outlines.
     line: Option<(PaintKey, u64, (u8, u64))>,
 }
 
+/// Colour and opacity of a paint, comparable bit by bit.
 type PaintKey = ([u8; 3], u64);
 
 impl LayerKey {
+    /// Returns the key of a shape.
     fn of(shape: &SvgShape) -> Self {
         let bits = |paint: Paint| (paint.colour.0, paint.opacity.to_bits());
         let line = shape.edge.as_ref().map(|edge| {
@@ -78,14 +78,14 @@ impl LayerKey {
         Self {
             is_text: shape.is_text,
             paint: bits(shape.paint),
-            gradient: shape.gradient.as_ref().map(numbers),
+            gradient: shape.gradient.as_ref().map(gradient_bits),
             line,
         }
     }
 }
 
-/// All that a gradient consists of.
-fn numbers(gradient: &Gradient) -> Vec<u64> {
+/// Returns all parameters of a gradient as comparable bits.
+fn gradient_bits(gradient: &Gradient) -> Vec<u64> {
     let course = match gradient.course {
         GradientGeometry::Straight => [0.0; 3],
         GradientGeometry::Round { focus, inner } => [focus.x, focus.y, 1.0 + inner],
@@ -100,35 +100,38 @@ fn numbers(gradient: &Gradient) -> Vec<u64> {
     all.map(f64::to_bits).collect()
 }
 
+/// Layers under construction.
 struct PaintStack {
-    /// Each as its first shape and the rings of the others.
-    coats: Vec<(SvgShape, Vec<WindingRings>)>,
-    /// The coats of a paint, the lowest first.
-    of_paint: BTreeMap<LayerKey, Vec<usize>>,
-    /// One more than the highest coat.
+    /// Layers from bottom to top: the first shape and the rings of the others.
+    layers: Vec<(SvgShape, Vec<WindingRings>)>,
+    /// Indices of the layers with a key, in ascending order.
+    layers_by_key: BTreeMap<LayerKey, Vec<usize>>,
+    /// One plus the index of the top layer in each cell of the page.
     heights: ZOrderGrid,
 }
 
 impl PaintStack {
+    /// Adds a shape on top of all earlier shapes.
     fn lay(&mut self, shape: SvgShape) {
         let Some(bounds) = shape.bounds() else {
-            return; // a filled line
+            return; // a shape without area
         };
         let above = self.heights.highest(&bounds);
-        // On its own paint, unless what is below would be seen twice through it, or a
-        // line runs along it.
+        // May join a layer that it overlaps, unless it is translucent, where the overlap would
+        // be darker, or has a stroke, which would be visible inside.
         let may_unite = shape.paint.is_opaque() && shape.edge.is_none();
         let lowest = above.saturating_sub(usize::from(may_unite));
-        let own = self.of_paint.entry(LayerKey::of(&shape)).or_default();
-        let Some(&at) = own.get(own.partition_point(|&coat| coat < lowest)) else {
-            own.push(self.coats.len());
-            self.coats.push((shape, Vec::new()));
-            return self.heights.raise(&bounds, self.coats.len());
+        let same_key = self.layers_by_key.entry(LayerKey::of(&shape)).or_default();
+        let first_allowed = same_key.partition_point(|&layer| layer < lowest);
+        let Some(&index) = same_key.get(first_allowed) else {
+            same_key.push(self.layers.len());
+            self.layers.push((shape, Vec::new()));
+            return self.heights.raise(&bounds, self.layers.len());
         };
-        self.heights.raise(&bounds, at + 1);
-        let (coat, others) = &mut self.coats[at];
+        self.heights.raise(&bounds, index + 1);
+        let (first, others) = &mut self.layers[index];
         others.push(shape.rings);
-        if let Some((all, more)) = coat.edge.as_mut().zip(shape.edge) {
+        if let Some((all, more)) = first.edge.as_mut().zip(shape.edge) {
             all.rings.extend(more.rings);
         }
     }

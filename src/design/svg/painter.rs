@@ -1,5 +1,5 @@
-//! The shapes of a drawing: what each fill and each stroke covers, in the order
-//! in which they are painted, with their paint.
+//! Converts a `usvg` tree to shapes: the area of each fill and stroke with its paint, in painting
+//! order, with clip paths, transforms and group opacity applied.
 
 use super::error::SvgError;
 use super::ink_layers::{WindingRings, clipped};
@@ -13,50 +13,53 @@ use crate::design::flatten::Flattener;
 use crate::geometry::{DAffine2, DVec2, FillRule, Regions, RegionsError, Repairs};
 use usvg::{ClipPath, Group, Node, PaintOrder, Path, Stroke, Text, Transform, tiny_skia_path};
 
-/// What of a drawing is read, and how.
+/// Settings for reading a drawing.
 pub(super) struct SvgReadOptions<'o> {
-    /// In units of the page.
+    /// Flattening tolerance in page units.
     pub tolerance: f64,
+    /// Id of the only element to read; `None` for the whole drawing.
     pub element: Option<&'o str>,
 }
 
-/// All shapes of a drawing, and what was otherwise in it.
+/// Shapes of a drawing with the data for its notes.
 pub(super) struct PaintedDrawing {
-    /// The lowest first.
+    /// Shapes, lowest first.
     pub shapes: Vec<SvgShape>,
-    /// Faults within single shapes, by the rule that resolved them.
+    /// Repairs within single shapes, by the fill rule that resolved them.
     pub repairs: [(FillRule, Repairs); 2],
-    /// Shapes without a fill whose stroke is seen.
+    /// Number of paths with a visible stroke but no fill.
     pub bare_strokes: usize,
+    /// Numbers of ignored or approximated features.
     pub left_out: ApproximationCounts,
 }
 
-/// How many of what is not shown as it was drawn.
+/// Numbers of features that were ignored or approximated.
 #[derive(Default)]
 pub(super) struct ApproximationCounts {
-    /// Patterns, and gradients along lines, of which the mean is shown.
+    /// Patterns and stroke gradients replaced by their mean colour.
     pub shades: usize,
+    /// Ignored masks.
     pub masks: usize,
-    /// Letters that are pictures.
+    /// Ignored bitmap glyphs.
     pub glyphs: usize,
-    /// Groups that are mixed with what is below otherwise than as drawn.
+    /// Groups whose opacity or blend mode is only approximated.
     pub blends: usize,
 }
 
-/// Width and height of a drawing.
+/// Returns width and height of a drawing.
 pub(super) fn page_of(tree: &usvg::Tree) -> DVec2 {
     DVec2::new(tree.size().width().into(), tree.size().height().into())
 }
 
-/// Paints a drawing, or the element of it that is asked for.
+/// Converts a drawing, or only its selected element, to shapes.
 pub(super) fn painted(
     tree: &usvg::Tree,
-    brush: &SvgReadOptions,
+    options: &SvgReadOptions,
 ) -> Result<PaintedDrawing, SvgError> {
     let mut painter = SvgPainter {
         page: page_of(tree),
-        flattener: Flattener::new(brush.tolerance),
-        brush,
+        flattener: Flattener::new(options.tolerance),
+        options,
         painted: PaintedDrawing {
             shapes: Vec::new(),
             repairs: [FillRule::NonZero, FillRule::EvenOdd].map(|rule| (rule, Repairs::default())),
@@ -64,29 +67,31 @@ pub(super) fn painted(
             left_out: ApproximationCounts::default(),
         },
         is_drawn: false,
-        is_lettering: false,
+        is_in_text: false,
     };
-    painter.group(tree.root(), None, brush.element.is_none())?;
-    match brush.element {
+    painter.group(tree.root(), None, options.element.is_none())?;
+    match options.element {
         Some(id) if !painter.is_drawn => Err(SvgError::NotDrawn(id.to_owned())),
         _ => Ok(painter.painted),
     }
 }
 
+/// Traversal of a drawing.
 struct SvgPainter<'b> {
+    /// Width and height of the page.
     page: DVec2,
     flattener: Flattener,
-    brush: &'b SvgReadOptions<'b>,
+    options: &'b SvgReadOptions<'b>,
     painted: PaintedDrawing,
-    /// Whether there is a path in what is asked for, seen or not.
+    /// Whether the selection contains a path, visible or not.
     is_drawn: bool,
-    /// Whether what is painted is text.
-    is_lettering: bool,
+    /// Whether the traversal is inside a text element.
+    is_in_text: bool,
 }
 
 impl SvgPainter<'_> {
-    /// Paints a group's children, inside `clip` and the group's own; outside
-    /// of the element that is asked for only what belongs to it.
+    /// Converts the children of a group, clipped by `clip` and the group's own clip path.
+    /// `is_within` says whether the group is inside the selected element.
     fn group(
         &mut self,
         group: &Group,
@@ -107,7 +112,7 @@ impl SvgPainter<'_> {
         let clip = own.as_ref().or(clip);
         let first = self.painted.shapes.len();
         for node in group.children() {
-            let is_within = is_within || self.brush.element == Some(node.id());
+            let is_within = is_within || self.options.element == Some(node.id());
             match node {
                 Node::Group(inner) => self.group(inner, clip, is_within)?,
                 Node::Path(path) if is_within => self.path(path, path.id(), clip)?,
@@ -118,31 +123,34 @@ impl SvgPainter<'_> {
         let opacity = f64::from(group.opacity().get());
         if opacity < 1.0 {
             let shapes = self.painted.shapes.split_off(first);
-            let (shapes, is_as_drawn) = apply_group_opacity(shapes, opacity, self.page);
-            self.painted.left_out.blends += usize::from(!is_as_drawn);
+            let (shapes, is_exact) = apply_group_opacity(shapes, opacity, self.page);
+            self.painted.left_out.blends += usize::from(!is_exact);
             self.painted.shapes.extend(shapes);
         }
         Ok(())
     }
 
+    /// Counts the mask and blend mode of a group.
     fn count_left_out(&mut self, group: &Group) {
         let left_out = &mut self.painted.left_out;
         left_out.masks += usize::from(group.mask().is_some());
         left_out.blends += usize::from(group.blend_mode() != usvg::BlendMode::Normal);
     }
 
+    /// Converts the glyph outlines of a text element.
     fn text(&mut self, text: &Text, clip: Option<&WindingRings>) -> Result<(), SvgError> {
-        self.is_lettering = true;
+        self.is_in_text = true;
         for node in text.flattened().children() {
             match node {
                 Node::Path(path) => self.path(path, text.id(), clip)?,
                 _ => self.painted.left_out.glyphs += 1,
             }
         }
-        self.is_lettering = false;
+        self.is_in_text = false;
         Ok(())
     }
 
+    /// Converts a path and counts its approximated paints.
     fn path(
         &mut self,
         path: &Path,
@@ -159,32 +167,33 @@ impl SvgPainter<'_> {
         let stroke = path.stroke();
         let stroke = stroke.and_then(|stroke| resolve_paint(stroke.paint(), stroke.opacity()));
         self.painted.bare_strokes += usize::from(fill.is_none() && stroke.is_some());
-        let is_mean = |tone: &ResolvedPaint| tone.is_mean;
-        // Lines have one paint.
-        let is_lost = |tone: &ResolvedPaint| tone.is_mean || tone.gradient.is_some();
+        let is_mean = |resolved: &ResolvedPaint| resolved.is_mean;
+        // Strokes support a single colour only.
+        let is_approximated =
+            |resolved: &ResolvedPaint| resolved.is_mean || resolved.gradient.is_some();
         self.painted.left_out.shades += usize::from(fill.as_ref().is_some_and(is_mean));
-        self.painted.left_out.shades += usize::from(stroke.as_ref().is_some_and(is_lost));
-        let gradient = fill.as_mut().and_then(|tone| tone.gradient.take());
-        let gradient = gradient.map(|gradient| gradient.moved(self.on_page(path)));
-        let [fill, stroke] = [fill, stroke].map(|tone| tone.map(|tone| tone.paint));
+        self.painted.left_out.shades += usize::from(stroke.as_ref().is_some_and(is_approximated));
+        let gradient = fill.as_mut().and_then(|resolved| resolved.gradient.take());
+        let gradient = gradient.map(|gradient| gradient.moved(self.page_from_path(path)));
+        let [fill, stroke] = [fill, stroke].map(|resolved| resolved.map(|resolved| resolved.paint));
         let first = self.painted.shapes.len();
-        self.inked(path, (name, clip), (fill, stroke))?;
-        // The fill is the first of them, or the second.
-        let laid = &mut self.painted.shapes[first..];
-        if let Some(shape) = laid.iter_mut().find(|shape| !shape.is_stroke) {
+        self.add_shapes(path, (name, clip), (fill, stroke))?;
+        // The paint order decides whether the fill is the first or second new shape.
+        let added = &mut self.painted.shapes[first..];
+        if let Some(shape) = added.iter_mut().find(|shape| !shape.is_stroke) {
             shape.gradient = gradient;
         }
         Ok(())
     }
 
-    /// From the space of a path to the page, y up.
-    fn on_page(&self, path: &Path) -> DAffine2 {
-        let up = DAffine2::from_cols_array(&[1.0, 0.0, 0.0, -1.0, 0.0, self.page.y]);
-        up * affine(path.abs_transform())
+    /// Returns the map from the coordinates of a path to the page, y up.
+    fn page_from_path(&self, path: &Path) -> DAffine2 {
+        let flip_y = DAffine2::from_cols_array(&[1.0, 0.0, 0.0, -1.0, 0.0, self.page.y]);
+        flip_y * affine(path.abs_transform())
     }
 
-    /// Fills and strokes a path, in its order.
-    fn inked(
+    /// Adds the fill and the stroke of a path in its paint order.
+    fn add_shapes(
         &mut self,
         path: &Path,
         (name, clip): (&str, Option<&WindingRings>),
@@ -194,7 +203,7 @@ impl SvgPainter<'_> {
         if let Some(stroke) = stroke
             && fills_first
             && clip.is_none()
-            && self.edged(path, name, (fill, stroke))?
+            && self.add_stroked_fill(path, name, (fill, stroke))?
         {
             return Ok(());
         }
@@ -210,6 +219,7 @@ impl SvgPainter<'_> {
         Ok(())
     }
 
+    /// Adds a shape, clipped.
     fn lay(
         &mut self,
         name: &str,
@@ -222,15 +232,15 @@ impl SvgPainter<'_> {
             paint,
             gradient: None,
             is_stroke,
-            is_text: self.is_lettering,
+            is_text: self.is_in_text,
             edge: None,
             name: name.to_owned(),
         });
     }
 
-    /// Paints a path whose stroke goes along what it encloses, and whether it does: its
-    /// outlines are closed, and none crosses itself or another.
-    fn edged(
+    /// Adds a path as one shape with an attached stroke, if its subpaths are closed and cross
+    /// neither themselves nor each other; returns whether it did.
+    fn add_stroked_fill(
         &mut self,
         path: &Path,
         name: &str,
@@ -244,16 +254,16 @@ impl SvgPainter<'_> {
         let rings = self.rings(path.data(), path.abs_transform())?;
         let rule = match path.fill().map(usvg::Fill::rule) {
             Some(usvg::FillRule::NonZero) => FillRule::NonZero,
-            // Without a fill all outlines are to stay.
+            // Without a fill, the even-odd rule preserves all outlines.
             Some(usvg::FillRule::EvenOdd) | None => FillRule::EvenOdd,
         };
         let crossings = Repairs::between(&rings).crossings;
         let cleaned = cleaned(&rings, rule)?;
         if crossings > 0 || cleaned.len() != rings.len() {
-            self.flattener = before; // it is flattened again, as what it fills
+            self.flattener = before; // the caller flattens the path again
             return Ok(false);
         }
-        let unseen = Paint {
+        let invisible = Paint {
             opacity: 0.0,
             ..stroke
         };
@@ -263,17 +273,17 @@ impl SvgPainter<'_> {
         };
         self.painted.shapes.push(SvgShape {
             rings: cleaned,
-            paint: fill.unwrap_or(unseen),
+            paint: fill.unwrap_or(invisible),
             gradient: None,
             is_stroke: false,
-            is_text: self.is_lettering,
+            is_text: self.is_in_text,
             edge: Some(edge),
             name: name.to_owned(),
         });
         Ok(true)
     }
 
-    /// What a clip path lets through.
+    /// Returns the area of a clip path on the page.
     fn clip(&mut self, clip: &ClipPath, group: Transform) -> Result<WindingRings, SvgError> {
         let mut rings = Vec::new();
         let base = group.pre_concat(clip.transform());
@@ -282,6 +292,7 @@ impl SvgPainter<'_> {
         Ok(clipped(rings, outer.transpose()?.as_ref()))
     }
 
+    /// Appends the area of the filled paths in a group of a clip path.
     fn clip_group(
         &mut self,
         group: &Group,
@@ -294,8 +305,8 @@ impl SvgPainter<'_> {
                 Node::Group(inner) => {
                     let mut own = Vec::new();
                     self.clip_group(inner, base, &mut own)?;
-                    let at = base.pre_concat(inner.abs_transform());
-                    let inside = inner.clip_path().map(|clip| self.clip(clip, at));
+                    let inner_base = base.pre_concat(inner.abs_transform());
+                    let inside = inner.clip_path().map(|clip| self.clip(clip, inner_base));
                     rings.extend(clipped(own, inside.transpose()?.as_ref()));
                 }
                 _ => {}
@@ -304,17 +315,17 @@ impl SvgPainter<'_> {
         Ok(())
     }
 
-    /// The area that a path fills by its own rule, on the page, y up.
+    /// Returns the filled area of a path on the page, y up, by its own fill rule.
     fn filled(&mut self, path: &Path, base: Transform) -> Result<WindingRings, SvgError> {
         let rings = self.rings(path.data(), base.pre_concat(path.abs_transform()))?;
-        let at = match path.fill().map(usvg::Fill::rule) {
+        let index = match path.fill().map(usvg::Fill::rule) {
             Some(usvg::FillRule::EvenOdd) => 1,
             _ => 0,
         };
-        let (rule, repairs) = &mut self.painted.repairs[at];
-        // Letters may overlap as their font has it: that is no fault.
-        if !self.is_lettering {
-            // Counted here, where the rule is known: once united nothing crosses.
+        let (rule, repairs) = &mut self.painted.repairs[index];
+        // Overlapping contours are normal in fonts and not reported.
+        if !self.is_in_text {
+            // Counted before the union, which removes all crossings.
             let found = Repairs::between(&rings);
             repairs.crossings += found.crossings;
             repairs.at_least |= found.at_least;
@@ -322,21 +333,21 @@ impl SvgPainter<'_> {
         cleaned(&rings, *rule)
     }
 
-    /// The area that a path's stroke covers, dashes, joins and ends included.
+    /// Returns the area of a path's stroke, including dashes, joins and caps.
     fn stroked(&mut self, path: &Path) -> Result<WindingRings, SvgError> {
         let Some(outline) = path.stroke().and_then(|stroke| self.outlined(path, stroke)) else {
-            return Ok(Vec::new()); // of no width, or of no length
+            return Ok(Vec::new()); // no width or no length
         };
         let rings = self.rings(&outline, path.abs_transform())?;
         cleaned(&rings, FillRule::NonZero)
     }
 
-    /// The stroke's outline before the path's transform.
+    /// Returns the outline of a stroke in the coordinates of the path.
     fn outlined(&self, path: &Path, stroke: &Stroke) -> Option<tiny_skia_path::Path> {
         let stroke = stroke.to_tiny_skia();
-        // The stroker's curves keep within a quarter of a pixel.
+        // The stroker approximates curves to a quarter of a pixel at this resolution.
         let (sx, sy) = path.abs_transform().get_scale();
-        let finest = 0.25 * f64::from(sx.max(sy)) / self.brush.tolerance;
+        let finest = 0.25 * f64::from(sx.max(sy)) / self.options.tolerance;
         let resolution = finest.clamp(1.0, MAX_RESOLUTION) as f32;
         let dashed;
         let data = match &stroke.dash {
@@ -349,7 +360,7 @@ impl SvgPainter<'_> {
         data.stroke(&stroke, resolution)
     }
 
-    /// A path as polygons on the page, y up.
+    /// Flattens a path to polygons on the page, y up.
     fn rings(
         &mut self,
         path: &tiny_skia_path::Path,
@@ -364,18 +375,20 @@ impl SvgPainter<'_> {
     }
 }
 
-/// Pixels to a unit beyond which the stroker gains nothing in `f32`.
+/// Maximum resolution of the stroker in pixels per unit (tolerance: more exceeds the precision
+/// of `f32`).
 const MAX_RESOLUTION: f64 = 1e6;
 
+/// Resolves crossings and overlaps; returns no rings if the area is empty.
 fn cleaned(rings: &WindingRings, rule: FillRule) -> Result<WindingRings, SvgError> {
     match Regions::from_rings(rings, rule) {
         Ok(regions) => Ok(regions.rings().map(|r| r.points().to_vec()).collect()),
-        Err(RegionsError::Empty | RegionsError::Size(_)) => Ok(Vec::new()), // a filled line
+        Err(RegionsError::Empty | RegionsError::Size(_)) => Ok(Vec::new()), // no area
         Err(error) => Err(error.into()),
     }
 }
 
-/// Whether a path has a fill that is seen.
+/// Returns whether a path has a visible fill.
 fn is_filled(path: &Path) -> bool {
     let fill = path.fill().filter(|fill| fill.opacity().get() > 0.0);
     path.is_visible() && fill.is_some()

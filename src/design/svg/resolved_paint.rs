@@ -1,19 +1,20 @@
-//! What is filled or drawn with what: a paint, a gradient, and of patterns the mean.
+//! Converts SVG paints: solid colours, gradients, and patterns as their mean colour.
 
 use crate::colour::{Gradient, GradientGeometry, GradientSpread, GradientStop, Paint, Rgb};
 use crate::geometry::{DAffine2, DMat2, DVec2};
 use usvg::{BaseGradient, Color, Group, Node, Opacity, Pattern, SpreadMethod, Transform};
 
-/// A paint; of a gradient, which goes with it, the mean.
+/// Converted paint of a fill or stroke.
 pub(super) struct ResolvedPaint {
+    /// Colour and opacity; for a gradient, its mean.
     pub paint: Paint,
-    /// In the space of the path.
+    /// Gradient in the coordinates of the path.
     pub gradient: Option<Gradient>,
-    /// Whether more was drawn than this says.
+    /// Whether the paint is only the mean of a pattern or of a degenerate gradient.
     pub is_mean: bool,
 }
 
-/// What a fill or a stroke is painted with; none where nothing is seen of it.
+/// Converts the paint of a fill or stroke; returns `None` if it is fully transparent.
 pub(super) fn resolve_paint(paint: &usvg::Paint, opacity: Opacity) -> Option<ResolvedPaint> {
     let (mean, gradient, is_mean) = match paint {
         usvg::Paint::Color(colour) => (rgb(*colour).into(), None, false),
@@ -25,7 +26,7 @@ pub(super) fn resolve_paint(paint: &usvg::Paint, opacity: Opacity) -> Option<Res
             let along = point(to) - point(from);
             let frame =
                 DAffine2::from_mat2_translation(DMat2::from_cols(along, along.perp()), point(from));
-            let gradient = drawn(gradient, GradientGeometry::Straight, frame);
+            let gradient = converted(gradient, GradientGeometry::Straight, frame);
             (gradient.mean(), Some(gradient), false)
         }
         usvg::Paint::RadialGradient(gradient) => {
@@ -37,36 +38,36 @@ pub(super) fn resolve_paint(paint: &usvg::Paint, opacity: Opacity) -> Option<Res
                 inner: f64::from(gradient.fr().get()) / radius,
             };
             let frame = DAffine2::from_scale_angle_translation(DVec2::splat(radius), 0.0, centre);
-            let gradient = drawn(gradient, course, frame);
+            let gradient = converted(gradient, course, frame);
             (gradient.mean(), Some(gradient), false)
         }
-        usvg::Paint::Pattern(pattern) => (of_pattern(pattern)?, None, true),
+        usvg::Paint::Pattern(pattern) => (pattern_mean(pattern)?, None, true),
     };
-    let covered = f64::from(opacity.get());
-    let share = |paint: Paint| Paint {
-        opacity: covered * paint.opacity,
+    let factor = f64::from(opacity.get());
+    let fade = |paint: Paint| Paint {
+        opacity: factor * paint.opacity,
         ..paint
     };
-    let paint = share(mean);
-    // What cannot be laid out is as wide as a line, and shows its mean.
-    let is_laid_out = |gradient: &Gradient| {
+    let paint = fade(mean);
+    // A gradient with a singular frame cannot be drawn and is replaced by its mean.
+    let is_invertible = |gradient: &Gradient| {
         let determinant = gradient.frame.matrix2.determinant();
         determinant.is_finite() && determinant != 0.0
     };
     let is_mean = is_mean
         || gradient
             .as_ref()
-            .is_some_and(|gradient| !is_laid_out(gradient));
-    let gradient = gradient.filter(is_laid_out);
+            .is_some_and(|gradient| !is_invertible(gradient));
+    let gradient = gradient.filter(is_invertible);
     (paint.opacity > 0.0).then(|| ResolvedPaint {
         paint,
-        gradient: gradient.map(|gradient| gradient.repainted(share)),
+        gradient: gradient.map(|gradient| gradient.repainted(fade)),
         is_mean,
     })
 }
 
-/// A gradient of the drawing as one of ours.
-fn drawn(gradient: &BaseGradient, course: GradientGeometry, frame: DAffine2) -> Gradient {
+/// Converts the stops, spread and transform of a gradient with the given geometry and frame.
+fn converted(gradient: &BaseGradient, course: GradientGeometry, frame: DAffine2) -> Gradient {
     let stop = |stop: &usvg::Stop| GradientStop {
         at: stop.offset().get().into(),
         paint: Paint {
@@ -86,39 +87,42 @@ fn drawn(gradient: &BaseGradient, course: GradientGeometry, frame: DAffine2) -> 
     }
 }
 
+/// Converts a point to double precision.
 fn point((x, y): (f32, f32)) -> DVec2 {
     DVec2::new(x.into(), y.into())
 }
 
-/// A transform in double precision.
+/// Converts a transform to double precision.
 pub(super) fn affine(t: Transform) -> DAffine2 {
     let columns = [t.sx, t.ky, t.kx, t.sy, t.tx, t.ty].map(f64::from);
     DAffine2::from_cols_array(&columns)
 }
 
+/// Converts a colour.
 fn rgb(colour: Color) -> Rgb {
     Rgb([colour.red, colour.green, colour.blue])
 }
 
-/// The mean of what is filled in a pattern, one shape as much as another.
-fn of_pattern(pattern: &Pattern) -> Option<Paint> {
-    let mut found = Vec::new();
-    fills(pattern.root(), &mut found);
-    let paints = found.into_iter().map(|paint| (paint, 1.0));
+/// Returns the mean paint of the filled shapes in a pattern, with equal weights.
+fn pattern_mean(pattern: &Pattern) -> Option<Paint> {
+    let mut paints = Vec::new();
+    collect_fills(pattern.root(), &mut paints);
+    let paints = paints.into_iter().map(|paint| (paint, 1.0));
     Some(Paint::mean(paints)).filter(|paint| paint.opacity > 0.0)
 }
 
-fn fills(group: &Group, found: &mut Vec<Paint>) {
+/// Appends the paints of all fills in a group.
+fn collect_fills(group: &Group, paints: &mut Vec<Paint>) {
     for node in group.children() {
         match node {
-            Node::Group(inner) => fills(inner, found),
+            Node::Group(inner) => collect_fills(inner, paints),
             Node::Path(path) => {
                 let fill = path.fill().and_then(|fill| match fill.paint() {
-                    // A pattern in a pattern could go on without end.
+                    // Nested patterns are ignored because they could recurse endlessly.
                     usvg::Paint::Pattern(_) => None,
                     paint => resolve_paint(paint, fill.opacity()),
                 });
-                found.extend(fill.map(|tone| tone.paint));
+                paints.extend(fill.map(|tone| tone.paint));
             }
             Node::Image(_) | Node::Text(_) => {}
         }

@@ -1,38 +1,41 @@
-//! What is painted at once.
+//! The shape: one painted area of a drawing.
 
 use super::ink_layers::WindingRings;
 use super::stroke::ShapeStroke;
 use crate::colour::{Gradient, Paint};
 use crate::geometry::Bounds;
 
-/// What one fill or one stroke covers, or a fill with the stroke along it.
+/// Area of one fill or one stroke, or a fill with the stroke along its outline.
 pub(super) struct SvgShape {
-    /// To be filled by winding.
+    /// Area, filled by the non-zero rule.
     pub rings: WindingRings,
+    /// Colour and opacity.
     pub paint: Paint,
-    /// On the page, y up; the paint is its mean.
+    /// Gradient in page coordinates, y up; `paint` is then its mean.
     pub gradient: Option<Gradient>,
+    /// Whether the area is that of a stroke.
     pub is_stroke: bool,
+    /// Whether the shape belongs to a text element.
     pub is_text: bool,
-    /// The stroke along the rings, if it goes with them.
+    /// Stroke along the rings, if it stays attached to them.
     pub edge: Option<ShapeStroke>,
-    /// The id of its element, if it has one.
+    /// Id of the element; may be empty.
     pub name: String,
 }
 
 impl SvgShape {
-    /// The box around all that it covers.
+    /// Returns the bounding box including the stroke, or `None` without points.
     pub(super) fn bounds(&self) -> Option<Bounds> {
         let edge = self.edge.iter().flat_map(|edge| &edge.rings);
         Bounds::of(self.rings.iter().chain(edge).flatten().copied())
     }
 
-    /// How many points it has.
+    /// Returns the number of points of the fill.
     pub(super) fn points(&self) -> usize {
         self.rings.iter().map(Vec::len).sum()
     }
 
-    /// Its fill and its stroke, each for itself, if it is seen.
+    /// Splits the shape into its visible fill and its stroke.
     pub(super) fn apart(mut self) -> impl Iterator<Item = Self> {
         let (edge, fill) = (self.edge.take(), self);
         let stroke = edge.map(|edge| Self {

@@ -1,5 +1,4 @@
-//! A drawing as the figure that it makes, by a painter who knows two colours,
-//! ink and paper.
+//! Computes the silhouette of a drawing by painting its shapes in two colours, ink and paper.
 
 use super::error::SvgError;
 use super::ink_layers::{InkLayers, WindingRings};
@@ -8,8 +7,9 @@ use super::shape::SvgShape;
 use crate::colour::{Paint, Rgb};
 use crate::geometry::{DVec2, FillRule, Regions};
 
-/// What is ink in the end, with its strokes or without. Shapes of pure white are
-/// paper where anything else is painted.
+/// Returns the area that is ink after all shapes are painted, with or without strokes.
+///
+/// Pure white shapes are paper, unless all shapes are white.
 pub(super) fn silhouette(
     painted: &PaintedDrawing,
     page: DVec2,
@@ -19,7 +19,7 @@ pub(super) fn silhouette(
         painted
             .shapes
             .iter()
-            .flat_map(|shape| sides(shape, strokes))
+            .flat_map(|shape| visible_areas(shape, strokes))
     };
     let white_is_paper = shapes().any(|(_, paint)| !is_white(paint));
     let mut layers = InkLayers::of_page(page);
@@ -33,10 +33,11 @@ pub(super) fn silhouette(
     Ok(Regions::from_rings(&layers.composed(), FillRule::NonZero)?)
 }
 
-/// The fill of a shape and its stroke, those that are seen and wanted.
-fn sides(shape: &SvgShape, strokes: bool) -> impl Iterator<Item = (&WindingRings, &Paint)> {
-    let is_read = (strokes || !shape.is_stroke) && shape.paint.opacity > 0.0;
-    let fill = is_read.then_some((&shape.rings, &shape.paint));
+/// Returns the fill and the stroke of a shape with their paints; without the stroke if `strokes`
+/// is false, and without an invisible fill.
+fn visible_areas(shape: &SvgShape, strokes: bool) -> impl Iterator<Item = (&WindingRings, &Paint)> {
+    let is_visible = (strokes || !shape.is_stroke) && shape.paint.opacity > 0.0;
+    let fill = is_visible.then_some((&shape.rings, &shape.paint));
     let edge = shape.edge.as_ref().filter(|_| strokes);
     fill.into_iter()
         .chain(edge.map(|edge| (&edge.rings, &edge.line.paint)))

@@ -1,18 +1,19 @@
-//! Strokes that go along with what they go around.
+//! Strokes that stay attached to the outline of their shape instead of becoming a shape.
 
 use super::ink_layers::WindingRings;
 use crate::colour::{Paint, StrokeJoin, StrokeStyle};
 use crate::geometry::DVec2;
 use usvg::{LineJoin, Path, tiny_skia_path};
 
-/// A stroke along the rings of a shape.
+/// Stroke along the rings of a shape.
 pub(super) struct ShapeStroke {
+    /// Paint, width and join.
     pub line: StrokeStyle,
-    /// What it covers, to be filled by winding.
+    /// Area of the stroke, filled by the non-zero rule.
     pub rings: WindingRings,
 }
 
-/// Whether every outline of a path is closed.
+/// Returns whether every subpath is closed.
 pub(super) fn is_closed(path: &Path) -> bool {
     use tiny_skia_path::PathSegment::{Close, MoveTo};
     let mut is_open = false;
@@ -26,8 +27,8 @@ pub(super) fn is_closed(path: &Path) -> bool {
     !is_open
 }
 
-/// The stroke of a path as a line along its outlines, if it is one: without dashes,
-/// and as wide in all directions.
+/// Returns the stroke of a path in page units, or `None` if it has dashes or its transform
+/// makes the width depend on the direction.
 pub(super) fn uniform_stroke(path: &Path, paint: Paint) -> Option<StrokeStyle> {
     let stroke = path
         .stroke()
@@ -40,21 +41,21 @@ pub(super) fn uniform_stroke(path: &Path, paint: Paint) -> Option<StrokeStyle> {
         ]
     };
     let scale = x.length();
-    let is_even =
-        (y.length() - scale).abs() < EVEN * scale && x.dot(y).abs() < EVEN * scale * scale;
+    let is_similarity = (y.length() - scale).abs() < MAX_DISTORTION * scale
+        && x.dot(y).abs() < MAX_DISTORTION * scale * scale;
     let limit = f64::from(stroke.miterlimit().get());
     let join = match stroke.linejoin() {
         LineJoin::Miter | LineJoin::MiterClip => StrokeJoin::Mitre(limit),
         LineJoin::Round => StrokeJoin::Round,
         LineJoin::Bevel => StrokeJoin::Bevel,
     };
-    is_even.then(|| StrokeStyle {
+    is_similarity.then(|| StrokeStyle {
         paint,
         width: scale * f64::from(stroke.width().get()),
         join,
     })
 }
 
-/// By what share the two axes of a transform may differ in length and from a right
-/// angle: transforms are `f32`.
-const EVEN: f64 = 1e-4;
+/// Maximum relative difference of the axis lengths of a similarity, and maximum cosine of the
+/// angle between the axes (tolerance: transforms are `f32`).
+const MAX_DISTORTION: f64 = 1e-4;

@@ -1,3 +1,5 @@
+//! Tests of the SVG importer.
+
 use super::*;
 use crate::colour::{Paint, Rgb};
 use crate::design::note::ImportNote;
@@ -18,7 +20,7 @@ fn read(text: &str, tolerance: f64) -> Result<(Regions, Bounds), SvgError> {
     super::read(text, None, &options).map(|found| (found.regions, found.extent))
 }
 
-/// The outlines of an element with strokes, and what was told.
+/// Imports a drawing or one element of it, with strokes.
 fn stroked(body: &str, element: Option<&str>) -> Result<ImportedOutlines, SvgError> {
     let options = ImportOptions {
         tolerance: 1e-5,
@@ -28,8 +30,8 @@ fn stroked(body: &str, element: Option<&str>) -> Result<ImportedOutlines, SvgErr
     super::read(&page(body), element, &options)
 }
 
-/// What is filled, without strokes.
-fn filled_alone(body: &str) -> Result<Regions, SvgError> {
+/// Returns the silhouette of the fills only.
+fn without_strokes(body: &str) -> Result<Regions, SvgError> {
     let options = ImportOptions {
         strokes: false,
         ..ImportOptions::default()
@@ -45,7 +47,7 @@ fn regions(body: &str) -> Regions {
     read_body(body).expect("an outline")
 }
 
-fn near(found: f64, expected: f64) {
+fn assert_near(found: f64, expected: f64) {
     assert!(
         (found - expected).abs() < 1e-3 * expected,
         "{found} for {expected}"
@@ -68,37 +70,37 @@ fn y_points_up_and_the_view_box_scales() {
 #[test]
 fn circles_are_round() {
     let disc = regions(r#"<circle cx="50" cy="50" r="40"/>"#);
-    near(disc.area(), 1600.0 * std::f64::consts::PI);
+    assert_near(disc.area(), 1600.0 * std::f64::consts::PI);
     assert_eq!(disc.rings().count(), 1);
 }
 
 #[test]
-fn fill_rules_are_kept_apart() {
+fn each_path_uses_its_own_fill_rule() {
     let star = "M0 0h40v40h-40z M10 10h20v20h-20z";
     let body = format!(
         r#"<path d="{star}" fill-rule="evenodd"/><path transform="translate(50 0)" d="{star}"/>"#
     );
-    near(regions(&body).area(), 1600.0 - 400.0 + 1600.0);
+    assert_near(regions(&body).area(), 1600.0 - 400.0 + 1600.0);
     assert_eq!(regions(&body).rings().count(), 3);
 }
 
 #[test]
-fn transforms_uses_and_overlaps_are_united() {
+fn copies_are_transformed_and_united() {
     let body = r##"<defs><rect id="r" width="10" height="10"/></defs>
         <g transform="scale(2)"><use href="#r" x="5"/><use xlink:href="#r" x="10"/></g>"##;
-    near(regions(body).area(), 600.0);
+    assert_near(regions(body).area(), 600.0);
     assert_eq!(regions(body).len(), 1);
 }
 
 #[test]
-fn white_is_paper_unless_all_is_white() {
+fn white_is_paper_unless_all_shapes_are_white() {
     let sheet = r#"<rect width="100" height="100" fill="white"/>"#;
     let body = format!(
         r##"{sheet}<rect width="60" height="60" fill="red"/><rect width="20" height="60" fill="#fff"/>
         <rect width="10" height="10"/>"##
     );
-    near(regions(&body).area(), 60.0 * 60.0 - 20.0 * 60.0 + 100.0);
-    near(regions(sheet).area(), 10_000.0);
+    assert_near(regions(&body).area(), 60.0 * 60.0 - 20.0 * 60.0 + 100.0);
+    assert_near(regions(sheet).area(), 10_000.0);
 }
 
 #[test]
@@ -106,12 +108,12 @@ fn clip_paths_cut() {
     let body = r##"<clipPath id="c"><rect width="50" height="100" transform="translate(10 0)"/>
         <rect width="10" height="10" x="90" y="90"/></clipPath>
         <g transform="translate(5 0)" clip-path="url(#c)"><rect width="100" height="20"/></g>"##;
-    near(regions(body).area(), 50.0 * 20.0);
-    near(regions(body).bounds().min.x, 15.0);
+    assert_near(regions(body).area(), 50.0 * 20.0);
+    assert_near(regions(body).bounds().min.x, 15.0);
 }
 
 #[test]
-fn what_is_not_filled_is_not_there() {
+fn invisible_shapes_are_ignored() {
     let nothing = [
         "",
         r#"<rect width="9" height="9" fill="none"/>"#,
@@ -130,21 +132,22 @@ fn what_is_not_filled_is_not_there() {
         );
     }
     let stroke = r#"<path d="M0 0 L50 50" fill="none" stroke="black"/>"#;
-    let error = filled_alone(stroke).expect_err("strokes only");
+    let error = without_strokes(stroke).expect_err("strokes only");
     assert!(matches!(error, SvgError::NothingFilled { strokes: true }));
     assert!(error.to_string().contains("only strokes"));
 }
 
 #[test]
-fn a_mask_is_left_out_and_told() {
+fn an_ignored_mask_is_reported() {
     let body = r##"<mask id="m"><rect width="9" height="9" fill="white"/></mask>
         <rect width="50" height="50" mask="url(#m)"/>"##;
     let found = stroked(body, None).expect("an outline");
-    near(found.regions.area(), 2500.0);
+    assert_near(found.regions.area(), 2500.0);
     assert_eq!(found.notes, [ImportNote::Masks(1)]);
 }
 
-/// `levels` groups, each made of `copies` references to the one before.
+/// Builds `levels` nested groups, each with `copies` references made by `link` to the previous
+/// one.
 fn bomb(levels: usize, copies: usize, link: impl Fn(usize) -> String) -> String {
     let mut body = String::from(r#"<defs><g id="g0"><rect width="1" height="1"/></g>"#);
     for level in 1..=levels {
@@ -154,7 +157,8 @@ fn bomb(levels: usize, copies: usize, link: impl Fn(usize) -> String) -> String 
     body + &format!(r##"</defs><use href="#g{levels}"/>"##)
 }
 
-fn refused_at_once(body: &str) -> SvgError {
+/// Returns the error of an exponential drawing, which must be reported quickly.
+fn refused_quickly(body: &str) -> SvgError {
     let start = Instant::now();
     let error = read_body(body).expect_err("a bomb");
     assert!(start.elapsed() < Duration::from_secs(5));
@@ -167,11 +171,11 @@ fn nested_use_does_not_hang() {
         format!(r##"<use xlink:href="#g{level}"/>"##)
     });
     assert!(matches!(
-        refused_at_once(&body),
+        refused_quickly(&body),
         SvgError::TooManyElements { .. }
     ));
     let few = bomb(3, 10, |level| format!(r##"<use xlink:href="#g{level}"/>"##));
-    near(regions(&few).area(), 1.0);
+    assert_near(regions(&few).area(), 1.0);
 }
 
 #[test]
@@ -195,11 +199,11 @@ fn nested_patterns_clips_masks_and_styles_do_not_hang() {
         format!(r##"<style>{sheet}</style>{body}<rect width="9" height="9" fill="url(#p13)"/>"##)
     };
     assert!(matches!(
-        refused_at_once(&fill(false)),
+        refused_quickly(&fill(false)),
         SvgError::TooManyElements { .. }
     ));
     assert!(matches!(
-        refused_at_once(&fill(true)),
+        refused_quickly(&fill(true)),
         SvgError::TooManyElements { .. }
     ));
     for (element, attribute) in [("clipPath", "clip-path"), ("mask", "mask")] {
@@ -214,14 +218,14 @@ fn nested_patterns_clips_masks_and_styles_do_not_hang() {
         }
         body += &format!(r##"<rect width="9" height="9" {attribute}="url(#e13)"/>"##);
         assert!(matches!(
-            refused_at_once(&body),
+            refused_quickly(&body),
             SvgError::TooManyElements { .. }
         ));
     }
 }
 
 #[test]
-fn markers_are_left_out_however_they_are_set() {
+fn markers_are_ignored_however_they_are_set() {
     let mut body = String::from(
         r#"<marker id="m0" markerWidth="3" markerHeight="3"><path d="M0 0h9v9z"/></marker>"#,
     );
@@ -243,15 +247,15 @@ fn markers_are_left_out_however_they_are_set() {
         r##"style="marker:url(#m13) !important""##,
         r#"class="m""#,
     ] {
-        near(
-            filled_alone(&shape(attribute)).expect(attribute).area(),
+        assert_near(
+            without_strokes(&shape(attribute)).expect(attribute).area(),
             100.0,
         );
     }
 }
 
 #[test]
-fn a_long_list_of_entities_is_refused() {
+fn nested_entities_are_refused() {
     let mut entities = String::from("<!ENTITY e0 'x'>");
     for level in 1..12 {
         entities += &format!(
@@ -264,7 +268,7 @@ fn a_long_list_of_entities_is_refused() {
 }
 
 #[test]
-fn depth_is_limited_before_the_stack_ends() {
+fn the_depth_limit_prevents_stack_overflow() {
     let nested = |levels: usize| {
         page(&format!(
             r#"{}<rect width="10" height="10"/>{}"#,
@@ -278,7 +282,7 @@ fn depth_is_limited_before_the_stack_ends() {
     ));
     let chain = bomb(200, 1, |level| format!(r##"<use href="#g{level}"/>"##));
     assert!(matches!(read_body(&chain), Err(SvgError::TooDeep { .. })));
-    // This thread has the stack of any other: half of it must do.
+    // The deepest allowed drawing must fit into half the default stack of a thread.
     let text = nested(error::MAX_DEPTH as usize - 1);
     let thread = std::thread::Builder::new().stack_size(1 << 20);
     let handle = thread
@@ -288,11 +292,11 @@ fn depth_is_limited_before_the_stack_ends() {
 }
 
 #[test]
-fn circles_of_references_are_named() {
+fn circular_references_are_reported() {
     let body = r##"<g id="a"><use href="#b"/></g><g id="b"><use href="#a"/></g>"##;
     assert!(matches!(read_body(body), Err(SvgError::Circular(1))));
-    // A link is no copy.
-    near(
+    // A link copies nothing.
+    assert_near(
         regions(r##"<g id="a"><a href="#a"><rect width="9" height="9"/></a></g>"##).area(),
         81.0,
     );
@@ -303,7 +307,7 @@ fn a_style_sheet_of_many_rules_does_not_hang() {
     let sheet: String = (0..20_000).map(|k| format!(".c{k}{{fill:red}}")).collect();
     let body = format!("<style>{sheet}</style>{}", "<g/>".repeat(20_000));
     assert!(matches!(
-        refused_at_once(&body),
+        refused_quickly(&body),
         SvgError::TooMuchStyle { .. }
     ));
 }
@@ -322,50 +326,50 @@ fn broken_drawings_are_errors() {
 }
 
 #[test]
-fn strokes_are_shapes_unless_they_are_not_wanted() {
+fn strokes_are_shapes_unless_disabled() {
     let body = r#"<path d="M10 10 H50" fill="none" stroke="black" stroke-width="4"/>
         <rect x="10" y="50" width="20" height="20" stroke="red" stroke-width="2"/>"#;
-    near(filled_alone(body).expect("a square").area(), 400.0);
-    let with = stroked(body, None).expect("an outline");
-    near(with.regions.area(), 160.0 + 22.0 * 22.0);
-    assert_eq!(with.notes, []);
+    assert_near(without_strokes(body).expect("a square").area(), 400.0);
+    let outline = stroked(body, None).expect("an outline");
+    assert_near(outline.regions.area(), 160.0 + 22.0 * 22.0);
+    assert_eq!(outline.notes, []);
     let round = r#"<g transform="scale(2)"><path d="M10 10 h10" stroke="black" stroke-width="4"
         stroke-linecap="round"/></g>"#;
-    let with = stroked(round, None).expect("an outline");
-    near(
-        with.regions.area(),
+    let outline = stroked(round, None).expect("an outline");
+    assert_near(
+        outline.regions.area(),
         4.0 * (40.0 + 4.0 * std::f64::consts::PI),
     );
     let dashed = r#"<path d="M0 50 h100" stroke="black" stroke-width="2" stroke-dasharray="10"/>"#;
     assert_eq!(stroked(dashed, None).expect("an outline").regions.len(), 5);
-    // A white stroke over a shape is a gap in it.
+    // A white stroke cuts a gap.
     let gap =
         r#"<rect width="60" height="60"/><path d="M0 30 h60" stroke="white" stroke-width="6"/>"#;
-    let with = stroked(gap, None).expect("an outline").regions;
-    assert_eq!(with.len(), 2);
-    near(with.area(), 60.0 * 54.0);
+    let outline = stroked(gap, None).expect("an outline").regions;
+    assert_eq!(outline.len(), 2);
+    assert_near(outline.area(), 60.0 * 54.0);
 }
 
 #[test]
-fn a_drawing_of_strokes_is_read_as_shapes() {
+fn a_drawing_of_strokes_only_has_an_outline() {
     let body =
         r#"<path d="M50 10 A40 40 0 1 1 49.9 10" fill="none" stroke="black" stroke-width="10"/>"#;
-    assert!(filled_alone(body).is_err());
+    assert!(without_strokes(body).is_err());
     let ring = stroked(body, None).expect("an outline").regions;
-    assert_eq!(ring.rings().count(), 1); // all but closed
-    near(ring.area(), 2.0 * std::f64::consts::PI * 40.0 * 10.0);
+    assert_eq!(ring.rings().count(), 1); // the arc does not quite close
+    assert_near(ring.area(), 2.0 * std::f64::consts::PI * 40.0 * 10.0);
 }
 
 #[test]
-fn one_element_is_read_by_its_id() {
+fn one_element_is_selected_by_its_id() {
     let body = r##"<defs><rect id="unit" width="10" height="10"/></defs>
         <rect id="a" width="30" height="30"/>
         <g id="b" transform="translate(40 40)"><use id="c" href="#unit" x="5"/>
         <circle id="d" r="9" fill="white"/></g>"##;
     let area = |id: &str| stroked(body, Some(id)).expect(id).regions.area();
-    near(area("a"), 900.0);
-    near(area("c"), 100.0);
-    near(area("d"), 81.0 * std::f64::consts::PI); // white is the figure here
+    assert_near(area("a"), 900.0);
+    assert_near(area("c"), 100.0);
+    assert_near(area("d"), 81.0 * std::f64::consts::PI); // the only shape, so white is not paper
     let c = stroked(body, Some("c")).expect("an element");
     assert!((c.extent.min - DVec2::new(45.0, 50.0)).length() < 1e-4);
     let error = stroked(body, Some("unit")).err().expect("not drawn");
@@ -381,14 +385,14 @@ fn one_element_is_read_by_its_id() {
 fn an_element_keeps_the_clip_paths_around_it() {
     let body = r##"<clipPath id="k"><rect width="50" height="50"/></clipPath>
         <g clip-path="url(#k)"><rect id="a" width="90" height="10"/></g>"##;
-    near(
+    assert_near(
         stroked(body, Some("a")).expect("a part").regions.area(),
         500.0,
     );
 }
 
 #[test]
-fn what_was_repaired_or_left_out_is_told() {
+fn repairs_and_omissions_are_reported() {
     let body = r#"<path d="M0 0 L40 40 L40 0 L0 40z" fill-rule="evenodd"/>
         <path d="M0 0 h9" stroke="red"/><text y="9" font-family="Nonesuch, Neither">words</text><image href="a.png"/>"#;
     let options = ImportOptions::default();
@@ -397,9 +401,9 @@ fn what_was_repaired_or_left_out_is_told() {
     assert_eq!(words.len(), 3, "{words:?}");
     assert_eq!(
         words[0],
-        "1 crossing of edges was resolved by the even-odd rule"
+        "1 edge crossing was resolved by the even-odd rule"
     );
-    assert!(words[1].starts_with("the font Nonesuch is not on this machine"));
+    assert!(words[1].starts_with("the font Nonesuch is not installed"));
     let clean = super::read(&page(r#"<circle cx="9" cy="9" r="5"/>"#), None, &options);
     assert_eq!(clean.expect("a disc").notes, []);
 }
@@ -415,18 +419,18 @@ fn text_is_drawn_in_its_font_and_its_colour() {
     assert_eq!((word.name.as_str(), word.regions.len()), ("word", 2));
     assert_eq!(word.paint, Some(Rgb([255, 0, 0]).into()));
     let bounds = word.regions.bounds();
-    // Capitals of Roboto are 1456 of 2048 units high, above the base line.
+    // Capitals of Roboto are 1456 of 2048 units high and stand on the baseline.
     assert!((bounds.min.y - 40.0).abs() < 0.1, "{bounds:?}");
     assert!(
         (bounds.size().y - 40.0 * 1456.0 / 2048.0).abs() < 0.1,
         "{bounds:?}"
     );
-    let nothing = found
+    let notes = found
         .notes
         .iter()
         .map(ToString::to_string)
         .collect::<String>();
-    assert_eq!(nothing, "");
+    assert_eq!(notes, "");
 }
 
 #[test]
@@ -438,7 +442,7 @@ fn a_stroke_of_countless_dashes_does_not_hang() {
     assert!(start.elapsed() < Duration::from_secs(30));
 }
 
-/// The ways in which a drawing may name something outside of it.
+/// Tries all ways in which a drawing may refer to another file.
 #[test]
 fn nothing_outside_the_file_is_opened() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -461,12 +465,12 @@ fn nothing_outside_the_file_is_opened() {
     assert!(read(&entity, 1e-3).is_err());
 }
 
-/// The paint and the area of each coat.
-fn coats(body: &str) -> Vec<(Paint, f64)> {
+/// Returns the paint and area of each layer.
+fn layers(body: &str) -> Vec<(Paint, f64)> {
     let found = stroked(body, None).expect("a drawing");
-    let coats = found.coats.into_iter();
-    let painted = coats.map(|coat| (coat.paint.expect("a paint"), coat.regions.area()));
-    painted.collect()
+    let layers = found.coats.into_iter();
+    let summaries = layers.map(|layer| (layer.paint.expect("a paint"), layer.regions.area()));
+    summaries.collect()
 }
 
 fn paint(rgb: [u8; 3], opacity: f64) -> Paint {
@@ -477,34 +481,34 @@ fn paint(rgb: [u8; 3], opacity: f64) -> Paint {
 }
 
 #[test]
-fn shapes_of_one_paint_are_one_coat_where_their_order_allows_it() {
+fn shapes_of_one_paint_are_one_layer_if_their_order_allows_it() {
     let square = |x: u32, fill: &str| {
         format!(r#"<rect x="{x}" y="10" width="10" height="10" fill="{fill}"/>"#)
     };
     let [red, blue] = [paint([255, 0, 0], 1.0), paint([0, 0, 255], 1.0)];
-    // Beside each other, then the second red over the blue.
+    // Disjoint squares merge; a red square over a blue one does not.
     let body = [(0, "red"), (20, "blue"), (40, "red"), (60, "blue")].map(|(x, f)| square(x, f));
-    let found = coats(&body.concat());
+    let found = layers(&body.concat());
     assert_eq!(found.iter().map(|c| c.0).collect::<Vec<_>>(), [red, blue]);
-    near(found[0].1, 200.0);
+    assert_near(found[0].1, 200.0);
     let body = [(0, "red"), (5, "blue"), (10, "red")].map(|(x, f)| square(x, f));
-    let found = coats(&body.concat());
+    let found = layers(&body.concat());
     assert_eq!(
         found.iter().map(|c| c.0).collect::<Vec<_>>(),
         [red, blue, red]
     );
-    // What is hidden stays: it may come to be seen on the way.
-    near(found[1].1, 100.0);
+    // Hidden areas remain, because they may become visible during the transition.
+    assert_near(found[1].1, 100.0);
 }
 
 #[test]
-fn strokes_opacity_and_order_are_kept() {
+fn layers_keep_strokes_opacity_and_order() {
     let body = r##"<g opacity="0.5"><rect width="20" height="20" fill="#102030"/>
         <rect x="10" width="20" height="20" fill="#405060" fill-opacity="1"/></g>
         <rect x="50" y="50" width="20" height="20" fill="white" stroke="#ff0000"
         stroke-width="2" stroke-opacity="0.25" paint-order="stroke"/>"##;
-    let found = coats(body);
-    let paints: Vec<Paint> = found.iter().map(|coat| coat.0).collect();
+    let found = layers(body);
+    let paints: Vec<Paint> = found.iter().map(|layer| layer.0).collect();
     let wanted = [
         paint([0x10, 0x20, 0x30], 0.5),
         paint([0x40, 0x50, 0x60], 0.5),
@@ -512,18 +516,18 @@ fn strokes_opacity_and_order_are_kept() {
         paint([255; 3], 1.0),
     ];
     assert_eq!(paints, wanted);
-    // Shapes of one paint in a group are one: it has no seams.
+    // Shapes of one paint in a translucent group merge, so that no overlap shows.
     let cloud = r##"<g opacity="0.5" fill="#fff"><circle cx="30" cy="30" r="9"/>
         <circle cx="40" cy="30" r="9"/></g>"##;
     let cloud = stroked(cloud, None).expect("a cloud").coats;
     assert_eq!((cloud.len(), cloud[0].regions.len()), (1, 1));
-    // Nothing is seen through one shape of a group of the other one.
-    near(found[0].1, 200.0);
-    near(found[2].1, 22.0 * 22.0 - 18.0 * 18.0);
+    // Covered parts of shapes in a translucent group are removed.
+    assert_near(found[0].1, 200.0);
+    assert_near(found[2].1, 22.0 * 22.0 - 18.0 * 18.0);
 }
 
 #[test]
-fn of_patterns_the_mean_is_shown_and_told_and_gradients_stay() {
+fn patterns_become_their_mean_colour_and_gradients_stay() {
     let body = r##"<linearGradient id="g"><stop offset="0.5" stop-color="#000"/>
         <stop offset="0.5" stop-color="#fff"/></linearGradient>
         <pattern id="p" width="2" height="2" patternUnits="userSpaceOnUse">
@@ -531,15 +535,15 @@ fn of_patterns_the_mean_is_shown_and_told_and_gradients_stay() {
         <rect width="20" height="20" fill="url(#g)"/>
         <rect x="50" width="20" height="20" fill="url(#p)"/>
         <path d="M0 50h50v9" stroke="url(#g)" fill="none"/>"##;
-    let paints: Vec<Paint> = coats(body).iter().map(|coat| coat.0).collect();
-    // Half the way from black to white, as it looks.
+    let paints: Vec<Paint> = layers(body).iter().map(|layer| layer.0).collect();
+    // Perceptually halfway between black and white.
     let mean = paint([99; 3], 1.0);
     assert_eq!(paints, [mean, paint([0, 255, 0], 1.0), mean]);
     let found = stroked(body, None).expect("a drawing");
     assert_eq!(found.notes, [ImportNote::Shades(2)]);
     let gradient = found.coats[0].gradient.as_ref().expect("a gradient");
     assert_eq!(gradient.stops.len(), 2);
-    // From the left edge of the square to the right one, where the page has it.
+    // From the left to the right edge of the square, in page coordinates.
     let [left, right] = [DVec2::ZERO, DVec2::X].map(|p| gradient.frame.transform_point2(p));
     assert!(left.distance(DVec2::new(0.0, 100.0)) < 1e-5, "{left}");
     assert!(right.distance(DVec2::new(20.0, 100.0)) < 1e-5, "{right}");
@@ -547,7 +551,7 @@ fn of_patterns_the_mean_is_shown_and_told_and_gradients_stay() {
 }
 
 #[test]
-fn a_drawing_that_names_no_colour_has_no_coats() {
+fn a_drawing_without_colours_has_no_layers() {
     for (body, count) in [
         (r#"<path d="M0 0h9v9z"/>"#, 0),
         (

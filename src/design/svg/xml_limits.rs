@@ -1,33 +1,30 @@
-//! Drawings whose text is a trap for the parser, refused before it is parsed.
+//! Refuses XML text that would exhaust the parser, before it is parsed.
 //!
-//! `roxmltree` limits how deep entities lie in each other, but not how often
-//! a long one is written out; it compares the attributes of an element, and
-//! the namespaces around one, each with each; and it makes room for all
-//! nodes before it counts them. Here all of that is bounded from the text
-//! alone, in a pass for each. Too much may be counted, what stands in
-//! a comment for one, too little never.
+//! `roxmltree` limits the nesting of entities but not how often a long one is expanded, compares
+//! the attributes of an element and the namespaces in scope pairwise, and allocates memory for
+//! all nodes before it counts them. This module bounds all of these from the raw text, in one
+//! pass each. The bounds may be too high (comments are counted too) but never too low.
 
 use super::error::{MAX_NODES, SvgError};
 use std::collections::{HashMap, HashSet};
 
-/// Most bytes that entities may stand for. Drawings with a style in an entity write it
-/// out for each shape.
-const MAX_UNFOLDED: u64 = 64 << 20;
+/// Maximum number of bytes that entities expand into (resource limit: ample for drawings that
+/// store a style in an entity and use it for each shape).
+const MAX_EXPANDED: u64 = 64 << 20;
 
-/// Most comparisons of names: some 20,000 attributes of one element, which
-/// take a fraction of a second. Ten times as many take a hundred times as
-/// long.
+/// Maximum number of name comparisons (resource limit: a fraction of a second, enough for
+/// 20,000 attributes of one element).
 const MAX_COMPARISONS: u64 = 200_000_000;
 
-/// How much one entity of others can stand for, in lengths of the longest:
-/// the parser follows no more references from one.
+/// Maximum number of references that the parser follows within one entity (defined by
+/// `roxmltree`).
 const MAX_REFERENCES: u64 = 256;
 
-/// Checks what the parser would do with a text.
+/// Checks the number of nodes, attributes, namespaces and entities of a text.
 pub(super) fn check_xml_text(text: &str) -> Result<(), SvgError> {
-    // An element for each of the first, an attribute for each of the second.
-    let most = text.matches('<').count().max(text.matches('=').count());
-    if most > MAX_NODES as usize {
+    // Each element has a "<", each attribute a "=".
+    let max_nodes = text.matches('<').count().max(text.matches('=').count());
+    if max_nodes > MAX_NODES as usize {
         return Err(SvgError::TooManyNodes);
     }
     check_attributes(text)?;
@@ -35,10 +32,11 @@ pub(super) fn check_xml_text(text: &str) -> Result<(), SvgError> {
     check_entities(text)
 }
 
+/// Limits the pairwise comparisons of the attributes of an element.
 fn check_attributes(text: &str) -> Result<(), SvgError> {
     let mut comparisons = 0;
     let mut end = 0;
-    // No value holds the sign that begins an element.
+    // Attribute values cannot contain "<".
     for element in text.split('<') {
         let is_quoted = |rest: &&str| rest.trim_start().starts_with(['"', '\'']);
         let attributes = element.split('=').skip(1).filter(is_quoted).count() as u64;
@@ -52,7 +50,8 @@ fn check_attributes(text: &str) -> Result<(), SvgError> {
     Ok(())
 }
 
-/// Each element that declares one takes over all that are around it.
+/// Limits the comparisons of namespaces: an element that declares one copies all namespaces in
+/// scope.
 fn check_namespaces(text: &str) -> Result<(), SvgError> {
     let mut declared = 0_u64;
     let mut prefixes = HashSet::new();
@@ -61,21 +60,22 @@ fn check_namespaces(text: &str) -> Result<(), SvgError> {
         let end = rest.find(|c: char| c == '=' || c.is_whitespace());
         prefixes.insert(&rest[..end.unwrap_or(rest.len())]);
     }
-    let around = prefixes.len() as u64;
-    match declared.saturating_mul(around * around) / 2 > MAX_COMPARISONS {
+    let in_scope = prefixes.len() as u64;
+    match declared.saturating_mul(in_scope * in_scope) / 2 > MAX_COMPARISONS {
         true => Err(SvgError::TooManyNamespaces(prefixes.len())),
         false => Ok(()),
     }
 }
 
+/// Limits the expanded size of entities and the searches for their names.
 fn check_entities(text: &str) -> Result<(), SvgError> {
     let mut sizes: HashMap<&str, u64> = HashMap::new();
     let mut are_nested = false;
     let mut longest = 0;
     let mut end = 0;
-    for (i, declaration) in text.split(DECLARED).enumerate() {
+    for (i, declaration) in text.split(DECLARATION).enumerate() {
         if let (Some((name, value)), true) = (entity(declaration), i > 0) {
-            // With elements in it, all other counts would be for nothing.
+            // Elements in entities would invalidate all other counts.
             let value = value.filter(|value| !value.contains('<'));
             let line = || line_of(text, end);
             let value = value.ok_or_else(|| SvgError::EntityOfElements(line()))?;
@@ -84,35 +84,36 @@ fn check_entities(text: &str) -> Result<(), SvgError> {
             *size = (*size).max(value.len() as u64);
             longest = longest.max(*size);
         }
-        end += declaration.len() + DECLARED.len();
+        end += declaration.len() + DECLARATION.len();
     }
     if sizes.is_empty() {
         return Ok(());
     }
-    let (mut unfolded, mut named) = (0_u64, 0_u64);
+    let (mut expanded, mut reference_count) = (0_u64, 0_u64);
     for size in references(text).filter_map(|name| sizes.get(name)) {
-        // Of which others it consists need not be known: none is longer.
-        unfolded = unfolded.saturating_add(match are_nested {
+        // With nested entities, assumes that each reference expands into the longest entity.
+        expanded = expanded.saturating_add(match are_nested {
             true => MAX_REFERENCES * longest,
             false => *size,
         });
-        named += if are_nested { MAX_REFERENCES } else { 1 };
+        reference_count += if are_nested { MAX_REFERENCES } else { 1 };
     }
-    // Each is looked for in the list of them all.
-    let searched = named.saturating_mul(sizes.len() as u64);
-    match unfolded > MAX_UNFOLDED || searched > MAX_COMPARISONS {
+    // The parser searches the list of all entities for each reference.
+    let comparisons = reference_count.saturating_mul(sizes.len() as u64);
+    match expanded > MAX_EXPANDED || comparisons > MAX_COMPARISONS {
         true => Err(SvgError::TooMuchText),
         false => Ok(()),
     }
 }
 
-const DECLARED: &str = "<!ENTITY";
+/// Start of an entity declaration.
+const DECLARATION: &str = "<!ENTITY";
 
-/// The name and the value of an entity from what follows its declaration's
-/// beginning: `None` for the value if it does not end before the next begins.
+/// Parses name and value of an entity from the text after [`DECLARATION`]. The value is `None` if
+/// it does not end before the next declaration.
 fn entity(declaration: &str) -> Option<(&str, Option<&str>)> {
     let rest = declaration.trim_start();
-    // One for the declarations alone, which the parser takes for any other.
+    // The parser treats parameter entities ("%") like other entities.
     let rest = rest.strip_prefix('%').unwrap_or(rest).trim_start();
     let (name, rest) = rest.split_once(char::is_whitespace)?;
     let rest = rest.trim_start();
@@ -121,17 +122,18 @@ fn entity(declaration: &str) -> Option<(&str, Option<&str>)> {
     Some((name, value))
 }
 
-/// What stands between `&` and `;`, but for characters by their number.
+/// Returns the entity names between `&` and `;`, except numeric character references.
 fn references(text: &str) -> impl Iterator<Item = &str> {
-    let named = text
+    let between = text
         .split('&')
         .skip(1)
         .filter_map(|rest| rest.split_once(';'));
-    named
+    between
         .map(|(name, _)| name)
         .filter(|name| !name.starts_with('#'))
 }
 
+/// Returns the line, counted from 1, of a byte offset.
 fn line_of(text: &str, byte: usize) -> usize {
     1 + text.as_bytes()[..byte.min(text.len())]
         .iter()
@@ -150,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn entities_as_programs_write_them_are_taken() {
+    fn entities_of_drawing_programs_are_accepted() {
         let head = "<!ENTITY ns_svg \"http://www.w3.org/2000/svg\">\n\
             <!ENTITY st0 \"fill-rule:nonzero;clip-rule:nonzero;stroke:#000000;\">";
         let shapes = "<path style=\"&st0;\" d=\"M0 0\"/>".repeat(20_000);
@@ -164,18 +166,18 @@ mod tests {
     }
 
     #[test]
-    fn entities_that_unfold_without_end_are_refused() {
+    fn exponential_entities_are_refused() {
         let long = format!("<!ENTITY a \"{}\">", "x".repeat(50_000));
-        let written =
+        let is_refused =
             |head: &str, body: &str| matches!(drawing(head, body), Err(SvgError::TooMuchText));
-        assert!(written(&long, &"&a;".repeat(20_000)));
-        assert!(!written(&long, &"&a;".repeat(1_000)));
+        assert!(is_refused(&long, &"&a;".repeat(20_000)));
+        assert!(!is_refused(&long, &"&a;".repeat(1_000)));
         let nested = format!("{long}<!ENTITY b \"{}\">", "&a;".repeat(250));
-        assert!(written(&nested, &"&b;".repeat(10)));
+        assert!(is_refused(&nested, &"&b;".repeat(10)));
         let many: String = (0..20_000)
             .map(|i| format!("<!ENTITY e{i} \"\">"))
             .collect();
-        assert!(written(&many, &"&e19999;".repeat(20_000)));
+        assert!(is_refused(&many, &"&e19999;".repeat(20_000)));
         for head in [
             "<!ENTITY a \"<path d='M0 0'/>\">",
             "<!ENTITY a \"x\n<!ENTITY b 'y'>\">",
@@ -186,7 +188,7 @@ mod tests {
     }
 
     #[test]
-    fn attributes_and_namespaces_without_end_are_refused() {
+    fn excessive_attributes_and_namespaces_are_refused() {
         let attributes = |n: usize| (0..n).map(|i| format!("a{i} = \"\"\n")).collect::<String>();
         let element = |n: usize| drawing("", &format!("\n<g {}/>", attributes(n)));
         element(10_000).expect("few");

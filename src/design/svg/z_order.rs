@@ -1,18 +1,21 @@
-//! How high a page is painted, cell by cell.
+//! A coarse grid over the page with the height of the topmost layer in each cell.
 
 use crate::geometry::{Bounds, DVec2};
 
-/// Cells of the page along each side. More would tell more shapes apart, and
-/// cost more for large ones: 200,000 shapes as large as the page take a second.
+/// Number of cells along each side of the page (resource limit: 200,000 shapes as large as the
+/// page take one second; more cells would separate more shapes).
 const CELLS: usize = 64;
 
-/// For each cell of a page how high it is painted, 0 where it is not.
+/// Height of the topmost layer in each cell of a page; 0 where nothing is painted.
 pub(super) struct ZOrderGrid {
+    /// Width and height of the page.
     page: DVec2,
+    /// Heights, row by row from the bottom.
     cells: Vec<usize>,
 }
 
 impl ZOrderGrid {
+    /// Creates an empty grid for a page of the given size.
     pub(super) fn of_page(page: DVec2) -> Self {
         Self {
             page,
@@ -20,24 +23,25 @@ impl ZOrderGrid {
         }
     }
 
-    /// The highest that a box may lie on.
+    /// Returns the maximum height below a box.
     pub(super) fn highest(&self, bounds: &Bounds) -> usize {
         let heights = self.covered(bounds).map(|cell| self.cells[cell]);
         heights.max().unwrap_or(0)
     }
 
-    /// Nothing in a box is lower than this any more.
+    /// Raises all cells of a box to at least `to`.
     pub(super) fn raise(&mut self, bounds: &Bounds, to: usize) {
         for cell in self.covered(bounds) {
             self.cells[cell] = self.cells[cell].max(to);
         }
     }
 
-    /// The cells that a box covers; beyond the page those at its edge.
+    /// Returns the indices of the cells that a box touches; positions outside of the page count
+    /// for the cells at its border.
     fn covered(&self, bounds: &Bounds) -> impl Iterator<Item = usize> + use<> {
         let cell = |p: DVec2| {
             let along = p / self.page * CELLS as f64;
-            // What is negative or no number is 0.
+            // The cast turns negative numbers and NaN into 0.
             along.to_array().map(|x| (x as usize).min(CELLS - 1))
         };
         let [[left, low], [right, high]] = [cell(bounds.min), cell(bounds.max)];

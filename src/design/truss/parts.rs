@@ -1,4 +1,4 @@
-//! What a truss consists of, as it stands in a file, and the checks of it.
+//! The data of a truss as stored in its JSON file, and its validation.
 
 use crate::colour::Rgb;
 use crate::design::json_error::JsonError;
@@ -6,59 +6,59 @@ use crate::geometry::{Bounds, DVec2, DesignSizeError, RANGE_MESSAGE, is_in_range
 use serde::Deserialize;
 use std::collections::HashMap;
 
-/// What a truss consists of, unchecked, as it stands in a file.
+/// Unvalidated data of a truss, as stored in its file.
 #[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrussParts {
-    /// Places of the nodes, y up.
+    /// Node positions, y up.
     pub nodes: Vec<DVec2>,
-    /// The two nodes of each bar, from 0.
+    /// Two node indices per bar, counted from 0.
     pub bars: Vec<[u32; 2]>,
-    /// Nodes that are held.
+    /// Supported nodes.
     #[serde(default)]
     pub supports: Vec<TrussSupport>,
     /// Forces at nodes.
     #[serde(default)]
     pub loads: Vec<TrussLoad>,
-    /// Section area of each bar, or empty.
+    /// Cross-sectional area of each bar, or empty.
     #[serde(default)]
     pub areas: Vec<f64>,
     /// Colour of each bar, or empty.
     #[serde(default)]
     pub colours: Vec<Rgb>,
-    /// Materials that bars may be of.
+    /// Available materials.
     #[serde(default)]
     pub materials: Vec<TrussMaterial>,
-    /// Index of each bar's material, or empty.
+    /// Index into `materials` for each bar, or empty.
     #[serde(default)]
     pub bar_materials: Vec<u32>,
 }
 
-/// A node that is held.
+/// Support of a node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrussSupport {
-    /// The node, from 0.
+    /// Node index, counted from 0.
     pub node: u32,
-    /// Whether it is held along x and along y of the design as drawn.
+    /// Whether displacement is fixed along x and along y of the design as drawn.
     pub fixed: [bool; 2],
 }
 
-/// A force at a node.
+/// Force at a node.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrussLoad {
-    /// The node, from 0.
+    /// Node index, counted from 0.
     pub node: u32,
-    /// The force along x and y.
+    /// Force vector, y up.
     pub force: DVec2,
 }
 
-/// A material that bars may be of.
+/// Material of bars.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TrussMaterial {
-    /// What it is called.
+    /// Display name.
     pub name: String,
     /// Young's modulus, positive.
     #[serde(default)]
@@ -68,106 +68,105 @@ pub struct TrussMaterial {
     pub density: Option<f64>,
 }
 
-/// Why parts do not make a truss. Nodes and bars count from 0, as in the file.
+/// Error of validating a truss. Nodes and bars count from 0, as in the file.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TrussInputError {
-    /// Not JSON, or not of this form.
+    /// The text is not JSON or does not have the required structure.
     #[error(transparent)]
     Json(#[from] JsonError),
-    /// There is no bar.
-    #[error("the truss has {nodes} nodes and no bars; give bars as pairs of node numbers")]
+    /// The truss has no bars.
+    #[error("the truss has {nodes} nodes and no bars; add bars as pairs of node numbers")]
     NoBars {
-        /// How many nodes there are.
+        /// Number of nodes.
         nodes: usize,
     },
-    /// A coordinate is no number, or beyond [`MAX_COORDINATE`].
+    /// A coordinate is not finite or exceeds [`MAX_COORDINATE`].
     ///
     /// [`MAX_COORDINATE`]: crate::geometry::MAX_COORDINATE
     #[error("node {0} {RANGE_MESSAGE}")]
     Place(usize),
-    /// All nodes lie on one another, or as good as.
+    /// All nodes coincide, or nearly so.
     #[error(transparent)]
     Size(#[from] DesignSizeError),
-    /// A number is NaN or infinite, or not positive where it must be.
-    #[error("{what} {index} has a number that cannot be used; {rule}")]
+    /// A number is not finite, or not positive although it must be.
+    #[error("{what} {index} has an invalid number; {rule}")]
     Number {
-        /// What has it.
+        /// Kind of the entry, such as "load".
         what: &'static str,
-        /// Its index.
+        /// Index of the entry.
         index: usize,
-        /// What is allowed.
+        /// Advice on the allowed numbers.
         rule: &'static str,
     },
-    /// Something names what does not exist.
+    /// An entry refers to an index that does not exist.
     #[error(
-        "{what} {index} names {kind} {named}, but there are {count}, counted from 0; correct the number"
+        "{what} {index} refers to {kind} {named}, but there are {count}, counted from 0; correct the number"
     )]
     OutOfRange {
-        /// What names it.
+        /// Kind of the referring entry.
         what: &'static str,
-        /// Its index.
+        /// Index of the referring entry.
         index: usize,
-        /// What kind of thing is named.
+        /// Kind of the missing entry.
         kind: &'static str,
-        /// The number.
+        /// Index that does not exist.
         named: u32,
-        /// How many of that kind there are.
+        /// Number of entries of that kind.
         count: usize,
     },
-    /// A bar from a node to itself or to another one at the same place.
-    #[error("bar {bar} joins nodes {} and {} at one and the same place; move a node or remove the bar", nodes[0], nodes[1])]
+    /// A bar has no length: its nodes are the same or coincide.
+    #[error("bar {bar} joins nodes {} and {} at the same position; move a node or remove the bar", nodes[0], nodes[1])]
     NoLength {
-        /// The bar.
+        /// Index of the bar.
         bar: usize,
-        /// Its nodes.
+        /// Its node indices.
         nodes: [u32; 2],
     },
-    /// Two bars between the same nodes.
+    /// Two bars join the same nodes.
     #[error("bars {first} and {second} join the same nodes; remove one of them")]
     Duplicate {
-        /// The earlier one.
+        /// Index of the earlier bar.
         first: usize,
-        /// The later one.
+        /// Index of the later bar.
         second: usize,
     },
-    /// A node that no bar reaches.
-    #[error("node {0} is held by no bar; add a bar to it, or remove it")]
+    /// A node belongs to no bar.
+    #[error("node {0} belongs to no bar; add a bar to it or remove it")]
     Loose(usize),
-    /// A list that must have one entry for each bar, or none.
-    #[error(
-        "\"{list}\" has {found} entries for {bars} bars; give one for each bar, or leave it out"
-    )]
+    /// A list has neither one entry per bar nor no entries.
+    #[error("\"{list}\" has {found} entries for {bars} bars; use one per bar or remove the list")]
     PerBar {
-        /// The key.
+        /// Key of the list.
         list: &'static str,
-        /// Its length.
+        /// Number of its entries.
         found: usize,
-        /// How many bars there are.
+        /// Number of bars.
         bars: usize,
     },
 }
 
-/// The first index whose item fails `good`, as an error.
-fn numbers<T>(
+/// Returns an error for the first item that fails `is_valid`.
+fn check_items<T>(
     what: &'static str,
     rule: &'static str,
     items: &[T],
-    good: impl Fn(&T) -> bool,
+    is_valid: impl Fn(&T) -> bool,
 ) -> Result<(), TrussInputError> {
-    match items.iter().position(|item| !good(item)) {
+    match items.iter().position(|item| !is_valid(item)) {
         Some(index) => Err(TrussInputError::Number { what, index, rule }),
         None => Ok(()),
     }
 }
 
-/// Whether all that is named is there: so many of a kind.
-fn in_range(
+/// Returns an error for the first of the given (entry index, referenced index) pairs whose
+/// reference is not below `count`.
+fn check_references(
     what: &'static str,
-    mut named: impl Iterator<Item = (usize, u32)>,
+    mut references: impl Iterator<Item = (usize, u32)>,
     (kind, count): (&'static str, usize),
 ) -> Result<(), TrussInputError> {
-    match named.find(|&(_, named)| named as usize >= count) {
+    match references.find(|&(_, named)| named as usize >= count) {
         Some((index, named)) => Err(TrussInputError::OutOfRange {
             what,
             index,
@@ -180,37 +179,42 @@ fn in_range(
 }
 
 impl TrussParts {
-    /// Everything that a truss guarantees.
+    /// Checks all guarantees of [`Truss`](super::Truss).
     pub(super) fn check(&self) -> Result<(), TrussInputError> {
         if self.bars.is_empty() {
             let nodes = self.nodes.len();
             return Err(TrussInputError::NoBars { nodes });
         }
-        // In this order: bars index nodes, which the checks before have seen to.
+        // The order matters: later checks index nodes by numbers validated before.
         self.check_numbers()?;
         self.check_indices()?;
         self.check_bars()?;
-        self.check_held()?;
+        self.check_nodes_are_used()?;
         let all = Bounds::of(self.nodes.iter().copied());
         Ok(all
             .map_or(Ok(0.0), |all| DesignSizeError::check(&all))
             .map(drop)?)
     }
 
+    /// Checks that all numbers are finite and within their ranges.
     fn check_numbers(&self) -> Result<(), TrussInputError> {
-        const FINITE: &str = "give finite numbers";
-        const POSITIVE: &str = "give finite numbers above zero";
-        let positive = |&x: &f64| x.is_finite() && x > 0.0;
+        const FINITE: &str = "use finite numbers";
+        const POSITIVE: &str = "use finite numbers above zero";
+        let is_positive = |&x: &f64| x.is_finite() && x > 0.0;
         if let Some(node) = self.nodes.iter().position(|&p| !is_in_range(p)) {
             return Err(TrussInputError::Place(node));
         }
-        numbers("load", FINITE, &self.loads, |l| l.force.is_finite())?;
-        numbers("area", POSITIVE, &self.areas, positive)?;
-        numbers("material", POSITIVE, &self.materials, |m| {
-            [m.youngs_modulus, m.density].iter().flatten().all(positive)
+        check_items("load", FINITE, &self.loads, |l| l.force.is_finite())?;
+        check_items("area", POSITIVE, &self.areas, is_positive)?;
+        check_items("material", POSITIVE, &self.materials, |m| {
+            [m.youngs_modulus, m.density]
+                .iter()
+                .flatten()
+                .all(is_positive)
         })
     }
 
+    /// Checks list lengths and that all indices refer to existing entries.
     fn check_indices(&self) -> Result<(), TrussInputError> {
         let bars = self.bars.len();
         for (list, found) in [
@@ -224,25 +228,26 @@ impl TrussParts {
         }
         let nodes = ("node", self.nodes.len());
         let ends = self.bars.iter().enumerate();
-        in_range("bar", ends.flat_map(|(i, bar)| bar.map(|n| (i, n))), nodes)?;
+        check_references("bar", ends.flat_map(|(i, bar)| bar.map(|n| (i, n))), nodes)?;
         let supports = self.supports.iter().map(|s| s.node);
-        in_range("support", supports.enumerate(), nodes)?;
+        check_references("support", supports.enumerate(), nodes)?;
         let loads = self.loads.iter().map(|l| l.node);
-        in_range("load", loads.enumerate(), nodes)?;
+        check_references("load", loads.enumerate(), nodes)?;
         let of_bars = self.bar_materials.iter().copied().enumerate();
         let materials = ("material", self.materials.len());
-        in_range("the material of bar", of_bars, materials)
+        check_references("the material of bar", of_bars, materials)
     }
 
+    /// Checks that bars have a length and are unique.
     fn check_bars(&self) -> Result<(), TrussInputError> {
         let mut seen = HashMap::new();
         for (bar, &[a, b]) in self.bars.iter().enumerate() {
-            // By place and not by number: two nodes at one place give no direction either.
+            // Compares positions: distinct nodes at one position also give no direction.
             if self.nodes[a as usize] == self.nodes[b as usize] {
                 let nodes = [a, b];
                 return Err(TrussInputError::NoLength { bar, nodes });
             }
-            // A bar has no direction.
+            // Bars are undirected.
             if let Some(first) = seen.insert([a.min(b), a.max(b)], bar) {
                 let second = bar;
                 return Err(TrussInputError::Duplicate { first, second });
@@ -251,12 +256,13 @@ impl TrussParts {
         Ok(())
     }
 
-    fn check_held(&self) -> Result<(), TrussInputError> {
-        let mut held = vec![false; self.nodes.len()];
+    /// Checks that every node belongs to a bar.
+    fn check_nodes_are_used(&self) -> Result<(), TrussInputError> {
+        let mut is_used = vec![false; self.nodes.len()];
         for &node in self.bars.iter().flatten() {
-            held[node as usize] = true;
+            is_used[node as usize] = true;
         }
-        match held.iter().position(|&held| !held) {
+        match is_used.iter().position(|&used| !used) {
             Some(node) => Err(TrussInputError::Loose(node)),
             None => Ok(()),
         }

@@ -1,3 +1,5 @@
+//! Tests of the truss format and its validation.
+
 use super::*;
 
 const FULL: &str = r#"{
@@ -17,7 +19,7 @@ fn error(from: &str, to: &str) -> String {
 }
 
 #[test]
-fn a_full_file_is_read_and_turned() {
+fn a_full_file_is_parsed_and_rotated() {
     let truss = Truss::from_json(FULL).expect("valid");
     assert_eq!(truss.bars().len(), 3);
     assert_eq!(truss.parts().materials[0].density, Some(7850.0));
@@ -32,16 +34,16 @@ fn a_full_file_is_read_and_turned() {
 }
 
 #[test]
-fn each_fault_is_named() {
-    assert!(error("[2, 0]]", "[2, 9]]").starts_with("bar 2 names node 9, but there are 3"));
+fn each_fault_is_reported() {
+    assert!(error("[2, 0]]", "[2, 9]]").starts_with("bar 2 refers to node 9, but there are 3"));
     assert!(error("[2, 0]]", "[2, 2]]").starts_with("bar 2 joins nodes 2 and 2"));
     assert!(error("[2, 0]]", "[1, 0]]").starts_with("bars 0 and 2 join"));
-    assert!(error("[0, 1]],", "[0, 1], [5, 5]],").starts_with("node 3 is held by no bar"));
-    assert!(error("\"node\": 0", "\"node\": 3").starts_with("support 0 names node 3"));
-    assert!(error("\"node\": 2", "\"node\": 7").starts_with("load 0 names node 7"));
+    assert!(error("[0, 1]],", "[0, 1], [5, 5]],").starts_with("node 3 belongs to no bar"));
+    assert!(error("\"node\": 0", "\"node\": 3").starts_with("support 0 refers to node 3"));
+    assert!(error("\"node\": 2", "\"node\": 7").starts_with("load 0 refers to node 7"));
     assert!(error("0.02]", "-0.02]").starts_with("area 2"));
     assert!(error(", 0.02]", "]").contains("2 entries for 3 bars"));
-    assert!(error("[0, 0, 0]", "[0, 1, 0]").starts_with("the material of bar 1 names"));
+    assert!(error("[0, 0, 0]", "[0, 1, 0]").starts_with("the material of bar 1 refers"));
     assert!(error("7850", "0").starts_with("material 0"));
     assert!(error("\"areas\"", "\"area\"").starts_with("line 6, column"));
     assert!(error("[[0, 0],", "[[0, 1e999],").starts_with("line 2, column"));
@@ -50,7 +52,7 @@ fn each_fault_is_named() {
 }
 
 #[test]
-fn nodes_at_one_place_give_a_bar_no_length() {
+fn a_bar_between_coincident_nodes_is_refused() {
     let error = Truss::new(vec![DVec2::ONE; 2], vec![[0, 1]]).expect_err("no length");
     assert_eq!(
         error,
